@@ -1,0 +1,142 @@
+//! What a solve needs to know of a gear pair, in SI units.
+
+/// One gear of the pair.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gear {
+    /// Number of teeth z.
+    pub teeth: u32,
+    /// Profile shift coefficient x.
+    pub profile_shift: f64,
+    /// Addendum coefficient h_a*, times the module.
+    pub addendum: f64,
+    /// Face width b, in m.
+    pub face_width: f64,
+    /// Bore radius r_h, in m.
+    pub bore_radius: f64,
+    /// Young's modulus E, in Pa.
+    pub young: f64,
+    /// Poisson's ratio ν.
+    pub poisson: f64,
+    /// Density ρ, in kg/m³.
+    pub density: f64,
+    /// Material removed at the tip, in m.
+    pub tip_relief: f64,
+    /// Material removed at the root, in m.
+    pub root_relief: f64,
+    /// Length of the tip relief along the path of contact, from the tip, in m.
+    pub tip_relief_length: Option<f64>,
+    /// Radial tip chamfer, which shortens the active tip, in m.
+    pub tip_chamfer: f64,
+    /// Radius of the tip's edge, in m.
+    pub tip_radius: Option<f64>,
+}
+
+/// What drives the pair.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Drive {
+    /// Power on the driver, in W.
+    Power(f64),
+    /// Torque on the driver, in N m.
+    Torque(f64),
+}
+
+/// How much of the physics is taken in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rung {
+    /// Zhou & Chen 2014 as printed, typesetting mended.
+    Paper,
+    /// The exact contact position and the spring's own duration.
+    Exact,
+}
+
+impl Rung {
+    /// Every rung, cheapest first.
+    pub const ALL: [Rung; 2] = [Rung::Paper, Rung::Exact];
+
+    /// The name in a case file.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Rung::Paper => "paper",
+            Rung::Exact => "exact",
+        }
+    }
+}
+
+/// Where a tooth's compliance comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ToothCompliance {
+    /// Kuang & Yang 1992, Eq. 56.
+    KuangYang,
+}
+
+/// Where the contact's compliance comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ContactCompliance {
+    /// Eq. 55, logarithmic in the Hertz half-width.
+    Logarithmic,
+}
+
+/// A gear pair in operation: all that a solve reads.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Inputs {
+    /// Module m, in m.
+    pub module: f64,
+    /// Pressure angle α, in rad.
+    pub pressure_angle: f64,
+    /// Centre distance a, in m; without it the mesh has no backlash.
+    pub centre_distance: Option<f64>,
+    /// Gear 1.
+    pub driver: Gear,
+    /// Gear 2.
+    pub driven: Gear,
+    /// Base pitch deviation f_pb, in m.
+    pub base_pitch_deviation: f64,
+    /// Normal backlash j_bn, in m.
+    pub backlash: f64,
+    /// Power or torque on the driver.
+    pub drive: Drive,
+    /// Speed of the driver ω₁, in rad/s.
+    pub speed: f64,
+    /// Coulomb friction coefficient μ, to stand beside the kinematic ratio.
+    pub friction_coefficient: Option<f64>,
+    /// How much of the physics is taken in.
+    pub rung: Rung,
+    /// Combined deflection δ, in m; without it computed from the load.
+    pub deflection: Option<f64>,
+    /// Compliance of the teeth; without it chosen by its range.
+    pub tooth_compliance: Option<ToothCompliance>,
+    /// Compliance of the contact.
+    pub contact_compliance: ContactCompliance,
+    /// Intervals between D and E.
+    pub stations: usize,
+}
+
+impl Inputs {
+    /// Transmission ratio i = z₂/z₁ = ω₁/ω₂.
+    #[must_use]
+    pub fn ratio(&self) -> f64 {
+        f64::from(self.driven.teeth) / f64::from(self.driver.teeth)
+    }
+
+    /// Speed of the driven gear ω₂ = ω₁/i, in rad/s.
+    #[must_use]
+    pub fn driven_speed(&self) -> f64 {
+        self.speed / self.ratio()
+    }
+
+    /// Torque on the driver T₁, in N m.
+    #[must_use]
+    pub fn torque(&self) -> f64 {
+        match self.drive {
+            Drive::Power(power) => power / self.speed,
+            Drive::Torque(torque) => torque,
+        }
+    }
+
+    /// Common face width b, the smaller of the two, in m.
+    #[must_use]
+    pub fn common_width(&self) -> f64 {
+        self.driver.face_width.min(self.driven.face_width)
+    }
+}

@@ -1,0 +1,86 @@
+//! The one table of quantities, from which results pane, text, JSON, CSV, limits and `--only` are derived.
+
+use super::{Solution, Stage};
+
+/// A result with a name.
+#[derive(Debug, Clone, Copy)]
+pub struct Quantity {
+    /// The name in JSON, in `--only` and in `[limits]`.
+    pub key: &'static str,
+    /// The symbol in the field's writing.
+    pub symbol: &'static str,
+    /// A few words for a person.
+    pub label: &'static str,
+    /// The SI unit, "1" for a number.
+    pub unit: &'static str,
+    /// The unit in which a person reads it.
+    pub shown: &'static str,
+    /// Significant digits that a person reads.
+    pub digits: usize,
+    /// Where the formula stands.
+    pub equation: &'static str,
+    /// The last stage that it needs.
+    pub stage: Stage,
+    /// The value in SI, where there is one.
+    pub value: fn(&Solution) -> Option<f64>,
+}
+
+impl Quantity {
+    /// The quantity of that name.
+    #[must_use]
+    pub fn find(key: &str) -> Option<&'static Quantity> {
+        QUANTITIES.iter().find(|quantity| quantity.key == key)
+    }
+}
+
+macro_rules! quantity {
+    ($key:literal, $symbol:literal, $label:literal, $unit:literal, $shown:literal, $digits:literal, $equation:literal, $stage:ident, $value:expr) => {
+        Quantity {
+            key: $key,
+            symbol: $symbol,
+            label: $label,
+            unit: $unit,
+            shown: $shown,
+            digits: $digits,
+            equation: $equation,
+            stage: Stage::$stage,
+            value: $value,
+        }
+    };
+}
+
+/// Every quantity, in the order a person reads them.
+#[rustfmt::skip]
+pub static QUANTITIES: &[Quantity] = &[
+    quantity!("contact_ratio", "ε", "contact ratio", "1", "1", 5, "ISO 21771", Geometry, |s| Some(s.geometry.contact_ratio)),
+    quantity!("base_pitch", "p_b", "base pitch", "m", "mm", 6, "ISO 21771", Geometry, |s| Some(s.geometry.base_pitch)),
+    quantity!("centre_distance", "a", "centre distance", "m", "mm", 6, "ISO 21771", Geometry, |s| Some(s.geometry.centre_distance)),
+    quantity!("working_pressure_angle", "α_w", "working pressure angle", "rad", "deg", 6, "ISO 21771", Geometry, |s| Some(s.geometry.working_pressure_angle)),
+    quantity!("mesh_force", "F_0", "mesh force", "N", "N", 5, "T1/rb1", Load, |s| Some(s.mesh_force)),
+    quantity!("equivalent_error", "Δf", "equivalent error", "m", "um", 5, "Eq. 1", Deviation, |s| Some(s.deviation.equivalent_error)),
+    quantity!("combined_deflection", "δ", "combined deflection", "m", "um", 5, "Eq. 3", Deviation, |s| Some(s.deviation.combined_deflection)),
+    quantity!("total_deviation", "Δ", "total deviation", "m", "um", 5, "Eq. 5", Deviation, |s| Some(s.deviation.total)),
+    quantity!("approach_angle_driver", "θ_1", "driver angle before E", "rad", "deg", 6, "Eq. 12", Position, |s| Some(s.position?.approach_angle_driver)),
+    quantity!("approach_angle_driven", "u", "driven angle before E", "rad", "deg", 6, "Eq. 11", Position, |s| Some(s.position?.approach_angle_driven)),
+    quantity!("contact_radius_driver", "O1D", "driver radius at D", "m", "mm", 6, "Eq. 7", Position, |s| Some(s.position?.contact.radius_driver)),
+    quantity!("contact_normal_radius_driven", "r_b2'", "normal's radius, driven", "m", "mm", 6, "Eq. 49", Position, |s| Some(s.position?.contact.normal_radius_driven)),
+    quantity!("curvature_radius", "ρ_S", "radius of curvature", "m", "mm", 5, "Eq. 32", Position, |s| Some(s.position?.contact.curvature_radius)),
+    quantity!("transit_time", "t_DE", "time from D to E", "s", "us", 5, "u/ω2", Velocity, |s| Some(s.velocity?.transit_time)),
+    quantity!("normal_velocity", "ΔV_n", "approach velocity at D", "m/s", "m/s", 5, "Eq. 21", Velocity, |s| Some(s.velocity?.normal)),
+    quantity!("sliding_velocity", "ΔV_τ", "sliding velocity at D", "m/s", "m/s", 5, "Eq. 22", Velocity, |s| Some(s.velocity?.sliding)),
+    quantity!("impact_force", "F_S", "impact force", "N", "N", 5, "Eq. 57", Impact, |s| Some(s.impact?.force)),
+    quantity!("dynamic_factor", "F_S/F_0", "dynamic factor", "1", "1", 4, "F_S/F_0", Impact, |s| Some(s.impact?.force / s.mesh_force)),
+    quantity!("impact_duration", "T_S", "impact duration", "s", "us", 4, "Eq. 32", Impact, |s| Some(s.impact?.duration)),
+    quantity!("impact_duration_printed", "T_S,32", "  by Eq. 32 as printed", "s", "us", 4, "Eq. 32", Impact, |s| Some(s.impact?.duration_printed)),
+    quantity!("impact_duration_hertz", "T_S,H", "  with Hertz's prefactor", "s", "us", 4, "Hertz 1882", Impact, |s| Some(s.impact?.duration_hertz)),
+    quantity!("impact_duration_spring", "T_S,q", "  of the model's spring", "s", "us", 4, "π√(Mq/b)", Impact, |s| Some(s.impact?.duration_spring)),
+    quantity!("reduced_mass", "m_red", "reduced mass", "kg", "kg", 5, "Eq. 33", Load, |s| Some(s.reduced_mass)),
+    quantity!("effective_mass", "M", "effective mass at D", "kg", "kg", 5, "Eq. 50", Impact, |s| Some(s.impact?.effective_mass)),
+    quantity!("pair_compliance", "q_s", "pair compliance", "m2/N", "um mm/N", 5, "Eq. 54", Impact, |s| Some(s.impact?.pair_compliance)),
+    quantity!("hertz_half_width", "a_H", "Hertz half-width", "m", "um", 5, "Eq. 55", Impact, |s| Some(s.impact?.hertz_half_width)),
+    quantity!("impact_energy", "E_k", "impact energy", "J", "J", 5, "Eq. 50", Impact, |s| Some(s.impact?.energy)),
+    quantity!("sliding_energy", "W_f", "sliding energy", "J", "J", 5, "Eq. 51", Impact, |s| Some(s.impact?.sliding_energy)),
+    quantity!("friction_ratio", "f", "friction ratio", "1", "1", 4, "Eq. 64", Friction, |s| s.friction?.ratio),
+    quantity!("stick_limit", "μ_stick", "stick limit", "1", "1", 4, "ΔVτ/(2ΔVn)", Velocity, |s| Some(s.velocity?.stick_limit)),
+    quantity!("impulse_ratio", "κ", "impulse ratio", "1", "1", 4, "(2/π)F_S·T_S/(M·ΔV_n)", Impact, |s| Some(s.impact?.impulse_ratio)),
+];

@@ -1,0 +1,119 @@
+//! The stages of a solve, in the order the data flows, and sets of them.
+
+/// A stage of a solve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u8)]
+pub enum Stage {
+    /// Involute geometry of the pair.
+    Geometry,
+    /// Force along the line of action.
+    Load,
+    /// Deviation and deflection that bring the tooth in early.
+    Deviation,
+    /// Where the tip first touches the flank: D.
+    Position,
+    /// Approach and sliding velocity at D.
+    Velocity,
+    /// Compliance of the teeth in contact at D.
+    Compliance,
+    /// Force, energy and duration of the impact.
+    Impact,
+    /// Change of the velocities over the impact.
+    Friction,
+    /// Force between D and E.
+    Stations,
+}
+
+impl Stage {
+    /// Every stage, in order.
+    pub const ALL: [Stage; 9] = [
+        Stage::Geometry,
+        Stage::Load,
+        Stage::Deviation,
+        Stage::Position,
+        Stage::Velocity,
+        Stage::Compliance,
+        Stage::Impact,
+        Stage::Friction,
+        Stage::Stations,
+    ];
+
+    /// The name in a report.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Stage::Geometry => "geometry",
+            Stage::Load => "load",
+            Stage::Deviation => "deviation",
+            Stage::Position => "position",
+            Stage::Velocity => "velocity",
+            Stage::Compliance => "compliance",
+            Stage::Impact => "impact",
+            Stage::Friction => "friction",
+            Stage::Stations => "stations",
+        }
+    }
+
+    /// The stages that this one reads directly.
+    const fn reads(self) -> Stages {
+        match self {
+            Stage::Geometry => Stages::NONE,
+            Stage::Load => Stages::NONE.with(Stage::Geometry),
+            Stage::Deviation => Stages::NONE.with(Stage::Geometry).with(Stage::Load),
+            Stage::Position => Stages::NONE.with(Stage::Deviation),
+            Stage::Velocity | Stage::Compliance => Stages::NONE.with(Stage::Position),
+            Stage::Impact => Stages::NONE.with(Stage::Velocity).with(Stage::Compliance),
+            Stage::Friction | Stage::Stations => Stages::NONE.with(Stage::Impact),
+        }
+    }
+}
+
+/// A set of stages.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Stages(u16);
+
+impl Stages {
+    /// No stage.
+    pub const NONE: Stages = Stages(0);
+    /// Every stage but the stations.
+    pub const CLOSED_FORM: Stages = Stages::of(Stage::Friction);
+    /// Every stage.
+    pub const ALL: Stages = Stages::CLOSED_FORM.with(Stage::Stations);
+
+    /// The stage and all that it needs.
+    #[must_use]
+    pub const fn of(stage: Stage) -> Stages {
+        let mut set = Stages::NONE.with(stage);
+        let mut index = Stage::ALL.len();
+        while index > 0 {
+            index -= 1;
+            if set.has(Stage::ALL[index]) {
+                set = set.and(Stage::ALL[index].reads());
+            }
+        }
+        set
+    }
+
+    /// This set and one stage more.
+    #[must_use]
+    pub const fn with(self, stage: Stage) -> Stages {
+        Stages(self.0 | 1 << stage as u8)
+    }
+
+    /// The union of two sets.
+    #[must_use]
+    pub const fn and(self, other: Stages) -> Stages {
+        Stages(self.0 | other.0)
+    }
+
+    /// Whether the stage is in the set.
+    #[must_use]
+    pub const fn has(self, stage: Stage) -> bool {
+        self.0 & 1 << stage as u8 != 0
+    }
+
+    /// The stages of the set, in order.
+    pub fn iter(self) -> impl Iterator<Item = Stage> {
+        Stage::ALL.into_iter().filter(move |&stage| self.has(stage))
+    }
+}
