@@ -75,13 +75,8 @@ fn described(field: &Field, written: Option<&Entry>) -> String {
         Absent::Without(words) => format!(" Left out: {words}."),
         _ => String::new(),
     };
-    let line = written.map_or_else(|| format!("# {}", example(field)), Entry::line);
+    let line = written.map_or_else(|| format!("# {}", check::assignment(field)), Entry::line);
     format!("# {symbol}{}{range}{absent}\n{line}\n", field.help)
-}
-
-fn example(field: &Field) -> String {
-    let line = check::assignment(field);
-    line.split(" to [").next().unwrap_or_default().to_owned()
 }
 
 fn rest(entries: &[Entry], table: &str, help: &str, example: &str) -> String {
