@@ -7,7 +7,8 @@ use ratatui::layout::Size;
 use tui_input::InputRequest;
 
 use super::solver::Answer;
-use super::store::{Document, Entry, SaveFault};
+use super::store::{Entry, SaveFault};
+use crate::case::Document;
 
 /// Something that happened: from a key, the worker, or an effect that is done.
 #[derive(Debug, Clone)]

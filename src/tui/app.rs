@@ -10,11 +10,10 @@ use super::actions::Place;
 use super::prompt::Prompt;
 use super::scale::Scale;
 use super::solver::{self, Answer, Request};
-use super::store::Document;
 use super::theme::Look;
 use super::view::form;
 use crate::case::fields::{Absent, Kind};
-use crate::case::{Case, FIELDS, Problem, fields};
+use crate::case::{Case, Document, FIELDS, Problem, fields};
 use crate::model::Refusal;
 
 /// Everything that the screen shows.
@@ -204,7 +203,7 @@ impl App {
         if answer.serial != self.serial {
             return;
         }
-        self.refusal = answer.refusal().cloned();
+        self.refusal = answer.refusal().copied();
         if self.refusal.is_none() {
             self.scale = self.scale.fitted(&answer);
             self.answer = Some(answer);

@@ -11,14 +11,8 @@ use directories::ProjectDirs;
 
 use super::actions::Action;
 use super::update::{Effect, Over, Saving};
-use crate::case::Case;
-
-/// stand-in
-#[derive(Debug, Clone)]
-pub struct Document {
-    /// case
-    pub case: Case,
-}
+use crate::case::Document;
+use crate::case::file::SaveError;
 
 /// An entry of a folder.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -65,7 +59,7 @@ pub struct Trouble {
 /// The document of the built-in case.
 #[must_use]
 pub fn built_in() -> Document {
-    Document { case: Case::table_1() }
+    Document::table_1()
 }
 
 /// The case that was asked for, else the last one, else the built-in one.
@@ -112,7 +106,8 @@ pub fn perform(effect: Effect) -> Option<Action> {
 }
 
 fn load(path: &Path) -> Result<Box<Document>, Vec<String>> {
-    Err(vec![path.display().to_string()])
+    let document = Document::read(path).map_err(|error| error.to_string());
+    document.map(Box::new).map_err(|faults| faults.lines().map(str::to_owned).collect())
 }
 
 fn save(saving: &Saving) -> Result<Box<Document>, SaveFault> {
@@ -120,7 +115,13 @@ fn save(saving: &Saving) -> Result<Box<Document>, SaveFault> {
     if *over == Over::Nothing && path.symlink_metadata().is_ok() {
         return Err(SaveFault::Exists);
     }
-    Ok(Box::new(document.clone()))
+    let mut document = document.clone();
+    let written = if *over == Over::Anything { document.save_over(path) } else { document.save(path) };
+    written.map(|()| Box::new(document)).map_err(|error| match error {
+        SaveError::ChangedOnDisk(_) => SaveFault::Changed,
+        SaveError::AlreadyThere(_) => SaveFault::Exists,
+        other => SaveFault::Failed(other.to_string()),
+    })
 }
 
 // A folder that cannot be read has nothing to offer.
@@ -129,13 +130,17 @@ fn list(folder: &str) -> Vec<Entry> {
     let found = fs::read_dir(path).into_iter().flatten().flatten().filter_map(|entry| {
         let name = entry.file_name().to_string_lossy().into_owned();
         let is_folder = entry.path().is_dir();
-        let wanted = !name.starts_with('.') && (is_folder || name.ends_with(".toml"));
+        let wanted = !name.starts_with('.') && (is_folder || is_case(&name));
         wanted.then_some(Entry { is_folder, name })
     });
     let mut entries: Vec<_> = found.collect();
     entries.sort();
     entries.push(Entry { is_folder: true, name: "..".to_owned() });
     entries
+}
+
+fn is_case(name: &str) -> bool {
+    Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
 }
 
 // Only a convenience: without it the next start begins with the built-in case.

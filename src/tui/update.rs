@@ -11,9 +11,9 @@ use super::actions::{Action, Command, Next};
 use super::app::{App, Panes};
 use super::prompt::{Page, Prompt};
 use super::solver::Request;
-use super::store::Document;
 use super::view;
 use super::view::{popup, results};
+use crate::case::Document;
 use crate::case::fields::{self, Kind};
 use crate::model::inputs::Rung;
 

@@ -5,11 +5,12 @@ use std::path::PathBuf;
 use tui_input::Input;
 
 use super::{Effect, Over, Saving, solve};
+use crate::case::Document;
 use crate::tui::actions::Next;
 use crate::tui::app::{App, History};
 use crate::tui::clean;
 use crate::tui::prompt::{Browser, Choice, Page, Prompt, Question};
-use crate::tui::store::{self, Document, Entry, SaveFault};
+use crate::tui::store::{self, Entry, SaveFault};
 
 /// Go on when nothing is unsaved, else ask.
 pub(super) fn when_saved(app: &mut App, next: Next) -> Vec<Effect> {
@@ -22,6 +23,9 @@ pub(super) fn when_saved(app: &mut App, next: Next) -> Vec<Effect> {
 
 /// Save to the file of the case, or ask where to.
 pub(super) fn save(app: &mut App, next: Next) -> Vec<Effect> {
+    if refuse_faulty(app) {
+        return Vec::new();
+    }
     match app.path.clone() {
         Some(path) => vec![saving(app, path, Over::Own, next)],
         None => ask_where(app, next),
@@ -30,6 +34,9 @@ pub(super) fn save(app: &mut App, next: Next) -> Vec<Effect> {
 
 /// Ask for a path to save to.
 pub(super) fn ask_where(app: &mut App, next: Next) -> Vec<Effect> {
+    if refuse_faulty(app) {
+        return Vec::new();
+    }
     let path = app.path.as_ref().map_or_else(|| "case.toml".to_owned(), |path| path.display().to_string());
     app.prompts.push(Prompt::SaveAs(Input::new(path), next));
     Vec::new()
@@ -180,6 +187,14 @@ fn show(app: &mut App, document: Document, path: Option<PathBuf>) -> Vec<Effect>
     app.history = History::default();
     app.results_top = 0;
     solve(app.replace_case(app.saved.clone(), app.focus))
+}
+
+// What would be saved could not be opened again.
+fn refuse_faulty(app: &mut App) -> bool {
+    let Some(&(field, _)) = app.problems.first() else { return false };
+    app.focus_on(field);
+    app.complain("not saved: mend what is marked with ! first");
+    true
 }
 
 fn saving(app: &App, path: PathBuf, over: Over, next: Next) -> Effect {

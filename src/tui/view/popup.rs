@@ -85,7 +85,7 @@ fn draw_question(question: &Question, screen: Rect, theme: &Theme, buffer: &mut 
     let below = u16::try_from(lines.len()).unwrap_or(u16::MAX).saturating_add(1);
     if below < inner.height {
         let row = Rect { y: inner.y + below, height: 1, ..inner };
-        Line::from_iter(buttons).render(row, buffer);
+        buttons.collect::<Line<'_>>().render(row, buffer);
     }
 }
 
