@@ -160,13 +160,7 @@ const fn with(modifiers: KeyModifiers, code: KeyCode) -> Chord {
     Chord(code, modifiers)
 }
 
-const fn bind(
-    places: Place,
-    chords: &'static [Chord],
-    command: Command,
-    name: &'static str,
-    sentence: &'static str,
-) -> Binding {
+const fn bind(places: Place, chords: &'static [Chord], command: Command, name: &'static str, sentence: &'static str) -> Binding {
     Binding { chords, command, places, name, sentence }
 }
 
@@ -208,7 +202,7 @@ pub static BINDINGS: &[Binding] = &[
     bind(Place::ASK, &[key(KeyCode::BackTab), with(KeyModifiers::SHIFT, KeyCode::BackTab), key(KeyCode::Left), key(KeyCode::Up)], Do::Previous, "", "The button before."),
     bind(Place::BROWSE.or(Place::READ), &[key(KeyCode::Down)], Do::Next, "", "The next line."),
     bind(Place::BROWSE.or(Place::READ), &[key(KeyCode::Up)], Do::Previous, "", "The line before."),
-    bind(Place::BROWSE.or(Place::READ), &[key(KeyCode::PageDown)], Do::NextGroup, "", "The next page."),
+    bind(Place::BROWSE.or(Place::READ), &[key(KeyCode::PageDown)], Do::NextGroup, "next page", "The next page."),
     bind(Place::READ, &[key(KeyCode::Char(' '))], Do::NextGroup, "", "The next page."),
     bind(Place::BROWSE.or(Place::READ), &[key(KeyCode::PageUp)], Do::PreviousGroup, "", "The page before."),
     bind(Place::BROWSE.or(Place::PATH).or(Place::ASK), &[key(KeyCode::Enter)], Do::Accept, "accept", "Do it."),

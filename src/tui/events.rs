@@ -204,11 +204,10 @@ mod tests {
     fn a_split_escape_sequence_is_one_key() {
         use KeyCode::{Char, Delete, Esc, Up};
         assert_eq!(codes(&join(keys(&[Esc, Char('['), Char('A')]))), [Up]);
-        assert_eq!(codes(&join(keys(&[Char('x'), Esc, Char('['), Char('3'), Char('~'), Char('y')]))), [
-            Char('x'),
-            Delete,
-            Char('y')
-        ]);
+        assert_eq!(
+            codes(&join(keys(&[Char('x'), Esc, Char('['), Char('3'), Char('~'), Char('y')]))),
+            [Char('x'), Delete, Char('y')]
+        );
         assert_eq!(codes(&join(keys(&[Esc, Esc, Char('['), Char('A')]))), [Esc, Up]);
         assert_eq!(codes(&join(keys(&[Esc, Char('x')]))), [Esc, Char('x')]);
     }

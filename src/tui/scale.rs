@@ -48,7 +48,8 @@ pub fn curve(stations: &[Station]) -> impl Iterator<Item = (f64, f64)> {
 pub fn bounds(from: f64, to: f64) -> [f64; 2] {
     let sound = |value: f64| if value.is_finite() { value.clamp(-1e100, 1e100) } else { 0.0 };
     let (from, to) = (sound(from).min(sound(to)), sound(from).max(sound(to)));
-    if from < to { [from, to] } else { [from - 1.0, to + 1.0] }
+    let pad = if from < to { 0.0 } else { 1f64.max(from.abs()) };
+    [from - pad, to + pad]
 }
 
 /// The least of 1, 2 and 5 times a power of ten that is not below the value.

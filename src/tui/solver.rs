@@ -199,11 +199,8 @@ mod tests {
         assert_eq!(has_begun.recv(), Ok(1));
         (2..=9).for_each(|serial| solver.ask(request(serial)));
         go.send(()).and_then(|()| go.send(())).expect("the worker listens");
-        let serials: Vec<_> = replies
-            .iter()
-            .take(2)
-            .map(|reply| if let Reply::Solved(answer) = reply { answer.serial } else { 0 })
-            .collect();
+        let serials: Vec<_> =
+            replies.iter().take(2).map(|reply| if let Reply::Solved(answer) = reply { answer.serial } else { 0 }).collect();
         assert_eq!(serials, [1, 9]);
     }
 }

@@ -106,8 +106,11 @@ pub fn perform(effect: Effect) -> Option<Action> {
 }
 
 fn load(path: &Path) -> Result<Box<Document>, Vec<String>> {
+    // The page that shows them has the name in its title.
+    let name = format!("{}:", path.display());
+    let without_name = |fault: &str| fault.strip_prefix(&name).unwrap_or(fault).trim_start().to_owned();
     let document = Document::read(path).map_err(|error| error.to_string());
-    document.map(Box::new).map_err(|faults| faults.lines().map(str::to_owned).collect())
+    document.map(Box::new).map_err(|faults| faults.lines().map(without_name).collect())
 }
 
 fn save(saving: &Saving) -> Result<Box<Document>, SaveFault> {

@@ -191,11 +191,8 @@ fn group_beside(focus: usize, by: isize) -> usize {
     let starts: Vec<_> = (0..fields::FIELDS.len())
         .filter(|&field| field == 0 || fields::FIELDS[field].table() != fields::FIELDS[field - 1].table())
         .collect();
-    let found = if by > 0 {
-        starts.iter().find(|&&start| start > focus)
-    } else {
-        starts.iter().rev().find(|&&start| start < focus)
-    };
+    let found =
+        if by > 0 { starts.iter().find(|&&start| start > focus) } else { starts.iter().rev().find(|&&start| start < focus) };
     found.copied().unwrap_or(if by > 0 { fields::FIELDS.len() - 1 } else { 0 })
 }
 

@@ -64,7 +64,7 @@ pub fn plan(size: Size, panes: Panes) -> Plan {
         Panes::All | Panes::NoChart => 0,
     };
     let upper = body - chart;
-    let form = (width * 54 / 100).clamp(33, 64);
+    let form = (width * 57 / 100).clamp(34, 66);
     Plan {
         header: row(0, 1),
         form: Rect::new(0, 1, form, upper),
@@ -98,6 +98,8 @@ fn draw_panes(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     chart::draw(app, plan.chart, buffer);
     status::hint(app, plan.hint, buffer);
     status::keys(app, plan.keys, buffer);
-    let in_prompts = app.prompts.iter().map(|prompt| popup::draw(app, prompt, area, buffer)).last();
-    in_prompts.unwrap_or(in_form)
+    match app.prompts.last() {
+        Some(prompt) => popup::draw(app, prompt, area, buffer),
+        None => in_form,
+    }
 }

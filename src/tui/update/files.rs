@@ -135,12 +135,7 @@ pub(super) fn loaded(app: &mut App, path: PathBuf, result: Result<Box<Document>,
 }
 
 /// A file was written, or not.
-pub(super) fn saved(
-    app: &mut App,
-    path: PathBuf,
-    next: Next,
-    result: Result<Box<Document>, SaveFault>,
-) -> Vec<Effect> {
+pub(super) fn saved(app: &mut App, path: PathBuf, next: Next, result: Result<Box<Document>, SaveFault>) -> Vec<Effect> {
     match result {
         Ok(document) => {
             if matches!(app.prompts.last(), Some(Prompt::SaveAs(..))) {

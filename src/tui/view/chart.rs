@@ -8,13 +8,16 @@ use ratatui::widgets::{Axis, Chart, Dataset, GraphType, Widget};
 
 use super::text;
 use crate::model::inputs::Rung;
-use crate::model::{Outcome, Quantity};
+use crate::model::{Outcome, Quantity, Refusal, Solution};
 use crate::report;
 use crate::tui::app::App;
 use crate::tui::scale::{Scale, bounds, curve};
 use crate::tui::solver::Answer;
 
 const LABEL: u16 = 7;
+
+/// A rung's points: minus the angle before E in deg, and the force in N.
+type Curve = (Rung, Vec<(f64, f64)>);
 
 /// Draw the chart with its axes.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
@@ -31,23 +34,32 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let plot = Rect { x: inner.x + LABEL + 1, width: inner.width - LABEL - 2, height: inner.height - 2, ..inner };
     draw_axes(app.scale, plot, buffer);
     draw_curves(app, &curves, plot, buffer);
+    draw_marks(app, &curves, plot, buffer);
 }
 
 fn title(app: &App) -> String {
     let stale = if app.is_stale() { "LAST VALID, " } else { "" };
-    let at_d: Vec<String> = app.answer.iter().flat_map(forces).collect();
-    let at_d = if at_d.is_empty() { String::new() } else { format!("; at D {}", at_d.join(", ")) };
-    format!("{stale}F_S in N over the driver's roll angle before E in deg{at_d}")
+    let marks: Vec<String> = app.answer.iter().flat_map(forces).collect();
+    let marks = if marks.is_empty() { String::new() } else { format!("; {}", marks.join(", ")) };
+    format!("{stale}F_S in N over driver angle before E in deg{marks}")
 }
 
-fn forces(answer: &Answer) -> impl Iterator<Item = String> {
-    let quantity = Quantity::find("impact_force");
-    answer.rungs.iter().filter_map(move |(rung, result)| {
-        let quantity = quantity?;
+// The force at D of each rung, the active one first, with the letter that marks D on the axis.
+fn forces(answer: &Answer) -> Vec<String> {
+    let Some(quantity) = Quantity::find("impact_force") else { return Vec::new() };
+    let mut rungs: Vec<_> = answer.rungs.iter().collect();
+    rungs.sort_by_key(|(rung, _)| *rung != answer.active);
+    let force = |(rung, result): &(Rung, _)| {
+        let result: &Result<Solution, Refusal> = result;
         let value = (quantity.value)(result.as_ref().ok()?)?;
-        let mark = if *rung == answer.active { "▸" } else { "" };
-        Some(format!("{mark}{} {} N", rung.name(), report::shown(quantity, value).number))
-    })
+        Some(format!("{} {} {}", mark(answer, *rung), rung.name(), report::shown(quantity, value).number))
+    };
+    rungs.into_iter().filter_map(force).collect()
+}
+
+// D marks the active rung's first contact on the axis, its first letter that of another.
+fn mark(answer: &Answer, rung: Rung) -> &'static str {
+    if rung == answer.active { "D" } else { rung.name().get(..1).unwrap_or("d") }
 }
 
 fn nothing(app: &App) -> &'static str {
@@ -59,7 +71,7 @@ fn nothing(app: &App) -> &'static str {
 }
 
 // The active rung's curve last, so that it lies on top.
-fn curves(app: &App) -> Vec<(Rung, Vec<(f64, f64)>)> {
+fn curves(app: &App) -> Vec<Curve> {
     let Some(answer) = &app.answer else { return Vec::new() };
     let mut curves: Vec<_> = answer
         .rungs
@@ -84,7 +96,9 @@ fn draw_axes(scale: Scale, plot: Rect, buffer: &mut Buffer) {
         let angle = scale.angle * (1.0 - part);
         let label = if tick == ticks { "E".to_owned() } else { number(angle) };
         let width = label.len() as u16;
-        buffer.set_string(x, axis, if tick == 0 { "└" } else { "┴" }, Style::new());
+        if tick > 0 {
+            buffer.set_string(x, axis, "┴", Style::new());
+        }
         buffer.set_string(x.saturating_sub(width / 2).max(plot.x), axis + 1, label, Style::new());
     }
     let steps = if plot.height > 8 { 4 } else { 2 };
@@ -97,7 +111,7 @@ fn draw_axes(scale: Scale, plot: Rect, buffer: &mut Buffer) {
     }
 }
 
-fn draw_curves(app: &App, curves: &[(Rung, Vec<(f64, f64)>)], plot: Rect, buffer: &mut Buffer) {
+fn draw_curves(app: &App, curves: &[Curve], plot: Rect, buffer: &mut Buffer) {
     let theme = app.look.theme;
     let last = curves.len().saturating_sub(1);
     let sets = curves.iter().enumerate().map(|(index, (_, points))| {
@@ -109,6 +123,17 @@ fn draw_curves(app: &App, curves: &[(Rung, Vec<(f64, f64)>)], plot: Rect, buffer
         .y_axis(Axis::default().bounds(bounds(0.0, app.scale.force)))
         .legend_position(None)
         .render(plot, buffer);
+}
+
+fn draw_marks(app: &App, curves: &[Curve], plot: Rect, buffer: &mut Buffer) {
+    let Some(answer) = &app.answer else { return };
+    for (rung, points) in curves {
+        let Some((x, _)) = points.first() else { continue };
+        let part = (1.0 + x / app.scale.angle).clamp(0.0, 1.0);
+        let style = if *rung == answer.active { app.look.theme.active } else { app.look.theme.other };
+        let column = plot.x + (f64::from(plot.width - 1) * part).round() as u16;
+        buffer.set_string(column, plot.bottom(), mark(answer, *rung), style);
+    }
 }
 
 fn own_marker(app: &App) -> Marker {

@@ -13,7 +13,10 @@ use crate::tui::clean::{clean, symbol};
 const MARK: u16 = 2;
 const SYMBOL: u16 = 6;
 const LABEL: u16 = 20;
-const VALUE: u16 = 13;
+const VALUE: u16 = 15;
+/// On a narrow screen the label gets some of the value's room.
+const NARROW_VALUE: u16 = 11;
+const WHOLE: u16 = MARK + SYMBOL + LABEL + 1 + VALUE;
 
 /// A line of the form.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -43,13 +46,17 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
 #[must_use]
 pub fn top_for(app: &App) -> usize {
     let area = plan(app.size, app.panes).form;
+    if area.is_empty() {
+        return app.form_top;
+    }
     let height = usize::from(area.height.saturating_sub(1)).max(1);
     let rows = rows(app, area.width);
     let focused = rows.iter().position(|row| *row == Row::Field(app.focus)).unwrap_or(0);
     let reasons = rows[focused + 1..].iter().take_while(|row| matches!(row, Row::Reason(_))).count();
     let follows_group = focused > 0 && matches!(rows[focused - 1], Row::Group(_));
     let first = focused - usize::from(follows_group);
-    let least = (focused + reasons + 1).saturating_sub(height);
+    let ahead = usize::from(height > 4);
+    let least = (focused + reasons + 1 + ahead).min(rows.len()).saturating_sub(height);
     let most = rows.len().saturating_sub(height);
     app.form_top.max(least).min(first.max(least)).min(most)
 }
@@ -87,7 +94,8 @@ fn group_title(field: &Field) -> &'static str {
 fn reasons(app: &App, field: usize, width: u16) -> impl Iterator<Item = String> {
     let own = app.problems.iter().filter(move |(at, _)| *at == field);
     own.flat_map(move |(_, problem)| {
-        text::wrap(&format!("{}: {}", problem.cause, problem.mend), usize::from(width).saturating_sub(5))
+        let lines = text::wrap(&format!("{}: {}", problem.cause, problem.mend), usize::from(width).saturating_sub(5));
+        lines.into_iter().enumerate().map(|(index, line)| format!("{} {line}", if index == 0 { "!" } else { " " }))
     })
 }
 
@@ -99,7 +107,7 @@ fn draw_row(app: &App, row: &Row, line: Rect, buffer: &mut Buffer) -> Option<Pos
             None
         }
         Row::Reason(reason) => {
-            buffer.set_stringn(line.x + MARK, line.y, format!("! {reason}"), line.width.into(), theme.problem);
+            buffer.set_stringn(line.x + MARK, line.y, reason, line.width.into(), theme.problem);
             None
         }
         Row::Field(index) => draw_field(app, *index, line, buffer),
@@ -115,14 +123,29 @@ fn draw_field(app: &App, index: usize, line: Rect, buffer: &mut Buffer) -> Optio
     if is_focused || is_wrong {
         buffer.set_stringn(line.x, line.y, mark, 1, if is_wrong { app.look.theme.problem } else { style });
     }
-    let label = LABEL.min(line.width.saturating_sub(MARK + SYMBOL + 1 + VALUE));
-    let at = line.x + MARK;
-    let name = text::cut(&symbol(field.symbol, app.look.ascii), usize::from(SYMBOL) - 1);
-    buffer.set_stringn(at, line.y, name, SYMBOL.into(), style);
-    buffer.set_stringn(at + SYMBOL, line.y, text::cut(field.label, label.into()), label.into(), style);
-    let offset = MARK + SYMBOL + label + 1;
+    let offset = draw_name(
+        field,
+        Rect { x: line.x + MARK, width: line.width.saturating_sub(MARK), ..line },
+        app.look.ascii,
+        style,
+        buffer,
+    );
     let value = Rect { x: line.x + offset, width: line.width.saturating_sub(offset), ..line };
     draw_value(app, index, value, style, buffer)
+}
+
+// Symbol and label; how far into the line they go. Words have no symbol, and need the room for themselves.
+fn draw_name(field: &Field, area: Rect, ascii: bool, style: Style, buffer: &mut Buffer) -> u16 {
+    if matches!(field.kind, Kind::Text) {
+        buffer.set_stringn(area.x, area.y, field.label, SYMBOL.into(), style);
+        return MARK + SYMBOL;
+    }
+    let value = if area.width + MARK < WHOLE { NARROW_VALUE } else { VALUE };
+    let label = LABEL.min(area.width.saturating_sub(SYMBOL + 1 + value));
+    let name = text::cut(&symbol(field.symbol, ascii), usize::from(SYMBOL) - 1);
+    buffer.set_stringn(area.x, area.y, name, SYMBOL.into(), style);
+    buffer.set_stringn(area.x + SYMBOL, area.y, text::cut(field.label, label.into()), label.into(), style);
+    MARK + SYMBOL + label + 1
 }
 
 fn draw_value(app: &App, index: usize, area: Rect, style: Style, buffer: &mut Buffer) -> Option<Position> {

@@ -5,8 +5,8 @@ use crate::tui::actions::{BINDINGS, Place};
 const BEFORE: [&str; 4] = [
     "Every edit acts at once: results and chart follow each keystroke that leaves a valid value.",
     "A value stands with its unit: 5 mm, 16 um, 0.2 in, 15 kW, 20 hp, 2000 rpm, 20 deg.",
-    "An empty field shows in brackets what then holds. D is where the driven tip first touches,",
-    "E where the normal path of contact begins. The rung paper keeps the printed Eqs. 7-20.",
+    "An empty field shows in brackets what then holds.",
+    "D is where the driven tip first touches, E where the normal path of contact begins. The rung paper keeps the printed Eqs. 7-20, exact finds D where the gap closes.",
 ];
 
 const PLACES: [(&str, Place); 5] = [
@@ -26,7 +26,7 @@ pub fn lines() -> Vec<String> {
         lines.extend([String::new(), title.to_owned()]);
         for (binding, told) in BINDINGS.iter().zip(&mut told) {
             if !*told && binding.places.meets(place) {
-                lines.push(format!("  {:<26} {}", binding.keys(), binding.sentence));
+                lines.push(format!("  {:<24} {}", binding.keys(), binding.sentence));
                 *told = true;
             }
         }

@@ -5,6 +5,7 @@ use ratatui::layout::{Constraint, Position, Rect, Size};
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Clear, Widget};
+use unicode_width::UnicodeWidthStr;
 
 use super::{form, text};
 use crate::tui::app::App;
@@ -12,6 +13,8 @@ use crate::tui::prompt::{Browser, Page, Prompt, Question};
 use crate::tui::theme::Theme;
 
 const WIDEST: u16 = 100;
+/// Room for four buttons.
+const NARROWEST: u16 = 52;
 
 /// Draw a prompt over the screen; where the cursor stands.
 pub fn draw(app: &App, prompt: &Prompt, screen: Rect, buffer: &mut Buffer) -> Option<Position> {
@@ -26,7 +29,7 @@ pub fn draw(app: &App, prompt: &Prompt, screen: Rect, buffer: &mut Buffer) -> Op
             None
         }
         Prompt::SaveAs(input, _) => {
-            let inner = frame("Save as", 1, screen, theme, buffer);
+            let inner = frame("Save as", Size::new(WIDEST, 1), screen, theme, buffer);
             text::edited(input, inner, Style::new(), buffer)
         }
         Prompt::Browse(browser) => draw_browser(browser, screen, theme, buffer),
@@ -36,10 +39,7 @@ pub fn draw(app: &App, prompt: &Prompt, screen: Rect, buffer: &mut Buffer) -> Op
 /// The room inside the largest box.
 #[must_use]
 pub fn room(screen: Size) -> Size {
-    Size {
-        width: screen.width.min(WIDEST).saturating_sub(5),
-        height: screen.height.saturating_sub(4),
-    }
+    Size { width: screen.width.min(WIDEST).saturating_sub(5), height: screen.height.saturating_sub(4) }
 }
 
 /// The lines of a page as they stand in a box; lines that go on are indented.
@@ -47,11 +47,25 @@ pub fn room(screen: Size) -> Size {
 pub fn wrapped(page: &Page, screen: Size) -> Vec<String> {
     let width = usize::from(room(screen).width);
     let wrap = |line: &String| {
-        let indent = line.len() - line.trim_start().len();
-        let pieces = text::wrap(line.trim_start(), width.saturating_sub(indent));
-        pieces.into_iter().map(move |piece| " ".repeat(indent) + &piece)
+        let indent = hanging(line);
+        let (head, text) = line.split_at(indent);
+        let pieces = text::wrap(text, width.saturating_sub(indent));
+        let head = head.to_owned();
+        pieces.into_iter().enumerate().map(
+            move |(index, piece)| {
+                if index == 0 { head.clone() + &piece } else { " ".repeat(indent) + &piece }
+            },
+        )
     };
     page.lines.iter().flat_map(wrap).collect()
+}
+
+// Where a line goes on when it is wrapped: below its second column, if it has one.
+fn hanging(line: &str) -> usize {
+    let lead = line.len() - line.trim_start().len();
+    let gap = line[lead..].find("  ").map(|at| lead + at);
+    let column = gap.map(|gap| line.len() - line[gap..].trim_start().len());
+    column.filter(|_| line.is_ascii()).unwrap_or(lead)
 }
 
 /// Scroll a page, as far as there are lines.
@@ -62,7 +76,7 @@ pub fn scroll(page: &mut Page, by: isize, screen: Size) {
 
 fn draw_page(page: &Page, screen: Rect, theme: &Theme, buffer: &mut Buffer) {
     let lines = wrapped(page, screen.as_size());
-    let inner = frame(&page.title, lines.len(), screen, theme, buffer);
+    let inner = frame(&page.title, extent(&lines, 0), screen, theme, buffer);
     for (line, y) in lines.iter().skip(page.top).zip(inner.top()..inner.bottom()) {
         buffer.set_stringn(inner.x, y, line, inner.width.into(), Style::new());
     }
@@ -73,7 +87,7 @@ fn draw_page(page: &Page, screen: Rect, theme: &Theme, buffer: &mut Buffer) {
 
 fn draw_question(question: &Question, screen: Rect, theme: &Theme, buffer: &mut Buffer) {
     let lines = text::wrap(&question.text, room(screen.as_size()).width.into());
-    let inner = frame(question.title, lines.len() + 2, screen, theme, buffer);
+    let inner = frame(question.title, extent(&lines, 2), screen, theme, buffer);
     for (line, y) in lines.iter().zip(inner.top()..inner.bottom()) {
         buffer.set_stringn(inner.x, y, line, inner.width.into(), Style::new());
     }
@@ -90,7 +104,7 @@ fn draw_question(question: &Question, screen: Rect, theme: &Theme, buffer: &mut 
 }
 
 fn draw_browser(browser: &Browser, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Option<Position> {
-    let inner = frame("Open", usize::from(screen.height).min(16), screen, theme, buffer);
+    let inner = frame("Open", Size::new(WIDEST, 16), screen, theme, buffer);
     let list = Rect { y: inner.y + 1, height: inner.height.saturating_sub(1), ..inner };
     let rows = usize::from(list.height);
     let top = (browser.marked + 1).saturating_sub(rows);
@@ -108,11 +122,19 @@ fn draw_browser(browser: &Browser, screen: Rect, theme: &Theme, buffer: &mut Buf
     text::edited(&browser.input, Rect { height: inner.height.min(1), ..inner }, theme.focus, buffer)
 }
 
-// An emptied box with a border, high enough for the lines if there is room.
-fn frame(title: &str, lines: usize, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Rect {
+// What the lines and some more below them take.
+fn extent(lines: &[String], more: usize) -> Size {
+    let width = lines.iter().map(|line| line.width()).max().unwrap_or(0);
+    let size = |length: usize| u16::try_from(length).unwrap_or(u16::MAX);
+    Size { width: size(width), height: size(lines.len() + more) }
+}
+
+// An emptied box with a border, as large as is wanted if there is room.
+fn frame(title: &str, wanted: Size, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Rect {
     let room = room(screen.as_size());
-    let height = u16::try_from(lines).unwrap_or(u16::MAX).clamp(1, room.height.max(1)) + 2;
-    let area = screen.centered(Constraint::Length(room.width + 4), Constraint::Length(height)).intersection(screen);
+    let height = wanted.height.clamp(1, room.height.max(1)) + 2;
+    let width = wanted.width.max(NARROWEST).min(room.width) + 4;
+    let area = screen.centered(Constraint::Length(width), Constraint::Length(height)).intersection(screen);
     Clear.render(area, buffer);
     let title = Line::styled(format!(" {} ", text::cut(title, usize::from(area.width).saturating_sub(6))), theme.title);
     let block = Block::bordered().title(title);

@@ -16,10 +16,12 @@ use crate::tui::clean::symbol;
 use crate::tui::solver::Answer;
 
 /// What an engineer looks at first.
-const FIRST: [&str; 5] =
-    ["approach_angle_driven", "contact_radius_driver", "normal_velocity", "impact_force", "impact_duration"];
+const FIRST: [&str; 5] = ["approach_angle_driven", "contact_radius_driver", "normal_velocity", "impact_force", "impact_duration"];
+/// The same, when no tooth strikes.
+const FIRST_WITHOUT_CONTACT: [&str; 5] =
+    ["total_deviation", "equivalent_error", "combined_deflection", "mesh_force", "contact_ratio"];
 
-const SYMBOL: usize = 8;
+const SYMBOL: usize = 7;
 const LABEL: usize = 25;
 const VALUE: usize = 9;
 const UNIT: usize = 7;
@@ -54,16 +56,15 @@ pub fn page(app: &App) -> usize {
 
 /// The outcome of a solve, in a sentence.
 #[must_use]
-pub fn sentence(solution: &Solution) -> String {
+pub fn sentence(solution: &Solution, ascii: bool) -> String {
     let value = |key| quantity_text(key, solution).unwrap_or_default();
     match solution.outcome {
-        Outcome::CornerContact => format!(
-            "Corner contact: the tip strikes {} before E with {}.",
-            value("approach_angle_driven"),
-            value("impact_force")
-        ),
+        Outcome::CornerContact => {
+            format!("Corner contact {} before E, {}.", value("approach_angle_driven"), value("impact_force"))
+        }
         Outcome::NoCornerContact => {
-            format!("No corner contact: the total deviation is {}, the tooth comes in on time.", value("total_deviation"))
+            let total = symbol("Δ", ascii);
+            format!("No corner contact: {total} = {}, the tooth comes in on time.", value("total_deviation"))
         }
     }
 }
@@ -102,14 +103,15 @@ fn body(app: &App, answer: &Answer, width: usize) -> Vec<Line<'static>> {
     };
     let mut lines = Vec::new();
     if let Some(solution) = answer.of(answer.active) {
-        lines.extend(wrapped(&sentence(solution), theme.focus));
+        lines.extend(wrapped(&sentence(solution, app.look.ascii), theme.focus));
     }
     if let Some(ratios) = ratios(answer, app.look.ascii) {
         lines.extend(wrapped(&ratios, Style::new()));
     }
     lines.push(heading(app, answer, width));
-    let rest = QUANTITIES.iter().filter(|quantity| !FIRST.contains(&quantity.key));
-    lines.extend(FIRST.iter().filter_map(|key| Quantity::find(key)).map(|quantity| row(app, answer, quantity, width)));
+    let first = first(answer);
+    let rest = QUANTITIES.iter().filter(|quantity| !first.contains(&quantity.key));
+    lines.extend(first.iter().filter_map(|key| Quantity::find(key)).map(|quantity| row(app, answer, quantity, width)));
     for note in &answer.notes {
         lines.extend(wrapped(&format!("* {}", note.message), theme.note));
     }
@@ -117,16 +119,21 @@ fn body(app: &App, answer: &Answer, width: usize) -> Vec<Line<'static>> {
     lines
 }
 
+fn first(answer: &Answer) -> &'static [&'static str] {
+    let strikes = |solution: &Solution| solution.outcome == Outcome::CornerContact;
+    let any_strikes = answer.rungs.iter().any(|(_, result)| result.as_ref().is_ok_and(strikes));
+    if any_strikes { &FIRST } else { &FIRST_WITHOUT_CONTACT }
+}
+
 // How far the printed position is off, where both rungs find one.
 fn ratios(answer: &Answer, ascii: bool) -> Option<String> {
     let (paper, exact) = (answer.of(Rung::Paper)?, answer.of(Rung::Exact)?);
-    let times = if ascii { "x" } else { "×" };
     let ratio = |key| {
         let quantity = Quantity::find(key)?;
         let ratio = (quantity.value)(exact)? / (quantity.value)(paper)?;
-        ratio.is_finite().then(|| format!("{} {}{times}", symbol(quantity.symbol, ascii), rounded(ratio)))
+        ratio.is_finite().then(|| format!("{} {}", symbol(quantity.symbol, ascii), rounded(ratio)))
     };
-    Some(format!("exact is {} and {} paper.", ratio("approach_angle_driven")?, ratio("impact_force")?))
+    Some(format!("exact/paper: {}, {}", ratio("approach_angle_driven")?, ratio("impact_force")?))
 }
 
 fn rounded(ratio: f64) -> String {
@@ -172,7 +179,7 @@ fn style_of(app: &App, answer: &Answer, rung: Rung) -> Style {
 }
 
 fn padded(text: &str, width: usize) -> String {
-    let text = text::cut(text, width - 1);
+    let text = text::cut(text, width);
     let gap = width - text.width().min(width);
     text + &" ".repeat(gap)
 }
