@@ -1,0 +1,174 @@
+//! The command line's shape, from which help, completions and manual are derived.
+
+use crate::case::FIELDS;
+use crate::case::fields::index_of;
+use crate::model::inputs::Rung;
+use crate::model::{QUANTITIES, Quantity};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
+use clap_complete::Shell;
+use std::path::PathBuf;
+
+const EXIT_CODES: &str = "Exit: 0 done; 1 a limit is exceeded; 2 wrong usage, or no terminal for the workbench; 3 a bad case; \
+    4 a case of a newer format; 5 a file cannot be read or written.";
+
+const CSV_SHAPE: &str = "CSV is in SI units: a row a case with a column a quantity, such as `impact_force [N]`; with --stations \
+    instead a row a station. JSON is an object a case, one a line, in SI units; what does not exist is absent.";
+
+/// Corner contact in spur gear pairs: where, how hard and how long an incoming tooth strikes
+#[derive(Debug, Parser)]
+#[command(name = "tipstrike", version, args_conflicts_with_subcommands = true, after_help = EXIT_CODES)]
+#[command(after_long_help = EXIT_CODES)]
+pub struct Arguments {
+    /// Case to open in the workbench; else the last one, else Table 1 of Zhou & Chen 2014
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub case: Option<PathBuf>,
+    /// What to do without the workbench.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+/// A headless command.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Solve cases and tell what was found
+    Solve(Solve),
+    /// Hold each case's [limits] against its results, a verdict a line
+    Check(Check),
+    /// List every field of a case with its unit, range, default and meaning
+    Fields(Fields),
+    /// Write a commented case to start from
+    New {
+        /// File to write, which must not exist yet; else standard output
+        #[arg(value_hint = ValueHint::FilePath)]
+        file: Option<PathBuf>,
+    },
+    /// Write a shell's completions to standard output
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
+    /// Write the manual page (roff) to standard output
+    Man {
+        /// The page of this command
+        command: Option<String>,
+    },
+}
+
+/// What `solve` is asked.
+#[derive(Debug, Args)]
+#[command(after_help = CSV_SHAPE)]
+pub struct Solve {
+    /// Case files; - is standard input
+    #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub cases: Vec<PathBuf>,
+    /// Solve on this rung instead of the case's
+    #[arg(long, value_parser = rungs())]
+    pub rung: Option<Rung>,
+    /// Change a field of every case, such as deviations.base_pitch="20 um"
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
+    pub settings: Vec<Setting>,
+    /// Tell these quantities alone, and run no more than they need
+    #[arg(long, value_name = "QUANTITY,...", value_delimiter = ',', hide_possible_values = true, value_parser = quantities())]
+    pub only: Vec<&'static Quantity>,
+    /// Tell the stations between D and E as well, in this many intervals
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub stations: Option<u32>,
+    /// How to tell it
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+}
+
+/// What `check` is asked.
+#[derive(Debug, Args)]
+pub struct Check {
+    /// Case files; - is standard input
+    #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub cases: Vec<PathBuf>,
+}
+
+/// What `fields` is asked.
+#[derive(Debug, Args)]
+pub struct Fields {
+    /// List the quantities of a result instead: what --only and [limits] may name
+    #[arg(long)]
+    pub results: bool,
+    /// How to list them
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Listing,
+}
+
+/// How a solve is told.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// A page for a person, in the units of the craft
+    #[default]
+    Text,
+    /// An object a line
+    Json,
+    /// A table
+    Csv,
+}
+
+/// How a list is told.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub enum Listing {
+    /// A table for a person
+    #[default]
+    Text,
+    /// An object a line
+    Json,
+}
+
+/// A field and what is to stand in it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Setting {
+    /// The field's key.
+    pub key: &'static str,
+    /// The text that a user would write.
+    pub value: String,
+}
+
+fn rungs() -> impl TypedValueParser<Value = Rung> {
+    PossibleValuesParser::new(Rung::ALL.map(Rung::name))
+        .try_map(|name| Rung::ALL.into_iter().find(|rung| rung.name() == name).ok_or("no such rung"))
+}
+
+fn quantities() -> impl TypedValueParser<Value = &'static Quantity> {
+    PossibleValuesParser::new(QUANTITIES.iter().map(|quantity| quantity.key))
+        .try_map(|key| Quantity::find(&key).ok_or("no such quantity"))
+}
+
+fn setting(text: &str) -> Result<Setting, String> {
+    let (key, value) = text.split_once('=').ok_or("write KEY=VALUE, such as operation.speed=\"3000 rpm\"")?;
+    let key = key.trim();
+    let field = index_of(key).ok_or_else(|| unknown_field(key))?;
+    Ok(Setting { key: FIELDS[field].key, value: value.trim().to_owned() })
+}
+
+fn unknown_field(key: &str) -> String {
+    let likeness = |name: &str| strsim::normalized_damerau_levenshtein(key, name);
+    let near = FIELDS.iter().map(|field| field.key).max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
+    match near.filter(|name| likeness(name) > 0.6) {
+        Some(name) => format!("there is no field {key}: did you mean {name}?"),
+        None => format!("there is no field {key}: `tipstrike fields` lists them"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_shape_is_sound() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn a_setting_names_a_field_and_keeps_what_follows_the_first_equals_sign() {
+        assert_eq!(setting("title=a=b"), Ok(Setting { key: "title", value: "a=b".to_owned() }));
+        assert!(setting("pair.modul=5 mm").unwrap_err().contains("did you mean pair.module?"));
+        assert!(setting("pair.module").unwrap_err().contains("KEY=VALUE"));
+    }
+}
