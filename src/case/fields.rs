@@ -372,5 +372,6 @@ pub(super) fn blank() -> Inputs {
         tooth_compliance: None,
         contact_compliance: ContactCompliance::Logarithmic,
         stations: 64,
+        accurate: false,
     }
 }

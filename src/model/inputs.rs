@@ -110,6 +110,8 @@ pub struct Inputs {
     pub contact_compliance: ContactCompliance,
     /// Intervals between D and E.
     pub stations: usize,
+    /// Geometry and position in double-double arithmetic.
+    pub accurate: bool,
 }
 
 impl Inputs {

@@ -64,7 +64,7 @@ pub static QUANTITIES: &[Quantity] = &[
     quantity!("approach_angle_driven", "u", "driven angle before E", "rad", "deg", 6, "Eq. 11", Position, |s| Some(s.position?.approach_angle_driven)),
     quantity!("contact_radius_driver", "O1D", "driver radius at D", "m", "mm", 6, "Eq. 7", Position, |s| Some(s.position?.contact.radius_driver)),
     quantity!("contact_normal_radius_driven", "r_b2'", "normal's radius, driven", "m", "mm", 6, "Eq. 49", Position, |s| Some(s.position?.contact.normal_radius_driven)),
-    quantity!("curvature_radius", "ρ_S", "radius of curvature", "m", "mm", 5, "Eq. 32", Position, |s| Some(s.position?.contact.curvature_radius)),
+    quantity!("curvature_radius", "ρ_S", "radius of curvature", "m", "mm", 5, "Eq. 32", Position, |s| Some(s.position?.curvature_radius)),
     quantity!("transit_time", "t_DE", "time from D to E", "s", "us", 5, "u/ω2", Velocity, |s| Some(s.velocity?.transit_time)),
     quantity!("normal_velocity", "ΔV_n", "approach velocity at D", "m/s", "m/s", 5, "Eq. 21", Velocity, |s| Some(s.velocity?.normal)),
     quantity!("sliding_velocity", "ΔV_τ", "sliding velocity at D", "m/s", "m/s", 5, "Eq. 22", Velocity, |s| Some(s.velocity?.sliding)),
