@@ -143,7 +143,7 @@ fn number(value: f64, unit: &str, digits: usize) -> String {
 fn not_finite(quantity: &Quantity, solution: &Solution) -> Option<Note> {
     (quantity.value)(solution)
         .filter(|value| !value.is_finite())
-        .map(|_| Note { code: "not-finite", message: format!("{} left the range of numbers and is left out.", quantity.key) })
+        .map(|_| Note { code: "not-finite", message: format!("{} left the range of numbers and is left out", quantity.key) })
 }
 
 #[cfg(test)]

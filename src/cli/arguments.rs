@@ -18,7 +18,6 @@ const CSV_SHAPE: &str = "CSV is in SI units: a row a case with a column a quanti
 /// Corner contact in spur gear pairs: where, how hard and how long an incoming tooth strikes
 #[derive(Debug, Parser)]
 #[command(name = "tipstrike", version, args_conflicts_with_subcommands = true, after_help = EXIT_CODES)]
-#[command(after_long_help = EXIT_CODES)]
 pub struct Arguments {
     /// Case to open in the workbench; else the last one, else Table 1 of Zhou & Chen 2014
     #[arg(value_hint = ValueHint::FilePath)]
@@ -65,7 +64,7 @@ pub struct Solve {
     /// Solve on this rung instead of the case's
     #[arg(long, value_parser = rungs())]
     pub rung: Option<Rung>,
-    /// Change a field of every case, such as deviations.base_pitch="20 um"
+    /// Change a field of every case, such as "operation.speed=3000 rpm"
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
     pub settings: Vec<Setting>,
     /// Tell these quantities alone, and run no more than they need

@@ -3,7 +3,7 @@
 use super::cases::{self, Opened};
 use super::{Check, Exit, Streams};
 use crate::model::{self, Quantity, Stages};
-use crate::report::verdict::{Verdict, verdicts};
+use crate::report::verdict::{Standing, Verdict, verdicts};
 use std::io::{self, Write};
 
 pub(super) fn run(options: &Check, streams: &mut Streams) -> io::Result<Exit> {
@@ -24,6 +24,10 @@ fn check(opened: &Opened, streams: &mut Streams) -> io::Result<Exit> {
         Err(refusal) => return Ok(opened.refused(&refusal, streams)),
     };
     let verdicts = verdicts(&opened.case, &solution);
+    let unknown = verdicts.iter().any(|verdict| verdict.standing == Standing::Unknown);
+    if let Some(refusal) = solution.withheld.filter(|_| unknown) {
+        return Ok(opened.refused(&refusal, streams));
+    }
     let broken: Vec<&Verdict> = verdicts.iter().filter(|verdict| !verdict.standing.holds()).collect();
     let (word, exit) = if broken.is_empty() { ("ok", Exit::Done) } else { ("EXCEEDED", Exit::Exceeded) };
     let told = if broken.is_empty() { verdicts.iter().collect() } else { broken };

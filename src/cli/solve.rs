@@ -2,7 +2,7 @@
 
 use super::cases::{self, Opened};
 use super::{Exit, Format, Setting, Solve, Streams};
-use crate::model::Quantity;
+use crate::model::{Quantity, Refusal};
 use crate::report::{Report, Selection, csv, json, text};
 use std::io::{self, Write};
 
@@ -11,7 +11,7 @@ pub(super) fn run(options: &Solve, streams: &mut Streams) -> io::Result<Exit> {
     let selection = selection(options);
     let (mut first, mut worst) = (true, Exit::Done);
     for path in &options.cases {
-        let report = cases::open(path, &settings, streams).and_then(|opened| solve(opened, &selection, streams));
+        let report = cases::open(path, &settings, streams).and_then(|opened| solve(&opened, &selection, streams));
         match report {
             Ok(report) => {
                 tell(&report, options.format, first, streams.output.as_mut())?;
@@ -41,9 +41,21 @@ fn selection(options: &Solve) -> Selection {
     Selection { only, stations: options.stations.is_some() || whole_json }
 }
 
-fn solve(opened: Opened, selection: &Selection, streams: &mut Streams) -> Result<Report, Exit> {
-    Report::solve(opened.name.clone(), opened.case.clone(), opened.inputs.clone(), selection.clone())
-        .map_err(|refusal| opened.refused(&refusal, streams))
+fn solve(opened: &Opened, selection: &Selection, streams: &mut Streams) -> Result<Report, Exit> {
+    let solved = Report::solve(opened.name.clone(), opened.case.clone(), opened.inputs.clone(), selection.clone());
+    match solved.and_then(in_full) {
+        Ok(report) => Ok(report),
+        Err(refusal) => Err(opened.refused(&refusal, streams)),
+    }
+}
+
+/// What was asked for by name must be there, where the model did not withhold it.
+fn in_full(report: Report) -> Result<Report, Refusal> {
+    let missing = report.values().count() < report.selection.only.len();
+    match report.solution.withheld {
+        Some(refusal) if missing => Err(refusal),
+        _ => Ok(report),
+    }
 }
 
 fn tell(report: &Report, format: Format, first: bool, out: &mut dyn Write) -> io::Result<()> {
