@@ -7,12 +7,13 @@ mod new;
 mod shell;
 mod solve;
 
+use crate::case::visible::visible;
 use crate::report::fields;
-use crate::report::visible::{visible, visible_lines};
+
 pub use arguments::{Arguments, Check, Command, Fields, Format, Listing, Setting, Solve};
 use clap::{CommandFactory, FromArgMatches};
 use std::ffi::OsString;
-use std::io::{self, BufWriter, Read, Write};
+use std::io::{self, BufWriter, Write};
 use std::process::ExitCode;
 
 /// How a command ended; of several, the greatest counts.
@@ -39,10 +40,8 @@ impl From<Exit> for ExitCode {
     }
 }
 
-/// Where a command reads and writes.
+/// Where a command writes.
 pub struct Streams<'a> {
-    /// What `-` reads.
-    pub input: Box<dyn Read + 'a>,
     /// Where results go.
     pub output: Box<dyn Write + 'a>,
     /// Where everything else goes.
@@ -53,7 +52,7 @@ impl Streams<'static> {
     /// The streams of the process.
     #[must_use]
     pub fn standard() -> Streams<'static> {
-        Streams { input: Box::new(io::stdin()), output: Box::new(BufWriter::new(io::stdout())), errors: Box::new(io::stderr()) }
+        Streams { output: Box::new(BufWriter::new(io::stdout())), errors: Box::new(io::stderr()) }
     }
 }
 
@@ -71,7 +70,7 @@ impl Streams<'_> {
 pub fn parse(arguments: impl IntoIterator<Item = OsString>, streams: &mut Streams) -> Result<Arguments, Exit> {
     let matches = Arguments::command().try_get_matches_from(arguments);
     matches.and_then(|matches| Arguments::from_arg_matches(&matches)).map_err(|error| {
-        let text = visible_lines(&error.render().to_string()).into_owned();
+        let text: String = error.render().to_string().lines().map(|line| visible(line) + "\n").collect();
         if error.use_stderr() {
             let _ = streams.errors.write_all(text.as_bytes());
             return Exit::Usage;

@@ -7,12 +7,10 @@ mod layout;
 pub mod stations;
 pub mod text;
 pub mod verdict;
-pub mod visible;
 
 use crate::case::fields::index_of;
 use crate::case::{Case, units};
 use crate::model::{self, Inputs, Note, QUANTITIES, Quantity, Refusal, Solution, Stage, Stages};
-pub use visible::visible;
 
 /// A value as a person reads it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -87,9 +85,15 @@ impl Report {
     /// The model's refusal.
     pub fn solve(name: String, case: Case, inputs: Inputs, selection: Selection) -> Result<Report, Refusal> {
         let solution = model::solve(&inputs, selection.stages())?;
+        Ok(Report::of(name, case, inputs, solution, selection))
+    }
+
+    /// A report of what the model found already.
+    #[must_use]
+    pub fn of(name: String, case: Case, inputs: Inputs, solution: Solution, selection: Selection) -> Report {
         let mut notes = model::notes(&inputs, &solution);
         notes.extend(selection.quantities().filter_map(|quantity| not_finite(quantity, &solution)));
-        Ok(Report { name, case, inputs, solution, notes, selection })
+        Report { name, case, inputs, solution, notes, selection }
     }
 
     /// The case's title, empty without one; not yet safe for a terminal.

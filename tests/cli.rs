@@ -211,8 +211,23 @@ fn a_refusal_of_the_model_has_the_place_of_its_field() {
     let (_folder, path) = changed("module = \"5 mm\"", "module = \"5 mm\"\ncentre_distance = \"80 mm\"");
     let output = run(&["solve", &path]);
     assert_eq!((code(&output), out(&output).as_str()), (3, ""));
-    assert!(err(&output).starts_with(&format!("{path}:11:")), "{}", err(&output));
+    assert!(err(&output).starts_with(&format!("{path}:12:")), "{}", err(&output));
     assert!(err(&output).contains(": pair.centre_distance: "), "{}", err(&output));
+}
+
+#[test]
+fn a_force_outside_a_formulas_range_is_withheld_with_a_note() {
+    let beyond = ["--set", "driver.teeth=120", "--set", "driven.teeth=120"];
+    let solved = json(&[&["solve", TABLE_1, "--format", "json"], &beyond[..]].concat());
+    assert!(solved["quantities"]["approach_angle_driven"]["value"].as_f64().unwrap() > 0.0);
+    assert_eq!(solved["quantities"].get("impact_force"), None);
+    assert_eq!(solved["notes"][0]["code"], "teeth-outside-fit");
+    let output = run(&[&["solve", TABLE_1, "--only", "impact_force"], &beyond[..]].concat());
+    assert_eq!((code(&output), out(&output).as_str()), (3, ""));
+    assert!(err(&output).contains("outside the Kuang-Yang fit"), "{}", err(&output));
+    let (_folder, path) = changed("teeth = 20", "teeth = 120");
+    let output = run(&["check", &path]);
+    assert_eq!((code(&output), out(&output).as_str()), (3, ""));
 }
 
 #[test]

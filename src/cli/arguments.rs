@@ -1,7 +1,6 @@
 //! The command line's shape, from which help, completions and manual are derived.
 
-use crate::case::FIELDS;
-use crate::case::fields::index_of;
+use crate::case::Case;
 use crate::model::inputs::Rung;
 use crate::model::{QUANTITIES, Quantity};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -67,7 +66,7 @@ pub struct Solve {
     /// Change a field of every case, such as "operation.speed=3000 rpm"
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
     pub settings: Vec<Setting>,
-    /// Tell these quantities alone, and run no more than they need
+    /// Tell these quantities alone, and run no more than they need; `tipstrike fields --results` lists them
     #[arg(long, value_name = "QUANTITY,...", value_delimiter = ',', hide_possible_values = true, value_parser = quantities())]
     pub only: Vec<&'static Quantity>,
     /// Tell the stations between D and E as well, in this many intervals
@@ -122,8 +121,8 @@ pub enum Listing {
 /// A field and what is to stand in it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Setting {
-    /// The field's key.
-    pub key: &'static str,
+    /// The field's key, or a limit's.
+    pub key: String,
     /// The text that a user would write.
     pub value: String,
 }
@@ -138,20 +137,11 @@ fn quantities() -> impl TypedValueParser<Value = &'static Quantity> {
         .try_map(|key| Quantity::find(&key).ok_or("no such quantity"))
 }
 
+/// A setting whose value fits its field, whatever the case.
 fn setting(text: &str) -> Result<Setting, String> {
-    let (key, value) = text.split_once('=').ok_or("write KEY=VALUE, such as operation.speed=\"3000 rpm\"")?;
-    let key = key.trim();
-    let field = index_of(key).ok_or_else(|| unknown_field(key))?;
-    Ok(Setting { key: FIELDS[field].key, value: value.trim().to_owned() })
-}
-
-fn unknown_field(key: &str) -> String {
-    let likeness = |name: &str| strsim::normalized_damerau_levenshtein(key, name);
-    let near = FIELDS.iter().map(|field| field.key).max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
-    match near.filter(|name| likeness(name) > 0.6) {
-        Some(name) => format!("there is no field {key}: did you mean {name}?"),
-        None => format!("there is no field {key}: `tipstrike fields` lists them"),
-    }
+    let (key, value) = text.split_once('=').ok_or("write KEY=VALUE, such as \"operation.speed=3000 rpm\"")?;
+    Case::empty().set(key.trim(), value).map_err(|problem| problem.to_string())?;
+    Ok(Setting { key: key.trim().to_owned(), value: value.to_owned() })
 }
 
 #[cfg(test)]
@@ -166,7 +156,7 @@ mod tests {
 
     #[test]
     fn a_setting_names_a_field_and_keeps_what_follows_the_first_equals_sign() {
-        assert_eq!(setting("title=a=b"), Ok(Setting { key: "title", value: "a=b".to_owned() }));
+        assert_eq!(setting("title=a=b"), Ok(Setting { key: "title".to_owned(), value: "a=b".to_owned() }));
         assert!(setting("pair.modul=5 mm").unwrap_err().contains("did you mean pair.module?"));
         assert!(setting("pair.module").unwrap_err().contains("KEY=VALUE"));
     }

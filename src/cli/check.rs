@@ -2,6 +2,7 @@
 
 use super::cases::{self, Opened};
 use super::{Check, Exit, Streams};
+use crate::case::visible::visible;
 use crate::model::{self, Quantity, Stages};
 use crate::report::verdict::{Standing, Verdict, verdicts};
 use std::io::{self, Write};
@@ -23,7 +24,7 @@ fn check(opened: &Opened, streams: &mut Streams) -> io::Result<Exit> {
         Ok(solution) => solution,
         Err(refusal) => return Ok(opened.refused(&refusal, streams)),
     };
-    let verdicts = verdicts(&opened.case, &solution);
+    let verdicts = verdicts(&opened.document.case, &solution);
     let unknown = verdicts.iter().any(|verdict| verdict.standing == Standing::Unknown);
     if let Some(refusal) = solution.withheld.filter(|_| unknown) {
         return Ok(opened.refused(&refusal, streams));
@@ -31,12 +32,12 @@ fn check(opened: &Opened, streams: &mut Streams) -> io::Result<Exit> {
     let broken: Vec<&Verdict> = verdicts.iter().filter(|verdict| !verdict.standing.holds()).collect();
     let (word, exit) = if broken.is_empty() { ("ok", Exit::Done) } else { ("EXCEEDED", Exit::Exceeded) };
     let told = if broken.is_empty() { verdicts.iter().collect() } else { broken };
-    writeln!(streams.output, "{word} {}: {}", crate::report::visible(&opened.name), list(&told))?;
+    writeln!(streams.output, "{word} {}: {}", visible(opened.document.name()), list(&told))?;
     Ok(exit)
 }
 
 fn stages(opened: &Opened) -> Stages {
-    let limited = opened.case.limits.iter().filter_map(|limit| Quantity::find(limit.quantity));
+    let limited = opened.document.case.limits.iter().filter_map(|limit| Quantity::find(limit.quantity));
     limited.fold(Stages::of(model::Stage::Geometry), |stages, quantity| stages.and(Stages::of(quantity.stage)))
 }
 

@@ -1,12 +1,13 @@
 //! A commented case to start from.
 
 use super::{Exit, Streams};
+use crate::case::{Case, Document};
 use std::fs::OpenOptions;
 use std::io::{self, Write};
 use std::path::Path;
 
 pub(super) fn run(file: Option<&Path>, streams: &mut Streams) -> io::Result<Exit> {
-    let text = String::new();
+    let text = Document::new(Case::table_1()).render();
     match file.filter(|file| file.as_os_str() != "-") {
         None => streams.output.write_all(text.as_bytes()).map(|()| Exit::Done),
         Some(file) => Ok(write(file, &text).map_or_else(|error| refused(file, &error, streams), |()| Exit::Done)),

@@ -25,8 +25,8 @@ pub(super) fn run(options: &Solve, streams: &mut Streams) -> io::Result<Exit> {
 
 /// `--rung` and `--stations` are fields as well.
 fn settings(options: &Solve) -> Vec<Setting> {
-    let rung = options.rung.map(|rung| Setting { key: "model.rung", value: rung.name().to_owned() });
-    let stations = options.stations.map(|count| Setting { key: "model.stations", value: count.to_string() });
+    let rung = options.rung.map(|rung| Setting { key: "model.rung".to_owned(), value: rung.name().to_owned() });
+    let stations = options.stations.map(|count| Setting { key: "model.stations".to_owned(), value: count.to_string() });
     options.settings.iter().cloned().chain(rung).chain(stations).collect()
 }
 
@@ -42,7 +42,8 @@ fn selection(options: &Solve) -> Selection {
 }
 
 fn solve(opened: &Opened, selection: &Selection, streams: &mut Streams) -> Result<Report, Exit> {
-    let solved = Report::solve(opened.name.clone(), opened.case.clone(), opened.inputs.clone(), selection.clone());
+    let Opened { document, inputs } = opened;
+    let solved = Report::solve(document.name().to_owned(), document.case.clone(), inputs.clone(), selection.clone());
     match solved.and_then(in_full) {
         Ok(report) => Ok(report),
         Err(refusal) => Err(opened.refused(&refusal, streams)),

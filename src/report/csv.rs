@@ -1,7 +1,8 @@
 //! Solves as CSV in SI units and full precision: a row a case, or a row a station.
 
 use super::stations::COLUMNS;
-use super::{Report, Selection, value, visible};
+use super::{Report, Selection, value};
+use crate::case::visible::visible;
 use csv::{ErrorKind, Writer};
 use std::io::{self, Write};
 
@@ -35,7 +36,7 @@ fn header(selection: &Selection) -> Vec<String> {
 }
 
 fn rows(report: &Report) -> Vec<Vec<String>> {
-    let name = visible(&report.name).into_owned();
+    let name = visible(&report.name);
     let solution = &report.solution;
     if report.selection.stations {
         let cells = |station| COLUMNS.iter().map(move |column| cell(column.of(station)));

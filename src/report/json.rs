@@ -1,7 +1,7 @@
 //! A solve as one JSON object on one line: SI units, full precision, what does not exist is absent.
 
-use super::visible::is_hidden;
 use super::{Report, stations};
+use crate::case::visible::visible;
 use crate::model::{Stage, Station};
 use serde::{Serialize, Serializer};
 use serde_json::ser::Formatter;
@@ -98,9 +98,37 @@ impl Formatter for Safe {
     }
 }
 
+fn is_hidden(character: char) -> bool {
+    let mut bytes = [0; 4];
+    let text: &str = character.encode_utf8(&mut bytes);
+    !character.is_ascii_graphic() && visible(text) != text
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::case::Case;
+    use crate::model::{Stages, solve};
+    use crate::report::Selection;
+
+    #[test]
+    fn a_value_that_is_no_number_is_absent_and_a_note_says_so() {
+        let case = Case::table_1();
+        let inputs = case.inputs().unwrap();
+        let mut solution = solve(&inputs, Stages::ALL).unwrap();
+        solution.mesh_force = f64::NAN;
+        solution.stations[0].impact_force = f64::INFINITY;
+        let selection = Selection { stations: true, ..Selection::default() };
+        let mut out = Vec::new();
+        write(&Report::of("case".to_owned(), case, inputs, solution, selection), &mut out).unwrap();
+        let line: serde_json::Value = serde_json::from_slice(&out).unwrap();
+        assert_eq!(line["quantities"].get("mesh_force"), None);
+        assert_eq!(line["quantities"].get("dynamic_factor"), None);
+        assert_eq!(line["stations"][0].get("impact_force"), None);
+        let told = |note: &serde_json::Value| note["code"] == "not-finite" && note["message"].to_string().contains("mesh_force");
+        assert!(line["notes"].as_array().unwrap().iter().any(told));
+        assert!(!String::from_utf8(out).unwrap().contains("null"));
+    }
 
     #[test]
     fn what_a_terminal_would_obey_is_escaped_and_reads_back_the_same() {

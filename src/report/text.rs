@@ -2,8 +2,11 @@
 
 use super::layout::{WIDTH, count, flow, item, widest};
 use super::stations::COLUMNS;
-use super::verdict::verdicts;
-use super::{Report, Selection, Shown, shown, value, visible};
+use super::verdict::{Standing, Verdict, verdicts};
+use super::{Report, Selection, Shown, shown, value};
+use crate::case::FIELDS;
+use crate::case::fields::Absent;
+use crate::case::visible::visible;
 use crate::model::inputs::Rung;
 use crate::model::{self, Inputs, Outcome, Quantity, Solution, Stage, Stages};
 use std::io::{self, Write};
@@ -24,7 +27,7 @@ const GROUPS: [(Stage, &str); 9] = [
     (Stage::Stations, "From D to E"),
 ];
 
-/// The inputs that say which pair this is; one that is not given, or that is zero, goes unsaid.
+/// The inputs that say which pair this is; one that is not given, zero or as usual goes unsaid.
 const TOLD_INPUTS: [&str; 20] = [
     "driver.teeth",
     "driven.teeth",
@@ -91,7 +94,7 @@ fn told(key: &str, solution: &Solution) -> Option<Shown> {
 fn heading(report: &Report) -> Vec<String> {
     let title = if report.title().is_empty() { "Case without a title" } else { report.title() };
     let mut lines = flow(visible(title).split_whitespace(), WIDTH);
-    lines.extend(flow([visible(&report.name).as_ref(), "·", "rung", report.solution.rung.name()], WIDTH));
+    lines.extend(flow([visible(&report.name).as_str(), "·", "rung", report.solution.rung.name()], WIDTH));
     lines
 }
 
@@ -117,15 +120,17 @@ fn inputs(report: &Report) -> Vec<String> {
     let told = TOLD_INPUTS.iter().filter_map(|key| told_input(report, key)).collect::<Vec<_>>().join(", ");
     // A symbol stays on the line of its value.
     let joined = told.replace(" = ", "\u{a0}=\u{a0}");
-    flow(joined.split(' '), WIDTH).into_iter().map(|line| line.replace('\u{a0}', " ")).collect()
+    let lines = flow(joined.split(' '), WIDTH).into_iter().map(|line| line.replace('\u{a0}', " "));
+    lines.chain(item("Notes of the case: ", &visible(report.text("notes")))).collect()
 }
 
 fn told_input(report: &Report, key: &str) -> Option<String> {
-    let field = crate::case::FIELDS.iter().find(|field| field.key == key)?;
+    let field = FIELDS.iter().find(|field| field.key == key)?;
     let text = report.text(key);
-    let number = text.split_whitespace().next()?;
-    let zero = number.parse::<f64>() == Ok(0.0);
-    (!zero).then(|| format!("{} = {}", field.symbol, visible(text)))
+    let number = text.split_whitespace().next()?.parse::<f64>().ok();
+    let default = if let Absent::Default(text) = field.absent { text.parse::<f64>().ok() } else { None };
+    let usual = number.is_some_and(|number| number == 0.0 || Some(number) == default);
+    (!usual).then(|| format!("{} = {}", field.symbol, visible(text)))
 }
 
 fn quantities(report: &Report) -> Vec<String> {
@@ -180,12 +185,7 @@ impl Columns {
 }
 
 fn notes(report: &Report) -> Vec<String> {
-    let mut lines = titled("Notes", report.notes.iter().flat_map(|note| item("  - ", &visible(&note.message))));
-    let own = visible(report.text("notes")).into_owned();
-    if report.selection.is_whole() && !own.is_empty() {
-        lines.extend(item("The case says: ", &own));
-    }
-    lines
+    titled("Notes", report.notes.iter().flat_map(|note| item("  - ", &visible(&note.message))))
 }
 
 fn limits(report: &Report) -> Vec<String> {

@@ -1,6 +1,7 @@
 //! A case held against its own limits.
 
-use super::{shown, value, visible};
+use super::{shown, value};
+use crate::case::visible::visible;
 use crate::case::{Case, Limit};
 use crate::model::{Outcome, Quantity, Solution};
 use std::fmt;
