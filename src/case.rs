@@ -1,11 +1,18 @@
 //! The document: a case as the user wrote it, checked against the one table of fields.
 
+mod check;
 pub mod fields;
 pub mod file;
+pub mod spread;
+mod suggest;
 pub mod units;
+pub mod visible;
 
-use crate::model::Inputs;
+use crate::model::{Inputs, QUANTITIES, Quantity};
+pub use check::Problem;
 pub use fields::{FIELDS, Field};
+pub use file::Document;
+pub use spread::Spread;
 
 /// A case: what the user wrote in each field, in the order of [`FIELDS`], and the limits it is held to.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,6 +20,8 @@ pub struct Case {
     texts: Vec<Option<String>>,
     /// Limits by quantity, greatest value in SI.
     pub limits: Vec<Limit>,
+    /// Distributions of fields around their values.
+    pub spread: Vec<Spread>,
 }
 
 /// The greatest value that a quantity may take.
@@ -26,22 +35,34 @@ pub struct Limit {
     pub value: f64,
 }
 
-/// What is wrong at one place: the cause and the mend.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Problem {
-    /// The field's key, or the key as written where it is unknown.
-    pub field: String,
-    /// What is wrong.
-    pub cause: String,
-    /// How to mend it.
-    pub mend: String,
+impl Limit {
+    /// A limit from the quantity's key and a text such as "2500 N".
+    ///
+    /// # Errors
+    /// Where there is no such quantity, or the text is no value of it.
+    pub fn new(quantity: &str, text: &str) -> Result<Limit, Problem> {
+        let field = format!("limits.{quantity}");
+        let Some(known) = Quantity::find(quantity) else {
+            return Err(check::unknown_quantity(&field, quantity));
+        };
+        let dimension = units::Dimension::of_unit(known.unit).unwrap_or(units::Dimension::Number);
+        let usual = if known.shown == "1" { "" } else { known.shown };
+        let value = units::parse(text, dimension, usual).map_err(|misread| Problem::of(&field, misread))?;
+        Ok(Limit { quantity: known.key, text: text.to_owned(), value })
+    }
 }
 
 impl Case {
+    /// A case in which nothing is written yet.
+    #[must_use]
+    pub fn empty() -> Case {
+        Case { texts: vec![None; FIELDS.len()], limits: Vec::new(), spread: Vec::new() }
+    }
+
     /// Table 1 of Zhou & Chen 2014: the same text as `cases/zhou-chen-2014.toml`.
     #[must_use]
     pub fn table_1() -> Case {
-        Case { texts: vec![None; FIELDS.len()], limits: Vec::new() }
+        Document::table_1().case
     }
 
     /// What stands in the field, as written; `None` where the case leaves it out.
@@ -55,12 +76,24 @@ impl Case {
         self.texts[field] = (!text.is_empty()).then(|| text.to_owned());
     }
 
+    /// What holds in the field: its text, else its default, else the words for doing without.
+    /// `None` where the field must be given and is not.
+    #[must_use]
+    pub fn effective(&self, field: usize) -> Option<&str> {
+        match FIELDS[field].absent {
+            _ if self.texts[field].is_some() => self.text(field),
+            fields::Absent::Default(text) => Some(text).filter(|text| !text.is_empty()),
+            fields::Absent::Without(words) => Some(words),
+            fields::Absent::Refused | fields::Absent::Either(_) => None,
+        }
+    }
+
     /// What is wrong with the text of one field, on its own.
     ///
     /// # Errors
     /// The cause and the mend, in the same words as for a file.
-    pub fn check_field(&self, _field: usize) -> Result<(), Problem> {
-        Ok(())
+    pub fn check_field(&self, field: usize) -> Result<(), Problem> {
+        check::put(self, field, &mut fields::blank())
     }
 
     /// The model's inputs.
@@ -68,6 +101,53 @@ impl Case {
     /// # Errors
     /// Everything that is wrong with the case, in the order of the fields.
     pub fn inputs(&self) -> Result<Inputs, Vec<Problem>> {
-        Ok(fields::blank())
+        check::inputs(self)
+    }
+
+    /// Write a field or a limit by its key, as the command line's `--set KEY=VALUE` does; quotes around the value
+    /// may be left out, and an empty value takes the field out. Of two fields that exclude each other, the other goes.
+    ///
+    /// # Errors
+    /// Where no such key exists or the value does not fit; the case then stays as it was.
+    pub fn set(&mut self, key: &str, value: &str) -> Result<(), Problem> {
+        let value = unquoted(value.trim());
+        if let Some(quantity) = key.strip_prefix("limits.") {
+            return self.set_limit(quantity, value);
+        }
+        let Some(field) = fields::index_of(key) else {
+            return Err(check::unknown_key(key));
+        };
+        let mut changed = self.clone();
+        changed.write(field, value);
+        if let Some(other) = check::partner(field) {
+            changed.write(other, "");
+        }
+        changed.check_field(field)?;
+        *self = changed;
+        Ok(())
+    }
+
+    /// Set the limit of a quantity; an empty text takes it out.
+    ///
+    /// # Errors
+    /// Where there is no such quantity, or the text is no value of it.
+    pub fn set_limit(&mut self, quantity: &str, text: &str) -> Result<(), Problem> {
+        if text.is_empty() && QUANTITIES.iter().any(|known| known.key == quantity) {
+            self.limits.retain(|limit| limit.quantity != quantity);
+            return Ok(());
+        }
+        let limit = Limit::new(quantity, text)?;
+        match self.limits.iter_mut().find(|held| held.quantity == limit.quantity) {
+            Some(held) => *held = limit,
+            None => self.limits.push(limit),
+        }
+        Ok(())
     }
 }
+
+fn unquoted(text: &str) -> &str {
+    ['"', '\''].iter().find_map(|&quote| text.strip_prefix(quote)?.strip_suffix(quote)).unwrap_or(text)
+}
+
+#[cfg(test)]
+mod tests;

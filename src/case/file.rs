@@ -1,1 +1,130 @@
-//! Reading and saving case files.
+//! Reading and saving case files: a case together with the text it was read from.
+
+mod disk;
+mod edit;
+mod fault;
+mod syntax;
+mod template;
+mod tree;
+
+use std::path::PathBuf;
+
+use super::{Case, Problem};
+pub use disk::{ReadError, SaveError};
+pub use fault::{Fault, FaultKind};
+use fault::Lines;
+use tree::Places;
+
+/// The format of case files that this version reads and writes.
+pub const FORMAT: u32 = 1;
+
+/// The longest file that is read, in bytes.
+pub const MOST_BYTES: usize = 1 << 20;
+
+const TABLE_1: &str = include_str!("../../cases/zhou-chen-2014.toml");
+const BYTE_ORDER_MARK: char = '\u{feff}';
+
+/// A case and the text of its file, so that saving keeps comments, order, spacing and line ends.
+#[derive(Debug, Clone)]
+pub struct Document {
+    /// The case, free to change.
+    pub case: Case,
+    name: String,
+    /// The text of the file without its byte order mark.
+    text: String,
+    marked: bool,
+    /// What the text says.
+    loaded: Case,
+    places: Places,
+    /// The file that holds the text, links followed.
+    origin: Option<PathBuf>,
+}
+
+impl Document {
+    /// Read a document from its text; `name` stands in front of each fault.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the text, in the order of the places.
+    pub fn parse(name: &str, text: &str) -> Result<Document, Vec<Fault>> {
+        if text.len() > MOST_BYTES {
+            return Err(vec![fault::too_large(name)]);
+        }
+        let unmarked = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
+        let reading = tree::read(unmarked);
+        if !reading.faults.is_empty() {
+            return Err(fault::placed(name, unmarked, reading.faults));
+        }
+        let marked = unmarked.len() < text.len();
+        let (case, places) = (reading.case, reading.places);
+        let loaded = case.clone();
+        Ok(Document { case, name: name.to_owned(), text: unmarked.to_owned(), marked, loaded, places, origin: None })
+    }
+
+    /// Read a document from bytes that may not be text.
+    ///
+    /// # Errors
+    /// As [`Document::parse`], and at the first byte that is not UTF-8.
+    pub fn parse_bytes(name: &str, bytes: &[u8]) -> Result<Document, Vec<Fault>> {
+        if bytes.len() > MOST_BYTES {
+            return Err(vec![fault::too_large(name)]);
+        }
+        match std::str::from_utf8(bytes) {
+            Ok(text) => Document::parse(name, text),
+            Err(error) => Err(vec![fault::not_text(name, bytes, error.valid_up_to())]),
+        }
+    }
+
+    /// A document without a file: the case in a commented text with every field.
+    #[must_use]
+    pub fn new(case: Case) -> Document {
+        let text = template::text(&case);
+        let places = tree::read(&text).places;
+        Document { loaded: case.clone(), case, name: "new case".to_owned(), text, marked: false, places, origin: None }
+    }
+
+    /// Table 1 of the paper, as its file in `cases/` says it.
+    #[must_use]
+    pub fn table_1() -> Document {
+        Document::parse("zhou-chen-2014.toml", TABLE_1).unwrap_or_else(|_| Document::new(Case::empty()))
+    }
+
+    /// The name under which it was read.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Whether the case says something else than the text that was read or saved last.
+    #[must_use]
+    pub fn is_changed(&self) -> bool {
+        self.case != self.loaded
+    }
+
+    /// The text to save: what was read, with only the changed values changed.
+    #[must_use]
+    pub fn render(&self) -> String {
+        let text = if self.is_changed() { edit::render(self) } else { self.text.clone() };
+        if self.marked { format!("{BYTE_ORDER_MARK}{text}") } else { text }
+    }
+
+    /// Line and column, from 1, of a field's value; of its table, or of the end, where the text leaves it out.
+    #[must_use]
+    pub fn place(&self, key: &str) -> (usize, usize) {
+        Lines::of(&self.text).place(self.places.offset(key))
+    }
+
+    /// A problem found later, such as a refusal of the model, at its place in the file.
+    #[must_use]
+    pub fn fault(&self, problem: Problem) -> Fault {
+        Fault::new(&self.name, self.place(&problem.field), problem)
+    }
+
+    /// Take the text that was saved for the one that was read.
+    fn settle(&mut self, text: &str, origin: PathBuf) {
+        text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text).clone_into(&mut self.text);
+        self.loaded = self.case.clone();
+        self.places = tree::read(&self.text).places;
+        self.name = origin.display().to_string();
+        self.origin = Some(origin);
+    }
+}

@@ -1,5 +1,12 @@
 //! Units at the door: text with a unit becomes SI, and back.
 
+mod number;
+mod table;
+
+use super::suggest;
+use super::visible::quoted;
+use table::{FAMILIES, Scale, Unit, name_of, units_of};
+
 /// A physical dimension that a field or a quantity has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dimension {
@@ -33,15 +40,159 @@ pub enum Dimension {
     Compliance,
 }
 
+impl Dimension {
+    /// The dimension of which this is a unit; "1" and "" are the bare number.
+    #[must_use]
+    pub fn of_unit(unit: &str) -> Option<Dimension> {
+        if matches!(unit, "" | "1") {
+            return Some(Dimension::Number);
+        }
+        FAMILIES.iter().find(|family| find(unit, family.units).is_some()).map(|family| family.dimension)
+    }
+
+    /// What a person calls a value of it, such as "a length".
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        name_of(self)
+    }
+
+    /// The symbols of its units, those in common use first.
+    pub fn symbols(self) -> impl Iterator<Item = &'static str> {
+        units_of(self).iter().map(|unit| unit.symbol)
+    }
+}
+
+/// Why a text is no value of the wanted dimension: the cause and the mend.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Misread {
+    /// What is wrong.
+    pub cause: String,
+    /// How to mend it.
+    pub mend: String,
+}
+
+impl Misread {
+    pub(super) fn new(cause: impl Into<String>, mend: impl Into<String>) -> Misread {
+        Misread { cause: cause.into(), mend: mend.into() }
+    }
+}
+
 /// What one of the unit is in SI; `None` for an unknown unit. "1" and "" are the number one.
 #[must_use]
 pub fn factor(unit: &str) -> Option<f64> {
-    Some(match unit {
-        "" | "1" | "m" | "N" | "s" | "m/s" | "kg" | "J" | "m2/N" | "rad" => 1.0,
-        "mm" => 1e-3,
-        "um" | "us" => 1e-6,
-        "um mm/N" => 1e-9,
-        "deg" => std::f64::consts::PI / 180.0,
-        _ => return None,
+    if matches!(unit, "" | "1") {
+        return Some(1.0);
+    }
+    let unit = FAMILIES.iter().find_map(|family| find(unit, family.units))?;
+    Some(match unit.scale {
+        Scale::Ten(exponent) if exponent < 0 => 1.0 / 10f64.powi(-exponent),
+        Scale::Ten(exponent) => 10f64.powi(exponent),
+        Scale::Times(factor, _) => factor,
     })
 }
+
+/// A value in SI from a text such as "16 um": the f64 nearest to what is written where the unit is a power of ten
+/// of SI, within one unit in the last place otherwise.
+///
+/// `usual` is the unit in which an example is shown.
+///
+/// # Errors
+/// Where the text is not one finite number with a unit of the dimension.
+pub fn parse(text: &str, dimension: Dimension, usual: &str) -> Result<f64, Misread> {
+    let (number, unit) = number::split(text.trim(), usual)?;
+    let scale = match (dimension, unit) {
+        (Dimension::Number, "") => Scale::Ten(0),
+        (Dimension::Number, _) => return Err(unit_unwanted(number, unit)),
+        (_, "") => return Err(unit_missing(number, dimension, usual)),
+        _ => find(unit, units_of(dimension)).ok_or_else(|| unit_wrong(unit, dimension))?.scale,
+    };
+    let value = match scale {
+        Scale::Ten(exponent) => number::shifted(number, exponent),
+        Scale::Times(factor, rest) => times(number::shifted(number, 0), factor, rest),
+    };
+    number::held(number, value)
+}
+
+/// The shortest text in that unit which [`parse`] reads back as the same value, or as near as the unit allows.
+#[must_use]
+pub fn text(value: f64, unit: &str) -> String {
+    let number = match FAMILIES.iter().find_map(|family| find(unit, family.units)).map(|unit| unit.scale) {
+        None => number::plain(value, 0),
+        Some(Scale::Ten(exponent)) => number::plain(value, -exponent),
+        Some(Scale::Times(factor, rest)) => {
+            let near = number::plain(value / factor, 0);
+            (12..17)
+                .map(|digits| format!("{:.digits$e}", value / factor))
+                .find(|short| times(number::shifted(short, 0), factor, rest) == value)
+                .map_or(near, |short| number::plain(number::shifted(&short, 0), 0))
+        }
+    };
+    if matches!(unit, "" | "1") { number } else { format!("{number} {unit}") }
+}
+
+/// The product with a factor held in two parts, rounded once.
+fn times(number: f64, factor: f64, rest: f64) -> f64 {
+    let high = number * factor;
+    let low = number.mul_add(factor, -high) + number * rest;
+    if high.is_finite() { high + low } else { high }
+}
+
+fn find(unit: &str, units: &'static [Unit]) -> Option<&'static Unit> {
+    let spelled = |text: &str| units.iter().find(|unit| unit.symbol == text || unit.aliases.contains(&text));
+    spelled(unit).or_else(|| spelled(&plain_spelling(unit)))
+}
+
+/// One spelling for `N·m`, `N*m`, `N-m`; `kg/m³`, `kg / m^3`; `µm`, `μm`.
+fn plain_spelling(unit: &str) -> String {
+    let mut plain = String::with_capacity(unit.len());
+    for c in unit.chars() {
+        match c {
+            'µ' | 'μ' => plain.push('u'),
+            '²' => plain.push('2'),
+            '³' => plain.push('3'),
+            '^' => {}
+            '/' => {
+                plain.truncate(plain.trim_end().len());
+                plain.push('/');
+            }
+            ' ' | '\u{a0}' | '\u{202f}' | '·' | '⋅' | '*' | '-' => {
+                if !plain.ends_with([' ', '/']) {
+                    plain.push(' ');
+                }
+            }
+            other => plain.push(other),
+        }
+    }
+    plain
+}
+
+fn unit_unwanted(number: &str, unit: &str) -> Misread {
+    Misread::new(format!("unit {} where a bare number is due", quoted(unit)), format!("write {number}"))
+}
+
+fn unit_missing(number: &str, dimension: Dimension, usual: &str) -> Misread {
+    Misread::new(
+        format!("{number} is a bare number where {} with its unit is due", dimension.name()),
+        format!("write \"{number} {usual}\""),
+    )
+}
+
+fn unit_wrong(unit: &str, dimension: Dimension) -> Misread {
+    let fitting = dimension.symbols().collect::<Vec<_>>().join(", ");
+    if let Some(other) = Dimension::of_unit(unit) {
+        let cause = format!("{} is a unit of {}, not of {}", quoted(unit), bare(other), bare(dimension));
+        return Misread::new(cause, format!("use one of {fitting}"));
+    }
+    let spellings = units_of(dimension).iter().flat_map(|unit| std::iter::once(&unit.symbol).chain(unit.aliases)).copied();
+    let mend = suggest::nearest(&plain_spelling(unit), spellings)
+        .map_or_else(|| format!("use one of {fitting}"), |near| format!("did you mean {near}? Units here: {fitting}"));
+    Misread::new(format!("unknown unit {}", quoted(unit)), mend)
+}
+
+fn bare(dimension: Dimension) -> &'static str {
+    let name = dimension.name();
+    name.split_once(' ').map_or(name, |(_, bare)| bare)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,179 @@
+//! Errors of TOML itself: each told in a case's terms, and the lines around them kept readable.
+
+use toml::de::{DeTable, Error};
+
+use super::fault::{Found, Lines};
+use crate::case::fields::{FIELDS, Field, Kind, index_of};
+use crate::case::units::{self, Dimension};
+use crate::case::visible::quoted;
+use crate::case::{Problem, check};
+
+/// Rounds of blanking lines before the rest is given up.
+const ROUNDS: usize = 8;
+
+/// A text without its broken lines.
+pub(super) struct Recovered {
+    /// The text, broken lines blanked, every other byte in its place.
+    pub(super) text: String,
+    /// What is wrong with the broken lines.
+    pub(super) faults: Vec<Found>,
+    /// The broken lines.
+    pub(super) broken: String,
+    /// Whether every table's header could be read, so that each key is known to stand where it does.
+    pub(super) tables_known: bool,
+}
+
+/// Find what is not TOML, and blank it.
+pub(super) fn recover(source: &str) -> Recovered {
+    let mut recovered =
+        Recovered { text: source.to_owned(), faults: Vec::new(), broken: String::new(), tables_known: true };
+    let lines = Lines::of(source);
+    for round in 0..ROUNDS {
+        let (_, errors) = DeTable::parse_recoverable(&recovered.text);
+        let mut errors: Vec<(usize, Error)> = errors.into_iter().map(|error| (start(&error, source), error)).collect();
+        errors.sort_by_key(|(at, _)| *at);
+        let (doubles, slips): (Vec<_>, Vec<_>) = errors.into_iter().partition(|(_, error)| error.message() == "duplicate key");
+        if round == 0 {
+            recovered.faults = first_of_each_line(&slips, &lines, source);
+        }
+        if slips.is_empty() || round + 1 == ROUNDS {
+            recovered.tables_known &= slips.is_empty();
+            recovered.faults.extend(doubles.iter().map(|(at, error)| double(*at, error, source)));
+            break;
+        }
+        slips.iter().for_each(|(at, _)| recovered.blank(lines.around(*at), source));
+    }
+    recovered
+}
+
+impl Recovered {
+    fn blank(&mut self, line: std::ops::Range<usize>, source: &str) {
+        let text = &source[line.clone()];
+        self.tables_known &= !text.trim_start().starts_with('[');
+        self.broken.push_str(text);
+        self.broken.push('\n');
+        self.text.replace_range(line.clone(), &" ".repeat(line.len()));
+    }
+}
+
+/// Whether the lines name the key.
+pub(super) fn names(lines: &str, key: &str) -> bool {
+    lines.split(|c: char| !(c.is_alphanumeric() || c == '_')).any(|word| word == key)
+}
+
+fn start(error: &Error, source: &str) -> usize {
+    error.span().map_or(source.len(), |span| span.start)
+}
+
+fn first_of_each_line(errors: &[(usize, Error)], lines: &Lines<'_>, source: &str) -> Vec<Found> {
+    let mut last = usize::MAX;
+    let mut found = Vec::new();
+    for (at, error) in errors {
+        let line = lines.around(*at);
+        if line.start != last {
+            last = line.start;
+            found.push(told(*at, error, source, line));
+        }
+    }
+    found
+}
+
+/// The error in a case's terms where the line is a field's, else in TOML's.
+fn told(at: usize, error: &Error, source: &str, line: std::ops::Range<usize>) -> Found {
+    if let Some(control) = source[at..].chars().next().filter(|c| c.is_control() && !matches!(c, '\n' | '\r')) {
+        let cause = format!("the control character {} stands in the text", quoted(&control.to_string()));
+        return Found::new(at, Problem::new(&field_name(source, &line), cause, "take it out"));
+    }
+    let text = &source[line.clone()];
+    let field = key_and_value(text).and_then(|(key, value)| Some((field_of(source, line.start, key)?, value)));
+    if let Some((field, value)) = field
+        && let Some(problem) = mistaken(field, value)
+    {
+        let offset = value.as_ptr() as usize - text.as_ptr() as usize;
+        return Found::new(line.start + offset, problem);
+    }
+    Found::new(at, in_general(error, &field_name(source, &line)))
+}
+
+fn field_name(source: &str, line: &std::ops::Range<usize>) -> String {
+    key_and_value(&source[line.clone()])
+        .and_then(|(key, _)| field_of(source, line.start, key))
+        .map_or_else(|| "toml".to_owned(), |field| field.key.to_owned())
+}
+
+/// The key and the value of a line, a comment after it left out.
+fn key_and_value(line: &str) -> Option<(&str, &str)> {
+    let (key, value) = line.split_once('=')?;
+    let comment = value.find(" #").unwrap_or(value.len());
+    Some((key.trim(), value[..comment].trim()))
+}
+
+fn field_of(source: &str, line: usize, key: &str) -> Option<&'static Field> {
+    let header = source[..line].lines().rev().find_map(|line| line.trim().strip_prefix('['));
+    let table = header.map_or("", |rest| rest.split(']').next().unwrap_or_default().trim());
+    let path = if table.is_empty() { key.to_owned() } else { format!("{table}.{key}") };
+    index_of(&path).map(|index| &FIELDS[index])
+}
+
+/// What the writer of a field's value most likely missed: the quotes, the point, the value itself.
+fn mistaken(field: &Field, value: &str) -> Option<Problem> {
+    let inner = value.trim_matches(['"', '\'']);
+    let problem = |cause: String, mend: String| Some(Problem::new(field.key, cause, mend));
+    if value.is_empty() {
+        return problem("there is no value after `=`".to_owned(), format!("write {}", check::assignment(field)));
+    }
+    let measure = match field.kind {
+        Kind::Number(dimension, range, _) => units::parse(inner, dimension, range.unit).err(),
+        Kind::Count(..) => units::parse(inner, Dimension::Number, "").err(),
+        Kind::Text | Kind::Choice(..) => None,
+    };
+    let bare = matches!(field.kind, Kind::Number(Dimension::Number, ..) | Kind::Count(..));
+    match measure {
+        Some(misread) if !value.starts_with(['"', '\'', '[', '{']) => problem(misread.cause, misread.mend),
+        None if bare => problem(format!("{} is not written as TOML has it", quoted(value)), "write it as 20 or 0.5".to_owned()),
+        None if !value.contains(['"', '\'', '[', '{']) => {
+            let shown = quoted(value);
+            problem(format!("{shown} is not in quotes"), format!("write \"{}\"", shown.trim_matches('`')))
+        }
+        _ => None,
+    }
+}
+
+/// How to mend what TOML refuses, by a part of its message.
+const MENDS: [(&str, &str); 16] = [
+    ("unclosed table", "close the table's name with ]"),
+    ("unclosed array", "close it with ]; a case has no arrays"),
+    ("recurse", "a case has no nested arrays"),
+    ("recursion", "a case has no nested arrays"),
+    ("unclosed inline table", "close it with }"),
+    ("key with no value", "write key = value, or # in front of a comment"),
+    ("extra `=`", "leave a single ="),
+    ("invalid unquoted key", "a key has only letters, digits, - and _"),
+    ("string values must be quoted", "put the value between quotes"),
+    ("multi-line basic string", "close the string with \"\"\""),
+    ("multi-line literal string", "close the string with '''"),
+    ("invalid basic string", "close the string with \" on its line"),
+    ("invalid literal string", "close the string with ' on its line"),
+    ("escape", "write \\\\ for a backslash, or put the text between single quotes"),
+    ("carriage return", "end lines with LF or CR LF"),
+    ("unexpected key or value", "begin a new line before it"),
+];
+
+fn in_general(error: &Error, field: &str) -> Problem {
+    let message = error.message();
+    let cause = message.split(", expected").next().unwrap_or(message);
+    let mend = MENDS.iter().find(|(part, _)| message.contains(part)).map_or("write it as TOML has it", |(_, mend)| mend);
+    Problem::new(field, cause, mend)
+}
+
+/// The same key or table twice.
+fn double(at: usize, error: &Error, source: &str) -> Found {
+    let name = error.span().and_then(|span| source.get(span)).unwrap_or_default();
+    let line = Lines::of(source).around(at);
+    if source[line.clone()].trim_start().starts_with('[') {
+        let cause = format!("the table {} is there twice", quoted(name));
+        return Found::new(at, Problem::new(name, cause, "put its keys under one header"));
+    }
+    let field = field_of(source, line.start, name).map_or(name, |field| field.key);
+    Found::new(at, Problem::new(field, format!("the key {} is there twice", quoted(name)), "keep one of the two"))
+}

@@ -1,0 +1,141 @@
+//! The text of a case that has no file yet: every field with its help, what is left out as a comment.
+
+use std::fmt::Write;
+
+use super::FORMAT;
+use crate::case::fields::{Absent, FIELDS, Field, GROUPS, Kind};
+use crate::case::units::{self, Dimension};
+use crate::case::{Case, check};
+
+/// A key and its value as they stand in a file.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Entry {
+    /// The table, empty for the top level.
+    pub(super) table: &'static str,
+    /// The key within the table.
+    pub(super) name: String,
+    /// The value in TOML.
+    pub(super) value: String,
+}
+
+impl Entry {
+    /// The key from the top of the file.
+    pub(super) fn key(&self) -> String {
+        if self.table.is_empty() { self.name.clone() } else { format!("{}.{}", self.table, self.name) }
+    }
+
+    /// The entry as a line.
+    pub(super) fn line(&self) -> String {
+        format!("{} = {}", self.name, self.value)
+    }
+}
+
+/// All that a case says, in the order of a new file.
+pub(super) fn entries(case: &Case) -> Vec<Entry> {
+    let fields = FIELDS.iter().enumerate().filter_map(|(index, field)| {
+        let value = value(field, case.text(index)?);
+        Some(Entry { table: field.table(), name: field.name().to_owned(), value })
+    });
+    let limits = case.limits.iter().map(|limit| {
+        let bare = units::parse(&limit.text, Dimension::Number, "").is_ok();
+        let value = if bare { number(&limit.text) } else { string(&limit.text) };
+        Entry { table: "limits", name: limit.quantity.to_owned(), value }
+    });
+    let spread = case.spread.iter().map(|spread| {
+        let value = format!("{{ {} = {} }}", spread.shape.name(), string(&spread.text));
+        Entry { table: "spread", name: format!("\"{}\"", spread.field), value }
+    });
+    fields.chain(limits).chain(spread).collect()
+}
+
+/// A commented case; valid where the case is.
+pub(super) fn text(case: &Case) -> String {
+    let entries = entries(case);
+    let mut text = format!("# A gear pair for tipstrike.\n# A value with a dimension is a string with its unit; any unit of the dimension will do.\nformat = {FORMAT}\n");
+    for (table, title) in GROUPS {
+        if !table.is_empty() {
+            let _ = write!(text, "\n# {title}\n[{table}]\n");
+        }
+        for field in FIELDS.iter().filter(|field| field.table() == table) {
+            let written = entries.iter().find(|entry| entry.table == table && entry.name == field.name());
+            text.push_str(&described(field, written));
+        }
+    }
+    text.push_str(&rest(&entries, "limits", "Greatest value allowed, of any quantity of the results.", "impact_force = \"2500 N\""));
+    let example = "\"deviations.base_pitch\" = { normal = \"4 um\" }";
+    text.push_str(&rest(&entries, "spread", "Distribution of any field around its value, for tolerances.", example));
+    text
+}
+
+fn described(field: &Field, written: Option<&Entry>) -> String {
+    let symbol = if field.symbol.is_empty() { String::new() } else { format!("{}: ", field.symbol) };
+    let range = field.range_text();
+    let range = if range.is_empty() { range } else { format!(" [{range}]") };
+    let absent = match field.absent {
+        Absent::Without(words) => format!(" Left out: {words}."),
+        _ => String::new(),
+    };
+    let line = written.map_or_else(|| format!("# {}", example(field)), Entry::line);
+    format!("# {symbol}{}{range}{absent}\n{line}\n", field.help)
+}
+
+fn example(field: &Field) -> String {
+    let line = check::assignment(field);
+    line.split(" to [").next().unwrap_or_default().to_owned()
+}
+
+fn rest(entries: &[Entry], table: &str, help: &str, example: &str) -> String {
+    let mut text = format!("\n# {help}\n[{table}]\n");
+    let lines: Vec<String> = entries.iter().filter(|entry| entry.table == table).map(Entry::line).collect();
+    let lines = if lines.is_empty() { format!("# {example}") } else { lines.join("\n") };
+    let _ = writeln!(text, "{lines}");
+    text
+}
+
+/// A field's text as a TOML value.
+fn value(field: &Field, text: &str) -> String {
+    match field.kind {
+        Kind::Number(Dimension::Number, ..) | Kind::Count(..) => number(text),
+        _ => string(text),
+    }
+}
+
+/// A bare number where the text is one, else the text in quotes so that nothing typed is lost.
+fn number(text: &str) -> String {
+    let bare = text.trim();
+    if is_toml_number(bare) {
+        return bare.to_owned();
+    }
+    match units::parse(bare, Dimension::Number, "") {
+        Ok(value) => units::text(value, ""),
+        Err(_) => string(text),
+    }
+}
+
+fn is_toml_number(text: &str) -> bool {
+    let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
+    let (mantissa, exponent) = unsigned.split_once(['e', 'E']).map_or((unsigned, None), |(a, b)| (a, Some(b)));
+    let (whole, fraction) = mantissa.split_once('.').map_or((mantissa, None), |(a, b)| (a, Some(b)));
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    let exponent = exponent.map(|text| text.strip_prefix(['+', '-']).unwrap_or(text));
+    digits(whole) && (whole == "0" || !whole.starts_with('0')) && fraction.is_none_or(digits) && exponent.is_none_or(digits)
+}
+
+/// A TOML string.
+fn string(text: &str) -> String {
+    let mut quoted = String::from('"');
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => quoted.extend(['\\', c]),
+            '\n' => quoted.push_str("\\n"),
+            '\t' => quoted.push_str("\\t"),
+            '\r' => quoted.push_str("\\r"),
+            c if c.is_control() => {
+                let _ = write!(quoted, "\\u{:04x}", u32::from(c));
+            }
+            c => quoted.push(c),
+        }
+    }
+    quoted.push('"');
+    quoted
+}

@@ -1,0 +1,317 @@
+//! From TOML to a case: every key is looked up in the table of fields and keeps its place in the text.
+
+use std::ops::Range;
+
+use toml::de::{DeTable, DeValue};
+
+use super::fault::{FaultKind, Found};
+use super::{FORMAT, syntax};
+use crate::case::fields::{FIELDS, GROUPS, Kind, index_of};
+use crate::case::spread;
+use crate::case::units::{Dimension, Misread};
+use crate::case::visible::quoted;
+use crate::case::{Case, Limit, Problem, Spread, check, suggest};
+use crate::model::Quantity;
+
+type Key<'k, 'i> = &'k toml::Spanned<toml::de::DeString<'i>>;
+type Value<'k, 'i> = &'k toml::Spanned<DeValue<'i>>;
+
+/// Where a key and its value stand in the text.
+#[derive(Debug, Clone)]
+pub(super) struct Place {
+    /// The field's key, or `limits.…` or `spread."…"`.
+    pub(super) key: String,
+    /// The last part of the key as written.
+    pub(super) name: Range<usize>,
+    /// The value as written.
+    pub(super) value: Range<usize>,
+    /// The braces in which it stands, when its table is an inline one.
+    pub(super) inline: Option<Range<usize>>,
+}
+
+/// Where everything stands in the text.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Places {
+    pub(super) entries: Vec<Place>,
+    /// Tables by name, with the header or, where there is none, the first mention.
+    pub(super) tables: Vec<(String, Range<usize>)>,
+    pub(super) end: usize,
+}
+
+impl Places {
+    pub(super) fn entry(&self, key: &str) -> Option<&Place> {
+        self.entries.iter().find(|place| place.key == key)
+    }
+
+    pub(super) fn table(&self, name: &str) -> Option<&Range<usize>> {
+        self.tables.iter().find(|(table, _)| table == name).map(|(_, span)| span)
+    }
+
+    /// Where to point for a key: its value, its table, the end.
+    pub(super) fn offset(&self, key: &str) -> usize {
+        let table = || self.table(key.split('.').next().unwrap_or_default()).map(|span| span.start);
+        self.entry(key).map(|place| place.value.start).or_else(table).unwrap_or(self.end)
+    }
+}
+
+/// What a text says, and everything that is wrong with it.
+pub(super) struct Reading {
+    pub(super) case: Case,
+    pub(super) places: Places,
+    pub(super) faults: Vec<Found>,
+}
+
+/// Read a text, past errors of syntax as far as the rest of it can be understood.
+pub(super) fn read(text: &str) -> Reading {
+    let places = Places { end: text.len(), ..Places::default() };
+    let mut reader = Reader { case: Case::empty(), places, faults: Vec::new(), wrong: Vec::new(), inline: None };
+    let recovered = syntax::recover(text);
+    let (tree, _) = DeTable::parse_recoverable(&recovered.text);
+    if recovered.tables_known {
+        reader.root(tree.get_ref(), &recovered.text);
+        if reader.faults.iter().all(|found| found.kind != FaultKind::NewerFormat) {
+            reader.fields_together(&recovered.broken);
+        }
+    }
+    if !reader.faults.iter().any(|found| found.kind == FaultKind::NewerFormat) {
+        reader.faults.extend(recovered.faults);
+    }
+    Reading { case: reader.case, places: reader.places, faults: reader.faults }
+}
+
+struct Reader {
+    case: Case,
+    places: Places,
+    faults: Vec<Found>,
+    /// Fields whose value could not be taken at all.
+    wrong: Vec<usize>,
+    /// The braces around the table at hand.
+    inline: Option<Range<usize>>,
+}
+
+impl Reader {
+    fn root(&mut self, root: &DeTable<'_>, text: &str) {
+        if self.format(root) == FaultKind::NewerFormat {
+            return;
+        }
+        for (key, value) in root {
+            let name = key.get_ref().as_ref();
+            if name == "format" {
+                self.note(name, key, value);
+            } else if let Some(field) = index_of(name) {
+                self.field(field, key, value);
+            } else if is_table(name) {
+                self.table(key, value, text);
+            } else {
+                self.fault(key.span().start, unknown_at_top(name));
+            }
+        }
+    }
+
+    /// A newer format is the only fault that is told of such a file.
+    fn format(&mut self, root: &DeTable<'_>) -> FaultKind {
+        let Some(value) = root.get("format") else {
+            self.fault(0, Problem::new("format", "the format is missing", format!("begin the file with format = {FORMAT}")));
+            return FaultKind::Bad;
+        };
+        let at = value.span().start;
+        let written = value.get_ref().as_integer().and_then(|number| u64::from_str_radix(number.as_str(), number.radix()).ok());
+        match written {
+            Some(number) if number == u64::from(FORMAT) => {}
+            Some(number) if number > u64::from(FORMAT) => {
+                let cause = format!("format {number} is newer than this version, which knows format {FORMAT}");
+                let problem = Problem::new("format", cause, "open it with a newer tipstrike");
+                self.faults.push(Found { at, problem, kind: FaultKind::NewerFormat });
+                return FaultKind::NewerFormat;
+            }
+            _ => self.fault(at, Problem::new("format", "this is no known format", format!("write format = {FORMAT}"))),
+        }
+        FaultKind::Bad
+    }
+
+    fn table(&mut self, key: Key<'_, '_>, value: Value<'_, '_>, text: &str) {
+        let name = key.get_ref().as_ref();
+        let Some(table) = value.get_ref().as_table() else {
+            let cause = format!("{} stands where the table [{name}] is due", kind_of(value.get_ref()));
+            self.fault(value.span().start, Problem::new(name, cause, format!("write [{name}] on a line of its own, once")));
+            let belongs = |field: &usize| FIELDS[*field].table() == name;
+            self.wrong.extend((0..FIELDS.len()).filter(belongs));
+            return;
+        };
+        self.places.tables.push((name.to_owned(), value.span()));
+        self.inline = text[value.span()].starts_with('{').then(|| value.span());
+        for (key, value) in table {
+            match name {
+                "limits" => self.limit(key, value),
+                "spread" => self.spread("", key, value),
+                _ => self.member(name, key, value),
+            }
+        }
+        self.inline = None;
+    }
+
+    fn member(&mut self, table: &str, key: Key<'_, '_>, value: Value<'_, '_>) {
+        let name = key.get_ref().as_ref();
+        match index_of(&format!("{table}.{name}")) {
+            Some(field) => self.field(field, key, value),
+            None => self.fault(key.span().start, unknown_in_table(table, name)),
+        }
+    }
+
+    fn field(&mut self, field: usize, key: Key<'_, '_>, value: Value<'_, '_>) {
+        let known = &FIELDS[field];
+        self.note(known.key, key, value);
+        let written = match known.kind {
+            Kind::Text | Kind::Choice(..) => words(value.get_ref()),
+            Kind::Number(Dimension::Number, ..) | Kind::Count(..) => bare_number(value.get_ref()),
+            Kind::Number(..) => measure(value.get_ref()),
+        };
+        let empty = |text: &String| text.is_empty() && !matches!(known.kind, Kind::Text);
+        match written {
+            Ok(text) if empty(&text) => self.wrongly(field, value, Misread::new("there is no value", format!("write {}", check::assignment(known)))),
+            Ok(text) => self.case.write(field, &text),
+            Err(misread) => self.wrongly(field, value, misread.unwrap_or_else(|| untaken(value.get_ref(), &check::assignment(known)))),
+        }
+    }
+
+    fn wrongly(&mut self, field: usize, value: Value<'_, '_>, misread: Misread) {
+        self.wrong.push(field);
+        self.fault(value.span().start, Problem::of(FIELDS[field].key, misread));
+    }
+
+    fn limit(&mut self, key: Key<'_, '_>, value: Value<'_, '_>) {
+        let name = key.get_ref().as_ref();
+        let place = format!("limits.{name}");
+        self.note(&place, key, value);
+        let known = Quantity::find(name);
+        let bare = known.is_some_and(|quantity| quantity.unit == "1");
+        let written = if bare { bare_number(value.get_ref()) } else { measure(value.get_ref()) };
+        let example = if bare { "1.5" } else { "\"2500 N\"" };
+        let taken = match written {
+            _ if known.is_none() => Limit::new(name, ""),
+            Ok(text) => Limit::new(name, &text),
+            Err(misread) => {
+                let misread = misread.unwrap_or_else(|| untaken(value.get_ref(), &format!("{name} = {example}")));
+                Err(Problem::of(&place, misread))
+            }
+        };
+        match taken {
+            Ok(limit) => self.case.limits.push(limit),
+            Err(problem) if known.is_none() => self.fault(key.span().start, problem),
+            Err(problem) => self.fault(value.span().start, problem),
+        }
+    }
+
+    /// A field's spread, under its dotted key in quotes or, just as well, without.
+    fn spread(&mut self, above: &str, key: Key<'_, '_>, value: Value<'_, '_>) {
+        let name = key.get_ref().as_ref();
+        let path = if above.is_empty() { name.to_owned() } else { format!("{above}.{name}") };
+        let place = spread::place(&path);
+        let table = value.get_ref().as_table();
+        if let (Some(table), true) = (table, GROUPS.iter().any(|(group, _)| *group == path)) {
+            table.iter().for_each(|(key, value)| self.spread(&path, key, value));
+            return;
+        }
+        self.note(&place, key, value);
+        if index_of(&path).is_none() {
+            return self.fault(key.span().start, Problem { field: place, ..check::unknown_key(&path) });
+        }
+        let only = table.and_then(|table| table.iter().next().filter(|_| table.len() == 1));
+        let taken = match only.map(|(shape, width)| (shape.get_ref(), scalar(width.get_ref()))) {
+            Some((shape, Some(width))) => Spread::new(&path, shape, &width),
+            _ => Err(Problem::new(&place, "this is no distribution", "write { normal = \"4 um\" } or { uniform = \"4 um\" }")),
+        };
+        match taken {
+            Ok(spread) => self.case.spread.push(spread),
+            Err(problem) => self.fault(value.span().start, problem),
+        }
+    }
+
+    /// Hold the fields against the table of fields and against each other. What stands on a broken line is not missing.
+    fn fields_together(&mut self, broken: &str) {
+        let on_broken_line = |field: &usize| self.case.text(*field).is_none() && syntax::names(broken, FIELDS[*field].name());
+        let lost: Vec<usize> = (0..FIELDS.len()).filter(on_broken_line).collect();
+        self.wrong.extend(lost);
+        let (_, problems) = check::read(&self.case, &self.wrong);
+        for problem in problems {
+            self.fault(self.places.offset(&problem.field), problem);
+        }
+    }
+
+    fn note(&mut self, path: &str, key: Key<'_, '_>, value: Value<'_, '_>) {
+        let inline = self.inline.clone();
+        self.places.entries.push(Place { key: path.to_owned(), name: key.span(), value: value.span(), inline });
+    }
+
+    fn fault(&mut self, at: usize, problem: Problem) {
+        self.faults.push(Found::new(at, problem));
+    }
+}
+
+fn is_table(name: &str) -> bool {
+    matches!(name, "limits" | "spread") || GROUPS.iter().any(|(group, _)| *group == name && !name.is_empty())
+}
+
+/// The text of words; `None` for the cause where the value is of another kind.
+fn words(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
+    value.as_str().map(str::to_owned).ok_or(None)
+}
+
+/// The text of a value with its unit; a number's digits too, since the reader of units says what they lack.
+fn measure(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
+    scalar(value).ok_or(None)
+}
+
+fn bare_number(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
+    match value.as_str() {
+        Some(text) => {
+            let cause = format!("{} stands in quotes where a bare number is due", quoted(text));
+            Err(Some(Misread::new(cause, "write the number without quotes")))
+        }
+        None => scalar(value).ok_or(None),
+    }
+}
+
+/// The text of a string or a number.
+fn scalar(value: &DeValue<'_>) -> Option<String> {
+    match value {
+        DeValue::String(text) => Some(text.to_string()),
+        DeValue::Integer(number) if number.radix() == 10 => Some(number.as_str().to_owned()),
+        DeValue::Integer(number) => i128::from_str_radix(number.as_str(), number.radix()).ok().map(|number| number.to_string()),
+        DeValue::Float(number) => Some(number.as_str().to_owned()),
+        _ => None,
+    }
+}
+
+fn untaken(value: &DeValue<'_>, due: &str) -> Misread {
+    Misread::new(format!("{} stands where a value is due", kind_of(value)), format!("write {due}"))
+}
+
+fn kind_of(value: &DeValue<'_>) -> &'static str {
+    const KINDS: [(&str, &str); 7] = [
+        ("string", "a string"),
+        ("integer", "a number"),
+        ("float", "a number"),
+        ("boolean", "true or false"),
+        ("datetime", "a date"),
+        ("array", "an array"),
+        ("table", "a table"),
+    ];
+    KINDS.iter().find(|(kind, _)| *kind == value.type_str()).map_or("something else", |(_, words)| words)
+}
+
+fn unknown_at_top(name: &str) -> Problem {
+    let known = GROUPS.iter().map(|(table, _)| *table).filter(|table| !table.is_empty()).chain(["limits", "spread", "format", "title", "notes"]);
+    let elsewhere = || FIELDS.iter().find(|field| field.name() == name).map(|field| format!("put it under [{}]", field.table()));
+    let mend = elsewhere().unwrap_or_else(|| suggest::mend(name, known, || "take it out".to_owned()));
+    Problem::new(name, format!("unknown key or table {}", quoted(name)), mend)
+}
+
+fn unknown_in_table(table: &str, name: &str) -> Problem {
+    let here = FIELDS.iter().filter(|field| field.table() == table).map(super::super::fields::Field::name);
+    let elsewhere = || FIELDS.iter().find(|field| field.name() == name).map(|field| format!("it belongs under [{}]", field.table()));
+    let mend = elsewhere().unwrap_or_else(|| {
+        suggest::mend(name, here.clone(), || format!("[{table}] has {}", here.clone().collect::<Vec<_>>().join(", ")))
+    });
+    Problem::new(&format!("{table}.{name}"), format!("unknown key {}", quoted(name)), mend)
+}

@@ -1,0 +1,191 @@
+use super::fields::{FIELDS, index_of};
+use super::{Case, Problem};
+use crate::model::inputs::Drive;
+
+fn field(key: &str) -> usize {
+    index_of(key).unwrap()
+}
+
+fn with(changes: &[(&str, &str)]) -> Case {
+    let mut case = Case::table_1();
+    for (key, text) in changes {
+        case.write(field(key), text);
+    }
+    case
+}
+
+#[track_caller]
+fn only_problem(case: &Case) -> Problem {
+    let problems = case.inputs().unwrap_err();
+    assert_eq!(problems.len(), 1, "{problems:?}");
+    problems.into_iter().next().unwrap()
+}
+
+#[test]
+fn table_1_is_valid_and_in_si() {
+    let inputs = Case::table_1().inputs().unwrap();
+    assert_eq!((inputs.driver.teeth, inputs.driven.teeth), (20, 20));
+    assert_eq!(inputs.module, 5e-3);
+    assert_eq!(inputs.driver.young, 205e9);
+    assert_eq!(inputs.base_pitch_deviation, 16e-6);
+    assert_eq!(inputs.deflection, Some(24.7e-6));
+    assert_eq!(inputs.drive, Drive::Power(15000.0));
+    assert_eq!(inputs.stations, 64);
+}
+
+#[test]
+fn defaults_fill_what_is_left_out() {
+    let mut case = Case::empty();
+    for (key, text) in [
+        ("pair.module", "5 mm"),
+        ("driver.teeth", "20"),
+        ("driver.face_width", "8 mm"),
+        ("driven.teeth", "30"),
+        ("driven.face_width", "8 mm"),
+        ("operation.torque", "70 N m"),
+        ("operation.speed", "2000 rpm"),
+    ] {
+        case.write(field(key), text);
+    }
+    let inputs = case.inputs().unwrap();
+    assert_eq!(inputs.driver.young, 206e9);
+    assert_eq!(inputs.driven.addendum, 1.0);
+    assert_eq!(inputs.deflection, None);
+    assert_eq!(inputs.drive, Drive::Torque(70.0));
+    assert_eq!(case.effective(field("driver.young")), Some("206 GPa"));
+    assert_eq!(case.effective(field("model.deflection")), Some("from the load"));
+    assert_eq!(case.effective(field("operation.power")), None);
+}
+
+#[test]
+fn every_default_and_every_example_is_valid() {
+    for (index, known) in FIELDS.iter().enumerate() {
+        let mut case = Case::empty();
+        case.write(index, known.example());
+        assert_eq!(case.check_field(index), Ok(()), "{}", known.key);
+    }
+}
+
+#[test]
+fn the_ends_of_a_range_are_inside_in_any_unit() {
+    for (key, text) in [
+        ("pair.module", "0.05 mm"),
+        ("pair.module", "50 um"),
+        ("pair.module", "5 cm"),
+        ("pair.pressure_angle", "14.5 deg"),
+        ("pair.pressure_angle", "30°"),
+        ("pair.pressure_angle", "870 arcmin"),
+        ("driver.face_width", "1 m"),
+        ("driver.profile_shift", "-0.7"),
+        ("driver.poisson", "0.499"),
+        ("operation.speed", "1e6 rpm"),
+        ("model.stations", "10000"),
+        ("driver.teeth", "5"),
+    ] {
+        let case = with(&[(key, text)]);
+        assert_eq!(case.check_field(field(key)), Ok(()), "{key} = {text}");
+    }
+}
+
+#[test]
+fn beyond_a_range_the_limit_is_told() {
+    for (key, text, cause) in [
+        ("pair.module", "0 mm", "`0 mm` is below the limit of 0.05 mm"),
+        ("pair.module", "51 mm", "`51 mm` is above the limit of 50 mm"),
+        ("driver.face_width", "-8 mm", "`-8 mm` is below the limit of 0.1 mm"),
+        ("driver.teeth", "4", "`4` is below the limit of 5"),
+        ("driver.teeth", "-4", "`-4` is below the limit of 5"),
+        ("driver.teeth", "1001", "`1001` is above the limit of 1000"),
+        ("driver.teeth", "99999999999", "above the limit of 1000"),
+        ("driver.poisson", "0.5", "`0.5` is above the limit of 0.499"),
+    ] {
+        let problem = with(&[(key, text)]).check_field(field(key)).unwrap_err();
+        assert_eq!(problem.field, key);
+        assert!(problem.cause.contains(cause), "{key} = {text}: {}", problem.cause);
+    }
+}
+
+#[test]
+fn exactly_one_of_power_and_torque_is_given() {
+    let neither = only_problem(&with(&[("operation.power", "")]));
+    assert_eq!(neither.field, "operation.power");
+    assert!(neither.cause.contains("neither"));
+    let both = only_problem(&with(&[("operation.torque", "70 N m")]));
+    assert_eq!(both.field, "operation.torque");
+    assert!(both.cause.contains("both"));
+}
+
+#[test]
+fn a_bore_ends_below_the_root_circle() {
+    let problem = only_problem(&with(&[("driven.bore_radius", "43.75 mm")]));
+    assert_eq!(problem.field, "driven.bore_radius");
+    assert!(problem.cause.contains("43.75 mm"), "{}", problem.cause);
+    assert!(with(&[("driven.bore_radius", "43.7 mm")]).inputs().is_ok());
+}
+
+#[test]
+fn a_ratio_beyond_fifty_is_refused() {
+    let far = [("driver.teeth", "12"), ("driven.teeth", "601"), ("driver.bore_radius", "")];
+    assert!(only_problem(&with(&far)).cause.contains("601/12"));
+    let near = [("driver.teeth", "12"), ("driven.teeth", "600"), ("driver.bore_radius", "")];
+    assert!(with(&near).inputs().is_ok());
+}
+
+#[test]
+fn all_problems_come_at_once_in_the_order_of_the_fields() {
+    let case = with(&[("model.rung", "exat"), ("pair.module", "5"), ("driven.teeth", "20.5"), ("operation.speed", "")]);
+    let problems = case.inputs().unwrap_err();
+    let fields: Vec<&str> = problems.iter().map(|problem| problem.field.as_str()).collect();
+    assert_eq!(fields, ["pair.module", "driven.teeth", "operation.speed", "model.rung"]);
+    assert_eq!(problems[3].mend, "did you mean exact?");
+}
+
+#[test]
+fn the_planned_rungs_are_named() {
+    let problem = only_problem(&with(&[("model.rung", "dynamic")]));
+    assert!(problem.cause.contains("`static` and `dynamic` are not in this version"));
+    assert_eq!(problem.mend, "use `exact`");
+}
+
+#[test]
+fn set_takes_keys_as_the_command_line_gives_them() {
+    let mut case = Case::table_1();
+    case.set("pair.module", "4 mm").unwrap();
+    case.set("driver.profile_shift", "0.3").unwrap();
+    case.set("model.rung", "\"paper\"").unwrap();
+    case.set("limits.impact_force", "3 kN").unwrap();
+    case.set("limits.dynamic_factor", "1.5").unwrap();
+    case.set("operation.torque", "70 N m").unwrap();
+    case.set("model.deflection", "").unwrap();
+    let inputs = case.inputs().unwrap();
+    assert_eq!((inputs.module, inputs.driver.profile_shift), (4e-3, 0.3));
+    assert_eq!(inputs.drive, Drive::Torque(70.0));
+    assert_eq!(inputs.deflection, None);
+    let limits: Vec<_> = case.limits.iter().map(|limit| (limit.quantity, limit.value)).collect();
+    assert_eq!(limits, [("impact_force", 3000.0), ("dynamic_factor", 1.5)]);
+}
+
+#[test]
+fn set_refuses_and_leaves_the_case_as_it_was() {
+    for (key, value, cause, mend) in [
+        ("pair.modul", "4 mm", "unknown key", "pair.module"),
+        ("module", "4 mm", "unknown key", "did you mean pair.module?"),
+        ("pair.module", "4", "bare number", "\"4 mm\""),
+        ("driver.teeth", "20 mm", "unit `mm`", "write 20"),
+        ("limits.impact_forc", "4 N", "unknown quantity", "did you mean impact_force?"),
+        ("limits.impact_force", "4", "bare number", "\"4 N\""),
+        ("limits.dynamic_factor", "4 N", "bare number is due", "write 4"),
+    ] {
+        let mut case = Case::table_1();
+        let problem = case.set(key, value).unwrap_err();
+        assert!(problem.cause.contains(cause), "{key}={value}: {}", problem.cause);
+        assert!(problem.mend.contains(mend), "{key}={value}: {}", problem.mend);
+        assert_eq!(case, Case::table_1());
+    }
+}
+
+#[test]
+fn an_empty_text_takes_a_field_out() {
+    let case = with(&[("model.deflection", "")]);
+    assert_eq!(case.text(field("model.deflection")), None);
+}

@@ -1,0 +1,157 @@
+//! The table of units: symbol, other spellings, and what one of it is in SI.
+
+use super::Dimension;
+
+/// What one of a unit is in SI.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Scale {
+    /// A power of ten, applied to the digits themselves and therefore exact.
+    Ten(i32),
+    /// Any other factor, as the nearest f64 and what that leaves over.
+    Times(f64, f64),
+}
+
+/// One unit of a dimension.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Unit {
+    /// The spelling that messages use.
+    pub(super) symbol: &'static str,
+    /// Other spellings.
+    pub(super) aliases: &'static [&'static str],
+    /// Its worth in SI.
+    pub(super) scale: Scale,
+}
+
+/// All units of a dimension, those that messages name first.
+pub(super) struct Family {
+    /// The dimension.
+    pub(super) dimension: Dimension,
+    /// What a person calls a value of it.
+    pub(super) name: &'static str,
+    /// Its units.
+    pub(super) units: &'static [Unit],
+}
+
+const fn ten(symbol: &'static str, aliases: &'static [&'static str], exponent: i32) -> Unit {
+    Unit { symbol, aliases, scale: Scale::Ten(exponent) }
+}
+
+const fn times(symbol: &'static str, aliases: &'static [&'static str], factor: f64, rest: f64) -> Unit {
+    Unit { symbol, aliases, scale: Scale::Times(factor, rest) }
+}
+
+const fn family(dimension: Dimension, name: &'static str, units: &'static [Unit]) -> Family {
+    Family { dimension, name, units }
+}
+
+/// The units of a dimension; none for a bare number.
+pub(super) fn units_of(dimension: Dimension) -> &'static [Unit] {
+    FAMILIES.iter().find(|family| family.dimension == dimension).map_or(&[], |family| family.units)
+}
+
+/// What a person calls a value of the dimension.
+pub(super) fn name_of(dimension: Dimension) -> &'static str {
+    FAMILIES.iter().find(|family| family.dimension == dimension).map_or("a number", |family| family.name)
+}
+
+// Exact by definition: in = 25.4 mm, lb = 0.45359237 kg, standard gravity 9.80665 m/s2, hp = 550 ft lbf/s,
+// PS = 75 kgf m/s. Both parts of each factor come from rational arithmetic, with pi to 80 digits.
+/// Every dimension but the bare number.
+#[rustfmt::skip]
+pub(super) static FAMILIES: [Family; 13] = [
+    family(Dimension::Length, "a length", &[
+        ten("mm", &[], -3),
+        ten("um", &["micron", "microns"], -6),
+        ten("m", &[], 0),
+        ten("cm", &[], -2),
+        ten("nm", &[], -9),
+        times("in", &["inch", "inches"], 0.0254, 1.0325074129013955e-18),
+        times("thou", &["mil", "mils"], 2.54e-5, -7.564261716996867e-22),
+        times("ft", &["foot", "feet"], 0.3048, -1.5365486660812166e-17),
+    ]),
+    family(Dimension::Angle, "an angle", &[
+        times("deg", &["°", "degree", "degrees"], 0.017453292519943295, 2.9486522708701687e-19),
+        ten("rad", &[], 0),
+        ten("mrad", &[], -3),
+        times("arcmin", &[], 0.0002908882086657216, 1.5756442176305324e-20),
+        times("arcsec", &[], 4.84813681109536e-6, 9.320078015422868e-23),
+    ]),
+    family(Dimension::Pressure, "a pressure", &[
+        ten("GPa", &["kN/mm2"], 9),
+        ten("MPa", &["N/mm2"], 6),
+        ten("kPa", &[], 3),
+        ten("Pa", &["N/m2"], 0),
+        times("psi", &["lbf/in2"], 6894.757293168362, -3.476429902321071e-13),
+        times("ksi", &[], 6894757.293168361, 3.798276331961447e-11),
+        times("Mpsi", &[], 6894757293.168362, -3.270956859296531e-7),
+    ]),
+    family(Dimension::Density, "a density", &[
+        ten("kg/m3", &[], 0),
+        ten("g/cm3", &["kg/dm3", "g/cc", "kg/l", "kg/L"], 3),
+        times("lb/in3", &["lbm/in3"], 27679.90471020312, -6.009765667261031e-13),
+    ]),
+    family(Dimension::Power, "a power", &[
+        ten("kW", &[], 3),
+        ten("W", &[], 0),
+        ten("MW", &[], 6),
+        ten("mW", &[], -3),
+        times("hp", &["HP", "bhp"], 745.6998715822702, -2.7927226591855287e-14),
+        times("PS", &[], 735.49875, 2.7284841053187846e-14),
+    ]),
+    family(Dimension::Torque, "a torque", &[
+        ten("N m", &["Nm"], 0),
+        ten("kN m", &["kNm"], 3),
+        ten("N mm", &["Nmm", "mN m", "mNm"], -3),
+        ten("N cm", &["Ncm"], -2),
+        ten("MN m", &["MNm"], 6),
+        times("lbf in", &["lb in", "in lbf", "in lb", "lbfin"], 0.1129848290276167, 4.448527496788302e-18),
+        times("lbf ft", &["lb ft", "ft lbf", "ft lb", "lbfft"], 1.3558179483314003, 5.338232996145962e-17),
+    ]),
+    family(Dimension::AngularVelocity, "an angular velocity", &[
+        times("rpm", &["1/min", "min-1", "rev/min", "r/min", "RPM", "U/min"], 0.10471975511965978, -5.1697025413851275e-18),
+        ten("rad/s", &[], 0),
+        times("deg/s", &["°/s"], 0.017453292519943295, 2.9486522708701687e-19),
+        times("rev/s", &["rps"], 6.283185307179586, 2.4492935982947064e-16),
+    ]),
+    family(Dimension::Force, "a force", &[
+        ten("N", &[], 0),
+        ten("kN", &[], 3),
+        ten("MN", &[], 6),
+        ten("mN", &[], -3),
+        times("lbf", &[], 4.4482216152605, 3.604674457164947e-16),
+    ]),
+    family(Dimension::Time, "a time", &[
+        ten("us", &[], -6),
+        ten("ms", &[], -3),
+        ten("s", &[], 0),
+        ten("ns", &[], -9),
+    ]),
+    family(Dimension::Velocity, "a velocity", &[
+        ten("m/s", &[], 0),
+        ten("mm/s", &[], -3),
+        times("ft/s", &[], 0.3048, -1.5365486660812166e-17),
+        times("in/s", &[], 0.0254, 1.0325074129013955e-18),
+        times("m/min", &[], 0.016666666666666666, 2.312964634635743e-19),
+        times("ft/min", &["fpm"], 0.00508, -3.1391556021276303e-19),
+        times("km/h", &[], 0.2777777777777778, -1.2335811384723961e-17),
+    ]),
+    family(Dimension::Mass, "a mass", &[
+        ten("kg", &[], 0),
+        ten("g", &[], -3),
+        ten("mg", &[], -6),
+        ten("t", &[], 3),
+        times("lb", &["lbm"], 0.45359237, -2.2489672346637234e-17),
+    ]),
+    family(Dimension::Energy, "an energy", &[
+        ten("J", &[], 0),
+        ten("mJ", &[], -3),
+        ten("uJ", &[], -6),
+        ten("kJ", &[], 3),
+    ]),
+    family(Dimension::Compliance, "a compliance per width", &[
+        ten("um mm/N", &["mm um/N"], -9),
+        ten("m2/N", &[], 0),
+        ten("mm2/N", &[], -6),
+        times("in2/lbf", &[], 0.0001450377377302092, 4.005255956746474e-21),
+    ]),
+];
