@@ -34,6 +34,18 @@ pub enum Exit {
     Unreadable = 5,
 }
 
+impl Exit {
+    /// Every way to end, and its meaning.
+    const MEANINGS: [(Exit, &'static str); 6] = [
+        (Exit::Done, "done"),
+        (Exit::Exceeded, "a limit is exceeded"),
+        (Exit::Usage, "wrong usage, or no terminal for the workbench"),
+        (Exit::BadCase, "a bad case"),
+        (Exit::NewerFormat, "a case of a newer format"),
+        (Exit::Unreadable, "a file cannot be read or written"),
+    ];
+}
+
 impl From<Exit> for ExitCode {
     fn from(exit: Exit) -> ExitCode {
         ExitCode::from(exit as u8)

@@ -98,17 +98,73 @@ fn one_bad_line() {
         (MODULE, "module = \"5 mm\"\nmodule = \"6 mm\"", 0, "pair.module", "there twice", "keep one"),
         ("[limits]", "[lmits]", 2, "lmits", "unknown key or table", "did you mean limits?"),
         ("[limits]", "[driver]", 2, "driver", "there twice", "under one header"),
-        ("impact_force = \"2500 N\"", "impact_forse = \"2500 N\"", 1, "limits.impact_forse", "unknown quantity", "did you mean impact_force?"),
+        (
+            "impact_force = \"2500 N\"",
+            "impact_forse = \"2500 N\"",
+            1,
+            "limits.impact_forse",
+            "unknown quantity",
+            "did you mean impact_force?",
+        ),
         ("impact_force = \"2500 N\"", "impact_force = 2500", 16, "limits.impact_force", "bare number", "\"2500 N\""),
-        ("impact_force = \"2500 N\"", "impact_force = \"2500 mm\"", 16, "limits.impact_force", "length, not of force", "use one of N"),
+        (
+            "impact_force = \"2500 N\"",
+            "impact_force = \"2500 mm\"",
+            16,
+            "limits.impact_force",
+            "length, not of force",
+            "use one of N",
+        ),
         ("impact_force = \"2500 N\"", "dynamic_factor = \"1.5 N\"", 18, "limits.dynamic_factor", "quotes", "without quotes"),
-        ("impact_force = \"2500 N\"", "[spread]\n\"driver.teet\" = { normal = \"1 um\" }", 0, "spread.\"driver.teet\"", "unknown key", "driver.teeth"),
-        ("impact_force = \"2500 N\"", "[spread]\n\"pair.module\" = { norml = \"1 um\" }", 0, "spread.\"pair.module\"", "unknown distribution", "normal"),
-        ("impact_force = \"2500 N\"", "[spread]\n\"pair.module\" = \"1 um\"", 0, "spread.\"pair.module\"", "no distribution", "normal"),
-        ("impact_force = \"2500 N\"", "[spread]\n\"pair.module\" = { normal = \"1 kg\" }", 0, "spread.\"pair.module\"", "mass, not of length", "mm"),
-        ("impact_force = \"2500 N\"", "[spread]\n\"pair.module\" = { normal = 1 }", 0, "spread.\"pair.module\"", "bare number", "\"1 mm\""),
+        (
+            "impact_force = \"2500 N\"",
+            "[spread]\n\"driver.teet\" = { normal = \"1 um\" }",
+            0,
+            "spread.\"driver.teet\"",
+            "unknown key",
+            "driver.teeth",
+        ),
+        (
+            "impact_force = \"2500 N\"",
+            "[spread]\n\"pair.module\" = { norml = \"1 um\" }",
+            0,
+            "spread.\"pair.module\"",
+            "unknown distribution",
+            "normal",
+        ),
+        (
+            "impact_force = \"2500 N\"",
+            "[spread]\n\"pair.module\" = \"1 um\"",
+            0,
+            "spread.\"pair.module\"",
+            "no distribution",
+            "normal",
+        ),
+        (
+            "impact_force = \"2500 N\"",
+            "[spread]\n\"pair.module\" = { normal = \"1 kg\" }",
+            0,
+            "spread.\"pair.module\"",
+            "mass, not of length",
+            "mm",
+        ),
+        (
+            "impact_force = \"2500 N\"",
+            "[spread]\n\"pair.module\" = { normal = 1 }",
+            0,
+            "spread.\"pair.module\"",
+            "bare number",
+            "\"1 mm\"",
+        ),
         // one field against another
-        ("bore_radius = \"20 mm\"", "bore_radius = \"50 mm\"", 15, "driver.bore_radius", "root circle's 43.75 mm", "radius (not a diameter)"),
+        (
+            "bore_radius = \"20 mm\"",
+            "bore_radius = \"50 mm\"",
+            15,
+            "driver.bore_radius",
+            "root circle's 43.75 mm",
+            "radius (not a diameter)",
+        ),
         ("power = \"15 kW\"", "power = \"15 kW\"\ntorque = \"71.6 N m\"", 0, "operation.torque", "both given", "take one"),
         ("power = \"15 kW\"", "", 0, "operation.power", "neither", "power = \"15 kW\""),
         // TOML itself
@@ -143,8 +199,11 @@ fn one_bad_line() {
 fn places_beside_the_bad_value() {
     // the second of two keys, the end of an open string, the header of a table with a gap
     expect_on_line("power = \"15 kW\"", "power = \"15 kW\" x", &[(9, "operation.power", "x", "")]);
-    expect(&GOOD.replace("teeth = 20\n", ""), &[
-        (14, 1, "driver.teeth", "missing", "add teeth = 20 to [driver]"),
-        (25, 1, "driven.teeth", "missing", "add teeth = 20 to [driven]"),
-    ]);
+    expect(
+        &GOOD.replace("teeth = 20\n", ""),
+        &[
+            (14, 1, "driver.teeth", "missing", "add teeth = 20 to [driver]"),
+            (25, 1, "driven.teeth", "missing", "add teeth = 20 to [driven]"),
+        ],
+    );
 }

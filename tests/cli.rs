@@ -296,7 +296,9 @@ fn no_control_of_a_file_or_a_name_reaches_the_terminal() {
         let raw = shown.chars().find(|&c| c.is_control() && c != '\n' || ('\u{200b}'..='\u{202e}').contains(&c));
         assert_eq!(raw, None, "{arguments:?}: {shown}");
     }
-    assert!(json(&["solve", path, "--format", "json"])["title"].as_str().unwrap().starts_with("\u{1b}[2J\u{9b}\u{7f}\u{202e}"));
+    let solved = json(&["solve", path, "--format", "json"]);
+    assert_eq!(solved["case"], path);
+    assert!(solved["title"].as_str().unwrap().starts_with("\u{1b}[2J\u{9b}\u{7f}\u{202e}"));
 }
 
 #[test]
@@ -339,6 +341,7 @@ fn every_shell_has_completions_and_the_manual_a_name() {
     }
     let page = told(&["man"]);
     assert!(page.contains(".SH NAME\ntipstrike"), "{page}");
+    assert!(page.contains(".SH \"EXIT STATUS\""), "{page}");
     assert!(told(&["man", "solve"]).contains("stations"));
     assert_eq!(code(&run(&["man", "nonsense"])), 2);
 }

@@ -1,5 +1,6 @@
 //! The command line's shape, from which help, completions and manual are derived.
 
+use super::Exit;
 use crate::case::Case;
 use crate::model::inputs::Rung;
 use crate::model::{QUANTITIES, Quantity};
@@ -8,15 +9,12 @@ use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
 use std::path::PathBuf;
 
-const EXIT_CODES: &str = "Exit: 0 done; 1 a limit is exceeded; 2 wrong usage, or no terminal for the workbench; 3 a bad case; \
-    4 a case of a newer format; 5 a file cannot be read or written.";
-
 const CSV_SHAPE: &str = "CSV is in SI units: a row a case with a column a quantity, such as `impact_force [N]`; with --stations \
     instead a row a station. JSON is an object a case, one a line, in SI units; what does not exist is absent.";
 
 /// Corner contact in spur gear pairs: where, how hard and how long an incoming tooth strikes
 #[derive(Debug, Parser)]
-#[command(name = "tipstrike", version, args_conflicts_with_subcommands = true, after_help = EXIT_CODES)]
+#[command(name = "tipstrike", version, args_conflicts_with_subcommands = true, after_help = exit_codes())]
 pub struct Arguments {
     /// Case to open in the workbench; else the last one, else Table 1 of Zhou & Chen 2014
     #[arg(value_hint = ValueHint::FilePath)]
@@ -125,6 +123,11 @@ pub struct Setting {
     pub key: String,
     /// The text that a user would write.
     pub value: String,
+}
+
+fn exit_codes() -> String {
+    let codes = Exit::MEANINGS.map(|(exit, meaning)| format!("{} {meaning}", exit as u8));
+    format!("Exit: {}.", codes.join("; "))
 }
 
 fn rungs() -> impl TypedValueParser<Value = Rung> {

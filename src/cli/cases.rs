@@ -8,6 +8,8 @@ use std::path::Path;
 
 /// A case that can be solved.
 pub(super) struct Opened {
+    /// As the user named it.
+    pub(super) name: String,
     pub(super) document: Document,
     pub(super) inputs: Inputs,
 }
@@ -32,7 +34,7 @@ pub(super) fn open(path: &Path, settings: &[Setting], streams: &mut Streams) -> 
     }
     match document.case.inputs() {
         // Nothing waits for a report, so it is given the digits.
-        Ok(inputs) => Ok(Opened { document, inputs: Inputs { accurate: true, ..inputs } }),
+        Ok(inputs) => Ok(Opened { name: path.display().to_string(), document, inputs: Inputs { accurate: true, ..inputs } }),
         Err(problems) => Err(unfit(&document, problems, settings, streams)),
     }
 }

@@ -32,7 +32,7 @@ fn check(opened: &Opened, streams: &mut Streams) -> io::Result<Exit> {
     let broken: Vec<&Verdict> = verdicts.iter().filter(|verdict| !verdict.standing.holds()).collect();
     let (word, exit) = if broken.is_empty() { ("ok", Exit::Done) } else { ("EXCEEDED", Exit::Exceeded) };
     let told = if broken.is_empty() { verdicts.iter().collect() } else { broken };
-    writeln!(streams.output, "{word} {}: {}", visible(opened.document.name()), list(&told))?;
+    writeln!(streams.output, "{word} {}: {}", visible(&opened.name), list(&told))?;
     Ok(exit)
 }
 

@@ -18,7 +18,14 @@ pub(super) fn man(name: Option<&str>, streams: &mut Streams) -> io::Result<Exit>
         streams.say(&format!("man: there is no command {}: `tipstrike help` lists them", name.unwrap_or_default()));
         return Ok(Exit::Usage);
     };
-    Man::new(page).render(&mut streams.output).map(|()| Exit::Done)
+    let source = format!("tipstrike {}", env!("CARGO_PKG_VERSION"));
+    Man::new(page.after_help("")).source(source).render(&mut streams.output)?;
+    exit_status(streams.output.as_mut()).map(|()| Exit::Done)
+}
+
+fn exit_status(out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, ".SH \"EXIT STATUS\"")?;
+    Exit::MEANINGS.iter().try_for_each(|&(exit, meaning)| writeln!(out, ".TP\n\\fB{}\\fR\n{meaning}", exit as u8))
 }
 
 fn page(name: Option<&str>) -> Option<Command> {

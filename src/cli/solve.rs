@@ -42,8 +42,8 @@ fn selection(options: &Solve) -> Selection {
 }
 
 fn solve(opened: &Opened, selection: &Selection, streams: &mut Streams) -> Result<Report, Exit> {
-    let Opened { document, inputs } = opened;
-    let solved = Report::solve(document.name().to_owned(), document.case.clone(), inputs.clone(), selection.clone());
+    let Opened { name, document, inputs } = opened;
+    let solved = Report::solve(name.clone(), document.case.clone(), inputs.clone(), selection.clone());
     match solved.and_then(in_full) {
         Ok(report) => Ok(report),
         Err(refusal) => Err(opened.refused(&refusal, streams)),

@@ -1,14 +1,12 @@
 //! A solve as one JSON object on one line: SI units, full precision, what does not exist is absent.
 
 use super::{Report, stations};
+use crate::case::file::FORMAT;
 use crate::case::visible::visible;
 use crate::model::{Stage, Station};
 use serde::{Serialize, Serializer};
 use serde_json::ser::Formatter;
 use std::io::{self, Write};
-
-/// The number of the case format that the report speaks of.
-pub const FORMAT: u32 = 1;
 
 #[derive(Serialize)]
 struct Line<'a> {

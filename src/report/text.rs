@@ -117,11 +117,10 @@ fn inputs(report: &Report) -> Vec<String> {
     if !report.selection.is_whole() {
         return Vec::new();
     }
-    let told = TOLD_INPUTS.iter().filter_map(|key| told_input(report, key)).collect::<Vec<_>>().join(", ");
-    // A symbol stays on the line of its value.
-    let joined = told.replace(" = ", "\u{a0}=\u{a0}");
-    let lines = flow(joined.split(' '), WIDTH).into_iter().map(|line| line.replace('\u{a0}', " "));
-    lines.chain(item("Notes of the case: ", &visible(report.text("notes")))).collect()
+    let told: Vec<String> = TOLD_INPUTS.iter().filter_map(|key| told_input(report, key)).collect();
+    // Each input stays on one line with its unit.
+    let lines = flow(told.join(",\n").split('\n'), WIDTH);
+    lines.into_iter().chain(item("Notes of the case: ", &visible(report.text("notes")))).collect()
 }
 
 fn told_input(report: &Report, key: &str) -> Option<String> {
@@ -192,13 +191,13 @@ fn limits(report: &Report) -> Vec<String> {
     if !report.selection.is_whole() {
         return Vec::new();
     }
+    let mark = |verdict: &Verdict| match verdict.standing {
+        Standing::Within | Standing::NotApplicable => "  ok        ",
+        Standing::Exceeded => "  EXCEEDED  ",
+        Standing::Unknown => "  unknown   ",
+    };
     let verdicts = verdicts(&report.case, &report.solution);
-    titled(
-        "Limits",
-        verdicts.iter().flat_map(|verdict| {
-            item(if verdict.standing.holds() { "  ok        " } else { "  EXCEEDED  " }, &verdict.to_string())
-        }),
-    )
+    titled("Limits", verdicts.iter().flat_map(|verdict| item(mark(verdict), &verdict.to_string())))
 }
 
 fn station_table(report: &Report) -> Vec<String> {

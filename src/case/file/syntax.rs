@@ -25,8 +25,7 @@ pub(super) struct Recovered {
 
 /// Find what is not TOML, and blank it.
 pub(super) fn recover(source: &str) -> Recovered {
-    let mut recovered =
-        Recovered { text: source.to_owned(), faults: Vec::new(), broken: String::new(), tables_known: true };
+    let mut recovered = Recovered { text: source.to_owned(), faults: Vec::new(), broken: String::new(), tables_known: true };
     let lines = Lines::of(source);
     for round in 0..ROUNDS {
         let (_, errors) = DeTable::parse_recoverable(&recovered.text);

@@ -66,11 +66,18 @@ fn comma(text: &str) -> Misread {
     let written = &text[..length];
     let thousands = written.contains('.') || written.matches(',').count() > 1;
     let meant = if thousands { written.replace(',', "") } else { written.replace(',', ".") };
-    Misread::new("a comma inside a number", format!("write {}, not {}", quoted(&meant).trim_matches('`'), quoted(written).trim_matches('`')))
+    Misread::new(
+        "a comma inside a number",
+        format!("write {}, not {}", quoted(&meant).trim_matches('`'), quoted(written).trim_matches('`')),
+    )
 }
 
 fn example(usual: &str) -> String {
-    if usual.is_empty() { "write a number such as 0.5".to_owned() } else { format!("write a number and its unit, such as \"20 {usual}\"") }
+    if usual.is_empty() {
+        "write a number such as 0.5".to_owned()
+    } else {
+        format!("write a number and its unit, such as \"20 {usual}\"")
+    }
 }
 
 /// The f64 nearest to the decimal number times a power of ten.
