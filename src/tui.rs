@@ -70,6 +70,8 @@ pub fn run(case: Option<PathBuf>) -> ExitCode {
 
 fn session(case: Option<PathBuf>) -> io::Result<u8> {
     let Opening { document, path, trouble } = store::opening(case);
+    // Before the terminal is taken: a signal must never leave it in our modes.
+    let events = Events::start()?;
     let mut screen = Screen::open()?;
     let look = Look::of(|name| std::env::var_os(name));
     let mut app = App::new(document, path, look, screen.size()?);
@@ -77,7 +79,6 @@ fn session(case: Option<PathBuf>) -> io::Result<u8> {
         report(&mut app, trouble);
     }
     screen.draw(&app)?;
-    let events = Events::start()?;
     let solver = Solver::start(events.teller())?;
     Workbench { app, screen, events, solver }.stay()
 }

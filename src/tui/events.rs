@@ -69,6 +69,8 @@ impl Events {
     /// # Errors
     /// When the system gives no thread or no signal handler.
     pub fn start() -> io::Result<Events> {
+        // Makes the handler of new sizes now: one that comes before the thread runs would be lost.
+        event::poll(Duration::ZERO)?;
         let (sender, receiver) = sync_channel(CHANNEL);
         let (keys, caught) = (sender.clone(), sender.clone());
         thread::Builder::new().name("keys".to_owned()).spawn(move || read_terminal(&keys))?;

@@ -68,6 +68,7 @@ fn step(now: f64, greatest: f64) -> f64 {
 }
 
 #[cfg(test)]
+#[expect(clippy::float_cmp, reason = "a step is one of few numbers, and stays the same one")]
 mod tests {
     use super::*;
 

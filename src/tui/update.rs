@@ -74,7 +74,8 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
         Action::Resize(size) => {
             app.size = size;
             app.follow();
-            Vec::new()
+            // Terminals cut what they show when they shrink, even if they are back at the old size by now.
+            vec![Effect::Redraw]
         }
         Action::Solved(answer) => {
             app.take(*answer);

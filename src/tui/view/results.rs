@@ -22,13 +22,15 @@ const FIRST_WITHOUT_CONTACT: [&str; 5] =
     ["total_deviation", "equivalent_error", "combined_deflection", "mesh_force", "contact_ratio"];
 
 const SYMBOL: usize = 7;
+/// Beside labels there is room for the longest symbol.
+const LONG_SYMBOL: usize = 9;
 const LABEL: usize = 25;
 const VALUE: usize = 9;
 const UNIT: usize = 7;
 /// Below this width only the active rung has room.
 const ALL_RUNGS_FROM: usize = SYMBOL + 2 * (VALUE + 1) + UNIT;
 /// From this width the labels have room too.
-const LABELS_FROM: usize = ALL_RUNGS_FROM + LABEL;
+const LABELS_FROM: usize = ALL_RUNGS_FROM - SYMBOL + LONG_SYMBOL + LABEL;
 
 /// Draw the results.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
@@ -147,8 +149,8 @@ fn columns(answer: &Answer, width: usize) -> Vec<Rung> {
 }
 
 fn heading(app: &App, answer: &Answer, width: usize) -> Line<'static> {
-    let label = if width >= LABELS_FROM { LABEL } else { 0 };
-    let mut spans = vec![Span::raw(" ".repeat(SYMBOL + label))];
+    let indent = if width >= LABELS_FROM { LONG_SYMBOL + LABEL } else { SYMBOL };
+    let mut spans = vec![Span::raw(" ".repeat(indent))];
     for rung in columns(answer, width) {
         let is_active = rung == answer.active;
         let name = if is_active { format!("▸{}", rung.name()) } else { rung.name().to_owned() };
@@ -158,10 +160,12 @@ fn heading(app: &App, answer: &Answer, width: usize) -> Line<'static> {
 }
 
 fn row(app: &App, answer: &Answer, quantity: &Quantity, width: usize) -> Line<'static> {
-    let mut spans = vec![Span::raw(padded(&symbol(quantity.symbol, app.look.ascii), SYMBOL))];
-    if width >= LABELS_FROM {
-        spans.push(Span::raw(padded(quantity.label, LABEL)));
-    }
+    let symbol = symbol(quantity.symbol, app.look.ascii);
+    let mut spans = if width >= LABELS_FROM {
+        vec![Span::raw(padded(&symbol, LONG_SYMBOL)), Span::raw(padded(quantity.label, LABEL))]
+    } else {
+        vec![Span::raw(padded(&symbol, SYMBOL))]
+    };
     let mut unit = "";
     for rung in columns(answer, width) {
         let shown = answer.of(rung).and_then(|solution| shown(quantity, solution));
