@@ -295,3 +295,12 @@ fn a_saved_file_keeps_its_mode() {
     let mode = fs::metadata(desk.path("case.toml")).expect("it is there").permissions().mode();
     assert_eq!(mode & 0o777, 0o640);
 }
+
+#[test]
+fn a_failed_solve_is_told_and_the_results_are_marked() {
+    let mut desk = Desk::new(SMALL);
+    desk.act(Action::SolverFailed(desk.app.serial));
+    assert!(desk.shows("solver failed") && desk.shows("LAST VALID"));
+    desk.fill("operation.speed", "1500 rpm");
+    assert!(!desk.shows("solver failed") && !desk.shows("LAST VALID"));
+}

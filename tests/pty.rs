@@ -1,5 +1,6 @@
 //! The built program on a real terminal: it types, saves, leaves, and gives the terminal back as it found it.
 
+use std::ffi::OsStr;
 use std::fs;
 use std::io::{Read, Write};
 use std::num::NonZero;
@@ -28,14 +29,19 @@ struct Tty {
 }
 
 impl Tty {
+    /// On a case in a folder of its own.
     fn open(variables: &[(&str, &str)]) -> Tty {
         let folder = tempfile::tempdir().expect("a folder");
         let case = folder.path().join("case.toml");
         fs::write(&case, TABLE_1).expect("room on the disk");
+        Tty::start(folder, &[case.as_os_str()], variables)
+    }
+
+    fn start(folder: TempDir, arguments: &[&OsStr], variables: &[(&str, &str)]) -> Tty {
         let size = PtySize { rows: 24, cols: 80, ..PtySize::default() };
         let pair = native_pty_system().openpty(size).expect("a pseudo terminal");
         let mut command = CommandBuilder::new(PROGRAM);
-        command.arg(&case);
+        command.args(arguments);
         command.env("XDG_STATE_HOME", folder.path());
         command.env("TERM", "xterm-256color");
         command.env("LC_ALL", "C.UTF-8");
@@ -251,14 +257,29 @@ fn a_terminal_that_changes_its_size_is_followed() {
 
 #[test]
 fn the_last_case_is_opened_again_and_a_broken_one_is_told() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let state = folder.path().to_str().expect("a name in UTF-8").to_owned();
-    let mut tty = Tty::open(&[("XDG_STATE_HOME", &state)]);
+    let mut tty = Tty::open(&[]);
     tty.wait_for("Corner contact");
     tty.type_in("\x11");
     tty.wait_for_end();
-    let remembered = fs::read_to_string(folder.path().join("tipstrike/last-case")).expect("it is remembered");
-    assert_eq!(remembered, tty.case().to_str().expect("a name in UTF-8"));
+    let mut tty = Tty::start(tty.folder, &[], &[]);
+    tty.wait_for("case.toml");
+    tty.type_in("\x11");
+    tty.wait_for_end();
+    fs::write(tty.case(), "no case").expect("room on the disk");
+    let mut tty = Tty::start(tty.folder, &[], &[]);
+    tty.wait_for("the last case cannot be opened");
+    assert!(tty.shows("built-in Table 1"));
+    tty.type_in("\x11");
+    tty.wait_for_end();
+}
+
+#[test]
+fn standard_input_is_refused_as_a_case_and_not_waited_for() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut tty = Tty::start(folder, &[OsStr::new("-")], &[]);
+    tty.wait_for("tipstrike solve -");
+    tty.type_in("q\x11");
+    assert_eq!(tty.wait_for_end().exit_code(), 0);
 }
 
 #[test]

@@ -41,6 +41,8 @@ pub struct App {
     pub answer: Option<Answer>,
     /// Why the model does not solve what the form says.
     pub refusal: Option<Refusal>,
+    /// Whether the worker failed on what the form says.
+    pub has_failed: bool,
     /// What lies over the form, the topmost last.
     pub prompts: Vec<Prompt>,
     /// Said once, until the next key.
@@ -106,6 +108,7 @@ impl App {
             serial: 0,
             answer: None,
             refusal: None,
+            has_failed: false,
             prompts: Vec::new(),
             message: None,
             size,
@@ -132,7 +135,7 @@ impl App {
     /// Whether the results are not those of what the form says now.
     #[must_use]
     pub fn is_stale(&self) -> bool {
-        !self.problems.is_empty() || self.refusal.is_some()
+        !self.problems.is_empty() || self.refusal.is_some() || self.has_failed
     }
 
     /// Where keys go.
@@ -203,6 +206,7 @@ impl App {
         if answer.serial != self.serial {
             return;
         }
+        self.has_failed = false;
         self.refusal = answer.refusal().copied();
         if self.refusal.is_none() {
             self.scale = self.scale.fitted(&answer);

@@ -106,6 +106,10 @@ pub fn perform(effect: Effect) -> Option<Action> {
 }
 
 fn load(path: &Path) -> Result<Box<Document>, Vec<String>> {
+    // Standard input is the keyboard here: reading a case from it would wait for ever.
+    if path == Path::new("-") {
+        return Err(vec!["standard input is no case for the workbench: name a file, or use tipstrike solve -".to_owned()]);
+    }
     // The page that shows them has the name in its title.
     let name = format!("{}:", path.display());
     let without_name = |fault: &str| fault.strip_prefix(&name).unwrap_or(fault).trim_start().to_owned();

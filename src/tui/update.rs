@@ -82,7 +82,10 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
             Vec::new()
         }
         Action::SolverFailed(serial) => {
-            app.complain(format!("the solver failed on edit {serial}; the results are those before it"));
+            if serial == app.serial {
+                app.has_failed = true;
+                app.complain("a fault of the program: the solver failed on this; undo or change the last edit");
+            }
             Vec::new()
         }
         Action::Loaded(path, result) => files::loaded(app, path, result),

@@ -8,7 +8,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::text;
 use crate::case::FIELDS;
-use crate::case::fields::{Absent, Field, Kind};
+use crate::case::fields::{self, Absent, Field, Kind};
 use crate::tui::actions::{BINDINGS, Binding};
 use crate::tui::app::App;
 use crate::tui::clean::symbol;
@@ -22,7 +22,7 @@ pub fn header(app: &App, area: Rect, buffer: &mut Buffer) {
     spans.push(Span::raw(text::cut(&app.name(), room)));
     spans.push(Span::styled(mark, theme.note));
     let used: usize = spans.iter().map(Span::width).sum();
-    let title = app.case.text(0).unwrap_or_default();
+    let title = fields::index_of("title").and_then(|title| app.case.text(title)).unwrap_or_default();
     let left = usize::from(area.width).saturating_sub(used + 3);
     if !title.is_empty() && left > 8 {
         spans.push(Span::raw(format!("   {}", text::cut(title, left))));
