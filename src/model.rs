@@ -3,6 +3,7 @@
 //! Symbols follow Zhou & Chen 2014, "Modeling and Calculation of Impact Friction Caused by Corner Contact in
 //! Gear Transmission", Chin. J. Mech. Eng.; gear 1 is the driver, gear 2 the driven gear. SI units throughout.
 
+pub mod band;
 pub mod compliance;
 pub mod deviation;
 pub mod friction;
@@ -13,10 +14,13 @@ pub mod limits;
 pub mod notes;
 pub mod position;
 pub mod quantities;
+#[cfg(test)]
+pub(crate) mod sample;
 pub mod stage;
 pub mod stations;
 pub mod velocity;
 
+pub use band::Band;
 pub use compliance::TeethCompliance;
 pub use deviation::Deviation;
 pub use friction::Friction;
@@ -83,6 +87,8 @@ pub struct Solution {
     pub impact: Option<Impact>,
     /// Change of the velocities over the impact.
     pub friction: Option<Friction>,
+    /// The impact force by every stiffness model.
+    pub band: Option<Band>,
     /// From D (first) to E (last, force 0); empty unless asked for.
     pub stations: Vec<Station>,
     /// Why the tooth strikes and yet compliance, force and what follows are absent, where that is so.
@@ -115,6 +121,7 @@ pub fn solve(inputs: &Inputs, wanted: Stages) -> Result<Solution, Refusal> {
         compliance: None,
         impact: None,
         friction: None,
+        band: None,
         stations: Vec::new(),
         withheld: None,
     };
@@ -159,6 +166,10 @@ impl Solution {
         if wanted.has(Stage::Friction) {
             self.friction = Some(friction::friction(inputs, &geometry, tip, &velocity, &impact, masses.reduced()));
             self.stages = self.stages.with(Stage::Friction);
+        }
+        if wanted.has(Stage::Band) {
+            self.band = band::band(inputs);
+            self.stages = self.stages.with(Stage::Band);
         }
         if wanted.has(Stage::Stations) {
             self.stations = stations::stations(inputs, &geometry, masses, position)?;

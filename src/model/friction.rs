@@ -75,7 +75,7 @@ fn printed_end(inputs: &Inputs, geometry: &Geometry, tip: &TipContact, turn: f64
 fn angle_after(geometry: &Geometry, tip: &TipContact, growth: f64) -> Option<f64> {
     let grown_square = growth * (2.0 * tip.radius_driver + growth);
     let arm = geometry.centre_distance * geometry.driven.tip;
-    let half = ((geometry.start_angle_driven + tip.angle) / 2.0).sin();
+    let half = f64::midpoint(geometry.start_angle_driven, tip.angle).sin();
     let square = half * half + grown_square / (4.0 * arm);
     ((0.0..=1.0).contains(&square)).then(|| 2.0 * square.sqrt().asin() - geometry.start_angle_driven)
 }

@@ -8,6 +8,8 @@ use crate::numeric::Real;
 
 /// Dedendum of the standard basic rack, times the module (ISO 53).
 pub const RACK_DEDENDUM: f64 = 1.25;
+/// Dedendum of the straight flank of the standard basic rack, times the module (ISO 53).
+pub const RACK_STRAIGHT_DEDENDUM: f64 = 1.0;
 
 /// Circles of one gear, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -189,6 +191,19 @@ impl<T: Real> Circles<T> {
             tip_curvature: self.tip_curvature.rounded(),
             root: self.root.rounded(),
         }
+    }
+}
+
+impl Geometry {
+    /// Normal backlash that the centre distance leaves, 2 (r_b1 + r_b2) (inv α_w − inv α_w0), in m, where α_w0 is the
+    /// working pressure angle without backlash; below 0 the teeth jam (ISO 21771).
+    #[must_use]
+    pub fn backlash(&self, inputs: &Inputs) -> f64 {
+        let involute = |angle: f64| angle.tan() - angle;
+        let alpha = inputs.pressure_angle;
+        let shifts = inputs.driver.profile_shift + inputs.driven.profile_shift;
+        let without = involute(alpha) + 2.0 * shifts * alpha.tan() / f64::from(inputs.driver.teeth + inputs.driven.teeth);
+        2.0 * (self.driver.base + self.driven.base) * (involute(self.working_pressure_angle) - without)
     }
 }
 

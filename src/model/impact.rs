@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-use super::compliance::{ContactPlace, contact_spring, plane_strain_compliance};
+use super::compliance::ContactPlace;
+use super::compliance::contact::{plane_strain_compliance, spring};
 use super::geometry::{Circles, Geometry};
 use super::inputs::{Gear, Inputs, Rung};
 use super::position::TipContact;
@@ -109,7 +110,7 @@ pub fn impact(
     velocity: &Velocity,
 ) -> Result<Impact, Refusal> {
     let place = ContactPlace::at_tip(inputs, geometry, tip);
-    let spring = contact_spring(inputs, &place);
+    let spring = spring(inputs, geometry, &place)?;
     let width = inputs.common_width();
     let effective_mass = masses.effective(geometry, tip);
     let (force, pair_compliance) = spring.impact(teeth.sum(), velocity.normal * (width * effective_mass).sqrt())?;

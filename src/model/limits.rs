@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::compliance::{KUANG_YANG_SHIFT, KUANG_YANG_TEETH};
+use super::compliance::kuang_yang;
 
 const MILLIMETRE: f64 = 1e-3;
 const MICROMETRE: f64 = 1e-6;
@@ -75,19 +75,33 @@ pub enum Refusal {
         tip: f64,
     },
     /// Eq. 56 does not cover the tooth number.
-    #[error("tooth number outside the Kuang-Yang fit: z is {teeth} and must be {}..{}", KUANG_YANG_TEETH.0, KUANG_YANG_TEETH.1)]
+    #[error("tooth number outside the Kuang-Yang fit: z is {teeth} and must be {}..{}", kuang_yang::TEETH.0, kuang_yang::TEETH.1)]
     TeethOutsideFit {
         /// z.
         teeth: u32,
     },
     /// Eq. 56 does not cover the profile shift.
-    #[error("profile shift outside the Kuang-Yang fit: x is {shift} and must be -{KUANG_YANG_SHIFT}..{KUANG_YANG_SHIFT}")]
+    #[error("profile shift outside the Kuang-Yang fit: x is {shift} and must be -{0}..{0}", kuang_yang::SHIFT)]
     ShiftOutsideFit {
         /// x.
         shift: f64,
     },
+    /// No tooth is left where the load stands.
+    #[error("pointed tip: the tooth's thickness at the load point is {:.4} mm and must be above 0", .thickness / MILLIMETRE)]
+    PointedTip {
+        /// Thickness, in m.
+        thickness: f64,
+    },
+    /// The load stands on the fillet, which is no involute.
+    #[error("the flank ends above the contact: O1D is {:.4} mm and the form circle {:.4} mm", .radius / MILLIMETRE, .form / MILLIMETRE)]
+    BelowFormCircle {
+        /// Radius of the load point, in m.
+        radius: f64,
+        /// Radius of the form circle, in m.
+        form: f64,
+    },
     /// Eq. 55 leaves its range.
-    #[error("the Hertz half-width is not small against the tooth: it is {:.4} mm, and Eq. 55 ends at {:.4} mm", .half_width / MILLIMETRE, .limit / MILLIMETRE)]
+    #[error("the Hertz half-width is not small against the tooth: it is {:.4} mm, and the contact formula ends at {:.4} mm", .half_width / MILLIMETRE, .limit / MILLIMETRE)]
     HertzWidthTooLarge {
         /// Half-width, in m.
         half_width: f64,
@@ -151,6 +165,12 @@ impl Refusal {
             }
             Refusal::TeethOutsideFit { .. } => ("teeth-outside-fit", "model.tooth_compliance", "choose another tooth compliance"),
             Refusal::ShiftOutsideFit { .. } => ("shift-outside-fit", "model.tooth_compliance", "choose another tooth compliance"),
+            Refusal::PointedTip { .. } => {
+                ("pointed-tip", "driven.addendum", "give a shorter addendum, less profile shift or more teeth")
+            }
+            Refusal::BelowFormCircle { .. } => {
+                ("below-form-circle", "driven.addendum", "shorten the driven addendum, or give the driver more profile shift")
+            }
             Refusal::HertzWidthTooLarge { .. } => {
                 ("hertz-width", "driver.face_width", "lower the load or the speed, or widen the gears")
             }

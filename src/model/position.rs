@@ -115,6 +115,7 @@ pub fn gap<T: Real>(geometry: &Geometry<T>, tip: &TipContact<T>) -> T {
 ///
 /// The integrand has its branch point where ρ₁ = 0. Where that is near, ρ₁ itself is the variable, in which the
 /// integrand is smooth.
+#[must_use]
 pub fn gap_by_quadrature(geometry: &Geometry, tip: &TipContact) -> f64 {
     if tip.curvature_driver < std::f64::consts::SQRT_2 * geometry.start {
         return tip.angle * quadrature::unit_interval(|part| tip_at(geometry, part * tip.angle).normal_radius_drop);
@@ -213,6 +214,7 @@ fn printed_contact(geometry: &Geometry, deviation: &Deviation, ratio: f64) -> f6
 
 /// Reduced radius of curvature at the tip's contact ρ_S = ρ1 ρ2/(ρ1 + ρ2), in m; ρ2 is the driven flank's own at its
 /// tip, or the radius of the tip's edge where the case gives one (Zhou & Chen 2014, below Eq. 32).
+#[must_use]
 pub fn reduced_curvature(inputs: &Inputs, geometry: &Geometry, tip: &TipContact) -> f64 {
     let driven = inputs.driven.tip_radius.unwrap_or(geometry.driven.tip_curvature);
     tip.curvature_driver * driven / (tip.curvature_driver + driven)

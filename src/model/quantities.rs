@@ -69,6 +69,8 @@ pub static QUANTITIES: &[Quantity] = &[
     quantity!("normal_velocity", "ΔV_n", "approach velocity at D", "m/s", "m/s", 5, "Eq. 21", Velocity, |s| Some(s.velocity?.normal)),
     quantity!("sliding_velocity", "ΔV_τ", "sliding velocity at D", "m/s", "m/s", 5, "Eq. 22", Velocity, |s| Some(s.velocity?.sliding)),
     quantity!("impact_force", "F_S", "impact force", "N", "N", 5, "Eq. 57", Impact, |s| Some(s.impact?.force)),
+    quantity!("impact_force_low", "F_S,low", "  stiffness band from", "N", "N", 4, "all models", Band, |s| Some(s.band?.low)),
+    quantity!("impact_force_high", "F_S,high", "  stiffness band to", "N", "N", 4, "all models", Band, |s| Some(s.band?.high)),
     quantity!("dynamic_factor", "F_S/F_0", "dynamic factor", "1", "1", 4, "F_S/F_0", Impact, |s| Some(s.impact?.force / s.mesh_force)),
     quantity!("impact_duration", "T_S", "impact duration", "s", "us", 4, "Eq. 32", Impact, |s| Some(s.impact?.duration)),
     quantity!("impact_duration_printed", "T_S,32", "  by Eq. 32 as printed", "s", "us", 4, "Eq. 32", Impact, |s| Some(s.impact?.duration_printed)),

@@ -15,6 +15,12 @@ pub fn unit_interval(f: impl Fn(f64) -> f64) -> f64 {
     TWELVE.iter().map(|&(node, weight)| weight * (f(0.5 - 0.5 * node) + f(0.5 + 0.5 * node))).sum::<f64>() * 0.5
 }
 
+/// ∫ of `f` from `from` to `to`, cut into `parts` of equal length.
+pub fn composite(from: f64, to: f64, parts: usize, f: impl Fn(f64) -> f64) -> f64 {
+    let length = (to - from) / parts as f64;
+    (0..parts).map(|part| unit_interval(|x| f(from + length * (part as f64 + x)))).sum::<f64>() * length
+}
+
 #[cfg(test)]
 mod tests {
     use super::unit_interval;
