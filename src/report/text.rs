@@ -14,17 +14,16 @@ use std::io::{self, Write};
 /// The parts of a page, in order; an empty one leaves no trace.
 const SECTIONS: [fn(&Report) -> Vec<String>; 7] = [heading, outcome, inputs, quantities, notes, limits, station_table];
 
-/// The quantities that share a heading.
-const GROUPS: [(Stage, &str); 9] = [
-    (Stage::Geometry, "Geometry"),
-    (Stage::Load, "Load"),
-    (Stage::Deviation, "Deviation"),
-    (Stage::Position, "First contact D"),
-    (Stage::Velocity, "Velocity at D"),
-    (Stage::Compliance, "Compliance"),
-    (Stage::Impact, "Impact"),
-    (Stage::Friction, "Friction"),
-    (Stage::Stations, "From D to E"),
+/// The stages whose quantities share a heading.
+const GROUPS: [(&str, &[Stage]); 8] = [
+    ("Geometry", &[Stage::Geometry]),
+    ("Load", &[Stage::Load]),
+    ("Deviation", &[Stage::Deviation]),
+    ("First contact D", &[Stage::Position]),
+    ("Velocity at D", &[Stage::Velocity]),
+    ("Impact", &[Stage::Compliance, Stage::Impact, Stage::Band]),
+    ("Friction", &[Stage::Friction]),
+    ("From D to E", &[Stage::Stations]),
 ];
 
 /// The inputs that say which pair this is; one that is not given, zero or as usual goes unsaid.
@@ -138,8 +137,9 @@ fn quantities(report: &Report) -> Vec<String> {
     if !report.selection.is_whole() {
         return rows.iter().map(|row| columns.line(row)).collect();
     }
-    let group = |&(stage, title): &(Stage, &str)| {
-        let lines: Vec<String> = rows.iter().filter(|row| row.quantity.stage == stage).map(|row| columns.line(row)).collect();
+    let group = |&(title, stages): &(&str, &[Stage])| {
+        let lines: Vec<String> =
+            rows.iter().filter(|row| stages.contains(&row.quantity.stage)).map(|row| columns.line(row)).collect();
         let title = (!lines.is_empty()).then(|| title.to_owned());
         title.into_iter().chain(lines).collect::<Vec<_>>()
     };
@@ -214,4 +214,16 @@ fn titled(title: &str, lines: impl IntoIterator<Item = String>) -> Vec<String> {
     let mut lines = lines.into_iter().peekable();
     let title = lines.peek().is_some().then(|| title.to_owned());
     title.into_iter().chain(lines).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_stage_has_one_heading() {
+        for stage in Stage::ALL {
+            assert_eq!(GROUPS.iter().filter(|(_, stages)| stages.contains(&stage)).count(), 1, "{}", stage.name());
+        }
+    }
 }
