@@ -68,6 +68,8 @@ impl Beam {
     }
 }
 
+/// r_f/r_bore that stands for a gear without a bore.
+const SOLID_BODY: f64 = 3.0;
 /// Range of r_f/r_bore in which the foundation's coefficients were fitted.
 pub const FOUNDATION_BODY: (f64, f64) = (1.4, 7.0);
 /// Range of the half tooth angle at the root in which they were fitted, in rad.
@@ -86,7 +88,9 @@ pub const FOUNDATION_ANGLE: (f64, f64) = (0.01, 0.12);
 /// Sainsot, Velex & Duverger 2004, J. Mech. Des. 126(4), 748-752.
 ///
 /// # Valid for
-/// h = 1.4..7 and θ = 0.01..0.12; outside, the nearest value of the range serves in L, M, P, Q.
+/// h = 1.4..7 and θ = 0.01..0.12; outside, the nearest value of the range serves in L, M, P, Q. The formula holds the
+/// body at its bore and contains its windup about it, which grows as h². A gear without a bore is taken as one with its
+/// shaft, held at a third of the root radius: an assumption, h = 3.
 fn foundation(profile: &Profile, gear: &Gear, circles: &Circles, angle: f64) -> f64 {
     const L: [f64; 6] = [-5.574e-5, -1.9986e-3, -2.3015e-4, 4.7702e-3, 0.0271, 6.8045];
     const M: [f64; 6] = [60.111e-5, 28.100e-3, -83.431e-4, -9.9256e-3, 0.1624, 0.9086];
@@ -94,7 +98,8 @@ fn foundation(profile: &Profile, gear: &Gear, circles: &Circles, angle: f64) -> 
     const Q: [f64; 6] = [-6.2042e-5, 9.0889e-3, -4.0964e-4, 7.8297e-3, -0.1472, 0.6904];
     let (sine, cosine) = angle.sin_cos();
     let half_angle = profile.root_half_angle();
-    let body = (circles.root / gear.bore_radius).clamp(FOUNDATION_BODY.0, FOUNDATION_BODY.1);
+    let held_at = if gear.bore_radius > 0.0 { gear.bore_radius } else { circles.root / SOLID_BODY };
+    let body = (circles.root / held_at).clamp(FOUNDATION_BODY.0, FOUNDATION_BODY.1);
     let theta = half_angle.clamp(FOUNDATION_ANGLE.0, FOUNDATION_ANGLE.1);
     let [l, m, p, q] = [L, M, P, Q]
         .map(|[a, b, c, d, e, f]| a / (theta * theta) + b * body * body + c * body / theta + d / theta + e * body + f);

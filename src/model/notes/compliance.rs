@@ -34,10 +34,10 @@ pub(super) fn foundation(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let outside = |name: &str, gear: &Gear, circles: &Circles| {
         let angle = Profile::of(inputs, gear, circles).root_half_angle();
         let body = circles.root / gear.bore_radius;
-        let by_body = !(FOUNDATION_BODY.0..=FOUNDATION_BODY.1).contains(&body);
+        let by_body = body.is_finite() && !(FOUNDATION_BODY.0..=FOUNDATION_BODY.1).contains(&body);
         let by_angle = !(FOUNDATION_ANGLE.0..=FOUNDATION_ANGLE.1).contains(&angle);
-        let body = if body.is_finite() { format!("{body:.3}") } else { "without bound (no bore)".to_owned() };
-        (by_body || by_angle).then(|| format!("the {name}'s r_f/r_bore is {body} and its half angle at the root {angle:.4} rad"))
+        (by_body || by_angle)
+            .then(|| format!("the {name}'s r_f/r_bore is {body:.3} and its half angle at the root {angle:.4} rad"))
     };
     let driver = outside("driver", &inputs.driver, &solution.geometry.driver);
     let found = driver.or_else(|| outside("driven gear", &inputs.driven, &solution.geometry.driven))?;
