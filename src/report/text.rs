@@ -1,9 +1,9 @@
 //! A solve as a page of text for a person, 80 columns wide.
 
-use super::layout::{WIDTH, count, flow, item, widest};
+use super::layout::{WIDTH, flow, item, widest};
 use super::stations::COLUMNS;
 use super::verdict::{Standing, Verdict, verdicts};
-use super::{Report, Selection, Shown, shown, value};
+use super::{Report, Shown, shown, value};
 use crate::case::FIELDS;
 use crate::case::fields::Absent;
 use crate::case::visible::visible;
@@ -202,12 +202,13 @@ fn limits(report: &Report) -> Vec<String> {
 
 fn station_table(report: &Report) -> Vec<String> {
     const CELL: usize = 12;
-    let row =
-        |cells: Vec<String>| cells.iter().map(|cell| " ".repeat(CELL.saturating_sub(count(cell))) + cell).collect::<String>();
-    let head = COLUMNS.iter().map(|column| format!("{} {}", column.symbol, column.shown)).collect();
-    let stations = report.solution.stations.iter().map(|station| COLUMNS.iter().map(|column| column.told(station)).collect());
-    let Selection { stations: true, .. } = report.selection else { return Vec::new() };
-    titled("Stations from D to E", std::iter::once(head).chain(stations).map(row))
+    if !report.selection.stations {
+        return Vec::new();
+    }
+    let head = COLUMNS.map(|column| format!("{} {}", column.symbol, column.shown));
+    let stations = report.solution.stations.iter().map(|station| COLUMNS.map(|column| column.told(station)));
+    let line = |row: [String; COLUMNS.len()]| row.map(|cell| format!("{cell:>CELL$}")).concat();
+    titled("Stations from D to E", std::iter::once(head).chain(stations).map(line))
 }
 
 fn titled(title: &str, lines: impl IntoIterator<Item = String>) -> Vec<String> {
