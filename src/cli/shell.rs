@@ -1,6 +1,7 @@
 //! What a shell and a manual reader are given.
 
 use super::{Arguments, Exit, Streams};
+use clap::builder::Resettable;
 use clap::{Command, CommandFactory};
 use clap_complete::Shell;
 use clap_mangen::Man;
@@ -19,7 +20,7 @@ pub(super) fn man(name: Option<&str>, streams: &mut Streams) -> io::Result<Exit>
         return Ok(Exit::Usage);
     };
     let source = format!("tipstrike {}", env!("CARGO_PKG_VERSION"));
-    Man::new(page.after_help("")).source(source).render(&mut streams.output)?;
+    Man::new(page).source(source).render(&mut streams.output)?;
     exit_status(streams.output.as_mut()).map(|()| Exit::Done)
 }
 
@@ -32,7 +33,8 @@ fn page(name: Option<&str>) -> Option<Command> {
     let mut program = Arguments::command().disable_help_subcommand(true);
     program.build();
     match name {
-        None => Some(program),
+        // The exit codes of the help have a section of their own here.
+        None => Some(program.after_help(Resettable::Reset)),
         Some(name) => program.find_subcommand(name).cloned(),
     }
 }

@@ -1,12 +1,15 @@
 //! The fields of a case and the quantities of a result, listed for a person and for scripts.
 
 use super::json::write_line;
-use super::layout::count;
+use super::layout::{count, flow, widest};
 use crate::case::fields::{Absent, Kind};
 use crate::case::{FIELDS, Field};
 use crate::model::QUANTITIES;
 use serde::Serialize;
 use std::io::{self, Write};
+
+/// Greatest width of a line of a list.
+const WIDTH: usize = 100;
 
 const FIELD_HEAD: [&str; 6] = ["key", "symbol", "unit", "range", "default", "meaning"];
 const QUANTITY_HEAD: [&str; 5] = ["key", "symbol", "unit", "equation", "meaning"];
@@ -16,9 +19,9 @@ const QUANTITY_HEAD: [&str; 5] = ["key", "symbol", "unit", "equation", "meaning"
 /// # Errors
 /// What the writer refuses.
 pub fn write_fields(out: &mut dyn Write) -> io::Result<()> {
-    let rows = FIELDS
-        .iter()
-        .map(|field| [field.key, field.symbol, unit(field), &range_text(field), default(field), field.label].map(str::to_owned));
+    let rows = FIELDS.iter().map(|field| {
+        [field.key, field.symbol, unit(field), &range_text(field), default(field), &meaning(field)].map(str::to_owned)
+    });
     write_table(FIELD_HEAD, rows.collect(), out)
 }
 
@@ -122,7 +125,14 @@ fn choices(field: &Field) -> &'static [&'static str] {
 }
 
 fn range_text(field: &Field) -> String {
-    range(field).map_or_else(|| choices(field).join("|"), |(from, to)| format!("{}..{}", end(from), end(to)))
+    range(field).map(|(from, to)| format!("{}..{}", end(from), end(to))).unwrap_or_default()
+}
+
+fn meaning(field: &Field) -> String {
+    match choices(field) {
+        [] => field.label.to_owned(),
+        names => format!("{}: {}", field.label, names.join(", ")),
+    }
 }
 
 fn end(value: f64) -> String {
@@ -137,13 +147,20 @@ fn default(field: &Field) -> &'static str {
     }
 }
 
+/// A table of which the last column flows over as many lines as it needs.
 fn write_table<const N: usize>(head: [&str; N], rows: Vec<[String; N]>, out: &mut dyn Write) -> io::Result<()> {
     let rows: Vec<[String; N]> = std::iter::once(head.map(str::to_owned)).chain(rows).collect();
-    let widths: [usize; N] = std::array::from_fn(|column| rows.iter().map(|row| count(&row[column])).max().unwrap_or(0));
-    rows.iter().try_for_each(|row| {
-        let cells = row.iter().zip(widths).map(|(cell, width)| format!("{cell:width$}"));
-        writeln!(out, "{}", cells.collect::<Vec<_>>().join(" ").trim_end())
-    })
+    let widths: [usize; N] = std::array::from_fn(|column| widest(rows.iter().map(|row| row[column].as_str())));
+    for row in &rows {
+        let Some((last, cells)) = row.split_last() else { continue };
+        let mut lead = cells.iter().zip(widths).map(|(cell, width)| format!("{cell:width$} ")).collect::<Vec<_>>().concat();
+        let indent = count(&lead);
+        for line in flow(last.split(' '), WIDTH - indent.min(WIDTH / 2)) {
+            writeln!(out, "{}", (lead + &line).trim_end())?;
+            lead = " ".repeat(indent);
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -151,11 +168,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_field_has_a_line_of_at_most_100_columns() {
+    fn every_field_is_listed_within_the_width() {
         let mut out = Vec::new();
         write_fields(&mut out).unwrap();
         let table = String::from_utf8(out).unwrap();
-        assert_eq!(table.lines().count(), FIELDS.len() + 1);
-        assert_eq!(table.lines().find(|line| count(line) > 100), None);
+        assert!(FIELDS.iter().all(|field| table.lines().any(|line| line.split(' ').next() == Some(field.key))));
+        assert_eq!(table.lines().find(|line| count(line) > WIDTH), None);
     }
 }

@@ -1,9 +1,9 @@
 //! A solve as a page of text for a person, 80 columns wide.
 
-use super::layout::{WIDTH, count, flow, item, widest};
+use super::layout::{WIDTH, flow, item, widest};
 use super::stations::COLUMNS;
 use super::verdict::{Standing, Verdict, verdicts};
-use super::{Report, Selection, Shown, shown, value};
+use super::{Report, Shown, shown, value};
 use crate::case::FIELDS;
 use crate::case::fields::Absent;
 use crate::case::visible::visible;
@@ -14,17 +14,16 @@ use std::io::{self, Write};
 /// The parts of a page, in order; an empty one leaves no trace.
 const SECTIONS: [fn(&Report) -> Vec<String>; 7] = [heading, outcome, inputs, quantities, notes, limits, station_table];
 
-/// The quantities that share a heading.
-const GROUPS: [(Stage, &str); 9] = [
-    (Stage::Geometry, "Geometry"),
-    (Stage::Load, "Load"),
-    (Stage::Deviation, "Deviation"),
-    (Stage::Position, "First contact D"),
-    (Stage::Velocity, "Velocity at D"),
-    (Stage::Compliance, "Compliance"),
-    (Stage::Impact, "Impact"),
-    (Stage::Friction, "Friction"),
-    (Stage::Stations, "From D to E"),
+/// The stages whose quantities share a heading.
+const GROUPS: [(&str, &[Stage]); 8] = [
+    ("Geometry", &[Stage::Geometry]),
+    ("Load", &[Stage::Load]),
+    ("Deviation", &[Stage::Deviation]),
+    ("First contact D", &[Stage::Position]),
+    ("Velocity at D", &[Stage::Velocity]),
+    ("Impact", &[Stage::Compliance, Stage::Impact, Stage::Band]),
+    ("Friction", &[Stage::Friction]),
+    ("From D to E", &[Stage::Stations]),
 ];
 
 /// The inputs that say which pair this is; one that is not given, zero or as usual goes unsaid.
@@ -138,8 +137,9 @@ fn quantities(report: &Report) -> Vec<String> {
     if !report.selection.is_whole() {
         return rows.iter().map(|row| columns.line(row)).collect();
     }
-    let group = |&(stage, title): &(Stage, &str)| {
-        let lines: Vec<String> = rows.iter().filter(|row| row.quantity.stage == stage).map(|row| columns.line(row)).collect();
+    let group = |&(title, stages): &(&str, &[Stage])| {
+        let lines: Vec<String> =
+            rows.iter().filter(|row| stages.contains(&row.quantity.stage)).map(|row| columns.line(row)).collect();
         let title = (!lines.is_empty()).then(|| title.to_owned());
         title.into_iter().chain(lines).collect::<Vec<_>>()
     };
@@ -202,16 +202,29 @@ fn limits(report: &Report) -> Vec<String> {
 
 fn station_table(report: &Report) -> Vec<String> {
     const CELL: usize = 12;
-    let row =
-        |cells: Vec<String>| cells.iter().map(|cell| " ".repeat(CELL.saturating_sub(count(cell))) + cell).collect::<String>();
-    let head = COLUMNS.iter().map(|column| format!("{} {}", column.symbol, column.shown)).collect();
-    let stations = report.solution.stations.iter().map(|station| COLUMNS.iter().map(|column| column.told(station)).collect());
-    let Selection { stations: true, .. } = report.selection else { return Vec::new() };
-    titled("Stations from D to E", std::iter::once(head).chain(stations).map(row))
+    if !report.selection.stations {
+        return Vec::new();
+    }
+    let head = COLUMNS.map(|column| format!("{} {}", column.symbol, column.shown));
+    let stations = report.solution.stations.iter().map(|station| COLUMNS.map(|column| column.told(station)));
+    let line = |row: [String; COLUMNS.len()]| row.map(|cell| format!("{cell:>CELL$}")).concat();
+    titled("Stations from D to E", std::iter::once(head).chain(stations).map(line))
 }
 
 fn titled(title: &str, lines: impl IntoIterator<Item = String>) -> Vec<String> {
     let mut lines = lines.into_iter().peekable();
     let title = lines.peek().is_some().then(|| title.to_owned());
     title.into_iter().chain(lines).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_stage_has_one_heading() {
+        for stage in Stage::ALL {
+            assert_eq!(GROUPS.iter().filter(|(_, stages)| stages.contains(&stage)).count(), 1, "{}", stage.name());
+        }
+    }
 }
