@@ -1,5 +1,7 @@
 //! Keys in, screen and files out: editing, saving, opening, leaving.
 
+#![cfg(feature = "tui")]
+
 mod desk;
 
 use std::fs;

@@ -1,5 +1,7 @@
 //! The built program on a real terminal: it types, saves, leaves, and gives the terminal back as it found it.
 
+#![cfg(all(feature = "cli", feature = "tui"))]
+
 use std::ffi::OsStr;
 use std::fs;
 use std::io::{Read, Write};

@@ -1,5 +1,7 @@
 //! The screens, as a person sees them: at 80x24, with room at 140x45, and at every size.
 
+#![cfg(feature = "tui")]
+
 mod desk;
 
 use desk::{Desk, LARGE, SMALL, TABLE_1};

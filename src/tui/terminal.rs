@@ -25,6 +25,8 @@ static LAST_PANIC: Mutex<Option<String>> = Mutex::new(None);
 /// The terminal while the workbench has it; dropping it gives it back.
 pub struct Screen {
     terminal: Terminal<CrosstermBackend<BufWriter<Stdout>>>,
+    /// The signal that ended our own suspension is still to come.
+    is_back: bool,
 }
 
 /// Why there is no terminal for a workbench, if so.
@@ -63,7 +65,7 @@ impl Screen {
         // Else NO_COLOR takes bold and reverse away too; our own theme has no colour then.
         force_color_output(true);
         let backend = CrosstermBackend::new(BufWriter::with_capacity(FRAME, io::stdout()));
-        let mut screen = Screen { terminal: Terminal::new(backend)? };
+        let mut screen = Screen { terminal: Terminal::new(backend)?, is_back: false };
         screen.enter()?;
         Ok(screen)
     }
@@ -106,14 +108,20 @@ impl Screen {
     pub fn suspend(&mut self) -> io::Result<()> {
         self.leave()?;
         signal_hook::low_level::emulate_default_handler(signal_hook::consts::SIGTSTP)?;
-        self.resume()
+        self.is_back = true;
+        self.enter()?;
+        self.clear()
     }
 
-    /// Take the terminal again, whatever the shell did with it.
+    /// Take the terminal again after a stop that nobody told us of, whatever the shell did with it.
     ///
     /// # Errors
     /// When the terminal is gone.
     pub fn resume(&mut self) -> io::Result<()> {
+        // For a moment the terminal is in the shell's modes, in which it would eat a Ctrl-Q: only where it must be.
+        if std::mem::take(&mut self.is_back) {
+            return Ok(());
+        }
         disable_raw_mode()?;
         self.enter()?;
         self.clear()
