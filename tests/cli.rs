@@ -106,7 +106,10 @@ fn what_does_not_exist_is_absent_and_the_outcome_says_why() {
     assert_eq!(solved["outcome"], "no-corner-contact");
     assert_eq!(solved["quantities"].get("impact_force"), None);
     assert_eq!(solved["quantities"]["total_deviation"]["value"], 0.0);
-    assert!(told(&[&["solve", TABLE_1], &on_time[..]].concat()).contains("No corner contact: the total deviation is 0 um"));
+    assert!(
+        told(&[&["solve", TABLE_1], &on_time[..]].concat())
+            .contains("No corner contact: the tooth comes in on time, the total deviation is 0 um")
+    );
 }
 
 #[test]

@@ -155,7 +155,7 @@ fn write_table<const N: usize>(head: [&str; N], rows: Vec<[String; N]>, out: &mu
         let Some((last, cells)) = row.split_last() else { continue };
         let mut lead = cells.iter().zip(widths).map(|(cell, width)| format!("{cell:width$} ")).collect::<Vec<_>>().concat();
         let indent = count(&lead);
-        for line in flow(last.split(' '), WIDTH - indent.min(WIDTH / 2)) {
+        for line in flow(last.split(' '), WIDTH.saturating_sub(indent).max(20)) {
             writeln!(out, "{}", (lead + &line).trim_end())?;
             lead = " ".repeat(indent);
         }

@@ -53,6 +53,9 @@ const TOLD_INPUTS: [&str; 20] = [
 /// The rungs that cost nothing beside the one that was asked for.
 const CLOSED_FORM_RUNGS: [Rung; 2] = [Rung::Paper, Rung::Exact];
 
+/// A space at which no line ends.
+const GLUE: &str = "\u{a0}";
+
 /// Write the page.
 ///
 /// # Errors
@@ -68,28 +71,6 @@ pub fn render(report: &Report) -> String {
     sections.map(|lines| lines.join("\n") + "\n").collect::<Vec<_>>().join("\n")
 }
 
-/// The outcome in one sentence, as far as the stages that ran can tell it.
-#[must_use]
-pub fn sentence(solution: &Solution) -> String {
-    let part = |before: &str, key| told(key, solution).map(|shown| format!("{before}{shown}")).unwrap_or_default();
-    match solution.outcome {
-        Outcome::CornerContact => format!(
-            "Corner contact: the tooth strikes{} E{}{}.",
-            told("approach_angle_driven", solution).map_or(" before".to_owned(), |angle| format!(" {angle} before")),
-            part(" with ", "impact_force"),
-            part(", approaching at ", "normal_velocity"),
-        ),
-        Outcome::NoCornerContact => {
-            format!("No corner contact{}: the tooth comes in on time.", part(": the total deviation is ", "total_deviation"))
-        }
-    }
-}
-
-fn told(key: &str, solution: &Solution) -> Option<Shown> {
-    let quantity = Quantity::find(key)?;
-    Some(shown(quantity, value(quantity, solution)?))
-}
-
 fn heading(report: &Report) -> Vec<String> {
     let title = if report.title().is_empty() { "Case without a title" } else { report.title() };
     let mut lines = flow(visible(title).split_whitespace(), WIDTH);
@@ -98,18 +79,42 @@ fn heading(report: &Report) -> Vec<String> {
 }
 
 fn outcome(report: &Report) -> Vec<String> {
-    let mut lines = flow(sentence(&report.solution).split_whitespace(), WIDTH);
+    let mut sentences = vec![sentence(&report.solution)];
     if report.selection.is_whole() {
         let others = CLOSED_FORM_RUNGS.into_iter().filter(|&rung| rung != report.solution.rung);
-        lines.extend(others.filter_map(|rung| other_rung(&report.inputs, rung)));
+        sentences.extend(others.filter_map(|rung| other_rung(&report.inputs, rung)));
     }
-    lines
+    // A number stays on the line of its unit.
+    let lines = sentences.iter().flat_map(|sentence| flow(sentence.split(' '), WIDTH));
+    lines.map(|line| line.replace(GLUE, " ")).collect()
+}
+
+/// The outcome, as far as the stages that ran can tell it.
+fn sentence(solution: &Solution) -> String {
+    let part = |before: &str, key| told(key, solution).map(|shown| format!("{before}{shown}")).unwrap_or_default();
+    match solution.outcome {
+        Outcome::CornerContact => format!(
+            "Corner contact: the tooth strikes{} before E{}{}.",
+            part(" ", "approach_angle_driven"),
+            part(" with ", "impact_force"),
+            part(", approaching at ", "normal_velocity"),
+        ),
+        Outcome::NoCornerContact => {
+            format!("No corner contact: the tooth comes in on time{}.", part(", the total deviation is ", "total_deviation"))
+        }
+    }
 }
 
 fn other_rung(inputs: &Inputs, rung: Rung) -> Option<String> {
     let other = model::solve(&Inputs { rung, ..inputs.clone() }, Stages::of(Stage::Impact)).ok()?;
     let (angle, force) = (told("approach_angle_driven", &other)?, told("impact_force", &other)?);
     Some(format!("For comparison, rung {}: {angle} before E with {force}.", rung.name()))
+}
+
+/// A quantity's value, glued to its unit.
+fn told(key: &str, solution: &Solution) -> Option<String> {
+    let quantity = Quantity::find(key)?;
+    Some(shown(quantity, value(quantity, solution)?).to_string().replace(' ', GLUE))
 }
 
 fn inputs(report: &Report) -> Vec<String> {
