@@ -11,6 +11,7 @@ pub mod verdict;
 use crate::case::fields::index_of;
 use crate::case::{Case, units};
 use crate::model::{self, Inputs, Note, QUANTITIES, Quantity, Refusal, Solution, Stage, Stages};
+use crate::numeric::decimal::significant;
 
 /// A value as a person reads it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -126,21 +127,10 @@ pub fn value(quantity: &Quantity, solution: &Solution) -> Option<f64> {
     (quantity.value)(solution).filter(|value| value.is_finite()).map(|value| value + 0.0)
 }
 
-/// A value in SI in another unit, with this many significant digits: plain from 1e-3 to 1e6, else with an exponent.
+/// A value in SI in another unit, with this many significant digits.
 #[must_use]
 fn number(value: f64, unit: &str, digits: usize) -> String {
-    let value = value / units::factor(unit).unwrap_or(1.0);
-    if !value.is_finite() {
-        return "n/a".to_owned();
-    }
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    let rounded = format!("{value:.*e}", digits.saturating_sub(1));
-    match rounded.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok()) {
-        Some(exponent @ -3..6) => format!("{value:.*}", (digits + 2).saturating_sub(exponent.abs_diff(-3) as usize)),
-        _ => rounded,
-    }
+    significant(value / units::factor(unit).unwrap_or(1.0), digits)
 }
 
 fn not_finite(quantity: &Quantity, solution: &Solution) -> Option<Note> {
