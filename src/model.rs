@@ -3,6 +3,7 @@
 //! Symbols follow Zhou & Chen 2014, "Modeling and Calculation of Impact Friction Caused by Corner Contact in
 //! Gear Transmission", Chin. J. Mech. Eng.; gear 1 is the driver, gear 2 the driven gear. SI units throughout.
 
+pub mod band;
 pub mod compliance;
 pub mod deviation;
 pub mod friction;
@@ -10,25 +11,33 @@ pub mod geometry;
 pub mod impact;
 pub mod inputs;
 pub mod limits;
+pub mod notes;
 pub mod position;
 pub mod quantities;
+#[cfg(test)]
+pub(crate) mod sample;
 pub mod stage;
 pub mod stations;
 pub mod velocity;
 
+pub use band::Band;
 pub use compliance::TeethCompliance;
 pub use deviation::Deviation;
 pub use friction::Friction;
 pub use geometry::Geometry;
 pub use impact::Impact;
 pub use inputs::Inputs;
-pub use limits::{Note, Refusal};
+pub use limits::Refusal;
+pub use notes::{Note, notes};
 pub use position::Position;
 pub use quantities::{QUANTITIES, Quantity};
 pub use stage::{Stage, Stages};
 pub use stations::Station;
 pub use velocity::Velocity;
 
+use twofloat::TwoFloat;
+
+use impact::Masses;
 use inputs::Rung;
 
 /// Whether the incoming tooth strikes.
@@ -78,20 +87,94 @@ pub struct Solution {
     pub impact: Option<Impact>,
     /// Change of the velocities over the impact.
     pub friction: Option<Friction>,
+    /// The impact force by every stiffness model.
+    pub band: Option<Band>,
     /// From D (first) to E (last, force 0); empty unless asked for.
     pub stations: Vec<Station>,
+    /// Why the tooth strikes and yet compliance, force and what follows are absent, where that is so.
+    pub withheld: Option<Refusal>,
 }
 
 /// Solve the pair, running only the wanted stages and what they need.
 ///
+/// Geometry, load and deviation always run, since they tell the outcome.
+///
 /// # Errors
-/// A [`Refusal`] where the pair cannot mesh or a formula leaves its range.
-pub fn solve(_inputs: &Inputs, _wanted: Stages) -> Result<Solution, Refusal> {
-    Err(Refusal::Interference { start: 0.0 })
+/// A [`Refusal`] where the pair cannot mesh, or D does not exist. Where only the force cannot be computed, the rest is
+/// given and [`Solution::withheld`] says why.
+pub fn solve(inputs: &Inputs, wanted: Stages) -> Result<Solution, Refusal> {
+    let precise = inputs.accurate.then(|| geometry::geometry::<TwoFloat>(inputs)).transpose()?;
+    let geometry = precise.map_or_else(|| geometry::geometry(inputs), |precise| Ok(precise.rounded()))?;
+    let masses = Masses::of(inputs, &geometry)?;
+    let mesh_force = inputs.torque() / geometry.driver.base;
+    let deviation = deviation::deviation(inputs, &geometry, mesh_force)?;
+    let mut solution = Solution {
+        rung: inputs.rung,
+        outcome: if deviation.total > 0.0 { Outcome::CornerContact } else { Outcome::NoCornerContact },
+        stages: Stages::of(Stage::Deviation),
+        geometry,
+        mesh_force,
+        reduced_mass: masses.reduced(),
+        deviation,
+        position: None,
+        velocity: None,
+        compliance: None,
+        impact: None,
+        friction: None,
+        band: None,
+        stations: Vec::new(),
+        withheld: None,
+    };
+    if wanted.has(Stage::Position) {
+        solution.stages = solution.stages.with(Stage::Position);
+        match position::position(inputs, &solution.geometry, precise.as_ref(), &solution.deviation)? {
+            Some(position) => solution.follow(inputs, &masses, wanted, position),
+            None => solution.outcome = Outcome::NoCornerContact,
+        }
+    }
+    Ok(solution)
 }
 
-/// What a reader must know beside the result.
-#[must_use]
-pub fn notes(_inputs: &Inputs, _solution: &Solution) -> Vec<Note> {
-    Vec::new()
+impl Solution {
+    /// Everything after D, as far as it is wanted and can be computed.
+    fn follow(&mut self, inputs: &Inputs, masses: &Masses, wanted: Stages, position: Position) {
+        self.position = Some(position);
+        self.withheld = self.strike(inputs, masses, wanted, &position).err();
+    }
+
+    /// The stages from the velocity on.
+    fn strike(&mut self, inputs: &Inputs, masses: &Masses, wanted: Stages, position: &Position) -> Result<(), Refusal> {
+        let geometry = self.geometry;
+        let tip = &position.contact;
+        let velocity = velocity::velocity(inputs, &geometry, tip);
+        if wanted.has(Stage::Velocity) {
+            self.velocity = Some(velocity);
+            self.stages = self.stages.with(Stage::Velocity);
+        }
+        if !wanted.has(Stage::Compliance) {
+            return Ok(());
+        }
+        let teeth = compliance::teeth(inputs, &geometry, &compliance::ContactPlace::at_tip(inputs, &geometry, tip))?;
+        self.compliance = Some(teeth);
+        self.stages = self.stages.with(Stage::Compliance);
+        if !wanted.has(Stage::Impact) {
+            return Ok(());
+        }
+        let impact = impact::impact(inputs, &geometry, masses, tip, &teeth, &velocity)?;
+        self.impact = Some(impact);
+        self.stages = self.stages.with(Stage::Impact);
+        if wanted.has(Stage::Friction) {
+            self.friction = Some(friction::friction(inputs, &geometry, tip, &velocity, &impact, masses.reduced()));
+            self.stages = self.stages.with(Stage::Friction);
+        }
+        if wanted.has(Stage::Band) {
+            self.band = band::band(inputs);
+            self.stages = self.stages.with(Stage::Band);
+        }
+        if wanted.has(Stage::Stations) {
+            self.stations = stations::stations(inputs, &geometry, masses, position)?;
+            self.stages = self.stages.with(Stage::Stations);
+        }
+        Ok(())
+    }
 }

@@ -141,15 +141,21 @@ fn without(table: &str) -> String {
 
 #[test]
 fn what_is_missing_is_told_at_its_table_or_at_the_end() {
-    expect(&GOOD.replace("teeth = 20\n", ""), &[
-        (14, 1, "driver.teeth", "missing", "add teeth = 20 to [driver]"),
-        (25, 1, "driven.teeth", "missing", "add teeth = 20 to [driven]"),
-    ]);
+    expect(
+        &GOOD.replace("teeth = 20\n", ""),
+        &[
+            (14, 1, "driver.teeth", "missing", "add teeth = 20 to [driver]"),
+            (25, 1, "driven.teeth", "missing", "add teeth = 20 to [driven]"),
+        ],
+    );
     expect(&GOOD.replace("power = \"15 kW\"\n", ""), &[(42, 1, "operation.power", "neither", "power = \"15 kW\"")]);
-    expect(&without("driven"), &[
-        (43, 1, "driven.teeth", "missing", "to [driven]"),
-        (43, 1, "driven.face_width", "missing", "face_width = \"8 mm\" to [driven]"),
-    ]);
+    expect(
+        &without("driven"),
+        &[
+            (43, 1, "driven.teeth", "missing", "to [driven]"),
+            (43, 1, "driven.face_width", "missing", "face_width = \"8 mm\" to [driven]"),
+        ],
+    );
     expect(&GOOD.replace("format = 1\n", ""), &[(1, 1, "format", "missing", "format = 1")]);
 }
 
@@ -172,22 +178,26 @@ fn all_faults_come_in_one_run_in_the_order_of_the_places() {
         .replacen("poisson = 0.3", "poison = 0.3", 1)
         .replacen("speed = \"2000 rpm\"", "speed = \"2000", 1)
         .replacen("rung = \"exact\"", "rung = \"papr\"", 1);
-    expect(&text, &[
-        (11, 10, "pair.module", "not in quotes", "write \"5 mm\""),
-        (15, 9, "driver.teeth", "not a whole number", "20"),
-        (21, 1, "driver.poison", "unknown key", "did you mean poisson?"),
-        (44, 14, "operation.speed", "invalid basic string", "close the string"),
-        (47, 8, "model.rung", "unknown choice", "did you mean paper?"),
-    ]);
+    expect(
+        &text,
+        &[
+            (11, 10, "pair.module", "not in quotes", "write \"5 mm\""),
+            (15, 9, "driver.teeth", "not a whole number", "20"),
+            (21, 1, "driver.poison", "unknown key", "did you mean poisson?"),
+            (44, 14, "operation.speed", "invalid basic string", "close the string"),
+            (47, 8, "model.rung", "unknown choice", "did you mean paper?"),
+        ],
+    );
 }
 
 #[test]
 fn faults_of_one_field_do_not_hide_those_between_others() {
-    let text = GOOD.replacen("young = \"205 GPa\"", "young = 205", 1).replacen("bore_radius = \"20 mm\"", "bore_radius = \"60 mm\"", 1);
-    expect(&text, &[
-        (19, 15, "driver.bore_radius", "root circle", "radius"),
-        (20, 9, "driver.young", "bare number", "\"205 GPa\""),
-    ]);
+    let text =
+        GOOD.replacen("young = \"205 GPa\"", "young = 205", 1).replacen("bore_radius = \"20 mm\"", "bore_radius = \"60 mm\"", 1);
+    expect(
+        &text,
+        &[(19, 15, "driver.bore_radius", "root circle", "radius"), (20, 9, "driver.young", "bare number", "\"205 GPa\"")],
+    );
 }
 
 #[test]
@@ -199,10 +209,13 @@ fn columns_count_characters_and_lines_end_in_either_way() {
     let marked = format!("\u{feff}{}", GOOD.replacen("format = 1", "format = 0", 1));
     expect(&marked, &[(6, 10, "format", "no known format", "format = 1")]);
     let inline = "format = 1\npair = { modul = \"5 mm\" }\n".to_owned() + &without("pair").replace("format = 1\n", "");
-    expect(&inline, &[
-        (2, 8, "pair.module", "missing", "module = \"5 mm\" to [pair]"),
-        (2, 10, "pair.modul", "unknown key", "did you mean module?"),
-    ]);
+    expect(
+        &inline,
+        &[
+            (2, 8, "pair.module", "missing", "module = \"5 mm\" to [pair]"),
+            (2, 10, "pair.modul", "unknown key", "did you mean module?"),
+        ],
+    );
 }
 
 #[test]

@@ -337,16 +337,18 @@ const TAIL: [Field; 11] = [
         key: "model.tooth_compliance",
         symbol: "q1,q2",
         label: "tooth compliance",
-        help: "kuang-yang: Eq. 56, z 12..100, |x| <= 0.6.",
-        kind: Kind::Choice(&["kuang-yang"], |inputs, _| inputs.tooth_compliance = Some(ToothCompliance::KuangYang)),
-        absent: Default("kuang-yang"),
+        help: "kuang-yang: Eq. 56, for z 12..100, |x| <= 0.6, 20 deg full-depth steel. beam: potential energy on the true profile.",
+        kind: Kind::Choice(&["kuang-yang", "beam"], |inputs, value| inputs.tooth_compliance = Some(ToothCompliance::ALL[value])),
+        absent: Without("by its range"),
     },
     Field {
         key: "model.contact_compliance",
         symbol: "q_H",
         label: "contact compliance",
-        help: "logarithmic: Eq. 55.",
-        kind: Kind::Choice(&["logarithmic"], |inputs, _| inputs.contact_compliance = ContactCompliance::Logarithmic),
+        help: "logarithmic: Eq. 55. constant: Yang & Sun 1985. weber: Weber & Banaschek 1953, from the teeth's thickness.",
+        kind: Kind::Choice(&["logarithmic", "constant", "weber"], |inputs, value| {
+            inputs.contact_compliance = ContactCompliance::ALL[value];
+        }),
         absent: Default("logarithmic"),
     },
     Field {
@@ -411,5 +413,6 @@ pub(super) fn blank() -> Inputs {
         tooth_compliance: None,
         contact_compliance: ContactCompliance::Logarithmic,
         stations: 64,
+        accurate: false,
     }
 }

@@ -11,8 +11,8 @@ use std::path::PathBuf;
 
 use super::{Case, Problem};
 pub use disk::{ReadError, SaveError};
-pub use fault::{Fault, FaultKind};
 use fault::Lines;
+pub use fault::{Fault, FaultKind};
 use tree::Places;
 
 /// The format of case files that this version reads and writes.

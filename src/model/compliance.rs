@@ -1,10 +1,124 @@
-//! Compliance of the teeth and of the contact between them.
+//! Compliance of the teeth and of the contact between them, per unit width.
+
+pub mod beam;
+pub mod contact;
+pub mod kuang_yang;
+pub mod profile;
+
+use super::Refusal;
+use super::geometry::{Circles, Geometry};
+use super::inputs::{Gear, Inputs, ToothCompliance};
+use super::position::TipContact;
 
 /// Compliance of the two teeth at D, contact excluded, per unit width, in m²/N.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TeethCompliance {
+    /// The method that served.
+    pub model: ToothCompliance,
     /// Driver's tooth q₁, loaded at O₁D.
     pub driver: f64,
     /// Driven tooth q₂, loaded at its tip.
     pub driven: f64,
+}
+
+impl TeethCompliance {
+    /// q₁ + q₂, in m²/N.
+    #[must_use]
+    pub fn sum(&self) -> f64 {
+        self.driver + self.driven
+    }
+}
+
+/// Where two flanks touch: the load radii and the reduced curvature, in m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactPlace {
+    /// Radius of the load point on the driver.
+    pub radius_driver: f64,
+    /// Radius of the load point on the driven gear.
+    pub radius_driven: f64,
+    /// Reduced radius of curvature ρ_S.
+    pub curvature_radius: f64,
+}
+
+impl ContactPlace {
+    /// The point of the line of action at the distance `along` from N₁.
+    #[must_use]
+    pub fn on_line_of_action(geometry: &Geometry, along: f64) -> ContactPlace {
+        let rest = geometry.tangent_length - along;
+        ContactPlace {
+            radius_driver: geometry.driver.base.hypot(along),
+            radius_driven: geometry.driven.base.hypot(rest),
+            curvature_radius: along * rest / geometry.tangent_length,
+        }
+    }
+
+    /// The driven tip on the driver's flank.
+    #[must_use]
+    pub fn at_tip(inputs: &Inputs, geometry: &Geometry, tip: &TipContact) -> ContactPlace {
+        ContactPlace {
+            radius_driver: tip.radius_driver,
+            radius_driven: geometry.driven.tip,
+            curvature_radius: super::position::reduced_curvature(inputs, geometry, tip),
+        }
+    }
+}
+
+/// Compliance of the two teeth at a place, in m²/N.
+///
+/// # Errors
+/// A [`Refusal`] outside the range of the fit.
+pub fn teeth(inputs: &Inputs, geometry: &Geometry, place: &ContactPlace) -> Result<TeethCompliance, Refusal> {
+    let model = model_of(inputs);
+    let tooth = |gear: &Gear, circles: &Circles, radius: f64| match model {
+        ToothCompliance::KuangYang => kuang_yang::tooth(inputs.module, gear, circles, radius),
+        ToothCompliance::Beam => beam::tooth(inputs, gear, circles, radius),
+    };
+    Ok(TeethCompliance {
+        model,
+        driver: tooth(&inputs.driver, &geometry.driver, place.radius_driver)?,
+        driven: tooth(&inputs.driven, &geometry.driven, place.radius_driven)?,
+    })
+}
+
+/// The tooth compliance that serves the pair: the case's own choice, else Kuang and Yang's inside its range.
+#[must_use]
+pub fn model_of(inputs: &Inputs) -> ToothCompliance {
+    let chosen = if kuang_yang::covers(inputs) { ToothCompliance::KuangYang } else { ToothCompliance::Beam };
+    inputs.tooth_compliance.unwrap_or(chosen)
+}
+
+/// Compliance of a pair at a place under a given force, in m²/N.
+///
+/// # Errors
+/// A [`Refusal`] outside the range of the fit.
+pub fn pair_at_load(inputs: &Inputs, geometry: &Geometry, place: &ContactPlace, force: f64) -> Result<f64, Refusal> {
+    let contact = contact::spring(inputs, geometry, place)?.compliance(force)?;
+    Ok(teeth(inputs, geometry, place)?.sum() + contact)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::geometry::geometry;
+    use crate::model::inputs::ContactCompliance;
+    use crate::model::sample::standard_pair;
+
+    #[test]
+    fn look() {
+        let mut inputs = standard_pair(20, 20, 5e-3);
+        inputs.driver.bore_radius = 20e-3;
+        inputs.driven.bore_radius = 20e-3;
+        for model in ToothCompliance::ALL {
+            for contact in ContactCompliance::ALL {
+                inputs.tooth_compliance = Some(model);
+                inputs.contact_compliance = contact;
+                let g = geometry::<f64>(&inputs).unwrap();
+                let f = 100.0 / g.driver.base;
+                let end = pair_at_load(&inputs, &g, &ContactPlace::on_line_of_action(&g, g.start), f).unwrap();
+                let pitch =
+                    pair_at_load(&inputs, &g, &ContactPlace::on_line_of_action(&g, g.start + g.approach_length), f).unwrap();
+                println!("{model:?} {contact:?} end {:.3} pitch {:.3}", 1e-9 / end, 1e-9 / pitch);
+            }
+        }
+    }
 }

@@ -1,12 +1,79 @@
 //! What brings the tooth in early: equivalent error and combined deflection.
 
+use super::Refusal;
+use super::compliance::{self, ContactPlace};
+use super::geometry::Geometry;
+use super::inputs::{Inputs, Rung};
+
 /// Deviation along the line of action, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deviation {
     /// Equivalent error Δf, Eqs. 1 and 2.
     pub equivalent_error: f64,
-    /// Combined deflection δ of the pair that carries the load, Eqs. 3 and 4.
+    /// Combined deflection δ of the pairs that carry the load, Eqs. 3 and 4.
     pub combined_deflection: f64,
     /// Δ = Δf + δ, Eq. 5. Without Δ > 0 no tooth strikes.
     pub total: f64,
+}
+
+/// What brings the incoming tooth in early.
+///
+/// # Errors
+/// A [`Refusal`] where the deflection has to be computed and cannot be.
+pub fn deviation(inputs: &Inputs, geometry: &Geometry, mesh_force: f64) -> Result<Deviation, Refusal> {
+    let equivalent_error = equivalent_error(inputs);
+    let combined_deflection = match inputs.deflection {
+        Some(given) => given,
+        None => combined_deflection(inputs, geometry, mesh_force)?,
+    };
+    Ok(Deviation { equivalent_error, combined_deflection, total: equivalent_error + combined_deflection })
+}
+
+/// Equivalent error Δf, in m.
+///
+/// # Formula
+/// ```text
+/// paper:  Δf = (2 f_pb + e_m − j_bn)/√2
+/// exact:  Δf = (2 f_pb − j_bn)/√2 + e_m,   e_m = −(driven tip relief + driver root relief)
+/// ```
+/// where 1/√2 stands for the sum of independent random errors.
+///
+/// # Source
+/// Zhou & Chen 2014, Eqs. 1 and 2. The rung `paper` scales the modification e_m with the random errors, as printed;
+/// `exact` counts it in full, since a relief that was ground is there in full.
+fn equivalent_error(inputs: &Inputs) -> f64 {
+    let modification = -(inputs.driven.tip_relief + inputs.driver.root_relief);
+    let random = 2.0 * inputs.base_pitch_deviation - inputs.backlash;
+    match inputs.rung {
+        Rung::Paper => (random + modification) * std::f64::consts::FRAC_1_SQRT_2,
+        Rung::Exact => random * std::f64::consts::FRAC_1_SQRT_2 + modification,
+    }
+}
+
+/// Combined deflection δ of the pairs in contact when the incoming pair stands at E, in m.
+///
+/// # Formula
+/// ```text
+/// δ = F0/(b Σ 1/q_k),   q_k = q1 + q2 + qH  of the pair at  N1E + k pb,  k = 1, 2, .. while it lies before B
+/// ```
+/// With a contact ratio below 2 only the pair at F, one base pitch after E, carries the load. With more, the pairs
+/// share it as parallel springs.
+///
+/// # Source
+/// Zhou & Chen 2014, Eqs. 3 and 4, with the compliances of Eqs. 54-56 in place of the curve in its Fig. 3.
+///
+/// # Errors
+/// [`Refusal::ContactRatioBelowOne`] where no pair is in contact at F, or the compliance's own.
+fn combined_deflection(inputs: &Inputs, geometry: &Geometry, mesh_force: f64) -> Result<f64, Refusal> {
+    let mut stiffness = 0.0;
+    let mut along = geometry.start + geometry.base_pitch;
+    if along > geometry.end || along >= geometry.tangent_length {
+        return Err(Refusal::ContactRatioBelowOne { ratio: geometry.contact_ratio });
+    }
+    while along <= geometry.end && along < geometry.tangent_length {
+        let place = ContactPlace::on_line_of_action(geometry, along);
+        stiffness += 1.0 / compliance::pair_at_load(inputs, geometry, &place, mesh_force)?;
+        along += geometry.base_pitch;
+    }
+    Ok(mesh_force / (inputs.common_width() * stiffness))
 }

@@ -1,41 +1,228 @@
 //! Involute geometry of the pair: circles, line of action, start of contact.
 
+use nalgebra::{Matrix2, Rotation2, Vector2};
+
+use super::Refusal;
+use super::inputs::{Gear, Inputs};
+use crate::numeric::Real;
+
+/// Dedendum of the standard basic rack, times the module (ISO 53).
+pub const RACK_DEDENDUM: f64 = 1.25;
+/// Dedendum of the straight flank of the standard basic rack, times the module (ISO 53).
+pub const RACK_STRAIGHT_DEDENDUM: f64 = 1.0;
+
 /// Circles of one gear, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Circles {
+pub struct Circles<T = f64> {
     /// Reference radius r = m z/2.
-    pub reference: f64,
+    pub reference: T,
     /// Base radius r_b = r cos α.
-    pub base: f64,
+    pub base: T,
     /// Active tip radius r_a, the chamfer taken off.
-    pub tip: f64,
+    pub tip: T,
     /// Radius of curvature of the involute at the tip, √(r_a² − r_b²).
-    pub tip_curvature: f64,
-    /// Root radius r_f of a tooth cut by the standard rack (dedendum 1.25 m).
-    pub root: f64,
+    pub tip_curvature: T,
+    /// Root radius r_f of a tooth cut by the standard rack.
+    pub root: T,
 }
 
 /// Geometry of the pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Geometry {
+pub struct Geometry<T = f64> {
     /// Circles of the driver.
-    pub driver: Circles,
+    pub driver: Circles<T>,
     /// Circles of the driven gear.
-    pub driven: Circles,
+    pub driven: Circles<T>,
     /// Centre distance a, in m.
-    pub centre_distance: f64,
+    pub centre_distance: T,
     /// Working pressure angle α_w, in rad.
-    pub working_pressure_angle: f64,
+    pub working_pressure_angle: T,
     /// Base pitch p_b = π m cos α, in m.
-    pub base_pitch: f64,
+    pub base_pitch: T,
     /// N₁E: from the driver's point of tangency to the start of contact, in m.
-    pub start: f64,
+    pub start: T,
     /// N₁B: from the driver's point of tangency to the end of contact, in m.
-    pub end: f64,
+    pub end: T,
     /// N₁N₂, in m.
-    pub tangent_length: f64,
+    pub tangent_length: T,
+    /// E to the pitch point: the path of approach, in m.
+    pub approach_length: T,
     /// Contact ratio ε = EB/p_b.
-    pub contact_ratio: f64,
+    pub contact_ratio: T,
     /// γ₂: angle at O₂ between the centre line and the tip at E, in rad.
-    pub start_angle_driven: f64,
+    pub start_angle_driven: T,
+    /// E seen from O₁, the centre line along x, in m.
+    pub start_point: Vector2<T>,
+}
+
+/// Geometry of the pair, by ISO 21771.
+///
+/// # Formula
+/// ```text
+/// rb = r cos α,  ra = r + m (ha* + x) − chamfer,  pb = π m cos α
+/// inv αw = inv α + 2 (x1 + x2) tan α/(z1 + z2)  where no centre distance is given,  else cos αw = (rb1 + rb2)/a
+/// N1E = N1N2 − √(ra2² − rb2²),  N1B = √(ra1² − rb1²),  ε = (N1B − N1E)/pb
+/// γ2 = ∠(O2O1, O2E)
+/// ```
+/// where inv t = tan t − t. Squares are never subtracted: r_a − r_b = 2 r sin²(α/2) + m (h_a* + x), and
+/// N₁N₂ = (r_b1 + r_b2) tan α_w.
+///
+/// # Source
+/// ISO 21771:2007; Zhou & Chen 2014, Eqs. 8, 9 (γ₂), 16 and 20 (N₁E, here without the rounded contact ratio).
+///
+/// # Errors
+/// A [`Refusal`] where the pair has no line of action, a tip lies inside its base circle, or the driven tip would
+/// touch the driver below its base circle.
+pub fn geometry<T: Real>(inputs: &Inputs) -> Result<Geometry<T>, Refusal> {
+    let alpha: T = inputs.pressure_angle.into();
+    let driver = circles(inputs, &inputs.driver, alpha)?;
+    let driven = circles(inputs, &inputs.driven, alpha)?;
+    let base_sum = driver.base + driven.base;
+    let (centre_distance, tangent) = working_tangent(inputs, alpha, base_sum)?;
+    let tangent_length = base_sum * tangent;
+    let start = tangent_length - driven.tip_curvature;
+    if start <= T::zero() {
+        return Err(Refusal::Interference { start: start.rounded() });
+    }
+    let base_pitch = T::PI * inputs.module.into() * alpha.sine_cosine().1;
+    let approach_length = driven.tip_curvature - driven.base * tangent;
+    let working_pressure_angle = tangent.angle_to(T::one());
+    let end = driver.tip_curvature;
+    if end <= start {
+        return Err(Refusal::NoPath { start: start.rounded(), end: end.rounded() });
+    }
+    Ok(Geometry {
+        driver,
+        driven,
+        centre_distance,
+        working_pressure_angle,
+        base_pitch,
+        start,
+        end,
+        tangent_length,
+        approach_length,
+        contact_ratio: (end - start).over(base_pitch),
+        start_angle_driven: approach_length.angle_to(driven.base + driven.tip_curvature * tangent),
+        start_point: turned(working_pressure_angle) * Vector2::new(driver.base, -start),
+    })
+}
+
+/// tan t.
+fn tangent_of<T: Real>(angle: T) -> T {
+    let (sine, cosine) = angle.sine_cosine();
+    sine.over(cosine)
+}
+
+/// Rotation of the plane by an angle.
+fn turned<T: Real>(angle: T) -> Rotation2<T> {
+    let (sine, cosine) = angle.sine_cosine();
+    Rotation2::from_matrix_unchecked(Matrix2::new(cosine, -sine, sine, cosine))
+}
+
+/// Circles of one gear.
+fn circles<T: Real>(inputs: &Inputs, gear: &Gear, alpha: T) -> Result<Circles<T>, Refusal> {
+    let module: T = inputs.module.into();
+    let (half, two): (T, T) = (0.5.into(), 2.0.into());
+    let shift: T = gear.profile_shift.into();
+    let reference = module * T::count(gear.teeth) * half;
+    let base = reference * alpha.sine_cosine().1;
+    let height = module * (shift + gear.addendum.into()) - gear.tip_chamfer.into();
+    let half_sine = (alpha * half).sine_cosine().0;
+    let over_base = two * reference * half_sine * half_sine + height;
+    if over_base <= T::zero() {
+        return Err(Refusal::TipInsideBase { tip: (reference + height).rounded(), base: base.rounded() });
+    }
+    let tip = reference + height;
+    let tip_curvature = (over_base * (tip + base)).root();
+    Ok(Circles { reference, base, tip, tip_curvature, root: reference + module * (shift - RACK_DEDENDUM.into()) })
+}
+
+/// Centre distance and tan α_w.
+fn working_tangent<T: Real>(inputs: &Inputs, alpha: T, base_sum: T) -> Result<(T, T), Refusal> {
+    if let Some(given) = inputs.centre_distance {
+        let distance: T = given.into();
+        if distance <= base_sum {
+            return Err(Refusal::CentreDistanceJams { distance: given, least: base_sum.rounded() });
+        }
+        return Ok((distance, ((distance - base_sum) * (distance + base_sum)).root().over(base_sum)));
+    }
+    let angle = alpha + working_angle_rise(inputs, alpha)?;
+    let (sine, cosine) = angle.sine_cosine();
+    Ok((base_sum.over(cosine), sine.over(cosine)))
+}
+
+/// α_w − α of the mesh without backlash, by Newton's method on the involute function.
+///
+/// The involute function is convex, so that from the right of the root each step stays right of it.
+fn working_angle_rise<T: Real>(inputs: &Inputs, alpha: T) -> Result<T, Refusal> {
+    const LARGEST_ANGLE: f64 = 1.4;
+    const STEPS: usize = 40;
+    let (driver, driven) = (&inputs.driver, &inputs.driven);
+    let two: T = 2.0.into();
+    let tangent = tangent_of(alpha);
+    let shifts = <T as From<f64>>::from(driver.profile_shift) + driven.profile_shift.into();
+    let rise = (two * shifts * tangent).over(T::count(driver.teeth + driven.teeth));
+    if tangent - alpha + rise <= T::zero() {
+        return Err(Refusal::ShiftsLeaveNoMesh { sum: shifts.rounded() });
+    }
+    let largest = <T as From<f64>>::from(LARGEST_ANGLE) - alpha;
+    let parabola = rise.over(tangent * tangent);
+    let mut angle = if parabola < largest { parabola } else { largest };
+    for _ in 0..STEPS {
+        let step_tangent = tangent_of(angle);
+        let opened = (step_tangent * (T::one() + tangent * tangent)).over(T::one() - tangent * step_tangent);
+        let slope = (tangent + opened) * (tangent + opened);
+        let step = (opened - angle - rise).over(slope);
+        angle -= step;
+        if step.rounded().abs() <= T::EPSILON {
+            break;
+        }
+    }
+    Ok(angle)
+}
+
+impl<T: Real> Circles<T> {
+    /// Rounded to f64.
+    fn rounded(self) -> Circles {
+        Circles {
+            reference: self.reference.rounded(),
+            base: self.base.rounded(),
+            tip: self.tip.rounded(),
+            tip_curvature: self.tip_curvature.rounded(),
+            root: self.root.rounded(),
+        }
+    }
+}
+
+impl Geometry {
+    /// Normal backlash that the centre distance leaves, 2 (r_b1 + r_b2) (inv α_w − inv α_w0), in m, where α_w0 is the
+    /// working pressure angle without backlash; below 0 the teeth jam (ISO 21771).
+    #[must_use]
+    pub fn backlash(&self, inputs: &Inputs) -> f64 {
+        let involute = |angle: f64| angle.tan() - angle;
+        let alpha = inputs.pressure_angle;
+        let shifts = inputs.driver.profile_shift + inputs.driven.profile_shift;
+        let without = involute(alpha) + 2.0 * shifts * alpha.tan() / f64::from(inputs.driver.teeth + inputs.driven.teeth);
+        2.0 * (self.driver.base + self.driven.base) * (involute(self.working_pressure_angle) - without)
+    }
+}
+
+impl<T: Real> Geometry<T> {
+    /// Rounded to f64.
+    pub(super) fn rounded(self) -> Geometry {
+        Geometry {
+            driver: self.driver.rounded(),
+            driven: self.driven.rounded(),
+            centre_distance: self.centre_distance.rounded(),
+            working_pressure_angle: self.working_pressure_angle.rounded(),
+            base_pitch: self.base_pitch.rounded(),
+            start: self.start.rounded(),
+            end: self.end.rounded(),
+            tangent_length: self.tangent_length.rounded(),
+            approach_length: self.approach_length.rounded(),
+            contact_ratio: self.contact_ratio.rounded(),
+            start_angle_driven: self.start_angle_driven.rounded(),
+            start_point: self.start_point.map(Real::rounded),
+        }
+    }
 }

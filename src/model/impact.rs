@@ -1,4 +1,13 @@
-//! Force, energy and duration of the impact at D.
+//! Force, energy and duration of the impact.
+
+use std::f64::consts::PI;
+
+use super::compliance::ContactPlace;
+use super::compliance::contact::{plane_strain_compliance, spring};
+use super::geometry::{Circles, Geometry};
+use super::inputs::{Gear, Inputs, Rung};
+use super::position::TipContact;
+use super::{Refusal, TeethCompliance, Velocity};
 
 /// The impact at D.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,4 +34,123 @@ pub struct Impact {
     pub duration_spring: f64,
     /// (2/π) F_S T_S/(M ΔV_n): 2 for the elastic spring, below 1 impossible.
     pub impulse_ratio: f64,
+}
+
+/// Masses of the two gears at their base circles J/r_b², in kg.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Masses {
+    driver: f64,
+    driven: f64,
+}
+
+impl Masses {
+    /// Masses of the two gears.
+    ///
+    /// # Formula
+    /// ```text
+    /// J = π ρ b/2 (rb⁴ − rh⁴),   m_red,i = J_i/rb_i²
+    /// ```
+    ///
+    /// # Source
+    /// Zhou & Chen 2014, Eqs. 46 and 47. Mended: Eq. 46 divides by the width and so gives kg/m where a mass is meant;
+    /// Eq. 47 carries a spurious g.
+    ///
+    /// # Errors
+    /// [`Refusal::BoreTooLarge`] where the bore reaches the base circle or the root circle.
+    pub fn of(inputs: &Inputs, geometry: &Geometry) -> Result<Masses, Refusal> {
+        Ok(Masses { driver: mass(&inputs.driver, &geometry.driver)?, driven: mass(&inputs.driven, &geometry.driven)? })
+    }
+
+    /// Reduced mass of Eq. 33, 1/m_red = 1/m_red,1 + 1/m_red,2, in kg.
+    #[must_use]
+    pub fn reduced(&self) -> f64 {
+        self.driver * self.driven / (self.driver + self.driven)
+    }
+
+    /// Effective mass of Eq. 50, M = J₁ J₂/(J₁ r_b2'² + J₂ r_b1²), in kg: the reduced mass with the driven gear's arm
+    /// at D in place of its base radius.
+    #[must_use]
+    pub fn effective(&self, geometry: &Geometry, tip: &TipContact) -> f64 {
+        let arm = tip.normal_radius_driven / geometry.driven.base;
+        self.driver * self.driven / (self.driver * arm * arm + self.driven)
+    }
+}
+
+/// Mass of one gear at its base circle, in kg.
+fn mass(gear: &Gear, circles: &Circles) -> Result<f64, Refusal> {
+    let (base, bore) = (circles.base, gear.bore_radius);
+    let limit = base.min(circles.root);
+    if bore >= limit {
+        return Err(Refusal::BoreTooLarge { bore, limit });
+    }
+    let fourth_powers = (base - bore) * (base + bore) * (base * base + bore * bore);
+    Ok(PI * gear.density * gear.face_width / 2.0 * fourth_powers / (base * base))
+}
+
+/// The impact of the driven tip on the driver's flank: force, energy, duration.
+///
+/// # Formula
+/// ```text
+/// Ek = M ΔVn²/2,  Wf = M ΔVτ²/2,  FS = ΔVn √(b M/qs),  qs = q1 + q2 + qH(FS)
+/// ```
+/// with the Hertz half-width in q_H solved together with F_S.
+///
+/// # Source
+/// Zhou & Chen 2014, Eqs. 50-57. Mended: Eq. 53 is inverted (δ_s = F_S q_s/b, then Eq. 57 holds); the pair of Eq. 54
+/// is the one in contact at D, whose driven tooth is loaded at its tip. The energies are of the whole width.
+///
+/// # Errors
+/// [`Refusal::HertzWidthTooLarge`] where Eq. 55 has no answer.
+pub fn impact(
+    inputs: &Inputs,
+    geometry: &Geometry,
+    masses: &Masses,
+    tip: &TipContact,
+    teeth: &TeethCompliance,
+    velocity: &Velocity,
+) -> Result<Impact, Refusal> {
+    let place = ContactPlace::at_tip(inputs, geometry, tip);
+    let spring = spring(inputs, geometry, &place)?;
+    let width = inputs.common_width();
+    let effective_mass = masses.effective(geometry, tip);
+    let (force, pair_compliance) = spring.impact(teeth.sum(), velocity.normal * (width * effective_mass).sqrt())?;
+    let duration_printed =
+        printed_duration(masses.reduced(), velocity.normal, place.curvature_radius, plane_strain_compliance(inputs));
+    let duration_spring = PI * (effective_mass * pair_compliance / width).sqrt();
+    let duration = match inputs.rung {
+        Rung::Paper => duration_printed,
+        Rung::Exact => duration_spring,
+    };
+    Ok(Impact {
+        force,
+        effective_mass,
+        pair_compliance,
+        hertz_half_width: spring.half_width(force),
+        energy: 0.5 * effective_mass * velocity.normal * velocity.normal,
+        sliding_energy: 0.5 * effective_mass * velocity.sliding * velocity.sliding,
+        duration,
+        duration_printed,
+        duration_hertz: HERTZ_PREFACTOR * duration_printed,
+        duration_spring,
+        impulse_ratio: 2.0 / PI * force * duration / (effective_mass * velocity.normal),
+    })
+}
+
+/// What Eq. 32 lacks of Hertz's duration: 2.868265699 π^(2/5), where the first factor is
+/// 2 (15/16)^(2/5) ∫₀¹ dx/√(1 − x^(5/2)).
+const HERTZ_PREFACTOR: f64 = 4.533_977_164_008_488;
+
+/// Impact duration by Eq. 32 as printed, in s.
+///
+/// # Formula
+/// ```text
+/// TS = (m_red²/(π² ΔVn ρS E'²))^(1/5)
+/// ```
+///
+/// # Source
+/// Zhou & Chen 2014, Eq. 32, the reduced mass of Eq. 33 in kg. Hertz's duration for two spheres is 4.53398 times as
+/// long; the prefactor is lost in print.
+fn printed_duration(reduced_mass: f64, approach: f64, curvature_radius: f64, give: f64) -> f64 {
+    let ratio = reduced_mass * give / PI;
+    (ratio * ratio / (approach * curvature_radius)).powf(0.2)
 }

@@ -68,6 +68,22 @@ impl Rung {
 pub enum ToothCompliance {
     /// Kuang & Yang 1992, Eq. 56.
     KuangYang,
+    /// Potential-energy method on the true profile, with the fillet's foundation.
+    Beam,
+}
+
+impl ToothCompliance {
+    /// Every method.
+    pub const ALL: [ToothCompliance; 2] = [ToothCompliance::KuangYang, ToothCompliance::Beam];
+
+    /// The name in a case file.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            ToothCompliance::KuangYang => "kuang-yang",
+            ToothCompliance::Beam => "beam",
+        }
+    }
 }
 
 /// Where the contact's compliance comes from.
@@ -75,6 +91,16 @@ pub enum ToothCompliance {
 pub enum ContactCompliance {
     /// Eq. 55, logarithmic in the Hertz half-width.
     Logarithmic,
+    /// 4 (1 − ν²)/(π E), Yang & Sun 1985.
+    Constant,
+    /// Weber & Banaschek 1953, from the depth to the tooth's centre line.
+    Weber,
+}
+
+impl ContactCompliance {
+    /// Every formula.
+    pub const ALL: [ContactCompliance; 3] =
+        [ContactCompliance::Logarithmic, ContactCompliance::Constant, ContactCompliance::Weber];
 }
 
 /// A gear pair in operation: all that a solve reads.
@@ -110,6 +136,8 @@ pub struct Inputs {
     pub contact_compliance: ContactCompliance,
     /// Intervals between D and E.
     pub stations: usize,
+    /// Geometry and position in double-double arithmetic.
+    pub accurate: bool,
 }
 
 impl Inputs {

@@ -1,51 +1,180 @@
-//! Where the model stops being right: refusals, and notes beside a result.
+//! Where the model stops being right: refusals, with the value and the limit.
 
 use thiserror::Error;
 
-/// Why a pair cannot be solved.
-#[derive(Debug, Clone, PartialEq, Error)]
+use super::compliance::kuang_yang;
+
+const MILLIMETRE: f64 = 1e-3;
+const MICROMETRE: f64 = 1e-6;
+
+/// Why a pair cannot be solved, or why some of its quantities cannot.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum Refusal {
     /// The driven tip would touch the driver below its base circle.
-    #[error("interference at the start of contact: N1E is {start:.6} m and must be above 0")]
+    #[error("interference at the start of contact: N1E is {:.4} mm and must be above 0", .start / MILLIMETRE)]
     Interference {
         /// N₁E, in m.
         start: f64,
     },
+    /// The path of contact ends before it starts.
+    #[error("the tips do not reach each other: N1B is {:.4} mm and must be above N1E, {:.4} mm", .end / MILLIMETRE, .start / MILLIMETRE)]
+    NoPath {
+        /// N₁E, in m.
+        start: f64,
+        /// N₁B, in m.
+        end: f64,
+    },
+    /// No involute is left at the tip.
+    #[error("the tip lies inside the base circle: its radius is {:.4} mm and must be above {:.4} mm", .tip / MILLIMETRE, .base / MILLIMETRE)]
+    TipInsideBase {
+        /// r_a, in m.
+        tip: f64,
+        /// r_b, in m.
+        base: f64,
+    },
+    /// The base circles overlap.
+    #[error("the centre distance jams the mesh: it is {:.4} mm and must be above rb1 + rb2 = {:.4} mm", .distance / MILLIMETRE, .least / MILLIMETRE)]
+    CentreDistanceJams {
+        /// a, in m.
+        distance: f64,
+        /// r_b1 + r_b2, in m.
+        least: f64,
+    },
+    /// No centre distance without backlash exists.
+    #[error("no mesh without backlash exists: x1 + x2 is {sum:.4}, too far below 0 for these tooth numbers")]
+    ShiftsLeaveNoMesh {
+        /// x₁ + x₂.
+        sum: f64,
+    },
+    /// No pair is in contact while the next one comes in.
+    #[error("the contact ratio is {ratio:.4} and must be above 1 to compute the deflection at F")]
+    ContactRatioBelowOne {
+        /// ε.
+        ratio: f64,
+    },
+    /// The bore leaves no gear body.
+    #[error("the bore radius is {:.4} mm and must be below the root and base circles, {:.4} mm", .bore / MILLIMETRE, .limit / MILLIMETRE)]
+    BoreTooLarge {
+        /// r_h, in m.
+        bore: f64,
+        /// The smaller of root and base radius, in m.
+        limit: f64,
+    },
+    /// S(u) = Δ has no solution on the driver's flank.
+    #[error("no first contact: the tip cannot close a gap of {:.4} um", .deviation / MICROMETRE)]
+    NoFirstContact {
+        /// Δ, in m.
+        deviation: f64,
+    },
+    /// The driver's flank ends before D.
+    #[error("D lies beyond the driver's tip: O1D is {:.4} mm and ra1 is {:.4} mm", .radius / MILLIMETRE, .tip / MILLIMETRE)]
+    BeyondDriverTip {
+        /// O₁D, in m.
+        radius: f64,
+        /// r_a1, in m.
+        tip: f64,
+    },
+    /// Eq. 56 does not cover the tooth number.
+    #[error("tooth number outside the Kuang-Yang fit: z is {teeth} and must be {}..{}", kuang_yang::TEETH.0, kuang_yang::TEETH.1)]
+    TeethOutsideFit {
+        /// z.
+        teeth: u32,
+    },
+    /// Eq. 56 does not cover the profile shift.
+    #[error("profile shift outside the Kuang-Yang fit: x is {shift} and must be -{0}..{0}", kuang_yang::SHIFT)]
+    ShiftOutsideFit {
+        /// x.
+        shift: f64,
+    },
+    /// No tooth is left where the load stands.
+    #[error("pointed tip: the tooth's thickness at the load point is {:.4} mm and must be above 0", .thickness / MILLIMETRE)]
+    PointedTip {
+        /// Thickness, in m.
+        thickness: f64,
+    },
+    /// The load stands on the fillet, which is no involute.
+    #[error("the flank ends above the contact: O1D is {:.4} mm and the form circle {:.4} mm", .radius / MILLIMETRE, .form / MILLIMETRE)]
+    BelowFormCircle {
+        /// Radius of the load point, in m.
+        radius: f64,
+        /// Radius of the form circle, in m.
+        form: f64,
+    },
+    /// Eq. 55 leaves its range.
+    #[error("the Hertz half-width is not small against the tooth: it is {:.4} mm, and the contact formula ends at {:.4} mm", .half_width / MILLIMETRE, .limit / MILLIMETRE)]
+    HertzWidthTooLarge {
+        /// Half-width, in m.
+        half_width: f64,
+        /// Where q_H vanishes, in m.
+        limit: f64,
+    },
+}
+
+/// A refusal's name, the field where its mend begins, and the mend.
+struct Remedy {
+    code: &'static str,
+    field: &'static str,
+    mend: &'static str,
 }
 
 impl Refusal {
     /// A short name for scripts.
     #[must_use]
     pub fn code(&self) -> &'static str {
-        match self {
-            Refusal::Interference { .. } => "interference",
-        }
+        self.remedy().code
     }
 
     /// The key of the field where the mend begins.
     #[must_use]
     pub fn field(&self) -> &'static str {
-        match self {
-            Refusal::Interference { .. } => "driven.addendum",
-        }
+        self.remedy().field
     }
 
     /// How to mend it.
     #[must_use]
     pub fn mend(&self) -> &'static str {
-        match self {
-            Refusal::Interference { .. } => {
-                "shorten the driven addendum, shift the driver's profile outward or give it more teeth"
-            }
-        }
+        self.remedy().mend
     }
-}
 
-/// Something a reader must know beside a result.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Note {
-    /// A short name for scripts.
-    pub code: &'static str,
-    /// One sentence with the value and the limit.
-    pub message: String,
+    fn remedy(&self) -> Remedy {
+        let (code, field, mend) = match self {
+            Refusal::Interference { .. } => (
+                "interference",
+                "driven.addendum",
+                "shorten the driven addendum, or give the driver more teeth or more profile shift",
+            ),
+            Refusal::NoPath { .. } => ("no-path", "driven.tip_chamfer", "take less off the tips, or bring the gears closer"),
+            Refusal::TipInsideBase { .. } => {
+                ("tip-inside-base", "driven.addendum", "give a higher addendum or a smaller tip chamfer")
+            }
+            Refusal::CentreDistanceJams { .. } => {
+                ("centre-distance-jams", "pair.centre_distance", "give a greater centre distance, or leave it out")
+            }
+            Refusal::ShiftsLeaveNoMesh { .. } => ("no-mesh", "driver.profile_shift", "give a greater sum of profile shifts"),
+            Refusal::ContactRatioBelowOne { .. } => (
+                "contact-ratio-below-1",
+                "driven.addendum",
+                "lengthen the addenda or bring the gears closer, or give model.deflection",
+            ),
+            Refusal::BoreTooLarge { .. } => ("bore-too-large", "driver.bore_radius", "give a smaller bore radius"),
+            Refusal::NoFirstContact { .. } => {
+                ("no-first-contact", "deviations.base_pitch", "give a smaller deviation or deflection")
+            }
+            Refusal::BeyondDriverTip { .. } => {
+                ("beyond-driver-tip", "deviations.base_pitch", "give a smaller deviation or deflection")
+            }
+            Refusal::TeethOutsideFit { .. } => ("teeth-outside-fit", "model.tooth_compliance", "choose another tooth compliance"),
+            Refusal::ShiftOutsideFit { .. } => ("shift-outside-fit", "model.tooth_compliance", "choose another tooth compliance"),
+            Refusal::PointedTip { .. } => {
+                ("pointed-tip", "driven.addendum", "give a shorter addendum, less profile shift or more teeth")
+            }
+            Refusal::BelowFormCircle { .. } => {
+                ("below-form-circle", "driven.addendum", "shorten the driven addendum, or give the driver more profile shift")
+            }
+            Refusal::HertzWidthTooLarge { .. } => {
+                ("hertz-width", "driver.face_width", "lower the load or the speed, or widen the gears")
+            }
+        };
+        Remedy { code, field, mend }
+    }
 }

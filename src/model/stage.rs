@@ -20,13 +20,15 @@ pub enum Stage {
     Impact,
     /// Change of the velocities over the impact.
     Friction,
+    /// Impact force by every stiffness model.
+    Band,
     /// Force between D and E.
     Stations,
 }
 
 impl Stage {
     /// Every stage, in order.
-    pub const ALL: [Stage; 9] = [
+    pub const ALL: [Stage; 10] = [
         Stage::Geometry,
         Stage::Load,
         Stage::Deviation,
@@ -35,6 +37,7 @@ impl Stage {
         Stage::Compliance,
         Stage::Impact,
         Stage::Friction,
+        Stage::Band,
         Stage::Stations,
     ];
 
@@ -50,6 +53,7 @@ impl Stage {
             Stage::Compliance => "compliance",
             Stage::Impact => "impact",
             Stage::Friction => "friction",
+            Stage::Band => "stiffness-band",
             Stage::Stations => "stations",
         }
     }
@@ -63,7 +67,7 @@ impl Stage {
             Stage::Position => Stages::NONE.with(Stage::Deviation),
             Stage::Velocity | Stage::Compliance => Stages::NONE.with(Stage::Position),
             Stage::Impact => Stages::NONE.with(Stage::Velocity).with(Stage::Compliance),
-            Stage::Friction | Stage::Stations => Stages::NONE.with(Stage::Impact),
+            Stage::Friction | Stage::Band | Stage::Stations => Stages::NONE.with(Stage::Impact),
         }
     }
 }
@@ -75,10 +79,10 @@ pub struct Stages(u16);
 impl Stages {
     /// No stage.
     pub const NONE: Stages = Stages(0);
-    /// Every stage but the stations.
+    /// From geometry to friction: all that one impact model says of D.
     pub const CLOSED_FORM: Stages = Stages::of(Stage::Friction);
     /// Every stage.
-    pub const ALL: Stages = Stages::CLOSED_FORM.with(Stage::Stations);
+    pub const ALL: Stages = Stages::CLOSED_FORM.with(Stage::Band).with(Stage::Stations);
 
     /// The stage and all that it needs.
     #[must_use]

@@ -1,5 +1,12 @@
 //! The force over roll angle, from D to E.
 
+use super::compliance::{self, ContactPlace};
+use super::geometry::Geometry;
+use super::impact::{Masses, impact};
+use super::inputs::Inputs;
+use super::position::{Position, tip_at};
+use super::{Refusal, velocity};
+
 /// A place between D and E at which the impact is computed as if it were D.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Station {
@@ -15,4 +22,41 @@ pub struct Station {
     pub sliding_velocity: f64,
     /// Impact force, in N.
     pub impact_force: f64,
+}
+
+/// The impact at `inputs.stations` equal intervals of the driven gear's angle, from D (first) to E (last, force 0).
+///
+/// # Source
+/// Zhou & Chen 2014, Eqs. 58-60; Eq. 60 mended to the law of cosines: as printed, O₁J would lie inside the base circle.
+///
+/// # Errors
+/// Those of [`impact`] at a station.
+pub fn stations(inputs: &Inputs, geometry: &Geometry, masses: &Masses, position: &Position) -> Result<Vec<Station>, Refusal> {
+    let count = inputs.stations.max(1);
+    let mut found = Vec::with_capacity(count + 1);
+    for step in (0..=count).rev() {
+        let part = step as f64 / count as f64;
+        found.push(station(inputs, geometry, masses, part * position.approach_angle_driven)?);
+    }
+    Ok(found)
+}
+
+/// The impact as if it happened at the angle `angle` before E.
+fn station(inputs: &Inputs, geometry: &Geometry, masses: &Masses, angle: f64) -> Result<Station, Refusal> {
+    let tip = tip_at(geometry, angle);
+    let velocity = velocity::velocity(inputs, geometry, &tip);
+    let impact_force = if angle > 0.0 {
+        let teeth = compliance::teeth(inputs, geometry, &ContactPlace::at_tip(inputs, geometry, &tip))?;
+        impact(inputs, geometry, masses, &tip, &teeth, &velocity)?.force
+    } else {
+        0.0
+    };
+    Ok(Station {
+        roll_angle_driver: angle * inputs.ratio(),
+        roll_angle_driven: angle,
+        radius_driver: tip.radius_driver,
+        normal_velocity: velocity.normal,
+        sliding_velocity: velocity.sliding,
+        impact_force,
+    })
 }

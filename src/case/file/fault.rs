@@ -73,8 +73,10 @@ pub(super) fn placed(file: &str, text: &str, mut found: Vec<Found>) -> Vec<Fault
     let more = found.len().saturating_sub(MOST);
     found.truncate(MOST);
     let lines = Lines::of(text);
-    let mut faults: Vec<Fault> =
-        found.into_iter().map(|found| Fault { kind: found.kind, ..Fault::new(file, lines.place(found.at), found.problem) }).collect();
+    let mut faults: Vec<Fault> = found
+        .into_iter()
+        .map(|found| Fault { kind: found.kind, ..Fault::new(file, lines.place(found.at), found.problem) })
+        .collect();
     if let (Some(last), 1..) = (faults.last(), more) {
         let problem = Problem::new("toml", format!("{more} more faults"), "mend those above first");
         faults.push(Fault::new(file, (last.line, last.column), problem));

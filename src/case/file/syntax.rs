@@ -28,8 +28,7 @@ pub(super) struct Recovered {
 
 /// Find what is not TOML, and blank it.
 pub(super) fn recover(source: &str) -> Recovered {
-    let mut recovered =
-        Recovered { text: source.to_owned(), faults: Vec::new(), broken: String::new(), tables_known: true };
+    let mut recovered = Recovered { text: source.to_owned(), faults: Vec::new(), broken: String::new(), tables_known: true };
     let lines = Lines::of(source);
     for round in 0..ROUNDS {
         let (_, errors) = DeTable::parse_recoverable(&recovered.text);
@@ -136,7 +135,9 @@ fn mistaken(field: &Field, value: &str) -> Option<Problem> {
     match read {
         _ if value.contains(['"', '\'', '[', '{']) => None,
         Err(misread) => problem(misread.cause, misread.mend),
-        Ok(number) if bare => problem(format!("{} is not how TOML writes a number", quoted(value)), format!("write {}", units::text(number, ""))),
+        Ok(number) if bare => {
+            problem(format!("{} is not how TOML writes a number", quoted(value)), format!("write {}", units::text(number, "")))
+        }
         Ok(_) => problem(format!("{} is not in quotes", quoted(value)), format!("write \"{}\"", cut(value))),
     }
 }

@@ -51,7 +51,9 @@ pub(super) fn entries(case: &Case) -> Vec<Entry> {
 /// A commented case; valid where the case is.
 pub(super) fn text(case: &Case) -> String {
     let entries = entries(case);
-    let mut text = format!("# A gear pair for tipstrike.\n# A value with a dimension is a string with its unit; any unit of the dimension will do.\nformat = {FORMAT}\n");
+    let mut text = format!(
+        "# A gear pair for tipstrike.\n# A value with a dimension is a string with its unit; any unit of the dimension will do.\nformat = {FORMAT}\n"
+    );
     for (table, title) in GROUPS {
         if !table.is_empty() {
             let _ = write!(text, "\n# {title}\n[{table}]\n");
@@ -61,7 +63,12 @@ pub(super) fn text(case: &Case) -> String {
             text.push_str(&described(field, written));
         }
     }
-    text.push_str(&rest(&entries, "limits", "Greatest value allowed, of any quantity of the results.", "impact_force = \"2500 N\""));
+    text.push_str(&rest(
+        &entries,
+        "limits",
+        "Greatest value allowed, of any quantity of the results.",
+        "impact_force = \"2500 N\"",
+    ));
     let example = "\"deviations.base_pitch\" = { normal = \"4 um\" }";
     text.push_str(&rest(&entries, "spread", "Distribution of any field around its value, for tolerances.", example));
     text

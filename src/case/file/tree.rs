@@ -171,9 +171,15 @@ impl Reader {
         };
         let empty = |text: &String| text.is_empty() && !matches!(known.kind, Kind::Text);
         match written {
-            Ok(text) if empty(&text) => self.wrongly(field, value, Misread::new("there is no value", format!("write {}", check::assignment(known)))),
+            Ok(text) if empty(&text) => {
+                self.wrongly(field, value, Misread::new("there is no value", format!("write {}", check::assignment(known))))
+            }
             Ok(text) => self.case.write(field, &text),
-            Err(misread) => self.wrongly(field, value, misread.unwrap_or_else(|| untaken(value.get_ref(), known.kind, &check::assignment(known)))),
+            Err(misread) => self.wrongly(
+                field,
+                value,
+                misread.unwrap_or_else(|| untaken(value.get_ref(), known.kind, &check::assignment(known))),
+            ),
         }
     }
 
@@ -312,7 +318,11 @@ fn kind_of(value: &DeValue<'_>) -> &'static str {
 }
 
 fn unknown_at_top(name: &str) -> Problem {
-    let known = GROUPS.iter().map(|(table, _)| *table).filter(|table| !table.is_empty()).chain(["limits", "spread", "format", "title", "notes"]);
+    let known = GROUPS
+        .iter()
+        .map(|(table, _)| *table)
+        .filter(|table| !table.is_empty())
+        .chain(["limits", "spread", "format", "title", "notes"]);
     let elsewhere = || FIELDS.iter().find(|field| field.name() == name).map(|field| format!("put it under [{}]", field.table()));
     let mend = elsewhere().unwrap_or_else(|| suggest::mend(name, known, || "take it out".to_owned()));
     Problem::new(name, format!("unknown key or table {}", quoted(name)), mend)
@@ -320,7 +330,8 @@ fn unknown_at_top(name: &str) -> Problem {
 
 fn unknown_in_table(table: &str, name: &str) -> Problem {
     let here = FIELDS.iter().filter(|field| field.table() == table).map(super::super::fields::Field::name);
-    let elsewhere = || FIELDS.iter().find(|field| field.name() == name).map(|field| format!("it belongs under [{}]", field.table()));
+    let elsewhere =
+        || FIELDS.iter().find(|field| field.name() == name).map(|field| format!("it belongs under [{}]", field.table()));
     let mend = elsewhere().unwrap_or_else(|| {
         suggest::mend(name, here.clone(), || format!("[{table}] has {}", here.clone().collect::<Vec<_>>().join(", ")))
     });

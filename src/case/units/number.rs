@@ -70,7 +70,11 @@ fn comma(text: &str) -> Misread {
 }
 
 fn example(usual: &str) -> String {
-    if usual.is_empty() { "write a number such as 0.5".to_owned() } else { format!("write a number and its unit, such as \"20 {usual}\"") }
+    if usual.is_empty() {
+        "write a number such as 0.5".to_owned()
+    } else {
+        format!("write a number and its unit, such as \"20 {usual}\"")
+    }
 }
 
 /// The f64 nearest to the decimal number times a power of ten.

@@ -1,0 +1,155 @@
+//! Compliance of the contact between two flanks.
+
+use std::f64::consts::PI;
+
+use super::ContactPlace;
+use super::profile::Profile;
+use crate::model::Refusal;
+use crate::model::geometry::Geometry;
+use crate::model::inputs::{ContactCompliance, Gear, Inputs};
+
+/// The compliance of a contact as its half-width a grows: q_H = offset − slope ln a.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactSpring {
+    offset: f64,
+    slope: f64,
+    width_per_root_force: f64,
+}
+
+impl ContactSpring {
+    /// Hertz half-width at a force, in m.
+    ///
+    /// # Formula
+    /// ```text
+    /// a = √(4 (F/b) ρS/(π E')),   1/E' = (1 − ν1²)/E1 + (1 − ν2²)/E2
+    /// ```
+    ///
+    /// # Source
+    /// Hertz 1882; the paper leaves a in its Eq. 55 undefined.
+    #[must_use]
+    pub fn half_width(&self, force: f64) -> f64 {
+        self.width_per_root_force * force.sqrt()
+    }
+
+    /// Contact compliance q_H at a force, in m²/N.
+    ///
+    /// # Errors
+    /// [`Refusal::HertzWidthTooLarge`] where the formula gives none above 0.
+    pub fn compliance(&self, force: f64) -> Result<f64, Refusal> {
+        let half_width = self.half_width(force);
+        let compliance = if self.slope > 0.0 { self.offset - self.slope * half_width.ln() } else { self.offset };
+        if compliance > 0.0 { Ok(compliance) } else { Err(self.too_wide(half_width)) }
+    }
+
+    /// The force F of an impact for which `F = momentum/√q` with `q = teeth + qH(F)`, in N, and that q in m²/N.
+    ///
+    /// Newton's method on ln F; q falls slowly with ln F, so that a few steps reach the last digit.
+    ///
+    /// # Errors
+    /// [`Refusal::HertzWidthTooLarge`] where the half-width outgrows the formula before they agree.
+    pub fn impact(&self, teeth: f64, momentum: f64) -> Result<(f64, f64), Refusal> {
+        const STEPS: usize = 50;
+        const SETTLED: f64 = 1e-15;
+        let at_unit_force = teeth + self.offset - self.slope * self.width_per_root_force.ln();
+        let compliance_at = |log_force: f64| at_unit_force - 0.5 * self.slope * log_force;
+        let log_momentum = momentum.ln();
+        let mut log_force = log_momentum - 0.5 * teeth.ln();
+        let mut compliance = compliance_at(log_force);
+        for _ in 0..STEPS {
+            if compliance <= 0.5 * self.slope {
+                break;
+            }
+            let residual = log_force - log_momentum + 0.5 * compliance.ln();
+            let step = residual / (1.0 - 0.25 * self.slope / compliance);
+            log_force -= step;
+            compliance = compliance_at(log_force);
+            if step.abs() <= SETTLED * log_force.abs().max(1.0) {
+                let force = momentum / compliance.sqrt();
+                return self.compliance(force).map(|_| (force, compliance));
+            }
+        }
+        Err(self.too_wide(self.half_width(log_force.exp())))
+    }
+
+    /// The refusal, with the half-width at which the formula gives no compliance any more.
+    fn too_wide(&self, half_width: f64) -> Refusal {
+        Refusal::HertzWidthTooLarge { half_width, limit: (self.offset / self.slope).exp() }
+    }
+}
+
+/// The spring between two flanks, by the case's formula.
+///
+/// # Errors
+/// Those of the tooth's profile, whose thickness `weber` reads.
+pub fn spring(inputs: &Inputs, geometry: &Geometry, place: &ContactPlace) -> Result<ContactSpring, Refusal> {
+    let give = plane_strain_compliance(inputs);
+    let (offset, slope) = match inputs.contact_compliance {
+        ContactCompliance::Logarithmic => logarithmic(inputs.module, give),
+        ContactCompliance::Constant => (constant(give), 0.0),
+        ContactCompliance::Weber => weber(inputs, geometry, place),
+    };
+    let width_per_root_force = (4.0 * place.curvature_radius * give / (PI * inputs.common_width())).sqrt();
+    Ok(ContactSpring { offset, slope, width_per_root_force })
+}
+
+/// 1/E' = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂, in 1/Pa.
+#[must_use]
+pub fn plane_strain_compliance(inputs: &Inputs) -> f64 {
+    give(&inputs.driver) + give(&inputs.driven)
+}
+
+/// (1 − ν²)/E, in 1/Pa.
+fn give(gear: &Gear) -> f64 {
+    (1.0 - gear.poisson) * (1.0 + gear.poisson) / gear.young
+}
+
+/// Offset and slope of Eq. 55.
+///
+/// # Formula
+/// ```text
+/// qH = 2 (1 − ν²)/(π E) (1.27 + 0.781 ln(m/a))
+/// ```
+/// where for two materials (1 − ν²)/E is the mean of both.
+///
+/// # Source
+/// Zhou & Chen 2014, Eq. 55 (from Xiao & Tang 1995).
+///
+/// # Valid for
+/// A half-width small against the module: q_H is negative from a = 5.08 m on.
+fn logarithmic(module: f64, give: f64) -> (f64, f64) {
+    const CONSTANT: f64 = 1.27;
+    const FACTOR: f64 = 0.781;
+    (give / PI * (CONSTANT + FACTOR * module.ln()), give / PI * FACTOR)
+}
+
+/// Contact compliance without the half-width, q_H = 4 (1 − ν²)/(π E), in m²/N.
+///
+/// # Source
+/// Yang & Sun 1985, "A rotary model for spur gear dynamics". For two materials (1 − ν²)/E is the mean of both.
+fn constant(give: f64) -> f64 {
+    2.0 * give / PI
+}
+
+/// Offset and slope of Weber's contact term.
+///
+/// # Formula
+/// ```text
+/// qH = Σ (1 − ν_i²)/(π E_i) (2 ln(2 h_i/a) − ν_i/(1 − ν_i))
+/// ```
+/// where h_i is the depth from the contact to the tooth's centre line along the line of force.
+///
+/// # Source
+/// Weber & Banaschek 1953, "Formänderung und Profilrücknahme bei gerad- und schrägverzahnten Rädern".
+///
+/// # Valid for
+/// A half-width small against the depth h.
+fn weber(inputs: &Inputs, geometry: &Geometry, place: &ContactPlace) -> (f64, f64) {
+    let of = |gear: &Gear, depth: f64| {
+        let scale = give(gear) / PI;
+        (scale * (2.0 * (2.0 * depth).ln() - gear.poisson / (1.0 - gear.poisson)), 2.0 * scale)
+    };
+    let driver = Profile::of(inputs, &inputs.driver, &geometry.driver).depth_along_force(place.radius_driver);
+    let driven = Profile::of(inputs, &inputs.driven, &geometry.driven).depth_along_force(place.radius_driven);
+    let (first, second) = (of(&inputs.driver, driver), of(&inputs.driven, driven));
+    (first.0 + second.0, first.1 + second.1)
+}

@@ -1,0 +1,68 @@
+//! Tooth compliance by the fit of Kuang and Yang.
+
+use std::ops::RangeInclusive;
+
+use crate::model::Refusal;
+use crate::model::geometry::Circles;
+use crate::model::inputs::{Gear, Inputs};
+
+/// Tooth numbers that the fit of Eq. 56 covers.
+pub const TEETH: (u32, u32) = (12, 100);
+/// Greatest profile shift, either way, that the fit of Eq. 56 covers.
+pub const SHIFT: f64 = 0.6;
+
+/// The range of the fit, in words.
+pub const RANGE: &str = "z 12..100, |x| <= 0.6, 20 deg full-depth steel teeth";
+
+/// Whether both gears lie in the range of the fit: tooth number, profile shift, 20° full depth, steel.
+#[must_use]
+pub fn covers(inputs: &Inputs) -> bool {
+    const PRESSURE_ANGLE_DEGREES: f64 = 20.0;
+    const ADDENDUM: RangeInclusive<f64> = 0.9..=1.1;
+    const YOUNG: RangeInclusive<f64> = 190e9..=220e9;
+    let covered = |gear: &Gear| {
+        (TEETH.0..=TEETH.1).contains(&gear.teeth)
+            && gear.profile_shift.abs() <= SHIFT
+            && ADDENDUM.contains(&gear.addendum)
+            && YOUNG.contains(&gear.young)
+    };
+    let standard_angle = (inputs.pressure_angle.to_degrees() - PRESSURE_ANGLE_DEGREES).abs() < 1e-6;
+    standard_angle && covered(&inputs.driver) && covered(&inputs.driven)
+}
+
+/// Compliance of one tooth loaded at a radius, in m²/N.
+///
+/// # Formula
+/// ```text
+/// 1/q = (A0 + A1 x) + (A2 + A3 x)(radius − r)/((1 + x) m),   A_k cubic in z, in N/(µm mm)
+/// ```
+///
+/// # Source
+/// Kuang & Yang 1992; Zhou & Chen 2014, Eq. 56. Contact excluded.
+///
+/// # Valid for
+/// z = 12..100, |x| ≤ 0.6, 20° full-depth steel teeth. Being cubic in z it explodes outside.
+///
+/// # Errors
+/// [`Refusal::TeethOutsideFit`], [`Refusal::ShiftOutsideFit`].
+pub fn tooth(module: f64, gear: &Gear, circles: &Circles, radius: f64) -> Result<f64, Refusal> {
+    const A: [[f64; 4]; 4] = [
+        [3.867, 1.612, -0.02916, 0.0001553],
+        [17.060, 0.7289, -0.01728, 0.0000999],
+        [2.637, -1.222, 0.02217, -0.0001179],
+        [-6.330, -1.033, 0.02068, -0.0001130],
+    ];
+    const NEWTON_PER_MICRON_MILLIMETRE: f64 = 1e9;
+    let (least, most) = TEETH;
+    if !(least..=most).contains(&gear.teeth) {
+        return Err(Refusal::TeethOutsideFit { teeth: gear.teeth });
+    }
+    let shift = gear.profile_shift;
+    if shift.abs() > SHIFT {
+        return Err(Refusal::ShiftOutsideFit { shift });
+    }
+    let teeth = f64::from(gear.teeth);
+    let [a0, a1, a2, a3] = A.map(|[c0, c1, c2, c3]| c0 + teeth * (c1 + teeth * (c2 + teeth * c3)));
+    let height = (radius - circles.reference) / ((1.0 + shift) * module);
+    Ok(1.0 / (NEWTON_PER_MICRON_MILLIMETRE * (a0 + a1 * shift + (a2 + a3 * shift) * height)))
+}

@@ -1,0 +1,61 @@
+//! What a reader must know beside a result: each note with its value and its limit.
+
+mod compliance;
+mod impact;
+mod pair;
+
+use super::{Inputs, Solution};
+use crate::numeric::decimal::significant;
+
+/// Something a reader must know beside a result.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Note {
+    /// A short name for scripts.
+    pub code: &'static str,
+    /// One sentence with the value and the limit.
+    pub message: String,
+}
+
+impl Note {
+    fn new(code: &'static str, message: String) -> Note {
+        Note { code, message }
+    }
+}
+
+/// A value with four significant digits.
+fn four(value: f64) -> String {
+    significant(value, 4)
+}
+
+/// A condition to look for.
+type Look = fn(&Inputs, &Solution) -> Option<Note>;
+
+/// Every condition, in the order in which a reader meets them.
+const LOOKS: &[Look] = &[
+    impact::withheld,
+    impact::outlasting,
+    impact::impulse,
+    impact::contact_lost,
+    impact::sliding_reverses,
+    impact::friction,
+    compliance::chosen_by_range,
+    compliance::outside_fit,
+    compliance::foundation,
+    compliance::hertz_width,
+    pair::contact_ratio_above_two,
+    pair::contact_ratio_below_one,
+    pair::centre_distance,
+    pair::start_past_pitch,
+    pair::interference_at_end,
+    pair::undercut_driver,
+    pair::undercut_driven,
+    pair::tip_driver,
+    pair::tip_driven,
+    pair::form_circle,
+];
+
+/// What a reader must know beside the result.
+#[must_use]
+pub fn notes(inputs: &Inputs, solution: &Solution) -> Vec<Note> {
+    LOOKS.iter().filter_map(|look| look(inputs, solution)).collect()
+}

@@ -1,0 +1,82 @@
+//! Notes on the impact itself.
+
+use super::{Note, four};
+use crate::model::inputs::Rung;
+use crate::model::{Inputs, Solution};
+
+const MICRO: f64 = 1e6;
+
+/// Quantities that could not be computed although the tooth strikes.
+pub(super) fn withheld(_: &Inputs, solution: &Solution) -> Option<Note> {
+    let refusal = solution.withheld?;
+    Some(Note::new(refusal.code(), format!("{refusal}; no force, energy or duration is given: {}", refusal.mend())))
+}
+
+/// The impact is longer than the way from D to E.
+pub(super) fn outlasting(_: &Inputs, solution: &Solution) -> Option<Note> {
+    let duration = solution.impact?.duration * MICRO;
+    let transit = solution.velocity?.transit_time * MICRO;
+    let message = || {
+        let (lasts, way) = (four(duration), four(transit));
+        format!(
+            "the impact lasts {lasts} us and D to E only {way} us: it runs on into the normal mesh, which this rung does not follow"
+        )
+    };
+    (duration > transit).then(|| Note::new("impact-outlasts-approach", message()))
+}
+
+/// Force and duration contradict each other.
+pub(super) fn impulse(inputs: &Inputs, solution: &Solution) -> Option<Note> {
+    const ROUNDING: f64 = 1e-9;
+    let ratio = solution.impact?.impulse_ratio;
+    let cause = match inputs.rung {
+        Rung::Paper => "Eq. 32 as printed lacks Hertz's prefactor",
+        Rung::Exact => "force and duration do not belong to one impact",
+    };
+    let possible = 1.0 - ROUNDING..=2.0 + ROUNDING;
+    (!possible.contains(&ratio))
+        .then(|| Note::new("impulse-ratio", format!("the impulse ratio is {}, outside 1..2: {cause}", four(ratio))))
+}
+
+/// The load cannot hold the pair ahead in contact while the incoming tooth carries its error.
+pub(super) fn contact_lost(_: &Inputs, solution: &Solution) -> Option<Note> {
+    let deviation = solution.deviation;
+    let (deflection, error) = (deviation.combined_deflection * MICRO, deviation.equivalent_error * MICRO);
+    let message = || {
+        let (deflects, error) = (four(deflection), four(error));
+        format!(
+            "the mesh force deflects the pair {deflects} um, less than the equivalent error of {error} um: the pair ahead loses contact"
+        )
+    };
+    (deflection < error).then(|| Note::new("contact-lost", message()))
+}
+
+/// The tip slides the other way before it reaches E.
+pub(super) fn sliding_reverses(inputs: &Inputs, solution: &Solution) -> Option<Note> {
+    let at_contact = solution.velocity?.sliding;
+    let at_start = (inputs.speed + inputs.driven_speed()) * solution.geometry.approach_length;
+    let message = || {
+        let (at_contact, at_start) = (four(at_contact), four(at_start));
+        format!("the sliding velocity is {at_contact} m/s at D and {at_start} m/s at E: it reverses between them")
+    };
+    (at_contact * at_start < 0.0).then(|| Note::new("sliding-reverses", message()))
+}
+
+/// What the case's own friction coefficient can do.
+pub(super) fn friction(inputs: &Inputs, solution: &Solution) -> Option<Note> {
+    let friction = inputs.friction_coefficient?;
+    let limit = solution.velocity?.stick_limit;
+    let below = friction < limit;
+    let limit = four(limit);
+    let (code, does) = if below {
+        (
+            "sliding-throughout",
+            format!(
+                "below the stick limit {limit}: sliding goes on throughout, and the tangential impulse is {friction} times the normal one"
+            ),
+        )
+    } else {
+        ("sticking", format!("not below the stick limit {limit}: sliding stops within the impact"))
+    };
+    Some(Note::new(code, format!("the friction coefficient is {friction}, {does}")))
+}
