@@ -1,3 +1,8 @@
+//! A case as a user fills it, field by field.
+
+// A test may stop at what it did not expect; what is written exactly is read exactly.
+#![allow(clippy::unwrap_used, clippy::float_cmp)]
+
 use super::fields::{FIELDS, index_of};
 use super::{Case, Problem};
 use crate::model::inputs::Drive;

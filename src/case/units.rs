@@ -123,7 +123,7 @@ pub fn text(value: f64, unit: &str) -> String {
             let near = number::plain(value / factor, 0);
             (12..17)
                 .map(|digits| format!("{:.digits$e}", value / factor))
-                .find(|short| times(number::shifted(short, 0), factor, rest) == value)
+                .find(|short| times(number::shifted(short, 0), factor, rest).to_bits() == value.to_bits())
                 .map_or(near, |short| number::plain(number::shifted(&short, 0), 0))
         }
     };

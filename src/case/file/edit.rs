@@ -175,9 +175,9 @@ impl<'d> Editor<'d> {
             if !tables.contains(&entry.table) {
                 tables.push(entry.table);
                 let blank = if self.text.is_empty() { "" } else { self.line_end };
-                text += &format!("{blank}[{}]{}", entry.table, self.line_end);
+                text.extend([blank, "[", entry.table, "]", self.line_end]);
             }
-            text += &format!("{}{}", entry.line(), self.line_end);
+            text.extend([entry.line().as_str(), self.line_end]);
         }
         text
     }

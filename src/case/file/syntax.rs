@@ -45,7 +45,9 @@ pub(super) fn recover(source: &str) -> Recovered {
             recovered.faults.extend(doubles.iter().map(|(at, error)| double(*at, error, source)));
             break;
         }
-        slips.iter().for_each(|(at, _)| recovered.blank(lines.around(*at), source));
+        for (at, _) in &slips {
+            recovered.blank(lines.around(*at), source);
+        }
     }
     recovered
 }

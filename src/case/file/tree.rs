@@ -5,6 +5,7 @@ use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 
 use super::fault::{FaultKind, Found};
+use super::value::{bare_number, kind_of, measure, misplaced, scalar, untaken, words};
 use super::{FORMAT, syntax};
 use crate::case::fields::{FIELDS, GROUPS, Kind, index_of};
 use crate::case::spread;
@@ -172,7 +173,7 @@ impl Reader {
         let empty = |text: &String| text.is_empty() && !matches!(known.kind, Kind::Text);
         match written {
             Ok(text) if empty(&text) => {
-                self.wrongly(field, value, Misread::new("there is no value", format!("write {}", check::assignment(known))))
+                self.wrongly(field, value, Misread::new("there is no value", format!("write {}", check::assignment(known))));
             }
             Ok(text) => self.case.write(field, &text),
             Err(misread) => self.wrongly(
@@ -266,62 +267,6 @@ fn in_order<'k, 'i>(table: &'k DeTable<'i>) -> impl Iterator<Item = (Key<'k, 'i>
 
 fn is_table(name: &str) -> bool {
     matches!(name, "limits" | "spread") || GROUPS.iter().any(|(group, _)| *group == name && !name.is_empty())
-}
-
-/// The text of words; `None` for the cause where the value is of another kind.
-fn words(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
-    value.as_str().map(str::to_owned).ok_or(None)
-}
-
-/// The text of a value with its unit; a number's digits too, since the reader of units says what they lack.
-fn measure(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
-    scalar(value).ok_or(None)
-}
-
-fn bare_number(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
-    match value.as_str() {
-        Some(text) => {
-            let cause = format!("{} stands in quotes where a bare number is due", quoted(text));
-            Err(Some(Misread::new(cause, "write the number without quotes")))
-        }
-        None => scalar(value).ok_or(None),
-    }
-}
-
-/// The text of a string or a number.
-fn scalar(value: &DeValue<'_>) -> Option<String> {
-    match value {
-        DeValue::String(text) => Some(text.to_string()),
-        DeValue::Integer(number) if number.radix() == 10 => Some(number.as_str().to_owned()),
-        DeValue::Integer(number) => i128::from_str_radix(number.as_str(), number.radix()).ok().map(|number| number.to_string()),
-        DeValue::Float(number) => Some(number.as_str().to_owned()),
-        _ => None,
-    }
-}
-
-fn untaken(value: &DeValue<'_>, kind: Kind, example: &str) -> Misread {
-    let due = match kind {
-        Kind::Text | Kind::Choice(..) => "a text in quotes",
-        Kind::Number(..) | Kind::Count(..) => "a value",
-    };
-    misplaced(value, due, example)
-}
-
-fn misplaced(value: &DeValue<'_>, due: &str, example: &str) -> Misread {
-    Misread::new(format!("{} stands where {due} is due", kind_of(value)), format!("write {example}"))
-}
-
-fn kind_of(value: &DeValue<'_>) -> &'static str {
-    const KINDS: [(&str, &str); 7] = [
-        ("string", "a string"),
-        ("integer", "a number"),
-        ("float", "a number"),
-        ("boolean", "true or false"),
-        ("datetime", "a date"),
-        ("array", "an array"),
-        ("table", "a table"),
-    ];
-    KINDS.iter().find(|(kind, _)| *kind == value.type_str()).map_or("something else", |(_, words)| words)
 }
 
 fn unknown_at_top(name: &str) -> Problem {
