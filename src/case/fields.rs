@@ -34,6 +34,9 @@ pub enum Kind {
     Choice(&'static [&'static str], fn(&mut Inputs, usize)),
 }
 
+/// The names of a choice that TOML writes as a bare truth value.
+pub const FLAG: &[&str] = &["false", "true"];
+
 /// The values that a field takes, in SI, both ends included unless said.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
@@ -73,6 +76,18 @@ impl Field {
 }
 
 impl Field {
+    /// Whether it takes true or false.
+    #[must_use]
+    pub fn is_flag(&self) -> bool {
+        matches!(self.kind, Kind::Choice(names, _) if names == FLAG)
+    }
+
+    /// Whether its value stands in a file without quotes.
+    #[must_use]
+    pub fn is_bare(&self) -> bool {
+        self.is_flag() || matches!(self.kind, Kind::Count(..) | Kind::Number(Dimension::Number, ..))
+    }
+
     /// A text that the field takes, to show how one is written.
     #[must_use]
     pub fn example(&self) -> &'static str {
@@ -240,7 +255,7 @@ const HEAD: [Field; 5] = [
     ),
 ];
 
-const TAIL: [Field; 11] = [
+const TAIL: [Field; 12] = [
     number!(
         "deviations.base_pitch",
         "f_pb",
@@ -359,13 +374,21 @@ const TAIL: [Field; 11] = [
         kind: Kind::Count(1, 10000, |inputs, value| inputs.stations = value as usize),
         absent: Default("64"),
     },
+    Field {
+        key: "model.accurate",
+        symbol: "",
+        label: "accurate",
+        help: "Geometry and position in double-double arithmetic: the last digit, for some twenty times the cost.",
+        kind: Kind::Choice(FLAG, |inputs, value| inputs.accurate = value == 1),
+        absent: Default("false"),
+    },
 ];
 
 /// Every field, in the order of the form and of a new file.
-pub static FIELDS: [Field; 42] = table();
+pub static FIELDS: [Field; 43] = table();
 
-const fn table() -> [Field; 42] {
-    let mut all = [HEAD[0]; 42];
+const fn table() -> [Field; 43] {
+    let mut all = [HEAD[0]; 43];
     let parts: [&[Field]; 4] = [&HEAD, &DRIVER, &DRIVEN, &TAIL];
     let (mut part, mut at) = (0, 0);
     while part < parts.len() {
