@@ -1,5 +1,5 @@
 //! What is read of a text with a unit, and what is not.
-#![expect(clippy::float_cmp, clippy::approx_constant, reason = "a value is read to the last bit, whatever it is")]
+#![expect(clippy::approx_constant, reason = "a value is read to the last bit, whatever it is")]
 
 use super::{Dimension, Misread, factor, parse, text};
 use proptest::prelude::*;
