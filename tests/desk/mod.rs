@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
+use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Size;
 use tempfile::TempDir;
 use tipstrike::case::Document;
@@ -126,6 +127,12 @@ impl Desk {
     }
 
     fn rows(&self, size: Size) -> Vec<String> {
+        let width = usize::from(size.width.max(1));
+        self.buffer(size).content.chunks(width).map(|row| row.iter().map(Cell::symbol).collect()).collect()
+    }
+
+    /// The screen with its styles.
+    pub(crate) fn buffer(&self, size: Size) -> Buffer {
         let mut terminal = Terminal::new(TestBackend::new(size.width, size.height)).expect("a test terminal");
         let frame = terminal.draw(|frame| {
             let area = frame.area();
@@ -133,9 +140,7 @@ impl Desk {
                 frame.set_cursor_position(cursor);
             }
         });
-        let buffer = frame.expect("a frame").buffer.clone();
-        let width = usize::from(size.width.max(1));
-        buffer.content.chunks(width).map(|row| row.iter().map(ratatui::buffer::Cell::symbol).collect()).collect()
+        frame.expect("a frame").buffer.clone()
     }
 }
 
