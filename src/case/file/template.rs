@@ -8,7 +8,7 @@ use crate::case::units::{self, Dimension};
 use crate::case::{Case, check};
 
 /// A key and its value as they stand in a file.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Entry {
     /// The table, empty for the top level.
     pub(super) table: &'static str,

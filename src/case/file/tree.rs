@@ -16,7 +16,7 @@ use crate::model::Quantity;
 type Key<'k, 'i> = &'k toml::Spanned<toml::de::DeString<'i>>;
 type Value<'k, 'i> = &'k toml::Spanned<DeValue<'i>>;
 
-/// Unknown keys after which no more are looked at.
+/// Keys of one table after which no more are looked at.
 const ENOUGH: usize = 200;
 
 /// Where a key and its value stand in the text.
@@ -97,7 +97,7 @@ impl Reader {
         if self.format(root) == FaultKind::NewerFormat {
             return;
         }
-        for (key, value) in root.iter().take(ENOUGH) {
+        for (key, value) in in_order(root) {
             let name = key.get_ref().as_ref();
             if name == "format" {
                 self.note(name, key, value);
@@ -143,7 +143,7 @@ impl Reader {
         };
         self.places.tables.push((name.to_owned(), value.span()));
         self.inline = text[value.span()].starts_with('{').then(|| value.span());
-        for (key, value) in table.iter().take(ENOUGH) {
+        for (key, value) in in_order(table) {
             match name {
                 "limits" => self.limit(key, value),
                 "spread" => self.spread("", key, value),
@@ -219,7 +219,7 @@ impl Reader {
         let place = spread::place(&path);
         let table = value.get_ref().as_table();
         if let (Some(table), true) = (table, GROUPS.iter().any(|(group, _)| *group == path)) {
-            table.iter().take(ENOUGH).for_each(|(key, value)| self.spread(&path, key, value));
+            in_order(table).for_each(|(key, value)| self.spread(&path, key, value));
             return;
         }
         self.note(&place, key, value);
@@ -256,6 +256,13 @@ impl Reader {
     fn fault(&mut self, at: usize, problem: Problem) {
         self.faults.push(Found::new(at, problem));
     }
+}
+
+/// A table's keys and values in the order of the text, as far as they are looked at.
+fn in_order<'k, 'i>(table: &'k DeTable<'i>) -> impl Iterator<Item = (Key<'k, 'i>, Value<'k, 'i>)> {
+    let mut members: Vec<_> = table.iter().collect();
+    members.sort_by_key(|(key, _)| key.span().start);
+    members.into_iter().take(ENOUGH)
 }
 
 fn is_table(name: &str) -> bool {
