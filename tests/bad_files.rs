@@ -1,7 +1,5 @@
 //! Every bad file is refused at the right place, with the cause and the mend, all faults in one run.
-
-// A test may stop at what it did not expect.
-#![allow(clippy::unwrap_used, clippy::panic)]
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
 
 use tipstrike::case::Document;
 use tipstrike::case::file::{Fault, FaultKind, MOST_BYTES};
@@ -13,7 +11,7 @@ fn faults(text: &str) -> Vec<Fault> {
 }
 
 fn printed(faults: &[Fault]) -> String {
-    faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+    faults.iter().map(Fault::to_string).collect::<Vec<_>>().join("\n")
 }
 
 /// A fault as a row expects it: line, column, field, part of the cause, part of the mend.
@@ -272,7 +270,7 @@ fn long_and_hostile_names_are_shown_short_and_visible() {
 #[test]
 fn bytes_that_are_no_text_are_placed() {
     let mut bytes = GOOD.as_bytes().to_vec();
-    let at = GOOD.find("5 mm\"").map_or(0, |at| at + 2);
+    let at = GOOD.find("5 mm\"").unwrap_or(0) + "5 ".len();
     bytes[at] = 0xff;
     let found = Document::parse_bytes("bad.toml", &bytes).map(|_| ()).unwrap_err();
     assert_eq!(found[0].to_string(), "bad.toml:11:13: toml: byte 0xff is not UTF-8 text: save the file as UTF-8");

@@ -1,5 +1,5 @@
 //! Keys in, screen and files out: editing, saving, opening, leaving.
-
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
 #![cfg(feature = "tui")]
 
 mod desk;

@@ -1,5 +1,5 @@
 //! The built program on a real terminal: it types, saves, leaves, and gives the terminal back as it found it.
-
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
 #![cfg(all(feature = "cli", feature = "tui"))]
 
 use std::ffi::OsStr;
@@ -47,7 +47,9 @@ impl Tty {
         command.env("XDG_STATE_HOME", folder.path());
         command.env("TERM", "xterm-256color");
         command.env("LC_ALL", "C.UTF-8");
-        variables.iter().for_each(|(name, value)| command.env(name, value));
+        for (name, value) in variables {
+            command.env(name, value);
+        }
         let mut reader = pair.master.try_clone_reader().expect("a reader");
         let writer = pair.master.take_writer().expect("a writer");
         let before = modes(&*pair.master);

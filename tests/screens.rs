@@ -1,5 +1,5 @@
 //! The screens, as a person sees them: at 80x24, with room at 140x45, and at every size.
-
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
 #![cfg(feature = "tui")]
 
 mod desk;

@@ -90,8 +90,7 @@ pub(super) fn put(case: &Case, field: usize, inputs: &mut Inputs) -> Result<(), 
 /// How the field stands in a file, by example.
 pub(super) fn assignment(field: &Field) -> String {
     let example = field.example();
-    let bare = matches!(field.kind, Kind::Count(..) | Kind::Number(Dimension::Number, ..));
-    let value = if bare { example.to_owned() } else { format!("\"{example}\"") };
+    let value = if field.is_bare() { example.to_owned() } else { format!("\"{example}\"") };
     format!("{} = {value}", field.name())
 }
 

@@ -1,7 +1,5 @@
-//! A case as a user fills it, field by field.
-
-// A test may stop at what it did not expect; what is written exactly is read exactly.
-#![allow(clippy::unwrap_used, clippy::float_cmp)]
+//! What a case promises on its own, without a file.
+#![expect(clippy::float_cmp, reason = "a value is read to the last bit")]
 
 use super::fields::{FIELDS, index_of};
 use super::{Case, Problem};

@@ -34,7 +34,7 @@ pub(super) fn open(path: &Path, settings: &[Setting], streams: &mut Streams) -> 
     }
     match document.case.inputs() {
         // Nothing waits for a report, so it is given the digits.
-        Ok(inputs) => Ok(Opened { name: path.display().to_string(), document, inputs: Inputs { accurate: true, ..inputs } }),
+        Ok(inputs) => Ok(Opened { name: path.display().to_string(), document, inputs }),
         Err(problems) => Err(unfit(&document, problems, settings, streams)),
     }
 }

@@ -1,11 +1,14 @@
-//! The chart's axes: steps of 1-2-5 that stay until the curve leaves them.
+//! The chart's axes: round steps that stay until the curve leaves them.
 
 use super::solver::Answer;
 use crate::model::Station;
 
-/// Below this part of the axis the curve is too small, and the axis shrinks. A step is at most 2.5 times
-/// the one before, so that a curve that has just left its axis fills 0.4 of the next.
-const TOO_SMALL: f64 = 0.35;
+/// Ends of an axis, times a power of ten.
+const STEPS: [f64; 8] = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0];
+
+/// Below this part of the axis the curve is too small, and the axis shrinks. A step is at most 1.5 times
+/// the one before, so that a curve that has just left its axis fills two thirds of the next.
+const TOO_SMALL: f64 = 0.45;
 
 /// Ends of the two axes; both begin at 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,14 +55,14 @@ pub fn bounds(from: f64, to: f64) -> [f64; 2] {
     [from - pad, to + pad]
 }
 
-/// The least of 1, 2 and 5 times a power of ten that is not below the value.
+/// The least end of an axis that is not below the value.
 #[must_use]
 pub fn round_up(value: f64) -> f64 {
     if !value.is_normal() || value < 1e-30 {
         return 1e-30;
     }
     let power = 10f64.powi(value.log10().floor() as i32);
-    let step = [1.0, 2.0, 5.0].into_iter().find(|step| step * power >= value * (1.0 - 1e-12));
+    let step = STEPS.into_iter().find(|step| step * power >= value * (1.0 - 1e-12));
     step.unwrap_or(10.0) * power
 }
 
@@ -74,11 +77,11 @@ mod tests {
 
     #[test]
     fn an_axis_stays_until_the_curve_leaves_it() {
-        assert_eq!(step(0.0, 2191.0), 5000.0);
-        assert_eq!(step(5000.0, 4999.0), 5000.0);
-        assert_eq!(step(5000.0, 1800.0), 5000.0);
-        assert_eq!(step(5000.0, 1700.0), 2000.0);
-        assert_eq!(step(2000.0, 2001.0), 5000.0);
+        assert_eq!(step(0.0, 2191.0), 3000.0);
+        assert_eq!(step(3000.0, 2999.0), 3000.0);
+        assert_eq!(step(3000.0, 1400.0), 3000.0);
+        assert_eq!(step(3000.0, 1300.0), 1500.0);
+        assert_eq!(step(2000.0, 2001.0), 3000.0);
     }
 
     #[test]

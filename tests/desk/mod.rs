@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
+use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Size;
 use tempfile::TempDir;
 use tipstrike::case::Document;
@@ -17,47 +18,47 @@ use tipstrike::tui::theme::Look;
 use tipstrike::tui::update::{Effect, update};
 use tipstrike::tui::{solver, store, view};
 
-pub const SMALL: Size = Size { width: 80, height: 24 };
-pub const LARGE: Size = Size { width: 140, height: 45 };
-pub const TABLE_1: &str = include_str!("../../cases/zhou-chen-2014.toml");
+pub(crate) const SMALL: Size = Size { width: 80, height: 24 };
+pub(crate) const LARGE: Size = Size { width: 140, height: 45 };
+pub(crate) const TABLE_1: &str = include_str!("../../cases/zhou-chen-2014.toml");
 
-pub struct Desk {
-    pub app: App,
-    pub folder: TempDir,
-    pub has_quit: bool,
+pub(crate) struct Desk {
+    pub(crate) app: App,
+    pub(crate) folder: TempDir,
+    pub(crate) has_quit: bool,
 }
 
 impl Desk {
     /// On the built-in case.
-    pub fn new(size: Size) -> Desk {
+    pub(crate) fn new(size: Size) -> Desk {
         let app = App::new(store::built_in(), None, Look::FULL, size);
         Desk { app, folder: tempfile::tempdir().expect("a folder"), has_quit: false }
     }
 
     /// On a file of that text.
-    pub fn on(size: Size, name: &str, text: &str) -> Desk {
+    pub(crate) fn on(size: Size, name: &str, text: &str) -> Desk {
         let mut desk = Desk::new(size);
         let path = desk.write(name, text);
         desk.app = App::new(Document::read(&path).expect("a good case"), Some(path), Look::FULL, size);
         desk
     }
 
-    pub fn write(&self, name: &str, text: &str) -> PathBuf {
+    pub(crate) fn write(&self, name: &str, text: &str) -> PathBuf {
         let path = self.path(name);
         fs::write(&path, text).expect("room on the disk");
         path
     }
 
-    pub fn path(&self, name: &str) -> PathBuf {
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }
 
-    pub fn read(&self, name: &str) -> String {
+    pub(crate) fn read(&self, name: &str) -> String {
         fs::read_to_string(self.path(name)).expect("the file is there")
     }
 
     /// Keys by their names: `Ctrl-S`, `Alt-S`, `F1`, `Down`; anything else is typed letter by letter.
-    pub fn keys(&mut self, keys: &[&str]) -> &mut Desk {
+    pub(crate) fn keys(&mut self, keys: &[&str]) -> &mut Desk {
         for key in keys {
             match named(key) {
                 Some(event) => self.press(event),
@@ -67,20 +68,20 @@ impl Desk {
         self
     }
 
-    pub fn type_in(&mut self, text: &str) {
+    pub(crate) fn type_in(&mut self, text: &str) {
         for letter in text.chars() {
             self.press(KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE));
         }
     }
 
-    pub fn press(&mut self, event: KeyEvent) {
+    pub(crate) fn press(&mut self, event: KeyEvent) {
         if let Some(action) = actions::of_key(event, self.app.place()) {
             self.act(action);
         }
     }
 
     /// Change the state and do at once what it asks for.
-    pub fn act(&mut self, action: Action) {
+    pub(crate) fn act(&mut self, action: Action) {
         let mut actions = vec![action];
         while let Some(action) = actions.pop() {
             for effect in update(&mut self.app, action) {
@@ -95,7 +96,7 @@ impl Desk {
     }
 
     /// Go to a field by its key.
-    pub fn go_to(&mut self, key: &str) -> &mut Desk {
+    pub(crate) fn go_to(&mut self, key: &str) -> &mut Desk {
         let field = tipstrike::case::fields::index_of(key).expect("a field of that key");
         self.keys(&["Ctrl-Home"]);
         (0..field).for_each(|_| {
@@ -106,26 +107,32 @@ impl Desk {
     }
 
     /// Write a field anew.
-    pub fn fill(&mut self, key: &str, text: &str) -> &mut Desk {
+    pub(crate) fn fill(&mut self, key: &str, text: &str) -> &mut Desk {
         self.go_to(key).keys(&["Ctrl-U", text])
     }
 
-    pub fn screen(&self) -> String {
+    pub(crate) fn screen(&self) -> String {
         self.screen_at(self.app.size)
     }
 
     /// The screen as text, the folder of the test named `DIR`, each line without the spaces at its end.
-    pub fn screen_at(&self, size: Size) -> String {
+    pub(crate) fn screen_at(&self, size: Size) -> String {
         let folder = self.folder.path().display().to_string();
         let lines: Vec<String> = self.rows(size).iter().map(|row| row.replace(&folder, "DIR").trim_end().to_owned()).collect();
         lines.join("\n")
     }
 
-    pub fn shows(&self, text: &str) -> bool {
+    pub(crate) fn shows(&self, text: &str) -> bool {
         self.rows(self.app.size).join("\n").contains(text)
     }
 
     fn rows(&self, size: Size) -> Vec<String> {
+        let width = usize::from(size.width.max(1));
+        self.buffer(size).content.chunks(width).map(|row| row.iter().map(Cell::symbol).collect()).collect()
+    }
+
+    /// The screen with its styles.
+    pub(crate) fn buffer(&self, size: Size) -> Buffer {
         let mut terminal = Terminal::new(TestBackend::new(size.width, size.height)).expect("a test terminal");
         let frame = terminal.draw(|frame| {
             let area = frame.area();
@@ -133,14 +140,12 @@ impl Desk {
                 frame.set_cursor_position(cursor);
             }
         });
-        let buffer = frame.expect("a frame").buffer.clone();
-        let width = usize::from(size.width.max(1));
-        buffer.content.chunks(width).map(|row| row.iter().map(ratatui::buffer::Cell::symbol).collect()).collect()
+        frame.expect("a frame").buffer.clone()
     }
 }
 
 /// A file that holds a case and its name.
-pub fn name(path: &Path) -> &str {
+pub(crate) fn name(path: &Path) -> &str {
     path.to_str().expect("a name in UTF-8")
 }
 

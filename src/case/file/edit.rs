@@ -170,15 +170,15 @@ impl<'d> Editor<'d> {
     fn new_tables(&self) -> String {
         let mut tables: Vec<&str> = Vec::new();
         let fresh = |entry: &&Entry| !entry.table.is_empty() && self.places.table(entry.table).is_none();
-        let mut text = String::new();
+        let mut lines: Vec<String> = Vec::new();
         for entry in self.after.iter().filter(fresh) {
             if !tables.contains(&entry.table) {
                 tables.push(entry.table);
                 let blank = if self.text.is_empty() { "" } else { self.line_end };
-                text.extend([blank, "[", entry.table, "]", self.line_end]);
+                lines.push(format!("{blank}[{}]", entry.table));
             }
-            text.extend([entry.line().as_str(), self.line_end]);
+            lines.push(entry.line());
         }
-        text
+        lines.into_iter().map(|line| line + self.line_end).collect()
     }
 }

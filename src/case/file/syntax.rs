@@ -133,11 +133,13 @@ fn mistaken(field: &Field, value: &str) -> Option<Problem> {
         Kind::Count(..) => units::parse(inner, Dimension::Number, ""),
         Kind::Text | Kind::Choice(..) => Ok(0.0),
     };
-    let bare = matches!(field.kind, Kind::Number(Dimension::Number, ..) | Kind::Count(..));
     match read {
         _ if value.contains(['"', '\'', '[', '{']) => None,
         Err(misread) => problem(misread.cause, misread.mend),
-        Ok(number) if bare => {
+        Ok(_) if field.is_flag() => {
+            problem(format!("{} is neither true nor false", quoted(value)), "write true or false".to_owned())
+        }
+        Ok(number) if field.is_bare() => {
             problem(format!("{} is not how TOML writes a number", quoted(value)), format!("write {}", units::text(number, "")))
         }
         Ok(_) => problem(format!("{} is not in quotes", quoted(value)), format!("write \"{}\"", cut(value))),

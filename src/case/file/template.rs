@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::FORMAT;
-use crate::case::fields::{Absent, FIELDS, Field, GROUPS, Kind};
+use crate::case::fields::{Absent, FIELDS, FLAG, Field, GROUPS};
 use crate::case::units::{self, Dimension};
 use crate::case::{Case, check};
 
@@ -96,9 +96,12 @@ fn rest(entries: &[Entry], table: &str, help: &str, example: &str) -> String {
 
 /// A field's text as a TOML value.
 fn value(field: &Field, text: &str) -> String {
-    match field.kind {
-        Kind::Number(Dimension::Number, ..) | Kind::Count(..) => number(text),
-        _ => string(text),
+    if field.is_flag() && FLAG.contains(&text) {
+        text.to_owned()
+    } else if field.is_bare() {
+        number(text)
+    } else {
+        string(text)
     }
 }
 

@@ -5,11 +5,11 @@ use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 
 use super::fault::{FaultKind, Found};
-use super::value::{bare_number, kind_of, measure, misplaced, scalar, untaken, words};
+use super::value::{bare_number, flag, kind_of, measure, misplaced, scalar, untaken, words};
 use super::{FORMAT, syntax};
 use crate::case::fields::{FIELDS, GROUPS, Kind, index_of};
 use crate::case::spread;
-use crate::case::units::{Dimension, Misread};
+use crate::case::units::Misread;
 use crate::case::visible::quoted;
 use crate::case::{Case, Limit, Problem, Spread, check, suggest};
 use crate::model::Quantity;
@@ -166,9 +166,10 @@ impl Reader {
         let known = &FIELDS[field];
         self.note(known.key, key, value);
         let written = match known.kind {
+            Kind::Choice(..) if known.is_flag() => flag(value.get_ref()),
             Kind::Text | Kind::Choice(..) => words(value.get_ref()),
-            Kind::Number(Dimension::Number, ..) | Kind::Count(..) => bare_number(value.get_ref()),
-            Kind::Number(..) => measure(value.get_ref()),
+            Kind::Number(..) | Kind::Count(..) if known.is_bare() => bare_number(value.get_ref()),
+            Kind::Number(..) | Kind::Count(..) => measure(value.get_ref()),
         };
         let empty = |text: &String| text.is_empty() && !matches!(known.kind, Kind::Text);
         match written {

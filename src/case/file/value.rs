@@ -11,6 +11,17 @@ pub(super) fn words(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
     value.as_str().map(str::to_owned).ok_or(None)
 }
 
+/// The text of a truth value.
+pub(super) fn flag(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
+    match value {
+        DeValue::Boolean(value) => Ok(value.to_string()),
+        _ => Err(Some(Misread::new(
+            format!("{} stands where true or false is due", kind_of(value)),
+            "write true or false without quotes",
+        ))),
+    }
+}
+
 /// The text of a value with its unit; a number's digits too, since the reader of units says what they lack.
 pub(super) fn measure(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
     scalar(value).ok_or(None)

@@ -107,6 +107,9 @@ fn body(app: &App, answer: &Answer, width: usize) -> Vec<Line<'static>> {
     if let Some(solution) = answer.of(answer.active) {
         lines.extend(wrapped(&sentence(solution, app.look.ascii), theme.focus));
     }
+    if let Some(band) = answer.of(answer.active).and_then(band) {
+        lines.extend(wrapped(&band, Style::new()));
+    }
     if let Some(ratios) = ratios(answer, app.look.ascii) {
         lines.extend(wrapped(&ratios, Style::new()));
     }
@@ -125,6 +128,14 @@ fn first(answer: &Answer) -> &'static [&'static str] {
     let strikes = |solution: &Solution| solution.outcome == Outcome::CornerContact;
     let any_strikes = answer.rungs.iter().any(|(_, result)| result.as_ref().is_ok_and(strikes));
     if any_strikes { &FIRST } else { &FIRST_WITHOUT_CONTACT }
+}
+
+// How far the force depends on the choice of stiffness model.
+fn band(solution: &Solution) -> Option<String> {
+    let (band, force) = (solution.band?, solution.impact?.force);
+    let percent = |end: f64| 100.0 * (end / force - 1.0);
+    let (low, high) = (quantity_number("impact_force_low", solution)?, quantity_text("impact_force_high", solution)?);
+    Some(format!("stiffness band {low}..{high} ({:+.0}..{:+.0} %)", percent(band.low), percent(band.high)))
 }
 
 // How far the printed position is off, where both rungs find one.
@@ -190,6 +201,10 @@ fn padded(text: &str, width: usize) -> String {
 
 fn shown(quantity: &Quantity, solution: &Solution) -> Option<Shown> {
     (quantity.value)(solution).map(|value| report::shown(quantity, value))
+}
+
+fn quantity_number(key: &str, solution: &Solution) -> Option<String> {
+    Some(shown(Quantity::find(key)?, solution)?.number)
 }
 
 fn quantity_text(key: &str, solution: &Solution) -> Option<String> {
