@@ -43,16 +43,13 @@ fn table<'t>(toml: &'t mut DocumentMut, name: &str) -> Option<&'t mut dyn TableL
 /// Write an entry, in its place where it has one.
 fn write(table: &mut dyn TableLike, entry: &Entry) -> Option<()> {
     let mut value: Value = entry.value.parse().ok()?;
-    match table.get_mut(entry.bare_name()).and_then(Item::as_value_mut) {
-        Some(old) => {
-            *value.decor_mut() = old.decor().clone();
-            *old = value;
-        }
-        None => {
-            let key = Key::parse(&entry.name).ok()?.pop()?;
-            value.decor_mut().clear();
-            table.entry_format(&key).or_insert(Item::Value(value));
-        }
+    if let Some(old) = table.get_mut(entry.bare_name()).and_then(Item::as_value_mut) {
+        *value.decor_mut() = old.decor().clone();
+        *old = value;
+    } else {
+        let key = Key::parse(&entry.name).ok()?.pop()?;
+        value.decor_mut().clear();
+        table.entry_format(&key).or_insert(Item::Value(value));
     }
     Some(())
 }
