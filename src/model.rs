@@ -97,15 +97,18 @@ pub struct Solution {
 
 /// Solve the pair, running only the wanted stages and what they need.
 ///
-/// Geometry, load and deviation always run, since they tell the outcome.
+/// Geometry, load and deviation always run, since they tell the outcome. Where a small difference decides, geometry and
+/// position are computed in double-double arithmetic, asked for or not.
 ///
 /// # Errors
 /// A [`Refusal`] where the pair cannot mesh, or D does not exist. Where only the force cannot be computed, the rest is
 /// given and [`Solution::withheld`] says why.
 pub fn solve(inputs: &Inputs, wanted: Stages) -> Result<Solution, Refusal> {
-    let precise = inputs.accurate.then(|| geometry::geometry::<TwoFloat>(inputs)).transpose()?;
-    let geometry = precise.map_or_else(|| geometry::geometry(inputs), |precise| Ok(precise.rounded()))?;
-    let masses = Masses::of(inputs, &geometry)?;
+    let plain = geometry::geometry::<f64>(inputs);
+    let close_call = plain.map_or(true, |geometry| geometry.is_close_call(inputs));
+    let precise = (inputs.accurate || close_call).then(|| geometry::geometry::<TwoFloat>(inputs)).transpose()?;
+    let geometry = precise.map_or(plain, |precise| Ok(precise.rounded()))?;
+    let masses = precise.map_or_else(|| Masses::of(inputs, &geometry), |precise| Masses::of(inputs, &precise))?;
     let mesh_force = inputs.torque() / geometry.driver.base;
     let deviation = deviation::deviation(inputs, &geometry, mesh_force)?;
     let mut solution = Solution {
@@ -146,7 +149,7 @@ impl Solution {
     fn strike(&mut self, inputs: &Inputs, masses: &Masses, wanted: Stages, position: &Position) -> Result<(), Refusal> {
         let geometry = self.geometry;
         let tip = &position.contact;
-        let velocity = velocity::velocity(inputs, &geometry, tip);
+        let velocity = velocity::velocity(inputs, tip);
         if wanted.has(Stage::Velocity) {
             self.velocity = Some(velocity);
             self.stages = self.stages.with(Stage::Velocity);

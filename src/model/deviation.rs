@@ -1,9 +1,12 @@
 //! What brings the tooth in early: equivalent error and combined deflection.
 
+use twofloat::TwoFloat;
+
 use super::Refusal;
 use super::compliance::{self, ContactPlace};
 use super::geometry::Geometry;
 use super::inputs::{Inputs, Rung};
+use crate::numeric::Real;
 
 /// Deviation along the line of action, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,7 +29,11 @@ pub fn deviation(inputs: &Inputs, geometry: &Geometry, mesh_force: f64) -> Resul
         Some(given) => given,
         None => combined_deflection(inputs, geometry, mesh_force)?,
     };
-    Ok(Deviation { equivalent_error, combined_deflection, total: equivalent_error + combined_deflection })
+    Ok(Deviation {
+        equivalent_error: equivalent_error.rounded(),
+        combined_deflection,
+        total: (equivalent_error + combined_deflection).rounded(),
+    })
 }
 
 /// Equivalent error Δf, in m.
@@ -36,17 +43,18 @@ pub fn deviation(inputs: &Inputs, geometry: &Geometry, mesh_force: f64) -> Resul
 /// paper:  Δf = (2 f_pb + e_m − j_bn)/√2
 /// exact:  Δf = (2 f_pb − j_bn)/√2 + e_m,   e_m = −(driven tip relief + driver root relief)
 /// ```
-/// where 1/√2 stands for the sum of independent random errors.
+/// where 1/√2 stands for the sum of independent random errors. In double-double arithmetic, since a relief may take back
+/// all but a small rest of the deviation.
 ///
 /// # Source
 /// Zhou & Chen 2014, Eqs. 1 and 2. The rung `paper` scales the modification e_m with the random errors, as printed;
 /// `exact` counts it in full, since a relief that was ground is there in full.
-fn equivalent_error(inputs: &Inputs) -> f64 {
-    let modification = -(inputs.driven.tip_relief + inputs.driver.root_relief);
-    let random = 2.0 * inputs.base_pitch_deviation - inputs.backlash;
+fn equivalent_error(inputs: &Inputs) -> TwoFloat {
+    let modification = -TwoFloat::new_add(inputs.driven.tip_relief, inputs.driver.root_relief);
+    let random = TwoFloat::new_sub(2.0 * inputs.base_pitch_deviation, inputs.backlash);
     match inputs.rung {
-        Rung::Paper => (random + modification) * std::f64::consts::FRAC_1_SQRT_2,
-        Rung::Exact => random * std::f64::consts::FRAC_1_SQRT_2 + modification,
+        Rung::Paper => (random + modification) * twofloat::consts::FRAC_1_SQRT_2,
+        Rung::Exact => random * twofloat::consts::FRAC_1_SQRT_2 + modification,
     }
 }
 

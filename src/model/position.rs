@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 use twofloat::TwoFloat;
 
-use super::geometry::Geometry;
+use super::geometry::{self, Geometry, LEAST_REST};
 use super::inputs::{Inputs, Rung};
 use super::{Deviation, Refusal};
 use crate::numeric::{Real, quadrature};
@@ -34,6 +34,8 @@ pub struct TipContact<T = f64> {
     pub normal_length_growth: T,
     /// N₂'D along the contact normal, in m.
     pub normal_length_driven: T,
+    /// Arm of the sliding velocity ΔV_τ/ω₂ = N₂'D − i ρ₁, in m.
+    pub sliding_arm: T,
 }
 
 /// The first contact D.
@@ -58,8 +60,10 @@ pub struct Position {
 /// Q = 4 a ra2 sin(u/2) sin(γ2 + u/2),  O1D² = O1E² + Q,  ρ1 = √(N1E² + Q),  Δρ1 = Q/(ρ1 + N1E)
 /// Δβ1 = atan2(rb1 Δρ1, rb1² + ρ1 N1E),  Δψ = atan2(E × D, E · D),  Δχ = Δψ + Δβ1
 /// rb2 − rb2' = 2 a sin(αw + Δχ/2) sin(Δχ/2),  N2'D = N2E + 2 a cos(αw + Δχ/2) sin(Δχ/2) − Δρ1
+/// N2'D − i ρ1 = (1 + i) EP + Δ(N2'D) − i Δρ1
 /// ```
-/// where E and D are seen from O₁ and D − E is the chord of the tip circle.
+/// where E and D are seen from O₁, D − E is the chord of the tip circle, EP is the path of approach and Δ the growth
+/// since E.
 ///
 /// # Source
 /// Zhou & Chen 2014, Eqs. 7, 24-28, 48, 49, rewritten as increments from E; Eq. 27 mended to the law of cosines.
@@ -97,6 +101,8 @@ pub fn tip_at<T: Real>(geometry: &Geometry<T>, angle: T) -> TipContact<T> {
         normal_radius_drop,
         normal_length_growth,
         normal_length_driven: geometry.driven.tip_curvature + normal_length_growth,
+        sliding_arm: (T::one() + geometry.ratio) * geometry.approach_length + normal_length_growth
+            - geometry.ratio * curvature_growth,
     }
 }
 
@@ -204,12 +210,12 @@ fn gap_curvature_at_start(geometry: &Geometry) -> f64 {
 /// Zhou & Chen 2014, Eqs. 11-20. Mended: the differences of arctangents (Eqs. 14, 17-19), which jump by π where
 /// Δf > N₁E, are taken as one; Eqs. 16 and 20 without the rounded contact ratio. Kept as printed: the result is linear
 /// in Δ, where the tip's gap grows as u².
-fn printed_contact(geometry: &Geometry, deviation: &Deviation, ratio: f64) -> f64 {
+fn printed_contact<T: Real>(geometry: &Geometry<T>, deviation: &Deviation) -> T {
     let base = geometry.driver.base;
-    let turn = |from: f64, by: f64| (base * by).atan2(base * base + from * (from - by));
-    let error = turn(geometry.start, deviation.equivalent_error);
-    let ahead = geometry.start + geometry.base_pitch - deviation.equivalent_error;
-    (error + turn(ahead, deviation.combined_deflection)) / ratio
+    let turn = |from: T, by: T| (base * by).angle_to(base * base + from * (from - by));
+    let error: T = deviation.equivalent_error.into();
+    let ahead = geometry.start + geometry.base_pitch - error;
+    (turn(geometry.start, error) + turn(ahead, deviation.combined_deflection.into())).over(geometry.ratio)
 }
 
 /// Reduced radius of curvature at the tip's contact ρ_S = ρ1 ρ2/(ρ1 + ρ2), in m; ρ2 is the driven flank's own at its
@@ -234,17 +240,26 @@ pub fn position(
     if deviation.total <= 0.0 {
         return Ok(None);
     }
-    let contact = match inputs.rung {
-        Rung::Paper => tip_at(geometry, printed_contact(geometry, deviation, inputs.ratio())),
-        Rung::Exact => {
-            let angle = first_contact(geometry, deviation.total)?;
-            match precise {
-                Some(precise) => tip_at(precise, refine(precise, angle, deviation.total)).rounded(),
-                None => tip_at(geometry, angle),
-            }
-        }
+    let angle = match inputs.rung {
+        Rung::Paper => printed_contact(geometry, deviation),
+        Rung::Exact => first_contact(geometry, deviation.total)?,
+    };
+    let plain = tip_at(geometry, angle);
+    let contact = match precise {
+        Some(precise) => precise_contact(inputs, precise, deviation, angle),
+        None if plain.is_close_call(geometry) => precise_contact(inputs, &geometry::geometry(inputs)?, deviation, angle),
+        None => plain,
     };
     checked(inputs, geometry, deviation, contact)
+}
+
+/// The contact in double-double arithmetic, near the angle that f64 has found.
+fn precise_contact(inputs: &Inputs, geometry: &Geometry<TwoFloat>, deviation: &Deviation, near: f64) -> TipContact {
+    let angle = match inputs.rung {
+        Rung::Paper => printed_contact(geometry, deviation),
+        Rung::Exact => refine(geometry, near, deviation.total),
+    };
+    tip_at(geometry, angle).rounded()
 }
 
 /// The contact as a position, where there is one on the driver's flank.
@@ -276,6 +291,15 @@ fn checked(
     }))
 }
 
+impl TipContact {
+    /// Whether the tip all but rolls, or its normal all but passes through O₂: f64 loses digits in the small rest.
+    fn is_close_call(&self, geometry: &Geometry) -> bool {
+        let sliding_terms = self.normal_length_driven.abs() + geometry.ratio * self.curvature_driver;
+        self.sliding_arm.abs() < LEAST_REST * sliding_terms
+            || self.normal_radius_driven.abs() < LEAST_REST * geometry.driven.base
+    }
+}
+
 impl<T: Real> TipContact<T> {
     /// Rounded to f64.
     fn rounded(self) -> TipContact {
@@ -289,6 +313,7 @@ impl<T: Real> TipContact<T> {
             normal_radius_drop: self.normal_radius_drop.rounded(),
             normal_length_growth: self.normal_length_growth.rounded(),
             normal_length_driven: self.normal_length_driven.rounded(),
+            sliding_arm: self.sliding_arm.rounded(),
         }
     }
 }

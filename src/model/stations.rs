@@ -44,7 +44,7 @@ pub fn stations(inputs: &Inputs, geometry: &Geometry, masses: &Masses, position:
 /// The impact as if it happened at the angle `angle` before E.
 fn station(inputs: &Inputs, geometry: &Geometry, masses: &Masses, angle: f64) -> Result<Station, Refusal> {
     let tip = tip_at(geometry, angle);
-    let velocity = velocity::velocity(inputs, geometry, &tip);
+    let velocity = velocity::velocity(inputs, &tip);
     let impact_force = if angle > 0.0 {
         let teeth = compliance::teeth(inputs, geometry, &ContactPlace::at_tip(inputs, geometry, &tip))?;
         impact(inputs, geometry, masses, &tip, &teeth, &velocity)?.force

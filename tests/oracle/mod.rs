@@ -229,7 +229,11 @@ fn first_contact(pair: &Pair, deviation: &Big) -> Option<Big> {
     let mut angle = root(2 * deviation / curvature);
     for _ in 0..STEPS {
         let tip = tip_at(pair, &angle)?;
-        let root = gap(pair, &angle, &tip).sqrt();
+        let closed = gap(pair, &angle, &tip);
+        if rounded(&closed) <= 0.0 {
+            return None;
+        }
+        let root = closed.sqrt();
         let step = 2 * &root * (&wanted - &root) / (&pair.driven.base - &tip.normal_radius);
         angle = angle + &step;
         if rounded(&(step / &angle)).abs() <= SETTLED {
