@@ -40,6 +40,8 @@ use twofloat::TwoFloat;
 use impact::Masses;
 use inputs::Rung;
 
+use crate::numeric::Real;
+
 /// Whether the incoming tooth strikes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
@@ -113,12 +115,12 @@ pub fn solve(inputs: &Inputs, wanted: Stages) -> Result<Solution, Refusal> {
     let deviation = deviation::deviation(inputs, &geometry, mesh_force)?;
     let mut solution = Solution {
         rung: inputs.rung,
-        outcome: if deviation.total > 0.0 { Outcome::CornerContact } else { Outcome::NoCornerContact },
+        outcome: if deviation.total.rounded() > 0.0 { Outcome::CornerContact } else { Outcome::NoCornerContact },
         stages: Stages::of(Stage::Deviation),
         geometry,
         mesh_force,
         reduced_mass: masses.reduced(),
-        deviation,
+        deviation: deviation.rounded(),
         position: None,
         velocity: None,
         compliance: None,
@@ -130,7 +132,7 @@ pub fn solve(inputs: &Inputs, wanted: Stages) -> Result<Solution, Refusal> {
     };
     if wanted.has(Stage::Position) {
         solution.stages = solution.stages.with(Stage::Position);
-        match position::position(inputs, &solution.geometry, precise.as_ref(), &solution.deviation)? {
+        match position::position(inputs, &solution.geometry, precise.as_ref(), &deviation)? {
             Some(position) => solution.follow(inputs, &masses, wanted, position),
             None => solution.outcome = Outcome::NoCornerContact,
         }

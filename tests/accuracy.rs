@@ -19,7 +19,11 @@ fn explore() {
         let mut worst: std::collections::BTreeMap<&str, (f64, f64, f64, f64)> = Default::default();
         while some < n {
             let inputs = pair(&mut random, corner);
-            let Some((answers, conditions)) = oracle::answers_with_conditions(&inputs) else { none += 1; if none > 50 * n { break } continue };
+            let Some((answers, conditions)) = oracle::answers_with_conditions(&inputs) else { none += 1; if none > 50 * n { break };
+                let s = solve(&inputs, Stages::CLOSED_FORM);
+                if s.as_ref().is_ok_and(|s| s.position.is_some()) { println!("{corner:?} oracle none, model {s:?} {inputs:?}"); }
+                continue };
+            for (key, v) in conditions.iter() { if oracle::number::rounded(&answers[key]).abs() < 1e-300 { println!("{key} zero {v}"); } }
             some += 1;
             for accurate in [false, true] {
                 let inputs = Inputs { accurate, ..inputs.clone() };

@@ -183,7 +183,7 @@ fn logarithmic_step(tip: &TipContact, closed: f64, deviation: f64) -> f64 {
 
 /// The angle u improved by Newton steps in double-double arithmetic, in which the closed form of the gap keeps its
 /// digits down to the smallest deviations.
-fn refine(geometry: &Geometry<TwoFloat>, angle: f64, deviation: f64) -> TwoFloat {
+fn refine(geometry: &Geometry<TwoFloat>, angle: f64, deviation: TwoFloat) -> TwoFloat {
     const STEPS: usize = 3;
     (0..STEPS).fold(angle.into(), |angle, _| {
         let tip = tip_at(geometry, angle);
@@ -210,12 +210,12 @@ fn gap_curvature_at_start(geometry: &Geometry) -> f64 {
 /// Zhou & Chen 2014, Eqs. 11-20. Mended: the differences of arctangents (Eqs. 14, 17-19), which jump by π where
 /// Δf > N₁E, are taken as one; Eqs. 16 and 20 without the rounded contact ratio. Kept as printed: the result is linear
 /// in Δ, where the tip's gap grows as u².
-fn printed_contact<T: Real>(geometry: &Geometry<T>, deviation: &Deviation) -> T {
+fn printed_contact<T: Real>(geometry: &Geometry<T>, deviation: &Deviation<T>) -> T {
     let base = geometry.driver.base;
     let turn = |from: T, by: T| (base * by).angle_to(base * base + from * (from - by));
-    let error: T = deviation.equivalent_error.into();
+    let error = deviation.equivalent_error;
     let ahead = geometry.start + geometry.base_pitch - error;
-    (turn(geometry.start, error) + turn(ahead, deviation.combined_deflection.into())).over(geometry.ratio)
+    (turn(geometry.start, error) + turn(ahead, deviation.combined_deflection)).over(geometry.ratio)
 }
 
 /// Reduced radius of curvature at the tip's contact ρ_S = ρ1 ρ2/(ρ1 + ρ2), in m; ρ2 is the driven flank's own at its
@@ -235,26 +235,33 @@ pub fn position(
     inputs: &Inputs,
     geometry: &Geometry,
     precise: Option<&Geometry<TwoFloat>>,
-    deviation: &Deviation,
+    deviation: &Deviation<TwoFloat>,
 ) -> Result<Option<Position>, Refusal> {
-    if deviation.total <= 0.0 {
+    let plain = deviation.rounded();
+    if plain.total <= 0.0 {
         return Ok(None);
     }
     let angle = match inputs.rung {
-        Rung::Paper => printed_contact(geometry, deviation),
-        Rung::Exact => first_contact(geometry, deviation.total)?,
+        Rung::Paper => printed_contact(geometry, &plain),
+        Rung::Exact => first_contact(geometry, plain.total)?,
     };
-    let plain = tip_at(geometry, angle);
+    let contact = tip_at(geometry, angle);
+    let close_call = contact.is_close_call(geometry) || inputs.rung == Rung::Paper && plain.equivalent_error < 0.0;
     let contact = match precise {
         Some(precise) => precise_contact(inputs, precise, deviation, angle),
-        None if plain.is_close_call(geometry) => precise_contact(inputs, &geometry::geometry(inputs)?, deviation, angle),
-        None => plain,
+        None if close_call => precise_contact(inputs, &geometry::geometry(inputs)?, deviation, angle),
+        None => contact,
     };
-    checked(inputs, geometry, deviation, contact)
+    checked(inputs, geometry, &plain, contact)
 }
 
 /// The contact in double-double arithmetic, near the angle that f64 has found.
-fn precise_contact(inputs: &Inputs, geometry: &Geometry<TwoFloat>, deviation: &Deviation, near: f64) -> TipContact {
+fn precise_contact(
+    inputs: &Inputs,
+    geometry: &Geometry<TwoFloat>,
+    deviation: &Deviation<TwoFloat>,
+    near: f64,
+) -> TipContact {
     let angle = match inputs.rung {
         Rung::Paper => printed_contact(geometry, deviation),
         Rung::Exact => refine(geometry, near, deviation.total),
