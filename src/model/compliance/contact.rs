@@ -43,32 +43,33 @@ impl ContactSpring {
 
     /// The force F of an impact for which `F = momentum/√q` with `q = teeth + qH(F)`, in N, and that q in m²/N.
     ///
-    /// Newton's method on ln F; q falls slowly with ln F, so that a few steps reach the last digit.
+    /// Newton's method on y = ln F/F₀ where F₀ is the force without contact compliance, `y + ln(q/teeth)/2 = 0`; q falls
+    /// slowly with y, so that a few steps reach the last digit. The logarithms of F and q themselves may be so large that
+    /// their rounding would keep the steps from settling.
     ///
     /// # Errors
     /// [`Refusal::HertzWidthTooLarge`] where the half-width outgrows the formula before they agree.
     pub fn impact(&self, teeth: f64, momentum: f64) -> Result<(f64, f64), Refusal> {
         const STEPS: usize = 50;
-        const SETTLED: f64 = 1e-15;
-        let at_unit_force = teeth + self.offset - self.slope * self.width_per_root_force.ln();
-        let compliance_at = |log_force: f64| at_unit_force - 0.5 * self.slope * log_force;
-        let log_momentum = momentum.ln();
-        let mut log_force = log_momentum - 0.5 * teeth.ln();
-        let mut compliance = compliance_at(log_force);
+        const SETTLED: f64 = 1e-8;
+        let stiffest = momentum / teeth.sqrt();
+        let at_stiffest = teeth + self.offset - self.slope * self.half_width(stiffest).ln();
+        let compliance_at = |logarithm: f64| at_stiffest - 0.5 * self.slope * logarithm;
+        let (mut logarithm, mut compliance) = (0.0, at_stiffest);
         for _ in 0..STEPS {
             if compliance <= 0.5 * self.slope {
                 break;
             }
-            let residual = log_force - log_momentum + 0.5 * compliance.ln();
+            let residual = logarithm + 0.5 * (compliance / teeth).ln();
             let step = residual / (1.0 - 0.25 * self.slope / compliance);
-            log_force -= step;
-            compliance = compliance_at(log_force);
-            if step.abs() <= SETTLED * log_force.abs().max(1.0) {
+            logarithm -= step;
+            compliance = compliance_at(logarithm);
+            if step.abs() <= SETTLED {
                 let force = momentum / compliance.sqrt();
                 return self.compliance(force).map(|_| (force, compliance));
             }
         }
-        Err(self.too_wide(self.half_width(log_force.exp())))
+        Err(self.too_wide(self.half_width(stiffest)))
     }
 
     /// The refusal, with the half-width at which the formula gives no compliance any more.
