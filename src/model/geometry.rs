@@ -109,7 +109,7 @@ pub fn geometry<T: Real>(inputs: &Inputs) -> Result<Geometry<T>, Refusal> {
         approach_length,
         contact_ratio: (end - start).over(base_pitch),
         start_angle_driven: approach_length.angle_to(driven.base + driven.tip_curvature * tangent),
-        start_point: turned(working_pressure_angle) * Vector2::new(driver.base, -start),
+        start_point: foot(driver.base, start, working_pressure_angle),
     })
 }
 
@@ -117,6 +117,11 @@ pub fn geometry<T: Real>(inputs: &Inputs) -> Result<Geometry<T>, Refusal> {
 fn tangent_of<T: Real>(angle: T) -> T {
     let (sine, cosine) = angle.sine_cosine();
     sine.over(cosine)
+}
+
+/// The point of a flank with the radius of curvature `curvature` on a contact normal at `angle`, seen from O₁.
+pub(super) fn foot<T: Real>(base: T, curvature: T, angle: T) -> Vector2<T> {
+    turned(angle) * Vector2::new(base, -curvature)
 }
 
 /// Rotation of the plane by an angle.

@@ -138,13 +138,33 @@ pub fn gap_by_quadrature(geometry: &Geometry, tip: &TipContact) -> f64 {
 
 /// The angle u at which the driver's flank has the radius of curvature ρ₁: the inverse of `ρ1² = N1E² + Q(u)`.
 fn angle_at_curvature(geometry: &Geometry, curvature: f64) -> f64 {
-    let arm = geometry.centre_distance * geometry.driven.tip;
-    let fallen = (curvature - geometry.start) * (curvature + geometry.start) / (2.0 * arm);
+    angle_by_growth(geometry, (curvature - geometry.start) * (curvature + geometry.start))
+}
+
+/// The angle u at which O₁D² and ρ₁² have grown by `grown_square`: the inverse of Q(u). NaN where the tip circle does not
+/// reach so far.
+#[must_use]
+pub fn angle_by_growth(geometry: &Geometry, grown_square: f64) -> f64 {
+    let fallen = grown_square / (2.0 * geometry.centre_distance * geometry.driven.tip);
     let (sine, cosine) = geometry.start_angle_driven.sin_cos();
     let risen = fallen * (2.0 * cosine - fallen);
     let end_sine = (sine * sine + risen).sqrt();
-    let sine_growth = risen / (end_sine + sine);
+    let sine_growth = if sine > 0.0 { risen / (end_sine + sine) } else { end_sine - sine };
     (cosine * sine_growth + fallen * sine).atan2(cosine * (cosine - fallen) + sine * end_sine)
+}
+
+/// The pair as seen from `tip` in place of E, so that [`tip_at`] gives what changes from there and loses nothing close to
+/// it. Only what `tip_at` reads is moved, and its sliding arm has no meaning then.
+#[must_use]
+pub fn seen_from(geometry: &Geometry, tip: &TipContact) -> Geometry {
+    let mut moved = *geometry;
+    moved.driven.base = tip.normal_radius_driven;
+    moved.driven.tip_curvature = tip.normal_length_driven;
+    moved.start = tip.curvature_driver;
+    moved.start_angle_driven += tip.angle;
+    moved.working_pressure_angle += tip.normal_turn;
+    moved.start_point = geometry::foot(geometry.driver.base, moved.start, moved.working_pressure_angle);
+    moved
 }
 
 /// The angle u at which the tip has closed the gap Δ: `S(u) = Δ`.
@@ -256,12 +276,7 @@ pub fn position(
 }
 
 /// The contact in double-double arithmetic, near the angle that f64 has found.
-fn precise_contact(
-    inputs: &Inputs,
-    geometry: &Geometry<TwoFloat>,
-    deviation: &Deviation<TwoFloat>,
-    near: f64,
-) -> TipContact {
+fn precise_contact(inputs: &Inputs, geometry: &Geometry<TwoFloat>, deviation: &Deviation<TwoFloat>, near: f64) -> TipContact {
     let angle = match inputs.rung {
         Rung::Paper => printed_contact(geometry, deviation),
         Rung::Exact => refine(geometry, near, deviation.total),
@@ -302,8 +317,7 @@ impl TipContact {
     /// Whether the tip all but rolls, or its normal all but passes through O₂: f64 loses digits in the small rest.
     fn is_close_call(&self, geometry: &Geometry) -> bool {
         let sliding_terms = self.normal_length_driven.abs() + geometry.ratio * self.curvature_driver;
-        self.sliding_arm.abs() < LEAST_REST * sliding_terms
-            || self.normal_radius_driven.abs() < LEAST_REST * geometry.driven.base
+        self.sliding_arm.abs() < LEAST_REST * sliding_terms || self.normal_radius_driven.abs() < LEAST_REST * geometry.driven.base
     }
 }
 
