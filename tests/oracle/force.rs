@@ -66,7 +66,8 @@ impl Load {
             let radii = [radius(&pair.driver.base, &along), radius(&pair.driven.base, &rest)];
             let curvature = &along * &rest / (&along + &rest);
             let half_width = self.half_width(&self.mesh_force, &curvature);
-            let contact = self.contact(given, pair, &radii, &half_width)?;
+            let depths = depths(given, pair, &radii)?;
+            let contact = self.contact(given, &depths, &half_width);
             if rounded(&contact) <= 0.0 {
                 return None;
             }
@@ -126,14 +127,14 @@ impl Load {
     /// Eq. 57 with the half-width of its own force, by fixed point. `None` where no fit gives a compliance.
     fn impact(&self, given: &Given, pair: &Pair, tip: &Tip, momentum: &Big) -> Option<Struck> {
         const STEPS: usize = 400;
-        const FORCE_SETTLED: f64 = 1e-36;
+        const FORCE_SETTLED: f64 = 1e-32;
         let radii = [tip.radius.clone(), pair.driven.tip.clone()];
-        let teeth = teeth(given, pair, &radii)?;
+        let (teeth, depths) = (teeth(given, pair, &radii)?, depths(given, pair, &radii)?);
         let curvature = reduced_curvature(given, pair, tip);
         let mut force = momentum / teeth.sqrt();
         for _ in 0..STEPS {
             let half_width = self.half_width(&force, &curvature);
-            let compliance = &teeth + self.contact(given, pair, &radii, &half_width)?;
+            let compliance = &teeth + self.contact(given, &depths, &half_width);
             if rounded(&compliance) <= 0.0 {
                 return None;
             }
@@ -153,24 +154,21 @@ impl Load {
     }
 
     /// Contact compliance by the case's formula.
-    fn contact(&self, given: &Given, pair: &Pair, radii: &[Big; 2], half_width: &Big) -> Option<Big> {
-        let sum = &self.give[0] + &self.give[1];
-        Some(match given.contact_compliance {
-            ContactCompliance::Constant => 2 * sum / pi(),
+    fn contact(&self, given: &Given, depths: &[Big; 2], half_width: &Big) -> Big {
+        let [first, second] = &self.give;
+        match given.contact_compliance {
+            ContactCompliance::Constant => 2 * (first + second) / pi(),
             ContactCompliance::Logarithmic => {
                 let logarithm = (&given.module / half_width).ln();
-                sum / pi() * (decimal("1.27") + decimal("0.781") * logarithm)
+                (first + second) / pi() * (decimal("1.27") + decimal("0.781") * logarithm)
             }
             ContactCompliance::Weber => {
-                let gears = [(&given.driver, &pair.driver), (&given.driven, &pair.driven)];
-                let mut sum = whole(0);
-                for (((gear, circles), radius), give) in gears.into_iter().zip(radii).zip(&self.give) {
-                    let depth = depth(given, gear, circles, radius)?;
-                    sum = sum + give / pi() * (2 * logarithm(2 * depth / half_width) - &gear.poisson / (1 - &gear.poisson));
-                }
-                sum
+                let of = |gear: &Gear, give: &Big, depth: &Big| {
+                    give / pi() * (2 * logarithm(2 * depth / half_width) - &gear.poisson / (1 - &gear.poisson))
+                };
+                of(&given.driver, first, &depths[0]) + of(&given.driven, second, &depths[1])
             }
-        })
+        }
     }
 
     /// Eqs. 29-45 and 64. `None` where D' does not exist.
@@ -192,9 +190,11 @@ impl Load {
         };
         let speed = &self.driven_speed + impulse / (&self.reduced_mass * &pair.driven.tip);
         let driver = &self.driver_speed;
-        let normal = driver * &pair.driver.base - &speed * &end.normal_radius
+        let normal = driver * &pair.driver.base
+            - &speed * &end.normal_radius
             - (driver * &pair.driver.base - &self.driven_speed * &tip.normal_radius);
-        let sliding = &speed * &end.normal_length - driver * &end.curvature
+        let sliding = &speed * &end.normal_length
+            - driver * &end.curvature
             - (&self.driven_speed * &tip.normal_length - driver * &tip.curvature);
         let ratio = sliding / normal;
         Some(if rounded(&ratio) < 0.0 { -ratio } else { ratio })
@@ -238,6 +238,15 @@ fn tooth(given: &Given, gear: &Gear, circles: &Circles, radius: &Big) -> Big {
     let shift = &gear.profile_shift;
     let height = (radius - &circles.reference) / ((1 + shift) * &given.module);
     1 / (decimal("1e9") * (a0 + a1 * shift + (a2 + a3 * shift) * height))
+}
+
+/// Depths from the flanks to the teeth's centre lines along the line of force, which Weber's formula alone reads.
+/// `None` where no tooth is left.
+fn depths(given: &Given, pair: &Pair, radii: &[Big; 2]) -> Option<[Big; 2]> {
+    if given.contact_compliance != ContactCompliance::Weber {
+        return Some([whole(0), whole(0)]);
+    }
+    Some([depth(given, &given.driver, &pair.driver, &radii[0])?, depth(given, &given.driven, &pair.driven, &radii[1])?])
 }
 
 /// Depth from the flank to the tooth's centre line along the line of force. `None` where no tooth is left.

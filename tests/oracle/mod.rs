@@ -12,8 +12,8 @@ use std::collections::BTreeMap;
 use tipstrike::model::Inputs;
 use tipstrike::model::inputs::Rung;
 
-pub(crate) use given::Given;
 use given::Gear;
+pub(crate) use given::Given;
 use number::{Big, pi, root, rounded, whole};
 
 /// Quantities by their key, those that exist.
@@ -58,11 +58,6 @@ struct Tip {
     normal_length: Big,
 }
 
-/// All that is defined for the pair. `None` where no mesh, or no corner contact on the driver's flank, exists.
-pub(crate) fn answers(inputs: &Inputs) -> Option<Answers> {
-    of_given(&Given::of(inputs))
-}
-
 /// The quantities and, for each, how much a relative change of the inputs moves it relatively: the sum over all inputs.
 pub(crate) fn answers_with_conditions(inputs: &Inputs) -> Option<(Answers, BTreeMap<&'static str, f64>)> {
     let step = 1 / (whole(10).powi(24.into()));
@@ -86,6 +81,7 @@ pub(crate) fn answers_with_conditions(inputs: &Inputs) -> Option<(Answers, BTree
     Some((plain, conditions))
 }
 
+/// All that is defined for the pair. `None` where no mesh, or no corner contact on the driver's flank, exists.
 fn of_given(given: &Given) -> Option<Answers> {
     let pair = pair(given)?;
     let load = force::Load::of(given, &pair);
