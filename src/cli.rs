@@ -1,1 +1,128 @@
-//! The headless commands.
+//! The headless commands: results to the output, everything else to the errors, and an exit code that scripts hold on to.
+
+mod arguments;
+mod cases;
+mod check;
+mod new;
+mod shell;
+mod solve;
+
+use crate::case::visible::visible;
+use crate::report::fields;
+
+pub use arguments::{Arguments, Check, Command, Fields, Format, Listing, Setting, Solve};
+use clap::{CommandFactory, FromArgMatches};
+use std::ffi::OsString;
+use std::io::{self, BufWriter, Write};
+use std::process::ExitCode;
+
+/// How a command ended; of several, the greatest counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u8)]
+pub enum Exit {
+    /// All is done.
+    Done = 0,
+    /// A case exceeds one of its limits.
+    Exceeded = 1,
+    /// The command line is wrong.
+    Usage = 2,
+    /// A case is wrong, or the model refuses it.
+    BadCase = 3,
+    /// A case is of a newer format.
+    NewerFormat = 4,
+    /// A file cannot be read or written.
+    Unreadable = 5,
+}
+
+impl Exit {
+    /// Every way to end, and its meaning.
+    const MEANINGS: [(Exit, &'static str); 6] = [
+        (Exit::Done, "done"),
+        (Exit::Exceeded, "a limit is exceeded"),
+        (Exit::Usage, "wrong usage, or no terminal for the workbench"),
+        (Exit::BadCase, "a bad case"),
+        (Exit::NewerFormat, "a case of a newer format"),
+        (Exit::Unreadable, "a file cannot be read or written"),
+    ];
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> ExitCode {
+        ExitCode::from(exit as u8)
+    }
+}
+
+/// Where a command writes.
+pub struct Streams<'a> {
+    /// Where results go.
+    pub output: Box<dyn Write + 'a>,
+    /// Where everything else goes.
+    pub errors: Box<dyn Write + 'a>,
+}
+
+impl Streams<'static> {
+    /// The streams of the process.
+    #[must_use]
+    pub fn standard() -> Streams<'static> {
+        Streams { output: Box::new(BufWriter::new(io::stdout())), errors: Box::new(io::stderr()) }
+    }
+}
+
+impl Streams<'_> {
+    /// One line for a person. That nobody reads it is no reason to fail.
+    fn say(&mut self, message: &str) {
+        let _ = writeln!(self.errors, "{}", visible(message));
+    }
+}
+
+/// The command line taken apart.
+///
+/// # Errors
+/// Where there is nothing to run: help is told and all is done, or the usage is wrong.
+pub fn parse(arguments: impl IntoIterator<Item = OsString>, streams: &mut Streams) -> Result<Arguments, Exit> {
+    let matches = Arguments::command().try_get_matches_from(arguments);
+    matches.and_then(|matches| Arguments::from_arg_matches(&matches)).map_err(|error| {
+        let text: String = error.render().to_string().lines().map(|line| visible(line) + "\n").collect();
+        if error.use_stderr() {
+            let _ = streams.errors.write_all(text.as_bytes());
+            return Exit::Usage;
+        }
+        let told = streams.output.write_all(text.as_bytes()).map(|()| Exit::Done);
+        finish(told, streams)
+    })
+}
+
+/// Run a command to its end.
+pub fn run(command: &Command, streams: &mut Streams) -> Exit {
+    let done = match command {
+        Command::Solve(options) => solve::run(options, streams),
+        Command::Check(options) => check::run(options, streams),
+        Command::Fields(options) => list_fields(options, streams.output.as_mut()),
+        Command::New { file } => new::run(file.as_deref(), streams),
+        Command::Completions { shell } => shell::completions(*shell, streams.output.as_mut()),
+        Command::Man { command } => shell::man(command.as_deref(), streams),
+    };
+    finish(done, streams)
+}
+
+fn list_fields(options: &Fields, out: &mut dyn Write) -> io::Result<Exit> {
+    match (options.results, options.format) {
+        (false, Listing::Text) => fields::write_fields(out),
+        (false, Listing::Json) => fields::write_fields_json(out),
+        (true, Listing::Text) => fields::write_quantities(out),
+        (true, Listing::Json) => fields::write_quantities_json(out),
+    }
+    .map(|()| Exit::Done)
+}
+
+/// A reader that went away (`| head -1`) ends a command quietly; an output that cannot be written does not.
+fn finish(done: io::Result<Exit>, streams: &mut Streams) -> Exit {
+    let written = done.and_then(|exit| streams.output.flush().map(|()| exit));
+    written.unwrap_or_else(|error| {
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            return Exit::Done;
+        }
+        streams.say(&format!("standard output: cannot be written: {error}"));
+        Exit::Unreadable
+    })
+}

@@ -1,5 +1,6 @@
 //! Numerical methods that know no gears.
 
+pub mod decimal;
 pub mod quadrature;
 pub mod real;
 

@@ -1,7 +1,17 @@
 //! What a person or a script reads of a solve.
 
-use crate::case::units;
-use crate::model::Quantity;
+pub mod csv;
+pub mod fields;
+pub mod json;
+mod layout;
+pub mod stations;
+pub mod text;
+pub mod verdict;
+
+use crate::case::fields::index_of;
+use crate::case::{Case, units};
+use crate::model::{self, Inputs, Note, QUANTITIES, Quantity, Refusal, Solution, Stage, Stages};
+use crate::numeric::decimal::significant;
 
 /// A value as a person reads it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -12,9 +22,166 @@ pub struct Shown {
     pub unit: &'static str,
 }
 
+impl std::fmt::Display for Shown {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.unit {
+            "" => f.write_str(&self.number),
+            unit => write!(f, "{} {unit}", self.number),
+        }
+    }
+}
+
+/// What of a solve is asked for.
+#[derive(Debug, Clone, Default)]
+pub struct Selection {
+    /// These quantities and no others; empty for every quantity.
+    pub only: Vec<&'static Quantity>,
+    /// The stations between D and E as well.
+    pub stations: bool,
+}
+
+impl Selection {
+    /// Whether every quantity is asked for.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.only.is_empty()
+    }
+
+    /// The quantities asked for, in the order they were asked for or else in the table's.
+    pub fn quantities(&self) -> impl Iterator<Item = &'static Quantity> {
+        let table = if self.is_whole() { QUANTITIES } else { &[] };
+        self.only.iter().copied().chain(table)
+    }
+
+    /// The stages that have to run for it, and no others.
+    #[must_use]
+    pub fn stages(&self) -> Stages {
+        let stations = if self.stations { Stages::of(Stage::Stations) } else { Stages::NONE };
+        self.quantities().fold(stations, |stages, quantity| stages.and(Stages::of(quantity.stage)))
+    }
+}
+
+/// A solved case, ready to be told.
+#[derive(Debug, Clone)]
+pub struct Report {
+    /// The case's name, as the user gave it.
+    pub name: String,
+    /// The case as the user wrote it.
+    pub case: Case,
+    /// What the model read of it.
+    pub inputs: Inputs,
+    /// What the model found.
+    pub solution: Solution,
+    /// What a reader must know beside it.
+    pub notes: Vec<Note>,
+    /// What of it was asked for.
+    pub selection: Selection,
+}
+
+impl Report {
+    /// Solve the case as far as the selection needs it.
+    ///
+    /// # Errors
+    /// The model's refusal.
+    pub fn solve(name: String, case: Case, inputs: Inputs, selection: Selection) -> Result<Report, Refusal> {
+        let solution = model::solve(&inputs, selection.stages())?;
+        Ok(Report::of(name, case, inputs, solution, selection))
+    }
+
+    /// A report of what the model found already.
+    #[must_use]
+    pub fn of(name: String, case: Case, inputs: Inputs, solution: Solution, selection: Selection) -> Report {
+        let mut notes = model::notes(&inputs, &solution);
+        notes.extend(selection.quantities().filter_map(|quantity| not_finite(quantity, &solution)));
+        Report { name, case, inputs, solution, notes, selection }
+    }
+
+    /// The case's title, empty without one; not yet safe for a terminal.
+    #[must_use]
+    pub fn title(&self) -> &str {
+        self.text("title")
+    }
+
+    /// What the user wrote in a field, empty without it; not yet safe for a terminal.
+    #[must_use]
+    pub fn text(&self, key: &str) -> &str {
+        index_of(key).and_then(|field| self.case.text(field)).unwrap_or_default()
+    }
+
+    /// The quantities asked for that have a value, in SI: finite, and zero without a sign.
+    pub fn values(&self) -> impl Iterator<Item = (&'static Quantity, f64)> {
+        self.selection.quantities().filter_map(|quantity| Some((quantity, value(quantity, &self.solution)?)))
+    }
+}
+
 /// A value in SI, as a person reads it.
 #[must_use]
 pub fn shown(quantity: &Quantity, value: f64) -> Shown {
-    let number = value / units::factor(quantity.shown).unwrap_or(1.0);
-    Shown { number: format!("{number:.*}", quantity.digits), unit: if quantity.shown == "1" { "" } else { quantity.shown } }
+    let number = number(value, quantity.shown, quantity.digits);
+    Shown { number, unit: if quantity.shown == "1" { "" } else { quantity.shown } }
+}
+
+/// A quantity's value in SI where there is one: finite, and zero without a sign.
+#[must_use]
+pub fn value(quantity: &Quantity, solution: &Solution) -> Option<f64> {
+    (quantity.value)(solution).filter(|value| value.is_finite()).map(|value| value + 0.0)
+}
+
+/// A value in SI in another unit, with this many significant digits.
+#[must_use]
+fn number(value: f64, unit: &str, digits: usize) -> String {
+    significant(value / units::factor(unit).unwrap_or(1.0), digits)
+}
+
+fn not_finite(quantity: &Quantity, solution: &Solution) -> Option<Note> {
+    (quantity.value)(solution)
+        .filter(|value| !value.is_finite())
+        .map(|_| Note { code: "not-finite", message: format!("{} left the range of numbers and is left out", quantity.key) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(value: f64, unit: &'static str, digits: usize) -> String {
+        let quantity = Quantity { shown: unit, digits, ..QUANTITIES[0] };
+        shown(&quantity, value).to_string()
+    }
+
+    #[test]
+    fn a_value_has_its_significant_digits_in_the_unit_a_person_reads() {
+        assert_eq!(told(0.047_891_485, "mm", 6), "47.8915 mm");
+        assert_eq!(told(2191.016, "N", 5), "2191.0 N");
+        assert_eq!(told(-12.345e-6, "um", 3), "-12.3 um");
+        assert_eq!(told(1.556_844, "1", 5), "1.5568");
+    }
+
+    #[test]
+    fn plain_notation_where_it_can_be_read_and_an_exponent_elsewhere() {
+        assert_eq!(told(0.001_234_56, "N", 3), "0.00123 N");
+        assert_eq!(told(0.000_999_4, "N", 3), "9.99e-4 N");
+        assert_eq!(told(0.000_999_6, "N", 3), "0.00100 N");
+        assert_eq!(told(123_456.7, "N", 5), "123457 N");
+        assert_eq!(told(999_999.9, "N", 5), "1.0000e6 N");
+        assert_eq!(told(9.9996, "N", 4), "10.00 N");
+    }
+
+    #[test]
+    fn no_value_reads_as_nan_or_as_minus_zero() {
+        assert_eq!(told(-0.0, "N", 5), "0 N");
+        assert_eq!(told(f64::NAN, "1", 5), "n/a");
+        assert_eq!(told(f64::INFINITY, "1", 5), "n/a");
+    }
+
+    #[test]
+    fn a_selection_runs_the_stages_of_its_quantities_alone() {
+        let only =
+            |keys: &[&str]| Selection { only: keys.iter().filter_map(|key| Quantity::find(key)).collect(), stations: false };
+        assert_eq!(only(&["approach_angle_driven"]).stages(), Stages::of(Stage::Position));
+        let both = only(&["contact_ratio", "normal_velocity"]).stages();
+        assert!(both.has(Stage::Velocity) && !both.has(Stage::Compliance) && !both.has(Stage::Stations));
+        let whole = Selection::default().stages();
+        assert!(QUANTITIES.iter().all(|quantity| whole.has(quantity.stage)) && !whole.has(Stage::Stations));
+        assert!(Selection { stations: true, ..only(&["contact_ratio"]) }.stages().has(Stage::Stations));
+    }
 }

@@ -82,7 +82,7 @@ pub(super) fn put(case: &Case, field: usize, inputs: &mut Inputs) -> Result<(), 
     let known = &FIELDS[field];
     match (case.text(field), known.absent) {
         (Some(text), _) | (None, Absent::Default(text)) => put_text(known, field, text, inputs),
-        (None, Absent::Refused) => Err(Problem::new(known.key, "this field is missing", format!("add {}", assignment(known)))),
+        (None, Absent::Refused) => Err(Problem::new(known.key, "this field is missing", format!("add {}", addition(known)))),
         (None, Absent::Without(_) | Absent::Either(_)) => Ok(()),
     }
 }
@@ -90,11 +90,15 @@ pub(super) fn put(case: &Case, field: usize, inputs: &mut Inputs) -> Result<(), 
 /// How the field stands in a file, by example.
 pub(super) fn assignment(field: &Field) -> String {
     let example = field.example();
-    let bare = matches!(field.kind, Kind::Count(..) | Kind::Number(Dimension::Number, ..));
-    let value = if bare { example.to_owned() } else { format!("\"{example}\"") };
+    let value = if field.is_bare() { example.to_owned() } else { format!("\"{example}\"") };
+    format!("{} = {value}", field.name())
+}
+
+/// The assignment and the table that it goes to.
+fn addition(field: &Field) -> String {
     match field.table() {
-        "" => format!("{} = {value}", field.name()),
-        table => format!("{} = {value} to [{table}]", field.name()),
+        "" => assignment(field),
+        table => format!("{} to [{table}]", assignment(field)),
     }
 }
 
@@ -113,7 +117,7 @@ fn misfit(case: &Case, field: usize) -> Option<Problem> {
     match (case.text(field), case.text(other)) {
         (None, None) if field < other => {
             let cause = format!("neither {} nor {} is given", known.key, named.key);
-            Some(Problem::new(known.key, cause, format!("add {}", assignment(known))))
+            Some(Problem::new(known.key, cause, format!("add {}", addition(known))))
         }
         (Some(_), Some(_)) if field > other => {
             let cause = format!("{} and {} are both given", named.key, known.key);

@@ -1,3 +1,6 @@
+//! What a case promises on its own, without a file.
+#![expect(clippy::float_cmp, reason = "a value is read to the last bit")]
+
 use super::fields::{FIELDS, index_of};
 use super::{Case, Problem};
 use crate::model::inputs::Drive;
@@ -117,9 +120,9 @@ fn exactly_one_of_power_and_torque_is_given() {
 
 #[test]
 fn a_bore_ends_below_the_root_circle() {
-    let problem = only_problem(&with(&[("driven.bore_radius", "43.75 mm")]));
+    let problem = only_problem(&with(&[("driven.bore_radius", "43.76 mm")]));
     assert_eq!(problem.field, "driven.bore_radius");
-    assert!(problem.cause.contains("43.75 mm"), "{}", problem.cause);
+    assert!(problem.cause.contains("root circle's 43.75 mm"), "{}", problem.cause);
     assert!(with(&[("driven.bore_radius", "43.7 mm")]).inputs().is_ok());
 }
 

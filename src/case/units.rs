@@ -4,7 +4,7 @@ mod number;
 mod table;
 
 use super::suggest;
-use super::visible::quoted;
+use super::visible::{cut, quoted};
 use table::{FAMILIES, Scale, Unit, name_of, units_of};
 
 /// A physical dimension that a field or a quantity has.
@@ -123,7 +123,7 @@ pub fn text(value: f64, unit: &str) -> String {
             let near = number::plain(value / factor, 0);
             (12..17)
                 .map(|digits| format!("{:.digits$e}", value / factor))
-                .find(|short| times(number::shifted(short, 0), factor, rest) == value)
+                .find(|short| times(number::shifted(short, 0), factor, rest).to_bits() == value.to_bits())
                 .map_or(near, |short| number::plain(number::shifted(&short, 0), 0))
         }
     };
@@ -167,10 +167,11 @@ fn plain_spelling(unit: &str) -> String {
 }
 
 fn unit_unwanted(number: &str, unit: &str) -> Misread {
-    Misread::new(format!("unit {} where a bare number is due", quoted(unit)), format!("write {number}"))
+    Misread::new(format!("unit {} where a bare number is due", quoted(unit)), format!("write {}", cut(number)))
 }
 
 fn unit_missing(number: &str, dimension: Dimension, usual: &str) -> Misread {
+    let number = cut(number);
     Misread::new(
         format!("{number} is a bare number where {} with its unit is due", dimension.name()),
         format!("write \"{number} {usual}\""),
@@ -184,7 +185,9 @@ fn unit_wrong(unit: &str, dimension: Dimension) -> Misread {
         return Misread::new(cause, format!("use one of {fitting}"));
     }
     let spellings = units_of(dimension).iter().flat_map(|unit| std::iter::once(&unit.symbol).chain(unit.aliases)).copied();
-    let mend = suggest::nearest(&plain_spelling(unit), spellings)
+    let near = suggest::nearest(&plain_spelling(unit), spellings).and_then(|near| find(near, units_of(dimension)));
+    let mend = near
+        .map(|near| near.symbol)
         .map_or_else(|| format!("use one of {fitting}"), |near| format!("did you mean {near}? Units here: {fitting}"));
     Misread::new(format!("unknown unit {}", quoted(unit)), mend)
 }

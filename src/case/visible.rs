@@ -1,7 +1,7 @@
 //! Text from outside, made safe to show: no byte of it reaches a terminal as a control.
 
 /// The most characters of a foreign text that a message repeats.
-const MOST: usize = 40;
+const MOST: usize = 60;
 
 /// The text with control, direction and zero-width characters written out, such as `\u{1b}`.
 #[must_use]
@@ -17,14 +17,20 @@ pub fn visible(text: &str) -> String {
     shown
 }
 
-/// The text for a message: visible, between backquotes, cut where it is long.
+/// The text for a message: visible, cut where it is long.
 #[must_use]
-pub fn quoted(text: &str) -> String {
+pub fn cut(text: &str) -> String {
     let mut shown: String = text.chars().take(MOST).collect();
     if shown.len() < text.len() {
         shown.push('…');
     }
-    format!("`{}`", visible(&shown))
+    visible(&shown)
+}
+
+/// The text as [`cut`] leaves it, between backquotes.
+#[must_use]
+pub fn quoted(text: &str) -> String {
+    format!("`{}`", cut(text))
 }
 
 /// Whether a character acts on the screen, or is none to the eye.
@@ -70,6 +76,6 @@ mod tests {
 
     #[test]
     fn a_long_text_is_cut() {
-        assert_eq!(quoted(&"x".repeat(1000)).chars().count(), 43);
+        assert_eq!(quoted(&"x".repeat(1000)).chars().count(), 63);
     }
 }

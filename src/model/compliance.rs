@@ -95,30 +95,3 @@ pub fn pair_at_load(inputs: &Inputs, geometry: &Geometry, place: &ContactPlace, 
     let contact = contact::spring(inputs, geometry, place)?.compliance(force)?;
     Ok(teeth(inputs, geometry, place)?.sum() + contact)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::model::geometry::geometry;
-    use crate::model::inputs::ContactCompliance;
-    use crate::model::sample::standard_pair;
-
-    #[test]
-    fn look() {
-        let mut inputs = standard_pair(20, 20, 5e-3);
-        inputs.driver.bore_radius = 20e-3;
-        inputs.driven.bore_radius = 20e-3;
-        for model in ToothCompliance::ALL {
-            for contact in ContactCompliance::ALL {
-                inputs.tooth_compliance = Some(model);
-                inputs.contact_compliance = contact;
-                let g = geometry::<f64>(&inputs).unwrap();
-                let f = 100.0 / g.driver.base;
-                let end = pair_at_load(&inputs, &g, &ContactPlace::on_line_of_action(&g, g.start), f).unwrap();
-                let pitch =
-                    pair_at_load(&inputs, &g, &ContactPlace::on_line_of_action(&g, g.start + g.approach_length), f).unwrap();
-                println!("{model:?} {contact:?} end {:.3} pitch {:.3}", 1e-9 / end, 1e-9 / pitch);
-            }
-        }
-    }
-}

@@ -5,6 +5,7 @@ mod impact;
 mod pair;
 
 use super::{Inputs, Solution};
+use crate::numeric::decimal::significant;
 
 /// Something a reader must know beside a result.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,6 +20,11 @@ impl Note {
     fn new(code: &'static str, message: String) -> Note {
         Note { code, message }
     }
+}
+
+/// A value with four significant digits.
+fn four(value: f64) -> String {
+    significant(value, 4)
 }
 
 /// A condition to look for.

@@ -9,8 +9,12 @@ use super::{Document, Lines};
 /// The document's text with its changes.
 pub(super) fn render(document: &Document) -> String {
     let text = Editor::new(document).edited();
-    let wanted = entries(&document.case);
-    let kept = entries(&tree::read(&text).case) == wanted;
+    let sorted = |case| {
+        let mut entries = entries(case);
+        entries.sort();
+        entries
+    };
+    let kept = sorted(&tree::read(&text).case) == sorted(&document.case);
     // A layout that no single line can be added to is written anew; a case that is not valid keeps its layout.
     if kept || document.case.inputs().is_err() { text } else { template::text(&document.case) }
 }
@@ -41,11 +45,12 @@ impl<'d> Editor<'d> {
             self.change_or_add(&entry);
         }
         let mut appended = self.new_tables();
-        self.edits.sort_by_key(|(span, _)| span.start);
+        // What is added comes before what is taken out at the same place.
+        self.edits.sort_by_key(|(span, _)| (span.start, span.end));
         let mut edited = String::with_capacity(self.text.len() + appended.len());
         let mut at = 0;
         for (span, new) in &self.edits {
-            edited.push_str(&self.text[at.min(span.start)..span.start]);
+            edited.push_str(&self.text[at..span.start]);
             edited.push_str(new);
             at = span.end;
         }
@@ -165,15 +170,15 @@ impl<'d> Editor<'d> {
     fn new_tables(&self) -> String {
         let mut tables: Vec<&str> = Vec::new();
         let fresh = |entry: &&Entry| !entry.table.is_empty() && self.places.table(entry.table).is_none();
-        let mut text = String::new();
+        let mut lines: Vec<String> = Vec::new();
         for entry in self.after.iter().filter(fresh) {
             if !tables.contains(&entry.table) {
                 tables.push(entry.table);
                 let blank = if self.text.is_empty() { "" } else { self.line_end };
-                text += &format!("{blank}[{}]{}", entry.table, self.line_end);
+                lines.push(format!("{blank}[{}]", entry.table));
             }
-            text += &format!("{}{}", entry.line(), self.line_end);
+            lines.push(entry.line());
         }
-        text
+        lines.into_iter().map(|line| line + self.line_end).collect()
     }
 }

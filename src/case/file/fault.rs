@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::case::Problem;
-use crate::case::visible::visible;
+use crate::case::visible::{cut, visible};
 
 /// The most faults that are shown of one file.
 const MOST: usize = 100;
@@ -47,7 +47,7 @@ impl Fault {
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Fault { file, line, column, field, cause, mend, .. } = self;
-        write!(f, "{}:{line}:{column}: {}: {}: {}", visible(file), visible(field), visible(cause), visible(mend))
+        write!(f, "{}:{line}:{column}: {}: {}: {}", visible(file), cut(field), visible(cause), visible(mend))
     }
 }
 

@@ -5,11 +5,14 @@ use toml::de::{DeTable, Error};
 use super::fault::{Found, Lines};
 use crate::case::fields::{FIELDS, Field, Kind, index_of};
 use crate::case::units::{self, Dimension};
-use crate::case::visible::quoted;
+use crate::case::visible::{cut, quoted};
 use crate::case::{Problem, check};
 
 /// Rounds of blanking lines before the rest is given up.
 const ROUNDS: usize = 8;
+
+/// Errors that are told of one text; with more of them it is hardly a case.
+const MOST: usize = 200;
 
 /// A text without its broken lines.
 pub(super) struct Recovered {
@@ -31,16 +34,20 @@ pub(super) fn recover(source: &str) -> Recovered {
         let (_, errors) = DeTable::parse_recoverable(&recovered.text);
         let mut errors: Vec<(usize, Error)> = errors.into_iter().map(|error| (start(&error, source), error)).collect();
         errors.sort_by_key(|(at, _)| *at);
+        let flooded = errors.len() > MOST;
+        errors.truncate(MOST);
         let (doubles, slips): (Vec<_>, Vec<_>) = errors.into_iter().partition(|(_, error)| error.message() == "duplicate key");
         if round == 0 {
             recovered.faults = first_of_each_line(&slips, &lines, source);
         }
-        if slips.is_empty() || round + 1 == ROUNDS {
+        if slips.is_empty() || flooded || round + 1 == ROUNDS {
             recovered.tables_known &= slips.is_empty();
             recovered.faults.extend(doubles.iter().map(|(at, error)| double(*at, error, source)));
             break;
         }
-        slips.iter().for_each(|(at, _)| recovered.blank(lines.around(*at), source));
+        for (at, _) in &slips {
+            recovered.blank(lines.around(*at), source);
+        }
     }
     recovered
 }
@@ -121,20 +128,21 @@ fn mistaken(field: &Field, value: &str) -> Option<Problem> {
     if value.is_empty() {
         return problem("there is no value after `=`".to_owned(), format!("write {}", check::assignment(field)));
     }
-    let measure = match field.kind {
-        Kind::Number(dimension, range, _) => units::parse(inner, dimension, range.unit).err(),
-        Kind::Count(..) => units::parse(inner, Dimension::Number, "").err(),
-        Kind::Text | Kind::Choice(..) => None,
+    let read = match field.kind {
+        Kind::Number(dimension, range, _) => units::parse(inner, dimension, range.unit),
+        Kind::Count(..) => units::parse(inner, Dimension::Number, ""),
+        Kind::Text | Kind::Choice(..) => Ok(0.0),
     };
-    let bare = matches!(field.kind, Kind::Number(Dimension::Number, ..) | Kind::Count(..));
-    match measure {
-        Some(misread) if !value.starts_with(['"', '\'', '[', '{']) => problem(misread.cause, misread.mend),
-        None if bare => problem(format!("{} is not written as TOML has it", quoted(value)), "write it as 20 or 0.5".to_owned()),
-        None if !value.contains(['"', '\'', '[', '{']) => {
-            let shown = quoted(value);
-            problem(format!("{shown} is not in quotes"), format!("write \"{}\"", shown.trim_matches('`')))
+    match read {
+        _ if value.contains(['"', '\'', '[', '{']) => None,
+        Err(misread) => problem(misread.cause, misread.mend),
+        Ok(_) if field.is_flag() => {
+            problem(format!("{} is neither true nor false", quoted(value)), "write true or false".to_owned())
         }
-        _ => None,
+        Ok(number) if field.is_bare() => {
+            problem(format!("{} is not how TOML writes a number", quoted(value)), format!("write {}", units::text(number, "")))
+        }
+        Ok(_) => problem(format!("{} is not in quotes", quoted(value)), format!("write \"{}\"", cut(value))),
     }
 }
 
@@ -155,7 +163,7 @@ const MENDS: [(&str, &str); 16] = [
     ("invalid literal string", "close the string with ' on its line"),
     ("escape", "write \\\\ for a backslash, or put the text between single quotes"),
     ("carriage return", "end lines with LF or CR LF"),
-    ("unexpected key or value", "begin a new line before it"),
+    ("unexpected key or value", "only a # comment may follow a value on its line"),
 ];
 
 fn in_general(error: &Error, field: &str) -> Problem {

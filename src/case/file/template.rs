@@ -3,12 +3,12 @@
 use std::fmt::Write;
 
 use super::FORMAT;
-use crate::case::fields::{Absent, FIELDS, Field, GROUPS, Kind};
+use crate::case::fields::{Absent, FIELDS, FLAG, Field, GROUPS};
 use crate::case::units::{self, Dimension};
 use crate::case::{Case, check};
 
 /// A key and its value as they stand in a file.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Entry {
     /// The table, empty for the top level.
     pub(super) table: &'static str,
@@ -82,13 +82,8 @@ fn described(field: &Field, written: Option<&Entry>) -> String {
         Absent::Without(words) => format!(" Left out: {words}."),
         _ => String::new(),
     };
-    let line = written.map_or_else(|| format!("# {}", example(field)), Entry::line);
+    let line = written.map_or_else(|| format!("# {}", check::assignment(field)), Entry::line);
     format!("# {symbol}{}{range}{absent}\n{line}\n", field.help)
-}
-
-fn example(field: &Field) -> String {
-    let line = check::assignment(field);
-    line.split(" to [").next().unwrap_or_default().to_owned()
 }
 
 fn rest(entries: &[Entry], table: &str, help: &str, example: &str) -> String {
@@ -101,9 +96,12 @@ fn rest(entries: &[Entry], table: &str, help: &str, example: &str) -> String {
 
 /// A field's text as a TOML value.
 fn value(field: &Field, text: &str) -> String {
-    match field.kind {
-        Kind::Number(Dimension::Number, ..) | Kind::Count(..) => number(text),
-        _ => string(text),
+    if field.is_flag() && FLAG.contains(&text) {
+        text.to_owned()
+    } else if field.is_bare() {
+        number(text)
+    } else {
+        string(text)
     }
 }
 

@@ -8,13 +8,16 @@ use super::fault::{FaultKind, Found};
 use super::{FORMAT, syntax};
 use crate::case::fields::{FIELDS, GROUPS, Kind, index_of};
 use crate::case::spread;
-use crate::case::units::{Dimension, Misread};
+use crate::case::units::Misread;
 use crate::case::visible::quoted;
 use crate::case::{Case, Limit, Problem, Spread, check, suggest};
 use crate::model::Quantity;
 
 type Key<'k, 'i> = &'k toml::Spanned<toml::de::DeString<'i>>;
 type Value<'k, 'i> = &'k toml::Spanned<DeValue<'i>>;
+
+/// Keys of one table after which no more are looked at.
+const ENOUGH: usize = 200;
 
 /// Where a key and its value stand in the text.
 #[derive(Debug, Clone)]
@@ -94,7 +97,7 @@ impl Reader {
         if self.format(root) == FaultKind::NewerFormat {
             return;
         }
-        for (key, value) in root {
+        for (key, value) in in_order(root) {
             let name = key.get_ref().as_ref();
             if name == "format" {
                 self.note(name, key, value);
@@ -140,7 +143,7 @@ impl Reader {
         };
         self.places.tables.push((name.to_owned(), value.span()));
         self.inline = text[value.span()].starts_with('{').then(|| value.span());
-        for (key, value) in table {
+        for (key, value) in in_order(table) {
             match name {
                 "limits" => self.limit(key, value),
                 "spread" => self.spread("", key, value),
@@ -162,19 +165,22 @@ impl Reader {
         let known = &FIELDS[field];
         self.note(known.key, key, value);
         let written = match known.kind {
+            Kind::Choice(..) if known.is_flag() => flag(value.get_ref()),
             Kind::Text | Kind::Choice(..) => words(value.get_ref()),
-            Kind::Number(Dimension::Number, ..) | Kind::Count(..) => bare_number(value.get_ref()),
-            Kind::Number(..) => measure(value.get_ref()),
+            Kind::Number(..) | Kind::Count(..) if known.is_bare() => bare_number(value.get_ref()),
+            Kind::Number(..) | Kind::Count(..) => measure(value.get_ref()),
         };
         let empty = |text: &String| text.is_empty() && !matches!(known.kind, Kind::Text);
         match written {
             Ok(text) if empty(&text) => {
-                self.wrongly(field, value, Misread::new("there is no value", format!("write {}", check::assignment(known))))
+                self.wrongly(field, value, Misread::new("there is no value", format!("write {}", check::assignment(known))));
             }
             Ok(text) => self.case.write(field, &text),
-            Err(misread) => {
-                self.wrongly(field, value, misread.unwrap_or_else(|| untaken(value.get_ref(), &check::assignment(known))))
-            }
+            Err(misread) => self.wrongly(
+                field,
+                value,
+                misread.unwrap_or_else(|| untaken(value.get_ref(), known.kind, &check::assignment(known))),
+            ),
         }
     }
 
@@ -195,7 +201,7 @@ impl Reader {
             _ if known.is_none() => Limit::new(name, ""),
             Ok(text) => Limit::new(name, &text),
             Err(misread) => {
-                let misread = misread.unwrap_or_else(|| untaken(value.get_ref(), &format!("{name} = {example}")));
+                let misread = misread.unwrap_or_else(|| misplaced(value.get_ref(), "a value", &format!("{name} = {example}")));
                 Err(Problem::of(&place, misread))
             }
         };
@@ -213,7 +219,7 @@ impl Reader {
         let place = spread::place(&path);
         let table = value.get_ref().as_table();
         if let (Some(table), true) = (table, GROUPS.iter().any(|(group, _)| *group == path)) {
-            table.iter().for_each(|(key, value)| self.spread(&path, key, value));
+            in_order(table).for_each(|(key, value)| self.spread(&path, key, value));
             return;
         }
         self.note(&place, key, value);
@@ -252,6 +258,13 @@ impl Reader {
     }
 }
 
+/// A table's keys and values in the order of the text, as far as they are looked at.
+fn in_order<'k, 'i>(table: &'k DeTable<'i>) -> impl Iterator<Item = (Key<'k, 'i>, Value<'k, 'i>)> {
+    let mut members: Vec<_> = table.iter().collect();
+    members.sort_by_key(|(key, _)| key.span().start);
+    members.into_iter().take(ENOUGH)
+}
+
 fn is_table(name: &str) -> bool {
     matches!(name, "limits" | "spread") || GROUPS.iter().any(|(group, _)| *group == name && !name.is_empty())
 }
@@ -259,6 +272,17 @@ fn is_table(name: &str) -> bool {
 /// The text of words; `None` for the cause where the value is of another kind.
 fn words(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
     value.as_str().map(str::to_owned).ok_or(None)
+}
+
+/// The text of a truth value.
+fn flag(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
+    match value {
+        DeValue::Boolean(value) => Ok(value.to_string()),
+        _ => Err(Some(Misread::new(
+            format!("{} stands where true or false is due", kind_of(value)),
+            "write true or false without quotes",
+        ))),
+    }
 }
 
 /// The text of a value with its unit; a number's digits too, since the reader of units says what they lack.
@@ -287,8 +311,16 @@ fn scalar(value: &DeValue<'_>) -> Option<String> {
     }
 }
 
-fn untaken(value: &DeValue<'_>, due: &str) -> Misread {
-    Misread::new(format!("{} stands where a value is due", kind_of(value)), format!("write {due}"))
+fn untaken(value: &DeValue<'_>, kind: Kind, example: &str) -> Misread {
+    let due = match kind {
+        Kind::Text | Kind::Choice(..) => "a text in quotes",
+        Kind::Number(..) | Kind::Count(..) => "a value",
+    };
+    misplaced(value, due, example)
+}
+
+fn misplaced(value: &DeValue<'_>, due: &str, example: &str) -> Misread {
+    Misread::new(format!("{} stands where {due} is due", kind_of(value)), format!("write {example}"))
 }
 
 fn kind_of(value: &DeValue<'_>) -> &'static str {

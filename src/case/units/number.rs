@@ -1,7 +1,7 @@
 //! The number before a unit: found, shifted by powers of ten, and held within what an f64 can carry.
 
 use super::Misread;
-use crate::case::visible::quoted;
+use crate::case::visible::{cut, quoted};
 
 /// The number and the unit after it.
 pub(super) fn split<'t>(text: &'t str, usual: &str) -> Result<(&'t str, &'t str), Misread> {
@@ -53,7 +53,7 @@ fn no_number(text: &str, usual: &str) -> Misread {
     } else if text.starts_with(['−', '–', '—', '‐', '‑', '－']) {
         let rest: String = text.chars().skip(1).collect();
         let cause = format!("{} begins with a dash that is not the minus sign", quoted(text));
-        Misread::new(cause, format!("write -{}", quoted(&rest).trim_matches('`')))
+        Misread::new(cause, format!("write -{}", cut(&rest)))
     } else if word == "nan" || word == "inf" {
         Misread::new(format!("{} is not a finite number", quoted(text)), example(usual))
     } else {
@@ -66,10 +66,7 @@ fn comma(text: &str) -> Misread {
     let written = &text[..length];
     let thousands = written.contains('.') || written.matches(',').count() > 1;
     let meant = if thousands { written.replace(',', "") } else { written.replace(',', ".") };
-    Misread::new(
-        "a comma inside a number",
-        format!("write {}, not {}", quoted(&meant).trim_matches('`'), quoted(written).trim_matches('`')),
-    )
+    Misread::new("a comma inside a number", format!("write {}, not {}", cut(&meant), cut(written)))
 }
 
 fn example(usual: &str) -> String {

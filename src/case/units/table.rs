@@ -1,5 +1,7 @@
 //! The table of units: symbol, other spellings, and what one of it is in SI.
 
+use std::f64::consts::TAU;
+
 use super::Dimension;
 
 /// What one of a unit is in SI.
@@ -111,7 +113,7 @@ pub(super) static FAMILIES: [Family; 13] = [
         times("rpm", &["1/min", "min-1", "rev/min", "r/min", "RPM", "U/min"], 0.10471975511965978, -5.1697025413851275e-18),
         ten("rad/s", &[], 0),
         times("deg/s", &["°/s"], 0.017453292519943295, 2.9486522708701687e-19),
-        times("rev/s", &["rps"], 6.283185307179586, 2.4492935982947064e-16),
+        times("rev/s", &["rps"], TAU, 2.4492935982947064e-16),
     ]),
     family(Dimension::Force, "a force", &[
         ten("N", &[], 0),

@@ -1,6 +1,6 @@
 //! Notes on the range of the stiffness models.
 
-use super::Note;
+use super::{Note, four};
 use crate::model::compliance::beam::{FOUNDATION_ANGLE, FOUNDATION_BODY};
 use crate::model::compliance::profile::Profile;
 use crate::model::compliance::{kuang_yang, model_of};
@@ -37,7 +37,7 @@ pub(super) fn foundation(inputs: &Inputs, solution: &Solution) -> Option<Note> {
         let by_body = body.is_finite() && !(FOUNDATION_BODY.0..=FOUNDATION_BODY.1).contains(&body);
         let by_angle = !(FOUNDATION_ANGLE.0..=FOUNDATION_ANGLE.1).contains(&angle);
         (by_body || by_angle)
-            .then(|| format!("the {name}'s r_f/r_bore is {body:.3} and its half angle at the root {angle:.4} rad"))
+            .then(|| format!("the {name}'s r_f/r_bore is {body:.3} and its half angle at the root {} rad", four(angle)))
     };
     let driver = outside("driver", &inputs.driver, &solution.geometry.driver);
     let found = driver.or_else(|| outside("driven gear", &inputs.driven, &solution.geometry.driven))?;
@@ -55,9 +55,9 @@ pub(super) fn hertz_width(inputs: &Inputs, solution: &Solution) -> Option<Note> 
     let limit = SMALL * inputs.module;
     let message = || {
         format!(
-            "the Hertz half-width is {:.4} mm and should be below {:.4} mm, a tenth of the module",
-            half_width * 1e3,
-            limit * 1e3
+            "the Hertz half-width is {} mm and should be below {} mm, a tenth of the module",
+            four(half_width * 1e3),
+            four(limit * 1e3)
         )
     };
     (half_width > limit).then(|| Note::new("hertz-width-not-small", message()))

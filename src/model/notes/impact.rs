@@ -1,6 +1,6 @@
 //! Notes on the impact itself.
 
-use super::Note;
+use super::{Note, four};
 use crate::model::inputs::Rung;
 use crate::model::{Inputs, Solution};
 
@@ -17,8 +17,9 @@ pub(super) fn outlasting(_: &Inputs, solution: &Solution) -> Option<Note> {
     let duration = solution.impact?.duration * MICRO;
     let transit = solution.velocity?.transit_time * MICRO;
     let message = || {
+        let (lasts, way) = (four(duration), four(transit));
         format!(
-            "the impact lasts {duration:.4} us and D to E only {transit:.4} us: it runs on into the normal mesh, which this rung does not follow"
+            "the impact lasts {lasts} us and D to E only {way} us: it runs on into the normal mesh, which this rung does not follow"
         )
     };
     (duration > transit).then(|| Note::new("impact-outlasts-approach", message()))
@@ -34,7 +35,7 @@ pub(super) fn impulse(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     };
     let possible = 1.0 - ROUNDING..=2.0 + ROUNDING;
     (!possible.contains(&ratio))
-        .then(|| Note::new("impulse-ratio", format!("the impulse ratio is {ratio:.4}, outside 1..2: {cause}")))
+        .then(|| Note::new("impulse-ratio", format!("the impulse ratio is {}, outside 1..2: {cause}", four(ratio))))
 }
 
 /// The load cannot hold the pair ahead in contact while the incoming tooth carries its error.
@@ -42,8 +43,9 @@ pub(super) fn contact_lost(_: &Inputs, solution: &Solution) -> Option<Note> {
     let deviation = solution.deviation;
     let (deflection, error) = (deviation.combined_deflection * MICRO, deviation.equivalent_error * MICRO);
     let message = || {
+        let (deflects, error) = (four(deflection), four(error));
         format!(
-            "the mesh force deflects the pair {deflection:.4} um, less than the equivalent error of {error:.4} um: the pair ahead loses contact"
+            "the mesh force deflects the pair {deflects} um, less than the equivalent error of {error} um: the pair ahead loses contact"
         )
     };
     (deflection < error).then(|| Note::new("contact-lost", message()))
@@ -53,8 +55,10 @@ pub(super) fn contact_lost(_: &Inputs, solution: &Solution) -> Option<Note> {
 pub(super) fn sliding_reverses(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let at_contact = solution.velocity?.sliding;
     let at_start = (inputs.speed + inputs.driven_speed()) * solution.geometry.approach_length;
-    let message =
-        || format!("the sliding velocity is {at_contact:.4} m/s at D and {at_start:.4} m/s at E: it reverses between them");
+    let message = || {
+        let (at_contact, at_start) = (four(at_contact), four(at_start));
+        format!("the sliding velocity is {at_contact} m/s at D and {at_start} m/s at E: it reverses between them")
+    };
     (at_contact * at_start < 0.0).then(|| Note::new("sliding-reverses", message()))
 }
 
@@ -62,15 +66,17 @@ pub(super) fn sliding_reverses(inputs: &Inputs, solution: &Solution) -> Option<N
 pub(super) fn friction(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let friction = inputs.friction_coefficient?;
     let limit = solution.velocity?.stick_limit;
-    let (code, does) = if friction < limit {
+    let below = friction < limit;
+    let limit = four(limit);
+    let (code, does) = if below {
         (
             "sliding-throughout",
             format!(
-                "below the stick limit {limit:.4}: sliding goes on throughout, and the tangential impulse is {friction} times the normal one"
+                "below the stick limit {limit}: sliding goes on throughout, and the tangential impulse is {friction} times the normal one"
             ),
         )
     } else {
-        ("sticking", format!("not below the stick limit {limit:.4}: sliding stops within the impact"))
+        ("sticking", format!("not below the stick limit {limit}: sliding stops within the impact"))
     };
     Some(Note::new(code, format!("the friction coefficient is {friction}, {does}")))
 }

@@ -1,6 +1,6 @@
 //! Notes on the geometry of the pair.
 
-use super::Note;
+use super::{Note, four};
 use crate::model::compliance::profile::Profile;
 use crate::model::geometry::{Circles, RACK_STRAIGHT_DEDENDUM};
 use crate::model::inputs::Gear;
@@ -15,14 +15,14 @@ pub(super) fn contact_ratio_above_two(inputs: &Inputs, solution: &Solution) -> O
         Some(_) => "the deflection is the case's own",
         None => "the pairs ahead of the incoming one share the load as parallel springs",
     };
-    let message = || format!("the contact ratio is {ratio:.4}, above 2: no single pair carries the load at F; {done}");
+    let message = || format!("the contact ratio is {}, above 2: no single pair carries the load at F; {done}", four(ratio));
     (ratio > 2.0).then(|| Note::new("contact-ratio-above-2", message()))
 }
 
 /// No pair is in contact while the next comes in.
 pub(super) fn contact_ratio_below_one(_: &Inputs, solution: &Solution) -> Option<Note> {
     let ratio = solution.geometry.contact_ratio;
-    let message = || format!("the contact ratio is {ratio:.4}, below 1: no pair is in contact when the next comes in");
+    let message = || format!("the contact ratio is {}, below 1: no pair is in contact when the next comes in", four(ratio));
     (ratio < 1.0).then(|| Note::new("contact-ratio-below-1", message()))
 }
 
@@ -32,16 +32,16 @@ pub(super) fn centre_distance(inputs: &Inputs, solution: &Solution) -> Option<No
     const OPEN: f64 = 0.1;
     inputs.centre_distance?;
     let backlash = solution.geometry.backlash(inputs);
-    let (value, module) = (backlash * MILLI, inputs.module * MILLI);
+    let value = four(backlash * MILLI);
     if backlash < JAM * inputs.module {
         Some(Note::new(
             "centre-distance-jams",
-            format!("the centre distance jams the mesh: the normal backlash is {value:.4} mm and must not be below 0"),
+            format!("the centre distance jams the mesh: the normal backlash is {value} mm and must not be below 0"),
         ))
     } else if backlash > OPEN * inputs.module {
-        let limit = OPEN * module;
+        let limit = four(OPEN * inputs.module * MILLI);
         let message = format!(
-            "the centre distance opens the mesh: the normal backlash is {value:.4} mm, above a tenth of the module, {limit:.4} mm"
+            "the centre distance opens the mesh: the normal backlash is {value} mm, above a tenth of the module, {limit} mm"
         );
         Some(Note::new("centre-distance-opens", message))
     } else {
@@ -54,7 +54,7 @@ pub(super) fn start_past_pitch(_: &Inputs, solution: &Solution) -> Option<Note> 
     let length = solution.geometry.approach_length;
     let message = || {
         format!(
-            "the path of approach is {:.4} mm, below 0: the driven tip, chamfer off, starts past the pitch point",
+            "the path of approach is {} mm, below 0: the driven tip, chamfer off, starts past the pitch point",
             length * MILLI
         )
     };
@@ -64,7 +64,7 @@ pub(super) fn start_past_pitch(_: &Inputs, solution: &Solution) -> Option<Note> 
 /// The driver's tip would touch the driven gear below its base circle.
 pub(super) fn interference_at_end(_: &Inputs, solution: &Solution) -> Option<Note> {
     let rest = solution.geometry.tangent_length - solution.geometry.end;
-    let message = || format!("interference at the end of contact: N2B is {:.4} mm and must be above 0", rest * MILLI);
+    let message = || format!("interference at the end of contact: N2B is {} mm and must be above 0", four(rest * MILLI));
     (rest <= 0.0).then(|| Note::new("interference-at-end", message()))
 }
 
@@ -83,8 +83,10 @@ fn undercut(name: &str, inputs: &Inputs, gear: &Gear) -> Option<Note> {
     let sine = inputs.pressure_angle.sin();
     let limit = RACK_STRAIGHT_DEDENDUM - f64::from(gear.teeth) * sine * sine / 2.0;
     let shift = gear.profile_shift;
-    (shift < limit).then(|| {
-        Note::new("undercut", format!("the {name} is undercut: its profile shift is {shift} and should be at least {limit:.4}"))
+    let below = shift < limit;
+    let limit = four(limit);
+    below.then(|| {
+        Note::new("undercut", format!("the {name} is undercut: its profile shift is {shift} and should be at least {limit}"))
     })
 }
 
@@ -101,17 +103,14 @@ pub(super) fn tip_driven(inputs: &Inputs, solution: &Solution) -> Option<Note> {
 fn tip(name: &str, inputs: &Inputs, gear: &Gear, circles: &Circles) -> Option<Note> {
     const THIN: f64 = 0.2;
     let thickness = Profile::of(inputs, gear, circles).tip_thickness();
-    let (value, limit) = (thickness * MILLI, THIN * inputs.module * MILLI);
+    let (value, limit) = (four(thickness * MILLI), four(THIN * inputs.module * MILLI));
     if thickness <= 0.0 {
         Some(Note::new(
             "pointed-tip",
-            format!("the {name}'s tip is pointed: its thickness would be {value:.4} mm and must be above 0"),
+            format!("the {name}'s tip is pointed: its thickness would be {value} mm and must be above 0"),
         ))
-    } else if value < limit {
-        Some(Note::new(
-            "thin-tip",
-            format!("the {name}'s tip is thin: {value:.4} mm, below a fifth of the module, {limit:.4} mm"),
-        ))
+    } else if thickness < THIN * inputs.module {
+        Some(Note::new("thin-tip", format!("the {name}'s tip is thin: {value} mm, below a fifth of the module, {limit} mm")))
     } else {
         None
     }
@@ -123,7 +122,7 @@ pub(super) fn form_circle(inputs: &Inputs, solution: &Solution) -> Option<Note> 
     let form = Profile::of(inputs, &inputs.driver, &solution.geometry.driver).form_radius();
     let message = || {
         format!(
-            "D lies below the driver's form circle: O1D is {:.4} mm and the involute starts at {:.4} mm",
+            "D lies below the driver's form circle: O1D is {} mm and the involute starts at {} mm",
             radius * MILLI,
             form * MILLI
         )

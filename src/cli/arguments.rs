@@ -1,0 +1,166 @@
+//! The command line's shape, from which help, completions and manual are derived.
+
+use super::Exit;
+use crate::case::Case;
+use crate::model::inputs::Rung;
+use crate::model::{QUANTITIES, Quantity};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
+use clap_complete::Shell;
+use std::path::PathBuf;
+
+const CSV_SHAPE: &str = "CSV is in SI units: a row a case with a column a quantity, such as `impact_force [N]`; with --stations \
+    instead a row a station. JSON is an object a case, one a line, in SI units; what does not exist is absent.";
+
+/// Corner contact in spur gear pairs: where, how hard and how long an incoming tooth strikes
+#[derive(Debug, Parser)]
+#[command(name = "tipstrike", version, args_conflicts_with_subcommands = true, after_help = exit_codes())]
+pub struct Arguments {
+    /// Case to open in the workbench; else the last one, else Table 1 of Zhou & Chen 2014
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub case: Option<PathBuf>,
+    /// What to do without the workbench.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+/// A headless command.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Solve cases and tell what was found
+    Solve(Solve),
+    /// Hold each case's [limits] against its results, a verdict a line
+    Check(Check),
+    /// List every field of a case with its unit, range, default and meaning
+    Fields(Fields),
+    /// Write a commented case to start from
+    New {
+        /// File to write, which must not exist yet; else standard output
+        #[arg(value_hint = ValueHint::FilePath)]
+        file: Option<PathBuf>,
+    },
+    /// Write a shell's completions to standard output
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
+    /// Write the manual page (roff) to standard output
+    Man {
+        /// The page of this command
+        command: Option<String>,
+    },
+}
+
+/// What `solve` is asked.
+#[derive(Debug, Args)]
+#[command(after_help = CSV_SHAPE)]
+pub struct Solve {
+    /// Case files; - is standard input
+    #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub cases: Vec<PathBuf>,
+    /// Solve on this rung instead of the case's
+    #[arg(long, value_parser = rungs())]
+    pub rung: Option<Rung>,
+    /// Change a field of every case, such as "operation.speed=3000 rpm"
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
+    pub settings: Vec<Setting>,
+    /// Tell these quantities alone, and run no more than they need; `tipstrike fields --results` lists them
+    #[arg(long, value_name = "QUANTITY,...", value_delimiter = ',', hide_possible_values = true, value_parser = quantities())]
+    pub only: Vec<&'static Quantity>,
+    /// Tell the stations between D and E as well, in this many intervals
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub stations: Option<u32>,
+    /// How to tell it
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+}
+
+/// What `check` is asked.
+#[derive(Debug, Args)]
+pub struct Check {
+    /// Case files; - is standard input
+    #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub cases: Vec<PathBuf>,
+}
+
+/// What `fields` is asked.
+#[derive(Debug, Args)]
+pub struct Fields {
+    /// List the quantities of a result instead: what --only and [limits] may name
+    #[arg(long)]
+    pub results: bool,
+    /// How to list them
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Listing,
+}
+
+/// How a solve is told.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// A page for a person, in the units of the craft
+    #[default]
+    Text,
+    /// An object a line
+    Json,
+    /// A table
+    Csv,
+}
+
+/// How a list is told.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub enum Listing {
+    /// A table for a person
+    #[default]
+    Text,
+    /// An object a line
+    Json,
+}
+
+/// A field and what is to stand in it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Setting {
+    /// The field's key, or a limit's.
+    pub key: String,
+    /// The text that a user would write.
+    pub value: String,
+}
+
+fn exit_codes() -> String {
+    let codes = Exit::MEANINGS.map(|(exit, meaning)| format!("{} {meaning}", exit as u8));
+    format!("Exit: {}.", codes.join("; "))
+}
+
+fn rungs() -> impl TypedValueParser<Value = Rung> {
+    PossibleValuesParser::new(Rung::ALL.map(Rung::name))
+        .try_map(|name| Rung::ALL.into_iter().find(|rung| rung.name() == name).ok_or("no such rung"))
+}
+
+fn quantities() -> impl TypedValueParser<Value = &'static Quantity> {
+    PossibleValuesParser::new(QUANTITIES.iter().map(|quantity| quantity.key))
+        .try_map(|key| Quantity::find(&key).ok_or("no such quantity"))
+}
+
+/// A setting whose value fits its field, whatever the case.
+fn setting(text: &str) -> Result<Setting, String> {
+    let (key, value) = text.split_once('=').ok_or("write KEY=VALUE, such as \"operation.speed=3000 rpm\"")?;
+    Case::empty().set(key.trim(), value).map_err(|problem| problem.to_string())?;
+    Ok(Setting { key: key.trim().to_owned(), value: value.to_owned() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_shape_is_sound() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn a_setting_names_a_field_and_keeps_what_follows_the_first_equals_sign() {
+        assert_eq!(setting("title=a=b"), Ok(Setting { key: "title".to_owned(), value: "a=b".to_owned() }));
+        assert!(setting("pair.modul=5 mm").unwrap_err().contains("did you mean pair.module?"));
+        assert!(setting("pair.module").unwrap_err().contains("KEY=VALUE"));
+    }
+}

@@ -1,0 +1,69 @@
+//! Cases solved and told.
+
+use super::cases::{self, Opened};
+use super::{Exit, Format, Setting, Solve, Streams};
+use crate::model::{Quantity, Refusal};
+use crate::report::{Report, Selection, csv, json, text};
+use std::io::{self, Write};
+
+pub(super) fn run(options: &Solve, streams: &mut Streams) -> io::Result<Exit> {
+    let settings = settings(options);
+    let selection = selection(options);
+    let (mut first, mut worst) = (true, Exit::Done);
+    for path in &options.cases {
+        let report = cases::open(path, &settings, streams).and_then(|opened| solve(&opened, &selection, streams));
+        match report {
+            Ok(report) => {
+                tell(&report, options.format, first, streams.output.as_mut())?;
+                first = false;
+            }
+            Err(exit) => worst = worst.max(exit),
+        }
+    }
+    Ok(worst)
+}
+
+/// `--rung` and `--stations` are fields as well.
+fn settings(options: &Solve) -> Vec<Setting> {
+    let rung = options.rung.map(|rung| Setting { key: "model.rung".to_owned(), value: rung.name().to_owned() });
+    let stations = options.stations.map(|count| Setting { key: "model.stations".to_owned(), value: count.to_string() });
+    options.settings.iter().cloned().chain(rung).chain(stations).collect()
+}
+
+fn selection(options: &Solve) -> Selection {
+    let mut only: Vec<&'static Quantity> = Vec::new();
+    for &quantity in &options.only {
+        if only.iter().all(|known| known.key != quantity.key) {
+            only.push(quantity);
+        }
+    }
+    let whole_json = options.format == Format::Json && only.is_empty();
+    Selection { only, stations: options.stations.is_some() || whole_json }
+}
+
+fn solve(opened: &Opened, selection: &Selection, streams: &mut Streams) -> Result<Report, Exit> {
+    let Opened { name, document, inputs } = opened;
+    let solved = Report::solve(name.clone(), document.case.clone(), inputs.clone(), selection.clone());
+    match solved.and_then(in_full) {
+        Ok(report) => Ok(report),
+        Err(refusal) => Err(opened.refused(&refusal, streams)),
+    }
+}
+
+/// What was asked for by name must be there, where the model did not withhold it.
+fn in_full(report: Report) -> Result<Report, Refusal> {
+    let missing = report.values().count() < report.selection.only.len();
+    match report.solution.withheld {
+        Some(refusal) if missing => Err(refusal),
+        _ => Ok(report),
+    }
+}
+
+fn tell(report: &Report, format: Format, first: bool, out: &mut dyn Write) -> io::Result<()> {
+    match format {
+        Format::Text if first => text::write(report, out),
+        Format::Text => writeln!(out).and_then(|()| text::write(report, out)),
+        Format::Json => json::write(report, out),
+        Format::Csv => csv::write(report, first, out),
+    }
+}

@@ -1,0 +1,17 @@
+//! Numbers as a person reads them.
+
+/// A number with this many significant digits: plain from 1e-3 to 1e6, else with an exponent; never NaN or minus zero.
+#[must_use]
+pub fn significant(value: f64, digits: usize) -> String {
+    if !value.is_finite() {
+        return "n/a".to_owned();
+    }
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let rounded = format!("{value:.*e}", digits.saturating_sub(1));
+    match rounded.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok()) {
+        Some(exponent @ -3..6) => format!("{value:.*}", (digits + 2).saturating_sub(exponent.abs_diff(-3) as usize)),
+        _ => rounded,
+    }
+}

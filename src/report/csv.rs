@@ -1,0 +1,53 @@
+//! Solves as CSV in SI units and full precision: a row a case, or a row a station.
+
+use super::stations::COLUMNS;
+use super::{Report, Selection, value};
+use crate::case::visible::visible;
+use csv::{ErrorKind, Writer};
+use std::io::{self, Write};
+
+/// Write what a case found of the quantities asked for, or of the stations where those are asked for.
+///
+/// # Errors
+/// What the writer refuses.
+pub fn write(report: &Report, with_header: bool, out: &mut dyn Write) -> io::Result<()> {
+    let header = with_header.then(|| header(&report.selection));
+    let mut writer = Writer::from_writer(out);
+    header.into_iter().chain(rows(report)).try_for_each(|row| writer.write_record(row)).map_err(io_error)?;
+    writer.flush()
+}
+
+/// A closed pipe must stay recognisable as one.
+fn io_error(error: csv::Error) -> io::Error {
+    match error.into_kind() {
+        ErrorKind::Io(error) => error,
+        other => io::Error::other(format!("{other:?}")),
+    }
+}
+
+fn header(selection: &Selection) -> Vec<String> {
+    let with_unit = |key: &str, unit: &str| format!("{key} [{unit}]");
+    if selection.stations {
+        let columns = COLUMNS.iter().map(|column| with_unit(column.key, column.unit));
+        return std::iter::once("case".to_owned()).chain(columns).collect();
+    }
+    let columns = selection.quantities().map(|quantity| with_unit(quantity.key, quantity.unit));
+    ["case", "rung", "outcome"].map(str::to_owned).into_iter().chain(columns).collect()
+}
+
+fn rows(report: &Report) -> Vec<Vec<String>> {
+    let name = visible(&report.name);
+    let solution = &report.solution;
+    if report.selection.stations {
+        let cells = |station| COLUMNS.iter().map(move |column| cell(column.of(station)));
+        return solution.stations.iter().map(|station| std::iter::once(name.clone()).chain(cells(station)).collect()).collect();
+    }
+    let head = [name, solution.rung.name().to_owned(), solution.outcome.name().to_owned()];
+    let cells = report.selection.quantities().map(|quantity| cell(value(quantity, solution)));
+    vec![head.into_iter().chain(cells).collect()]
+}
+
+/// The shortest number that reads back the same; empty where there is none.
+fn cell(value: Option<f64>) -> String {
+    value.map(|value| format!("{value:?}")).unwrap_or_default()
+}

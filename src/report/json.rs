@@ -1,0 +1,140 @@
+//! A solve as one JSON object on one line: SI units, full precision, what does not exist is absent.
+
+use super::{Report, stations};
+use crate::case::file::FORMAT;
+use crate::case::visible::visible;
+use crate::model::{Stage, Station};
+use serde::{Serialize, Serializer};
+use serde_json::ser::Formatter;
+use std::io::{self, Write};
+
+#[derive(Serialize)]
+struct Line<'a> {
+    case: &'a str,
+    title: &'a str,
+    format: u32,
+    version: &'static str,
+    rung: &'static str,
+    outcome: &'static str,
+    quantities: Quantities<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stations: Option<Vec<Row<'a>>>,
+    stages: Vec<&'static str>,
+    notes: Vec<Remark<'a>>,
+}
+
+#[derive(Serialize)]
+struct Measured {
+    value: f64,
+    unit: &'static str,
+}
+
+#[derive(Serialize)]
+struct Remark<'a> {
+    code: &'a str,
+    message: &'a str,
+}
+
+struct Quantities<'a>(&'a Report);
+
+impl Serialize for Quantities<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.values().map(|(quantity, value)| (quantity.key, Measured { value, unit: quantity.unit })))
+    }
+}
+
+struct Row<'a>(&'a Station);
+
+impl Serialize for Row<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(stations::COLUMNS.iter().filter_map(|column| Some((column.key, column.of(self.0)?))))
+    }
+}
+
+/// Write the report as one line.
+///
+/// # Errors
+/// What the writer refuses.
+pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    let solution = &report.solution;
+    let line = Line {
+        case: &report.name,
+        title: report.title(),
+        format: FORMAT,
+        version: env!("CARGO_PKG_VERSION"),
+        rung: solution.rung.name(),
+        outcome: solution.outcome.name(),
+        quantities: Quantities(report),
+        stations: report.selection.stations.then(|| solution.stations.iter().map(Row).collect()),
+        stages: solution.stages.iter().map(Stage::name).collect(),
+        notes: report.notes.iter().map(|note| Remark { code: note.code, message: &note.message }).collect(),
+    };
+    write_line(&line, out)
+}
+
+/// Write anything as one line of JSON that a terminal may be shown.
+///
+/// # Errors
+/// What the writer refuses.
+pub fn write_line(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
+    value.serialize(&mut serde_json::Serializer::with_formatter(&mut *out, Safe))?;
+    out.write_all(b"\n")
+}
+
+/// Compact JSON in which the characters that a terminal obeys or hides are escaped as well.
+struct Safe;
+
+impl Formatter for Safe {
+    fn write_string_fragment<W: ?Sized + Write>(&mut self, writer: &mut W, fragment: &str) -> io::Result<()> {
+        let mut written = 0;
+        for (at, hidden) in fragment.match_indices(is_hidden) {
+            writer.write_all(&fragment.as_bytes()[written..at])?;
+            hidden.encode_utf16().try_for_each(|unit| write!(writer, "\\u{unit:04x}"))?;
+            written = at + hidden.len();
+        }
+        writer.write_all(&fragment.as_bytes()[written..])
+    }
+}
+
+fn is_hidden(character: char) -> bool {
+    let mut bytes = [0; 4];
+    let text: &str = character.encode_utf8(&mut bytes);
+    !character.is_ascii_graphic() && visible(text) != text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Case;
+    use crate::model::{Stages, solve};
+    use crate::report::Selection;
+
+    #[test]
+    fn a_value_that_is_no_number_is_absent_and_a_note_says_so() {
+        let case = Case::table_1();
+        let inputs = case.inputs().unwrap();
+        let mut solution = solve(&inputs, Stages::ALL).unwrap();
+        solution.mesh_force = f64::NAN;
+        solution.stations[0].impact_force = f64::INFINITY;
+        let selection = Selection { stations: true, ..Selection::default() };
+        let mut out = Vec::new();
+        write(&Report::of("case".to_owned(), case, inputs, solution, selection), &mut out).unwrap();
+        let line: serde_json::Value = serde_json::from_slice(&out).unwrap();
+        assert_eq!(line["quantities"].get("mesh_force"), None);
+        assert_eq!(line["quantities"].get("dynamic_factor"), None);
+        assert_eq!(line["stations"][0].get("impact_force"), None);
+        let told = |note: &serde_json::Value| note["code"] == "not-finite" && note["message"].to_string().contains("mesh_force");
+        assert!(line["notes"].as_array().unwrap().iter().any(told));
+        assert!(!String::from_utf8(out).unwrap().contains("null"));
+    }
+
+    #[test]
+    fn what_a_terminal_would_obey_is_escaped_and_reads_back_the_same() {
+        let text = "a\u{1b}[2J\u{7f}\u{9b}\u{202e}\u{e0041}\"\\\n é";
+        let mut out = Vec::new();
+        write_line(&text, &mut out).unwrap();
+        let line = String::from_utf8(out).unwrap();
+        assert_eq!(line, "\"a\\u001b[2J\\u007f\\u009b\\u202e\\udb40\\udc41\\\"\\\\\\n é\"\n");
+        assert_eq!(serde_json::from_str::<String>(&line).unwrap(), text);
+    }
+}

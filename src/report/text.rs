@@ -1,0 +1,235 @@
+//! A solve as a page of text for a person, 80 columns wide.
+
+use super::layout::{WIDTH, flow, item, widest};
+use super::stations::COLUMNS;
+use super::verdict::{Standing, Verdict, verdicts};
+use super::{Report, Shown, shown, value};
+use crate::case::FIELDS;
+use crate::case::fields::Absent;
+use crate::case::visible::visible;
+use crate::model::inputs::Rung;
+use crate::model::{self, Inputs, Outcome, Quantity, Solution, Stage, Stages};
+use std::io::{self, Write};
+
+/// The parts of a page, in order; an empty one leaves no trace.
+const SECTIONS: [fn(&Report) -> Vec<String>; 7] = [heading, outcome, inputs, quantities, notes, limits, station_table];
+
+/// The stages whose quantities share a heading.
+const GROUPS: [(&str, &[Stage]); 8] = [
+    ("Geometry", &[Stage::Geometry]),
+    ("Load", &[Stage::Load]),
+    ("Deviation", &[Stage::Deviation]),
+    ("First contact D", &[Stage::Position]),
+    ("Velocity at D", &[Stage::Velocity]),
+    ("Impact", &[Stage::Compliance, Stage::Impact, Stage::Band]),
+    ("Friction", &[Stage::Friction]),
+    ("From D to E", &[Stage::Stations]),
+];
+
+/// The inputs that say which pair this is; one that is not given, zero or as usual goes unsaid.
+const TOLD_INPUTS: [&str; 20] = [
+    "driver.teeth",
+    "driven.teeth",
+    "pair.module",
+    "pair.pressure_angle",
+    "pair.centre_distance",
+    "driver.profile_shift",
+    "driven.profile_shift",
+    "driver.addendum",
+    "driven.addendum",
+    "driver.face_width",
+    "driven.face_width",
+    "driver.root_relief",
+    "driven.tip_relief",
+    "driven.tip_chamfer",
+    "deviations.base_pitch",
+    "deviations.backlash",
+    "operation.power",
+    "operation.torque",
+    "operation.speed",
+    "model.deflection",
+];
+
+/// The rungs that cost nothing beside the one that was asked for.
+const CLOSED_FORM_RUNGS: [Rung; 2] = [Rung::Paper, Rung::Exact];
+
+/// A space at which no line ends.
+const GLUE: &str = "\u{a0}";
+
+/// Write the page.
+///
+/// # Errors
+/// What the writer refuses.
+pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    out.write_all(render(report).as_bytes())
+}
+
+/// The page.
+#[must_use]
+pub fn render(report: &Report) -> String {
+    let sections = SECTIONS.iter().map(|section| section(report)).filter(|lines| !lines.is_empty());
+    sections.map(|lines| lines.join("\n") + "\n").collect::<Vec<_>>().join("\n")
+}
+
+fn heading(report: &Report) -> Vec<String> {
+    let title = if report.title().is_empty() { "Case without a title" } else { report.title() };
+    let mut lines = flow(visible(title).split_whitespace(), WIDTH);
+    lines.extend(flow([visible(&report.name).as_str(), "·", "rung", report.solution.rung.name()], WIDTH));
+    lines
+}
+
+fn outcome(report: &Report) -> Vec<String> {
+    let mut sentences = vec![sentence(&report.solution)];
+    if report.selection.is_whole() {
+        let others = CLOSED_FORM_RUNGS.into_iter().filter(|&rung| rung != report.solution.rung);
+        sentences.extend(others.filter_map(|rung| other_rung(&report.inputs, rung)));
+    }
+    // A number stays on the line of its unit.
+    let lines = sentences.iter().flat_map(|sentence| flow(sentence.split(' '), WIDTH));
+    lines.map(|line| line.replace(GLUE, " ")).collect()
+}
+
+/// The outcome, as far as the stages that ran can tell it.
+fn sentence(solution: &Solution) -> String {
+    let part = |before: &str, key| told(key, solution).map(|shown| format!("{before}{shown}")).unwrap_or_default();
+    match solution.outcome {
+        Outcome::CornerContact => format!(
+            "Corner contact: the tooth strikes{} before E{}{}.",
+            part(" ", "approach_angle_driven"),
+            part(" with ", "impact_force"),
+            part(", approaching at ", "normal_velocity"),
+        ),
+        Outcome::NoCornerContact => {
+            format!("No corner contact: the tooth comes in on time{}.", part(", the total deviation is ", "total_deviation"))
+        }
+    }
+}
+
+fn other_rung(inputs: &Inputs, rung: Rung) -> Option<String> {
+    let other = model::solve(&Inputs { rung, ..inputs.clone() }, Stages::of(Stage::Impact)).ok()?;
+    let (angle, force) = (told("approach_angle_driven", &other)?, told("impact_force", &other)?);
+    Some(format!("For comparison, rung {}: {angle} before E with {force}.", rung.name()))
+}
+
+/// A quantity's value, glued to its unit.
+fn told(key: &str, solution: &Solution) -> Option<String> {
+    let quantity = Quantity::find(key)?;
+    Some(shown(quantity, value(quantity, solution)?).to_string().replace(' ', GLUE))
+}
+
+fn inputs(report: &Report) -> Vec<String> {
+    if !report.selection.is_whole() {
+        return Vec::new();
+    }
+    let told: Vec<String> = TOLD_INPUTS.iter().filter_map(|key| told_input(report, key)).collect();
+    // Each input stays on one line with its unit.
+    let lines = flow(told.join(",\n").split('\n'), WIDTH);
+    lines.into_iter().chain(item("Notes of the case: ", &visible(report.text("notes")))).collect()
+}
+
+fn told_input(report: &Report, key: &str) -> Option<String> {
+    let field = FIELDS.iter().find(|field| field.key == key)?;
+    let text = report.text(key);
+    let number = text.split_whitespace().next()?.parse::<f64>().ok();
+    let default = if let Absent::Default(text) = field.absent { text.parse::<f64>().ok() } else { None };
+    let usual = number.is_some_and(|number| number == 0.0 || Some(number) == default);
+    (!usual).then(|| format!("{} = {}", field.symbol, visible(text)))
+}
+
+fn quantities(report: &Report) -> Vec<String> {
+    let rows: Vec<Row> = report.values().map(|(quantity, value)| Row::new(quantity, value)).collect();
+    let columns = Columns::of(&rows);
+    if !report.selection.is_whole() {
+        return rows.iter().map(|row| columns.line(row)).collect();
+    }
+    let group = |&(title, stages): &(&str, &[Stage])| {
+        let lines: Vec<String> =
+            rows.iter().filter(|row| stages.contains(&row.quantity.stage)).map(|row| columns.line(row)).collect();
+        let title = (!lines.is_empty()).then(|| title.to_owned());
+        title.into_iter().chain(lines).collect::<Vec<_>>()
+    };
+    GROUPS.iter().flat_map(group).collect()
+}
+
+/// A quantity and its value as it is shown.
+struct Row {
+    quantity: &'static Quantity,
+    shown: Shown,
+}
+
+impl Row {
+    fn new(quantity: &'static Quantity, value: f64) -> Row {
+        Row { quantity, shown: shown(quantity, value) }
+    }
+}
+
+/// Widths of the columns of a table of quantities.
+struct Columns {
+    symbol: usize,
+    label: usize,
+    number: usize,
+    unit: usize,
+}
+
+impl Columns {
+    fn of(rows: &[Row]) -> Columns {
+        Columns {
+            symbol: widest(rows.iter().map(|row| row.quantity.symbol)),
+            label: widest(rows.iter().map(|row| row.quantity.label)),
+            number: widest(rows.iter().map(|row| row.shown.number.as_str())),
+            unit: widest(rows.iter().map(|row| row.shown.unit)),
+        }
+    }
+
+    fn line(&self, row: &Row) -> String {
+        let Row { quantity, shown } = row;
+        let value = format!("{:>2$} {:3$}", shown.number, shown.unit, self.number, self.unit);
+        format!("  {:3$} {:4$} {value}  {}", quantity.symbol, quantity.label, quantity.equation, self.symbol, self.label)
+    }
+}
+
+fn notes(report: &Report) -> Vec<String> {
+    titled("Notes", report.notes.iter().flat_map(|note| item("  - ", &visible(&note.message))))
+}
+
+fn limits(report: &Report) -> Vec<String> {
+    if !report.selection.is_whole() {
+        return Vec::new();
+    }
+    let mark = |verdict: &Verdict| match verdict.standing {
+        Standing::Within | Standing::NotApplicable => "  ok        ",
+        Standing::Exceeded => "  EXCEEDED  ",
+        Standing::Unknown => "  unknown   ",
+    };
+    let verdicts = verdicts(&report.case, &report.solution);
+    titled("Limits", verdicts.iter().flat_map(|verdict| item(mark(verdict), &verdict.to_string())))
+}
+
+fn station_table(report: &Report) -> Vec<String> {
+    const CELL: usize = 12;
+    if !report.selection.stations {
+        return Vec::new();
+    }
+    let head = COLUMNS.map(|column| format!("{} {}", column.symbol, column.shown));
+    let stations = report.solution.stations.iter().map(|station| COLUMNS.map(|column| column.told(station)));
+    let line = |row: [String; COLUMNS.len()]| row.map(|cell| format!("{cell:>CELL$}")).concat();
+    titled("Stations from D to E", std::iter::once(head).chain(stations).map(line))
+}
+
+fn titled(title: &str, lines: impl IntoIterator<Item = String>) -> Vec<String> {
+    let mut lines = lines.into_iter().peekable();
+    let title = lines.peek().is_some().then(|| title.to_owned());
+    title.into_iter().chain(lines).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_stage_has_one_heading() {
+        for stage in Stage::ALL {
+            assert_eq!(GROUPS.iter().filter(|(_, stages)| stages.contains(&stage)).count(), 1, "{}", stage.name());
+        }
+    }
+}

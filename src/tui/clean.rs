@@ -1,0 +1,139 @@
+//! The last look at what reaches the terminal: nothing that controls it, and plain ASCII where it asks for that.
+
+use std::borrow::Cow;
+
+use ratatui::buffer::Buffer;
+
+/// Stands for a character that must not reach a terminal.
+const VEILED: char = '\u{FFFD}';
+
+/// Ranges of characters that reorder, hide or join text without a width of their own.
+const HIDDEN: [(char, char); 12] = [
+    ('\u{AD}', '\u{AD}'),
+    ('\u{61C}', '\u{61C}'),
+    ('\u{115F}', '\u{1160}'),
+    ('\u{180E}', '\u{180E}'),
+    ('\u{200B}', '\u{200F}'),
+    ('\u{2028}', '\u{202E}'),
+    ('\u{2060}', '\u{206F}'),
+    ('\u{3164}', '\u{3164}'),
+    ('\u{FE00}', '\u{FE0F}'),
+    ('\u{FEFF}', '\u{FEFF}'),
+    ('\u{FFF9}', '\u{FFFB}'),
+    ('\u{E0000}', '\u{E0FFF}'),
+];
+
+/// Symbols in the field's writing, and in letters that every terminal has.
+const WRITTEN_OUT: [(&str, &str); 9] = [
+    ("ΔV_", "dV_"),
+    ("Δf", "Df"),
+    ("Δ", "Delta"),
+    ("δ", "delta"),
+    ("α", "alpha"),
+    ("θ", "theta"),
+    ("ρ", "rho"),
+    ("τ", "tau"),
+    ("ε", "eps"),
+];
+
+/// What one cell becomes on a terminal without Unicode.
+const ONE_CELL: [(&str, char); 24] = [
+    ("─━╌┄", '-'),
+    ("═", '='),
+    ("│┃║▏▕", '|'),
+    ("┌┐└┘├┤┬┴┼╭╮╰╯╔╗╚╝", '+'),
+    ("•●·∙⠿", '*'),
+    ("█▓▐▌▀▄", '#'),
+    ("░▒", ':'),
+    ("▸▶→›", '>'),
+    ("◂◀←‹", '<'),
+    ("▴▲↑", '^'),
+    ("▾▼↓", 'v'),
+    ("–—−", '-'),
+    ("…", '.'),
+    ("µμ", 'u'),
+    ("Δδ", 'd'),
+    ("α", 'a'),
+    ("ε", 'e'),
+    ("κ", 'k'),
+    ("ν", 'n'),
+    ("ρ", 'r'),
+    ("τθ", 't'),
+    ("π", 'p'),
+    ("√×", 'x'),
+    ("°", 'd'),
+];
+
+/// Whether a character may stand on a terminal.
+#[must_use]
+pub fn is_safe(character: char) -> bool {
+    !character.is_control() && !HIDDEN.iter().any(|&(from, to)| (from..=to).contains(&character))
+}
+
+/// The text with one visible mark in place of each character that controls or hides.
+#[must_use]
+pub fn clean(text: &str) -> Cow<'_, str> {
+    if text.chars().all(is_safe) {
+        return Cow::Borrowed(text);
+    }
+    Cow::Owned(text.chars().map(|character| if is_safe(character) { character } else { VEILED }).collect())
+}
+
+/// A symbol as the terminal can write it.
+#[must_use]
+pub fn symbol(text: &str, ascii: bool) -> Cow<'_, str> {
+    if !ascii || text.is_ascii() {
+        return Cow::Borrowed(text);
+    }
+    let written = WRITTEN_OUT.iter().fold(text.to_owned(), |text, (from, to)| text.replace(from, to));
+    Cow::Owned(written.replace('ν', "nu").replace('κ', "kappa").replace(['μ', 'µ'], "mu"))
+}
+
+/// The last pass over a finished screen.
+pub fn finish(buffer: &mut Buffer, ascii: bool) {
+    for cell in &mut buffer.content {
+        let symbol = cell.symbol();
+        if !symbol.chars().all(is_safe) {
+            cell.set_char(VEILED);
+        }
+        if ascii && !cell.symbol().is_ascii() {
+            let plain = to_ascii(cell.symbol());
+            cell.set_char(plain);
+        }
+    }
+}
+
+fn to_ascii(symbol: &str) -> char {
+    let Some(first) = symbol.chars().next() else { return ' ' };
+    if ('\u{2801}'..='\u{28FF}').contains(&first) {
+        return '*';
+    }
+    ONE_CELL.iter().find(|(from, _)| from.contains(first)).map_or('?', |&(_, to)| to)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ratatui::layout::Rect;
+
+    #[test]
+    fn what_controls_or_hides_is_shown_as_a_mark() {
+        for hostile in ["\u{1b}[2J", "\u{9b}2J", "a\u{202e}b", "a\u{200b}b", "\u{7f}", "a\nb", "\u{feff}"] {
+            let cleaned = clean(hostile);
+            assert!(cleaned.contains(VEILED), "{hostile:?}");
+            assert!(cleaned.chars().all(is_safe), "{hostile:?}");
+        }
+        assert_eq!(clean("16 µm, ΔV_n, 歯車"), "16 µm, ΔV_n, 歯車");
+    }
+
+    #[test]
+    fn a_bare_terminal_gets_ascii_alone() {
+        let mut buffer = Buffer::with_lines(["┌─┐ΔV_n 16 µm 歯 ⣿•…"]);
+        buffer.content[0].set_symbol("\u{202e}");
+        finish(&mut buffer, true);
+        assert!(buffer.content.iter().all(|cell| cell.symbol().is_ascii()));
+        assert_eq!(buffer.area, Rect::new(0, 0, 20, 1));
+        assert_eq!(symbol("ΔV_τ", true), "dV_tau");
+        assert_eq!(symbol("α_w", true), "alpha_w");
+    }
+}

@@ -1,0 +1,234 @@
+//! What comes in: keys, signals and answers through one bounded channel, taken in batches.
+
+use std::io;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use crossterm::event::{self, Event as Input, KeyCode, KeyEvent, KeyModifiers};
+use ratatui::layout::Size;
+use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGTERM, SIGTSTP};
+use signal_hook::iterator::Signals;
+
+use super::actions::{self, Action, Place};
+use super::solver::Reply;
+
+/// Something from outside.
+#[derive(Debug, Clone)]
+pub enum Event {
+    /// From the terminal.
+    Input(Input),
+    /// A signal of that number.
+    Signal(i32),
+    /// From the worker.
+    Reply(Reply),
+    /// The terminal is gone.
+    Lost,
+}
+
+/// The receiving end.
+#[derive(Debug)]
+pub struct Events {
+    sender: SyncSender<Event>,
+    receiver: Receiver<Event>,
+}
+
+const CHANNEL: usize = 4096;
+/// A batch is drawn after this long, even while more is coming.
+const BATCH: Duration = Duration::from_millis(50);
+/// So long may the parts of one escape sequence lie apart.
+const ESCAPE: Duration = Duration::from_millis(50);
+
+/// What follows `Esc` in the sequences of the common keys.
+const SEQUENCES: [(&str, KeyCode); 20] = [
+    ("[A", KeyCode::Up),
+    ("[B", KeyCode::Down),
+    ("[C", KeyCode::Right),
+    ("[D", KeyCode::Left),
+    ("[H", KeyCode::Home),
+    ("[F", KeyCode::End),
+    ("[Z", KeyCode::BackTab),
+    ("OA", KeyCode::Up),
+    ("OB", KeyCode::Down),
+    ("OC", KeyCode::Right),
+    ("OD", KeyCode::Left),
+    ("OH", KeyCode::Home),
+    ("OF", KeyCode::End),
+    ("OP", KeyCode::F(1)),
+    ("OQ", KeyCode::F(2)),
+    ("OR", KeyCode::F(3)),
+    ("OS", KeyCode::F(4)),
+    ("[3~", KeyCode::Delete),
+    ("[5~", KeyCode::PageUp),
+    ("[6~", KeyCode::PageDown),
+];
+
+impl Events {
+    /// Listen to the terminal and to signals, each in a thread that sleeps until something comes.
+    ///
+    /// # Errors
+    /// When the system gives no thread or no signal handler.
+    pub fn start() -> io::Result<Events> {
+        // Makes the handler of new sizes now: one that comes before the thread runs would be lost.
+        event::poll(Duration::ZERO)?;
+        let (sender, receiver) = sync_channel(CHANNEL);
+        let (keys, caught) = (sender.clone(), sender.clone());
+        thread::Builder::new().name("keys".to_owned()).spawn(move || read_terminal(&keys))?;
+        let mut signals = Signals::new([SIGHUP, SIGTERM, SIGINT, SIGTSTP, SIGCONT])?;
+        thread::Builder::new().name("signals".to_owned()).spawn(move || {
+            for signal in signals.forever() {
+                if caught.send(Event::Signal(signal)).is_err() {
+                    return;
+                }
+            }
+        })?;
+        Ok(Events { sender, receiver })
+    }
+
+    /// A way for the worker to tell its replies.
+    pub fn teller(&self) -> impl Fn(Reply) -> bool + Send + 'static {
+        let sender = self.sender.clone();
+        move |reply| sender.send(Event::Reply(reply)).is_ok()
+    }
+
+    /// Wait for something, and take all that has come with it.
+    #[must_use]
+    pub fn batch(&self) -> Vec<Event> {
+        let Ok(first) = self.receiver.recv() else { return vec![Event::Lost] };
+        let mut batch = vec![first];
+        let end = Instant::now() + BATCH;
+        while Instant::now() < end {
+            let patience = if is_open(&batch) { ESCAPE } else { Duration::ZERO };
+            match self.receiver.recv_timeout(patience) {
+                Ok(event) => batch.push(event),
+                Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => break,
+            }
+        }
+        join(batch)
+    }
+}
+
+/// What an input means in a place; a run of letters typed in a line is taken as one.
+pub fn take_action(inputs: &mut std::iter::Peekable<impl Iterator<Item = Event>>, place: Place) -> Option<Action> {
+    match inputs.next()? {
+        Event::Input(Input::Key(key)) => match actions::of_key(key, place)? {
+            Action::Insert(letter) if place.is_line() => Some(typed(letter, inputs, place)),
+            action => Some(action),
+        },
+        Event::Input(Input::Paste(text)) => Some(Action::Paste(text)),
+        Event::Input(Input::Resize(width, height)) => Some(Action::Resize(Size { width, height })),
+        Event::Reply(Reply::Solved(answer)) => Some(Action::Solved(answer)),
+        Event::Reply(Reply::Failed(serial)) => Some(Action::SolverFailed(serial)),
+        Event::Input(_) | Event::Signal(_) | Event::Lost => None,
+    }
+}
+
+fn typed(letter: char, inputs: &mut std::iter::Peekable<impl Iterator<Item = Event>>, place: Place) -> Action {
+    let mut run = String::from(letter);
+    while let Some(letter) = inputs.peek().and_then(|next| letter_of(next, place)) {
+        run.push(letter);
+        inputs.next();
+    }
+    if run.len() == letter.len_utf8() { Action::Insert(letter) } else { Action::Paste(run) }
+}
+
+fn letter_of(event: &Event, place: Place) -> Option<char> {
+    let Event::Input(Input::Key(key)) = event else { return None };
+    match actions::of_key(*key, place)? {
+        Action::Insert(letter) => Some(letter),
+        _ => None,
+    }
+}
+
+fn read_terminal(sender: &SyncSender<Event>) {
+    while let Ok(input) = event::read() {
+        if sender.send(Event::Input(input)).is_err() {
+            return;
+        }
+    }
+    // Nobody listens only when the workbench is on its way out already.
+    drop(sender.send(Event::Lost));
+}
+
+// A slow line may deliver an escape sequence in pieces, which then arrive as keys of their own.
+fn join(batch: Vec<Event>) -> Vec<Event> {
+    let mut joined: Vec<Event> = Vec::with_capacity(batch.len());
+    for event in batch {
+        joined.push(event);
+        let Some(start) = escape_at(&joined) else { continue };
+        let tail = tail(&joined[start + 1..]);
+        if let Some(&(_, code)) = SEQUENCES.iter().find(|(sequence, _)| *sequence == tail) {
+            joined.truncate(start);
+            joined.push(Event::Input(Input::Key(KeyEvent::new(code, KeyModifiers::NONE))));
+        }
+    }
+    joined
+}
+
+fn is_open(batch: &[Event]) -> bool {
+    escape_at(batch).is_some_and(|start| {
+        let tail = tail(&batch[start + 1..]);
+        SEQUENCES.iter().any(|(sequence, _)| sequence.starts_with(&tail))
+    })
+}
+
+// The last Esc, when it stands at most three keys before the end.
+fn escape_at(batch: &[Event]) -> Option<usize> {
+    let from = batch.len().saturating_sub(4);
+    batch[from..].iter().rposition(|event| plain(event) == Some(KeyCode::Esc)).map(|at| from + at)
+}
+
+fn tail(events: &[Event]) -> String {
+    let letter = |event| if let Some(KeyCode::Char(letter)) = plain(event) { letter } else { '\0' };
+    events.iter().map(letter).collect()
+}
+
+fn plain(event: &Event) -> Option<KeyCode> {
+    match event {
+        Event::Input(Input::Key(key)) if (key.modifiers - KeyModifiers::SHIFT).is_empty() => Some(key.code),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn keys(codes: &[KeyCode]) -> Vec<Event> {
+        codes.iter().map(|&code| Event::Input(Input::Key(KeyEvent::new(code, KeyModifiers::NONE)))).collect()
+    }
+
+    fn codes(events: &[Event]) -> Vec<KeyCode> {
+        events.iter().filter_map(plain).collect()
+    }
+
+    #[test]
+    fn a_split_escape_sequence_is_one_key() {
+        use KeyCode::{Char, Delete, Esc, Up};
+        assert_eq!(codes(&join(keys(&[Esc, Char('['), Char('A')]))), [Up]);
+        assert_eq!(
+            codes(&join(keys(&[Char('x'), Esc, Char('['), Char('3'), Char('~'), Char('y')]))),
+            [Char('x'), Delete, Char('y')]
+        );
+        assert_eq!(codes(&join(keys(&[Esc, Esc, Char('['), Char('A')]))), [Esc, Up]);
+        assert_eq!(codes(&join(keys(&[Esc, Char('x')]))), [Esc, Char('x')]);
+    }
+
+    #[test]
+    fn only_the_start_of_a_sequence_is_waited_for() {
+        use KeyCode::{Char, Esc};
+        assert!(is_open(&keys(&[Esc])));
+        assert!(is_open(&keys(&[Esc, Char('['), Char('5')])));
+        assert!(!is_open(&keys(&[Esc, Char('x')])));
+        assert!(!is_open(&keys(&[Char('[')])));
+    }
+
+    #[test]
+    fn a_run_of_letters_is_taken_as_one() {
+        let mut inputs = keys(&"16 um".chars().map(KeyCode::Char).collect::<Vec<_>>()).into_iter().peekable();
+        let action = take_action(&mut inputs, Place::TEXT);
+        assert!(matches!(action, Some(Action::Paste(text)) if text == "16 um"));
+        let mut inputs = keys(&[KeyCode::Char('s'), KeyCode::Char('d')]).into_iter().peekable();
+        assert!(matches!(take_action(&mut inputs, Place::ASK), Some(Action::Insert('s'))));
+    }
+}

@@ -1,0 +1,211 @@
+//! What lies over the form: prompts for a path, questions with buttons, pages to read.
+
+use std::path::{Path, PathBuf};
+
+use tui_input::Input;
+
+use super::actions::{Next, Place};
+use super::store::Entry;
+
+/// Something that lies over the form and takes the keys.
+#[derive(Debug, Clone)]
+pub enum Prompt {
+    /// Which file to open.
+    Browse(Browser),
+    /// Where to save, and what comes next.
+    SaveAs(Input, Next),
+    /// A question with buttons.
+    Ask(Question),
+    /// A page to read, scrolled to a line.
+    Read(Page),
+}
+
+/// The list of a folder beneath a path that is typed.
+#[derive(Debug, Clone, Default)]
+pub struct Browser {
+    /// The path so far.
+    pub input: Input,
+    /// The folder part of the path, as written.
+    pub folder: String,
+    /// What stands in it.
+    pub entries: Vec<Entry>,
+    /// The marked one of those that fit.
+    pub marked: usize,
+}
+
+/// A question with buttons.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Question {
+    /// In a few words.
+    pub title: &'static str,
+    /// In a sentence.
+    pub text: String,
+    /// The answers. The first letter of each calls it.
+    pub buttons: Vec<(&'static str, Choice)>,
+    /// The marked one.
+    pub marked: usize,
+}
+
+/// An answer to a question.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Choice {
+    /// Save, then go on.
+    Save(Next),
+    /// Lose the edits and go on.
+    Proceed(Next),
+    /// Write over what is in the file.
+    Overwrite(PathBuf, Next),
+    /// Ask for another name.
+    SaveAs(Next),
+    /// Back to the form.
+    Cancel,
+}
+
+/// A page to read.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Page {
+    /// In a few words.
+    pub title: String,
+    /// Its lines.
+    pub lines: Vec<String>,
+    /// The first line in sight.
+    pub top: usize,
+}
+
+impl Prompt {
+    /// Which keys it takes.
+    #[must_use]
+    pub fn place(&self) -> Place {
+        match self {
+            Prompt::Browse(_) => Place::BROWSE,
+            Prompt::SaveAs(..) => Place::PATH,
+            Prompt::Ask(_) => Place::ASK,
+            Prompt::Read(_) => Place::READ,
+        }
+    }
+
+    /// The line of text that it edits.
+    pub fn input_mut(&mut self) -> Option<&mut Input> {
+        match self {
+            Prompt::Browse(browser) => Some(&mut browser.input),
+            Prompt::SaveAs(input, _) => Some(input),
+            Prompt::Ask(_) | Prompt::Read(_) => None,
+        }
+    }
+}
+
+impl Browser {
+    /// Begin in the folder of the present case.
+    #[must_use]
+    pub fn beside(path: Option<&Path>) -> Browser {
+        let folder = path.and_then(Path::parent).filter(|folder| !folder.as_os_str().is_empty());
+        let folder = folder.map(|folder| format!("{}/", folder.display())).unwrap_or_default();
+        Browser { input: Input::from(folder.as_str()), folder, ..Browser::default() }
+    }
+
+    /// The typed path up to its last slash, and what follows.
+    #[must_use]
+    pub fn split(&self) -> (&str, &str) {
+        let typed = self.input.value();
+        typed.split_at(typed.rfind('/').map_or(0, |slash| slash + 1))
+    }
+
+    /// The entries that fit what is typed.
+    pub fn fitting(&self) -> impl Iterator<Item = &Entry> {
+        let wanted = self.split().1.to_lowercase();
+        self.entries.iter().filter(move |entry| entry.name.to_lowercase().contains(&wanted))
+    }
+
+    /// The path of the marked entry, and whether it is a folder.
+    #[must_use]
+    pub fn marked_path(&self) -> Option<(String, bool)> {
+        let entry = self.fitting().nth(self.marked)?;
+        Some((format!("{}{}", self.folder, entry.name), entry.is_folder))
+    }
+
+    /// Move the mark, as far as there are entries.
+    pub fn mark(&mut self, by: isize) {
+        let last = self.fitting().count().saturating_sub(1);
+        self.marked = self.marked.saturating_add_signed(by).min(last);
+    }
+}
+
+impl Question {
+    /// Edits would be lost.
+    #[must_use]
+    pub fn unsaved(name: &str, next: &Next) -> Question {
+        Question {
+            title: "Unsaved edits",
+            text: format!("{name} has unsaved edits."),
+            buttons: vec![
+                ("Save", Choice::Save(next.clone())),
+                ("Discard", Choice::Proceed(next.clone())),
+                ("Cancel", Choice::Cancel),
+            ],
+            marked: 0,
+        }
+    }
+
+    /// Ctrl-C with nothing to cancel.
+    #[must_use]
+    pub fn quit() -> Question {
+        Question {
+            title: "Quit",
+            text: "Leave the workbench? Nothing is unsaved.".to_owned(),
+            buttons: vec![("Quit", Choice::Proceed(Next::Quit)), ("Cancel", Choice::Cancel)],
+            marked: 1,
+        }
+    }
+
+    /// A file of that name is there.
+    #[must_use]
+    pub fn exists(path: &Path, next: &Next) -> Question {
+        Question {
+            title: "The file exists",
+            text: format!("{} is there already.", path.display()),
+            buttons: vec![
+                ("Overwrite", Choice::Overwrite(path.to_owned(), next.clone())),
+                ("Save as", Choice::SaveAs(next.clone())),
+                ("Cancel", Choice::Cancel),
+            ],
+            marked: 2,
+        }
+    }
+
+    /// Someone else wrote the file.
+    #[must_use]
+    pub fn changed(path: &Path, next: &Next) -> Question {
+        Question {
+            title: "The file has changed on disk",
+            text: format!("{} is not what was opened here. Reload loses the edits of the form.", path.display()),
+            buttons: vec![
+                ("Reload", Choice::Proceed(Next::Load(path.to_owned()))),
+                ("Save as", Choice::SaveAs(next.clone())),
+                ("Overwrite", Choice::Overwrite(path.to_owned(), next.clone())),
+                ("Cancel", Choice::Cancel),
+            ],
+            marked: 3,
+        }
+    }
+
+    /// Move the mark to the next or the one before, round and round.
+    pub fn mark(&mut self, by: isize) {
+        let count = self.buttons.len().max(1);
+        self.marked = (self.marked + count).saturating_add_signed(by) % count;
+    }
+
+    /// The answer whose name begins with the letter.
+    #[must_use]
+    pub fn by_letter(&self, letter: char) -> Option<Choice> {
+        let fits = |name: &str| name.chars().next().is_some_and(|first| first.eq_ignore_ascii_case(&letter));
+        self.buttons.iter().find(|(name, _)| fits(name)).map(|(_, choice)| choice.clone())
+    }
+}
+
+impl Page {
+    /// A page from its first line.
+    #[must_use]
+    pub fn new(title: impl Into<String>, lines: Vec<String>) -> Page {
+        Page { title: title.into(), lines, top: 0 }
+    }
+}

@@ -1,0 +1,174 @@
+//! Files: reading and writing cases, looking into folders, and the case that was open last.
+
+use std::env;
+use std::ffi::OsString;
+use std::fs;
+use std::io;
+use std::os::unix::ffi::{OsStrExt, OsStringExt};
+use std::path::{Path, PathBuf};
+
+use directories::ProjectDirs;
+
+use super::actions::Action;
+use super::update::{Effect, Over, Saving};
+use crate::case::Document;
+use crate::case::file::SaveError;
+
+/// An entry of a folder.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Entry {
+    /// Folders stand after the cases.
+    pub is_folder: bool,
+    /// Its name, as well as text can tell it.
+    pub name: String,
+}
+
+/// Why a case was not written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum SaveFault {
+    /// A file of that name is there.
+    Exists,
+    /// Someone else changed the file since it was read.
+    Changed,
+    /// The reason, in words.
+    Failed(String),
+}
+
+/// What the workbench begins with.
+#[derive(Debug)]
+pub struct Opening {
+    /// The document.
+    pub document: Document,
+    /// Where it was read from.
+    pub path: Option<PathBuf>,
+    /// What the user must be told about what was asked for.
+    pub trouble: Option<Trouble>,
+}
+
+/// What could not be opened, and its faults.
+#[derive(Debug)]
+pub struct Trouble {
+    /// The path.
+    pub path: PathBuf,
+    /// The faults, a line each.
+    pub faults: Vec<String>,
+    /// Whether the user asked for it, rather than it being the last one.
+    pub was_asked: bool,
+}
+
+/// The document of the built-in case.
+#[must_use]
+pub fn built_in() -> Document {
+    Document::table_1()
+}
+
+/// The case that was asked for, else the last one, else the built-in one.
+#[must_use]
+pub fn opening(asked: Option<PathBuf>) -> Opening {
+    let was_asked = asked.is_some();
+    let Some(path) = asked.or_else(last_case) else {
+        return Opening { document: built_in(), path: None, trouble: None };
+    };
+    match load(&path) {
+        Ok(document) => {
+            remember(&path);
+            Opening { document: *document, path: Some(path), trouble: None }
+        }
+        Err(faults) => {
+            let trouble = Trouble { path, faults, was_asked };
+            Opening { document: built_in(), path: None, trouble: Some(trouble) }
+        }
+    }
+}
+
+/// Do what the state asks of the files; what is to be told about it. The other effects are not for files.
+#[must_use]
+pub fn perform(effect: Effect) -> Option<Action> {
+    match effect {
+        Effect::Load(path) => {
+            let result = load(&path);
+            Some(Action::Loaded(path, result))
+        }
+        Effect::Save(saving) => {
+            let result = save(&saving);
+            Some(Action::Saved(saving.path, saving.next, result))
+        }
+        Effect::List(folder) => {
+            let entries = list(&folder);
+            Some(Action::Listed(folder, entries))
+        }
+        Effect::Remember(path) => {
+            remember(&path);
+            None
+        }
+        Effect::Solve(_) | Effect::Redraw | Effect::Suspend | Effect::Quit => None,
+    }
+}
+
+fn load(path: &Path) -> Result<Box<Document>, Vec<String>> {
+    // Standard input is the keyboard here: reading a case from it would wait for ever.
+    if path == Path::new("-") {
+        return Err(vec!["standard input is no case for the workbench: name a file, or use tipstrike solve -".to_owned()]);
+    }
+    // The page that shows them has the name in its title.
+    let name = format!("{}:", path.display());
+    let without_name = |fault: &str| fault.strip_prefix(&name).unwrap_or(fault).trim_start().to_owned();
+    let document = Document::read(path).map_err(|error| error.to_string());
+    document.map(Box::new).map_err(|faults| faults.lines().map(without_name).collect())
+}
+
+fn save(saving: &Saving) -> Result<Box<Document>, SaveFault> {
+    let Saving { document, path, over, .. } = saving;
+    if *over == Over::Nothing && path.symlink_metadata().is_ok() {
+        return Err(SaveFault::Exists);
+    }
+    let mut document = document.clone();
+    let written = if *over == Over::Anything { document.save_over(path) } else { document.save(path) };
+    written.map(|()| Box::new(document)).map_err(|error| match error {
+        SaveError::ChangedOnDisk(_) => SaveFault::Changed,
+        SaveError::AlreadyThere(_) => SaveFault::Exists,
+        other => SaveFault::Failed(other.to_string()),
+    })
+}
+
+// A folder that cannot be read has nothing to offer.
+fn list(folder: &str) -> Vec<Entry> {
+    let path = if folder.is_empty() { Path::new(".") } else { Path::new(folder) };
+    let found = fs::read_dir(path).into_iter().flatten().flatten().filter_map(|entry| {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let is_folder = entry.path().is_dir();
+        let wanted = !name.starts_with('.') && (is_folder || is_case(&name));
+        wanted.then_some(Entry { is_folder, name })
+    });
+    let mut entries: Vec<_> = found.collect();
+    entries.sort();
+    entries.push(Entry { is_folder: true, name: "..".to_owned() });
+    entries
+}
+
+fn is_case(name: &str) -> bool {
+    Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
+}
+
+// Only a convenience: without it the next start begins with the built-in case.
+fn remember(path: &Path) {
+    let write = |file: PathBuf| -> io::Result<()> {
+        file.parent().map_or(Ok(()), fs::create_dir_all)?;
+        fs::write(file, std::path::absolute(path)?.as_os_str().as_bytes())
+    };
+    drop(last_case_file().map(write));
+}
+
+fn last_case() -> Option<PathBuf> {
+    let path = OsString::from_vec(fs::read(last_case_file()?).ok()?);
+    (!path.is_empty()).then(|| path.into())
+}
+
+fn last_case_file() -> Option<PathBuf> {
+    let own = env::var_os("XDG_STATE_HOME").map(PathBuf::from).filter(|path| path.is_absolute());
+    let folder = own.map(|path| path.join("tipstrike")).or_else(|| {
+        let folders = ProjectDirs::from("", "", "tipstrike")?;
+        Some(folders.state_dir().unwrap_or(folders.data_local_dir()).to_owned())
+    });
+    folder.map(|folder| folder.join("last-case"))
+}

@@ -1,0 +1,157 @@
+//! The terminal: its modes, and giving it back as it was found on every way out.
+
+use std::ffi::OsString;
+use std::io::{self, BufWriter, IsTerminal, Stdout};
+use std::panic::{self, PanicHookInfo};
+use std::sync::{Mutex, PoisonError};
+
+use crossterm::cursor::{Hide, Show};
+use crossterm::event::{DisableBracketedPaste, EnableBracketedPaste};
+use crossterm::execute;
+use crossterm::style::force_color_output;
+use crossterm::terminal::{EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode};
+use ratatui::Terminal;
+use ratatui::backend::CrosstermBackend;
+use ratatui::layout::Size;
+
+use super::app::App;
+use super::view;
+
+/// One write a frame, where the standard buffer would make ten.
+const FRAME: usize = 64 * 1024;
+
+static LAST_PANIC: Mutex<Option<String>> = Mutex::new(None);
+
+/// The terminal while the workbench has it; dropping it gives it back.
+pub struct Screen {
+    terminal: Terminal<CrosstermBackend<BufWriter<Stdout>>>,
+    /// The signal that ended our own suspension is still to come.
+    is_back: bool,
+}
+
+/// Why there is no terminal for a workbench, if so.
+#[must_use]
+pub fn missing(variable: impl Fn(&str) -> Option<OsString>) -> Option<&'static str> {
+    let term = variable("TERM").unwrap_or_default();
+    if term.is_empty() {
+        return Some("TERM is not set");
+    }
+    if term == "dumb" {
+        return Some("TERM is dumb");
+    }
+    let is_terminal = io::stdin().is_terminal() && io::stdout().is_terminal();
+    (!is_terminal).then_some("standard input and output are not a terminal")
+}
+
+/// Keep the words of a panic until the terminal is given back. A panic of the worker is told on the screen.
+pub fn hold_panics() {
+    panic::set_hook(Box::new(|panic: &PanicHookInfo<'_>| {
+        *LAST_PANIC.lock().unwrap_or_else(PoisonError::into_inner) = Some(panic.to_string());
+    }));
+}
+
+/// The words of the last panic.
+#[must_use]
+pub fn last_panic() -> Option<String> {
+    LAST_PANIC.lock().unwrap_or_else(PoisonError::into_inner).take()
+}
+
+impl Screen {
+    /// Take the terminal.
+    ///
+    /// # Errors
+    /// When the terminal does not answer; it is then as it was.
+    pub fn open() -> io::Result<Screen> {
+        // Else NO_COLOR takes bold and reverse away too; our own theme has no colour then.
+        force_color_output(true);
+        let backend = CrosstermBackend::new(BufWriter::with_capacity(FRAME, io::stdout()));
+        let mut screen = Screen { terminal: Terminal::new(backend)?, is_back: false };
+        screen.enter()?;
+        Ok(screen)
+    }
+
+    /// The size of the terminal.
+    ///
+    /// # Errors
+    /// When the terminal does not say.
+    pub fn size(&self) -> io::Result<Size> {
+        self.terminal.size()
+    }
+
+    /// Draw the state.
+    ///
+    /// # Errors
+    /// When the terminal is gone.
+    pub fn draw(&mut self, app: &App) -> io::Result<()> {
+        self.terminal.draw(|frame| {
+            if let Some(cursor) = view::draw(app, frame.area(), frame.buffer_mut()) {
+                frame.set_cursor_position(cursor);
+            }
+        })?;
+        Ok(())
+    }
+
+    /// Forget what is on the screen, so that the next frame draws every cell.
+    ///
+    /// # Errors
+    /// When the terminal is gone.
+    pub fn clear(&mut self) -> io::Result<()> {
+        // `Terminal::clear` would ask the terminal where its cursor is, and wait for the answer.
+        let size = self.terminal.size()?;
+        self.terminal.resize(size.into())
+    }
+
+    /// Give the terminal back to the shell and stop, until the shell brings us back.
+    ///
+    /// # Errors
+    /// When the terminal is gone.
+    pub fn suspend(&mut self) -> io::Result<()> {
+        self.leave()?;
+        signal_hook::low_level::emulate_default_handler(signal_hook::consts::SIGTSTP)?;
+        self.is_back = true;
+        self.enter()?;
+        self.clear()
+    }
+
+    /// Take the terminal again after a stop that nobody told us of, whatever the shell did with it.
+    ///
+    /// # Errors
+    /// When the terminal is gone.
+    pub fn resume(&mut self) -> io::Result<()> {
+        // For a moment the terminal is in the shell's modes, in which it would eat a Ctrl-Q: only where it must be.
+        if std::mem::take(&mut self.is_back) {
+            return Ok(());
+        }
+        disable_raw_mode()?;
+        self.enter()?;
+        self.clear()
+    }
+
+    fn enter(&mut self) -> io::Result<()> {
+        enable_raw_mode()?;
+        execute!(self.terminal.backend_mut(), EnterAlternateScreen, EnableBracketedPaste, Hide)
+    }
+
+    fn leave(&mut self) -> io::Result<()> {
+        let written = execute!(self.terminal.backend_mut(), DisableBracketedPaste, Show, LeaveAlternateScreen);
+        disable_raw_mode().and(written)
+    }
+}
+
+impl Drop for Screen {
+    fn drop(&mut self) {
+        // On a terminal that is gone there is nothing to give back.
+        drop(self.leave());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_dumb_or_unnamed_terminal_is_none() {
+        assert_eq!(missing(|_| None), Some("TERM is not set"));
+        assert_eq!(missing(|_| Some("dumb".into())), Some("TERM is dumb"));
+    }
+}

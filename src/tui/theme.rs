@@ -1,0 +1,110 @@
+//! The one place where colours are named, and what the terminal is able to show.
+
+use std::ffi::OsString;
+
+use ratatui::style::{Color, Modifier, Style};
+
+/// How each kind of text looks. No meaning rests on the colour alone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Theme {
+    /// Titles of panes and groups.
+    pub title: Style,
+    /// Rules and axes.
+    pub rule: Style,
+    /// The focused line.
+    pub focus: Style,
+    /// What holds where the case is silent, and results that are no longer those of the form.
+    pub faint: Style,
+    /// Something is wrong.
+    pub problem: Style,
+    /// Something to know.
+    pub note: Style,
+    /// The rung that the case asks for, and its curve.
+    pub active: Style,
+    /// The other rung, and its curve.
+    pub other: Style,
+    /// The name of a key.
+    pub key: Style,
+}
+
+/// What the terminal is able to show.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Look {
+    /// Colours and attributes.
+    pub theme: &'static Theme,
+    /// Nothing but ASCII reaches the screen.
+    pub ascii: bool,
+}
+
+/// Attributes and a few of the terminal's own colours.
+pub static COLOURED: Theme = Theme {
+    title: Style::new().fg(Color::Cyan).add_modifier(Modifier::BOLD),
+    rule: Style::new(),
+    focus: Style::new().add_modifier(Modifier::BOLD),
+    faint: Style::new().add_modifier(Modifier::DIM),
+    problem: Style::new().fg(Color::Red).add_modifier(Modifier::BOLD),
+    note: Style::new().fg(Color::Yellow),
+    active: Style::new().fg(Color::Green).add_modifier(Modifier::BOLD),
+    other: Style::new().fg(Color::Magenta),
+    key: Style::new().add_modifier(Modifier::REVERSED),
+};
+
+/// Attributes alone.
+pub static PLAIN: Theme = Theme {
+    title: Style::new().add_modifier(Modifier::BOLD),
+    problem: Style::new().add_modifier(Modifier::BOLD),
+    note: Style::new(),
+    active: Style::new().add_modifier(Modifier::BOLD),
+    other: Style::new(),
+    ..COLOURED
+};
+
+impl Look {
+    /// Colours and the whole of Unicode.
+    pub const FULL: Look = Look { theme: &COLOURED, ascii: false };
+
+    /// What the environment allows: `NO_COLOR`, `TERM`, and the locale by `LC_ALL`, `LC_CTYPE`, `LANG`.
+    #[must_use]
+    pub fn of(variable: impl Fn(&str) -> Option<OsString>) -> Look {
+        let set = |name| variable(name).filter(|value| !value.is_empty());
+        let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(set).unwrap_or_default();
+        let locale = locale.to_string_lossy().to_ascii_lowercase();
+        let utf8 = locale.contains("utf-8") || locale.contains("utf8");
+        let term = set("TERM").unwrap_or_default();
+        let bare = term == "linux" || term.to_string_lossy().starts_with("vt");
+        Look { theme: if set("NO_COLOR").is_some() { &PLAIN } else { &COLOURED }, ascii: bare || !utf8 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn look(variables: &[(&str, &str)]) -> Look {
+        Look::of(|name| variables.iter().find(|(key, _)| *key == name).map(|(_, value)| (*value).into()))
+    }
+
+    #[test]
+    fn unicode_needs_a_utf8_locale_and_a_terminal_with_the_fonts() {
+        assert!(!look(&[("TERM", "xterm"), ("LANG", "en_GB.UTF-8")]).ascii);
+        assert!(!look(&[("TERM", "xterm"), ("LC_ALL", "C.utf8"), ("LANG", "C")]).ascii);
+        for variables in [
+            &[("TERM", "xterm"), ("LANG", "C")][..],
+            &[("TERM", "xterm")],
+            &[("TERM", "linux"), ("LANG", "C.UTF-8")],
+            &[("TERM", "vt100"), ("LANG", "C.UTF-8")],
+            &[("TERM", "xterm"), ("LC_ALL", "POSIX"), ("LANG", "C.UTF-8")],
+        ] {
+            assert!(look(variables).ascii, "{variables:?}");
+        }
+    }
+
+    #[test]
+    fn no_color_leaves_no_colour() {
+        let theme = look(&[("NO_COLOR", "1")]).theme;
+        for style in [theme.title, theme.problem, theme.note, theme.active, theme.other, theme.key] {
+            assert_eq!(style.fg.or(style.bg), None);
+        }
+        assert_eq!(look(&[("NO_COLOR", "")]).theme, &COLOURED);
+    }
+}

@@ -1,0 +1,120 @@
+//! Typing: every edit of a field goes into the case at once.
+
+use tui_input::InputRequest;
+
+use super::{Effect, options, solve};
+use crate::case::FIELDS;
+use crate::case::fields::Absent;
+use crate::tui::app::App;
+use crate::tui::clean;
+use crate::tui::prompt::Prompt;
+use crate::tui::update::files;
+
+/// A longer text is no value, title or path.
+const LONGEST: usize = 4096;
+
+/// A character typed.
+pub(super) fn insert(app: &mut App, letter: char) -> Vec<Effect> {
+    if let Some(Prompt::Ask(question)) = app.prompts.last() {
+        return question.by_letter(letter).map_or_else(Vec::new, |choice| files::choose(app, choice));
+    }
+    if app.prompts.is_empty() && !options(app.focus).is_empty() {
+        return choose_by_letter(app, letter);
+    }
+    paste(app, letter.encode_utf8(&mut [0; 4]))
+}
+
+/// Text pasted: into a line of text and nowhere else, what controls a terminal left out.
+pub(super) fn paste(app: &mut App, text: &str) -> Vec<Effect> {
+    let editing_case = app.prompts.is_empty();
+    let line = match app.prompts.last_mut() {
+        Some(prompt) => prompt.input_mut(),
+        None if options(app.focus).is_empty() => Some(&mut app.input),
+        None => None,
+    };
+    let Some(line) = line else { return Vec::new() };
+    let room = LONGEST.saturating_sub(line.value().len());
+    let mut letters = text.chars().filter(|&letter| clean::is_safe(letter)).take(room).peekable();
+    if letters.peek().is_none() {
+        return Vec::new();
+    }
+    let typed: String = letters.collect();
+    splice(line, &typed);
+    if editing_case { write(app) } else { files::typed(app) }
+}
+
+/// A key that moves in the line or deletes from it.
+pub(super) fn handle(app: &mut App, request: InputRequest) -> Vec<Effect> {
+    if let Some(prompt) = app.prompts.last_mut() {
+        let changed = prompt.input_mut().and_then(|input| input.handle(request));
+        return if changed.is_some_and(|changed| changed.value) { files::typed(app) } else { Vec::new() };
+    }
+    match app.input.handle(request) {
+        Some(changed) if changed.value => write(app),
+        _ => Vec::new(),
+    }
+}
+
+/// Take the next or the previous of the names of the focused field.
+pub(super) fn cycle(app: &mut App, by: isize) -> Vec<Effect> {
+    choose(app, app.focus, options(app.focus), by)
+}
+
+/// Take a name beside the present one, in any field of names.
+pub(super) fn choose(app: &mut App, field: usize, names: &[&str], by: isize) -> Vec<Effect> {
+    let now = names.iter().position(|name| *name == chosen(app, field));
+    let count = names.len().max(1);
+    let next = now.map_or(0, |now| (now + count).saturating_add_signed(by) % count);
+    let Some(name) = names.get(next) else { return Vec::new() };
+    set(app, field, name)
+}
+
+/// The name that holds in a field of names.
+pub(super) fn chosen(app: &App, field: usize) -> &str {
+    match (app.case.text(field), FIELDS[field].absent) {
+        (Some(text), _) | (None, Absent::Default(text)) => text,
+        _ => "",
+    }
+}
+
+fn choose_by_letter(app: &mut App, letter: char) -> Vec<Effect> {
+    let name = options(app.focus).iter().find(|name| name.starts_with(letter.to_ascii_lowercase()));
+    name.map_or_else(Vec::new, |name| set(app, app.focus, name))
+}
+
+// One splice, where a character at a time would cost the square of a long paste.
+fn splice(line: &mut tui_input::Input, typed: &str) {
+    let at = line.value().char_indices().nth(line.cursor()).map_or(line.value().len(), |(at, _)| at);
+    let (before, after) = line.value().split_at(at);
+    let cursor = line.cursor() + typed.chars().count();
+    *line = tui_input::Input::new([before, typed, after].concat()).with_cursor(cursor);
+}
+
+fn set(app: &mut App, field: usize, name: &str) -> Vec<Effect> {
+    if chosen(app, field) == name {
+        return Vec::new();
+    }
+    if field != app.focus {
+        app.history.end_visit();
+    }
+    app.history.before_edit(&app.case, app.focus);
+    app.case.write(field, name);
+    if field == app.focus {
+        app.input = name.into();
+    } else {
+        app.history.end_visit();
+    }
+    checked(app)
+}
+
+fn write(app: &mut App) -> Vec<Effect> {
+    app.history.before_edit(&app.case, app.focus);
+    app.case.write(app.focus, app.input.value());
+    checked(app)
+}
+
+fn checked(app: &mut App) -> Vec<Effect> {
+    let request = app.request();
+    app.follow();
+    solve(request)
+}

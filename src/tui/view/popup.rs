@@ -1,0 +1,144 @@
+//! What lies over the form: a box in the middle of the screen.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Constraint, Position, Rect, Size};
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Block, Clear, Widget};
+use unicode_width::UnicodeWidthStr;
+
+use super::{form, text};
+use crate::tui::app::App;
+use crate::tui::prompt::{Browser, Page, Prompt, Question};
+use crate::tui::theme::Theme;
+
+const WIDEST: u16 = 100;
+/// Room for four buttons.
+const NARROWEST: u16 = 52;
+
+/// Draw a prompt over the screen; where the cursor stands.
+pub fn draw(app: &App, prompt: &Prompt, screen: Rect, buffer: &mut Buffer) -> Option<Position> {
+    let theme = app.look.theme;
+    match prompt {
+        Prompt::Read(page) => {
+            draw_page(page, screen, theme, buffer);
+            None
+        }
+        Prompt::Ask(question) => {
+            draw_question(question, screen, theme, buffer);
+            None
+        }
+        Prompt::SaveAs(input, _) => {
+            let inner = frame("Save as", Size::new(WIDEST, 1), screen, theme, buffer);
+            text::edited(input, inner, Style::new(), buffer)
+        }
+        Prompt::Browse(browser) => draw_browser(browser, screen, theme, buffer),
+    }
+}
+
+/// The room inside the largest box.
+#[must_use]
+pub fn room(screen: Size) -> Size {
+    Size { width: screen.width.min(WIDEST).saturating_sub(5), height: screen.height.saturating_sub(4) }
+}
+
+/// The lines of a page as they stand in a box; lines that go on are indented.
+#[must_use]
+pub fn wrapped(page: &Page, screen: Size) -> Vec<String> {
+    let width = usize::from(room(screen).width);
+    let wrap = |line: &String| {
+        let indent = hanging(line);
+        let (head, text) = line.split_at(indent);
+        let pieces = text::wrap(text, width.saturating_sub(indent));
+        let head = head.to_owned();
+        pieces.into_iter().enumerate().map(
+            move |(index, piece)| {
+                if index == 0 { head.clone() + &piece } else { " ".repeat(indent) + &piece }
+            },
+        )
+    };
+    page.lines.iter().flat_map(wrap).collect()
+}
+
+// Where a line goes on when it is wrapped: below its second column, if it has one.
+fn hanging(line: &str) -> usize {
+    let lead = line.len() - line.trim_start().len();
+    let gap = line[lead..].find("  ").map(|at| lead + at);
+    let column = gap.map(|gap| line.len() - line[gap..].trim_start().len());
+    column.filter(|_| line.is_ascii()).unwrap_or(lead)
+}
+
+/// Scroll a page, as far as there are lines.
+pub fn scroll(page: &mut Page, by: isize, screen: Size) {
+    let last = wrapped(page, screen).len().saturating_sub(room(screen).height.into());
+    page.top = page.top.saturating_add_signed(by).min(last);
+}
+
+fn draw_page(page: &Page, screen: Rect, theme: &Theme, buffer: &mut Buffer) {
+    let lines = wrapped(page, screen.as_size());
+    let inner = frame(&page.title, extent(&lines, 0), screen, theme, buffer);
+    for (line, y) in lines.iter().skip(page.top).zip(inner.top()..inner.bottom()) {
+        buffer.set_stringn(inner.x, y, line, inner.width.into(), Style::new());
+    }
+    if lines.len() > usize::from(inner.height) {
+        form::scroll_bar(page.top, lines.len(), Rect { x: inner.right(), width: 1, ..inner }, buffer);
+    }
+}
+
+fn draw_question(question: &Question, screen: Rect, theme: &Theme, buffer: &mut Buffer) {
+    let lines = text::wrap(&question.text, room(screen.as_size()).width.into());
+    let inner = frame(question.title, extent(&lines, 2), screen, theme, buffer);
+    for (line, y) in lines.iter().zip(inner.top()..inner.bottom()) {
+        buffer.set_stringn(inner.x, y, line, inner.width.into(), Style::new());
+    }
+    let buttons = question.buttons.iter().enumerate().flat_map(|(index, (name, _))| {
+        let marked = index == question.marked;
+        let (text, style) = if marked { (format!("[> {name} <]"), theme.key) } else { (format!("[  {name}  ]"), Style::new()) };
+        [Span::styled(text, style), Span::raw(" ")]
+    });
+    let below = u16::try_from(lines.len()).unwrap_or(u16::MAX).saturating_add(1);
+    if below < inner.height {
+        let row = Rect { y: inner.y + below, height: 1, ..inner };
+        buttons.collect::<Line<'_>>().render(row, buffer);
+    }
+}
+
+fn draw_browser(browser: &Browser, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Option<Position> {
+    let inner = frame("Open", Size::new(WIDEST, 16), screen, theme, buffer);
+    let list = Rect { y: inner.y + 1, height: inner.height.saturating_sub(1), ..inner };
+    let rows = usize::from(list.height);
+    let top = (browser.marked + 1).saturating_sub(rows);
+    let mut entries = browser.fitting().enumerate().skip(top).peekable();
+    if entries.peek().is_none() {
+        buffer.set_stringn(list.x, list.y, "(nothing here fits)", list.width.into(), theme.faint);
+    }
+    for ((index, entry), y) in entries.zip(list.top()..list.bottom()) {
+        let marked = index == browser.marked;
+        let slash = if entry.is_folder { "/" } else { "" };
+        let line = format!("{} {}{slash}", if marked { "▸" } else { " " }, entry.name);
+        let style = if marked { theme.focus } else { Style::new() };
+        buffer.set_stringn(list.x, y, text::cut(&line, list.width.into()), list.width.into(), style);
+    }
+    text::edited(&browser.input, Rect { height: inner.height.min(1), ..inner }, theme.focus, buffer)
+}
+
+// What the lines and some more below them take.
+fn extent(lines: &[String], more: usize) -> Size {
+    let width = lines.iter().map(|line| line.width()).max().unwrap_or(0);
+    let size = |length: usize| u16::try_from(length).unwrap_or(u16::MAX);
+    Size { width: size(width), height: size(lines.len() + more) }
+}
+
+// An emptied box with a border, as large as is wanted if there is room.
+fn frame(title: &str, wanted: Size, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Rect {
+    let room = room(screen.as_size());
+    let height = wanted.height.clamp(1, room.height.max(1)) + 2;
+    let width = wanted.width.max(NARROWEST).min(room.width) + 4;
+    let area = screen.centered(Constraint::Length(width), Constraint::Length(height)).intersection(screen);
+    Clear.render(area, buffer);
+    let title = Line::styled(format!(" {} ", text::cut(title, usize::from(area.width).saturating_sub(6))), theme.title);
+    let block = Block::bordered().title(title);
+    let inner = block.inner(area);
+    block.render(area, buffer);
+    Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner }
+}

@@ -1,0 +1,144 @@
+//! Lines of text in a width: cut, wrapped, with a cursor.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect};
+use ratatui::style::Style;
+use tui_input::Input;
+use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
+
+use crate::tui::clean::clean;
+use crate::tui::theme::Theme;
+
+/// The text cut to the width, with a mark where it goes on.
+#[must_use]
+pub fn cut(text: &str, width: usize) -> String {
+    let text = clean(text);
+    if text.width() <= width {
+        return text.into_owned();
+    }
+    let mut kept = take(&text, width.saturating_sub(1)).to_owned();
+    if width > 0 {
+        kept.push('…');
+    }
+    kept
+}
+
+/// The text in lines of at most the width, broken between words where there is a place.
+#[must_use]
+pub fn wrap(text: &str, width: usize) -> Vec<String> {
+    let width = width.max(1);
+    let text = clean(text);
+    let mut lines = vec![String::new()];
+    for word in text.split(' ') {
+        put(&mut lines, word, width);
+    }
+    lines
+}
+
+/// A rule with a title, over the top line of an area; what is below it.
+pub fn titled(title: &str, area: Rect, theme: &Theme, buffer: &mut Buffer) -> Rect {
+    if area.is_empty() {
+        return Rect::ZERO;
+    }
+    let width = usize::from(area.width);
+    buffer.set_stringn(area.x, area.y, "─".repeat(width), width, theme.rule);
+    let title = format!(" {} ", cut(title, width.saturating_sub(4)));
+    if width > 4 {
+        buffer.set_stringn(area.x + 1, area.y, title, width - 1, theme.title);
+    }
+    Rect { y: area.y + 1, height: area.height - 1, ..area }
+}
+
+/// A line of text that is edited, scrolled so that the cursor is in sight; where the cursor stands.
+pub fn edited(input: &Input, area: Rect, style: Style, buffer: &mut Buffer) -> Option<Position> {
+    let width = usize::from(area.width);
+    if area.is_empty() {
+        return None;
+    }
+    let shown = clean(input.value());
+    let before: usize = shown.chars().take(input.cursor()).map(width_of).sum();
+    let hidden = (before + 1).saturating_sub(width);
+    buffer.set_style(area, style);
+    buffer.set_stringn(area.x, area.y, skip(&shown, hidden), width, style);
+    Some(Position::new(area.x + u16::try_from(before - hidden).unwrap_or(0), area.y))
+}
+
+fn put(lines: &mut Vec<String>, word: &str, width: usize) {
+    let Some(line) = lines.last_mut() else { return };
+    let space = usize::from(!line.is_empty());
+    if line.width() + space + word.width() <= width {
+        line.extend((space == 1).then_some(' '));
+        line.push_str(word);
+    } else if word.width() <= width {
+        lines.push(word.to_owned());
+    } else {
+        put_piecewise(lines, word, width);
+    }
+}
+
+fn put_piecewise(lines: &mut Vec<String>, word: &str, width: usize) {
+    let mut rest = word;
+    while !rest.is_empty() {
+        let piece = take(rest, width);
+        // A character wider than the line has no place: it goes, so that the loop ends.
+        let piece = if piece.is_empty() { &rest[..rest.chars().next().map_or(0, char::len_utf8)] } else { piece };
+        lines.push(piece.to_owned());
+        rest = &rest[piece.len()..];
+    }
+    lines.retain(|line| !line.is_empty());
+}
+
+fn take(text: &str, width: usize) -> &str {
+    let mut used = 0;
+    let end = text.char_indices().find(|&(_, letter)| {
+        used += width_of(letter);
+        used > width
+    });
+    &text[..end.map_or(text.len(), |(at, _)| at)]
+}
+
+fn skip(text: &str, width: usize) -> &str {
+    let mut left = 0;
+    let start = text.char_indices().find(|&(_, letter)| {
+        let done = left >= width;
+        left += width_of(letter);
+        done
+    });
+    &text[start.map_or(text.len(), |(at, _)| at)..]
+}
+
+fn width_of(letter: char) -> usize {
+    letter.width().unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wrapped_lines_keep_every_word_and_fit() {
+        let text = "cause: the value is out of its range -5000..5000 um: mend: averyverylongwordwithoutanybreak 歯車";
+        for width in 1..60 {
+            let lines = wrap(text, width);
+            assert!(lines.iter().all(|line| line.width() <= width.max(2)), "{width}: {lines:?}");
+            let letters = |text: &str| text.chars().filter(|letter| *letter != ' ').collect::<String>();
+            assert_eq!(letters(&lines.concat()), letters(text), "{width}");
+        }
+    }
+
+    #[test]
+    fn a_cut_says_that_it_is_one() {
+        assert_eq!(cut("combined deflection", 10), "combined …");
+        assert_eq!(cut("module", 6), "module");
+        assert_eq!(cut("module", 0), "");
+    }
+
+    #[test]
+    fn the_cursor_of_a_long_text_is_in_sight() {
+        let area = Rect::new(3, 0, 8, 1);
+        let mut buffer = Buffer::empty(Rect::new(0, 0, 11, 1));
+        let input = Input::from("0123456789");
+        assert_eq!(edited(&input, area, Style::new(), &mut buffer), Some(Position::new(10, 0)));
+        assert_eq!(buffer, Buffer::with_lines(["   3456789 "]));
+    }
+}

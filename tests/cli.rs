@@ -1,0 +1,392 @@
+//! The built program from a script's side: what goes in, what comes out, and how it ends.
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+// A test may stop at what it did not expect.
+
+use serde_json::Value;
+use std::fs;
+use std::io::{BufRead, BufReader, Write};
+use std::process::{Command, Output, Stdio};
+
+const TABLE_1: &str = "cases/zhou-chen-2014.toml";
+
+fn program(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_tipstrike"));
+    command.args(arguments).current_dir(env!("CARGO_MANIFEST_DIR")).stdin(Stdio::null());
+    command
+}
+
+fn run(arguments: &[&str]) -> Output {
+    program(arguments).output().unwrap()
+}
+
+fn run_with_input(arguments: &[&str], input: &str) -> Output {
+    let mut child = program(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
+    child.wait_with_output().unwrap()
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().unwrap()
+}
+
+fn out(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+fn err(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// Standard output of a run that must succeed in silence.
+fn told(arguments: &[&str]) -> String {
+    let output = run(arguments);
+    assert_eq!((code(&output), err(&output).as_str()), (0, ""), "{arguments:?}");
+    out(&output)
+}
+
+fn json(arguments: &[&str]) -> Value {
+    serde_json::from_str(&told(arguments)).unwrap()
+}
+
+/// A copy of Table 1 with something changed, in a folder of its own.
+fn changed(from: &str, to: &str) -> (tempfile::TempDir, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let text = fs::read_to_string(TABLE_1).unwrap();
+    assert!(text.contains(from));
+    let path = folder.path().join("case.toml");
+    fs::write(&path, text.replacen(from, to, 1)).unwrap();
+    let path = path.to_str().unwrap().to_owned();
+    (folder, path)
+}
+
+#[test]
+fn a_solve_is_told_for_a_person() {
+    let page = told(&["solve", TABLE_1]);
+    assert!(page.starts_with("Zhou & Chen 2014, Table 1\n"), "{page}");
+    assert!(page.contains("strikes 1.36628 deg before E with 2191.0 N"), "{page}");
+    assert!(page.contains("rung paper: 0.0525747 deg before E with 84.649 N"), "{page}");
+    assert!(!page.contains("Stations"), "{page}");
+    assert!(told(&["solve", TABLE_1, "--stations", "4"]).contains("Stations from D to E"));
+}
+
+#[test]
+fn json_has_the_promised_shape() {
+    let solved = json(&["solve", TABLE_1, "--format", "json"]);
+    assert_eq!(solved["case"], TABLE_1);
+    assert_eq!(solved["title"], "Zhou & Chen 2014, Table 1");
+    assert_eq!(solved["format"], 1);
+    assert_eq!(solved["version"], env!("CARGO_PKG_VERSION"));
+    assert_eq!((&solved["rung"], &solved["outcome"]), (&"exact".into(), &"corner-contact".into()));
+    let force = &solved["quantities"]["impact_force"];
+    assert!((force["value"].as_f64().unwrap() - 2191.016).abs() < 5e-4);
+    assert_eq!(force["unit"], "N");
+    assert_eq!(solved["stages"].as_array().unwrap().last().unwrap(), "stations");
+    assert!(solved["notes"].as_array().unwrap().iter().all(|note| note["code"].is_string() && note["message"].is_string()));
+}
+
+#[test]
+fn json_stations_run_from_d_to_e() {
+    let solved = json(&["solve", TABLE_1, "--format", "json", "--stations", "10"]);
+    let stations = solved["stations"].as_array().unwrap();
+    assert_eq!(stations.len(), 11);
+    let force = |station: &Value| station["impact_force"].as_f64().unwrap();
+    assert!((force(&stations[0]) - 2191.016).abs() < 5e-4);
+    assert!((force(&stations[9]) - 219.977).abs() < 5e-4);
+    assert!(force(&stations[10]).abs() < f64::MIN_POSITIVE);
+    assert_eq!(stations[0]["roll_angle_driven"], solved["quantities"]["approach_angle_driven"]["value"]);
+    let without = json(&["solve", TABLE_1, "--format", "json", "--only", "impact_force"]);
+    assert_eq!(without.get("stations"), None);
+}
+
+#[test]
+fn what_does_not_exist_is_absent_and_the_outcome_says_why() {
+    let on_time = ["--set", "deviations.base_pitch=0 um", "--set", "model.deflection=0 um"];
+    let solved = json(&[&["solve", TABLE_1, "--format", "json"], &on_time[..]].concat());
+    assert_eq!(solved["outcome"], "no-corner-contact");
+    assert_eq!(solved["quantities"].get("impact_force"), None);
+    assert_eq!(solved["quantities"]["total_deviation"]["value"], 0.0);
+    assert!(
+        told(&[&["solve", TABLE_1], &on_time[..]].concat())
+            .contains("No corner contact: the tooth comes in on time, the total deviation is 0 um")
+    );
+}
+
+#[test]
+fn only_what_is_asked_for_is_computed_and_told() {
+    let solved = json(&["solve", TABLE_1, "--only", "approach_angle_driven", "--format", "json"]);
+    assert_eq!(solved["stages"], serde_json::json!(["geometry", "load", "deviation", "position"]));
+    assert_eq!(solved["quantities"].as_object().unwrap().keys().collect::<Vec<_>>(), ["approach_angle_driven"]);
+    let solved = json(&["solve", TABLE_1, "--only", "stick_limit,contact_ratio", "--format", "json"]);
+    assert_eq!(solved["stages"].as_array().unwrap().last().unwrap(), "velocity");
+    assert_eq!(solved["quantities"].as_object().unwrap().len(), 2);
+}
+
+#[test]
+fn an_unknown_quantity_is_wrong_usage_and_the_right_name_is_near() {
+    let output = run(&["solve", TABLE_1, "--only", "impact_forc"]);
+    assert_eq!((code(&output), out(&output).as_str()), (2, ""));
+    assert!(err(&output).contains("'impact_force'"), "{}", err(&output));
+}
+
+#[test]
+fn csv_has_a_row_a_case_with_units_in_the_header() {
+    let table = told(&["solve", TABLE_1, TABLE_1, "--only", "impact_force,contact_ratio", "--format", "csv"]);
+    let mut reader = csv::Reader::from_reader(table.as_bytes());
+    assert_eq!(reader.headers().unwrap(), &["case", "rung", "outcome", "impact_force [N]", "contact_ratio [1]"][..]);
+    let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+    assert_eq!(rows.len(), 2);
+    assert_eq!((&rows[0][0], &rows[0][1], &rows[0][2]), (TABLE_1, "exact", "corner-contact"));
+    assert!((rows[0][3].parse::<f64>().unwrap() - 2191.016).abs() < 5e-4);
+}
+
+#[test]
+fn csv_with_stations_has_a_row_a_station() {
+    let table = told(&["solve", TABLE_1, "--stations", "10", "--format", "csv"]);
+    let lines: Vec<&str> = table.lines().collect();
+    assert_eq!(lines.len(), 12);
+    assert!(lines[0].starts_with("case,roll_angle_driver [rad],"), "{}", lines[0]);
+    assert!(lines[11].ends_with(",0.0"), "{}", lines[11]);
+}
+
+#[test]
+fn settings_and_rung_change_the_case() {
+    let value = |arguments: &[&str]| {
+        let common = ["solve", TABLE_1, "--format", "json", "--only", "impact_force"];
+        json(&[&common[..], arguments].concat())["quantities"]["impact_force"]["value"].as_f64().unwrap()
+    };
+    assert!((value(&["--rung", "paper"]) - 84.649).abs() < 5e-4);
+    assert!((value(&["--set", "model.rung=paper"]) - 84.649).abs() < 5e-4);
+    assert!(value(&["--set", "operation.speed=4000 rpm"]) > 4000.0);
+}
+
+#[test]
+fn a_wrong_setting_is_told_with_its_mend() {
+    for (setting, mend) in [
+        ("pair.modul=5 mm", "pair.module"),
+        ("pair.module", "KEY=VALUE"),
+        ("pair.module=5", "5 mm"),
+        ("pair.module=5 kg", "mm"),
+        ("driver.teeth=2", "5"),
+    ] {
+        let output = run(&["solve", TABLE_1, "--set", setting]);
+        assert_eq!((code(&output), out(&output).as_str()), (2, ""), "{setting}");
+        assert!(err(&output).contains(mend), "{setting}: {}", err(&output));
+    }
+}
+
+#[test]
+fn standard_input_is_a_case() {
+    let text = fs::read_to_string(TABLE_1).unwrap();
+    let output = run_with_input(&["solve", "-", "--format", "json"], &text);
+    assert_eq!((code(&output), err(&output).as_str()), (0, ""));
+    assert_eq!(serde_json::from_str::<Value>(&out(&output)).unwrap()["case"], "-");
+}
+
+#[test]
+fn several_cases_are_an_object_a_line_and_a_bad_one_stops_no_other() {
+    let (_folder, bad) = changed("teeth = 20", "teeth = \"many\"");
+    let output = run(&["solve", &bad, "no-such-file.toml", TABLE_1, TABLE_1, "--format", "json"]);
+    assert_eq!(code(&output), 5);
+    assert_eq!(out(&output).lines().filter(|line| serde_json::from_str::<Value>(line).is_ok()).count(), 2);
+    assert!(err(&output).contains("case.toml:"), "{}", err(&output));
+    assert!(err(&output).contains("no-such-file.toml"), "{}", err(&output));
+}
+
+#[test]
+fn every_fault_of_a_bad_case_has_its_place_on_one_line() {
+    let (_folder, path) = changed("module = \"5 mm\"\npressure_angle = \"20 deg\"", "module = 5\npressure_angel = \"20 deg\"");
+    for format in ["text", "json", "csv"] {
+        let output = run(&["solve", &path, "--format", format]);
+        assert_eq!((code(&output), out(&output).as_str()), (3, ""));
+        let errors = err(&output);
+        assert_eq!(errors.lines().count(), 2, "{errors}");
+        assert!(errors.lines().all(|line| line.starts_with(&format!("{path}:1"))), "{errors}");
+    }
+}
+
+#[test]
+fn a_refusal_of_the_model_has_the_place_of_its_field() {
+    let (_folder, path) = changed("addendum = 1.0", "addendum = 0.3");
+    let output = run(&["solve", &path, "--set", "driven.addendum=0.3", "--set", "model.deflection=", "--format", "json"]);
+    assert_eq!((code(&output), out(&output).as_str()), (3, ""));
+    assert!(err(&output).contains("driven.addendum: "), "{}", err(&output));
+    let (_folder, path) = changed("module = \"5 mm\"", "module = \"5 mm\"\ncentre_distance = \"80 mm\"");
+    let output = run(&["solve", &path]);
+    assert_eq!((code(&output), out(&output).as_str()), (3, ""));
+    assert!(err(&output).starts_with(&format!("{path}:12:")), "{}", err(&output));
+    assert!(err(&output).contains(": pair.centre_distance: "), "{}", err(&output));
+}
+
+#[test]
+fn a_force_outside_a_formulas_range_is_withheld_with_a_note() {
+    let beyond = ["--set", "driver.teeth=120", "--set", "driven.teeth=120"];
+    let solved = json(&[&["solve", TABLE_1, "--format", "json"], &beyond[..]].concat());
+    assert!(solved["quantities"]["approach_angle_driven"]["value"].as_f64().unwrap() > 0.0);
+    assert_eq!(solved["quantities"].get("impact_force"), None);
+    assert_eq!(solved["notes"][0]["code"], "teeth-outside-fit");
+    let output = run(&[&["solve", TABLE_1, "--only", "impact_force"], &beyond[..]].concat());
+    assert_eq!((code(&output), out(&output).as_str()), (3, ""));
+    assert!(err(&output).contains("outside the Kuang-Yang fit"), "{}", err(&output));
+    let (_folder, path) = changed("teeth = 20", "teeth = 120");
+    let output = run(&["check", &path]);
+    assert_eq!((code(&output), out(&output).as_str()), (3, ""));
+}
+
+#[test]
+fn a_newer_format_and_a_missing_file_have_codes_of_their_own() {
+    let (_folder, newer) = changed("format = 1", "format = 2");
+    let output = run(&["solve", &newer]);
+    assert_eq!((code(&output), out(&output).as_str()), (4, ""));
+    assert!(err(&output).contains("format"), "{}", err(&output));
+    for missing in ["no-such-file.toml", "cases"] {
+        let output = run(&["check", missing]);
+        assert_eq!((code(&output), out(&output).as_str()), (5, ""), "{missing}");
+        assert_eq!(err(&output).lines().count(), 1, "{}", err(&output));
+    }
+}
+
+#[test]
+fn a_check_is_a_verdict_a_line() {
+    assert_eq!(told(&["check", TABLE_1]), format!("ok {TABLE_1}: impact_force 2191.0 N <= 2500 N (88 %)\n"));
+    let (_folder, strict) = changed("impact_force = \"2500 N\"", "impact_force = \"2 kN\"\ncontact_ratio = 1.7");
+    let output = run(&["check", &strict, TABLE_1]);
+    assert_eq!((code(&output), err(&output).as_str()), (1, ""));
+    let lines: Vec<String> = out(&output).lines().map(str::to_owned).collect();
+    assert_eq!(lines[0], format!("EXCEEDED {strict}: impact_force 2191.0 N > 2 kN (110 %)"));
+    assert!(lines[1].starts_with("ok "), "{}", lines[1]);
+    let (_folder, free) = changed("[limits]\nimpact_force = \"2500 N\"", "");
+    assert_eq!(told(&["check", &free]), format!("ok {free}: no limits\n"));
+}
+
+#[test]
+fn a_bad_case_outranks_an_exceeded_limit() {
+    let (_folder, strict) = changed("\"2500 N\"", "\"2 N\"");
+    let (_other, bad) = changed("teeth = 20", "teeth = 0");
+    let output = run(&["check", &bad, &strict]);
+    assert_eq!(code(&output), 3);
+    assert!(out(&output).starts_with("EXCEEDED "), "{}", out(&output));
+}
+
+#[test]
+fn a_limit_holds_where_no_tooth_strikes() {
+    let (_folder, path) = changed("base_pitch = \"16 um\"", "base_pitch = \"-50 um\"");
+    assert_eq!(told(&["check", &path]), format!("ok {path}: impact_force none, no corner contact (limit 2500 N)\n"));
+}
+
+#[test]
+fn no_control_of_a_file_or_a_name_reaches_the_terminal() {
+    let (folder, _) = changed("format", "format");
+    let text = fs::read_to_string(TABLE_1).unwrap();
+    let hostile = text.replace("title = \"Zhou", "title = \"\\u001b[2J\\u009b\\u007f\\u202E\\u200b Zhou");
+    let path = folder.path().join("\u{1b}[31m\u{202e}.toml");
+    fs::write(&path, &hostile).unwrap();
+    let path = path.to_str().unwrap();
+    let broken = folder.path().join("\u{1b}]0;\u{7}.toml");
+    fs::write(&broken, hostile.replace("teeth", "te\u{1b}eth")).unwrap();
+    let runs: [&[&str]; 7] = [
+        &["solve", path],
+        &["solve", path, "--format", "json"],
+        &["solve", path, "--format", "csv"],
+        &["check", path],
+        &["solve", broken.to_str().unwrap()],
+        &["solve", "no-such\u{9b}file"],
+        &["solve", TABLE_1, "--\u{1b}[2J"],
+    ];
+    for arguments in runs {
+        let output = run(arguments);
+        let shown = out(&output) + &err(&output);
+        let raw = shown.chars().find(|&c| c.is_control() && c != '\n' || ('\u{200b}'..='\u{202e}').contains(&c));
+        assert_eq!(raw, None, "{arguments:?}: {shown}");
+    }
+    let solved = json(&["solve", path, "--format", "json"]);
+    assert_eq!(solved["case"], path);
+    assert!(solved["title"].as_str().unwrap().starts_with("\u{1b}[2J\u{9b}\u{7f}\u{202e}"));
+}
+
+#[test]
+fn a_new_case_solves() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("new.toml");
+    let path = path.to_str().unwrap();
+    assert_eq!(told(&["new", path]), "");
+    let text = fs::read_to_string(path).unwrap();
+    assert_eq!(told(&["new"]), text);
+    let output = run_with_input(&["solve", "-"], &text);
+    assert_eq!((code(&output), err(&output).as_str()), (0, ""));
+    assert!(out(&output).contains("2191.0 N"));
+}
+
+#[test]
+fn a_new_case_overwrites_nothing() {
+    let (_folder, path) = changed("format", "format");
+    let before = fs::read(&path).unwrap();
+    let output = run(&["new", &path]);
+    assert_eq!((code(&output), out(&output).as_str()), (5, ""));
+    assert_eq!(fs::read(&path).unwrap(), before);
+}
+
+#[test]
+fn the_fields_are_listed_for_people_and_for_scripts() {
+    let table = told(&["fields"]);
+    assert!(table.lines().all(|line| line.chars().count() <= 100));
+    assert!(table.lines().any(|line| line.starts_with("pair.module ") && line.contains("0.05..50")), "{table}");
+    let lines = told(&["fields", "--format", "json"]);
+    let fields: Vec<Value> = lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(fields.len(), tipstrike::case::FIELDS.len());
+    assert!(told(&["fields", "--results"]).contains("impact_force "));
+}
+
+#[test]
+fn every_shell_has_completions_and_the_manual_a_name() {
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        assert!(told(&["completions", shell]).contains("tipstrike"), "{shell}");
+    }
+    let page = told(&["man"]);
+    assert!(page.contains(".SH NAME\ntipstrike"), "{page}");
+    assert!(page.contains(".SH \"EXIT STATUS\""), "{page}");
+    assert!(told(&["man", "solve"]).contains("stations"));
+    assert_eq!(code(&run(&["man", "nonsense"])), 2);
+}
+
+#[test]
+fn help_and_version_are_results_and_wrong_usage_is_not() {
+    assert!(told(&["--version"]).starts_with("tipstrike "));
+    assert!(told(&["--help"]).contains("completions"));
+    assert!(told(&["solve", "--help"]).contains("--only"));
+    for wrong in [&["solve"][..], &["solve", TABLE_1, "--stations", "0"], &["solve", TABLE_1, "--rung", "guess"], &["--wrong"]] {
+        let output = run(wrong);
+        assert_eq!((code(&output), out(&output).as_str()), (2, ""), "{wrong:?}");
+        assert!(!err(&output).is_empty());
+    }
+}
+
+#[test]
+fn a_reader_that_goes_away_ends_the_program_quietly() {
+    let mut child = program(&["solve", TABLE_1, "--stations", "10000", "--format", "csv"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut first = String::new();
+    BufReader::new(child.stdout.take().unwrap()).read_line(&mut first).unwrap();
+    assert!(first.starts_with("case,"));
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((code(&output), err(&output).as_str()), (0, ""));
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn an_output_that_cannot_be_written_is_no_success() {
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let output = program(&["solve", TABLE_1]).stdout(full).output().unwrap();
+    assert_eq!(code(&output), 5);
+    assert!(err(&output).contains("standard output"), "{}", err(&output));
+}
+
+#[test]
+fn no_colour_and_no_escape_is_written_anywhere() {
+    for arguments in [&["--help"][..], &["solve", "--help"], &["solve"], &["man"]] {
+        let output = program(arguments).env("CLICOLOR_FORCE", "1").env_remove("NO_COLOR").output().unwrap();
+        assert!(!(out(&output) + &err(&output)).contains('\u{1b}'), "{arguments:?}");
+    }
+}

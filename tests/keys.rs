@@ -1,0 +1,308 @@
+//! Keys in, screen and files out: editing, saving, opening, leaving.
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+#![cfg(feature = "tui")]
+
+mod desk;
+
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+
+use desk::{Desk, LARGE, SMALL, TABLE_1, name};
+use tipstrike::tui::actions::Action;
+use tipstrike::tui::solver::Request;
+
+#[test]
+fn every_keystroke_that_leaves_a_valid_value_changes_the_results() {
+    let mut desk = Desk::new(SMALL);
+    let force = |desk: &Desk| {
+        let line = desk.screen().lines().find(|line| line.contains("F_S   ")).map(str::to_owned);
+        line.expect("the impact force is in sight")
+    };
+    assert!(force(&desk).contains("2191"));
+    desk.go_to("operation.speed").keys(&["Home", "Delete", "1"]);
+    let slower = force(&desk);
+    assert!(!slower.contains("2191"), "{slower}");
+    desk.keys(&["Backspace", "2"]);
+    assert!(force(&desk).contains("2191"));
+}
+
+#[test]
+fn an_invalid_value_keeps_the_last_valid_results_and_says_so() {
+    let mut desk = Desk::new(SMALL);
+    desk.fill("operation.speed", "2000 rpx");
+    assert!(desk.shows("LAST VALID"));
+    assert!(desk.shows("2191"));
+    assert!(desk.shows("! "));
+    desk.keys(&["Backspace", "m"]);
+    assert!(!desk.shows("LAST VALID"));
+}
+
+#[test]
+fn the_rung_is_a_field_and_a_key() {
+    let mut desk = Desk::new(SMALL);
+    assert!(desk.shows("▸exact"));
+    desk.go_to("model.rung").keys(&["Left"]);
+    assert!(desk.shows("▸paper"));
+    assert!(desk.shows("‹ paper ›"));
+    desk.keys(&["Space"]);
+    assert!(desk.shows("▸exact"));
+    desk.go_to("pair.module").keys(&["Ctrl-T"]);
+    assert!(desk.shows("▸paper"));
+    assert!(desk.shows("5 mm"));
+}
+
+#[test]
+fn undo_goes_back_a_field_and_redo_forward() {
+    let mut desk = Desk::new(SMALL);
+    desk.fill("operation.speed", "1500 rpm").keys(&["Tab", "0.1", "Ctrl-Z"]);
+    assert!(!desk.shows("0.1"));
+    assert!(desk.shows("1500 rpm"));
+    desk.keys(&["Ctrl-Z"]);
+    assert!(desk.shows("2000 rpm"));
+    assert!(!desk.app.is_unsaved());
+    desk.keys(&["Ctrl-Y"]);
+    assert!(desk.shows("1500 rpm"));
+    desk.keys(&["Ctrl-Z", "Ctrl-Z"]);
+    assert!(desk.shows("nothing to undo"));
+}
+
+#[test]
+fn a_left_out_field_shows_what_holds() {
+    let mut desk = Desk::new(SMALL);
+    desk.fill("model.deflection", "");
+    assert!(desk.shows("(from the load)"));
+    desk.keys(&["30 um"]);
+    assert!(desk.shows("30 um"));
+}
+
+#[test]
+fn a_save_keeps_comments_and_order_and_takes_the_mark_away() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.fill("operation.speed", "1500 rpm");
+    assert!(desk.shows("*unsaved*"));
+    desk.keys(&["Ctrl-S"]);
+    assert!(!desk.shows("*unsaved*"));
+    assert!(desk.shows("saved "));
+    assert_eq!(desk.read("case.toml"), TABLE_1.replace("2000 rpm", "1500 rpm"));
+}
+
+#[test]
+fn the_built_in_case_asks_for_a_name_and_an_existing_file_for_leave() {
+    let mut desk = Desk::new(SMALL);
+    let taken = desk.write("taken.toml", "not yours");
+    desk.keys(&["Ctrl-S", "Ctrl-U", name(&taken), "Enter"]);
+    assert!(desk.shows("is there already"));
+    desk.keys(&["Esc", "Backspace"]);
+    assert_eq!(desk.read("taken.toml"), "not yours");
+    desk.keys(&["Ctrl-U", name(&desk.path("new.toml")), "Enter"]);
+    assert_eq!(desk.read("new.toml"), TABLE_1);
+    assert!(desk.shows("new.toml"));
+    desk.keys(&["F2", "Ctrl-U", name(&taken), "Enter", "o"]);
+    assert_eq!(desk.read("taken.toml"), TABLE_1);
+}
+
+#[test]
+fn a_faulty_form_is_not_saved() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.fill("operation.speed", "fast").keys(&["Ctrl-Home", "Ctrl-S"]);
+    assert!(desk.shows("not saved"));
+    assert_eq!(desk.read("case.toml"), TABLE_1);
+    assert_eq!(desk.app.case.text(desk.app.focus), Some("fast"), "the focus is on what must be mended");
+}
+
+#[test]
+fn a_file_that_cannot_be_written_is_told_and_nothing_is_lost() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.fill("operation.speed", "1500 rpm");
+    fs::remove_file(desk.path("case.toml")).expect("it was there");
+    fs::create_dir(desk.path("case.toml")).expect("a folder in its place");
+    desk.keys(&["Ctrl-S"]);
+    assert!(desk.shows("not saved"));
+    assert!(desk.shows("*unsaved*"));
+}
+
+#[test]
+fn a_file_that_someone_else_changed_is_not_overwritten_unasked() {
+    let theirs = TABLE_1.replace("15 kW", "20 kW");
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.fill("operation.speed", "1500 rpm");
+    desk.write("case.toml", &theirs);
+    desk.keys(&["Ctrl-S"]);
+    assert!(desk.shows("changed on disk"));
+    desk.keys(&["Enter"]);
+    assert_eq!(desk.read("case.toml"), theirs, "Enter alone cancels");
+    desk.keys(&["Ctrl-S", "r"]);
+    assert!(desk.go_to("operation.power").shows("20 kW"));
+    assert!(desk.go_to("operation.speed").shows("2000 rpm") && !desk.app.is_unsaved());
+    desk.fill("operation.speed", "1200 rpm");
+    desk.write("case.toml", TABLE_1);
+    desk.keys(&["Ctrl-S", "o"]);
+    assert_eq!(desk.read("case.toml"), theirs.replace("2000 rpm", "1200 rpm"));
+}
+
+#[test]
+fn a_mere_touch_asks_nothing() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.fill("operation.speed", "1500 rpm");
+    desk.write("case.toml", TABLE_1);
+    desk.keys(&["Ctrl-S"]);
+    assert!(!desk.app.is_unsaved());
+}
+
+#[test]
+fn opening_lists_the_folder_filters_as_you_type_and_opens() {
+    let mut desk = Desk::on(SMALL, "one.toml", TABLE_1);
+    desk.write("two.toml", &TABLE_1.replace("2000 rpm", "900 rpm"));
+    desk.write("note.txt", "no case");
+    desk.keys(&["Ctrl-O"]);
+    assert!(desk.shows("two.toml") && desk.shows("▸ one.toml") && !desk.shows("note.txt"));
+    desk.keys(&["tw"]);
+    assert!(desk.shows("▸ two.toml"));
+    desk.keys(&["Enter"]);
+    assert!(desk.shows("opened "));
+    assert!(desk.go_to("operation.speed").shows("900 rpm"));
+}
+
+#[test]
+fn folders_are_walked_with_enter_and_tab_takes_a_name_over() {
+    let mut desk = Desk::on(SMALL, "one.toml", TABLE_1);
+    fs::create_dir(desk.path("sub")).expect("a folder");
+    desk.write("sub/deep.toml", &TABLE_1.replace("2000 rpm", "900 rpm"));
+    desk.keys(&["Ctrl-O", "sub", "Enter"]);
+    assert!(desk.shows("▸ deep.toml"));
+    desk.keys(&["Tab", "Enter"]);
+    assert!(desk.go_to("operation.speed").shows("900 rpm"));
+}
+
+#[test]
+fn a_bad_file_shows_every_fault_at_its_place_and_loses_nothing() {
+    let mut desk = Desk::on(LARGE, "good.toml", TABLE_1);
+    desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
+    desk.write("bad.toml", &TABLE_1.replace("5 mm", "5 kg").replace("poisson = 0.3", "poison = 0.3"));
+    desk.keys(&["Ctrl-O", "bad", "Enter"]);
+    assert!(desk.shows("bad.toml cannot be opened"));
+    assert!(desk.shows("pair.module") && desk.shows("poison"));
+    desk.keys(&["Esc", "Esc"]);
+    assert!(desk.go_to("operation.speed").shows("1500 rpm"));
+    assert!(desk.shows("good.toml"));
+}
+
+#[test]
+fn a_file_that_is_not_there_is_told() {
+    let mut desk = Desk::on(SMALL, "one.toml", TABLE_1);
+    desk.keys(&["Ctrl-O", "nowhere.toml", "Enter"]);
+    assert!(desk.shows("no such file"));
+}
+
+#[test]
+fn edits_are_not_lost_unasked() {
+    for (keys, leaves, on_disk) in [
+        (&["Ctrl-Q", "Esc"][..], false, "2000 rpm"),
+        (&["Ctrl-Q", "c"], false, "2000 rpm"),
+        (&["Ctrl-C", "Ctrl-C"], false, "2000 rpm"),
+        (&["Ctrl-Q", "d"], true, "2000 rpm"),
+        (&["Ctrl-Q", "Enter"], true, "1500 rpm"),
+        (&["Ctrl-Q", "Right", "Enter"], true, "2000 rpm"),
+        (&["Ctrl-O", "Esc", "Ctrl-Q", "s"], true, "1500 rpm"),
+        (&["Ctrl-N", "Esc"], false, "2000 rpm"),
+    ] {
+        let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+        desk.fill("operation.speed", "1500 rpm").keys(keys);
+        assert_eq!(desk.has_quit, leaves, "{keys:?}");
+        assert!(desk.read("case.toml").contains(on_disk), "{keys:?}");
+        assert!(leaves || desk.shows("1500 rpm"), "{keys:?}");
+    }
+}
+
+#[test]
+fn without_edits_ctrl_q_leaves_at_once_and_ctrl_c_asks() {
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Ctrl-C"]);
+    assert!(!desk.has_quit);
+    desk.keys(&["Esc", "Ctrl-Q"]);
+    assert!(desk.has_quit);
+}
+
+#[test]
+fn escape_never_destroys() {
+    let mut desk = Desk::new(SMALL);
+    desk.fill("operation.speed", "1500 rpm").keys(&["Esc", "Esc", "Esc"]);
+    assert!(desk.shows("1500 rpm") && desk.app.is_unsaved() && !desk.has_quit);
+}
+
+#[test]
+fn a_paste_never_presses_a_button_and_brings_no_control_character() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.fill("operation.speed", "").act(Action::Paste("15\u{1b}[2J00\n rpm\u{202e}\r".to_owned()));
+    assert_eq!(desk.app.case.text(desk.app.focus), Some("15[2J00 rpm"));
+    desk.keys(&["Ctrl-Q"]).act(Action::Paste("d".to_owned()));
+    assert!(!desk.has_quit && desk.shows("has unsaved edits"));
+}
+
+#[test]
+fn a_long_paste_is_cut_and_quick() {
+    let mut desk = Desk::new(SMALL);
+    desk.fill("title", "").act(Action::Paste("x".repeat(1 << 20)));
+    assert_eq!(desk.app.input.value().len(), 4096);
+    desk.screen();
+}
+
+#[test]
+fn backspace_may_arrive_as_ctrl_h() {
+    let mut desk = Desk::new(SMALL);
+    desk.go_to("operation.speed").keys(&["Ctrl-H", "Ctrl-H", "Ctrl-H", "rpm"]);
+    assert!(!desk.app.is_unsaved());
+}
+
+#[test]
+fn a_late_answer_is_dropped() {
+    let mut desk = Desk::new(SMALL);
+    let inputs = desk.app.case.inputs().expect("Table 1 is valid");
+    let late = Request { serial: desk.app.serial, inputs };
+    desk.fill("operation.speed", "500 rpm");
+    let screen = desk.screen();
+    desk.act(Action::Solved(Box::new(tipstrike::tui::solver::answer(&late))));
+    assert_eq!(desk.screen(), screen);
+}
+
+#[test]
+fn the_chart_keeps_its_axes_until_the_curve_leaves_them() {
+    let mut desk = Desk::new(SMALL);
+    let scale = desk.app.scale;
+    desk.fill("operation.speed", "2100 rpm");
+    assert_eq!(desk.app.scale, scale);
+    desk.fill("operation.speed", "9000 rpm");
+    assert!(desk.app.scale.force > scale.force);
+}
+
+#[test]
+fn every_field_can_be_reached_and_every_line_of_the_results() {
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Ctrl-Home"]);
+    let labels = tipstrike::case::FIELDS.iter().map(|field| field.label);
+    for label in labels {
+        assert!(desk.shows(label), "{label}\n{}", desk.screen());
+        desk.keys(&["Down"]);
+    }
+    assert!(!desk.shows(" κ "));
+    desk.keys(&["F4", "F4", "F4", "F4", "F4", "F4"]);
+    assert!(desk.shows(" κ "), "{}", desk.screen());
+}
+
+#[test]
+fn a_saved_file_keeps_its_mode() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    fs::set_permissions(desk.path("case.toml"), fs::Permissions::from_mode(0o640)).expect("our own file");
+    desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
+    let mode = fs::metadata(desk.path("case.toml")).expect("it is there").permissions().mode();
+    assert_eq!(mode & 0o777, 0o640);
+}
+
+#[test]
+fn a_failed_solve_is_told_and_the_results_are_marked() {
+    let mut desk = Desk::new(SMALL);
+    desk.act(Action::SolverFailed(desk.app.serial));
+    assert!(desk.shows("solver failed") && desk.shows("LAST VALID"));
+    desk.fill("operation.speed", "1500 rpm");
+    assert!(!desk.shows("solver failed") && !desk.shows("LAST VALID"));
+}
