@@ -18,6 +18,7 @@ pub mod quantities;
 pub(crate) mod sample;
 pub mod stage;
 pub mod stations;
+pub mod tip;
 pub mod velocity;
 
 pub use band::Band;
@@ -93,7 +94,8 @@ pub struct Solution {
     pub band: Option<Band>,
     /// From D (first) to E (last, force 0); empty unless asked for.
     pub stations: Vec<Station>,
-    /// Why the tooth strikes and yet compliance, force and what follows are absent, where that is so.
+    /// Why the tooth strikes and yet compliance, force and what follows, or the stations alone, are absent, where that is
+    /// so.
     pub withheld: Option<Refusal>,
 }
 

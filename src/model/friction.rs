@@ -2,7 +2,7 @@
 
 use super::geometry::Geometry;
 use super::inputs::{Inputs, Rung};
-use super::position::{TipContact, angle_by_growth, seen_from, tip_at};
+use super::tip::{TipContact, angle_by_growth, seen_from, tip_at};
 use super::{Impact, Velocity};
 
 /// Change of the velocities between D and D'.

@@ -6,7 +6,7 @@ use super::compliance::ContactPlace;
 use super::compliance::contact::{plane_strain_compliance, spring};
 use super::geometry::{Circles, Geometry};
 use super::inputs::{Gear, Inputs, Rung};
-use super::position::TipContact;
+use super::tip::TipContact;
 use super::{Refusal, TeethCompliance, Velocity};
 use crate::numeric::Real;
 

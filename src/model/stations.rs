@@ -4,7 +4,8 @@ use super::compliance::{self, ContactPlace};
 use super::geometry::Geometry;
 use super::impact::{Masses, impact};
 use super::inputs::Inputs;
-use super::position::{Position, tip_at};
+use super::position::Position;
+use super::tip::tip_at;
 use super::{Refusal, velocity};
 
 /// A place between D and E at which the impact is computed as if it were D.

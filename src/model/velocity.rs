@@ -1,7 +1,7 @@
 //! How fast the tip approaches the flank and slides on it.
 
 use super::inputs::Inputs;
-use super::position::TipContact;
+use super::tip::TipContact;
 
 /// Velocities at D.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,7 +23,7 @@ pub struct Velocity {
 /// ΔVn = ω1 rb1 − ω2 rb2' = ω2 (rb2 − rb2')
 /// ΔVτ = ω2 N2'D − ω1 N1'D = ω2 (N2'D − i ρ1)
 /// ```
-/// where both arms come from [`tip_at`](super::position::tip_at) as increments; as differences of finished products
+/// where both arms come from [`tip_at`](super::tip::tip_at) as increments; as differences of finished products
 /// both velocities would lose their digits close to E and to the pitch point.
 ///
 /// # Source
