@@ -87,7 +87,7 @@ pub fn spring(inputs: &Inputs, geometry: &Geometry, place: &ContactPlace) -> Res
     let (offset, slope) = match inputs.contact_compliance {
         ContactCompliance::Logarithmic => logarithmic(inputs.module, give),
         ContactCompliance::Constant => (constant(give), 0.0),
-        ContactCompliance::Weber => weber(inputs, geometry, place),
+        ContactCompliance::Weber => weber(inputs, geometry, place)?,
     };
     let width_per_root_force = (4.0 * place.curvature_radius * give / (PI * inputs.common_width())).sqrt();
     Ok(ContactSpring { offset, slope, width_per_root_force })
@@ -144,13 +144,60 @@ fn constant(give: f64) -> f64 {
 ///
 /// # Valid for
 /// A half-width small against the depth h.
-fn weber(inputs: &Inputs, geometry: &Geometry, place: &ContactPlace) -> (f64, f64) {
+///
+/// # Errors
+/// [`Refusal::PointedTip`] where no tooth is left at the load point.
+fn weber(inputs: &Inputs, geometry: &Geometry, place: &ContactPlace) -> Result<(f64, f64), Refusal> {
     let of = |gear: &Gear, depth: f64| {
         let scale = give(gear) / PI;
         (scale * (2.0 * (2.0 * depth).ln() - gear.poisson / (1.0 - gear.poisson)), 2.0 * scale)
     };
-    let driver = Profile::of(inputs, &inputs.driver, &geometry.driver).depth_along_force(place.radius_driver);
-    let driven = Profile::of(inputs, &inputs.driven, &geometry.driven).depth_along_force(place.radius_driven);
+    let driver = depth(&Profile::of(inputs, &inputs.driver, &geometry.driver), place.radius_driver)?;
+    let driven = depth(&Profile::of(inputs, &inputs.driven, &geometry.driven), place.radius_driven)?;
     let (first, second) = (of(&inputs.driver, driver), of(&inputs.driven, driven));
-    (first.0 + second.0, first.1 + second.1)
+    Ok((first.0 + second.0, first.1 + second.1))
+}
+
+/// Depth from the flank to the tooth's centre line at a radius, where there is a tooth.
+fn depth(profile: &Profile, radius: f64) -> Result<f64, Refusal> {
+    let depth = profile.depth_along_force(radius);
+    if depth > 0.0 { Ok(depth) } else { Err(Refusal::PointedTip { thickness: 2.0 * depth }) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::compliance::pair_at_load;
+    use crate::model::geometry::geometry;
+    use crate::model::sample::standard_pair;
+
+    #[test]
+    fn force_settles_whatever_its_size() {
+        let (offset, slope) = logarithmic(5e-3, 1e-11);
+        let spring = ContactSpring { offset, slope, width_per_root_force: 1e-6 };
+        for teeth in [1e-13, 7e-12, 3e-11, 1e-9] {
+            for step in 0..2_000 {
+                let momentum = 1e-14 * 1.0123f64.powi(step);
+                let (force, compliance) = spring.impact(teeth, momentum).unwrap();
+                let back = force * (teeth + spring.compliance(force).unwrap()).sqrt();
+                assert!((back / momentum - 1.0).abs() < 1e-14, "teeth {teeth}, momentum {momentum}: {back}");
+                assert!(compliance > teeth);
+            }
+        }
+    }
+
+    #[test]
+    fn no_depth_is_left_on_a_pointed_tooth() {
+        let mut inputs = standard_pair(8, 60, 5e-3);
+        inputs.contact_compliance = ContactCompliance::Weber;
+        inputs.driver.profile_shift = 0.6;
+        let pair = geometry::<f64>(&inputs).unwrap();
+        let beyond = ContactPlace {
+            radius_driver: pair.driver.tip * 1.2,
+            radius_driven: pair.driven.tip,
+            curvature_radius: inputs.module,
+        };
+        let refused = pair_at_load(&inputs, &pair, &beyond, 100.0);
+        assert!(matches!(refused, Err(Refusal::PointedTip { .. })), "{refused:?}");
+    }
 }
