@@ -1,6 +1,13 @@
 //! What must hold for every pair of the envelope.
 //!
 //! `TIPSTRIKE_PAIRS=1000000 cargo test --release --test properties` looks at a million pairs in place of 100,000.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::float_cmp,
+    reason = "a test says what it found, bit by bit"
+)]
 
 #[path = "oracle/envelope.rs"]
 mod envelope;
@@ -53,7 +60,7 @@ fn is_sound(sentence: &str) -> bool {
 /// No quantity, station, note or refusal holds what is not a number; a pair's verdict.
 fn examined(number: u64) -> String {
     let inputs = numbered(number);
-    let wanted = if number % 16 == 0 { Stages::ALL } else { Stages::CLOSED_FORM.and(Stages::of(Stage::Stations)) };
+    let wanted = if number.is_multiple_of(16) { Stages::ALL } else { Stages::CLOSED_FORM.and(Stages::of(Stage::Stations)) };
     let solved = solve(&inputs, wanted);
     match &solved {
         Err(refusal) => assert!(is_sound(&refusal.to_string()), "{refusal}: {inputs:?}"),
@@ -80,7 +87,8 @@ fn examine(inputs: &Inputs, solution: &Solution) {
     }
     let struck = solution.outcome == Outcome::CornerContact;
     assert_eq!(struck, solution.position.is_some(), "{inputs:?}");
-    assert_eq!(struck && solution.impact.is_none(), solution.withheld.is_some(), "{inputs:?}");
+    let complete = solution.impact.is_some() && !solution.stations.is_empty();
+    assert_eq!(struck && !complete, solution.withheld.is_some(), "{inputs:?}");
 }
 
 #[test]
@@ -167,8 +175,7 @@ fn factor(unit: &str, length: f64, time: f64) -> f64 {
         "N" => length.powi(2),
         "kg" => length * time.powi(2),
         "J" => length.powi(3),
-        "m2/N" => 1.0,
-        "1" | "rad" => 1.0,
+        "m2/N" | "1" | "rad" => 1.0,
         _ => panic!("no factor for {unit}"),
     }
 }
@@ -278,11 +285,12 @@ fn vanishing_deviation_meets_no_corner_contact_without_a_jump() {
         let solution = at(1e-18).ok()?;
         let (force, angle) = (value(&solution, "impact_force")?, value(&solution, "approach_angle_driven")?);
         for exponent in [-20, -30, -60, -120, -200] {
-            let small = at(10f64.powi(exponent)).expect("still a contact");
-            let shrunk = 10f64.powi(exponent + 18).sqrt();
-            let ratio = value(&small, "approach_angle_driven").expect("an angle") / (angle * shrunk);
-            assert!((0.9..=1.1).contains(&ratio), "u is {ratio} times the parabola's at 1e{exponent} m: {exact:?}");
-            assert!(value(&small, "impact_force").expect("a force") < force * shrunk * 10.0, "{exact:?}");
+            let small = at(10f64.powi(exponent)).unwrap_or_else(|refusal| panic!("{refusal}: {exact:?}"));
+            let shrunk = 10f64.powi(exponent + 18);
+            let ratio = value(&small, "approach_angle_driven").expect("an angle") / angle;
+            let expected = 0.9 * shrunk.powf(2.0 / 3.0)..=1.1 * shrunk.sqrt();
+            assert!(expected.contains(&ratio), "u shrinks to {ratio:e} at 1e{exponent} m: {exact:?}");
+            assert!(value(&small, "impact_force").expect("a force") < 10.0 * force * shrunk.cbrt(), "{exact:?}");
         }
         for none in [0.0, -0.0, -1e-300, -1e-6] {
             let solution = at(none).expect("an outcome");
@@ -297,7 +305,7 @@ fn stations_fall_to_zero_at_the_end_and_stay_when_doubled() {
     some(1_000, |inputs| {
         let with = |stations| solve(&Inputs { stations, ..inputs.clone() }, Stages::ALL).ok().map(|solution| solution.stations);
         let (coarse, fine) = (with(8)?, with(16)?);
-        if coarse.is_empty() {
+        if coarse.is_empty() || fine.is_empty() {
             return None;
         }
         assert_eq!((coarse.len(), fine.len()), (9, 17));

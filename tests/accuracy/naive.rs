@@ -31,13 +31,15 @@ impl<'a> Naive<'a> {
         let base = [&inputs.driver, &inputs.driven].map(|gear| reference(gear) * inputs.pressure_angle.cos());
         let driven = &inputs.driven;
         let tip = reference(driven) + inputs.module * (driven.addendum + driven.profile_shift) - driven.tip_chamfer;
-        let (distance, working) = match inputs.centre_distance {
-            Some(distance) => (distance, ((base[0] + base[1]) / distance).acos()),
-            None => {
+        let sum = base[0] + base[1];
+        let given = |distance: f64| (distance, (sum / distance).acos());
+        let (distance, working) = inputs.centre_distance.map_or_else(
+            || {
                 let working = working_angle(inputs);
-                ((base[0] + base[1]) / working.cos(), working)
-            }
-        };
+                (sum / working.cos(), working)
+            },
+            given,
+        );
         let start = distance * working.sin() - (tip * tip - base[1] * base[1]).sqrt();
         Naive { inputs, base, tip, distance, working, start, start_angle: (base[1] / tip).acos() - working }
     }

@@ -90,7 +90,9 @@ impl Table {
     /// As Markdown.
     pub(crate) fn markdown(&self) -> String {
         let mut text = "| quantity | formula |".to_owned();
-        DECADES.iter().for_each(|decade| write!(text, " 1e{decade} m |").expect("a string"));
+        for decade in DECADES {
+            write!(text, " 1e{decade} m |").expect("a string");
+        }
         text += "\n|---|---|";
         text += &"---|".repeat(DECADES.len());
         for line in &self.0 {
@@ -157,7 +159,9 @@ fn errors_of(row: &Row) -> [[Option<f64>; 2]; 7] {
 
 /// Median and greatest; what has no digit left is off by 1.
 fn cell(mut errors: Vec<f64>) -> Option<Cell> {
-    errors.iter_mut().for_each(|error| *error = error.min(1.0));
+    for error in &mut errors {
+        *error = error.min(1.0);
+    }
     errors.sort_by(f64::total_cmp);
     Some(Cell { median: *errors.get(errors.len() / 2)?, greatest: *errors.last()? })
 }
@@ -172,9 +176,5 @@ fn read_line(line: &str) -> Line {
     let cell = |text: &&str| {
         text.split_once(" / ").map(|(median, greatest)| Cell { median: number(median), greatest: number(greatest) })
     };
-    Line {
-        quantity: words[0].to_owned(),
-        formula: words[1].to_owned(),
-        cells: words[2..].iter().map(|text| cell(text)).collect(),
-    }
+    Line { quantity: words[0].to_owned(), formula: words[1].to_owned(), cells: words[2..].iter().map(cell).collect() }
 }

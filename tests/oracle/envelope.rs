@@ -82,21 +82,26 @@ pub(crate) fn pair(random: &mut Random, corner: Corner) -> Inputs {
     };
     let mut inputs = anywhere(random, fit);
     match corner {
-        Corner::Anywhere | Corner::Fit => {}
+        Corner::Anywhere | Corner::Fit | Corner::Cancelling => {}
         Corner::StartNearTangent => start_near_tangent(random, &mut inputs),
-        Corner::StartNearPitch => start_near_pitch(random, &mut inputs),
+        Corner::StartNearPitch | Corner::SlidingNearZero => start_near_pitch(random, &mut inputs),
         Corner::FlatAngle => flat_angle(random, &mut inputs),
         Corner::ShortPath => short_path(random, &mut inputs),
-        Corner::SlidingNearZero => start_near_pitch(random, &mut inputs),
-        Corner::Cancelling => {}
     }
     deviate(random, &mut inputs);
+    shorten(&mut inputs.driver);
+    shorten(&mut inputs.driven);
     match corner {
         Corner::SlidingNearZero => sliding_near_zero(random, &mut inputs),
         Corner::Cancelling => cancelling(random, &mut inputs),
         _ => {}
     }
     inputs
+}
+
+/// No addendum beyond what a tooth can have.
+fn shorten(gear: &mut Gear) {
+    gear.addendum = gear.addendum.clamp(-1.0, 2.0);
 }
 
 /// A pair without deviation.

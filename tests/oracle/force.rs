@@ -71,7 +71,7 @@ impl Load {
             if rounded(&contact) <= 0.0 {
                 return None;
             }
-            stiffness = stiffness + 1 / (teeth(given, pair, &radii)? + contact);
+            stiffness += 1 / (teeth(given, pair, &radii)? + contact);
             along = along + &pair.base_pitch;
         }
         (rounded(&stiffness) > 0.0).then(|| &self.mesh_force / (&self.width * stiffness))
@@ -202,7 +202,7 @@ impl Load {
 }
 
 /// Angle at O₂ between the centre line and the tip where it is `radius` from O₁.
-fn polar_angle(pair: &Pair, radius: &Big) -> Option<Big> {
+pub(crate) fn polar_angle(pair: &Pair, radius: &Big) -> Option<Big> {
     let (tip, distance) = (&pair.driven.tip, &pair.distance);
     let cosine = (tip * tip + distance * distance - radius * radius) / (2 * tip * distance);
     (rounded(radius) > 0.0 && rounded(&cosine).abs() < 1.0).then(|| cosine.acos())

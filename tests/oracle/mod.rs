@@ -22,6 +22,9 @@ pub(crate) type Answers = BTreeMap<&'static str, Big>;
 /// Half of the digits: where an iteration counts as settled.
 const SETTLED: f64 = 1e-45;
 
+/// No contact is sought beyond, in rad.
+const LARGEST_ANGLE: f64 = 1.5;
+
 /// Circles of one gear.
 struct Circles {
     reference: Big,
@@ -103,6 +106,7 @@ fn of_given(given: &Given) -> Option<Answers> {
         return None;
     }
     let mut found = Answers::from([
+        ("closed_gap", gap(&pair, &angle, &tip)),
         ("contact_ratio", (&pair.end - &pair.start) / &pair.base_pitch),
         ("base_pitch", pair.base_pitch.clone()),
         ("centre_distance", pair.distance.clone()),
@@ -216,13 +220,15 @@ pub(crate) fn gap_at(inputs: &Inputs, angle: f64) -> Option<Big> {
     Some(gap(&pair, &angle, &tip_at(&pair, &angle)?))
 }
 
-/// S(u) = Δ, by Newton's method on √S from the parabola at E; dS/du = rb2 − rb2'.
+/// S(u) = Δ, by Newton's method on √S from the parabola at E, or from the driver's tip if that is nearer; dS/du = rb2 − rb2'.
 fn first_contact(pair: &Pair, deviation: &Big) -> Option<Big> {
     const STEPS: usize = 200;
     let driven = leg(&pair.driven.tip, &pair.driven.base)?;
     let curvature = (&pair.start + &driven) * &driven / &pair.start;
     let wanted = deviation.sqrt();
-    let mut angle = root(2 * deviation / curvature);
+    let at_driver_tip = force::polar_angle(pair, &pair.driver.tip).map(|polar| polar - &pair.start_angle);
+    let parabola = root(2 * deviation / curvature);
+    let mut angle = at_driver_tip.into_iter().fold(parabola, Big::min).min(number::big(LARGEST_ANGLE));
     for _ in 0..STEPS {
         let tip = tip_at(pair, &angle)?;
         let closed = gap(pair, &angle, &tip);

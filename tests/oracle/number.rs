@@ -1,4 +1,5 @@
 //! Numbers of 90 digits.
+#![allow(clippy::needless_pass_by_value, reason = "sums are made where they are used")]
 
 use std::cell::RefCell;
 use std::rc::Rc;
