@@ -2,7 +2,7 @@
 
 use super::geometry::Geometry;
 use super::inputs::{Inputs, Rung};
-use super::position::{TipContact, tip_at};
+use super::tip::{TipContact, angle_by_growth, seen_from, tip_at};
 use super::{Impact, Velocity};
 
 /// Change of the velocities between D and D'.
@@ -37,45 +37,34 @@ pub fn friction(
     reduced_mass: f64,
 ) -> Friction {
     let turn = inputs.driven_speed() * impact.duration_printed;
+    let from_contact = seen_from(geometry, tip);
     let end = match inputs.rung {
-        Rung::Paper => printed_end(inputs, geometry, tip, turn),
-        Rung::Exact => Some(tip_at(geometry, (tip.angle - turn).max(0.0))),
+        Rung::Paper => printed_end(inputs, &from_contact, tip, turn),
+        Rung::Exact => Some(tip_at(&from_contact, -turn.min(tip.angle))),
     };
     let gained = impact.force * impact.duration_printed / (reduced_mass * geometry.driven.tip);
-    let ratio =
-        end.map(|end| changes_ratio(inputs, tip, &end, gained)).filter(|ratio| ratio.is_finite() && velocity.normal > 0.0);
+    let ratio = end.map(|end| changes_ratio(inputs, &end, gained)).filter(|ratio| ratio.is_finite() && velocity.normal > 0.0);
     Friction { ratio }
 }
 
-/// |change of ΔV_τ|/|change of ΔV_n|, the driven gear having gained `gained` rad/s.
-fn changes_ratio(inputs: &Inputs, from: &TipContact, to: &TipContact, gained: f64) -> f64 {
+/// |change of ΔV_τ|/|change of ΔV_n| to the end of the impact, the driven gear having gained `gained` rad/s.
+fn changes_ratio(inputs: &Inputs, end: &TipContact, gained: f64) -> f64 {
     let driven_speed = inputs.driven_speed();
-    let normal = driven_speed * (to.normal_radius_drop - from.normal_radius_drop) - gained * to.normal_radius_driven;
-    let sliding = driven_speed * (to.normal_length_growth - from.normal_length_growth)
-        - inputs.speed * (to.curvature_growth - from.curvature_growth)
-        + gained * to.normal_length_driven;
+    let normal = driven_speed * end.normal_radius_drop - gained * end.normal_radius_driven;
+    let sliding =
+        driven_speed * end.normal_length_growth - inputs.speed * end.curvature_growth + gained * end.normal_length_driven;
     (sliding / normal).abs()
 }
 
-/// D' by Eq. 34: the driven tip where O₁D' closes the triangle O₁DD' with the angle Δθ = i `turn` at O₁ and the chord
-/// of `turn` as DD'. `None` where the triangle does not close.
-fn printed_end(inputs: &Inputs, geometry: &Geometry, tip: &TipContact, turn: f64) -> Option<TipContact> {
+/// D' by Eq. 34, the pair seen from D: the driven tip where O₁D' closes the triangle O₁DD' with the angle Δθ = i `turn`
+/// at O₁ and the chord of `turn` as DD'. `None` where the triangle does not close.
+fn printed_end(inputs: &Inputs, from_contact: &Geometry, tip: &TipContact, turn: f64) -> Option<TipContact> {
     let at_driver = turn * inputs.ratio();
-    let chord = 2.0 * geometry.driven.tip * (turn / 2.0).sin();
+    let chord = 2.0 * from_contact.driven.tip * (turn / 2.0).sin();
     let lateral = tip.radius_driver * at_driver.sin();
     let closing = (chord - lateral) * (chord + lateral);
-    if closing < 0.0 {
-        return None;
-    }
     let shortened = -2.0 * tip.radius_driver * (at_driver / 2.0).sin().powi(2) - closing.sqrt();
-    angle_after(geometry, tip, shortened).map(|angle| tip_at(geometry, angle)).filter(|end| end.radius_driver.is_finite())
-}
-
-/// The driven tip's angle before E where O₁D has grown by `growth`. `None` where the tip circle does not reach there.
-fn angle_after(geometry: &Geometry, tip: &TipContact, growth: f64) -> Option<f64> {
-    let grown_square = growth * (2.0 * tip.radius_driver + growth);
-    let arm = geometry.centre_distance * geometry.driven.tip;
-    let half = f64::midpoint(geometry.start_angle_driven, tip.angle).sin();
-    let square = half * half + grown_square / (4.0 * arm);
-    ((0.0..=1.0).contains(&square)).then(|| 2.0 * square.sqrt().asin() - geometry.start_angle_driven)
+    let end_radius = tip.radius_driver + shortened;
+    let end = tip_at(from_contact, angle_by_growth(from_contact, shortened * (tip.radius_driver + end_radius)));
+    (end_radius > 0.0 && end.radius_driver.is_finite()).then_some(end)
 }

@@ -86,11 +86,25 @@ pub enum Refusal {
         /// x.
         shift: f64,
     },
+    /// Eq. 56 gives no stiffness so far out on the tooth.
+    #[error(
+        "load point outside the Kuang-Yang fit: (r_x - r)/((1+x) m) is {height:.4}, where the fit's stiffness is not above 0"
+    )]
+    HeightOutsideFit {
+        /// (r_x − r)/((1 + x) m).
+        height: f64,
+    },
     /// No tooth is left where the load stands.
     #[error("pointed tip: the tooth's thickness at the load point is {:.4} mm and must be above 0", .thickness / MILLIMETRE)]
     PointedTip {
         /// Thickness, in m.
         thickness: f64,
+    },
+    /// The undercut leaves no neck below the tooth.
+    #[error("the undercut cuts the tooth through: its profile shift is {shift} and must be greater for so few teeth")]
+    CutThrough {
+        /// x.
+        shift: f64,
     },
     /// The load stands on the fillet, which is no involute.
     #[error("the flank ends above the contact: O1D is {:.4} mm and the form circle {:.4} mm", .radius / MILLIMETRE, .form / MILLIMETRE)]
@@ -165,9 +179,13 @@ impl Refusal {
             }
             Refusal::TeethOutsideFit { .. } => ("teeth-outside-fit", "model.tooth_compliance", "choose another tooth compliance"),
             Refusal::ShiftOutsideFit { .. } => ("shift-outside-fit", "model.tooth_compliance", "choose another tooth compliance"),
+            Refusal::HeightOutsideFit { .. } => {
+                ("height-outside-fit", "model.tooth_compliance", "choose another tooth compliance, or a shorter addendum")
+            }
             Refusal::PointedTip { .. } => {
                 ("pointed-tip", "driven.addendum", "give a shorter addendum, less profile shift or more teeth")
             }
+            Refusal::CutThrough { .. } => ("cut-through", "driver.profile_shift", "give more profile shift or more teeth"),
             Refusal::BelowFormCircle { .. } => {
                 ("below-form-circle", "driven.addendum", "shorten the driven addendum, or give the driver more profile shift")
             }

@@ -30,7 +30,7 @@ const PARTS: usize = 3;
 ///
 /// # Errors
 /// [`Refusal::PointedTip`] where no tooth is left at the load point, [`Refusal::BelowFormCircle`] where the load point
-/// lies on the fillet.
+/// lies on the fillet, [`Refusal::CutThrough`] where the undercut leaves no neck.
 pub fn tooth(inputs: &Inputs, gear: &Gear, circles: &Circles, radius: f64) -> Result<f64, Refusal> {
     let profile = Profile::of(inputs, gear, circles);
     let roll = profile.roll_at(radius);
@@ -46,7 +46,9 @@ pub fn tooth(inputs: &Inputs, gear: &Gear, circles: &Circles, radius: f64) -> Re
     let fillet =
         quadrature::composite(profile.junction.normal, FRAC_PI_2, PARTS, |normal| -beam.energy(&profile.fillet_at(normal)));
     let flank = quadrature::composite(profile.junction.roll, roll, PARTS, |roll| beam.energy(&profile.involute_at(roll)));
-    Ok((fillet + flank + foundation(&profile, gear, circles, angle)) / gear.young)
+    let compliance = (fillet + flank + foundation(&profile, gear, circles, angle)) / gear.young;
+    let has_neck = compliance.is_finite() && compliance > 0.0;
+    if has_neck { Ok(compliance) } else { Err(Refusal::CutThrough { shift: gear.profile_shift }) }
 }
 
 /// A tooth as a cantilever under a force at its load point.
@@ -58,9 +60,9 @@ struct Beam {
 }
 
 impl Beam {
-    /// What a section adds to the compliance times E, per parameter.
+    /// What a section adds to the compliance times E, per parameter; without bound where none is left.
     fn energy(&self, section: &Section) -> f64 {
-        let half = section.half_thickness;
+        let half = section.half_thickness.max(0.0);
         let moment = (self.load.along - section.along) * self.cosine - self.load.half_thickness * self.sine;
         let bending = 1.5 * moment * moment / (half * half * half);
         let straining = (self.shear * self.cosine * self.cosine + self.sine * self.sine) / (2.0 * half);
@@ -105,4 +107,25 @@ fn foundation(profile: &Profile, gear: &Gear, circles: &Circles, angle: f64) -> 
         .map(|[a, b, c, d, e, f]| a / (theta * theta) + b * body * body + c * body / theta + d / theta + e * body + f);
     let arm = (circles.base / cosine - circles.root) / (2.0 * half_angle * circles.root);
     cosine * cosine * (l * arm * arm + m * arm + p) + p * q * sine * sine
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::geometry::geometry;
+    use crate::model::sample::standard_pair;
+
+    #[test]
+    fn refuses_a_tooth_that_the_undercut_cuts_through() {
+        let mut inputs = standard_pair(5, 44, 1e-3);
+        inputs.driven.addendum = -0.5;
+        inputs.pressure_angle = 0.477;
+        for (shift, whole) in [(-0.2, true), (-0.64, false)] {
+            inputs.driver.profile_shift = shift;
+            let circles = geometry::<f64>(&inputs).unwrap().driver;
+            let found = tooth(&inputs, &inputs.driver, &circles, circles.tip);
+            assert_eq!(found.is_ok(), whole, "x {shift}: {found:?}");
+            assert!(whole || matches!(found, Err(Refusal::CutThrough { .. })), "{found:?}");
+        }
+    }
 }
