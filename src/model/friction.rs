@@ -40,7 +40,7 @@ pub fn friction(
     let from_contact = seen_from(geometry, tip);
     let end = match inputs.rung {
         Rung::Paper => printed_end(inputs, &from_contact, tip, turn),
-        Rung::Exact => Some(tip_at(&from_contact, -turn.min(tip.angle))),
+        Rung::Exact => Some(tip_after(geometry, &from_contact, tip, turn)),
     };
     let gained = impact.force * impact.duration_printed / (reduced_mass * geometry.driven.tip);
     let ratio = end.map(|end| changes_ratio(inputs, &end, gained)).filter(|ratio| ratio.is_finite() && velocity.normal > 0.0);
@@ -54,6 +54,22 @@ fn changes_ratio(inputs: &Inputs, end: &TipContact, gained: f64) -> f64 {
     let sliding =
         driven_speed * end.normal_length_growth - inputs.speed * end.curvature_growth + gained * end.normal_length_driven;
     (sliding / normal).abs()
+}
+
+/// D' where the tip has turned by `turn` from D, but not past E; its changes are those since D. They are taken from D on a
+/// short way, and between two increments from E on a long one.
+fn tip_after(geometry: &Geometry, from_contact: &Geometry, tip: &TipContact, turn: f64) -> TipContact {
+    let rest = tip.angle - turn;
+    if rest > 0.5 * tip.angle {
+        return tip_at(from_contact, -turn);
+    }
+    let end = tip_at(geometry, rest.max(0.0));
+    TipContact {
+        normal_radius_drop: end.normal_radius_drop - tip.normal_radius_drop,
+        normal_length_growth: end.normal_length_growth - tip.normal_length_growth,
+        curvature_growth: end.curvature_growth - tip.curvature_growth,
+        ..end
+    }
 }
 
 /// D' by Eq. 34, the pair seen from D: the driven tip where O₁D' closes the triangle O₁DD' with the angle Δθ = i `turn`
