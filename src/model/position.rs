@@ -165,7 +165,8 @@ fn precise_contact(
     (contact, if lost { gap_by_quadrature(&geometry.rounded(), &contact) } else { closed })
 }
 
-/// The contact as a position, where there is one on the driver's flank.
+/// The contact as a position, where there is one on the driver's flank: ρ₁ has not grown by more than the path of contact,
+/// which tells more sharply than O₁D against r_a1.
 fn checked(
     inputs: &Inputs,
     geometry: &Geometry,
@@ -179,7 +180,7 @@ fn checked(
     if !contact.radius_driver.is_finite() || contact.angle > LARGEST_ANGLE {
         return Err(Refusal::NoFirstContact { deviation });
     }
-    if contact.radius_driver > geometry.driver.tip {
+    if contact.curvature_growth > geometry.contact_ratio * geometry.base_pitch {
         return Err(Refusal::BeyondDriverTip { radius: contact.radius_driver, tip: geometry.driver.tip });
     }
     Ok(Some(Position {
