@@ -28,7 +28,7 @@ fn first_frame(program: &str, arguments: &[&str], state: &Path, text: &str) -> (
     let mut reader = pair.master.try_clone_reader().expect("a reader");
     let (sender, output) = channel();
     thread::spawn(move || {
-        let mut buffer = [0; 65536];
+        let mut buffer = [0; 16384];
         while let Ok(count @ 1..) = reader.read(&mut buffer) {
             if sender.send(buffer[..count].to_vec()).is_err() {
                 return;

@@ -6,11 +6,6 @@ use super::Refusal;
 use super::inputs::{Gear, Inputs};
 use crate::numeric::Real;
 
-/// Dedendum of the standard basic rack, times the module (ISO 53).
-pub const RACK_DEDENDUM: f64 = 1.25;
-/// Dedendum of the straight flank of the standard basic rack, times the module (ISO 53).
-pub const RACK_STRAIGHT_DEDENDUM: f64 = 1.0;
-
 /// A difference below this share of its terms is taken in double-double arithmetic: f64 would lose two digits and more.
 pub(super) const LEAST_REST: f64 = 1.0 / 64.0;
 
@@ -25,7 +20,7 @@ pub struct Circles<T = f64> {
     pub tip: T,
     /// Radius of curvature of the involute at the tip, √(r_a² − r_b²).
     pub tip_curvature: T,
-    /// Root radius r_f of a tooth cut by the standard rack.
+    /// Root radius r_f = r + m (x − h_fP*).
     pub root: T,
 }
 
@@ -139,13 +134,17 @@ fn circles<T: Real>(inputs: &Inputs, gear: &Gear, alpha: T) -> Result<Circles<T>
     let base = reference * alpha.sine_cosine().1;
     let height = module * (shift + gear.addendum.into()) - gear.tip_chamfer.into();
     let half_sine = (alpha * half).sine_cosine().0;
+    let most_dedendum = std::f64::consts::FRAC_PI_4 / inputs.pressure_angle.tan();
+    if gear.dedendum >= most_dedendum {
+        return Err(Refusal::PointedRack { dedendum: gear.dedendum, limit: most_dedendum });
+    }
     let over_base = two * reference * half_sine * half_sine + height;
     if over_base <= T::zero() {
         return Err(Refusal::TipInsideBase { tip: (reference + height).rounded(), base: base.rounded() });
     }
     let tip = reference + height;
     let tip_curvature = (over_base * (tip + base)).root();
-    Ok(Circles { reference, base, tip, tip_curvature, root: reference + module * (shift - RACK_DEDENDUM.into()) })
+    Ok(Circles { reference, base, tip, tip_curvature, root: reference + module * (shift - gear.dedendum.into()) })
 }
 
 /// Centre distance and tan α_w.

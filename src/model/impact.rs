@@ -59,7 +59,9 @@ impl Masses {
     /// # Errors
     /// [`Refusal::BoreTooLarge`] where the bore reaches the base circle or the root circle.
     pub fn of<T: Real>(inputs: &Inputs, geometry: &Geometry<T>) -> Result<Masses, Refusal> {
-        Ok(Masses { driver: mass(&inputs.driver, &geometry.driver)?, driven: mass(&inputs.driven, &geometry.driven)? })
+        let driver = mass("driver.bore_radius", &inputs.driver, &geometry.driver)?;
+        let driven = mass("driven.bore_radius", &inputs.driven, &geometry.driven)?;
+        Ok(Masses { driver, driven })
     }
 
     /// Reduced mass of Eq. 33, 1/m_red = 1/m_red,1 + 1/m_red,2, in kg.
@@ -78,11 +80,11 @@ impl Masses {
 }
 
 /// Mass of one gear at its base circle, in kg.
-fn mass<T: Real>(gear: &Gear, circles: &Circles<T>) -> Result<f64, Refusal> {
+fn mass<T: Real>(field: &'static str, gear: &Gear, circles: &Circles<T>) -> Result<f64, Refusal> {
     let (base, bore): (T, T) = (circles.base, gear.bore_radius.into());
     let limit = if base < circles.root { base } else { circles.root };
     if bore >= limit {
-        return Err(Refusal::BoreTooLarge { bore: gear.bore_radius, limit: limit.rounded() });
+        return Err(Refusal::BoreTooLarge { field, bore: gear.bore_radius, limit: limit.rounded() });
     }
     let (wall, base, bore) = ((base - bore).rounded(), base.rounded(), gear.bore_radius);
     let fourth_powers = wall * (base + bore) * (base * base + bore * bore);

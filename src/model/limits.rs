@@ -32,6 +32,14 @@ pub enum Refusal {
         /// r_b, in m.
         base: f64,
     },
+    /// The cutting rack's flanks meet above its tip.
+    #[error("the cutting rack is pointed: the dedendum is {dedendum} and must be below {limit:.4} for this pressure angle")]
+    PointedRack {
+        /// h_fP*.
+        dedendum: f64,
+        /// π/(4 tan α).
+        limit: f64,
+    },
     /// The base circles overlap.
     #[error("the centre distance jams the mesh: it is {:.4} mm and must be above rb1 + rb2 = {:.4} mm", .distance / MILLIMETRE, .least / MILLIMETRE)]
     CentreDistanceJams {
@@ -55,6 +63,8 @@ pub enum Refusal {
     /// The bore leaves no gear body.
     #[error("the bore radius is {:.4} mm and must be below the root and base circles, {:.4} mm", .bore / MILLIMETRE, .limit / MILLIMETRE)]
     BoreTooLarge {
+        /// The key of the gear's bore radius.
+        field: &'static str,
         /// r_h, in m.
         bore: f64,
         /// The smaller of root and base radius, in m.
@@ -161,6 +171,7 @@ impl Refusal {
             Refusal::TipInsideBase { .. } => {
                 ("tip-inside-base", "driven.addendum", "give a higher addendum or a smaller tip chamfer")
             }
+            Refusal::PointedRack { .. } => ("pointed-rack", "driver.dedendum", "give a smaller dedendum or pressure angle"),
             Refusal::CentreDistanceJams { .. } => {
                 ("centre-distance-jams", "pair.centre_distance", "give a greater centre distance, or leave it out")
             }
@@ -170,7 +181,7 @@ impl Refusal {
                 "driven.addendum",
                 "lengthen the addenda or bring the gears closer, or give model.deflection",
             ),
-            Refusal::BoreTooLarge { .. } => ("bore-too-large", "driver.bore_radius", "give a smaller bore radius"),
+            Refusal::BoreTooLarge { field, .. } => ("bore-too-large", *field, "give a smaller bore radius"),
             Refusal::NoFirstContact { .. } => {
                 ("no-first-contact", "deviations.base_pitch", "give a smaller deviation or deflection")
             }

@@ -237,6 +237,7 @@ fn blank() -> Gear {
         teeth: 0,
         profile_shift: 0.0,
         addendum: 0.0,
+        dedendum: 1.25,
         face_width: 0.0,
         bore_radius: 0.0,
         young: 0.0,

@@ -154,6 +154,7 @@ fn gear(random: &mut Random, module: f64, pressure_angle: f64, teeth: u32, fit: 
     Gear {
         teeth,
         profile_shift,
+        dedendum: 1.25,
         addendum: if random.chance(0.5) { 1.0 } else { random.even(0.3, 1.3) },
         face_width: random.decades(1e-4, 1.0),
         bore_radius: bore,
