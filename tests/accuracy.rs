@@ -1,6 +1,7 @@
 //! How accurate every closed-form quantity is over the whole envelope, against an oracle of 90 digits.
 //!
-//! `TIPSTRIKE_REGENERATE=1 cargo test --test accuracy regenerate` makes the frozen rows and the table anew.
+//! `TIPSTRIKE_REGENERATE=1 cargo test --test accuracy regenerate` makes the frozen rows and the table anew;
+//! `TIPSTRIKE_PAIRS=1000000` looks at ten times as many fresh pairs, `TIPSTRIKE_SEED` at those of an earlier run.
 #![allow(
     clippy::expect_used,
     clippy::panic,
@@ -122,14 +123,14 @@ fn frozen_rows_cover_every_quantity_and_decade() {
 /// Pairs that no run has seen before, so that model, oracle and generator are held against each other on each run.
 #[test]
 fn fresh_pairs_within_their_bounds() {
-    const PAIRS_PER_CORNER: usize = 4;
+    let pairs_per_corner = std::env::var("TIPSTRIKE_PAIRS").map_or(4, |pairs| pairs.parse::<usize>().expect("a count") / 25_000);
     let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).expect("a clock");
     let seed = std::env::var("TIPSTRIKE_SEED").map_or(now.as_secs(), |seed| seed.parse().expect("a seed"));
     println!("TIPSTRIKE_SEED={seed}");
     let mut random = Random::new(seed);
     let (mut worst, mut worst_accurate) = (Worst::default(), Worst::default());
     for corner in Corner::ALL {
-        let mut left = PAIRS_PER_CORNER;
+        let mut left = pairs_per_corner;
         while left > 0 {
             let inputs = envelope::pair(&mut random, corner);
             let Some(row) = Row::of(corner, inputs.clone()) else {

@@ -206,7 +206,7 @@ impl<T: Real> Circles<T> {
 
 impl Geometry {
     /// Whether the differences that the pair stands on are so small that f64 loses digits in them: N₁E, the path of
-    /// contact, r_a − r_b, a − (r_b1 + r_b2) and the wall between bore and base circle.
+    /// contact, EP, r_a − r_b, a − (r_b1 + r_b2) and the wall between bore and base circle.
     #[must_use]
     pub fn is_close_call(&self, inputs: &Inputs) -> bool {
         const FLAT: f64 = 0.125;
@@ -214,6 +214,7 @@ impl Geometry {
         let short_tip = |circles: &Circles| circles.tip_curvature < SHORT * circles.base;
         let thin_wall = |gear: &Gear, circles: &Circles| circles.base - gear.bore_radius < LEAST_REST * circles.base;
         self.start < LEAST_REST * self.tangent_length
+            || self.approach_length.abs() < LEAST_REST * self.driven.tip_curvature
             || self.end - self.start < LEAST_REST * self.end
             || self.tangent_length < FLAT * (self.driver.base + self.driven.base)
             || short_tip(&self.driver)

@@ -12,6 +12,9 @@ use crate::numeric::Real;
 /// Half a turn and more never brings a tip back: no contact is sought beyond, in rad.
 const LARGEST_ANGLE: f64 = 1.5;
 
+/// In double-double arithmetic the gap in closed form may lose this factor of its digits.
+const LOST: f64 = 1e14;
+
 /// The gap in closed form may lose this factor of its digits before the quadrature serves in its place.
 const KEPT_DIGITS: f64 = 64.0;
 
@@ -68,7 +71,6 @@ fn logarithmic_step(geometry: &Geometry, angle: f64, deviation: f64, loss: f64) 
 /// down to deviations of 1e-14 of its terms; below, the angle stays as it is.
 fn refine(geometry: &Geometry<TwoFloat>, angle: f64, deviation: TwoFloat) -> TwoFloat {
     const STEPS: usize = 3;
-    const LOST: f64 = 1e14;
     let mut refined: TwoFloat = angle.into();
     for _ in 0..STEPS {
         let tip = tip_at(geometry, refined);
@@ -136,43 +138,51 @@ pub fn position(
     };
     let contact = tip_at(geometry, angle);
     let close_call = contact.is_close_call(geometry) || inputs.rung == Rung::Paper && plain.equivalent_error < 0.0;
-    let contact = match precise {
+    let (contact, printed_gap) = match precise {
         Some(precise) => precise_contact(inputs, precise, deviation, angle),
         None if close_call => precise_contact(inputs, &geometry::geometry(inputs)?, deviation, angle),
-        None => contact,
+        None => (contact, gap_without(KEPT_DIGITS, geometry, &contact)),
     };
-    checked(inputs, geometry, &plain, contact)
+    let closed_gap = if inputs.rung == Rung::Exact { plain.total } else { printed_gap };
+    checked(inputs, geometry, plain.total, contact, closed_gap)
 }
 
-/// The contact in double-double arithmetic, near the angle that f64 has found.
-fn precise_contact(inputs: &Inputs, geometry: &Geometry<TwoFloat>, deviation: &Deviation<TwoFloat>, near: f64) -> TipContact {
+/// The contact in double-double arithmetic, near the angle that f64 has found, and the gap closed there.
+fn precise_contact(
+    inputs: &Inputs,
+    geometry: &Geometry<TwoFloat>,
+    deviation: &Deviation<TwoFloat>,
+    near: f64,
+) -> (TipContact, f64) {
     let angle = match inputs.rung {
         Rung::Paper => printed_contact(geometry, deviation),
         Rung::Exact => refine(geometry, near, deviation.total),
     };
-    tip_at(geometry, angle).rounded()
+    let tip = tip_at(geometry, angle);
+    let contact = tip.rounded();
+    let closed = gap(geometry, &tip).rounded();
+    let lost = largest_term(&geometry.rounded(), &contact) > LOST * closed;
+    (contact, if lost { gap_by_quadrature(&geometry.rounded(), &contact) } else { closed })
 }
 
-/// The contact as a position, where there is one on the driver's flank.
+/// The contact as a position, where there is one on the driver's flank: ρ₁ has not grown by more than the path of contact,
+/// which tells more sharply than O₁D against r_a1.
 fn checked(
     inputs: &Inputs,
     geometry: &Geometry,
-    deviation: &Deviation,
+    deviation: f64,
     contact: TipContact,
+    closed_gap: f64,
 ) -> Result<Option<Position>, Refusal> {
     if contact.angle <= 0.0 {
         return Ok(None);
     }
     if !contact.radius_driver.is_finite() || contact.angle > LARGEST_ANGLE {
-        return Err(Refusal::NoFirstContact { deviation: deviation.total });
+        return Err(Refusal::NoFirstContact { deviation });
     }
-    if contact.radius_driver > geometry.driver.tip {
+    if contact.curvature_growth > geometry.contact_ratio * geometry.base_pitch {
         return Err(Refusal::BeyondDriverTip { radius: contact.radius_driver, tip: geometry.driver.tip });
     }
-    let closed_gap = match inputs.rung {
-        Rung::Paper => gap_without(KEPT_DIGITS, geometry, &contact),
-        Rung::Exact => deviation.total,
-    };
     Ok(Some(Position {
         approach_angle_driver: contact.angle * inputs.ratio(),
         approach_angle_driven: contact.angle,

@@ -12,6 +12,8 @@ use crate::numeric::{Real, quadrature};
 pub struct TipContact<T = f64> {
     /// Driven gear's angle before E, u, in rad.
     pub angle: T,
+    /// Angle at O₂ between the centre line and the tip, γ₂ + u, in rad.
+    pub polar_angle: T,
     /// O₁D, in m.
     pub radius_driver: T,
     /// Radius of curvature of the driver's flank ρ₁ = N₁'D, in m.
@@ -72,6 +74,7 @@ pub fn tip_at<T: Real>(geometry: &Geometry<T>, angle: T) -> TipContact<T> {
     let normal_length_growth = turn_chord * cosine - curvature_growth;
     TipContact {
         angle,
+        polar_angle: geometry.start_angle_driven + angle,
         radius_driver: (base * base + curvature_driver * curvature_driver).root(),
         curvature_driver,
         curvature_growth,
@@ -152,17 +155,20 @@ pub fn seen_from(geometry: &Geometry, tip: &TipContact) -> Geometry {
     moved.driven.base = tip.normal_radius_driven;
     moved.driven.tip_curvature = tip.normal_length_driven;
     moved.start = tip.curvature_driver;
-    moved.start_angle_driven += tip.angle;
+    moved.start_angle_driven = tip.polar_angle;
     moved.working_pressure_angle += tip.normal_turn;
     moved.start_point = foot(geometry.driver.base, moved.start, moved.working_pressure_angle);
     moved
 }
 
 impl TipContact {
-    /// Whether the tip all but rolls, or its normal all but passes through O₂: f64 loses digits in the small rest.
+    /// Whether the tip all but rolls, or stands all but on the centre line, or its normal all but passes through O₂: f64
+    /// loses digits in the small rest.
     pub(super) fn is_close_call(&self, geometry: &Geometry) -> bool {
         let sliding_terms = self.normal_length_driven.abs() + geometry.ratio * self.curvature_driver;
-        self.sliding_arm.abs() < LEAST_REST * sliding_terms || self.normal_radius_driven.abs() < LEAST_REST * geometry.driven.base
+        self.sliding_arm.abs() < LEAST_REST * sliding_terms
+            || self.polar_angle.abs() < LEAST_REST * self.angle
+            || self.normal_radius_driven.abs() < LEAST_REST * geometry.driven.base
     }
 }
 
@@ -171,6 +177,7 @@ impl<T: Real> TipContact<T> {
     pub(super) fn rounded(self) -> TipContact {
         TipContact {
             angle: self.angle.rounded(),
+            polar_angle: self.polar_angle.rounded(),
             radius_driver: self.radius_driver.rounded(),
             curvature_driver: self.curvature_driver.rounded(),
             curvature_growth: self.curvature_growth.rounded(),
