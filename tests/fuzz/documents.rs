@@ -7,6 +7,7 @@ use std::path::Path;
 
 use proptest::prelude::*;
 use proptest::sample::Index;
+use tipstrike::case::fields::index_of;
 use tipstrike::case::{Case, Document, FIELDS};
 use tipstrike::cli::{self, Exit, Streams};
 use tipstrike::model::QUANTITIES;
@@ -70,14 +71,17 @@ fn bytes_that_may_be_no_text_are_told_in_their_places() {
         assert_bytes(&bytes);
     });
     hold(300, &prop::collection::vec(any::<u8>(), 0..300), |bytes| assert_bytes(&bytes));
-    hold(300, &".{0,200}", |text| drop(read_and_solve(&text)));
+    hold(300, &".{0,200}", |text| {
+        read_and_solve(&text);
+    });
 }
 
 #[test]
 fn edits_are_kept_and_so_are_comments() {
     let comments = prop::collection::vec((any::<Index>(), any::<bool>()), 0..4);
     let edited = Cell::new(0u32);
-    hold(1200, &(texts::written(), comments, edits()), |(text, comments, edits)| {
+    let texts = prop_oneof![texts::written(), texts::mutated()];
+    hold(1500, &(texts, comments, edits()), |(text, comments, edits)| {
         let Ok(plain) = Document::parse("case", &text) else { return };
         let commented = with_comments(&text, &comments);
         let Ok(mut document) = Document::parse("case", &commented) else { return };
@@ -96,6 +100,28 @@ fn edits_are_kept_and_so_are_comments() {
         assert!(!is_same || lost == 0, "a comment is lost:\n{commented}\nbecame\n{rendered}");
     });
     assert!(edited.get() > 300, "only {} edits left a valid case", edited.get());
+}
+
+#[test]
+fn an_inline_table_of_many_lines_keeps_its_comments() {
+    let text = "format = 1\npair = { # both\n  module = \"5 mm\", # normal, of both\n  pressure_angle = \"20 deg\" # usual\n}\n\
+        [driver]\nteeth = 20\nface_width = \"8 mm\"\n[driven]\nteeth = 20\nface_width = \"8 mm\"\n\
+        [operation]\ntorque = \"70 N m\"\nspeed = \"2000 rpm\"\n";
+    let edited = |edits: &[(&str, &str)]| {
+        let mut document = Document::parse("case", text).expect("a case");
+        edits.iter().for_each(|(key, value)| document.case.write(index_of(key).expect("a field"), value));
+        document.render()
+    };
+    let (module, angle) = ("  module = \"5 mm\", # normal, of both", "  pressure_angle = \"20 deg\" # usual");
+    let rows: [(&[(&str, &str)], &str, &str); 4] = [
+        (&[("pair.module", "4 mm")], module, "  module = \"4 mm\", # normal, of both"),
+        (&[("pair.pressure_angle", "22 deg")], angle, "  pressure_angle = \"22 deg\" # usual"),
+        (&[("pair.centre_distance", "101 mm")], angle, "  pressure_angle = \"20 deg\", centre_distance = \"101 mm\" # usual"),
+        (&[("pair.pressure_angle", "")], &format!("{module}\n{angle}"), "  module = \"5 mm\" # normal, of both\n   # usual"),
+    ];
+    for (edits, from, to) in rows {
+        assert_eq!(edited(edits), text.replace(from, to));
+    }
 }
 
 #[test]
@@ -142,7 +168,12 @@ fn the_headless_commands_say_what_is_wrong_safely() {
 }
 
 fn edits() -> impl Strategy<Value = Vec<Edit>> {
-    let text = prop_oneof![Just(String::new()), Just("2 kN".to_owned()), Just("1.50".to_owned()), prop::sample::select(&HOSTILE[..]).prop_map(str::to_owned)];
+    let text = prop_oneof![
+        Just(String::new()),
+        Just("2 kN".to_owned()),
+        Just("1.50".to_owned()),
+        prop::sample::select(&HOSTILE[..]).prop_map(str::to_owned)
+    ];
     let edit = prop_oneof![
         8 => field_and_text().prop_map(|(field, text)| Edit::Field(field, text)),
         2 => (any::<Index>(), text).prop_map(|(at, text)| Edit::Limit(at, text)),
@@ -178,7 +209,9 @@ fn with_comments(text: &str, comments: &[(Index, bool)]) -> String {
 
 fn assert_bytes(bytes: &[u8]) {
     match std::str::from_utf8(bytes) {
-        Ok(text) => drop(read_and_solve(text)),
+        Ok(text) => {
+            read_and_solve(text);
+        }
         Err(_) => {
             let faults = Document::parse_bytes("bytes", bytes).expect_err("no text");
             assert_placed(&faults, &String::from_utf8_lossy(bytes));

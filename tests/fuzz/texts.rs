@@ -17,7 +17,11 @@ pair = { module = "5 mm", "pressure_angle" = "20 deg" }
 driver.teeth = 20
 driver.face_width = "8 mm"
 "driver"."bore_radius" = """20 mm"""
-operation = { power = "15 kW", speed = "2000 rpm" }
+operation = {
+    # as installed, at most
+    power = "15 kW", # of the motor
+    speed = "2000 rpm", # a, b
+}
 spread."deviations.base_pitch" = { normal = "4 um" }
 
   [ driven ] # the wheel
@@ -32,22 +36,97 @@ dynamic_factor = 1.5
 
 /// What stands on the right of a line.
 const VALUES: [&str; 32] = [
-    "nan", "-inf", "1e400", "1e-400", "0x14", "0b1", "2_0", "+20", "-0.0", "99999999999999999999999999", "true", "1979-05-27", "[]",
-    "[1, [2]]", "{}", "{ a = 1 }", "{ normal = \"4 um\" }", "\"\"", "''", "'''\n20 mm'''", "\"\"\"20 mm\"\"\"", "\"20 mm", "20 mm",
-    "\"20 mm\" # end", "\"20\\u0020mm\"", "\"\\u001b[2J\"", "\"\\u202e20 mm\"", "\"1e308 mm\"", "\"1e-320 mm\"", "\"−20 mm\"", "\"2,0 mm\"", "",
+    "nan",
+    "-inf",
+    "1e400",
+    "1e-400",
+    "0x14",
+    "0b1",
+    "2_0",
+    "+20",
+    "-0.0",
+    "99999999999999999999999999",
+    "true",
+    "1979-05-27",
+    "[]",
+    "[1, [2]]",
+    "{}",
+    "{ a = 1 }",
+    "{ normal = \"4 um\" }",
+    "\"\"",
+    "''",
+    "'''\n20 mm'''",
+    "\"\"\"20 mm\"\"\"",
+    "\"20 mm",
+    "20 mm",
+    "\"20 mm\" # end",
+    "\"20\\u0020mm\"",
+    "\"\\u001b[2J\"",
+    "\"\\u202e20 mm\"",
+    "\"1e308 mm\"",
+    "\"1e-320 mm\"",
+    "\"−20 mm\"",
+    "\"2,0 mm\"",
+    "",
 ];
 
 /// What stands on the left of a line.
 const NAMES: [&str; 14] = [
-    "modul", "\"module\"", "driver.teeth", "\"driver\" . 'teeth'", "\"\"", "\"\\u001b]0;x\\u0007\"", "\"ключ\"", "a.b.c", "format", "torque",
-    "impact_force", "\"deviations.base_pitch\"", "\"a\\nb\"", "title",
+    "modul",
+    "\"module\"",
+    "driver.teeth",
+    "\"driver\" . 'teeth'",
+    "\"\"",
+    "\"\\u001b]0;x\\u0007\"",
+    "\"ключ\"",
+    "a.b.c",
+    "format",
+    "torque",
+    "impact_force",
+    "\"deviations.base_pitch\"",
+    "\"a\\nb\"",
+    "title",
 ];
 
 /// What is put in anywhere.
 const PIECES: [&str; 38] = [
-    "\u{1b}[2J", "\0", "\u{9b}", "\u{85}", "\u{202e}", "\u{200b}", "\u{feff}", "\u{e0041}", "\u{2028}", "\u{ffa0}", "\u{34f}", "\r", "\n", "\t",
-    "\"", "'", "\"\"\"", "'''", "[", "]", "{", "}", "=", "#", ".", ",", "\\", "é", "歯", "e999", "\n[driver]\n", "\n[[pair]]\n", "\n[pair.x]\n",
-    "\n[limits]\nimpact_force = \"2 kN\"\n", "\n[spread]\n\"driven.teeth\" = { normal = 1 }\n", "\nformat = 2\n", "\n# a comment\n",
+    "\u{1b}[2J",
+    "\0",
+    "\u{9b}",
+    "\u{85}",
+    "\u{202e}",
+    "\u{200b}",
+    "\u{feff}",
+    "\u{e0041}",
+    "\u{2028}",
+    "\u{ffa0}",
+    "\u{34f}",
+    "\r",
+    "\n",
+    "\t",
+    "\"",
+    "'",
+    "\"\"\"",
+    "'''",
+    "[",
+    "]",
+    "{",
+    "}",
+    "=",
+    "#",
+    ".",
+    ",",
+    "\\",
+    "é",
+    "歯",
+    "e999",
+    "\n[driver]\n",
+    "\n[[pair]]\n",
+    "\n[pair.x]\n",
+    "\n[limits]\nimpact_force = \"2 kN\"\n",
+    "\n[spread]\n\"driven.teeth\" = { normal = 1 }\n",
+    "\nformat = 2\n",
+    "\n# a comment\n",
     "\n[spread.driver]\nyoung = { uniform = \"1 GPa\" }\n",
 ];
 

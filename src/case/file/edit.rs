@@ -52,7 +52,7 @@ impl<'d> Editor<'d> {
         for (span, new) in &self.edits {
             edited.push_str(&self.text[at..span.start]);
             edited.push_str(new);
-            at = span.end;
+            at = at.max(span.end);
         }
         edited.push_str(&self.text[at..]);
         if !appended.is_empty() && !edited.is_empty() && !edited.ends_with('\n') {
@@ -68,7 +68,7 @@ impl<'d> Editor<'d> {
         }
         let Some(place) = self.places.entry(&key) else { return };
         match &place.inline {
-            Some(braces) => self.refill(braces.clone(), entry.table),
+            Some(braces) => self.take_out_of(braces, place, entry.table),
             None => self.edits.push((self.whole_lines(place), String::new())),
         }
     }
@@ -78,7 +78,6 @@ impl<'d> Editor<'d> {
         let same = self.before.contains(entry);
         match self.places.entry(&key) {
             Some(_) if same => {}
-            Some(place) if place.inline.is_some() => self.refill_around(place, entry.table),
             Some(place) => self.edits.push((place.value.clone(), entry.value.clone())),
             None => self.add(entry),
         }
@@ -87,7 +86,7 @@ impl<'d> Editor<'d> {
     fn add(&mut self, entry: &Entry) {
         let braces = self.places.table(entry.table).filter(|span| self.text[(*span).clone()].starts_with('{'));
         if let Some(braces) = braces {
-            return self.refill(braces.clone(), entry.table);
+            return self.add_to(braces, entry);
         }
         let Some((anchor, prefix)) = self.anchor(entry) else { return };
         let end = self.lines.around(anchor).end;
@@ -150,10 +149,51 @@ impl<'d> Editor<'d> {
         start..self.text[end..].find('\n').map_or(self.text.len(), |at| end + at + 1)
     }
 
-    fn refill_around(&mut self, place: &Place, table: &'static str) {
-        if let Some(braces) = place.inline.clone() {
-            self.refill(braces, table);
+    /// Take an entry and one comma beside it out of an inline table, which may have lines and comments of its own.
+    fn take_out_of(&mut self, braces: &Range<usize>, place: &Place, table: &'static str) {
+        let neighbours = || self.places.entries.iter().filter(|other| other.inline.as_ref() == Some(braces));
+        let before = neighbours().map(|other| other.value.end).filter(|&end| end <= place.name.start).max();
+        let after = neighbours().map(|other| other.name.start).filter(|&start| start >= place.value.end).min();
+        let ahead = self.comma(place.value.end..after.unwrap_or(braces.end - 1));
+        let comma = ahead.or_else(|| self.comma(before?..place.name.start));
+        match comma {
+            Some(comma) if self.stays(braces).next().is_some() => {
+                self.edits.extend([(place.name.start..place.value.end, String::new()), (comma, String::new())]);
+            }
+            _ => self.refill(braces.clone(), table),
         }
+    }
+
+    /// Add an entry to an inline table, behind those that stay.
+    fn add_to(&mut self, braces: &Range<usize>, entry: &Entry) {
+        match self.stays(braces).map(|place| place.value.end).max() {
+            Some(end) => self.edits.push((end..end, format!(", {}", entry.line()))),
+            None => self.refill(braces.clone(), entry.table),
+        }
+    }
+
+    /// The entries of an inline table that are not taken out.
+    fn stays<'s>(&'s self, braces: &'s Range<usize>) -> impl Iterator<Item = &'d Place> + 's {
+        let stays = |place: &&Place| self.after.iter().any(|entry| entry.key() == place.key);
+        self.places.entries.iter().filter(|place| place.inline.as_ref() == Some(braces)).filter(stays)
+    }
+
+    /// The comma and, before another entry on its line, the blanks behind it, where it alone stands in the gap, comments left aside.
+    fn comma(&self, gap: Range<usize>) -> Option<Range<usize>> {
+        let mut is_comment = false;
+        let mut comma = None;
+        for (at, letter) in self.text[gap.clone()].char_indices() {
+            is_comment = (is_comment || letter == '#') && letter != '\n';
+            match letter {
+                _ if is_comment || letter.is_whitespace() => {}
+                ',' if comma.is_none() => comma = Some(gap.start + at),
+                _ => return None,
+            }
+        }
+        let start = comma?;
+        let rest = &self.text[start + 1..gap.end];
+        let blanks = if rest.trim().is_empty() { rest.bytes().take_while(|byte| *byte == b' ').count() } else { 0 };
+        Some(start..start + 1 + blanks)
     }
 
     /// Write an inline table anew, once.
