@@ -11,7 +11,7 @@ use ratatui::layout::{Rect, Size};
 use tempfile::TempDir;
 use tipstrike::case::fields::Kind;
 use tipstrike::case::{Case, Document, FIELDS};
-use tipstrike::tui::actions::{Action, Command};
+use tipstrike::tui::actions::Action;
 use tipstrike::tui::app::App;
 use tipstrike::tui::events::{Event, take_action};
 use tipstrike::tui::prompt::Prompt;
@@ -181,9 +181,9 @@ impl Bench {
         while let Some(action) = actions.pop() {
             let was_asked = matches!(self.app.prompts.last(), Some(Prompt::Ask(_)));
             self.note(&action);
-            let is_new = matches!(action, Action::Do(Command::New | Command::Accept) | Action::Insert(_));
+            let may_begin = !matches!(action, Action::Solved(_) | Action::Resize(_) | Action::Listed(..));
             let effects = update(&mut self.app, action);
-            if is_new && self.app.message.as_ref().is_some_and(|message| message.text.starts_with("a new case")) {
+            if may_begin && self.app.message.as_ref().is_some_and(|message| message.text.starts_with("a new case")) {
                 (self.first, self.saved) = (Case::table_1(), Case::table_1());
             }
             for effect in effects {
