@@ -1,5 +1,7 @@
 //! Keys, pastes and sizes into the workbench without a terminal: the state stays sound, the screen safe, nothing is lost.
 
+use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -36,7 +38,9 @@ enum Happening {
     Resize(u16, u16),
     /// A field is gone to, emptied and filled, perhaps not to the end.
     Fill(usize, String),
-    /// Someone else writes the file.
+    /// Another case is asked for by this name, or the first of the list.
+    Open(String),
+    /// Someone else writes the file, and then it is saved.
     Meddle(String),
     /// The worker answers late.
     Dawdle,
@@ -52,17 +56,35 @@ struct Bench {
     first: Case,
     /// The case that the file holds, as far as the workbench knows.
     saved: Case,
+    /// What has come to pass.
+    seen: BTreeSet<&'static str>,
 }
 
 #[test]
 fn whatever_is_typed_the_form_stays_sound_and_the_screen_safe() {
     let text = prop_oneof![texts::written(), texts::mutated(), Just(String::new())];
+    let seen = RefCell::new(BTreeSet::new());
     hold(400, &(text, any::<bool>(), happenings()), |(text, ascii, happenings)| {
         let mut bench = Bench::on(&text, ascii);
         bench.assert_sound();
-        happenings.into_iter().for_each(|happening| bench.take(happening));
+        for happening in happenings {
+            bench.take(happening);
+        }
         bench.assert_undone();
+        seen.borrow_mut().append(&mut bench.seen);
     });
+    let all = ["browse", "save as", "ask", "page", "loaded", "not loaded", "saved", "not saved", "quit", "invalid", "refused"];
+    assert_eq!(*seen.borrow(), BTreeSet::from(all), "the keys get too seldom to all that the workbench does");
+}
+
+#[test]
+fn a_name_that_hides_or_controls_is_shown_as_one_that_does() {
+    let mut bench = Bench::on(&texts::bases()[0], false);
+    for title in HOSTILE {
+        bench.take(Happening::Paste(title.to_owned()));
+        bench.app.case.write(0, title);
+        bench.draw(Size { width: 80, height: 24 });
+    }
 }
 
 #[test]
@@ -70,7 +92,7 @@ fn every_prompt_and_page_is_drawn_at_every_size() {
     let openers = [&[][..], &[key(KeyCode::F(1))], &[ctrl('o')], &[key(KeyCode::F(2))], &[ctrl('c')], &[ctrl('u'), ctrl('q')]];
     for (ascii, keys) in openers.into_iter().enumerate().map(|(index, keys)| (index % 2 == 1, keys)) {
         let mut bench = Bench::on(&texts::bases()[0], ascii);
-        keys.iter().for_each(|key| bench.feed([Event::Input(Input::Key(*key))]));
+        bench.feed(keys.iter().map(|key| Event::Input(Input::Key(*key))));
         for (width, height) in (0..=200).step_by(7).flat_map(|width| (0..=60).step_by(3).map(move |height| (width, height))) {
             bench.draw(Size { width, height });
             bench.take(Happening::Resize(width, height));
@@ -92,6 +114,7 @@ fn happenings() -> impl Strategy<Value = Vec<Happening>> {
         2 => letters.prop_map(Happening::Paste),
         1 => size.prop_map(|(width, height)| Happening::Resize(width, height)),
         8 => half,
+        1 => select(vec!["", "", "cas", "none"]).prop_map(|name| Happening::Open(name.to_owned())),
         1 => texts::written().prop_map(Happening::Meddle),
         1 => Just(Happening::Dawdle),
     ];
@@ -140,7 +163,7 @@ impl Bench {
         let look = Look { ascii, ..Look::FULL };
         let app = App::new(read.unwrap_or_else(store::built_in), path, look, Size { width: 80, height: 24 });
         let first = app.case.clone();
-        Bench { app, folder, waiting: None, saved: first.clone(), first }
+        Bench { app, folder, waiting: None, saved: first.clone(), first, seen: BTreeSet::new() }
     }
 
     fn take(&mut self, happening: Happening) {
@@ -158,11 +181,32 @@ impl Bench {
                 self.feed([Event::Input(Input::Key(ctrl('u')))]);
                 self.feed(letters(text));
             }
-            Happening::Meddle(text) => fs::write(self.folder.path().join("case.toml"), text).expect("room on the disk"),
+            Happening::Open(name) => {
+                self.feed([Event::Input(Input::Key(ctrl('o')))]);
+                self.feed(letters(name));
+                self.feed([Event::Input(Input::Key(key(KeyCode::Enter)))]);
+            }
+            Happening::Meddle(text) => {
+                fs::write(self.folder.path().join("case.toml"), text).expect("room on the disk");
+                self.feed([Event::Input(Input::Key(ctrl('s')))]);
+            }
             Happening::Dawdle => return,
         }
         self.answer();
+        self.look_around();
         self.assert_sound();
+    }
+
+    fn look_around(&mut self) {
+        let prompt = self.app.prompts.last().map(|prompt| match prompt {
+            Prompt::Browse(_) => "browse",
+            Prompt::SaveAs(..) => "save as",
+            Prompt::Ask(_) => "ask",
+            Prompt::Read(_) => "page",
+        });
+        let invalid = (!self.app.problems.is_empty()).then_some("invalid");
+        let refused = self.app.refusal.is_some().then_some("refused");
+        self.seen.extend([prompt, invalid, refused].into_iter().flatten());
     }
 
     /// A batch of events, as the workbench takes it.
@@ -194,11 +238,20 @@ impl Bench {
 
     /// What a file that was read or written says from now on.
     fn note(&mut self, action: &Action) {
-        match action {
-            Action::Loaded(_, Ok(document)) => (self.first, self.saved) = (document.case.clone(), document.case.clone()),
-            Action::Saved(_, _, Ok(document)) => self.saved = document.case.clone(),
-            _ => (),
-        }
+        let seen = match action {
+            Action::Loaded(_, Ok(document)) => {
+                (self.first, self.saved) = (document.case.clone(), document.case.clone());
+                "loaded"
+            }
+            Action::Saved(_, _, Ok(document)) => {
+                self.saved = document.case.clone();
+                "saved"
+            }
+            Action::Loaded(..) => "not loaded",
+            Action::Saved(..) => "not saved",
+            _ => return,
+        };
+        self.seen.insert(seen);
     }
 
     fn perform(&mut self, effect: Effect, was_asked: bool) -> Option<Action> {
@@ -210,6 +263,7 @@ impl Bench {
             }
             Effect::Quit => {
                 assert!(was_asked || !self.app.is_unsaved(), "edits are not lost without a question");
+                self.seen.insert("quit");
                 None
             }
             Effect::Load(path) => store::perform(Effect::Load(self.within(&path))),

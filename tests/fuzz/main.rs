@@ -4,6 +4,7 @@
 //! What was found once stands under `kept` and is tried first, each time.
 
 #![cfg(all(feature = "cli", feature = "tui"))]
+#![allow(clippy::expect_used, clippy::panic, reason = "a test may stop at what it did not expect")]
 
 mod documents;
 mod form;
