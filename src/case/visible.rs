@@ -10,7 +10,7 @@ pub fn visible(text: &str) -> String {
     for c in text.chars() {
         match c {
             '\n' | '\r' | '\t' => shown.extend(c.escape_default()),
-            _ if hidden(c) => shown.extend(c.escape_unicode()),
+            _ if is_hidden(c) => shown.extend(c.escape_unicode()),
             _ => shown.push(c),
         }
     }
@@ -34,7 +34,8 @@ pub fn quoted(text: &str) -> String {
 }
 
 /// Whether a character acts on the screen, or is none to the eye.
-fn hidden(c: char) -> bool {
+#[must_use]
+pub fn is_hidden(c: char) -> bool {
     c.is_control() || HIDDEN.iter().any(|&(from, to)| (from..=to).contains(&c))
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Report, stations};
 use crate::case::file::FORMAT;
-use crate::case::visible::visible;
+use crate::case::visible::is_hidden;
 use crate::model::{Stage, Station};
 use serde::{Serialize, Serializer};
 use serde_json::ser::Formatter;
@@ -94,12 +94,6 @@ impl Formatter for Safe {
         }
         writer.write_all(&fragment.as_bytes()[written..])
     }
-}
-
-fn is_hidden(character: char) -> bool {
-    let mut bytes = [0; 4];
-    let text: &str = character.encode_utf8(&mut bytes);
-    !character.is_ascii_graphic() && visible(text) != text
 }
 
 #[cfg(test)]

@@ -4,24 +4,10 @@ use std::borrow::Cow;
 
 use ratatui::buffer::Buffer;
 
+use crate::case::visible::is_hidden;
+
 /// Stands for a character that must not reach a terminal.
 const VEILED: char = '\u{FFFD}';
-
-/// Ranges of characters that reorder, hide or join text without a width of their own.
-const HIDDEN: [(char, char); 12] = [
-    ('\u{AD}', '\u{AD}'),
-    ('\u{61C}', '\u{61C}'),
-    ('\u{115F}', '\u{1160}'),
-    ('\u{180E}', '\u{180E}'),
-    ('\u{200B}', '\u{200F}'),
-    ('\u{2028}', '\u{202E}'),
-    ('\u{2060}', '\u{206F}'),
-    ('\u{3164}', '\u{3164}'),
-    ('\u{FE00}', '\u{FE0F}'),
-    ('\u{FEFF}', '\u{FEFF}'),
-    ('\u{FFF9}', '\u{FFFB}'),
-    ('\u{E0000}', '\u{E0FFF}'),
-];
 
 /// Symbols in the field's writing, and in letters that every terminal has.
 const WRITTEN_OUT: [(&str, &str); 9] = [
@@ -67,7 +53,7 @@ const ONE_CELL: [(&str, char); 24] = [
 /// Whether a character may stand on a terminal.
 #[must_use]
 pub fn is_safe(character: char) -> bool {
-    !character.is_control() && !HIDDEN.iter().any(|&(from, to)| (from..=to).contains(&character))
+    !is_hidden(character)
 }
 
 /// The text with one visible mark in place of each character that controls or hides.
@@ -118,7 +104,8 @@ mod tests {
 
     #[test]
     fn what_controls_or_hides_is_shown_as_a_mark() {
-        for hostile in ["\u{1b}[2J", "\u{9b}2J", "a\u{202e}b", "a\u{200b}b", "\u{7f}", "a\nb", "\u{feff}"] {
+        for hostile in ["\u{1b}[2J", "\u{9b}2J", "a\u{202e}b", "a\u{200b}b", "\u{7f}", "a\nb", "\u{feff}", "e\u{34f}", "\u{ffa0}"]
+        {
             let cleaned = clean(hostile);
             assert!(cleaned.contains(VEILED), "{hostile:?}");
             assert!(cleaned.chars().all(is_safe), "{hostile:?}");

@@ -1,6 +1,7 @@
 //! What comes in: keys, signals and answers through one bounded channel, taken in batches.
 
 use std::io;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -141,12 +142,16 @@ fn letter_of(event: &Event, place: Place) -> Option<char> {
 }
 
 fn read_terminal(sender: &SyncSender<Event>) {
-    while let Ok(input) = event::read() {
-        if sender.send(Event::Input(input)).is_err() {
-            return;
+    let read = || {
+        while let Ok(input) = event::read() {
+            if sender.send(Event::Input(input)).is_err() {
+                return;
+            }
         }
-    }
-    // Nobody listens only when the workbench is on its way out already.
+    };
+    // Whatever ends the reading, a workbench that no longer hears its keys must not stay. Nobody listens only when it
+    // is on its way out already.
+    drop(catch_unwind(AssertUnwindSafe(read)));
     drop(sender.send(Event::Lost));
 }
 

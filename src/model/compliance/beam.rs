@@ -162,7 +162,7 @@ mod tests {
         let found = loads.iter().filter_map(|&radius| Some((by(radius, TOLERANCE)?, by(radius, 1e-15)?)));
         found
             .inspect(|(found, exact)| {
-                assert!((found / exact - 1.0).abs() < 1e-10, "z {teeth} alpha {degrees} x {shift}: {found}, {exact}")
+                assert!((found / exact - 1.0).abs() < 1e-10, "z {teeth} alpha {degrees} x {shift}: {found}, {exact}");
             })
             .count()
     }

@@ -1,0 +1,348 @@
+//! Keys, pastes and sizes into the workbench without a terminal: the state stays sound, the screen safe, nothing is lost.
+
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crossterm::event::{Event as Input, KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
+use proptest::prelude::*;
+use proptest::sample::select;
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Rect, Size};
+use tempfile::TempDir;
+use tipstrike::case::fields::Kind;
+use tipstrike::case::{Case, Document, FIELDS};
+use tipstrike::tui::actions::Action;
+use tipstrike::tui::app::App;
+use tipstrike::tui::events::{Event, take_action};
+use tipstrike::tui::prompt::Prompt;
+use tipstrike::tui::solver::{self, Request};
+use tipstrike::tui::theme::Look;
+use tipstrike::tui::update::{Effect, update};
+use tipstrike::tui::{store, view};
+
+use crate::values::{HOSTILE, field_and_text};
+use crate::{hold, is_hostile, texts};
+
+/// Something that happens to the workbench.
+#[derive(Debug, Clone)]
+enum Happening {
+    /// A key, as often as said.
+    Key(KeyEvent, usize),
+    /// Letters typed one after the other.
+    Type(String),
+    /// Letters at once.
+    Paste(String),
+    /// The terminal has another size.
+    Resize(u16, u16),
+    /// A field is gone to, emptied and filled, perhaps not to the end.
+    Fill(usize, String),
+    /// Another case is asked for by this name, or the first of the list.
+    Open(String),
+    /// Someone else writes the file, and then it is saved.
+    Meddle(String),
+    /// The worker answers late.
+    Dawdle,
+}
+
+/// A workbench in a folder of its own, and what must come of it.
+struct Bench {
+    app: App,
+    folder: TempDir,
+    /// What the worker has not answered yet.
+    waiting: Option<Request>,
+    /// The case to which undoing everything leads back.
+    first: Case,
+    /// The case that the file holds, as far as the workbench knows.
+    saved: Case,
+    /// What has come to pass.
+    seen: BTreeSet<&'static str>,
+}
+
+#[test]
+fn whatever_is_typed_the_form_stays_sound_and_the_screen_safe() {
+    let text = prop_oneof![texts::written(), texts::mutated(), Just(String::new())];
+    let seen = RefCell::new(BTreeSet::new());
+    hold(400, &(text, any::<bool>(), happenings()), |(text, ascii, happenings)| {
+        let mut bench = Bench::on(&text, ascii);
+        bench.assert_sound();
+        for happening in happenings {
+            bench.take(happening);
+        }
+        bench.assert_undone();
+        seen.borrow_mut().append(&mut bench.seen);
+    });
+    let all = ["browse", "save as", "ask", "page", "loaded", "not loaded", "saved", "not saved", "quit", "invalid", "refused"];
+    assert_eq!(*seen.borrow(), BTreeSet::from(all), "the keys get too seldom to all that the workbench does");
+}
+
+#[test]
+fn a_name_that_hides_or_controls_is_shown_as_one_that_does() {
+    let mut bench = Bench::on(&texts::bases()[0], false);
+    for title in HOSTILE {
+        bench.take(Happening::Paste(title.to_owned()));
+        bench.app.case.write(0, title);
+        bench.draw(Size { width: 80, height: 24 });
+    }
+}
+
+#[test]
+fn every_prompt_and_page_is_drawn_at_every_size() {
+    let openers = [&[][..], &[key(KeyCode::F(1))], &[ctrl('o')], &[key(KeyCode::F(2))], &[ctrl('c')], &[ctrl('u'), ctrl('q')]];
+    for (ascii, keys) in openers.into_iter().enumerate().map(|(index, keys)| (index % 2 == 1, keys)) {
+        let mut bench = Bench::on(&texts::bases()[0], ascii);
+        bench.feed(keys.iter().map(|key| Event::Input(Input::Key(*key))));
+        for (width, height) in (0..=200).step_by(7).flat_map(|width| (0..=60).step_by(3).map(move |height| (width, height))) {
+            bench.draw(Size { width, height });
+            bench.take(Happening::Resize(width, height));
+        }
+    }
+}
+
+fn happenings() -> impl Strategy<Value = Vec<Happening>> {
+    let size = prop_oneof![(0..=200u16, 0..=60u16), (60..=100u16, 16..=30u16), (0..=4u16, 0..=4u16)];
+    let letters =
+        prop_oneof![select(&HOSTILE[..]).prop_map(str::to_owned), ".{0,8}", "[a-z0-9/.]{1,6}", "[0-9.e+-]{1,8} ?[a-z]{0,3}"];
+    let half = (field_and_text(), 0.0..1.5f64).prop_map(|((field, text), part)| {
+        let letters = (text.chars().count() as f64 * part) as usize;
+        Happening::Fill(field, text.chars().take(letters).collect())
+    });
+    let happening = prop_oneof![
+        12 => (keys(), 1..4usize).prop_map(|(key, times)| Happening::Key(key, times)),
+        3 => letters.clone().prop_map(Happening::Type),
+        2 => letters.prop_map(Happening::Paste),
+        1 => size.prop_map(|(width, height)| Happening::Resize(width, height)),
+        8 => half,
+        1 => select(vec!["", "", "cas", "none"]).prop_map(|name| Happening::Open(name.to_owned())),
+        1 => texts::written().prop_map(Happening::Meddle),
+        1 => Just(Happening::Dawdle),
+    ];
+    prop::collection::vec(happening, 0..40)
+}
+
+/// Every key that a terminal sends, those of the table of bindings more often.
+fn keys() -> impl Strategy<Value = KeyEvent> {
+    use KeyCode::{
+        BackTab, Backspace, CapsLock, Delete, Down, End, Enter, Esc, Home, Insert, Left, Null, PageDown, PageUp, Right, Tab, Up,
+    };
+    let named =
+        [Backspace, Enter, Left, Right, Up, Down, Home, End, PageUp, PageDown, Tab, BackTab, Delete, Insert, Null, Esc, CapsLock];
+    let code = prop_oneof![
+        6 => select(named.to_vec()),
+        2 => (0..=12u8).prop_map(KeyCode::F),
+        1 => any::<char>().prop_map(KeyCode::Char),
+        4 => select("acdehklnopqrstuwyz? ".chars().collect::<Vec<_>>()).prop_map(KeyCode::Char),
+    ];
+    let held = prop_oneof![
+        6 => Just(KeyModifiers::NONE),
+        6 => Just(KeyModifiers::CONTROL),
+        2 => Just(KeyModifiers::ALT),
+        1 => any::<u8>().prop_map(KeyModifiers::from_bits_truncate),
+    ];
+    let kind = prop_oneof![8 => Just(KeyEventKind::Press), 1 => Just(KeyEventKind::Repeat), 1 => Just(KeyEventKind::Release)];
+    (code, held, kind).prop_map(|(code, held, kind)| KeyEvent::new_with_kind(code, held, kind))
+}
+
+fn key(code: KeyCode) -> KeyEvent {
+    KeyEvent::new(code, KeyModifiers::NONE)
+}
+
+fn ctrl(letter: char) -> KeyEvent {
+    KeyEvent::new(KeyCode::Char(letter), KeyModifiers::CONTROL)
+}
+
+impl Bench {
+    /// On a file of that text where it is a case, else on the built-in case.
+    fn on(text: &str, ascii: bool) -> Bench {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("case.toml");
+        fs::write(&path, text).expect("room on the disk");
+        let read = Document::read(&path).ok();
+        let path = read.is_some().then_some(path);
+        let look = Look { ascii, ..Look::FULL };
+        let app = App::new(read.unwrap_or_else(store::built_in), path, look, Size { width: 80, height: 24 });
+        let first = app.case.clone();
+        Bench { app, folder, waiting: None, saved: first.clone(), first, seen: BTreeSet::new() }
+    }
+
+    fn take(&mut self, happening: Happening) {
+        let letters =
+            |text: String| text.chars().map(|letter| Event::Input(Input::Key(key(KeyCode::Char(letter))))).collect::<Vec<_>>();
+        match happening {
+            Happening::Key(key, times) => self.feed(vec![Event::Input(Input::Key(key)); times]),
+            Happening::Type(text) => self.feed(letters(text)),
+            Happening::Paste(text) => self.feed([Event::Input(Input::Paste(text))]),
+            Happening::Resize(width, height) => self.feed([Event::Input(Input::Resize(width, height))]),
+            Happening::Fill(field, text) => {
+                let steps = vec![Event::Input(Input::Key(key(KeyCode::Down))); field];
+                self.feed([Event::Input(Input::Key(KeyEvent::new(KeyCode::Home, KeyModifiers::CONTROL)))]);
+                self.feed(steps);
+                self.feed([Event::Input(Input::Key(ctrl('u')))]);
+                self.feed(letters(text));
+            }
+            Happening::Open(name) => {
+                self.feed([Event::Input(Input::Key(ctrl('o')))]);
+                self.feed(letters(name));
+                self.feed([Event::Input(Input::Key(key(KeyCode::Enter)))]);
+            }
+            Happening::Meddle(text) => {
+                fs::write(self.folder.path().join("case.toml"), text).expect("room on the disk");
+                self.feed([Event::Input(Input::Key(ctrl('s')))]);
+            }
+            Happening::Dawdle => return,
+        }
+        self.answer();
+        self.look_around();
+        self.assert_sound();
+    }
+
+    fn look_around(&mut self) {
+        let prompt = self.app.prompts.last().map(|prompt| match prompt {
+            Prompt::Browse(_) => "browse",
+            Prompt::SaveAs(..) => "save as",
+            Prompt::Ask(_) => "ask",
+            Prompt::Read(_) => "page",
+        });
+        let invalid = (!self.app.problems.is_empty()).then_some("invalid");
+        let refused = self.app.refusal.is_some().then_some("refused");
+        self.seen.extend([prompt, invalid, refused].into_iter().flatten());
+    }
+
+    /// A batch of events, as the workbench takes it.
+    fn feed(&mut self, events: impl IntoIterator<Item = Event>) {
+        let mut events = events.into_iter().peekable();
+        while events.peek().is_some() {
+            if let Some(action) = take_action(&mut events, self.app.place()) {
+                self.act(action);
+            }
+        }
+    }
+
+    /// Change the state, and do what it asks for within the folder.
+    fn act(&mut self, action: Action) {
+        let mut actions = vec![action];
+        while let Some(action) = actions.pop() {
+            let was_asked = matches!(self.app.prompts.last(), Some(Prompt::Ask(_)));
+            self.note(&action);
+            let may_begin = !matches!(action, Action::Solved(_) | Action::Resize(_) | Action::Listed(..));
+            let effects = update(&mut self.app, action);
+            if may_begin && self.app.message.as_ref().is_some_and(|message| message.text.starts_with("a new case")) {
+                (self.first, self.saved) = (Case::table_1(), Case::table_1());
+            }
+            for effect in effects {
+                actions.extend(self.perform(effect, was_asked));
+            }
+        }
+    }
+
+    /// What a file that was read or written says from now on.
+    fn note(&mut self, action: &Action) {
+        let seen = match action {
+            Action::Loaded(_, Ok(document)) => {
+                (self.first, self.saved) = (document.case.clone(), document.case.clone());
+                "loaded"
+            }
+            Action::Saved(_, _, Ok(document)) => {
+                self.saved = document.case.clone();
+                "saved"
+            }
+            Action::Loaded(..) => "not loaded",
+            Action::Saved(..) => "not saved",
+            _ => return,
+        };
+        self.seen.insert(seen);
+    }
+
+    fn perform(&mut self, effect: Effect, was_asked: bool) -> Option<Action> {
+        match effect {
+            Effect::Solve(request) => {
+                assert_eq!(self.app.case.inputs().as_ref(), Ok(&request.inputs), "only what is valid reaches the model");
+                self.waiting = Some(*request);
+                None
+            }
+            Effect::Quit => {
+                assert!(was_asked || !self.app.is_unsaved(), "edits are not lost without a question");
+                self.seen.insert("quit");
+                None
+            }
+            Effect::Load(path) => store::perform(Effect::Load(self.within(&path))),
+            Effect::Save(mut saving) => {
+                saving.path = self.within(&saving.path);
+                store::perform(Effect::Save(saving))
+            }
+            Effect::List(folder) => match store::perform(Effect::List(self.within(Path::new(&folder)).display().to_string())) {
+                Some(Action::Listed(_, entries)) => Some(Action::Listed(folder, entries)),
+                other => other,
+            },
+            Effect::Remember(_) | Effect::Redraw | Effect::Suspend => None,
+        }
+    }
+
+    /// A path that stays in the folder, whatever was typed.
+    fn within(&self, path: &Path) -> PathBuf {
+        let inside = path.strip_prefix(self.folder.path()).unwrap_or(path);
+        let names = inside.components().filter(|part| matches!(part, std::path::Component::Normal(_)));
+        self.folder.path().join(names.collect::<PathBuf>())
+    }
+
+    fn answer(&mut self) {
+        if let Some(request) = self.waiting.take() {
+            self.act(Action::Solved(Box::new(solver::answer(&request))));
+        }
+    }
+
+    fn assert_sound(&self) {
+        let app = &self.app;
+        if !matches!(FIELDS[app.focus].kind, Kind::Choice(..)) {
+            assert_eq!(app.input.value(), app.case.text(app.focus).unwrap_or_default(), "the line is the field's");
+        }
+        assert_eq!(app.problems.is_empty(), app.case.inputs().is_ok());
+        assert_eq!(app.is_unsaved(), app.case != self.saved, "the mark tells whether the file differs");
+        let inputs = app.case.inputs().ok();
+        if let (Some(inputs), Some(answer), false) = (inputs, &app.answer, app.is_stale()) {
+            assert_eq!(answer.serial, app.serial, "the results are those of the form");
+            assert_eq!(answer.active, inputs.rung);
+        }
+        self.draw(app.size);
+        self.draw(Size { width: app.size.height, height: app.size.width.min(60) });
+    }
+
+    fn draw(&self, size: Size) {
+        let area = Rect::new(0, 0, size.width, size.height);
+        let mut buffer = Buffer::empty(area);
+        let cursor = view::draw(&self.app, area, &mut buffer);
+        assert!(cursor.is_none_or(|cursor| area.contains(cursor)), "{cursor:?} in {size:?}");
+        for cell in &buffer.content {
+            let is_wrong = |letter| is_hostile(letter) || self.app.look.ascii && !letter.is_ascii();
+            assert!(!cell.symbol().contains(is_wrong), "{:?} on the screen", cell.symbol());
+        }
+        let is_marked = buffer.content.iter().map(ratatui::buffer::Cell::symbol).collect::<String>().contains("*unsaved*");
+        if size.width >= 80 && size.height >= 24 && self.app.prompts.is_empty() {
+            assert_eq!(is_marked, self.app.is_unsaved());
+        }
+    }
+
+    /// Undo everything, and see the first case; redo it, and see the last one.
+    fn assert_undone(&mut self) {
+        self.feed(vec![Event::Input(Input::Key(key(KeyCode::Esc))); self.app.prompts.len()]);
+        self.repeat(ctrl('y'), "nothing to redo");
+        let last = self.app.case.clone();
+        self.repeat(ctrl('z'), "nothing to undo");
+        assert_eq!(self.app.case, self.first, "undoing everything leads back");
+        self.assert_sound();
+        self.repeat(ctrl('y'), "nothing to redo");
+        assert_eq!(self.app.case, last, "redoing everything leads forward");
+    }
+
+    fn repeat(&mut self, key: KeyEvent, end: &str) {
+        for _ in 0..1000 {
+            self.feed([Event::Input(Input::Key(key))]);
+            self.answer();
+            if self.app.message.as_ref().is_some_and(|message| message.text == end) {
+                return;
+            }
+        }
+        panic!("{end:?} is never said");
+    }
+}

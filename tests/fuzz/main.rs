@@ -1,0 +1,78 @@
+//! Hostile texts, edits, keys and bytes: whatever comes in, nothing falls over, nothing is lost, nothing acts on the terminal.
+//!
+//! A run is the same every time. `TIPSTRIKE_FUZZ=N cargo test --test fuzz` runs N times as many cases, others each time.
+//! What was found once stands under `kept` and is tried first, each time.
+
+#![cfg(all(feature = "cli", feature = "tui"))]
+#![allow(clippy::expect_used, clippy::panic, reason = "a test may stop at what it did not expect")]
+
+mod documents;
+mod form;
+mod properties;
+mod terminal;
+mod texts;
+mod values;
+
+use std::env;
+
+use proptest::strategy::Strategy;
+use proptest::test_runner::{Config, RngSeed, TestRunner};
+
+/// So long may a failing case be made smaller, in ms.
+const SHRINKING: u32 = 30_000;
+
+/// How many times as many cases are asked for, where it is asked for.
+fn times() -> Option<u32> {
+    env::var("TIPSTRIKE_FUZZ").ok().map(|times| times.parse().expect("TIPSTRIKE_FUZZ is a number"))
+}
+
+/// Hold a property, which asserts, against this many cases.
+#[track_caller]
+fn hold<S: Strategy>(cases: u32, strategy: &S, property: impl Fn(S::Value)) {
+    let asked = times();
+    let config = Config {
+        cases: cases * asked.unwrap_or(1),
+        failure_persistence: None,
+        max_shrink_time: SHRINKING,
+        rng_seed: if asked.is_some() { RngSeed::Random } else { RngSeed::Fixed(1) },
+        ..Config::default()
+    };
+    let result = TestRunner::new(config).run(strategy, |value| {
+        property(value);
+        Ok(())
+    });
+    result.unwrap_or_else(|failure| panic!("{failure}"));
+}
+
+/// Whether a character acts on a terminal or is none to the eye: controls, directions, and what Unicode calls ignorable.
+fn is_hostile(character: char) -> bool {
+    const IGNORABLE: [(char, char); 19] = [
+        ('\u{ad}', '\u{ad}'),
+        ('\u{34f}', '\u{34f}'),
+        ('\u{61c}', '\u{61c}'),
+        ('\u{115f}', '\u{1160}'),
+        ('\u{17b4}', '\u{17b5}'),
+        ('\u{180b}', '\u{180f}'),
+        ('\u{200b}', '\u{200f}'),
+        ('\u{2028}', '\u{2029}'),
+        ('\u{202a}', '\u{202e}'),
+        ('\u{2060}', '\u{206f}'),
+        ('\u{3164}', '\u{3164}'),
+        ('\u{fe00}', '\u{fe0f}'),
+        ('\u{feff}', '\u{feff}'),
+        ('\u{ffa0}', '\u{ffa0}'),
+        ('\u{fff0}', '\u{fff8}'),
+        ('\u{fff9}', '\u{fffb}'),
+        ('\u{1bca0}', '\u{1bca3}'),
+        ('\u{1d173}', '\u{1d17a}'),
+        ('\u{e0000}', '\u{e0fff}'),
+    ];
+    character.is_control() || IGNORABLE.iter().any(|&(from, to)| (from..=to).contains(&character))
+}
+
+/// Lines that a terminal may be shown.
+#[track_caller]
+fn assert_safe(text: &str) {
+    let hostile = text.chars().find(|&character| character != '\n' && is_hostile(character));
+    assert_eq!(hostile, None, "in {text:?}");
+}

@@ -1,0 +1,169 @@
+//! What holds for every text, every case and every report.
+
+use serde_json::Value;
+use tipstrike::case::fields::index_of;
+use tipstrike::case::file::{Fault, FaultKind};
+use tipstrike::case::{Document, FIELDS};
+use tipstrike::model::{Inputs, Refusal, Solution};
+use tipstrike::report::{self, Report, Selection};
+
+use crate::assert_safe;
+
+/// What became of a text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Fate {
+    /// It is no case.
+    Faulty,
+    /// It is a case, and the model refuses it.
+    Refused,
+    /// It is solved.
+    Solved,
+}
+
+/// A text is a case, or everything that is wrong with it is told in its place; a case is solved, or refused by name.
+pub(crate) fn read_and_solve(text: &str) -> Fate {
+    match Document::parse("a case.toml", text) {
+        Ok(document) => {
+            assert_eq!(document.render(), text, "untouched, it is written as it was read");
+            solve(&document)
+        }
+        Err(faults) => {
+            assert_placed(&faults, text);
+            Fate::Faulty
+        }
+    }
+}
+
+/// Faults have a place inside the text, and are told on one line that a terminal may be shown.
+pub(crate) fn assert_placed(faults: &[Fault], text: &str) {
+    assert!(!faults.is_empty(), "a refusal has a reason");
+    let lines: Vec<&str> = text.strip_prefix('\u{feff}').unwrap_or(text).split('\n').collect();
+    for fault in faults {
+        let line = fault.line.checked_sub(1).and_then(|line| lines.get(line));
+        let columns = line.map_or(0, |line| line.chars().count() + 1);
+        assert!((1..=columns).contains(&fault.column), "{fault} is not in {text:?}");
+        let told = fault.to_string();
+        assert!(!told.contains('\n') && told.chars().count() < 1000, "{told}");
+        assert!(!fault.cause.is_empty() && !fault.mend.is_empty(), "{told}");
+        assert_safe(&told);
+    }
+    let ordered = faults.is_sorted_by_key(|fault| (fault.line, fault.column));
+    assert!(ordered, "in the order of the places: {faults:?}");
+    assert!(faults.len() == 1 || faults.iter().all(|fault| fault.kind == FaultKind::Bad), "{faults:?}");
+}
+
+fn solve(document: &Document) -> Fate {
+    let inputs = document.case.inputs().expect("a case without faults has inputs");
+    let selection = Selection { stations: true, ..Selection::default() };
+    match Report::solve("a case.toml".to_owned(), document.case.clone(), inputs, selection) {
+        Ok(report) => {
+            assert_sound(&report);
+            Fate::Solved
+        }
+        Err(refusal) => {
+            assert_named(&refusal);
+            Fate::Refused
+        }
+    }
+}
+
+/// A refusal has a name, a field and a mend, and its numbers are numbers.
+pub(crate) fn assert_named(refusal: &Refusal) {
+    let told = refusal.to_string();
+    assert!(!refusal.code().is_empty() && !refusal.mend().is_empty() && !told.contains('\n'), "{refusal:?}");
+    assert!(index_of(refusal.field()).is_some(), "{refusal:?}");
+    assert_numbers(&told);
+}
+
+/// No number of a report is none, in whatever form it is told.
+pub(crate) fn assert_sound(report: &Report) {
+    assert_finite(&report.solution);
+    report.notes.iter().for_each(|note| assert_numbers(&note.message));
+    assert_json(report);
+    assert_csv(report);
+    assert_page(report);
+}
+
+fn assert_finite(solution: &Solution) {
+    for quantity in tipstrike::model::QUANTITIES {
+        let value = (quantity.value)(solution);
+        assert!(value.is_none_or(f64::is_finite), "{} is {value:?}", quantity.key);
+    }
+    for station in &solution.stations {
+        for column in &report::stations::COLUMNS {
+            assert!(column.of(station).is_some(), "{} of {station:?}", column.key);
+        }
+    }
+}
+
+/// Words without a NaN, an infinity or a number that could not be told.
+fn assert_numbers(words: &str) {
+    let no_number = |word: &str| ["NaN", "inf", "-inf", "n/a"].contains(&word);
+    let found = words.split(|c: char| c.is_whitespace() || "(),;:=<>".contains(c)).find(|word| no_number(word));
+    assert_eq!(found, None, "in {words}");
+}
+
+fn assert_json(report: &Report) {
+    let line = written(|out| report::json::write(report, out));
+    assert_safe(&line);
+    assert_eq!(line.matches('\n').count(), 1);
+    let value: Value = serde_json::from_str(&line).expect("JSON parses again");
+    assert_eq!(value["title"], report.title());
+    assert!(!line.contains("null"));
+    let told = value["quantities"].as_object().expect("an object");
+    assert_eq!(told.len(), report.values().count());
+    for (quantity, value) in report.values() {
+        let start = format!("\"{}\":{{\"value\":", quantity.key);
+        let number = line.split_once(&start).and_then(|(_, rest)| rest.split_once(',')).map(|(number, _)| number);
+        assert_eq!(number.map(bits), Some(value.to_bits()), "{} comes back as it was", quantity.key);
+    }
+    assert_eq!(value["stations"].as_array().map(Vec::len), Some(report.solution.stations.len()));
+}
+
+fn assert_csv(report: &Report) {
+    let whole = Report { selection: Selection::default(), ..report.clone() };
+    let rows = rows(&written(|out| report::csv::write(&whole, true, out)));
+    assert_eq!(rows.len(), 2);
+    assert_eq!(rows[0].len(), rows[1].len());
+    let found: Vec<u64> = rows[1].iter().skip(3).filter(|cell| !cell.is_empty()).map(bits).collect();
+    assert_eq!(found, whole.values().map(|(_, value)| value.to_bits()).collect::<Vec<_>>());
+    let stations = self::rows(&written(|out| report::csv::write(report, true, out)));
+    assert_eq!(stations.len(), report.solution.stations.len() + 1);
+    assert!(stations[1..].iter().all(|row| row.iter().skip(1).all(|cell| cell.parse::<f64>().is_ok_and(f64::is_finite))));
+}
+
+fn assert_page(report: &Report) {
+    assert_safe(&report::text::render(report));
+    let mut unnamed = report.clone();
+    ["title", "notes"].iter().filter_map(|key| index_of(key)).for_each(|field| unnamed.case.write(field, ""));
+    unnamed.notes.clear();
+    assert_numbers(&report::text::render(&unnamed));
+}
+
+fn written(write: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>) -> String {
+    let mut out = Vec::new();
+    write(&mut out).expect("memory takes everything");
+    String::from_utf8(out).expect("a report is text")
+}
+
+fn rows(text: &str) -> Vec<csv::StringRecord> {
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(text.as_bytes());
+    reader.records().map(|row| row.expect("CSV reads again")).collect()
+}
+
+fn bits(number: &str) -> u64 {
+    number.parse::<f64>().expect("a number").to_bits()
+}
+
+/// Two cases say the same: texts to the letter, bare numbers by their value.
+pub(crate) fn assert_same(one: &Document, other: &Document) {
+    let inputs = |document: &Document| -> Inputs { document.case.inputs().expect("a valid case") };
+    assert_eq!(inputs(one), inputs(other));
+    for (index, field) in FIELDS.iter().enumerate().filter(|(_, field)| !field.is_bare()) {
+        assert_eq!(one.case.text(index), other.case.text(index), "{}", field.key);
+    }
+    let limits = |document: &Document| {
+        document.case.limits.iter().map(|limit| (limit.quantity, limit.value.to_bits())).collect::<Vec<_>>()
+    };
+    assert_eq!((limits(one), &one.case.spread), (limits(other), &other.case.spread));
+}
