@@ -23,7 +23,11 @@ fn edited(document: &Document) -> Option<String> {
     let (before, after) = (entries(&document.loaded), entries(&document.case));
     for entry in &before {
         if !after.iter().any(|kept| kept.key() == entry.key()) {
-            take_out(table(&mut toml, entry.table)?, entry.bare_name());
+            // In braces a comment ends with a line of its own.
+            let end = if toml.get(entry.table).is_some_and(Item::is_inline_table) { "\n" } else { "" };
+            let homeless = take_out(table(&mut toml, entry.table)?, entry.bare_name(), end);
+            let trailing = toml.trailing().as_str().unwrap_or_default().to_owned();
+            toml.set_trailing(trailing + &homeless);
         }
     }
     for entry in after.iter().filter(|entry| !before.contains(entry)) {
@@ -54,25 +58,29 @@ fn write(table: &mut dyn TableLike, entry: &Entry) -> Option<()> {
     Some(())
 }
 
-/// Take an entry out, with its own trailing comment; the comments above it stay, above what comes next.
-fn take_out(table: &mut dyn TableLike, name: &str) {
+/// Take an entry out, with its own trailing comment; the comments above it go above what comes next, else below what
+/// comes before. Those that have no neighbour are given back.
+fn take_out(table: &mut dyn TableLike, name: &str, end: &str) -> String {
     let above = table.key(name).map(|key| words(key.leaf_decor().prefix())).unwrap_or_default();
     let names: Vec<String> = table.iter().map(|(name, _)| name.to_owned()).collect();
     let at = names.iter().position(|known| known == name);
     table.remove(name);
-    let next = at.and_then(|at| names.get(at + 1));
     if above.trim().is_empty() {
-        return;
+        return String::new();
     }
+    let next = at.and_then(|at| names.get(at + 1));
     if let Some(mut key) = next.and_then(|next| table.key_mut(next)) {
         let own = words(key.leaf_decor().prefix());
         key.leaf_decor_mut().set_prefix(above + &own);
-    } else if let Some(last) =
-        at.and_then(|at| names.get(at.checked_sub(1)?)).and_then(|last| table.get_mut(last)?.as_value_mut())
-    {
-        let own = words(last.decor().suffix());
-        last.decor_mut().set_suffix(format!("{own}\n{}", above.trim_end()));
+        return String::new();
     }
+    let before = at.and_then(|at| names.get(at.checked_sub(1)?));
+    if let Some(last) = before.and_then(|before| table.get_mut(before)?.as_value_mut()) {
+        let own = words(last.decor().suffix());
+        last.decor_mut().set_suffix(format!("{own}\n{}{end}", above.trim_end()));
+        return String::new();
+    }
+    above
 }
 
 /// Comments and blanks around a key or a value.
