@@ -4,7 +4,9 @@ use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use tipstrike::case::Case;
-use tipstrike::model::inputs::Rung;
+use tipstrike::model::compliance::{ContactPlace, pair_at_load};
+use tipstrike::model::geometry::geometry;
+use tipstrike::model::inputs::{ContactCompliance, Rung, ToothCompliance};
 use tipstrike::model::{Inputs, Stages, solve};
 
 fn table_1(rung: Rung) -> Inputs {
@@ -27,9 +29,24 @@ fn stations(criterion: &mut Criterion) {
     criterion.bench_function("exact with 256 stations", |bencher| bencher.iter(|| solve(black_box(&inputs), Stages::ALL)));
 }
 
+fn compliance(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("pair compliance");
+    for model in ToothCompliance::ALL {
+        for contact in ContactCompliance::ALL {
+            let inputs = Inputs { tooth_compliance: Some(model), contact_compliance: contact, ..table_1(Rung::Exact) };
+            let Ok(geometry) = geometry::<f64>(&inputs) else { continue };
+            let place = ContactPlace::on_line_of_action(&geometry, geometry.start);
+            group.bench_function(format!("{}, {contact:?}", model.name()), |bencher| {
+                bencher.iter(|| pair_at_load(black_box(&inputs), &geometry, &place, 1500.0));
+            });
+        }
+    }
+    group.finish();
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default().warm_up_time(std::time::Duration::from_millis(300)).measurement_time(std::time::Duration::from_secs(2));
-    targets = closed_form, stations
+    targets = closed_form, stations, compliance
 }
 criterion_main!(benches);

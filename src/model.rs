@@ -18,6 +18,7 @@ pub mod quantities;
 pub(crate) mod sample;
 pub mod stage;
 pub mod stations;
+pub mod tip;
 pub mod velocity;
 
 pub use band::Band;
@@ -39,6 +40,8 @@ use twofloat::TwoFloat;
 
 use impact::Masses;
 use inputs::Rung;
+
+use crate::numeric::Real;
 
 /// Whether the incoming tooth strikes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -91,31 +94,35 @@ pub struct Solution {
     pub band: Option<Band>,
     /// From D (first) to E (last, force 0); empty unless asked for.
     pub stations: Vec<Station>,
-    /// Why the tooth strikes and yet compliance, force and what follows are absent, where that is so.
+    /// Why the tooth strikes and yet compliance, force and what follows, or the stations alone, are absent, where that is
+    /// so.
     pub withheld: Option<Refusal>,
 }
 
 /// Solve the pair, running only the wanted stages and what they need.
 ///
-/// Geometry, load and deviation always run, since they tell the outcome.
+/// Geometry, load and deviation always run, since they tell the outcome. Where a small difference decides, geometry and
+/// position are computed in double-double arithmetic, asked for or not.
 ///
 /// # Errors
 /// A [`Refusal`] where the pair cannot mesh, or D does not exist. Where only the force cannot be computed, the rest is
 /// given and [`Solution::withheld`] says why.
 pub fn solve(inputs: &Inputs, wanted: Stages) -> Result<Solution, Refusal> {
-    let precise = inputs.accurate.then(|| geometry::geometry::<TwoFloat>(inputs)).transpose()?;
-    let geometry = precise.map_or_else(|| geometry::geometry(inputs), |precise| Ok(precise.rounded()))?;
-    let masses = Masses::of(inputs, &geometry)?;
+    let plain = geometry::geometry::<f64>(inputs);
+    let close_call = plain.map_or(true, |geometry| geometry.is_close_call(inputs));
+    let precise = (inputs.accurate || close_call).then(|| geometry::geometry::<TwoFloat>(inputs)).transpose()?;
+    let geometry = precise.map_or(plain, |precise| Ok(precise.rounded()))?;
+    let masses = precise.map_or_else(|| Masses::of(inputs, &geometry), |precise| Masses::of(inputs, &precise))?;
     let mesh_force = inputs.torque() / geometry.driver.base;
     let deviation = deviation::deviation(inputs, &geometry, mesh_force)?;
     let mut solution = Solution {
         rung: inputs.rung,
-        outcome: if deviation.total > 0.0 { Outcome::CornerContact } else { Outcome::NoCornerContact },
+        outcome: if deviation.total.rounded() > 0.0 { Outcome::CornerContact } else { Outcome::NoCornerContact },
         stages: Stages::of(Stage::Deviation),
         geometry,
         mesh_force,
         reduced_mass: masses.reduced(),
-        deviation,
+        deviation: deviation.rounded(),
         position: None,
         velocity: None,
         compliance: None,
@@ -127,7 +134,7 @@ pub fn solve(inputs: &Inputs, wanted: Stages) -> Result<Solution, Refusal> {
     };
     if wanted.has(Stage::Position) {
         solution.stages = solution.stages.with(Stage::Position);
-        match position::position(inputs, &solution.geometry, precise.as_ref(), &solution.deviation)? {
+        match position::position(inputs, &solution.geometry, precise.as_ref(), &deviation)? {
             Some(position) => solution.follow(inputs, &masses, wanted, position),
             None => solution.outcome = Outcome::NoCornerContact,
         }
@@ -146,7 +153,7 @@ impl Solution {
     fn strike(&mut self, inputs: &Inputs, masses: &Masses, wanted: Stages, position: &Position) -> Result<(), Refusal> {
         let geometry = self.geometry;
         let tip = &position.contact;
-        let velocity = velocity::velocity(inputs, &geometry, tip);
+        let velocity = velocity::velocity(inputs, tip);
         if wanted.has(Stage::Velocity) {
             self.velocity = Some(velocity);
             self.stages = self.stages.with(Stage::Velocity);

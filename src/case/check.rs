@@ -44,9 +44,6 @@ impl std::error::Error for Problem {}
 /// The rungs that are planned and not there yet.
 const PLANNED_RUNGS: [&str; 2] = ["static", "dynamic"];
 
-/// The dedendum of the standard rack, times the module.
-const DEDENDUM: f64 = 1.25;
-
 /// The greatest ratio of tooth numbers, either way.
 const MOST_RATIO: f64 = 50.0;
 
@@ -218,10 +215,10 @@ fn together(inputs: &Inputs, sound: impl Fn(&[&str]) -> bool) -> Vec<Problem> {
 }
 
 fn bore_through_root(field: &str, gear: &Gear, module: f64) -> Option<Problem> {
-    let root = module * (f64::from(gear.teeth) / 2.0 - DEDENDUM + gear.profile_shift);
+    let root = module * (f64::from(gear.teeth) / 2.0 - gear.dedendum + gear.profile_shift);
     (gear.bore_radius >= root).then(|| {
         let (bore, root) = (rounded(gear.bore_radius), rounded(root));
-        let cause = format!("the bore radius {bore} mm is not below the root circle's {root} mm = m (z/2 - {DEDENDUM} + x)");
+        let cause = format!("the bore radius {bore} mm is not below the root circle's {root} mm = m (z/2 - hf* + x)");
         Problem::new(field, cause, format!("write a radius (not a diameter) below {root} mm"))
     })
 }

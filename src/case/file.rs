@@ -6,6 +6,7 @@ mod fault;
 mod syntax;
 mod template;
 mod tree;
+mod value;
 
 use std::path::PathBuf;
 
@@ -120,11 +121,11 @@ impl Document {
     }
 
     /// Take the text that was saved for the one that was read.
-    fn settle(&mut self, text: &str, origin: PathBuf) {
+    fn settle(&mut self, text: &str, name: String, origin: PathBuf) {
         text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text).clone_into(&mut self.text);
         self.loaded = self.case.clone();
         self.places = tree::read(&self.text).places;
-        self.name = origin.display().to_string();
+        self.name = name;
         self.origin = Some(origin);
     }
 }

@@ -8,7 +8,7 @@ pub mod profile;
 use super::Refusal;
 use super::geometry::{Circles, Geometry};
 use super::inputs::{Gear, Inputs, ToothCompliance};
-use super::position::TipContact;
+use super::tip::TipContact;
 
 /// Compliance of the two teeth at D, contact excluded, per unit width, in m²/N.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,30 +1,33 @@
 //! What brings the tooth in early: equivalent error and combined deflection.
 
+use twofloat::TwoFloat;
+
 use super::Refusal;
 use super::compliance::{self, ContactPlace};
 use super::geometry::Geometry;
 use super::inputs::{Inputs, Rung};
+use crate::numeric::Real;
 
 /// Deviation along the line of action, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Deviation {
+pub struct Deviation<T = f64> {
     /// Equivalent error Δf, Eqs. 1 and 2.
-    pub equivalent_error: f64,
+    pub equivalent_error: T,
     /// Combined deflection δ of the pairs that carry the load, Eqs. 3 and 4.
-    pub combined_deflection: f64,
+    pub combined_deflection: T,
     /// Δ = Δf + δ, Eq. 5. Without Δ > 0 no tooth strikes.
-    pub total: f64,
+    pub total: T,
 }
 
-/// What brings the incoming tooth in early.
+/// What brings the incoming tooth in early, in double-double arithmetic: a relief may take back all but a small rest.
 ///
 /// # Errors
 /// A [`Refusal`] where the deflection has to be computed and cannot be.
-pub fn deviation(inputs: &Inputs, geometry: &Geometry, mesh_force: f64) -> Result<Deviation, Refusal> {
+pub fn deviation(inputs: &Inputs, geometry: &Geometry, mesh_force: f64) -> Result<Deviation<TwoFloat>, Refusal> {
     let equivalent_error = equivalent_error(inputs);
     let combined_deflection = match inputs.deflection {
-        Some(given) => given,
-        None => combined_deflection(inputs, geometry, mesh_force)?,
+        Some(given) => given.into(),
+        None => combined_deflection(inputs, geometry, mesh_force)?.into(),
     };
     Ok(Deviation { equivalent_error, combined_deflection, total: equivalent_error + combined_deflection })
 }
@@ -41,12 +44,12 @@ pub fn deviation(inputs: &Inputs, geometry: &Geometry, mesh_force: f64) -> Resul
 /// # Source
 /// Zhou & Chen 2014, Eqs. 1 and 2. The rung `paper` scales the modification e_m with the random errors, as printed;
 /// `exact` counts it in full, since a relief that was ground is there in full.
-fn equivalent_error(inputs: &Inputs) -> f64 {
-    let modification = -(inputs.driven.tip_relief + inputs.driver.root_relief);
-    let random = 2.0 * inputs.base_pitch_deviation - inputs.backlash;
+fn equivalent_error(inputs: &Inputs) -> TwoFloat {
+    let modification = -TwoFloat::new_add(inputs.driven.tip_relief, inputs.driver.root_relief);
+    let random = TwoFloat::new_sub(2.0 * inputs.base_pitch_deviation, inputs.backlash);
     match inputs.rung {
-        Rung::Paper => (random + modification) * std::f64::consts::FRAC_1_SQRT_2,
-        Rung::Exact => random * std::f64::consts::FRAC_1_SQRT_2 + modification,
+        Rung::Paper => (random + modification) * twofloat::consts::FRAC_1_SQRT_2,
+        Rung::Exact => random * twofloat::consts::FRAC_1_SQRT_2 + modification,
     }
 }
 
@@ -76,4 +79,15 @@ fn combined_deflection(inputs: &Inputs, geometry: &Geometry, mesh_force: f64) ->
         along += geometry.base_pitch;
     }
     Ok(mesh_force / (inputs.common_width() * stiffness))
+}
+
+impl<T: Real> Deviation<T> {
+    /// Rounded to f64.
+    pub(super) fn rounded(self) -> Deviation {
+        Deviation {
+            equivalent_error: self.equivalent_error.rounded(),
+            combined_deflection: self.combined_deflection.rounded(),
+            total: self.total.rounded(),
+        }
+    }
 }

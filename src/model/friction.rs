@@ -2,7 +2,7 @@
 
 use super::geometry::Geometry;
 use super::inputs::{Inputs, Rung};
-use super::position::{TipContact, tip_at};
+use super::tip::{TipContact, angle_by_growth, seen_from, tip_at};
 use super::{Impact, Velocity};
 
 /// Change of the velocities between D and D'.
@@ -37,45 +37,89 @@ pub fn friction(
     reduced_mass: f64,
 ) -> Friction {
     let turn = inputs.driven_speed() * impact.duration_printed;
+    let from_contact = seen_from(geometry, tip);
     let end = match inputs.rung {
-        Rung::Paper => printed_end(inputs, geometry, tip, turn),
-        Rung::Exact => Some(tip_at(geometry, (tip.angle - turn).max(0.0))),
+        Rung::Paper => printed_end(inputs, &from_contact, tip, turn),
+        Rung::Exact => Some(tip_after(geometry, &from_contact, tip, turn)),
     };
     let gained = impact.force * impact.duration_printed / (reduced_mass * geometry.driven.tip);
-    let ratio =
-        end.map(|end| changes_ratio(inputs, tip, &end, gained)).filter(|ratio| ratio.is_finite() && velocity.normal > 0.0);
+    let ratio = end.map(|end| changes_ratio(inputs, &end, gained)).filter(|ratio| ratio.is_finite() && velocity.normal > 0.0);
     Friction { ratio }
 }
 
-/// |change of ΔV_τ|/|change of ΔV_n|, the driven gear having gained `gained` rad/s.
-fn changes_ratio(inputs: &Inputs, from: &TipContact, to: &TipContact, gained: f64) -> f64 {
+/// |change of ΔV_τ|/|change of ΔV_n| to the end of the impact, the driven gear having gained `gained` rad/s.
+fn changes_ratio(inputs: &Inputs, end: &TipContact, gained: f64) -> f64 {
     let driven_speed = inputs.driven_speed();
-    let normal = driven_speed * (to.normal_radius_drop - from.normal_radius_drop) - gained * to.normal_radius_driven;
-    let sliding = driven_speed * (to.normal_length_growth - from.normal_length_growth)
-        - inputs.speed * (to.curvature_growth - from.curvature_growth)
-        + gained * to.normal_length_driven;
+    let normal = driven_speed * end.normal_radius_drop - gained * end.normal_radius_driven;
+    let sliding =
+        driven_speed * end.normal_length_growth - inputs.speed * end.curvature_growth + gained * end.normal_length_driven;
     (sliding / normal).abs()
 }
 
-/// D' by Eq. 34: the driven tip where O₁D' closes the triangle O₁DD' with the angle Δθ = i `turn` at O₁ and the chord
-/// of `turn` as DD'. `None` where the triangle does not close.
-fn printed_end(inputs: &Inputs, geometry: &Geometry, tip: &TipContact, turn: f64) -> Option<TipContact> {
-    let at_driver = turn * inputs.ratio();
-    let chord = 2.0 * geometry.driven.tip * (turn / 2.0).sin();
-    let lateral = tip.radius_driver * at_driver.sin();
-    let closing = (chord - lateral) * (chord + lateral);
-    if closing < 0.0 {
-        return None;
+/// D' where the tip has turned by `turn` from D, but not past E; its changes are those since D. They are taken from D on a
+/// short way, and between two increments from E on a long one.
+fn tip_after(geometry: &Geometry, from_contact: &Geometry, tip: &TipContact, turn: f64) -> TipContact {
+    let rest = tip.angle - turn;
+    if rest > 0.5 * tip.angle {
+        return tip_at(from_contact, -turn);
     }
-    let shortened = -2.0 * tip.radius_driver * (at_driver / 2.0).sin().powi(2) - closing.sqrt();
-    angle_after(geometry, tip, shortened).map(|angle| tip_at(geometry, angle)).filter(|end| end.radius_driver.is_finite())
+    let end = tip_at(geometry, rest.max(0.0));
+    TipContact {
+        normal_radius_drop: end.normal_radius_drop - tip.normal_radius_drop,
+        normal_length_growth: end.normal_length_growth - tip.normal_length_growth,
+        curvature_growth: end.curvature_growth - tip.curvature_growth,
+        ..end
+    }
 }
 
-/// The driven tip's angle before E where O₁D has grown by `growth`. `None` where the tip circle does not reach there.
-fn angle_after(geometry: &Geometry, tip: &TipContact, growth: f64) -> Option<f64> {
-    let grown_square = growth * (2.0 * tip.radius_driver + growth);
-    let arm = geometry.centre_distance * geometry.driven.tip;
-    let half = f64::midpoint(geometry.start_angle_driven, tip.angle).sin();
-    let square = half * half + grown_square / (4.0 * arm);
-    ((0.0..=1.0).contains(&square)).then(|| 2.0 * square.sqrt().asin() - geometry.start_angle_driven)
+/// D' by Eq. 34, the pair seen from D: the driven tip where O₁D' closes the triangle O₁DD' with the angle Δθ = i `turn`
+/// at O₁ and the chord of `turn` as DD'. `None` where the triangle does not close.
+///
+/// Close to the pitch point r_a2 is next to i O₁D, and the chord next to what the triangle needs across O₁D: their
+/// difference is taken from small terms.
+fn printed_end(inputs: &Inputs, from_contact: &Geometry, tip: &TipContact, turn: f64) -> Option<TipContact> {
+    let at_driver = turn * inputs.ratio();
+    let chord = 2.0 * from_contact.driven.tip * (turn / 2.0).sin();
+    let lateral = tip.radius_driver * at_driver.sin();
+    let rest = tip_excess(from_contact, tip) * turn - 2.0 * from_contact.driven.tip * below_angle(turn / 2.0)
+        + tip.radius_driver * below_angle(at_driver);
+    let closing = rest * (chord + lateral);
+    let shortened = -2.0 * tip.radius_driver * (at_driver / 2.0).sin().powi(2) - closing.sqrt();
+    let end_radius = tip.radius_driver + shortened;
+    let end = tip_at(from_contact, angle_by_growth(from_contact, shortened * (tip.radius_driver + end_radius)));
+    (end_radius > 0.0 && end.radius_driver.is_finite()).then_some(end)
+}
+
+/// r_a2 − i O₁D, in m, from the arms of the velocities: `r_a2² − i² O₁D² = (N2'D² − i² ρ1²) − (r_b2² − r_b2'²)`.
+fn tip_excess(from_contact: &Geometry, tip: &TipContact) -> f64 {
+    let (ratio, base) = (from_contact.ratio, from_contact.driver.base);
+    let along = tip.sliding_arm * (tip.normal_length_driven + ratio * tip.curvature_driver);
+    let across = tip.normal_radius_drop * (ratio * base + tip.normal_radius_driven);
+    (along - across) / (from_contact.driven.tip + ratio * tip.radius_driver)
+}
+
+/// x − sin x, by its series where the difference would lose digits.
+fn below_angle(angle: f64) -> f64 {
+    const SMALL: f64 = 0.5;
+    if angle.abs() > SMALL {
+        return angle - angle.sin();
+    }
+    let square = angle * angle;
+    let rest = (2..=7).rev().fold(1.0, |rest, half| {
+        let order = f64::from(2 * half);
+        1.0 - square / (order * (order + 1.0)) * rest
+    });
+    angle * square / 6.0 * rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::below_angle;
+
+    #[test]
+    fn series_meets_the_difference() {
+        assert!((below_angle(0.5) / (0.5 - 0.5f64.sin()) - 1.0).abs() < 1e-14);
+        assert!((below_angle(0.5000001) / below_angle(0.4999999) - 1.0).abs() < 2e-6);
+        assert!((below_angle(1e-3) / (1e-9 / 6.0) - 1.0 + 5e-8).abs() < 1e-12);
+    }
 }

@@ -6,10 +6,8 @@ use super::Refusal;
 use super::inputs::{Gear, Inputs};
 use crate::numeric::Real;
 
-/// Dedendum of the standard basic rack, times the module (ISO 53).
-pub const RACK_DEDENDUM: f64 = 1.25;
-/// Dedendum of the straight flank of the standard basic rack, times the module (ISO 53).
-pub const RACK_STRAIGHT_DEDENDUM: f64 = 1.0;
+/// A difference below this share of its terms is taken in double-double arithmetic: f64 would lose two digits and more.
+pub(super) const LEAST_REST: f64 = 1.0 / 64.0;
 
 /// Circles of one gear, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,13 +20,15 @@ pub struct Circles<T = f64> {
     pub tip: T,
     /// Radius of curvature of the involute at the tip, √(r_a² − r_b²).
     pub tip_curvature: T,
-    /// Root radius r_f of a tooth cut by the standard rack.
+    /// Root radius r_f = r + m (x − h_fP*).
     pub root: T,
 }
 
 /// Geometry of the pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Geometry<T = f64> {
+    /// Transmission ratio i = z₂/z₁.
+    pub ratio: T,
     /// Circles of the driver.
     pub driver: Circles<T>,
     /// Circles of the driven gear.
@@ -92,6 +92,7 @@ pub fn geometry<T: Real>(inputs: &Inputs) -> Result<Geometry<T>, Refusal> {
         return Err(Refusal::NoPath { start: start.rounded(), end: end.rounded() });
     }
     Ok(Geometry {
+        ratio: T::count(inputs.driven.teeth).over(T::count(inputs.driver.teeth)),
         driver,
         driven,
         centre_distance,
@@ -103,7 +104,7 @@ pub fn geometry<T: Real>(inputs: &Inputs) -> Result<Geometry<T>, Refusal> {
         approach_length,
         contact_ratio: (end - start).over(base_pitch),
         start_angle_driven: approach_length.angle_to(driven.base + driven.tip_curvature * tangent),
-        start_point: turned(working_pressure_angle) * Vector2::new(driver.base, -start),
+        start_point: foot(driver.base, start, working_pressure_angle),
     })
 }
 
@@ -111,6 +112,11 @@ pub fn geometry<T: Real>(inputs: &Inputs) -> Result<Geometry<T>, Refusal> {
 fn tangent_of<T: Real>(angle: T) -> T {
     let (sine, cosine) = angle.sine_cosine();
     sine.over(cosine)
+}
+
+/// The point of a flank with the radius of curvature `curvature` on a contact normal at `angle`, seen from O₁.
+pub(super) fn foot<T: Real>(base: T, curvature: T, angle: T) -> Vector2<T> {
+    turned(angle) * Vector2::new(base, -curvature)
 }
 
 /// Rotation of the plane by an angle.
@@ -128,13 +134,17 @@ fn circles<T: Real>(inputs: &Inputs, gear: &Gear, alpha: T) -> Result<Circles<T>
     let base = reference * alpha.sine_cosine().1;
     let height = module * (shift + gear.addendum.into()) - gear.tip_chamfer.into();
     let half_sine = (alpha * half).sine_cosine().0;
+    let most_dedendum = std::f64::consts::FRAC_PI_4 / inputs.pressure_angle.tan();
+    if gear.dedendum >= most_dedendum {
+        return Err(Refusal::PointedRack { dedendum: gear.dedendum, limit: most_dedendum });
+    }
     let over_base = two * reference * half_sine * half_sine + height;
     if over_base <= T::zero() {
         return Err(Refusal::TipInsideBase { tip: (reference + height).rounded(), base: base.rounded() });
     }
     let tip = reference + height;
     let tip_curvature = (over_base * (tip + base)).root();
-    Ok(Circles { reference, base, tip, tip_curvature, root: reference + module * (shift - RACK_DEDENDUM.into()) })
+    Ok(Circles { reference, base, tip, tip_curvature, root: reference + module * (shift - gear.dedendum.into()) })
 }
 
 /// Centre distance and tan α_w.
@@ -195,6 +205,24 @@ impl<T: Real> Circles<T> {
 }
 
 impl Geometry {
+    /// Whether the differences that the pair stands on are so small that f64 loses digits in them: N₁E, the path of
+    /// contact, EP, r_a − r_b, a − (r_b1 + r_b2) and the wall between bore and base circle.
+    #[must_use]
+    pub fn is_close_call(&self, inputs: &Inputs) -> bool {
+        const FLAT: f64 = 0.125;
+        const SHORT: f64 = 1.0 / 32.0;
+        let short_tip = |circles: &Circles| circles.tip_curvature < SHORT * circles.base;
+        let thin_wall = |gear: &Gear, circles: &Circles| circles.base - gear.bore_radius < LEAST_REST * circles.base;
+        self.start < LEAST_REST * self.tangent_length
+            || self.approach_length.abs() < LEAST_REST * self.driven.tip_curvature
+            || self.end - self.start < LEAST_REST * self.end
+            || self.tangent_length < FLAT * (self.driver.base + self.driven.base)
+            || short_tip(&self.driver)
+            || short_tip(&self.driven)
+            || thin_wall(&inputs.driver, &self.driver)
+            || thin_wall(&inputs.driven, &self.driven)
+    }
+
     /// Normal backlash that the centre distance leaves, 2 (r_b1 + r_b2) (inv α_w − inv α_w0), in m, where α_w0 is the
     /// working pressure angle without backlash; below 0 the teeth jam (ISO 21771).
     #[must_use]
@@ -211,6 +239,7 @@ impl<T: Real> Geometry<T> {
     /// Rounded to f64.
     pub(super) fn rounded(self) -> Geometry {
         Geometry {
+            ratio: self.ratio.rounded(),
             driver: self.driver.rounded(),
             driven: self.driven.rounded(),
             centre_distance: self.centre_distance.rounded(),

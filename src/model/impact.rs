@@ -6,8 +6,9 @@ use super::compliance::ContactPlace;
 use super::compliance::contact::{plane_strain_compliance, spring};
 use super::geometry::{Circles, Geometry};
 use super::inputs::{Gear, Inputs, Rung};
-use super::position::TipContact;
+use super::tip::TipContact;
 use super::{Refusal, TeethCompliance, Velocity};
+use crate::numeric::Real;
 
 /// The impact at D.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,8 +58,10 @@ impl Masses {
     ///
     /// # Errors
     /// [`Refusal::BoreTooLarge`] where the bore reaches the base circle or the root circle.
-    pub fn of(inputs: &Inputs, geometry: &Geometry) -> Result<Masses, Refusal> {
-        Ok(Masses { driver: mass(&inputs.driver, &geometry.driver)?, driven: mass(&inputs.driven, &geometry.driven)? })
+    pub fn of<T: Real>(inputs: &Inputs, geometry: &Geometry<T>) -> Result<Masses, Refusal> {
+        let driver = mass("driver.bore_radius", &inputs.driver, &geometry.driver)?;
+        let driven = mass("driven.bore_radius", &inputs.driven, &geometry.driven)?;
+        Ok(Masses { driver, driven })
     }
 
     /// Reduced mass of Eq. 33, 1/m_red = 1/m_red,1 + 1/m_red,2, in kg.
@@ -77,13 +80,14 @@ impl Masses {
 }
 
 /// Mass of one gear at its base circle, in kg.
-fn mass(gear: &Gear, circles: &Circles) -> Result<f64, Refusal> {
-    let (base, bore) = (circles.base, gear.bore_radius);
-    let limit = base.min(circles.root);
+fn mass<T: Real>(field: &'static str, gear: &Gear, circles: &Circles<T>) -> Result<f64, Refusal> {
+    let (base, bore): (T, T) = (circles.base, gear.bore_radius.into());
+    let limit = if base < circles.root { base } else { circles.root };
     if bore >= limit {
-        return Err(Refusal::BoreTooLarge { bore, limit });
+        return Err(Refusal::BoreTooLarge { field, bore: gear.bore_radius, limit: limit.rounded() });
     }
-    let fourth_powers = (base - bore) * (base + bore) * (base * base + bore * bore);
+    let (wall, base, bore) = ((base - bore).rounded(), base.rounded(), gear.bore_radius);
+    let fourth_powers = wall * (base + bore) * (base * base + bore * bore);
     Ok(PI * gear.density * gear.face_width / 2.0 * fourth_powers / (base * base))
 }
 

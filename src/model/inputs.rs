@@ -9,6 +9,8 @@ pub struct Gear {
     pub profile_shift: f64,
     /// Addendum coefficient h_a*, times the module.
     pub addendum: f64,
+    /// Dedendum coefficient h_fP* of the cutting rack, times the module.
+    pub dedendum: f64,
     /// Face width b, in m.
     pub face_width: f64,
     /// Bore radius r_h, in m.

@@ -32,6 +32,14 @@ pub enum Refusal {
         /// r_b, in m.
         base: f64,
     },
+    /// The cutting rack's flanks meet above its tip.
+    #[error("the cutting rack is pointed: the dedendum is {dedendum} and must be below {limit:.4} for this pressure angle")]
+    PointedRack {
+        /// h_fP*.
+        dedendum: f64,
+        /// π/(4 tan α).
+        limit: f64,
+    },
     /// The base circles overlap.
     #[error("the centre distance jams the mesh: it is {:.4} mm and must be above rb1 + rb2 = {:.4} mm", .distance / MILLIMETRE, .least / MILLIMETRE)]
     CentreDistanceJams {
@@ -55,6 +63,8 @@ pub enum Refusal {
     /// The bore leaves no gear body.
     #[error("the bore radius is {:.4} mm and must be below the root and base circles, {:.4} mm", .bore / MILLIMETRE, .limit / MILLIMETRE)]
     BoreTooLarge {
+        /// The key of the gear's bore radius.
+        field: &'static str,
         /// r_h, in m.
         bore: f64,
         /// The smaller of root and base radius, in m.
@@ -86,11 +96,25 @@ pub enum Refusal {
         /// x.
         shift: f64,
     },
+    /// Eq. 56 gives no stiffness so far out on the tooth.
+    #[error(
+        "load point outside the Kuang-Yang fit: (r_x - r)/((1+x) m) is {height:.4}, where the fit's stiffness is not above 0"
+    )]
+    HeightOutsideFit {
+        /// (r_x − r)/((1 + x) m).
+        height: f64,
+    },
     /// No tooth is left where the load stands.
     #[error("pointed tip: the tooth's thickness at the load point is {:.4} mm and must be above 0", .thickness / MILLIMETRE)]
     PointedTip {
         /// Thickness, in m.
         thickness: f64,
+    },
+    /// The undercut leaves no neck below the tooth.
+    #[error("the undercut cuts the tooth through: its profile shift is {shift} and must be greater for so few teeth")]
+    CutThrough {
+        /// x.
+        shift: f64,
     },
     /// The load stands on the fillet, which is no involute.
     #[error("the flank ends above the contact: O1D is {:.4} mm and the form circle {:.4} mm", .radius / MILLIMETRE, .form / MILLIMETRE)]
@@ -147,6 +171,7 @@ impl Refusal {
             Refusal::TipInsideBase { .. } => {
                 ("tip-inside-base", "driven.addendum", "give a higher addendum or a smaller tip chamfer")
             }
+            Refusal::PointedRack { .. } => ("pointed-rack", "driver.dedendum", "give a smaller dedendum or pressure angle"),
             Refusal::CentreDistanceJams { .. } => {
                 ("centre-distance-jams", "pair.centre_distance", "give a greater centre distance, or leave it out")
             }
@@ -156,7 +181,7 @@ impl Refusal {
                 "driven.addendum",
                 "lengthen the addenda or bring the gears closer, or give model.deflection",
             ),
-            Refusal::BoreTooLarge { .. } => ("bore-too-large", "driver.bore_radius", "give a smaller bore radius"),
+            Refusal::BoreTooLarge { field, .. } => ("bore-too-large", *field, "give a smaller bore radius"),
             Refusal::NoFirstContact { .. } => {
                 ("no-first-contact", "deviations.base_pitch", "give a smaller deviation or deflection")
             }
@@ -165,9 +190,13 @@ impl Refusal {
             }
             Refusal::TeethOutsideFit { .. } => ("teeth-outside-fit", "model.tooth_compliance", "choose another tooth compliance"),
             Refusal::ShiftOutsideFit { .. } => ("shift-outside-fit", "model.tooth_compliance", "choose another tooth compliance"),
+            Refusal::HeightOutsideFit { .. } => {
+                ("height-outside-fit", "model.tooth_compliance", "choose another tooth compliance, or a shorter addendum")
+            }
             Refusal::PointedTip { .. } => {
                 ("pointed-tip", "driven.addendum", "give a shorter addendum, less profile shift or more teeth")
             }
+            Refusal::CutThrough { .. } => ("cut-through", "driver.profile_shift", "give more profile shift or more teeth"),
             Refusal::BelowFormCircle { .. } => {
                 ("below-form-circle", "driven.addendum", "shorten the driven addendum, or give the driver more profile shift")
             }

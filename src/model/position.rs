@@ -1,40 +1,22 @@
 //! Where the driven tip first touches the driver's flank: D.
 
-use nalgebra::Vector2;
 use twofloat::TwoFloat;
 
-use super::geometry::Geometry;
+use super::geometry::{self, Geometry};
 use super::inputs::{Inputs, Rung};
+pub use super::tip::{TipContact, gap, gap_by_quadrature, tip_at};
+use super::tip::{angle_at_curvature, gap_without, largest_term};
 use super::{Deviation, Refusal};
-use crate::numeric::{Real, quadrature};
+use crate::numeric::Real;
 
 /// Half a turn and more never brings a tip back: no contact is sought beyond, in rad.
 const LARGEST_ANGLE: f64 = 1.5;
 
-/// A place of the driven tip on its circle, and the driver's flank that it would touch there.
-///
-/// What changes from E is carried as an increment, so that nothing is lost close to E.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TipContact<T = f64> {
-    /// Driven gear's angle before E, u, in rad.
-    pub angle: T,
-    /// O₁D, in m.
-    pub radius_driver: T,
-    /// Radius of curvature of the driver's flank ρ₁ = N₁'D, in m.
-    pub curvature_driver: T,
-    /// Growth of ρ₁ since E, in m.
-    pub curvature_growth: T,
-    /// Rise of the contact normal's angle over E, χ − α_w, in rad.
-    pub normal_turn: T,
-    /// Distance from O₂ to the contact normal r_b2', in m.
-    pub normal_radius_driven: T,
-    /// r_b2 − r_b2' = dS/du, in m.
-    pub normal_radius_drop: T,
-    /// Growth of N₂'D since E, in m.
-    pub normal_length_growth: T,
-    /// N₂'D along the contact normal, in m.
-    pub normal_length_driven: T,
-}
+/// In double-double arithmetic the gap in closed form may lose this factor of its digits.
+const LOST: f64 = 1e14;
+
+/// The gap in closed form may lose this factor of its digits before the quadrature serves in its place.
+const KEPT_DIGITS: f64 = 64.0;
 
 /// The first contact D.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,138 +33,53 @@ pub struct Position {
     pub closed_gap: f64,
 }
 
-/// The driven tip at the angle `angle` before E.
-///
-/// # Formula
-/// ```text
-/// Q = 4 a ra2 sin(u/2) sin(γ2 + u/2),  O1D² = O1E² + Q,  ρ1 = √(N1E² + Q),  Δρ1 = Q/(ρ1 + N1E)
-/// Δβ1 = atan2(rb1 Δρ1, rb1² + ρ1 N1E),  Δψ = atan2(E × D, E · D),  Δχ = Δψ + Δβ1
-/// rb2 − rb2' = 2 a sin(αw + Δχ/2) sin(Δχ/2),  N2'D = N2E + 2 a cos(αw + Δχ/2) sin(Δχ/2) − Δρ1
-/// ```
-/// where E and D are seen from O₁ and D − E is the chord of the tip circle.
-///
-/// # Source
-/// Zhou & Chen 2014, Eqs. 7, 24-28, 48, 49, rewritten as increments from E; Eq. 27 mended to the law of cosines.
-///
-/// # Valid for
-/// Any angle at which the tip lies outside the driver's base circle (`N1E² + Q > 0`).
-pub fn tip_at<T: Real>(geometry: &Geometry<T>, angle: T) -> TipContact<T> {
-    let (half, two): (T, T) = (0.5.into(), 2.0.into());
-    let (base, start) = (geometry.driver.base, geometry.start);
-    let half_sine = (angle * half).sine_cosine().0;
-    let (middle_sine, middle_cosine) = (geometry.start_angle_driven + angle * half).sine_cosine();
-    let chord_length = two * geometry.driven.tip * half_sine;
-
-    let grown_square = two * geometry.centre_distance * chord_length * middle_sine;
-    let curvature_driver = (start * start + grown_square).root();
-    let curvature_growth = grown_square.over(curvature_driver + start);
-    let flank_turn = (base * curvature_growth).angle_to(base * base + curvature_driver * start);
-
-    let from = geometry.start_point;
-    let chord = Vector2::new(middle_sine, middle_cosine) * chord_length;
-    let polar_turn = from.perp(&chord).angle_to(from.dot(&from) + from.dot(&chord));
-
-    let normal_turn = polar_turn + flank_turn;
-    let turn_chord = two * geometry.centre_distance * (normal_turn * half).sine_cosine().0;
-    let (sine, cosine) = (geometry.working_pressure_angle + normal_turn * half).sine_cosine();
-    let normal_radius_drop = turn_chord * sine;
-    let normal_length_growth = turn_chord * cosine - curvature_growth;
-    TipContact {
-        angle,
-        radius_driver: (base * base + curvature_driver * curvature_driver).root(),
-        curvature_driver,
-        curvature_growth,
-        normal_turn,
-        normal_radius_driven: geometry.driven.base - normal_radius_drop,
-        normal_radius_drop,
-        normal_length_growth,
-        normal_length_driven: geometry.driven.tip_curvature + normal_length_growth,
-    }
-}
-
-/// Normal gap S(u) that the tip has closed at the angle u before E, in m, in closed form.
-///
-/// # Formula
-/// ```text
-/// S(u) = Δρ1 + rb2 u − rb1 Δχ
-/// ```
-/// The three terms grow as u and their sum as u², so that about ε r_b2 u/S is lost; see [`gap_by_quadrature`].
-pub fn gap<T: Real>(geometry: &Geometry<T>, tip: &TipContact<T>) -> T {
-    tip.curvature_growth + geometry.driven.base * tip.angle - geometry.driver.base * tip.normal_turn
-}
-
-/// Normal gap S(u), in m, as the integral of dS/du = r_b2 − r_b2', which cancels nothing.
-///
-/// The integrand has its branch point where ρ₁ = 0. Where that is near, ρ₁ itself is the variable, in which the
-/// integrand is smooth.
-#[must_use]
-pub fn gap_by_quadrature(geometry: &Geometry, tip: &TipContact) -> f64 {
-    if tip.curvature_driver < std::f64::consts::SQRT_2 * geometry.start {
-        return tip.angle * quadrature::unit_interval(|part| tip_at(geometry, part * tip.angle).normal_radius_drop);
-    }
-    let arm = geometry.centre_distance * geometry.driven.tip;
-    tip.curvature_growth
-        * quadrature::unit_interval(|part| {
-            let curvature = geometry.start + part * tip.curvature_growth;
-            let angle = angle_at_curvature(geometry, curvature);
-            let slope = curvature / (arm * (geometry.start_angle_driven + angle).sin());
-            tip_at(geometry, angle).normal_radius_drop * slope
-        })
-}
-
-/// The angle u at which the driver's flank has the radius of curvature ρ₁: the inverse of `ρ1² = N1E² + Q(u)`.
-fn angle_at_curvature(geometry: &Geometry, curvature: f64) -> f64 {
-    let arm = geometry.centre_distance * geometry.driven.tip;
-    let fallen = (curvature - geometry.start) * (curvature + geometry.start) / (2.0 * arm);
-    let (sine, cosine) = geometry.start_angle_driven.sin_cos();
-    let risen = fallen * (2.0 * cosine - fallen);
-    let end_sine = (sine * sine + risen).sqrt();
-    let sine_growth = risen / (end_sine + sine);
-    (cosine * sine_growth + fallen * sine).atan2(cosine * (cosine - fallen) + sine * end_sine)
-}
-
 /// The angle u at which the tip has closed the gap Δ: `S(u) = Δ`.
 ///
-/// Newton's method on ln S against ln u from the parabola at E, until a last step with the gap by quadrature, or in
-/// closed form where that has kept its digits.
+/// Newton's method on ln S against ln u from the parabola at E, or from the driver's tip where the parabola is beyond it,
+/// until a last step with all digits of the gap.
 ///
 /// # Errors
 /// [`Refusal::NoFirstContact`] where the steps do not settle: no turn of the gear would bridge such a deviation.
 fn first_contact(geometry: &Geometry, deviation: f64) -> Result<f64, Refusal> {
     const STEPS: usize = 60;
     const SETTLED: f64 = 1e-4;
-    const KEPT_DIGITS: f64 = 64.0;
-    let mut angle = (2.0 * deviation / gap_curvature_at_start(geometry)).sqrt();
+    const ON_THE_WAY: f64 = 1e8;
+    let parabola = (2.0 * deviation / gap_curvature_at_start(geometry)).sqrt();
+    let mut angle = parabola.min(angle_at_curvature(geometry, geometry.end)).min(LARGEST_ANGLE);
     for _ in 0..STEPS {
-        let tip = tip_at(geometry, angle);
-        let step = logarithmic_step(&tip, gap(geometry, &tip), deviation);
+        let step = logarithmic_step(geometry, angle, deviation, ON_THE_WAY);
         if !step.is_finite() || angle > LARGEST_ANGLE {
             break;
         }
         angle *= step.clamp(-2.0, 2.0).exp();
         if step.abs() < SETTLED {
-            let tip = tip_at(geometry, angle);
-            let lost = geometry.driven.base * angle > KEPT_DIGITS * deviation;
-            let closed = if lost { gap_by_quadrature(geometry, &tip) } else { gap(geometry, &tip) };
-            return Ok(angle * (1.0 + logarithmic_step(&tip, closed, deviation)));
+            return Ok(angle * (1.0 + logarithmic_step(geometry, angle, deviation, KEPT_DIGITS)));
         }
     }
     Err(Refusal::NoFirstContact { deviation })
 }
 
-/// Newton's step of ln u towards `S = deviation`.
-fn logarithmic_step(tip: &TipContact, closed: f64, deviation: f64) -> f64 {
+/// Newton's step of ln u towards `S = deviation`, with the gap by quadrature where the terms of its closed form outgrow
+/// their sum by more than the factor `loss`.
+fn logarithmic_step(geometry: &Geometry, angle: f64, deviation: f64, loss: f64) -> f64 {
+    let tip = tip_at(geometry, angle);
+    let closed = gap_without(loss, geometry, &tip);
     (deviation / closed).ln() * closed / (tip.angle * tip.normal_radius_drop)
 }
 
-/// The angle u improved by Newton steps in double-double arithmetic, in which the closed form of the gap keeps its
-/// digits down to the smallest deviations.
-fn refine(geometry: &Geometry<TwoFloat>, angle: f64, deviation: f64) -> TwoFloat {
+/// The angle u improved by Newton steps in double-double arithmetic, in which the closed form of the gap keeps its digits
+/// down to deviations of 1e-14 of its terms; below, the angle stays as it is.
+fn refine(geometry: &Geometry<TwoFloat>, angle: f64, deviation: TwoFloat) -> TwoFloat {
     const STEPS: usize = 3;
-    (0..STEPS).fold(angle.into(), |angle, _| {
-        let tip = tip_at(geometry, angle);
-        angle - (gap(geometry, &tip) - deviation).over(tip.normal_radius_drop)
-    })
+    let mut refined: TwoFloat = angle.into();
+    for _ in 0..STEPS {
+        let tip = tip_at(geometry, refined);
+        if largest_term(&geometry.rounded(), &tip.rounded()) > LOST * deviation.rounded() {
+            break;
+        }
+        refined -= (gap(geometry, &tip) - deviation).over(tip.normal_radius_drop);
+    }
+    refined
 }
 
 /// S''(0) = (ρ1E + ρ2E) ρ2E/ρ1E, in m.
@@ -204,12 +101,12 @@ fn gap_curvature_at_start(geometry: &Geometry) -> f64 {
 /// Zhou & Chen 2014, Eqs. 11-20. Mended: the differences of arctangents (Eqs. 14, 17-19), which jump by π where
 /// Δf > N₁E, are taken as one; Eqs. 16 and 20 without the rounded contact ratio. Kept as printed: the result is linear
 /// in Δ, where the tip's gap grows as u².
-fn printed_contact(geometry: &Geometry, deviation: &Deviation, ratio: f64) -> f64 {
+fn printed_contact<T: Real>(geometry: &Geometry<T>, deviation: &Deviation<T>) -> T {
     let base = geometry.driver.base;
-    let turn = |from: f64, by: f64| (base * by).atan2(base * base + from * (from - by));
-    let error = turn(geometry.start, deviation.equivalent_error);
-    let ahead = geometry.start + geometry.base_pitch - deviation.equivalent_error;
-    (error + turn(ahead, deviation.combined_deflection)) / ratio
+    let turn = |from: T, by: T| (base * by).angle_to(base * base + from * (from - by));
+    let error = deviation.equivalent_error;
+    let ahead = geometry.start + geometry.base_pitch - error;
+    (turn(geometry.start, error) + turn(ahead, deviation.combined_deflection)).over(geometry.ratio)
 }
 
 /// Reduced radius of curvature at the tip's contact ρ_S = ρ1 ρ2/(ρ1 + ρ2), in m; ρ2 is the driven flank's own at its
@@ -229,44 +126,63 @@ pub fn position(
     inputs: &Inputs,
     geometry: &Geometry,
     precise: Option<&Geometry<TwoFloat>>,
-    deviation: &Deviation,
+    deviation: &Deviation<TwoFloat>,
 ) -> Result<Option<Position>, Refusal> {
-    if deviation.total <= 0.0 {
+    let plain = deviation.rounded();
+    if plain.total <= 0.0 {
         return Ok(None);
     }
-    let contact = match inputs.rung {
-        Rung::Paper => tip_at(geometry, printed_contact(geometry, deviation, inputs.ratio())),
-        Rung::Exact => {
-            let angle = first_contact(geometry, deviation.total)?;
-            match precise {
-                Some(precise) => tip_at(precise, refine(precise, angle, deviation.total)).rounded(),
-                None => tip_at(geometry, angle),
-            }
-        }
+    let angle = match inputs.rung {
+        Rung::Paper => printed_contact(geometry, &plain),
+        Rung::Exact => first_contact(geometry, plain.total)?,
     };
-    checked(inputs, geometry, deviation, contact)
+    let contact = tip_at(geometry, angle);
+    let close_call = contact.is_close_call(geometry) || inputs.rung == Rung::Paper && plain.equivalent_error < 0.0;
+    let (contact, printed_gap) = match precise {
+        Some(precise) => precise_contact(inputs, precise, deviation, angle),
+        None if close_call => precise_contact(inputs, &geometry::geometry(inputs)?, deviation, angle),
+        None => (contact, gap_without(KEPT_DIGITS, geometry, &contact)),
+    };
+    let closed_gap = if inputs.rung == Rung::Exact { plain.total } else { printed_gap };
+    checked(inputs, geometry, plain.total, contact, closed_gap)
 }
 
-/// The contact as a position, where there is one on the driver's flank.
+/// The contact in double-double arithmetic, near the angle that f64 has found, and the gap closed there.
+fn precise_contact(
+    inputs: &Inputs,
+    geometry: &Geometry<TwoFloat>,
+    deviation: &Deviation<TwoFloat>,
+    near: f64,
+) -> (TipContact, f64) {
+    let angle = match inputs.rung {
+        Rung::Paper => printed_contact(geometry, deviation),
+        Rung::Exact => refine(geometry, near, deviation.total),
+    };
+    let tip = tip_at(geometry, angle);
+    let contact = tip.rounded();
+    let closed = gap(geometry, &tip).rounded();
+    let lost = largest_term(&geometry.rounded(), &contact) > LOST * closed;
+    (contact, if lost { gap_by_quadrature(&geometry.rounded(), &contact) } else { closed })
+}
+
+/// The contact as a position, where there is one on the driver's flank: ρ₁ has not grown by more than the path of contact,
+/// which tells more sharply than O₁D against r_a1.
 fn checked(
     inputs: &Inputs,
     geometry: &Geometry,
-    deviation: &Deviation,
+    deviation: f64,
     contact: TipContact,
+    closed_gap: f64,
 ) -> Result<Option<Position>, Refusal> {
     if contact.angle <= 0.0 {
         return Ok(None);
     }
     if !contact.radius_driver.is_finite() || contact.angle > LARGEST_ANGLE {
-        return Err(Refusal::NoFirstContact { deviation: deviation.total });
+        return Err(Refusal::NoFirstContact { deviation });
     }
-    if contact.radius_driver > geometry.driver.tip {
+    if contact.curvature_growth > geometry.contact_ratio * geometry.base_pitch {
         return Err(Refusal::BeyondDriverTip { radius: contact.radius_driver, tip: geometry.driver.tip });
     }
-    let closed_gap = match inputs.rung {
-        Rung::Paper => gap_by_quadrature(geometry, &contact),
-        Rung::Exact => deviation.total,
-    };
     Ok(Some(Position {
         approach_angle_driver: contact.angle * inputs.ratio(),
         approach_angle_driven: contact.angle,
@@ -276,19 +192,26 @@ fn checked(
     }))
 }
 
-impl<T: Real> TipContact<T> {
-    /// Rounded to f64.
-    fn rounded(self) -> TipContact {
-        TipContact {
-            angle: self.angle.rounded(),
-            radius_driver: self.radius_driver.rounded(),
-            curvature_driver: self.curvature_driver.rounded(),
-            curvature_growth: self.curvature_growth.rounded(),
-            normal_turn: self.normal_turn.rounded(),
-            normal_radius_driven: self.normal_radius_driven.rounded(),
-            normal_radius_drop: self.normal_radius_drop.rounded(),
-            normal_length_growth: self.normal_length_growth.rounded(),
-            normal_length_driven: self.normal_length_driven.rounded(),
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::sample::standard_pair;
+    use crate::model::{Stage, Stages, solve};
+
+    /// A pair whose line of action is all but along the centre line's normal: the parabola at E is far beyond D.
+    #[test]
+    fn contact_is_found_where_the_parabola_is_far_beyond_it() {
+        let mut inputs = standard_pair(40, 40, 5e-3);
+        let base = 0.1 * inputs.pressure_angle.cos();
+        let angle = 3e-5f64;
+        inputs.centre_distance = Some(2.0 * base / angle.cos());
+        let curvature = 1.6 * base * angle;
+        inputs.driven.addendum = (base.hypot(curvature) - 0.1) / inputs.module;
+        for deviation in [1e-9, 1e-7, 1e-6, 1e-5, 2e-5] {
+            inputs.deflection = Some(deviation);
+            let solution = solve(&inputs, Stages::of(Stage::Position)).unwrap();
+            let closed = gap(&solution.geometry, &solution.position.unwrap().contact);
+            assert!((closed / deviation - 1.0).abs() < 1e-9, "{closed:e} closed of {deviation:e}");
         }
     }
 }

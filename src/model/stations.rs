@@ -4,7 +4,8 @@ use super::compliance::{self, ContactPlace};
 use super::geometry::Geometry;
 use super::impact::{Masses, impact};
 use super::inputs::Inputs;
-use super::position::{Position, tip_at};
+use super::position::Position;
+use super::tip::tip_at;
 use super::{Refusal, velocity};
 
 /// A place between D and E at which the impact is computed as if it were D.
@@ -44,7 +45,7 @@ pub fn stations(inputs: &Inputs, geometry: &Geometry, masses: &Masses, position:
 /// The impact as if it happened at the angle `angle` before E.
 fn station(inputs: &Inputs, geometry: &Geometry, masses: &Masses, angle: f64) -> Result<Station, Refusal> {
     let tip = tip_at(geometry, angle);
-    let velocity = velocity::velocity(inputs, geometry, &tip);
+    let velocity = velocity::velocity(inputs, &tip);
     let impact_force = if angle > 0.0 {
         let teeth = compliance::teeth(inputs, geometry, &ContactPlace::at_tip(inputs, geometry, &tip))?;
         impact(inputs, geometry, masses, &tip, &teeth, &velocity)?.force

@@ -1,8 +1,7 @@
 //! How fast the tip approaches the flank and slides on it.
 
-use super::geometry::Geometry;
 use super::inputs::Inputs;
-use super::position::TipContact;
+use super::tip::TipContact;
 
 /// Velocities at D.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,19 +21,18 @@ pub struct Velocity {
 /// # Formula
 /// ```text
 /// ΔVn = ω1 rb1 − ω2 rb2' = ω2 (rb2 − rb2')
-/// ΔVτ = ω2 N2'D − ω1 N1'D = (ω1 + ω2) EP + ω2 Δ(N2'D) − ω1 Δρ1
+/// ΔVτ = ω2 N2'D − ω1 N1'D = ω2 (N2'D − i ρ1)
 /// ```
-/// where EP is the path of approach and Δ the growth since E; as differences of finished products both would lose
-/// their digits close to E and to the pitch point.
+/// where both arms come from [`tip_at`](super::tip::tip_at) as increments; as differences of finished products
+/// both velocities would lose their digits close to E and to the pitch point.
 ///
 /// # Source
 /// Zhou & Chen 2014, Eqs. 21-28. Eq. 27 is mended to the law of cosines: as printed, ΔV_n at E would be 1.32 m/s for
 /// its Table 1 where it must be 0. Eq. 22 is ΔV_Dτ, whatever its label.
 #[must_use]
-pub fn velocity(inputs: &Inputs, geometry: &Geometry, tip: &TipContact) -> Velocity {
+pub fn velocity(inputs: &Inputs, tip: &TipContact) -> Velocity {
     let driven_speed = inputs.driven_speed();
     let normal = driven_speed * tip.normal_radius_drop;
-    let sliding = (inputs.speed + driven_speed) * geometry.approach_length + driven_speed * tip.normal_length_growth
-        - inputs.speed * tip.curvature_growth;
+    let sliding = driven_speed * tip.sliding_arm;
     Velocity { normal, sliding, transit_time: tip.angle / driven_speed, stick_limit: sliding / (2.0 * normal) }
 }

@@ -15,15 +15,31 @@ pub fn unit_interval(f: impl Fn(f64) -> f64) -> f64 {
     TWELVE.iter().map(|&(node, weight)| weight * (f(0.5 - 0.5 * node) + f(0.5 + 0.5 * node))).sum::<f64>() * 0.5
 }
 
-/// ∫ of `f` from `from` to `to`, cut into `parts` of equal length.
-pub fn composite(from: f64, to: f64, parts: usize, f: impl Fn(f64) -> f64) -> f64 {
-    let length = (to - from) / parts as f64;
-    (0..parts).map(|part| unit_interval(|x| f(from + length * (part as f64 + x)))).sum::<f64>() * length
+/// ∫ of `f` from `from` to `to` by the same rule on halves of halves, until both halves of a part together give what the
+/// part gave, within `tolerance` of the first estimate of the whole.
+pub fn adaptive(from: f64, to: f64, tolerance: f64, f: impl Fn(f64) -> f64) -> f64 {
+    const MOST_HALVINGS: u32 = 40;
+    let whole = over(from, to, &f);
+    halved(from, to, whole, tolerance * whole.abs(), MOST_HALVINGS, &f)
+}
+
+fn over(from: f64, to: f64, f: &impl Fn(f64) -> f64) -> f64 {
+    (to - from) * unit_interval(|part| f(from + part * (to - from)))
+}
+
+fn halved(from: f64, to: f64, whole: f64, tolerance: f64, halvings: u32, f: &impl Fn(f64) -> f64) -> f64 {
+    let middle = f64::midpoint(from, to);
+    let (left, right) = (over(from, middle, f), over(middle, to, f));
+    let sum = left + right;
+    if halvings == 0 || !sum.is_finite() || (sum - whole).abs() <= tolerance {
+        return sum;
+    }
+    halved(from, middle, left, tolerance, halvings - 1, f) + halved(middle, to, right, tolerance, halvings - 1, f)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::unit_interval;
+    use super::{adaptive, unit_interval};
 
     #[test]
     fn exact_for_polynomials_up_to_degree_23() {
@@ -31,5 +47,12 @@ mod tests {
             let found = unit_interval(|x| x.powi(degree));
             assert!((found * f64::from(degree + 1) - 1.0).abs() < 1e-14, "x^{degree}: {found}");
         }
+    }
+
+    #[test]
+    fn adaptive_meets_a_peak() {
+        let found = adaptive(-1.0, 1.0, 1e-12, |x| 1.0 / (1e-8 + x * x));
+        let exact = 2.0 * 1e4 * 1e4f64.atan();
+        assert!((found / exact - 1.0).abs() < 1e-11, "{found}");
     }
 }

@@ -27,7 +27,7 @@ const GROUPS: [(&str, &[Stage]); 8] = [
 ];
 
 /// The inputs that say which pair this is; one that is not given, zero or as usual goes unsaid.
-const TOLD_INPUTS: [&str; 20] = [
+const TOLD_INPUTS: &[&str] = &[
     "driver.teeth",
     "driven.teeth",
     "pair.module",
@@ -37,6 +37,8 @@ const TOLD_INPUTS: [&str; 20] = [
     "driven.profile_shift",
     "driver.addendum",
     "driven.addendum",
+    "driver.dedendum",
+    "driven.dedendum",
     "driver.face_width",
     "driven.face_width",
     "driver.root_relief",

@@ -9,6 +9,7 @@ pub(crate) fn standard_pair(driver_teeth: u32, driven_teeth: u32, module: f64) -
         teeth,
         profile_shift: 0.0,
         addendum: 1.0,
+        dedendum: 1.25,
         face_width: 10e-3,
         bore_radius: 0.0,
         young: 206e9,

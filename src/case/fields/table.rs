@@ -42,6 +42,8 @@ macro_rules! gear {
                 |inputs, value| inputs.$gear.profile_shift = value, "Profile shift coefficient, times the module."),
             number!(concat!(stringify!($gear), ".addendum"), concat!("ha*", $i), "addendum", Number, 0.1, 2.0, "", Default("1"),
                 |inputs, value| inputs.$gear.addendum = value, "Addendum coefficient, times the module: tip radius = m (z/2 + ha* + x)."),
+            number!(concat!(stringify!($gear), ".dedendum"), concat!("hf*", $i), "dedendum", Number, 0.5, 2.0, "", Default("1.25"),
+                |inputs, value| inputs.$gear.dedendum = value, "Dedendum coefficient of the cutting rack, times the module: root radius = m (z/2 - hf* + x)."),
             number!(concat!(stringify!($gear), ".face_width"), concat!("b", $i), "face width", Length, 0.1, 1000.0, "mm", Refused,
                 |inputs, value| inputs.$gear.face_width = value, "Face width; the smaller of the two carries the contact."),
             number!(concat!(stringify!($gear), ".bore_radius"), concat!("rh", $i), "bore radius", Length, 0.0, 25000.0, "mm", Default("0 mm"),
@@ -72,8 +74,8 @@ macro_rules! gear {
     };
 }
 
-const DRIVER: [Field; 13] = gear!(driver, "1");
-const DRIVEN: [Field; 13] = gear!(driven, "2");
+const DRIVER: [Field; 14] = gear!(driver, "1");
+const DRIVEN: [Field; 14] = gear!(driven, "2");
 
 const HEAD: [Field; 5] = [
     text("title", "title", "A name for the case."),
@@ -246,10 +248,10 @@ const TAIL: [Field; 12] = [
 ];
 
 /// Every field, in the order of the form and of a new file.
-pub static FIELDS: [Field; 43] = table();
+pub static FIELDS: [Field; 45] = table();
 
-const fn table() -> [Field; 43] {
-    let mut all = [HEAD[0]; 43];
+const fn table() -> [Field; 45] {
+    let mut all = [HEAD[0]; 45];
     let parts: [&[Field]; 4] = [&HEAD, &DRIVER, &DRIVEN, &TAIL];
     let (mut part, mut at) = (0, 0);
     while part < parts.len() {
@@ -270,6 +272,7 @@ pub(in crate::case) fn blank() -> Inputs {
         teeth: 0,
         profile_shift: 0.0,
         addendum: 1.0,
+        dedendum: 1.25,
         face_width: 0.0,
         bore_radius: 0.0,
         young: 0.0,

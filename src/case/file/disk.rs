@@ -116,7 +116,7 @@ impl Document {
         }
         let text = self.render();
         replace(&target, old.as_ref(), text.as_bytes()).map_err(unwritable)?;
-        self.settle(&text, target);
+        self.settle(&text, name, target);
         Ok(())
     }
 

@@ -24,6 +24,11 @@ impl Entry {
         if self.table.is_empty() { self.name.clone() } else { format!("{}.{}", self.table, self.name) }
     }
 
+    /// The key within the table, without the quotes that it may need in a file.
+    pub(super) fn bare_name(&self) -> &str {
+        self.name.trim_matches('"')
+    }
+
     /// The entry as a line.
     pub(super) fn line(&self) -> String {
         format!("{} = {}", self.name, self.value)
@@ -128,19 +133,5 @@ fn is_toml_number(text: &str) -> bool {
 
 /// A TOML string.
 fn string(text: &str) -> String {
-    let mut quoted = String::from('"');
-    for c in text.chars() {
-        match c {
-            '"' | '\\' => quoted.extend(['\\', c]),
-            '\n' => quoted.push_str("\\n"),
-            '\t' => quoted.push_str("\\t"),
-            '\r' => quoted.push_str("\\r"),
-            c if c.is_control() => {
-                let _ = write!(quoted, "\\u{:04x}", u32::from(c));
-            }
-            c => quoted.push(c),
-        }
-    }
-    quoted.push('"');
-    quoted
+    toml_edit::Value::from(text).to_string()
 }

@@ -5,6 +5,7 @@ use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 
 use super::fault::{FaultKind, Found};
+use super::value::{bare_number, flag, kind_of, measure, misplaced, scalar, untaken, words};
 use super::{FORMAT, syntax};
 use crate::case::fields::{FIELDS, GROUPS, Kind, index_of};
 use crate::case::spread;
@@ -24,12 +25,8 @@ const ENOUGH: usize = 200;
 pub(super) struct Place {
     /// The field's key, or `limits.…` or `spread."…"`.
     pub(super) key: String,
-    /// The last part of the key as written.
-    pub(super) name: Range<usize>,
     /// The value as written.
     pub(super) value: Range<usize>,
-    /// The braces in which it stands, when its table is an inline one.
-    pub(super) inline: Option<Range<usize>>,
 }
 
 /// Where everything stands in the text.
@@ -67,11 +64,11 @@ pub(super) struct Reading {
 /// Read a text, past errors of syntax as far as the rest of it can be understood.
 pub(super) fn read(text: &str) -> Reading {
     let places = Places { end: text.len(), ..Places::default() };
-    let mut reader = Reader { case: Case::empty(), places, faults: Vec::new(), wrong: Vec::new(), inline: None };
+    let mut reader = Reader { case: Case::empty(), places, faults: Vec::new(), wrong: Vec::new() };
     let recovered = syntax::recover(text);
     let (tree, _) = DeTable::parse_recoverable(&recovered.text);
     if recovered.tables_known {
-        reader.root(tree.get_ref(), &recovered.text);
+        reader.root(tree.get_ref());
         if reader.faults.iter().all(|found| found.kind != FaultKind::NewerFormat) {
             reader.fields_together(&recovered.broken);
         }
@@ -88,23 +85,21 @@ struct Reader {
     faults: Vec<Found>,
     /// Fields whose value could not be taken at all.
     wrong: Vec<usize>,
-    /// The braces around the table at hand.
-    inline: Option<Range<usize>>,
 }
 
 impl Reader {
-    fn root(&mut self, root: &DeTable<'_>, text: &str) {
+    fn root(&mut self, root: &DeTable<'_>) {
         if self.format(root) == FaultKind::NewerFormat {
             return;
         }
         for (key, value) in in_order(root) {
             let name = key.get_ref().as_ref();
             if name == "format" {
-                self.note(name, key, value);
+                self.note(name, value);
             } else if let Some(field) = index_of(name) {
-                self.field(field, key, value);
+                self.field(field, value);
             } else if is_table(name) {
-                self.table(key, value, text);
+                self.table(key, value);
             } else {
                 self.fault(key.span().start, unknown_at_top(name));
             }
@@ -132,7 +127,7 @@ impl Reader {
         FaultKind::Bad
     }
 
-    fn table(&mut self, key: Key<'_, '_>, value: Value<'_, '_>, text: &str) {
+    fn table(&mut self, key: Key<'_, '_>, value: Value<'_, '_>) {
         let name = key.get_ref().as_ref();
         let Some(table) = value.get_ref().as_table() else {
             let cause = format!("{} stands where the table [{name}] is due", kind_of(value.get_ref()));
@@ -142,7 +137,6 @@ impl Reader {
             return;
         };
         self.places.tables.push((name.to_owned(), value.span()));
-        self.inline = text[value.span()].starts_with('{').then(|| value.span());
         for (key, value) in in_order(table) {
             match name {
                 "limits" => self.limit(key, value),
@@ -150,20 +144,19 @@ impl Reader {
                 _ => self.member(name, key, value),
             }
         }
-        self.inline = None;
     }
 
     fn member(&mut self, table: &str, key: Key<'_, '_>, value: Value<'_, '_>) {
         let name = key.get_ref().as_ref();
         match index_of(&format!("{table}.{name}")) {
-            Some(field) => self.field(field, key, value),
+            Some(field) => self.field(field, value),
             None => self.fault(key.span().start, unknown_in_table(table, name)),
         }
     }
 
-    fn field(&mut self, field: usize, key: Key<'_, '_>, value: Value<'_, '_>) {
+    fn field(&mut self, field: usize, value: Value<'_, '_>) {
         let known = &FIELDS[field];
-        self.note(known.key, key, value);
+        self.note(known.key, value);
         let written = match known.kind {
             Kind::Choice(..) if known.is_flag() => flag(value.get_ref()),
             Kind::Text | Kind::Choice(..) => words(value.get_ref()),
@@ -192,7 +185,7 @@ impl Reader {
     fn limit(&mut self, key: Key<'_, '_>, value: Value<'_, '_>) {
         let name = key.get_ref().as_ref();
         let place = format!("limits.{name}");
-        self.note(&place, key, value);
+        self.note(&place, value);
         let known = Quantity::find(name);
         let bare = known.is_some_and(|quantity| quantity.unit == "1");
         let written = if bare { bare_number(value.get_ref()) } else { measure(value.get_ref()) };
@@ -222,7 +215,7 @@ impl Reader {
             in_order(table).for_each(|(key, value)| self.spread(&path, key, value));
             return;
         }
-        self.note(&place, key, value);
+        self.note(&place, value);
         if index_of(&path).is_none() {
             return self.fault(key.span().start, Problem { field: place, ..check::unknown_key(&path) });
         }
@@ -248,9 +241,8 @@ impl Reader {
         }
     }
 
-    fn note(&mut self, path: &str, key: Key<'_, '_>, value: Value<'_, '_>) {
-        let inline = self.inline.clone();
-        self.places.entries.push(Place { key: path.to_owned(), name: key.span(), value: value.span(), inline });
+    fn note(&mut self, path: &str, value: Value<'_, '_>) {
+        self.places.entries.push(Place { key: path.to_owned(), value: value.span() });
     }
 
     fn fault(&mut self, at: usize, problem: Problem) {
@@ -267,73 +259,6 @@ fn in_order<'k, 'i>(table: &'k DeTable<'i>) -> impl Iterator<Item = (Key<'k, 'i>
 
 fn is_table(name: &str) -> bool {
     matches!(name, "limits" | "spread") || GROUPS.iter().any(|(group, _)| *group == name && !name.is_empty())
-}
-
-/// The text of words; `None` for the cause where the value is of another kind.
-fn words(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
-    value.as_str().map(str::to_owned).ok_or(None)
-}
-
-/// The text of a truth value.
-fn flag(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
-    match value {
-        DeValue::Boolean(value) => Ok(value.to_string()),
-        _ => Err(Some(Misread::new(
-            format!("{} stands where true or false is due", kind_of(value)),
-            "write true or false without quotes",
-        ))),
-    }
-}
-
-/// The text of a value with its unit; a number's digits too, since the reader of units says what they lack.
-fn measure(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
-    scalar(value).ok_or(None)
-}
-
-fn bare_number(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
-    match value.as_str() {
-        Some(text) => {
-            let cause = format!("{} stands in quotes where a bare number is due", quoted(text));
-            Err(Some(Misread::new(cause, "write the number without quotes")))
-        }
-        None => scalar(value).ok_or(None),
-    }
-}
-
-/// The text of a string or a number.
-fn scalar(value: &DeValue<'_>) -> Option<String> {
-    match value {
-        DeValue::String(text) => Some(text.to_string()),
-        DeValue::Integer(number) if number.radix() == 10 => Some(number.as_str().to_owned()),
-        DeValue::Integer(number) => i128::from_str_radix(number.as_str(), number.radix()).ok().map(|number| number.to_string()),
-        DeValue::Float(number) => Some(number.as_str().to_owned()),
-        _ => None,
-    }
-}
-
-fn untaken(value: &DeValue<'_>, kind: Kind, example: &str) -> Misread {
-    let due = match kind {
-        Kind::Text | Kind::Choice(..) => "a text in quotes",
-        Kind::Number(..) | Kind::Count(..) => "a value",
-    };
-    misplaced(value, due, example)
-}
-
-fn misplaced(value: &DeValue<'_>, due: &str, example: &str) -> Misread {
-    Misread::new(format!("{} stands where {due} is due", kind_of(value)), format!("write {example}"))
-}
-
-fn kind_of(value: &DeValue<'_>) -> &'static str {
-    const KINDS: [(&str, &str); 7] = [
-        ("string", "a string"),
-        ("integer", "a number"),
-        ("float", "a number"),
-        ("boolean", "true or false"),
-        ("datetime", "a date"),
-        ("array", "an array"),
-        ("table", "a table"),
-    ];
-    KINDS.iter().find(|(kind, _)| *kind == value.type_str()).map_or("something else", |(_, words)| words)
 }
 
 fn unknown_at_top(name: &str) -> Problem {

@@ -8,8 +8,8 @@ use crate::model::geometry::Circles;
 use crate::model::inputs::{Gear, Inputs};
 use crate::numeric::quadrature;
 
-/// Parts of the fillet and of the involute for the quadrature, which keep it converged to 1e-10.
-const PARTS: usize = 3;
+/// Tolerance of the quadrature, relative.
+const TOLERANCE: f64 = 1e-11;
 
 /// Compliance of one tooth loaded at a radius, contact excluded, in m²/N.
 ///
@@ -30,8 +30,13 @@ const PARTS: usize = 3;
 ///
 /// # Errors
 /// [`Refusal::PointedTip`] where no tooth is left at the load point, [`Refusal::BelowFormCircle`] where the load point
-/// lies on the fillet.
+/// lies on the fillet, [`Refusal::CutThrough`] where the undercut leaves no neck.
 pub fn tooth(inputs: &Inputs, gear: &Gear, circles: &Circles, radius: f64) -> Result<f64, Refusal> {
+    tooth_within(inputs, gear, circles, radius, TOLERANCE)
+}
+
+/// The same, by a quadrature of some relative tolerance.
+fn tooth_within(inputs: &Inputs, gear: &Gear, circles: &Circles, radius: f64, tolerance: f64) -> Result<f64, Refusal> {
     let profile = Profile::of(inputs, gear, circles);
     let roll = profile.roll_at(radius);
     if roll <= profile.junction.roll {
@@ -44,9 +49,11 @@ pub fn tooth(inputs: &Inputs, gear: &Gear, circles: &Circles, radius: f64) -> Re
     let angle = profile.load_angle(roll);
     let beam = Beam { load, sine: angle.sin(), cosine: angle.cos(), shear: 2.4 * (1.0 + gear.poisson) };
     let fillet =
-        quadrature::composite(profile.junction.normal, FRAC_PI_2, PARTS, |normal| -beam.energy(&profile.fillet_at(normal)));
-    let flank = quadrature::composite(profile.junction.roll, roll, PARTS, |roll| beam.energy(&profile.involute_at(roll)));
-    Ok((fillet + flank + foundation(&profile, gear, circles, angle)) / gear.young)
+        quadrature::adaptive(profile.junction.normal, FRAC_PI_2, tolerance, |normal| -beam.energy(&profile.fillet_at(normal)));
+    let flank = quadrature::adaptive(profile.junction.roll, roll, tolerance, |roll| beam.energy(&profile.involute_at(roll)));
+    let compliance = (fillet + flank + foundation(&profile, gear, circles, angle)) / gear.young;
+    let has_neck = compliance.is_finite() && compliance > 0.0;
+    if has_neck { Ok(compliance) } else { Err(Refusal::CutThrough { shift: gear.profile_shift }) }
 }
 
 /// A tooth as a cantilever under a force at its load point.
@@ -58,9 +65,9 @@ struct Beam {
 }
 
 impl Beam {
-    /// What a section adds to the compliance times E, per parameter.
+    /// What a section adds to the compliance times E, per parameter; without bound where none is left.
     fn energy(&self, section: &Section) -> f64 {
-        let half = section.half_thickness;
+        let half = section.half_thickness.max(0.0);
         let moment = (self.load.along - section.along) * self.cosine - self.load.half_thickness * self.sine;
         let bending = 1.5 * moment * moment / (half * half * half);
         let straining = (self.shear * self.cosine * self.cosine + self.sine * self.sine) / (2.0 * half);
@@ -105,4 +112,58 @@ fn foundation(profile: &Profile, gear: &Gear, circles: &Circles, angle: f64) -> 
         .map(|[a, b, c, d, e, f]| a / (theta * theta) + b * body * body + c * body / theta + d / theta + e * body + f);
     let arm = (circles.base / cosine - circles.root) / (2.0 * half_angle * circles.root);
     cosine * cosine * (l * arm * arm + m * arm + p) + p * q * sine * sine
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::geometry::geometry;
+    use crate::model::sample::standard_pair;
+
+    #[test]
+    fn refuses_a_tooth_that_the_undercut_cuts_through() {
+        let mut inputs = standard_pair(5, 44, 1e-3);
+        inputs.driven.addendum = -0.5;
+        inputs.pressure_angle = 0.477;
+        for (shift, whole) in [(-0.2, true), (-0.64, false)] {
+            inputs.driver.profile_shift = shift;
+            let circles = geometry::<f64>(&inputs).unwrap().driver;
+            let found = tooth(&inputs, &inputs.driver, &circles, circles.tip);
+            assert_eq!(found.is_ok(), whole, "x {shift}: {found:?}");
+            assert!(whole || matches!(found, Err(Refusal::CutThrough { .. })), "{found:?}");
+        }
+    }
+
+    /// Over teeth of every kind, pointed and undercut ones too.
+    #[test]
+    fn quadrature_is_converged_to_1e_10() {
+        let mut solved = 0;
+        for teeth in [5, 6, 8, 10, 12, 14, 17, 20, 28, 40, 80, 200, 1000] {
+            for degrees in [14.5, 17.5, 20.0, 25.0, 28.0, 30.0] {
+                for shift in [-0.7, -0.4, 0.0, 0.3, 0.8, 1.2] {
+                    solved += converged_loads(teeth, degrees, shift);
+                }
+            }
+        }
+        assert!(solved > 1000, "{solved}");
+    }
+
+    /// How many loads along the flank have a compliance; each must be that of a far finer quadrature.
+    fn converged_loads(teeth: u32, degrees: f64, shift: f64) -> usize {
+        let mut inputs = standard_pair(teeth, 60, 5e-3);
+        inputs.pressure_angle = degrees.to_radians();
+        inputs.driver.profile_shift = shift;
+        inputs.driven.addendum = 0.2;
+        let Ok(geometry) = geometry::<f64>(&inputs) else { return 0 };
+        let circles = &geometry.driver;
+        let form = Profile::of(&inputs, &inputs.driver, circles).form_radius();
+        let loads = [0.05, 0.5, 1.0].map(|part| form + part * (circles.tip - form));
+        let by = |radius, tolerance| tooth_within(&inputs, &inputs.driver, circles, radius, tolerance).ok();
+        let found = loads.iter().filter_map(|&radius| Some((by(radius, TOLERANCE)?, by(radius, 1e-15)?)));
+        found
+            .inspect(|(found, exact)| {
+                assert!((found / exact - 1.0).abs() < 1e-10, "z {teeth} alpha {degrees} x {shift}: {found}, {exact}");
+            })
+            .count()
+    }
 }

@@ -43,32 +43,33 @@ impl ContactSpring {
 
     /// The force F of an impact for which `F = momentum/√q` with `q = teeth + qH(F)`, in N, and that q in m²/N.
     ///
-    /// Newton's method on ln F; q falls slowly with ln F, so that a few steps reach the last digit.
+    /// Newton's method on y = ln F/F₀ where F₀ is the force without contact compliance, `y + ln(q/teeth)/2 = 0`; q falls
+    /// slowly with y, so that a few steps reach the last digit. The logarithms of F and q themselves may be so large that
+    /// their rounding would keep the steps from settling.
     ///
     /// # Errors
     /// [`Refusal::HertzWidthTooLarge`] where the half-width outgrows the formula before they agree.
     pub fn impact(&self, teeth: f64, momentum: f64) -> Result<(f64, f64), Refusal> {
         const STEPS: usize = 50;
-        const SETTLED: f64 = 1e-15;
-        let at_unit_force = teeth + self.offset - self.slope * self.width_per_root_force.ln();
-        let compliance_at = |log_force: f64| at_unit_force - 0.5 * self.slope * log_force;
-        let log_momentum = momentum.ln();
-        let mut log_force = log_momentum - 0.5 * teeth.ln();
-        let mut compliance = compliance_at(log_force);
+        const SETTLED: f64 = 1e-8;
+        let stiffest = momentum / teeth.sqrt();
+        let at_stiffest = teeth + self.offset - self.slope * self.half_width(stiffest).ln();
+        let compliance_at = |logarithm: f64| at_stiffest - 0.5 * self.slope * logarithm;
+        let (mut logarithm, mut compliance) = (0.0, at_stiffest);
         for _ in 0..STEPS {
             if compliance <= 0.5 * self.slope {
                 break;
             }
-            let residual = log_force - log_momentum + 0.5 * compliance.ln();
+            let residual = logarithm + 0.5 * (compliance / teeth).ln();
             let step = residual / (1.0 - 0.25 * self.slope / compliance);
-            log_force -= step;
-            compliance = compliance_at(log_force);
-            if step.abs() <= SETTLED * log_force.abs().max(1.0) {
+            logarithm -= step;
+            compliance = compliance_at(logarithm);
+            if step.abs() <= SETTLED {
                 let force = momentum / compliance.sqrt();
                 return self.compliance(force).map(|_| (force, compliance));
             }
         }
-        Err(self.too_wide(self.half_width(log_force.exp())))
+        Err(self.too_wide(self.half_width(stiffest)))
     }
 
     /// The refusal, with the half-width at which the formula gives no compliance any more.
@@ -86,7 +87,7 @@ pub fn spring(inputs: &Inputs, geometry: &Geometry, place: &ContactPlace) -> Res
     let (offset, slope) = match inputs.contact_compliance {
         ContactCompliance::Logarithmic => logarithmic(inputs.module, give),
         ContactCompliance::Constant => (constant(give), 0.0),
-        ContactCompliance::Weber => weber(inputs, geometry, place),
+        ContactCompliance::Weber => weber(inputs, geometry, place)?,
     };
     let width_per_root_force = (4.0 * place.curvature_radius * give / (PI * inputs.common_width())).sqrt();
     Ok(ContactSpring { offset, slope, width_per_root_force })
@@ -143,13 +144,60 @@ fn constant(give: f64) -> f64 {
 ///
 /// # Valid for
 /// A half-width small against the depth h.
-fn weber(inputs: &Inputs, geometry: &Geometry, place: &ContactPlace) -> (f64, f64) {
+///
+/// # Errors
+/// [`Refusal::PointedTip`] where no tooth is left at the load point.
+fn weber(inputs: &Inputs, geometry: &Geometry, place: &ContactPlace) -> Result<(f64, f64), Refusal> {
     let of = |gear: &Gear, depth: f64| {
         let scale = give(gear) / PI;
         (scale * (2.0 * (2.0 * depth).ln() - gear.poisson / (1.0 - gear.poisson)), 2.0 * scale)
     };
-    let driver = Profile::of(inputs, &inputs.driver, &geometry.driver).depth_along_force(place.radius_driver);
-    let driven = Profile::of(inputs, &inputs.driven, &geometry.driven).depth_along_force(place.radius_driven);
+    let driver = depth(&Profile::of(inputs, &inputs.driver, &geometry.driver), place.radius_driver)?;
+    let driven = depth(&Profile::of(inputs, &inputs.driven, &geometry.driven), place.radius_driven)?;
     let (first, second) = (of(&inputs.driver, driver), of(&inputs.driven, driven));
-    (first.0 + second.0, first.1 + second.1)
+    Ok((first.0 + second.0, first.1 + second.1))
+}
+
+/// Depth from the flank to the tooth's centre line at a radius, where there is a tooth.
+fn depth(profile: &Profile, radius: f64) -> Result<f64, Refusal> {
+    let depth = profile.depth_along_force(radius);
+    if depth > 0.0 { Ok(depth) } else { Err(Refusal::PointedTip { thickness: 2.0 * depth }) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::compliance::pair_at_load;
+    use crate::model::geometry::geometry;
+    use crate::model::sample::standard_pair;
+
+    #[test]
+    fn force_settles_whatever_its_size() {
+        let (offset, slope) = logarithmic(5e-3, 1e-11);
+        let spring = ContactSpring { offset, slope, width_per_root_force: 1e-6 };
+        for teeth in [1e-13, 7e-12, 3e-11, 1e-9] {
+            for step in 0..2_000 {
+                let momentum = 1e-14 * 1.0123f64.powi(step);
+                let (force, compliance) = spring.impact(teeth, momentum).unwrap();
+                let back = force * (teeth + spring.compliance(force).unwrap()).sqrt();
+                assert!((back / momentum - 1.0).abs() < 1e-14, "teeth {teeth}, momentum {momentum}: {back}");
+                assert!(compliance > teeth);
+            }
+        }
+    }
+
+    #[test]
+    fn no_depth_is_left_on_a_pointed_tooth() {
+        let mut inputs = standard_pair(8, 60, 5e-3);
+        inputs.contact_compliance = ContactCompliance::Weber;
+        inputs.driver.profile_shift = 0.6;
+        let pair = geometry::<f64>(&inputs).unwrap();
+        let beyond = ContactPlace {
+            radius_driver: pair.driver.tip * 1.2,
+            radius_driven: pair.driven.tip,
+            curvature_radius: inputs.module,
+        };
+        let refused = pair_at_load(&inputs, &pair, &beyond, 100.0);
+        assert!(matches!(refused, Err(Refusal::PointedTip { .. })), "{refused:?}");
+    }
 }

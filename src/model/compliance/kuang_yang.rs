@@ -44,7 +44,8 @@ pub fn covers(inputs: &Inputs) -> bool {
 /// z = 12..100, |x| ≤ 0.6, 20° full-depth steel teeth. Being cubic in z it explodes outside.
 ///
 /// # Errors
-/// [`Refusal::TeethOutsideFit`], [`Refusal::ShiftOutsideFit`].
+/// [`Refusal::TeethOutsideFit`], [`Refusal::ShiftOutsideFit`]; [`Refusal::HeightOutsideFit`] on a tooth so high that the
+/// fit, linear in the height, falls below 0.
 pub fn tooth(module: f64, gear: &Gear, circles: &Circles, radius: f64) -> Result<f64, Refusal> {
     const A: [[f64; 4]; 4] = [
         [3.867, 1.612, -0.02916, 0.0001553],
@@ -64,5 +65,22 @@ pub fn tooth(module: f64, gear: &Gear, circles: &Circles, radius: f64) -> Result
     let teeth = f64::from(gear.teeth);
     let [a0, a1, a2, a3] = A.map(|[c0, c1, c2, c3]| c0 + teeth * (c1 + teeth * (c2 + teeth * c3)));
     let height = (radius - circles.reference) / ((1.0 + shift) * module);
-    Ok(1.0 / (NEWTON_PER_MICRON_MILLIMETRE * (a0 + a1 * shift + (a2 + a3 * shift) * height)))
+    let stiffness = NEWTON_PER_MICRON_MILLIMETRE * (a0 + a1 * shift + (a2 + a3 * shift) * height);
+    if stiffness > 0.0 { Ok(1.0 / stiffness) } else { Err(Refusal::HeightOutsideFit { height }) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::geometry::geometry;
+    use crate::model::sample::standard_pair;
+
+    #[test]
+    fn refuses_a_height_at_which_the_fit_has_no_stiffness() {
+        let inputs = standard_pair(59, 15, 5e-3);
+        let circles = geometry::<f64>(&inputs).unwrap().driver;
+        assert!(tooth(inputs.module, &inputs.driver, &circles, circles.tip).is_ok());
+        let high = tooth(inputs.module, &inputs.driver, &circles, circles.reference + 5.0 * inputs.module);
+        assert!(matches!(high, Err(Refusal::HeightOutsideFit { .. })), "{high:?}");
+    }
 }

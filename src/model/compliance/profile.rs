@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use crate::model::geometry::{Circles, RACK_DEDENDUM};
+use crate::model::geometry::Circles;
 use crate::model::inputs::{Gear, Inputs};
 
 /// Tip rounding of the standard basic rack, times the module (ISO 53, profile A), where there is room for it.
@@ -50,20 +50,20 @@ pub struct Section {
 }
 
 impl Profile {
-    /// The profile that a standard rack cuts.
+    /// The profile that the gear's rack cuts.
     #[must_use]
     pub fn of(inputs: &Inputs, gear: &Gear, circles: &Circles) -> Profile {
         let (module, alpha, shift) = (inputs.module, inputs.pressure_angle, gear.profile_shift);
         let half_pitch = PI / f64::from(gear.teeth);
         let (sine, cosine) = alpha.sin_cos();
-        let flank_room = PI / 4.0 - RACK_DEDENDUM * sine / cosine;
-        let rounding = RACK_ROUNDING.min(flank_room * cosine / (1.0 - sine)).max(0.0);
+        let flank_room = PI / 4.0 - gear.dedendum * sine / cosine;
+        let rounding = rack_rounding(alpha, gear);
         let mut profile = Profile {
             circles: *circles,
             base_half_angle: half_pitch / 2.0 + 2.0 * shift * alpha.tan() / f64::from(gear.teeth) + involute(alpha),
             half_pitch,
             rounding: rounding * module,
-            centre_depth: (RACK_DEDENDUM - rounding - shift) * module,
+            centre_depth: (gear.dedendum - rounding - shift) * module,
             centre_offset: (flank_room - rounding * (1.0 - sine) / cosine) * module,
             junction: Junction { normal: alpha, roll: 0.0, undercut: false },
         };
@@ -186,6 +186,19 @@ impl Profile {
     }
 }
 
+/// Radius of the rack's rounding, times the module: the standard one, or what its tip has room for.
+fn rack_rounding(alpha: f64, gear: &Gear) -> f64 {
+    let (sine, cosine) = alpha.sin_cos();
+    RACK_ROUNDING.min((PI / 4.0 * cosine - gear.dedendum * sine) / (1.0 - sine)).max(0.0)
+}
+
+/// Least profile shift at which the rack does not undercut the tooth, h_fP* − ρ_fP* (1 − sin α) − z sin²α/2.
+#[must_use]
+pub fn least_shift(inputs: &Inputs, gear: &Gear) -> f64 {
+    let sine = inputs.pressure_angle.sin();
+    gear.dedendum - rack_rounding(inputs.pressure_angle, gear) * (1.0 - sine) - f64::from(gear.teeth) * sine * sine / 2.0
+}
+
 /// inv t = tan t − t.
 fn involute(angle: f64) -> f64 {
     angle.tan() - angle
@@ -258,7 +271,7 @@ mod tests {
             let section = profile.involute_at(profile.roll_at(profile.circles.reference));
             let angle = section.half_thickness.atan2(section.along);
             let twice = 2.0 * profile.half_pitch - 2.0 * angle;
-            let shift = (profile.circles.reference - profile.circles.root) / module - RACK_DEDENDUM;
+            let shift = (profile.circles.reference - profile.circles.root) / module - 1.25;
             let alpha = (profile.circles.base / profile.circles.reference).acos();
             let space = profile.circles.reference * twice / module;
             assert!((space - (PI / 2.0 + 2.0 * shift * alpha.tan())).abs() < 1e-9, "{name}: space {space}");

@@ -36,8 +36,8 @@ pub(super) fn foundation(inputs: &Inputs, solution: &Solution) -> Option<Note> {
         let body = circles.root / gear.bore_radius;
         let by_body = body.is_finite() && !(FOUNDATION_BODY.0..=FOUNDATION_BODY.1).contains(&body);
         let by_angle = !(FOUNDATION_ANGLE.0..=FOUNDATION_ANGLE.1).contains(&angle);
-        (by_body || by_angle)
-            .then(|| format!("the {name}'s r_f/r_bore is {body:.3} and its half angle at the root {} rad", four(angle)))
+        let bore = if body.is_finite() { format!("r_f/r_bore is {body:.3}") } else { "body has no bore".to_owned() };
+        (by_body || by_angle).then(|| format!("the {name}'s {bore} and its half angle at the root {} rad", four(angle)))
     };
     let driver = outside("driver", &inputs.driver, &solution.geometry.driver);
     let found = driver.or_else(|| outside("driven gear", &inputs.driven, &solution.geometry.driven))?;

@@ -9,7 +9,8 @@ const MICRO: f64 = 1e6;
 /// Quantities that could not be computed although the tooth strikes.
 pub(super) fn withheld(_: &Inputs, solution: &Solution) -> Option<Note> {
     let refusal = solution.withheld?;
-    Some(Note::new(refusal.code(), format!("{refusal}; no force, energy or duration is given: {}", refusal.mend())))
+    let lost = if solution.impact.is_some() { "the force between D and E is not" } else { "no force, energy or duration is" };
+    Some(Note::new(refusal.code(), format!("{refusal}; {lost} given: {}", refusal.mend())))
 }
 
 /// The impact is longer than the way from D to E.

@@ -1,8 +1,8 @@
 //! Notes on the geometry of the pair.
 
 use super::{Note, four};
-use crate::model::compliance::profile::Profile;
-use crate::model::geometry::{Circles, RACK_STRAIGHT_DEDENDUM};
+use crate::model::compliance::profile::{Profile, least_shift};
+use crate::model::geometry::Circles;
 use crate::model::inputs::Gear;
 use crate::model::{Inputs, Solution};
 
@@ -78,10 +78,8 @@ pub(super) fn undercut_driven(inputs: &Inputs, _: &Solution) -> Option<Note> {
     undercut("driven gear", inputs, &inputs.driven)
 }
 
-/// The least profile shift without undercut is 1 − z sin²α/2 for the standard rack.
 fn undercut(name: &str, inputs: &Inputs, gear: &Gear) -> Option<Note> {
-    let sine = inputs.pressure_angle.sin();
-    let limit = RACK_STRAIGHT_DEDENDUM - f64::from(gear.teeth) * sine * sine / 2.0;
+    let limit = least_shift(inputs, gear);
     let shift = gear.profile_shift;
     let below = shift < limit;
     let limit = four(limit);
@@ -116,16 +114,21 @@ fn tip(name: &str, inputs: &Inputs, gear: &Gear, circles: &Circles) -> Option<No
     }
 }
 
-/// D lies where the driver has no involute.
+/// D or E lies where the driver has no involute.
 pub(super) fn form_circle(inputs: &Inputs, solution: &Solution) -> Option<Note> {
-    let radius = solution.position?.contact.radius_driver;
-    let form = Profile::of(inputs, &inputs.driver, &solution.geometry.driver).form_radius();
-    let message = || {
-        format!(
-            "D lies below the driver's form circle: O1D is {} mm and the involute starts at {} mm",
-            radius * MILLI,
-            form * MILLI
-        )
-    };
-    (radius < form).then(|| Note::new("below-form-circle", message()))
+    let geometry = &solution.geometry;
+    let form = Profile::of(inputs, &inputs.driver, &geometry.driver).form_radius();
+    let contact = solution.position.map(|position| ("D", position.contact.radius_driver));
+    let start = ("E", geometry.driver.base.hypot(geometry.start));
+    let (point, radius) = contact.into_iter().chain([start]).find(|(_, radius)| *radius < form)?;
+    let (radius, form) = (told_apart(radius, form), told_apart(form, radius));
+    let message =
+        format!("{point} lies below the driver's form circle: O1{point} is {radius} mm and the involute starts at {form} mm");
+    Some(Note::new("below-form-circle", message))
+}
+
+/// A length in mm with as many digits as tell it from another.
+fn told_apart(length: f64, other: f64) -> String {
+    let digits = 4.0 - ((length - other) * MILLI).abs().log10().floor();
+    format!("{:.*}", digits.clamp(4.0, 12.0) as usize - 1, length * MILLI)
 }

@@ -1,0 +1,74 @@
+//! A TOML value as the text of a field.
+
+use toml::de::DeValue;
+
+use crate::case::fields::Kind;
+use crate::case::units::Misread;
+use crate::case::visible::quoted;
+
+/// The text of words; `None` for the cause where the value is of another kind.
+pub(super) fn words(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
+    value.as_str().map(str::to_owned).ok_or(None)
+}
+
+/// The text of a truth value.
+pub(super) fn flag(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
+    match value {
+        DeValue::Boolean(value) => Ok(value.to_string()),
+        _ => Err(Some(Misread::new(
+            format!("{} stands where true or false is due", kind_of(value)),
+            "write true or false without quotes",
+        ))),
+    }
+}
+
+/// The text of a value with its unit; a number's digits too, since the reader of units says what they lack.
+pub(super) fn measure(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
+    scalar(value).ok_or(None)
+}
+
+pub(super) fn bare_number(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
+    match value.as_str() {
+        Some(text) => {
+            let cause = format!("{} stands in quotes where a bare number is due", quoted(text));
+            Err(Some(Misread::new(cause, "write the number without quotes")))
+        }
+        None => scalar(value).ok_or(None),
+    }
+}
+
+/// The text of a string or a number.
+pub(super) fn scalar(value: &DeValue<'_>) -> Option<String> {
+    match value {
+        DeValue::String(text) => Some(text.to_string()),
+        DeValue::Integer(number) if number.radix() == 10 => Some(number.as_str().to_owned()),
+        DeValue::Integer(number) => i128::from_str_radix(number.as_str(), number.radix()).ok().map(|number| number.to_string()),
+        DeValue::Float(number) => Some(number.as_str().to_owned()),
+        _ => None,
+    }
+}
+
+pub(super) fn untaken(value: &DeValue<'_>, kind: Kind, example: &str) -> Misread {
+    let due = match kind {
+        Kind::Text | Kind::Choice(..) => "a text in quotes",
+        Kind::Number(..) | Kind::Count(..) => "a value",
+    };
+    misplaced(value, due, example)
+}
+
+pub(super) fn misplaced(value: &DeValue<'_>, due: &str, example: &str) -> Misread {
+    Misread::new(format!("{} stands where {due} is due", kind_of(value)), format!("write {example}"))
+}
+
+pub(super) fn kind_of(value: &DeValue<'_>) -> &'static str {
+    const KINDS: [(&str, &str); 7] = [
+        ("string", "a string"),
+        ("integer", "a number"),
+        ("float", "a number"),
+        ("boolean", "true or false"),
+        ("datetime", "a date"),
+        ("array", "an array"),
+        ("table", "a table"),
+    ];
+    KINDS.iter().find(|(kind, _)| *kind == value.type_str()).map_or("something else", |(_, words)| words)
+}

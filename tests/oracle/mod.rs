@@ -1,0 +1,256 @@
+//! Every closed-form quantity a second time, in 90 digits, by its definition and not by the form that is stable in 16.
+//!
+//! Symbols and equations are those of Zhou & Chen 2014 and of the model's own documentation. Squares are subtracted,
+//! angles come from arc cosines, and the gap S(u) is the difference of its three terms: with 90 digits that costs nothing.
+
+mod force;
+mod given;
+pub(crate) mod number;
+
+use std::collections::BTreeMap;
+
+use tipstrike::model::Inputs;
+use tipstrike::model::inputs::Rung;
+
+use given::Gear;
+pub(crate) use given::Given;
+use number::{Big, pi, root, rounded, whole};
+
+/// Quantities by their key, those that exist.
+pub(crate) type Answers = BTreeMap<&'static str, Big>;
+
+/// Half of the digits: where an iteration counts as settled.
+const SETTLED: f64 = 1e-45;
+
+/// No contact is sought beyond, in rad.
+const LARGEST_ANGLE: f64 = 1.5;
+
+/// Circles of one gear.
+struct Circles {
+    reference: Big,
+    base: Big,
+    tip: Big,
+}
+
+/// Geometry of the pair.
+struct Pair {
+    driver: Circles,
+    driven: Circles,
+    distance: Big,
+    working: Big,
+    base_pitch: Big,
+    /// N₁E.
+    start: Big,
+    /// N₁B.
+    end: Big,
+    /// γ₂.
+    start_angle: Big,
+}
+
+/// The driven tip at an angle before E.
+struct Tip {
+    /// O₁D.
+    radius: Big,
+    /// ρ₁.
+    curvature: Big,
+    /// χ.
+    normal: Big,
+    /// r_b2'.
+    normal_radius: Big,
+    /// N₂'D.
+    normal_length: Big,
+}
+
+/// The quantities and, for each, how much a relative change of the inputs moves it relatively: the sum over all inputs.
+pub(crate) fn answers_with_conditions(inputs: &Inputs) -> Option<(Answers, BTreeMap<&'static str, f64>)> {
+    let step = 1 / (whole(10).powi(24.into()));
+    let plain = of_given(&Given::of(inputs))?;
+    let mut conditions: BTreeMap<_, _> = plain.keys().map(|&key| (key, 0.0)).collect();
+    for index in 0..Given::of(inputs).continuous().len() {
+        let mut moved = Given::of(inputs);
+        let field = &mut *moved.continuous().swap_remove(index);
+        if rounded(field) == 0.0 {
+            continue;
+        }
+        *field = &*field * (1 + &step);
+        let Some(moved) = of_given(&moved) else { continue };
+        for (key, condition) in &mut conditions {
+            let Some(value) = moved.get(key) else { continue };
+            if rounded(&plain[key]) != 0.0 {
+                *condition += rounded(&((value / &plain[key] - 1) / &step)).abs();
+            }
+        }
+    }
+    Some((plain, conditions))
+}
+
+/// All that is defined for the pair. `None` where no mesh, or no corner contact on the driver's flank, exists.
+fn of_given(given: &Given) -> Option<Answers> {
+    let pair = pair(given)?;
+    let load = force::Load::of(given, &pair);
+    let error = equivalent_error(given);
+    let deflection = match &given.deflection {
+        Some(deflection) => deflection.clone(),
+        None => load.deflection(given, &pair)?,
+    };
+    let total = &error + &deflection;
+    if rounded(&total) <= 0.0 {
+        return None;
+    }
+    let angle = match given.rung {
+        Rung::Paper => printed_angle(given, &pair, &error, &deflection),
+        Rung::Exact => first_contact(&pair, &total)?,
+    };
+    let tip = tip_at(&pair, &angle)?;
+    if rounded(&angle) <= 0.0 || tip.radius > pair.driver.tip {
+        return None;
+    }
+    let mut found = Answers::from([
+        ("closed_gap", gap(&pair, &angle, &tip)),
+        ("contact_ratio", (&pair.end - &pair.start) / &pair.base_pitch),
+        ("base_pitch", pair.base_pitch.clone()),
+        ("centre_distance", pair.distance.clone()),
+        ("working_pressure_angle", pair.working.clone()),
+        ("equivalent_error", error),
+        ("combined_deflection", deflection),
+        ("total_deviation", total),
+        ("approach_angle_driver", &angle * &given.ratio()),
+        ("approach_angle_driven", angle.clone()),
+        ("contact_radius_driver", tip.radius.clone()),
+        ("contact_normal_radius_driven", tip.normal_radius.clone()),
+    ]);
+    load.strike(given, &pair, &tip, &angle, &mut found);
+    Some(found)
+}
+
+/// Δf by Eqs. 1 and 2; outside of the rung `paper` the modification counts in full.
+fn equivalent_error(given: &Given) -> Big {
+    let modification = -(&given.driven.tip_relief + &given.driver.root_relief);
+    let random = 2 * &given.base_pitch_deviation - &given.backlash;
+    match given.rung {
+        Rung::Paper => (random + modification) / whole(2).sqrt(),
+        Rung::Exact => random / whole(2).sqrt() + modification,
+    }
+}
+
+fn circles(given: &Given, gear: &Gear) -> Circles {
+    let reference = &given.module * gear.teeth / 2;
+    let base = &reference * given.pressure_angle.cos();
+    let tip = &reference + &given.module * (&gear.addendum + &gear.profile_shift) - &gear.tip_chamfer;
+    Circles { reference, base, tip }
+}
+
+fn pair(given: &Given) -> Option<Pair> {
+    let (driver, driven) = (circles(given, &given.driver), circles(given, &given.driven));
+    if driver.tip <= driver.base || driven.tip <= driven.base {
+        return None;
+    }
+    let base_sum = &driver.base + &driven.base;
+    let (distance, working) = match &given.centre_distance {
+        Some(distance) if *distance > base_sum => (distance.clone(), (&base_sum / distance).acos()),
+        Some(_) => return None,
+        None => {
+            let working = working_angle(given)?;
+            (&base_sum / working.cos(), working)
+        }
+    };
+    let start = &distance * working.sin() - leg(&driven.tip, &driven.base)?;
+    let end = leg(&driver.tip, &driver.base)?;
+    if rounded(&start) <= 0.0 || end <= start {
+        return None;
+    }
+    let start_angle = (&driven.base / &driven.tip).acos() - &working;
+    let base_pitch = pi() * &given.module * given.pressure_angle.cos();
+    Some(Pair { driver, driven, distance, working, base_pitch, start, end, start_angle })
+}
+
+/// √(hypotenuse² − leg²).
+fn leg(hypotenuse: &Big, leg: &Big) -> Option<Big> {
+    let square = hypotenuse * hypotenuse - leg * leg;
+    (rounded(&square) > 0.0).then(|| square.sqrt())
+}
+
+/// α_w from inv α_w = inv α + 2 (x1 + x2) tan α/(z1 + z2), by Newton's method from the right of the root.
+fn working_angle(given: &Given) -> Option<Big> {
+    const STEPS: usize = 200;
+    let alpha = &given.pressure_angle;
+    let shifts = &given.driver.profile_shift + &given.driven.profile_shift;
+    let involute = alpha.tan() - alpha + 2 * shifts * alpha.tan() / (given.driver.teeth + given.driven.teeth);
+    let near = rounded(&involute);
+    if near <= 0.0 {
+        return None;
+    }
+    let mut angle = number::big((3.0 * near).cbrt().min(1.5));
+    for _ in 0..STEPS {
+        let tangent = angle.tan();
+        let step = (&tangent - &angle - &involute) / (&tangent * &tangent);
+        angle = angle - &step;
+        if rounded(&step).abs() <= SETTLED {
+            return Some(angle);
+        }
+    }
+    None
+}
+
+/// The driven tip at an angle before E. `None` where it lies inside the driver's base circle.
+fn tip_at(pair: &Pair, angle: &Big) -> Option<Tip> {
+    let (tip, distance, base) = (&pair.driven.tip, &pair.distance, &pair.driver.base);
+    let (sine, cosine) = (&pair.start_angle + angle).sin_cos();
+    let radius = root(tip * tip + distance * distance - 2 * distance * tip * &cosine);
+    let curvature = leg(&radius, base)?;
+    let polar = (tip * sine).atan2(&(distance - tip * cosine));
+    let normal = polar + curvature.atan2(base);
+    Some(Tip {
+        normal_radius: distance * normal.cos() - base,
+        normal_length: distance * normal.sin() - &curvature,
+        radius,
+        curvature,
+        normal,
+    })
+}
+
+/// S(u) = (ρ1 − N1E) + rb2 u − rb1 (χ − αw).
+fn gap(pair: &Pair, angle: &Big, tip: &Tip) -> Big {
+    (&tip.curvature - &pair.start) + &pair.driven.base * angle - &pair.driver.base * (&tip.normal - &pair.working)
+}
+
+/// S(u) at an angle given in double precision.
+pub(crate) fn gap_at(inputs: &Inputs, angle: f64) -> Option<Big> {
+    let (pair, angle) = (pair(&Given::of(inputs))?, number::big(angle));
+    Some(gap(&pair, &angle, &tip_at(&pair, &angle)?))
+}
+
+/// S(u) = Δ, by Newton's method on √S from the parabola at E, or from the driver's tip if that is nearer; dS/du = rb2 − rb2'.
+fn first_contact(pair: &Pair, deviation: &Big) -> Option<Big> {
+    const STEPS: usize = 200;
+    let driven = leg(&pair.driven.tip, &pair.driven.base)?;
+    let curvature = (&pair.start + &driven) * &driven / &pair.start;
+    let wanted = deviation.sqrt();
+    let at_driver_tip = force::polar_angle(pair, &pair.driver.tip).map(|polar| polar - &pair.start_angle);
+    let parabola = root(2 * deviation / curvature);
+    let mut angle = at_driver_tip.into_iter().fold(parabola, Big::min).min(number::big(LARGEST_ANGLE));
+    for _ in 0..STEPS {
+        let tip = tip_at(pair, &angle)?;
+        let closed = gap(pair, &angle, &tip);
+        if rounded(&closed) <= 0.0 {
+            return None;
+        }
+        let root = closed.sqrt();
+        let step = 2 * &root * (&wanted - &root) / (&pair.driven.base - &tip.normal_radius);
+        angle = angle + &step;
+        if rounded(&(step / &angle)).abs() <= SETTLED {
+            return Some(angle);
+        }
+    }
+    None
+}
+
+/// The driven gear's angle before E by the printed Eqs. 11-20, as differences of arc tangents.
+fn printed_angle(given: &Given, pair: &Pair, error: &Big, deflection: &Big) -> Big {
+    let base = &pair.driver.base;
+    let angle = |along: &Big| base.atan2(along);
+    let ahead = &pair.start + &pair.base_pitch;
+    let by_error = angle(&(&pair.start - error)) - angle(&pair.start);
+    let by_deflection = angle(&(&ahead - error - deflection)) - angle(&(&ahead - error));
+    (by_error + by_deflection) / given.ratio()
+}
