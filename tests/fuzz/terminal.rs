@@ -22,64 +22,15 @@ const PATIENCE: Duration = Duration::from_secs(20);
 const QUIET: Duration = Duration::from_millis(90);
 
 /// What terminals send, whole, in part, and what none should.
+#[rustfmt::skip]
 const SEQUENCES: [&[u8]; 57] = [
-    b"\x1b[A",
-    b"\x1b[B",
-    b"\x1b[C",
-    b"\x1b[D",
-    b"\x1b[H",
-    b"\x1b[F",
-    b"\x1b[Z",
-    b"\x1bOP",
-    b"\x1bOQ",
-    b"\x1b[15~",
-    b"\x1b[17~",
-    b"\x1b[19~",
-    b"\x1b[1;5B",
-    b"\x1b[1;5H",
-    b"\x1b[5~",
-    b"\x1b[6~",
-    b"\x1b[3~",
-    b"\x1b",
-    b"\x1b[",
-    b"\x1bO",
-    b"\x1b[1;",
-    b"\x1b[<",
-    b"\x1b[?",
-    b"\x1b[M",
-    b"\x1b[M !!",
-    b"\x1b[<0;10;10M",
-    b"\x1b[<64;999999;1m",
-    b"\x1b[I",
-    b"\x1b[O",
-    b"\x1b[5;5R",
-    b"\x1b[?1;2c",
-    b"\x1b[?1u",
-    b"\x1b[97;5u",
-    b"\x1b[99999999999999999999~",
-    b"\x1b[1;99999999A",
-    b"\x1b]11;rgb:00\x07",
-    b"\x1bP1$r\x1b\\",
-    b"\x1b[200~",
-    b"\x1b[201~",
-    b"\x1b[200~5 mm\x1b[201~",
-    b"\x1b\x1b[A",
-    b"\xc3",
-    b"\xa9",
-    b"\xf0\x9f",
-    b"\xff\xfe",
-    b"\xc0\x80",
-    b"\xf5\x80\x80\x80",
-    b"\xed\xa0\x80",
-    b"\x11",
-    b"\x13",
-    b"\x0f",
-    b"\x15",
-    b"\x1a",
-    b"\x03",
-    b"\r",
-    b"\t",
-    b"5 mm",
+    b"\x1b[A", b"\x1b[B", b"\x1b[C", b"\x1b[D", b"\x1b[H", b"\x1b[F", b"\x1b[Z", b"\x1bOP", b"\x1bOQ", b"\x1b[15~", b"\x1b[17~",
+    b"\x1b[19~", b"\x1b[1;5B", b"\x1b[1;5H", b"\x1b[5~", b"\x1b[6~", b"\x1b[3~", b"\x1b", b"\x1b[", b"\x1bO", b"\x1b[1;",
+    b"\x1b[<", b"\x1b[?", b"\x1b[M", b"\x1b[M !!", b"\x1b[<0;10;10M", b"\x1b[<64;999999;1m", b"\x1b[I", b"\x1b[O", b"\x1b[5;5R",
+    b"\x1b[?1;2c", b"\x1b[?1u", b"\x1b[97;5u", b"\x1b[99999999999999999999~", b"\x1b[1;99999999A", b"\x1b]11;rgb:00\x07",
+    b"\x1bP1$r\x1b\\", b"\x1b[200~", b"\x1b[201~", b"\x1b[200~5 mm\x1b[201~", b"\x1b\x1b[A", b"\xc3", b"\xa9", b"\xf0\x9f",
+    b"\xff\xfe", b"\xc0\x80", b"\xf5\x80\x80\x80", b"\xed\xa0\x80", b"\x11", b"\x13", b"\x0f", b"\x15", b"\x1a", b"\x03", b"\r",
+    b"\t", b"5 mm",
 ];
 
 /// What an impatient user tries, key after key: to end a paste; to end a mouse report or an answer of the terminal, which
@@ -173,7 +124,7 @@ impl Session {
         let child = pair.slave.spawn_command(command).expect("the program starts");
         let (sender, output) = channel();
         thread::spawn(move || {
-            let mut buffer = [0; 1 << 14];
+            let mut buffer = [0; 4096];
             while let Ok(count @ 1..) = reader.read(&mut buffer) {
                 if sender.send(buffer[..count].to_vec()).is_err() {
                     return;
@@ -209,7 +160,9 @@ impl Session {
     fn leave(&mut self) -> u32 {
         let end = Instant::now() + PATIENCE;
         for keys in WAYS_OUT.into_iter().cycle() {
-            while self.take_output(QUIET) {}
+            while self.take_output(QUIET) {
+                assert!(Instant::now() < end, "it never stops writing: {:?}", String::from_utf8_lossy(&self.written));
+            }
             if let Some(status) = self.child.try_wait().expect("our own child") {
                 return status.exit_code();
             }
