@@ -94,9 +94,10 @@ pub struct Solution {
     pub band: Option<Band>,
     /// From D (first) to E (last, force 0); empty unless asked for.
     pub stations: Vec<Station>,
-    /// Why the tooth strikes and yet compliance, force and what follows, or the stations alone, are absent, where that is
-    /// so.
+    /// Why the tooth strikes and yet compliance, force and what follows are absent, where that is so.
     pub withheld: Option<Refusal>,
+    /// Why stations are missing between D and E, where some are.
+    pub stations_withheld: Option<Refusal>,
 }
 
 /// Solve the pair, running only the wanted stages and what they need.
@@ -131,6 +132,7 @@ pub fn solve(inputs: &Inputs, wanted: Stages) -> Result<Solution, Refusal> {
         band: None,
         stations: Vec::new(),
         withheld: None,
+        stations_withheld: None,
     };
     if wanted.has(Stage::Position) {
         solution.stages = solution.stages.with(Stage::Position);
@@ -175,11 +177,11 @@ impl Solution {
             self.stages = self.stages.with(Stage::Friction);
         }
         if wanted.has(Stage::Band) {
-            self.band = band::band(inputs);
+            self.band = Some(band::band(inputs, impact.force));
             self.stages = self.stages.with(Stage::Band);
         }
         if wanted.has(Stage::Stations) {
-            self.stations = stations::stations(inputs, &geometry, masses, position)?;
+            (self.stations, self.stations_withheld) = stations::stations(inputs, &geometry, masses, position);
             self.stages = self.stages.with(Stage::Stations);
         }
         Ok(())

@@ -13,18 +13,15 @@ pub struct Band {
     pub high: f64,
 }
 
-/// The band of the impact force over every tooth and contact compliance that covers the pair, with the deflection of
-/// each where the case does not give one. `None` where none has an answer.
+/// The band of the impact force over every tooth and contact compliance that covers the pair, and the case's own, with
+/// the deflection of each where the case does not give one.
 #[must_use]
-pub fn band(inputs: &Inputs) -> Option<Band> {
+pub fn band(inputs: &Inputs, force: f64) -> Band {
     let teeth = ToothCompliance::ALL.into_iter().filter(|&model| model == ToothCompliance::Beam || kuang_yang::covers(inputs));
     teeth
         .flat_map(|tooth| ContactCompliance::ALL.map(|contact| (tooth, contact)))
         .filter_map(|(tooth, contact)| force_by(inputs, tooth, contact))
-        .fold(None, |band, force| match band {
-            None => Some(Band { low: force, high: force }),
-            Some(Band { low, high }) => Some(Band { low: low.min(force), high: high.max(force) }),
-        })
+        .fold(Band { low: force, high: force }, |band, force| Band { low: band.low.min(force), high: band.high.max(force) })
 }
 
 /// The impact force by one choice of models, where it has an answer.

@@ -188,8 +188,12 @@ impl Refusal {
             Refusal::BeyondDriverTip { .. } => {
                 ("beyond-driver-tip", "deviations.base_pitch", "give a smaller deviation or deflection")
             }
-            Refusal::TeethOutsideFit { .. } => ("teeth-outside-fit", "model.tooth_compliance", "choose another tooth compliance"),
-            Refusal::ShiftOutsideFit { .. } => ("shift-outside-fit", "model.tooth_compliance", "choose another tooth compliance"),
+            Refusal::TeethOutsideFit { .. } => {
+                ("teeth-outside-fit", "model.tooth_compliance", "set model.tooth_compliance to beam, or leave it out")
+            }
+            Refusal::ShiftOutsideFit { .. } => {
+                ("shift-outside-fit", "model.tooth_compliance", "set model.tooth_compliance to beam, or leave it out")
+            }
             Refusal::HeightOutsideFit { .. } => {
                 ("height-outside-fit", "model.tooth_compliance", "choose another tooth compliance, or a shorter addendum")
             }

@@ -33,6 +33,7 @@ type Look = fn(&Inputs, &Solution) -> Option<Note>;
 /// Every condition, in the order in which a reader meets them.
 const LOOKS: &[Look] = &[
     impact::withheld,
+    impact::stations_left_out,
     impact::outlasting,
     impact::impulse,
     impact::contact_lost,

@@ -25,21 +25,23 @@ pub struct Station {
     pub impact_force: f64,
 }
 
-/// The impact at `inputs.stations` equal intervals of the driven gear's angle, from D (first) to E (last, force 0).
+/// The impact at `inputs.stations` equal intervals of the driven gear's angle, from D (first) to E (last, force 0). A
+/// station whose force cannot be computed is left out, and the first refusal stands beside the rest.
 ///
 /// # Source
 /// Zhou & Chen 2014, Eqs. 58-60; Eq. 60 mended to the law of cosines: as printed, O₁J would lie inside the base circle.
-///
-/// # Errors
-/// Those of [`impact`] at a station.
-pub fn stations(inputs: &Inputs, geometry: &Geometry, masses: &Masses, position: &Position) -> Result<Vec<Station>, Refusal> {
+#[must_use]
+pub fn stations(inputs: &Inputs, geometry: &Geometry, masses: &Masses, position: &Position) -> (Vec<Station>, Option<Refusal>) {
     let count = inputs.stations.max(1);
-    let mut found = Vec::with_capacity(count + 1);
+    let (mut found, mut refused) = (Vec::with_capacity(count + 1), None);
     for step in (0..=count).rev() {
         let part = step as f64 / count as f64;
-        found.push(station(inputs, geometry, masses, part * position.approach_angle_driven)?);
+        match station(inputs, geometry, masses, part * position.approach_angle_driven) {
+            Ok(station) => found.push(station),
+            Err(refusal) => refused = refused.or(Some(refusal)),
+        }
     }
-    Ok(found)
+    (found, refused)
 }
 
 /// The impact as if it happened at the angle `angle` before E.

@@ -96,8 +96,8 @@ fn sentence(solution: &Solution) -> String {
     let part = |before: &str, key| told(key, solution).map(|shown| format!("{before}{shown}")).unwrap_or_default();
     match solution.outcome {
         Outcome::CornerContact => format!(
-            "Corner contact: the tooth strikes{} before E{}{}.",
-            part(" ", "approach_angle_driven"),
+            "Corner contact: the tooth strikes{}{}{}.",
+            told("approach_angle_driver", solution).map(|angle| format!(" {angle} of the driver before E")).unwrap_or_default(),
             part(" with ", "impact_force"),
             part(", approaching at ", "normal_velocity"),
         ),
@@ -109,7 +109,7 @@ fn sentence(solution: &Solution) -> String {
 
 fn other_rung(inputs: &Inputs, rung: Rung) -> Option<String> {
     let other = model::solve(&Inputs { rung, ..inputs.clone() }, Stages::of(Stage::Impact)).ok()?;
-    let (angle, force) = (told("approach_angle_driven", &other)?, told("impact_force", &other)?);
+    let (angle, force) = (told("approach_angle_driver", &other)?, told("impact_force", &other)?);
     Some(format!("For comparison, rung {}: {angle} before E with {force}.", rung.name()))
 }
 

@@ -64,8 +64,20 @@ fn no_number(text: &str, usual: &str) -> Misread {
 fn comma(text: &str) -> Misread {
     let length = text.find(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | ',' | '+' | '-'))).unwrap_or(text.len());
     let written = &text[..length];
-    let thousands = written.contains('.') || written.matches(',').count() > 1;
-    let meant = if thousands { written.replace(',', "") } else { written.replace(',', ".") };
+    let point_last = written.rfind('.') > written.rfind(',');
+    let groups = written.contains('.') || written.matches(',').count() > 1;
+    if !groups && written.split(',').nth(1).is_some_and(|rest| rest.len() == 3) {
+        let (plain, point) = (written.replace(',', ""), written.replace(',', "."));
+        return Misread::new(
+            "a comma inside a number",
+            format!("write {} or {}, not {}", cut(&plain), cut(&point), cut(written)),
+        );
+    }
+    if written.contains('.') && !point_last {
+        let meant = written.replace('.', "").replace(',', ".");
+        return Misread::new("a comma inside a number", format!("write {}, not {}", cut(&meant), cut(written)));
+    }
+    let meant = if groups { written.replace(',', "") } else { written.replace(',', ".") };
     Misread::new("a comma inside a number", format!("write {}, not {}", cut(&meant), cut(written)))
 }
 

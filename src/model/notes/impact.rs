@@ -9,8 +9,15 @@ const MICRO: f64 = 1e6;
 /// Quantities that could not be computed although the tooth strikes.
 pub(super) fn withheld(_: &Inputs, solution: &Solution) -> Option<Note> {
     let refusal = solution.withheld?;
-    let lost = if solution.impact.is_some() { "the force between D and E is not" } else { "no force, energy or duration is" };
-    Some(Note::new(refusal.code(), format!("{refusal}; {lost} given: {}", refusal.mend())))
+    Some(Note::new(refusal.code(), format!("{refusal}; no force, energy or duration is given: {}", refusal.mend())))
+}
+
+/// Stations whose force could not be computed.
+pub(super) fn stations_left_out(inputs: &Inputs, solution: &Solution) -> Option<Note> {
+    let refusal = solution.stations_withheld?;
+    let missing = inputs.stations + 1 - solution.stations.len();
+    let message = format!("{missing} of {} stations are left out: {refusal}", inputs.stations + 1);
+    Some(Note::new("stations-left-out", message))
 }
 
 /// The impact is longer than the way from D to E.

@@ -55,7 +55,7 @@ pub(super) fn start_past_pitch(_: &Inputs, solution: &Solution) -> Option<Note> 
     let message = || {
         format!(
             "the path of approach is {} mm, below 0: the driven tip, chamfer off, starts past the pitch point",
-            length * MILLI
+            four(length * MILLI)
         )
     };
     (length < 0.0).then(|| Note::new("start-past-pitch", message()))

@@ -66,7 +66,7 @@ fn nothing(app: &App) -> &'static str {
     let outcome = app.answer.as_ref().and_then(|answer| answer.of(answer.active)).map(|solution| solution.outcome);
     match outcome {
         Some(Outcome::NoCornerContact) => "No corner contact: the tooth comes in on time, without an impact.",
-        Some(Outcome::CornerContact) | None => "Nothing to draw yet.",
+        Some(Outcome::CornerContact) | None => "No force between D and E: the notes say why.",
     }
 }
 

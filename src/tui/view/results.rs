@@ -62,7 +62,9 @@ pub fn sentence(solution: &Solution, ascii: bool) -> String {
     let value = |key| quantity_text(key, solution).unwrap_or_default();
     match solution.outcome {
         Outcome::CornerContact => {
-            format!("Corner contact {} before E, {}.", value("approach_angle_driven"), value("impact_force"))
+            let force =
+                quantity_text("impact_force", solution).map_or("no force is given".to_owned(), |force| format!("with {force}"));
+            format!("Corner contact {} of the driver before E, {force}.", value("approach_angle_driver"))
         }
         Outcome::NoCornerContact => {
             let total = symbol("Δ", ascii);
@@ -133,9 +135,9 @@ fn first(answer: &Answer) -> &'static [&'static str] {
 // How far the force depends on the choice of stiffness model.
 fn band(solution: &Solution) -> Option<String> {
     let (band, force) = (solution.band?, solution.impact?.force);
-    let percent = |end: f64| 100.0 * (end / force - 1.0);
+    let percent = |end: f64| 100.0 * (end / force - 1.0) + 0.0;
     let (low, high) = (quantity_number("impact_force_low", solution)?, quantity_text("impact_force_high", solution)?);
-    Some(format!("stiffness band {low}..{high} ({:+.0}..{:+.0} %)", percent(band.low), percent(band.high)))
+    Some(format!("stiffness band {low}..{high} ({:+.1}..{:+.1} %)", percent(band.low), percent(band.high)))
 }
 
 // How far the printed position is off, where both rungs find one.
@@ -144,7 +146,7 @@ fn ratios(answer: &Answer, ascii: bool) -> Option<String> {
     let ratio = |key| {
         let quantity = Quantity::find(key)?;
         let ratio = (quantity.value)(exact)? / (quantity.value)(paper)?;
-        ratio.is_finite().then(|| format!("{} {}", symbol(quantity.symbol, ascii), rounded(ratio)))
+        ratio.is_finite().then(|| format!("{} {}x", symbol(quantity.symbol, ascii), rounded(ratio)))
     };
     Some(format!("exact/paper: {}, {}", ratio("approach_angle_driven")?, ratio("impact_force")?))
 }
