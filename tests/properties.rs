@@ -303,11 +303,16 @@ fn vanishing_deviation_meets_no_corner_contact_without_a_jump() {
 #[test]
 fn stations_fall_to_zero_at_the_end_and_stay_when_doubled() {
     some(1_000, |inputs| {
-        let with = |stations| solve(&Inputs { stations, ..inputs.clone() }, Stages::ALL).ok().map(|solution| solution.stations);
+        let with = |stations| solve(&Inputs { stations, ..inputs.clone() }, Stages::ALL).ok();
         let (coarse, fine) = (with(8)?, with(16)?);
-        if coarse.is_empty() || fine.is_empty() {
+        for (solution, whole) in [(&coarse, 9), (&fine, 17)] {
+            let missing = solution.impact.is_some() && solution.stations.len() < whole;
+            assert_eq!(missing, solution.stations_withheld.is_some(), "{inputs:?}");
+        }
+        if fine.stations_withheld.or(coarse.stations_withheld).is_some() || coarse.stations.is_empty() {
             return None;
         }
+        let (coarse, fine) = (coarse.stations, fine.stations);
         assert_eq!((coarse.len(), fine.len()), (9, 17));
         assert!(fine.windows(2).all(|pair| pair[0].impact_force > pair[1].impact_force), "{inputs:?}");
         assert_eq!(fine[16].impact_force, 0.0);
