@@ -164,6 +164,10 @@ impl Session {
                 assert!(Instant::now() < end, "it never stops writing: {:?}", String::from_utf8_lossy(&self.written));
             }
             if let Some(status) = self.child.try_wait().expect("our own child") {
+                // Until the terminal says that nobody is left to write.
+                while let Ok(bytes) = self.output.recv_timeout(PATIENCE) {
+                    self.written.extend(bytes);
+                }
                 return status.exit_code();
             }
             assert!(Instant::now() < end, "it does not leave: {:?}", String::from_utf8_lossy(&self.written));
