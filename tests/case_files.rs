@@ -120,6 +120,17 @@ fn a_changed_value_changes_nothing_else() {
 }
 
 #[test]
+fn a_title_of_two_lines_keeps_the_comments_of_a_file_with_other_line_ends() {
+    let text = TABLE_1.replace("title = \"Zhou & Chen 2014, Table 1\"", "title = \"a\\nb\"").replace('\n', "\r\n");
+    let mut document = parsed(&text);
+    document.case.set("driver.teeth", "23").unwrap();
+    assert_eq!(document.render(), text.replacen("teeth = 20", "teeth = 23", 1));
+    document.case.write(index_of("title").unwrap(), "c\nd");
+    let expected = text.replacen("teeth = 20", "teeth = 23", 1).replace("title = \"a\\nb\"", "title = \"c\\nd\"");
+    assert_eq!(document.render(), expected);
+}
+
+#[test]
 fn a_field_that_is_taken_out_goes_with_its_own_comment_only() {
     let mut document = parsed(TABLE_1);
     write(&mut document, "model.deflection", "");

@@ -1,4 +1,5 @@
 //! The command line's shape, from which help, completions and manual are derived.
+#![allow(rustdoc::broken_intra_doc_links, reason = "the help names tables of the case file, such as [limits]")]
 
 use super::Exit;
 use crate::case::Case;

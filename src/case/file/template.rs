@@ -131,7 +131,9 @@ fn is_toml_number(text: &str) -> bool {
     digits(whole) && (whole == "0" || !whole.starts_with('0')) && fraction.is_none_or(digits) && exponent.is_none_or(digits)
 }
 
-/// A TOML string.
+/// A TOML string on one line: a line end inside it would be taken for one of the file's.
 fn string(text: &str) -> String {
-    toml_edit::Value::from(text).to_string()
+    let quoted = toml_edit::Value::from(text).to_string();
+    let on_one_line = || serde_json::Value::from(text).to_string().replace('\u{7f}', "\\u007f");
+    if quoted.contains(['\n', '\r']) { on_one_line() } else { quoted }
 }

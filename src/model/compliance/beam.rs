@@ -23,7 +23,7 @@ const TOLERANCE: f64 = 1e-11;
 ///
 /// # Source
 /// Potential-energy method of Yang & Lin 1987 with the shear term of Tian 2004, integrated over the true profile: the
-/// involute and the trochoidal fillet of the cutting rack. q_f: see [`foundation`].
+/// involute and the trochoidal fillet of the cutting rack. q_f: see `foundation`.
 ///
 /// # Valid for
 /// Any tooth number, shift and pressure angle that leave a tooth; linear elasticity of one tooth on its own body.
