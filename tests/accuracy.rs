@@ -120,12 +120,12 @@ fn frozen_rows_cover_every_quantity_and_decade() {
     }
 }
 
-/// Pairs that no run has seen before, so that model, oracle and generator are held against each other on each run.
+/// Pairs that are not frozen, so that model, oracle and generator are held against each other on each run;
+/// `TIPSTRIKE_SEED` gives other ones.
 #[test]
 fn fresh_pairs_within_their_bounds() {
     let pairs_per_corner = std::env::var("TIPSTRIKE_PAIRS").map_or(4, |pairs| pairs.parse::<usize>().expect("a count") / 25_000);
-    let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).expect("a clock");
-    let seed = std::env::var("TIPSTRIKE_SEED").map_or(now.as_secs(), |seed| seed.parse().expect("a seed"));
+    let seed = std::env::var("TIPSTRIKE_SEED").map_or(2014, |seed| seed.parse().expect("a seed"));
     println!("TIPSTRIKE_SEED={seed}");
     let mut random = Random::new(seed);
     let (mut worst, mut worst_accurate) = (Worst::default(), Worst::default());
