@@ -33,19 +33,29 @@ fn decimal(value: &Value) -> f64 {
     value.as_str().expect("a decimal").parse().expect("a number")
 }
 
+fn rows() -> Vec<Value> {
+    let text = std::fs::read_to_string(folder("geometry.json")).expect("the rows");
+    serde_json::from_str(&text).expect("rows")
+}
+
+/// Table 1 with a row's module, pressure angle and tooth numbers, and without bores.
+fn row_inputs(row: &Value, rung: Rung) -> Inputs {
+    let table_1 = inputs_of("Table 1", include_str!("../cases/zhou-chen-2014.toml"));
+    let mut inputs = Inputs { rung, module: row["m"].as_f64().expect("module"), ..table_1 };
+    inputs.pressure_angle = decimal(&row["alpha_rad_f64"]);
+    for (gear, key) in [(&mut inputs.driver, "z1"), (&mut inputs.driven, "z2")] {
+        gear.teeth = row[key].as_u64().and_then(|teeth| teeth.try_into().ok()).expect("teeth");
+        gear.bore_radius = 0.0;
+    }
+    inputs
+}
+
 #[test]
 fn every_row_of_positions_within_1e_11() {
-    let text = std::fs::read_to_string(folder("geometry.json")).expect("the rows");
-    let rows: Vec<Value> = serde_json::from_str(&text).expect("rows");
-    let plain = inputs_of("Table 1", include_str!("../cases/zhou-chen-2014.toml"));
+    let rows = rows();
     assert_eq!(rows.len(), 39);
     for row in &rows {
-        let mut inputs = Inputs { module: row["m"].as_f64().expect("module"), ..plain.clone() };
-        inputs.pressure_angle = decimal(&row["alpha_rad_f64"]);
-        for (gear, key) in [(&mut inputs.driver, "z1"), (&mut inputs.driven, "z2")] {
-            gear.teeth = row[key].as_u64().and_then(|teeth| teeth.try_into().ok()).expect("teeth");
-            gear.bore_radius = 0.0;
-        }
+        let mut inputs = row_inputs(row, Rung::Exact);
         inputs.base_pitch_deviation = 0.0;
         inputs.deflection = row["delta"].as_f64();
         for accurate in [false, true] {
@@ -83,16 +93,9 @@ fn row_within(row: &Value, inputs: &Inputs, bound: f64) {
 /// What the printed equations give when half of Delta is error and half deflection.
 #[test]
 fn printed_position_of_every_row() {
-    let text = std::fs::read_to_string(folder("geometry.json")).expect("the rows");
-    let rows: Vec<Value> = serde_json::from_str(&text).expect("rows");
-    let plain = inputs_of("Table 1", include_str!("../cases/zhou-chen-2014.toml"));
+    let rows = rows();
     for row in &rows {
-        let mut inputs = Inputs { rung: Rung::Paper, module: row["m"].as_f64().expect("module"), ..plain.clone() };
-        inputs.pressure_angle = decimal(&row["alpha_rad_f64"]);
-        for (gear, key) in [(&mut inputs.driver, "z1"), (&mut inputs.driven, "z2")] {
-            gear.teeth = row[key].as_u64().and_then(|teeth| teeth.try_into().ok()).expect("teeth");
-            gear.bore_radius = 0.0;
-        }
+        let mut inputs = row_inputs(row, Rung::Paper);
         let half = row["delta"].as_f64().expect("delta") / 2.0;
         inputs.base_pitch_deviation = half * std::f64::consts::FRAC_1_SQRT_2;
         inputs.deflection = Some(half);
