@@ -6,17 +6,22 @@
 pub mod band;
 pub mod compliance;
 pub mod deviation;
+pub mod dynamic;
 pub mod friction;
 pub mod geometry;
 pub mod impact;
 pub mod inputs;
 pub mod limits;
+pub mod load_sharing;
+pub mod mesh;
 pub mod notes;
 pub mod position;
 pub mod quantities;
+pub mod relief;
 #[cfg(test)]
 pub(crate) mod sample;
 pub mod stage;
+pub mod static_load;
 pub mod stations;
 pub mod tip;
 pub mod velocity;
@@ -24,6 +29,7 @@ pub mod velocity;
 pub use band::Band;
 pub use compliance::TeethCompliance;
 pub use deviation::Deviation;
+pub use dynamic::Dynamic;
 pub use friction::Friction;
 pub use geometry::Geometry;
 pub use impact::Impact;
@@ -33,7 +39,8 @@ pub use notes::{Note, notes};
 pub use position::Position;
 pub use quantities::{QUANTITIES, Quantity};
 pub use stage::{Stage, Stages};
-pub use stations::Station;
+pub use static_load::StaticLoad;
+pub use stations::{MeshStation, Station};
 pub use velocity::Velocity;
 
 use twofloat::TwoFloat;
@@ -94,6 +101,12 @@ pub struct Solution {
     pub band: Option<Band>,
     /// From D (first) to E (last, force 0); empty unless asked for.
     pub stations: Vec<Station>,
+    /// Mean stiffness of the mesh, in N/m.
+    pub mesh_stiffness: Option<f64>,
+    /// The load shared by every pair.
+    pub static_load: Option<StaticLoad>,
+    /// The same with inertia.
+    pub dynamic: Option<Dynamic>,
     /// Why the tooth strikes and yet compliance, force and what follows are absent, where that is so.
     pub withheld: Option<Refusal>,
     /// Why stations are missing between D and E, where some are.
@@ -109,6 +122,15 @@ pub struct Solution {
 /// A [`Refusal`] where the pair cannot mesh, or D does not exist. Where only the force cannot be computed, the rest is
 /// given and [`Solution::withheld`] says why.
 pub fn solve(inputs: &Inputs, wanted: Stages) -> Result<Solution, Refusal> {
+    solve_while(inputs, wanted, &|_| true)
+}
+
+/// The same, asked now and then whether to go on, with the part that is done, from 0 to 1.
+///
+/// # Errors
+/// Those of [`solve`], and [`Refusal::Stopped`] where `go_on` says no.
+pub fn solve_while(inputs: &Inputs, wanted: Stages, go_on: &dyn Fn(f64) -> bool) -> Result<Solution, Refusal> {
+    let wanted = wanted.within(inputs.rung.stages());
     let plain = geometry::geometry::<f64>(inputs);
     let close_call = plain.map_or(true, |geometry| geometry.is_close_call(inputs));
     let precise = (inputs.accurate || close_call).then(|| geometry::geometry::<TwoFloat>(inputs)).transpose()?;
@@ -131,15 +153,23 @@ pub fn solve(inputs: &Inputs, wanted: Stages) -> Result<Solution, Refusal> {
         friction: None,
         band: None,
         stations: Vec::new(),
+        mesh_stiffness: None,
+        static_load: None,
+        dynamic: None,
         withheld: None,
         stations_withheld: None,
     };
     if wanted.has(Stage::Position) {
         solution.stages = solution.stages.with(Stage::Position);
-        match position::position(inputs, &solution.geometry, precise.as_ref(), &deviation)? {
-            Some(position) => solution.follow(inputs, &masses, wanted, position),
-            None => solution.outcome = Outcome::NoCornerContact,
+        match position::position(inputs, &solution.geometry, precise.as_ref(), &deviation) {
+            Ok(Some(position)) => solution.follow(inputs, &masses, wanted, position),
+            Ok(None) => solution.outcome = Outcome::NoCornerContact,
+            Err(refusal) if inputs.rung.shares_load() => solution.withheld = Some(refusal),
+            Err(refusal) => return Err(refusal),
         }
+    }
+    if wanted.has(Stage::Mesh) {
+        load_sharing::share(&mut solution, inputs, wanted, go_on)?;
     }
     Ok(solution)
 }

@@ -1,7 +1,10 @@
 //! Numerical methods that know no gears.
 
+pub mod chebyshev;
 pub mod decimal;
+pub mod ode;
 pub mod quadrature;
 pub mod real;
+pub mod root;
 
 pub use real::Real;

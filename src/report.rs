@@ -10,7 +10,7 @@ pub mod verdict;
 
 use crate::case::fields::index_of;
 use crate::case::{Case, units};
-use crate::model::{self, Inputs, Note, QUANTITIES, Quantity, Refusal, Solution, Stage, Stages};
+use crate::model::{self, Inputs, Note, QUANTITIES, Quantity, Refusal, Solution, Stages};
 use crate::numeric::decimal::significant;
 
 /// A value as a person reads it.
@@ -56,7 +56,7 @@ impl Selection {
     /// The stages that have to run for it, and no others.
     #[must_use]
     pub fn stages(&self) -> Stages {
-        let stations = if self.stations { Stages::of(Stage::Stations) } else { Stages::NONE };
+        let stations = if self.stations { Stages::STATIONS } else { Stages::NONE };
         self.quantities().fold(stations, |stages, quantity| stages.and(Stages::of(quantity.stage)))
     }
 }
@@ -117,6 +117,9 @@ impl Report {
 /// A value in SI, as a person reads it.
 #[must_use]
 pub fn shown(quantity: &Quantity, value: f64) -> Shown {
+    if quantity.is_flag() {
+        return Shown { number: if value == 0.0 { "no" } else { "yes" }.to_owned(), unit: "" };
+    }
     let number = number(value, quantity.shown, quantity.digits);
     Shown { number, unit: if quantity.shown == "1" { "" } else { quantity.shown } }
 }
@@ -142,6 +145,7 @@ fn not_finite(quantity: &Quantity, solution: &Solution) -> Option<Note> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::Stage;
 
     fn told(value: f64, unit: &'static str, digits: usize) -> String {
         let quantity = Quantity { shown: unit, digits, ..QUANTITIES[0] };

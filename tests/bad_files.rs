@@ -83,7 +83,7 @@ const ONE_BAD_LINE: &[OneLine] = &[
     ("stations = 64", "stations = 0", 0, 12, "model.stations", "below the limit of 1", "from 1 to 10000"),
     // words and choices
     ("rung = \"exact\"", "rung = \"exat\"", 0, 8, "model.rung", "unknown choice `exat`", "did you mean exact?"),
-    ("rung = \"exact\"", "rung = \"dynamic\"", 0, 8, "model.rung", "not in this version", "use `exact`"),
+    ("rung = \"exact\"", "rung = \"dinamic\"", 0, 8, "model.rung", "unknown choice `dinamic`", "did you mean dynamic?"),
     ("rung = \"exact\"", "rung = 2", 0, 8, "model.rung", "a number stands where a text in quotes", "\"exact\""),
     ("rung = \"exact\"", "rung = exact", 0, 8, "model.rung", "not in quotes", "write \"exact\""),
     ("title = \"Zhou & Chen 2014, Table 1\"", "title = [1]", 0, 9, "title", "an array", "title = "),

@@ -41,9 +41,6 @@ impl std::fmt::Display for Problem {
 
 impl std::error::Error for Problem {}
 
-/// The rungs that are planned and not there yet.
-const PLANNED_RUNGS: [&str; 2] = ["static", "dynamic"];
-
 /// The greatest ratio of tooth numbers, either way.
 const MOST_RATIO: f64 = 50.0;
 
@@ -191,9 +188,6 @@ fn choice(known: &Field, text: &str, names: &'static [&'static str]) -> Result<u
     let name = text.trim();
     if let Some(index) = names.iter().position(|&known| known == name) {
         return Ok(index);
-    }
-    if known.key == "model.rung" && PLANNED_RUNGS.contains(&name) {
-        return Err(Problem::new(known.key, "the rungs `static` and `dynamic` are not in this version", "use `exact`"));
     }
     let mend = suggest::mend(name, names.iter().copied(), || format!("use one of {}", names.join(", ")));
     Err(Problem::new(known.key, format!("unknown choice {}", quoted(name)), mend))

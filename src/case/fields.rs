@@ -116,12 +116,13 @@ impl Field {
 }
 
 /// Values of fields that have no default, by the name within the table: Table 1 of the paper where it has one.
-const EXAMPLES: [(&str, &str); 11] = [
+const EXAMPLES: [(&str, &str); 12] = [
     ("module", "5 mm"),
     ("centre_distance", "100 mm"),
     ("teeth", "20"),
     ("face_width", "8 mm"),
     ("tip_relief_length", "1 mm"),
+    ("root_relief_length", "1 mm"),
     ("tip_radius", "0.2 mm"),
     ("power", "15 kW"),
     ("torque", "71.6 N m"),

@@ -144,13 +144,6 @@ fn all_problems_come_at_once_in_the_order_of_the_fields() {
 }
 
 #[test]
-fn the_planned_rungs_are_named() {
-    let problem = only_problem(&with(&[("model.rung", "dynamic")]));
-    assert!(problem.cause.contains("`static` and `dynamic` are not in this version"));
-    assert_eq!(problem.mend, "use `exact`");
-}
-
-#[test]
 fn set_takes_keys_as_the_command_line_gives_them() {
     let mut case = Case::table_1();
     case.set("pair.module", "4 mm").unwrap();

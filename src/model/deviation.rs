@@ -11,11 +11,11 @@ use crate::numeric::Real;
 /// Deviation along the line of action, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deviation<T = f64> {
-    /// Equivalent error Δf, Eqs. 1 and 2.
+    /// Equivalent error Δf, Eqs. 1 and 2; in the rungs `static` and `dynamic` without the reliefs, which act on the flanks.
     pub equivalent_error: T,
     /// Combined deflection δ of the pairs that carry the load, Eqs. 3 and 4.
     pub combined_deflection: T,
-    /// Δ = Δf + δ, Eq. 5. Without Δ > 0 no tooth strikes.
+    /// Δ = Δf + δ, Eq. 5, reliefs counted in every rung. Without Δ > 0 no tooth strikes.
     pub total: T,
 }
 
@@ -24,12 +24,13 @@ pub struct Deviation<T = f64> {
 /// # Errors
 /// A [`Refusal`] where the deflection has to be computed and cannot be.
 pub fn deviation(inputs: &Inputs, geometry: &Geometry, mesh_force: f64) -> Result<Deviation<TwoFloat>, Refusal> {
-    let equivalent_error = equivalent_error(inputs);
-    let combined_deflection = match inputs.deflection {
+    let combined_deflection = match inputs.deflection.filter(|_| !inputs.rung.shares_load()) {
         Some(given) => given.into(),
         None => combined_deflection(inputs, geometry, mesh_force)?.into(),
     };
-    Ok(Deviation { equivalent_error, combined_deflection, total: equivalent_error + combined_deflection })
+    let with_reliefs = equivalent_error(inputs);
+    let equivalent_error = if inputs.rung.shares_load() { random_error(inputs) } else { with_reliefs };
+    Ok(Deviation { equivalent_error, combined_deflection, total: with_reliefs + combined_deflection })
 }
 
 /// Equivalent error Δf, in m.
@@ -37,20 +38,29 @@ pub fn deviation(inputs: &Inputs, geometry: &Geometry, mesh_force: f64) -> Resul
 /// # Formula
 /// ```text
 /// paper:  Δf = (2 f_pb + e_m − j_bn)/√2
-/// exact:  Δf = (2 f_pb − j_bn)/√2 + e_m,   e_m = −(driven tip relief + driver root relief)
+/// others: Δf = (2 f_pb − j_bn)/√2 + e_m,   e_m = −(driven tip relief + driver root relief)
 /// ```
 /// where 1/√2 stands for the sum of independent random errors.
 ///
 /// # Source
 /// Zhou & Chen 2014, Eqs. 1 and 2. The rung `paper` scales the modification e_m with the random errors, as printed;
-/// `exact` counts it in full, since a relief that was ground is there in full.
+/// the others count it in full, since a relief that was ground is there in full.
 fn equivalent_error(inputs: &Inputs) -> TwoFloat {
     let modification = -TwoFloat::new_add(inputs.driven.tip_relief, inputs.driver.root_relief);
-    let random = TwoFloat::new_sub(2.0 * inputs.base_pitch_deviation, inputs.backlash);
     match inputs.rung {
-        Rung::Paper => (random + modification) * twofloat::consts::FRAC_1_SQRT_2,
-        Rung::Exact => random * twofloat::consts::FRAC_1_SQRT_2 + modification,
+        Rung::Paper => (random_deviation(inputs) + modification) * twofloat::consts::FRAC_1_SQRT_2,
+        _ => random_error(inputs) + modification,
     }
+}
+
+/// Equivalent error without reliefs, (2 f_pb − j_bn)/√2, in m.
+fn random_error(inputs: &Inputs) -> TwoFloat {
+    random_deviation(inputs) * twofloat::consts::FRAC_1_SQRT_2
+}
+
+/// 2 f_pb − j_bn, in m.
+fn random_deviation(inputs: &Inputs) -> TwoFloat {
+    TwoFloat::new_sub(2.0 * inputs.base_pitch_deviation, inputs.backlash)
 }
 
 /// Combined deflection δ of the pairs in contact when the incoming pair stands at E, in m.

@@ -40,7 +40,7 @@ pub fn friction(
     let from_contact = seen_from(geometry, tip);
     let end = match inputs.rung {
         Rung::Paper => printed_end(inputs, &from_contact, tip, turn),
-        Rung::Exact => Some(tip_after(geometry, &from_contact, tip, turn)),
+        _ => Some(tip_after(geometry, &from_contact, tip, turn)),
     };
     let gained = impact.force * impact.duration_printed / (reduced_mass * geometry.driven.tip);
     let ratio = end.map(|end| changes_ratio(inputs, &end, gained)).filter(|ratio| ratio.is_finite() && velocity.normal > 0.0);

@@ -123,7 +123,7 @@ pub fn impact(
     let duration_spring = PI * (effective_mass * pair_compliance / width).sqrt();
     let duration = match inputs.rung {
         Rung::Paper => duration_printed,
-        Rung::Exact => duration_spring,
+        _ => duration_spring,
     };
     Ok(Impact {
         force,

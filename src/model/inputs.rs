@@ -1,5 +1,7 @@
 //! What a solve needs to know of a gear pair, in SI units.
 
+use super::stage::{Stage, Stages};
+
 /// One gear of the pair.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gear {
@@ -27,6 +29,8 @@ pub struct Gear {
     pub root_relief: f64,
     /// Length of the tip relief along the path of contact, from the tip, in m.
     pub tip_relief_length: Option<f64>,
+    /// Length of the root relief along the path of contact, from its end at the root, in m.
+    pub root_relief_length: Option<f64>,
     /// Radial tip chamfer, which shortens the active tip, in m.
     pub tip_chamfer: f64,
     /// Radius of the tip's edge, in m.
@@ -49,11 +53,35 @@ pub enum Rung {
     Paper,
     /// The exact contact position and the spring's own duration.
     Exact,
+    /// The load shared by every pair in contact, corner contact included.
+    Static,
+    /// The same with inertia.
+    Dynamic,
 }
 
 impl Rung {
     /// Every rung, cheapest first.
-    pub const ALL: [Rung; 2] = [Rung::Paper, Rung::Exact];
+    pub const ALL: [Rung; 4] = [Rung::Paper, Rung::Exact, Rung::Static, Rung::Dynamic];
+    /// The rungs that answer in a microsecond.
+    pub const CLOSED_FORM: [Rung; 2] = [Rung::Paper, Rung::Exact];
+
+    /// Whether every pair in contact takes its share of the load, so that reliefs act along the flanks and a deflection
+    /// that the case gives is not needed.
+    #[must_use]
+    pub fn shares_load(self) -> bool {
+        matches!(self, Rung::Static | Rung::Dynamic)
+    }
+
+    /// The stages that the rung has.
+    #[must_use]
+    pub fn stages(self) -> Stages {
+        let impact = Stages::CLOSED_FORM.with(Stage::Band);
+        match self {
+            Rung::Paper | Rung::Exact => Stages::ALL,
+            Rung::Static => impact.and(Stages::of(Stage::Static)),
+            Rung::Dynamic => impact.and(Stages::of(Stage::Static)).with(Stage::Dynamic),
+        }
+    }
 
     /// The name in a case file.
     #[must_use]
@@ -61,6 +89,8 @@ impl Rung {
         match self {
             Rung::Paper => "paper",
             Rung::Exact => "exact",
+            Rung::Static => "static",
+            Rung::Dynamic => "dynamic",
         }
     }
 }
@@ -105,6 +135,20 @@ impl ContactCompliance {
         [ContactCompliance::Logarithmic, ContactCompliance::Constant, ContactCompliance::Weber];
 }
 
+/// How a relief grows from its start to its full amount.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ReliefShape {
+    /// In proportion to the way.
+    Linear,
+    /// With its square.
+    Parabolic,
+}
+
+impl ReliefShape {
+    /// Every shape.
+    pub const ALL: [ReliefShape; 2] = [ReliefShape::Linear, ReliefShape::Parabolic];
+}
+
 /// A gear pair in operation: all that a solve reads.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inputs {
@@ -136,6 +180,14 @@ pub struct Inputs {
     pub tooth_compliance: Option<ToothCompliance>,
     /// Compliance of the contact.
     pub contact_compliance: ContactCompliance,
+    /// How tip and root reliefs grow along the path of contact.
+    pub relief_shape: ReliefShape,
+    /// Damping ratio ζ of the mesh, of its mean stiffness.
+    pub damping_ratio: f64,
+    /// Base pitches that pass before the incoming tooth reaches E.
+    pub warmup_cycles: u32,
+    /// Relative error that the peak force of the rung `dynamic` may have.
+    pub tolerance: f64,
     /// Intervals between D and E.
     pub stations: usize,
     /// Geometry and position in double-double arithmetic.

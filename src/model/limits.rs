@@ -124,6 +124,39 @@ pub enum Refusal {
         /// Radius of the form circle, in m.
         form: f64,
     },
+    /// The driver's tip would touch the driven gear below its base circle.
+    #[error("interference at the end of contact: N2B is {:.4} mm and must be above 0", .start / MILLIMETRE)]
+    InterferenceAtEnd {
+        /// N₂B, in m.
+        start: f64,
+    },
+    /// The pairs yield so far that a tip would leave the other flank.
+    #[error("the teeth do not hold the load: the pairs yield further than their flanks reach")]
+    BeyondReach,
+    /// Friction alone would hold the gears.
+    #[error(
+        "the friction locks the gears: the coefficient is {friction} and must be below {limit:.4}, r_b1 over the greatest arm"
+    )]
+    FrictionLocks {
+        /// μ.
+        friction: f64,
+        /// The least coefficient that locks.
+        limit: f64,
+    },
+    /// The mesh swings too often while a tooth passes.
+    #[error("too slow for the rung dynamic: the mesh swings {swings:.2e} times on the way, and the limit is {limit:.0e}")]
+    TooSlow {
+        /// Swings of the mesh on the way.
+        swings: f64,
+        /// The most that are followed.
+        limit: f64,
+    },
+    /// The steps of the motion come to no end.
+    #[error("the motion does not settle: contacts are made and lost without end")]
+    Unsettled,
+    /// Whoever asked does not want the answer any more.
+    #[error("stopped before the end")]
+    Stopped,
     /// Eq. 55 leaves its range.
     #[error("the Hertz half-width is not small against the tooth: it is {:.4} mm, and the contact formula ends at {:.4} mm", .half_width / MILLIMETRE, .limit / MILLIMETRE)]
     HertzWidthTooLarge {
@@ -204,6 +237,24 @@ impl Refusal {
             Refusal::BelowFormCircle { .. } => {
                 ("below-form-circle", "driven.addendum", "shorten the driven addendum, or give the driver more profile shift")
             }
+            Refusal::InterferenceAtEnd { .. } => (
+                "interference-at-end",
+                "driver.addendum",
+                "shorten the driver's addendum, or give the driven gear more teeth or more profile shift",
+            ),
+            Refusal::BeyondReach => {
+                ("beyond-reach", "operation.power", "lower the load, widen the gears or give a smaller deviation")
+            }
+            Refusal::FrictionLocks { .. } => {
+                ("friction-locks", "operation.friction_coefficient", "give a smaller friction coefficient, or leave it out")
+            }
+            Refusal::TooSlow { .. } => {
+                ("too-slow", "model.rung", "set model.rung to static: so slowly the mesh follows the load at rest")
+            }
+            Refusal::Unsettled => {
+                ("unsettled", "model.damping_ratio", "give a greater damping ratio, or set model.rung to static")
+            }
+            Refusal::Stopped => ("stopped", "model.rung", "ask again"),
             Refusal::HertzWidthTooLarge { .. } => {
                 ("hertz-width", "driver.face_width", "lower the load or the speed, or widen the gears")
             }

@@ -40,7 +40,7 @@ pub struct Position {
 ///
 /// # Errors
 /// [`Refusal::NoFirstContact`] where the steps do not settle: no turn of the gear would bridge such a deviation.
-fn first_contact(geometry: &Geometry, deviation: f64) -> Result<f64, Refusal> {
+pub(super) fn first_contact(geometry: &Geometry, deviation: f64) -> Result<f64, Refusal> {
     const STEPS: usize = 60;
     const SETTLED: f64 = 1e-4;
     const ON_THE_WAY: f64 = 1e8;
@@ -134,7 +134,7 @@ pub fn position(
     }
     let angle = match inputs.rung {
         Rung::Paper => printed_contact(geometry, &plain),
-        Rung::Exact => first_contact(geometry, plain.total)?,
+        _ => first_contact(geometry, plain.total)?,
     };
     let contact = tip_at(geometry, angle);
     let close_call = contact.is_close_call(geometry) || inputs.rung == Rung::Paper && plain.equivalent_error < 0.0;
@@ -156,7 +156,7 @@ fn precise_contact(
 ) -> (TipContact, f64) {
     let angle = match inputs.rung {
         Rung::Paper => printed_contact(geometry, deviation),
-        Rung::Exact => refine(geometry, near, deviation.total),
+        _ => refine(geometry, near, deviation.total),
     };
     let tip = tip_at(geometry, angle);
     let contact = tip.rounded();

@@ -26,6 +26,12 @@ pub struct Quantity {
 }
 
 impl Quantity {
+    /// Whether it is true (1) or false (0).
+    #[must_use]
+    pub fn is_flag(&self) -> bool {
+        self.shown == "yes/no"
+    }
+
     /// The quantity of that name.
     #[must_use]
     pub fn find(key: &str) -> Option<&'static Quantity> {
@@ -86,4 +92,18 @@ pub static QUANTITIES: &[Quantity] = &[
     quantity!("friction_ratio", "f", "friction ratio", "1", "1", 4, "Eq. 64", Friction, |s| s.friction?.ratio),
     quantity!("stick_limit", "μ_stick", "stick limit", "1", "1", 4, "ΔVτ/(2ΔVn)", Velocity, |s| Some(s.velocity?.stick_limit)),
     quantity!("impulse_ratio", "κ", "impulse ratio", "1", "1", 4, "(2/π)F_S·T_S/(M·ΔV_n)", Impact, |s| Some(s.impact?.impulse_ratio)),
+    quantity!("mesh_stiffness", "k_m", "mean mesh stiffness", "N/m", "N/m", 6, "mean of b/q", Mesh, |s| s.mesh_stiffness),
+    quantity!("static_first_contact_angle", "u_s", "static: angle before E", "rad", "deg", 6, "ΣF = F0", Static, |s| s.static_load.as_ref()?.first_contact_angle),
+    quantity!("static_force_at_start", "F_s,E", "static: force at E", "N", "N", 5, "ΣF = F0", Static, |s| Some(s.static_load.as_ref()?.force_at_start)),
+    quantity!("static_peak_force", "F_s,max", "static: greatest force", "N", "N", 5, "ΣF = F0", Static, |s| Some(s.static_load.as_ref()?.peak_force)),
+    quantity!("static_last_contact_angle", "θ_s,B", "static: angle after B", "rad", "deg", 6, "ΣF = F0", Static, |s| s.static_load.as_ref()?.last_contact_angle),
+    quantity!("static_transmission_error", "TE_s", "static: transmission error", "m", "um", 5, "max x − min x", Static, |s| Some(s.static_load.as_ref()?.transmission_error)),
+    quantity!("pitch_contact_jump", "ΔF_P", "jump at the pitch point", "N", "N", 4, "μ reverses", Static, |s| s.static_load.as_ref()?.pitch_jump),
+    quantity!("dynamic_first_contact_angle", "u_d", "dynamic: angle before E", "rad", "deg", 6, "m x'' + ΣF = F0", Dynamic, |s| s.dynamic.as_ref()?.first_contact_angle),
+    quantity!("dynamic_peak_approach_force", "F_d,DE", "dynamic: peak before E", "N", "N", 5, "m x'' + ΣF = F0", Dynamic, |s| Some(s.dynamic.as_ref()?.peak_approach_force)),
+    quantity!("dynamic_peak_force", "F_d,max", "dynamic: greatest force", "N", "N", 5, "m x'' + ΣF = F0", Dynamic, |s| Some(s.dynamic.as_ref()?.peak_force)),
+    quantity!("dynamic_impact_duration", "T_d", "dynamic: first impact", "s", "us", 4, "m x'' + ΣF = F0", Dynamic, |s| s.dynamic.as_ref()?.impact_duration),
+    quantity!("dynamic_last_contact_angle", "θ_d,B", "dynamic: angle after B", "rad", "deg", 6, "m x'' + ΣF = F0", Dynamic, |s| s.dynamic.as_ref()?.last_contact_angle),
+    quantity!("dynamic_contact_lost", "", "dynamic: contact lost", "1", "yes/no", 1, "no pair touches", Dynamic, |s| Some(f64::from(u8::from(s.dynamic.as_ref()?.contact_lost)))),
+    quantity!("dynamic_friction_work", "W_μ", "dynamic: friction work", "J", "J", 5, "∫μ F |v| dt", Dynamic, |s| s.dynamic.as_ref()?.friction_work),
 ];

@@ -1,6 +1,6 @@
 //! A pair to start tests from.
 
-use super::inputs::{ContactCompliance, Drive, Gear, Inputs, Rung};
+use super::inputs::{ContactCompliance, Drive, Gear, Inputs, ReliefShape, Rung};
 
 /// A standard steel pair without deviation, 10 mm wide, 100 N m at 1000 rpm.
 pub(crate) fn standard_pair(driver_teeth: u32, driven_teeth: u32, module: f64) -> Inputs {
@@ -17,6 +17,7 @@ pub(crate) fn standard_pair(driver_teeth: u32, driven_teeth: u32, module: f64) -
         tip_relief: 0.0,
         root_relief: 0.0,
         tip_relief_length: None,
+        root_relief_length: None,
         tip_chamfer: 0.0,
         tip_radius: None,
     };
@@ -36,6 +37,10 @@ pub(crate) fn standard_pair(driver_teeth: u32, driven_teeth: u32, module: f64) -
         tooth_compliance: None,
         contact_compliance: ContactCompliance::Logarithmic,
         stations: 64,
+        relief_shape: ReliefShape::Linear,
+        damping_ratio: 0.07,
+        warmup_cycles: 20,
+        tolerance: 1e-6,
         accurate: false,
     }
 }

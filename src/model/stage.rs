@@ -24,11 +24,17 @@ pub enum Stage {
     Band,
     /// Force between D and E.
     Stations,
+    /// Gap and stiffness of every pair along the line of action.
+    Mesh,
+    /// The load shared by every pair.
+    Static,
+    /// The same with inertia.
+    Dynamic,
 }
 
 impl Stage {
     /// Every stage, in order.
-    pub const ALL: [Stage; 10] = [
+    pub const ALL: [Stage; 13] = [
         Stage::Geometry,
         Stage::Load,
         Stage::Deviation,
@@ -39,6 +45,9 @@ impl Stage {
         Stage::Friction,
         Stage::Band,
         Stage::Stations,
+        Stage::Mesh,
+        Stage::Static,
+        Stage::Dynamic,
     ];
 
     /// The name in a report.
@@ -55,6 +64,9 @@ impl Stage {
             Stage::Friction => "friction",
             Stage::Band => "stiffness-band",
             Stage::Stations => "stations",
+            Stage::Mesh => "mesh",
+            Stage::Static => "static",
+            Stage::Dynamic => "dynamic",
         }
     }
 
@@ -63,6 +75,8 @@ impl Stage {
         match self {
             Stage::Geometry => Stages::NONE,
             Stage::Load => Stages::NONE.with(Stage::Geometry),
+            Stage::Mesh => Stages::NONE.with(Stage::Geometry).with(Stage::Load),
+            Stage::Static | Stage::Dynamic => Stages::NONE.with(Stage::Mesh),
             Stage::Deviation => Stages::NONE.with(Stage::Geometry).with(Stage::Load),
             Stage::Position => Stages::NONE.with(Stage::Deviation),
             Stage::Velocity | Stage::Compliance => Stages::NONE.with(Stage::Position),
@@ -81,8 +95,12 @@ impl Stages {
     pub const NONE: Stages = Stages(0);
     /// From geometry to friction: all that one impact model says of D.
     pub const CLOSED_FORM: Stages = Stages::of(Stage::Friction);
-    /// Every stage.
+    /// Every stage of the rungs `paper` and `exact`.
     pub const ALL: Stages = Stages::CLOSED_FORM.with(Stage::Band).with(Stage::Stations);
+    /// The stages that give stations, each in its rungs.
+    pub const STATIONS: Stages = Stages::of(Stage::Stations).and(Stages::of(Stage::Static)).with(Stage::Dynamic);
+    /// Every stage there is.
+    pub const EVERY: Stages = Stages::ALL.and(Stages::of(Stage::Static)).with(Stage::Dynamic);
 
     /// The stage and all that it needs.
     #[must_use]
@@ -108,6 +126,12 @@ impl Stages {
     #[must_use]
     pub const fn and(self, other: Stages) -> Stages {
         Stages(self.0 | other.0)
+    }
+
+    /// What is in both sets.
+    #[must_use]
+    pub const fn within(self, other: Stages) -> Stages {
+        Stages(self.0 & other.0)
     }
 
     /// Whether the stage is in the set.

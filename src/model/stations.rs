@@ -4,6 +4,7 @@ use super::compliance::{self, ContactPlace};
 use super::geometry::Geometry;
 use super::impact::{Masses, impact};
 use super::inputs::Inputs;
+use super::mesh::Mesh;
 use super::position::Position;
 use super::tip::tip_at;
 use super::{Refusal, velocity};
@@ -23,6 +24,40 @@ pub struct Station {
     pub sliding_velocity: f64,
     /// Impact force, in N.
     pub impact_force: f64,
+}
+
+/// A place of the incoming tooth from its first contact through E to its last.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeshStation {
+    /// Driver's angle before E, in rad; below 0 after E.
+    pub roll_angle_driver: f64,
+    /// Driven gear's angle before E, in rad; below 0 after E.
+    pub roll_angle_driven: f64,
+    /// Force of the incoming tooth, in N.
+    pub force: f64,
+    /// Its part of the forces of all pairs.
+    pub load_share: f64,
+    /// Displacement of the driver ahead along the line of action, in m.
+    pub transmission_error: f64,
+    /// Sliding velocity of the incoming pair, in m/s.
+    pub sliding_velocity: f64,
+    /// Time since E, in s; in the rung `dynamic` alone.
+    pub time: Option<f64>,
+}
+
+impl MeshStation {
+    /// The station at which the incoming pair stands `s` after E.
+    pub(super) fn at(mesh: &Mesh, s: f64, force: f64, total: f64, displacement: f64, time: Option<f64>) -> MeshStation {
+        MeshStation {
+            roll_angle_driver: 0.0 - s / mesh.base_radii.0,
+            roll_angle_driven: 0.0 - s / mesh.base_radii.1,
+            force,
+            load_share: if total > 0.0 { force / total } else { 0.0 },
+            transmission_error: displacement,
+            sliding_velocity: mesh.sliding(s),
+            time,
+        }
+    }
 }
 
 /// The impact at `inputs.stations` equal intervals of the driven gear's angle, from D (first) to E (last, force 0). A

@@ -1,7 +1,7 @@
 //! Solves as CSV in SI units and full precision: a row a case, or a row a station.
 
-use super::stations::COLUMNS;
-use super::{Report, Selection, value};
+use super::stations::{columns, rows as stations};
+use super::{Report, value};
 use crate::case::visible::visible;
 use csv::{ErrorKind, Writer};
 use std::io::{self, Write};
@@ -11,7 +11,7 @@ use std::io::{self, Write};
 /// # Errors
 /// What the writer refuses.
 pub fn write(report: &Report, with_header: bool, out: &mut dyn Write) -> io::Result<()> {
-    let header = with_header.then(|| header(&report.selection));
+    let header = with_header.then(|| header(report));
     let mut writer = Writer::from_writer(out);
     header.into_iter().chain(rows(report)).try_for_each(|row| writer.write_record(row)).map_err(io_error)?;
     writer.flush()
@@ -25,13 +25,13 @@ fn io_error(error: csv::Error) -> io::Error {
     }
 }
 
-fn header(selection: &Selection) -> Vec<String> {
+fn header(report: &Report) -> Vec<String> {
     let with_unit = |key: &str, unit: &str| format!("{key} [{unit}]");
-    if selection.stations {
-        let columns = COLUMNS.iter().map(|column| with_unit(column.key, column.unit));
+    if report.selection.stations {
+        let columns = columns(report.solution.rung).map(|column| with_unit(column.key, column.unit));
         return std::iter::once("case".to_owned()).chain(columns).collect();
     }
-    let columns = selection.quantities().map(|quantity| with_unit(quantity.key, quantity.unit));
+    let columns = report.selection.quantities().map(|quantity| with_unit(quantity.key, quantity.unit));
     ["case", "rung", "outcome"].map(str::to_owned).into_iter().chain(columns).collect()
 }
 
@@ -39,8 +39,8 @@ fn rows(report: &Report) -> Vec<Vec<String>> {
     let name = visible(&report.name);
     let solution = &report.solution;
     if report.selection.stations {
-        let cells = |station| COLUMNS.iter().map(move |column| cell(column.of(station)));
-        return solution.stations.iter().map(|station| std::iter::once(name.clone()).chain(cells(station)).collect()).collect();
+        let cells = |row| columns(solution.rung).map(move |column| cell(column.of(row)));
+        return stations(solution).into_iter().map(|row| std::iter::once(name.clone()).chain(cells(row)).collect()).collect();
     }
     let head = [name, solution.rung.name().to_owned(), solution.outcome.name().to_owned()];
     let cells = report.selection.quantities().map(|quantity| cell(value(quantity, solution)));

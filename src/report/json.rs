@@ -3,7 +3,7 @@
 use super::{Report, stations};
 use crate::case::file::FORMAT;
 use crate::case::visible::is_hidden;
-use crate::model::{Stage, Station};
+use crate::model::{Quantity, Stage};
 use serde::{Serialize, Serializer};
 use serde_json::ser::Formatter;
 use std::io::{self, Write};
@@ -18,15 +18,28 @@ struct Line<'a> {
     outcome: &'static str,
     quantities: Quantities<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    stations: Option<Vec<Row<'a>>>,
+    stations: Option<Vec<Cells<'a>>>,
     stages: Vec<&'static str>,
     notes: Vec<Remark<'a>>,
 }
 
 #[derive(Serialize)]
 struct Measured {
-    value: f64,
+    value: Value,
     unit: &'static str,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Value {
+    Number(f64),
+    Flag(bool),
+}
+
+impl Value {
+    fn of(quantity: &Quantity, value: f64) -> Value {
+        if quantity.is_flag() { Value::Flag(value != 0.0) } else { Value::Number(value) }
+    }
 }
 
 #[derive(Serialize)]
@@ -39,13 +52,14 @@ struct Quantities<'a>(&'a Report);
 
 impl Serialize for Quantities<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0.values().map(|(quantity, value)| (quantity.key, Measured { value, unit: quantity.unit })))
+        let measured = |quantity: &Quantity, value| Measured { value: Value::of(quantity, value), unit: quantity.unit };
+        serializer.collect_map(self.0.values().map(|(quantity, value)| (quantity.key, measured(quantity, value))))
     }
 }
 
-struct Row<'a>(&'a Station);
+struct Cells<'a>(stations::Row<'a>);
 
-impl Serialize for Row<'_> {
+impl Serialize for Cells<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_map(stations::COLUMNS.iter().filter_map(|column| Some((column.key, column.of(self.0)?))))
     }
@@ -65,7 +79,7 @@ pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         rung: solution.rung.name(),
         outcome: solution.outcome.name(),
         quantities: Quantities(report),
-        stations: report.selection.stations.then(|| solution.stations.iter().map(Row).collect()),
+        stations: report.selection.stations.then(|| stations::rows(solution).into_iter().map(Cells).collect()),
         stages: solution.stages.iter().map(Stage::name).collect(),
         notes: report.notes.iter().map(|note| Remark { code: note.code, message: &note.message }).collect(),
     };

@@ -1,8 +1,18 @@
-//! The one table of what a station between D and E tells, for text, JSON and CSV.
+//! The one table of what a station of the incoming tooth tells, for text, JSON, CSV and charts.
 
-use crate::model::Station;
+use crate::model::inputs::Rung;
+use crate::model::{MeshStation, Solution, Station};
 
-/// A value that every station has.
+/// A place of the incoming tooth.
+#[derive(Debug, Clone, Copy)]
+pub enum Row<'a> {
+    /// Between D and E, the impact as if it happened there.
+    Impact(&'a Station),
+    /// From the first contact to the last, with the load shared.
+    Load(&'a MeshStation),
+}
+
+/// A value that the stations of some rungs have.
 #[derive(Debug, Clone, Copy)]
 pub struct Column {
     /// The name in JSON and CSV.
@@ -15,31 +25,81 @@ pub struct Column {
     pub shown: &'static str,
     /// Significant digits that a person reads.
     pub digits: usize,
+    /// The rungs whose stations have it.
+    pub rungs: &'static [Rung],
     /// The value in SI.
-    pub value: fn(&Station) -> f64,
+    pub value: fn(Row) -> Option<f64>,
+}
+
+const CLOSED_FORM: &[Rung] = &Rung::CLOSED_FORM;
+const SHARING: &[Rung] = &[Rung::Static, Rung::Dynamic];
+const EVERY: &[Rung] = &Rung::ALL;
+const DYNAMIC: &[Rung] = &[Rung::Dynamic];
+
+macro_rules! column {
+    ($key:literal, $symbol:literal, $unit:literal, $shown:literal, $digits:literal, $rungs:expr, $value:expr) => {
+        Column { key: $key, symbol: $symbol, unit: $unit, shown: $shown, digits: $digits, rungs: $rungs, value: $value }
+    };
 }
 
 /// Every column, in the order of a row.
 #[rustfmt::skip]
-pub static COLUMNS: [Column; 6] = [
-    Column { key: "roll_angle_driver", symbol: "θ_1", unit: "rad", shown: "deg", digits: 5, value: |s| s.roll_angle_driver },
-    Column { key: "roll_angle_driven", symbol: "u", unit: "rad", shown: "deg", digits: 5, value: |s| s.roll_angle_driven },
-    Column { key: "radius_driver", symbol: "O1J", unit: "m", shown: "mm", digits: 6, value: |s| s.radius_driver },
-    Column { key: "normal_velocity", symbol: "ΔV_n", unit: "m/s", shown: "m/s", digits: 5, value: |s| s.normal_velocity },
-    Column { key: "sliding_velocity", symbol: "ΔV_τ", unit: "m/s", shown: "m/s", digits: 5, value: |s| s.sliding_velocity },
-    Column { key: "impact_force", symbol: "F_S", unit: "N", shown: "N", digits: 5, value: |s| s.impact_force },
+pub static COLUMNS: [Column; 10] = [
+    column!("roll_angle_driver", "θ_1", "rad", "deg", 5, EVERY, |row| Some(row.both(|s| s.roll_angle_driver, |s| s.roll_angle_driver))),
+    column!("roll_angle_driven", "u", "rad", "deg", 5, EVERY, |row| Some(row.both(|s| s.roll_angle_driven, |s| s.roll_angle_driven))),
+    column!("time", "t", "s", "us", 5, DYNAMIC, |row| row.load()?.time),
+    column!("radius_driver", "O1J", "m", "mm", 6, CLOSED_FORM, |row| Some(row.impact()?.radius_driver)),
+    column!("normal_velocity", "ΔV_n", "m/s", "m/s", 5, CLOSED_FORM, |row| Some(row.impact()?.normal_velocity)),
+    column!("sliding_velocity", "ΔV_τ", "m/s", "m/s", 5, EVERY, |row| Some(row.both(|s| s.sliding_velocity, |s| s.sliding_velocity))),
+    column!("impact_force", "F_S", "N", "N", 5, CLOSED_FORM, |row| Some(row.impact()?.impact_force)),
+    column!("force", "F", "N", "N", 5, SHARING, |row| Some(row.load()?.force)),
+    column!("load_share", "F/ΣF", "1", "1", 4, SHARING, |row| Some(row.load()?.load_share)),
+    column!("transmission_error", "x", "m", "um", 5, SHARING, |row| Some(row.load()?.transmission_error)),
 ];
+
+/// The columns that the stations of a rung have.
+pub fn columns(rung: Rung) -> impl Iterator<Item = &'static Column> + Clone {
+    COLUMNS.iter().filter(move |column| column.rungs.contains(&rung))
+}
+
+/// The stations of the solution's rung.
+#[must_use]
+pub fn rows(solution: &Solution) -> Vec<Row<'_>> {
+    let loads = match solution.rung {
+        Rung::Paper | Rung::Exact => return solution.stations.iter().map(Row::Impact).collect(),
+        Rung::Static => solution.static_load.as_ref().map(|load| &load.stations),
+        Rung::Dynamic => solution.dynamic.as_ref().map(|dynamic| &dynamic.stations),
+    };
+    loads.into_iter().flatten().map(Row::Load).collect()
+}
+
+impl<'a> Row<'a> {
+    fn both(self, impact: fn(&Station) -> f64, load: fn(&MeshStation) -> f64) -> f64 {
+        match self {
+            Row::Impact(station) => impact(station),
+            Row::Load(station) => load(station),
+        }
+    }
+
+    fn impact(self) -> Option<&'a Station> {
+        if let Row::Impact(station) = self { Some(station) } else { None }
+    }
+
+    fn load(self) -> Option<&'a MeshStation> {
+        if let Row::Load(station) = self { Some(station) } else { None }
+    }
+}
 
 impl Column {
     /// The station's value in SI where it is a number, zero without a sign.
     #[must_use]
-    pub fn of(&self, station: &Station) -> Option<f64> {
-        Some((self.value)(station)).filter(|value| value.is_finite()).map(|value| value + 0.0)
+    pub fn of(&self, row: Row<'_>) -> Option<f64> {
+        (self.value)(row).filter(|value| value.is_finite()).map(|value| value + 0.0)
     }
 
     /// The station's value as a person reads it, without the unit.
     #[must_use]
-    pub fn told(&self, station: &Station) -> String {
-        super::number((self.value)(station), self.shown, self.digits)
+    pub fn told(&self, row: Row<'_>) -> String {
+        super::number((self.value)(row).unwrap_or(f64::NAN), self.shown, self.digits)
     }
 }

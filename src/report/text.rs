@@ -1,7 +1,7 @@
 //! A solve as a page of text for a person, 80 columns wide.
 
 use super::layout::{WIDTH, flow, item, widest};
-use super::stations::COLUMNS;
+use super::stations::{columns, rows};
 use super::verdict::{Standing, Verdict, verdicts};
 use super::{Report, Shown, shown, value};
 use crate::case::FIELDS;
@@ -15,7 +15,7 @@ use std::io::{self, Write};
 const SECTIONS: [fn(&Report) -> Vec<String>; 7] = [heading, outcome, inputs, quantities, notes, limits, station_table];
 
 /// The stages whose quantities share a heading.
-const GROUPS: [(&str, &[Stage]); 8] = [
+const GROUPS: [(&str, &[Stage]); 11] = [
     ("Geometry", &[Stage::Geometry]),
     ("Load", &[Stage::Load]),
     ("Deviation", &[Stage::Deviation]),
@@ -24,6 +24,9 @@ const GROUPS: [(&str, &[Stage]); 8] = [
     ("Impact", &[Stage::Compliance, Stage::Impact, Stage::Band]),
     ("Friction", &[Stage::Friction]),
     ("From D to E", &[Stage::Stations]),
+    ("Mesh", &[Stage::Mesh]),
+    ("Load shared by every pair", &[Stage::Static]),
+    ("Load shared, with inertia", &[Stage::Dynamic]),
 ];
 
 /// The inputs that say which pair this is; one that is not given, zero or as usual goes unsaid.
@@ -51,9 +54,6 @@ const TOLD_INPUTS: &[&str] = &[
     "operation.speed",
     "model.deflection",
 ];
-
-/// The rungs that cost nothing beside the one that was asked for.
-const CLOSED_FORM_RUNGS: [Rung; 2] = [Rung::Paper, Rung::Exact];
 
 /// A space at which no line ends.
 const GLUE: &str = "\u{a0}";
@@ -83,7 +83,7 @@ fn heading(report: &Report) -> Vec<String> {
 fn outcome(report: &Report) -> Vec<String> {
     let mut sentences = vec![sentence(&report.solution)];
     if report.selection.is_whole() {
-        let others = CLOSED_FORM_RUNGS.into_iter().filter(|&rung| rung != report.solution.rung);
+        let others = Rung::CLOSED_FORM.into_iter().filter(|&rung| rung != report.solution.rung);
         sentences.extend(others.filter_map(|rung| other_rung(&report.inputs, rung)));
     }
     // A number stays on the line of its unit.
@@ -212,10 +212,13 @@ fn station_table(report: &Report) -> Vec<String> {
     if !report.selection.stations {
         return Vec::new();
     }
-    let head = COLUMNS.map(|column| format!("{} {}", column.symbol, column.shown));
-    let stations = report.solution.stations.iter().map(|station| COLUMNS.map(|column| column.told(station)));
-    let line = |row: [String; COLUMNS.len()]| row.map(|cell| format!("{cell:>CELL$}")).concat();
-    titled("Stations from D to E", std::iter::once(head).chain(stations).map(line))
+    let columns = columns(report.solution.rung);
+    let head = columns.clone().map(|column| format!("{} {}", column.symbol, column.shown)).collect();
+    let rows = rows(&report.solution).into_iter();
+    let stations = rows.map(|row| columns.clone().map(|column| column.told(row)).collect());
+    let line = |row: Vec<String>| row.iter().map(|cell| format!("{cell:>CELL$}")).collect::<String>();
+    let title = if report.solution.rung.shares_load() { "Stations from D to the last contact" } else { "Stations from D to E" };
+    titled(title, std::iter::once(head).chain(stations).map(line))
 }
 
 fn titled(title: &str, lines: impl IntoIterator<Item = String>) -> Vec<String> {

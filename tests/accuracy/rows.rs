@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::thread;
 
 use serde_json::Value;
-use tipstrike::model::inputs::{ContactCompliance, Drive, Gear, Rung, ToothCompliance};
+use tipstrike::model::inputs::{ContactCompliance, Drive, Gear, ReliefShape, Rung, ToothCompliance};
 use tipstrike::model::{Inputs, QUANTITIES};
 
 use crate::envelope::{self, Corner, Random};
@@ -228,6 +228,10 @@ fn chosen(choices: &str) -> Inputs {
         tooth_compliance: ToothCompliance::ALL.into_iter().find(|tooth| tooth.name() == words[2]),
         contact_compliance: ContactCompliance::ALL.into_iter().find(named).expect("a contact compliance"),
         stations: 8,
+        relief_shape: ReliefShape::Linear,
+        damping_ratio: 0.07,
+        warmup_cycles: 20,
+        tolerance: 1e-6,
         accurate: false,
     }
 }
@@ -246,6 +250,7 @@ fn blank() -> Gear {
         tip_relief: 0.0,
         root_relief: 0.0,
         tip_relief_length: None,
+        root_relief_length: None,
         tip_chamfer: 0.0,
         tip_radius: None,
     }

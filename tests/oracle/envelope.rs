@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, SQRT_2};
 
 use tipstrike::model::Inputs;
-use tipstrike::model::inputs::{ContactCompliance, Drive, Gear, Rung, ToothCompliance};
+use tipstrike::model::inputs::{ContactCompliance, Drive, Gear, ReliefShape, Rung, ToothCompliance};
 
 /// A small generator with a named sequence (splitmix64, Steele, Lea & Flood 2014), the same on every machine.
 pub(crate) struct Random(u64);
@@ -129,6 +129,10 @@ fn anywhere(random: &mut Random, fit: bool) -> Inputs {
         tooth_compliance: fit.then_some(ToothCompliance::KuangYang),
         contact_compliance: random.one_of(&ContactCompliance::ALL),
         stations: 8,
+        relief_shape: ReliefShape::Linear,
+        damping_ratio: 0.07,
+        warmup_cycles: 20,
+        tolerance: 1e-6,
         accurate: false,
     }
 }
@@ -164,6 +168,7 @@ fn gear(random: &mut Random, module: f64, pressure_angle: f64, teeth: u32, fit: 
         tip_relief: 0.0,
         root_relief: 0.0,
         tip_relief_length: None,
+        root_relief_length: None,
         tip_chamfer: if random.chance(0.8) { 0.0 } else { module * random.decades(1e-3, 0.1) },
         tip_radius: if random.chance(0.8) { None } else { Some(module * random.decades(1e-3, 0.3)) },
     }
@@ -277,7 +282,7 @@ fn cancelling(random: &mut Random, inputs: &mut Inputs) {
     inputs.driven.tip_relief = length;
     inputs.deflection = match rung {
         Rung::Paper => Some(rest + length / SQRT_2),
-        Rung::Exact => Some(rest + length),
+        _ => Some(rest + length),
     };
     inputs.base_pitch_deviation = 0.0;
 }

@@ -176,7 +176,6 @@ impl Load {
         let driver_turn = &self.driver_speed * duration;
         let driven_turn = &self.driven_speed * duration;
         let end = match given.rung {
-            Rung::Exact => tip_at(pair, &(angle - driven_turn).max(whole(0)))?,
             Rung::Paper => {
                 let chord = 2 * &pair.driven.tip * sine(driven_turn / 2);
                 let (sine, cosine) = driver_turn.sin_cos();
@@ -187,6 +186,7 @@ impl Load {
                 let radius = &tip.radius * cosine - square.sqrt();
                 tip_at(pair, &(polar_angle(pair, &radius)? - &pair.start_angle))?
             }
+            _ => tip_at(pair, &(angle - driven_turn).max(whole(0)))?,
         };
         let speed = &self.driven_speed + impulse / (&self.reduced_mass * &pair.driven.tip);
         let driver = &self.driver_speed;

@@ -99,7 +99,7 @@ fn of_given(given: &Given) -> Option<Answers> {
     }
     let angle = match given.rung {
         Rung::Paper => printed_angle(given, &pair, &error, &deflection),
-        Rung::Exact => first_contact(&pair, &total)?,
+        _ => first_contact(&pair, &total)?,
     };
     let tip = tip_at(&pair, &angle)?;
     if rounded(&angle) <= 0.0 || tip.radius > pair.driver.tip {
@@ -129,7 +129,7 @@ fn equivalent_error(given: &Given) -> Big {
     let random = 2 * &given.base_pitch_deviation - &given.backlash;
     match given.rung {
         Rung::Paper => (random + modification) / whole(2).sqrt(),
-        Rung::Exact => random / whole(2).sqrt() + modification,
+        _ => random / whole(2).sqrt() + modification,
     }
 }
 

@@ -4,7 +4,7 @@ use super::Absent::{self, Default, Either, Refused, Without};
 use super::{FLAG, Field, Kind, Range};
 use crate::case::units::Dimension;
 use crate::model::Inputs;
-use crate::model::inputs::{ContactCompliance, Drive, Gear, Rung, ToothCompliance};
+use crate::model::inputs::{ContactCompliance, Drive, Gear, ReliefShape, Rung, ToothCompliance};
 
 const fn range(from: f64, to: f64, unit: &'static str) -> Range {
     Range { from, to, unit }
@@ -62,9 +62,17 @@ macro_rules! gear {
                 key: concat!(stringify!($gear), ".tip_relief_length"),
                 symbol: concat!("La", $i),
                 label: "tip relief length",
-                help: "Length of the tip relief along the path of contact, from the tip. First contact is at the tip, where the whole relief acts.",
+                help: "Length of the tip relief along the path of contact, from the tip; paper and exact know the tip alone, where the whole relief acts.",
                 kind: Kind::Number(Dimension::Length, range(0.0001, 1000.0, "mm"), |inputs, value| inputs.$gear.tip_relief_length = Some(value)),
-                absent: Without("at the tip"),
+                absent: Without("to single contact"),
+            },
+            Field {
+                key: concat!(stringify!($gear), ".root_relief_length"),
+                symbol: concat!("Lf", $i),
+                label: "root relief length",
+                help: "Length of the root relief along the path of contact, from its end at the root; static and dynamic alone.",
+                kind: Kind::Number(Dimension::Length, range(0.0001, 1000.0, "mm"), |inputs, value| inputs.$gear.root_relief_length = Some(value)),
+                absent: Without("to single contact"),
             },
             number!(concat!(stringify!($gear), ".tip_chamfer"), concat!("hk", $i), "tip chamfer", Length, 0.0, 50.0, "mm", Default("0 mm"),
                 |inputs, value| inputs.$gear.tip_chamfer = value, "Radial height of the chamfer; shortens the active tip."),
@@ -74,8 +82,8 @@ macro_rules! gear {
     };
 }
 
-const DRIVER: [Field; 14] = gear!(driver, "1");
-const DRIVEN: [Field; 14] = gear!(driven, "2");
+const DRIVER: [Field; 15] = gear!(driver, "1");
+const DRIVEN: [Field; 15] = gear!(driven, "2");
 
 const HEAD: [Field; 5] = [
     text("title", "title", "A name for the case."),
@@ -118,7 +126,7 @@ const HEAD: [Field; 5] = [
     ),
 ];
 
-const TAIL: [Field; 12] = [
+const TAIL: [Field; 16] = [
     number!(
         "deviations.base_pitch",
         "f_pb",
@@ -189,14 +197,14 @@ const TAIL: [Field; 12] = [
         "",
         Without("not given"),
         |inputs, value| inputs.friction_coefficient = Some(value),
-        "Coulomb friction coefficient, to stand beside the kinematic ratio."
+        "Coulomb friction coefficient: beside the kinematic ratio; in static and dynamic friction acts at the teeth."
     ),
     Field {
         key: "model.rung",
         symbol: "",
         label: "rung",
-        help: "paper: equations as printed, typesetting mended. exact: exact contact position, the spring's own duration.",
-        kind: Kind::Choice(&["paper", "exact"], |inputs, value| inputs.rung = Rung::ALL[value]),
+        help: "paper: as printed, typesetting mended. exact: exact position, free impact. static: load shared by all pairs. dynamic: with inertia.",
+        kind: Kind::Choice(&["paper", "exact", "static", "dynamic"], |inputs, value| inputs.rung = Rung::ALL[value]),
         absent: Default("exact"),
     },
     number!(
@@ -230,10 +238,50 @@ const TAIL: [Field; 12] = [
         absent: Default("logarithmic"),
     },
     Field {
+        key: "model.relief_shape",
+        symbol: "",
+        label: "relief shape",
+        help: "How tip and root relief grow along the path of contact; static and dynamic alone.",
+        kind: Kind::Choice(&["linear", "parabolic"], |inputs, value| inputs.relief_shape = ReliefShape::ALL[value]),
+        absent: Default("linear"),
+    },
+    number!(
+        "model.damping_ratio",
+        "ζ",
+        "damping ratio",
+        Number,
+        0.0,
+        2.0,
+        "",
+        Default("0.07"),
+        |inputs, value| inputs.damping_ratio = value,
+        "Damping ratio of the mean mesh stiffness while a pair is in contact; dynamic alone."
+    ),
+    Field {
+        key: "model.warmup_cycles",
+        symbol: "",
+        label: "warm-up cycles",
+        help: "Base pitches that pass before the incoming tooth reaches E, from the static balance on; dynamic alone.",
+        kind: Kind::Count(1, 10000, |inputs, value| inputs.warmup_cycles = value),
+        absent: Default("20"),
+    },
+    number!(
+        "model.tolerance",
+        "",
+        "tolerance",
+        Number,
+        1e-12,
+        0.1,
+        "",
+        Default("1e-6"),
+        |inputs, value| inputs.tolerance = value,
+        "Relative error that the peak force may have; dynamic alone."
+    ),
+    Field {
         key: "model.stations",
         symbol: "n",
         label: "stations",
-        help: "Intervals between D and E.",
+        help: "Intervals between D and E; in static and dynamic as many again to the last contact.",
         kind: Kind::Count(1, 10000, |inputs, value| inputs.stations = value as usize),
         absent: Default("64"),
     },
@@ -248,10 +296,10 @@ const TAIL: [Field; 12] = [
 ];
 
 /// Every field, in the order of the form and of a new file.
-pub static FIELDS: [Field; 45] = table();
+pub static FIELDS: [Field; 51] = table();
 
-const fn table() -> [Field; 45] {
-    let mut all = [HEAD[0]; 45];
+const fn table() -> [Field; 51] {
+    let mut all = [HEAD[0]; 51];
     let parts: [&[Field]; 4] = [&HEAD, &DRIVER, &DRIVEN, &TAIL];
     let (mut part, mut at) = (0, 0);
     while part < parts.len() {
@@ -281,6 +329,7 @@ pub(in crate::case) fn blank() -> Inputs {
         tip_relief: 0.0,
         root_relief: 0.0,
         tip_relief_length: None,
+        root_relief_length: None,
         tip_chamfer: 0.0,
         tip_radius: None,
     };
@@ -300,6 +349,10 @@ pub(in crate::case) fn blank() -> Inputs {
         tooth_compliance: None,
         contact_compliance: ContactCompliance::Logarithmic,
         stations: 64,
+        relief_shape: ReliefShape::Linear,
+        damping_ratio: 0.07,
+        warmup_cycles: 20,
+        tolerance: 1e-6,
         accurate: false,
     }
 }

@@ -39,7 +39,7 @@ pub(super) fn impulse(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let ratio = solution.impact?.impulse_ratio;
     let cause = match inputs.rung {
         Rung::Paper => "Eq. 32 as printed lacks Hertz's prefactor",
-        Rung::Exact => "force and duration do not belong to one impact",
+        _ => "force and duration do not belong to one impact",
     };
     let possible = 1.0 - ROUNDING..=2.0 + ROUNDING;
     (!possible.contains(&ratio))

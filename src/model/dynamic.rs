@@ -1,0 +1,211 @@
+//! The rung `dynamic`: the shared load with inertia and damping, integrated from contact event to contact event.
+
+mod events;
+mod motion;
+mod watch;
+
+use std::cell::Cell;
+
+use super::Refusal;
+use super::mesh::Mesh;
+use super::static_load;
+use super::stations::MeshStation;
+use crate::numeric::ode::{self, Point};
+use events::Event;
+use motion::{Forces, Motion, State, Touching, Window};
+use watch::Watch;
+
+/// What the incoming tooth carries, with inertia.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dynamic {
+    /// Driven gear's angle before E at the first contact, in rad, where that is before E.
+    pub first_contact_angle: Option<f64>,
+    /// Driver's angle after B at the last contact, in rad, where that is after B.
+    pub last_contact_angle: Option<f64>,
+    /// Greatest force of the incoming tooth before E, in N.
+    pub peak_approach_force: f64,
+    /// Its greatest force anywhere, in N.
+    pub peak_force: f64,
+    /// From the first contact to the first least force after the first peak, or to the loss of contact, in s.
+    pub impact_duration: Option<f64>,
+    /// Whether no pair at all is in contact at some moment from one base pitch before E until the incoming tooth leaves.
+    pub contact_lost: bool,
+    /// Work of friction on the incoming tooth, in J; where the case gives a friction coefficient.
+    pub friction_work: Option<f64>,
+    /// From the first contact through E to the last.
+    pub stations: Vec<MeshStation>,
+    /// What it cost.
+    pub effort: Effort,
+}
+
+/// Counts of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Effort {
+    /// Steps that were kept.
+    pub steps: u64,
+    /// Evaluations of the forces.
+    pub evaluations: u64,
+    /// Contacts made and lost.
+    pub events: u64,
+}
+
+/// What a run is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Mass at the line of action m_e, in kg.
+    pub mass: f64,
+    /// Damping ratio ζ.
+    pub damping_ratio: f64,
+    /// Base pitches before E at which the run starts.
+    pub warmup_cycles: u32,
+    /// Relative error that the peak force may have.
+    pub tolerance: f64,
+    /// Stations between the first contact and E, and again from there to the last.
+    pub intervals: usize,
+}
+
+/// The force on the incoming tooth with inertia.
+///
+/// # Formula
+/// ```text
+/// me x'' + c x' + Σ w_k F_k(x, s) = F0,   s' = ω1 rb1,   1/me = rb1²/J1 + rb2²/J2
+/// c = 2 ζ √(k me) while a pair is in contact, else 0;   k the mean stiffness of the mesh
+/// ```
+/// from the static balance `warmup_cycles` base pitches before E, where no pair deviates, until the incoming tooth has
+/// left. Within a step the pairs in contact stay the same ones, so that every step is smooth; it ends where a pair touches
+/// or leaves, or passes from one zone of the mesh into the next.
+///
+/// # Source
+/// The oscillator of gear dynamics with backlash, Özgüven & Houser 1988, with corner contact by the gap S(u); steps by
+/// Dormand and Prince's pair of order 8, see [`ode`].
+///
+/// # Errors
+/// [`Refusal::BeyondReach`] where the gears move apart further than the mesh is known, [`Refusal::TooSlow`] where the mesh
+/// swings too often on the way, [`Refusal::Stopped`] where `go_on` says no.
+pub fn dynamic(mesh: &Mesh, settings: &Settings, go_on: &dyn Fn(f64) -> bool) -> Result<Dynamic, Refusal> {
+    let motion = Motion::new(mesh, settings);
+    let mut run = Run::begin(&motion, settings.tolerance)?;
+    while !run.is_over() {
+        if !go_on(run.part_done()) {
+            return Err(Refusal::Stopped);
+        }
+        run.cross_window()?;
+    }
+    run.watch.finish(&motion, settings.intervals, Effort { evaluations: run.evaluations.get(), ..run.effort })
+}
+
+/// A run on its way.
+struct Run<'a> {
+    motion: &'a Motion<'a>,
+    borders: Vec<f64>,
+    /// The border that comes next.
+    next: usize,
+    t: f64,
+    y: State,
+    /// How many base pitches ahead the pairs are that touch.
+    ahead: Vec<i32>,
+    /// The next step's, in s.
+    length: f64,
+    /// The error that a step may have, in units of the state's scale.
+    allowed: f64,
+    watch: Watch,
+    effort: Effort,
+    evaluations: Cell<u64>,
+}
+
+impl<'a> Run<'a> {
+    fn begin(motion: &'a Motion<'a>, tolerance: f64) -> Result<Run<'a>, Refusal> {
+        /// The errors of the steps that damping has not yet forgotten add up to the error of the peak force.
+        const SHARE_OF_A_STEP: f64 = 0.1;
+        let mesh = motion.mesh;
+        let (start, (_, end)) = (motion.start(), mesh.ends());
+        motion.check_pace(end - start)?;
+        let borders = mesh.borders(start, end);
+        let inside = f64::midpoint(start, borders.get(1).copied().unwrap_or(end));
+        let displacement = static_load::balance(mesh, start, inside).displacement;
+        if !displacement.is_finite() {
+            return Err(Refusal::BeyondReach);
+        }
+        let touching = mesh.pairs(start, inside).filter(|pair| displacement > pair.place.gap);
+        Ok(Run {
+            motion,
+            next: 1,
+            t: motion.time(start),
+            y: State::new(displacement, 0.0, 0.0),
+            ahead: touching.map(|pair| pair.ahead).collect(),
+            borders,
+            length: motion.longest_step(),
+            allowed: SHARE_OF_A_STEP * tolerance,
+            watch: Watch::default(),
+            effort: Effort::default(),
+            evaluations: Cell::new(0),
+        })
+    }
+
+    fn is_over(&self) -> bool {
+        self.next >= self.borders.len() || self.watch.is_over(self.motion)
+    }
+
+    /// How much of the way is done, from 0 to 1.
+    fn part_done(&self) -> f64 {
+        let (from, to) = (self.borders[0], self.motion.mesh.length);
+        ((self.motion.place(self.t) - from) / (to - from)).clamp(0.0, 1.0)
+    }
+
+    /// Go on to the next border.
+    fn cross_window(&mut self) -> Result<(), Refusal> {
+        let (from, to) = (self.borders[self.next - 1], self.borders[self.next]);
+        self.next += 1;
+        let window = self.motion.window(from, to);
+        let mut touching = window.touching(&self.ahead).ok_or(Refusal::BeyondReach)?;
+        self.watch.enter(&window);
+        let end = self.motion.time(to);
+        while self.t < end {
+            touching = self.advance(&window, touching, end)?;
+        }
+        self.ahead = window.ahead(touching);
+        Ok(())
+    }
+
+    /// One step, to `end` at most; the pairs that touch after it.
+    fn advance(&mut self, window: &Window, touching: Touching, end: f64) -> Result<Touching, Refusal> {
+        const SHORTEST: f64 = 1e-13;
+        const MOST_STEPS: u64 = 100_000_000;
+        let evaluations = self.evaluations.clone();
+        let forces = Forces::new(self.motion, window, touching, &evaluations);
+        let from = Point::new(&forces, self.t, self.y);
+        let longest = self.motion.longest_step();
+        let (length, trial) = loop {
+            let left = end - self.t;
+            // The last step before a border is no splinter.
+            let length = if left <= self.length { left } else { self.length.min(0.5 * left) };
+            let trial = ode::step(&forces, &from, length);
+            let error = trial.error(&self.motion.scale()) / self.allowed;
+            self.length = (length * ode::stretch(error)).min(longest);
+            if error <= 1.0 || length <= SHORTEST * longest {
+                break (length, trial);
+            }
+        };
+        self.effort.steps += 1;
+        if self.effort.steps > MOST_STEPS {
+            return Err(Refusal::Unsettled);
+        }
+        let event = events::first(&forces, &from, length, &trial.y);
+        let (length, y) = event.map_or((length, trial.y), |event| (event.after, forces.after(&from, event.after)));
+        self.evaluations = evaluations.clone();
+        self.watch.keep(self.motion, touching, from, length, y);
+        // A step to a border ends on it, whatever the rounding of the sum.
+        self.t = if event.is_none() && length >= end - self.t { end } else { self.t + length };
+        self.y = y;
+        Ok(event.map_or(touching, |event| self.turn(window, touching, event)))
+    }
+
+    /// A pair touches or leaves.
+    fn turn(&mut self, window: &Window, touching: Touching, event: Event) -> Touching {
+        self.effort.events += 1;
+        if window.incoming() == Some(event.pair) {
+            self.watch.turn(self.t, !touching.has(event.pair));
+        }
+        touching.toggled(event.pair)
+    }
+}

@@ -1,0 +1,165 @@
+//! What is read off a run: the incoming tooth's contacts, peaks and stations.
+
+use std::cell::Cell;
+
+use super::motion::{Forces, Motion, State, Touching, Window};
+use super::{Dynamic, Effort};
+use crate::model::Refusal;
+use crate::model::static_load::even;
+use crate::model::stations::MeshStation;
+use crate::numeric::ode::Point;
+use crate::numeric::root;
+
+/// A step of the run while the incoming pair may touch.
+struct Record {
+    window: usize,
+    touching: Touching,
+    from: Point<3>,
+    length: f64,
+    to: State,
+}
+
+/// Records of a run.
+#[derive(Default)]
+pub(super) struct Watch {
+    windows: Vec<Window>,
+    records: Vec<Record>,
+    touches: Vec<f64>,
+    leaves: Vec<f64>,
+    most_ahead: f64,
+    contact_lost: bool,
+    evaluations: Cell<u64>,
+}
+
+/// How the incoming tooth's force grows at the two ends of a step, in N and N/s.
+#[derive(Clone, Copy)]
+struct Ends {
+    start: (f64, f64),
+    end: (f64, f64),
+}
+
+impl Watch {
+    /// From now on the steps belong to this window.
+    pub(super) fn enter(&mut self, window: &Window) {
+        self.windows.push(window.clone());
+    }
+
+    /// Keep a step that leads from `from` to `to`.
+    pub(super) fn keep(&mut self, motion: &Motion<'_>, touching: Touching, from: Point<3>, length: f64, to: State) {
+        self.most_ahead = self.most_ahead.max(to[0]);
+        let has_begun = motion.place(from.t) >= -motion.mesh.base_pitch * (1.0 + f64::EPSILON);
+        self.contact_lost |= has_begun && touching.is_none() && length > 0.0;
+        let window = self.windows.len() - 1;
+        if self.windows[window].incoming().is_some() {
+            self.records.push(Record { window, touching, from, length, to });
+        }
+    }
+
+    /// The incoming pair touches or leaves.
+    pub(super) fn turn(&mut self, t: f64, touches: bool) {
+        if touches { self.touches.push(t) } else { self.leaves.push(t) }
+    }
+
+    /// Whether the incoming pair has left for good: past B, apart, and further apart than the driver ever was ahead.
+    pub(super) fn is_over(&self, motion: &Motion<'_>) -> bool {
+        let Some(record) = self.records.last() else { return false };
+        let t = record.from.t + record.length;
+        let Some(incoming) = self.windows[record.window].incoming() else { return false };
+        let forces = self.forces(motion, record);
+        let apart = record.to[0] - forces.pressed(incoming, t, &record.to).0;
+        motion.place(t) > motion.mesh.length && self.touches.len() == self.leaves.len() && apart > 2.0 * self.most_ahead
+    }
+
+    /// What the incoming tooth carried.
+    pub(super) fn finish(&self, motion: &Motion<'_>, intervals: usize, effort: Effort) -> Result<Dynamic, Refusal> {
+        let mesh = motion.mesh;
+        if self.touches.len() != self.leaves.len() {
+            return Err(Refusal::BeyondReach);
+        }
+        let (first, last) = (self.touches.first().copied(), self.leaves.last().copied());
+        let before_start = |t: f64| (t < 0.0).then(|| -motion.place(t) / mesh.base_radii.1);
+        let after_end = |t: f64| Some((motion.place(t) - mesh.length) / mesh.base_radii.0).filter(|&angle| angle > 0.0);
+        let work = self.records.last().map_or(0.0, |record| record.to[2]);
+        Ok(Dynamic {
+            first_contact_angle: first.and_then(before_start),
+            last_contact_angle: last.and_then(after_end),
+            peak_approach_force: self.peak(motion, |record| record.from.t < 0.0),
+            peak_force: self.peak(motion, |_| true),
+            impact_duration: first.and_then(|first| self.end_of_first_impact(motion).map(|end| end - first)),
+            contact_lost: self.contact_lost,
+            friction_work: (mesh.friction() > 0.0).then_some(work),
+            stations: first.zip(last).map_or_else(Vec::new, |(first, last)| self.stations(motion, first, last, intervals)),
+            effort: Effort { evaluations: effort.evaluations + self.evaluations.get(), ..effort },
+        })
+    }
+
+    fn forces<'a>(&'a self, motion: &'a Motion<'a>, record: &Record) -> Forces<'a> {
+        Forces::new(motion, &self.windows[record.window], record.touching, &self.evaluations)
+    }
+
+    /// The steps in which the incoming tooth carries, with its force at both ends.
+    fn carried<'a>(&'a self, motion: &'a Motion<'a>) -> impl Iterator<Item = (&'a Record, Ends)> {
+        self.records.iter().filter_map(move |record| {
+            let incoming = self.windows[record.window].incoming().filter(|&pair| record.touching.has(pair))?;
+            let forces = self.forces(motion, record);
+            let start = forces.force(incoming, record.from.t, &record.from.y);
+            let end = forces.force(incoming, record.from.t + record.length, &record.to);
+            Some((record, Ends { start, end }))
+        })
+    }
+
+    /// Time and force where the incoming tooth's force neither grows nor falls within a step.
+    fn turning_point(&self, motion: &Motion<'_>, record: &Record) -> (f64, f64) {
+        let forces = self.forces(motion, record);
+        let incoming = self.windows[record.window].incoming().unwrap_or(0);
+        let at = |after: f64| forces.force(incoming, record.from.t + after, &forces.after(&record.from, after));
+        let after = root::between(0.0, record.length, |after| at(after).1);
+        (record.from.t + after, at(after).0)
+    }
+
+    /// The greatest force over some of the steps.
+    fn peak(&self, motion: &Motion<'_>, counts: impl Fn(&Record) -> bool) -> f64 {
+        let steps = self.carried(motion).filter(|(record, _)| counts(record));
+        steps.fold(0.0, |peak: f64, (record, ends)| {
+            let has_top = ends.start.1 > 0.0 && ends.end.1 < 0.0;
+            let top = if has_top { self.turning_point(motion, record).1 } else { 0.0 };
+            peak.max(ends.start.0).max(ends.end.0).max(top)
+        })
+    }
+
+    /// When the force of the incoming tooth is least for the first time after its first peak, or the contact is lost.
+    fn end_of_first_impact(&self, motion: &Motion<'_>) -> Option<f64> {
+        let (mut falls, mut last) = (false, None);
+        for (record, ends) in self.carried(motion) {
+            let follows = last.is_none_or(|end| record.from.t <= end);
+            if falls && (!follows || ends.start.1 > 0.0) {
+                return last;
+            }
+            if falls && ends.end.1 > 0.0 {
+                return Some(self.turning_point(motion, record).0);
+            }
+            falls |= ends.end.1 < 0.0;
+            last = Some(record.from.t + record.length);
+        }
+        last.filter(|_| falls)
+    }
+
+    /// Stations from the first contact to E and from there to the last, `intervals` each.
+    fn stations(&self, motion: &Motion<'_>, first: f64, last: f64, intervals: usize) -> Vec<MeshStation> {
+        let turn = first.max(0.0);
+        let before = even(first.min(turn), turn, intervals);
+        let after = even(turn, last, intervals);
+        let times = if first < 0.0 { [before, after[1..].to_vec()].concat() } else { after };
+        times.into_iter().filter_map(|t| self.station(motion, t)).collect()
+    }
+
+    fn station(&self, motion: &Motion<'_>, t: f64) -> Option<MeshStation> {
+        let next = self.records.partition_point(|record| record.from.t <= t);
+        let record = self.records.get(next.saturating_sub(1))?;
+        let forces = self.forces(motion, record);
+        let state = forces.after(&record.from, t - record.from.t);
+        let incoming = self.windows[record.window].incoming()?;
+        let force = if record.touching.has(incoming) { forces.force(incoming, t, &state).0.max(0.0) } else { 0.0 };
+        Some(MeshStation::at(motion.mesh, motion.place(t), force, forces.total(t, &state), state[0], Some(t)))
+    }
+}

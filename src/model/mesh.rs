@@ -1,0 +1,366 @@
+//! Gap and stiffness of every tooth pair along the line of action: what the rungs `static` and `dynamic` share.
+
+use super::Refusal;
+use super::compliance::{self, ContactPlace};
+use super::geometry::{Geometry, geometry};
+use super::inputs::Inputs;
+use super::position::first_contact;
+use super::relief::Relief;
+use super::tip::{TipContact, angle_at_curvature, gap, tip_at};
+use crate::numeric::chebyshev::Series;
+use crate::numeric::root;
+
+/// No tip is followed further from its end of the path of contact, in rad.
+const LARGEST_ANGLE: f64 = 1.5;
+
+/// What a pair is at a place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    /// Stiffness b/q, in N/m.
+    pub stiffness: f64,
+    /// Normal gap of the unloaded flanks, reliefs included, in m.
+    pub gap: f64,
+    /// Arm of the friction force on the driver over its base radius, ρ₁/r_b1.
+    pub lever: f64,
+    /// Sliding velocity of the driven flank on the driver's, in m/s.
+    pub sliding: f64,
+}
+
+/// A tooth pair at a position of the mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pair {
+    /// How many base pitches it is ahead of the incoming one; below 0 behind.
+    pub ahead: i32,
+    /// What it is there.
+    pub place: Place,
+    /// The part of its force that turns the driver, 1 without friction.
+    pub weight: f64,
+}
+
+/// The mesh as a function of s, the way of the incoming pair along the line of action since E, in m.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mesh {
+    /// p_b, in m.
+    pub base_pitch: f64,
+    /// EB = ε p_b, in m.
+    pub length: f64,
+    /// F₀ = T₁/r_b1, in N.
+    pub force: f64,
+    /// Speed along the line of action ω₁ r_b1, in m/s.
+    pub speed: f64,
+    /// Equivalent error of the incoming pair without its reliefs, in m.
+    pub error: f64,
+    /// Mean stiffness of the mesh over a base pitch, pairs on the line of action alone, in N/m.
+    pub mean_stiffness: f64,
+    /// Base radii, in m.
+    pub base_radii: (f64, f64),
+    friction: f64,
+    pitch_point: f64,
+    zones: Vec<Zone>,
+    is_whole: bool,
+}
+
+/// A part of the way on which everything is smooth.
+#[derive(Debug, Clone, PartialEq)]
+struct Zone {
+    from: f64,
+    to: f64,
+    /// The four values of [`Place`].
+    series: Series<4>,
+}
+
+/// The pair as seen from one end of its path of contact: the run-in, or by swapped gears the run-out.
+struct End {
+    inputs: Inputs,
+    geometry: Geometry,
+    /// −1 where s falls with the distance from the path of contact.
+    side: f64,
+}
+
+impl Mesh {
+    /// The mesh as far on both sides of the path of contact as gaps of up to `reach` stand there, in m.
+    ///
+    /// # Formula
+    /// ```text
+    /// F_k = b/q(s_k) max(0, x + e_k − S(s_k)),   s_k = s + k pb,   q = q1(r1) + q2(r2) + qH(F0)
+    /// ```
+    /// where S is the normal gap with the reliefs of both flanks, x the displacement of the driver ahead along the line of
+    /// action, and e_k the equivalent error, Δf without reliefs for the incoming pair and 0 for every other. On the line of
+    /// action both flanks are met where the line crosses them; before E the driven tip is the load point, after B the
+    /// driver's. A tip keeps its flank's own radius of curvature, or that of its edge where the case gives one.
+    ///
+    /// # Errors
+    /// A [`Refusal`] where no compliance can be computed, or the run-out interferes.
+    pub fn new(inputs: &Inputs, geometry: &Geometry, force: f64, error: f64, reach: f64) -> Result<Mesh, Refusal> {
+        let relief = Relief::of(inputs, geometry);
+        let run_in = End { inputs: inputs.clone(), geometry: *geometry, side: -1.0 };
+        let run_out = run_in.swapped()?;
+        let length = geometry.end - geometry.start;
+        let (before, is_whole_before) = run_in.angle_of_reach(reach);
+        let (after, is_whole_after) = run_out.angle_of_reach(reach);
+        let mut zones = Vec::new();
+        run_in.zones(&relief, force, before, 0.0, &mut zones)?;
+        line_zones(inputs, geometry, &relief, force, &mut zones)?;
+        run_out.zones(&relief, force, after, length, &mut zones)?;
+        zones.sort_by(|one, other| one.from.total_cmp(&other.from));
+        let levers = zones.iter().flat_map(|zone| [zone.from, zone.to].map(|s| zone.series.one(LEVER, s)));
+        let friction = inputs.friction_coefficient.unwrap_or(0.0);
+        let limit = 1.0 / levers.fold(0.0, f64::max);
+        if friction >= limit {
+            return Err(Refusal::FrictionLocks { friction, limit });
+        }
+        let on_line = |zone: &&Zone| zone.from >= 0.0 && zone.to <= length;
+        let stiffness: f64 = zones.iter().filter(on_line).map(|zone| zone.series.integral(STIFFNESS)).sum();
+        Ok(Mesh {
+            base_pitch: geometry.base_pitch,
+            length,
+            force,
+            speed: inputs.speed * geometry.driver.base,
+            error,
+            mean_stiffness: stiffness / geometry.base_pitch,
+            base_radii: (geometry.driver.base, geometry.driven.base),
+            friction,
+            pitch_point: geometry.approach_length,
+            zones,
+            is_whole: is_whole_before && is_whole_after,
+        })
+    }
+
+    /// From where to where the incoming pair's gap is known, in m.
+    #[must_use]
+    pub fn ends(&self) -> (f64, f64) {
+        let from = self.zones.first().map_or(0.0, |zone| zone.from);
+        (from, self.zones.last().map_or(0.0, |zone| zone.to))
+    }
+
+    /// Whether it reaches to the circles on which the tips end.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.is_whole
+    }
+
+    /// The friction coefficient, 0 where the case gives none.
+    #[must_use]
+    pub fn friction(&self) -> f64 {
+        self.friction
+    }
+
+    /// Where the incoming pair passes the pitch point, in m, where it does.
+    #[must_use]
+    pub fn pitch_point(&self) -> Option<f64> {
+        Some(self.pitch_point).filter(|&point| point > 0.0 && point < self.length)
+    }
+
+    /// The pairs that may touch while the incoming one stands at `s`; on a border, those of the side where `inside` lies.
+    pub fn pairs(&self, s: f64, inside: f64) -> impl Iterator<Item = Pair> {
+        self.standing(inside).map(move |(ahead, zone)| self.pair(ahead, zone, s, inside))
+    }
+
+    /// Which pairs stand in which zone.
+    pub(super) fn standing(&self, s: f64) -> impl Iterator<Item = (i32, usize)> {
+        let (from, to) = self.ends();
+        let first = ((from - s) / self.base_pitch).ceil() as i32;
+        let last = ((to - s) / self.base_pitch).floor() as i32;
+        (first..=last).map(move |ahead| (ahead, self.zone(s + f64::from(ahead) * self.base_pitch)))
+    }
+
+    /// The pair `ahead` while the incoming one stands at `s`, sliding the way it does at `inside`.
+    fn pair(&self, ahead: i32, zone: usize, s: f64, inside: f64) -> Pair {
+        let way = f64::from(ahead) * self.base_pitch;
+        let series = &self.zones[zone].series;
+        let [stiffness, gap, lever, sliding] = series.at(s + way);
+        let place = Place { stiffness, gap: gap - self.error_of(ahead), lever, sliding };
+        let direction = if self.friction > 0.0 { series.one(SLIDING, inside + way).signum() } else { 0.0 };
+        Pair { ahead, place, weight: 1.0 - self.friction * direction * lever }
+    }
+
+    /// Stiffness and gap of a pair, its error counted.
+    pub(super) fn spring(&self, ahead: i32, zone: usize, s: f64) -> (f64, f64) {
+        let at = s + f64::from(ahead) * self.base_pitch;
+        let series = &self.zones[zone].series;
+        (series.one(STIFFNESS, at), series.one(GAP, at) - self.error_of(ahead))
+    }
+
+    /// Gap of a pair, its error counted, in m, and how it grows with s.
+    pub(super) fn gap(&self, ahead: i32, zone: usize, s: f64) -> (f64, f64) {
+        let at = s + f64::from(ahead) * self.base_pitch;
+        let series = &self.zones[zone].series;
+        (series.one(GAP, at) - self.error_of(ahead), series.slope(GAP, at))
+    }
+
+    /// Stiffness of a pair, in N/m, and how it grows with s.
+    pub(super) fn stiffness(&self, ahead: i32, zone: usize, s: f64) -> (f64, f64) {
+        let at = s + f64::from(ahead) * self.base_pitch;
+        let series = &self.zones[zone].series;
+        (series.one(STIFFNESS, at), series.slope(STIFFNESS, at))
+    }
+
+    /// Sliding velocity of the incoming pair at `s`, in m/s.
+    #[must_use]
+    pub fn sliding(&self, s: f64) -> f64 {
+        self.zones[self.zone(s)].series.one(SLIDING, s)
+    }
+
+    /// Arm of the friction force over the driver's base radius, and sliding velocity in m/s.
+    pub(super) fn slide(&self, ahead: i32, zone: usize, s: f64) -> (f64, f64) {
+        let at = s + f64::from(ahead) * self.base_pitch;
+        let series = &self.zones[zone].series;
+        (series.one(LEVER, at), series.one(SLIDING, at))
+    }
+
+    fn error_of(&self, ahead: i32) -> f64 {
+        if ahead == 0 { self.error } else { 0.0 }
+    }
+
+    fn zone(&self, at: f64) -> usize {
+        self.zones.partition_point(|zone| zone.to < at).min(self.zones.len() - 1)
+    }
+
+    /// The places of the incoming pair from `from` to `to` at which some pair passes from one zone into the next: between
+    /// two of them all that is known of the mesh is smooth.
+    #[must_use]
+    pub fn borders(&self, from: f64, to: f64) -> Vec<f64> {
+        let edges = self.zones.iter().map(|zone| zone.from).chain(self.zones.last().map(|zone| zone.to));
+        let mut found: Vec<f64> = edges
+            .flat_map(|edge| {
+                let first = ((from - edge) / self.base_pitch).ceil() as i64;
+                let last = ((to - edge) / self.base_pitch).floor() as i64;
+                (first..=last).map(move |pitch| edge + pitch as f64 * self.base_pitch)
+            })
+            .collect();
+        found.extend([from, to]);
+        found.sort_by(f64::total_cmp);
+        found.dedup_by(|one, other| *one - *other <= 1e-12 * self.base_pitch);
+        found
+    }
+}
+
+const STIFFNESS: usize = 0;
+const GAP: usize = 1;
+const LEVER: usize = 2;
+const SLIDING: usize = 3;
+
+/// Zones from one border to the next, over which the four functions of `f` are smooth, to thirteen digits of their sizes;
+/// a gap grows from `edge`, with as many digits as the way from there has.
+fn push_zones(
+    borders: &mut Vec<f64>,
+    (size, edge): ([f64; 4], f64),
+    f: &impl Fn(f64) -> Result<[f64; 4], Refusal>,
+    zones: &mut Vec<Zone>,
+) -> Result<(), Refusal> {
+    const REST: f64 = 1e-13;
+    let rest = |from: f64, to: f64| {
+        let mut rest = size.map(|size| REST * size);
+        rest[GAP] += 4.0 * f64::EPSILON * (from - edge).abs().max((to - edge).abs());
+        rest
+    };
+    borders.sort_by(f64::total_cmp);
+    let whole = borders.last().copied().unwrap_or(0.0) - borders.first().copied().unwrap_or(0.0);
+    borders.dedup_by(|one, other| *one - *other <= 1e-9 * whole);
+    for ends in borders.windows(2) {
+        let (from, to) = (ends[0], ends[1]);
+        zones.push(Zone { from, to, series: Series::of(from, to, &rest, f)? });
+    }
+    Ok(())
+}
+
+/// The zones of the line of action.
+fn line_zones(inputs: &Inputs, geometry: &Geometry, relief: &Relief, force: f64, zones: &mut Vec<Zone>) -> Result<(), Refusal> {
+    let length = geometry.end - geometry.start;
+    let rest = geometry.tangent_length - geometry.start;
+    let speeds = inputs.speed + inputs.driven_speed();
+    let at = |s: f64| {
+        let along = geometry.start + s;
+        let place = ContactPlace::on_line_of_action(geometry, along);
+        let compliance = compliance::pair_at_load(inputs, geometry, &place, force)?;
+        Ok([
+            inputs.common_width() / compliance,
+            relief.at(along, rest - s),
+            along / geometry.driver.base,
+            speeds * (geometry.approach_length - s),
+        ])
+    };
+    let pitch_point = [geometry.approach_length];
+    let driver_ends = relief.ends_on_driver().map(|curvature| curvature - geometry.start);
+    let driven_ends = relief.ends_on_driven().map(|curvature| rest - curvature);
+    let mut borders: Vec<f64> = driver_ends.chain(driven_ends).chain(pitch_point).collect();
+    borders.retain(|&border| border > 0.0 && border < length);
+    borders.extend([0.0, length]);
+    let stiffness = at(0.5 * length)?[STIFFNESS];
+    push_zones(&mut borders, ([stiffness, relief.most(), 1.0, speeds * length], 0.0), &at, zones)
+}
+
+impl End {
+    /// The other end, with the gears swapped: there the driver's tip meets the driven flank.
+    fn swapped(&self) -> Result<End, Refusal> {
+        let inputs = Inputs {
+            driver: self.inputs.driven.clone(),
+            driven: self.inputs.driver.clone(),
+            speed: self.inputs.driven_speed(),
+            ..self.inputs.clone()
+        };
+        let geometry = geometry(&inputs).map_err(|refusal| match refusal {
+            Refusal::Interference { start } => Refusal::InterferenceAtEnd { start },
+            other => other,
+        })?;
+        Ok(End { inputs, geometry, side: 1.0 })
+    }
+
+    /// The angle up to which gaps below `reach` stand, and whether the tip's circle ends there.
+    fn angle_of_reach(&self, reach: f64) -> (f64, bool) {
+        let circle = angle_at_curvature(&self.geometry, self.geometry.end);
+        let whole = if circle.is_finite() { circle.min(LARGEST_ANGLE) } else { LARGEST_ANGLE };
+        match first_contact(&self.geometry, reach) {
+            Ok(angle) if angle < whole => (angle, false),
+            _ => (whole, true),
+        }
+    }
+
+    /// The zones from the end of the path of contact at `edge` to the angle `reach`.
+    fn zones(&self, relief: &Relief, force: f64, reach: f64, edge: f64, zones: &mut Vec<Zone>) -> Result<(), Refusal> {
+        let base = self.geometry.driven.base;
+        let angle_of = |s: f64| (self.side * (s - edge) / base).max(0.0);
+        let at = |s: f64| self.at(relief, force, angle_of(s));
+        let turns = self.angles_of_relief_ends(relief).chain(self.angle_of_rolling(reach));
+        let mut borders: Vec<f64> = turns.filter(|&angle| angle > 0.0 && angle < reach).collect();
+        borders.extend([0.0, reach]);
+        borders.iter_mut().for_each(|border| *border = edge + self.side * base * *border);
+        let (start, end) = (at(edge)?, at(edge + self.side * base * reach)?);
+        let size = |function: usize| start[function].abs().max(end[function].abs());
+        push_zones(&mut borders, ([start[STIFFNESS], 0.0, size(LEVER), size(SLIDING)], edge), &at, zones)
+    }
+
+    /// The four values at an angle from the end of the path of contact.
+    fn at(&self, relief: &Relief, force: f64, angle: f64) -> Result<[f64; 4], Refusal> {
+        let tip = tip_at(&self.geometry, angle);
+        let place = ContactPlace::at_tip(&self.inputs, &self.geometry, &tip);
+        let compliance = compliance::pair_at_load(&self.inputs, &self.geometry, &place, force)?;
+        let sliding = self.inputs.driven_speed() * tip.sliding_arm;
+        let (relief, lever) = if self.side < 0.0 {
+            (
+                relief.at(tip.curvature_driver, self.geometry.driven.tip_curvature),
+                tip.curvature_driver / self.geometry.driver.base,
+            )
+        } else {
+            (relief.at(self.geometry.driven.tip_curvature, tip.curvature_driver), self.lever_of_tip(&tip))
+        };
+        Ok([self.inputs.common_width() / compliance, gap(&self.geometry, &tip) + relief, lever, -self.side * sliding])
+    }
+
+    /// After B the driver's own arm is that of its tip.
+    fn lever_of_tip(&self, tip: &TipContact) -> f64 {
+        tip.normal_length_driven / self.geometry.driven.base
+    }
+
+    fn angles_of_relief_ends(&self, relief: &Relief) -> impl Iterator<Item = f64> {
+        let ends: Vec<f64> = if self.side < 0.0 { relief.ends_on_driver().collect() } else { relief.ends_on_driven().collect() };
+        let geometry = self.geometry;
+        ends.into_iter().filter(move |&end| end > geometry.start).map(move |end| angle_at_curvature(&geometry, end))
+    }
+
+    /// Where the tip all but rolls: there friction turns round.
+    fn angle_of_rolling(&self, reach: f64) -> Option<f64> {
+        let sliding = |angle: f64| tip_at(&self.geometry, angle).sliding_arm;
+        (sliding(0.0) * sliding(reach) < 0.0).then(|| root::between(0.0, reach, sliding))
+    }
+}

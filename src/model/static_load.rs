@@ -1,0 +1,212 @@
+//! The rung `static`: the load shared by every pair in contact, without inertia.
+
+use super::Refusal;
+use super::mesh::{Mesh, Pair};
+use super::stations::MeshStation;
+use crate::numeric::root;
+
+/// Places between two borders of the mesh at which the incoming pair is looked for.
+const LOOKS: usize = 16;
+
+/// What the incoming tooth carries from its first contact to its last.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StaticLoad {
+    /// Driven gear's angle before E at the first contact, in rad, where that is before E.
+    pub first_contact_angle: Option<f64>,
+    /// Driver's angle after B at the last contact, in rad, where that is after B.
+    pub last_contact_angle: Option<f64>,
+    /// Force of the incoming tooth at E, in N.
+    pub force_at_start: f64,
+    /// Its greatest force anywhere, in N.
+    pub peak_force: f64,
+    /// Greatest less least displacement of the driver ahead while the incoming tooth carries, in m.
+    pub transmission_error: f64,
+    /// By how much the forces of all pairs together change where the incoming tooth passes the pitch point, in N; with
+    /// friction alone.
+    pub pitch_jump: Option<f64>,
+    /// From the first contact through E to the last.
+    pub stations: Vec<MeshStation>,
+}
+
+/// The balance at a position of the mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Balance {
+    /// Displacement of the driver ahead x, in m; infinite where no pair can carry.
+    pub displacement: f64,
+    /// Force of the incoming tooth, in N.
+    pub force: f64,
+    /// Forces of all pairs together, in N.
+    pub total: f64,
+}
+
+/// The way of the incoming pair on which it may carry.
+#[derive(Debug, Clone, Copy)]
+struct Contact {
+    first: f64,
+    last: f64,
+}
+
+/// The load shared from the first contact of the incoming tooth to its last.
+///
+/// # Formula
+/// ```text
+/// Σ w_k F_k(x) = F0,   F_k = b/q(s_k) max(0, x + e_k − S(s_k)),   w_k = 1 − μ sgn(ΔVτ) ρ1/rb1
+/// ```
+/// The weights are those of the driver's own balance: on the way to the pitch point the friction of a pair turns the driver
+/// on, after it back, so that the forces jump there. Without friction they are 1.
+///
+/// # Source
+/// Compliances of Zhou & Chen 2014, Eqs. 53-56; the third kind of impact friction in its introduction is the jump at the
+/// pitch point. Balance of parallel springs with gaps: for example Seireg & Houser 1970.
+///
+/// # Valid for
+/// A speed so low that no pair swings; any contact ratio.
+///
+/// # Errors
+/// [`Refusal::BeyondReach`] where the pairs yield further than the mesh is known.
+pub fn static_load(mesh: &Mesh, intervals: usize) -> Result<StaticLoad, Refusal> {
+    let (from, to) = mesh.ends();
+    let grid = grid(mesh, from, to);
+    let Some(contact) = contact(mesh, &grid)? else {
+        return Ok(StaticLoad::none());
+    };
+    let on_the_way: Vec<f64> = grid.into_iter().filter(|&s| s > contact.first && s < contact.last).collect();
+    let balances: Vec<(f64, Balance)> = on_the_way.iter().map(|&s| (s, balance(mesh, s, s))).collect();
+    Ok(StaticLoad {
+        first_contact_angle: (contact.first < 0.0).then(|| -contact.first / mesh.base_radii.1),
+        last_contact_angle: (contact.last > mesh.length).then(|| (contact.last - mesh.length) / mesh.base_radii.0),
+        force_at_start: balance(mesh, 0.0, 0.0).force,
+        peak_force: peak(mesh, &balances, |balance| balance.force),
+        transmission_error: peak(mesh, &balances, |balance| balance.displacement)
+            + peak(mesh, &balances, |balance| -balance.displacement),
+        pitch_jump: pitch_jump(mesh),
+        stations: stations(mesh, contact, intervals),
+    })
+}
+
+impl StaticLoad {
+    /// No contact at all.
+    fn none() -> StaticLoad {
+        StaticLoad {
+            first_contact_angle: None,
+            last_contact_angle: None,
+            force_at_start: 0.0,
+            peak_force: 0.0,
+            transmission_error: 0.0,
+            pitch_jump: None,
+            stations: Vec::new(),
+        }
+    }
+}
+
+/// The balance while the incoming pair stands at `s`; on a border, sliding as at `inside`.
+#[must_use]
+pub fn balance(mesh: &Mesh, s: f64, inside: f64) -> Balance {
+    shared(mesh.pairs(s, inside), mesh.force)
+}
+
+/// The displacement at which the springs together balance the force, found by taking in one pair after the other, the
+/// smallest gap first.
+fn shared(pairs: impl Iterator<Item = Pair>, force: f64) -> Balance {
+    let mut pairs: Vec<Pair> = pairs.collect();
+    pairs.sort_by(|one, other| one.place.gap.total_cmp(&other.place.gap));
+    let (mut stiffness, mut preload, mut displacement) = (0.0, force, f64::INFINITY);
+    for pair in &pairs {
+        if displacement <= pair.place.gap {
+            break;
+        }
+        stiffness += pair.weight * pair.place.stiffness;
+        preload += pair.weight * pair.place.stiffness * pair.place.gap;
+        displacement = preload / stiffness;
+    }
+    let carried = |pair: &Pair| pair.place.stiffness * (displacement - pair.place.gap).max(0.0);
+    let incoming = pairs.iter().find(|pair| pair.ahead == 0);
+    Balance { displacement, force: incoming.map_or(0.0, carried), total: pairs.iter().map(carried).sum() }
+}
+
+/// By how much the others' displacement is beyond the incoming pair's gap: above 0 it carries.
+fn lead(mesh: &Mesh, s: f64) -> f64 {
+    let gap = mesh.pairs(s, s).find(|pair| pair.ahead == 0).map_or(f64::INFINITY, |pair| pair.place.gap);
+    let others = shared(mesh.pairs(s, s).filter(|pair| pair.ahead != 0), mesh.force);
+    (others.displacement - gap).clamp(-mesh.length, mesh.length)
+}
+
+/// Every border and some places between.
+fn grid(mesh: &Mesh, from: f64, to: f64) -> Vec<f64> {
+    let borders = mesh.borders(from, to);
+    let between = |ends: &[f64]| {
+        let (from, to) = (ends[0], ends[1]);
+        (0..LOOKS).map(move |step| from + (to - from) * step as f64 / LOOKS as f64)
+    };
+    borders.windows(2).flat_map(between).chain([to]).collect()
+}
+
+/// From the first contact of the incoming pair to its last; nothing where it never carries.
+fn contact(mesh: &Mesh, grid: &[f64]) -> Result<Option<Contact>, Refusal> {
+    let leads: Vec<f64> = grid.iter().map(|&s| lead(mesh, s)).collect();
+    let carries = |index: &usize| leads[*index] > 0.0;
+    let (Some(first), Some(last)) = ((0..grid.len()).find(carries), (0..grid.len()).rfind(carries)) else {
+        return Ok(None);
+    };
+    if first == 0 || last + 1 == grid.len() {
+        return Err(Refusal::BeyondReach);
+    }
+    let touch = |from: usize, to: usize| root::between(grid[from], grid[to], |s| lead(mesh, s));
+    Ok(Some(Contact { first: touch(first - 1, first), last: touch(last, last + 1) }))
+}
+
+/// The greatest value over the contact: the best place of the grid, improved between its neighbours.
+fn peak(mesh: &Mesh, balances: &[(f64, Balance)], value: impl Fn(&Balance) -> f64) -> f64 {
+    const STEPS: usize = 60;
+    const GOLDEN: f64 = 0.618_033_988_749_894_8;
+    let best = (0..balances.len()).max_by(|&one, &other| value(&balances[one].1).total_cmp(&value(&balances[other].1)));
+    let Some(best) = best else { return 0.0 };
+    let at = |s: f64| value(&balance(mesh, s, s));
+    let (mut from, mut to) = (balances[best.saturating_sub(1)].0, balances[(best + 1).min(balances.len() - 1)].0);
+    let mut highest = value(&balances[best].1);
+    let (mut left, mut right) = (to - GOLDEN * (to - from), from + GOLDEN * (to - from));
+    let (mut at_left, mut at_right) = (at(left), at(right));
+    for _ in 0..STEPS {
+        highest = highest.max(at_left).max(at_right);
+        if at_left > at_right {
+            (to, right, at_right) = (right, left, at_left);
+            left = to - GOLDEN * (to - from);
+            at_left = at(left);
+        } else {
+            (from, left, at_left) = (left, right, at_right);
+            right = from + GOLDEN * (to - from);
+            at_right = at(right);
+        }
+    }
+    highest
+}
+
+/// What all pairs carry just after the incoming one passes the pitch point, less what they carried just before.
+fn pitch_jump(mesh: &Mesh) -> Option<f64> {
+    let pitch_point = mesh.pitch_point()?;
+    let aside = 1e-9 * mesh.base_pitch;
+    let total = |inside: f64| balance(mesh, pitch_point, inside).total;
+    (mesh.friction() > 0.0).then(|| total(pitch_point + aside) - total(pitch_point - aside))
+}
+
+/// Stations from the first contact to E and from there to the last, `intervals` each.
+fn stations(mesh: &Mesh, contact: Contact, intervals: usize) -> Vec<MeshStation> {
+    let turn = contact.first.max(0.0);
+    let before = even(contact.first.min(turn), turn, intervals);
+    let after = even(turn, contact.last, intervals);
+    let places = if contact.first < 0.0 { [before, after[1..].to_vec()].concat() } else { after };
+    places
+        .into_iter()
+        .map(|s| {
+            let balance = balance(mesh, s, s);
+            MeshStation::at(mesh, s, balance.force, balance.total, balance.displacement, None)
+        })
+        .collect()
+}
+
+/// Places from one end to the other, both ends exact.
+pub(super) fn even(from: f64, to: f64, intervals: usize) -> Vec<f64> {
+    let count = intervals.max(1);
+    let between = (0..count).map(|step| from + (to - from) * step as f64 / count as f64);
+    between.chain([to]).collect()
+}
