@@ -149,7 +149,7 @@ def static_peak(mesh, grid, force):
 
 def ternary(function, low, high):
     """Place of the greatest value of a function with one hump."""
-    for _ in range(120):
+    for _ in range(70):
         a, b = low + (high - low) / 3, high - (high - low) / 3
         low, high = (a, high) if function(a) < function(b) else (low, b)
     return (low + high) / 2
@@ -165,7 +165,6 @@ class Motion:
         self.unit = pair.force / self.mean
         self.frequency = math.sqrt(self.mean / pair.mass) * pair.pitch / pair.velocity
         self.begin, self.finish = -float(pair.warmup), (mesh.path + mesh.reach_out) / mesh.pitch
-        self.slide = 1 / pair.velocity
 
     def depth(self, k, s, x):
         """How deep pair k is in contact, in units of x."""
@@ -180,7 +179,7 @@ class Motion:
             force = stiffness / self.mean * (y[0] + ((self.mesh.error if k == 0 else 0.0) - gap) / self.unit)
             load += force
             if k == 0:
-                power = force * abs(slide) * self.slide
+                power = force * abs(slide) / self.mesh.pair.velocity
         damping = 2 * self.mesh.pair.damping_ratio if active else 0.0
         return (self.frequency * y[1], self.frequency * (1.0 - load - damping * y[1]), power)
 
@@ -214,7 +213,7 @@ class Record:
 
     def __init__(self, motion):
         self.motion, self.touches, self.leaves, self.lost = motion, [], [], []
-        self.peak, self.approach, self.samples, self.sliding = (0.0, 0.0), 0.0, {}, 0.0
+        self.peak, self.approach, self.samples, self.sliding = 0.0, 0.0, {}, 0.0
 
     def change(self, s, before, after):
         if (0 in before) != (0 in after):
@@ -234,10 +233,11 @@ class Record:
         grid = np.linspace(low, high, pieces + 1)
         values = [at(s) for s in grid]
         top = int(np.argmax(values))
-        value = values[top]
-        if value > 0.5 * self.peak[0]:
-            value = max(value, at(ternary(at, grid[max(top - 1, 0)], grid[min(top + 1, pieces)])))
-        self.peak = max(self.peak, (value, low))
+        value, left, right = values[top], grid[max(top - 1, 0)], grid[min(top + 1, pieces)]
+        inwards = 1e-3 * (right - left)
+        if value > 0.99 * self.peak and at(left + inwards) > at(left) and at(right - inwards) > at(right):
+            value = max(value, at(ternary(at, left, right)))
+        self.peak = max(self.peak, value)
         if high <= 1e-12:
             self.approach = max(self.approach, value)
 
@@ -280,9 +280,8 @@ def by_runge_kutta(motion, samples, parts):
     active = motion.touching(s, state)
     for stop in sorted(set(motion.breaks()) | {place for place in samples if motion.begin < place < motion.finish}):
         steps = max(2, math.ceil((stop - s) * max(motion.frequency, 20.0) * parts))
-        grid = np.linspace(s, stop, steps + 1)
         watched = list(motion.mesh.near((s + stop) / 2 * motion.mesh.pitch))
-        for after in grid[1:]:
+        for after in np.linspace(s, stop, steps + 1)[1:]:
             while s < after:
                 s, state, active = classical_to(motion, record, watched, active, s, state, after)
         if stop in samples:
@@ -307,14 +306,11 @@ def classical_to(motion, record, watched, active, s, state, stop):
     h, changed = stop - s, False
     after = classical(motion, active, s, state, h)
     for k in watched:
-        inside = k in active
-        if (motion.depth(k, s + h, after[0]) > 0) != inside:
+        if (motion.depth(k, s + h, after[0]) > 0) != (k in active):
             deep = lambda part: motion.depth(k, s + part, classical(motion, active, s, state, part)[0])
-            if (deep(0.0) > 0) == (deep(h) > 0):
-                continue
-            part = brentq(deep, 0.0, h, xtol=1e-17, rtol=1e-14)
-            h, changed = part, True
-            after = classical(motion, active, s, state, h)
+            if (deep(0.0) > 0) != (deep(h) > 0):
+                h, changed = brentq(deep, 0.0, h, xtol=1e-17, rtol=1e-14), True
+                after = classical(motion, active, s, state, h)
     record.stretch(s, s + h, lambda t: classical(motion, active, s, state, t - s)[0], 1)
     if not changed:
         return stop, after, active
@@ -355,7 +351,7 @@ def quantities(motion, run):
     if run.touches and run.touches[0] < 0:
         answers["dynamic_first_contact_angle"] = -run.touches[0] * mesh.pitch / pair.driven.base
     answers["dynamic_peak_approach_force"] = run.approach
-    answers["dynamic_peak_force"] = run.peak[0]
+    answers["dynamic_peak_force"] = run.peak
     end = run.leaves[-1] if run.leaves else 0.0
     answers["dynamic_contact_lost"] = any(-1 <= s < end for s in run.lost)
     answers["contact_lost_anywhere"] = any(s < end for s in run.lost)

@@ -10,6 +10,8 @@ for s > eps pb the driver's tip on the driven flank.
 import math
 import tomllib
 
+from beam import Series, Tooth
+
 UNITS = {
     "mm": 1e-3, "um": 1e-6, "deg": math.pi / 180, "GPa": 1e9, "kg/m3": 1.0, "N m": 1.0,
     "W": 1.0, "kW": 1e3, "rpm": math.pi / 30,
@@ -128,13 +130,30 @@ class Pair:
         self.warmup = model.get("warmup_cycles", 20)
         self.parabolic = model.get("relief_shape", "linear") == "parabolic"
         self.constant_contact = model.get("contact_compliance", "logarithmic") == "constant"
-        self.teeth_lines = (one.kuang_yang(self.module), two.kuang_yang(self.module))
         self.run_in, self.run_out = Tip(self, two, one), Tip(self, one, two)
+        self.teeth = self.beams(path) if model.get("tooth_compliance") == "beam" else (self.fit(one), self.fit(two))
         default = (self.ratio - maths.floor(self.ratio)) * self.pitch
         for gear in (one, two):
             gear.tip_length = gear.tip_length or default
             gear.root_length = gear.root_length or default
         self.relieved = any(gear.tip_relief or gear.root_relief for gear in (one, two))
+
+    def fit(self, gear):
+        """Compliance of a tooth by Eq. 56, of the load's radius and curvature radius."""
+        stiffness, slope = gear.kuang_yang(self.module)
+        return lambda radius, _: 1 / (stiffness + slope * (radius - gear.reference))
+
+    def beams(self, path):
+        """Compliance of the two teeth as beams, by f64 whatever the arithmetic; of the same arguments."""
+        plain = self if self.maths is math else Pair(path)
+        if plain is not self:
+            return plain.teeth
+        series = []
+        for gear, other in ((self.driver, self.driven), (self.driven, self.driver)):
+            tooth = Tooth(gear, self.module, math.acos(gear.base / gear.reference))
+            least = self.length - other.tip_curvature
+            series.append(Series(tooth, 0.98 * least, 1.02 * gear.tip_curvature))
+        return tuple(lambda _, rho, one=one: one.at(rho) for one in series)
 
     def working_angle(self, alpha):
         """Working pressure angle of the mesh without backlash, by Newton on the involute function."""
@@ -186,8 +205,7 @@ class Pair:
             slide = slide_two * rho2 - self.speed * rho1
         if self.relieved:
             gap += self.relief(rho1, rho2)
-        (free1, slope1), (free2, slope2) = self.teeth_lines
-        teeth = 1 / (free1 + slope1 * (radius1 - one.reference)) + 1 / (free2 + slope2 * (radius2 - two.reference))
+        teeth = self.teeth[0](radius1, rho1) + self.teeth[1](radius2, rho2)
         return gap, self.width / (teeth + self.contact(edge1 * edge2 / (edge1 + edge2))), slide
 
     def contact(self, rho):
