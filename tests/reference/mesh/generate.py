@@ -390,7 +390,7 @@ def main():
     names = sys.argv[1:] or sorted(path.stem for path in folder.glob("*.toml"))
     for name in names:
         answers = answer(folder / f"{name}.toml")
-        text = re.sub(r"\[\s+([^\[\]]+?),\s+([^\[\]]+?)\s+\]", r"[\1, \2]", json.dumps(answers, indent=1))
+        text = re.sub(r"\[\s+([^\[\],]+?),\s+([^\[\],]+?)\s+\]", r"[\1, \2]", json.dumps(answers, indent=1))
         (folder / f"{name}.json").write_text(text + "\n")
         worst = {kind: max(values.values(), default=0.0) for kind, values in answers["disagreement"].items()}
         print(name, {kind: f"{value:.1e}" for kind, value in worst.items()}, flush=True)
