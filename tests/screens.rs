@@ -8,7 +8,7 @@ use desk::{Desk, LARGE, SMALL, TABLE_1};
 use insta::assert_snapshot;
 use ratatui::layout::Size;
 use tipstrike::tui::actions::Action;
-use tipstrike::tui::theme::{Look, PLAIN};
+use tipstrike::tui::theme::{Look, MONO};
 
 #[test]
 fn the_opening_screen() {
@@ -83,7 +83,7 @@ fn the_questions() {
 fn plain_ascii_where_the_terminal_has_nothing_else() {
     for (name, size) in [("ascii_80x24", SMALL), ("ascii_140x45", LARGE)] {
         let mut desk = Desk::new(size);
-        desk.app.look = Look { theme: &PLAIN, ascii: true };
+        desk.app.look = Look { theme: &MONO, ascii: true };
         let screen = desk.screen();
         assert!(screen.is_ascii());
         assert_snapshot!(name, screen);

@@ -73,7 +73,7 @@ fn whatever_is_typed_the_form_stays_sound_and_the_screen_safe() {
         bench.assert_undone();
         seen.borrow_mut().append(&mut bench.seen);
     });
-    let all = ["browse", "save as", "ask", "page", "loaded", "not loaded", "saved", "not saved", "quit", "invalid", "refused"];
+    let all = ["browse", "save as", "ask", "page", "pick", "loaded", "not loaded", "saved", "not saved", "quit", "invalid", "refused"];
     assert_eq!(*seen.borrow(), BTreeSet::from(all), "the keys get too seldom to all that the workbench does");
 }
 
@@ -82,7 +82,7 @@ fn a_name_that_hides_or_controls_is_shown_as_one_that_does() {
     let mut bench = Bench::on(&texts::bases()[0], false);
     for title in HOSTILE {
         bench.take(Happening::Paste(title.to_owned()));
-        bench.app.case.write(0, title);
+        bench.app.tab.case.write(0, title);
         bench.draw(Size { width: 80, height: 24 });
     }
 }
@@ -203,6 +203,7 @@ impl Bench {
             Prompt::SaveAs(..) => "save as",
             Prompt::Ask(_) => "ask",
             Prompt::Read(_) => "page",
+            Prompt::Pick(_) => "pick",
         });
         let invalid = (!self.app.problems.is_empty()).then_some("invalid");
         let refused = self.app.refusal.is_some().then_some("refused");
@@ -275,7 +276,21 @@ impl Bench {
                 Some(Action::Listed(_, entries)) => Some(Action::Listed(folder, entries)),
                 other => other,
             },
-            Effect::Remember(_) | Effect::Redraw | Effect::Suspend => None,
+            Effect::Recall => Some(Action::Recents(vec![self.folder.path().join("case.toml")])),
+            Effect::Play(plays) => {
+                assert_eq!(plays, self.app.is_playing, "it ticks while something plays");
+                None
+            }
+            Effect::Copy(text) => {
+                assert!(!text.is_empty() && text.len() <= 48 * 1024);
+                None
+            }
+            Effect::Remember(_)
+            | Effect::Keep(_)
+            | Effect::Mouse(_)
+            | Effect::CancelWork
+            | Effect::Redraw
+            | Effect::Suspend => None,
         }
     }
 
