@@ -104,16 +104,21 @@ fn a_terminal_too_small_says_so_and_keeps_the_state() {
 #[test]
 fn the_chart_alone_and_the_form_without_it() {
     let mut desk = Desk::new(SMALL);
-    desk.keys(&["F5"]);
-    assert!(!desk.shows("roll angle before E in deg"));
-    desk.keys(&["F5"]);
+    desk.keys(&["F9"]);
+    assert!(!desk.shows("driver angle before E in deg"));
+    desk.keys(&["F9", "Esc", "3", "z"]);
     assert_snapshot!("chart_80x24", desk.screen());
 }
 
 #[test]
 fn no_size_is_a_trouble() {
-    let openings: [&[&str]; 9] = [
+    let openings: [&[&str]; 14] = [
         &[],
+        &["Ctrl-P", "th"],
+        &["Esc", "3", "l", "z"],
+        &["Esc", "4", "Space"],
+        &["Esc", "2", "G", "b"],
+        &["Ctrl-N", "Ctrl-U", "Alt-1"],
         &["Ctrl-U", "5 kg"],
         &["F1", "PageDown"],
         &["Ctrl-O"],

@@ -1,6 +1,6 @@
 //! Lists that are filtered by what is typed: the palette of commands, the fields, the cases that were open last.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use tui_input::Input;
 
@@ -100,7 +100,7 @@ impl Picker {
         match &self.list {
             List::Commands => actions::commands().map(command).collect(),
             List::Fields => (0..FIELDS.len()).map(field).collect(),
-            List::Recents(paths) => paths.iter().map(recent).collect(),
+            List::Recents(paths) => paths.iter().map(|path| recent(path)).collect(),
         }
     }
 }
@@ -124,8 +124,8 @@ fn field(index: usize) -> Item {
     }
 }
 
-fn recent(path: &PathBuf) -> Item {
-    Item { pick: Pick::Load(path.clone()), name: path.display().to_string(), about: String::new(), keys: String::new() }
+fn recent(path: &Path) -> Item {
+    Item { pick: Pick::Load(path.to_owned()), name: path.display().to_string(), about: String::new(), keys: String::new() }
 }
 
 // The less the better; none where a word does not occur. Symbols may be typed as a bare keyboard can.
@@ -158,7 +158,9 @@ mod tests {
 
     #[test]
     fn a_few_letters_find_the_command() {
-        for (typed, name) in [("unde", "undo"), ("save a", "save as"), ("base", "baseline"), ("themme", "theme"), ("colours", "theme")] {
+        for (typed, name) in
+            [("unde", "undo"), ("save a", "save as"), ("base", "baseline"), ("themme", "theme"), ("colours", "theme")]
+        {
             assert_eq!(first(List::Commands, typed).as_deref(), Some(name), "{typed}");
         }
         assert_eq!(first(List::Commands, "xyzzy"), None);

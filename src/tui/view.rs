@@ -22,6 +22,9 @@ use super::pane::Pane;
 
 pub use layout::{Plan, SMALLEST, plan};
 
+/// Room for a title beside the names of hidden panes.
+const LEAST_TITLE: usize = 16;
+
 /// Draw the whole screen; the place of the cursor, where there is one.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     let cursor = if layout::is_too_small(area.as_size()) {
@@ -37,7 +40,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
 /// The title line of a pane: its number, whether it has the focus, its title, and in one of the panes the names of those
 /// that are not in sight; what is below it.
 pub fn titled(app: &App, pane: Pane, title: &str, area: Rect, buffer: &mut Buffer) -> Rect {
-    let hidden = hidden(app, pane);
+    let hidden = hidden(app, pane, area.width);
     // The hidden ones are named at the right end, before one cell of the rule.
     let room = usize::from(area.width).saturating_sub(if hidden.is_empty() { 0 } else { hidden.width() + 1 });
     let has_focus = app.panes.focus == pane && app.prompts.is_empty();
@@ -47,19 +50,24 @@ pub fn titled(app: &App, pane: Pane, title: &str, area: Rect, buffer: &mut Buffe
         buffer.set_string(area.x, area.y, "▸", app.look.theme.title);
         buffer.set_stringn(area.x + 1, area.y, format!(" {title} "), usize::from(area.width) - 1, app.look.theme.key);
     }
-    if !hidden.is_empty() && room > 12 {
+    if !hidden.is_empty() && room > LEAST_TITLE {
         buffer.set_string(area.x + room as u16, area.y, &hidden, Style::new());
     }
     inner
 }
 
-// The keys and names of the panes that are not in sight.
-fn hidden(app: &App, pane: Pane) -> String {
+// The keys and names of the panes that are not in sight; their keys alone where names have no room.
+fn hidden(app: &App, pane: Pane, width: u16) -> String {
     let plan = plan(app.size, app.panes);
     if plan.names_hidden() != Some(pane) {
         return String::new();
     }
-    plan.hidden().map(|pane| format!(" {} {} ", pane.number(), pane.name())).collect()
+    let named: Vec<_> = plan.hidden().map(|pane| format!(" {} {} ", pane.number(), pane.name())).collect();
+    let named = named.concat();
+    if named.width() + LEAST_TITLE <= width.into() {
+        return named;
+    }
+    plan.hidden().map(|pane| format!(" {}", pane.number())).chain([" ".to_owned()]).collect()
 }
 
 fn too_small(area: Rect, buffer: &mut Buffer) {

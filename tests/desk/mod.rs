@@ -23,6 +23,7 @@ pub(crate) const SMALL: Size = Size { width: 80, height: 24 };
 pub(crate) const LARGE: Size = Size { width: 140, height: 45 };
 pub(crate) const TABLE_1: &str = include_str!("../../cases/zhou-chen-2014.toml");
 
+#[expect(clippy::struct_excessive_bools, reason = "each tells what was asked of the world")]
 pub(crate) struct Desk {
     pub(crate) app: App,
     pub(crate) folder: TempDir,

@@ -14,7 +14,13 @@ const fn shown(places: Place, chords: &'static [Chord], command: Command, name: 
 }
 
 // In the palette and the help.
-const fn listed(places: Place, chords: &'static [Chord], command: Command, name: &'static str, sentence: &'static str) -> Binding {
+const fn listed(
+    places: Place,
+    chords: &'static [Chord],
+    command: Command,
+    name: &'static str,
+    sentence: &'static str,
+) -> Binding {
     Binding { chords, command, places, name, sentence, in_footer: false }
 }
 

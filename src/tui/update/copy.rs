@@ -35,7 +35,8 @@ pub(super) fn results(app: &mut App) -> Vec<Effect> {
         return Vec::new();
     };
     let values = QUANTITIES.iter().filter_map(|quantity| Some((quantity, report::value(quantity, solution)?)));
-    let lines = values.map(|(quantity, value)| format!("{}\t{value}\t{}\n", quantity.key, quantity.unit)).collect();
+    let lines = values.map(|(quantity, value)| format!("{}\t{value}\t{}", quantity.key, quantity.unit));
+    let lines = lines.collect::<Vec<_>>().join("\n");
     copy(app, lines, "all results in SI")
 }
 

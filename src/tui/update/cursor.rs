@@ -113,6 +113,7 @@ fn solution(app: &App) -> Option<&Solution> {
 }
 
 #[cfg(test)]
+#[expect(clippy::float_cmp, reason = "the ends of the way are met exactly")]
 mod tests {
     use super::*;
 

@@ -18,8 +18,8 @@ pub(super) fn walk(app: &mut App, command: Command) {
         Command::Last if app.panes.focus == Pane::Results => mark(app, isize::MAX),
         Command::First | Command::FirstField => field(app, 0),
         Command::Last | Command::LastField => field(app, usize::MAX),
-        Command::ResultsUp => mark(app, -page(app)),
-        Command::ResultsDown => mark(app, page(app)),
+        Command::ResultsUp => turn(app, -page(app)),
+        Command::ResultsDown => turn(app, page(app)),
         _ => (),
     }
 }
@@ -44,7 +44,7 @@ fn step(app: &mut App, by: isize) {
 fn leap(app: &mut App, by: isize) {
     let page_of_prompt = isize::try_from(popup::room(app.size).height).unwrap_or(1).max(1);
     match app.prompts.last_mut() {
-        None if app.panes.focus == Pane::Results => mark(app, by * page(app)),
+        None if app.panes.focus == Pane::Results => turn(app, by * page(app)),
         None => app.focus_on(group_beside(app.focus, by)),
         Some(Prompt::Browse(browser)) => browser.mark(by * page_of_prompt),
         Some(Prompt::Pick(picker)) => picker.mark(by * page_of_prompt),
@@ -59,15 +59,24 @@ fn mark(app: &mut App, by: isize) {
     app.follow();
 }
 
+// The lines in sight go by, and the mark with them where it would be left behind.
+fn turn(app: &mut App, by: isize) {
+    let top = results::scrolled(app, by);
+    let last = top + results::page(app).saturating_sub(1);
+    let row = if top == app.results_top { app.row.saturating_add_signed(by) } else { app.row.clamp(top, last) };
+    app.tab.results_top = top;
+    app.tab.row = row.min(results::count(app).saturating_sub(1));
+    app.follow();
+}
+
 fn page(app: &App) -> isize {
     results::page(app).max(2).cast_signed() - 1
 }
 
 // The first field of the next group, of this one, or of the one before.
 fn group_beside(focus: usize, by: isize) -> usize {
-    let starts: Vec<_> = (0..FIELDS.len())
-        .filter(|&field| field == 0 || FIELDS[field].table() != FIELDS[field - 1].table())
-        .collect();
+    let starts: Vec<_> =
+        (0..FIELDS.len()).filter(|&field| field == 0 || FIELDS[field].table() != FIELDS[field - 1].table()).collect();
     let found =
         if by > 0 { starts.iter().find(|&&start| start > focus) } else { starts.iter().rev().find(|&&start| start < focus) };
     found.copied().unwrap_or(if by > 0 { FIELDS.len() - 1 } else { 0 })

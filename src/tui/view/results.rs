@@ -146,7 +146,7 @@ fn parts(app: &App, area: Rect) -> Parts {
     let (mut gauge_lines, mut note_lines) = (whole(&gauges), whole(&notes));
     if rows_beside(&gauge_lines, &note_lines) < ENOUGH_ROWS {
         gauge_lines = gauges.iter().map(|gauge| text::cut(gauge, width)).collect();
-        note_lines = shortened(answer_notes(app), width);
+        note_lines = shortened(&answer_notes(app), width);
     }
     let room_for_head = height.saturating_sub(1 + LEAST_ROWS + note_lines.len());
     let faint = if app.is_stale() { app.look.theme.faint } else { Style::new() };
@@ -162,7 +162,7 @@ fn answer_notes(app: &App) -> Vec<&str> {
 }
 
 // How many notes there are, and the first words.
-fn shortened(notes: Vec<&str>, width: usize) -> Vec<String> {
+fn shortened(notes: &[&str], width: usize) -> Vec<String> {
     let Some(first) = notes.first() else { return Vec::new() };
     let count = if notes.len() == 1 { "1 note".to_owned() } else { format!("{} notes", notes.len()) };
     vec![text::cut(&format!("* {count}: {first}"), width)]

@@ -13,7 +13,10 @@ use crate::tui::actions::{BINDINGS, Binding, Chord};
 use crate::tui::app::{App, Progress};
 use crate::tui::clean::symbol;
 use crate::tui::pane::Pane;
+use crate::tui::tab::Tab;
 
+/// A longer name of a case is cut where there are several.
+const LONGEST_NAME: usize = 24;
 /// Cells of a bar of progress.
 const BAR: usize = 20;
 
@@ -99,25 +102,41 @@ fn only_case(app: &App, width: u16) -> Vec<Span<'static>> {
     vec![Span::raw(name), Span::styled(mark, app.look.theme.note), Span::raw(title)]
 }
 
-// Every open case by its number; those that have no room, by a mark at the end where they are.
+// The open cases by their numbers, as many around the current one as have room; a mark at the end where others are.
 fn tabs(app: &App, width: u16) -> Vec<Span<'static>> {
-    let count = app.others.len() + 1;
-    let each = (usize::from(width).saturating_sub(11) / count).saturating_sub(6).clamp(8, 32);
-    let shown = (usize::from(width).saturating_sub(13) / (each + 6)).clamp(1, count);
-    let from = app.place_of_tab.saturating_sub(shown / 2).min(count - shown);
+    let names: Vec<String> = app.tabs().enumerate().map(|(at, tab)| tab_name(at, tab)).collect();
+    let (from, to) = window(&names, app.place_of_tab, usize::from(width).saturating_sub(15));
     let mut spans = vec![Span::raw(if from > 0 { "‹ " } else { "" })];
-    for (at, tab) in app.tabs().enumerate().skip(from).take(shown) {
-        let unsaved = if tab.is_unsaved() { "*" } else { "" };
-        let name = text::cut(&tab.short_name(), each);
+    for (at, name) in names.iter().enumerate().take(to).skip(from) {
         if at == app.place_of_tab {
-            spans.push(Span::styled(format!("[{} {name}{unsaved}]", at + 1), app.look.theme.key));
+            spans.push(Span::styled(format!("[{name}]"), app.look.theme.key));
         } else {
-            spans.push(Span::raw(format!(" {} {name}{unsaved} ", at + 1)));
+            spans.push(Span::raw(format!(" {name} ")));
         }
-        spans.push(Span::raw(" "));
     }
-    spans.push(Span::raw(if from + shown < count { "›" } else { "" }));
+    spans.push(Span::raw(if to < names.len() { " ›" } else { "" }));
     spans
+}
+
+fn tab_name(at: usize, tab: &Tab) -> String {
+    format!("{} {}{}", at + 1, text::cut(&tab.short_name(), LONGEST_NAME), if tab.is_unsaved() { "*" } else { "" })
+}
+
+// The first and the last but one of the names that have room, grown from the one in the middle.
+fn window(names: &[String], middle: usize, width: usize) -> (usize, usize) {
+    let size = |at: usize| names.get(at).map_or(0, |name| name.width() + 2);
+    let (mut from, mut to, mut used) = (middle, middle + 1, size(middle));
+    loop {
+        if to < names.len() && used + size(to) <= width {
+            used += size(to);
+            to += 1;
+        } else if from > 0 && used + size(from - 1) <= width {
+            from -= 1;
+            used += size(from);
+        } else {
+            return (from, to);
+        }
+    }
 }
 
 fn focused(app: &App) -> String {
