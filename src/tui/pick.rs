@@ -159,7 +159,7 @@ mod tests {
     #[test]
     fn a_few_letters_find_the_command() {
         for (typed, name) in
-            [("unde", "undo"), ("save a", "save as"), ("base", "baseline"), ("themme", "theme"), ("colours", "theme")]
+            [("und", "undo"), ("save a", "save as"), ("base", "baseline"), ("themme", "theme"), ("colours", "theme")]
         {
             assert_eq!(first(List::Commands, typed).as_deref(), Some(name), "{typed}");
         }

@@ -262,7 +262,7 @@ impl Bench {
                 None
             }
             Effect::Quit => {
-                let is_unsaved = self.app.tabs().any(|tab| tab.is_unsaved());
+                let is_unsaved = self.app.tabs().any(tipstrike::tui::tab::Tab::is_unsaved);
                 assert!(was_asked || !is_unsaved, "edits are not lost without a question");
                 self.seen.insert("quit");
                 None
