@@ -1,5 +1,6 @@
 //! Keys in, screen out: the frame of the workbench - focus, palette, tabs, baseline, cursor, copying, mouse, settings.
 #![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+#![allow(clippy::print_stdout, reason = "a figure to look at")]
 #![cfg(feature = "tui")]
 
 mod desk;
@@ -116,7 +117,7 @@ fn the_palette_finds_and_runs_every_command() {
     desk.keys(&["Ctrl-P", "rung"]);
     assert!(desk.shows("▸ rung") && desk.shows("Ctrl-T, F6"));
     desk.keys(&["Enter"]);
-    assert!(desk.shows("rung paper") && desk.app.is_unsaved());
+    assert!(desk.shows("rung static") && desk.app.is_unsaved());
     desk.keys(&["Esc", ":", "undo", "Enter"]);
     assert!(!desk.app.is_unsaved(), "a change by the palette is undone like any other");
     desk.keys(&[":", "xyzzy", "Enter"]);
@@ -236,7 +237,7 @@ fn a_request_that_another_case_put_aside_is_asked_for_again() {
     desk.keys(&["Alt-1"]).go_to("operation.speed");
     update(&mut desk.app, Action::Do(tipstrike::tui::actions::Command::ToggleRung));
     desk.keys(&["Alt-2", "Alt-1"]);
-    assert!(desk.shows("▸paper") && desk.app.is_settled);
+    assert!(desk.shows("▸static") && desk.app.is_settled);
 }
 
 #[test]
@@ -260,7 +261,7 @@ fn the_baseline_holds_over_tabs_and_has_its_curve_even_if_no_chart_was_in_sight(
     let mut desk = three_cases(SMALL);
     desk.keys(&["Alt-1", "F5", "Esc", "b", "Alt-3"]);
     let pinned = desk.app.baseline.as_ref().expect("it is pinned");
-    assert_eq!((pinned.name.as_str(), pinned.answer.stages), ("one.toml", Stages::ALL));
+    assert_eq!((pinned.name.as_str(), pinned.answer.stages), ("one.toml", Stages::EVERY));
     desk.fill("operation.speed", "bad").keys(&["Esc", "b", "b"]);
     assert!(desk.shows("no valid results to pin"));
 }
@@ -334,7 +335,7 @@ fn the_results_have_a_cursor_a_page_and_are_copied() {
     desk.keys(&["1", "y"]);
     assert_eq!(desk.copied.as_deref(), Some("5 mm"));
     desk.keys(&["2", "G"]);
-    assert!(desk.shows("▸κ"));
+    assert!(desk.shows("▸W_μ"));
 }
 
 #[test]
@@ -416,6 +417,32 @@ fn torque_takes_the_place_of_power_and_gives_it_back() {
     assert!(desk.shows("power 15 kW is back") && desk.app.problems.is_empty());
     desk.keys(&["70 N m", "Ctrl-Z"]);
     assert!(!desk.app.is_unsaved(), "both changes are one step");
+}
+
+/// Wall time is of the machine and gates nothing: `cargo test --test workbench -- --nocapture keystroke` tells it.
+#[test]
+fn a_keystroke_to_its_frame() {
+    let size = Size { width: 200, height: 60 };
+    let mut desk = Desk::new(size);
+    desk.fill("operation.speed", "2000 rpm");
+    let mut times: Vec<f64> = (0..400)
+        .map(|index| {
+            let key = if index % 2 == 0 { "Backspace" } else { "m" };
+            let start = std::time::Instant::now();
+            let event = crossterm::event::KeyEvent::from(match key {
+                "m" => crossterm::event::KeyCode::Char('m'),
+                _ => crossterm::event::KeyCode::Backspace,
+            });
+            let action = tipstrike::tui::actions::of_key(event, desk.app.place()).expect("a key of the field");
+            drop(update(&mut desk.app, action));
+            let area = ratatui::layout::Rect::new(0, 0, size.width, size.height);
+            tipstrike::tui::view::draw(&desk.app, area, &mut ratatui::buffer::Buffer::empty(area));
+            start.elapsed().as_secs_f64() * 1e3
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    println!("keystroke to frame at 200x60: median {:.2} ms, 99th percentile {:.2} ms", times[200], times[396]);
+    assert_eq!(times.len(), 400);
 }
 
 #[test]

@@ -147,7 +147,7 @@ impl App {
     #[must_use]
     pub fn wanted(&self) -> Stages {
         if self.is_pinning {
-            return Stages::ALL;
+            return Stages::EVERY;
         }
         let plan = view::plan(self.size, self.panes);
         let seen = Pane::ALL.into_iter().filter(|&pane| !plan.area(pane).is_empty());

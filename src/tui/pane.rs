@@ -65,13 +65,13 @@ impl Pane {
         matches!(self, Pane::Chart | Pane::Teeth | Pane::Trade)
     }
 
-    /// The stages of a solve whose results it shows.
+    /// The stages of a solve whose results it shows, as far as the rung has them.
     #[must_use]
     pub const fn needs(self) -> Stages {
         match self {
             Pane::Form | Pane::Trade => Stages::NONE,
-            Pane::Results => Stages::CLOSED_FORM.with(Stage::Band),
-            Pane::Chart => Stages::of(Stage::Stations),
+            Pane::Results => Stages::CLOSED_FORM.with(Stage::Band).and(Stages::of(Stage::Static)).with(Stage::Dynamic),
+            Pane::Chart => Stages::STATIONS,
             Pane::Teeth => Stages::of(Stage::Position),
         }
     }

@@ -53,8 +53,8 @@ pub(super) fn step(app: &mut App, columns: i16) -> Vec<Effect> {
 
 /// To the first contact.
 pub(super) fn to_start(app: &mut App) -> Vec<Effect> {
-    match solution(app).and_then(|solution| solution.position) {
-        Some(position) => app.cursor = Some(position.approach_angle_driver),
+    match solution(app).and_then(first_contact) {
+        Some(angle) => app.cursor = Some(angle),
         None => app.complain("no corner contact: there is no D"),
     }
     stop(app)
@@ -101,11 +101,20 @@ pub(super) fn stop(app: &mut App) -> Vec<Effect> {
 fn reach(app: &App) -> Option<Reach> {
     let solution = solution(app)?;
     let pitch = solution.geometry.base_pitch / solution.geometry.driver.base;
-    let start = solution.position.map_or(0.0, |position| position.approach_angle_driver);
+    let start = first_contact(solution).unwrap_or(0.0);
     let axis = app.scale.angle.to_radians();
     let most = if axis > 0.0 { axis.max(start) } else { start.max(pitch / 10.0) };
     let least = if app.panes.focus == Pane::Teeth { -pitch } else { 0.0 };
     Some(Reach { start, most, least, column: most / f64::from(chart::columns(app).max(2) - 1) })
+}
+
+// The driver's angle before E at the first contact of the rung.
+fn first_contact(solution: &Solution) -> Option<f64> {
+    let ratio = solution.geometry.driven.base / solution.geometry.driver.base;
+    let shared = solution.static_load.as_ref().and_then(|load| load.first_contact_angle);
+    let moving = solution.dynamic.as_ref().and_then(|dynamic| dynamic.first_contact_angle);
+    let of_rung = moving.or(shared).map(|angle| angle * ratio);
+    of_rung.or(solution.position.map(|position| position.approach_angle_driver))
 }
 
 fn solution(app: &App) -> Option<&Solution> {

@@ -16,7 +16,7 @@ pub(super) fn toggle(app: &mut App) {
 
 /// Pin the results that were asked for as soon as all of them are there.
 pub(super) fn pin(app: &mut App) {
-    let Some(answer) = app.answer.as_ref().filter(|answer| app.is_pinning && answer.stages == crate::model::Stages::ALL) else {
+    let Some(answer) = app.answer.as_ref().filter(|answer| app.is_pinning && answer.stages == crate::model::Stages::EVERY) else {
         return;
     };
     let baseline = Baseline { name: app.short_name(), case: app.case.clone(), answer: answer.clone() };
