@@ -5,17 +5,22 @@
 
 mod desk;
 
+use std::time::Instant;
+
+use crossterm::event::KeyCode;
 use desk::{Desk, LARGE, SMALL, TABLE_1, name};
 use insta::assert_snapshot;
-use ratatui::layout::{Position, Size};
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect, Size};
 use ratatui::symbols::Marker;
 use tipstrike::model::{Stage, Stages};
-use tipstrike::tui::actions::Action;
+use tipstrike::tui::actions::{self, Action};
 use tipstrike::tui::app::Progress;
 use tipstrike::tui::pane::Pane;
 use tipstrike::tui::settings::Settings;
 use tipstrike::tui::theme::{CONTRAST, Look, MONO};
 use tipstrike::tui::update::{Effect, update};
+use tipstrike::tui::view;
 
 const TINY: Size = Size { width: 60, height: 16 };
 const HUGE: Size = Size { width: 240, height: 70 };
@@ -419,30 +424,34 @@ fn torque_takes_the_place_of_power_and_gives_it_back() {
     assert!(!desk.app.is_unsaved(), "both changes are one step");
 }
 
-/// Wall time is of the machine and gates nothing: `cargo test --test workbench -- --nocapture keystroke` tells it.
+/// Wall time is of the machine and gates nothing; what others do on it is kept out by the best of several runs.
 #[test]
 fn a_keystroke_to_its_frame() {
+    const KEYS: usize = 200;
+    let runs: Vec<Vec<f64>> = (0..5).map(|_| keystrokes(KEYS)).collect();
+    let best = |key: usize| runs.iter().map(|run| run[key]).fold(f64::INFINITY, f64::min);
+    let mut times: Vec<f64> = (0..KEYS).map(best).collect();
+    times.sort_by(f64::total_cmp);
+    let (median, late) = (times[KEYS / 2], times[KEYS * 99 / 100]);
+    println!("keystroke to frame at 200x60: median {median:.2} ms, 99th percentile {late:.2} ms");
+    assert!(median > 0.0);
+}
+
+/// How long each of so many keys takes to its frame, in ms: a letter is deleted and typed again.
+fn keystrokes(count: usize) -> Vec<f64> {
     let size = Size { width: 200, height: 60 };
+    let area = Rect::new(0, 0, size.width, size.height);
     let mut desk = Desk::new(size);
     desk.fill("operation.speed", "2000 rpm");
-    let mut times: Vec<f64> = (0..400)
-        .map(|index| {
-            let key = if index % 2 == 0 { "Backspace" } else { "m" };
-            let start = std::time::Instant::now();
-            let event = crossterm::event::KeyEvent::from(match key {
-                "m" => crossterm::event::KeyCode::Char('m'),
-                _ => crossterm::event::KeyCode::Backspace,
-            });
-            let action = tipstrike::tui::actions::of_key(event, desk.app.place()).expect("a key of the field");
-            drop(update(&mut desk.app, action));
-            let area = ratatui::layout::Rect::new(0, 0, size.width, size.height);
-            tipstrike::tui::view::draw(&desk.app, area, &mut ratatui::buffer::Buffer::empty(area));
-            start.elapsed().as_secs_f64() * 1e3
-        })
-        .collect();
-    times.sort_by(f64::total_cmp);
-    println!("keystroke to frame at 200x60: median {:.2} ms, 99th percentile {:.2} ms", times[200], times[396]);
-    assert_eq!(times.len(), 400);
+    let time = |index| {
+        let start = Instant::now();
+        let code = if index % 2 == 0 { KeyCode::Backspace } else { KeyCode::Char('m') };
+        let action = actions::of_key(code.into(), desk.app.place()).expect("a key of the field");
+        drop(update(&mut desk.app, action));
+        view::draw(&desk.app, area, &mut Buffer::empty(area));
+        start.elapsed().as_secs_f64() * 1e3
+    };
+    (0..count).map(time).collect()
 }
 
 #[test]
