@@ -8,10 +8,16 @@ pub mod actions;
 pub mod app;
 pub mod clean;
 pub mod events;
+pub mod history;
+pub mod pane;
+pub mod pick;
 pub mod prompt;
+pub mod recents;
 pub mod scale;
+pub mod settings;
 pub mod solver;
 pub mod store;
+pub mod tab;
 pub mod terminal;
 pub mod theme;
 pub mod update;
@@ -21,12 +27,14 @@ use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::time::{Duration, Instant};
 
 use signal_hook::consts::{SIGCONT, SIGTSTP};
 
 use actions::Action;
 use app::App;
 use events::{Event, Events};
+use settings::Settings;
 use solver::Solver;
 use store::{Opening, Trouble};
 use terminal::Screen;
@@ -38,6 +46,8 @@ const TERMINAL_LOST: u8 = 5;
 const PANICKED: u8 = 101;
 /// A program that a signal ends has this and the signal's number as its exit code.
 const SIGNALLED: i32 = 128;
+/// Time between two pictures of what plays.
+const TICK: Duration = Duration::from_millis(83);
 
 /// The workbench while it runs.
 struct Workbench {
@@ -45,6 +55,8 @@ struct Workbench {
     screen: Screen,
     events: Events,
     solver: Solver,
+    /// When the next picture of what plays is due.
+    alarm: Option<Instant>,
 }
 
 /// Open the workbench on a case, else on the last one, else on the built-in one, and stay until the user quits.
@@ -73,17 +85,21 @@ fn session(case: Option<PathBuf>) -> io::Result<u8> {
     // Before the terminal is taken: a signal must never leave it in our modes.
     let events = Events::start()?;
     let mut screen = Screen::open()?;
+    let settings = Settings::read();
     let look = Look::of(|name| std::env::var_os(name));
-    let mut app = App::new(document, path, look, screen.size()?);
+    let look = settings.look(look, |name| std::env::var_os(name).is_some_and(|value| !value.is_empty()));
+    let mut app = App { settings, ..App::new(document, path, look, screen.size()?) };
+    screen.take_mouse(settings.mouse)?;
     if let Some(trouble) = trouble {
         report(&mut app, trouble);
     }
     screen.draw(&app)?;
     let solver = Solver::start(events.teller())?;
-    Workbench { app, screen, events, solver }.stay()
+    Workbench { app, screen, events, solver, alarm: None }.stay()
 }
 
 fn report(app: &mut App, trouble: Trouble) {
+    app.tab.in_place_of = Some(trouble.path.clone());
     if trouble.was_asked {
         update(app, Action::Loaded(trouble.path, Err(trouble.faults)));
     } else {
@@ -95,7 +111,7 @@ fn report(app: &mut App, trouble: Trouble) {
 impl Workbench {
     fn stay(mut self) -> io::Result<u8> {
         loop {
-            let batch = self.events.batch();
+            let batch = self.events.batch(self.alarm);
             if let Some(code) = self.take(batch)? {
                 return Ok(code);
             }
@@ -114,6 +130,9 @@ impl Workbench {
                 has_changed = true;
             } else if matches!(event, Event::Lost) {
                 return Ok(Some(TERMINAL_LOST));
+            }
+            if matches!(event, Event::Tick) {
+                self.alarm = Some(Instant::now() + TICK);
             }
             let Some(action) = events::take_action(&mut events, self.app.place()) else { continue };
             has_changed = true;
@@ -146,6 +165,9 @@ impl Workbench {
                     Effect::Redraw => self.screen.clear()?,
                     Effect::Suspend => self.screen.suspend()?,
                     Effect::Solve(request) => self.solver.ask(*request),
+                    Effect::Copy(text) => self.screen.copy(&text)?,
+                    Effect::Mouse(takes) => self.screen.take_mouse(takes)?,
+                    Effect::Play(plays) => self.alarm = plays.then(|| Instant::now() + TICK),
                     other => actions.extend(store::perform(other)),
                 }
             }

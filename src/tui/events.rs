@@ -6,8 +6,8 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crossterm::event::{self, Event as Input, KeyCode, KeyEvent, KeyModifiers};
-use ratatui::layout::Size;
+use crossterm::event::{self, Event as Input, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
+use ratatui::layout::{Position, Size};
 use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGTERM, SIGTSTP};
 use signal_hook::iterator::Signals;
 
@@ -23,6 +23,8 @@ pub enum Event {
     Signal(i32),
     /// From the worker.
     Reply(Reply),
+    /// Time for the next picture of what plays.
+    Tick,
     /// The terminal is gone.
     Lost,
 }
@@ -39,6 +41,8 @@ const CHANNEL: usize = 4096;
 const BATCH: Duration = Duration::from_millis(50);
 /// So long may the parts of one escape sequence lie apart.
 const ESCAPE: Duration = Duration::from_millis(50);
+/// Lines that a turn of the wheel moves.
+const WHEEL: isize = 3;
 
 /// What follows `Esc` in the sequences of the common keys.
 const SEQUENCES: [(&str, KeyCode); 20] = [
@@ -92,11 +96,10 @@ impl Events {
         move |reply| sender.send(Event::Reply(reply)).is_ok()
     }
 
-    /// Wait for something, and take all that has come with it.
+    /// Wait for something, and take all that has come with it; a tick when nothing came before the alarm.
     #[must_use]
-    pub fn batch(&self) -> Vec<Event> {
-        let Ok(first) = self.receiver.recv() else { return vec![Event::Lost] };
-        let mut batch = vec![first];
+    pub fn batch(&self, alarm: Option<Instant>) -> Vec<Event> {
+        let mut batch = vec![self.first(alarm)];
         let end = Instant::now() + BATCH;
         while Instant::now() < end {
             let patience = if is_open(&batch) { ESCAPE } else { Duration::ZERO };
@@ -106,6 +109,15 @@ impl Events {
             }
         }
         join(batch)
+    }
+
+    fn first(&self, alarm: Option<Instant>) -> Event {
+        let Some(alarm) = alarm else { return self.receiver.recv().unwrap_or(Event::Lost) };
+        match self.receiver.recv_timeout(alarm.saturating_duration_since(Instant::now())) {
+            Ok(event) => event,
+            Err(RecvTimeoutError::Timeout) => Event::Tick,
+            Err(RecvTimeoutError::Disconnected) => Event::Lost,
+        }
     }
 }
 
@@ -120,7 +132,19 @@ pub fn take_action(inputs: &mut std::iter::Peekable<impl Iterator<Item = Event>>
         Event::Input(Input::Resize(width, height)) => Some(Action::Resize(Size { width, height })),
         Event::Reply(Reply::Solved(answer)) => Some(Action::Solved(answer)),
         Event::Reply(Reply::Failed(serial)) => Some(Action::SolverFailed(serial)),
+        Event::Input(Input::Mouse(mouse)) => of_mouse(mouse),
+        Event::Tick => Some(Action::Tick),
         Event::Input(_) | Event::Signal(_) | Event::Lost => None,
+    }
+}
+
+fn of_mouse(mouse: MouseEvent) -> Option<Action> {
+    let at = Position::new(mouse.column, mouse.row);
+    match mouse.kind {
+        MouseEventKind::Down(MouseButton::Left) => Some(Action::Click(at)),
+        MouseEventKind::ScrollDown => Some(Action::Wheel(at, WHEEL)),
+        MouseEventKind::ScrollUp => Some(Action::Wheel(at, -WHEEL)),
+        _ => None,
     }
 }
 

@@ -1,15 +1,10 @@
 //! Files: reading and writing cases, looking into folders, and the case that was open last.
 
-use std::env;
-use std::ffi::OsString;
 use std::fs;
-use std::io;
-use std::os::unix::ffi::{OsStrExt, OsStringExt};
 use std::path::{Path, PathBuf};
 
-use directories::ProjectDirs;
-
 use super::actions::Action;
+use super::recents;
 use super::update::{Effect, Over, Saving};
 use crate::case::Document;
 use crate::case::file::SaveError;
@@ -66,12 +61,12 @@ pub fn built_in() -> Document {
 #[must_use]
 pub fn opening(asked: Option<PathBuf>) -> Opening {
     let was_asked = asked.is_some();
-    let Some(path) = asked.or_else(last_case) else {
+    let Some(path) = asked.or_else(recents::last) else {
         return Opening { document: built_in(), path: None, trouble: None };
     };
     match load(&path) {
         Ok(document) => {
-            remember(&path);
+            recents::add(&path);
             Opening { document: *document, path: Some(path), trouble: None }
         }
         Err(faults) => {
@@ -98,10 +93,22 @@ pub fn perform(effect: Effect) -> Option<Action> {
             Some(Action::Listed(folder, entries))
         }
         Effect::Remember(path) => {
-            remember(&path);
+            recents::add(&path);
             None
         }
-        Effect::Solve(_) | Effect::Redraw | Effect::Suspend | Effect::Quit => None,
+        Effect::Recall => Some(Action::Recents(recents::list())),
+        Effect::Keep(settings) => {
+            let kept = settings.keep();
+            kept.err().map(|reason| Action::Failed(format!("the settings are not kept: {reason}")))
+        }
+        Effect::Solve(_)
+        | Effect::Copy(_)
+        | Effect::Mouse(_)
+        | Effect::Play(_)
+        | Effect::CancelWork
+        | Effect::Redraw
+        | Effect::Suspend
+        | Effect::Quit => None,
     }
 }
 
@@ -148,27 +155,4 @@ fn list(folder: &str) -> Vec<Entry> {
 
 fn is_case(name: &str) -> bool {
     Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
-}
-
-// Only a convenience: without it the next start begins with the built-in case.
-fn remember(path: &Path) {
-    let write = |file: PathBuf| -> io::Result<()> {
-        file.parent().map_or(Ok(()), fs::create_dir_all)?;
-        fs::write(file, std::path::absolute(path)?.as_os_str().as_bytes())
-    };
-    drop(last_case_file().map(write));
-}
-
-fn last_case() -> Option<PathBuf> {
-    let path = OsString::from_vec(fs::read(last_case_file()?).ok()?);
-    (!path.is_empty()).then(|| path.into())
-}
-
-fn last_case_file() -> Option<PathBuf> {
-    let own = env::var_os("XDG_STATE_HOME").map(PathBuf::from).filter(|path| path.is_absolute());
-    let folder = own.map(|path| path.join("tipstrike")).or_else(|| {
-        let folders = ProjectDirs::from("", "", "tipstrike")?;
-        Some(folders.state_dir().unwrap_or(folders.data_local_dir()).to_owned())
-    });
-    folder.map(|folder| folder.join("last-case"))
 }
