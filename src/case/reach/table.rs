@@ -1,6 +1,8 @@
 //! The one table of what each value of a solve reads: fields, and other values.
 
-use crate::model::Stage::{self, Band, Compliance, Deviation, Friction, Geometry, Impact, Load, Position, Velocity};
+use crate::model::Stage::{
+    self, Band, Compliance, Deviation, Dynamic, Friction, Geometry, Impact, Load, Mesh, Position, Static, Stations, Velocity,
+};
 use crate::model::compliance::model_of;
 use crate::model::inputs::{ContactCompliance, Drive, Inputs, Rung, ToothCompliance};
 
@@ -38,8 +40,17 @@ const fn always(_: &Inputs) -> bool {
     true
 }
 
-fn exact(inputs: &Inputs) -> bool {
-    inputs.rung == Rung::Exact
+/// Whether the rung stands on one impact, and not on the load that every pair shares.
+fn by_impact(inputs: &Inputs) -> bool {
+    !inputs.rung.shares_load()
+}
+
+fn by_sharing(inputs: &Inputs) -> bool {
+    inputs.rung.shares_load()
+}
+
+fn not_paper(inputs: &Inputs) -> bool {
+    !paper(inputs)
 }
 
 fn paper(inputs: &Inputs) -> bool {
@@ -59,7 +70,7 @@ fn distance_free(inputs: &Inputs) -> bool {
 }
 
 fn deflection_free(inputs: &Inputs) -> bool {
-    inputs.deflection.is_none()
+    inputs.deflection.is_none() || inputs.rung.shares_load()
 }
 
 fn method_free(inputs: &Inputs) -> bool {
@@ -76,6 +87,15 @@ fn by_logarithm(inputs: &Inputs) -> bool {
 
 fn by_depth(inputs: &Inputs) -> bool {
     inputs.contact_compliance == ContactCompliance::Weber
+}
+
+fn with_inertia(inputs: &Inputs) -> bool {
+    inputs.rung == Rung::Dynamic
+}
+
+/// Whether the pressing of a tip's edge counts off the line of action.
+fn tips_press(inputs: &Inputs) -> bool {
+    by_sharing(inputs) && by_half_width(inputs)
 }
 
 fn by_half_width(inputs: &Inputs) -> bool {
@@ -115,10 +135,12 @@ pub(super) static ROWS: &[Row] = &[
     part("contact_stiffness", by_half_width, &["*.face_width"]),
     part("contact_stiffness", by_logarithm, &["pair.module"]),
     part("contact_stiffness", by_depth, &["profile"]),
-    row("equivalent_error", Deviation, always, &["deviations.base_pitch", "deviations.backlash", "driven.tip_relief", "driver.root_relief", "model.rung"]),
-    row("combined_deflection", Deviation, always, &["model.deflection"]),
+    row("equivalent_error", Deviation, always, &["deviations.base_pitch", "deviations.backlash", "model.rung"]),
+    row("equivalent_error", Deviation, by_impact, &["driven.tip_relief", "driver.root_relief"]),
+    row("combined_deflection", Deviation, always, &["model.rung"]),
+    row("combined_deflection", Deviation, by_impact, &["model.deflection"]),
     row("combined_deflection", Deviation, deflection_free, &["mesh_force", "start_of_contact", "end_of_contact", "base_pitch", "tooth_stiffness", "contact_stiffness", "*.face_width"]),
-    row("total_deviation", Deviation, always, &["equivalent_error", "combined_deflection"]),
+    row("total_deviation", Deviation, always, &["equivalent_error", "combined_deflection", "driven.tip_relief", "driver.root_relief"]),
 
     row("approach_angle_driven", Position, always, &["total_deviation", "start_of_contact", "model.rung"]),
     row("approach_angle_driven", Position, paper, &["base_pitch"]),
@@ -151,7 +173,7 @@ pub(super) static ROWS: &[Row] = &[
     row("impact_duration_spring", Impact, always, &["effective_mass", "pair_compliance", "*.face_width"]),
     row("impact_duration", Impact, always, &["model.rung"]),
     row("impact_duration", Impact, paper, &["impact_duration_printed"]),
-    row("impact_duration", Impact, exact, &["impact_duration_spring"]),
+    row("impact_duration", Impact, not_paper, &["impact_duration_spring"]),
     row("impulse_ratio", Impact, always, &["impact_force", "impact_duration", "effective_mass", "normal_velocity"]),
 
     row("friction_ratio", Friction, always, &["approach_angle_driven", "operation.speed", "impact_force", "impact_duration_printed", "reduced_mass", "model.rung"]),
@@ -160,5 +182,33 @@ pub(super) static ROWS: &[Row] = &[
     row("impact_force_low", Band, always, &["impact_force", "every_model", "curvature_radius"]),
     row("impact_force_high", Band, always, &["impact_force", "every_model", "curvature_radius"]),
 
-    row("stations", Stage::Stations, always, &["impact_force", "model.stations"]),
+    row("stations", Stations, always, &["model.rung"]),
+    row("stations", Stations, by_impact, &["impact_force", "model.stations"]),
+
+    part("reliefs", always, &["*.tip_relief", "*.root_relief", "*.tip_relief_length", "*.root_relief_length", "start_of_contact", "end_of_contact", "contact_ratio"]),
+    row("mesh_stiffness", Mesh, always, &["model.rung"]),
+    row("mesh_stiffness", Mesh, by_sharing, &["mesh_force", "start_of_contact", "end_of_contact", "base_pitch", "tooth_stiffness", "contact_stiffness", "*.face_width", "reliefs"]),
+    part("mesh", by_sharing, &["mesh_stiffness", "reliefs", "model.relief_shape", "equivalent_error", "combined_deflection", "operation.friction_coefficient"]),
+    part("edges", tips_press, &["*.tip_radius"]),
+    row("static_first_contact_angle", Static, by_sharing, &["mesh"]),
+    row("static_first_contact_angle", Static, tips_press, &["driver.tip_radius"]),
+    row("static_force_at_start", Static, by_sharing, &["mesh", "edges"]),
+    row("static_peak_force", Static, by_sharing, &["mesh", "edges"]),
+    row("static_last_contact_angle", Static, by_sharing, &["mesh"]),
+    row("static_last_contact_angle", Static, tips_press, &["driven.tip_radius"]),
+    row("static_transmission_error", Static, by_sharing, &["mesh", "edges"]),
+    row("pitch_contact_jump", Static, by_sharing, &["mesh", "edges"]),
+    row("static_stations", Static, always, &["model.rung"]),
+    row("static_stations", Static, by_sharing, &["mesh", "edges", "model.stations", "operation.speed"]),
+
+    part("motion", with_inertia, &["mesh", "edges", "masses", "operation.speed", "model.damping_ratio", "model.warmup_cycles", "model.tolerance"]),
+    row("dynamic_first_contact_angle", Dynamic, always, &["motion"]),
+    row("dynamic_peak_approach_force", Dynamic, always, &["motion"]),
+    row("dynamic_peak_force", Dynamic, always, &["motion"]),
+    row("dynamic_impact_duration", Dynamic, always, &["motion"]),
+    row("dynamic_last_contact_angle", Dynamic, always, &["motion"]),
+    row("dynamic_contact_lost", Dynamic, always, &["motion"]),
+    row("dynamic_friction_work", Dynamic, always, &["motion"]),
+    row("dynamic_stations", Dynamic, always, &["model.rung"]),
+    row("dynamic_stations", Dynamic, with_inertia, &["motion", "model.stations"]),
 ];

@@ -15,6 +15,7 @@ pub(super) static TABLE: &[Explanation] = &[
         formula: By(|k| match k.inputs.rung {
             Rung::Paper => Text("(2 f_pb + e_m - j_bn)/√2"),
             Rung::Exact => Text("(2 f_pb - j_bn)/√2 + e_m"),
+            Rung::Static | Rung::Dynamic => Text("(2 f_pb - j_bn)/√2"),
         }),
         source: "Zhou & Chen 2014, Eqs. 1 and 2.",
         mended: &["Eq. 1"],

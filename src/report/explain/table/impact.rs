@@ -56,7 +56,7 @@ pub(super) static TABLE: &[Explanation] = &[
         says: "How long the impact lasts, as the rung has it.",
         formula: By(|k| match k.inputs.rung {
             Rung::Paper => Text("T_S,32"),
-            Rung::Exact => Text("T_S,q"),
+            _ => Text("T_S,q"),
         }),
         source: "Rung paper: Zhou & Chen 2014, Eq. 32. Rung exact: half a period of the spring and mass that give F_S.",
         mended: &["Eq. 32"],

@@ -13,7 +13,7 @@ pub(super) static TABLE: &[Explanation] = &[
         says: "How far the driver has still to turn from the first touch D to E, where contact should begin.",
         formula: By(|k| match k.inputs.rung {
             Rung::Paper => Text("ε_e + ε_d"),
-            Rung::Exact => Text("i u"),
+            _ => Text("i u"),
         }),
         source: "Zhou & Chen 2014, Eqs. 11-20. Rung exact: the contact condition S(u) = Δ of the two involutes (see \
             approach_angle_driven), and Eq. 11.",
@@ -27,7 +27,7 @@ pub(super) static TABLE: &[Explanation] = &[
             driver's flank, along the contact normal, that Δ has to close.",
         formula: By(|k| match k.inputs.rung {
             Rung::Paper => Text("θ_1/i"),
-            Rung::Exact => Solved {
+            _ => Solved {
                 equation: "S(u) = Δ,  S(u) = Δρ_1 + r_b2 u - r_b1 Δχ",
                 left: "Δρ_1 + r_b2 u - r_b1 Δχ",
                 right: "Δ",
