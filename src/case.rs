@@ -3,6 +3,7 @@
 mod check;
 pub mod fields;
 pub mod file;
+pub mod reach;
 pub mod spread;
 mod suggest;
 pub mod units;
@@ -85,6 +86,17 @@ impl Case {
             fields::Absent::Default(text) => Some(text).filter(|text| !text.is_empty()),
             fields::Absent::Without(words) => Some(words),
             fields::Absent::Refused | fields::Absent::Either(_) => None,
+        }
+    }
+
+    /// The value in SI that holds in a field of numbers; `None` where the model does without or the text is no value.
+    #[must_use]
+    pub fn value(&self, field: usize) -> Option<f64> {
+        let text = self.effective(field)?;
+        match FIELDS[field].kind {
+            fields::Kind::Number(dimension, range, _) => units::parse(text, dimension, range.unit).ok(),
+            fields::Kind::Count(..) => text.trim().parse::<u32>().ok().map(f64::from),
+            fields::Kind::Text | fields::Kind::Choice(..) => None,
         }
     }
 

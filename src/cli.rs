@@ -3,6 +3,7 @@
 mod arguments;
 mod cases;
 mod check;
+mod explain;
 mod new;
 mod shell;
 mod solve;
@@ -10,7 +11,7 @@ mod solve;
 use crate::case::visible::visible;
 use crate::report::fields;
 
-pub use arguments::{Arguments, Check, Command, Fields, Format, Listing, Setting, Solve};
+pub use arguments::{Arguments, Check, Command, Explain, Fields, Format, Listing, Setting, Solve};
 use clap::{CommandFactory, FromArgMatches};
 use std::ffi::OsString;
 use std::io::{self, BufWriter, Write};
@@ -97,6 +98,7 @@ pub fn run(command: &Command, streams: &mut Streams) -> Exit {
     let done = match command {
         Command::Solve(options) => solve::run(options, streams),
         Command::Check(options) => check::run(options, streams),
+        Command::Explain(options) => explain::run(options, streams),
         Command::Fields(options) => list_fields(options, streams.output.as_mut()),
         Command::New { file } => new::run(file.as_deref(), streams),
         Command::Completions { shell } => shell::completions(*shell, streams.output.as_mut()),

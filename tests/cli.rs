@@ -283,11 +283,13 @@ fn no_control_of_a_file_or_a_name_reaches_the_terminal() {
     let path = path.to_str().unwrap();
     let broken = folder.path().join("\u{1b}]0;\u{7}.toml");
     fs::write(&broken, hostile.replace("teeth", "te\u{1b}eth")).unwrap();
-    let runs: [&[&str]; 7] = [
+    let runs: [&[&str]; 9] = [
         &["solve", path],
         &["solve", path, "--format", "json"],
         &["solve", path, "--format", "csv"],
         &["check", path],
+        &["explain", "impact_force", path],
+        &["explain", "impact_force", path, "--format", "json"],
         &["solve", broken.to_str().unwrap()],
         &["solve", "no-such\u{9b}file"],
         &["solve", TABLE_1, "--\u{1b}[2J"],
@@ -334,6 +336,46 @@ fn the_fields_are_listed_for_people_and_for_scripts() {
     let fields: Vec<Value> = lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     assert_eq!(fields.len(), tipstrike::case::FIELDS.len());
     assert!(told(&["fields", "--results"]).contains("impact_force "));
+}
+
+#[test]
+fn a_quantity_is_explained_for_people_and_for_scripts() {
+    let page = told(&["explain", "impact_force"]);
+    assert!(page.starts_with("impact force, F_S (Eq. 57)\nF_S = 2191.0 N\n"), "{page}");
+    assert!(page.contains("F_S = ΔV_n √(b M/q_s)"), "{page}");
+    assert_eq!(
+        told(&["explain", "impact_force", TABLE_1]).lines().skip(3).collect::<Vec<_>>(),
+        page.lines().skip(3).collect::<Vec<_>>()
+    );
+    let paper = json(&["explain", "approach_angle_driver", TABLE_1, "--rung", "paper", "--format", "json"]);
+    assert_eq!((&paper["key"], &paper["rung"]), (&"approach_angle_driver".into(), &"paper".into()));
+    assert_eq!(paper["work"][0]["formula"], "ε_e + ε_d");
+    assert_eq!(paper["work"][0]["numbers"], "0.0272067 deg + 0.0253680 deg");
+    assert_eq!((&paper["valid"][0]["holds"], &paper["mended"][0]["equation"]), (&false.into(), &"Eqs. 7-20".into()));
+    let faster = json(&["explain", "normal_velocity", "--set", "operation.speed=4000 rpm", "--format", "json"]);
+    let effect = faster["depends_on"].as_array().unwrap().iter().find(|effect| effect["key"] == "operation.speed").unwrap();
+    assert_eq!((&effect["text"], &effect["change"]), (&"4000 rpm".into(), &"+1.00 %".into()));
+    let on_time = told(&["explain", "impact_force", "cases/tip-relief-enough.toml"]);
+    assert!(on_time.contains("No value: no corner contact"), "{on_time}");
+    assert!(
+        told(&["fields", "--results"])
+            .ends_with("`tipstrike explain KEY [CASE]` shows how one is found, with the numbers of a case.\n")
+    );
+}
+
+#[test]
+fn what_cannot_be_explained_is_refused_as_a_solve_is() {
+    for (arguments, exit, says) in [
+        (&["explain", "impact_forc"][..], 2, "'impact_force'"),
+        (&["explain"], 2, "QUANTITY"),
+        (&["explain", "impact_force", "--set", "pair.modul=5 mm"], 2, "pair.module"),
+        (&["explain", "impact_force", "--set", "pair.centre_distance=80 mm"], 3, "pair.centre_distance"),
+        (&["explain", "impact_force", "no-such-file.toml"], 5, "no-such-file.toml"),
+    ] {
+        let output = run(arguments);
+        assert_eq!((code(&output), out(&output).as_str()), (exit, ""), "{arguments:?}");
+        assert!(err(&output).contains(says), "{arguments:?}: {}", err(&output));
+    }
 }
 
 #[test]

@@ -32,6 +32,8 @@ pub enum Command {
     Solve(Solve),
     /// Hold each case's [limits] against its results, a verdict a line
     Check(Check),
+    /// Explain a quantity of a case: formula, numbers, source, range, and what it depends on
+    Explain(Explain),
     /// List every field of a case with its unit, range, default and meaning
     Fields(Fields),
     /// Write a commented case to start from
@@ -84,6 +86,26 @@ pub struct Check {
     pub cases: Vec<PathBuf>,
 }
 
+/// What `explain` is asked.
+#[derive(Debug, Args)]
+pub struct Explain {
+    /// The quantity; `tipstrike fields --results` lists them
+    #[arg(value_name = "QUANTITY", hide_possible_values = true, value_parser = quantities())]
+    pub quantity: &'static Quantity,
+    /// The case file, - for standard input; else Table 1 of Zhou & Chen 2014
+    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub case: Option<PathBuf>,
+    /// Solve on this rung instead of the case's
+    #[arg(long, value_parser = rungs())]
+    pub rung: Option<Rung>,
+    /// Change a field of the case, such as "operation.speed=3000 rpm"
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
+    pub settings: Vec<Setting>,
+    /// How to tell it
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Listing,
+}
+
 /// What `fields` is asked.
 #[derive(Debug, Args)]
 pub struct Fields {
@@ -107,10 +129,10 @@ pub enum Format {
     Csv,
 }
 
-/// How a list is told.
+/// How a list or a page is told.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub enum Listing {
-    /// A table for a person
+    /// For a person
     #[default]
     Text,
     /// An object a line
