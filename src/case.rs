@@ -1,6 +1,7 @@
 //! The document: a case as the user wrote it, checked against the one table of fields.
 
 mod check;
+pub mod evaluate;
 pub mod fields;
 pub mod file;
 pub mod reach;
@@ -11,6 +12,7 @@ pub mod visible;
 
 use crate::model::{Inputs, QUANTITIES, Quantity};
 pub use check::Problem;
+pub use evaluate::Evaluator;
 pub use fields::{FIELDS, Field};
 pub use file::Document;
 pub use spread::Spread;

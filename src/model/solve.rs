@@ -53,7 +53,7 @@ pub fn solve_after(
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Solution, Refusal> {
     if inputs.rung == Rung::Auto {
-        return solve_by_choice(inputs, wanted, earlier, go_on);
+        return solve_by_choice(inputs, wanted, go_on);
     }
     let earlier = earlier.filter(|earlier| earlier.solution.rung == inputs.rung);
     let solving = Solving { inputs, wanted: wanted.within(inputs.rung.stages()), earlier, precise: OnceCell::new() };
@@ -61,16 +61,11 @@ pub fn solve_after(
 }
 
 /// Solve with the rung that the closed form calls for. One that is too slow to be followed in time is at rest.
-fn solve_by_choice(
-    inputs: &Inputs,
-    wanted: Stages,
-    earlier: Option<Earlier<'_>>,
-    go_on: &dyn Fn(f64) -> bool,
-) -> Result<Solution, Refusal> {
+fn solve_by_choice(inputs: &Inputs, wanted: Stages, go_on: &dyn Fn(f64) -> bool) -> Result<Solution, Refusal> {
     let read = wanted.within(Stages::CLOSED_FORM).and(auto::READS);
     let closed_form = solve(&auto::taken(inputs, Rung::Exact), read);
     let choice = auto::choose(inputs, &closed_form);
-    let solved = |rung: Rung| solve_after(&auto::taken(inputs, rung), wanted, earlier, go_on);
+    let solved = |rung: Rung| solve_while(&auto::taken(inputs, rung), wanted, go_on);
     let mut solution = match choice.rung {
         Rung::Exact if read.covers(wanted.within(Rung::Exact.stages())) => closed_form,
         rung => match solved(rung) {

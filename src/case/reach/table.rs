@@ -57,6 +57,10 @@ fn paper(inputs: &Inputs) -> bool {
     inputs.rung == Rung::Paper
 }
 
+fn as_needed(inputs: &Inputs) -> bool {
+    inputs.stations.is_none()
+}
+
 fn by_power(inputs: &Inputs) -> bool {
     matches!(inputs.drive, Drive::Power(_))
 }
@@ -189,6 +193,7 @@ pub(super) static ROWS: &[Row] = &[
     row("mesh_stiffness", Mesh, always, &["model.rung"]),
     row("mesh_stiffness", Mesh, by_sharing, &["mesh_force", "start_of_contact", "end_of_contact", "base_pitch", "tooth_stiffness", "contact_stiffness", "*.face_width", "reliefs"]),
     part("mesh", by_sharing, &["mesh_stiffness", "reliefs", "model.relief_shape", "equivalent_error", "combined_deflection", "operation.friction_coefficient"]),
+    row("pairs_along_the_line", Mesh, by_sharing, &["mesh", "edges", "operation.speed"]),
     part("edges", tips_press, &["*.tip_radius"]),
     row("static_first_contact_angle", Static, by_sharing, &["mesh"]),
     row("static_first_contact_angle", Static, tips_press, &["driver.tip_radius"]),
@@ -199,6 +204,9 @@ pub(super) static ROWS: &[Row] = &[
     row("static_transmission_error", Static, by_sharing, &["mesh", "edges"]),
     row("pitch_contact_jump", Static, by_sharing, &["mesh", "edges"]),
     row("static_stations", Static, always, &["model.rung"]),
+    row("stations", Stations, as_needed, &["model.station_tolerance"]),
+    row("static_stations", Static, as_needed, &["model.station_tolerance"]),
+    row("dynamic_stations", Dynamic, as_needed, &["model.station_tolerance"]),
     row("static_stations", Static, by_sharing, &["mesh", "edges", "model.stations", "operation.speed"]),
 
     part("motion", with_inertia, &["mesh", "edges", "masses", "operation.speed", "model.damping_ratio", "model.warmup_cycles", "model.tolerance"]),

@@ -12,9 +12,9 @@ pub(super) static TABLE: &[Explanation] = &[
         key: "equivalent_error",
         says: "What the gears' own deviations bring the incoming tooth in early, along the line of action. Relief counts \
             against it.",
-        formula: By(|k| match k.inputs.rung {
+        formula: By(|k| match k.solution.rung {
             Rung::Paper => Text("(2 f_pb + e_m - j_bn)/√2"),
-            Rung::Exact => Text("(2 f_pb - j_bn)/√2 + e_m"),
+            Rung::Exact | Rung::Auto => Text("(2 f_pb - j_bn)/√2 + e_m"),
             Rung::Static | Rung::Dynamic => Text("(2 f_pb - j_bn)/√2"),
         }),
         source: "Zhou & Chen 2014, Eqs. 1 and 2.",
