@@ -1,14 +1,17 @@
 //! The document: a case as the user wrote it, checked against the one table of fields.
 
+pub mod changes;
 mod check;
 pub mod fields;
 pub mod file;
+pub mod journal;
 pub mod spread;
 mod suggest;
 pub mod units;
 pub mod visible;
 
 use crate::model::{Inputs, QUANTITIES, Quantity};
+pub use changes::Change;
 pub use check::Problem;
 pub use fields::{FIELDS, Field};
 pub use file::Document;
