@@ -19,7 +19,8 @@ pub struct Change {
 pub fn between(from: &Case, to: &Case) -> Vec<Change> {
     let (old, new) = (texts(from), texts(to));
     let find = |texts: &[(String, String)], key: &str| texts.iter().find(|(own, _)| own == key).map(|(_, text)| text.clone());
-    let mut keys: Vec<&String> = FIELDS.iter().filter_map(|field| old.iter().chain(&new).map(|(key, _)| key).find(|key| *key == field.key)).collect();
+    let mut keys: Vec<&String> =
+        FIELDS.iter().filter_map(|field| old.iter().chain(&new).map(|(key, _)| key).find(|key| *key == field.key)).collect();
     for (key, _) in old.iter().chain(&new) {
         if !keys.contains(&key) {
             keys.push(key);
@@ -77,7 +78,8 @@ impl Case {
 }
 
 fn texts(case: &Case) -> Vec<(String, String)> {
-    let fields = FIELDS.iter().enumerate().filter_map(|(index, field)| Some((field.key.to_owned(), case.text(index)?.to_owned())));
+    let fields =
+        FIELDS.iter().enumerate().filter_map(|(index, field)| Some((field.key.to_owned(), case.text(index)?.to_owned())));
     let limits = case.limits.iter().map(|limit| (format!("limits.{}", limit.quantity), limit.text.clone()));
     let spreads = case.spread.iter().map(|held| (spread::place(held.field), format!("{} {}", held.shape.name(), held.text)));
     fields.chain(limits).chain(spreads).collect()
@@ -100,7 +102,8 @@ mod tests {
 
     #[test]
     fn the_changes_between_two_cases_turn_the_one_into_the_other() {
-        let pairs = [(Case::table_1(), varied()), (varied(), Case::table_1()), (Case::empty(), varied()), (varied(), Case::empty())];
+        let pairs =
+            [(Case::table_1(), varied()), (varied(), Case::table_1()), (Case::empty(), varied()), (varied(), Case::empty())];
         for (from, to) in pairs {
             let mut case = from.clone();
             let changes = between(&from, &to);
@@ -118,7 +121,9 @@ mod tests {
     #[test]
     fn keys_without_a_field_are_refused_and_change_nothing() {
         let mut case = Case::table_1();
-        for (key, text) in [("pair.modul", "5 mm"), ("limits.force", "5 N"), ("spread.\"title\"", "normal 1"), ("limits.impact_force", "x")] {
+        for (key, text) in
+            [("pair.modul", "5 mm"), ("limits.force", "5 N"), ("spread.\"title\"", "normal 1"), ("limits.impact_force", "x")]
+        {
             assert!(case.apply(key, Some(text)).is_err(), "{key}");
         }
         assert_eq!(case, Case::table_1());

@@ -6,6 +6,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 use ratatui::layout::Size;
 use tui_input::InputRequest;
 
+use super::recovery::Claim;
 use super::solver::Answer;
 use super::store::{Entry, SaveFault};
 use crate::case::Document;
@@ -31,6 +32,10 @@ pub enum Action {
     Saved(PathBuf, Next, Result<Box<Document>, SaveFault>),
     /// What stands in a folder.
     Listed(String, Vec<Entry>),
+    /// What was found out about a case that was opened.
+    Claimed(Box<Claim>),
+    /// Something that the user must know goes wrong.
+    Warned(String),
 }
 
 /// What comes after a save or a decision to lose the edits.

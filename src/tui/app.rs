@@ -8,6 +8,7 @@ use tui_input::Input;
 
 use super::actions::Place;
 use super::prompt::Prompt;
+use super::recovery::Access;
 use super::scale::Scale;
 use super::solver::{self, Answer, Request};
 use super::theme::Look;
@@ -27,6 +28,8 @@ pub struct App {
     pub case: Case,
     /// The case as the file has it.
     pub saved: Case,
+    /// Whether the file may be written.
+    pub access: Access,
     /// The focused field.
     pub focus: usize,
     /// The text of the focused field, and the cursor in it.
@@ -101,6 +104,7 @@ impl App {
             case,
             document,
             path,
+            access: Access::default(),
             focus: 0,
             input: Input::default(),
             history: History::default(),

@@ -2,6 +2,7 @@
 
 mod edit;
 mod files;
+mod recovery;
 
 use std::path::PathBuf;
 
@@ -30,6 +31,10 @@ pub enum Effect {
     List(String),
     /// Open this case when the workbench starts the next time.
     Remember(PathBuf),
+    /// The edits of this journal are in the form now.
+    Adopt(PathBuf),
+    /// The edits of this journal are not wanted.
+    Forget(PathBuf),
     /// Draw every cell anew.
     Redraw,
     /// Give the terminal back to the shell, until it brings us back.
@@ -91,6 +96,11 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
         Action::Loaded(path, result) => files::loaded(app, path, result),
         Action::Saved(path, next, result) => files::saved(app, path, next, result),
         Action::Listed(folder, entries) => files::listed(app, &folder, entries),
+        Action::Claimed(claim) => recovery::claimed(app, *claim),
+        Action::Warned(text) => {
+            app.complain(text);
+            Vec::new()
+        }
     }
 }
 

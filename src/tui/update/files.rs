@@ -4,12 +4,13 @@ use std::path::PathBuf;
 
 use tui_input::Input;
 
-use super::{Effect, Over, Saving, solve};
+use super::{Effect, Over, Saving, recovery, solve};
 use crate::case::Document;
 use crate::tui::actions::Next;
 use crate::tui::app::{App, History};
 use crate::tui::clean;
 use crate::tui::prompt::{Browser, Choice, Page, Prompt, Question};
+use crate::tui::recovery::Access;
 use crate::tui::store::{self, Entry, SaveFault};
 
 /// Go on when nothing is unsaved, else ask.
@@ -75,6 +76,8 @@ pub(super) fn choose(app: &mut App, choice: Choice) -> Vec<Effect> {
         Choice::Save(next) => save(app, next),
         Choice::Proceed(next) => go(app, next),
         Choice::Overwrite(path, next) => vec![saving(app, path, Over::Anything, next)],
+        Choice::Recover(offer) => recovery::recover(app, &offer),
+        Choice::Forget(journal) => vec![Effect::Forget(journal)],
         Choice::SaveAs(next) => {
             if !matches!(app.prompts.last(), Some(Prompt::SaveAs(..))) {
                 return ask_where(app, next);
@@ -150,7 +153,8 @@ pub(super) fn saved(app: &mut App, path: PathBuf, next: Next, result: Result<Box
             return effects;
         }
         Err(SaveFault::Exists) => app.prompts.push(Prompt::Ask(Question::exists(&path, &next))),
-        Err(SaveFault::Changed) => app.prompts.push(Prompt::Ask(Question::changed(&path, &next))),
+        Err(SaveFault::Changed(lines)) => app.prompts.push(Prompt::Ask(Question::changed(&path, lines, &next))),
+        Err(SaveFault::Held(holder)) => app.prompts.push(Prompt::Ask(Question::held(&path, &holder, &next))),
         Err(SaveFault::Failed(reason)) => app.complain(format!("not saved: {reason}")),
     }
     Vec::new()
@@ -179,6 +183,7 @@ fn show(app: &mut App, document: Document, path: Option<PathBuf>) -> Vec<Effect>
     app.saved = document.case.clone();
     app.document = document;
     app.path = path;
+    app.access = Access::default();
     app.history = History::default();
     app.results_top = 0;
     solve(app.replace_case(app.saved.clone(), app.focus))

@@ -17,7 +17,7 @@ use crate::tui::clean::symbol;
 pub fn header(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.look.theme;
     let mut spans = vec![Span::styled("tipstrike", theme.title), Span::raw("  ")];
-    let mark = if app.is_unsaved() { " *unsaved*" } else { "" };
+    let mark = [if app.is_unsaved() { " *unsaved*" } else { "" }, app.access.mark()].concat();
     let room = usize::from(area.width).saturating_sub(11 + mark.width());
     spans.push(Span::raw(text::cut(&app.name(), room)));
     spans.push(Span::styled(mark, theme.note));

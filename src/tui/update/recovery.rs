@@ -1,0 +1,42 @@
+//! What comes of a claim: who else has the case open is told, and kept edits are offered.
+
+use super::{Effect, solve};
+use crate::tui::app::App;
+use crate::tui::prompt::{Prompt, Question};
+use crate::tui::recovery::{Access, Claim, Offer};
+
+/// A case was opened, and this was found out about it.
+pub(super) fn claimed(app: &mut App, claim: Claim) -> Vec<Effect> {
+    let Claim { access, offers, notices, .. } = claim;
+    match &access {
+        Access::Held(holder) => app.complain(format!("read-only: open in {holder}; F2 saves under another name")),
+        Access::Own if app.access != Access::Own => app.say("the other session has ended: the file may be written"),
+        Access::Own => {}
+    }
+    app.access = access;
+    if let Some(notice) = notices.into_iter().next() {
+        app.complain(notice);
+    }
+    let name = app.name();
+    // The latest on top.
+    app.prompts.extend(offers.into_iter().rev().map(|offer| Prompt::Ask(Question::recover(&name, offer))));
+    Vec::new()
+}
+
+/// The kept edits go into the form; undo takes them out again.
+pub(super) fn recover(app: &mut App, offer: &Offer) -> Vec<Effect> {
+    let mut case = app.case.clone();
+    let refused: Vec<_> = offer.changes.iter().filter_map(|change| case.apply(&change.key, change.to.as_deref()).err()).collect();
+    app.history.end_visit();
+    app.history.before_edit(&app.case, app.focus);
+    let mut effects = solve(app.replace_case(case, app.focus));
+    match refused.first() {
+        // What does not fit stays in the journal.
+        Some(problem) => app.complain(format!("not all of it is back, and the journal stays: {problem}")),
+        None => {
+            app.say("the edits are back, not saved yet");
+            effects.push(Effect::Adopt(offer.journal.clone()));
+        }
+    }
+    effects
+}
