@@ -6,7 +6,6 @@ mod tty;
 
 use std::fs;
 use std::process::{Command, Stdio};
-use std::thread;
 use std::time::Duration;
 
 use tty::{Launch, PROGRAM, TABLE_1, Tty};

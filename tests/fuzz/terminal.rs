@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use proptest::sample::{Index, select};
 
 use crate::hold;
-use crate::tty::{PATIENCE, Tty};
+use crate::tty::{PATIENCE, Tty, journals};
 
 /// The program has taken what came when it writes nothing for so long. Longer than it waits for the rest of a sequence.
 const QUIET: Duration = Duration::from_millis(90);
@@ -112,6 +112,7 @@ fn words(tty: &Tty) -> String {
 fn assert_nothing_left(tty: &Tty) {
     let left = Command::new("ps").args(["-o", "pid=", "-s", &tty.id().to_string()]).output().expect("ps is there");
     assert_eq!(String::from_utf8_lossy(&left.stdout).trim(), "", "a process is left");
+    assert!(journals(tty.folder.path()).is_empty(), "edits that were thrown away are kept");
     let case = fs::read_to_string(tty.case()).expect("the case is there");
     assert!(tipstrike::case::Document::parse("case.toml", &case).is_ok(), "what is saved opens again: {case}");
 }

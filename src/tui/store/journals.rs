@@ -44,12 +44,20 @@ impl Journals {
     pub(super) fn begin(&self) -> io::Result<(String, Lock)> {
         state::make(&self.journals)?;
         state::make(&self.sessions)?;
+        self.clear_sessions();
         let file = tempfile::Builder::new().prefix("").rand_bytes(10).tempfile_in(&self.sessions)?;
         let name = file.path().file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
         match Lock::take(file.path())? {
             Taken::Ours(lock) => file.keep().map(|_| (name, lock)).map_err(|error| error.error),
             Taken::Held(_) => Err(io::Error::other("the name of the session is taken")),
         }
+    }
+
+    // A session that was killed could not take its own lock away.
+    fn clear_sessions(&self) {
+        let ended = |path: &PathBuf| !Lock::is_held(path);
+        let places = fs::read_dir(&self.sessions).into_iter().flatten().flatten().map(|entry| entry.path());
+        places.filter(ended).for_each(|path| drop(fs::remove_file(path)));
     }
 
     /// Where a session keeps the edits of a case; `number` tells its cases without a file apart.

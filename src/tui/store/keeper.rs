@@ -154,7 +154,7 @@ impl Keeper {
             Some(holder) => Claim::of(sheet.id, Access::Held(words(holder.as_ref()))),
             None => self.found(sheet),
         };
-        (!claim.is_silent()).then_some(claim)
+        (sheet.is_held || !claim.is_silent()).then_some(claim)
     }
 
     // A save may have found that the other session has ended; or the same file was opened anew.

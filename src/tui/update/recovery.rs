@@ -8,10 +8,8 @@ use crate::tui::recovery::{Access, Claim, Offer};
 /// A case was opened, and this was found out about it.
 pub(super) fn claimed(app: &mut App, claim: Claim) -> Vec<Effect> {
     let Claim { access, offers, notices, .. } = claim;
-    match &access {
-        Access::Held(holder) => app.complain(format!("read-only: open in {holder}; F2 saves under another name")),
-        Access::Own if app.access != Access::Own => app.say("the other session has ended: the file may be written"),
-        Access::Own => {}
+    if let Access::Held(holder) = &access {
+        app.complain(format!("read-only: open in {holder}; F2 saves under another name"));
     }
     app.access = access;
     if let Some(notice) = notices.into_iter().next() {
