@@ -173,7 +173,7 @@ fn text_in<'t>(table: &'t Table, key: &str) -> Option<&'t str> {
 
 // A path need not be text.
 fn hex(path: &Path) -> String {
-    path.as_os_str().as_bytes().iter().map(|byte| format!("{byte:02x}")).collect()
+    path.as_os_str().as_bytes().iter().fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
 }
 
 fn from_hex(text: &str) -> Option<PathBuf> {

@@ -91,7 +91,7 @@ impl Journals {
                 Err(Untrusted::Unread(error)) => {
                     found.notices.push(format!("unsaved edits in {} cannot be read: {error}", shown(&path)));
                 }
-                Err(Untrusted::Fault(fault)) => found.notices.extend(set_aside(&path, &fault)),
+                Err(Untrusted::Fault(fault)) => found.notices.push(set_aside(&path, &fault)),
             }
         }
         found.journals.sort_by_key(|(_, journal)| std::cmp::Reverse(journal.written));
@@ -145,13 +145,13 @@ fn read(path: &Path) -> Result<Journal, Untrusted> {
     Journal::from_text(&text).map_err(Untrusted::Fault)
 }
 
-// What tells it; nothing where it is told already, and left to be told again where it cannot be moved.
-fn set_aside(path: &Path, fault: &JournalFault) -> Option<String> {
+// In words. One that cannot be moved stays, and is told again.
+fn set_aside(path: &Path, fault: &JournalFault) -> String {
     let free =
         (1..100).map(|number| path.with_extension(format!("damaged-{number}"))).find(|name| fs::symlink_metadata(name).is_err());
     let moved = free.and_then(|name| fs::rename(path, &name).ok().map(|()| name));
     let place = moved.unwrap_or_else(|| path.to_owned());
-    Some(format!("unsaved edits of this case were kept, but {fault}: what there is stays in {}", shown(&place)))
+    format!("unsaved edits of this case were kept, but {fault}: what there is stays in {}", shown(&place))
 }
 
 fn shown(path: &Path) -> String {
@@ -162,6 +162,6 @@ fn shown(path: &Path) -> String {
 fn stem(case: Option<&Path>) -> String {
     let Some(case) = case else { return "new-".to_owned() };
     let name = case.file_stem().unwrap_or_default().to_string_lossy();
-    let letters: String = name.chars().filter(|letter| letter.is_ascii_alphanumeric()).take(MOST_LETTERS).collect();
+    let letters: String = name.chars().filter(char::is_ascii_alphanumeric).take(MOST_LETTERS).collect();
     format!("case-{letters}-{:016x}-", hash(std::os::unix::ffi::OsStrExt::as_bytes(case.as_os_str())))
 }

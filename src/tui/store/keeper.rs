@@ -112,7 +112,7 @@ impl Keeper {
     pub fn save(&mut self, mut saving: Saving) -> Action {
         saving.path = expanded(&saving);
         let holder = followed(&saving.path).ok().and_then(|path| self.lock(&path));
-        let result = holder.map_or_else(|| save(&saving), |holder| Err(SaveFault::Held(words(holder.as_ref()))));
+        let result = holder.map_or_else(|| save(&saving), |holder| Err(SaveFault::Held(holder.words(clock::now()))));
         Action::Saved(saving.path, saving.next, result)
     }
 
@@ -132,12 +132,13 @@ impl Keeper {
     fn let_go(&mut self, sheets: &[Sheet<'_>]) {
         let is_open =
             |id: usize, charge: &Charge| sheets.iter().any(|sheet| sheet.id == id && sheet.path == charge.path.as_deref());
-        let gone = self.charges.extract_if(.., |id, charge| !is_open(*id, charge));
-        let pages: Vec<_> = gone.filter_map(|(_, charge)| charge.page).collect();
-        for page in &pages {
-            self.chest.put(page, None);
-            self.chest.ring();
+        for (_, charge) in self.charges.iter().filter(|(id, charge)| !is_open(**id, charge)) {
+            if let Some(page) = &charge.page {
+                self.chest.put(page, None);
+                self.chest.ring();
+            }
         }
+        self.charges.retain(|id, charge| is_open(*id, charge));
         let wanted: Vec<_> = sheets.iter().filter_map(|sheet| lock_of(sheet.path?)).collect();
         self.locks.retain(|place, _| wanted.contains(place));
     }
@@ -151,7 +152,7 @@ impl Keeper {
         self.charges.insert(sheet.id, Charge { path, is_held: holder.is_some(), noted: None, stamp: None, page: None });
         let claim = match holder {
             // Edits left behind are for the session that may save them.
-            Some(holder) => Claim::of(sheet.id, Access::Held(words(holder.as_ref()))),
+            Some(holder) => Claim::of(sheet.id, Access::Held(holder.words(clock::now()))),
             None => self.found(sheet),
         };
         (sheet.is_held || !claim.is_silent()).then_some(claim)
@@ -162,7 +163,7 @@ impl Keeper {
         let is_locked = sheet.path.and_then(lock_of).is_some_and(|place| self.locks.contains_key(&place));
         let charge = self.charges.get(&sheet.id).filter(|charge| charge.is_held && (is_locked || !sheet.is_held))?;
         let holder = charge.path.clone().and_then(|path| self.lock(&path));
-        let access = holder.map_or(Access::Own, |holder| Access::Held(words(holder.as_ref())));
+        let access = holder.map_or(Access::Own, |holder| Access::Held(holder.words(clock::now())));
         if let Some(charge) = self.charges.get_mut(&sheet.id) {
             charge.is_held = access != Access::Own;
         }
@@ -187,7 +188,7 @@ impl Keeper {
     }
 
     // Who has the case open, if it cannot be ours. Where no lock can be made, no save can either.
-    fn lock(&mut self, path: &Path) -> Option<Option<Holder>> {
+    fn lock(&mut self, path: &Path) -> Option<Holder> {
         let place = lock_of(path).filter(|place| !self.locks.contains_key(place))?;
         match Lock::take(&place) {
             Ok(Taken::Held(holder)) => return Some(holder),
@@ -217,13 +218,11 @@ impl Keeper {
 
     fn put(&mut self, sheet: &Sheet<'_>, case: &Case, now: Instant) -> Result<(), String> {
         let Some(journals) = &self.journals else { return Ok(()) };
-        let session = match &self.session {
-            Some((session, _)) => session.clone(),
-            None => {
-                let begun = journals.begin().map_err(|error| format!("edits are not kept for a crash: {error}: save soon"))?;
-                self.session.insert(begun).0.clone()
-            }
-        };
+        if self.session.is_none() {
+            let begun = journals.begin().map_err(|error| format!("edits are not kept for a crash: {error}: save soon"));
+            self.session = Some(begun?);
+        }
+        let session = self.session.as_ref().map(|(session, _)| session.clone()).unwrap_or_default();
         let page = journals.place(sheet.path, &session, sheet.id);
         if let Some(charge) = self.charges.get_mut(&sheet.id) {
             let stands_on = *charge.stamp.get_or_insert_with(|| sheet.document.stamp());
@@ -250,10 +249,6 @@ fn lock_of(path: &Path) -> Option<PathBuf> {
     name.push(path.file_name()?);
     name.push(".tipstrike");
     Some(path.with_file_name(name))
-}
-
-fn words(holder: Option<&Holder>) -> String {
-    holder.map_or_else(|| "another session".to_owned(), |holder| holder.words(clock::now()))
 }
 
 // Other cases for which edits were left behind.

@@ -27,12 +27,12 @@ pub struct Lock {
 pub enum Taken {
     /// It is ours.
     Ours(Lock),
-    /// A living process has it; who, where it says so.
-    Held(Option<Holder>),
+    /// A living process has it.
+    Held(Holder),
 }
 
-/// Who holds a lock.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// Who holds a lock; where it does not say so, the process is 0.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Holder {
     /// The name of the machine.
     pub host: String,
@@ -107,6 +107,9 @@ impl Holder {
     /// In words, for someone who comes upon the lock.
     #[must_use]
     pub fn words(&self, now: u64) -> String {
+        if self.process == 0 {
+            return "a process that does not say which".to_owned();
+        }
         format!("process {} on {} for {}", self.process, self.host, clock::age(now.saturating_sub(self.since)))
     }
 
@@ -146,12 +149,12 @@ impl Holder {
 }
 
 // Who has it, if someone has; after this it is ours if nobody has.
-fn other_holder(file: &mut File) -> Option<Option<Holder>> {
+fn other_holder(file: &mut File) -> Option<Holder> {
     match file.try_lock() {
         Ok(()) => None,
-        Err(TryLockError::WouldBlock) => Some(Holder::read(file)),
+        Err(TryLockError::WouldBlock) => Some(Holder::read(file).unwrap_or_default()),
         // A file system without locks: the holder's own words must do.
-        Err(TryLockError::Error(_)) => Holder::read(file).filter(Holder::is_alive).map(Some),
+        Err(TryLockError::Error(_)) => Holder::read(file).filter(Holder::is_alive),
     }
 }
 
@@ -209,7 +212,7 @@ mod tests {
         let lock = ours(&path);
         assert!(Lock::is_held(&path));
         match Lock::take(&path) {
-            Ok(Taken::Held(Some(holder))) => {
+            Ok(Taken::Held(holder)) => {
                 assert!(holder.is_alive());
                 assert_eq!((holder.process, &holder.host), (std::process::id(), &host()));
                 assert!(!holder.host.is_empty() && !holder.boot.is_empty());

@@ -28,13 +28,11 @@ pub(super) fn recover(app: &mut App, offer: &Offer) -> Vec<Effect> {
     app.history.end_visit();
     app.history.before_edit(&app.case, app.focus);
     let mut effects = solve(app.replace_case(case, app.focus));
-    match refused.first() {
-        // What does not fit stays in the journal.
-        Some(problem) => app.complain(format!("not all of it is back, and the journal stays: {problem}")),
-        None => {
-            app.say("the edits are back, not saved yet");
-            effects.push(Effect::Adopt(offer.journal.clone()));
-        }
+    if let Some(problem) = refused.first() {
+        app.complain(format!("not all of it is back, and the journal stays: {problem}"));
+    } else {
+        app.say("the edits are back, not saved yet");
+        effects.push(Effect::Adopt(offer.journal.clone()));
     }
     effects
 }
