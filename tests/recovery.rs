@@ -82,6 +82,7 @@ fn edits_are_kept_a_second_after_the_last_and_every_two_while_typing() {
     assert_eq!(keeper.deadline(), None, "what is kept wakes nobody");
     keeper.follow(&sheets(&app), start + 3 * SECOND);
     assert_eq!(keeper.deadline(), None, "what is kept is not kept again");
+    keeper.end();
 }
 
 #[test]
