@@ -25,7 +25,7 @@ fn closed_form(criterion: &mut Criterion) {
 }
 
 fn stations(criterion: &mut Criterion) {
-    let inputs = Inputs { stations: 256, ..table_1(Rung::Exact) };
+    let inputs = Inputs { stations: Some(256), ..table_1(Rung::Exact) };
     criterion.bench_function("exact with 256 stations", |bencher| bencher.iter(|| solve(black_box(&inputs), Stages::ALL)));
 }
 

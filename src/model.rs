@@ -3,6 +3,7 @@
 //! Symbols follow Zhou & Chen 2014, "Modeling and Calculation of Impact Friction Caused by Corner Contact in
 //! Gear Transmission", Chin. J. Mech. Eng.; gear 1 is the driver, gear 2 the driven gear. SI units throughout.
 
+pub mod auto;
 pub mod band;
 pub mod compliance;
 pub mod deviation;
@@ -20,12 +21,14 @@ pub mod quantities;
 pub mod relief;
 #[cfg(test)]
 pub(crate) mod sample;
+pub mod spacing;
 pub mod stage;
 pub mod static_load;
 pub mod stations;
 pub mod tip;
 pub mod velocity;
 
+pub use auto::Choice;
 pub use band::Band;
 pub use compliance::TeethCompliance;
 pub use deviation::Deviation;
@@ -75,6 +78,8 @@ impl Outcome {
 pub struct Solution {
     /// How much of the physics was taken in.
     pub rung: Rung,
+    /// Why that much, where the rung `auto` chose.
+    pub choice: Option<Choice>,
     /// Whether the incoming tooth strikes.
     pub outcome: Outcome,
     /// The stages that ran.
@@ -130,6 +135,9 @@ pub fn solve(inputs: &Inputs, wanted: Stages) -> Result<Solution, Refusal> {
 /// # Errors
 /// Those of [`solve`], and [`Refusal::Stopped`] where `go_on` says no.
 pub fn solve_while(inputs: &Inputs, wanted: Stages, go_on: &dyn Fn(f64) -> bool) -> Result<Solution, Refusal> {
+    if inputs.rung == Rung::Auto {
+        return solve_by_choice(inputs, wanted, go_on);
+    }
     let wanted = wanted.within(inputs.rung.stages());
     let plain = geometry::geometry::<f64>(inputs);
     let close_call = plain.map_or(true, |geometry| geometry.is_close_call(inputs));
@@ -140,6 +148,7 @@ pub fn solve_while(inputs: &Inputs, wanted: Stages, go_on: &dyn Fn(f64) -> bool)
     let deviation = deviation::deviation(inputs, &geometry, mesh_force)?;
     let mut solution = Solution {
         rung: inputs.rung,
+        choice: None,
         outcome: if deviation.total.rounded() > 0.0 { Outcome::CornerContact } else { Outcome::NoCornerContact },
         stages: Stages::of(Stage::Deviation),
         geometry,
@@ -171,6 +180,23 @@ pub fn solve_while(inputs: &Inputs, wanted: Stages, go_on: &dyn Fn(f64) -> bool)
     if wanted.has(Stage::Mesh) {
         load_sharing::share(&mut solution, inputs, wanted, go_on)?;
     }
+    Ok(solution)
+}
+
+/// Solve with the rung that the closed form calls for. One that is too slow to be followed in time is at rest.
+fn solve_by_choice(inputs: &Inputs, wanted: Stages, go_on: &dyn Fn(f64) -> bool) -> Result<Solution, Refusal> {
+    let read = wanted.within(Stages::CLOSED_FORM).and(auto::READS);
+    let closed_form = solve(&auto::taken(inputs, Rung::Exact), read);
+    let choice = auto::choose(inputs, &closed_form);
+    let solved = |rung: Rung| solve_while(&auto::taken(inputs, rung), wanted, go_on);
+    let mut solution = match choice.rung {
+        Rung::Exact if read.covers(wanted.within(Rung::Exact.stages())) => closed_form,
+        rung => match solved(rung) {
+            Err(Refusal::TooSlow { .. }) => solved(Rung::Static),
+            found => found,
+        },
+    }?;
+    solution.choice = Some(Choice { rung: solution.rung, ..choice });
     Ok(solution)
 }
 
@@ -211,7 +237,7 @@ impl Solution {
             self.stages = self.stages.with(Stage::Band);
         }
         if wanted.has(Stage::Stations) {
-            (self.stations, self.stations_withheld) = stations::stations(inputs, &geometry, masses, position);
+            (self.stations, self.stations_withheld) = stations::stations(inputs, &geometry, masses, position, impact.force);
             self.stages = self.stages.with(Stage::Stations);
         }
         Ok(())

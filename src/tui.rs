@@ -8,11 +8,17 @@ pub mod actions;
 pub mod app;
 pub mod clean;
 pub mod events;
+pub mod history;
+pub mod pane;
+pub mod pick;
 pub mod prompt;
+pub mod recents;
 pub mod recovery;
 pub mod scale;
+pub mod settings;
 pub mod solver;
 pub mod store;
+pub mod tab;
 pub mod terminal;
 pub mod theme;
 pub mod update;
@@ -23,13 +29,14 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use signal_hook::consts::{SIGCONT, SIGTSTP};
 
 use actions::Action;
 use app::App;
 use events::{Event, Events};
+use settings::Settings;
 use solver::Solver;
 use store::chest::Chest;
 use store::keeper::Keeper;
@@ -41,6 +48,8 @@ use update::{Effect, update};
 const NO_TERMINAL: u8 = 2;
 const TERMINAL_LOST: u8 = 5;
 const PANICKED: u8 = 101;
+/// Time between two pictures of what plays.
+const TICK: Duration = Duration::from_millis(83);
 
 /// The workbench while it runs.
 struct Workbench {
@@ -49,6 +58,8 @@ struct Workbench {
     events: Events,
     solver: Solver,
     keeper: Keeper,
+    /// When the next picture of what plays is due.
+    alarm: Option<Instant>,
 }
 
 /// How the workbench came to its end.
@@ -93,18 +104,22 @@ fn session(case: Option<PathBuf>, events: Events, chest: &Arc<Chest>) -> io::Res
     let last_words = Arc::clone(chest);
     events.listen(move || drop(last_words.write(false)))?;
     let mut screen = Screen::open()?;
+    let settings = Settings::read();
     let look = Look::of(|name| std::env::var_os(name));
-    let mut app = App::new(document, path, look, screen.size()?);
+    let look = settings.look(look, |name| std::env::var_os(name).is_some_and(|value| !value.is_empty()));
+    let mut app = App { settings, ..App::new(document, path, look, screen.size()?) };
+    screen.take_mouse(settings.mouse)?;
     if let Some(trouble) = trouble {
         report(&mut app, trouble);
     }
     screen.draw(&app)?;
     let solver = Solver::start(events.teller())?;
     let keeper = Keeper::new(store::state::folder().as_deref(), Arc::clone(chest));
-    Workbench { app, screen, events, solver, keeper }.stay()
+    Workbench { app, screen, events, solver, keeper, alarm: None }.stay()
 }
 
 fn report(app: &mut App, trouble: Trouble) {
+    app.tab.in_place_of = Some(trouble.path.clone());
     if trouble.was_asked {
         update(app, Action::Loaded(trouble.path, Err(trouble.faults)));
     } else {
@@ -121,7 +136,7 @@ impl Workbench {
             if let Some(end) = self.take(batch)? {
                 break end;
             }
-            batch = self.events.batch(self.keeper.deadline());
+            batch = self.events.batch(self.alarm, self.keeper.deadline());
         };
         if matches!(end, End::Left) {
             self.keeper.end();
@@ -141,6 +156,9 @@ impl Workbench {
                 has_changed = true;
             } else if matches!(event, Event::Lost) {
                 return Ok(Some(End::Lost));
+            }
+            if matches!(event, Event::Tick) {
+                self.alarm = Some(Instant::now() + TICK);
             }
             let Some(action) = events::take_action(&mut events, self.app.place()) else { continue };
             has_changed = true;
@@ -177,6 +195,9 @@ impl Workbench {
                     Effect::Solve(request) => self.solver.ask(*request),
                     Effect::Save(saving) => actions.push(self.keeper.save(*saving)),
                     Effect::Adopt(journal) => self.keeper.adopt(journal),
+                    Effect::Copy(text) => self.screen.copy(&text)?,
+                    Effect::Mouse(takes) => self.screen.take_mouse(takes)?,
+                    Effect::Play(plays) => self.alarm = plays.then(|| Instant::now() + TICK),
                     other => actions.extend(store::perform(other)),
                 }
             }

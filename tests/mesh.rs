@@ -91,7 +91,7 @@ fn static_quantities_and_curves_of_every_row() {
 #[test]
 fn dynamic_quantities_and_curves_of_every_row() {
     for row in rows() {
-        let inputs = Inputs { rung: Rung::Dynamic, tolerance: 1e-10, stations: 4000, ..row.inputs.clone() };
+        let inputs = Inputs { rung: Rung::Dynamic, tolerance: 1e-10, stations: Some(4000), ..row.inputs.clone() };
         let solution = solve(&inputs, Stages::EVERY).unwrap();
         let worst = row.worst(&solution, &DYNAMIC);
         assert!(worst < 1e-9, "{}: off by {worst:e}", row.name);

@@ -58,7 +58,7 @@ fn bench(folder: &Path) -> (App, Keeper, Arc<Chest>) {
 }
 
 fn write(app: &mut App, key: &str, text: &str) {
-    app.case.write(fields::index_of(key).expect("a field"), text);
+    app.tab.case.write(fields::index_of(key).expect("a field"), text);
 }
 
 #[test]
@@ -98,7 +98,7 @@ fn a_journal_is_there_as_long_as_there_are_unsaved_edits() {
     assert_eq!(journal.case.as_deref(), Some(folder.path().join("case.toml").as_path()));
     assert_eq!(journal.changes.len(), 1);
     assert_eq!(journal.changes[0].to.as_deref(), Some("no \u{1b}[2J number"));
-    app.case = app.saved.clone();
+    app.tab.case = app.saved.clone();
     keeper.follow(&sheets(&app), Instant::now());
     keeper.keep();
     assert!(journals(folder.path()).is_empty());
@@ -118,7 +118,7 @@ fn edits_that_cannot_be_kept_are_told() {
     keeper.follow(&sheets(&app), Instant::now());
     write(&mut app, "pair.module", "6 mm");
     let told = keeper.follow(&sheets(&app), Instant::now());
-    assert!(matches!(&told[..], [Action::Warned(text)] if text.contains("save soon")), "{told:?}");
+    assert!(matches!(&told[..], [Action::Failed(text)] if text.contains("save soon")), "{told:?}");
     drop(keeper);
     let mut homeless = Keeper::new(None, Arc::new(Chest::default()));
     let told = homeless.follow(&sheets(&app), Instant::now());

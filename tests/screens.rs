@@ -8,7 +8,7 @@ use desk::{Desk, LARGE, SMALL, TABLE_1};
 use insta::assert_snapshot;
 use ratatui::layout::Size;
 use tipstrike::tui::actions::Action;
-use tipstrike::tui::theme::{Look, PLAIN};
+use tipstrike::tui::theme::{Look, MONO};
 
 #[test]
 fn the_opening_screen() {
@@ -83,7 +83,7 @@ fn the_questions() {
 fn plain_ascii_where_the_terminal_has_nothing_else() {
     for (name, size) in [("ascii_80x24", SMALL), ("ascii_140x45", LARGE)] {
         let mut desk = Desk::new(size);
-        desk.app.look = Look { theme: &PLAIN, ascii: true };
+        desk.app.look = Look { theme: &MONO, ascii: true };
         let screen = desk.screen();
         assert!(screen.is_ascii());
         assert_snapshot!(name, screen);
@@ -104,16 +104,21 @@ fn a_terminal_too_small_says_so_and_keeps_the_state() {
 #[test]
 fn the_chart_alone_and_the_form_without_it() {
     let mut desk = Desk::new(SMALL);
-    desk.keys(&["F5"]);
-    assert!(!desk.shows("roll angle before E in deg"));
-    desk.keys(&["F5"]);
+    desk.keys(&["F9"]);
+    assert!(!desk.shows("driver angle before E in deg"));
+    desk.keys(&["F9", "Esc", "3", "z"]);
     assert_snapshot!("chart_80x24", desk.screen());
 }
 
 #[test]
 fn no_size_is_a_trouble() {
-    let openings: [&[&str]; 9] = [
+    let openings: [&[&str]; 14] = [
         &[],
+        &["Ctrl-P", "th"],
+        &["Esc", "3", "l", "z"],
+        &["Esc", "4", "Space"],
+        &["Esc", "2", "G", "b"],
+        &["Ctrl-N", "Ctrl-U", "Alt-1"],
         &["Ctrl-U", "5 kg"],
         &["F1", "PageDown"],
         &["Ctrl-O"],

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use super::fields::{Absent, FIELDS, Field, Kind, Range, blank, index_of};
+use super::fields::{AUTO, Absent, FIELDS, Field, Kind, Range, blank, index_of};
 use super::units::{self, Dimension, Misread};
 use super::visible::{quoted, visible};
 use super::{Case, suggest};
@@ -165,6 +165,9 @@ fn outside(known: &Field, text: &str, side: &str, end: impl std::fmt::Display, u
 
 fn count(known: &Field, text: &str, from: u32, to: u32) -> Result<u32, Problem> {
     let text = text.trim();
+    if known.takes_auto() && text == AUTO {
+        return Ok(0);
+    }
     let digits = text.strip_prefix('+').unwrap_or(text);
     match digits.parse::<u32>() {
         Ok(value) if value < from => Err(outside(known, text, "below", from, "")),

@@ -32,11 +32,14 @@ pub enum Kind {
     Text,
     /// A value of a dimension, or a bare number where the dimension is [`Dimension::Number`].
     Number(Dimension, Range, fn(&mut Inputs, f64)),
-    /// A whole number.
+    /// A whole number; 0 stands for "auto" where the field takes it.
     Count(u32, u32, fn(&mut Inputs, u32)),
     /// One of a few names.
     Choice(&'static [&'static str], fn(&mut Inputs, usize)),
 }
+
+/// What stands in place of a number that the program finds itself.
+pub const AUTO: &str = "auto";
 
 /// The names of a choice that TOML writes as a bare truth value.
 pub const FLAG: &[&str] = &["false", "true"];
@@ -86,6 +89,12 @@ impl Field {
         matches!(self.kind, Kind::Choice(names, _) if names == FLAG)
     }
 
+    /// Whether the word "auto" may stand in place of the number.
+    #[must_use]
+    pub fn takes_auto(&self) -> bool {
+        self.key == "model.stations"
+    }
+
     /// Whether its value stands in a file without quotes.
     #[must_use]
     pub fn is_bare(&self) -> bool {
@@ -106,6 +115,7 @@ impl Field {
     #[must_use]
     pub fn range_text(&self) -> String {
         match self.kind {
+            Kind::Count(from, to, _) if self.takes_auto() => format!("{from} to {to}, or {AUTO}"),
             Kind::Count(from, to, _) => format!("{from} to {to}"),
             Kind::Number(_, range, _) if range.unit.is_empty() => format!("{} to {}", range.from, range.to),
             Kind::Number(_, range, _) => format!("{} to {} {}", range.from, range.to, range.unit),

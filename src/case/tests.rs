@@ -33,7 +33,7 @@ fn table_1_is_valid_and_in_si() {
     assert_eq!(inputs.base_pitch_deviation, 16e-6);
     assert_eq!(inputs.deflection, Some(24.7e-6));
     assert_eq!(inputs.drive, Drive::Power(15000.0));
-    assert_eq!(inputs.stations, 64);
+    assert_eq!(inputs.stations, Some(64));
 }
 
 #[test]

@@ -68,9 +68,9 @@ pub struct Solve {
     /// Tell these quantities alone, and run no more than they need; `tipstrike fields --results` lists them
     #[arg(long, value_name = "QUANTITY,...", value_delimiter = ',', hide_possible_values = true, value_parser = quantities())]
     pub only: Vec<&'static Quantity>,
-    /// Tell the stations between D and E as well, in this many intervals
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
-    pub stations: Option<u32>,
+    /// Tell the stations as well, in this many intervals between D and E, or auto
+    #[arg(long, value_name = "N", value_parser = station_count)]
+    pub stations: Option<String>,
     /// How to tell it
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
@@ -139,6 +139,11 @@ fn rungs() -> impl TypedValueParser<Value = Rung> {
 fn quantities() -> impl TypedValueParser<Value = &'static Quantity> {
     PossibleValuesParser::new(QUANTITIES.iter().map(|quantity| quantity.key))
         .try_map(|key| Quantity::find(&key).ok_or("no such quantity"))
+}
+
+/// A number of stations that fits its field.
+fn station_count(text: &str) -> Result<String, String> {
+    setting(&format!("model.stations={text}")).map(|setting| setting.value)
 }
 
 /// A setting whose value fits its field, whatever the case.

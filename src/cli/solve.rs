@@ -26,7 +26,7 @@ pub(super) fn run(options: &Solve, streams: &mut Streams) -> io::Result<Exit> {
 /// `--rung` and `--stations` are fields as well.
 fn settings(options: &Solve) -> Vec<Setting> {
     let rung = options.rung.map(|rung| Setting { key: "model.rung".to_owned(), value: rung.name().to_owned() });
-    let stations = options.stations.map(|count| Setting { key: "model.stations".to_owned(), value: count.to_string() });
+    let stations = options.stations.clone().map(|value| Setting { key: "model.stations".to_owned(), value });
     options.settings.iter().cloned().chain(rung).chain(stations).collect()
 }
 

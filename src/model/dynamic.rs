@@ -2,12 +2,15 @@
 
 mod events;
 mod motion;
+#[cfg(test)]
+mod tests;
 mod watch;
 
 use std::cell::Cell;
 
 use super::Refusal;
 use super::mesh::Mesh;
+use super::spacing::Spacing;
 use super::static_load;
 use super::stations::MeshStation;
 use crate::numeric::ode::{self, Point};
@@ -61,7 +64,7 @@ pub struct Settings {
     /// Relative error that the peak force may have.
     pub tolerance: f64,
     /// Stations between the first contact and E, and again from there to the last.
-    pub intervals: usize,
+    pub spacing: Spacing,
 }
 
 /// The force on the incoming tooth with inertia.
@@ -91,7 +94,7 @@ pub fn dynamic(mesh: &Mesh, settings: &Settings, go_on: &dyn Fn(f64) -> bool) ->
         }
         run.cross_window()?;
     }
-    run.watch.finish(&motion, settings.intervals, Effort { evaluations: run.evaluations.get(), ..run.effort })
+    run.watch.finish(&motion, settings.spacing, Effort { evaluations: run.evaluations.get(), ..run.effort })
 }
 
 /// A run on its way.

@@ -57,11 +57,13 @@ pub enum Rung {
     Static,
     /// The same with inertia.
     Dynamic,
+    /// The cheapest of `exact`, `static` and `dynamic` that is good enough.
+    Auto,
 }
 
 impl Rung {
-    /// Every rung, cheapest first.
-    pub const ALL: [Rung; 4] = [Rung::Paper, Rung::Exact, Rung::Static, Rung::Dynamic];
+    /// Every rung, cheapest first, and the choice among them.
+    pub const ALL: [Rung; 5] = [Rung::Paper, Rung::Exact, Rung::Static, Rung::Dynamic, Rung::Auto];
     /// The rungs that answer in a microsecond.
     pub const CLOSED_FORM: [Rung; 2] = [Rung::Paper, Rung::Exact];
 
@@ -80,6 +82,7 @@ impl Rung {
             Rung::Paper | Rung::Exact => Stages::ALL,
             Rung::Static => impact.and(Stages::of(Stage::Static)),
             Rung::Dynamic => impact.and(Stages::of(Stage::Static)).with(Stage::Dynamic),
+            Rung::Auto => Stages::EVERY,
         }
     }
 
@@ -91,6 +94,7 @@ impl Rung {
             Rung::Exact => "exact",
             Rung::Static => "static",
             Rung::Dynamic => "dynamic",
+            Rung::Auto => "auto",
         }
     }
 }
@@ -188,8 +192,12 @@ pub struct Inputs {
     pub warmup_cycles: u32,
     /// Relative error that the peak force of the rung `dynamic` may have.
     pub tolerance: f64,
-    /// Intervals between D and E.
-    pub stations: usize,
+    /// Relative error against the rung `dynamic` that the rung `auto` may leave.
+    pub within: f64,
+    /// Intervals between D and E; without a number as many as the curve needs.
+    pub stations: Option<usize>,
+    /// What the curve may lie off the straight lines between its stations, over its peak, where their number is not given.
+    pub station_tolerance: f64,
     /// Geometry and position in double-double arithmetic.
     pub accurate: bool,
 }

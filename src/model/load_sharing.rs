@@ -4,6 +4,7 @@
 use super::dynamic::{Dynamic, Settings, dynamic};
 use super::inputs::Inputs;
 use super::mesh::Mesh;
+use super::spacing::Spacing;
 use super::stage::{Stage, Stages};
 use super::static_load::{StaticLoad, static_load};
 use super::{Outcome, Refusal, Solution};
@@ -62,11 +63,11 @@ fn run(mesh: &Mesh, mass: f64, inputs: &Inputs, wanted: Stages, go_on: &dyn Fn(f
         damping_ratio: inputs.damping_ratio,
         warmup_cycles: inputs.warmup_cycles,
         tolerance: inputs.tolerance,
-        intervals: inputs.stations,
+        spacing: Spacing::of(inputs),
     };
     Ok(Shared {
         mesh_stiffness: mesh.mean_stiffness,
-        static_load: wanted.has(Stage::Static).then(|| static_load(mesh, inputs.stations)).transpose()?,
+        static_load: wanted.has(Stage::Static).then(|| static_load(mesh, Spacing::of(inputs))).transpose()?,
         dynamic: wanted.has(Stage::Dynamic).then(|| dynamic(mesh, &settings, go_on)).transpose()?,
     })
 }

@@ -2,6 +2,7 @@
 
 mod compliance;
 mod impact;
+mod load;
 mod pair;
 
 use super::{Inputs, Solution};
@@ -32,6 +33,10 @@ type Look = fn(&Inputs, &Solution) -> Option<Note>;
 
 /// Every condition, in the order in which a reader meets them.
 const LOOKS: &[Look] = &[
+    load::rung_taken,
+    load::deflection_ignored,
+    load::lost_in_motion,
+    load::inertia,
     impact::withheld,
     impact::stations_left_out,
     impact::outlasting,

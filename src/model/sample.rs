@@ -36,11 +36,13 @@ pub(crate) fn standard_pair(driver_teeth: u32, driven_teeth: u32, module: f64) -
         deflection: None,
         tooth_compliance: None,
         contact_compliance: ContactCompliance::Logarithmic,
-        stations: 64,
+        stations: Some(64),
         relief_shape: ReliefShape::Linear,
         damping_ratio: 0.07,
         warmup_cycles: 20,
         tolerance: 1e-6,
+        within: 0.05,
+        station_tolerance: 1e-3,
         accurate: false,
     }
 }

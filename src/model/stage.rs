@@ -134,6 +134,12 @@ impl Stages {
         Stages(self.0 & other.0)
     }
 
+    /// Whether every stage of the other set is in this one.
+    #[must_use]
+    pub const fn covers(self, other: Stages) -> bool {
+        other.0 & !self.0 == 0
+    }
+
     /// Whether the stage is in the set.
     #[must_use]
     pub const fn has(self, stage: Stage) -> bool {

@@ -2,6 +2,7 @@
 
 use super::Refusal;
 use super::mesh::{Mesh, Pair};
+use super::spacing::Spacing;
 use super::stations::MeshStation;
 use crate::numeric::root;
 
@@ -64,7 +65,7 @@ struct Contact {
 ///
 /// # Errors
 /// [`Refusal::BeyondReach`] where the pairs yield further than the mesh is known.
-pub fn static_load(mesh: &Mesh, intervals: usize) -> Result<StaticLoad, Refusal> {
+pub fn static_load(mesh: &Mesh, spacing: Spacing) -> Result<StaticLoad, Refusal> {
     let (from, to) = mesh.ends();
     let grid = grid(mesh, from, to);
     let Some(contact) = contact(mesh, &grid)? else {
@@ -72,15 +73,16 @@ pub fn static_load(mesh: &Mesh, intervals: usize) -> Result<StaticLoad, Refusal>
     };
     let on_the_way: Vec<f64> = grid.into_iter().filter(|&s| s > contact.first && s < contact.last).collect();
     let balances: Vec<(f64, Balance)> = on_the_way.iter().map(|&s| (s, balance(mesh, s, s))).collect();
+    let peak_force = peak(mesh, &balances, |balance| balance.force);
     Ok(StaticLoad {
         first_contact_angle: (contact.first < 0.0).then(|| -contact.first / mesh.base_radii.1),
         last_contact_angle: (contact.last > mesh.length).then(|| (contact.last - mesh.length) / mesh.base_radii.0),
         force_at_start: balance(mesh, 0.0, 0.0).force,
-        peak_force: peak(mesh, &balances, |balance| balance.force),
+        peak_force,
         transmission_error: peak(mesh, &balances, |balance| balance.displacement)
             + peak(mesh, &balances, |balance| -balance.displacement),
         pitch_jump: pitch_jump(mesh),
-        stations: stations(mesh, contact, intervals),
+        stations: stations(mesh, contact, peak_force, spacing),
     })
 }
 
@@ -189,24 +191,12 @@ fn pitch_jump(mesh: &Mesh) -> Option<f64> {
     (mesh.friction() > 0.0).then(|| total(pitch_point + aside) - total(pitch_point - aside))
 }
 
-/// Stations from the first contact to E and from there to the last, `intervals` each.
-fn stations(mesh: &Mesh, contact: Contact, intervals: usize) -> Vec<MeshStation> {
-    let turn = contact.first.max(0.0);
-    let before = even(contact.first.min(turn), turn, intervals);
-    let after = even(turn, contact.last, intervals);
-    let places = if contact.first < 0.0 { [before, after[1..].to_vec()].concat() } else { after };
-    places
-        .into_iter()
-        .map(|s| {
+/// Stations from the first contact to E and from there to the last.
+fn stations(mesh: &Mesh, contact: Contact, peak: f64, spacing: Spacing) -> Vec<MeshStation> {
+    MeshStation::through_start(contact.first, contact.last, |from, to| {
+        spacing.stations(from, to, peak, |s| {
             let balance = balance(mesh, s, s);
-            MeshStation::at(mesh, s, balance.force, balance.total, balance.displacement, None)
+            (balance.force, MeshStation::at(mesh, s, balance.force, balance.total, balance.displacement, None))
         })
-        .collect()
-}
-
-/// Places from one end to the other, both ends exact.
-pub(super) fn even(from: f64, to: f64, intervals: usize) -> Vec<f64> {
-    let count = intervals.max(1);
-    let between = (0..count).map(|step| from + (to - from) * step as f64 / count as f64);
-    between.chain([to]).collect()
+    })
 }

@@ -6,6 +6,7 @@ use super::impact::{Masses, impact};
 use super::inputs::Inputs;
 use super::mesh::Mesh;
 use super::position::Position;
+use super::spacing::Spacing;
 use super::tip::tip_at;
 use super::{Refusal, velocity};
 
@@ -46,6 +47,20 @@ pub struct MeshStation {
 }
 
 impl MeshStation {
+    /// Stations from `first` to E, which is at 0, and from there to `last`; where the first is not before E, from it.
+    pub(super) fn through_start(
+        first: f64,
+        last: f64,
+        mut stations: impl FnMut(f64, f64) -> Vec<MeshStation>,
+    ) -> Vec<MeshStation> {
+        if first >= 0.0 {
+            return stations(first, last);
+        }
+        let mut before = stations(first, 0.0);
+        before.extend(stations(0.0, last).into_iter().skip(1));
+        before
+    }
+
     /// The station at which the incoming pair stands `s` after E.
     pub(super) fn at(mesh: &Mesh, s: f64, force: f64, total: f64, displacement: f64, time: Option<f64>) -> MeshStation {
         MeshStation {
@@ -60,23 +75,26 @@ impl MeshStation {
     }
 }
 
-/// The impact at `inputs.stations` equal intervals of the driven gear's angle, from D (first) to E (last, force 0). A
+/// The impact at stations over the driven gear's angle, from D (first) to E (last, force 0). A
 /// station whose force cannot be computed is left out, and the first refusal stands beside the rest.
 ///
 /// # Source
 /// Zhou & Chen 2014, Eqs. 58-60; Eq. 60 mended to the law of cosines: as printed, O₁J would lie inside the base circle.
 #[must_use]
-pub fn stations(inputs: &Inputs, geometry: &Geometry, masses: &Masses, position: &Position) -> (Vec<Station>, Option<Refusal>) {
-    let count = inputs.stations.max(1);
-    let (mut found, mut refused) = (Vec::with_capacity(count + 1), None);
-    for step in (0..=count).rev() {
-        let part = step as f64 / count as f64;
-        match station(inputs, geometry, masses, part * position.approach_angle_driven) {
-            Ok(station) => found.push(station),
-            Err(refusal) => refused = refused.or(Some(refusal)),
-        }
-    }
-    (found, refused)
+pub fn stations(
+    inputs: &Inputs,
+    geometry: &Geometry,
+    masses: &Masses,
+    position: &Position,
+    peak: f64,
+) -> (Vec<Station>, Option<Refusal>) {
+    let mut refused = None;
+    let found = Spacing::of(inputs).stations(position.approach_angle_driven, 0.0, peak, |angle| {
+        let station = station(inputs, geometry, masses, angle);
+        let height = station.as_ref().map_or(f64::NAN, |station| station.impact_force);
+        (height, station.map_err(|refusal| refused = refused.or(Some(refusal))).ok())
+    });
+    (found.into_iter().flatten().collect(), refused)
 }
 
 /// The impact as if it happened at the angle `angle` before E.

@@ -66,7 +66,7 @@ pub fn columns(rung: Rung) -> impl Iterator<Item = &'static Column> + Clone {
 #[must_use]
 pub fn rows(solution: &Solution) -> Vec<Row<'_>> {
     let loads = match solution.rung {
-        Rung::Paper | Rung::Exact => return solution.stations.iter().map(Row::Impact).collect(),
+        Rung::Paper | Rung::Exact | Rung::Auto => return solution.stations.iter().map(Row::Impact).collect(),
         Rung::Static => solution.static_load.as_ref().map(|load| &load.stations),
         Rung::Dynamic => solution.dynamic.as_ref().map(|dynamic| &dynamic.stations),
     };

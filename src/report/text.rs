@@ -94,11 +94,23 @@ fn outcome(report: &Report) -> Vec<String> {
 /// The outcome, as far as the stages that ran can tell it.
 fn sentence(solution: &Solution) -> String {
     let part = |before: &str, key| told(key, solution).map(|shown| format!("{before}{shown}")).unwrap_or_default();
+    let (angle, force) = match solution.rung {
+        Rung::Static => ("static_first_contact_angle", "static_peak_force"),
+        Rung::Dynamic => ("dynamic_first_contact_angle", "dynamic_peak_force"),
+        _ => ("approach_angle_driver", "impact_force"),
+    };
+    if solution.rung.shares_load() && solution.outcome == Outcome::CornerContact {
+        return format!(
+            "Corner contact: the tooth touches{}{}.",
+            told(angle, solution).map(|angle| format!(" {angle} of the driven gear before E")).unwrap_or_default(),
+            part(" and carries at most ", force),
+        );
+    }
     match solution.outcome {
         Outcome::CornerContact => format!(
             "Corner contact: the tooth strikes{}{}{}.",
-            told("approach_angle_driver", solution).map(|angle| format!(" {angle} of the driver before E")).unwrap_or_default(),
-            part(" with ", "impact_force"),
+            told(angle, solution).map(|angle| format!(" {angle} of the driver before E")).unwrap_or_default(),
+            part(" with ", force),
             part(", approaching at ", "normal_velocity"),
         ),
         Outcome::NoCornerContact => {

@@ -1,69 +1,79 @@
 //! The state of the workbench: plain data, changed by `update` alone.
 
+use std::ops::Deref;
 use std::path::PathBuf;
 
 use ratatui::layout::Size;
-use ratatui::symbols::Marker;
-use tui_input::Input;
 
 use super::actions::Place;
+use super::pane::{Pane, Panes};
 use super::prompt::Prompt;
-use super::recovery::Access;
-use super::scale::Scale;
+use super::settings::Settings;
 use super::solver::{self, Answer, Request};
+use super::tab::Tab;
 use super::theme::Look;
-use super::view::form;
+use super::view::{self, form, results};
 use crate::case::fields::{Absent, Kind};
 use crate::case::{Case, Document, FIELDS, Problem, fields};
-use crate::model::Refusal;
+use crate::model::Stages;
 
-/// Everything that the screen shows.
+/// Everything that the screen shows. What is read of the current case is read as if it stood here.
 #[derive(Debug, Clone)]
 pub struct App {
-    /// The file's text, in which a save keeps comments and order.
-    pub document: Document,
-    /// Where it was read from, or last saved to.
-    pub path: Option<PathBuf>,
-    /// The case in the form.
-    pub case: Case,
-    /// The case as the file has it.
-    pub saved: Case,
-    /// Whether the file may be written.
-    pub access: Access,
-    /// The focused field.
-    pub focus: usize,
-    /// The text of the focused field, and the cursor in it.
-    pub input: Input,
-    /// States to go back to.
-    pub history: History,
-    /// What is wrong in the form.
-    pub problems: Vec<(usize, Problem)>,
-    /// Counts the edits that led to a request.
-    pub serial: u64,
-    /// The last valid results.
-    pub answer: Option<Answer>,
-    /// Why the model does not solve what the form says.
-    pub refusal: Option<Refusal>,
-    /// Whether the worker failed on what the form says.
-    pub has_failed: bool,
-    /// What lies over the form, the topmost last.
+    /// The current case.
+    pub tab: Tab,
+    /// The other open cases, in their order.
+    pub others: Vec<Tab>,
+    /// How many of the others stand before the current one.
+    pub place_of_tab: usize,
+    /// Counts the tabs, those that are closed among them.
+    pub last_id: usize,
+    /// Counts the requests of all cases.
+    pub last_serial: u64,
+    /// Focus and layout.
+    pub panes: Panes,
+    /// Whether letters go into the focused field while the form has the focus.
+    pub is_editing: bool,
+    /// Results to hold the others against.
+    pub baseline: Option<Baseline>,
+    /// Whether the results are to be pinned as soon as all of them are there.
+    pub is_pinning: bool,
+    /// The driver's roll angle before E that chart and teeth point at, in rad; negative after E.
+    pub cursor: Option<f64>,
+    /// Whether the cursor runs from D to E by itself.
+    pub is_playing: bool,
+    /// Long work that goes on.
+    pub progress: Option<Progress>,
+    /// What lies over the panes, the topmost last.
     pub prompts: Vec<Prompt>,
     /// Said once, until the next key.
     pub message: Option<Message>,
     /// The size of the terminal.
     pub size: Size,
-    /// The first line of the form that is shown.
-    pub form_top: usize,
-    /// The first line of the results that is shown.
-    pub results_top: usize,
-    /// What shares the screen.
-    pub panes: Panes,
-    /// The axes of the chart.
-    pub scale: Scale,
-    /// How the chart draws a point.
-    pub marker: Marker,
+    /// What the user chose for every case.
+    pub settings: Settings,
     /// What the terminal is able to show.
     pub look: Look,
+}
+
+/// Results to hold the others against.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Baseline {
+    /// The name of the case.
+    pub name: String,
+    /// The case.
+    pub case: Case,
+    /// Its results.
+    pub answer: Answer,
+}
+
+/// Long work that goes on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Progress {
+    /// In a few words.
+    pub what: String,
+    /// How much of it is done, 0 to 1.
+    pub part: f64,
 }
 
 /// Something said once.
@@ -75,71 +85,48 @@ pub struct Message {
     pub is_fault: bool,
 }
 
-/// What shares the screen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Panes {
-    /// Form, results and chart.
-    All,
-    /// Form and results.
-    NoChart,
-    /// The chart alone.
-    Chart,
-}
+impl Deref for App {
+    type Target = Tab;
 
-/// States of the case to go back to, one for each visit of a field.
-#[derive(Debug, Clone, Default)]
-pub struct History {
-    past: Vec<(Case, usize)>,
-    future: Vec<(Case, usize)>,
-    is_visiting: bool,
+    fn deref(&self) -> &Tab {
+        &self.tab
+    }
 }
 
 impl App {
     /// Open a document, solved at once so that the first frame is whole.
     #[must_use]
     pub fn new(document: Document, path: Option<PathBuf>, look: Look, size: Size) -> App {
-        let case = document.case.clone();
         let mut app = App {
-            saved: case.clone(),
-            case,
-            document,
-            path,
-            access: Access::default(),
-            focus: 0,
-            input: Input::default(),
-            history: History::default(),
-            problems: Vec::new(),
-            serial: 0,
-            answer: None,
-            refusal: None,
-            has_failed: false,
+            tab: Tab::new(document, path),
+            others: Vec::new(),
+            place_of_tab: 0,
+            last_id: 0,
+            last_serial: 0,
+            panes: Panes::default(),
+            is_editing: true,
+            baseline: None,
+            is_pinning: false,
+            cursor: None,
+            is_playing: false,
+            progress: None,
             prompts: Vec::new(),
             message: None,
             size,
-            form_top: 0,
-            results_top: 0,
-            panes: Panes::All,
-            scale: Scale::default(),
-            marker: Marker::Braille,
+            settings: Settings::default(),
             look,
         };
-        app.focus_on(fields::index_of("pair.module").unwrap_or(0));
+        app.follow();
         if let Some(request) = app.request() {
             app.take(solver::answer(&request));
         }
         app
     }
 
-    /// Whether the form differs from the file.
-    #[must_use]
-    pub fn is_unsaved(&self) -> bool {
-        self.case != self.saved
-    }
-
-    /// Whether the results are not those of what the form says now.
-    #[must_use]
-    pub fn is_stale(&self) -> bool {
-        !self.problems.is_empty() || self.refusal.is_some() || self.has_failed
+    /// The open cases in their order, the current one among them.
+    pub fn tabs(&self) -> impl Iterator<Item = &Tab> {
+        let (before, after) = self.others.split_at(self.place_of_tab.min(self.others.len()));
+        before.iter().chain(std::iter::once(&self.tab)).chain(after)
     }
 
     /// Where keys go.
@@ -147,15 +134,28 @@ impl App {
     pub fn place(&self) -> Place {
         match self.prompts.last() {
             Some(prompt) => prompt.place(),
-            None if matches!(FIELDS[self.focus].kind, Kind::Choice(..)) => Place::CHOICE,
+            None if !self.has_line() => self.panes.focus.place(),
+            None if matches!(FIELDS[self.tab.focus].kind, Kind::Choice(..)) => Place::CHOICE,
             None => Place::TEXT,
         }
     }
 
-    /// The name of the case in the title and in questions.
+    /// Whether what is typed goes into the focused field.
     #[must_use]
-    pub fn name(&self) -> String {
-        self.path.as_ref().map_or_else(|| "built-in Table 1".to_owned(), |path| path.display().to_string())
+    pub fn has_line(&self) -> bool {
+        self.panes.focus == Pane::Form && self.is_editing
+    }
+
+    /// The stages of a solve whose results are in sight.
+    #[must_use]
+    pub fn wanted(&self) -> Stages {
+        if self.is_pinning {
+            return Stages::EVERY;
+        }
+        let plan = view::plan(self.size, self.panes);
+        let seen = Pane::ALL.into_iter().filter(|&pane| !plan.area(pane).is_empty());
+        // The outcome and its notes are what the case is opened for, even where only the chart is in sight.
+        seen.fold(Pane::Results.needs(), |stages, pane| stages.and(pane.needs()))
     }
 
     /// Say something until the next key.
@@ -170,20 +170,19 @@ impl App {
 
     /// Move to a field, the cursor at the end of its text.
     pub(super) fn focus_on(&mut self, field: usize) {
-        self.focus = field.min(FIELDS.len() - 1);
-        self.input = Input::from(self.case.text(self.focus).unwrap_or_default());
-        self.history.end_visit();
+        self.tab.focus_on(field);
         self.follow();
     }
 
-    /// Scroll the form until the focused line and what is wrong with it are in sight.
+    /// Scroll form and results until what is focused is in sight with what is wrong with it.
     pub(super) fn follow(&mut self) {
-        self.form_top = form::top_for(self);
+        self.tab.form_top = form::top_for(self);
+        self.tab.results_top = results::top_for(self);
     }
 
     /// Put another case into the form, and ask for its results.
     pub(super) fn replace_case(&mut self, case: Case, focus: usize) -> Option<Request> {
-        self.case = case;
+        self.tab.case = case;
         let request = self.request();
         self.focus_on(focus);
         request
@@ -191,35 +190,42 @@ impl App {
 
     /// Check the form; when it is valid, what the worker shall solve.
     pub(super) fn request(&mut self) -> Option<Request> {
-        match self.case.inputs() {
+        let stages = self.wanted();
+        match self.tab.case.inputs() {
             Ok(inputs) => {
-                self.problems.clear();
-                self.serial += 1;
-                Some(Request { serial: self.serial, inputs })
+                self.last_serial += 1;
+                let tab = &mut self.tab;
+                (tab.serial, tab.asked, tab.is_settled) = (self.last_serial, stages, false);
+                tab.problems.clear();
+                Some(Request { serial: tab.serial, inputs, stages })
             }
             Err(problems) => {
-                self.refusal = None;
-                self.problems = problems.into_iter().map(|problem| (self.place_of(&problem), problem)).collect();
+                self.tab.refusal = None;
+                let focus = self.tab.focus;
+                let place_of = |problem: &Problem| fields::index_of(&problem.field).unwrap_or(focus);
+                self.tab.problems = problems.into_iter().map(|problem| (place_of(&problem), problem)).collect();
                 None
             }
         }
     }
 
-    /// Show an answer, unless a later one is on its way.
-    pub(super) fn take(&mut self, answer: Answer) {
-        if answer.serial != self.serial {
-            return;
-        }
-        self.has_failed = false;
-        self.refusal = answer.refusal().copied();
-        if self.refusal.is_none() {
-            self.scale = self.scale.fitted(&answer);
-            self.answer = Some(answer);
-        }
+    /// What the worker shall solve anew because something came in sight that was not asked for.
+    pub(super) fn catch_up(&mut self) -> Option<Request> {
+        let lacks = !self.wanted().iter().all(|stage| self.tab.asked.has(stage));
+        if lacks && self.tab.problems.is_empty() { self.request() } else { None }
     }
 
-    fn place_of(&self, problem: &Problem) -> usize {
-        fields::index_of(&problem.field).unwrap_or(self.focus)
+    /// Show an answer in its tab, unless a later one is on its way.
+    pub(super) fn take(&mut self, answer: Answer) {
+        if let Some(tab) = self.tab_of(answer.serial) {
+            tab.take(answer);
+        }
+        self.follow();
+    }
+
+    /// The tab that waits for the answer of that serial.
+    pub(super) fn tab_of(&mut self, serial: u64) -> Option<&mut Tab> {
+        std::iter::once(&mut self.tab).chain(&mut self.others).find(|tab| tab.serial == serial)
     }
 }
 
@@ -234,35 +240,5 @@ pub fn unwritten(case: &Case, field: usize) -> String {
             let other = fields::index_of(other).filter(|&other| case.text(other).is_some());
             other.map_or_else(|| "(needed)".to_owned(), |other| format!("(by {})", FIELDS[other].label))
         }
-    }
-}
-
-impl History {
-    /// Remember the state before the first edit of a visit.
-    pub(super) fn before_edit(&mut self, case: &Case, focus: usize) {
-        if !self.is_visiting {
-            self.past.push((case.clone(), focus));
-            self.is_visiting = true;
-        }
-        self.future.clear();
-    }
-
-    /// The next edit begins a state of its own.
-    pub(super) fn end_visit(&mut self) {
-        self.is_visiting = false;
-    }
-
-    /// The state before, in exchange for the present one.
-    pub(super) fn undo(&mut self, case: &Case, focus: usize) -> Option<(Case, usize)> {
-        let state = self.past.pop()?;
-        self.future.push((case.clone(), focus));
-        Some(state)
-    }
-
-    /// The state that was undone, in exchange for the present one.
-    pub(super) fn redo(&mut self, case: &Case, focus: usize) -> Option<(Case, usize)> {
-        let state = self.future.pop()?;
-        self.past.push((case.clone(), focus));
-        Some(state)
     }
 }

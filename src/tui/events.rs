@@ -6,9 +6,9 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crossterm::event::{self, Event as Input, KeyCode, KeyEvent, KeyModifiers};
+use crossterm::event::{self, Event as Input, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use crossterm::terminal::disable_raw_mode;
-use ratatui::layout::Size;
+use ratatui::layout::{Position, Size};
 use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGTERM, SIGTSTP};
 use signal_hook::iterator::Signals;
 
@@ -26,6 +26,8 @@ pub enum Event {
     Reply(Reply),
     /// From the keeper of unsaved edits, which cannot keep them.
     Warned(String),
+    /// Time for the next picture of what plays.
+    Tick,
     /// The terminal is gone.
     Lost,
 }
@@ -42,6 +44,8 @@ const CHANNEL: usize = 4096;
 const BATCH: Duration = Duration::from_millis(50);
 /// So long may the parts of one escape sequence lie apart.
 const ESCAPE: Duration = Duration::from_millis(50);
+/// Lines that a turn of the wheel moves.
+const WHEEL: isize = 3;
 
 /// So long may the workbench take to end after a signal.
 const GRACE: Duration = Duration::from_millis(700);
@@ -122,18 +126,12 @@ impl Events {
         move |reply| sender.send(Event::Reply(reply)).is_ok()
     }
 
-    /// Wait for something, and take all that has come with it; nothing where a deadline comes first.
+    /// Wait for something, and take all that has come with it: a tick when nothing came before the alarm, nothing when
+    /// nothing came before the deadline.
     #[must_use]
-    pub fn batch(&self, deadline: Option<Instant>) -> Vec<Event> {
-        let first = match deadline {
-            None => self.receiver.recv().map_err(|_| RecvTimeoutError::Disconnected),
-            Some(deadline) => self.receiver.recv_timeout(deadline.saturating_duration_since(Instant::now())),
-        };
-        let mut batch = match first {
-            Ok(first) => vec![first],
-            Err(RecvTimeoutError::Timeout) => return Vec::new(),
-            Err(RecvTimeoutError::Disconnected) => return vec![Event::Lost],
-        };
+    pub fn batch(&self, alarm: Option<Instant>, deadline: Option<Instant>) -> Vec<Event> {
+        let Some(first) = self.first(alarm, deadline) else { return Vec::new() };
+        let mut batch = vec![first];
         let end = Instant::now() + BATCH;
         while Instant::now() < end {
             let patience = if is_open(&batch) { ESCAPE } else { Duration::ZERO };
@@ -143,6 +141,17 @@ impl Events {
             }
         }
         join(batch)
+    }
+
+    fn first(&self, alarm: Option<Instant>, deadline: Option<Instant>) -> Option<Event> {
+        let Some(until) = alarm.into_iter().chain(deadline).min() else {
+            return Some(self.receiver.recv().unwrap_or(Event::Lost));
+        };
+        match self.receiver.recv_timeout(until.saturating_duration_since(Instant::now())) {
+            Ok(event) => Some(event),
+            Err(RecvTimeoutError::Timeout) => (alarm == Some(until)).then_some(Event::Tick),
+            Err(RecvTimeoutError::Disconnected) => Some(Event::Lost),
+        }
     }
 }
 
@@ -157,8 +166,20 @@ pub fn take_action(inputs: &mut std::iter::Peekable<impl Iterator<Item = Event>>
         Event::Input(Input::Resize(width, height)) => Some(Action::Resize(Size { width, height })),
         Event::Reply(Reply::Solved(answer)) => Some(Action::Solved(answer)),
         Event::Reply(Reply::Failed(serial)) => Some(Action::SolverFailed(serial)),
-        Event::Warned(text) => Some(Action::Warned(text)),
+        Event::Warned(text) => Some(Action::Failed(text)),
+        Event::Input(Input::Mouse(mouse)) => of_mouse(mouse),
+        Event::Tick => Some(Action::Tick),
         Event::Input(_) | Event::Signal(_) | Event::Lost => None,
+    }
+}
+
+fn of_mouse(mouse: MouseEvent) -> Option<Action> {
+    let at = Position::new(mouse.column, mouse.row);
+    match mouse.kind {
+        MouseEventKind::Down(MouseButton::Left) => Some(Action::Click(at)),
+        MouseEventKind::ScrollDown => Some(Action::Wheel(at, WHEEL)),
+        MouseEventKind::ScrollUp => Some(Action::Wheel(at, -WHEEL)),
+        _ => None,
     }
 }
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use tui_input::Input;
 
 use super::actions::{Next, Place};
+use super::pick::Picker;
 use super::recovery::{self, Offer};
 use super::store::Entry;
 
@@ -19,6 +20,8 @@ pub enum Prompt {
     Ask(Question),
     /// A page to read, scrolled to a line.
     Read(Page),
+    /// A list to pick from.
+    Pick(Picker),
 }
 
 /// The list of a folder beneath a path that is typed.
@@ -88,6 +91,7 @@ impl Prompt {
             Prompt::SaveAs(..) => Place::PATH,
             Prompt::Ask(_) => Place::ASK,
             Prompt::Read(_) => Place::READ,
+            Prompt::Pick(_) => Place::PICK,
         }
     }
 
@@ -96,6 +100,7 @@ impl Prompt {
         match self {
             Prompt::Browse(browser) => Some(&mut browser.input),
             Prompt::SaveAs(input, _) => Some(input),
+            Prompt::Pick(picker) => Some(&mut picker.input),
             Prompt::Ask(_) | Prompt::Read(_) => None,
         }
     }
@@ -138,7 +143,7 @@ impl Browser {
 }
 
 impl Question {
-    /// Edits would be lost.
+    /// Edits of one case would be lost.
     #[must_use]
     pub fn unsaved(name: &str, next: &Next) -> Question {
         Question {
@@ -148,6 +153,22 @@ impl Question {
             buttons: vec![
                 ("Save", Choice::Save(next.clone())),
                 ("Discard", Choice::Proceed(next.clone())),
+                ("Cancel", Choice::Cancel),
+            ],
+            marked: 0,
+        }
+    }
+
+    /// Edits of several cases would be lost.
+    #[must_use]
+    pub fn all_unsaved(names: &[String]) -> Question {
+        Question {
+            title: "Unsaved edits",
+            text: format!("{} cases have unsaved edits: {}.", names.len(), names.join(", ")),
+            details: Vec::new(),
+            buttons: vec![
+                ("Save all", Choice::Proceed(Next::SaveRest)),
+                ("Discard all", Choice::Proceed(Next::Quit)),
                 ("Cancel", Choice::Cancel),
             ],
             marked: 0,

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::app::App;
+use super::tab::Tab;
 use crate::case::changes::{self, Change};
 use crate::case::{Case, Document};
 
@@ -85,8 +86,12 @@ impl Access {
 /// Every case that is open.
 #[must_use]
 pub fn sheets(app: &App) -> Vec<Sheet<'_>> {
-    let path = app.document.path().or(app.path.as_deref()).filter(|_| app.path.is_some());
-    vec![Sheet { id: 0, path, document: &app.document, case: &app.case, is_held: app.access != Access::Own }]
+    app.tabs().map(sheet).collect()
+}
+
+fn sheet(tab: &Tab) -> Sheet<'_> {
+    let path = tab.document.path().or(tab.path.as_deref()).filter(|_| tab.path.is_some());
+    Sheet { id: tab.id, path, document: &tab.document, case: &tab.case, is_held: tab.access != Access::Own }
 }
 
 /// A change in a line: what stands there now, and what would.

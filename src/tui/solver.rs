@@ -17,6 +17,8 @@ pub struct Request {
     pub serial: u64,
     /// The pair.
     pub inputs: Inputs,
+    /// The stages whose results are in sight.
+    pub stages: Stages,
 }
 
 /// What the rungs say of a request.
@@ -24,6 +26,8 @@ pub struct Request {
 pub struct Answer {
     /// The request's.
     pub serial: u64,
+    /// The stages that were asked for.
+    pub stages: Stages,
     /// The rung that the case asks for.
     pub active: Rung,
     /// Every rung, cheapest first.
@@ -145,10 +149,10 @@ pub fn answer(request: &Request) -> Answer {
         .chain(sharing)
         .map(|rung| {
             inputs.rung = rung;
-            (rung, model::solve(&inputs, Stages::EVERY))
+            (rung, model::solve(&inputs, request.stages))
         })
         .collect();
-    let mut answer = Answer { serial: request.serial, active, rungs, notes: Vec::new() };
+    let mut answer = Answer { serial: request.serial, stages: request.stages, active, rungs, notes: Vec::new() };
     answer.notes = answer.of(active).map(|solution| model::notes(&request.inputs, solution)).unwrap_or_default();
     answer
 }
@@ -165,7 +169,7 @@ mod tests {
     use std::sync::mpsc::{Sender, channel};
 
     fn request(serial: u64) -> Request {
-        Request { serial, inputs: Case::table_1().inputs().expect("Table 1 is valid") }
+        Request { serial, inputs: Case::table_1().inputs().expect("Table 1 is valid"), stages: Stages::EVERY }
     }
 
     fn teller(sender: Sender<Reply>) -> impl Fn(Reply) -> bool + Send + 'static {

@@ -12,8 +12,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::actions::Action;
-use super::recovery;
 use super::update::{Effect, Over, Saving};
+use super::{recents, recovery};
 use crate::case::file::SaveError;
 use crate::case::{Document, changes};
 
@@ -71,12 +71,12 @@ pub fn built_in() -> Document {
 #[must_use]
 pub fn opening(asked: Option<PathBuf>) -> Opening {
     let was_asked = asked.is_some();
-    let Some(path) = asked.or_else(state::last_case) else {
+    let Some(path) = asked.or_else(recents::last) else {
         return Opening { document: built_in(), path: None, trouble: None };
     };
     match load(&path) {
         Ok(document) => {
-            state::remember(&path);
+            recents::add(&path);
             Opening { document: *document, path: Some(path), trouble: None }
         }
         Err(faults) => {
@@ -105,15 +105,28 @@ pub fn perform(effect: Effect) -> Option<Action> {
             Some(Action::Listed(folder, entries))
         }
         Effect::Remember(path) => {
-            state::remember(&path);
+            recents::add(&path);
             None
+        }
+        Effect::Recall => Some(Action::Recents(recents::list())),
+        Effect::Keep(settings) => {
+            let kept = settings.keep();
+            kept.err().map(|reason| Action::Failed(format!("the settings are not kept: {reason}")))
         }
         Effect::Forget(journal) => {
             // One that stays is offered again.
             drop(fs::remove_file(journal));
             None
         }
-        Effect::Solve(_) | Effect::Adopt(_) | Effect::Redraw | Effect::Suspend | Effect::Quit => None,
+        Effect::Solve(_)
+        | Effect::Adopt(_)
+        | Effect::Copy(_)
+        | Effect::Mouse(_)
+        | Effect::Play(_)
+        | Effect::CancelWork
+        | Effect::Redraw
+        | Effect::Suspend
+        | Effect::Quit => None,
     }
 }
 

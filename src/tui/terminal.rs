@@ -5,8 +5,9 @@ use std::io::{self, BufWriter, IsTerminal, Stdout};
 use std::panic::{self, PanicHookInfo};
 use std::sync::{Mutex, PoisonError};
 
+use crossterm::clipboard::CopyToClipboard;
 use crossterm::cursor::{Hide, Show};
-use crossterm::event::{DisableBracketedPaste, EnableBracketedPaste};
+use crossterm::event::{DisableBracketedPaste, DisableMouseCapture, EnableBracketedPaste, EnableMouseCapture};
 use crossterm::execute;
 use crossterm::style::force_color_output;
 use crossterm::terminal::{EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode};
@@ -27,6 +28,8 @@ pub struct Screen {
     terminal: Terminal<CrosstermBackend<BufWriter<Stdout>>>,
     /// The signal that ended our own suspension is still to come.
     is_back: bool,
+    /// Whether the mouse is ours.
+    has_mouse: bool,
 }
 
 /// Why there is no terminal for a workbench, if so.
@@ -65,7 +68,7 @@ impl Screen {
         // Else NO_COLOR takes bold and reverse away too; our own theme has no colour then.
         force_color_output(true);
         let backend = CrosstermBackend::new(BufWriter::with_capacity(FRAME, io::stdout()));
-        let mut screen = Screen { terminal: Terminal::new(backend)?, is_back: false };
+        let mut screen = Screen { terminal: Terminal::new(backend)?, is_back: false, has_mouse: false };
         screen.enter()?;
         Ok(screen)
     }
@@ -127,12 +130,37 @@ impl Screen {
         self.clear()
     }
 
+    /// Take the mouse, or leave it to the terminal.
+    ///
+    /// # Errors
+    /// When the terminal is gone.
+    pub fn take_mouse(&mut self, takes: bool) -> io::Result<()> {
+        if self.has_mouse == takes {
+            return Ok(());
+        }
+        self.has_mouse = takes;
+        let backend = self.terminal.backend_mut();
+        if takes { execute!(backend, EnableMouseCapture) } else { execute!(backend, DisableMouseCapture) }
+    }
+
+    /// Hand a text to the clipboard of the user's own terminal (OSC 52). In base64 nothing of it controls a terminal.
+    ///
+    /// # Errors
+    /// When the terminal is gone.
+    pub fn copy(&mut self, text: &str) -> io::Result<()> {
+        execute!(self.terminal.backend_mut(), CopyToClipboard::to_clipboard_from(text))
+    }
+
     fn enter(&mut self) -> io::Result<()> {
         enable_raw_mode()?;
-        execute!(self.terminal.backend_mut(), EnterAlternateScreen, EnableBracketedPaste, Hide)
+        execute!(self.terminal.backend_mut(), EnterAlternateScreen, EnableBracketedPaste, Hide)?;
+        if self.has_mouse { execute!(self.terminal.backend_mut(), EnableMouseCapture) } else { Ok(()) }
     }
 
     fn leave(&mut self) -> io::Result<()> {
+        if self.has_mouse {
+            execute!(self.terminal.backend_mut(), DisableMouseCapture)?;
+        }
         let written = execute!(self.terminal.backend_mut(), DisableBracketedPaste, Show, LeaveAlternateScreen);
         disable_raw_mode().and(written)
     }

@@ -23,8 +23,52 @@ pub struct Theme {
     pub active: Style,
     /// The other rung, and its curve.
     pub other: Style,
-    /// The name of a key.
+    /// The name of a key, and the title of the focused pane.
     pub key: Style,
+    /// The pinned results, and their curve.
+    pub baseline: Style,
+}
+
+/// The themes by their names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ThemeName {
+    /// A few of the terminal's own colours.
+    Quiet,
+    /// Bright colours and bold letters.
+    Contrast,
+    /// No colour at all.
+    Mono,
+}
+
+impl ThemeName {
+    /// Every theme.
+    pub const ALL: [ThemeName; 3] = [ThemeName::Quiet, ThemeName::Contrast, ThemeName::Mono];
+
+    /// The name in the settings.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            ThemeName::Quiet => "quiet",
+            ThemeName::Contrast => "contrast",
+            ThemeName::Mono => "mono",
+        }
+    }
+
+    /// The theme.
+    #[must_use]
+    pub fn theme(self) -> &'static Theme {
+        match self {
+            ThemeName::Quiet => &QUIET,
+            ThemeName::Contrast => &CONTRAST,
+            ThemeName::Mono => &MONO,
+        }
+    }
+
+    /// The name of a theme.
+    #[must_use]
+    pub fn of(theme: &Theme) -> ThemeName {
+        ThemeName::ALL.into_iter().find(|name| name.theme() == theme).unwrap_or(ThemeName::Quiet)
+    }
 }
 
 /// What the terminal is able to show.
@@ -37,7 +81,7 @@ pub struct Look {
 }
 
 /// Attributes and a few of the terminal's own colours.
-pub static COLOURED: Theme = Theme {
+pub static QUIET: Theme = Theme {
     title: Style::new().fg(Color::Cyan).add_modifier(Modifier::BOLD),
     rule: Style::new(),
     focus: Style::new().add_modifier(Modifier::BOLD),
@@ -47,21 +91,36 @@ pub static COLOURED: Theme = Theme {
     active: Style::new().fg(Color::Green).add_modifier(Modifier::BOLD),
     other: Style::new().fg(Color::Magenta),
     key: Style::new().add_modifier(Modifier::REVERSED),
+    baseline: Style::new().fg(Color::Blue),
+};
+
+/// Bright colours and bold letters, where the quiet ones are hard to read.
+pub static CONTRAST: Theme = Theme {
+    title: Style::new().fg(Color::LightCyan).add_modifier(Modifier::BOLD),
+    focus: Style::new().add_modifier(Modifier::BOLD).add_modifier(Modifier::UNDERLINED),
+    faint: Style::new(),
+    problem: Style::new().fg(Color::LightRed).add_modifier(Modifier::BOLD),
+    note: Style::new().fg(Color::LightYellow).add_modifier(Modifier::BOLD),
+    active: Style::new().fg(Color::LightGreen).add_modifier(Modifier::BOLD),
+    other: Style::new().fg(Color::LightMagenta).add_modifier(Modifier::BOLD),
+    baseline: Style::new().fg(Color::LightBlue).add_modifier(Modifier::BOLD),
+    ..QUIET
 };
 
 /// Attributes alone.
-pub static PLAIN: Theme = Theme {
+pub static MONO: Theme = Theme {
     title: Style::new().add_modifier(Modifier::BOLD),
     problem: Style::new().add_modifier(Modifier::BOLD),
     note: Style::new(),
     active: Style::new().add_modifier(Modifier::BOLD),
     other: Style::new(),
-    ..COLOURED
+    baseline: Style::new(),
+    ..QUIET
 };
 
 impl Look {
     /// Colours and the whole of Unicode.
-    pub const FULL: Look = Look { theme: &COLOURED, ascii: false };
+    pub const FULL: Look = Look { theme: &QUIET, ascii: false };
 
     /// What the environment allows: `NO_COLOR`, `TERM`, and the locale by `LC_ALL`, `LC_CTYPE`, `LANG`.
     #[must_use]
@@ -72,7 +131,7 @@ impl Look {
         let utf8 = locale.contains("utf-8") || locale.contains("utf8");
         let term = set("TERM").unwrap_or_default();
         let bare = term == "linux" || term.to_string_lossy().starts_with("vt");
-        Look { theme: if set("NO_COLOR").is_some() { &PLAIN } else { &COLOURED }, ascii: bare || !utf8 }
+        Look { theme: if set("NO_COLOR").is_some() { &MONO } else { &QUIET }, ascii: bare || !utf8 }
     }
 }
 
@@ -102,9 +161,9 @@ mod tests {
     #[test]
     fn no_color_leaves_no_colour() {
         let theme = look(&[("NO_COLOR", "1")]).theme;
-        for style in [theme.title, theme.problem, theme.note, theme.active, theme.other, theme.key] {
+        for style in [theme.title, theme.problem, theme.note, theme.active, theme.other, theme.key, theme.baseline] {
             assert_eq!(style.fg.or(style.bg), None);
         }
-        assert_eq!(look(&[("NO_COLOR", "")]).theme, &COLOURED);
+        assert_eq!(look(&[("NO_COLOR", "")]).theme, &QUIET);
     }
 }

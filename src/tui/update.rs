@@ -1,19 +1,27 @@
 //! The only place where the state changes: no files, no clock, no threads; those are asked for as effects.
 
+mod copy;
+mod cursor;
 mod edit;
 mod files;
+mod hold;
+mod options;
+mod page;
+mod panes;
+mod pointer;
 mod recovery;
+mod tabs;
+mod walk;
 
 use std::path::PathBuf;
 
-use ratatui::symbols::Marker;
-
 use super::actions::{Action, Command, Next};
-use super::app::{App, Panes};
-use super::prompt::{Page, Prompt};
+use super::app::App;
+use super::pick::{List, Picker};
+use super::prompt::{Page, Prompt, Question};
+use super::settings::Settings;
 use super::solver::Request;
 use super::view;
-use super::view::{popup, results};
 use crate::case::Document;
 use crate::case::fields::{self, Kind};
 use crate::model::inputs::Rung;
@@ -35,6 +43,18 @@ pub enum Effect {
     Adopt(PathBuf),
     /// The edits of this journal are not wanted.
     Forget(PathBuf),
+    /// Look which cases were open last, and tell it as [`Action::Recents`].
+    Recall,
+    /// Keep the settings.
+    Keep(Settings),
+    /// Hand a text to the clipboard of the user's own terminal.
+    Copy(String),
+    /// Take the mouse, or leave it to the terminal.
+    Mouse(bool),
+    /// Tick, or be silent.
+    Play(bool),
+    /// Stop the long work.
+    CancelWork,
     /// Draw every cell anew.
     Redraw,
     /// Give the terminal back to the shell, until it brings us back.
@@ -69,82 +89,142 @@ pub enum Over {
 
 /// Change the state by what happened, and say what is to be done about it.
 pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
-    if matches!(action, Action::Do(_) | Action::Insert(_) | Action::Paste(_)) {
+    if matches!(action, Action::Do(_) | Action::Insert(_) | Action::Paste(_) | Action::Click(_)) {
         app.message = None;
     }
+    let mut effects = happen(app, action);
+    effects.extend(solve(app.catch_up()));
+    effects
+}
+
+fn happen(app: &mut App, action: Action) -> Vec<Effect> {
     match action {
-        Action::Do(command) => run(app, command),
-        Action::Insert(letter) => edit::insert(app, letter),
-        Action::Paste(text) => edit::paste(app, &text),
+        Action::Do(command) => return run(app, command),
+        Action::Insert(letter) => return edit::insert(app, letter),
+        Action::Paste(text) => return edit::paste(app, &text),
+        Action::Click(at) => return pointer::click(app, at),
+        Action::Wheel(at, by) => pointer::wheel(app, at, by),
+        Action::Tick => return cursor::tick(app),
         Action::Resize(size) => {
             app.size = size;
             app.follow();
             // Terminals cut what they show when they shrink, even if they are back at the old size by now.
-            vec![Effect::Redraw]
+            return vec![Effect::Redraw];
         }
         Action::Solved(answer) => {
             app.take(*answer);
-            Vec::new()
+            hold::pin(app);
         }
-        Action::SolverFailed(serial) => {
-            if serial == app.serial {
-                app.has_failed = true;
-                app.complain("a fault of the program: the solver failed on this; undo or change the last edit");
-            }
-            Vec::new()
-        }
-        Action::Loaded(path, result) => files::loaded(app, path, result),
-        Action::Saved(path, next, result) => files::saved(app, path, next, result),
-        Action::Listed(folder, entries) => files::listed(app, &folder, entries),
+        Action::SolverFailed(serial) => solver_failed(app, serial),
+        Action::Progress(progress) => app.progress = progress,
+        Action::Loaded(path, result) => return files::loaded(app, path, result),
+        Action::Saved(path, next, result) => return files::saved(app, path, next, result),
+        Action::Listed(folder, entries) => return files::listed(app, &folder, entries),
         Action::Claimed(claim) => recovery::claimed(app, *claim),
-        Action::Warned(text) => {
-            app.complain(text);
-            Vec::new()
-        }
-    }
-}
-
-fn run(app: &mut App, command: Command) -> Vec<Effect> {
-    match command {
-        Command::Edit(request) => return edit::handle(app, request),
-        Command::Save => return files::save(app, Next::Stay),
-        Command::SaveAs => return files::ask_where(app, Next::Stay),
-        Command::Open => return files::when_saved(app, Next::Browse),
-        Command::New => return files::when_saved(app, Next::Fresh),
-        Command::Quit => return files::when_saved(app, Next::Quit),
-        Command::Cancel => return files::cancel(app),
-        Command::Accept => return files::accept(app),
-        Command::Complete => return files::complete(app),
-        Command::Undo => return travel(app, Command::Undo),
-        Command::Redo => return travel(app, Command::Redo),
-        Command::ToggleRung => return toggle_rung(app),
-        Command::NextChoice => return edit::cycle(app, 1),
-        Command::PreviousChoice => return edit::cycle(app, -1),
-        Command::Redraw => return vec![Effect::Redraw],
-        Command::Suspend => return vec![Effect::Suspend],
-        Command::Help => app.prompts.push(Prompt::Read(Page::new("Help", view::help::lines()))),
-        Command::Leave => drop(app.prompts.pop()),
-        Command::CyclePanes => cycle_panes(app),
-        Command::CycleMarker => cycle_marker(app),
-        Command::ResultsUp => scroll_results(app, -1),
-        Command::ResultsDown => scroll_results(app, 1),
-        Command::Next => step(app, 1),
-        Command::Previous => step(app, -1),
-        Command::NextGroup => leap(app, 1),
-        Command::PreviousGroup => leap(app, -1),
-        Command::FirstField => app.focus_on(0),
-        Command::LastField => app.focus_on(usize::MAX),
+        Action::Recents(paths) => app.prompts.push(Prompt::Pick(Picker::new(List::Recents(paths)))),
+        Action::Failed(reason) => app.complain(reason),
     }
     Vec::new()
 }
 
+fn run(app: &mut App, command: Command) -> Vec<Effect> {
+    match command {
+        Command::Edit(request) => edit::handle(app, request),
+        Command::Save => files::save(app, Next::Stay),
+        Command::SaveAs => files::ask_where(app, Next::Stay),
+        Command::Open => files::browse(app),
+        Command::Recent => vec![Effect::Recall],
+        Command::New => solve(tabs::fresh(app)),
+        Command::CloseTab => files::close(app),
+        Command::Quit => files::quit(app),
+        Command::Cancel => cancel(app),
+        Command::Accept => files::accept(app),
+        Command::Complete => files::complete(app),
+        Command::Undo | Command::Redo => travel(app, command),
+        Command::ToggleRung => toggle_rung(app),
+        Command::NextChoice => edit::cycle(app, 1),
+        Command::PreviousChoice => edit::cycle(app, -1),
+        Command::Redraw => vec![Effect::Redraw],
+        Command::Suspend => vec![Effect::Suspend],
+        Command::Leave => panes::leave(app),
+        Command::CopyValue => copy::value(app),
+        Command::CopyResults => copy::results(app),
+        Command::CursorBy(columns) => cursor::step(app, columns),
+        Command::CursorToD => cursor::to_start(app),
+        Command::CursorToE => cursor::to_end(app),
+        Command::Play => cursor::play(app),
+        Command::CursorAway => {
+            app.cursor = None;
+            cursor::stop(app)
+        }
+        Command::CycleMarker => options::cycle_marker(app),
+        Command::CycleTheme => options::cycle_theme(app),
+        Command::ToggleAscii => options::toggle_ascii(app),
+        Command::ToggleMouse => options::toggle_mouse(app),
+        other => {
+            show(app, other);
+            Vec::new()
+        }
+    }
+}
+
+// Commands that change only what is in sight.
+fn show(app: &mut App, command: Command) {
+    match command {
+        Command::Help => app.prompts.push(Prompt::Read(Page::new("Help", view::help::lines()))),
+        Command::Palette => app.prompts.push(Prompt::Pick(Picker::new(List::Commands))),
+        Command::SearchField => app.prompts.push(Prompt::Pick(Picker::new(List::Fields))),
+        Command::Explain => page::explain(app),
+        Command::PinBaseline => hold::toggle(app),
+        Command::NextTab => tabs::step(app, 1),
+        Command::PreviousTab => tabs::step(app, -1),
+        Command::Tab(at) => tabs::go_to(app, at),
+        Command::Show(pane) => panes::show(app, pane),
+        Command::NextPane => panes::step(app, 1),
+        Command::PreviousPane => panes::step(app, -1),
+        Command::CycleLower => panes::cycle_lower(app),
+        Command::Zoom => panes::zoom(app),
+        Command::StartEdit => app.is_editing = true,
+        other => walk::walk(app, other),
+    }
+}
+
+// Ctrl-C: what is topmost goes; when nothing is left, the question whether to quit.
+fn cancel(app: &mut App) -> Vec<Effect> {
+    if app.prompts.pop().is_some() {
+        return Vec::new();
+    }
+    if app.progress.is_some() {
+        return vec![Effect::CancelWork];
+    }
+    if app.is_playing {
+        return cursor::stop(app);
+    }
+    if app.tabs().any(super::tab::Tab::is_unsaved) {
+        return files::quit(app);
+    }
+    app.prompts.push(Prompt::Ask(Question::quit()));
+    Vec::new()
+}
+
+fn solver_failed(app: &mut App, serial: u64) {
+    let Some(tab) = app.tab_of(serial) else { return };
+    (tab.has_failed, tab.is_settled) = (true, true);
+    if app.serial == serial {
+        app.is_pinning = false;
+        app.complain("a fault of the program: the solver failed on this; undo or change the last edit");
+    }
+}
+
 fn travel(app: &mut App, command: Command) -> Vec<Effect> {
-    let (case, focus) = (app.case.clone(), app.focus);
-    let state = if command == Command::Undo { app.history.undo(&case, focus) } else { app.history.redo(&case, focus) };
+    let tab = &mut app.tab;
+    let state =
+        if command == Command::Undo { tab.history.undo(&tab.case, tab.focus) } else { tab.history.redo(&tab.case, tab.focus) };
     let Some((case, focus)) = state else {
         app.say(if command == Command::Undo { "nothing to undo" } else { "nothing to redo" });
         return Vec::new();
     };
+    tab.earlier.clone_from(&tab.answer);
     solve(app.replace_case(case, focus))
 }
 
@@ -156,65 +236,11 @@ fn toggle_rung(app: &mut App) -> Vec<Effect> {
     effects
 }
 
-fn cycle_panes(app: &mut App) {
-    app.panes = match app.panes {
-        Panes::All => Panes::NoChart,
-        Panes::NoChart => Panes::Chart,
-        Panes::Chart => Panes::All,
-    };
-    app.follow();
-}
-
-fn cycle_marker(app: &mut App) {
-    app.marker = match app.marker {
-        Marker::Braille => Marker::HalfBlock,
-        Marker::HalfBlock => Marker::Dot,
-        _ => Marker::Braille,
-    };
-    app.say(format!("chart in {}", app.marker.to_string().to_lowercase()));
-}
-
-fn scroll_results(app: &mut App, by: isize) {
-    let page = results::page(app).max(2) - 1;
-    let last = results::length(app).saturating_sub(page + 1);
-    app.results_top = app.results_top.saturating_add_signed(by * page.cast_signed()).min(last);
-}
-
-fn step(app: &mut App, by: isize) {
-    match app.prompts.last_mut() {
-        None => app.focus_on(app.focus.saturating_add_signed(by)),
-        Some(Prompt::Browse(browser)) => browser.mark(by),
-        Some(Prompt::Ask(question)) => question.mark(by),
-        Some(Prompt::Read(page)) => popup::scroll(page, by, app.size),
-        Some(Prompt::SaveAs(..)) => (),
-    }
-}
-
-fn leap(app: &mut App, by: isize) {
-    let page = isize::try_from(popup::room(app.size).height).unwrap_or(1).max(1);
-    match app.prompts.last_mut() {
-        None => app.focus_on(group_beside(app.focus, by)),
-        Some(Prompt::Browse(browser)) => browser.mark(by * page),
-        Some(Prompt::Read(text)) => popup::scroll(text, by * page, app.size),
-        Some(Prompt::Ask(_) | Prompt::SaveAs(..)) => (),
-    }
-}
-
-// The first field of the next group, of this one, or of the one before.
-fn group_beside(focus: usize, by: isize) -> usize {
-    let starts: Vec<_> = (0..fields::FIELDS.len())
-        .filter(|&field| field == 0 || fields::FIELDS[field].table() != fields::FIELDS[field - 1].table())
-        .collect();
-    let found =
-        if by > 0 { starts.iter().find(|&&start| start > focus) } else { starts.iter().rev().find(|&&start| start < focus) };
-    found.copied().unwrap_or(if by > 0 { fields::FIELDS.len() - 1 } else { 0 })
-}
-
 fn solve(request: Option<Request>) -> Vec<Effect> {
     request.map(|request| Effect::Solve(Box::new(request))).into_iter().collect()
 }
 
-fn options(field: usize) -> &'static [&'static str] {
+fn options_of(field: usize) -> &'static [&'static str] {
     match fields::FIELDS[field].kind {
         Kind::Choice(names, _) => names,
         Kind::Text | Kind::Number(..) | Kind::Count(..) => &[],

@@ -3,43 +3,31 @@
 pub mod chart;
 pub mod form;
 pub mod help;
+pub mod layout;
 pub mod popup;
 pub mod results;
 pub mod status;
+pub mod teeth;
 pub mod text;
+pub mod trade;
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect, Size};
+use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
+use unicode_width::UnicodeWidthStr;
 
-use super::app::{App, Panes};
+use super::app::App;
 use super::clean;
+use super::pane::Pane;
 
-/// The smallest useful terminal.
-pub const SMALLEST: Size = Size { width: 60, height: 16 };
-/// A lower terminal has no room for the chart beside the rest.
-const CHART_FROM: u16 = 20;
+pub use layout::{Plan, SMALLEST, plan};
 
-/// Where everything stands. An area without room is empty.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Plan {
-    /// The name of the case.
-    pub header: Rect,
-    /// The form, its title and its scroll bar.
-    pub form: Rect,
-    /// The results and their title.
-    pub results: Rect,
-    /// The chart and its title.
-    pub chart: Rect,
-    /// What the focused field is, and messages.
-    pub hint: Rect,
-    /// The keys.
-    pub keys: Rect,
-}
+/// Room for a title beside the names of hidden panes.
+const LEAST_TITLE: usize = 16;
 
 /// Draw the whole screen; the place of the cursor, where there is one.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
-    let cursor = if is_too_small(area.as_size()) {
+    let cursor = if layout::is_too_small(area.as_size()) {
         too_small(area, buffer);
         None
     } else {
@@ -49,34 +37,37 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     cursor.filter(|&cursor| area.contains(cursor))
 }
 
-/// Where everything stands on a screen of that size.
-#[must_use]
-pub fn plan(size: Size, panes: Panes) -> Plan {
-    if is_too_small(size) {
-        return Plan::default();
+/// The title line of a pane: its number, whether it has the focus, its title, and in one of the panes the names of those
+/// that are not in sight; what is below it.
+pub fn titled(app: &App, pane: Pane, title: &str, area: Rect, buffer: &mut Buffer) -> Rect {
+    let hidden = hidden(app, pane, area.width);
+    // The hidden ones are named at the right end, before one cell of the rule.
+    let room = usize::from(area.width).saturating_sub(if hidden.is_empty() { 0 } else { hidden.width() + 1 });
+    let has_focus = app.panes.focus == pane && app.prompts.is_empty();
+    let title = text::cut(&format!("{} {title}", pane.number()), room.saturating_sub(4));
+    let inner = text::titled(&title, area, app.look.theme, buffer);
+    if has_focus && area.width > 4 {
+        buffer.set_string(area.x, area.y, "▸", app.look.theme.title);
+        buffer.set_stringn(area.x + 1, area.y, format!(" {title} "), usize::from(area.width) - 1, app.look.theme.key);
     }
-    let Size { width, height } = size;
-    let row = |y, height| Rect::new(0, y, width, height);
-    let body = height - 4;
-    let chart = match panes {
-        Panes::Chart => body,
-        Panes::All if height >= CHART_FROM => (height / 3).clamp(7, 20),
-        Panes::All | Panes::NoChart => 0,
-    };
-    let upper = body - chart;
-    let form = (width * 57 / 100).clamp(34, 66);
-    Plan {
-        header: row(0, 1),
-        form: Rect::new(0, 1, form, upper),
-        results: Rect::new(form, 1, width - form, upper),
-        chart: row(1 + upper, chart),
-        hint: row(height - 3, 2),
-        keys: row(height - 1, 1),
+    if !hidden.is_empty() && room > LEAST_TITLE {
+        buffer.set_string(area.x + room as u16, area.y, &hidden, Style::new());
     }
+    inner
 }
 
-fn is_too_small(size: Size) -> bool {
-    size.width < SMALLEST.width || size.height < SMALLEST.height
+// The keys and names of the panes that are not in sight; their keys alone where names have no room.
+fn hidden(app: &App, pane: Pane, width: u16) -> String {
+    let plan = plan(app.size, app.panes);
+    if plan.names_hidden() != Some(pane) {
+        return String::new();
+    }
+    let named: Vec<_> = plan.hidden().map(|pane| format!(" {} {} ", pane.number(), pane.name())).collect();
+    let named = named.concat();
+    if named.width() + LEAST_TITLE <= width.into() {
+        return named;
+    }
+    plan.hidden().map(|pane| format!(" {}", pane.number())).chain([" ".to_owned()]).collect()
 }
 
 fn too_small(area: Rect, buffer: &mut Buffer) {
@@ -94,8 +85,11 @@ fn draw_panes(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     let plan = plan(area.as_size(), app.panes);
     status::header(app, plan.header, buffer);
     let in_form = form::draw(app, plan.form, buffer);
-    results::draw(app, plan.results, buffer);
-    chart::draw(app, plan.chart, buffer);
+    for (pane, draw) in PANES {
+        if !plan.area(pane).is_empty() {
+            draw(app, plan.area(pane), buffer);
+        }
+    }
     status::hint(app, plan.hint, buffer);
     status::keys(app, plan.keys, buffer);
     match app.prompts.last() {
@@ -103,3 +97,10 @@ fn draw_panes(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
         None => in_form,
     }
 }
+
+/// How a pane is drawn into its area.
+type Draw = fn(&App, Rect, &mut Buffer);
+
+/// The panes beside the form.
+const PANES: [(Pane, Draw); 4] =
+    [(Pane::Results, results::draw), (Pane::Chart, chart::draw), (Pane::Teeth, teeth::draw), (Pane::Trade, trade::draw)];

@@ -227,11 +227,13 @@ fn chosen(choices: &str) -> Inputs {
         deflection: None,
         tooth_compliance: ToothCompliance::ALL.into_iter().find(|tooth| tooth.name() == words[2]),
         contact_compliance: ContactCompliance::ALL.into_iter().find(named).expect("a contact compliance"),
-        stations: 8,
+        stations: Some(8),
         relief_shape: ReliefShape::Linear,
         damping_ratio: 0.07,
         warmup_cycles: 20,
         tolerance: 1e-6,
+        within: 0.05,
+        station_tolerance: 1e-3,
         accurate: false,
     }
 }

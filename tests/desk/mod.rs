@@ -14,6 +14,7 @@ use tempfile::TempDir;
 use tipstrike::case::Document;
 use tipstrike::tui::actions::{self, Action};
 use tipstrike::tui::app::App;
+use tipstrike::tui::settings::Settings;
 use tipstrike::tui::theme::Look;
 use tipstrike::tui::update::{Effect, update};
 use tipstrike::tui::{solver, store, view};
@@ -22,17 +23,34 @@ pub(crate) const SMALL: Size = Size { width: 80, height: 24 };
 pub(crate) const LARGE: Size = Size { width: 140, height: 45 };
 pub(crate) const TABLE_1: &str = include_str!("../../cases/zhou-chen-2014.toml");
 
+#[expect(clippy::struct_excessive_bools, reason = "each tells what was asked of the world")]
 pub(crate) struct Desk {
     pub(crate) app: App,
     pub(crate) folder: TempDir,
     pub(crate) has_quit: bool,
+    pub(crate) has_cancelled: bool,
+    pub(crate) has_mouse: bool,
+    pub(crate) ticks: bool,
+    pub(crate) copied: Option<String>,
+    pub(crate) kept: Option<Settings>,
+    pub(crate) recents: Vec<PathBuf>,
 }
 
 impl Desk {
     /// On the built-in case.
     pub(crate) fn new(size: Size) -> Desk {
         let app = App::new(store::built_in(), None, Look::FULL, size);
-        Desk { app, folder: tempfile::tempdir().expect("a folder"), has_quit: false }
+        Desk {
+            app,
+            folder: tempfile::tempdir().expect("a folder"),
+            has_quit: false,
+            has_cancelled: false,
+            has_mouse: false,
+            ticks: false,
+            copied: None,
+            kept: None,
+            recents: Vec::new(),
+        }
     }
 
     /// On a file of that text.
@@ -88,6 +106,12 @@ impl Desk {
                 match effect {
                     Effect::Solve(request) => actions.push(Action::Solved(Box::new(solver::answer(&request)))),
                     Effect::Quit => self.has_quit = true,
+                    Effect::Copy(text) => self.copied = Some(text),
+                    Effect::Mouse(takes) => self.has_mouse = takes,
+                    Effect::Play(plays) => self.ticks = plays,
+                    Effect::CancelWork => self.has_cancelled = true,
+                    Effect::Keep(settings) => self.kept = Some(settings),
+                    Effect::Recall => actions.push(Action::Recents(self.recents.clone())),
                     Effect::Remember(_) => (),
                     other => actions.extend(store::perform(other)),
                 }
@@ -108,7 +132,11 @@ impl Desk {
 
     /// Write a field anew.
     pub(crate) fn fill(&mut self, key: &str, text: &str) -> &mut Desk {
-        self.go_to(key).keys(&["Ctrl-U", text])
+        self.go_to(key);
+        if !self.app.has_line() {
+            self.keys(&["Enter"]);
+        }
+        self.keys(&["Ctrl-U", text])
     }
 
     pub(crate) fn screen(&self) -> String {
@@ -153,6 +181,7 @@ fn named(key: &str) -> Option<KeyEvent> {
     let (modifiers, name) = match key.split_once('-') {
         Some(("Ctrl", name)) => (KeyModifiers::CONTROL, name),
         Some(("Alt", name)) => (KeyModifiers::ALT, name),
+        Some(("Shift", name)) => (KeyModifiers::SHIFT, name),
         _ => (KeyModifiers::NONE, key),
     };
     let code = match name {

@@ -50,10 +50,10 @@ struct Bench {
     folder: TempDir,
     /// What the worker has not answered yet.
     waiting: Option<Request>,
-    /// The case to which undoing everything leads back.
-    first: Case,
-    /// The case that the file holds, as far as the workbench knows.
-    saved: Case,
+    /// The cases to which undoing everything may lead back: every one that was opened.
+    opened: Vec<Case>,
+    /// What files have held, as far as the workbench knows.
+    on_disk: Vec<Case>,
     /// What has come to pass.
     seen: BTreeSet<&'static str>,
 }
@@ -71,7 +71,8 @@ fn whatever_is_typed_the_form_stays_sound_and_the_screen_safe() {
         bench.assert_undone();
         seen.borrow_mut().append(&mut bench.seen);
     });
-    let all = ["browse", "save as", "ask", "page", "loaded", "not loaded", "saved", "not saved", "quit", "invalid", "refused"];
+    let all =
+        ["browse", "save as", "ask", "page", "pick", "loaded", "not loaded", "saved", "not saved", "quit", "invalid", "refused"];
     assert_eq!(*seen.borrow(), BTreeSet::from(all), "the keys get too seldom to all that the workbench does");
 }
 
@@ -80,7 +81,7 @@ fn a_name_that_hides_or_controls_is_shown_as_one_that_does() {
     let mut bench = Bench::on(&texts::bases()[0], false);
     for title in HOSTILE {
         bench.take(Happening::Paste(title.to_owned()));
-        bench.app.case.write(0, title);
+        bench.app.tab.case.write(0, title);
         bench.draw(Size { width: 80, height: 24 });
     }
 }
@@ -160,7 +161,8 @@ impl Bench {
         let look = Look { ascii, ..Look::FULL };
         let app = App::new(read.unwrap_or_else(store::built_in), path, look, Size { width: 80, height: 24 });
         let first = app.case.clone();
-        Bench { app, folder, waiting: None, saved: first.clone(), first, seen: BTreeSet::new() }
+        let opened = vec![first, Case::table_1()];
+        Bench { app, folder, waiting: None, on_disk: opened.clone(), opened, seen: BTreeSet::new() }
     }
 
     fn take(&mut self, happening: Happening) {
@@ -199,6 +201,7 @@ impl Bench {
             Prompt::SaveAs(..) => "save as",
             Prompt::Ask(_) => "ask",
             Prompt::Read(_) => "page",
+            Prompt::Pick(_) => "pick",
         });
         let invalid = (!self.app.problems.is_empty()).then_some("invalid");
         let refused = self.app.refusal.is_some().then_some("refused");
@@ -221,11 +224,7 @@ impl Bench {
         while let Some(action) = actions.pop() {
             let was_asked = matches!(self.app.prompts.last(), Some(Prompt::Ask(_)));
             self.note(&action);
-            let may_begin = !matches!(action, Action::Solved(_) | Action::Resize(_) | Action::Listed(..));
             let effects = update(&mut self.app, action);
-            if may_begin && self.app.message.as_ref().is_some_and(|message| message.text.starts_with("a new case")) {
-                (self.first, self.saved) = (Case::table_1(), Case::table_1());
-            }
             for effect in effects {
                 actions.extend(self.perform(effect, was_asked));
             }
@@ -236,11 +235,12 @@ impl Bench {
     fn note(&mut self, action: &Action) {
         let seen = match action {
             Action::Loaded(_, Ok(document)) => {
-                (self.first, self.saved) = (document.case.clone(), document.case.clone());
+                self.opened.push(document.case.clone());
+                self.on_disk.push(document.case.clone());
                 "loaded"
             }
             Action::Saved(_, _, Ok(document)) => {
-                self.saved = document.case.clone();
+                self.on_disk.push(document.case.clone());
                 "saved"
             }
             Action::Loaded(..) => "not loaded",
@@ -258,7 +258,8 @@ impl Bench {
                 None
             }
             Effect::Quit => {
-                assert!(was_asked || !self.app.is_unsaved(), "edits are not lost without a question");
+                let is_unsaved = self.app.tabs().any(tipstrike::tui::tab::Tab::is_unsaved);
+                assert!(was_asked || !is_unsaved, "edits are not lost without a question");
                 self.seen.insert("quit");
                 None
             }
@@ -271,7 +272,23 @@ impl Bench {
                 Some(Action::Listed(_, entries)) => Some(Action::Listed(folder, entries)),
                 other => other,
             },
-            Effect::Remember(_) | Effect::Adopt(_) | Effect::Forget(_) | Effect::Redraw | Effect::Suspend => None,
+            Effect::Recall => Some(Action::Recents(vec![self.folder.path().join("case.toml")])),
+            Effect::Play(plays) => {
+                assert_eq!(plays, self.app.is_playing, "it ticks while something plays");
+                None
+            }
+            Effect::Copy(text) => {
+                assert!(!text.is_empty() && text.len() <= 48 * 1024);
+                None
+            }
+            Effect::Remember(_)
+            | Effect::Adopt(_)
+            | Effect::Forget(_)
+            | Effect::Keep(_)
+            | Effect::Mouse(_)
+            | Effect::CancelWork
+            | Effect::Redraw
+            | Effect::Suspend => None,
         }
     }
 
@@ -294,7 +311,7 @@ impl Bench {
             assert_eq!(app.input.value(), app.case.text(app.focus).unwrap_or_default(), "the line is the field's");
         }
         assert_eq!(app.problems.is_empty(), app.case.inputs().is_ok());
-        assert_eq!(app.is_unsaved(), app.case != self.saved, "the mark tells whether the file differs");
+        assert!(app.tabs().all(|tab| self.on_disk.contains(&tab.saved)), "the mark tells whether the file differs");
         let inputs = app.case.inputs().ok();
         if let (Some(inputs), Some(answer), false) = (inputs, &app.answer, app.is_stale()) {
             assert_eq!(answer.serial, app.serial, "the results are those of the form");
@@ -314,7 +331,7 @@ impl Bench {
             assert!(!cell.symbol().contains(is_wrong), "{:?} on the screen", cell.symbol());
         }
         let is_marked = buffer.content.iter().map(ratatui::buffer::Cell::symbol).collect::<String>().contains("*unsaved*");
-        if size.width >= 80 && size.height >= 24 && self.app.prompts.is_empty() {
+        if size.width >= 80 && size.height >= 24 && self.app.prompts.is_empty() && self.app.others.is_empty() {
             assert_eq!(is_marked, self.app.is_unsaved());
         }
     }
@@ -325,7 +342,7 @@ impl Bench {
         self.repeat(ctrl('y'), "nothing to redo");
         let last = self.app.case.clone();
         self.repeat(ctrl('z'), "nothing to undo");
-        assert_eq!(self.app.case, self.first, "undoing everything leads back");
+        assert!(self.opened.contains(&self.app.case), "undoing everything leads back");
         self.assert_sound();
         self.repeat(ctrl('y'), "nothing to redo");
         assert_eq!(self.app.case, last, "redoing everything leads forward");

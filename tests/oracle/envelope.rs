@@ -128,11 +128,13 @@ fn anywhere(random: &mut Random, fit: bool) -> Inputs {
         deflection: None,
         tooth_compliance: fit.then_some(ToothCompliance::KuangYang),
         contact_compliance: random.one_of(&ContactCompliance::ALL),
-        stations: 8,
+        stations: Some(8),
         relief_shape: ReliefShape::Linear,
         damping_ratio: 0.07,
         warmup_cycles: 20,
         tolerance: 1e-6,
+        within: 0.05,
+        station_tolerance: 1e-3,
         accurate: false,
     }
 }

@@ -126,7 +126,7 @@ const HEAD: [Field; 5] = [
     ),
 ];
 
-const TAIL: [Field; 16] = [
+const TAIL: [Field; 18] = [
     number!(
         "deviations.base_pitch",
         "f_pb",
@@ -203,8 +203,8 @@ const TAIL: [Field; 16] = [
         key: "model.rung",
         symbol: "",
         label: "rung",
-        help: "paper: as printed, typesetting mended. exact: exact position, free impact. static: load shared by all pairs. dynamic: with inertia.",
-        kind: Kind::Choice(&["paper", "exact", "static", "dynamic"], |inputs, value| inputs.rung = Rung::ALL[value]),
+        help: "paper: as printed, typesetting mended. exact: exact position, free impact. static: load shared by all pairs. dynamic: with inertia. auto: the cheapest that will do.",
+        kind: Kind::Choice(&["paper", "exact", "static", "dynamic", "auto"], |inputs, value| inputs.rung = Rung::ALL[value]),
         absent: Default("exact"),
     },
     number!(
@@ -277,14 +277,38 @@ const TAIL: [Field; 16] = [
         |inputs, value| inputs.tolerance = value,
         "Relative error that the peak force may have; dynamic alone."
     ),
+    number!(
+        "model.within",
+        "",
+        "good enough within",
+        Number,
+        1e-6,
+        1.0,
+        "",
+        Default("0.05"),
+        |inputs, value| inputs.within = value,
+        "Relative error against the rung dynamic that the rung auto may leave."
+    ),
     Field {
         key: "model.stations",
         symbol: "n",
         label: "stations",
-        help: "Intervals between D and E; in static and dynamic as many again to the last contact.",
-        kind: Kind::Count(1, 10000, |inputs, value| inputs.stations = value as usize),
+        help: "Intervals between D and E, and in static and dynamic as many again to the last contact; auto: as many as the curve needs.",
+        kind: Kind::Count(1, 10000, |inputs, value| inputs.stations = (value > 0).then_some(value as usize)),
         absent: Default("64"),
     },
+    number!(
+        "model.station_tolerance",
+        "",
+        "station tolerance",
+        Number,
+        1e-9,
+        0.1,
+        "",
+        Default("1e-3"),
+        |inputs, value| inputs.station_tolerance = value,
+        "How far the curve may lie off the lines between stations, over its peak; with stations = \"auto\" alone."
+    ),
     Field {
         key: "model.accurate",
         symbol: "",
@@ -296,10 +320,10 @@ const TAIL: [Field; 16] = [
 ];
 
 /// Every field, in the order of the form and of a new file.
-pub static FIELDS: [Field; 51] = table();
+pub static FIELDS: [Field; 53] = table();
 
-const fn table() -> [Field; 51] {
-    let mut all = [HEAD[0]; 51];
+const fn table() -> [Field; 53] {
+    let mut all = [HEAD[0]; 53];
     let parts: [&[Field]; 4] = [&HEAD, &DRIVER, &DRIVEN, &TAIL];
     let (mut part, mut at) = (0, 0);
     while part < parts.len() {
@@ -348,11 +372,13 @@ pub(in crate::case) fn blank() -> Inputs {
         deflection: None,
         tooth_compliance: None,
         contact_compliance: ContactCompliance::Logarithmic,
-        stations: 64,
+        stations: Some(64),
         relief_shape: ReliefShape::Linear,
         damping_ratio: 0.07,
         warmup_cycles: 20,
         tolerance: 1e-6,
+        within: 0.05,
+        station_tolerance: 1e-3,
         accurate: false,
     }
 }

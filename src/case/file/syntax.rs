@@ -3,7 +3,7 @@
 use toml::de::{DeTable, Error};
 
 use super::fault::{Found, Lines};
-use crate::case::fields::{FIELDS, Field, Kind, index_of};
+use crate::case::fields::{AUTO, FIELDS, Field, Kind, index_of};
 use crate::case::units::{self, Dimension};
 use crate::case::visible::{cut, quoted};
 use crate::case::{Problem, check};
@@ -127,6 +127,9 @@ fn mistaken(field: &Field, value: &str) -> Option<Problem> {
     let problem = |cause: String, mend: String| Some(Problem::new(field.key, cause, mend));
     if value.is_empty() {
         return problem("there is no value after `=`".to_owned(), format!("write {}", check::assignment(field)));
+    }
+    if field.takes_auto() && value == AUTO {
+        return problem(format!("{} is not in quotes", quoted(value)), format!("write \"{AUTO}\""));
     }
     let read = match field.kind {
         Kind::Number(dimension, range, _) => units::parse(inner, dimension, range.unit),

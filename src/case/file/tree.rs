@@ -7,7 +7,7 @@ use toml::de::{DeTable, DeValue};
 use super::fault::{FaultKind, Found};
 use super::value::{bare_number, flag, kind_of, measure, misplaced, scalar, untaken, words};
 use super::{FORMAT, syntax};
-use crate::case::fields::{FIELDS, GROUPS, Kind, index_of};
+use crate::case::fields::{AUTO, FIELDS, GROUPS, Kind, index_of};
 use crate::case::spread;
 use crate::case::units::Misread;
 use crate::case::visible::quoted;
@@ -160,6 +160,7 @@ impl Reader {
         let written = match known.kind {
             Kind::Choice(..) if known.is_flag() => flag(value.get_ref()),
             Kind::Text | Kind::Choice(..) => words(value.get_ref()),
+            Kind::Count(..) if known.takes_auto() && value.get_ref().as_str() == Some(AUTO) => Ok(AUTO.to_owned()),
             Kind::Number(..) | Kind::Count(..) if known.is_bare() => bare_number(value.get_ref()),
             Kind::Number(..) | Kind::Count(..) => measure(value.get_ref()),
         };

@@ -161,6 +161,11 @@ impl<'a> Forces<'a> {
         Forces { motion, window, touching, evaluations }
     }
 
+    #[cfg(test)]
+    pub(super) fn mass(&self) -> f64 {
+        self.motion.mass
+    }
+
     /// How many pairs may touch.
     pub(super) fn pairs(&self) -> usize {
         self.window.len()

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use super::motion::{Forces, Motion, State, Touching, Window};
 use super::{Dynamic, Effort};
 use crate::model::Refusal;
-use crate::model::static_load::even;
+use crate::model::spacing::Spacing;
 use crate::model::stations::MeshStation;
 use crate::numeric::ode::Point;
 use crate::numeric::root;
@@ -71,7 +71,7 @@ impl Watch {
     }
 
     /// What the incoming tooth carried.
-    pub(super) fn finish(&self, motion: &Motion<'_>, intervals: usize, effort: Effort) -> Result<Dynamic, Refusal> {
+    pub(super) fn finish(&self, motion: &Motion<'_>, spacing: Spacing, effort: Effort) -> Result<Dynamic, Refusal> {
         let mesh = motion.mesh;
         if self.touches.len() != self.leaves.len() {
             return Err(Refusal::BeyondReach);
@@ -80,21 +80,32 @@ impl Watch {
         let before_start = |t: f64| (t < 0.0).then(|| -motion.place(t) / mesh.base_radii.1);
         let after_end = |t: f64| Some((motion.place(t) - mesh.length) / mesh.base_radii.0).filter(|&angle| angle > 0.0);
         let work = self.records.last().map_or(0.0, |record| record.to[2]);
+        let peak_force = self.peak(motion, |_| true);
         Ok(Dynamic {
             first_contact_angle: first.and_then(before_start),
             last_contact_angle: last.and_then(after_end),
             peak_approach_force: self.peak(motion, |record| record.from.t < 0.0),
-            peak_force: self.peak(motion, |_| true),
+            peak_force,
             impact_duration: first.and_then(|first| self.end_of_first_impact(motion).map(|end| end - first)),
             contact_lost: self.contact_lost,
             friction_work: (mesh.friction() > 0.0).then_some(work),
-            stations: first.zip(last).map_or_else(Vec::new, |(first, last)| self.stations(motion, first, last, intervals)),
+            stations: first
+                .zip(last)
+                .map_or_else(Vec::new, |(first, last)| self.stations(motion, first, last, peak_force, spacing)),
             effort: Effort { evaluations: effort.evaluations + self.evaluations.get(), ..effort },
         })
     }
 
     fn forces<'a>(&'a self, motion: &'a Motion<'a>, record: &Record) -> Forces<'a> {
         Forces::new(motion, &self.windows[record.window], record.touching, &self.evaluations)
+    }
+
+    /// Show every kept step, with what acts in it.
+    #[cfg(test)]
+    pub(super) fn each_step(&self, motion: &Motion<'_>, mut show: impl FnMut(&Forces<'_>, &Point<3>, f64, &State)) {
+        for record in &self.records {
+            show(&self.forces(motion, record), &record.from, record.length, &record.to);
+        }
     }
 
     /// The steps in which the incoming tooth carries, with its force at both ends.
@@ -144,13 +155,15 @@ impl Watch {
         last.filter(|_| falls)
     }
 
-    /// Stations from the first contact to E and from there to the last, `intervals` each.
-    fn stations(&self, motion: &Motion<'_>, first: f64, last: f64, intervals: usize) -> Vec<MeshStation> {
-        let turn = first.max(0.0);
-        let before = even(first.min(turn), turn, intervals);
-        let after = even(turn, last, intervals);
-        let times = if first < 0.0 { [before, after[1..].to_vec()].concat() } else { after };
-        times.into_iter().filter_map(|t| self.station(motion, t)).collect()
+    /// Stations from the first contact to E and from there to the last.
+    fn stations(&self, motion: &Motion<'_>, first: f64, last: f64, peak: f64, spacing: Spacing) -> Vec<MeshStation> {
+        let found = |from: f64, to: f64| {
+            spacing.stations(from, to, peak, |t| {
+                let station = self.station(motion, t);
+                (station.map_or(f64::NAN, |station| station.force), station)
+            })
+        };
+        MeshStation::through_start(first, last, |from, to| found(from, to).into_iter().flatten().collect())
     }
 
     fn station(&self, motion: &Motion<'_>, t: f64) -> Option<MeshStation> {

@@ -15,14 +15,16 @@ pub(super) fn withheld(_: &Inputs, solution: &Solution) -> Option<Note> {
 /// Stations whose force could not be computed.
 pub(super) fn stations_left_out(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let refusal = solution.stations_withheld?;
-    let missing = inputs.stations + 1 - solution.stations.len();
-    let message = format!("{missing} of {} stations are left out: {refusal}", inputs.stations + 1);
+    let message = match inputs.stations {
+        Some(count) => format!("{} of {} stations are left out: {refusal}", count + 1 - solution.stations.len(), count + 1),
+        None => format!("some stations are left out: {refusal}"),
+    };
     Some(Note::new("stations-left-out", message))
 }
 
 /// The impact is longer than the way from D to E.
 pub(super) fn outlasting(_: &Inputs, solution: &Solution) -> Option<Note> {
-    let duration = solution.impact?.duration * MICRO;
+    let duration = solution.impact.filter(|_| !solution.rung.shares_load())?.duration * MICRO;
     let transit = solution.velocity?.transit_time * MICRO;
     let message = || {
         let (lasts, way) = (four(duration), four(transit));
@@ -34,10 +36,10 @@ pub(super) fn outlasting(_: &Inputs, solution: &Solution) -> Option<Note> {
 }
 
 /// Force and duration contradict each other.
-pub(super) fn impulse(inputs: &Inputs, solution: &Solution) -> Option<Note> {
+pub(super) fn impulse(_: &Inputs, solution: &Solution) -> Option<Note> {
     const ROUNDING: f64 = 1e-9;
     let ratio = solution.impact?.impulse_ratio;
-    let cause = match inputs.rung {
+    let cause = match solution.rung {
         Rung::Paper => "Eq. 32 as printed lacks Hertz's prefactor",
         _ => "force and duration do not belong to one impact",
     };
@@ -48,6 +50,9 @@ pub(super) fn impulse(inputs: &Inputs, solution: &Solution) -> Option<Note> {
 
 /// The load cannot hold the pair ahead in contact while the incoming tooth carries its error.
 pub(super) fn contact_lost(_: &Inputs, solution: &Solution) -> Option<Note> {
+    if solution.rung.shares_load() {
+        return None;
+    }
     let deviation = solution.deviation;
     let (deflection, error) = (deviation.combined_deflection * MICRO, deviation.equivalent_error * MICRO);
     let message = || {

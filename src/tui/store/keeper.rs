@@ -81,7 +81,7 @@ impl Keeper {
         let claims: Vec<_> = sheets.iter().filter_map(|sheet| self.claim(sheet)).collect();
         let mut told: Vec<_> = claims.into_iter().map(|claim| Action::Claimed(Box::new(claim))).collect();
         for sheet in sheets {
-            told.extend(self.note(sheet, now).err().map(Action::Warned));
+            told.extend(self.note(sheet, now).err().map(Action::Failed));
         }
         self.drop_adopted();
         told

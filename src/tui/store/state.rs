@@ -1,10 +1,8 @@
-//! The folder of what outlives a session: the case that was open last, and the journals of unsaved edits.
+//! The folder of what outlives a session: the cases that were open last, and the journals of unsaved edits.
 
 use std::env;
-use std::ffi::OsString;
-use std::fs::{self, DirBuilder};
+use std::fs::DirBuilder;
 use std::io;
-use std::os::unix::ffi::{OsStrExt, OsStringExt};
 use std::os::unix::fs::DirBuilderExt;
 use std::path::{Path, PathBuf};
 
@@ -21,22 +19,6 @@ pub fn folder() -> Option<PathBuf> {
 }
 
 /// Make a folder that only its owner looks into, and those above it.
-pub(super) fn make(folder: &Path) -> io::Result<()> {
+pub(in crate::tui) fn make(folder: &Path) -> io::Result<()> {
     DirBuilder::new().recursive(true).mode(0o700).create(folder)
-}
-
-/// Open this case when the workbench starts the next time. Only a convenience: without it the next start begins with
-/// the built-in case.
-pub(super) fn remember(path: &Path) {
-    let write = |folder: PathBuf| -> io::Result<()> {
-        make(&folder)?;
-        fs::write(folder.join("last-case"), std::path::absolute(path)?.as_os_str().as_bytes())
-    };
-    drop(folder().map(write));
-}
-
-/// The case that was open last.
-pub(super) fn last_case() -> Option<PathBuf> {
-    let path = OsString::from_vec(fs::read(folder()?.join("last-case")).ok()?);
-    (!path.is_empty()).then(|| path.into())
 }

@@ -2,9 +2,9 @@
 
 use tui_input::InputRequest;
 
-use super::{Effect, options, solve};
+use super::{Effect, options_of, solve};
 use crate::case::FIELDS;
-use crate::case::fields::Absent;
+use crate::case::fields::{Absent, index_of};
 use crate::tui::app::App;
 use crate::tui::clean;
 use crate::tui::prompt::Prompt;
@@ -18,7 +18,7 @@ pub(super) fn insert(app: &mut App, letter: char) -> Vec<Effect> {
     if let Some(Prompt::Ask(question)) = app.prompts.last() {
         return question.by_letter(letter).map_or_else(Vec::new, |choice| files::choose(app, choice));
     }
-    if app.prompts.is_empty() && !options(app.focus).is_empty() {
+    if app.prompts.is_empty() && app.has_line() && !options_of(app.focus).is_empty() {
         return choose_by_letter(app, letter);
     }
     paste(app, letter.encode_utf8(&mut [0; 4]))
@@ -27,10 +27,10 @@ pub(super) fn insert(app: &mut App, letter: char) -> Vec<Effect> {
 /// Text pasted: into a line of text and nowhere else, what controls a terminal left out.
 pub(super) fn paste(app: &mut App, text: &str) -> Vec<Effect> {
     let editing_case = app.prompts.is_empty();
+    let takes_text = app.has_line() && options_of(app.focus).is_empty();
     let line = match app.prompts.last_mut() {
         Some(prompt) => prompt.input_mut(),
-        None if options(app.focus).is_empty() => Some(&mut app.input),
-        None => None,
+        None => Some(&mut app.tab.input).filter(|_| takes_text),
     };
     let Some(line) = line else { return Vec::new() };
     let room = LONGEST.saturating_sub(line.value().len());
@@ -49,7 +49,7 @@ pub(super) fn handle(app: &mut App, request: InputRequest) -> Vec<Effect> {
         let changed = prompt.input_mut().and_then(|input| input.handle(request));
         return if changed.is_some_and(|changed| changed.value) { files::typed(app) } else { Vec::new() };
     }
-    match app.input.handle(request) {
+    match app.tab.input.handle(request) {
         Some(changed) if changed.value => write(app),
         _ => Vec::new(),
     }
@@ -57,7 +57,7 @@ pub(super) fn handle(app: &mut App, request: InputRequest) -> Vec<Effect> {
 
 /// Take the next or the previous of the names of the focused field.
 pub(super) fn cycle(app: &mut App, by: isize) -> Vec<Effect> {
-    choose(app, app.focus, options(app.focus), by)
+    choose(app, app.focus, options_of(app.focus), by)
 }
 
 /// Take a name beside the present one, in any field of names.
@@ -78,7 +78,7 @@ pub(super) fn chosen(app: &App, field: usize) -> &str {
 }
 
 fn choose_by_letter(app: &mut App, letter: char) -> Vec<Effect> {
-    let name = options(app.focus).iter().find(|name| name.starts_with(letter.to_ascii_lowercase()));
+    let name = options_of(app.focus).iter().find(|name| name.starts_with(letter.to_ascii_lowercase()));
     name.map_or_else(Vec::new, |name| set(app, app.focus, name))
 }
 
@@ -94,23 +94,51 @@ fn set(app: &mut App, field: usize, name: &str) -> Vec<Effect> {
     if chosen(app, field) == name {
         return Vec::new();
     }
-    if field != app.focus {
-        app.history.end_visit();
+    let is_focused = field == app.focus;
+    if !is_focused {
+        app.tab.history.end_visit();
     }
-    app.history.before_edit(&app.case, app.focus);
-    app.case.write(field, name);
-    if field == app.focus {
-        app.input = name.into();
+    app.tab.before_edit();
+    app.tab.case.write(field, name);
+    if is_focused {
+        app.tab.input = name.into();
     } else {
-        app.history.end_visit();
+        app.tab.history.end_visit();
     }
     checked(app)
 }
 
 fn write(app: &mut App) -> Vec<Effect> {
-    app.history.before_edit(&app.case, app.focus);
-    app.case.write(app.focus, app.input.value());
+    app.tab.before_edit();
+    let field = app.focus;
+    let text = app.tab.input.value().to_owned();
+    app.tab.case.write(field, &text);
+    if let Absent::Either(other) = FIELDS[field].absent
+        && let Some(other) = index_of(other)
+    {
+        take_turns(app, field, other);
+    }
     checked(app)
+}
+
+// Of two fields that exclude each other the one that is typed stays; emptied again, it gives way to the other.
+fn take_turns(app: &mut App, field: usize, other: usize) {
+    let case = &mut app.tab.case;
+    match (case.text(field), case.text(other)) {
+        (Some(_), Some(text)) => {
+            let words = format!("{} {text} is taken out: {} stands in its place", FIELDS[other].label, FIELDS[field].label);
+            case.write(other, "");
+            app.say(words);
+        }
+        (None, None) => {
+            let before = app.tab.history.before_visit().and_then(|before| before.text(other)).map(str::to_owned);
+            if let Some(text) = before {
+                app.tab.case.write(other, &text);
+                app.say(format!("{} {text} is back", FIELDS[other].label));
+            }
+        }
+        _ => (),
+    }
 }
 
 fn checked(app: &mut App) -> Vec<Effect> {

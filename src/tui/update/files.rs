@@ -1,25 +1,52 @@
 //! Opening, saving and leaving, with a question before anything is lost.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use tui_input::Input;
 
-use super::{Effect, Over, Saving, recovery, solve};
+use super::{Effect, Over, Saving, recovery, solve, tabs};
 use crate::case::Document;
 use crate::tui::actions::Next;
-use crate::tui::app::{App, History};
+use crate::tui::app::App;
 use crate::tui::clean;
+use crate::tui::pick::Pick;
 use crate::tui::prompt::{Browser, Choice, Page, Prompt, Question};
-use crate::tui::recovery::Access;
-use crate::tui::store::{self, Entry, SaveFault};
+use crate::tui::store::{Entry, SaveFault};
+use crate::tui::tab::Tab;
 
-/// Go on when nothing is unsaved, else ask.
-pub(super) fn when_saved(app: &mut App, next: Next) -> Vec<Effect> {
+/// Ask for a file to open.
+pub(super) fn browse(app: &mut App) -> Vec<Effect> {
+    let browser = Browser::beside(app.path.as_deref());
+    let folder = browser.folder.clone();
+    app.prompts.push(Prompt::Browse(browser));
+    vec![Effect::List(folder)]
+}
+
+/// Leave, or ask when anything is unsaved.
+pub(super) fn quit(app: &mut App) -> Vec<Effect> {
+    let unsaved: Vec<_> = app.tabs().enumerate().filter(|(_, tab)| tab.is_unsaved()).map(|(at, _)| at).collect();
+    match unsaved[..] {
+        [] => vec![Effect::Quit],
+        [only] => {
+            tabs::go_to(app, only);
+            app.prompts.push(Prompt::Ask(Question::unsaved(&app.name(), &Next::Quit)));
+            Vec::new()
+        }
+        _ => {
+            let names: Vec<_> = app.tabs().filter(|tab| tab.is_unsaved()).map(Tab::name).collect();
+            app.prompts.push(Prompt::Ask(Question::all_unsaved(&names)));
+            Vec::new()
+        }
+    }
+}
+
+/// Close the current case, or ask when it is unsaved.
+pub(super) fn close(app: &mut App) -> Vec<Effect> {
     if app.is_unsaved() {
-        app.prompts.push(Prompt::Ask(Question::unsaved(&app.name(), &next)));
+        app.prompts.push(Prompt::Ask(Question::unsaved(&app.name(), &Next::Close)));
         return Vec::new();
     }
-    go(app, next)
+    go(app, Next::Close)
 }
 
 /// Save to the file of the case, or ask where to.
@@ -43,18 +70,6 @@ pub(super) fn ask_where(app: &mut App, next: Next) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Close what lies over the form; else ask whether to quit.
-pub(super) fn cancel(app: &mut App) -> Vec<Effect> {
-    if app.prompts.pop().is_some() {
-        return Vec::new();
-    }
-    if app.is_unsaved() {
-        return when_saved(app, Next::Quit);
-    }
-    app.prompts.push(Prompt::Ask(Question::quit()));
-    Vec::new()
-}
-
 /// Enter in a prompt.
 pub(super) fn accept(app: &mut App) -> Vec<Effect> {
     match app.prompts.last().cloned() {
@@ -62,6 +77,10 @@ pub(super) fn accept(app: &mut App) -> Vec<Effect> {
         Some(Prompt::SaveAs(input, next)) => accept_name(app, input.value(), next),
         Some(Prompt::Ask(question)) => match question.buttons.get(question.marked) {
             Some((_, choice)) => choose(app, choice.clone()),
+            None => Vec::new(),
+        },
+        Some(Prompt::Pick(picker)) => match picker.fitting().into_iter().nth(picker.marked) {
+            Some(item) => pick(app, item.pick),
             None => Vec::new(),
         },
         Some(Prompt::Read(_)) | None => Vec::new(),
@@ -97,7 +116,14 @@ pub(super) fn complete(app: &mut App) -> Vec<Effect> {
 
 /// The line of a prompt has changed.
 pub(super) fn typed(app: &mut App) -> Vec<Effect> {
-    let Some(Prompt::Browse(browser)) = app.prompts.last_mut() else { return Vec::new() };
+    let browser = match app.prompts.last_mut() {
+        Some(Prompt::Browse(browser)) => browser,
+        Some(Prompt::Pick(picker)) => {
+            picker.marked = 0;
+            return Vec::new();
+        }
+        _ => return Vec::new(),
+    };
     browser.marked = 0;
     let folder = browser.split().0.to_owned();
     if folder == browser.folder {
@@ -122,10 +148,11 @@ pub(super) fn listed(app: &mut App, folder: &str, entries: Vec<Entry>) -> Vec<Ef
 /// A file was read, or its faults were found: then nothing changes but what is told.
 pub(super) fn loaded(app: &mut App, path: PathBuf, result: Result<Box<Document>, Vec<String>>) -> Vec<Effect> {
     match result {
+        Ok(document) if is_open_as_another(app, &document, &path) => Vec::new(),
         Ok(document) => {
             app.prompts.clear();
             let mut effects = vec![Effect::Remember(path.clone())];
-            effects.extend(show(app, *document, Some(path)));
+            effects.extend(solve(tabs::show(app, *document, path)));
             app.say(format!("opened {}", clean::clean(&app.name())));
             effects
         }
@@ -144,10 +171,11 @@ pub(super) fn saved(app: &mut App, path: PathBuf, next: Next, result: Result<Box
             if matches!(app.prompts.last(), Some(Prompt::SaveAs(..))) {
                 app.prompts.pop();
             }
-            app.saved = document.case.clone();
-            app.document = *document;
+            app.tab.saved = document.case.clone();
+            app.tab.document = *document;
+            app.tab.in_place_of = None;
             app.say(format!("saved {}", path.display()));
-            app.path = Some(path.clone());
+            app.tab.path = Some(path.clone());
             let mut effects = vec![Effect::Remember(path)];
             effects.extend(go(app, next));
             return effects;
@@ -160,33 +188,58 @@ pub(super) fn saved(app: &mut App, path: PathBuf, next: Next, result: Result<Box
     Vec::new()
 }
 
+/// What was picked from a list.
+fn pick(app: &mut App, pick: Pick) -> Vec<Effect> {
+    app.prompts.pop();
+    match pick {
+        Pick::Run(command) => super::run(app, command),
+        Pick::Load(path) => open(app, path),
+        Pick::Go(field) => {
+            app.panes.focus = crate::tui::pane::Pane::Form;
+            app.focus_on(field);
+            Vec::new()
+        }
+    }
+}
+
 fn go(app: &mut App, next: Next) -> Vec<Effect> {
     match next {
         Next::Stay => Vec::new(),
         Next::Quit => vec![Effect::Quit],
         Next::Load(path) => vec![Effect::Load(path)],
-        Next::Fresh => {
-            let effects = show(app, store::built_in(), None);
-            app.say("a new case, beginning with Table 1");
-            effects
-        }
-        Next::Browse => {
-            let browser = Browser::beside(app.path.as_deref());
-            let folder = browser.folder.clone();
-            app.prompts.push(Prompt::Browse(browser));
-            vec![Effect::List(folder)]
-        }
+        Next::Close => solve(tabs::close(app)),
+        Next::SaveRest => save_rest(app),
     }
 }
 
-fn show(app: &mut App, document: Document, path: Option<PathBuf>) -> Vec<Effect> {
-    app.saved = document.case.clone();
-    app.document = document;
-    app.path = path;
-    app.access = Access::default();
-    app.history = History::default();
-    app.results_top = 0;
-    solve(app.replace_case(app.saved.clone(), app.focus))
+fn save_rest(app: &mut App) -> Vec<Effect> {
+    let unsaved = app.tabs().position(Tab::is_unsaved);
+    let Some(unsaved) = unsaved else { return vec![Effect::Quit] };
+    tabs::go_to(app, unsaved);
+    save(app, Next::SaveRest)
+}
+
+// A case that is open already is gone to, with what is unsaved in it.
+fn open(app: &mut App, path: PathBuf) -> Vec<Effect> {
+    let Some(at) = place_of(app, &path) else { return vec![Effect::Load(path)] };
+    app.prompts.clear();
+    tabs::go_to(app, at);
+    app.say(format!("{} is open already", clean::clean(&app.name())));
+    Vec::new()
+}
+
+// The same file by another path, over a link, is the same case.
+fn is_open_as_another(app: &mut App, document: &Document, path: &Path) -> bool {
+    let is_it = |tab: &Tab| tab.path.as_deref().is_some_and(|own| own != path) && tab.document.path() == document.path();
+    let Some(at) = app.tabs().position(is_it) else { return false };
+    app.prompts.clear();
+    tabs::go_to(app, at);
+    app.say(format!("{} is open already, as {}", clean::clean(&path.display().to_string()), clean::clean(&app.name())));
+    true
+}
+
+fn place_of(app: &App, path: &Path) -> Option<usize> {
+    app.tabs().position(|tab| tab.path.as_deref() == Some(path))
 }
 
 // What would be saved could not be opened again.
@@ -206,9 +259,9 @@ fn saving(app: &App, path: PathBuf, over: Over, next: Next) -> Effect {
 fn accept_path(app: &mut App, browser: &Browser) -> Vec<Effect> {
     match browser.marked_path() {
         Some((_, true)) => complete(app),
-        Some((path, false)) => vec![Effect::Load(path.into())],
+        Some((path, false)) => open(app, path.into()),
         None if browser.input.value().is_empty() => Vec::new(),
-        None => vec![Effect::Load(browser.input.value().into())],
+        None => open(app, browser.input.value().into()),
     }
 }
 

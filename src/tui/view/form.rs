@@ -4,11 +4,12 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::{Modifier, Style};
 
-use super::{plan, text};
+use super::{plan, text, titled};
 use crate::case::fields::{GROUPS, Kind};
 use crate::case::{FIELDS, Field};
 use crate::tui::app::{self, App};
 use crate::tui::clean::{clean, symbol};
+use crate::tui::pane::Pane;
 
 const MARK: u16 = 2;
 const SYMBOL: u16 = 6;
@@ -29,7 +30,7 @@ enum Row {
 /// Draw the form; where the cursor stands.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     let rows = rows(app, area.width);
-    let inner = text::titled("Form", area, app.look.theme, buffer);
+    let inner = titled(app, Pane::Form, "Form", area, buffer);
     if inner.is_empty() {
         return None;
     }
@@ -59,6 +60,24 @@ pub fn top_for(app: &App) -> usize {
     let least = (focused + reasons + 1 + ahead).min(rows.len()).saturating_sub(height);
     let most = rows.len().saturating_sub(height);
     app.form_top.max(least).min(first.max(least)).min(most)
+}
+
+/// The field on a cell, where there is one.
+#[must_use]
+pub fn field_at(app: &App, area: Rect, at: Position) -> Option<usize> {
+    let line = usize::from(at.y.checked_sub(area.y + 1)?);
+    match rows(app, area.width).get(app.form_top + line)? {
+        Row::Field(index) => Some(*index),
+        Row::Group(_) | Row::Reason(_) => None,
+    }
+}
+
+/// The first line to be shown after so many lines downwards.
+#[must_use]
+pub fn scrolled(app: &App, by: isize) -> usize {
+    let area = plan(app.size, app.panes).form;
+    let most = rows(app, area.width).len().saturating_sub(area.height.saturating_sub(1).into());
+    app.form_top.saturating_add_signed(by).min(most)
 }
 
 /// A bar whose thumb shows which part of the lines is in sight.
@@ -151,18 +170,18 @@ fn draw_name(field: &Field, area: Rect, ascii: bool, style: Style, buffer: &mut 
 fn draw_value(app: &App, index: usize, area: Rect, style: Style, buffer: &mut Buffer) -> Option<Position> {
     let width = usize::from(area.width);
     let is_focused = app.focus == index;
+    let is_edited = is_focused && app.has_line();
     let is_choice = matches!(FIELDS[index].kind, Kind::Choice(..));
     let written = app.case.text(index);
     let shown = written.map_or_else(|| app::unwritten(&app.case, index), |text| clean(text).into_owned());
-    if is_focused && is_choice {
+    if is_edited && is_choice {
         buffer.set_stringn(area.x, area.y, text::cut(&format!("‹ {shown} ›"), width), width, style);
         return None;
     }
-    let edited = is_focused && written.is_some();
-    if edited {
+    if is_edited && written.is_some() {
         return text::edited(&app.input, area, style.add_modifier(Modifier::UNDERLINED), buffer);
     }
     let faint = if written.is_none() { app.look.theme.faint } else { style };
     buffer.set_stringn(area.x, area.y, text::cut(&shown, width), width, faint);
-    is_focused.then_some(Position::new(area.x, area.y))
+    is_edited.then_some(Position::new(area.x, area.y))
 }

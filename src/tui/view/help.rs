@@ -1,6 +1,6 @@
 //! The help page, made from the table of bindings.
 
-use crate::tui::actions::{BINDINGS, Place};
+use crate::tui::actions::{BINDINGS, Binding, Place};
 
 const BEFORE: [&str; 4] = [
     "Every edit acts at once: results and chart follow each keystroke that leaves a valid value.",
@@ -9,9 +9,14 @@ const BEFORE: [&str; 4] = [
     "D is where the driven tip first touches, E where the normal path of contact begins. The rung paper keeps the printed Eqs. 7-20, exact finds D where the gap closes.",
 ];
 
-const PLACES: [(&str, Place); 5] = [
-    ("In the form", Place::TEXT),
+const PLACES: [(&str, Place); 10] = [
+    ("Everywhere", Place::WORK),
+    ("In a field", Place::TEXT),
+    ("Outside a field (Esc leaves one)", Place::FIELD),
     ("In a field of names", Place::CHOICE),
+    ("In the results", Place::RESULTS),
+    ("In chart and teeth", Place::CURSOR),
+    ("In a list", Place::PICK),
     ("In the list of files", Place::BROWSE),
     ("In a question (or its first letter)", Place::ASK),
     ("In a page like this", Place::READ),
@@ -25,11 +30,17 @@ pub fn lines() -> Vec<String> {
     for (title, place) in PLACES {
         lines.extend([String::new(), title.to_owned()]);
         for (binding, told) in BINDINGS.iter().zip(&mut told) {
-            if !*told && binding.places.meets(place) {
-                lines.push(format!("  {:<24} {}", binding.keys(), binding.sentence));
+            let is_here = if place == Place::WORK { binding.places.holds(place) } else { binding.places.meets(place) };
+            if !*told && is_here {
                 *told = true;
+                lines.extend(line(binding));
             }
         }
     }
     lines
+}
+
+fn line(binding: &Binding) -> Option<String> {
+    let keys = if binding.chords.is_empty() { format!(":{}", binding.name) } else { binding.keys() };
+    (!binding.sentence.is_empty()).then(|| format!("  {keys:<24} {}", binding.sentence))
 }

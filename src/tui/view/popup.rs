@@ -9,12 +9,16 @@ use unicode_width::UnicodeWidthStr;
 
 use super::{form, text};
 use crate::tui::app::App;
+use crate::tui::pick::{Item, Picker};
 use crate::tui::prompt::{Browser, Page, Prompt, Question};
+use crate::tui::store::Entry;
 use crate::tui::theme::Theme;
 
 const WIDEST: u16 = 100;
 /// Room for four buttons.
 const NARROWEST: u16 = 52;
+/// Room for the keys of a command.
+const KEYS: usize = 18;
 
 /// Draw a prompt over the screen; where the cursor stands.
 pub fn draw(app: &App, prompt: &Prompt, screen: Rect, buffer: &mut Buffer) -> Option<Position> {
@@ -33,6 +37,7 @@ pub fn draw(app: &App, prompt: &Prompt, screen: Rect, buffer: &mut Buffer) -> Op
             text::edited(input, inner, Style::new(), buffer)
         }
         Prompt::Browse(browser) => draw_browser(browser, screen, theme, buffer),
+        Prompt::Pick(picker) => draw_picker(picker, screen, theme, buffer),
     }
 }
 
@@ -119,21 +124,43 @@ fn question_lines(question: &Question, room: Size) -> Vec<String> {
 
 fn draw_browser(browser: &Browser, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Option<Position> {
     let inner = frame("Open", Size::new(WIDEST, 16), screen, theme, buffer);
-    let list = Rect { y: inner.y + 1, height: inner.height.saturating_sub(1), ..inner };
-    let rows = usize::from(list.height);
-    let top = (browser.marked + 1).saturating_sub(rows);
-    let mut entries = browser.fitting().enumerate().skip(top).peekable();
-    if entries.peek().is_none() {
-        buffer.set_stringn(list.x, list.y, "(nothing here fits)", list.width.into(), theme.faint);
-    }
-    for ((index, entry), y) in entries.zip(list.top()..list.bottom()) {
-        let marked = index == browser.marked;
-        let slash = if entry.is_folder { "/" } else { "" };
-        let line = format!("{} {}{slash}", if marked { "▸" } else { " " }, entry.name);
-        let style = if marked { theme.focus } else { Style::new() };
-        buffer.set_stringn(list.x, y, text::cut(&line, list.width.into()), list.width.into(), style);
-    }
+    let name = |entry: &Entry| format!("{}{}", entry.name, if entry.is_folder { "/" } else { "" });
+    let entries: Vec<_> = browser.fitting().map(name).collect();
+    draw_list(&entries, browser.marked, below(inner), theme, buffer);
     text::edited(&browser.input, Rect { height: inner.height.min(1), ..inner }, theme.focus, buffer)
+}
+
+fn draw_picker(picker: &Picker, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Option<Position> {
+    let inner = frame(picker.title(), Size::new(WIDEST, 16), screen, theme, buffer);
+    let items = picker.fitting();
+    let widest = |text: fn(&Item) -> &str| items.iter().map(|item| text(item).width()).max().unwrap_or(0);
+    let name = widest(|item| &item.name).min(usize::from(inner.width));
+    let keys = widest(|item| &item.keys).min(KEYS);
+    let about = usize::from(inner.width).saturating_sub(name + keys + 6);
+    let line = |item: &Item| {
+        let (left, right) = (text::padded(&item.name, name), text::padded(&item.about, about));
+        format!("{left}  {right}  {}", text::cut(&item.keys, keys)).trim_end().to_owned()
+    };
+    draw_list(&items.iter().map(line).collect::<Vec<_>>(), picker.marked, below(inner), theme, buffer);
+    text::edited(&picker.input, Rect { height: inner.height.min(1), ..inner }, theme.focus, buffer)
+}
+
+fn below(inner: Rect) -> Rect {
+    Rect { y: inner.y + 1, height: inner.height.saturating_sub(1), ..inner }
+}
+
+// The lines around the marked one.
+fn draw_list(lines: &[String], marked: usize, area: Rect, theme: &Theme, buffer: &mut Buffer) {
+    let top = (marked + 1).saturating_sub(area.height.into());
+    if lines.is_empty() && !area.is_empty() {
+        buffer.set_stringn(area.x, area.y, "(nothing here fits)", area.width.into(), theme.faint);
+    }
+    for ((index, line), y) in lines.iter().enumerate().skip(top).zip(area.top()..area.bottom()) {
+        let is_marked = index == marked;
+        let line = format!("{} {line}", if is_marked { "▸" } else { " " });
+        let style = if is_marked { theme.focus } else { Style::new() };
+        buffer.set_stringn(area.x, y, text::cut(&line, area.width.into()), area.width.into(), style);
+    }
 }
 
 // What the lines and some more below them take.

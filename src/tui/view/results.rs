@@ -1,59 +1,96 @@
-//! The results: the outcome in a sentence, the rungs side by side, what to know, and every quantity.
+//! The results: the outcome in a sentence, the gauges, every quantity with the rungs side by side, what to know.
+
+mod table;
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
-use ratatui::text::{Line, Span};
+use ratatui::text::Line;
 use ratatui::widgets::Widget;
-use unicode_width::UnicodeWidthStr;
 
-use super::{plan, text};
+use super::{plan, text, titled};
 use crate::model::inputs::Rung;
-use crate::model::{Outcome, QUANTITIES, Quantity, Solution};
+use crate::model::{Outcome, Quantity, Solution};
 use crate::report::{self, Shown};
 use crate::tui::app::App;
 use crate::tui::clean::symbol;
+use crate::tui::pane::Pane;
 use crate::tui::solver::Answer;
 
-/// What an engineer looks at first.
-const FIRST: [&str; 5] = ["approach_angle_driven", "contact_radius_driver", "normal_velocity", "impact_force", "impact_duration"];
-/// The same, when no tooth strikes.
-const FIRST_WITHOUT_CONTACT: [&str; 5] =
-    ["total_deviation", "equivalent_error", "combined_deflection", "mesh_force", "contact_ratio"];
+/// So many quantities are to be in sight before gauges and notes get more than a line each.
+const ENOUGH_ROWS: usize = 8;
+/// So many at least, whatever stands above them.
+const LEAST_ROWS: usize = 2;
 
-const SYMBOL: usize = 7;
-/// Beside labels there is room for the longest symbol.
-const LONG_SYMBOL: usize = 9;
-const LABEL: usize = 25;
-const VALUE: usize = 9;
-const UNIT: usize = 7;
-/// Below this width only the active rung has room.
-const ALL_RUNGS_FROM: usize = SYMBOL + 2 * (VALUE + 1) + UNIT;
-/// From this width the labels have room too.
-const LABELS_FROM: usize = ALL_RUNGS_FROM - SYMBOL + LONG_SYMBOL + LABEL;
+/// What stands in the pane, from its top to its bottom.
+struct Parts {
+    /// The refusal, the outcome, the gauges.
+    head: Vec<Line<'static>>,
+    /// How many quantities have room below their heading.
+    rows: usize,
+    /// What to know.
+    notes: Vec<Line<'static>>,
+}
 
 /// Draw the results.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
-    let lines = lines(app, area.width);
-    let shown = usize::from(area.height.saturating_sub(1));
-    let top = app.results_top.min(lines.len().saturating_sub(shown));
-    let inner = text::titled(&title(app, top, shown, lines.len()), area, app.look.theme, buffer);
+    let parts = parts(app, area);
+    let inner = titled(app, Pane::Results, &title(app, &parts), area, buffer);
+    let Some(answer) = &app.answer else {
+        draw_lines(&parts.head, inner, buffer);
+        return;
+    };
     let inner = Rect { x: inner.x + inner.width.min(1), width: inner.width.saturating_sub(1), ..inner };
-    for (line, y) in lines.iter().skip(top).zip(inner.top()..inner.bottom()) {
-        line.render(Rect { y, height: 1, ..inner }, buffer);
+    let table = table::lines(app, answer, inner.width.into());
+    let quantities = table.rows.iter().skip(app.results_top).take(parts.rows);
+    let lines: Vec<Line<'static>> =
+        parts.head.into_iter().chain([table.heading]).chain(quantities.cloned()).chain(parts.notes).collect();
+    draw_lines(&lines, inner, buffer);
+    if app.panes.focus == Pane::Results
+        && let Some(line) = app.row.checked_sub(app.results_top).filter(|&line| line < parts.rows)
+    {
+        let y = area.y + (lines_before(app, area) + line) as u16;
+        buffer.set_stringn(area.x, y, "▸", 1, app.look.theme.focus);
     }
 }
 
-/// How many lines there are.
+/// How many quantities there are.
 #[must_use]
-pub fn length(app: &App) -> usize {
-    lines(app, plan(app.size, app.panes).results.width).len()
+pub fn count(app: &App) -> usize {
+    app.answer.as_ref().map_or(0, |answer| table::order(answer).count())
 }
 
-/// How many lines are in sight.
+/// How many of them are in sight.
 #[must_use]
 pub fn page(app: &App) -> usize {
-    plan(app.size, app.panes).results.height.saturating_sub(1).into()
+    parts(app, plan(app.size, app.panes).results).rows
+}
+
+/// The marked quantity.
+#[must_use]
+pub fn marked(app: &App) -> Option<&'static Quantity> {
+    table::order(app.answer.as_ref()?).nth(app.row)
+}
+
+/// The first quantity to be shown, so that the marked one is in sight.
+#[must_use]
+pub fn top_for(app: &App) -> usize {
+    let rows = page(app).max(1);
+    let least = (app.row + 1).saturating_sub(rows);
+    app.results_top.clamp(least, app.row.max(least)).min(count(app).saturating_sub(rows))
+}
+
+/// The first quantity to be shown after so many lines downwards.
+#[must_use]
+pub fn scrolled(app: &App, by: isize) -> usize {
+    app.results_top.saturating_add_signed(by).min(count(app).saturating_sub(page(app)))
+}
+
+/// The place of the quantity on a cell, where there is one.
+#[must_use]
+pub fn row_at(app: &App, area: Rect, at: Position) -> Option<usize> {
+    let line = usize::from(at.y - area.y).checked_sub(lines_before(app, area))?;
+    (line < parts(app, area).rows).then_some(app.results_top + line).filter(|&row| row < count(app))
 }
 
 /// The outcome of a solve, in a sentence.
@@ -73,23 +110,62 @@ pub fn sentence(solution: &Solution, ascii: bool) -> String {
     }
 }
 
-fn title(app: &App, top: usize, shown: usize, count: usize) -> String {
-    let name = if app.is_stale() { "Results: LAST VALID" } else { "Results" };
-    let last = (top + shown).min(count);
-    if count > shown { format!("{name}, {}-{last} of {count}", top + 1) } else { name.to_owned() }
+fn draw_lines(lines: &[Line<'static>], area: Rect, buffer: &mut Buffer) {
+    for (line, y) in lines.iter().zip(area.top()..area.bottom()) {
+        line.render(Rect { y, height: 1, ..area }, buffer);
+    }
 }
 
-fn lines(app: &App, width: u16) -> Vec<Line<'static>> {
-    let width = usize::from(width.saturating_sub(1));
-    let mut lines = banner(app, width);
+// Title, head and heading.
+fn lines_before(app: &App, area: Rect) -> usize {
+    parts(app, area).head.len() + 2
+}
+
+fn title(app: &App, parts: &Parts) -> String {
+    let name = if app.is_stale() { "Results: LAST VALID" } else { "Results" };
+    let count = count(app);
+    let last = (app.results_top + parts.rows).min(count);
+    let range = if count > parts.rows { format!(", {}-{last} of {count}", app.results_top + 1) } else { String::new() };
+    let against = app.baseline.as_ref().map_or_else(String::new, |baseline| format!(", against {}", baseline.name));
+    format!("{name}{range}{against}")
+}
+
+// With room every gauge and note is told in full, else each in a line, and the notes in one.
+fn parts(app: &App, area: Rect) -> Parts {
+    let width = usize::from(area.width.saturating_sub(1));
+    let height = usize::from(area.height.saturating_sub(1));
+    let mut head = banner(app, width);
+    let (mut gauges, mut notes) = (Vec::new(), Vec::new());
     if let Some(answer) = &app.answer {
-        let from = lines.len();
-        lines.extend(body(app, answer, width));
-        if app.is_stale() {
-            lines[from..].iter_mut().for_each(|line| *line = line.clone().patch_style(app.look.theme.faint));
-        }
+        head.extend(outcome(app, answer, width));
+        gauges = self::gauges(answer, app.look.ascii);
+        notes = answer.notes.iter().map(|note| format!("* {}", note.message)).collect();
     }
-    lines
+    let whole = |texts: &[String]| texts.iter().flat_map(|text| text::wrap(text, width)).collect::<Vec<_>>();
+    let rows_beside = |gauges: &[String], notes: &[String]| height.saturating_sub(head.len() + gauges.len() + 1 + notes.len());
+    let (mut gauge_lines, mut note_lines) = (whole(&gauges), whole(&notes));
+    if rows_beside(&gauge_lines, &note_lines) < ENOUGH_ROWS {
+        gauge_lines = gauges.iter().map(|gauge| text::cut(gauge, width)).collect();
+        note_lines = shortened(&answer_notes(app), width);
+    }
+    let room_for_head = height.saturating_sub(1 + LEAST_ROWS + note_lines.len());
+    let faint = if app.is_stale() { app.look.theme.faint } else { Style::new() };
+    head.extend(gauge_lines.into_iter().map(|gauge| Line::styled(gauge, faint)));
+    head.truncate(room_for_head);
+    let rows = height.saturating_sub(head.len() + 1 + note_lines.len());
+    let style = app.look.theme.note.patch(faint);
+    Parts { head, rows, notes: note_lines.into_iter().map(|note| Line::styled(note, style)).collect() }
+}
+
+fn answer_notes(app: &App) -> Vec<&str> {
+    app.answer.iter().flat_map(|answer| &answer.notes).map(|note| note.message.as_str()).collect()
+}
+
+// How many notes there are, and the first words.
+fn shortened(notes: &[&str], width: usize) -> Vec<String> {
+    let Some(first) = notes.first() else { return Vec::new() };
+    let count = if notes.len() == 1 { "1 note".to_owned() } else { format!("{} notes", notes.len()) };
+    vec![text::cut(&format!("* {count}: {first}"), width)]
 }
 
 fn banner(app: &App, width: usize) -> Vec<Line<'static>> {
@@ -100,36 +176,15 @@ fn banner(app: &App, width: usize) -> Vec<Line<'static>> {
     cause.chain(said(format!("Mend: {}.", refusal.mend()), Style::new())).collect()
 }
 
-fn body(app: &App, answer: &Answer, width: usize) -> Vec<Line<'static>> {
-    let theme = app.look.theme;
-    let wrapped = |text: &str, style: Style| -> Vec<Line<'static>> {
-        text::wrap(text, width).into_iter().map(|line| Line::styled(line, style)).collect()
-    };
-    let mut lines = Vec::new();
-    if let Some(solution) = answer.of(answer.active) {
-        lines.extend(wrapped(&sentence(solution, app.look.ascii), theme.focus));
-    }
-    if let Some(band) = answer.of(answer.active).and_then(band) {
-        lines.extend(wrapped(&band, Style::new()));
-    }
-    if let Some(ratios) = ratios(answer, app.look.ascii) {
-        lines.extend(wrapped(&ratios, Style::new()));
-    }
-    lines.push(heading(app, answer, width));
-    let first = first(answer);
-    let rest = QUANTITIES.iter().filter(|quantity| !first.contains(&quantity.key));
-    lines.extend(first.iter().filter_map(|key| Quantity::find(key)).map(|quantity| row(app, answer, quantity, width)));
-    for note in &answer.notes {
-        lines.extend(wrapped(&format!("* {}", note.message), theme.note));
-    }
-    lines.extend(rest.map(|quantity| row(app, answer, quantity, width)));
-    lines
+fn outcome(app: &App, answer: &Answer, width: usize) -> Vec<Line<'static>> {
+    let Some(solution) = answer.of(answer.active) else { return Vec::new() };
+    let style = if app.is_stale() { app.look.theme.faint } else { app.look.theme.focus };
+    let lines = text::wrap(&sentence(solution, app.look.ascii), width);
+    lines.into_iter().map(|line| Line::styled(line, style)).collect()
 }
 
-fn first(answer: &Answer) -> &'static [&'static str] {
-    let strikes = |solution: &Solution| solution.outcome == Outcome::CornerContact;
-    let any_strikes = answer.rungs.iter().any(|(_, result)| result.as_ref().is_ok_and(strikes));
-    if any_strikes { &FIRST } else { &FIRST_WITHOUT_CONTACT }
+fn gauges(answer: &Answer, ascii: bool) -> Vec<String> {
+    answer.of(answer.active).and_then(band).into_iter().chain(ratios(answer, ascii)).collect()
 }
 
 // How far the force depends on the choice of stiffness model.
@@ -154,51 +209,6 @@ fn ratios(answer: &Answer, ascii: bool) -> Option<String> {
 fn rounded(ratio: f64) -> String {
     let digits = if ratio < 10.0 { 2 } else { usize::from(ratio < 100.0) };
     format!("{ratio:.digits$}")
-}
-
-fn columns(answer: &Answer, width: usize) -> Vec<Rung> {
-    let all = answer.rungs.iter().map(|(rung, _)| *rung);
-    if width >= ALL_RUNGS_FROM { all.collect() } else { vec![answer.active] }
-}
-
-fn heading(app: &App, answer: &Answer, width: usize) -> Line<'static> {
-    let indent = if width >= LABELS_FROM { LONG_SYMBOL + LABEL } else { SYMBOL };
-    let mut spans = vec![Span::raw(" ".repeat(indent))];
-    for rung in columns(answer, width) {
-        let is_active = rung == answer.active;
-        let name = if is_active { format!("▸{}", rung.name()) } else { rung.name().to_owned() };
-        spans.push(Span::styled(format!("{name:>VALUE$} "), style_of(app, answer, rung)));
-    }
-    Line::from(spans)
-}
-
-fn row(app: &App, answer: &Answer, quantity: &Quantity, width: usize) -> Line<'static> {
-    let symbol = symbol(quantity.symbol, app.look.ascii);
-    let mut spans = if width >= LABELS_FROM {
-        vec![Span::raw(padded(&symbol, LONG_SYMBOL)), Span::raw(padded(quantity.label, LABEL))]
-    } else {
-        vec![Span::raw(padded(&symbol, SYMBOL))]
-    };
-    let mut unit = "";
-    for rung in columns(answer, width) {
-        let shown = answer.of(rung).and_then(|solution| shown(quantity, solution));
-        unit = shown.as_ref().map_or(unit, |shown| shown.unit);
-        let number = shown.map_or_else(|| "–".to_owned(), |shown| shown.number);
-        let style = if rung == answer.active { app.look.theme.focus } else { Style::new() };
-        spans.push(Span::styled(format!("{number:>VALUE$} "), style));
-    }
-    spans.push(Span::raw(unit));
-    Line::from(spans)
-}
-
-fn style_of(app: &App, answer: &Answer, rung: Rung) -> Style {
-    if rung == answer.active { app.look.theme.active } else { app.look.theme.other }
-}
-
-fn padded(text: &str, width: usize) -> String {
-    let text = text::cut(text, width);
-    let gap = width - text.width().min(width);
-    text + &" ".repeat(gap)
 }
 
 fn shown(quantity: &Quantity, solution: &Solution) -> Option<Shown> {

@@ -1,4 +1,4 @@
-//! The lines around the panes: the name of the case, what the focused field is, the keys.
+//! The lines around the panes: the open cases, what is focused, the keys.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -6,36 +6,39 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
-use super::text;
+use super::{chart, results, text};
 use crate::case::FIELDS;
 use crate::case::fields::{self, Absent, Field, Kind};
-use crate::tui::actions::{BINDINGS, Binding};
-use crate::tui::app::App;
+use crate::tui::actions::{BINDINGS, Binding, Chord};
+use crate::tui::app::{App, Progress};
 use crate::tui::clean::symbol;
+use crate::tui::pane::Pane;
+use crate::tui::tab::Tab;
 
-/// The name of the file, whether it is unsaved, and the title of the case.
+/// A longer name of a case is cut where there are several.
+const LONGEST_NAME: usize = 24;
+/// Cells of a bar of progress.
+const BAR: usize = 20;
+
+/// The open cases, the current one with its path and title, and which of them are unsaved.
 pub fn header(app: &App, area: Rect, buffer: &mut Buffer) {
-    let theme = app.look.theme;
-    let mut spans = vec![Span::styled("tipstrike", theme.title), Span::raw("  ")];
-    let mark = [if app.is_unsaved() { " *unsaved*" } else { "" }, app.access.mark()].concat();
-    let room = usize::from(area.width).saturating_sub(11 + mark.width());
-    spans.push(Span::raw(text::cut(&app.name(), room)));
-    spans.push(Span::styled(mark, theme.note));
-    let used: usize = spans.iter().map(Span::width).sum();
-    let title = fields::index_of("title").and_then(|title| app.case.text(title)).unwrap_or_default();
-    let left = usize::from(area.width).saturating_sub(used + 3);
-    if !title.is_empty() && left > 8 {
-        spans.push(Span::raw(format!("   {}", text::cut(title, left))));
+    let mut spans = vec![Span::styled("tipstrike", app.look.theme.title), Span::raw("  ")];
+    if app.others.is_empty() {
+        spans.extend(only_case(app, area.width));
+    } else {
+        spans.extend(tabs(app, area.width));
     }
     Line::from(spans).render(area, buffer);
 }
 
-/// A message; else unit, range and meaning of the focused field.
+/// A message, or the progress of long work; else what is focused.
 pub fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.look.theme;
     let width = usize::from(area.width);
-    let about = about(&FIELDS[app.focus], app.look.ascii);
-    let mut lines = text::wrap(&about, width).into_iter().map(Line::raw).collect::<Vec<_>>();
+    let mut lines = text::wrap(&focused(app), width).into_iter().map(Line::raw).collect::<Vec<_>>();
+    if let Some(progress) = &app.progress {
+        lines.insert(0, Line::styled(text::cut(&bar(progress), width), theme.note));
+    }
     if let Some(message) = &app.message {
         let (mark, style) = if message.is_fault { ("! ", theme.problem) } else { ("", theme.note) };
         lines.insert(0, Line::styled(text::cut(&format!("{mark}{}", message.text), width), style));
@@ -50,13 +53,18 @@ pub fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.look.theme;
     let place = app.place();
     let mut spans = Vec::new();
+    let mut told: Vec<&str> = Vec::new();
     let mut left = usize::from(area.width);
-    for binding in BINDINGS.iter().filter(|binding| binding.places.meets(place) && !binding.name.is_empty()) {
+    for binding in BINDINGS.iter().filter(|binding| binding.places.meets(place) && binding.in_footer) {
         let key = short(binding);
         let used = key.width() + binding.name.width() + 3;
         if used > left + 2 {
             break;
         }
+        if told.contains(&binding.name) {
+            continue;
+        }
+        told.push(binding.name);
         left = left.saturating_sub(used);
         spans.extend([Span::styled(key, theme.key), Span::raw(format!(" {}  ", binding.name))]);
     }
@@ -83,11 +91,94 @@ pub fn about(field: &Field, ascii: bool) -> String {
     format!("{}{bounds}{absent}. {}", name.trim_start(), field.help)
 }
 
+fn only_case(app: &App, width: u16) -> Vec<Span<'static>> {
+    let mark = [if app.is_unsaved() { " *unsaved*" } else { "" }, app.access.mark()].concat();
+    let room = usize::from(width).saturating_sub(11 + mark.width());
+    let instead = app.in_place_of.as_ref().map(|path| format!(", for {} cannot be opened", path.display()));
+    let name = text::cut(&format!("{}{}", app.name(), instead.unwrap_or_default()), room);
+    let title = fields::index_of("title").and_then(|title| app.case.text(title)).unwrap_or_default();
+    let left = usize::from(width).saturating_sub(11 + name.width() + mark.width() + 3);
+    let title = if title.is_empty() || left <= 8 { String::new() } else { format!("   {}", text::cut(title, left)) };
+    vec![Span::raw(name), Span::styled(mark, app.look.theme.note), Span::raw(title)]
+}
+
+// The open cases by their numbers, as many around the current one as have room; a mark at the end where others are.
+fn tabs(app: &App, width: u16) -> Vec<Span<'static>> {
+    let names: Vec<String> = app.tabs().enumerate().map(|(at, tab)| tab_name(at, tab)).collect();
+    let (from, to) = window(&names, app.place_of_tab, usize::from(width).saturating_sub(15));
+    let mut spans = vec![Span::raw(if from > 0 { "‹ " } else { "" })];
+    for (at, name) in names.iter().enumerate().take(to).skip(from) {
+        if at == app.place_of_tab {
+            spans.push(Span::styled(format!("[{name}]"), app.look.theme.key));
+        } else {
+            spans.push(Span::raw(format!(" {name} ")));
+        }
+    }
+    spans.push(Span::raw(if to < names.len() { " ›" } else { "" }));
+    spans
+}
+
+fn tab_name(at: usize, tab: &Tab) -> String {
+    format!(
+        "{} {}{}{}",
+        at + 1,
+        text::cut(&tab.short_name(), LONGEST_NAME),
+        if tab.is_unsaved() { "*" } else { "" },
+        tab.access.mark()
+    )
+}
+
+// The first and the last but one of the names that have room, grown from the one in the middle.
+fn window(names: &[String], middle: usize, width: usize) -> (usize, usize) {
+    let size = |at: usize| names.get(at).map_or(0, |name| name.width() + 2);
+    let (mut from, mut to, mut used) = (middle, middle + 1, size(middle));
+    loop {
+        if to < names.len() && used + size(to) <= width {
+            used += size(to);
+            to += 1;
+        } else if from > 0 && used + size(from - 1) <= width {
+            from -= 1;
+            used += size(from);
+        } else {
+            return (from, to);
+        }
+    }
+}
+
+fn focused(app: &App) -> String {
+    match app.panes.focus {
+        Pane::Form => about(&FIELDS[app.focus], app.look.ascii),
+        Pane::Results => results::marked(app).map_or_else(String::new, |quantity| {
+            let name = symbol(quantity.symbol, app.look.ascii);
+            format!("{name} {}, {} ({}).", quantity.label.trim(), quantity.equation, quantity.key)
+        }),
+        Pane::Chart | Pane::Teeth => at_cursor(app),
+        Pane::Trade => "Error of every rung against its time.".to_owned(),
+    }
+}
+
+fn at_cursor(app: &App) -> String {
+    let Some(cursor) = app.cursor else {
+        return "No cursor: h and l bring it, Space lets it run from D to E.".to_owned();
+    };
+    let side = if cursor < 0.0 { "after" } else { "before" };
+    let angle = format!("{:.4} deg of the driver {side} E", cursor.abs().to_degrees());
+    let force = app.answer.as_ref().and_then(|answer| chart::force_at(answer, cursor));
+    force.map_or_else(|| format!("{angle}."), |force| format!("{angle}: F_S {force:.1} N."))
+}
+
+fn bar(progress: &Progress) -> String {
+    let part = if progress.part.is_finite() { progress.part.clamp(0.0, 1.0) } else { 0.0 };
+    let full = (part * BAR as f64).floor() as usize;
+    let bar = "█".repeat(full) + &"░".repeat(BAR - full);
+    format!("{bar} {:3.0} % {}; Esc cancels", part * 100.0, progress.what)
+}
+
 fn number(value: f64) -> String {
     let is_plain = value == 0.0 || (1e-4..1e7).contains(&value.abs());
     if is_plain { format!("{value}") } else { format!("{value:e}") }
 }
 
 fn short(binding: &Binding) -> String {
-    binding.chords.first().map(|chord| chord.name().replace("Ctrl-", "^")).unwrap_or_default()
+    binding.chords.first().map(Chord::short_name).unwrap_or_default()
 }

@@ -23,6 +23,14 @@ pub fn cut(text: &str, width: usize) -> String {
     kept
 }
 
+/// The text cut to the width, or filled up to it.
+#[must_use]
+pub fn padded(text: &str, width: usize) -> String {
+    let text = cut(text, width);
+    let gap = width - text.width().min(width);
+    text + &" ".repeat(gap)
+}
+
 /// The text in lines of at most the width, broken between words where there is a place.
 #[must_use]
 pub fn wrap(text: &str, width: usize) -> Vec<String> {

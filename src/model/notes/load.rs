@@ -1,0 +1,43 @@
+//! Notes on the rungs in which every pair takes its share of the load, and on the choice of the rung.
+
+use super::{Note, four};
+use crate::model::inputs::Rung;
+use crate::model::{Inputs, Solution};
+
+/// The rung that was taken, and why.
+pub(super) fn rung_taken(_: &Inputs, solution: &Solution) -> Option<Note> {
+    Some(Note::new("rung-taken", solution.choice?.to_string()))
+}
+
+/// The case gives a deflection that this rung computes itself.
+pub(super) fn deflection_ignored(inputs: &Inputs, solution: &Solution) -> Option<Note> {
+    let given = inputs.deflection.filter(|_| solution.rung.shares_load())?;
+    let (given, found) = (four(given * 1e6), four(solution.deviation.combined_deflection * 1e6));
+    let rung = solution.rung.name();
+    let message = format!("the deflection of {given} um is ignored: {rung} computes what the pairs yield, {found} um before E");
+    Some(Note::new("deflection-ignored", message))
+}
+
+/// No pair carries at some moment.
+pub(super) fn lost_in_motion(_: &Inputs, solution: &Solution) -> Option<Note> {
+    let lost = solution.dynamic.as_ref()?.contact_lost;
+    lost.then(|| Note::new("dynamic-contact-lost", "all teeth lose contact for a time: the gears rattle".to_owned()))
+}
+
+/// The mesh has no time to follow the load at rest.
+pub(super) fn inertia(inputs: &Inputs, solution: &Solution) -> Option<Note> {
+    let (Rung::Static, Some(stiffness), Some(load)) = (solution.rung, solution.mesh_stiffness, &solution.static_load) else {
+        return None;
+    };
+    let time = load.first_contact_angle? / inputs.driven_speed();
+    let period = std::f64::consts::TAU * (solution.reduced_mass / stiffness).sqrt();
+    let part = period / (std::f64::consts::PI * time);
+    let message = || {
+        let (period, time) = (four(period * 1e6), four(time * 1e6));
+        format!(
+            "the mesh swings with a period of {period} us and the load is taken over in {time} us: inertia, which this rung leaves out, may change the force by {:.0} %",
+            100.0 * part.min(1.0)
+        )
+    };
+    (part > inputs.within).then(|| Note::new("inertia", message()))
+}

@@ -1,0 +1,135 @@
+//! Keys with the modifiers held, and the places where they go.
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+
+pub(super) const CTRL: KeyModifiers = KeyModifiers::CONTROL;
+pub(super) const ALT: KeyModifiers = KeyModifiers::ALT;
+pub(super) const SHIFT: KeyModifiers = KeyModifiers::SHIFT;
+
+/// Where keys go.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Place(u16);
+
+/// A key with the modifiers held.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Chord(pub(super) KeyCode, pub(super) KeyModifiers);
+
+impl Place {
+    /// A field of words or of a value.
+    pub const TEXT: Place = Place(1);
+    /// A field of a few names.
+    pub const CHOICE: Place = Place(2);
+    /// A prompt for a path with a list.
+    pub const BROWSE: Place = Place(4);
+    /// A prompt for a path.
+    pub const PATH: Place = Place(8);
+    /// A question with buttons.
+    pub const ASK: Place = Place(16);
+    /// A page to read.
+    pub const READ: Place = Place(32);
+    /// A list that is filtered by what is typed.
+    pub const PICK: Place = Place(64);
+    /// The form, outside its fields.
+    pub const FIELD: Place = Place(128);
+    /// The results.
+    pub const RESULTS: Place = Place(256);
+    /// The chart.
+    pub const CHART: Place = Place(512);
+    /// The teeth.
+    pub const TEETH: Place = Place(1024);
+    /// Error against time.
+    pub const TRADE: Place = Place(2048);
+    /// A field that takes text or a name.
+    pub const FORM: Place = Place::TEXT.or(Place::CHOICE);
+    /// The panes in which letters are commands.
+    pub const OUTSIDE: Place = Place::FIELD.or(Place::RESULTS).or(Place::CURSOR).or(Place::TRADE);
+    /// Everywhere but in a prompt.
+    pub const WORK: Place = Place::FORM.or(Place::OUTSIDE);
+    /// The panes that the roll angle's cursor shows in.
+    pub const CURSOR: Place = Place::CHART.or(Place::TEETH);
+    pub(super) const LIST: Place = Place::BROWSE.or(Place::PICK);
+    pub(super) const LINE: Place = Place::TEXT.or(Place::LIST).or(Place::PATH);
+    pub(super) const PROMPT: Place = Place::LIST.or(Place::PATH).or(Place::ASK).or(Place::READ);
+    pub(super) const ALL: Place = Place::WORK.or(Place::PROMPT);
+    /// Where letters are more than commands of the table.
+    pub(super) const TYPED: Place = Place::LINE.or(Place::CHOICE).or(Place::ASK);
+
+    /// Whether the two have a place in common.
+    #[must_use]
+    pub const fn meets(self, other: Place) -> bool {
+        self.0 & other.0 != 0
+    }
+
+    /// Whether every place of the other is one of this.
+    #[must_use]
+    pub const fn holds(self, other: Place) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    /// Whether letters go into a line of text.
+    #[must_use]
+    pub const fn is_line(self) -> bool {
+        self.meets(Place::LINE)
+    }
+
+    pub(super) const fn or(self, other: Place) -> Place {
+        Place(self.0 | other.0)
+    }
+}
+
+pub(super) const fn key(code: KeyCode) -> Chord {
+    Chord(code, KeyModifiers::NONE)
+}
+
+pub(super) const fn letter(letter: char) -> Chord {
+    key(KeyCode::Char(letter))
+}
+
+pub(super) const fn function(number: u8) -> Chord {
+    key(KeyCode::F(number))
+}
+
+pub(super) const fn ctrl(letter: char) -> Chord {
+    Chord(KeyCode::Char(letter), CTRL)
+}
+
+pub(super) const fn alt(letter: char) -> Chord {
+    Chord(KeyCode::Char(letter), ALT)
+}
+
+pub(super) const fn with(modifiers: KeyModifiers, code: KeyCode) -> Chord {
+    Chord(code, modifiers)
+}
+
+impl Chord {
+    // Shift is part of the letter and of BackTab, and terminals differ in whether they say so.
+    pub(super) fn of(event: KeyEvent) -> Chord {
+        let held = event.modifiers & (CTRL | ALT | SHIFT);
+        match event.code {
+            KeyCode::Char(letter) if held.contains(CTRL) => Chord(KeyCode::Char(letter.to_ascii_lowercase()), held - SHIFT),
+            KeyCode::Char(_) | KeyCode::BackTab => Chord(event.code, held - SHIFT),
+            code => Chord(code, held),
+        }
+    }
+
+    /// The key as a person reads it.
+    #[must_use]
+    pub fn name(&self) -> String {
+        let name = match self.0 {
+            KeyCode::Char(' ') => "Space".to_owned(),
+            KeyCode::Char(letter) if self.1.is_empty() => letter.to_string(),
+            KeyCode::Char(letter) => letter.to_ascii_uppercase().to_string(),
+            KeyCode::F(number) => format!("F{number}"),
+            KeyCode::BackTab => "Shift-Tab".to_owned(),
+            code => format!("{code:?}"),
+        };
+        let held = [(CTRL, "Ctrl-"), (ALT, "Alt-"), (SHIFT, "Shift-")].into_iter().filter(|(one, _)| self.1.contains(*one));
+        held.map(|(_, prefix)| prefix).collect::<String>() + &name
+    }
+
+    /// The key in as few letters as can be read.
+    #[must_use]
+    pub fn short_name(&self) -> String {
+        self.name().replace("Ctrl-", "^").replace("Shift-Tab", "S-Tab")
+    }
+}

@@ -1,0 +1,97 @@
+//! The panes of the workbench: which one has the focus, which ones the screen has, and what each needs of the model.
+
+use super::actions::Place;
+use crate::model::{Stage, Stages};
+
+/// A part of the screen with a title and keys of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pane {
+    /// Every field of the case.
+    Form,
+    /// Every quantity of the model.
+    Results,
+    /// Curves over the driver's roll angle.
+    Chart,
+    /// The teeth as they touch.
+    Teeth,
+    /// Error of every rung against its time.
+    Trade,
+}
+
+/// What of the panes is on the screen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Panes {
+    /// The one that takes the keys.
+    pub focus: Pane,
+    /// The one of the lower area that is shown where not all of them have room.
+    pub lower: Pane,
+    /// Whether the focused one has the screen: of form and results both, of the lower area it alone.
+    pub is_zoomed: bool,
+}
+
+impl Default for Panes {
+    fn default() -> Panes {
+        Panes { focus: Pane::Form, lower: Pane::Chart, is_zoomed: false }
+    }
+}
+
+impl Pane {
+    /// Every pane, by its number.
+    pub const ALL: [Pane; 5] = [Pane::Form, Pane::Results, Pane::Chart, Pane::Teeth, Pane::Trade];
+    /// Those that share the lower area.
+    pub const LOWER: [Pane; 3] = [Pane::Chart, Pane::Teeth, Pane::Trade];
+
+    /// In a word.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Pane::Form => "Form",
+            Pane::Results => "Results",
+            Pane::Chart => "Chart",
+            Pane::Teeth => "Teeth",
+            Pane::Trade => "Trade",
+        }
+    }
+
+    /// The key that goes there, from 1.
+    #[must_use]
+    pub const fn number(self) -> usize {
+        self as usize + 1
+    }
+
+    /// Whether it shares the lower area.
+    #[must_use]
+    pub const fn is_lower(self) -> bool {
+        matches!(self, Pane::Chart | Pane::Teeth | Pane::Trade)
+    }
+
+    /// The stages of a solve whose results it shows, as far as the rung has them.
+    #[must_use]
+    pub const fn needs(self) -> Stages {
+        match self {
+            Pane::Form | Pane::Trade => Stages::NONE,
+            Pane::Results => Stages::CLOSED_FORM.with(Stage::Band).and(Stages::of(Stage::Static)).with(Stage::Dynamic),
+            Pane::Chart => Stages::STATIONS,
+            Pane::Teeth => Stages::of(Stage::Position),
+        }
+    }
+
+    /// Where keys go while it has the focus and no field is edited.
+    #[must_use]
+    pub const fn place(self) -> Place {
+        match self {
+            Pane::Form => Place::FIELD,
+            Pane::Results => Place::RESULTS,
+            Pane::Chart => Place::CHART,
+            Pane::Teeth => Place::TEETH,
+            Pane::Trade => Place::TRADE,
+        }
+    }
+
+    /// The pane so many places further, round and round.
+    #[must_use]
+    pub fn beside(self, by: isize) -> Pane {
+        let count = Pane::ALL.len();
+        Pane::ALL[(self as usize + count).saturating_add_signed(by) % count]
+    }
+}

@@ -1,0 +1,188 @@
+//! Lists that are filtered by what is typed: the palette of commands, the fields, the cases that were open last.
+
+use std::path::{Path, PathBuf};
+
+use tui_input::Input;
+
+use super::actions::{self, Command};
+use super::clean::symbol;
+use crate::case::FIELDS;
+
+/// A name must be this like what is typed to be offered when nothing contains it.
+const LIKENESS: f64 = 0.75;
+
+/// A list under a line of text.
+#[derive(Debug, Clone)]
+pub struct Picker {
+    /// What is listed.
+    pub list: List,
+    /// What is typed.
+    pub input: Input,
+    /// The marked one of those that fit.
+    pub marked: usize,
+}
+
+/// What is listed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum List {
+    /// Every command.
+    Commands,
+    /// Every field of the form.
+    Fields,
+    /// The cases that were open last.
+    Recents(Vec<PathBuf>),
+}
+
+/// What is picked.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Pick {
+    /// Run a command.
+    Run(Command),
+    /// Go to a field.
+    Go(usize),
+    /// Open a case.
+    Load(PathBuf),
+}
+
+/// A line of a list.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Item {
+    /// What Enter does.
+    pub pick: Pick,
+    /// By what it is called.
+    pub name: String,
+    /// What more there is to say.
+    pub about: String,
+    /// Its keys.
+    pub keys: String,
+}
+
+impl Picker {
+    /// The whole list.
+    #[must_use]
+    pub fn new(list: List) -> Picker {
+        Picker { list, input: Input::default(), marked: 0 }
+    }
+
+    /// In a few words.
+    #[must_use]
+    pub fn title(&self) -> &'static str {
+        match self.list {
+            List::Commands => "Commands",
+            List::Fields => "Go to a field",
+            List::Recents(_) => "Recent cases",
+        }
+    }
+
+    /// The lines in which every typed word occurs, those that begin with it first; else those that are most like it.
+    #[must_use]
+    pub fn fitting(&self) -> Vec<Item> {
+        let typed = self.input.value().to_lowercase();
+        let words: Vec<&str> = typed.split_whitespace().collect();
+        let items = self.items();
+        let mut fitting: Vec<_> = items.iter().filter_map(|item| Some((rank(item, &words)?, item))).collect();
+        if fitting.is_empty() {
+            let likeness = |item: &Item| strsim::jaro_winkler(&typed, &item.name.to_lowercase());
+            let alike = items.iter().map(|item| (likeness(item), item)).filter(|(likeness, _)| *likeness > LIKENESS);
+            fitting = alike.map(|(likeness, item)| (((1.0 - likeness) * 1e3) as usize, item)).collect();
+        }
+        fitting.sort_by_key(|(rank, _)| *rank);
+        fitting.into_iter().map(|(_, item)| item.clone()).collect()
+    }
+
+    /// Move the mark, as far as there are lines.
+    pub fn mark(&mut self, by: isize) {
+        let last = self.fitting().len().saturating_sub(1);
+        self.marked = self.marked.saturating_add_signed(by).min(last);
+    }
+
+    fn items(&self) -> Vec<Item> {
+        match &self.list {
+            List::Commands => actions::commands().map(command).collect(),
+            List::Fields => (0..FIELDS.len()).map(field).collect(),
+            List::Recents(paths) => paths.iter().map(|path| recent(path)).collect(),
+        }
+    }
+}
+
+fn command(binding: &actions::Binding) -> Item {
+    Item {
+        pick: Pick::Run(binding.command),
+        name: binding.name.to_owned(),
+        about: binding.sentence.to_owned(),
+        keys: actions::keys_of(binding.command),
+    }
+}
+
+fn field(index: usize) -> Item {
+    let field = &FIELDS[index];
+    Item {
+        pick: Pick::Go(index),
+        name: field.key.to_owned(),
+        about: format!("{} {}", field.symbol, field.label).trim_start().to_owned(),
+        keys: String::new(),
+    }
+}
+
+fn recent(path: &Path) -> Item {
+    Item { pick: Pick::Load(path.to_owned()), name: path.display().to_string(), about: String::new(), keys: String::new() }
+}
+
+// The less the better; none where a word does not occur. Symbols may be typed as a bare keyboard can.
+fn rank(item: &Item, words: &[&str]) -> Option<usize> {
+    let name = item.name.to_lowercase();
+    let about = item.about.to_lowercase();
+    let written_out = symbol(&item.about, true).to_lowercase();
+    let rank_of = |word: &&str| {
+        let begins = name.split(['.', '_', ' ', '/']).any(|part| part.starts_with(*word));
+        let occurs = about.contains(*word) || written_out.contains(*word);
+        match (name.starts_with(*word), begins, name.contains(*word), occurs) {
+            (true, ..) => Some(0),
+            (_, true, ..) => Some(1),
+            (_, _, true, _) => Some(2),
+            (.., true) => Some(4),
+            _ => None,
+        }
+    };
+    words.iter().map(rank_of).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn first(list: List, typed: &str) -> Option<String> {
+        let picker = Picker { input: typed.into(), ..Picker::new(list) };
+        picker.fitting().into_iter().next().map(|item| item.name)
+    }
+
+    #[test]
+    fn a_few_letters_find_the_command() {
+        for (typed, name) in
+            [("und", "undo"), ("save a", "save as"), ("base", "baseline"), ("themme", "theme"), ("colours", "theme")]
+        {
+            assert_eq!(first(List::Commands, typed).as_deref(), Some(name), "{typed}");
+        }
+        assert_eq!(first(List::Commands, "xyzzy"), None);
+    }
+
+    #[test]
+    fn a_field_is_found_by_key_label_and_symbol() {
+        for (typed, key) in [
+            ("speed", "operation.speed"),
+            ("driven face", "driven.face_width"),
+            ("rho2", "driven.density"),
+            ("backl", "deviations.backlash"),
+            ("ca1", "driver.tip_relief"),
+        ] {
+            assert_eq!(first(List::Fields, typed).as_deref(), Some(key), "{typed}");
+        }
+    }
+
+    #[test]
+    fn the_whole_list_stands_while_nothing_is_typed() {
+        let all = Picker::new(List::Commands).fitting();
+        assert_eq!(all.len(), actions::commands().count());
+        assert_eq!(Picker::new(List::Fields).fitting().len(), FIELDS.len());
+    }
+}

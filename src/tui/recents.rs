@@ -1,0 +1,89 @@
+//! The cases that were open last, the latest first, in the folder of state. Only a convenience: what fails here is not told.
+
+use std::ffi::OsString;
+use std::fs;
+use std::io::{self, Write};
+use std::os::unix::ffi::{OsStrExt, OsStringExt};
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+use super::store::state;
+
+/// So many are remembered.
+const MOST: usize = 20;
+/// A longer file is none of ours.
+const MOST_BYTES: u64 = 256 * 1024;
+/// The one character that no path holds.
+const END: u8 = 0;
+
+/// The cases that were open last.
+#[must_use]
+pub fn list() -> Vec<PathBuf> {
+    let Some(file) = file() else { return Vec::new() };
+    let is_ours = fs::metadata(&file).is_ok_and(|about| about.is_file() && about.len() <= MOST_BYTES);
+    if is_ours { parse(&fs::read(file).unwrap_or_default()) } else { Vec::new() }
+}
+
+/// The case that was open last.
+#[must_use]
+pub fn last() -> Option<PathBuf> {
+    list().into_iter().next()
+}
+
+/// Remember a case as the latest.
+pub fn add(path: &Path) {
+    let write = || -> io::Result<()> {
+        let file = file().ok_or(io::ErrorKind::NotFound)?;
+        let folder = file.parent().ok_or(io::ErrorKind::NotFound)?;
+        state::make(folder)?;
+        let mut new = NamedTempFile::new_in(folder)?;
+        new.write_all(&render(&with(list(), std::path::absolute(path)?)))?;
+        new.persist(&file).map_err(|error| error.error).map(drop)
+    };
+    drop(write());
+}
+
+fn with(mut paths: Vec<PathBuf>, latest: PathBuf) -> Vec<PathBuf> {
+    paths.retain(|path| *path != latest);
+    paths.insert(0, latest);
+    paths.truncate(MOST);
+    paths
+}
+
+fn parse(bytes: &[u8]) -> Vec<PathBuf> {
+    let paths = bytes.split(|&byte| byte == END).filter(|path| !path.is_empty());
+    paths.map(|path| OsString::from_vec(path.to_vec()).into()).take(MOST).collect()
+}
+
+fn render(paths: &[PathBuf]) -> Vec<u8> {
+    paths.iter().flat_map(|path| path.as_os_str().as_bytes().iter().copied().chain([END])).collect()
+}
+
+fn file() -> Option<PathBuf> {
+    // A single path without an end is how the last case was kept before.
+    state::folder().map(|folder| folder.join("last-case"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_latest_is_first_and_none_stands_twice() {
+        let paths = ["a", "b", "c"].map(PathBuf::from).to_vec();
+        assert_eq!(with(paths.clone(), "c".into()), ["c", "a", "b"].map(PathBuf::from));
+        let many: Vec<PathBuf> = (0..MOST).map(|number| number.to_string().into()).collect();
+        let more = with(many, "new".into());
+        assert_eq!((more.len(), &more[0]), (MOST, &PathBuf::from("new")));
+    }
+
+    #[test]
+    fn every_path_comes_back() {
+        let odd = PathBuf::from(OsString::from_vec(vec![b'/', 0xff, b'\n', b' ']));
+        let paths = vec![odd, "/plain.toml".into()];
+        assert_eq!(parse(&render(&paths)), paths);
+        assert_eq!(parse(b"/kept/before.toml"), [PathBuf::from("/kept/before.toml")]);
+        assert!(parse(b"").is_empty());
+    }
+}

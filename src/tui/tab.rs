@@ -1,0 +1,150 @@
+//! An open case: its document, what is in its form, what the model says of it, and what of that is in sight.
+
+use std::path::PathBuf;
+
+use tui_input::Input;
+
+use super::history::History;
+use super::recovery::Access;
+use super::scale::Scale;
+use super::solver::Answer;
+use crate::case::{Case, Document, FIELDS, Problem, fields};
+use crate::model::{Refusal, Stages};
+
+/// An open case.
+#[derive(Debug, Clone)]
+pub struct Tab {
+    /// Tells it from the other tabs, those that are closed among them.
+    pub id: usize,
+    /// The file's text, in which a save keeps comments and order.
+    pub document: Document,
+    /// Where it was read from, or last saved to.
+    pub path: Option<PathBuf>,
+    /// The case in the form.
+    pub case: Case,
+    /// The case as the file has it.
+    pub saved: Case,
+    /// Whether the file may be written.
+    pub access: Access,
+    /// What was asked for and could not be opened, where the built-in case stands for it.
+    pub in_place_of: Option<PathBuf>,
+    /// The focused field.
+    pub focus: usize,
+    /// The text of the focused field, and the cursor in it.
+    pub input: Input,
+    /// States to go back to.
+    pub history: History,
+    /// What is wrong in the form.
+    pub problems: Vec<(usize, Problem)>,
+    /// The request that the form stands for. No two tabs share one.
+    pub serial: u64,
+    /// The stages that were asked for with it.
+    pub asked: Stages,
+    /// Whether the worker has answered it, in whatever way.
+    pub is_settled: bool,
+    /// The last valid results.
+    pub answer: Option<Answer>,
+    /// The results before the present visit of a field.
+    pub earlier: Option<Answer>,
+    /// Why the model does not solve what the form says.
+    pub refusal: Option<Refusal>,
+    /// Whether the worker failed on what the form says.
+    pub has_failed: bool,
+    /// The axes of the chart.
+    pub scale: Scale,
+    /// The first line of the form that is shown.
+    pub form_top: usize,
+    /// The marked line among the quantities.
+    pub row: usize,
+    /// The first line of the quantities that is shown.
+    pub results_top: usize,
+}
+
+impl Tab {
+    /// A document that was just opened, unsolved.
+    #[must_use]
+    pub fn new(document: Document, path: Option<PathBuf>) -> Tab {
+        let case = document.case.clone();
+        let focus = fields::index_of("pair.module").unwrap_or(0);
+        Tab {
+            id: 0,
+            access: Access::default(),
+            input: Input::from(case.text(focus).unwrap_or_default()),
+            saved: case.clone(),
+            case,
+            document,
+            path,
+            in_place_of: None,
+            focus,
+            history: History::default(),
+            problems: Vec::new(),
+            serial: 0,
+            asked: Stages::NONE,
+            is_settled: false,
+            answer: None,
+            earlier: None,
+            refusal: None,
+            has_failed: false,
+            scale: Scale::default(),
+            form_top: 0,
+            row: 0,
+            results_top: 0,
+        }
+    }
+
+    /// Whether the form differs from the file.
+    #[must_use]
+    pub fn is_unsaved(&self) -> bool {
+        self.case != self.saved
+    }
+
+    /// Whether it is the built-in case as it came, so that another may take its place.
+    #[must_use]
+    pub fn is_untouched(&self) -> bool {
+        self.path.is_none() && !self.is_unsaved()
+    }
+
+    /// Whether the results are not those of what the form says now.
+    #[must_use]
+    pub fn is_stale(&self) -> bool {
+        !self.problems.is_empty() || self.refusal.is_some() || self.has_failed
+    }
+
+    /// The name of the case in the title and in questions.
+    #[must_use]
+    pub fn name(&self) -> String {
+        self.path.as_ref().map_or_else(|| "built-in Table 1".to_owned(), |path| path.display().to_string())
+    }
+
+    /// The name without its folders.
+    #[must_use]
+    pub fn short_name(&self) -> String {
+        let file = self.path.as_ref().and_then(|path| path.file_name());
+        file.map_or_else(|| self.name(), |name| name.to_string_lossy().into_owned())
+    }
+
+    /// Remember the state before an edit, and the results with it.
+    pub(super) fn before_edit(&mut self) {
+        if self.history.before_edit(&self.case, self.focus) {
+            self.earlier.clone_from(&self.answer);
+        }
+    }
+
+    /// Move to a field, the cursor at the end of its text.
+    pub(super) fn focus_on(&mut self, field: usize) {
+        self.focus = field.min(FIELDS.len() - 1);
+        self.input = Input::from(self.case.text(self.focus).unwrap_or_default());
+        self.history.end_visit();
+    }
+
+    /// Show an answer to the present request.
+    pub(super) fn take(&mut self, answer: Answer) {
+        self.has_failed = false;
+        self.is_settled = true;
+        self.refusal = answer.refusal().copied();
+        if self.refusal.is_none() {
+            self.scale = self.scale.fitted(&answer);
+            self.answer = Some(answer);
+        }
+    }
+}

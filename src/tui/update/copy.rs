@@ -1,0 +1,55 @@
+//! Copying to the clipboard of the user's own terminal.
+
+use super::Effect;
+use crate::case::FIELDS;
+use crate::model::QUANTITIES;
+use crate::report;
+use crate::tui::app::App;
+use crate::tui::clean;
+use crate::tui::pane::Pane;
+use crate::tui::view::results;
+
+/// Terminals refuse more than this, or cut it.
+const MOST_BYTES: usize = 48 * 1024;
+
+/// The focused value: of the form its text, of the other panes the marked result.
+pub(super) fn value(app: &mut App) -> Vec<Effect> {
+    if app.panes.focus == Pane::Form {
+        let text = app.case.effective(app.focus).unwrap_or_default().to_owned();
+        return copy(app, text, FIELDS[app.focus].label.trim());
+    }
+    let Some(quantity) = results::marked(app) else {
+        app.complain("there are no results to copy");
+        return Vec::new();
+    };
+    let value = app.answer.as_ref().and_then(|answer| report::value(quantity, answer.of(answer.active)?));
+    let text = value.map(|value| report::shown(quantity, value).to_string()).unwrap_or_default();
+    copy(app, text, quantity.label.trim())
+}
+
+/// Every result of the active rung, a line each: key, value in SI, unit.
+pub(super) fn results(app: &mut App) -> Vec<Effect> {
+    let solution = app.answer.as_ref().filter(|_| !app.is_stale()).and_then(|answer| answer.of(answer.active));
+    let Some(solution) = solution else {
+        app.complain("there are no valid results to copy");
+        return Vec::new();
+    };
+    let values = QUANTITIES.iter().filter_map(|quantity| Some((quantity, report::value(quantity, solution)?)));
+    let lines = values.map(|(quantity, value)| format!("{}\t{value}\t{}", quantity.key, quantity.unit));
+    let lines = lines.collect::<Vec<_>>().join("\n");
+    copy(app, lines, "all results in SI")
+}
+
+fn copy(app: &mut App, text: String, what: &str) -> Vec<Effect> {
+    if text.is_empty() {
+        app.complain(format!("{what}: there is nothing to copy"));
+        return Vec::new();
+    }
+    if text.len() > MOST_BYTES {
+        app.complain(format!("{what}: {} bytes are too long for the clipboard of a terminal", text.len()));
+        return Vec::new();
+    }
+    let told = if text.lines().count() > 1 { what.to_owned() } else { clean::clean(&text).into_owned() };
+    app.say(format!("copied {told}"));
+    vec![Effect::Copy(text)]
+}

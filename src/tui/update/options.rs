@@ -1,0 +1,61 @@
+//! What the user chooses for every case: marker, theme, ASCII, mouse.
+
+use ratatui::symbols::Marker;
+
+use super::Effect;
+use crate::tui::app::App;
+use crate::tui::settings::marker_name;
+use crate::tui::theme::ThemeName;
+
+/// Another way to draw a point.
+pub(super) fn cycle_marker(app: &mut App) -> Vec<Effect> {
+    if app.look.ascii {
+        app.say("the marker has no effect: the chart is drawn in ASCII");
+        return Vec::new();
+    }
+    app.settings.marker = match app.settings.marker {
+        Marker::Braille => Marker::HalfBlock,
+        Marker::HalfBlock => Marker::Dot,
+        _ => Marker::Braille,
+    };
+    app.say(format!("chart in {}", marker_name(app.settings.marker)));
+    keep(app)
+}
+
+/// Other colours.
+pub(super) fn cycle_theme(app: &mut App) -> Vec<Effect> {
+    let name = match ThemeName::of(app.look.theme) {
+        ThemeName::Quiet => ThemeName::Contrast,
+        ThemeName::Contrast => ThemeName::Mono,
+        ThemeName::Mono => ThemeName::Quiet,
+    };
+    app.settings.theme = Some(name);
+    app.look.theme = name.theme();
+    app.say(format!("theme {}", name.name()));
+    keep(app)
+}
+
+/// ASCII alone, or the whole of Unicode.
+pub(super) fn toggle_ascii(app: &mut App) -> Vec<Effect> {
+    app.look.ascii = !app.look.ascii;
+    app.settings.ascii = Some(app.look.ascii);
+    app.say(if app.look.ascii { "drawn in ASCII" } else { "drawn with the whole of Unicode" });
+    keep(app)
+}
+
+/// The mouse for the workbench, or for the terminal.
+pub(super) fn toggle_mouse(app: &mut App) -> Vec<Effect> {
+    app.settings.mouse = !app.settings.mouse;
+    app.say(if app.settings.mouse {
+        "the mouse is the workbench's; most terminals still select text with Shift held"
+    } else {
+        "the mouse is the terminal's"
+    });
+    let mut effects = keep(app);
+    effects.push(Effect::Mouse(app.settings.mouse));
+    effects
+}
+
+fn keep(app: &App) -> Vec<Effect> {
+    vec![Effect::Keep(app.settings)]
+}

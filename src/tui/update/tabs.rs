@@ -1,0 +1,92 @@
+//! The open cases: going from one to another, opening and closing.
+
+use std::path::PathBuf;
+
+use crate::case::Document;
+use crate::model::Stages;
+use crate::tui::app::App;
+use crate::tui::pane::Pane;
+use crate::tui::solver::Request;
+use crate::tui::store;
+use crate::tui::tab::Tab;
+
+/// Go to the case of that place; a place that does not exist changes nothing.
+pub(super) fn go_to(app: &mut App, at: usize) {
+    let now = app.place_of_tab;
+    if at == now || at > app.others.len() {
+        return;
+    }
+    app.tab.history.end_visit();
+    let taken = if at > now { at - 1 } else { at };
+    let next = app.others.remove(taken);
+    let before = std::mem::replace(&mut app.tab, next);
+    app.others.insert(if at > now { now } else { now - 1 }, before);
+    app.place_of_tab = at;
+    // A request of another case may have been put aside for a later one.
+    if !app.is_settled {
+        app.tab.asked = Stages::NONE;
+    }
+    app.follow();
+}
+
+/// Go to the next case or the one before, round and round.
+pub(super) fn step(app: &mut App, by: isize) {
+    let count = app.others.len() + 1;
+    if count == 1 {
+        app.say("one case is open");
+    }
+    go_to(app, (app.place_of_tab + count).saturating_add_signed(by) % count);
+}
+
+/// Show a document that was read: in the tab of its path, in place of the untouched built-in case, else in a new tab.
+pub(super) fn show(app: &mut App, document: Document, path: PathBuf) -> Option<Request> {
+    let own = app.tabs().position(|tab| tab.path.as_ref() == Some(&path));
+    if let Some(own) = own {
+        go_to(app, own);
+    }
+    let replaces = own.is_some() || app.is_untouched();
+    let before = own.map(|_| app.id);
+    let request = put(app, Tab::new(document, Some(path)), replaces);
+    // The same file read anew is still the same one that is open.
+    app.tab.id = before.unwrap_or(app.id);
+    request
+}
+
+/// Begin with the built-in case in a tab of its own.
+pub(super) fn fresh(app: &mut App) -> Option<Request> {
+    let replaces = app.is_untouched();
+    let request = put(app, Tab::new(store::built_in(), None), replaces);
+    app.say("a new case, beginning with Table 1");
+    request
+}
+
+/// Close the current case; the last one leaves the built-in case behind.
+pub(super) fn close(app: &mut App) -> Option<Request> {
+    let name = app.name();
+    if app.others.is_empty() {
+        let request = put(app, Tab::new(store::built_in(), None), true);
+        app.say(format!("closed {name}: this is the built-in Table 1"));
+        return request;
+    }
+    let closed = app.place_of_tab;
+    go_to(app, if closed == 0 { 1 } else { closed - 1 });
+    app.others.remove(if closed == 0 { 0 } else { closed - 1 });
+    app.place_of_tab = closed.saturating_sub(1);
+    app.say(format!("closed {name}"));
+    None
+}
+
+fn put(app: &mut App, tab: Tab, replaces: bool) -> Option<Request> {
+    let focus = app.focus;
+    app.last_id += 1;
+    let before = std::mem::replace(&mut app.tab, Tab { id: app.last_id, ..tab });
+    if !replaces {
+        app.others.insert(app.place_of_tab, before);
+        app.place_of_tab += 1;
+    }
+    app.panes.focus = Pane::Form;
+    app.cursor = None;
+    let request = app.request();
+    app.focus_on(focus);
+    request
+}

@@ -1,0 +1,178 @@
+//! The table of quantities: a line each, the rungs side by side, what this edit changed, the difference to the baseline.
+
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+
+use super::{shown, text};
+use crate::model::inputs::Rung;
+use crate::model::{Outcome, QUANTITIES, Quantity, Solution};
+use crate::report;
+use crate::tui::app::App;
+use crate::tui::clean::symbol;
+use crate::tui::solver::Answer;
+
+/// What an engineer looks at first.
+const FIRST: [&str; 5] = ["approach_angle_driven", "contact_radius_driver", "normal_velocity", "impact_force", "impact_duration"];
+/// The same, when no tooth strikes.
+const FIRST_WITHOUT_CONTACT: [&str; 5] =
+    ["total_deviation", "equivalent_error", "combined_deflection", "mesh_force", "contact_ratio"];
+
+const SYMBOL: usize = 7;
+/// Beside labels there is room for the longest symbol.
+const LONG_SYMBOL: usize = 9;
+const LABEL: usize = 25;
+/// A number and the mark of a change behind it.
+const VALUE: usize = 10;
+const UNIT: usize = 7;
+const EQUATION: usize = 12;
+/// Below this width only the active rung has room.
+const ALL_RUNGS_FROM: usize = SYMBOL + 2 * VALUE + UNIT;
+/// From this width the labels have room too.
+const LABELS_FROM: usize = ALL_RUNGS_FROM - SYMBOL + LONG_SYMBOL + LABEL;
+/// Below this part of the baseline a difference is none that a person reads.
+const NO_DIFFERENCE: f64 = 5e-6;
+
+/// The table.
+pub(super) struct Table {
+    /// The names of the columns.
+    pub(super) heading: Line<'static>,
+    /// A line for every quantity.
+    pub(super) rows: Vec<Line<'static>>,
+}
+
+/// What has room in a line.
+struct Columns {
+    labels: bool,
+    rungs: Vec<Rung>,
+    difference: bool,
+    equation: bool,
+}
+
+/// The quantities in the order in which a person reads them: what matters first, then the table's.
+pub(super) fn order(answer: &Answer) -> impl Iterator<Item = &'static Quantity> {
+    let strikes = |solution: &Solution| solution.outcome == Outcome::CornerContact;
+    let any_strikes = answer.rungs.iter().any(|(_, result)| result.as_ref().is_ok_and(strikes));
+    let first = if any_strikes { &FIRST } else { &FIRST_WITHOUT_CONTACT };
+    let rest = QUANTITIES.iter().filter(|quantity| !first.contains(&quantity.key));
+    first.iter().filter_map(|key| Quantity::find(key)).chain(rest)
+}
+
+/// The whole table in that width.
+pub(super) fn lines(app: &App, answer: &Answer, width: usize) -> Table {
+    let columns = Columns::of(app, answer, width);
+    let faint = if app.is_stale() { app.look.theme.faint } else { Style::new() };
+    let rows = order(answer).map(|quantity| row(app, answer, quantity, &columns).patch_style(faint));
+    Table { heading: heading(app, answer, &columns).patch_style(faint), rows: rows.collect() }
+}
+
+impl Columns {
+    // The difference takes the place of the equation, and on a narrow screen that of the other rungs.
+    fn of(app: &App, answer: &Answer, width: usize) -> Columns {
+        let difference = app.baseline.is_some();
+        let more = if difference { VALUE } else { 0 };
+        let all = width >= ALL_RUNGS_FROM + more;
+        let rungs = if all { answer.rungs.iter().map(|(rung, _)| *rung).collect() } else { vec![answer.active] };
+        let labels = width >= LABELS_FROM + more || !all && width >= LABELS_FROM;
+        Columns { labels, rungs, difference, equation: !difference && width >= LABELS_FROM + EQUATION }
+    }
+}
+
+fn heading(app: &App, answer: &Answer, columns: &Columns) -> Line<'static> {
+    let indent = if columns.labels { LONG_SYMBOL + LABEL } else { SYMBOL };
+    let mut spans = vec![Span::raw(" ".repeat(indent))];
+    for &rung in &columns.rungs {
+        let is_active = rung == answer.active;
+        let name = if is_active { format!("▸{}", rung.name()) } else { rung.name().to_owned() };
+        let style = if is_active { app.look.theme.active } else { app.look.theme.other };
+        spans.push(Span::styled(format!("{name:>0$} ", VALUE - 1), style));
+    }
+    if columns.difference {
+        spans.push(Span::styled(format!("{:UNIT$}{:>2$}", "", "to base", VALUE - 1), app.look.theme.baseline));
+    }
+    Line::from(spans)
+}
+
+fn row(app: &App, answer: &Answer, quantity: &Quantity, columns: &Columns) -> Line<'static> {
+    let symbol = symbol(quantity.symbol, app.look.ascii);
+    let mut spans = if columns.labels {
+        vec![Span::raw(text::padded(&symbol, LONG_SYMBOL)), Span::raw(text::padded(quantity.label, LABEL))]
+    } else {
+        vec![Span::raw(text::padded(&symbol, SYMBOL))]
+    };
+    let mut unit = "";
+    for &rung in &columns.rungs {
+        let shown = answer.of(rung).and_then(|solution| shown(quantity, solution));
+        unit = shown.as_ref().map_or(unit, |shown| shown.unit);
+        let number = shown.map_or_else(|| "–".to_owned(), |shown| shown.number);
+        let is_active = rung == answer.active;
+        let style = if is_active { app.look.theme.focus } else { Style::new() };
+        let mark = if is_active && is_changed(app, answer, quantity) { "•" } else { " " };
+        spans.push(Span::styled(format!("{number:>0$}{mark}", VALUE - 1), style));
+    }
+    spans.push(Span::raw(text::padded(unit, UNIT)));
+    if columns.difference {
+        let difference = difference(app, answer, quantity);
+        spans.push(Span::styled(format!("{difference:>0$}", VALUE - 1), app.look.theme.baseline));
+    }
+    if columns.equation {
+        spans.push(Span::styled(format!(" {}", text::cut(quantity.equation, EQUATION - 1)), app.look.theme.faint));
+    }
+    Line::from(spans)
+}
+
+// Whether this visit of a field changed what is shown of the quantity.
+fn is_changed(app: &App, answer: &Answer, quantity: &Quantity) -> bool {
+    let Some(earlier) = app.earlier.as_ref().filter(|_| !app.is_stale()) else { return false };
+    let told = |answer: &Answer| shown(quantity, answer.of(answer.active)?);
+    told(earlier) != told(answer)
+}
+
+// The active rung's value against that of the baseline, in percent of it.
+fn difference(app: &App, answer: &Answer, quantity: &Quantity) -> String {
+    let value = |answer: &Answer| report::value(quantity, answer.of(answer.active)?);
+    let base = app.baseline.as_ref().and_then(|baseline| value(&baseline.answer));
+    match (value(answer), base) {
+        (Some(now), Some(base)) => against(now, base),
+        (Some(_), None) => "new".to_owned(),
+        (None, Some(_)) => "gone".to_owned(),
+        (None, None) => String::new(),
+    }
+}
+
+fn against(now: f64, base: f64) -> String {
+    let part = (now - base) / base.abs();
+    if now.to_bits() == base.to_bits() || part.abs() < NO_DIFFERENCE {
+        return "=".to_owned();
+    }
+    if !part.is_finite() {
+        return "from 0".to_owned();
+    }
+    let percent = 100.0 * part;
+    match percent.abs() {
+        size if size >= 1e4 => format!("{percent:+.0e} %"),
+        size if size >= 100.0 => format!("{percent:+.0} %"),
+        size if size >= 1.0 => format!("{percent:+.1} %"),
+        _ => format!("{percent:+.3} %"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_difference_is_told_in_percent_of_the_baseline_and_has_room() {
+        for (now, base, told) in [
+            (110.0, 100.0, "+10.0 %"),
+            (99.99, 100.0, "-0.010 %"),
+            (-2.0, -1.0, "-100 %"),
+            (1e9, 1.0, "+1e11 %"),
+            (1.0, 1.0, "="),
+            (1.0, 0.0, "from 0"),
+            (0.0, 0.0, "="),
+        ] {
+            assert_eq!(against(now, base), told, "{now} {base}");
+            assert!(told.len() < VALUE);
+        }
+    }
+}
