@@ -324,7 +324,9 @@ impl End {
         let turns = self.angles_of_relief_ends(relief).chain(self.angle_of_rolling(reach));
         let mut borders: Vec<f64> = turns.filter(|&angle| angle > 0.0 && angle < reach).collect();
         borders.extend([0.0, reach]);
-        borders.iter_mut().for_each(|border| *border = edge + self.side * base * *border);
+        for border in &mut borders {
+            *border = edge + self.side * base * *border;
+        }
         let (start, end) = (at(edge)?, at(edge + self.side * base * reach)?);
         let size = |function: usize| start[function].abs().max(end[function].abs());
         push_zones(&mut borders, ([start[STIFFNESS], 0.0, size(LEVER), size(SLIDING)], edge), &at, zones)

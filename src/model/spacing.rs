@@ -57,7 +57,9 @@ fn fill<T>(from: Point, to: Point, allowed: f64, halvings: u32, at: &mut impl Fn
     let place = f64::midpoint(from.place, to.place);
     let (height, value) = at(place);
     let bend = (height - f64::midpoint(from.height, to.height)).abs();
-    if halvings == 0 || !(bend > allowed) {
+    // A bend that is no number is none.
+    let is_bent = bend > allowed;
+    if halvings == 0 || !is_bent {
         return;
     }
     let middle = Point { place, height };

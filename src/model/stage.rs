@@ -75,9 +75,8 @@ impl Stage {
         match self {
             Stage::Geometry => Stages::NONE,
             Stage::Load => Stages::NONE.with(Stage::Geometry),
-            Stage::Mesh => Stages::NONE.with(Stage::Geometry).with(Stage::Load),
             Stage::Static | Stage::Dynamic => Stages::NONE.with(Stage::Mesh),
-            Stage::Deviation => Stages::NONE.with(Stage::Geometry).with(Stage::Load),
+            Stage::Deviation | Stage::Mesh => Stages::NONE.with(Stage::Geometry).with(Stage::Load),
             Stage::Position => Stages::NONE.with(Stage::Deviation),
             Stage::Velocity | Stage::Compliance => Stages::NONE.with(Stage::Position),
             Stage::Impact => Stages::NONE.with(Stage::Velocity).with(Stage::Compliance),

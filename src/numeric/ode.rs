@@ -230,6 +230,6 @@ mod tests {
 
     #[test]
     fn a_step_without_a_number_is_shortened() {
-        assert!(stretch(f64::NAN) < 1.0 && stretch(2.0) < 1.0 && stretch(1e-9) > 1.0 && stretch(0.0) == 5.0);
+        assert!(stretch(f64::NAN) < 1.0 && stretch(2.0) < 1.0 && stretch(1e-9) > 1.0 && stretch(0.0) > 4.0);
     }
 }

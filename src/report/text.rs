@@ -228,7 +228,7 @@ fn station_table(report: &Report) -> Vec<String> {
     let head = columns.clone().map(|column| format!("{} {}", column.symbol, column.shown)).collect();
     let rows = rows(&report.solution).into_iter();
     let stations = rows.map(|row| columns.clone().map(|column| column.told(row)).collect());
-    let line = |row: Vec<String>| row.iter().map(|cell| format!("{cell:>CELL$}")).collect::<String>();
+    let line = |row: Vec<String>| row.iter().map(|cell| format!("{cell:>CELL$}")).collect::<Vec<_>>().concat();
     let title = if report.solution.rung.shares_load() { "Stations from D to the last contact" } else { "Stations from D to E" };
     titled(title, std::iter::once(head).chain(stations).map(line))
 }
