@@ -304,7 +304,7 @@ fn vanishing_deviation_meets_no_corner_contact_without_a_jump() {
 fn stations_fall_to_zero_at_the_end_and_stay_when_doubled() {
     some(1_000, |inputs| {
         let with = |stations| solve(&Inputs { stations, ..inputs.clone() }, Stages::ALL).ok();
-        let (coarse, fine) = (with(8)?, with(16)?);
+        let (coarse, fine) = (with(Some(8))?, with(Some(16))?);
         for (solution, whole) in [(&coarse, 9), (&fine, 17)] {
             let missing = solution.impact.is_some() && solution.stations.len() < whole;
             assert_eq!(missing, solution.stations_withheld.is_some(), "{inputs:?}");
