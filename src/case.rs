@@ -1,9 +1,11 @@
 //! The document: a case as the user wrote it, checked against the one table of fields.
 
+pub mod changes;
 mod check;
 pub mod evaluate;
 pub mod fields;
 pub mod file;
+pub mod journal;
 pub mod reach;
 pub mod spread;
 mod suggest;
@@ -11,6 +13,7 @@ pub mod units;
 pub mod visible;
 
 use crate::model::{Inputs, QUANTITIES, Quantity};
+pub use changes::Change;
 pub use check::Problem;
 pub use evaluate::Evaluator;
 pub use fields::{FIELDS, Field};

@@ -1,9 +1,14 @@
 //! The program: a workbench in the terminal, and the same from scripts.
 
 use std::process::ExitCode;
+use std::sync::Arc;
+
+use signal_hook::consts::SIGXFSZ;
 use tipstrike::cli::{self, Arguments, Streams};
 
 fn main() -> ExitCode {
+    // A limit on the size of files then is an error of the write, which is told, and not the end of the program.
+    drop(signal_hook::flag::register(SIGXFSZ, Arc::default()));
     let mut streams = Streams::standard();
     match cli::parse(std::env::args_os(), &mut streams) {
         Err(exit) => exit.into(),

@@ -13,6 +13,7 @@ pub mod pane;
 pub mod pick;
 pub mod prompt;
 pub mod recents;
+pub mod recovery;
 pub mod scale;
 pub mod settings;
 pub mod solver;
@@ -27,6 +28,7 @@ use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use signal_hook::consts::{SIGCONT, SIGTSTP};
@@ -36,6 +38,8 @@ use app::App;
 use events::{Event, Events};
 use settings::Settings;
 use solver::Solver;
+use store::chest::Chest;
+use store::keeper::Keeper;
 use store::{Opening, Trouble};
 use terminal::Screen;
 use theme::Look;
@@ -44,8 +48,6 @@ use update::{Effect, update};
 const NO_TERMINAL: u8 = 2;
 const TERMINAL_LOST: u8 = 5;
 const PANICKED: u8 = 101;
-/// A program that a signal ends has this and the signal's number as its exit code.
-const SIGNALLED: i32 = 128;
 /// Time between two pictures of what plays.
 const TICK: Duration = Duration::from_millis(83);
 
@@ -55,8 +57,19 @@ struct Workbench {
     screen: Screen,
     events: Events,
     solver: Solver,
+    keeper: Keeper,
     /// When the next picture of what plays is due.
     alarm: Option<Instant>,
+}
+
+/// How the workbench came to its end.
+enum End {
+    /// The user left: nothing is unsaved that is wanted.
+    Left,
+    /// The terminal is gone.
+    Lost,
+    /// By a signal.
+    Signal(i32),
 }
 
 /// Open the workbench on a case, else on the last one, else on the built-in one, and stay until the user quits.
@@ -67,23 +80,29 @@ pub fn run(case: Option<PathBuf>) -> ExitCode {
         return ExitCode::from(NO_TERMINAL);
     }
     terminal::hold_panics();
-    match catch_unwind(AssertUnwindSafe(|| session(case))) {
-        Ok(Ok(code)) => ExitCode::from(code),
-        Ok(Err(error)) => {
-            tell(&format!("the terminal does not answer: {error}"));
-            ExitCode::from(TERMINAL_LOST)
-        }
-        Err(_) => {
-            tell(&format!("a fault of the program: {}", terminal::last_panic().unwrap_or_default()));
-            ExitCode::from(PANICKED)
-        }
+    let events = Events::new();
+    let chest = match Chest::open(events.warner()) {
+        Ok(chest) => chest,
+        Err(error) => return fail(TERMINAL_LOST, &format!("the system gives no thread: {error}")),
+    };
+    let ended = catch_unwind(AssertUnwindSafe(|| session(case, events, &chest)));
+    if matches!(ended, Ok(Ok(End::Left))) {
+        return ExitCode::SUCCESS;
+    }
+    keep_what_is_left(&chest);
+    match ended {
+        Ok(Ok(End::Signal(signal))) => ExitCode::from(u8::try_from(events::SIGNALLED + signal).unwrap_or(u8::MAX)),
+        Ok(Ok(End::Left | End::Lost)) => ExitCode::from(TERMINAL_LOST),
+        Ok(Err(error)) => fail(TERMINAL_LOST, &format!("the terminal does not answer: {error}")),
+        Err(_) => fail(PANICKED, &format!("a fault of the program: {}", terminal::last_panic().unwrap_or_default())),
     }
 }
 
-fn session(case: Option<PathBuf>) -> io::Result<u8> {
+fn session(case: Option<PathBuf>, events: Events, chest: &Arc<Chest>) -> io::Result<End> {
     let Opening { document, path, trouble } = store::opening(case);
     // Before the terminal is taken: a signal must never leave it in our modes.
-    let events = Events::start()?;
+    let last_words = Arc::clone(chest);
+    events.listen(move || drop(last_words.write(false)))?;
     let mut screen = Screen::open()?;
     let settings = Settings::read();
     let look = Look::of(|name| std::env::var_os(name));
@@ -95,7 +114,8 @@ fn session(case: Option<PathBuf>) -> io::Result<u8> {
     }
     screen.draw(&app)?;
     let solver = Solver::start(events.teller())?;
-    Workbench { app, screen, events, solver, alarm: None }.stay()
+    let keeper = Keeper::new(store::state::folder().as_deref(), Arc::clone(chest));
+    Workbench { app, screen, events, solver, keeper, alarm: None }.stay()
 }
 
 fn report(app: &mut App, trouble: Trouble) {
@@ -109,27 +129,33 @@ fn report(app: &mut App, trouble: Trouble) {
 }
 
 impl Workbench {
-    fn stay(mut self) -> io::Result<u8> {
-        loop {
-            let batch = self.events.batch(self.alarm);
-            if let Some(code) = self.take(batch)? {
-                return Ok(code);
+    fn stay(mut self) -> io::Result<End> {
+        // What is found out about the case on which it opens comes after the first frame.
+        let mut batch = Vec::new();
+        let end = loop {
+            if let Some(end) = self.take(batch)? {
+                break end;
             }
+            batch = self.events.batch(self.alarm, self.keeper.deadline());
+        };
+        if matches!(end, End::Left) {
+            self.keeper.end();
         }
+        Ok(end)
     }
 
-    // All that has come, and one frame if it changed anything; the exit code when it is over.
-    fn take(&mut self, batch: Vec<Event>) -> io::Result<Option<u8>> {
+    // All that has come, and one frame if it changed anything; how it ended, if it did.
+    fn take(&mut self, batch: Vec<Event>) -> io::Result<Option<End>> {
         let mut events = batch.into_iter().peekable();
         let mut has_changed = false;
         while let Some(event) = events.peek() {
             if let Event::Signal(signal) = *event {
-                if let Some(code) = self.obey(signal)? {
-                    return Ok(Some(code));
+                if let Some(end) = self.obey(signal)? {
+                    return Ok(Some(end));
                 }
                 has_changed = true;
             } else if matches!(event, Event::Lost) {
-                return Ok(Some(TERMINAL_LOST));
+                return Ok(Some(End::Lost));
             }
             if matches!(event, Event::Tick) {
                 self.alarm = Some(Instant::now() + TICK);
@@ -137,20 +163,22 @@ impl Workbench {
             let Some(action) = events::take_action(&mut events, self.app.place()) else { continue };
             has_changed = true;
             if self.act(action)? {
-                return Ok(Some(0));
+                return Ok(Some(End::Left));
             }
+            self.keep();
         }
-        if has_changed {
+        if self.keep() || has_changed {
             self.screen.draw(&self.app)?;
         }
+        self.keeper.keep_if_due(Instant::now());
         Ok(None)
     }
 
-    fn obey(&mut self, signal: i32) -> io::Result<Option<u8>> {
+    fn obey(&mut self, signal: i32) -> io::Result<Option<End>> {
         match signal {
-            SIGTSTP => self.screen.suspend()?,
+            SIGTSTP => self.suspend()?,
             SIGCONT => self.screen.resume()?,
-            _ => return Ok(Some(u8::try_from(SIGNALLED + signal).unwrap_or(u8::MAX))),
+            _ => return Ok(Some(End::Signal(signal))),
         }
         Ok(None)
     }
@@ -163,8 +191,10 @@ impl Workbench {
                 match effect {
                     Effect::Quit => return Ok(true),
                     Effect::Redraw => self.screen.clear()?,
-                    Effect::Suspend => self.screen.suspend()?,
+                    Effect::Suspend => self.suspend()?,
                     Effect::Solve(request) => self.solver.ask(*request),
+                    Effect::Save(saving) => actions.push(self.keeper.save(*saving)),
+                    Effect::Adopt(journal) => self.keeper.adopt(journal),
                     Effect::Copy(text) => self.screen.copy(&text)?,
                     Effect::Mouse(takes) => self.screen.take_mouse(takes)?,
                     Effect::Play(plays) => self.alarm = plays.then(|| Instant::now() + TICK),
@@ -174,6 +204,37 @@ impl Workbench {
         }
         Ok(false)
     }
+
+    // Whether there was something to tell.
+    fn keep(&mut self) -> bool {
+        let told = self.keeper.follow(&recovery::sheets(&self.app), Instant::now());
+        let has_changed = !told.is_empty();
+        for action in told {
+            update(&mut self.app, action);
+        }
+        has_changed
+    }
+
+    // Nobody knows for how long.
+    fn suspend(&mut self) -> io::Result<()> {
+        self.keep();
+        self.keeper.keep();
+        self.screen.suspend()
+    }
+}
+
+// The terminal is given back by now.
+fn keep_what_is_left(chest: &Chest) {
+    match chest.write(false) {
+        Ok(()) if chest.is_needed() => tell("unsaved edits are kept: open the case again to get them back"),
+        Ok(()) => {}
+        Err(error) => tell(&format!("unsaved edits could not be kept: {error}")),
+    }
+}
+
+fn fail(code: u8, words: &str) -> ExitCode {
+    tell(words);
+    ExitCode::from(code)
 }
 
 // A terminal or a pipe that is gone hears nothing more.

@@ -18,7 +18,7 @@ const ROOMS: [(&str, &[&str]); 7] = [
 ];
 
 /// Names that stand for a terminal.
-const TERMINAL: [&str; 4] = ["ratatui", "crossterm", "tui_input", "signal_hook"];
+const TERMINAL: [&str; 3] = ["ratatui", "crossterm", "tui_input"];
 
 /// What the computation core does without: shapes of files, files, threads, printing.
 const OUTSIDE: [&str; 10] =

@@ -11,7 +11,7 @@ mod value;
 use std::path::PathBuf;
 
 use super::{Case, Problem};
-pub use disk::{ReadError, SaveError};
+pub use disk::{ReadError, SaveError, followed, write};
 use fault::Lines;
 pub use fault::{Fault, FaultKind};
 use tree::Places;

@@ -11,6 +11,7 @@ use tui_input::InputRequest;
 
 use super::app::Progress;
 use super::pane::Pane;
+use super::recovery::Claim;
 use super::solver::Answer;
 use super::store::{Entry, SaveFault};
 use crate::case::Document;
@@ -47,9 +48,11 @@ pub enum Action {
     Saved(PathBuf, Next, Result<Box<Document>, SaveFault>),
     /// What stands in a folder.
     Listed(String, Vec<Entry>),
+    /// What was found out about a case that was opened.
+    Claimed(Box<Claim>),
     /// The cases that were open last, the latest first.
     Recents(Vec<PathBuf>),
-    /// Something that was asked for did not succeed.
+    /// Something that was asked for, or that keeps what is typed, did not succeed.
     Failed(String),
 }
 

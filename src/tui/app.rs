@@ -26,6 +26,8 @@ pub struct App {
     pub others: Vec<Tab>,
     /// How many of the others stand before the current one.
     pub place_of_tab: usize,
+    /// Counts the tabs, those that are closed among them.
+    pub last_id: usize,
     /// Counts the requests of all cases.
     pub last_serial: u64,
     /// Focus and layout.
@@ -99,6 +101,7 @@ impl App {
             tab: Tab::new(document, path),
             others: Vec::new(),
             place_of_tab: 0,
+            last_id: 0,
             last_serial: 0,
             panes: Panes::default(),
             is_editing: true,

@@ -7,6 +7,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use crossterm::event::{self, Event as Input, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
+use crossterm::terminal::disable_raw_mode;
 use ratatui::layout::{Position, Size};
 use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGTERM, SIGTSTP};
 use signal_hook::iterator::Signals;
@@ -23,6 +24,8 @@ pub enum Event {
     Signal(i32),
     /// From the worker.
     Reply(Reply),
+    /// From the keeper of unsaved edits, which cannot keep them.
+    Warned(String),
     /// Time for the next picture of what plays.
     Tick,
     /// The terminal is gone.
@@ -43,6 +46,11 @@ const BATCH: Duration = Duration::from_millis(50);
 const ESCAPE: Duration = Duration::from_millis(50);
 /// Lines that a turn of the wheel moves.
 const WHEEL: isize = 3;
+
+/// So long may the workbench take to end after a signal.
+const GRACE: Duration = Duration::from_millis(700);
+/// A program that a signal ends has this and the signal's number as its exit code.
+pub const SIGNALLED: i32 = 128;
 
 /// What follows `Esc` in the sequences of the common keys.
 const SEQUENCES: [(&str, KeyCode); 20] = [
@@ -68,26 +76,48 @@ const SEQUENCES: [(&str, KeyCode); 20] = [
     ("[6~", KeyCode::PageDown),
 ];
 
+impl Default for Events {
+    fn default() -> Events {
+        Events::new()
+    }
+}
+
 impl Events {
-    /// Listen to the terminal and to signals, each in a thread that sleeps until something comes.
+    /// A channel to which nobody sends yet.
+    #[must_use]
+    pub fn new() -> Events {
+        let (sender, receiver) = sync_channel(CHANNEL);
+        Events { sender, receiver }
+    }
+
+    /// Listen to the terminal and to signals, each in a thread that sleeps until something comes. A signal to end is
+    /// told to `last_words` before anything else.
     ///
     /// # Errors
     /// When the system gives no thread or no signal handler.
-    pub fn start() -> io::Result<Events> {
+    pub fn listen(&self, last_words: impl Fn() + Send + 'static) -> io::Result<()> {
         // Makes the handler of new sizes now: one that comes before the thread runs would be lost.
         event::poll(Duration::ZERO)?;
-        let (sender, receiver) = sync_channel(CHANNEL);
-        let (keys, caught) = (sender.clone(), sender.clone());
+        let (keys, caught) = (self.sender.clone(), self.sender.clone());
         thread::Builder::new().name("keys".to_owned()).spawn(move || read_terminal(&keys))?;
         let mut signals = Signals::new([SIGHUP, SIGTERM, SIGINT, SIGTSTP, SIGCONT])?;
         thread::Builder::new().name("signals".to_owned()).spawn(move || {
             for signal in signals.forever() {
-                if caught.send(Event::Signal(signal)).is_err() {
+                if [SIGHUP, SIGTERM, SIGINT].contains(&signal) {
+                    last_words();
+                    end_by(signal, &caught);
+                } else if caught.send(Event::Signal(signal)).is_err() {
                     return;
                 }
             }
         })?;
-        Ok(Events { sender, receiver })
+        Ok(())
+    }
+
+    /// A way for the keeper to tell what goes wrong.
+    pub fn warner(&self) -> impl Fn(String) + Send + 'static {
+        let sender = self.sender.clone();
+        move |text| drop(sender.send(Event::Warned(text)))
     }
 
     /// A way for the worker to tell its replies.
@@ -96,10 +126,12 @@ impl Events {
         move |reply| sender.send(Event::Reply(reply)).is_ok()
     }
 
-    /// Wait for something, and take all that has come with it; a tick when nothing came before the alarm.
+    /// Wait for something, and take all that has come with it: a tick when nothing came before the alarm, nothing when
+    /// nothing came before the deadline.
     #[must_use]
-    pub fn batch(&self, alarm: Option<Instant>) -> Vec<Event> {
-        let mut batch = vec![self.first(alarm)];
+    pub fn batch(&self, alarm: Option<Instant>, deadline: Option<Instant>) -> Vec<Event> {
+        let Some(first) = self.first(alarm, deadline) else { return Vec::new() };
+        let mut batch = vec![first];
         let end = Instant::now() + BATCH;
         while Instant::now() < end {
             let patience = if is_open(&batch) { ESCAPE } else { Duration::ZERO };
@@ -111,12 +143,14 @@ impl Events {
         join(batch)
     }
 
-    fn first(&self, alarm: Option<Instant>) -> Event {
-        let Some(alarm) = alarm else { return self.receiver.recv().unwrap_or(Event::Lost) };
-        match self.receiver.recv_timeout(alarm.saturating_duration_since(Instant::now())) {
-            Ok(event) => event,
-            Err(RecvTimeoutError::Timeout) => Event::Tick,
-            Err(RecvTimeoutError::Disconnected) => Event::Lost,
+    fn first(&self, alarm: Option<Instant>, deadline: Option<Instant>) -> Option<Event> {
+        let Some(until) = alarm.into_iter().chain(deadline).min() else {
+            return Some(self.receiver.recv().unwrap_or(Event::Lost));
+        };
+        match self.receiver.recv_timeout(until.saturating_duration_since(Instant::now())) {
+            Ok(event) => Some(event),
+            Err(RecvTimeoutError::Timeout) => (alarm == Some(until)).then_some(Event::Tick),
+            Err(RecvTimeoutError::Disconnected) => Some(Event::Lost),
         }
     }
 }
@@ -132,6 +166,7 @@ pub fn take_action(inputs: &mut std::iter::Peekable<impl Iterator<Item = Event>>
         Event::Input(Input::Resize(width, height)) => Some(Action::Resize(Size { width, height })),
         Event::Reply(Reply::Solved(answer)) => Some(Action::Solved(answer)),
         Event::Reply(Reply::Failed(serial)) => Some(Action::SolverFailed(serial)),
+        Event::Warned(text) => Some(Action::Failed(text)),
         Event::Input(Input::Mouse(mouse)) => of_mouse(mouse),
         Event::Tick => Some(Action::Tick),
         Event::Input(_) | Event::Signal(_) | Event::Lost => None,
@@ -163,6 +198,14 @@ fn letter_of(event: &Event, place: Place) -> Option<char> {
         Action::Insert(letter) => Some(letter),
         _ => None,
     }
+}
+
+// The workbench ends as it should, unless it waits for a terminal that takes nothing more.
+fn end_by(signal: i32, sender: &SyncSender<Event>) {
+    drop(sender.try_send(Event::Signal(signal)));
+    thread::sleep(GRACE);
+    drop(disable_raw_mode());
+    std::process::exit(SIGNALLED + signal);
 }
 
 fn read_terminal(sender: &SyncSender<Event>) {

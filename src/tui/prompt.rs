@@ -6,6 +6,7 @@ use tui_input::Input;
 
 use super::actions::{Next, Place};
 use super::pick::Picker;
+use super::recovery::{self, Offer};
 use super::store::Entry;
 
 /// Something that lies over the form and takes the keys.
@@ -43,6 +44,8 @@ pub struct Question {
     pub title: &'static str,
     /// In a sentence.
     pub text: String,
+    /// What it is about, a line each.
+    pub details: Vec<String>,
     /// The answers. The first letter of each calls it.
     pub buttons: Vec<(&'static str, Choice)>,
     /// The marked one.
@@ -60,6 +63,10 @@ pub enum Choice {
     Overwrite(PathBuf, Next),
     /// Ask for another name.
     SaveAs(Next),
+    /// Put kept edits into the form.
+    Recover(Box<Offer>),
+    /// Throw the edits of this journal away.
+    Forget(PathBuf),
     /// Back to the form.
     Cancel,
 }
@@ -142,6 +149,7 @@ impl Question {
         Question {
             title: "Unsaved edits",
             text: format!("{name} has unsaved edits."),
+            details: Vec::new(),
             buttons: vec![
                 ("Save", Choice::Save(next.clone())),
                 ("Discard", Choice::Proceed(next.clone())),
@@ -157,6 +165,7 @@ impl Question {
         Question {
             title: "Unsaved edits",
             text: format!("{} cases have unsaved edits: {}.", names.len(), names.join(", ")),
+            details: Vec::new(),
             buttons: vec![
                 ("Save all", Choice::Proceed(Next::SaveRest)),
                 ("Discard all", Choice::Proceed(Next::Quit)),
@@ -172,6 +181,7 @@ impl Question {
         Question {
             title: "Quit",
             text: "Leave the workbench? Nothing is unsaved.".to_owned(),
+            details: Vec::new(),
             buttons: vec![("Quit", Choice::Proceed(Next::Quit)), ("Cancel", Choice::Cancel)],
             marked: 1,
         }
@@ -183,6 +193,7 @@ impl Question {
         Question {
             title: "The file exists",
             text: format!("{} is there already.", path.display()),
+            details: Vec::new(),
             buttons: vec![
                 ("Overwrite", Choice::Overwrite(path.to_owned(), next.clone())),
                 ("Save as", Choice::SaveAs(next.clone())),
@@ -192,12 +203,13 @@ impl Question {
         }
     }
 
-    /// Someone else wrote the file.
+    /// Someone else wrote the file, which says this otherwise than the form.
     #[must_use]
-    pub fn changed(path: &Path, next: &Next) -> Question {
+    pub fn changed(path: &Path, details: Vec<String>, next: &Next) -> Question {
         Question {
             title: "The file has changed on disk",
             text: format!("{} is not what was opened here. Reload loses the edits of the form.", path.display()),
+            details,
             buttons: vec![
                 ("Reload", Choice::Proceed(Next::Load(path.to_owned()))),
                 ("Save as", Choice::SaveAs(next.clone())),
@@ -205,6 +217,35 @@ impl Question {
                 ("Cancel", Choice::Cancel),
             ],
             marked: 3,
+        }
+    }
+
+    /// Another session has the file open.
+    #[must_use]
+    pub fn held(path: &Path, holder: &str, next: &Next) -> Question {
+        Question {
+            title: "Open elsewhere",
+            text: format!("{} is not saved, since another session has it open: {holder}.", path.display()),
+            details: Vec::new(),
+            buttons: vec![("Save as", Choice::SaveAs(next.clone())), ("Cancel", Choice::Cancel)],
+            marked: 0,
+        }
+    }
+
+    /// Edits were kept that an earlier session could not save.
+    #[must_use]
+    pub fn recover(name: &str, offer: Offer) -> Question {
+        let changed = if offer.is_file_changed { " The file has been changed since." } else { "" };
+        Question {
+            title: "Unsaved edits were kept",
+            text: format!("Edits of {name} that were not saved, kept {} ago.{changed} In the file now -> as typed:", offer.age),
+            details: offer.changes.iter().map(recovery::line).collect(),
+            buttons: vec![
+                ("Discard", Choice::Forget(offer.journal.clone())),
+                ("Recover", Choice::Recover(Box::new(offer))),
+                ("Later", Choice::Cancel),
+            ],
+            marked: 1,
         }
     }
 

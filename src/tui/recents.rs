@@ -1,14 +1,14 @@
 //! The cases that were open last, the latest first, in the folder of state. Only a convenience: what fails here is not told.
 
-use std::env;
 use std::ffi::OsString;
 use std::fs;
 use std::io::{self, Write};
 use std::os::unix::ffi::{OsStrExt, OsStringExt};
 use std::path::{Path, PathBuf};
 
-use directories::ProjectDirs;
 use tempfile::NamedTempFile;
+
+use super::store::state;
 
 /// So many are remembered.
 const MOST: usize = 20;
@@ -36,7 +36,7 @@ pub fn add(path: &Path) {
     let write = || -> io::Result<()> {
         let file = file().ok_or(io::ErrorKind::NotFound)?;
         let folder = file.parent().ok_or(io::ErrorKind::NotFound)?;
-        fs::create_dir_all(folder)?;
+        state::make(folder)?;
         let mut new = NamedTempFile::new_in(folder)?;
         new.write_all(&render(&with(list(), std::path::absolute(path)?)))?;
         new.persist(&file).map_err(|error| error.error).map(drop)
@@ -61,13 +61,8 @@ fn render(paths: &[PathBuf]) -> Vec<u8> {
 }
 
 fn file() -> Option<PathBuf> {
-    let own = env::var_os("XDG_STATE_HOME").map(PathBuf::from).filter(|path| path.is_absolute());
-    let folder = own.map(|path| path.join("tipstrike")).or_else(|| {
-        let folders = ProjectDirs::from("", "", "tipstrike")?;
-        Some(folders.state_dir().unwrap_or(folders.data_local_dir()).to_owned())
-    });
     // A single path without an end is how the last case was kept before.
-    folder.map(|folder| folder.join("last-case"))
+    state::folder().map(|folder| folder.join("last-case"))
 }
 
 #[cfg(test)]

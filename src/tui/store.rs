@@ -1,13 +1,21 @@
-//! Files: reading and writing cases, looking into folders, and the case that was open last.
+//! Files: reading and writing cases, looking into folders, and keeping what is typed.
 
+pub mod chest;
+mod clock;
+mod journals;
+pub mod keeper;
+pub mod lock;
+pub mod state;
+
+use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::actions::Action;
-use super::recents;
 use super::update::{Effect, Over, Saving};
-use crate::case::Document;
+use super::{recents, recovery};
 use crate::case::file::SaveError;
+use crate::case::{Document, changes};
 
 /// An entry of a folder.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -23,8 +31,10 @@ pub struct Entry {
 pub enum SaveFault {
     /// A file of that name is there.
     Exists,
-    /// Someone else changed the file since it was read.
-    Changed,
+    /// Someone else changed the file since it was read: what it says otherwise than the form, a line each.
+    Changed(Vec<String>),
+    /// Another session has the file open, which these words name.
+    Held(String),
     /// The reason, in words.
     Failed(String),
 }
@@ -81,10 +91,12 @@ pub fn opening(asked: Option<PathBuf>) -> Opening {
 pub fn perform(effect: Effect) -> Option<Action> {
     match effect {
         Effect::Load(path) => {
+            let path = at_home(&path);
             let result = load(&path);
             Some(Action::Loaded(path, result))
         }
-        Effect::Save(saving) => {
+        Effect::Save(mut saving) => {
+            saving.path = expanded(&saving);
             let result = save(&saving);
             Some(Action::Saved(saving.path, saving.next, result))
         }
@@ -101,7 +113,13 @@ pub fn perform(effect: Effect) -> Option<Action> {
             let kept = settings.keep();
             kept.err().map(|reason| Action::Failed(format!("the settings are not kept: {reason}")))
         }
+        Effect::Forget(journal) => {
+            // One that stays is offered again.
+            drop(fs::remove_file(journal));
+            None
+        }
         Effect::Solve(_)
+        | Effect::Adopt(_)
         | Effect::Copy(_)
         | Effect::Mouse(_)
         | Effect::Play(_)
@@ -126,21 +144,56 @@ fn load(path: &Path) -> Result<Box<Document>, Vec<String>> {
 
 fn save(saving: &Saving) -> Result<Box<Document>, SaveFault> {
     let Saving { document, path, over, .. } = saving;
-    if *over == Over::Nothing && path.symlink_metadata().is_ok() {
+    // What is no file is told as such, rather than asked about.
+    if *over == Over::Nothing && path.symlink_metadata().is_ok() && !path.is_dir() {
         return Err(SaveFault::Exists);
     }
     let mut document = document.clone();
     let written = if *over == Over::Anything { document.save_over(path) } else { document.save(path) };
     written.map(|()| Box::new(document)).map_err(|error| match error {
-        SaveError::ChangedOnDisk(_) => SaveFault::Changed,
+        SaveError::ChangedOnDisk(_) => SaveFault::Changed(differences(saving)),
         SaveError::AlreadyThere(_) => SaveFault::Exists,
         other => SaveFault::Failed(other.to_string()),
     })
 }
 
+/// What the file says otherwise than the form, a line each.
+fn differences(saving: &Saving) -> Vec<String> {
+    let theirs = match Document::read(&saving.path) {
+        Ok(theirs) => theirs.case,
+        Err(error) => return error.to_string().lines().take(1).map(|line| format!("It is no valid case now: {line}")).collect(),
+    };
+    let (opened, ours) = (saving.document.loaded(), &saving.document.case);
+    let lines = changes::between(&theirs, ours).into_iter().map(|change| {
+        let before = changes::text_of(opened, &change.key);
+        let by = match (before == change.from, before == change.to) {
+            (true, _) => "changed here",
+            (_, true) => "changed there",
+            (false, false) => "changed here and there",
+        };
+        let (there, here) = (recovery::shown(change.from.as_deref()), recovery::shown(change.to.as_deref()));
+        format!("{}: {there} in the file, {here} here ({by})", changes::label(&change.key))
+    });
+    let lines: Vec<_> = lines.collect();
+    if lines.is_empty() { vec!["Every field is the same: only comments or spacing differ.".to_owned()] } else { lines }
+}
+
+/// The path of a save, with the home folder in place of `~`. The file that was opened is called what it is called.
+fn expanded(saving: &Saving) -> PathBuf {
+    if saving.over == Over::Own { saving.path.clone() } else { at_home(&saving.path) }
+}
+
+fn at_home(path: &Path) -> PathBuf {
+    let home = env::var_os("HOME").map(PathBuf::from).filter(|home| home.is_absolute());
+    match (path.strip_prefix("~"), home) {
+        (Ok(rest), Some(home)) => home.join(rest),
+        _ => path.to_owned(),
+    }
+}
+
 // A folder that cannot be read has nothing to offer.
 fn list(folder: &str) -> Vec<Entry> {
-    let path = if folder.is_empty() { Path::new(".") } else { Path::new(folder) };
+    let path = if folder.is_empty() { PathBuf::from(".") } else { at_home(Path::new(folder)) };
     let found = fs::read_dir(path).into_iter().flatten().flatten().filter_map(|entry| {
         let name = entry.file_name().to_string_lossy().into_owned();
         let is_folder = entry.path().is_dir();

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use tui_input::Input;
 
 use super::history::History;
+use super::recovery::Access;
 use super::scale::Scale;
 use super::solver::Answer;
 use crate::case::{Case, Document, FIELDS, Problem, fields};
@@ -13,6 +14,8 @@ use crate::model::{Refusal, Stages};
 /// An open case.
 #[derive(Debug, Clone)]
 pub struct Tab {
+    /// Tells it from the other tabs, those that are closed among them.
+    pub id: usize,
     /// The file's text, in which a save keeps comments and order.
     pub document: Document,
     /// Where it was read from, or last saved to.
@@ -21,6 +24,8 @@ pub struct Tab {
     pub case: Case,
     /// The case as the file has it.
     pub saved: Case,
+    /// Whether the file may be written.
+    pub access: Access,
     /// What was asked for and could not be opened, where the built-in case stands for it.
     pub in_place_of: Option<PathBuf>,
     /// The focused field.
@@ -62,6 +67,8 @@ impl Tab {
         let case = document.case.clone();
         let focus = fields::index_of("pair.module").unwrap_or(0);
         Tab {
+            id: 0,
+            access: Access::default(),
             input: Input::from(case.text(focus).unwrap_or_default()),
             saved: case.clone(),
             case,

@@ -9,6 +9,7 @@ mod options;
 mod page;
 mod panes;
 mod pointer;
+mod recovery;
 mod tabs;
 mod walk;
 
@@ -38,6 +39,10 @@ pub enum Effect {
     List(String),
     /// Open this case when the workbench starts the next time.
     Remember(PathBuf),
+    /// The edits of this journal are in the form now.
+    Adopt(PathBuf),
+    /// The edits of this journal are not wanted.
+    Forget(PathBuf),
     /// Look which cases were open last, and tell it as [`Action::Recents`].
     Recall,
     /// Keep the settings.
@@ -115,6 +120,7 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
         Action::Loaded(path, result) => return files::loaded(app, path, result),
         Action::Saved(path, next, result) => return files::saved(app, path, next, result),
         Action::Listed(folder, entries) => return files::listed(app, &folder, entries),
+        Action::Claimed(claim) => recovery::claimed(app, *claim),
         Action::Recents(paths) => app.prompts.push(Prompt::Pick(Picker::new(List::Recents(paths)))),
         Action::Failed(reason) => app.complain(reason),
     }

@@ -42,8 +42,6 @@ enum Happening {
     Open(String),
     /// Someone else writes the file, and then it is saved.
     Meddle(String),
-    /// The worker answers late.
-    Dawdle,
 }
 
 /// A workbench in a folder of its own, and what must come of it.
@@ -117,7 +115,6 @@ fn happenings() -> impl Strategy<Value = Vec<Happening>> {
         8 => half,
         1 => select(vec!["", "", "cas", "none"]).prop_map(|name| Happening::Open(name.to_owned())),
         1 => texts::written().prop_map(Happening::Meddle),
-        1 => Just(Happening::Dawdle),
     ];
     prop::collection::vec(happening, 0..40)
 }
@@ -192,7 +189,6 @@ impl Bench {
                 fs::write(self.folder.path().join("case.toml"), text).expect("room on the disk");
                 self.feed([Event::Input(Input::Key(ctrl('s')))]);
             }
-            Happening::Dawdle => return,
         }
         self.answer();
         self.look_around();
@@ -285,9 +281,14 @@ impl Bench {
                 assert!(!text.is_empty() && text.len() <= 48 * 1024);
                 None
             }
-            Effect::Remember(_) | Effect::Keep(_) | Effect::Mouse(_) | Effect::CancelWork | Effect::Redraw | Effect::Suspend => {
-                None
-            }
+            Effect::Remember(_)
+            | Effect::Adopt(_)
+            | Effect::Forget(_)
+            | Effect::Keep(_)
+            | Effect::Mouse(_)
+            | Effect::CancelWork
+            | Effect::Redraw
+            | Effect::Suspend => None,
         }
     }
 

@@ -11,6 +11,8 @@ mod form;
 mod properties;
 mod terminal;
 mod texts;
+#[path = "../tty/mod.rs"]
+mod tty;
 mod values;
 
 use std::env;

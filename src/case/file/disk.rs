@@ -1,5 +1,6 @@
 //! Files on disk: what is no case is refused without waiting, and a save leaves the old file or the new one.
 
+use std::borrow::Cow;
 use std::fs::{self, File, OpenOptions, Permissions};
 use std::io::{self, ErrorKind, Read, Write};
 use std::os::unix::fs::{MetadataExt, PermissionsExt, fchown};
@@ -8,6 +9,8 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use super::{Document, Fault, FaultKind, MOST_BYTES};
+use crate::case::Case;
+use crate::case::journal::Stamp;
 use crate::case::visible::visible;
 
 /// Symbolic links that are followed, one after the other.
@@ -48,15 +51,34 @@ pub enum SaveError {
     /// It is a folder, a pipe or a device.
     #[error("{0}: this is not a regular file")]
     NotAFile(String),
+    /// It is a folder.
+    #[error("{0}: this is a folder: add the name of a file to it, such as {0}/case.toml")]
+    IsAFolder(String),
+    /// The folder of the file is not there.
+    #[error("{0}: there is no folder {1}: make it first (mkdir -p {1}), or take another name")]
+    NoFolder(String, String),
     /// The file may not be written.
-    #[error("{0}: the file is read-only")]
+    #[error("{0}: the file is read-only: save under another name, or make it writable (chmod u+w)")]
     ReadOnly(String),
     /// The file has other names, which a save would part from it.
     #[error("{0}: the file has {1} names (hard links), which saving would part: save under another name")]
     HardLinked(String, u64),
     /// The system refuses to write it.
-    #[error("{0}: cannot be written: {1}")]
+    #[error("{0}: cannot be written: {1}: {mend}", mend = mend(.1))]
     Unwritable(String, io::Error),
+}
+
+/// Write a file that is no case, such as a report or a template, by the way of a save: whatever happens, the old file
+/// stays or the new one is whole. `over` says whether a file of that name may be replaced.
+///
+/// # Errors
+/// Where nothing was written.
+pub fn write(path: &Path, bytes: &[u8], over: bool) -> Result<(), SaveError> {
+    let target = target_of(path)?;
+    if target.old.is_some() && !over {
+        return Err(SaveError::AlreadyThere(shown(path)));
+    }
+    target.replace(bytes, path)
 }
 
 impl Document {
@@ -83,6 +105,22 @@ impl Document {
         self.origin.as_deref()
     }
 
+    /// What tells the text that was read or saved last from another one.
+    #[must_use]
+    pub fn stamp(&self) -> Stamp {
+        Stamp::of(self.as_read().as_bytes())
+    }
+
+    /// The case as the text that was read or saved last has it.
+    #[must_use]
+    pub fn loaded(&self) -> &Case {
+        &self.loaded
+    }
+
+    fn as_read(&self) -> Cow<'_, str> {
+        if self.marked { Cow::Owned(format!("{}{}", super::BYTE_ORDER_MARK, self.text)) } else { Cow::Borrowed(&self.text) }
+    }
+
     /// Save to a file, unless it is not the one that was read or has been changed since.
     ///
     /// # Errors
@@ -100,23 +138,13 @@ impl Document {
     }
 
     fn write(&mut self, path: &Path, over: bool) -> Result<(), SaveError> {
-        let name = shown(path);
-        let unwritable = |error| SaveError::Unwritable(shown(path), error);
-        let target = followed(path).map_err(unwritable)?;
-        let old = match fs::metadata(&target) {
-            Ok(old) => Some(old),
-            Err(error) if error.kind() == ErrorKind::NotFound => None,
-            Err(error) => return Err(unwritable(error)),
-        };
-        if let Some(old) = &old {
-            replaceable(&target, old, &name)?;
-            if !over {
-                self.same_as_read(&target, &name)?;
-            }
+        let target = target_of(path)?;
+        if target.old.is_some() && !over {
+            self.same_as_read(&target.path, &shown(path))?;
         }
         let text = self.render();
-        replace(&target, old.as_ref(), text.as_bytes()).map_err(unwritable)?;
-        self.settle(&text, name, target);
+        target.replace(text.as_bytes(), path)?;
+        self.settle(&text, shown(path), target.path);
         Ok(())
     }
 
@@ -125,10 +153,9 @@ impl Document {
         if self.origin.as_deref() != Some(target) {
             return Err(SaveError::AlreadyThere(name.to_owned()));
         }
-        let read = if self.marked { format!("{}{}", super::BYTE_ORDER_MARK, self.text) } else { self.text.clone() };
         let now = open(target, name).and_then(|file| capped(file, name));
         match now {
-            Ok(bytes) if bytes == read.as_bytes() => Ok(()),
+            Ok(bytes) if bytes == self.as_read().as_bytes() => Ok(()),
             _ => Err(SaveError::ChangedOnDisk(name.to_owned())),
         }
     }
@@ -169,7 +196,10 @@ fn capped(source: impl Read, name: &str) -> Result<Vec<u8>, ReadError> {
 }
 
 /// The path behind every symbolic link, whether or not a file is there.
-fn followed(path: &Path) -> io::Result<PathBuf> {
+///
+/// # Errors
+/// When the folder is not there, or the links lead round and round.
+pub fn followed(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();
     for _ in 0..MOST_LINKS {
         let Ok(next) = fs::read_link(&path) else {
@@ -185,7 +215,36 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
+/// A file to be written, links followed, and what is there now.
+struct Target {
+    path: PathBuf,
+    old: Option<fs::Metadata>,
+}
+
+fn target_of(path: &Path) -> Result<Target, SaveError> {
+    let name = shown(path);
+    let target = followed(path).map_err(|error| no_folder(path, error))?;
+    match fs::metadata(&target) {
+        Ok(old) => {
+            replaceable(&target, &old, &name)?;
+            Ok(Target { path: target, old: Some(old) })
+        }
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(Target { path: target, old: None }),
+        Err(error) => Err(SaveError::Unwritable(name, error)),
+    }
+}
+
+fn no_folder(path: &Path, error: io::Error) -> SaveError {
+    match error.kind() {
+        ErrorKind::NotFound | ErrorKind::NotADirectory => SaveError::NoFolder(shown(path), shown(folder_of(path))),
+        _ => SaveError::Unwritable(shown(path), error),
+    }
+}
+
 fn replaceable(target: &Path, old: &fs::Metadata, name: &str) -> Result<(), SaveError> {
+    if old.is_dir() {
+        return Err(SaveError::IsAFolder(name.trim_end_matches('/').to_owned()));
+    }
     if !old.is_file() {
         return Err(SaveError::NotAFile(name.to_owned()));
     }
@@ -200,21 +259,45 @@ fn replaceable(target: &Path, old: &fs::Metadata, name: &str) -> Result<(), Save
     }
 }
 
-/// Write beside the target, then rename over it; each step is on disk before the next one.
-fn replace(target: &Path, old: Option<&fs::Metadata>, bytes: &[u8]) -> io::Result<()> {
-    let folder = folder_of(target);
-    // A new file's mode is cut by the umask on creation.
-    let mode = Permissions::from_mode(0o666);
-    let mut file = tempfile::Builder::new().prefix(".tipstrike-").permissions(mode).tempfile_in(folder)?;
-    file.write_all(bytes)?;
-    if let Some(old) = old {
-        keep_owner_and_mode(file.as_file(), old)?;
+impl Target {
+    fn replace(&self, bytes: &[u8], path: &Path) -> Result<(), SaveError> {
+        self.write(bytes).map_err(|error| match error.kind() {
+            ErrorKind::AlreadyExists if self.old.is_none() => SaveError::AlreadyThere(shown(path)),
+            _ => SaveError::Unwritable(shown(path), error),
+        })
     }
-    file.as_file().sync_all()?;
-    file.persist(target).map_err(|error| error.error)?;
-    // The new file is in place, whether or not the folder can be flushed.
-    let _ = File::open(folder).and_then(|folder| folder.sync_all());
-    Ok(())
+
+    /// Write beside the target, then rename over it; each step is on disk before the next one.
+    fn write(&self, bytes: &[u8]) -> io::Result<()> {
+        let folder = folder_of(&self.path);
+        // A new file's mode is cut by the umask on creation.
+        let mode = Permissions::from_mode(0o666);
+        let mut file = tempfile::Builder::new().prefix(".tipstrike-").permissions(mode).tempfile_in(folder)?;
+        file.write_all(bytes)?;
+        if let Some(old) = &self.old {
+            keep_owner_and_mode(file.as_file(), old)?;
+        }
+        file.as_file().sync_all()?;
+        match self.old {
+            Some(_) => file.persist(&self.path).map_err(|error| error.error)?,
+            // A file that someone else made meanwhile is not ours to replace.
+            None => file.persist_noclobber(&self.path).map_err(|error| error.error)?,
+        };
+        // The new file is in place, whether or not the folder can be flushed.
+        let _ = File::open(folder).and_then(|folder| folder.sync_all());
+        Ok(())
+    }
+}
+
+/// What to do about a file that the system does not let us write.
+fn mend(error: &io::Error) -> &'static str {
+    match error.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "make room on the disk, or save elsewhere",
+        ErrorKind::FileTooLarge => "raise the limit on the size of files (ulimit -f)",
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => "save into a folder that may be written",
+        ErrorKind::InvalidFilename => "take a shorter name",
+        _ => "save elsewhere",
+    }
 }
 
 fn keep_owner_and_mode(file: &File, old: &fs::Metadata) -> io::Result<()> {

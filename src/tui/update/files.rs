@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use tui_input::Input;
 
-use super::{Effect, Over, Saving, solve, tabs};
+use super::{Effect, Over, Saving, recovery, solve, tabs};
 use crate::case::Document;
 use crate::tui::actions::Next;
 use crate::tui::app::App;
@@ -95,6 +95,8 @@ pub(super) fn choose(app: &mut App, choice: Choice) -> Vec<Effect> {
         Choice::Save(next) => save(app, next),
         Choice::Proceed(next) => go(app, next),
         Choice::Overwrite(path, next) => vec![saving(app, path, Over::Anything, next)],
+        Choice::Recover(offer) => recovery::recover(app, &offer),
+        Choice::Forget(journal) => vec![Effect::Forget(journal)],
         Choice::SaveAs(next) => {
             if !matches!(app.prompts.last(), Some(Prompt::SaveAs(..))) {
                 return ask_where(app, next);
@@ -146,6 +148,7 @@ pub(super) fn listed(app: &mut App, folder: &str, entries: Vec<Entry>) -> Vec<Ef
 /// A file was read, or its faults were found: then nothing changes but what is told.
 pub(super) fn loaded(app: &mut App, path: PathBuf, result: Result<Box<Document>, Vec<String>>) -> Vec<Effect> {
     match result {
+        Ok(document) if is_open_as_another(app, &document, &path) => Vec::new(),
         Ok(document) => {
             app.prompts.clear();
             let mut effects = vec![Effect::Remember(path.clone())];
@@ -178,7 +181,8 @@ pub(super) fn saved(app: &mut App, path: PathBuf, next: Next, result: Result<Box
             return effects;
         }
         Err(SaveFault::Exists) => app.prompts.push(Prompt::Ask(Question::exists(&path, &next))),
-        Err(SaveFault::Changed) => app.prompts.push(Prompt::Ask(Question::changed(&path, &next))),
+        Err(SaveFault::Changed(lines)) => app.prompts.push(Prompt::Ask(Question::changed(&path, lines, &next))),
+        Err(SaveFault::Held(holder)) => app.prompts.push(Prompt::Ask(Question::held(&path, &holder, &next))),
         Err(SaveFault::Failed(reason)) => app.complain(format!("not saved: {reason}")),
     }
     Vec::new()
@@ -222,6 +226,16 @@ fn open(app: &mut App, path: PathBuf) -> Vec<Effect> {
     tabs::go_to(app, at);
     app.say(format!("{} is open already", clean::clean(&app.name())));
     Vec::new()
+}
+
+// The same file by another path, over a link, is the same case.
+fn is_open_as_another(app: &mut App, document: &Document, path: &Path) -> bool {
+    let is_it = |tab: &Tab| tab.path.as_deref().is_some_and(|own| own != path) && tab.document.path() == document.path();
+    let Some(at) = app.tabs().position(is_it) else { return false };
+    app.prompts.clear();
+    tabs::go_to(app, at);
+    app.say(format!("{} is open already, as {}", clean::clean(&path.display().to_string()), clean::clean(&app.name())));
+    true
 }
 
 fn place_of(app: &App, path: &Path) -> Option<usize> {

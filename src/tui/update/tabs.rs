@@ -45,7 +45,11 @@ pub(super) fn show(app: &mut App, document: Document, path: PathBuf) -> Option<R
         go_to(app, own);
     }
     let replaces = own.is_some() || app.is_untouched();
-    put(app, Tab::new(document, Some(path)), replaces)
+    let before = own.map(|_| app.id);
+    let request = put(app, Tab::new(document, Some(path)), replaces);
+    // The same file read anew is still the same one that is open.
+    app.tab.id = before.unwrap_or(app.id);
+    request
 }
 
 /// Begin with the built-in case in a tab of its own.
@@ -74,7 +78,8 @@ pub(super) fn close(app: &mut App) -> Option<Request> {
 
 fn put(app: &mut App, tab: Tab, replaces: bool) -> Option<Request> {
     let focus = app.focus;
-    let before = std::mem::replace(&mut app.tab, tab);
+    app.last_id += 1;
+    let before = std::mem::replace(&mut app.tab, Tab { id: app.last_id, ..tab });
     if !replaces {
         app.others.insert(app.place_of_tab, before);
         app.place_of_tab += 1;

@@ -91,7 +91,7 @@ fn draw_page(page: &Page, screen: Rect, theme: &Theme, buffer: &mut Buffer) {
 }
 
 fn draw_question(question: &Question, screen: Rect, theme: &Theme, buffer: &mut Buffer) {
-    let lines = text::wrap(&question.text, room(screen.as_size()).width.into());
+    let lines = question_lines(question, room(screen.as_size()));
     let inner = frame(question.title, extent(&lines, 2), screen, theme, buffer);
     for (line, y) in lines.iter().zip(inner.top()..inner.bottom()) {
         buffer.set_stringn(inner.x, y, line, inner.width.into(), Style::new());
@@ -106,6 +106,20 @@ fn draw_question(question: &Question, screen: Rect, theme: &Theme, buffer: &mut 
         let row = Rect { y: inner.y + below, height: 1, ..inner };
         buttons.collect::<Line<'_>>().render(row, buffer);
     }
+}
+
+// The buttons below them must be in sight: of the details, as many as there is room for, a line each.
+fn question_lines(question: &Question, room: Size) -> Vec<String> {
+    let width = usize::from(room.width);
+    let mut lines = text::wrap(&question.text, width);
+    let left = usize::from(room.height).saturating_sub(lines.len() + 2);
+    let details = &question.details;
+    let shown = if details.len() <= left { details.len() } else { left.saturating_sub(1) };
+    lines.extend(details[..shown].iter().map(|line| text::cut(&format!("  {line}"), width)));
+    if shown < details.len() && left > 0 {
+        lines.push(format!("  and {} more", details.len() - shown));
+    }
+    lines
 }
 
 fn draw_browser(browser: &Browser, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Option<Position> {

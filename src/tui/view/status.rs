@@ -92,7 +92,7 @@ pub fn about(field: &Field, ascii: bool) -> String {
 }
 
 fn only_case(app: &App, width: u16) -> Vec<Span<'static>> {
-    let mark = if app.is_unsaved() { " *unsaved*" } else { "" };
+    let mark = [if app.is_unsaved() { " *unsaved*" } else { "" }, app.access.mark()].concat();
     let room = usize::from(width).saturating_sub(11 + mark.width());
     let instead = app.in_place_of.as_ref().map(|path| format!(", for {} cannot be opened", path.display()));
     let name = text::cut(&format!("{}{}", app.name(), instead.unwrap_or_default()), room);
@@ -119,7 +119,13 @@ fn tabs(app: &App, width: u16) -> Vec<Span<'static>> {
 }
 
 fn tab_name(at: usize, tab: &Tab) -> String {
-    format!("{} {}{}", at + 1, text::cut(&tab.short_name(), LONGEST_NAME), if tab.is_unsaved() { "*" } else { "" })
+    format!(
+        "{} {}{}{}",
+        at + 1,
+        text::cut(&tab.short_name(), LONGEST_NAME),
+        if tab.is_unsaved() { "*" } else { "" },
+        tab.access.mark()
+    )
 }
 
 // The first and the last but one of the names that have room, grown from the one in the middle.

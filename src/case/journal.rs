@@ -1,0 +1,242 @@
+//! Edits that are not saved yet, as a text that tells by itself whether it is whole.
+
+use std::ffi::OsString;
+use std::hash::Hasher;
+use std::os::unix::ffi::{OsStrExt, OsStringExt};
+use std::path::{Path, PathBuf};
+
+use siphasher::sip::SipHasher24;
+use thiserror::Error;
+use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, TableLike, value};
+
+use super::changes::Change;
+
+/// The format of journals that this version reads and writes.
+pub const FORMAT: i64 = 1;
+
+/// The longest journal that is read, in bytes: longer than the changes of any case.
+pub const MOST_BYTES: usize = 4 << 20;
+
+const OPENING: &str = "# Edits that were not saved. tipstrike offers them when the case is opened again.\n";
+const FORMAT_KEY: &str = "format = ";
+const CHECKSUM_KEY: &str = "checksum = ";
+
+/// Edits of a case that are not in its file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Journal {
+    /// The file of the case; `None` where it has none yet.
+    pub case: Option<PathBuf>,
+    /// Length and hash of the text that was edited.
+    pub stands_on: Stamp,
+    /// When the journal was written, in seconds since 1970.
+    pub written: u64,
+    /// The session that wrote it.
+    pub session: String,
+    /// The edits: from what the file says to what was typed, valid or not.
+    pub changes: Vec<Change>,
+}
+
+/// What tells one text from another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stamp {
+    /// In bytes.
+    pub length: u64,
+    /// SipHash-2-4 of the bytes.
+    pub hash: u64,
+}
+
+/// Why a text is no journal to be trusted.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum JournalFault {
+    /// It is no journal at all.
+    #[error("it is no journal")]
+    NotOne,
+    /// It is of a newer format.
+    #[error("its format {0} is newer than this version knows")]
+    NewerFormat(i64),
+    /// It was cut or changed after it was written.
+    #[error("it is damaged")]
+    Damaged,
+    /// It is whole, but says something that no journal says.
+    #[error("it has no valid `{0}`")]
+    Misformed(&'static str),
+}
+
+impl Stamp {
+    /// The stamp of a text.
+    #[must_use]
+    pub fn of(bytes: &[u8]) -> Stamp {
+        Stamp { length: bytes.len() as u64, hash: hash(bytes) }
+    }
+}
+
+impl Journal {
+    /// The text of a journal's file.
+    #[must_use]
+    pub fn to_text(&self) -> String {
+        let body = self.body();
+        format!("{OPENING}{FORMAT_KEY}{FORMAT}\n{CHECKSUM_KEY}\"{:016x}\"\n{body}", hash(body.as_bytes()))
+    }
+
+    /// Read the text of a journal's file.
+    ///
+    /// # Errors
+    /// Where the text is not, byte for byte, what [`Journal::to_text`] once made.
+    pub fn from_text(text: &str) -> Result<Journal, JournalFault> {
+        let rest = text.strip_prefix(OPENING).ok_or(JournalFault::NotOne)?;
+        let (format, rest) = line_of(rest, FORMAT_KEY).ok_or(JournalFault::NotOne)?;
+        match format.parse() {
+            Ok(FORMAT) => {}
+            Ok(newer) if newer > FORMAT => return Err(JournalFault::NewerFormat(newer)),
+            _ => return Err(JournalFault::NotOne),
+        }
+        let (checksum, body) = line_of(rest, CHECKSUM_KEY).ok_or(JournalFault::Damaged)?;
+        if checksum != format!("\"{:016x}\"", hash(body.as_bytes())) {
+            return Err(JournalFault::Damaged);
+        }
+        let toml: DocumentMut = body.parse().map_err(|_| JournalFault::Damaged)?;
+        read(toml.as_table()).map_err(JournalFault::Misformed)
+    }
+
+    fn body(&self) -> String {
+        let mut toml = DocumentMut::new();
+        toml["written"] = value(self.written.cast_signed());
+        toml["session"] = value(&self.session);
+        toml["length"] = value(self.stands_on.length.cast_signed());
+        toml["hash"] = value(format!("{:016x}", self.stands_on.hash));
+        if let Some(case) = &self.case {
+            match case.to_str() {
+                Some(path) => toml["case"] = value(path),
+                None => toml["case_bytes"] = value(hex(case)),
+            }
+        }
+        let changes: ArrayOfTables = self.changes.iter().map(table_of).collect();
+        if !changes.is_empty() {
+            toml["change"] = Item::ArrayOfTables(changes);
+        }
+        toml.to_string()
+    }
+}
+
+/// SipHash-2-4 with a key of zeros: the same on every machine and in every version.
+#[must_use]
+pub fn hash(bytes: &[u8]) -> u64 {
+    let mut hasher = SipHasher24::new();
+    hasher.write(bytes);
+    hasher.finish()
+}
+
+fn line_of<'t>(text: &'t str, key: &str) -> Option<(&'t str, &'t str)> {
+    text.strip_prefix(key)?.split_once('\n')
+}
+
+fn table_of(change: &Change) -> Table {
+    let mut table = Table::new();
+    table["key"] = value(&change.key);
+    for (name, text) in [("from", &change.from), ("to", &change.to)] {
+        if let Some(text) = text {
+            table[name] = value(text);
+        }
+    }
+    table
+}
+
+fn read(toml: &Table) -> Result<Journal, &'static str> {
+    let number = |key| toml.get(key).and_then(Item::as_integer).and_then(|number| u64::try_from(number).ok()).ok_or(key);
+    let hash = text_in(toml, "hash").and_then(|text| u64::from_str_radix(text, 16).ok()).ok_or("hash")?;
+    let case = match (text_in(toml, "case"), text_in(toml, "case_bytes")) {
+        (Some(path), _) => Some(PathBuf::from(path)),
+        (None, Some(bytes)) => Some(from_hex(bytes).ok_or("case_bytes")?),
+        (None, None) => None,
+    };
+    let changes = match toml.get("change") {
+        Some(changes) => changes.as_array_of_tables().ok_or("change")?.iter().map(change_of).collect::<Result<_, _>>()?,
+        None => Vec::new(),
+    };
+    Ok(Journal {
+        case,
+        stands_on: Stamp { length: number("length")?, hash },
+        written: number("written")?,
+        session: text_in(toml, "session").ok_or("session")?.to_owned(),
+        changes,
+    })
+}
+
+fn change_of(table: &Table) -> Result<Change, &'static str> {
+    let text = |key| text_in(table, key).map(str::to_owned);
+    Ok(Change { key: text("key").ok_or("key")?, from: text("from"), to: text("to") })
+}
+
+fn text_in<'t>(table: &'t Table, key: &str) -> Option<&'t str> {
+    TableLike::get(table, key).and_then(Item::as_str)
+}
+
+// A path need not be text.
+fn hex(path: &Path) -> String {
+    path.as_os_str().as_bytes().iter().fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
+}
+
+fn from_hex(text: &str) -> Option<PathBuf> {
+    let pairs = text.as_bytes().chunks(2);
+    let bytes = pairs.map(|pair| u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok()).collect::<Option<Vec<u8>>>()?;
+    Some(OsString::from_vec(bytes).into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn journal() -> Journal {
+        let change = |key: &str, from: Option<&str>, to: Option<&str>| Change {
+            key: key.to_owned(),
+            from: from.map(str::to_owned),
+            to: to.map(str::to_owned),
+        };
+        Journal {
+            case: Some("/home/me/äöü \"quoted\"\n\u{1b}[2J.toml".into()),
+            stands_on: Stamp::of(b"format = 1\n"),
+            written: 1_795_265_502,
+            session: "abc123".to_owned(),
+            changes: vec![
+                change("pair.module", Some("5 mm"), Some("1 in")),
+                change("title", Some("'''\"\"\"\\"), Some("\u{0}\u{7f}\u{9b}\r\n\u{202e}")),
+                change("driver.tip_radius", None, Some("0.2 mm")),
+                change("notes", Some("x"), None),
+            ],
+        }
+    }
+
+    #[test]
+    fn a_journal_is_read_as_it_was_written() {
+        let other = Journal { case: Some(OsString::from_vec(vec![b'/', 0xff, b'a']).into()), ..journal() };
+        let fresh = Journal { case: None, changes: Vec::new(), ..journal() };
+        for journal in [journal(), other, fresh] {
+            assert_eq!(Journal::from_text(&journal.to_text()), Ok(journal));
+        }
+    }
+
+    #[test]
+    fn no_journal_that_is_cut_or_changed_is_trusted() {
+        let text = journal().to_text();
+        for (at, _) in text.char_indices() {
+            assert!(Journal::from_text(&text[..at]).is_err(), "cut at {at}");
+            let changed: String = text.char_indices().map(|(own, letter)| if own == at { '~' } else { letter }).collect();
+            assert!(Journal::from_text(&changed).is_err() || changed == text, "changed at {at}");
+        }
+        assert!(Journal::from_text(&(text.clone() + "\n")).is_err());
+        assert!(Journal::from_text(&text.replace('\n', "\r\n")).is_err());
+    }
+
+    #[test]
+    fn a_newer_journal_is_told_apart() {
+        let newer = journal().to_text().replace("format = 1", "format = 2");
+        assert_eq!(Journal::from_text(&newer), Err(JournalFault::NewerFormat(2)));
+        assert_eq!(Journal::from_text("format = 1\n"), Err(JournalFault::NotOne));
+    }
+
+    #[test]
+    fn the_hash_is_the_same_for_ever() {
+        // SipHash-2-4 (Aumasson & Bernstein 2012) of nothing, under the key of zeros.
+        assert_eq!(hash(b""), 0x1e92_4b9d_7377_00d7);
+    }
+}

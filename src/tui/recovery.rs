@@ -1,0 +1,112 @@
+//! What keeps typed values safe, as the state sees it: who else has the case open, and edits that were kept for it.
+
+use std::path::{Path, PathBuf};
+
+use super::app::App;
+use super::tab::Tab;
+use crate::case::changes::{self, Change};
+use crate::case::{Case, Document};
+
+/// Whether this workbench may write the file of a case.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub enum Access {
+    /// It may.
+    #[default]
+    Own,
+    /// Another session has it open, which these words name.
+    Held(String),
+}
+
+/// A case that is open, and what the form makes of it.
+#[derive(Debug, Clone, Copy)]
+pub struct Sheet<'a> {
+    /// Tells it from other open ones.
+    pub id: usize,
+    /// Its file.
+    pub path: Option<&'a Path>,
+    /// The text of the file.
+    pub document: &'a Document,
+    /// What the form says.
+    pub case: &'a Case,
+    /// Whether it is shown as open elsewhere.
+    pub is_held: bool,
+}
+
+/// What was found out when a case was opened.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Claim {
+    /// Which of the open ones.
+    pub id: usize,
+    /// Whether its file may be written.
+    pub access: Access,
+    /// Edits that were kept for it, the latest first.
+    pub offers: Vec<Offer>,
+    /// What else there is to say, a line each.
+    pub notices: Vec<String>,
+}
+
+/// Edits that an earlier session could not save.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Offer {
+    /// The journal that holds them.
+    pub journal: PathBuf,
+    /// How long ago they were kept, in words.
+    pub age: String,
+    /// From what the file says now to what was typed.
+    pub changes: Vec<Change>,
+    /// Whether the file was changed since they were typed.
+    pub is_file_changed: bool,
+}
+
+impl Claim {
+    /// A claim with nothing to tell but the access.
+    #[must_use]
+    pub fn of(id: usize, access: Access) -> Claim {
+        Claim { id, access, offers: Vec::new(), notices: Vec::new() }
+    }
+
+    /// Whether there is nothing in it to tell.
+    #[must_use]
+    pub fn is_silent(&self) -> bool {
+        self.access == Access::Own && self.offers.is_empty() && self.notices.is_empty()
+    }
+}
+
+impl Access {
+    /// The mark beside the name of the case.
+    #[must_use]
+    pub fn mark(&self) -> &'static str {
+        match self {
+            Access::Own => "",
+            Access::Held(_) => " *read-only*",
+        }
+    }
+}
+
+/// Every case that is open.
+#[must_use]
+pub fn sheets(app: &App) -> Vec<Sheet<'_>> {
+    app.tabs().map(sheet).collect()
+}
+
+fn sheet(tab: &Tab) -> Sheet<'_> {
+    let path = tab.document.path().or(tab.path.as_deref()).filter(|_| tab.path.is_some());
+    Sheet { id: tab.id, path, document: &tab.document, case: &tab.case, is_held: tab.access != Access::Own }
+}
+
+/// A change in a line: what stands there now, and what would.
+#[must_use]
+pub fn line(change: &Change) -> String {
+    format!("{}: {} -> {}", changes::label(&change.key), shown(change.from.as_deref()), shown(change.to.as_deref()))
+}
+
+/// A text in a line, short, and the words for none.
+#[must_use]
+pub fn shown(text: Option<&str>) -> String {
+    const MOST: usize = 40;
+    match text {
+        None => "(empty)".to_owned(),
+        Some(text) if text.chars().count() > MOST => text.chars().take(MOST - 1).chain(['…']).collect(),
+        Some(text) => text.to_owned(),
+    }
+}

@@ -1,0 +1,167 @@
+//! The folder of journals: writing them, finding those that an ended session left, setting aside what is damaged.
+
+use std::fs::{self, File};
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+
+use super::lock::{Lock, Taken};
+use super::state;
+use crate::case::journal::{Journal, JournalFault, MOST_BYTES, hash};
+use crate::case::visible::visible;
+
+/// What a journal's name ends with.
+const ENDING: &str = "toml";
+/// Letters of a case's name in that of its journal.
+const MOST_LETTERS: usize = 40;
+
+/// The folders of journals, and of the sessions that write them.
+#[derive(Debug, Clone)]
+pub(super) struct Journals {
+    journals: PathBuf,
+    sessions: PathBuf,
+}
+
+/// What was found for a case.
+#[derive(Debug, Default)]
+pub(super) struct Found {
+    /// Journals that nobody writes any more, the latest first.
+    pub(super) journals: Vec<(PathBuf, Journal)>,
+    /// What became of those that cannot be trusted, a line each.
+    pub(super) notices: Vec<String>,
+}
+
+impl Journals {
+    /// In the folder of what outlives a session.
+    #[must_use]
+    pub(super) fn within(state: &Path) -> Journals {
+        Journals { journals: state.join("journals"), sessions: state.join("sessions") }
+    }
+
+    /// A new session: a lock that tells others that its journals are still being written.
+    ///
+    /// # Errors
+    /// When there is no room for it.
+    pub(super) fn begin(&self) -> io::Result<(String, Lock)> {
+        state::make(&self.journals)?;
+        state::make(&self.sessions)?;
+        self.clear_sessions();
+        let file = tempfile::Builder::new().prefix("").rand_bytes(10).tempfile_in(&self.sessions)?;
+        let name = file.path().file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        match Lock::take(file.path())? {
+            Taken::Ours(lock) => file.keep().map(|_| (name, lock)).map_err(|error| error.error),
+            Taken::Held(_) => Err(io::Error::other("the name of the session is taken")),
+        }
+    }
+
+    // A session that was killed could not take its own lock away.
+    fn clear_sessions(&self) {
+        let ended = |path: &PathBuf| !Lock::is_held(path);
+        let places = fs::read_dir(&self.sessions).into_iter().flatten().flatten().map(|entry| entry.path());
+        places.filter(ended).for_each(|path| drop(fs::remove_file(path)));
+    }
+
+    /// Where a session keeps the edits of a case; `number` tells its cases without a file apart.
+    #[must_use]
+    pub(super) fn place(&self, case: Option<&Path>, session: &str, number: usize) -> PathBuf {
+        self.journals.join(format!("{}{session}-{number}.{ENDING}", stem(case)))
+    }
+
+    /// Write a journal over the one before; `lasting` where it must outlive a power cut as well.
+    ///
+    /// # Errors
+    /// When it cannot be written; the one before is then still there.
+    pub(super) fn write(path: &Path, journal: &Journal, lasting: bool) -> io::Result<()> {
+        let folder = path.parent().unwrap_or(Path::new("."));
+        let mut file = tempfile::Builder::new().prefix(".").tempfile_in(folder)?;
+        file.write_all(journal.to_text().as_bytes())?;
+        if lasting {
+            file.as_file().sync_data()?;
+        }
+        file.persist(path).map(drop).map_err(|error| error.error)
+    }
+
+    /// The journals of a case whose sessions have ended. What cannot be trusted is set aside and never deleted.
+    #[must_use]
+    pub(super) fn left_behind(&self, case: Option<&Path>) -> Found {
+        let mut found = Found::default();
+        for path in self.named(&stem(case)) {
+            match read(&path) {
+                Ok(journal) if journal.case.as_deref() != case || self.is_written(&journal) => {}
+                Ok(journal) => found.journals.push((path, journal)),
+                Err(Untrusted::Unread(error)) => {
+                    found.notices.push(format!("unsaved edits in {} cannot be read: {error}", shown(&path)));
+                }
+                Err(Untrusted::Fault(fault)) => found.notices.push(set_aside(&path, &fault)),
+            }
+        }
+        found.journals.sort_by_key(|(_, journal)| std::cmp::Reverse(journal.written));
+        found
+    }
+
+    /// The cases, in words, for which an ended session left edits.
+    #[must_use]
+    pub(super) fn cases_left_behind(&self) -> Vec<Option<PathBuf>> {
+        let journals = self.named("").into_iter().filter_map(|path| read(&path).ok());
+        let mut cases: Vec<_> = journals.filter(|journal| !self.is_written(journal)).map(|journal| journal.case).collect();
+        cases.sort();
+        cases.dedup();
+        cases
+    }
+
+    fn is_written(&self, journal: &Journal) -> bool {
+        let is_a_name = journal.session.chars().all(|letter| letter.is_ascii_alphanumeric());
+        is_a_name && Lock::is_held(&self.sessions.join(&journal.session))
+    }
+
+    fn named(&self, start: &str) -> Vec<PathBuf> {
+        let entries = fs::read_dir(&self.journals).into_iter().flatten().flatten().map(|entry| entry.path());
+        let fits = |path: &PathBuf| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            !name.starts_with('.') && name.starts_with(start) && path.extension().is_some_and(|ending| ending == ENDING)
+        };
+        let mut paths: Vec<_> = entries.filter(fits).collect();
+        paths.sort();
+        paths
+    }
+}
+
+enum Untrusted {
+    Unread(io::Error),
+    Fault(JournalFault),
+}
+
+fn read(path: &Path) -> Result<Journal, Untrusted> {
+    let is_file = fs::symlink_metadata(path).map_err(Untrusted::Unread)?.is_file();
+    if !is_file {
+        return Err(Untrusted::Fault(JournalFault::NotOne));
+    }
+    let mut bytes = Vec::new();
+    let file = File::open(path).map_err(Untrusted::Unread)?;
+    file.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes).map_err(Untrusted::Unread)?;
+    if bytes.len() > MOST_BYTES {
+        return Err(Untrusted::Fault(JournalFault::NotOne));
+    }
+    let text = String::from_utf8(bytes).map_err(|_| Untrusted::Fault(JournalFault::Damaged))?;
+    Journal::from_text(&text).map_err(Untrusted::Fault)
+}
+
+// In words. One that cannot be moved stays, and is told again.
+fn set_aside(path: &Path, fault: &JournalFault) -> String {
+    let free =
+        (1..100).map(|number| path.with_extension(format!("damaged-{number}"))).find(|name| fs::symlink_metadata(name).is_err());
+    let moved = free.and_then(|name| fs::rename(path, &name).ok().map(|()| name));
+    let place = moved.unwrap_or_else(|| path.to_owned());
+    format!("unsaved edits of this case were kept, but {fault}: what there is stays in {}", shown(&place))
+}
+
+fn shown(path: &Path) -> String {
+    visible(&path.display().to_string())
+}
+
+// How the journals of a case begin: a few letters for a person, and a hash that tells cases of one name apart.
+fn stem(case: Option<&Path>) -> String {
+    let Some(case) = case else { return "new-".to_owned() };
+    let name = case.file_stem().unwrap_or_default().to_string_lossy();
+    let letters: String = name.chars().filter(char::is_ascii_alphanumeric).take(MOST_LETTERS).collect();
+    format!("case-{letters}-{:016x}-", hash(std::os::unix::ffi::OsStrExt::as_bytes(case.as_os_str())))
+}

@@ -1,0 +1,258 @@
+//! Locks that end with the process that took them, whatever ends it, and that name it to others.
+
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, Read, Seek, Write};
+use std::os::unix::fs::{MetadataExt, OpenOptionsExt};
+use std::path::{Path, PathBuf};
+
+use rustix::fs::OFlags;
+use toml_edit::{DocumentMut, Item, value};
+
+use super::clock;
+
+/// More than any holder writes.
+const MOST_BYTES: u64 = 4096;
+/// A lock may be taken away between finding and taking it; so often in a row it is not.
+const ATTEMPTS: usize = 5;
+
+/// A lock that is held until this is dropped.
+#[derive(Debug)]
+pub struct Lock {
+    file: File,
+    path: PathBuf,
+}
+
+/// What came of taking a lock.
+#[derive(Debug)]
+pub enum Taken {
+    /// It is ours.
+    Ours(Lock),
+    /// A living process has it.
+    Held(Holder),
+}
+
+/// Who holds a lock; where it does not say so, the process is 0.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Holder {
+    /// The name of the machine.
+    pub host: String,
+    /// The number of the process.
+    pub process: u32,
+    /// When the process began, in ticks since the machine did: numbers of processes are used again.
+    pub started: u64,
+    /// Which start of the machine that was.
+    pub boot: String,
+    /// When the lock was taken, in seconds since 1970.
+    pub since: u64,
+}
+
+impl Lock {
+    /// Take a lock, if no living process has it. The file of a process that is gone is taken over: the system ends a
+    /// lock with its process, so that no number of a process, and no start of the machine, has to be believed.
+    ///
+    /// # Errors
+    /// When no file can be made there.
+    pub fn take(path: &Path) -> io::Result<Taken> {
+        for _ in 0..ATTEMPTS {
+            let mut file = open(path)?;
+            if let Some(holder) = other_holder(&mut file) {
+                return Ok(Taken::Held(holder));
+            }
+            let mut lock = Lock { file, path: path.to_owned() };
+            if lock.is_in_place() {
+                lock.sign();
+                return Ok(Taken::Ours(lock));
+            }
+        }
+        Err(io::Error::other("it changes all the time"))
+    }
+
+    /// Whether a living process holds a lock.
+    #[must_use]
+    pub fn is_held(path: &Path) -> bool {
+        look_at(path).is_ok_and(|mut file| other_holder(&mut file).is_some())
+    }
+
+    // The words only tell others who it is: a lock that cannot be signed holds all the same.
+    fn sign(&mut self) {
+        let text = Holder::ourselves().to_text();
+        let file = &mut self.file;
+        drop(file.set_len(0).and_then(|()| file.rewind()).and_then(|()| file.write_all(text.as_bytes())));
+    }
+
+    // Its last holder takes the file away, perhaps while we were opening it.
+    fn is_in_place(&self) -> bool {
+        let same = |ours: &fs::Metadata, there: &fs::Metadata| (ours.dev(), ours.ino()) == (there.dev(), there.ino());
+        let both = self.file.metadata().and_then(|ours| Ok((ours, fs::symlink_metadata(&self.path)?)));
+        both.is_ok_and(|(ours, there)| same(&ours, &there))
+    }
+}
+
+impl Drop for Lock {
+    fn drop(&mut self) {
+        if self.is_in_place() {
+            drop(fs::remove_file(&self.path));
+        }
+    }
+}
+
+impl Holder {
+    /// This process.
+    #[must_use]
+    pub fn ourselves() -> Holder {
+        let process = std::process::id();
+        Holder { host: host(), process, started: started(process).unwrap_or(0), boot: boot(), since: clock::now() }
+    }
+
+    /// In words, for someone who comes upon the lock.
+    #[must_use]
+    pub fn words(&self, now: u64) -> String {
+        if self.process == 0 {
+            return "a process that does not say which".to_owned();
+        }
+        format!("process {} on {} for {}", self.process, self.host, clock::age(now.saturating_sub(self.since)))
+    }
+
+    /// Whether that very process is still there, as far as can be told from this machine.
+    #[must_use]
+    pub fn is_alive(&self) -> bool {
+        self.host == host() && self.boot == boot() && started(self.process) == Some(self.started)
+    }
+
+    /// The text of the lock's file.
+    #[must_use]
+    pub fn to_text(&self) -> String {
+        let mut toml = DocumentMut::new();
+        toml["host"] = value(&self.host);
+        toml["process"] = value(i64::from(self.process));
+        toml["started"] = value(self.started.cast_signed());
+        toml["boot"] = value(&self.boot);
+        toml["since"] = value(self.since.cast_signed());
+        format!("# tipstrike has this case open.\n{toml}")
+    }
+
+    fn read(file: &mut File) -> Option<Holder> {
+        let mut text = String::new();
+        file.rewind().ok()?;
+        file.take(MOST_BYTES).read_to_string(&mut text).ok()?;
+        let toml: DocumentMut = text.parse().ok()?;
+        let text = |key| toml.get(key).and_then(Item::as_str).map(str::to_owned);
+        let number = |key| toml.get(key).and_then(Item::as_integer).and_then(|number| u64::try_from(number).ok());
+        Some(Holder {
+            host: text("host")?,
+            process: number("process")?.try_into().ok()?,
+            started: number("started")?,
+            boot: text("boot")?,
+            since: number("since")?,
+        })
+    }
+}
+
+// Who has it, if someone has; after this it is ours if nobody has.
+fn other_holder(file: &mut File) -> Option<Holder> {
+    match file.try_lock() {
+        Ok(()) => None,
+        Err(TryLockError::WouldBlock) => Some(Holder::read(file).unwrap_or_default()),
+        // A file system without locks: the holder's own words must do.
+        Err(TryLockError::Error(_)) => Holder::read(file).filter(Holder::is_alive),
+    }
+}
+
+fn open(path: &Path) -> io::Result<File> {
+    let ours = open_with(OpenOptions::new().read(true).write(true).create(true).truncate(false).mode(0o644), path);
+    // Someone else's lock may be ours to read and to lock only.
+    ours.or_else(|error| if error.kind() == io::ErrorKind::PermissionDenied { look_at(path) } else { Err(error) })
+}
+
+fn look_at(path: &Path) -> io::Result<File> {
+    open_with(OpenOptions::new().read(true), path)
+}
+
+// A link or a pipe under the name of a lock is none of ours, and must not be followed or waited for.
+fn open_with(options: &mut OpenOptions, path: &Path) -> io::Result<File> {
+    let flags = OFlags::NOFOLLOW | OFlags::NONBLOCK;
+    let file = options.custom_flags(flags.bits().cast_signed()).open(path)?;
+    if file.metadata()?.is_file() { Ok(file) } else { Err(io::Error::other("it is no regular file")) }
+}
+
+fn host() -> String {
+    rustix::system::uname().nodename().to_string_lossy().into_owned()
+}
+
+fn boot() -> String {
+    fs::read_to_string("/proc/sys/kernel/random/boot_id").map(|text| text.trim().to_owned()).unwrap_or_default()
+}
+
+// The 22nd word of a process's state; the second, its name, may hold spaces and brackets.
+fn started(process: u32) -> Option<u64> {
+    let state = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
+    state.rsplit_once(')')?.1.split_whitespace().nth(19)?.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn place() -> (tempfile::TempDir, PathBuf) {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("lock");
+        (folder, path)
+    }
+
+    fn ours(path: &Path) -> Lock {
+        match Lock::take(path).expect("a lock") {
+            Taken::Ours(lock) => lock,
+            Taken::Held(holder) => panic!("held by {holder:?}"),
+        }
+    }
+
+    #[test]
+    fn a_lock_is_held_once_names_its_holder_and_leaves_nothing_behind() {
+        let (_folder, path) = place();
+        let lock = ours(&path);
+        assert!(Lock::is_held(&path));
+        match Lock::take(&path) {
+            Ok(Taken::Held(holder)) => {
+                assert!(holder.is_alive());
+                assert_eq!((holder.process, &holder.host), (std::process::id(), &host()));
+                assert!(!holder.host.is_empty() && !holder.boot.is_empty());
+            }
+            other => panic!("{other:?}"),
+        }
+        drop(lock);
+        assert!(!path.exists() && !Lock::is_held(&path));
+        drop(ours(&path));
+    }
+
+    #[test]
+    fn what_a_dead_process_left_never_blocks() {
+        let ourselves = Holder::ourselves();
+        let dead = Holder { process: u32::MAX / 4, ..ourselves.clone() };
+        let reused = Holder { started: ourselves.started + 1, ..ourselves.clone() };
+        let earlier = Holder { boot: "another".to_owned(), ..ourselves.clone() };
+        for stale in [&dead, &reused, &earlier] {
+            assert!(!stale.is_alive());
+        }
+        // Nobody has the lock of the file, so even the words of a living process mean nothing.
+        let texts = [dead, reused, earlier, ourselves].map(|holder| holder.to_text());
+        for text in texts.iter().map(String::as_str).chain(["", "\0\u{1b}[2J", "process = -1"]) {
+            let (_folder, path) = place();
+            fs::write(&path, text).expect("room on the disk");
+            drop(ours(&path));
+        }
+    }
+
+    #[test]
+    fn no_link_is_followed_and_no_pipe_waited_for() {
+        let (folder, path) = place();
+        let other = folder.path().join("other");
+        fs::write(&other, "mine").expect("room on the disk");
+        std::os::unix::fs::symlink(&other, &path).expect("a link");
+        assert!(Lock::take(&path).is_err() && !Lock::is_held(&path));
+        assert_eq!(fs::read_to_string(&other).expect("it is there"), "mine");
+        let pipe = folder.path().join("pipe");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().is_ok_and(|status| status.success()));
+        assert!(Lock::take(&pipe).is_err() && !Lock::is_held(&pipe));
+        assert!(Lock::take(&folder.path().join("none/lock")).is_err());
+    }
+}

@@ -1,0 +1,201 @@
+//! Files as they come: changed by someone else, linked, closed, no files at all; nothing is lost and nothing waits.
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+#![cfg(all(feature = "cli", feature = "tui"))]
+
+mod desk;
+mod tty;
+
+use std::fs::{self, File, Permissions};
+use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
+use std::path::Path;
+use std::process::Command;
+use std::time::{Duration, SystemTime};
+
+use desk::{Desk, SMALL, TABLE_1};
+use tty::{Launch, PROGRAM};
+
+fn edited() -> Desk {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.fill("operation.speed", "1500 rpm");
+    desk
+}
+
+/// What someone else makes of the file: the same size and time, an older time, another file in its place.
+fn meddle(desk: &Desk, how: &str, text: &str) {
+    let path = desk.path("case.toml");
+    let time = fs::metadata(&path).and_then(|old| old.modified()).expect("a file");
+    match how {
+        "replaced" => {
+            desk.write("other", text);
+            fs::rename(desk.path("other"), &path).expect("the same folder");
+        }
+        _ => fs::write(&path, text).expect("room on the disk"),
+    }
+    let time = match how {
+        "same time" | "replaced" => time,
+        "older" => time - Duration::from_secs(86400),
+        _ => SystemTime::now(),
+    };
+    File::options().write(true).open(&path).and_then(|file| file.set_modified(time)).expect("our own file");
+}
+
+#[test]
+fn a_file_that_someone_else_changed_is_refused_and_what_differs_is_shown() {
+    for how in ["same time", "older", "newer", "replaced"] {
+        let mut desk = edited();
+        // As long as the old text.
+        meddle(&desk, how, &TABLE_1.replace("2000 rpm", "2100 rpm").replace("\"5 mm\"", "\"6 mm\""));
+        desk.keys(&["Ctrl-S"]);
+        assert!(desk.shows("has changed on disk"), "{how}");
+        assert!(desk.shows("module: 6 mm in the file, 5 mm here (changed there)"), "{how}\n{}", desk.screen());
+        assert!(desk.shows("speed: 2100 rpm in the file, 1500 rpm here (changed here"), "{how}\n{}", desk.screen());
+        assert!(desk.shows("[  Reload  ] [  Save as  ] [  Overwrite  ] [> Cancel <]"), "{how}\n{}", desk.screen());
+        assert!(desk.read("case.toml").contains("2100 rpm") && desk.app.is_unsaved(), "{how}");
+    }
+}
+
+#[test]
+fn then_it_is_reloaded_saved_elsewhere_overwritten_or_left() {
+    let theirs = TABLE_1.replace("2000 rpm", "2100 rpm");
+    for (keys, there, unsaved) in [
+        (&["r"][..], "2100 rpm", false),
+        (&["o"], "1500 rpm", false),
+        (&["c"], "2100 rpm", true),
+        (&["s", "Ctrl-U", "DIR/other.toml", "Enter"], "2100 rpm", false),
+    ] {
+        let mut desk = edited();
+        meddle(&desk, "newer", &theirs);
+        let folder = desk.folder.path().display().to_string();
+        let keys: Vec<_> = keys.iter().map(|key| key.replace("DIR", &folder)).collect();
+        desk.keys(&["Ctrl-S"]).keys(&keys.iter().map(String::as_str).collect::<Vec<_>>());
+        assert!(desk.read("case.toml").contains(there), "{keys:?}");
+        assert_eq!(desk.app.is_unsaved(), unsaved, "{keys:?}");
+        assert_eq!(desk.path("other.toml").exists(), keys[0] == "s", "{keys:?}");
+        assert!(desk.app.prompts.is_empty(), "{keys:?}");
+    }
+}
+
+#[test]
+fn other_comments_and_no_case_at_all_are_told_as_such() {
+    for (text, told) in [
+        (format!("{TABLE_1}# mine\n"), "only comments or spacing differ"),
+        (TABLE_1.replace("\"5 mm\"", "5"), "no valid case now"),
+        (String::new(), "no valid case now"),
+        ("\u{1b}[2J\u{9b}".to_owned(), "no valid case now"),
+    ] {
+        let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+        meddle(&desk, "newer", &text);
+        desk.keys(&["Ctrl-S"]);
+        assert!(desk.shows(told), "{told}\n{}", desk.screen());
+    }
+}
+
+#[test]
+fn a_mere_touch_does_not_ask() {
+    for how in ["same time", "older", "newer", "replaced"] {
+        let mut desk = edited();
+        meddle(&desk, how, TABLE_1);
+        desk.keys(&["Ctrl-S"]);
+        assert!(desk.shows("saved ") && desk.read("case.toml").contains("1500 rpm"), "{how}\n{}", desk.screen());
+    }
+}
+
+#[test]
+fn links_and_modes_stay_and_hard_links_are_refused() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    fs::create_dir(desk.path("sub")).expect("a folder");
+    symlink("../case.toml", desk.path("sub/one.toml")).expect("a link");
+    symlink("sub/one.toml", desk.path("two.toml")).expect("a link");
+    fs::set_permissions(desk.path("case.toml"), Permissions::from_mode(0o604)).expect("our own file");
+    desk.keys(&["Ctrl-O", "two", "Enter"]).fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
+    assert!(desk.shows("saved "), "{}", desk.screen());
+    for link in ["two.toml", "sub/one.toml"] {
+        assert!(fs::symlink_metadata(desk.path(link)).expect("it is there").is_symlink(), "{link}");
+    }
+    assert!(desk.read("case.toml").contains("1500 rpm"));
+    assert_eq!(fs::metadata(desk.path("case.toml")).expect("it is there").mode() & 0o7777, 0o604);
+    fs::hard_link(desk.path("case.toml"), desk.path("hard.toml")).expect("a link");
+    desk.fill("operation.speed", "1600 rpm").keys(&["Ctrl-S"]);
+    assert!(desk.shows("2 names (hard links)") && desk.app.is_unsaved(), "{}", desk.screen());
+    assert!(desk.read("hard.toml").contains("1500 rpm"));
+}
+
+#[test]
+fn what_is_no_file_is_told_by_the_workbench() {
+    for (name, told) in [("pipe.toml", "not a regular file"), ("folder.toml", "this is a folder"), ("loop.toml", "cannot be")] {
+        let mut desk = edited();
+        assert!(Command::new("mkfifo").arg(desk.path("pipe.toml")).status().is_ok_and(|status| status.success()));
+        fs::create_dir(desk.path("folder.toml")).expect("a folder");
+        symlink("loop.toml", desk.path("loop.toml")).expect("a link");
+        let path = desk.path(name).display().to_string();
+        desk.keys(&["F2", "Ctrl-U", &path, "Enter"]);
+        if desk.shows("The file exists") {
+            desk.keys(&["o"]);
+        }
+        assert!(desk.shows("not saved: ") && desk.shows(told), "{name}\n{}", desk.screen());
+        assert!(desk.app.is_unsaved(), "{name}");
+        if name != "folder.toml" {
+            desk.keys(&["Esc", "Esc", "Ctrl-O", "d", "Ctrl-U", &path, "Enter"]);
+            assert!(desk.shows("cannot be opened"), "{name}\n{}", desk.screen());
+        }
+    }
+}
+
+#[test]
+fn what_is_no_file_is_told_without_a_terminal() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    assert!(Command::new("mkfifo").arg(path("pipe")).status().is_ok_and(|status| status.success()));
+    symlink("loop", path("loop")).expect("a link");
+    symlink("nowhere", path("dangling")).expect("a link");
+    for name in ["pipe", "loop", "dangling", "none", ".", "none/case.toml"] {
+        for command in ["solve", "check"] {
+            let output = Command::new(PROGRAM).arg(command).arg(path(name)).output().expect("the program starts");
+            let words = String::from_utf8_lossy(&output.stderr).into_owned();
+            assert_eq!(output.status.code(), Some(5), "{command} {name}: {words}");
+            assert!(output.stdout.is_empty() && words.lines().count() == 1, "{command} {name}: {words}");
+        }
+    }
+    for name in ["pipe", "loop", ".", "none/case.toml"] {
+        let output = Command::new(PROGRAM).arg("new").arg(path(name)).output().expect("the program starts");
+        let words = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!((output.status.code(), words.lines().count()), (Some(5), 1), "new {name}: {words}");
+    }
+    // A link to nowhere is a name for a new file.
+    let output = Command::new(PROGRAM).arg("new").arg(path("dangling")).output().expect("the program starts");
+    assert!(output.status.success() && path("nowhere").is_file());
+}
+
+#[test]
+fn a_path_to_save_to_is_mended_where_it_can_be() {
+    let mut desk = edited();
+    let path = |name: &str| desk.folder.path().join(name).display().to_string();
+    let (folder, missing, good) = (path("."), path("none/such/case.toml"), path("good.toml"));
+    desk.keys(&["F2", "Ctrl-U", &folder, "Enter"]);
+    assert!(desk.shows("this is a folder: add the name of a file"), "{}", desk.screen());
+    desk.keys(&["Ctrl-U", &missing, "Enter"]);
+    assert!(desk.shows("there is no folder"), "{}", desk.screen());
+    assert!(desk.app.message.as_ref().is_some_and(|message| message.text.contains("mkdir -p")));
+    desk.keys(&["Ctrl-U", &good, "Enter"]);
+    assert!(desk.shows("saved ") && Path::new(&good).is_file(), "{}", desk.screen());
+}
+
+#[test]
+fn a_tilde_is_the_home_folder_where_paths_are_typed() {
+    let launch = Launch::on_table_1();
+    let home = launch.folder.path().join("home");
+    fs::create_dir(&home).expect("a folder");
+    fs::write(home.join("there.toml"), TABLE_1.replace("2000 rpm", "2100 rpm")).expect("room on the disk");
+    let mut tty = launch.variable("HOME", home.to_str().expect("UTF-8")).start();
+    tty.wait_for("Corner contact");
+    tty.type_in("\x1bs\x15~/mine.toml\r");
+    tty.wait_for("saved ");
+    assert!(home.join("mine.toml").is_file());
+    tty.type_in("\x0f\x15~/");
+    tty.wait_for("there.toml");
+    tty.type_in("there\r");
+    tty.wait_for("opened ");
+    tty.wait_for("home/there.toml");
+    tty.quit();
+    assert!(!tty.folder.path().join("~").exists());
+}

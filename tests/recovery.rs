@@ -1,0 +1,373 @@
+//! What is typed survives: kept in time, offered again, never trusted when damaged; and one session writes a case.
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+#![allow(clippy::print_stdout, reason = "times are told, not held")]
+#![cfg(all(feature = "cli", feature = "tui"))]
+
+mod tty;
+
+use std::fs;
+use std::os::unix::fs::symlink;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use ratatui::layout::Size;
+use tipstrike::case::journal::Journal;
+use tipstrike::case::{Document, fields};
+use tipstrike::tui::actions::Action;
+use tipstrike::tui::app::App;
+use tipstrike::tui::recovery::sheets;
+use tipstrike::tui::store::chest::Chest;
+use tipstrike::tui::store::keeper::Keeper;
+use tipstrike::tui::theme::Look;
+
+use tty::{Launch, PATIENCE, TABLE_1, Tty, journals, stat};
+
+const SECOND: Duration = Duration::from_secs(1);
+const OFFER: &str = "Unsaved edits were kept";
+
+/// The workbench on Table 1, ready for keys; the module is focused.
+fn opened() -> Tty {
+    let mut tty = Tty::open();
+    tty.wait_for("Corner contact");
+    tty
+}
+
+/// The same case in the same folder, once more.
+fn again(tty: &Tty) -> Tty {
+    let case = tty.case();
+    Launch::of(Arc::clone(&tty.folder)).argument(case).start()
+}
+
+fn wait_for_journal(tty: &mut Tty, text: &str) {
+    let state = tty.folder.path().to_owned();
+    let is_kept =
+        |state: &Path| journals(state).iter().any(|path| fs::read_to_string(path).is_ok_and(|kept| kept.contains(text)));
+    tty.wait_until(&format!("a journal with {text:?}"), |_| is_kept(&state));
+}
+
+/// A case in memory, and what keeps it.
+fn bench(folder: &Path) -> (App, Keeper, Arc<Chest>) {
+    let path = folder.join("case.toml");
+    fs::write(&path, TABLE_1).expect("room on the disk");
+    let document = Document::read(&path).expect("a good case");
+    let app = App::new(document, Some(path), Look::FULL, Size::new(80, 24));
+    let chest = Chest::open(|warning| panic!("{warning}")).expect("a thread");
+    let keeper = Keeper::new(Some(&folder.join("tipstrike")), Arc::clone(&chest));
+    (app, keeper, chest)
+}
+
+fn write(app: &mut App, key: &str, text: &str) {
+    app.tab.case.write(fields::index_of(key).expect("a field"), text);
+}
+
+#[test]
+fn edits_are_kept_a_second_after_the_last_and_every_two_while_typing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut app, mut keeper, _chest) = bench(folder.path());
+    let start = Instant::now();
+    assert!(keeper.follow(&sheets(&app), start).is_empty());
+    assert_eq!(keeper.deadline(), None, "nothing to keep wakes nobody");
+    write(&mut app, "pair.module", "6 mm");
+    keeper.follow(&sheets(&app), start);
+    assert!(keeper.deadline().is_some_and(|deadline| deadline <= start + SECOND));
+    for tenth in 1..40 {
+        let now = start + SECOND / 10 * tenth;
+        write(&mut app, "pair.module", &format!("6.{tenth} mm"));
+        keeper.follow(&sheets(&app), now);
+        let deadline = keeper.deadline().expect("there is something to keep");
+        assert!(deadline <= start + 2 * SECOND && deadline <= now + SECOND, "{tenth}");
+    }
+    keeper.keep_if_due(start + 2 * SECOND);
+    assert_eq!(keeper.deadline(), None, "what is kept wakes nobody");
+    keeper.follow(&sheets(&app), start + 3 * SECOND);
+    assert_eq!(keeper.deadline(), None, "what is kept is not kept again");
+    keeper.end();
+}
+
+#[test]
+fn a_journal_is_there_as_long_as_there_are_unsaved_edits() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut app, mut keeper, _chest) = bench(folder.path());
+    keeper.follow(&sheets(&app), Instant::now());
+    write(&mut app, "pair.module", "no \u{1b}[2J number");
+    keeper.follow(&sheets(&app), Instant::now());
+    keeper.keep();
+    let path = journals(folder.path()).pop().expect("a journal");
+    let journal = Journal::from_text(&fs::read_to_string(path).expect("it is there")).expect("whole");
+    assert_eq!(journal.case.as_deref(), Some(folder.path().join("case.toml").as_path()));
+    assert_eq!(journal.changes.len(), 1);
+    assert_eq!(journal.changes[0].to.as_deref(), Some("no \u{1b}[2J number"));
+    app.tab.case = app.saved.clone();
+    keeper.follow(&sheets(&app), Instant::now());
+    keeper.keep();
+    assert!(journals(folder.path()).is_empty());
+    write(&mut app, "pair.module", "6 mm");
+    keeper.follow(&sheets(&app), Instant::now());
+    keeper.end();
+    assert!(journals(folder.path()).is_empty(), "who leaves on purpose leaves nothing");
+    assert_eq!(fs::read_dir(folder.path().join("tipstrike/sessions")).map(Iterator::count).ok(), Some(0));
+    assert!(!folder.path().join(".case.toml.tipstrike").exists());
+}
+
+#[test]
+fn edits_that_cannot_be_kept_are_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("tipstrike"), "no folder").expect("room on the disk");
+    let (mut app, mut keeper, _chest) = bench(folder.path());
+    keeper.follow(&sheets(&app), Instant::now());
+    write(&mut app, "pair.module", "6 mm");
+    let told = keeper.follow(&sheets(&app), Instant::now());
+    assert!(matches!(&told[..], [Action::Failed(text)] if text.contains("save soon")), "{told:?}");
+    drop(keeper);
+    let mut homeless = Keeper::new(None, Arc::new(Chest::default()));
+    let told = homeless.follow(&sheets(&app), Instant::now());
+    assert!(matches!(&told[..], [Action::Claimed(claim)] if claim.notices[0].contains("HOME")), "{told:?}");
+}
+
+#[test]
+fn kill_9_after_two_seconds_loses_nothing() {
+    let mut tty = opened();
+    let typed = Instant::now();
+    tty.type_in("\x151.2");
+    wait_for_journal(&mut tty, "1.2");
+    println!("kept {:.2?} after the last key", typed.elapsed());
+    tty.type_in("5 in");
+    let rest = Duration::from_millis(2200);
+    let end = Instant::now() + rest;
+    while Instant::now() < end {
+        tty.take_output(rest / 20);
+    }
+    tty.send_signal("KILL");
+    tty.wait_for_end();
+    let mut next = again(&tty);
+    next.wait_for(OFFER);
+    assert!(next.shows("module: 5 mm -> 1.25 in"), "{}", next.screen().contents());
+    assert!(!next.shows("*unsaved*"), "nothing is taken over unasked");
+    next.type_in("\r");
+    next.wait_for("*unsaved*");
+    assert!(next.shows("1.25 in") && next.shows("the edits are back"));
+    next.type_in("\x1a");
+    next.wait_until("the edits to be undone", |tty| !tty.shows("*unsaved*"));
+    next.type_in("\x19\x13");
+    next.wait_for("saved ");
+    next.quit();
+    assert_eq!(fs::read_to_string(next.case()).expect("it is there"), TABLE_1.replace("\"5 mm\"", "\"1.25 in\""));
+    assert!(journals(next.folder.path()).is_empty());
+}
+
+#[test]
+fn a_signal_keeps_what_was_typed_just_before_it() {
+    for signal in ["HUP", "TERM", "INT"] {
+        let mut tty = opened();
+        tty.type_in("\x15 1.25 in");
+        tty.wait_for("1.25 in");
+        tty.send_signal(signal);
+        tty.wait_for_end();
+        assert!(tty.shows("unsaved edits are kept"), "{signal}:\n{}", tty.screen().contents());
+        tty.assert_restored();
+        let mut next = again(&tty);
+        next.wait_for(OFFER);
+        assert!(next.shows("5 mm ->  1.25 in") || next.shows("1.25 in"), "{signal}");
+        // Refused, they are gone for good.
+        next.type_in("d\x11");
+        assert_eq!(next.wait_for_end().exit_code(), 0, "{signal}");
+        assert!(journals(next.folder.path()).is_empty(), "{signal}");
+        assert_eq!(fs::read_to_string(next.case()).expect("it is there"), TABLE_1);
+    }
+}
+
+#[test]
+fn a_terminal_that_hangs_up_ends_it_at_once_without_loss_and_without_work() {
+    let mut tty = opened();
+    tty.type_in("\x151.25 in");
+    tty.wait_for("1.25 in");
+    let ticks = |id| stat(id).map_or(0, |words| words[11].parse::<u64>().unwrap_or(0) + words[12].parse::<u64>().unwrap_or(0));
+    let (id, before) = (tty.id(), ticks(tty.id()));
+    let broken = Instant::now();
+    tty.hang_up();
+    let (mut kept, mut burnt) = (None, before);
+    while !tty.has_ended() {
+        kept = kept.or_else(|| (!journals(tty.folder.path()).is_empty()).then(|| broken.elapsed()));
+        burnt = burnt.max(ticks(id));
+        assert!(broken.elapsed() < PATIENCE, "it stays without a terminal");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let gone = broken.elapsed();
+    println!("kept after {:.1?}, gone after {gone:.1?}, {} ticks of 10 ms", kept.unwrap_or(gone), burnt - before);
+    assert!(gone < 5 * SECOND, "it stays for {gone:.1?}");
+    assert!(burnt - before <= 20, "it burns {} ticks on its way out", burnt - before);
+    let kept = journals(tty.folder.path());
+    assert!(fs::read_to_string(&kept[0]).is_ok_and(|text| text.contains("1.25 in")), "{kept:?}");
+}
+
+#[test]
+fn edits_of_the_built_in_case_are_kept_too() {
+    let folder = Arc::new(tempfile::tempdir().expect("a folder"));
+    let mut tty = Launch::of(Arc::clone(&folder)).start();
+    tty.wait_for("built-in");
+    tty.wait_for("quit");
+    tty.type_in("\x151.25 in");
+    tty.wait_for("1.25 in");
+    tty.send_signal("TERM");
+    tty.wait_for_end();
+    // On another case, they are only told of.
+    let other = folder.path().join("other.toml");
+    fs::write(&other, TABLE_1).expect("room on the disk");
+    let mut tty = Launch::of(Arc::clone(&folder)).argument(&other).start();
+    tty.wait_for("unsaved edits of the built-in case are kept");
+    tty.type_in("\x0e");
+    tty.wait_for(OFFER);
+    tty.type_in("l");
+    tty.wait_until("the question to go", |tty| !tty.shows(OFFER));
+    tty.quit();
+    assert_eq!(journals(folder.path()).len(), 1, "later means later");
+    fs::remove_file(folder.path().join("tipstrike/last-case")).expect("it is there");
+    let mut tty = Launch::of(folder).start();
+    tty.wait_for(OFFER);
+    tty.type_in("r");
+    tty.wait_for("1.25 in");
+    tty.type_in("\x11d");
+    assert_eq!(tty.wait_for_end().exit_code(), 0);
+    assert!(journals(tty.folder.path()).is_empty());
+}
+
+#[test]
+fn a_file_that_was_changed_since_shows_what_would_change_now() {
+    let mut tty = opened();
+    tty.type_in("\x156 mm");
+    tty.wait_for("6 mm");
+    tty.send_signal("TERM");
+    tty.wait_for_end();
+    fs::write(tty.case(), TABLE_1.replace("\"5 mm\"", "\"7 mm\"")).expect("room on the disk");
+    let mut next = again(&tty);
+    next.wait_for(OFFER);
+    next.wait_for("changed since");
+    assert!(next.shows("module: 7 mm -> 6 mm"), "{}", next.screen().contents());
+    next.type_in("l");
+    next.quit();
+    // What the file says by now is nothing to offer.
+    fs::write(tty.case(), TABLE_1.replace("\"5 mm\"", "\"6 mm\"")).expect("room on the disk");
+    let mut next = again(&tty);
+    next.wait_for("quit");
+    next.settle(Duration::from_millis(300));
+    assert!(!next.shows(OFFER));
+    next.quit();
+    assert!(journals(next.folder.path()).is_empty());
+}
+
+#[test]
+fn a_damaged_journal_is_set_aside_told_and_never_trusted_nor_deleted() {
+    let mut tty = opened();
+    tty.type_in("\x156 mm");
+    tty.wait_for("6 mm");
+    tty.send_signal("TERM");
+    tty.wait_for_end();
+    let path = journals(tty.folder.path()).pop().expect("a journal");
+    let whole = fs::read_to_string(&path).expect("it is there");
+    let damaged = [
+        String::new(),
+        "\0".repeat(4096),
+        whole[..whole.len() / 2].to_owned(),
+        whole.replace("6 mm", "9 mm"),
+        whole.replace("format = 1", "format = 2"),
+        whole.clone() + "x",
+        "\u{1b}[2J".to_owned(),
+    ];
+    for (count, text) in damaged.into_iter().enumerate() {
+        fs::write(&path, &text).expect("room on the disk");
+        let mut next = again(&tty);
+        next.wait_for("unsaved edits of this case were kept, but");
+        assert!(!next.shows(OFFER) && !next.shows("9 mm"));
+        next.quit();
+        assert!(!path.exists());
+        let aside: Vec<_> = fs::read_dir(path.parent().expect("a folder")).expect("a folder").flatten().collect();
+        assert_eq!(aside.len(), count + 1, "none is deleted");
+        assert!(aside.iter().any(|entry| fs::read(entry.path()).is_ok_and(|bytes| bytes == text.as_bytes())));
+    }
+    // Bytes that are no text, and what is no file.
+    fs::write(&path, b"\xff\xfe").expect("room on the disk");
+    let mut next = again(&tty);
+    next.wait_for("unsaved edits of this case were kept, but");
+    next.quit();
+    symlink("/dev/zero", &path).expect("a link");
+    let mut next = again(&tty);
+    next.wait_for("unsaved edits of this case were kept, but");
+    next.quit();
+}
+
+#[test]
+fn a_second_session_reads_names_the_first_and_may_save_elsewhere() {
+    let mut first = opened();
+    let mut second = again(&first);
+    second.wait_for("*read-only*");
+    second.wait_for(&format!("process {}", first.id()));
+    let host = fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
+    assert!(second.shows(&format!("on {} for ", host.trim())), "{}", second.screen().contents());
+    second.type_in("\x156 mm\x13");
+    second.wait_for("Open elsewhere");
+    second.type_in("s");
+    second.wait_for("Save as");
+    second.type_in("\x15other.toml\r");
+    second.wait_for("saved other.toml");
+    assert!(!second.shows("*read-only*"));
+    // Nor may it save over the first one's by another way.
+    second.type_in(format!("\x1bs\x15{}\r", first.case().display()));
+    second.wait_for("Open elsewhere");
+    second.type_in("c\x1b");
+    second.wait_until("the questions to go", |tty| !tty.shows("Open elsewhere") && !tty.shows("Save as"));
+    first.type_in("\x157 mm\x13");
+    first.wait_for("saved ");
+    second.quit();
+    first.quit();
+    let read = |name: &str| fs::read_to_string(first.folder.path().join(name)).expect("it is there");
+    assert!(read("case.toml").contains("7 mm") && read("other.toml").contains("6 mm"));
+    let left: Vec<_> = fs::read_dir(first.folder.path()).expect("a folder").flatten().map(|entry| entry.file_name()).collect();
+    assert!(left.iter().all(|name| !name.to_string_lossy().ends_with(".tipstrike")), "{left:?}");
+}
+
+#[test]
+fn when_the_first_session_has_ended_the_second_may_save() {
+    let mut first = opened();
+    let link = first.folder.path().join("link.toml");
+    symlink("case.toml", &link).expect("a link");
+    // By whatever name.
+    let mut second = Launch::of(Arc::clone(&first.folder)).argument(&link).start();
+    second.wait_for("*read-only*");
+    first.send_signal("KILL");
+    first.wait_for_end();
+    second.type_in("\x156 mm\x13");
+    second.wait_for("saved ");
+    second.wait_until("the mark to go", |tty| !tty.shows("*read-only*"));
+    second.quit();
+    assert!(fs::read_to_string(first.case()).is_ok_and(|text| text.contains("6 mm")));
+}
+
+#[test]
+fn a_stale_lock_never_blocks() {
+    let boot = fs::read_to_string("/proc/sys/kernel/random/boot_id").unwrap_or_default();
+    let host = fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
+    let ours = std::process::id();
+    let begun = stat(ours).map_or(0, |words| words[19].parse::<u64>().unwrap_or(0));
+    let lock = |process: u32, started: u64, boot: &str| {
+        format!("host = {:?}\nprocess = {process}\nstarted = {started}\nboot = {:?}\nsince = 0\n", host.trim(), boot.trim())
+    };
+    let stale = [
+        lock(4_000_000, begun, &boot),
+        lock(ours, begun + 1, &boot),
+        lock(ours, begun, "an earlier start"),
+        lock(ours, begun, &boot),
+        String::new(),
+        "\u{1b}[2J".to_owned(),
+    ];
+    for text in stale {
+        let launch = Launch::on_table_1();
+        fs::write(launch.folder.path().join(".case.toml.tipstrike"), text).expect("room on the disk");
+        let mut tty = launch.start();
+        tty.wait_for("Corner contact");
+        tty.type_in("\x156 mm\x13");
+        tty.wait_for("saved ");
+        assert!(!tty.shows("*read-only*"));
+        tty.quit();
+    }
+}

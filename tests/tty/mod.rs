@@ -1,0 +1,349 @@
+//! A terminal of its own with a program in it: keys in, screen and bytes out, files in a folder.
+
+#![allow(dead_code, reason = "each test file uses its own part")]
+
+use std::ffi::{OsStr, OsString};
+use std::fs;
+use std::io::{Read, Write};
+use std::num::NonZero;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
+
+use portable_pty::{Child, CommandBuilder, ExitStatus, MasterPty, PtySize, native_pty_system};
+use tempfile::TempDir;
+
+pub(crate) const PROGRAM: &str = env!("CARGO_BIN_EXE_tipstrike");
+pub(crate) const TABLE_1: &str = include_str!("../../cases/zhou-chen-2014.toml");
+/// Far longer than anything takes; only a failing test waits for it.
+pub(crate) const PATIENCE: Duration = Duration::from_secs(20);
+
+/// What to start, and on which terminal.
+pub(crate) struct Launch {
+    pub(crate) folder: Arc<TempDir>,
+    command: Vec<OsString>,
+    variables: Vec<(String, String)>,
+    size: (u16, u16),
+}
+
+/// A terminal with a program in it.
+pub(crate) struct Tty {
+    pub(crate) folder: Arc<TempDir>,
+    pub(crate) child: Box<dyn Child + Send + Sync>,
+    /// Everything that was written, where it is kept.
+    pub(crate) written: Option<Vec<u8>>,
+    line: Option<Line>,
+    screen: vt100::Parser,
+    /// The modes of the terminal before the program had it.
+    before: String,
+}
+
+/// Our end of the terminal; when this is dropped, and its reader ends, the terminal hangs up.
+struct Line {
+    master: Box<dyn MasterPty + Send>,
+    writer: Box<dyn Write + Send>,
+    output: Receiver<Vec<u8>>,
+    reader: JoinHandle<()>,
+}
+
+impl Launch {
+    /// The workbench on a case in a folder of its own.
+    pub(crate) fn on_table_1() -> Launch {
+        let launch = Launch::of(Arc::new(tempfile::tempdir().expect("a folder")));
+        fs::write(launch.case(), TABLE_1).expect("room on the disk");
+        let case = launch.case();
+        launch.argument(case)
+    }
+
+    /// The workbench in a folder that is there already.
+    pub(crate) fn of(folder: Arc<TempDir>) -> Launch {
+        let state = folder.path().to_str().expect("a name in UTF-8");
+        let variables = [("XDG_STATE_HOME", state), ("TERM", "xterm-256color"), ("LC_ALL", "C.UTF-8")];
+        let variables = variables.map(|(name, value)| (name.to_owned(), value.to_owned())).to_vec();
+        Launch { command: vec![PROGRAM.into()], variables, size: (24, 80), folder }
+    }
+
+    pub(crate) fn argument(mut self, argument: impl AsRef<OsStr>) -> Launch {
+        self.command.push(argument.as_ref().to_owned());
+        self
+    }
+
+    /// By way of another program, such as `strace`.
+    pub(crate) fn through(mut self, wrapper: &[&str]) -> Launch {
+        self.command.splice(0..0, wrapper.iter().map(OsString::from));
+        self
+    }
+
+    /// Another program altogether.
+    pub(crate) fn instead(mut self, program: &str) -> Launch {
+        self.command[0] = program.into();
+        self
+    }
+
+    pub(crate) fn variable(mut self, name: &str, value: &str) -> Launch {
+        self.variables.push((name.to_owned(), value.to_owned()));
+        self
+    }
+
+    pub(crate) fn size(mut self, rows: u16, columns: u16) -> Launch {
+        self.size = (rows, columns);
+        self
+    }
+
+    pub(crate) fn case(&self) -> PathBuf {
+        self.folder.path().join("case.toml")
+    }
+
+    pub(crate) fn start(self) -> Tty {
+        let (rows, cols) = self.size;
+        let pair = native_pty_system().openpty(PtySize { rows, cols, ..PtySize::default() }).expect("a pseudo terminal");
+        let mut command = CommandBuilder::new(&self.command[0]);
+        command.args(&self.command[1..]);
+        command.cwd(self.folder.path());
+        for (name, value) in &self.variables {
+            command.env(name, value);
+        }
+        let before = modes(&*pair.master);
+        assert!(before.contains("ECHO") && before.contains("ICANON"), "a fresh terminal echoes");
+        let mut reader = pair.master.try_clone_reader().expect("a reader");
+        let writer = pair.master.take_writer().expect("a writer");
+        let child = pair.slave.spawn_command(command).expect("the program starts");
+        let (sender, output) = channel();
+        let reader = thread::spawn(move || {
+            let mut buffer = [0; 16384];
+            while let Ok(count @ 1..) = reader.read(&mut buffer) {
+                if sender.send(buffer[..count].to_vec()).is_err() {
+                    return;
+                }
+            }
+        });
+        let line = Some(Line { master: pair.master, writer, output, reader });
+        let screen = vt100::Parser::new(cells(rows), cells(cols), 0);
+        Tty { folder: self.folder, child, written: None, line, screen, before }
+    }
+}
+
+impl Tty {
+    /// The workbench on Table 1.
+    pub(crate) fn open() -> Tty {
+        Launch::on_table_1().start()
+    }
+
+    pub(crate) fn case(&self) -> PathBuf {
+        self.folder.path().join("case.toml")
+    }
+
+    pub(crate) fn screen(&self) -> &vt100::Screen {
+        self.screen.screen()
+    }
+
+    fn line(&mut self) -> &mut Line {
+        self.line.as_mut().expect("the terminal has not hung up")
+    }
+
+    pub(crate) fn type_in(&mut self, keys: impl AsRef<[u8]>) {
+        self.try_to_type(keys.as_ref()).expect("the terminal takes keys");
+    }
+
+    /// A program that has left takes nothing more.
+    pub(crate) fn try_to_type(&mut self, keys: &[u8]) -> std::io::Result<()> {
+        let writer = &mut self.line().writer;
+        writer.write_all(keys).and_then(|()| writer.flush())
+    }
+
+    /// Keys from a thread of their own: a terminal takes only so much at a time. Meanwhile, its size changes.
+    pub(crate) fn pour(&mut self, pieces: Vec<Vec<u8>>, sizes: &[(u16, u16)]) {
+        let mut writer = std::mem::replace(&mut self.line().writer, Box::new(std::io::sink()));
+        let pouring = thread::spawn(move || {
+            pieces.iter().try_for_each(|piece| writer.write_all(piece).and_then(|()| writer.flush())).ok();
+            writer
+        });
+        let mut sizes = sizes.iter();
+        let end = Instant::now() + PATIENCE;
+        while !pouring.is_finished() || sizes.len() > 0 {
+            if let Some(&(rows, columns)) = sizes.next() {
+                self.resize(rows, columns);
+            }
+            self.take_output(Duration::from_millis(5));
+            assert!(Instant::now() < end, "it takes no more keys");
+        }
+        self.line().writer = pouring.join().expect("all is poured");
+    }
+
+    pub(crate) fn resize(&mut self, rows: u16, columns: u16) {
+        self.line().master.resize(PtySize { rows, cols: columns, ..PtySize::default() }).expect("a new size");
+        if let (Some(rows), Some(columns)) = (NonZero::new(rows), NonZero::new(columns)) {
+            self.screen.screen_mut().set_size(rows, columns);
+        }
+    }
+
+    pub(crate) fn shows(&self, text: &str) -> bool {
+        self.screen().contents().contains(text)
+    }
+
+    pub(crate) fn wait_for(&mut self, text: &str) {
+        self.wait_until(&format!("{text:?} on the screen"), |tty| tty.shows(text));
+    }
+
+    pub(crate) fn wait_until(&mut self, what: &str, is_so: impl Fn(&mut Tty) -> bool) {
+        let end = Instant::now() + PATIENCE;
+        while !is_so(self) {
+            assert!(Instant::now() < end, "waited for {what} in vain:\n{}", self.screen().contents());
+            self.take_output(Duration::from_millis(5));
+        }
+    }
+
+    /// How many bytes came within the time.
+    pub(crate) fn take_output(&mut self, time: Duration) -> usize {
+        let Some(line) = &self.line else {
+            thread::sleep(time);
+            return 0;
+        };
+        match line.output.recv_timeout(time) {
+            Ok(bytes) => {
+                self.screen.process(&bytes);
+                self.written.iter_mut().for_each(|written| written.extend(&bytes));
+                bytes.len()
+            }
+            Err(RecvTimeoutError::Timeout) => 0,
+            Err(RecvTimeoutError::Disconnected) => {
+                thread::sleep(time);
+                0
+            }
+        }
+    }
+
+    /// All that comes until nothing comes for so long; how many bytes that is.
+    pub(crate) fn settle(&mut self, quiet: Duration) -> usize {
+        let end = Instant::now() + PATIENCE;
+        let mut total = 0;
+        loop {
+            match self.take_output(quiet) {
+                0 => return total,
+                count => total += count,
+            }
+            assert!(Instant::now() < end, "it never stops writing:\n{}", self.screen().contents());
+        }
+    }
+
+    pub(crate) fn id(&self) -> u32 {
+        self.child.process_id().expect("the program has an id")
+    }
+
+    pub(crate) fn send_signal(&self, name: &str) {
+        let status = Command::new("kill").args([format!("-{name}"), self.id().to_string()]).status().expect("kill is there");
+        assert!(status.success());
+    }
+
+    pub(crate) fn has_ended(&mut self) -> bool {
+        self.child.try_wait().expect("our own child").is_some()
+    }
+
+    pub(crate) fn wait_for_end(&mut self) -> ExitStatus {
+        let end = Instant::now() + PATIENCE;
+        loop {
+            if let Some(status) = self.child.try_wait().expect("our own child") {
+                // Until the terminal says that nobody is left to write.
+                while self.take_output(Duration::from_millis(50)) > 0 {}
+                return status;
+            }
+            assert!(Instant::now() < end, "the program does not end:\n{}", self.screen().contents());
+            self.take_output(Duration::from_millis(5));
+        }
+    }
+
+    /// Quit, with nothing unsaved.
+    pub(crate) fn quit(&mut self) {
+        self.type_in("\x11");
+        assert_eq!(self.wait_for_end().exit_code(), 0);
+    }
+
+    /// The terminal goes away, as when a connection breaks.
+    pub(crate) fn hang_up(&mut self) {
+        let Line { master, writer, output, reader } = self.line.take().expect("the terminal has not hung up");
+        drop(output);
+        drop(writer);
+        // The reader sleeps on a copy of our end until something comes: a new size has the program write.
+        while !reader.is_finished() {
+            for columns in [81, 80] {
+                master.resize(PtySize { rows: 24, cols: columns, ..PtySize::default() }).ok();
+                thread::sleep(Duration::from_millis(2));
+            }
+        }
+    }
+
+    pub(crate) fn modes(&self) -> String {
+        modes(&*self.line.as_ref().expect("the terminal has not hung up").master)
+    }
+
+    /// The terminal as it was before: modes, screen, cursor, paste.
+    pub(crate) fn assert_restored(&self) {
+        assert_eq!(self.modes(), self.before, "the modes are what they were");
+        assert!(!self.screen().alternate_screen(), "the alternate screen is left");
+        assert!(!self.screen().hide_cursor(), "the cursor is shown");
+        assert!(!self.screen().bracketed_paste(), "pastes are plain again");
+    }
+
+    /// The terminal as the workbench has it.
+    pub(crate) fn assert_taken(&self) {
+        assert!(self.screen().alternate_screen() && self.screen().bracketed_paste());
+        assert_ne!(self.modes(), self.before);
+    }
+
+    /// The state of the process: `T` when it is stopped.
+    pub(crate) fn state(&self) -> Option<char> {
+        stat(self.id())?.first()?.chars().next()
+    }
+}
+
+impl Drop for Tty {
+    fn drop(&mut self) {
+        // A test that failed leaves nothing behind.
+        self.child.kill().ok();
+        self.child.wait().ok();
+    }
+}
+
+/// The words of a process's state after its name: state, parent, group, ...; 11 and 12 are its ticks in user and system.
+pub(crate) fn stat(process: u32) -> Option<Vec<String>> {
+    let text = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
+    Some(text.rsplit_once(')')?.1.split_whitespace().map(str::to_owned).collect())
+}
+
+/// The journals of unsaved edits in a folder of state.
+pub(crate) fn journals(state: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(state.join("tipstrike/journals")).into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut paths: Vec<_> = entries.filter(|path| path.extension().is_some_and(|ending| ending == "toml")).collect();
+    paths.sort();
+    paths
+}
+
+/// A tool that a test cannot do without; where it is missing, says so, so that a skipped test is seen.
+pub(crate) fn is_there(tool: &str) -> bool {
+    let found =
+        Command::new("sh").args(["-c", "command -v \"$0\" >/dev/null", tool]).status().is_ok_and(|status| status.success());
+    if !found {
+        skip(&format!("{tool} is not installed"));
+    }
+    found
+}
+
+/// Say that a test did not run, past the harness, which holds back what passing tests print; `.ci/run` counts them.
+pub(crate) fn skip(why: &str) {
+    let line = format!("SKIPPED {}: {why}\n", thread::current().name().unwrap_or("a test"));
+    std::io::stderr().write_all(line.as_bytes()).ok();
+    if let Some(file) = std::env::var_os("TIPSTRIKE_SKIPPED") {
+        fs::OpenOptions::new().append(true).create(true).open(file).and_then(|mut file| file.write_all(line.as_bytes())).ok();
+    }
+}
+
+fn cells(count: u16) -> NonZero<u16> {
+    NonZero::new(count).unwrap_or(NonZero::<u16>::MIN)
+}
+
+fn modes(master: &(dyn MasterPty + Send)) -> String {
+    format!("{:?}", master.get_termios().expect("a terminal has modes"))
+}
