@@ -182,7 +182,7 @@ mod tests {
     #[test]
     fn a_point_is_drawn_in_the_cell_that_is_told() {
         for (window, marker) in windows() {
-            for (right, up) in [(0.0, 0.0), (0.3, -0.7), (-0.99, 0.99), (1.0, 1.0), (-1.0, -1.0), (0.51, 0.13)] {
+            for (right, up) in [(0.02, -0.03), (0.3, -0.7), (-0.99, 0.99), (0.999, 0.999), (-0.999, -0.999), (0.51, 0.13)] {
                 let point = window.centre + Vector2::new(right * window.half.x, up * window.half.y);
                 let area = Rect::new(0, 0, window.size.width, window.size.height);
                 let mut buffer = Buffer::empty(area);
