@@ -36,7 +36,7 @@ fn pictures(criterion: &mut Criterion) {
         group.bench_function(name, |bencher| {
             bencher.iter(|| {
                 buffer.reset();
-                teeth::draw(black_box(&picture), area, &mut buffer);
+                teeth::picture::draw(black_box(&picture), area, &mut buffer);
             });
         });
     }

@@ -40,7 +40,7 @@ fn picture<'a>((inputs, solution): &'a (Inputs, Solution), view: &'a TeethView, 
 fn drawn(picture: &Picture, (width, height): (u16, u16)) -> Buffer {
     let area = Rect::new(0, 0, width, height);
     let mut buffer = Buffer::empty(area);
-    teeth::draw(picture, area, &mut buffer);
+    teeth::picture::draw(picture, area, &mut buffer);
     clean::finish(&mut buffer, picture.look.ascii);
     buffer
 }

@@ -3,82 +3,12 @@
 pub mod ink;
 pub mod labels;
 pub mod pen;
+pub mod picture;
 pub mod readings;
 pub mod scene;
 pub mod trace;
 pub mod window;
 pub mod zoom;
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-use ratatui::style::Style;
-use ratatui::symbols::Marker;
-
-use self::labels::Labels;
-use self::scene::Scene;
-pub use self::zoom::{Centre, Exaggeration, TeethView};
-use super::text;
-use crate::model::{Inputs, Moment, Solution};
-use crate::tui::clean::symbol;
-use crate::tui::theme::Look;
-
-/// Least width and height of the picture itself, in cells.
-const SMALLEST: (u16, u16) = (12, 4);
-/// From this height of the pane on the values have two lines.
-const TWO_LINES_FROM: u16 = 14;
-
-/// All that the picture shows.
-#[derive(Debug, Clone, Copy)]
-pub struct Picture<'a> {
-    /// The pair.
-    pub inputs: &'a Inputs,
-    /// What the model found.
-    pub solution: &'a Solution,
-    /// The driver's roll angle before E, in rad; without it D, or E where no tooth strikes.
-    pub cursor: Option<f64>,
-    /// What of the plane is in sight.
-    pub view: &'a TeethView,
-    /// What the terminal is able to show.
-    pub look: Look,
-    /// How a point is drawn.
-    pub marker: Marker,
-    /// Whether the results are not those of what the form says now.
-    pub is_stale: bool,
-}
-
-impl Picture<'_> {
-    /// The driver's roll angle before E that is shown, in rad.
-    #[must_use]
-    pub fn angle(&self) -> f64 {
-        let contact = self.solution.position.map_or(0.0, |position| position.approach_angle_driver);
-        self.cursor.filter(|cursor| cursor.is_finite()).unwrap_or(contact)
-    }
-}
-
-/// Draw the teeth, and below them the values at the cursor.
-pub fn draw(picture: &Picture, area: Rect, buffer: &mut Buffer) {
-    let area = area.intersection(buffer.area);
-    let stale = if picture.is_stale { "LAST VALID, " } else { "" };
-    let inner = text::titled(&format!("{stale}teeth, true to scale"), area, picture.look.theme, buffer);
-    let moment = Moment::at(picture.inputs, picture.solution, picture.angle());
-    let values = values(picture, moment.as_ref(), inner);
-    let plot = Rect { height: inner.height.saturating_sub(values.len() as u16), ..inner };
-    for (line, y) in values.iter().zip(plot.bottom()..inner.bottom()) {
-        buffer.set_stringn(inner.x + 1, y, line, usize::from(inner.width.saturating_sub(1)), Style::new());
-    }
-    if plot.width < SMALLEST.0 || plot.height < SMALLEST.1 {
-        return;
-    }
-    let scene = Scene::of(picture, moment.as_ref(), plot.as_size());
-    ink::draw(&scene, picture, plot, buffer);
-    let _ = Labels::new(plot).draw(&scene, picture, buffer);
-}
-
-/// The values at the cursor, in one line, or in two where there is room for them.
-fn values(picture: &Picture, moment: Option<&Moment>, area: Rect) -> Vec<String> {
-    let told = moment.map(readings::readings).unwrap_or_default();
-    let told = told.iter().map(|reading| symbol(&reading.to_string(), picture.look.ascii).into_owned());
-    let mut lines = readings::lines(told, usize::from(area.width.saturating_sub(1)));
-    lines.truncate(if area.height >= TWO_LINES_FROM { 2 } else { 1 });
-    lines
-}
+pub use picture::Picture;
+pub use zoom::{Centre, Exaggeration, TeethView};

@@ -7,7 +7,7 @@ use ratatui::symbols::Marker;
 use ratatui::widgets::Widget;
 use ratatui::widgets::canvas::{Canvas, Line};
 
-use super::Picture;
+use super::picture::Picture;
 use super::scene::Scene;
 use crate::tui::theme::Theme;
 

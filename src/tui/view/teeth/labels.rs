@@ -6,8 +6,8 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
-use super::Picture;
 use super::ink::Ink;
+use super::picture::Picture;
 use super::scene::Scene;
 use crate::model::placing::{driven_tangent_point, driver_tangent_point};
 use crate::numeric::decimal::significant;

@@ -3,9 +3,9 @@
 use nalgebra::Point2;
 use ratatui::layout::Size;
 
-use super::Picture;
 use super::ink::{self, Ink};
 use super::pen::{Dash, Pen, Stroke};
+use super::picture::Picture;
 use super::window::Window;
 use crate::model::Moment;
 use crate::model::placing::{Placed, Placing, driven_tangent_point, driver_tangent_point, on_line_of_action, tip_point};

@@ -5,8 +5,8 @@ use ratatui::layout::Size;
 use ratatui::symbols::Marker;
 
 use super::zoom::{Centre, TeethView, whole};
-use crate::model::placing::on_line_of_action;
-use crate::model::{Inputs, Moment, Solution};
+use crate::model::placing::{on_line_of_action, tip_point};
+use crate::model::{Inputs, Solution};
 use crate::tui::scale::bounds;
 
 /// A cell of the screen is twice as high as it is wide.
@@ -49,7 +49,7 @@ impl Window {
         let half = Vector2::new(wide, high) * (0.5 * cell);
         let middle = Point2::new(0.5 * (geometry.centre_distance + geometry.driven.tip - geometry.driver.tip), 0.0);
         let held = |at: f64, middle: f64, room: f64| at.max(middle - room.max(0.0)).min(middle + room.max(0.0));
-        let at = anchor(view.centre, inputs, solution).unwrap_or(middle);
+        let at = anchor(view.centre, solution).unwrap_or(middle);
         let centre = Point2::new(held(at.x, middle.x, 0.5 * width - half.x), held(at.y, middle.y, 0.5 * height - half.y));
         Window { centre, half, dot: cell / f64::from(dots.0), size, dots }
     }
@@ -127,11 +127,11 @@ impl Window {
 }
 
 /// What stands in the middle, where it is a point.
-fn anchor(centre: Centre, inputs: &Inputs, solution: &Solution) -> Option<Point2<f64>> {
+fn anchor(centre: Centre, solution: &Solution) -> Option<Point2<f64>> {
     let geometry = &solution.geometry;
-    let contact = solution.position.map_or(0.0, |position| position.approach_angle_driver);
+    let start = on_line_of_action(geometry, geometry.start);
     match centre {
-        Centre::Strike => Some(Moment::at(inputs, solution, contact)?.point),
+        Centre::Strike => Some(solution.position.map_or(start, |position| tip_point(geometry, &position.contact))),
         Centre::PitchPoint => Some(on_line_of_action(geometry, geometry.start + geometry.approach_length)),
         Centre::Pair => None,
     }
