@@ -15,7 +15,9 @@ use crate::tui::theme::Look;
 
 /// Least width and height of the picture itself, in cells.
 const SMALLEST: (u16, u16) = (12, 4);
-/// From this height on the values have two lines.
+/// From this width on the values have room in one line, whatever they are, and from this height on in two: the picture
+/// keeps its size when values come and go.
+const ONE_LINE_FROM: u16 = 130;
 const TWO_LINES_FROM: u16 = 13;
 
 /// All that the picture shows.
@@ -50,8 +52,9 @@ impl Picture<'_> {
 pub fn draw(picture: &Picture, area: Rect, buffer: &mut Buffer) {
     let area = area.intersection(buffer.area);
     let moment = Moment::at(picture.inputs, picture.solution, picture.angle());
-    let values = values(picture, moment.as_ref(), area);
-    let plot = Rect { height: area.height.saturating_sub(values.len() as u16), ..area };
+    let lines = if area.width < ONE_LINE_FROM && area.height >= TWO_LINES_FROM { 2 } else { 1 };
+    let plot = Rect { height: area.height.saturating_sub(lines), ..area };
+    let values = values(picture, moment.as_ref(), area.width);
     for (line, y) in values.iter().zip(plot.bottom()..area.bottom()) {
         buffer.set_stringn(area.x + 1, y, line, usize::from(area.width.saturating_sub(1)), Style::new());
     }
@@ -63,11 +66,9 @@ pub fn draw(picture: &Picture, area: Rect, buffer: &mut Buffer) {
     let _ = Labels::new(plot).draw(&scene, picture, buffer);
 }
 
-/// The values at the cursor, in one line, or in two where there is room for them.
-fn values(picture: &Picture, moment: Option<&Moment>, area: Rect) -> Vec<String> {
+/// The values at the cursor, in lines.
+fn values(picture: &Picture, moment: Option<&Moment>, width: u16) -> Vec<String> {
     let told = moment.map(readings::readings).unwrap_or_default();
     let told = told.iter().map(|reading| symbol(&reading.to_string(), picture.look.ascii).into_owned());
-    let mut lines = readings::lines(told, usize::from(area.width.saturating_sub(1)));
-    lines.truncate(if area.height >= TWO_LINES_FROM { 2 } else { 1 });
-    lines
+    readings::lines(told, usize::from(width.saturating_sub(1)))
 }
