@@ -9,7 +9,7 @@ use super::labels::Labels;
 use super::scene::Scene;
 use super::zoom::TeethView;
 use super::{ink, readings};
-use crate::model::{Inputs, Moment, Solution};
+use crate::model::{Inputs, Moment, Solution, moment};
 use crate::tui::clean::symbol;
 use crate::tui::theme::Look;
 
@@ -43,7 +43,7 @@ impl Picture<'_> {
     /// The driver's roll angle before E that is shown, in rad.
     #[must_use]
     pub fn angle(&self) -> f64 {
-        let contact = self.solution.position.map_or(0.0, |position| position.approach_angle_driver);
+        let contact = moment::first_contact(self.solution).unwrap_or(0.0) * self.inputs.ratio();
         self.cursor.filter(|cursor| cursor.is_finite()).unwrap_or(contact)
     }
 }

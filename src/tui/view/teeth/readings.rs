@@ -24,7 +24,8 @@ pub struct Reading {
 
 impl fmt::Display for Reading {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {} {}", self.symbol, self.number, self.unit)
+        write!(f, "{} {}", self.symbol, self.number)?;
+        if self.unit.is_empty() { Ok(()) } else { write!(f, " {}", self.unit) }
     }
 }
 
@@ -33,7 +34,7 @@ impl fmt::Display for Reading {
 pub fn readings(moment: &Moment) -> Vec<Reading> {
     let of_station = COLUMNS.iter().filter_map(|column| {
         let number = report::number(value(moment, column.key)?, column.shown, column.digits);
-        Some(Reading { symbol: column.symbol, number, unit: column.shown })
+        Some(Reading { symbol: column.symbol, number, unit: if column.shown == "1" { "" } else { column.shown } })
     });
     let gap = |symbol, value| Reading { symbol, number: report::number(value, "um", GAP_DIGITS), unit: "um" };
     of_station.chain([gap("S", moment.gap), gap("open", moment.opening)]).collect()
@@ -47,6 +48,10 @@ fn value(moment: &Moment, key: &str) -> Option<f64> {
         "normal_velocity" => Some(moment.normal_velocity),
         "sliding_velocity" => Some(moment.sliding_velocity),
         "impact_force" => moment.impact_force,
+        "time" => moment.load?.time,
+        "force" => Some(moment.load?.force),
+        "load_share" => Some(moment.load?.load_share),
+        "transmission_error" => Some(moment.load?.transmission_error),
         _ => None,
     }
 }

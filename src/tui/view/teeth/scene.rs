@@ -8,6 +8,7 @@ use super::pen::{Dash, Pen, Stroke};
 use super::picture::Picture;
 use super::window::Window;
 use crate::model::Moment;
+use crate::model::moment::first_contact;
 use crate::model::placing::{Placed, Placing, driven_tangent_point, driver_tangent_point, on_line_of_action, tip_point};
 use crate::model::position::tip_at;
 
@@ -77,33 +78,33 @@ fn construction(pen: &mut Pen, picture: &Picture) {
     let line = |from: f64, to: f64| move |part: f64| on_line_of_action(geometry, from + part * (to - from));
     pen.curve(line(0.0, geometry.tangent_length), geometry.tangent_length, Some(LINE_OF_ACTION), Ink::Construction);
     pen.curve(line(geometry.start, geometry.end), geometry.end - geometry.start, None, Ink::Path);
-    let from = PATH_FROM * picture.solution.position.map_or(0.0, |position| position.approach_angle_driven);
+    let from = PATH_FROM * first_contact(picture.solution).unwrap_or(0.0);
     let path = |part: f64| tip_point(geometry, &tip_at(geometry, part * from));
     pen.curve(path, from * geometry.driven.tip, Some(PATH), Ink::Path);
 }
 
 /// D, E, D', the pitch point, the end of contact, the points of tangency and the centres. D' is the driven tip where the
-/// rung's impact duration ends, not past E.
+/// rung's impact duration ends, not past E; the rungs that share the load have
+/// none.
 fn points(picture: &Picture) -> Vec<Named> {
     let Picture { inputs, solution, .. } = *picture;
     let geometry = &solution.geometry;
     let mut points = Vec::new();
     let mut add = |name, at| points.push(Named { at, name });
     let start = on_line_of_action(geometry, geometry.start);
-    if let Some(position) = solution.position {
-        let contact = position.contact.angle;
-        let turn = solution.impact.map(|impact| inputs.driven_speed() * impact.duration);
-        add("D", tip_point(geometry, &position.contact));
-        match turn {
-            Some(turn) if turn < contact => {
-                add("E", start);
-                add("D'", tip_point(geometry, &tip_at(geometry, contact - turn)));
-            }
-            Some(_) => add("E=D'", start),
-            None => add("E", start),
+    let contact = first_contact(solution);
+    let on_way = |angle: f64| tip_point(geometry, &tip_at(geometry, angle));
+    let turn = solution.impact.map(|impact| inputs.driven_speed() * impact.duration).filter(|_| !solution.rung.shares_load());
+    if let Some(contact) = contact {
+        add("D", on_way(contact));
+    }
+    match contact.zip(turn) {
+        Some((contact, turn)) if turn < contact => {
+            add("E", start);
+            add("D'", on_way(contact - turn));
         }
-    } else {
-        add("E", start);
+        Some(_) => add("E=D'", start),
+        None => add("E", start),
     }
     add("P", on_line_of_action(geometry, geometry.start + geometry.approach_length));
     add("B", on_line_of_action(geometry, geometry.end));
@@ -125,13 +126,13 @@ fn told_apart(points: Vec<Named>, window: &Window) -> Vec<Named> {
     kept
 }
 
-/// Where flanks touch: the incoming pair from D on, and the pairs ahead of it, a base pitch apart on the path of contact.
+/// Where flanks touch: the incoming pair from the first contact on, and the pairs ahead of it, a base pitch apart on the path of contact.
 fn contacts(picture: &Picture, moment: &Moment) -> Vec<Point2<f64>> {
     let geometry = &picture.solution.geometry;
     let incoming = geometry.start - moment.roll_angle_driver * geometry.driver.base;
     let ahead = (1..10).map(|pair| incoming + f64::from(pair) * geometry.base_pitch);
     let touching = ahead.filter(|length| (geometry.start..=geometry.end).contains(length));
-    let own = (moment.opening <= 0.0).then_some(moment.point);
+    let own = moment.touches().then_some(moment.point);
     touching.map(|length| on_line_of_action(geometry, length)).chain(own).collect()
 }
 

@@ -5,7 +5,8 @@ use ratatui::layout::Size;
 use ratatui::symbols::Marker;
 
 use super::zoom::{Centre, TeethView, whole};
-use crate::model::placing::{on_line_of_action, tip_point};
+use crate::model::moment::first_contact_point;
+use crate::model::placing::on_line_of_action;
 use crate::model::{Inputs, Solution};
 use crate::tui::scale::bounds;
 
@@ -131,7 +132,7 @@ fn anchor(centre: Centre, solution: &Solution) -> Option<Point2<f64>> {
     let geometry = &solution.geometry;
     let start = on_line_of_action(geometry, geometry.start);
     match centre {
-        Centre::Strike => Some(solution.position.map_or(start, |position| tip_point(geometry, &position.contact))),
+        Centre::Strike => Some(first_contact_point(solution).unwrap_or(start)),
         Centre::PitchPoint => Some(on_line_of_action(geometry, geometry.start + geometry.approach_length)),
         Centre::Pair => None,
     }

@@ -1,6 +1,7 @@
 //! What of the plane is in sight, and how far the gap is exaggerated: the state of the picture.
 
-use crate::model::placing::{on_line_of_action, tip_point};
+use crate::model::moment::{Phase, first_contact_point};
+use crate::model::placing::on_line_of_action;
 use crate::model::{Geometry, Inputs, Moment, Solution};
 
 /// Before any zoom the picture around the strike is this many modules high, and this many times the way from D to E.
@@ -105,7 +106,7 @@ impl TeethView {
     #[must_use]
     pub fn extent(&self, inputs: &Inputs, solution: &Solution) -> f64 {
         let geometry = &solution.geometry;
-        let contact = solution.position.map(|position| tip_point(geometry, &position.contact));
+        let contact = first_contact_point(solution);
         let way = |from: f64| {
             let from = on_line_of_action(geometry, from);
             contact.map_or(0.0, |contact| (contact - from).norm())
@@ -125,10 +126,10 @@ impl TeethView {
     /// How many times as wide as it is the opening is drawn. 1 where that is to be seen anyhow.
     ///
     /// The factor is a round number that makes the deviation up to 10 % of the picture's height. Far from the flank it falls,
-    /// so that the struck tooth keeps to its place.
+    /// so that the struck tooth keeps to its place. After B nothing is exaggerated.
     #[must_use]
     pub fn factor(&self, inputs: &Inputs, solution: &Solution, moment: &Moment) -> f64 {
-        if self.exaggeration == Exaggeration::True {
+        if self.exaggeration == Exaggeration::True || moment.phase == Phase::RunOut {
             return 1.0;
         }
         let room = (SHARE * self.extent(inputs, solution)).min(MOST_DEVIATION * inputs.module);
