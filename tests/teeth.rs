@@ -15,7 +15,8 @@ use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Rect, Size};
 use ratatui::symbols::Marker;
 use tipstrike::case::Document;
-use tipstrike::model::{self, Inputs, Moment, Solution, Stages};
+use tipstrike::model::inputs::Rung;
+use tipstrike::model::{self, Inputs, Moment, Solution, Stages, moment};
 use tipstrike::tui::clean;
 use tipstrike::tui::theme::{Look, PLAIN};
 use tipstrike::tui::view::teeth::labels::Labels;
@@ -119,6 +120,28 @@ fn the_cursor_turns_the_gears_and_its_values_are_the_solutions() {
 }
 
 #[test]
+fn the_rungs_that_share_the_load_show_their_own_first_contact_and_force() {
+    for (rung, told) in [(Rung::Static, ["F ", "x "]), (Rung::Dynamic, ["t ", "F/ΣF "])] {
+        let (mut inputs, _) = solved("zhou-chen-2014.toml");
+        inputs.rung = rung;
+        let solution = model::solve(&inputs, Stages::EVERY).unwrap();
+        let (angle, solved) = (moment::first_contact(&solution).unwrap(), (inputs, solution));
+        let view = TeethView::default();
+        let at = |part: f64| {
+            screen(&Picture { cursor: Some(part * angle * solved.0.ratio()), ..picture(&solved, &view, 1.0) }, (200, 40))
+        };
+        let exact = angle.to_degrees();
+        assert!(at(1.0).contains(&format!("u {exact:.4}")), "{rung:?}: no {exact} in\n{}", at(1.0));
+        for word in told {
+            assert!(at(0.5).contains(word) && !at(1.5).contains(&format!(" {word}")), "{rung:?}: {word}\n{}", at(1.5));
+        }
+        for part in [3.0, 1.5, 0.9, 0.0, -5.0, -13.0, -20.0] {
+            assert!(!at(part).contains("n/a"), "{}", at(part));
+        }
+    }
+}
+
+#[test]
 fn the_factor_is_told_and_falls_to_one() {
     let table_1 = solved("zhou-chen-2014.toml");
     let shown = |view: TeethView| screen(&picture(&table_1, &view, 1.2), (100, 30));
@@ -146,13 +169,16 @@ fn zoom_ends_at_the_whole_pair_and_at_the_micrometre() {
     }
 }
 
-/// Solved pairs of the whole envelope, most of them with corner contact.
+/// Solved pairs of the whole envelope, some with the load shared.
 fn some_pairs(count: u64) -> impl Iterator<Item = (Inputs, Solution, Random)> {
     (0..count).filter_map(|number| {
         let mut random = Random::new(number + 1);
         let corner = Corner::ALL[(number % Corner::ALL.len() as u64) as usize];
-        let inputs = pair(&mut random, corner);
-        let solution = model::solve(&inputs, Stages::CLOSED_FORM).ok()?;
+        let mut inputs = pair(&mut random, corner);
+        if number % 48 == 1 {
+            inputs.rung = Rung::Static;
+        }
+        let solution = model::solve(&inputs, Stages::CLOSED_FORM.and(inputs.rung.stages())).ok()?;
         Some((inputs, solution, random))
     })
 }
