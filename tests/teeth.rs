@@ -6,9 +6,12 @@
 #[path = "oracle/envelope.rs"]
 mod envelope;
 
+mod desk;
+
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use desk::{Desk, LARGE, SMALL};
 use envelope::{Corner, Random, pair};
 use insta::assert_snapshot;
 use ratatui::buffer::{Buffer, Cell};
@@ -17,14 +20,15 @@ use ratatui::symbols::Marker;
 use tipstrike::case::Document;
 use tipstrike::model::inputs::Rung;
 use tipstrike::model::{self, Inputs, Moment, Solution, Stages, moment};
+use tipstrike::tui::actions::Action;
 use tipstrike::tui::clean;
-use tipstrike::tui::theme::{Look, PLAIN};
+use tipstrike::tui::theme::{Look, MONO};
 use tipstrike::tui::view::teeth::labels::Labels;
 use tipstrike::tui::view::teeth::scene::Scene;
 use tipstrike::tui::view::teeth::{self, Centre, Exaggeration, Picture, TeethView};
 
 const SIZES: [(u16, u16); 3] = [(80, 18), (140, 30), (200, 60)];
-const ASCII: Look = Look { theme: &PLAIN, ascii: true };
+const ASCII: Look = Look { theme: &MONO, ascii: true };
 
 fn solved(case: &str) -> (Inputs, Solution) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(case);
@@ -167,6 +171,60 @@ fn zoom_ends_at_the_whole_pair_and_at_the_micrometre() {
         assert!(closest.extent(&inputs, &solution) < 1e-3, "{centre:?}");
         assert_eq!(closest.zoomed(-1, &inputs, &solution).zoom, closest.zoom - 1);
     }
+}
+
+#[test]
+fn keys_change_what_is_in_sight_and_zero_brings_it_back() {
+    let mut desk = Desk::new(LARGE);
+    desk.keys(&["Esc", "4"]);
+    let at_first = desk.screen();
+    for (keys, told) in [
+        (&["+"][..], "Teeth, true to scale, around the strike"),
+        (&["=", "="], "Teeth, true to scale"),
+        (&["-"], "Teeth, true to scale"),
+        (&["v"], "around the pitch point"),
+        (&["v"], "around the pair"),
+        (&["v", "x"], "gap x1 "),
+    ] {
+        let before = desk.screen();
+        desk.keys(keys);
+        assert!(desk.shows(told) && desk.screen() != before, "{keys:?}\n{}", desk.screen());
+    }
+    desk.keys(&["0"]);
+    assert_eq!(desk.screen(), at_first);
+    desk.keys(&["-"; 12]);
+    assert!(desk.shows("this is all of it") && desk.shows("O1"), "{}", desk.screen());
+    desk.keys(&["+"; 40]);
+    assert!(desk.shows("this is the closest") && desk.shows("um "), "{}", desk.screen());
+}
+
+#[test]
+fn the_approach_plays_from_before_d_until_the_tip_touches_and_on_to_e() {
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Esc", "4", "z", "Space"]);
+    assert!(desk.ticks && !desk.shows("open 0 um"), "{}", desk.screen());
+    let mut screens = vec![desk.screen()];
+    while desk.ticks {
+        desk.act(Action::Tick);
+        screens.push(desk.screen());
+    }
+    let closed = screens.iter().position(|screen| screen.contains("open 0 um")).expect("it closes");
+    assert!((10..30).contains(&closed), "closed after {closed} of {} pictures", screens.len());
+    assert!(screens[closed..].iter().all(|screen| screen.contains("open 0 um")));
+    assert!(screens.windows(2).all(|pair| pair[0] != pair[1]), "a picture stands still");
+    assert!(desk.app.cursor == Some(0.0) && desk.shows("θ_1 0 deg"));
+}
+
+#[test]
+fn the_pane_on_the_screen() {
+    let mut desk = Desk::new(LARGE);
+    desk.keys(&["Esc", "4"]);
+    assert_snapshot!("pane_140x45", desk.screen());
+    desk.keys(&["z"]);
+    assert_snapshot!("pane_alone_140x45", desk.screen());
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Esc", "4"]);
+    assert_snapshot!("pane_80x24", desk.screen());
 }
 
 /// Solved pairs of the whole envelope, some with the load shared.

@@ -4,7 +4,7 @@ use nalgebra::Point2;
 
 use super::geometry::geometry;
 use super::impact::Masses;
-use super::inputs::{Inputs, Rung};
+use super::inputs::Inputs;
 use super::placing::{on_line_of_action, tip_point};
 use super::tip::{TipContact, gap_without, tip_at};
 use super::velocity::velocity;
@@ -60,12 +60,15 @@ pub enum Phase {
 /// The driven gear's angle before E at the first contact, in rad, by the solution's rung; `None` where no tooth strikes.
 #[must_use]
 pub fn first_contact(solution: &Solution) -> Option<f64> {
-    let by_load = match solution.rung {
-        Rung::Paper | Rung::Exact => None,
-        Rung::Static => solution.static_load.as_ref().map(|load| load.first_contact_angle),
-        Rung::Dynamic => solution.dynamic.as_ref().map(|dynamic| dynamic.first_contact_angle),
-    };
-    by_load.unwrap_or(solution.position.map(|position| position.approach_angle_driven))
+    let at_rest = solution.static_load.as_ref().map(|load| load.first_contact_angle);
+    let moving = solution.dynamic.as_ref().map(|dynamic| dynamic.first_contact_angle);
+    moving.or(at_rest).unwrap_or(solution.position.map(|position| position.approach_angle_driven))
+}
+
+/// Whether the solution tells how the pairs share the load.
+#[must_use]
+pub fn shares_load(solution: &Solution) -> bool {
+    solution.static_load.is_some() || solution.dynamic.is_some()
 }
 
 /// Where the driven tip is at the first contact, D, in m.
@@ -201,8 +204,8 @@ fn gap_of(geometry: &Geometry, tip: &TipContact) -> f64 {
 fn opening(solution: &Solution, gap: f64) -> f64 {
     let total = solution.deviation.total;
     let closed = match first_contact(solution) {
-        Some(angle) if solution.rung.shares_load() => gap_of(&solution.geometry, &tip_at(&solution.geometry, angle)),
-        None if solution.rung.shares_load() => total.min(0.0),
+        Some(angle) if shares_load(solution) => gap_of(&solution.geometry, &tip_at(&solution.geometry, angle)),
+        None if shares_load(solution) => total.min(0.0),
         _ => total,
     };
     let left = gap - closed;
@@ -212,7 +215,7 @@ fn opening(solution: &Solution, gap: f64) -> f64 {
 /// The impact force from D to E.
 fn force(inputs: &Inputs, solution: &Solution, angle: f64) -> Option<f64> {
     let first = solution.position?.approach_angle_driven * (1.0 + ROUNDING);
-    let has_force = angle <= first && !solution.rung.shares_load();
+    let has_force = angle <= first && !shares_load(solution);
     let masses = Masses::of(inputs, &solution.geometry).ok().filter(|_| has_force)?;
     let station = stations::station(inputs, &solution.geometry, &masses, angle).ok()?;
     Some(station.impact_force).filter(|force| force.is_finite())
@@ -220,11 +223,8 @@ fn force(inputs: &Inputs, solution: &Solution, angle: f64) -> Option<f64> {
 
 /// What the stations of the rungs `static` and `dynamic` say at an angle, in a straight line from one to the next.
 fn load(solution: &Solution, roll_angle: f64) -> Option<MeshStation> {
-    let stations = match solution.rung {
-        Rung::Paper | Rung::Exact => return None,
-        Rung::Static => &solution.static_load.as_ref()?.stations,
-        Rung::Dynamic => &solution.dynamic.as_ref()?.stations,
-    };
+    let at_rest = solution.static_load.as_ref().map(|load| &load.stations);
+    let stations = solution.dynamic.as_ref().map(|dynamic| &dynamic.stations).or(at_rest)?;
     let encloses = |pair: &&[MeshStation]| (pair[1].roll_angle_driver..=pair[0].roll_angle_driver).contains(&roll_angle);
     let pair = stations.windows(2).find(encloses)?;
     let way = pair[0].roll_angle_driver - pair[1].roll_angle_driver;

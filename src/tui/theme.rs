@@ -176,7 +176,18 @@ mod tests {
     #[test]
     fn no_color_leaves_no_colour() {
         let theme = look(&[("NO_COLOR", "1")]).theme;
-        for style in [theme.title, theme.problem, theme.note, theme.active, theme.other, theme.key, theme.baseline, theme.driver, theme.driven, theme.path] {
+        for style in [
+            theme.title,
+            theme.problem,
+            theme.note,
+            theme.active,
+            theme.other,
+            theme.key,
+            theme.baseline,
+            theme.driver,
+            theme.driven,
+            theme.path,
+        ] {
             assert_eq!(style.fg.or(style.bg), None);
         }
         assert_eq!(look(&[("NO_COLOR", "")]).theme, &QUIET);

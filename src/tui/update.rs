@@ -10,6 +10,7 @@ mod page;
 mod panes;
 mod pointer;
 mod tabs;
+mod teeth;
 mod walk;
 
 use std::path::PathBuf;
@@ -179,6 +180,10 @@ fn show(app: &mut App, command: Command) {
         Command::CycleLower => panes::cycle_lower(app),
         Command::Zoom => panes::zoom(app),
         Command::StartEdit => app.is_editing = true,
+        Command::TeethBy(steps) => teeth::zoom(app, steps),
+        Command::TeethAnew => teeth::anew(app),
+        Command::TeethCentre => teeth::centre_next(app),
+        Command::TeethGap => teeth::exaggerate_or_not(app),
         other => walk::walk(app, other),
     }
 }

@@ -10,5 +10,38 @@ pub mod trace;
 pub mod window;
 pub mod zoom;
 
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+use super::titled;
+use crate::model::{Inputs, Solution};
+use crate::tui::app::App;
+use crate::tui::pane::Pane;
+
 pub use picture::Picture;
 pub use zoom::{Centre, Exaggeration, TeethView};
+
+/// Draw the pane.
+pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
+    let stale = if app.is_stale() { "LAST VALID, " } else { "" };
+    let title = format!("{stale}Teeth, true to scale, around {}", app.teeth.centre.name());
+    let inner = titled(app, Pane::Teeth, &title, area, buffer);
+    let Some((inputs, solution)) = solved(app) else { return };
+    let picture = Picture {
+        inputs,
+        solution,
+        cursor: app.cursor,
+        view: &app.teeth,
+        look: app.look,
+        marker: app.settings.marker,
+        is_stale: app.is_stale(),
+    };
+    picture::draw(&picture, inner, buffer);
+}
+
+/// The pair that the active rung has solved last, and what it found.
+#[must_use]
+pub fn solved(app: &App) -> Option<(&Inputs, &Solution)> {
+    let answer = app.answer.as_ref()?;
+    Some((&answer.inputs, answer.of(answer.active)?))
+}

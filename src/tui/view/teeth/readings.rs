@@ -6,7 +6,7 @@ use unicode_width::UnicodeWidthStr;
 
 use crate::model::Moment;
 use crate::report;
-use crate::report::stations::COLUMNS;
+use crate::report::stations::{COLUMNS, Column};
 
 /// Significant digits of the gap.
 const GAP_DIGITS: usize = 4;
@@ -29,15 +29,17 @@ impl fmt::Display for Reading {
     }
 }
 
-/// Every value that the moment has, as a station tells it, and the gap.
+/// Every value that the moment has, as a station tells it, and the gap; the driven angle last, which is only the ratio off.
 #[must_use]
 pub fn readings(moment: &Moment) -> Vec<Reading> {
-    let of_station = COLUMNS.iter().filter_map(|column| {
+    let (last, first): (Vec<_>, Vec<_>) = COLUMNS.iter().partition(|column| column.key == "roll_angle_driven");
+    let of_station = |column: &Column| {
         let number = report::number(value(moment, column.key)?, column.shown, column.digits);
         Some(Reading { symbol: column.symbol, number, unit: if column.shown == "1" { "" } else { column.shown } })
-    });
+    };
     let gap = |symbol, value| Reading { symbol, number: report::number(value, "um", GAP_DIGITS), unit: "um" };
-    of_station.chain([gap("S", moment.gap), gap("open", moment.opening)]).collect()
+    let gaps = [gap("S", moment.gap), gap("open", moment.opening)];
+    first.into_iter().filter_map(of_station).chain(gaps).chain(last.into_iter().filter_map(of_station)).collect()
 }
 
 fn value(moment: &Moment, key: &str) -> Option<f64> {

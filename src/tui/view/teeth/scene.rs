@@ -8,7 +8,7 @@ use super::pen::{Dash, Pen, Stroke};
 use super::picture::Picture;
 use super::window::Window;
 use crate::model::Moment;
-use crate::model::moment::first_contact;
+use crate::model::moment::{first_contact, shares_load};
 use crate::model::placing::{Placed, Placing, driven_tangent_point, driver_tangent_point, on_line_of_action, tip_point};
 use crate::model::position::tip_at;
 
@@ -94,7 +94,7 @@ fn points(picture: &Picture) -> Vec<Named> {
     let start = on_line_of_action(geometry, geometry.start);
     let contact = first_contact(solution);
     let on_way = |angle: f64| tip_point(geometry, &tip_at(geometry, angle));
-    let turn = solution.impact.map(|impact| inputs.driven_speed() * impact.duration).filter(|_| !solution.rung.shares_load());
+    let turn = solution.impact.map(|impact| inputs.driven_speed() * impact.duration).filter(|_| !shares_load(solution));
     if let Some(contact) = contact {
         add("D", on_way(contact));
     }
