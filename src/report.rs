@@ -133,7 +133,7 @@ pub fn value(quantity: &Quantity, solution: &Solution) -> Option<f64> {
 
 /// A value in SI in another unit, with this many significant digits.
 #[must_use]
-fn number(value: f64, unit: &str, digits: usize) -> String {
+pub fn number(value: f64, unit: &str, digits: usize) -> String {
     significant(value / units::factor(unit).unwrap_or(1.0), digits)
 }
 

@@ -12,6 +12,7 @@ use super::settings::Settings;
 use super::solver::{self, Answer, Request};
 use super::tab::Tab;
 use super::theme::Look;
+use super::view::teeth::TeethView;
 use super::view::{self, form, results};
 use crate::case::fields::{Absent, Kind};
 use crate::case::{Case, Document, FIELDS, Problem, fields};
@@ -40,7 +41,9 @@ pub struct App {
     pub is_pinning: bool,
     /// The driver's roll angle before E that chart and teeth point at, in rad; negative after E.
     pub cursor: Option<f64>,
-    /// Whether the cursor runs from D to E by itself.
+    /// What of the teeth is in sight.
+    pub teeth: TeethView,
+    /// Whether the cursor runs to E by itself.
     pub is_playing: bool,
     /// Long work that goes on.
     pub progress: Option<Progress>,
@@ -108,6 +111,7 @@ impl App {
             baseline: None,
             is_pinning: false,
             cursor: None,
+            teeth: TeethView::default(),
             is_playing: false,
             progress: None,
             prompts: Vec::new(),

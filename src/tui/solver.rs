@@ -28,6 +28,8 @@ pub struct Answer {
     pub serial: u64,
     /// The stages that were asked for.
     pub stages: Stages,
+    /// The pair, as it was solved.
+    pub inputs: Inputs,
     /// The rung that the case asks for.
     pub active: Rung,
     /// Every rung, cheapest first.
@@ -152,7 +154,8 @@ pub fn answer(request: &Request) -> Answer {
             (rung, model::solve(&inputs, request.stages))
         })
         .collect();
-    let mut answer = Answer { serial: request.serial, stages: request.stages, active, rungs, notes: Vec::new() };
+    let (serial, stages, inputs) = (request.serial, request.stages, request.inputs.clone());
+    let mut answer = Answer { serial, stages, inputs, active, rungs, notes: Vec::new() };
     answer.notes = answer.of(active).map(|solution| model::notes(&request.inputs, solution)).unwrap_or_default();
     answer
 }

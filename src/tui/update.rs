@@ -11,6 +11,7 @@ mod panes;
 mod pointer;
 mod recovery;
 mod tabs;
+mod teeth;
 mod walk;
 
 use std::path::PathBuf;
@@ -185,6 +186,10 @@ fn show(app: &mut App, command: Command) {
         Command::CycleLower => panes::cycle_lower(app),
         Command::Zoom => panes::zoom(app),
         Command::StartEdit => app.is_editing = true,
+        Command::TeethBy(steps) => teeth::zoom(app, steps),
+        Command::TeethAnew => teeth::anew(app),
+        Command::TeethCentre => teeth::centre_next(app),
+        Command::TeethGap => teeth::exaggerate_or_not(app),
         other => walk::walk(app, other),
     }
 }

@@ -159,7 +159,7 @@ fn focused(app: &App) -> String {
 
 fn at_cursor(app: &App) -> String {
     let Some(cursor) = app.cursor else {
-        return "No cursor: h and l bring it, Space lets it run from D to E.".to_owned();
+        return "No cursor: h and l bring it, Space lets it run to E.".to_owned();
     };
     let side = if cursor < 0.0 { "after" } else { "before" };
     let angle = format!("{:.4} deg of the driver {side} E", cursor.abs().to_degrees());
