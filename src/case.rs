@@ -4,7 +4,9 @@ mod check;
 pub mod fields;
 pub mod file;
 pub mod reach;
+mod hint;
 pub mod spread;
+pub mod step;
 mod suggest;
 pub mod units;
 pub mod visible;
@@ -14,6 +16,7 @@ pub use check::Problem;
 pub use fields::{FIELDS, Field};
 pub use file::Document;
 pub use spread::Spread;
+pub use step::step;
 
 /// A case: what the user wrote in each field, in the order of [`FIELDS`], and the limits it is held to.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,10 +1,14 @@
 //! Units at the door: text with a unit becomes SI, and back.
 
+mod converted;
 mod number;
+pub mod system;
 mod table;
 
 use super::suggest;
 use super::visible::{cut, quoted};
+pub use converted::converted;
+pub use system::System;
 use table::{FAMILIES, Scale, Unit, name_of, units_of};
 
 /// A physical dimension that a field or a quantity has.
