@@ -5,6 +5,7 @@ pub mod fields;
 pub mod file;
 pub mod reach;
 mod hint;
+pub mod search;
 pub mod spread;
 pub mod step;
 mod suggest;
@@ -15,6 +16,7 @@ use crate::model::{Inputs, QUANTITIES, Quantity};
 pub use check::Problem;
 pub use fields::{FIELDS, Field};
 pub use file::Document;
+pub use search::search;
 pub use spread::Spread;
 pub use step::step;
 
