@@ -1,18 +1,22 @@
 //! The document: a case as the user wrote it, checked against the one table of fields.
 
+mod acts;
 mod check;
 pub mod fields;
 pub mod file;
 pub mod reach;
 mod hint;
+pub mod materials;
 pub mod search;
 pub mod spread;
 pub mod step;
 mod suggest;
 pub mod units;
 pub mod visible;
+pub mod words;
 
 use crate::model::{Inputs, QUANTITIES, Quantity};
+pub use acts::{Acting, acts};
 pub use check::Problem;
 pub use fields::{FIELDS, Field};
 pub use file::Document;
