@@ -1,7 +1,7 @@
 //! A value one step up or down: its last digit moves, and all else stays as it was typed.
 
-use super::fields::{FIELDS, Kind};
-use super::{Case, Limit, fields};
+use super::fields::{Absent, FIELDS, Kind};
+use super::{Case, Limit};
 
 /// The text of a field moved by that many units of its last digit, and kept within the field's range: "16 um" becomes "17 um",
 /// "0.50" becomes "0.51", "1e3 um" becomes "2e3 um". A count moves by whole numbers, a choice to the names beside it.
@@ -25,11 +25,8 @@ impl Case {
     /// What [`step`] makes of a field as it stands: of its text, else of its default.
     #[must_use]
     pub fn stepped(&self, field: usize, by: i32) -> Option<String> {
-        let text = match (self.text(field), FIELDS[field].absent) {
-            (Some(text), _) | (None, fields::Absent::Default(text)) => text,
-            _ => return None,
-        };
-        step(text, field, by)
+        let default = if let Absent::Default(text) = FIELDS[field].absent { Some(text) } else { None };
+        step(self.text(field).or(default)?, field, by)
     }
 }
 
