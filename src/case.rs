@@ -41,7 +41,7 @@ pub struct Limit {
     pub quantity: &'static str,
     /// As the user wrote it.
     pub text: String,
-    /// In SI.
+    /// In SI; infinite while the text is no value, as it may be in a form.
     pub value: f64,
 }
 
@@ -107,6 +107,22 @@ impl Case {
             fields::Kind::Count(..) => text.trim().parse::<u32>().ok().map(f64::from),
             fields::Kind::Text | fields::Kind::Choice(..) => None,
         }
+    }
+
+    /// Write the limit of a quantity, whether or not the text is valid. An empty text leaves a limit that holds nothing, until
+    /// [`Case::drop_empty_limits`].
+    pub fn write_limit(&mut self, quantity: &'static str, text: &str) {
+        let unread = Limit { quantity, text: text.to_owned(), value: f64::INFINITY };
+        let limit = Limit::new(quantity, text).unwrap_or(unread);
+        match self.limits.iter_mut().find(|held| held.quantity == quantity) {
+            Some(held) => *held = limit,
+            None => self.limits.push(limit),
+        }
+    }
+
+    /// Take out the limits that hold nothing.
+    pub fn drop_empty_limits(&mut self) {
+        self.limits.retain(|limit| !limit.text.is_empty());
     }
 
     /// What is wrong with the text of one field, on its own.

@@ -57,14 +57,9 @@ pub fn verdicts<'a>(case: &'a Case, solution: &Solution) -> Vec<Verdict<'a>> {
     case.limits.iter().map(|limit| verdict(limit, solution)).collect()
 }
 
-/// Every limit of a case that the model refuses: none can be held against anything.
+/// The verdict on one limit.
 #[must_use]
-pub fn refused<'a>(case: &'a Case, refusal: &Refusal) -> Vec<Verdict<'a>> {
-    let verdict = |limit| Verdict { limit, value: None, standing: Standing::Unknown, withheld: Some(*refusal) };
-    case.limits.iter().map(verdict).collect()
-}
-
-fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Verdict<'a> {
+pub fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Verdict<'a> {
     let value = Quantity::find(limit.quantity).and_then(|quantity| value(quantity, solution));
     let standing = match value {
         Some(value) if value <= limit.value => Standing::Within,
@@ -74,6 +69,13 @@ fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Verdict<'a> {
     };
     let withheld = solution.withheld.filter(|_| standing == Standing::Unknown);
     Verdict { limit, value, standing, withheld }
+}
+
+/// Every limit of a case that the model refuses: none can be held against anything.
+#[must_use]
+pub fn refused<'a>(case: &'a Case, refusal: &Refusal) -> Vec<Verdict<'a>> {
+    let verdict = |limit| Verdict { limit, value: None, standing: Standing::Unknown, withheld: Some(*refusal) };
+    case.limits.iter().map(verdict).collect()
 }
 
 impl Verdict<'_> {
