@@ -120,9 +120,9 @@ impl Case {
         }
     }
 
-    /// Take out the limits that hold nothing.
-    pub fn drop_empty_limits(&mut self) {
-        self.limits.retain(|limit| !limit.text.is_empty());
+    /// Take out the limits that hold nothing, but that of the named quantity.
+    pub fn drop_empty_limits(&mut self, but: Option<&str>) {
+        self.limits.retain(|limit| !limit.text.is_empty() || Some(limit.quantity) == but);
     }
 
     /// What is wrong with the text of one field, on its own.

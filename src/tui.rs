@@ -13,6 +13,7 @@ pub mod pane;
 pub mod pick;
 pub mod prompt;
 pub mod recents;
+pub mod rows;
 pub mod scale;
 pub mod settings;
 pub mod solver;

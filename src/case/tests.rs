@@ -199,6 +199,8 @@ fn a_limit_may_be_half_typed_in_a_form() {
     assert_eq!((case.limits.len(), case.limits[0].value), (1, 2600.0));
     case.write_limit("normal_velocity", "");
     assert!(case.inputs().is_ok());
-    case.drop_empty_limits();
+    case.drop_empty_limits(Some("normal_velocity"));
+    assert_eq!(case.limits.len(), 2);
+    case.drop_empty_limits(None);
     assert_eq!(case.limits.len(), 1);
 }

@@ -79,6 +79,13 @@ pub fn refused<'a>(case: &'a Case, refusal: &Refusal) -> Vec<Verdict<'a>> {
 }
 
 impl Verdict<'_> {
+    /// The value as a part of the limit, where that says something.
+    #[must_use]
+    pub fn part(&self) -> Option<f64> {
+        let value = self.value.filter(|&value| self.limit.value > 0.0 && self.limit.value.is_finite() && value >= 0.0)?;
+        Some(value / self.limit.value)
+    }
+
     /// The verdict in a line, the value in metric or inch units; the limit as it was written.
     #[must_use]
     pub fn told(&self, system: System) -> String {
@@ -91,7 +98,7 @@ impl Verdict<'_> {
             };
         };
         let sign = if self.standing == Standing::Exceeded { ">" } else { "<=" };
-        let part = (self.limit.value > 0.0 && value >= 0.0).then(|| format!(" ({:.0} %)", 100.0 * value / self.limit.value));
+        let part = self.part().map(|part| format!(" ({:.0} %)", 100.0 * part));
         format!("{key} {} {sign} {limit}{}", shown_in(quantity, value, system), part.unwrap_or_default())
     }
 }
