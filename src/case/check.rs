@@ -72,10 +72,10 @@ pub(super) fn read(case: &Case, wrong: &[usize]) -> (Inputs, Vec<Problem>) {
     (inputs, problems)
 }
 
-/// What is wrong with the limits that hold something.
+/// What is wrong with the limits that hold something; those that could be read are not read again.
 fn limits(case: &Case) -> impl Iterator<Item = Problem> {
-    let held = case.limits.iter().filter(|limit| !limit.text.is_empty());
-    held.filter_map(|limit| Limit::new(limit.quantity, &limit.text).err())
+    let unread = case.limits.iter().filter(|limit| !limit.text.is_empty() && limit.value.is_infinite());
+    unread.filter_map(|limit| Limit::new(limit.quantity, &limit.text).err())
 }
 
 /// Read one field, or its default, into the inputs.

@@ -1,5 +1,7 @@
 //! Problems in the words of a form: labels in place of keys, values without quotes, no file to add a line to.
 
+use std::sync::LazyLock;
+
 use super::Problem;
 use super::fields::{FIELDS, Field, index_of};
 use crate::model::QUANTITIES;
@@ -9,6 +11,13 @@ const LIMITS: &str = "limits.";
 
 /// Marks that a file needs around a value, and a message around what was typed.
 const MARKS: [char; 2] = ['"', '`'];
+
+/// Every key that stands in a table, the longest first, so that none is taken for the start of another.
+static KEYS: LazyLock<Vec<&'static str>> = LazyLock::new(|| {
+    let mut keys: Vec<&'static str> = FIELDS.iter().map(|field| field.key).filter(|key| key.contains('.')).collect();
+    keys.sort_by_key(|key| std::cmp::Reverse(key.len()));
+    keys
+});
 
 impl Problem {
     /// The same problem as a form says it, where the field and its text are in sight: `write 5 mm` for `write "5 mm"`, a
@@ -23,7 +32,7 @@ impl Problem {
 #[must_use]
 pub fn for_form(sentence: &str) -> String {
     let sentence = written(sentence).unwrap_or_else(|| sentence.to_owned());
-    let labelled = keys().into_iter().fold(sentence, |text, key| if text.contains(key) { replaced(&text, key) } else { text });
+    let labelled = if sentence.contains('.') { with_labels(sentence) } else { sentence };
     labelled.replace(MARKS, "")
 }
 
@@ -46,22 +55,15 @@ fn name(field: &Field) -> String {
     }
 }
 
+fn with_labels(sentence: String) -> String {
+    KEYS.iter().fold(sentence, |text, key| if text.contains(key) { text.replace(key, &called(key)) } else { text })
+}
+
 /// The advice to add a line to a file as the advice to write the value.
 fn written(sentence: &str) -> Option<String> {
     let (_, value) = sentence.strip_prefix("add ")?.split_once(" = ")?;
     let value = value.split_once(" to [").map_or(value, |(value, _)| value);
     Some(format!("write {value}, for example"))
-}
-
-/// Every key that stands in a table, the longest first, so that none is taken for the start of another.
-fn keys() -> Vec<&'static str> {
-    let mut keys: Vec<&'static str> = FIELDS.iter().map(|field| field.key).filter(|key| key.contains('.')).collect();
-    keys.sort_by_key(|key| std::cmp::Reverse(key.len()));
-    keys
-}
-
-fn replaced(text: &str, key: &str) -> String {
-    text.replace(key, &called(key))
 }
 
 #[cfg(test)]

@@ -16,6 +16,8 @@ use crate::tui::pane::Pane;
 use crate::tui::rows;
 
 const MARK: u16 = 2;
+/// Stands before a field that the chosen rung does without.
+const IDLE: &str = "-";
 const SYMBOL: u16 = 6;
 const LABEL: u16 = 20;
 const VALUE: u16 = 15;
@@ -26,7 +28,8 @@ const WHOLE: u16 = MARK + SYMBOL + LABEL + 1 + VALUE;
 /// A line of the form.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Row {
-    Group(String),
+    /// The group that begins with that line.
+    Group(usize),
     /// A field or a limit, by its place among those that take the focus.
     Line(usize),
     Reason(String),
@@ -105,7 +108,7 @@ fn rows(app: &App, width: u16) -> Vec<Row> {
     let mut lines = Vec::with_capacity(count + groups.len() + app.problems.len());
     for index in 0..count {
         if groups.contains(&index) {
-            lines.push(Row::Group(group_title(app, index)));
+            lines.push(Row::Group(index));
         }
         lines.push(Row::Line(index));
         lines.extend(reasons(app, index, width).map(Row::Reason));
@@ -132,8 +135,9 @@ fn reasons(app: &App, field: usize, width: u16) -> impl Iterator<Item = String> 
 fn draw_row(app: &App, row: &Row, line: Rect, buffer: &mut Buffer) -> Option<Position> {
     let theme = app.look.theme;
     match row {
-        Row::Group(title) => {
-            buffer.set_stringn(line.x, line.y, text::cut(title, line.width.into()), line.width.into(), theme.title);
+        Row::Group(index) => {
+            let title = text::cut(&group_title(app, *index), line.width.into());
+            buffer.set_stringn(line.x, line.y, title, line.width.into(), theme.title);
             None
         }
         Row::Reason(reason) => {
@@ -156,6 +160,9 @@ fn draw_field(app: &App, index: usize, line: Rect, buffer: &mut Buffer) -> Optio
         (false, true) => theme.faint,
         (false, false) => Style::new(),
     };
+    if is_idle {
+        buffer.set_stringn(line.x, line.y, IDLE, 1, style);
+    }
     draw_mark(app, index, line, buffer);
     let name = Rect { x: line.x + MARK, width: line.width.saturating_sub(MARK), ..line };
     let offset = if matches!(field.kind, Kind::Text) {
