@@ -203,7 +203,8 @@ fn draw_limit(app: &App, index: usize, limit: &Limit, line: Rect, buffer: &mut B
 // How the last valid result stands to the limit, in a word and with its style.
 fn standing(app: &App, limit: &Limit) -> (String, Style) {
     let theme = app.look.theme;
-    let solution = app.answer.as_ref().and_then(|answer| answer.of(answer.active)).filter(|_| !app.is_stale());
+    let is_told = !app.is_stale() && !limit.text.is_empty();
+    let solution = app.answer.as_ref().and_then(|answer| answer.of(answer.active)).filter(|_| is_told);
     let Some(verdict) = solution.map(|solution| verdict(limit, solution)) else { return (String::new(), Style::new()) };
     let style = if verdict.standing.holds() { theme.note } else { theme.problem };
     let part = verdict.part().map_or_else(String::new, |part| format!(" {:.0} %", 100.0 * part));

@@ -9,7 +9,7 @@ use unicode_width::UnicodeWidthStr;
 use super::{chart, results, text};
 use crate::case::fields::{self, Absent, Field, Kind};
 use crate::case::units::System;
-use crate::case::{Acting, FIELDS, Limit, acts};
+use crate::case::{Acting, FIELDS, Limit, acts, materials};
 use crate::report::verdict::verdict;
 use crate::tui::actions::{BINDINGS, Binding, Chord};
 use crate::tui::app::{App, Progress};
@@ -167,7 +167,20 @@ fn about_field(app: &App, index: usize) -> String {
         _ => None,
     };
     let about = about(field, app.look.ascii, app.settings.units);
-    [converted.map(|value| value + "."), idle, Some(about)].into_iter().flatten().collect::<Vec<_>>().join(" ")
+    [converted.map(|value| value + "."), idle, material(app, field), Some(about)]
+        .into_iter()
+        .flatten()
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+// Where the value is from, where it is that of a material.
+fn material(app: &App, field: &Field) -> Option<String> {
+    let is_of_material = matches!(field.name(), "young" | "poisson" | "density");
+    match materials::of_gear(&app.case, field.table())[..] {
+        [material] if is_of_material => Some(format!("{}: {}.", material.name, material.source)),
+        _ => None,
+    }
 }
 
 fn about_limit(app: &App, limit: &Limit) -> String {
