@@ -14,6 +14,7 @@ pub mod pick;
 pub mod prompt;
 pub mod recents;
 pub mod recovery;
+pub mod rows;
 pub mod scale;
 pub mod settings;
 pub mod solver;

@@ -227,9 +227,37 @@ fn a_force_outside_a_formulas_range_is_withheld_with_a_note() {
     let output = run(&[&["solve", TABLE_1, "--only", "impact_force"], &beyond[..]].concat());
     assert_eq!((code(&output), out(&output).as_str()), (3, ""));
     assert!(err(&output).contains("outside the Kuang-Yang fit"), "{}", err(&output));
+}
+
+#[test]
+fn each_limit_has_its_line_whether_or_not_another_can_be_computed() {
     let (_folder, path) = changed("teeth = 20", "teeth = 120");
+    let limits = "[limits]\ncontact_ratio = 1.5\nimpact_force = \"2500 N\"\nnormal_velocity = \"90 m/s\"\n";
+    fs::write(&path, fs::read_to_string(&path).unwrap().replace("[limits]\nimpact_force = \"2500 N\"", limits)).unwrap();
     let output = run(&["check", &path]);
-    assert_eq!((code(&output), out(&output).as_str()), (3, ""));
+    let told = out(&output);
+    let lines: Vec<&str> = told.lines().collect();
+    assert_eq!((code(&output), lines.len()), (3, 3), "{lines:?}");
+    assert!(lines[0].starts_with(&format!("EXCEEDED {path}: contact_ratio 1.")) && lines[0].contains("> 1.5"), "{}", lines[0]);
+    assert!(
+        lines[1].starts_with(&format!("unknown {path}: impact_force cannot be computed: tooth number outside")),
+        "{}",
+        lines[1]
+    );
+    assert!(lines[1].ends_with("(limit 2500 N)"), "{}", lines[1]);
+    assert!(lines[2].starts_with(&format!("ok {path}: normal_velocity ")), "{}", lines[2]);
+    assert_eq!(err(&output).lines().count(), 1, "{}", err(&output));
+    assert!(err(&output).contains("outside the Kuang-Yang fit"), "{}", err(&output));
+}
+
+#[test]
+fn a_refused_case_says_of_each_limit_that_it_cannot_be_computed() {
+    let (_folder, path) = changed("module = \"5 mm\"", "module = \"5 mm\"\ncentre_distance = \"80 mm\"");
+    let output = run(&["check", &path]);
+    assert_eq!(code(&output), 3);
+    let expected = format!("unknown {path}: impact_force cannot be computed: the centre distance jams the mesh");
+    assert!(out(&output).starts_with(&expected), "{}", out(&output));
+    assert!(err(&output).contains(": pair.centre_distance: "), "{}", err(&output));
 }
 
 #[test]

@@ -8,13 +8,14 @@ use ratatui::layout::Size;
 use super::actions::Place;
 use super::pane::{Pane, Panes};
 use super::prompt::Prompt;
+use super::rows;
 use super::settings::Settings;
 use super::solver::{self, Answer, Request};
 use super::tab::Tab;
 use super::theme::Look;
 use super::view::teeth::TeethView;
 use super::view::{self, form, results};
-use crate::case::fields::{Absent, Kind};
+use crate::case::fields::Absent;
 use crate::case::{Case, Document, FIELDS, Problem, fields};
 use crate::model::Stages;
 
@@ -139,7 +140,7 @@ impl App {
         match self.prompts.last() {
             Some(prompt) => prompt.place(),
             None if !self.has_line() => self.panes.focus.place(),
-            None if matches!(FIELDS[self.tab.focus].kind, Kind::Choice(..)) => Place::CHOICE,
+            None if !rows::names(&self.tab.case, self.tab.focus).is_empty() => Place::CHOICE,
             None => Place::TEXT,
         }
     }
@@ -205,9 +206,9 @@ impl App {
             }
             Err(problems) => {
                 self.tab.refusal = None;
-                let focus = self.tab.focus;
-                let place_of = |problem: &Problem| fields::index_of(&problem.field).unwrap_or(focus);
-                self.tab.problems = problems.into_iter().map(|problem| (place_of(&problem), problem)).collect();
+                let (case, focus) = (&self.tab.case, self.tab.focus);
+                let place_of = |problem: &Problem| rows::of_key(case, &problem.field).unwrap_or(focus);
+                self.tab.problems = problems.into_iter().map(|problem| (place_of(&problem), problem.for_form())).collect();
                 None
             }
         }

@@ -1,5 +1,6 @@
 //! The only place where the state changes: no files, no clock, no threads; those are asked for as effects.
 
+mod catalogue;
 mod copy;
 mod cursor;
 mod edit;
@@ -24,7 +25,7 @@ use super::settings::Settings;
 use super::solver::Request;
 use super::view;
 use crate::case::Document;
-use crate::case::fields::{self, Kind};
+use crate::case::fields;
 use crate::model::inputs::Rung;
 
 /// What the state asks of the world.
@@ -161,6 +162,9 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::CycleMarker => options::cycle_marker(app),
         Command::CycleTheme => options::cycle_theme(app),
         Command::ToggleAscii => options::toggle_ascii(app),
+        Command::CycleUnits => options::cycle_units(app),
+        Command::Step(by) => edit::step(app, by),
+        Command::Limit => catalogue::limit(app),
         Command::ToggleMouse => options::toggle_mouse(app),
         other => {
             show(app, other);
@@ -175,6 +179,7 @@ fn show(app: &mut App, command: Command) {
         Command::Help => app.prompts.push(Prompt::Read(Page::new("Help", view::help::lines()))),
         Command::Palette => app.prompts.push(Prompt::Pick(Picker::new(List::Commands))),
         Command::SearchField => app.prompts.push(Prompt::Pick(Picker::new(List::Fields))),
+        Command::Material => catalogue::materials(app),
         Command::Explain => page::explain(app),
         Command::PinBaseline => hold::toggle(app),
         Command::NextTab => tabs::step(app, 1),
@@ -243,11 +248,4 @@ fn toggle_rung(app: &mut App) -> Vec<Effect> {
 
 fn solve(request: Option<Request>) -> Vec<Effect> {
     request.map(|request| Effect::Solve(Box::new(request))).into_iter().collect()
-}
-
-fn options_of(field: usize) -> &'static [&'static str] {
-    match fields::FIELDS[field].kind {
-        Kind::Choice(names, _) => names,
-        Kind::Text | Kind::Number(..) | Kind::Count(..) => &[],
-    }
 }
