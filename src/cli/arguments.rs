@@ -100,9 +100,9 @@ pub struct Trading {
     /// Change a field of the case, such as "operation.speed=3000 rpm"
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
     pub settings: Vec<Setting>,
-    /// Name the cheapest setting whose error is no greater, such as 5% or 0.05
-    #[arg(long, value_name = "ERROR", default_value = "5%", value_parser = part)]
-    pub within: f64,
+    /// Name the cheapest setting whose error is no greater, such as 5% or 0.05; else that of the case's model.within
+    #[arg(long, value_name = "ERROR", value_parser = part)]
+    pub within: Option<f64>,
     /// How to tell it
     #[arg(long, value_enum, default_value_t)]
     pub format: Listing,

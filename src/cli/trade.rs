@@ -12,7 +12,7 @@ pub(super) fn run(options: &Trading, streams: &mut Streams) -> io::Result<Exit> 
         Ok(opened) => opened,
         Err(exit) => return Ok(exit),
     };
-    let question = Question { within: options.within, patience: Patience::STEADY };
+    let question = Question { within: options.within.unwrap_or(opened.inputs.within), patience: Patience::STEADY };
     let bar = Bar::new("settings");
     let found = trade(&opened.inputs, &question, &|| true, &mut |sofar| bar.stands_at(sofar.settings.len(), sofar.planned));
     bar.clear();

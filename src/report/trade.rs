@@ -5,10 +5,11 @@ mod table;
 
 use std::io::{self, Write};
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::json::write_line;
 use super::layout::{WIDTH, flow};
+use crate::case::fields::AUTO;
 use crate::case::visible::visible;
 use crate::model::inputs::Rung;
 use crate::numeric::decimal::significant;
@@ -105,7 +106,8 @@ struct Line<'a> {
 #[derive(Serialize)]
 struct ReferenceLine {
     rung: &'static str,
-    stations: usize,
+    #[serde(serialize_with = "count_or_auto")]
+    stations: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     tolerance: Option<f64>,
     quantities: serde_json::Map<String, serde_json::Value>,
@@ -118,7 +120,11 @@ struct ReferenceLine {
 #[derive(Serialize)]
 struct SettingLine {
     rung: &'static str,
-    stations: usize,
+    /// What the rung `auto` took.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    took: Option<&'static str>,
+    #[serde(serialize_with = "count_or_auto")]
+    stations: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     tolerance: Option<f64>,
     accurate: bool,
@@ -138,6 +144,15 @@ struct SettingLine {
     qualifies: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     refusal: Option<String>,
+}
+
+/// A number, or the word for as many as it takes.
+#[expect(clippy::ref_option, reason = "serde's signature")]
+fn count_or_auto<S: Serializer>(count: &Option<usize>, serializer: S) -> Result<S::Ok, S::Error> {
+    match count {
+        Some(count) => serializer.serialize_u64(*count as u64),
+        None => serializer.serialize_str(AUTO),
+    }
 }
 
 /// Write it as one line of JSON: SI units, seconds, errors relative; what does not exist is absent.
@@ -181,6 +196,7 @@ fn setting_line(trade: &Trade, measured: &Measured) -> SettingLine {
     let figures = measured.found.as_ref().ok();
     SettingLine {
         rung: rung.name(),
+        took: figures.map(|figures| figures.rung).filter(|&took| took != rung).map(Rung::name),
         stations,
         tolerance,
         accurate,
@@ -200,7 +216,7 @@ fn setting_line(trade: &Trade, measured: &Measured) -> SettingLine {
 /// The three errors of a subject, where there are any.
 fn errors(trade: &Trade, measured: &Measured, subject: Subject) -> Option<serde_json::Value> {
     let figures = measured.found.as_ref().ok()?;
-    let model = model_off(trade, measured.setting.rung);
+    let model = model_off(trade, figures.rung);
     let of = |differences: &Differences| differences[subject as usize];
     let parts = [("numerical", of(&figures.numerical)), ("model", of(&model)), ("total", of(&figures.total))];
     let known: serde_json::Map<_, _> =

@@ -9,7 +9,7 @@ use std::hint::black_box;
 
 pub use answer::{Answer, Subject, stages};
 pub use clock::{Patience, Time};
-pub use setting::{STATIONS, Setting, USUAL_STATIONS, USUAL_TOLERANCE};
+pub use setting::{RUNGS, STATIONS, Setting};
 
 use crate::model::inputs::Rung;
 use crate::model::{Inputs, Refusal};
@@ -17,7 +17,7 @@ use crate::model::{Inputs, Refusal};
 /// What a trade is asked.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Question {
-    /// The error that a setting may have, relative to the reference.
+    /// The error that a setting may have, relative to the reference; what the rung `auto` may leave as well.
     pub within: f64,
     /// How long each setting is timed.
     pub patience: Patience,
@@ -83,6 +83,8 @@ pub struct Measured {
 /// Time and errors.
 #[derive(Debug, Clone)]
 pub struct Figures {
+    /// The rung of the answer.
+    pub rung: Rung,
     /// Of a whole solve, as far as the answer needs it.
     pub time: Time,
     /// Evaluations of the forces, in the rung `dynamic`.
@@ -109,6 +111,7 @@ pub fn trade(
     go_on: &dyn Fn() -> bool,
     told: &mut dyn FnMut(&Trade),
 ) -> Result<Trade, Refusal> {
+    let inputs = &Inputs { within: question.within, ..inputs.clone() };
     let settings = settings(inputs);
     let mut trade = Trade::begin(inputs, question, settings.len(), go_on)?;
     told(&trade);
@@ -139,7 +142,7 @@ impl Trade {
     fn begin(inputs: &Inputs, question: &Question, planned: usize, go_on: &dyn Fn() -> bool) -> Result<Trade, Refusal> {
         let reference = stopped(Reference::of(inputs, go_on))?;
         let mut models = Vec::new();
-        for rung in Rung::ALL {
+        for rung in RUNGS {
             let best = match &reference {
                 Ok(reference) if rung == reference.setting.rung => Ok(reference.answer.clone()),
                 _ => stopped(answer_of(inputs, Setting::best(rung), go_on))?,
@@ -178,7 +181,7 @@ impl Trade {
         let best = self.model(answer.rung).and_then(|model| model.best.as_ref().ok());
         let numerical = best.map_or(none, |best| differences(answer, best));
         let total = self.reference.as_ref().map_or(none, |reference| differences(answer, &reference.answer));
-        Figures { time, evaluations: answer.evaluations, numerical, total }
+        Figures { rung: answer.rung, time, evaluations: answer.evaluations, numerical, total }
     }
 
     /// Mark who qualifies, who stands on the front, and who is the cheapest.

@@ -75,6 +75,7 @@ impl Subject {
             Rung::Paper | Rung::Exact => closed_form,
             Rung::Static => shared,
             Rung::Dynamic => with_inertia,
+            Rung::Auto => return None,
         };
         Quantity::find(key)
     }
@@ -89,7 +90,7 @@ impl Subject {
 /// What a solve answers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Answer {
-    /// By which rung.
+    /// By which rung, that which was taken where the choice was the program's.
     pub rung: Rung,
     /// Whether the tooth strikes.
     pub outcome: Outcome,
@@ -108,6 +109,7 @@ pub fn stages(rung: Rung) -> Stages {
         Rung::Paper | Rung::Exact => Stages::CLOSED_FORM.with(Stage::Stations),
         Rung::Static => Stages::of(Stage::Static),
         Rung::Dynamic => Stages::of(Stage::Dynamic),
+        Rung::Auto => Stages::CLOSED_FORM.and(Stages::STATIONS),
     }
 }
 
@@ -194,7 +196,7 @@ impl Answer {
 /// The force from the first contact to E.
 fn curve(solution: &Solution) -> Vec<(f64, f64)> {
     let shared = match solution.rung {
-        Rung::Paper | Rung::Exact => {
+        Rung::Paper | Rung::Exact | Rung::Auto => {
             return solution.stations.iter().map(|station| (station.roll_angle_driver, station.impact_force)).collect();
         }
         Rung::Static => solution.static_load.as_ref().map(|load| &load.stations),
@@ -219,7 +221,7 @@ mod tests {
     use crate::case::Case;
 
     fn answer(rung: Rung, stations: usize) -> Answer {
-        let inputs = Inputs { rung, stations, ..Case::table_1().inputs().unwrap() };
+        let inputs = Inputs { rung, stations: Some(stations), ..Case::table_1().inputs().unwrap() };
         Answer::of(&solve(&inputs, &|| true).unwrap())
     }
 
