@@ -7,6 +7,7 @@ pub mod json;
 mod layout;
 pub mod stations;
 pub mod text;
+pub mod trade;
 pub mod verdict;
 
 use crate::case::fields::index_of;
