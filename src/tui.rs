@@ -115,6 +115,9 @@ fn session(case: Option<PathBuf>, events: Events, chest: &Arc<Chest>) -> io::Res
     }
     screen.draw(&app)?;
     let solver = Solver::start(events.teller())?;
+    if let Some(request) = app.unanswered() {
+        solver.ask(request);
+    }
     let keeper = Keeper::new(store::state::folder().as_deref(), Arc::clone(chest));
     Workbench { app, screen, events, solver, keeper, alarm: None }.stay()
 }

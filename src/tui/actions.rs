@@ -111,6 +111,7 @@ pub enum Command {
     TeethCentre,
     TeethGap,
     CycleMarker,
+    ShowCost,
     CycleTheme,
     ToggleAscii,
     CycleUnits,

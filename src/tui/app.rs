@@ -40,6 +40,8 @@ pub struct App {
     pub baseline: Option<Baseline>,
     /// Whether the results are to be pinned as soon as all of them are there.
     pub is_pinning: bool,
+    /// Whether the results tell what they took.
+    pub shows_cost: bool,
     /// The driver's roll angle before E that chart and teeth point at, in rad; negative after E.
     pub cursor: Option<f64>,
     /// What of the teeth is in sight.
@@ -111,6 +113,7 @@ impl App {
             is_editing: true,
             baseline: None,
             is_pinning: false,
+            shows_cost: false,
             cursor: None,
             teeth: TeethView::default(),
             is_playing: false,
@@ -123,7 +126,7 @@ impl App {
         };
         app.follow();
         if let Some(request) = app.request() {
-            app.take(solver::answer(&request));
+            app.take(solver::first_answer(&request));
         }
         app
     }
@@ -202,7 +205,7 @@ impl App {
                 let tab = &mut self.tab;
                 (tab.serial, tab.asked, tab.is_settled) = (self.last_serial, stages, false);
                 tab.problems.clear();
-                Some(Request { serial: tab.serial, inputs, stages })
+                Some(Request { serial: tab.serial, case: tab.case.clone(), inputs, stages })
             }
             Err(problems) => {
                 self.tab.refusal = None;
@@ -212,6 +215,12 @@ impl App {
                 None
             }
         }
+    }
+
+    /// What the worker shall solve because the first picture could not wait for it.
+    pub(super) fn unanswered(&mut self) -> Option<Request> {
+        let waits = self.tab.answer.as_ref().is_some_and(|answer| answer.pending.is_some());
+        if waits { self.request() } else { None }
     }
 
     /// What the worker shall solve anew because something came in sight that was not asked for.

@@ -144,7 +144,7 @@ impl Tab {
     /// Show an answer to the present request.
     pub(super) fn take(&mut self, answer: Answer) {
         self.has_failed = false;
-        self.is_settled = true;
+        self.is_settled = answer.pending.is_none();
         self.refusal = answer.refusal().copied();
         if self.refusal.is_none() {
             self.scale = self.scale.fitted(&answer);

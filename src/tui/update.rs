@@ -160,6 +160,10 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
             cursor::stop(app)
         }
         Command::CycleMarker => options::cycle_marker(app),
+        Command::ShowCost => {
+            app.shows_cost = !app.shows_cost;
+            Vec::new()
+        }
         Command::CycleTheme => options::cycle_theme(app),
         Command::ToggleAscii => options::toggle_ascii(app),
         Command::CycleUnits => options::cycle_units(app),

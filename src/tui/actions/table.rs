@@ -106,6 +106,7 @@ pub static BINDINGS: &[Binding] = &[
     told(Place::WORK, &[alt('9')], Do::Tab(8), ""),
     listed(Place::WORK, &[ctrl('y'), ctrl('r')], Do::Redo, "redo", "Redo what was undone."),
     listed(Place::WORK, &[alt('b')], Do::PinBaseline, "baseline", "Pin the results as the baseline to hold others against, or unpin them."),
+    listed(Place::OUTSIDE, &[letter('%')], Do::ShowCost, "cost", "Tell beside the results which stages the last solve ran, and in how many microseconds."),
     listed(Place::WORK, &[function(8), alt('m')], Do::CycleMarker, "marker", "Draw the chart in Braille, blocks or dots."),
     listed(Place::WORK, &[], Do::CycleTheme, "theme", "Change the colours: quiet, contrast, mono."),
     listed(Place::WORK, &[], Do::ToggleAscii, "ascii", "Draw with ASCII alone, or with the whole of Unicode."),

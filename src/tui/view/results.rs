@@ -127,7 +127,12 @@ fn title(app: &App, parts: &Parts) -> String {
     let last = (app.results_top + parts.rows).min(count);
     let range = if count > parts.rows { format!(", {}-{last} of {count}", app.results_top + 1) } else { String::new() };
     let against = app.baseline.as_ref().map_or_else(String::new, |baseline| format!(", against {}", baseline.name));
-    format!("{name}{range}{against}")
+    let answer = app.answer.as_ref();
+    let pending = answer.and_then(|answer| answer.pending).map_or_else(String::new, |rung| format!(", {} to come", rung.name()));
+    let cost = answer
+        .filter(|_| app.shows_cost)
+        .map_or_else(String::new, |answer| format!(", {} stages in {} us", answer.cost.stages, answer.cost.micros));
+    format!("{name}{range}{against}{pending}{cost}")
 }
 
 // With room every gauge and note is told in full, else each in a line, and the notes in one.
