@@ -12,6 +12,7 @@ pub mod zoom;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+use ratatui::style::Style;
 
 use super::titled;
 use crate::model::{Inputs, Solution};
@@ -21,12 +22,17 @@ use crate::tui::pane::Pane;
 pub use picture::Picture;
 pub use zoom::{Centre, Exaggeration, TeethView};
 
+const NOTHING: &str = "  No valid results of this rung.";
+
 /// Draw the pane.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let stale = if app.is_stale() { "LAST VALID, " } else { "" };
     let title = format!("{stale}Teeth, true to scale, around {}", app.teeth.centre.name());
     let inner = titled(app, Pane::Teeth, &title, area, buffer);
-    let Some((inputs, solution)) = solved(app) else { return };
+    let Some((inputs, solution)) = solved(app) else {
+        buffer.set_stringn(inner.x, inner.y, NOTHING, inner.width.into(), Style::new());
+        return;
+    };
     let picture = Picture {
         inputs,
         solution,
