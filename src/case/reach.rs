@@ -48,6 +48,24 @@ pub fn first_stage(field: usize, inputs: &Inputs) -> Option<Stage> {
     stages_of(field, inputs).iter().next()
 }
 
+/// Whether any stage reads the field, itself or through others: whether [`stages_of`] names one, at a fraction of its cost.
+#[must_use]
+pub fn is_read(field: usize, inputs: &Inputs) -> bool {
+    let key = FIELDS[field].key;
+    let mut reached: Vec<&Row> = active(inputs).filter(|row| row.reads_field(key)).collect();
+    let mut next = 0;
+    while let Some(&row) = reached.get(next) {
+        if row.stage.is_some() {
+            return true;
+        }
+        let reads = |other: &&Row| other.reads.contains(&row.value) && reached.iter().all(|known| !std::ptr::eq(*known, *other));
+        let fresh: Vec<&Row> = active(inputs).filter(reads).collect();
+        reached.extend(fresh);
+        next += 1;
+    }
+    false
+}
+
 /// The rows that count in a case with these inputs.
 fn active(inputs: &Inputs) -> impl Iterator<Item = &'static Row> {
     ROWS.iter().filter(move |row| (row.when)(inputs))

@@ -8,7 +8,7 @@ use unicode_width::UnicodeWidthStr;
 use super::{plan, text, titled};
 use crate::case::fields::{GROUPS, Kind};
 use crate::case::{Acting, FIELDS, Limit, acts, materials};
-use crate::model::Quantity;
+use crate::model::{Inputs, Quantity};
 use crate::report::verdict::verdict;
 use crate::tui::app::{self, App};
 use crate::tui::clean::{self, symbol};
@@ -42,10 +42,11 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     if inner.is_empty() {
         return None;
     }
+    let inputs = app.case.inputs_so_far();
     let mut cursor = None;
     for (row, y) in rows.iter().skip(app.form_top).zip(inner.top()..inner.bottom()) {
         let line = Rect { y, height: 1, width: inner.width - 1, ..inner };
-        cursor = draw_row(app, row, line, buffer).or(cursor);
+        cursor = draw_row(app, &inputs, row, line, buffer).or(cursor);
     }
     scroll_bar(app.form_top, rows.len(), Rect { x: inner.right() - 1, width: 1, ..inner }, buffer);
     cursor
@@ -132,7 +133,7 @@ fn reasons(app: &App, field: usize, width: u16) -> impl Iterator<Item = String> 
     })
 }
 
-fn draw_row(app: &App, row: &Row, line: Rect, buffer: &mut Buffer) -> Option<Position> {
+fn draw_row(app: &App, inputs: &Inputs, row: &Row, line: Rect, buffer: &mut Buffer) -> Option<Position> {
     let theme = app.look.theme;
     match row {
         Row::Group(index) => {
@@ -145,16 +146,16 @@ fn draw_row(app: &App, row: &Row, line: Rect, buffer: &mut Buffer) -> Option<Pos
             None
         }
         Row::Line(index) => match rows::row(&app.case, *index) {
-            rows::Row::Field(field) => draw_field(app, field, line, buffer),
+            rows::Row::Field(field) => draw_field(app, inputs, field, line, buffer),
             rows::Row::Limit(limit) => draw_limit(app, *index, limit, line, buffer),
         },
     }
 }
 
-fn draw_field(app: &App, index: usize, line: Rect, buffer: &mut Buffer) -> Option<Position> {
+fn draw_field(app: &App, inputs: &Inputs, index: usize, line: Rect, buffer: &mut Buffer) -> Option<Position> {
     let field = &FIELDS[index];
     let theme = app.look.theme;
-    let is_idle = matches!(acts(index, &app.case), Acting::No(_));
+    let is_idle = matches!(acts(index, inputs), Acting::No(_));
     let style = match (app.focus == index, is_idle) {
         (true, _) => theme.focus,
         (false, true) => theme.faint,

@@ -168,7 +168,7 @@ fn focused(app: &App) -> String {
 fn about_field(app: &App, index: usize) -> String {
     let field = &FIELDS[index];
     let converted = app.case.text(index).and_then(|text| field.converted(text, app.settings.units));
-    let idle = match acts(index, &app.case) {
+    let idle = match acts(index, &app.case.inputs_so_far()) {
         Acting::No(why) | Acting::Beside(why) if !matches!(field.kind, Kind::Text) => Some(format!("Does not act: {why}.")),
         _ => None,
     };
