@@ -17,7 +17,8 @@ mod worth;
 
 use super::{Shown, shown, value};
 use crate::case::Case;
-use crate::model::{Inputs, Outcome, Quantity, Solution};
+use crate::model::inputs::Rung;
+use crate::model::{Inputs, Outcome, Quantity, Solution, Stage, auto};
 
 pub use effects::Effect;
 pub use json::write as write_json;
@@ -64,7 +65,9 @@ pub struct Page {
 /// explanation is written for.
 #[must_use]
 pub fn explain(quantity: &'static Quantity, case: &Case, inputs: &Inputs, solution: &Solution) -> Option<Page> {
-    let known = Known { case, inputs, solution };
+    // What the rung `auto` took is explained.
+    let taken = if inputs.rung == Rung::Auto { auto::taken(inputs, solution.rung) } else { inputs.clone() };
+    let known = Known { case, inputs: &taken, solution };
     let about = table::of(quantity)?;
     let value = value(quantity, solution);
     let (work, leaves) = work::of(quantity, about, &known);
@@ -73,7 +76,7 @@ pub fn explain(quantity: &'static Quantity, case: &Case, inputs: &Inputs, soluti
         rung: solution.rung.name(),
         value,
         shown: value.map(|value| shown(quantity, value)),
-        missing: value.is_none().then(|| missing(&known)),
+        missing: value.is_none().then(|| missing(quantity, &known)),
         says: about.says,
         work,
         leaves,
@@ -87,14 +90,34 @@ pub fn explain(quantity: &'static Quantity, case: &Case, inputs: &Inputs, soluti
 }
 
 /// Why a quantity of a solved case has no value.
-fn missing(known: &Known) -> String {
+fn missing(quantity: &Quantity, known: &Known) -> String {
     let solution = known.solution;
-    if solution.outcome == Outcome::NoCornerContact {
+    let rungs = Rung::ALL.into_iter().filter(|rung| rung.stages().has(quantity.stage)).map(Rung::name);
+    if !solution.rung.stages().has(quantity.stage) {
+        return format!(
+            "No value: the rung is {}, and this is of {}",
+            solution.rung.name(),
+            rungs.collect::<Vec<_>>().join(", ")
+        );
+    }
+    if solution.outcome == Outcome::NoCornerContact && !solution.rung.shares_load() {
         let total = numbers::tidy(solution.deviation.total * 1e6, 5);
         return format!("No value: no corner contact, the total deviation of {total} um does not bring the tooth in early");
     }
-    match solution.withheld {
-        Some(refusal) => format!("No value: {refusal}; {}", refusal.mend()),
-        None => "No value: the end of the impact D' does not exist, since the triangle of Eq. 34 does not close".to_owned(),
+    match (solution.withheld, quantity.stage) {
+        (_, Stage::Static | Stage::Dynamic) if known.inputs.friction_coefficient.is_none() && is_of_friction(quantity) => {
+            "No value: the case gives no friction coefficient, operation.friction_coefficient".to_owned()
+        }
+        (_, Stage::Static | Stage::Dynamic) => "No value: the tooth does not come to it".to_owned(),
+        (Some(refusal), _) => format!("No value: {refusal}; {}", refusal.mend()),
+        (None, _) if solution.outcome == Outcome::NoCornerContact || solution.position.is_none() => {
+            "No value: no corner contact".to_owned()
+        }
+        (None, _) => "No value: the end of the impact D' does not exist, since the triangle of Eq. 34 does not close".to_owned(),
     }
+}
+
+/// Whether there is nothing of it without friction.
+fn is_of_friction(quantity: &Quantity) -> bool {
+    matches!(quantity.key, "pitch_contact_jump" | "dynamic_friction_work")
 }

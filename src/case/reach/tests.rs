@@ -22,7 +22,7 @@ struct Solved {
 type Change = fn(&mut Inputs);
 
 /// What turns a case into one that reads other fields.
-const VARIANTS: [(&str, Change); 14] = [
+const VARIANTS: [(&str, Change); 16] = [
     ("as it is", |_| {}),
     ("paper", |inputs| inputs.rung = Rung::Paper),
     ("static", |inputs| inputs.rung = Rung::Static),
@@ -34,6 +34,8 @@ const VARIANTS: [(&str, Change); 14] = [
         (inputs.warmup_cycles, inputs.tolerance) = (2, 1e-5);
     }),
     ("deflection computed", |inputs| inputs.deflection = None),
+    ("stations as needed", |inputs| inputs.stations = None),
+    ("auto", |inputs| inputs.rung = Rung::Auto),
     ("beam, deflection given", |inputs| {
         inputs.tooth_compliance = Some(ToothCompliance::Beam);
         inputs.deflection = Some(21e-6);
@@ -205,10 +207,11 @@ fn the_table_says_what_a_change_changes_and_no_less() {
     assert!(idle.is_empty(), "said to act, and never did: {idle:#?}");
 }
 
-/// What the table lists in some case and no change in any case has shown.
+/// What the table lists in some case and no change in any case has shown. Before the rung is chosen it lists what any rung
+/// would read.
 fn idle(acting: &BTreeSet<(&str, &str)>) -> BTreeSet<String> {
     let mut idle = BTreeSet::new();
-    for solved in solved_cases() {
+    for solved in solved_cases().into_iter().filter(|solved| solved.inputs.rung != Rung::Auto) {
         // What is yes or no seldom changes.
         for quantity in QUANTITIES.iter().filter(|quantity| !quantity.is_flag()) {
             let listed = fields_of(quantity, &solved.inputs).into_iter().map(|field| FIELDS[field].key);

@@ -1,7 +1,7 @@
 //! The fields that a quantity depends on, and what a small step of each does to it in this case.
 
 use super::known::{Known, factor};
-use super::worth::{ROUNDING, value_of};
+use super::worth::{noise, value_of};
 use crate::case::FIELDS;
 use crate::case::fields::{Absent, Kind};
 use crate::case::reach::fields_of;
@@ -10,7 +10,7 @@ use crate::case::visible::visible;
 use crate::model::compliance::model_of;
 use crate::model::{Inputs, Quantity};
 use crate::numeric::decimal::significant;
-use crate::report::value;
+use crate::report::{shown, value};
 
 /// A field and what a small step of it does.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -44,7 +44,8 @@ fn effect(quantity: &Quantity, field: usize, known: &Known, held: &Inputs, own: 
     }
     let stepped = known.case.value(field).and_then(|now| stepped(field, now, held));
     let (step, inputs) = stepped.unzip();
-    let change = own.zip(inputs).map(|(own, inputs)| change(quantity, own, value_of(quantity, &inputs)));
+    let change =
+        own.zip(inputs).map(|(own, inputs)| change(quantity, own, value_of(quantity, &inputs), noise(quantity, known.inputs)));
     let (step, change) = (step.unwrap_or_default(), change.unwrap_or_default());
     Some(Effect { key: known_field.key, symbol: known_field.symbol, text, step, change })
 }
@@ -73,10 +74,13 @@ fn stepped(field: usize, now: f64, held: &Inputs) -> Option<(String, Inputs)> {
 }
 
 /// A change of the quantity's value, as a share of it or else in its unit.
-fn change(quantity: &Quantity, own: f64, found: Option<f64>) -> String {
+fn change(quantity: &Quantity, own: f64, found: Option<f64>, noise: f64) -> String {
     let Some(found) = found else { return "no value".to_owned() };
     let change = found - own;
-    if change.abs() <= ROUNDING * own.abs() {
+    if quantity.is_flag() {
+        return if change == 0.0 { String::new() } else { format!("becomes {}", shown(quantity, found)) };
+    }
+    if change.abs() <= noise * own.abs() {
         return String::new();
     }
     let sign = if change > 0.0 { "+" } else { "-" };

@@ -9,7 +9,7 @@ use crate::model::{Inputs, QUANTITIES, Quantity, Solution};
 use crate::report::value;
 
 /// Units in which a step is told and no field or quantity is, and what one of each is in SI.
-pub const STEP_UNITS: [(&str, f64); 2] = [("kg m2", 1.0), ("N/(um mm)", 1e9)];
+pub const STEP_UNITS: [(&str, f64); 5] = [("kg m2", 1.0), ("N/(um mm)", 1e9), ("N/m", 1.0), ("Hz", 1.0), ("N s/m", 1.0)];
 
 /// A solved case.
 #[derive(Debug, Clone, Copy)]
@@ -62,6 +62,8 @@ pub(super) enum Formula {
     Solved { equation: &'static str, left: &'static str, right: &'static str, unit: &'static str },
     /// In a way that these words tell.
     Words(&'static str),
+    /// In a way that these words tell, with symbols to be explained.
+    Found { words: &'static str, with: &'static [&'static str] },
 }
 
 impl Formula {
@@ -86,7 +88,7 @@ impl Formula {
 impl Known<'_> {
     /// What a symbol stands for.
     pub(super) fn source(&self, symbol: &str) -> Option<Source> {
-        let quantity = QUANTITIES.iter().find(|quantity| quantity.symbol == symbol).map(Source::Quantity);
+        let quantity = QUANTITIES.iter().find(|quantity| quantity.symbol == symbol && !quantity.is_flag()).map(Source::Quantity);
         let step = || steps().find(|step| step.symbol == symbol && self.has(step)).map(Source::Step);
         let field = || FIELDS.iter().position(|field| field.symbol == symbol).map(Source::Field);
         quantity.or_else(step).or_else(field)

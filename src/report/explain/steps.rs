@@ -3,13 +3,14 @@
 pub(super) mod contact;
 mod friction;
 mod impact;
+mod load;
 mod pair;
 
 use super::known::Step;
 
 /// Every step, in the order the data flows.
 pub(super) fn steps() -> impl Iterator<Item = &'static Step> {
-    [pair::STEPS, contact::STEPS, impact::STEPS, friction::STEPS].into_iter().flatten()
+    [pair::STEPS, contact::STEPS, impact::STEPS, friction::STEPS, load::STEPS].into_iter().flatten()
 }
 
 /// A step whose value the model has.

@@ -4,6 +4,7 @@ mod deviation;
 mod friction;
 mod geometry;
 mod impact;
+mod load;
 mod position;
 
 use super::known::Formula;
@@ -31,7 +32,7 @@ pub(super) struct Explanation {
 
 /// Every explanation.
 pub(super) fn explanations() -> impl Iterator<Item = &'static Explanation> {
-    [geometry::TABLE, deviation::TABLE, position::TABLE, impact::TABLE, friction::TABLE].into_iter().flatten()
+    [geometry::TABLE, deviation::TABLE, position::TABLE, impact::TABLE, friction::TABLE, load::TABLE].into_iter().flatten()
 }
 
 /// The explanation of a quantity.

@@ -2,6 +2,7 @@
 
 pub(super) mod friction;
 pub(super) mod impact;
+pub(super) mod load;
 pub(super) mod pair;
 pub(super) mod position;
 pub(super) mod stiffness;

@@ -12,8 +12,8 @@ use crate::report::{Shown, shown, value};
 /// Significant digits of a step.
 const STEP_DIGITS: usize = 5;
 
-/// Two sides of an equation that are solved for meet at least so closely.
-const MET: f64 = 1e-12;
+/// How closely the two sides of a solved equation meet is told in these steps.
+const MET: [f64; 3] = [1e-12, 1e-9, 1e-6];
 
 /// A value and the way to it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -100,7 +100,8 @@ impl Target {
     fn of(quantity: &'static Quantity, known: &Known) -> Target {
         let value = value(quantity, known.solution);
         let shown = value.map(|value| shown(quantity, value));
-        Target { symbol: quantity.symbol, meaning: "", value, unit: quantity.shown, digits: quantity.digits, shown }
+        let symbol = if quantity.symbol.is_empty() { quantity.key } else { quantity.symbol };
+        Target { symbol, meaning: "", value, unit: quantity.shown, digits: quantity.digits, shown }
     }
 
     fn step(step: &'static Step, known: &Known) -> Target {
@@ -134,7 +135,7 @@ fn worked(target: &Target, formula: Formula, known: &Known) -> Vec<Work> {
             let text = FIELDS.iter().position(|field| field.key == key).and_then(|field| known.case.effective(field));
             vec![target.work(How::Told, format!("given by the case, {key} = {}", text.unwrap_or_default()), None)]
         }
-        Formula::Words(words) => vec![target.work(How::Told, words.to_owned(), None)],
+        Formula::Words(words) | Formula::Found { words, .. } => vec![target.work(How::Told, words.to_owned(), None)],
         Formula::Solved { equation, left, right, unit } => {
             let mut root = target.work(How::Solves, equation.to_owned(), None);
             root.residual = met(left, right, known);
@@ -162,7 +163,8 @@ fn side(name: &'static str, text: &'static str, unit: &'static str, known: &Know
 fn met(left: &str, right: &str, known: &Known) -> Option<String> {
     let [left, right] = [left, right].map(|side| known.evaluated(&Tree::read(side)?));
     let apart = (left? - right?).abs() / right?.abs();
-    let within = if apart <= MET { format!("{MET:e}") } else { significant(apart, 2) };
+    let step = MET.into_iter().find(|&met| apart <= met);
+    let within = step.map_or_else(|| significant(apart, 2), |met| format!("{met:e}"));
     Some(format!("both sides meet within {within} of either"))
 }
 
@@ -170,6 +172,7 @@ fn met(left: &str, right: &str, known: &Known) -> Option<String> {
 fn symbols(formula: Formula, known: &Known) -> Vec<String> {
     let texts = match formula.resolved(known) {
         Formula::Solved { left, right, .. } => vec![left.to_owned(), right.to_owned()],
+        Formula::Found { with, .. } => return with.iter().map(|&symbol| symbol.to_owned()).collect(),
         other => other.explicit(known).into_iter().collect(),
     };
     let trees = texts.iter().filter_map(|text| Tree::read(text));

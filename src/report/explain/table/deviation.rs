@@ -14,8 +14,8 @@ pub(super) static TABLE: &[Explanation] = &[
             against it.",
         formula: By(|k| match k.solution.rung {
             Rung::Paper => Text("(2 f_pb + e_m - j_bn)/√2"),
-            Rung::Exact | Rung::Auto => Text("(2 f_pb - j_bn)/√2 + e_m"),
-            Rung::Static | Rung::Dynamic => Text("(2 f_pb - j_bn)/√2"),
+            rung if rung.shares_load() => Text("(2 f_pb - j_bn)/√2"),
+            _ => Text("(2 f_pb - j_bn)/√2 + e_m"),
         }),
         source: "Zhou & Chen 2014, Eqs. 1 and 2.",
         mended: &["Eq. 1"],
@@ -26,7 +26,9 @@ pub(super) static TABLE: &[Explanation] = &[
     Explanation {
         key: "combined_deflection",
         says: "How far the pairs that carry the load give way along the line of action while the incoming pair stands at E.",
-        formula: By(|k| if k.inputs.deflection.is_some() { Given("model.deflection") } else { Made(shared) }),
+        formula: By(|k| {
+            if k.inputs.deflection.is_some() && !k.inputs.rung.shares_load() { Given("model.deflection") } else { Made(shared) }
+        }),
         source: "Zhou & Chen 2014, Eqs. 3 and 4, with the compliances of Eqs. 54-56 in place of the curve in its Fig. 3; \
             Table 1 takes 24.7 um from its reference 20.",
         mended: &["Eq. 55", "Eq. 56"],
@@ -38,7 +40,7 @@ pub(super) static TABLE: &[Explanation] = &[
         key: "total_deviation",
         says: "What brings the tooth in early, in all. Above 0 the tip strikes before E; at 0 or below it comes in on time, and \
             there is no corner contact.",
-        formula: Text("Δf + δ"),
+        formula: By(|k| Text(if k.inputs.rung.shares_load() { "Δf + e_m + δ" } else { "Δf + δ" })),
         source: "Zhou & Chen 2014, Eq. 5.",
         mended: &["Eq. 1"],
         assumes: "Deviations and deflection add up along the line of action.",
