@@ -1,4 +1,5 @@
-//! Functions of one variable as pieces of Chebyshev series, cheap to evaluate and as exact as the digits allow.
+//! Functions of one variable as polynomials on pieces, found as Chebyshev series, cheap to evaluate and as exact as the
+//! digits allow.
 
 use std::array::from_fn;
 use std::f64::consts::PI;
@@ -11,7 +12,7 @@ const TAIL: usize = 3;
 /// A piece is halved no further: a function that is still not smooth there has a branch point.
 const MOST_HALVINGS: u32 = 30;
 
-/// `N` functions on one interval, each a Chebyshev series on every piece of it.
+/// `N` functions on one interval, each a polynomial on every piece of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series<const N: usize> {
     pieces: Vec<Piece<N>>,
@@ -21,11 +22,12 @@ pub struct Series<const N: usize> {
 struct Piece<const N: usize> {
     from: f64,
     to: f64,
-    /// Those of all functions side by side, so that several are summed at once.
-    terms: Terms<N>,
+    /// Coefficients of the powers of the place on the piece from −1 to 1. The terms of a series that has settled fall so
+    /// fast that the powers keep its digits.
+    powers: Terms<N>,
 }
 
-/// The terms of each order, of all functions.
+/// What belongs to each order, of all functions side by side, so that several are summed at once.
 type Terms<const N: usize> = [[f64; N]; TERMS];
 
 /// cos(k π/(2 TERMS)) over a whole turn.
@@ -54,13 +56,13 @@ impl<const N: usize> Series<N> {
     /// The values of the first `M` functions at `x`; outside the interval its end pieces go on.
     #[must_use]
     pub fn at<const M: usize>(&self, x: f64) -> [f64; M] {
-        self.piece(x).map_or([f64::NAN; M], |piece| values(&piece.terms, 0, piece.inner(x)))
+        self.piece(x).map_or([f64::NAN; M], |piece| values(&piece.powers, 0, piece.inner(x)))
     }
 
     /// The value of one function at `x`.
     #[must_use]
     pub fn one(&self, function: usize, x: f64) -> f64 {
-        let [value] = self.piece(x).map_or([f64::NAN], |piece| values(&piece.terms, function, piece.inner(x)));
+        let [value] = self.piece(x).map_or([f64::NAN], |piece| values(&piece.powers, function, piece.inner(x)));
         value
     }
 
@@ -69,14 +71,13 @@ impl<const N: usize> Series<N> {
     pub fn with_slopes<const M: usize>(&self, first: usize, x: f64) -> [(f64, f64); M] {
         let Some(piece) = self.piece(x) else { return [(f64::NAN, f64::NAN); M] };
         let (t, scale) = (piece.inner(x), 2.0 / (piece.to - piece.from));
-        let (values, slopes): ([f64; M], [f64; M]) = (values(&piece.terms, first, t), slopes(&piece.terms, first, t));
-        from_fn(|function| (values[function], slopes[function] * scale))
+        values_and_slopes::<N, M>(&piece.powers, first, t).map(|(value, slope)| (value, slope * scale))
     }
 
     /// The integral of one function over the whole interval.
     #[must_use]
     pub fn integral(&self, function: usize) -> f64 {
-        self.pieces.iter().map(|piece| 0.5 * (piece.to - piece.from) * integral(&piece.terms, function)).sum()
+        self.pieces.iter().map(|piece| 0.5 * (piece.to - piece.from) * integral(&piece.powers, function)).sum()
     }
 
     fn piece(&self, x: f64) -> Option<&Piece<N>> {
@@ -106,7 +107,7 @@ fn halve<const N: usize, E>(
     let terms = interpolate(from, to, f)?;
     let middle = f64::midpoint(from, to);
     if halvings == 0 || has_settled(&terms, &rest(from, to)) {
-        pieces.push(Piece { from, to, terms });
+        pieces.push(Piece { from, to, powers: powers(&terms) });
         return Ok(());
     }
     halve(from, middle, rest, halvings - 1, f, pieces)?;
@@ -138,32 +139,52 @@ fn has_settled<const N: usize>(terms: &Terms<N>, rest: &[f64; N]) -> bool {
     tail.iter().flat_map(|terms| terms.iter().zip(rest)).all(|(term, rest)| !term.is_finite() || term.abs() <= *rest)
 }
 
-/// Σ c_n T_n(t) of `M` functions, from `first` on, by Clenshaw's recurrence.
-#[inline]
-fn values<const N: usize, const M: usize>(terms: &Terms<N>, first: usize, t: f64) -> [f64; M] {
-    let (mut one, mut two) = ([0.0; M], [0.0; M]);
-    for terms in terms[1..].iter().rev() {
-        let next = from_fn(|function| terms[first + function] + 2.0 * t * one[function] - two[function]);
-        (one, two) = (next, one);
+/// The coefficients of the powers: Σ c_n T_n(t) = Σ a_k t^k.
+fn powers<const N: usize>(terms: &Terms<N>) -> Terms<N> {
+    let mut powers = [[0.0; N]; TERMS];
+    let (mut before, mut polynomial) = ([0.0; TERMS], [0.0; TERMS]);
+    polynomial[0] = 1.0;
+    for (order, terms) in terms.iter().enumerate() {
+        for (sums, coefficient) in powers.iter_mut().zip(polynomial) {
+            sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += coefficient * term);
+        }
+        // T_1 = t, T_(n+1) = 2 t T_n − T_(n−1).
+        let scale = if order == 0 { 1.0 } else { 2.0 };
+        let next = from_fn(|power: usize| power.checked_sub(1).map_or(0.0, |lower| scale * polynomial[lower]) - before[power]);
+        (before, polynomial) = (polynomial, next);
     }
-    from_fn(|function| terms[0][first + function] + t * one[function] - two[function])
+    powers
 }
 
-/// Σ n c_n U_(n−1)(t), the derivatives of the series, by the same recurrence.
+/// Σ a_k t^k of `M` functions, from `first` on, by Estrin's scheme: pairs, pairs of pairs and so on, which do not wait for
+/// each other.
 #[inline]
-fn slopes<const N: usize, const M: usize>(terms: &Terms<N>, first: usize, t: f64) -> [f64; M] {
-    let (mut one, mut two) = ([0.0; M], [0.0; M]);
-    for (order, terms) in terms.iter().enumerate().skip(1).rev() {
-        let next = from_fn(|function| order as f64 * terms[first + function] + 2.0 * t * one[function] - two[function]);
-        (one, two) = (next, one);
-    }
-    one
+fn values<const N: usize, const M: usize>(powers: &Terms<N>, first: usize, t: f64) -> [f64; M] {
+    let (square, fourth) = (t * t, (t * t) * (t * t));
+    let pair = |at: usize, function: usize| powers[at][function] + powers[at + 1][function] * t;
+    let four = |at: usize, function: usize| pair(at, function) + pair(at + 2, function) * square;
+    let eight = |at: usize, function: usize| four(at, function) + four(at + 4, function) * fourth;
+    from_fn(|function| eight(0, first + function) + eight(8, first + function) * (fourth * fourth))
 }
 
-/// ∫ of the series of a function from −1 to 1.
-fn integral<const N: usize>(terms: &Terms<N>, function: usize) -> f64 {
-    let even = terms.iter().enumerate().step_by(2);
-    even.map(|(order, terms)| 2.0 * terms[function] / (1.0 - (order * order) as f64)).sum()
+/// The same with Σ k a_k t^(k−1), which follows from the scheme by the rule for products.
+#[inline]
+fn values_and_slopes<const N: usize, const M: usize>(powers: &Terms<N>, first: usize, t: f64) -> [(f64, f64); M] {
+    let (square, cube) = (t * t, t * t * t);
+    let (fourth, eighth) = (square * square, square * square * square * square);
+    let join = |low: (f64, f64), high: (f64, f64), power: f64, slope: f64| {
+        (low.0 + high.0 * power, low.1 + high.1 * power + high.0 * slope)
+    };
+    let pair = |at: usize, function: usize| (powers[at][function] + powers[at + 1][function] * t, powers[at + 1][function]);
+    let four = |at: usize, function: usize| join(pair(at, function), pair(at + 2, function), square, 2.0 * t);
+    let eight = |at: usize, function: usize| join(four(at, function), four(at + 4, function), fourth, 4.0 * cube);
+    from_fn(|function| join(eight(0, first + function), eight(8, first + function), eighth, 8.0 * cube * fourth))
+}
+
+/// ∫ of a function from −1 to 1.
+fn integral<const N: usize>(powers: &Terms<N>, function: usize) -> f64 {
+    let even = powers.iter().enumerate().step_by(2);
+    even.map(|(order, powers)| 2.0 * powers[function] / (order + 1) as f64).sum()
 }
 
 #[cfg(test)]
