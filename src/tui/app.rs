@@ -8,10 +8,12 @@ use ratatui::layout::Size;
 use super::actions::Place;
 use super::pane::{Pane, Panes};
 use super::prompt::Prompt;
+use super::recovery::Access;
 use super::settings::Settings;
 use super::solver::{self, Answer, Request};
 use super::tab::Tab;
 use super::theme::Look;
+use super::update::files::NEWER;
 use super::view::{self, form, results};
 use crate::case::fields::{Absent, Kind};
 use crate::case::{Case, Document, FIELDS, Problem, fields};
@@ -116,6 +118,9 @@ impl App {
             settings: Settings::default(),
             look,
         };
+        if app.access == Access::Newer {
+            app.complain(NEWER);
+        }
         app.follow();
         if let Some(request) = app.request() {
             app.take(solver::answer(&request));

@@ -4,6 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread;
 
+use super::fault;
 use crate::model::inputs::Rung;
 use crate::model::{self, Inputs, Note, Refusal, Solution, Stages};
 
@@ -158,8 +159,11 @@ pub fn answer(request: &Request) -> Answer {
 }
 
 fn attempt(solve: &impl Fn(&Request) -> Answer, request: &Request) -> Reply {
-    catch_unwind(AssertUnwindSafe(|| solve(request)))
-        .map_or(Reply::Failed(request.serial), |answer| Reply::Solved(Box::new(answer)))
+    let solve = || {
+        fault::on_demand(THREAD);
+        solve(request)
+    };
+    catch_unwind(AssertUnwindSafe(solve)).map_or(Reply::Failed(request.serial), |answer| Reply::Solved(Box::new(answer)))
 }
 
 #[cfg(test)]

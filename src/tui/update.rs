@@ -3,7 +3,7 @@
 mod copy;
 mod cursor;
 mod edit;
-mod files;
+pub(super) mod files;
 mod hold;
 mod options;
 mod page;
