@@ -8,6 +8,7 @@ pub mod actions;
 pub mod app;
 pub mod clean;
 pub mod events;
+mod fault;
 pub mod history;
 pub mod pane;
 pub mod pick;
@@ -194,7 +195,10 @@ impl Workbench {
             for effect in update(&mut self.app, action) {
                 match effect {
                     Effect::Quit => return Ok(true),
-                    Effect::Redraw => self.screen.clear()?,
+                    Effect::Redraw => {
+                        fault::on_demand("screen");
+                        self.screen.clear()?;
+                    }
                     Effect::Suspend => self.suspend()?,
                     Effect::Solve(request) => self.solver.ask(*request),
                     Effect::Save(saving) => actions.push(self.keeper.save(*saving)),

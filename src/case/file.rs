@@ -37,6 +37,8 @@ pub struct Document {
     /// What the text says.
     loaded: Case,
     places: Places,
+    /// Whether the text is of a newer format, so that the case is only what is understood of it.
+    is_newer: bool,
     /// The file that holds the text, links followed.
     origin: Option<PathBuf>,
 }
@@ -58,7 +60,16 @@ impl Document {
         let marked = unmarked.len() < text.len();
         let (case, places) = (reading.case, reading.places);
         let loaded = case.clone();
-        Ok(Document { case, name: name.to_owned(), text: unmarked.to_owned(), marked, loaded, places, origin: None })
+        Ok(Document {
+            case,
+            name: name.to_owned(),
+            text: unmarked.to_owned(),
+            marked,
+            loaded,
+            places,
+            is_newer: false,
+            origin: None,
+        })
     }
 
     /// Read a document from bytes that may not be text.
@@ -75,12 +86,28 @@ impl Document {
         }
     }
 
+    /// What is understood of a text of a newer format.
+    fn parse_newer(name: &str, text: &str) -> Document {
+        let unmarked = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
+        let reading = tree::read_newer(unmarked);
+        let (loaded, name, marked) = (reading.case.clone(), name.to_owned(), unmarked.len() < text.len());
+        let (case, places) = (reading.case, reading.places);
+        Document { case, name, text: unmarked.to_owned(), marked, loaded, places, is_newer: true, origin: None }
+    }
+
+    /// Whether the text is of a newer format, of which this version may not understand everything.
+    #[must_use]
+    pub fn is_newer(&self) -> bool {
+        self.is_newer
+    }
+
     /// A document without a file: the case in a commented text with every field.
     #[must_use]
     pub fn new(case: Case) -> Document {
         let text = template::text(&case);
         let places = tree::read(&text).places;
-        Document { loaded: case.clone(), case, name: "new case".to_owned(), text, marked: false, places, origin: None }
+        let (loaded, name) = (case.clone(), "new case".to_owned());
+        Document { loaded, case, name, text, marked: false, places, is_newer: false, origin: None }
     }
 
     /// Table 1 of the paper, as its file in `cases/` says it.

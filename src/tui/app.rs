@@ -8,11 +8,13 @@ use ratatui::layout::Size;
 use super::actions::Place;
 use super::pane::{Pane, Panes};
 use super::prompt::Prompt;
+use super::recovery::Access;
 use super::rows;
 use super::settings::Settings;
 use super::solver::{self, Answer, Request};
 use super::tab::Tab;
 use super::theme::Look;
+use super::update::files::NEWER;
 use super::view::teeth::TeethView;
 use super::view::{self, form, results};
 use crate::case::fields::Absent;
@@ -124,6 +126,9 @@ impl App {
             settings: Settings::default(),
             look,
         };
+        if app.access == Access::Newer {
+            app.complain(NEWER);
+        }
         app.follow();
         if let Some(request) = app.request() {
             app.take(solver::first_answer(&request));

@@ -15,6 +15,8 @@ pub enum Access {
     Own,
     /// Another session has it open, which these words name.
     Held(String),
+    /// It is of a newer format, of which not everything is understood.
+    Newer,
 }
 
 /// A case that is open, and what the form makes of it.
@@ -73,12 +75,18 @@ impl Claim {
 }
 
 impl Access {
+    /// How a document is open at first.
+    #[must_use]
+    pub fn of(document: &Document) -> Access {
+        if document.is_newer() { Access::Newer } else { Access::Own }
+    }
+
     /// The mark beside the name of the case.
     #[must_use]
     pub fn mark(&self) -> &'static str {
         match self {
             Access::Own => "",
-            Access::Held(_) => " *read-only*",
+            Access::Held(_) | Access::Newer => " *read-only*",
         }
     }
 }
@@ -91,7 +99,7 @@ pub fn sheets(app: &App) -> Vec<Sheet<'_>> {
 
 fn sheet(tab: &Tab) -> Sheet<'_> {
     let path = tab.document.path().or(tab.path.as_deref()).filter(|_| tab.path.is_some());
-    Sheet { id: tab.id, path, document: &tab.document, case: &tab.case, is_held: tab.access != Access::Own }
+    Sheet { id: tab.id, path, document: &tab.document, case: &tab.case, is_held: matches!(tab.access, Access::Held(_)) }
 }
 
 /// A change in a line: what stands there now, and what would.

@@ -6,6 +6,7 @@ use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use super::fault;
 use crate::case::{Case, Evaluator};
 use crate::model::inputs::Rung;
 use crate::model::{self, Inputs, Note, Refusal, Solution, Stages};
@@ -268,11 +269,15 @@ fn micros(begun: Instant) -> u64 {
 }
 
 fn attempt(
-    solve: &mut impl FnMut(&Request, Wanted<'_>) -> Option<Answer>,
+    mut solve: impl FnMut(&Request, Wanted<'_>) -> Option<Answer>,
     request: &Request,
     wanted: Wanted<'_>,
 ) -> Option<Reply> {
-    match catch_unwind(AssertUnwindSafe(|| solve(request, wanted))) {
+    let solve = || {
+        fault::on_demand(THREAD);
+        solve(request, wanted)
+    };
+    match catch_unwind(AssertUnwindSafe(solve)) {
         Ok(answer) => answer.map(|answer| Reply::Solved(Box::new(answer))),
         Err(_) => Some(Reply::Failed(request.serial)),
     }

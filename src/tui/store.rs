@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use super::actions::Action;
 use super::update::{Effect, Over, Saving};
 use super::{recents, recovery};
-use crate::case::file::SaveError;
+use crate::case::file::{ReadError, SaveError};
 use crate::case::{Document, changes};
 
 /// An entry of a folder.
@@ -138,7 +138,11 @@ fn load(path: &Path) -> Result<Box<Document>, Vec<String>> {
     // The page that shows them has the name in its title.
     let name = format!("{}:", path.display());
     let without_name = |fault: &str| fault.strip_prefix(&name).unwrap_or(fault).trim_start().to_owned();
-    let document = Document::read(path).map_err(|error| error.to_string());
+    let document = match Document::read(path) {
+        Err(ReadError::NewerFormat(_)) => Document::read_newer(path),
+        document => document,
+    };
+    let document = document.map_err(|error| error.to_string());
     document.map(Box::new).map_err(|faults| faults.lines().map(without_name).collect())
 }
 

@@ -69,7 +69,7 @@ impl Tab {
         let focus = fields::index_of("pair.module").unwrap_or(0);
         Tab {
             id: 0,
-            access: Access::default(),
+            access: Access::of(&document),
             input: Input::from(case.text(focus).unwrap_or_default()),
             saved: case.clone(),
             case,

@@ -4,7 +4,7 @@ mod catalogue;
 mod copy;
 mod cursor;
 mod edit;
-mod files;
+pub(super) mod files;
 mod hold;
 mod options;
 mod page;

@@ -9,6 +9,7 @@ use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
@@ -47,6 +48,7 @@ struct Line {
     writer: Box<dyn Write + Send>,
     output: Receiver<Vec<u8>>,
     reader: JoinHandle<()>,
+    is_stalled: Arc<AtomicBool>,
 }
 
 impl Launch {
@@ -112,15 +114,20 @@ impl Launch {
         let writer = pair.master.take_writer().expect("a writer");
         let child = pair.slave.spawn_command(command).expect("the program starts");
         let (sender, output) = channel();
+        let is_stalled = Arc::new(AtomicBool::new(false));
+        let stalled = Arc::clone(&is_stalled);
         let reader = thread::spawn(move || {
             let mut buffer = [0; 16384];
             while let Ok(count @ 1..) = reader.read(&mut buffer) {
                 if sender.send(buffer[..count].to_vec()).is_err() {
                     return;
                 }
+                while stalled.load(Ordering::Relaxed) && Arc::strong_count(&stalled) > 1 {
+                    thread::sleep(Duration::from_millis(5));
+                }
             }
         });
-        let line = Some(Line { master: pair.master, writer, output, reader });
+        let line = Some(Line { master: pair.master, writer, output, reader, is_stalled });
         let screen = vt100::Parser::new(cells(rows), cells(cols), 0);
         Tty { folder: self.folder, child, written: None, line, screen, before }
     }
@@ -263,7 +270,7 @@ impl Tty {
 
     /// The terminal goes away, as when a connection breaks.
     pub(crate) fn hang_up(&mut self) {
-        let Line { master, writer, output, reader } = self.line.take().expect("the terminal has not hung up");
+        let Line { master, writer, output, reader, .. } = self.line.take().expect("the terminal has not hung up");
         drop(output);
         drop(writer);
         // The reader sleeps on a copy of our end until something comes: a new size has the program write.
@@ -272,6 +279,22 @@ impl Tty {
                 master.resize(PtySize { rows: 24, cols: columns, ..PtySize::default() }).ok();
                 thread::sleep(Duration::from_millis(2));
             }
+        }
+    }
+
+    /// A signal to what stands in front of the shell of this terminal.
+    pub(crate) fn send_to_program(&self, name: &str) {
+        let front = self.line.as_ref().and_then(|line| line.master.process_group_leader()).expect("something is in front");
+        let status = Command::new("kill").args([format!("-{name}"), format!("{front}")]).status().expect("kill is there");
+        assert!(status.success());
+    }
+
+    /// Read nothing more, and have the program draw until the terminal takes nothing more.
+    pub(crate) fn stall(&mut self) {
+        self.line().is_stalled.store(true, Ordering::Relaxed);
+        for _ in 0..60 {
+            self.type_in("\x0c");
+            thread::sleep(Duration::from_millis(3));
         }
     }
 

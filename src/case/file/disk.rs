@@ -5,6 +5,7 @@ use std::fs::{self, File, OpenOptions, Permissions};
 use std::io::{self, ErrorKind, Read, Write};
 use std::os::unix::fs::{MetadataExt, PermissionsExt, fchown};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use thiserror::Error;
 
@@ -15,6 +16,10 @@ use crate::case::visible::visible;
 
 /// Symbolic links that are followed, one after the other.
 const MOST_LINKS: usize = 40;
+/// How the name of a file begins that is not yet in its place; the number of the process follows.
+const TEMPORARY: &str = ".tipstrike-";
+/// No save takes so long.
+const STALE: Duration = Duration::from_secs(60);
 
 /// Why a file cannot be opened as a case.
 #[derive(Debug, Error)]
@@ -48,6 +53,9 @@ pub enum SaveError {
     /// Another file is there already.
     #[error("{0}: there is a file of that name already")]
     AlreadyThere(String),
+    /// It is of a newer format, of which not everything is understood.
+    #[error("{0}: this case is of a newer format, and saving it here would lose what this version does not know")]
+    NewerFormat(String),
     /// It is a folder, a pipe or a device.
     #[error("{0}: this is not a regular file")]
     NotAFile(String),
@@ -99,6 +107,20 @@ impl Document {
         Ok(document)
     }
 
+    /// Read what this version understands of a file of a newer format, to be looked at and not to be saved.
+    ///
+    /// # Errors
+    /// Where the file cannot be read, or is no text.
+    pub fn read_newer(path: &Path) -> Result<Document, ReadError> {
+        let name = shown(path);
+        let bytes = capped(open(path, &name)?, &name)?;
+        let text = std::str::from_utf8(&bytes);
+        let text = text.map_err(|error| ReadError::Bad(vec![super::fault::not_text(&name, &bytes, error.valid_up_to())]))?;
+        let mut document = Document::parse_newer(&name, text);
+        document.origin = followed(path).ok();
+        Ok(document)
+    }
+
     /// The file that the document was read from or saved to, links followed.
     #[must_use]
     pub fn path(&self) -> Option<&Path> {
@@ -138,6 +160,9 @@ impl Document {
     }
 
     fn write(&mut self, path: &Path, over: bool) -> Result<(), SaveError> {
+        if self.is_newer {
+            return Err(SaveError::NewerFormat(shown(path)));
+        }
         let target = target_of(path)?;
         if target.old.is_some() && !over {
             self.same_as_read(&target.path, &shown(path))?;
@@ -272,7 +297,8 @@ impl Target {
         let folder = folder_of(&self.path);
         // A new file's mode is cut by the umask on creation.
         let mode = Permissions::from_mode(0o666);
-        let mut file = tempfile::Builder::new().prefix(".tipstrike-").permissions(mode).tempfile_in(folder)?;
+        let prefix = format!("{TEMPORARY}{}-", std::process::id());
+        let mut file = tempfile::Builder::new().prefix(&prefix).permissions(mode).tempfile_in(folder)?;
         file.write_all(bytes)?;
         if let Some(old) = &self.old {
             keep_owner_and_mode(file.as_file(), old)?;
@@ -285,8 +311,28 @@ impl Target {
         };
         // The new file is in place, whether or not the folder can be flushed.
         let _ = File::open(folder).and_then(|folder| folder.sync_all());
+        clear(folder);
         Ok(())
     }
+}
+
+/// Take away what saves that were killed have left in a folder. That one cannot be taken away is no reason to fail.
+fn clear(folder: &Path) {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    for entry in entries.filter(|entry| entry.file_name().to_str().is_some_and(is_left_over)) {
+        let about = entry.metadata();
+        let is_old = |about: &fs::Metadata| about.modified().is_ok_and(|time| time.elapsed().is_ok_and(|age| age > STALE));
+        if about.is_ok_and(|about| about.is_file() && is_old(&about)) {
+            drop(fs::remove_file(entry.path()));
+        }
+    }
+}
+
+// Of a process that is gone. On a shared disk it may live on another machine: hence the age.
+fn is_left_over(name: &str) -> bool {
+    let process =
+        name.strip_prefix(TEMPORARY).and_then(|rest| rest.split_once('-')).and_then(|(process, _)| process.parse().ok());
+    process.is_some_and(|process: u32| !Path::new("/proc").join(process.to_string()).exists())
 }
 
 /// What to do about a file that the system does not let us write.

@@ -61,10 +61,20 @@ pub(super) struct Reading {
     pub(super) faults: Vec<Found>,
 }
 
+/// Read what is understood of a text of a newer format. What is wrong with it is for a newer version to say.
+pub(super) fn read_newer(text: &str) -> Reading {
+    let mut reader = Reader::of(text);
+    let recovered = syntax::recover(text);
+    let (tree, _) = DeTable::parse_recoverable(&recovered.text);
+    if recovered.tables_known {
+        reader.tables(tree.get_ref());
+    }
+    Reading { case: reader.case, places: reader.places, faults: Vec::new() }
+}
+
 /// Read a text, past errors of syntax as far as the rest of it can be understood.
 pub(super) fn read(text: &str) -> Reading {
-    let places = Places { end: text.len(), ..Places::default() };
-    let mut reader = Reader { case: Case::empty(), places, faults: Vec::new(), wrong: Vec::new() };
+    let mut reader = Reader::of(text);
     let recovered = syntax::recover(text);
     let (tree, _) = DeTable::parse_recoverable(&recovered.text);
     if recovered.tables_known {
@@ -88,10 +98,19 @@ struct Reader {
 }
 
 impl Reader {
+    fn of(text: &str) -> Reader {
+        let places = Places { end: text.len(), ..Places::default() };
+        Reader { case: Case::empty(), places, faults: Vec::new(), wrong: Vec::new() }
+    }
+
     fn root(&mut self, root: &DeTable<'_>) {
         if self.format(root) == FaultKind::NewerFormat {
             return;
         }
+        self.tables(root);
+    }
+
+    fn tables(&mut self, root: &DeTable<'_>) {
         for (key, value) in in_order(root) {
             let name = key.get_ref().as_ref();
             if name == "format" {

@@ -12,8 +12,12 @@ use crate::tui::app::App;
 use crate::tui::clean;
 use crate::tui::pick::Pick;
 use crate::tui::prompt::{Browser, Choice, Page, Prompt, Question};
+use crate::tui::recovery::Access;
 use crate::tui::store::{Entry, SaveFault};
 use crate::tui::tab::Tab;
+
+/// What there is to say of a case of a newer format.
+pub(in crate::tui) const NEWER: &str = "read-only: of a newer format; only what this version knows is shown";
 
 /// Ask for a file to open.
 pub(super) fn browse(app: &mut App) -> Vec<Effect> {
@@ -154,7 +158,11 @@ pub(super) fn loaded(app: &mut App, path: PathBuf, result: Result<Box<Document>,
             app.prompts.clear();
             let mut effects = vec![Effect::Remember(path.clone())];
             effects.extend(solve(tabs::show(app, *document, path)));
-            app.say(format!("opened {}", clean::clean(&app.name())));
+            if app.access == Access::Newer {
+                app.complain(NEWER);
+            } else {
+                app.say(format!("opened {}", clean::clean(&app.name())));
+            }
             effects
         }
         Err(faults) => {

@@ -15,7 +15,9 @@ pub(super) fn claimed(app: &mut App, claim: Claim) {
     if let Access::Held(holder) = &access {
         app.complain(format!("read-only: open in {holder}; F2 saves under another name"));
     }
-    if let Some(tab) = std::iter::once(&mut app.tab).chain(&mut app.others).find(|tab| tab.id == id) {
+    if let Some(tab) =
+        std::iter::once(&mut app.tab).chain(&mut app.others).find(|tab| tab.id == id && tab.access != Access::Newer)
+    {
         tab.access = access;
     }
     if let Some(notice) = notices.into_iter().next() {

@@ -56,7 +56,7 @@ fn relief(known: &Known, tip: &TipContact) -> f64 {
 fn mean_stiffness(known: &Known) -> Option<f64> {
     const TOLERANCE: f64 = 1e-12;
     let (inputs, geometry) = (known.inputs, &known.solution.geometry);
-    known.solution.mesh_stiffness?;
+    known.solution.mesh.as_ref()?;
     let stiffness = |part: f64| {
         let along = geometry.start + part * (geometry.end - geometry.start);
         let place = ContactPlace::on_line_of_action(geometry, along);

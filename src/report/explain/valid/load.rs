@@ -11,7 +11,7 @@ pub(in crate::report::explain) use super::Look;
 pub(in crate::report::explain) fn at_rest(known: &Known) -> Option<Finding> {
     let solution = known.solution;
     let time = solution.static_load.as_ref()?.first_contact_angle? / known.inputs.driven_speed();
-    let period = TAU * (solution.reduced_mass / solution.mesh_stiffness?).sqrt();
+    let period = TAU * (solution.reduced_mass / solution.mesh.as_ref()?.mean_stiffness).sqrt();
     let part = period / (PI * time);
     let here = format!("1/f_n = {}, t = {}, {} %", micro(period, "us"), micro(time, "us"), four(100.0 * part.min(1.0)));
     let range = "the tooth takes its load over so slowly that the mesh does not swing: 1/(π f_n t) <= model.within";
@@ -22,7 +22,7 @@ pub(in crate::report::explain) fn at_rest(known: &Known) -> Option<Finding> {
 pub(in crate::report::explain) fn forgotten(known: &Known) -> Option<Finding> {
     const LEFT: f64 = 1e-3;
     let (inputs, geometry) = (known.inputs, &known.solution.geometry);
-    let frequency = (known.solution.mesh_stiffness? / known.solution.reduced_mass).sqrt();
+    let frequency = (known.solution.mesh.as_ref()?.mean_stiffness / known.solution.reduced_mass).sqrt();
     let time = f64::from(inputs.warmup_cycles) * geometry.base_pitch / (inputs.speed * geometry.driver.base);
     let left = (-inputs.damping_ratio * frequency * time).exp();
     let here = format!("{} of it in {} base pitches", four(left), inputs.warmup_cycles);
