@@ -188,7 +188,8 @@ mod tests {
 
     #[test]
     fn every_quantity_is_shown_in_units_that_are_read_back_as_its_value() {
-        for (quantity, system) in QUANTITIES.iter().flat_map(|quantity| System::ALL.map(|system| (quantity, system))) {
+        let measured = QUANTITIES.iter().filter(|quantity| !quantity.is_flag());
+        for (quantity, system) in measured.flat_map(|quantity| System::ALL.map(|system| (quantity, system))) {
             let dimension = units::Dimension::of_unit(quantity.unit).unwrap();
             let told = shown_in(quantity, 0.123_456_7, system).to_string();
             let read = units::parse(&told, dimension, "").unwrap();

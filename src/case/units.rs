@@ -42,6 +42,8 @@ pub enum Dimension {
     Energy,
     /// m²/N.
     Compliance,
+    /// N/m.
+    Stiffness,
 }
 
 impl Dimension {

@@ -251,7 +251,7 @@ fn push_zones(
     const REST: f64 = 1e-13;
     let rest = |from: f64, to: f64| {
         let mut rest = size.map(|size| REST * size);
-        rest[GAP] += 4.0 * f64::EPSILON * (from - edge).abs().max((to - edge).abs());
+        rest[GAP] += 16.0 * f64::EPSILON * (from - edge).abs().max((to - edge).abs());
         rest
     };
     borders.sort_by(f64::total_cmp);

@@ -11,6 +11,8 @@ const TERMS: usize = 16;
 const TAIL: usize = 3;
 /// A piece is halved no further: a function that is still not smooth there has a branch point.
 const MOST_HALVINGS: u32 = 30;
+/// Nor are there more pieces: a function that rounding has made rough would take them without end.
+const MOST_PIECES: usize = 128;
 
 /// `N` functions on one interval, each a polynomial on every piece of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -106,7 +108,7 @@ fn halve<const N: usize, E>(
 ) -> Result<(), E> {
     let terms = interpolate(from, to, f)?;
     let middle = f64::midpoint(from, to);
-    if halvings == 0 || has_settled(&terms, &rest(from, to)) {
+    if halvings == 0 || pieces.len() >= MOST_PIECES || has_settled(&terms, &rest(from, to)) {
         pieces.push(Piece { from, to, powers: powers(&terms) });
         return Ok(());
     }

@@ -15,7 +15,7 @@ pub enum System {
 
 /// Each metric unit in which something is shown, and the inch unit that stands for it. A unit that is not here, such as
 /// deg, rpm or us, serves both.
-const PAIRS: [(&str, &str); 17] = [
+const PAIRS: [(&str, &str); 18] = [
     ("m", "ft"),
     ("mm", "in"),
     ("um", "thou"),
@@ -33,6 +33,7 @@ const PAIRS: [(&str, &str); 17] = [
     ("m/s", "ft/s"),
     ("um mm/N", "in2/lbf"),
     ("m2/N", "in2/lbf"),
+    ("N/um", "lbf/in"),
 ];
 
 impl System {

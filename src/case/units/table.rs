@@ -60,7 +60,7 @@ pub(super) fn name_of(dimension: Dimension) -> &'static str {
 // PS = 75 kgf m/s. Both parts of each factor come from rational arithmetic, with pi to 80 digits.
 /// Every dimension but the bare number.
 #[rustfmt::skip]
-pub(super) static FAMILIES: [Family; 13] = [
+pub(super) static FAMILIES: [Family; 14] = [
     family(Dimension::Length, "a length", &[
         ten("mm", &[], -3),
         ten("um", &["micron", "microns"], -6),
@@ -157,5 +157,11 @@ pub(super) static FAMILIES: [Family; 13] = [
         ten("m2/N", &[], 0),
         ten("mm2/N", &[], -6),
         times("in2/lbf", &[], 0.0001450377377302092, 4.005255956746474e-21),
+    ]),
+    family(Dimension::Stiffness, "a stiffness", &[
+        ten("N/um", &["N/µm", "kN/mm"], 6),
+        ten("N/m", &[], 0),
+        ten("N/mm", &[], 3),
+        times("lbf/in", &["lb/in"], 175.1268352464764, -1.1376717116859719e-14),
     ]),
 ];

@@ -5,7 +5,7 @@ use ratatui::text::{Line, Span};
 
 use super::{shown, text};
 use crate::model::inputs::Rung;
-use crate::model::{Outcome, QUANTITIES, Quantity, Solution};
+use crate::model::{Outcome, QUANTITIES, Quantity, Solution, Stages};
 use crate::report;
 use crate::report::verdict::{Standing, verdict};
 use crate::tui::app::App;
@@ -14,6 +14,17 @@ use crate::tui::solver::Answer;
 
 /// What an engineer looks at first.
 const FIRST: [&str; 5] = ["approach_angle_driven", "contact_radius_driver", "normal_velocity", "impact_force", "impact_duration"];
+/// The same, where every pair takes its share of the load.
+const FIRST_OF_STATIC: [&str; 5] =
+    ["static_first_contact_angle", "static_force_at_start", "static_peak_force", "static_transmission_error", "mesh_force"];
+/// The same with inertia.
+const FIRST_OF_DYNAMIC: [&str; 5] = [
+    "dynamic_first_contact_angle",
+    "dynamic_peak_approach_force",
+    "dynamic_peak_force",
+    "dynamic_impact_duration",
+    "dynamic_contact_lost",
+];
 /// The same, when no tooth strikes.
 const FIRST_WITHOUT_CONTACT: [&str; 5] =
     ["total_deviation", "equivalent_error", "combined_deflection", "mesh_force", "contact_ratio"];
@@ -49,12 +60,18 @@ struct Columns {
     equation: bool,
 }
 
-/// The quantities in the order in which a person reads them: what matters first, then the table's.
+/// The quantities that some rung has, in the order in which a person reads them: what matters first, then the table's.
 pub(super) fn order(answer: &Answer) -> impl Iterator<Item = &'static Quantity> {
     let strikes = |solution: &Solution| solution.outcome == Outcome::CornerContact;
     let any_strikes = answer.rungs.iter().any(|(_, result)| result.as_ref().is_ok_and(strikes));
-    let first = if any_strikes { &FIRST } else { &FIRST_WITHOUT_CONTACT };
-    let rest = QUANTITIES.iter().filter(|quantity| !first.contains(&quantity.key));
+    let first = match answer.active {
+        _ if !any_strikes => &FIRST_WITHOUT_CONTACT,
+        Rung::Static => &FIRST_OF_STATIC,
+        Rung::Dynamic => &FIRST_OF_DYNAMIC,
+        Rung::Paper | Rung::Exact | Rung::Auto => &FIRST,
+    };
+    let stages = answer.rungs.iter().fold(Stages::NONE, |stages, (rung, _)| stages.and(rung.stages()));
+    let rest = QUANTITIES.iter().filter(move |quantity| stages.has(quantity.stage) && !first.contains(&quantity.key));
     first.iter().filter_map(|key| Quantity::find(key)).chain(rest)
 }
 
