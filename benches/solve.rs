@@ -7,7 +7,7 @@ use tipstrike::case::Case;
 use tipstrike::model::compliance::{ContactPlace, pair_at_load};
 use tipstrike::model::geometry::geometry;
 use tipstrike::model::inputs::{ContactCompliance, Rung, ToothCompliance};
-use tipstrike::model::{Inputs, Stages, solve};
+use tipstrike::model::{Inputs, Stage, Stages, solve};
 
 fn table_1(rung: Rung) -> Inputs {
     let mut inputs = Case::table_1().inputs().unwrap_or_else(|_| unreachable!("the built-in case is valid"));
@@ -29,6 +29,26 @@ fn stations(criterion: &mut Criterion) {
     criterion.bench_function("exact with 256 stations", |bencher| bencher.iter(|| solve(black_box(&inputs), Stages::ALL)));
 }
 
+/// Table 1 with the deflection that the load gives, as the rungs that share the load take it.
+fn shared_load(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("shared load");
+    for teeth in ToothCompliance::ALL {
+        let usual = Inputs { tooth_compliance: Some(teeth), deflection: None, ..table_1(Rung::Static) };
+        let shared = Inputs { stations: Some(256), ..usual.clone() };
+        let (rung, inertia) = (Stages::of(Stage::Static), Stages::of(Stage::Dynamic));
+        group.bench_function(format!("static with 256 stations, {}", teeth.name()), |bencher| {
+            bencher.iter(|| solve(black_box(&shared), rung));
+        });
+        for cycles in [20, 40, 80] {
+            let inputs = Inputs { rung: Rung::Dynamic, warmup_cycles: cycles, tolerance: 1e-6, ..usual.clone() };
+            group.bench_function(format!("dynamic with {cycles} cycles at 1e-6, {}", teeth.name()), |bencher| {
+                bencher.iter(|| solve(black_box(&inputs), inertia));
+            });
+        }
+    }
+    group.finish();
+}
+
 fn compliance(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("pair compliance");
     for model in ToothCompliance::ALL {
@@ -47,6 +67,6 @@ fn compliance(criterion: &mut Criterion) {
 criterion_group! {
     name = benches;
     config = Criterion::default().warm_up_time(std::time::Duration::from_millis(300)).measurement_time(std::time::Duration::from_secs(2));
-    targets = closed_form, stations, compliance
+    targets = closed_form, stations, shared_load, compliance
 }
 criterion_main!(benches);

@@ -1,21 +1,33 @@
 //! The document: a case as the user wrote it, checked against the one table of fields.
 
+mod acts;
 pub mod changes;
 mod check;
+pub mod evaluate;
 pub mod fields;
 pub mod file;
+mod hint;
 pub mod journal;
+pub mod materials;
+pub mod reach;
+pub mod search;
 pub mod spread;
+pub mod step;
 mod suggest;
 pub mod units;
 pub mod visible;
+pub mod words;
 
 use crate::model::{Inputs, QUANTITIES, Quantity};
+pub use acts::{Acting, acts};
 pub use changes::Change;
 pub use check::Problem;
+pub use evaluate::Evaluator;
 pub use fields::{FIELDS, Field};
 pub use file::Document;
+pub use search::search;
 pub use spread::Spread;
+pub use step::step;
 
 /// A case: what the user wrote in each field, in the order of [`FIELDS`], and the limits it is held to.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,7 +46,7 @@ pub struct Limit {
     pub quantity: &'static str,
     /// As the user wrote it.
     pub text: String,
-    /// In SI.
+    /// In SI; infinite while the text is no value, as it may be in a form.
     pub value: f64,
 }
 
@@ -89,6 +101,33 @@ impl Case {
             fields::Absent::Without(words) => Some(words),
             fields::Absent::Refused | fields::Absent::Either(_) => None,
         }
+    }
+
+    /// The value in SI that holds in a field of numbers; `None` where the model does without or the text is no value.
+    #[must_use]
+    pub fn value(&self, field: usize) -> Option<f64> {
+        let text = self.effective(field)?;
+        match FIELDS[field].kind {
+            fields::Kind::Number(dimension, range, _) => units::parse(text, dimension, range.unit).ok(),
+            fields::Kind::Count(..) => text.trim().parse::<u32>().ok().map(f64::from),
+            fields::Kind::Text | fields::Kind::Choice(..) => None,
+        }
+    }
+
+    /// Write the limit of a quantity, whether or not the text is valid. An empty text leaves a limit that holds nothing, until
+    /// [`Case::drop_empty_limits`].
+    pub fn write_limit(&mut self, quantity: &'static str, text: &str) {
+        let unread = Limit { quantity, text: text.to_owned(), value: f64::INFINITY };
+        let limit = Limit::new(quantity, text).unwrap_or(unread);
+        match self.limits.iter_mut().find(|held| held.quantity == quantity) {
+            Some(held) => *held = limit,
+            None => self.limits.push(limit),
+        }
+    }
+
+    /// Take out the limits that hold nothing, but that of the named quantity.
+    pub fn drop_empty_limits(&mut self, but: Option<&str>) {
+        self.limits.retain(|limit| !limit.text.is_empty() || Some(limit.quantity) == but);
     }
 
     /// What is wrong with the text of one field, on its own.

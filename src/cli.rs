@@ -3,14 +3,17 @@
 mod arguments;
 mod cases;
 mod check;
+mod explain;
 mod new;
+mod progress;
 mod shell;
 mod solve;
+mod trade;
 
 use crate::case::visible::visible;
 use crate::report::fields;
 
-pub use arguments::{Arguments, Check, Command, Fields, Format, Listing, Setting, Solve};
+pub use arguments::{Arguments, Check, Command, Explain, Fields, Format, Listing, Setting, Solve, Trading};
 use clap::{CommandFactory, FromArgMatches};
 use std::ffi::OsString;
 use std::io::{self, BufWriter, Write};
@@ -97,6 +100,8 @@ pub fn run(command: &Command, streams: &mut Streams) -> Exit {
     let done = match command {
         Command::Solve(options) => solve::run(options, streams),
         Command::Check(options) => check::run(options, streams),
+        Command::Explain(options) => explain::run(options, streams),
+        Command::Trade(options) => trade::run(options, streams),
         Command::Fields(options) => list_fields(options, streams.output.as_mut()),
         Command::New { file } => new::run(file.as_deref(), streams),
         Command::Completions { shell } => shell::completions(*shell, streams.output.as_mut()),

@@ -2,6 +2,7 @@
 
 pub mod chebyshev;
 pub mod decimal;
+pub mod extrapolated;
 pub mod ode;
 pub mod quadrature;
 pub mod real;

@@ -1,14 +1,17 @@
 //! What a person or a script reads of a solve.
 
 pub mod csv;
+pub mod explain;
 pub mod fields;
 pub mod json;
 mod layout;
 pub mod stations;
 pub mod text;
+pub mod trade;
 pub mod verdict;
 
 use crate::case::fields::index_of;
+use crate::case::units::System;
 use crate::case::{Case, units};
 use crate::model::{self, Inputs, Note, QUANTITIES, Quantity, Refusal, Solution, Stages};
 use crate::numeric::decimal::significant;
@@ -117,11 +120,17 @@ impl Report {
 /// A value in SI, as a person reads it.
 #[must_use]
 pub fn shown(quantity: &Quantity, value: f64) -> Shown {
+    shown_in(quantity, value, System::Metric)
+}
+
+/// A value in SI, as a person reads it who counts in metric or in inch units.
+#[must_use]
+pub fn shown_in(quantity: &Quantity, value: f64, system: System) -> Shown {
     if quantity.is_flag() {
         return Shown { number: if value == 0.0 { "no" } else { "yes" }.to_owned(), unit: "" };
     }
-    let number = number(value, quantity.shown, quantity.digits);
-    Shown { number, unit: if quantity.shown == "1" { "" } else { quantity.shown } }
+    let (number, unit) = units::system::shown(value, quantity.shown, quantity.digits, system);
+    Shown { number, unit }
 }
 
 /// A quantity's value in SI where there is one: finite, and zero without a sign.
@@ -132,7 +141,7 @@ pub fn value(quantity: &Quantity, solution: &Solution) -> Option<f64> {
 
 /// A value in SI in another unit, with this many significant digits.
 #[must_use]
-fn number(value: f64, unit: &str, digits: usize) -> String {
+pub fn number(value: f64, unit: &str, digits: usize) -> String {
     significant(value / units::factor(unit).unwrap_or(1.0), digits)
 }
 
@@ -175,6 +184,16 @@ mod tests {
         assert_eq!(told(-0.0, "N", 5), "0 N");
         assert_eq!(told(f64::NAN, "1", 5), "n/a");
         assert_eq!(told(f64::INFINITY, "1", 5), "n/a");
+    }
+
+    #[test]
+    fn every_quantity_is_shown_in_units_that_are_read_back_as_its_value() {
+        for (quantity, system) in QUANTITIES.iter().flat_map(|quantity| System::ALL.map(|system| (quantity, system))) {
+            let dimension = units::Dimension::of_unit(quantity.unit).unwrap();
+            let told = shown_in(quantity, 0.123_456_7, system).to_string();
+            let read = units::parse(&told, dimension, "").unwrap();
+            assert!((read / 0.123_456_7 - 1.0).abs() < 6e-4, "{}: {told}", quantity.key);
+        }
     }
 
     #[test]

@@ -15,6 +15,7 @@ pub mod pick;
 pub mod prompt;
 pub mod recents;
 pub mod recovery;
+pub mod rows;
 pub mod scale;
 pub mod settings;
 pub mod solver;
@@ -115,6 +116,9 @@ fn session(case: Option<PathBuf>, events: Events, chest: &Arc<Chest>) -> io::Res
     }
     screen.draw(&app)?;
     let solver = Solver::start(events.teller())?;
+    if let Some(request) = app.unanswered() {
+        solver.ask(request);
+    }
     let keeper = Keeper::new(store::state::folder().as_deref(), Arc::clone(chest));
     Workbench { app, screen, events, solver, keeper, alarm: None }.stay()
 }

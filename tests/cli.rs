@@ -227,9 +227,37 @@ fn a_force_outside_a_formulas_range_is_withheld_with_a_note() {
     let output = run(&[&["solve", TABLE_1, "--only", "impact_force"], &beyond[..]].concat());
     assert_eq!((code(&output), out(&output).as_str()), (3, ""));
     assert!(err(&output).contains("outside the Kuang-Yang fit"), "{}", err(&output));
+}
+
+#[test]
+fn each_limit_has_its_line_whether_or_not_another_can_be_computed() {
     let (_folder, path) = changed("teeth = 20", "teeth = 120");
+    let limits = "[limits]\ncontact_ratio = 1.5\nimpact_force = \"2500 N\"\nnormal_velocity = \"90 m/s\"\n";
+    fs::write(&path, fs::read_to_string(&path).unwrap().replace("[limits]\nimpact_force = \"2500 N\"", limits)).unwrap();
     let output = run(&["check", &path]);
-    assert_eq!((code(&output), out(&output).as_str()), (3, ""));
+    let told = out(&output);
+    let lines: Vec<&str> = told.lines().collect();
+    assert_eq!((code(&output), lines.len()), (3, 3), "{lines:?}");
+    assert!(lines[0].starts_with(&format!("EXCEEDED {path}: contact_ratio 1.")) && lines[0].contains("> 1.5"), "{}", lines[0]);
+    assert!(
+        lines[1].starts_with(&format!("unknown {path}: impact_force cannot be computed: tooth number outside")),
+        "{}",
+        lines[1]
+    );
+    assert!(lines[1].ends_with("(limit 2500 N)"), "{}", lines[1]);
+    assert!(lines[2].starts_with(&format!("ok {path}: normal_velocity ")), "{}", lines[2]);
+    assert_eq!(err(&output).lines().count(), 1, "{}", err(&output));
+    assert!(err(&output).contains("outside the Kuang-Yang fit"), "{}", err(&output));
+}
+
+#[test]
+fn a_refused_case_says_of_each_limit_that_it_cannot_be_computed() {
+    let (_folder, path) = changed("module = \"5 mm\"", "module = \"5 mm\"\ncentre_distance = \"80 mm\"");
+    let output = run(&["check", &path]);
+    assert_eq!(code(&output), 3);
+    let expected = format!("unknown {path}: impact_force cannot be computed: the centre distance jams the mesh");
+    assert!(out(&output).starts_with(&expected), "{}", out(&output));
+    assert!(err(&output).contains(": pair.centre_distance: "), "{}", err(&output));
 }
 
 #[test]
@@ -283,11 +311,13 @@ fn no_control_of_a_file_or_a_name_reaches_the_terminal() {
     let path = path.to_str().unwrap();
     let broken = folder.path().join("\u{1b}]0;\u{7}.toml");
     fs::write(&broken, hostile.replace("teeth", "te\u{1b}eth")).unwrap();
-    let runs: [&[&str]; 7] = [
+    let runs: [&[&str]; 9] = [
         &["solve", path],
         &["solve", path, "--format", "json"],
         &["solve", path, "--format", "csv"],
         &["check", path],
+        &["explain", "impact_force", path],
+        &["explain", "impact_force", path, "--format", "json"],
         &["solve", broken.to_str().unwrap()],
         &["solve", "no-such\u{9b}file"],
         &["solve", TABLE_1, "--\u{1b}[2J"],
@@ -334,6 +364,46 @@ fn the_fields_are_listed_for_people_and_for_scripts() {
     let fields: Vec<Value> = lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     assert_eq!(fields.len(), tipstrike::case::FIELDS.len());
     assert!(told(&["fields", "--results"]).contains("impact_force "));
+}
+
+#[test]
+fn a_quantity_is_explained_for_people_and_for_scripts() {
+    let page = told(&["explain", "impact_force"]);
+    assert!(page.starts_with("impact force, F_S (Eq. 57)\nF_S = 2191.0 N\n"), "{page}");
+    assert!(page.contains("F_S = ΔV_n √(b M/q_s)"), "{page}");
+    assert_eq!(
+        told(&["explain", "impact_force", TABLE_1]).lines().skip(3).collect::<Vec<_>>(),
+        page.lines().skip(3).collect::<Vec<_>>()
+    );
+    let paper = json(&["explain", "approach_angle_driver", TABLE_1, "--rung", "paper", "--format", "json"]);
+    assert_eq!((&paper["key"], &paper["rung"]), (&"approach_angle_driver".into(), &"paper".into()));
+    assert_eq!(paper["work"][0]["formula"], "ε_e + ε_d");
+    assert_eq!(paper["work"][0]["numbers"], "0.0272067 deg + 0.0253680 deg");
+    assert_eq!((&paper["valid"][0]["holds"], &paper["mended"][0]["equation"]), (&false.into(), &"Eqs. 7-20".into()));
+    let faster = json(&["explain", "normal_velocity", "--set", "operation.speed=4000 rpm", "--format", "json"]);
+    let effect = faster["depends_on"].as_array().unwrap().iter().find(|effect| effect["key"] == "operation.speed").unwrap();
+    assert_eq!((&effect["text"], &effect["change"]), (&"4000 rpm".into(), &"+1.00 %".into()));
+    let on_time = told(&["explain", "impact_force", "cases/tip-relief-enough.toml"]);
+    assert!(on_time.contains("No value: no corner contact"), "{on_time}");
+    assert!(
+        told(&["fields", "--results"])
+            .ends_with("`tipstrike explain KEY [CASE]` shows how one is found, with the numbers of a case.\n")
+    );
+}
+
+#[test]
+fn what_cannot_be_explained_is_refused_as_a_solve_is() {
+    for (arguments, exit, says) in [
+        (&["explain", "impact_forc"][..], 2, "'impact_force'"),
+        (&["explain"], 2, "QUANTITY"),
+        (&["explain", "impact_force", "--set", "pair.modul=5 mm"], 2, "pair.module"),
+        (&["explain", "impact_force", "--set", "pair.centre_distance=80 mm"], 3, "pair.centre_distance"),
+        (&["explain", "impact_force", "no-such-file.toml"], 5, "no-such-file.toml"),
+    ] {
+        let output = run(arguments);
+        assert_eq!((code(&output), out(&output).as_str()), (exit, ""), "{arguments:?}");
+        assert!(err(&output).contains(says), "{arguments:?}: {}", err(&output));
+    }
 }
 
 #[test]

@@ -258,7 +258,7 @@ fn backspace_may_arrive_as_ctrl_h() {
 fn a_late_answer_is_dropped() {
     let mut desk = Desk::new(SMALL);
     let inputs = desk.app.case.inputs().expect("Table 1 is valid");
-    let late = Request { serial: desk.app.serial, inputs, stages: Stages::EVERY };
+    let late = Request { serial: desk.app.serial, case: desk.app.case.clone(), inputs, stages: Stages::EVERY };
     desk.fill("operation.speed", "500 rpm");
     let screen = desk.screen();
     desk.act(Action::Solved(Box::new(tipstrike::tui::solver::answer(&late))));

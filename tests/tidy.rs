@@ -12,7 +12,7 @@ const ROOMS: [(&str, &[&str]); 7] = [
     ("model", &["numeric"]),
     ("case", &["numeric", "model"]),
     ("study", &["numeric", "model", "case"]),
-    ("report", &["numeric", "model", "case"]),
+    ("report", &["numeric", "model", "case", "study"]),
     ("cli", &["numeric", "model", "case", "study", "report"]),
     ("tui", &["numeric", "model", "case", "study", "report"]),
 ];

@@ -96,7 +96,7 @@ fn f5_switches_the_lower_area_and_names_what_is_hidden() {
     let mut desk = Desk::new(SMALL);
     assert!(desk.shows("4 Teeth  5 Trade"));
     desk.keys(&["F5"]);
-    assert!(desk.shows("4 Teeth ─") && desk.shows("3 Chart  5 Trade"));
+    assert!(desk.shows("4 Teeth, true to scale") && desk.shows("3 Chart  5 Trade"));
     desk.keys(&["F5"]);
     assert!(desk.shows("Error against time"));
     desk.keys(&["F5"]);

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use super::fields::{AUTO, Absent, FIELDS, Field, Kind, Range, blank, index_of};
 use super::units::{self, Dimension, Misread};
 use super::visible::{quoted, visible};
-use super::{Case, suggest};
+use super::{Case, Limit, suggest};
 use crate::model::inputs::Gear;
 use crate::model::{Inputs, QUANTITIES};
 
@@ -68,7 +68,14 @@ pub(super) fn read(case: &Case, wrong: &[usize]) -> (Inputs, Vec<Problem>) {
     let together = together(&inputs, sound);
     problems.extend(together);
     problems.sort_by_key(|problem| index_of(&problem.field));
+    problems.extend(limits(case));
     (inputs, problems)
+}
+
+/// What is wrong with the limits that hold something; those that could be read are not read again.
+fn limits(case: &Case) -> impl Iterator<Item = Problem> {
+    let unread = case.limits.iter().filter(|limit| !limit.text.is_empty() && limit.value.is_infinite());
+    unread.filter_map(|limit| Limit::new(limit.quantity, &limit.text).err())
 }
 
 /// Read one field, or its default, into the inputs.

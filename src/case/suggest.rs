@@ -1,7 +1,13 @@
 //! Did you mean: the known name nearest to a mistyped one.
 
+/// A longer text is no mistyped name, and comparing it would take long.
+const LONGEST: usize = 64;
+
 /// The nearest of the known names, where one is near enough to be meant.
 pub(crate) fn nearest<'n>(typed: &str, known: impl Iterator<Item = &'n str>) -> Option<&'n str> {
+    if typed.len() > LONGEST {
+        return None;
+    }
     let short = typed.chars().count() <= 2;
     let limit = if short { 0.4 } else { 0.65 };
     let likeness = |name: &str| {

@@ -185,3 +185,22 @@ fn an_empty_text_takes_a_field_out() {
     let case = with(&[("model.deflection", "")]);
     assert_eq!(case.text(field("model.deflection")), None);
 }
+
+#[test]
+fn a_limit_may_be_half_typed_in_a_form() {
+    let mut case = Case::table_1();
+    case.write_limit("impact_force", "2600");
+    assert_eq!(case.limits[0].value, f64::INFINITY);
+    let problem = only_problem(&case);
+    assert_eq!(problem.field, "limits.impact_force");
+    assert!(problem.mend.contains("\"2600 N\""), "{}", problem.mend);
+    assert_eq!(case, case.clone());
+    case.write_limit("impact_force", "2600 N");
+    assert_eq!((case.limits.len(), case.limits[0].value), (1, 2600.0));
+    case.write_limit("normal_velocity", "");
+    assert!(case.inputs().is_ok());
+    case.drop_empty_limits(Some("normal_velocity"));
+    assert_eq!(case.limits.len(), 2);
+    case.drop_empty_limits(None);
+    assert_eq!(case.limits.len(), 1);
+}

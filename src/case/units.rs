@@ -1,10 +1,14 @@
 //! Units at the door: text with a unit becomes SI, and back.
 
+mod converted;
 mod number;
+pub mod system;
 mod table;
 
 use super::suggest;
 use super::visible::{cut, quoted};
+pub use converted::converted;
+pub use system::System;
 use table::{FAMILIES, Scale, Unit, name_of, units_of};
 
 /// A physical dimension that a field or a quantity has.
@@ -137,7 +141,13 @@ fn times(number: f64, factor: f64, rest: f64) -> f64 {
     if high.is_finite() { high + low } else { high }
 }
 
+/// A longer text is no unit, however it is spelled.
+const LONGEST: usize = 64;
+
 fn find(unit: &str, units: &'static [Unit]) -> Option<&'static Unit> {
+    if unit.len() > LONGEST {
+        return None;
+    }
     let spelled = |text: &str| units.iter().find(|unit| unit.symbol == text || unit.aliases.contains(&text));
     spelled(unit).or_else(|| spelled(&plain_spelling(unit)))
 }

@@ -13,6 +13,10 @@ use std::path::PathBuf;
 const CSV_SHAPE: &str = "CSV is in SI units: a row a case with a column a quantity, such as `impact_force [N]`; with --stations \
     instead a row a station. JSON is an object a case, one a line, in SI units; what does not exist is absent.";
 
+const TRADE_SHAPE: &str = "Each setting is timed here and now, and its first contact, forces and curve are held against the rung \
+    dynamic at its finest: the greatest relative difference is its total error, what the same rung at its finest leaves of it is \
+    the model's, the rest numerical. JSON is one object in SI units; what does not exist is absent.";
+
 /// Corner contact in spur gear pairs: where, how hard and how long an incoming tooth strikes
 #[derive(Debug, Parser)]
 #[command(name = "tipstrike", version, args_conflicts_with_subcommands = true, after_help = exit_codes())]
@@ -32,6 +36,10 @@ pub enum Command {
     Solve(Solve),
     /// Hold each case's [limits] against its results, a verdict a line
     Check(Check),
+    /// Explain a quantity of a case: formula, numbers, source, range, and what it depends on
+    Explain(Explain),
+    /// Measure, here and now, speed against accuracy of every rung on a case
+    Trade(Trading),
     /// List every field of a case with its unit, range, default and meaning
     Fields(Fields),
     /// Write a commented case to start from
@@ -84,6 +92,44 @@ pub struct Check {
     pub cases: Vec<PathBuf>,
 }
 
+/// What `explain` is asked.
+#[derive(Debug, Args)]
+pub struct Explain {
+    /// The quantity; `tipstrike fields --results` lists them
+    #[arg(value_name = "QUANTITY", hide_possible_values = true, value_parser = quantities())]
+    pub quantity: &'static Quantity,
+    /// The case file, - for standard input; else Table 1 of Zhou & Chen 2014
+    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub case: Option<PathBuf>,
+    /// Solve on this rung instead of the case's
+    #[arg(long, value_parser = rungs())]
+    pub rung: Option<Rung>,
+    /// Change a field of the case, such as "operation.speed=3000 rpm"
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
+    pub settings: Vec<Setting>,
+    /// How to tell it
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Listing,
+}
+
+/// What `trade` is asked.
+#[derive(Debug, Args)]
+#[command(after_help = TRADE_SHAPE)]
+pub struct Trading {
+    /// Case file; - is standard input
+    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub case: PathBuf,
+    /// Change a field of the case, such as "operation.speed=3000 rpm"
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
+    pub settings: Vec<Setting>,
+    /// Name the cheapest setting whose error is no greater, such as 5% or 0.05; else that of the case's model.within
+    #[arg(long, value_name = "ERROR", value_parser = part)]
+    pub within: Option<f64>,
+    /// How to tell it
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Listing,
+}
+
 /// What `fields` is asked.
 #[derive(Debug, Args)]
 pub struct Fields {
@@ -107,10 +153,10 @@ pub enum Format {
     Csv,
 }
 
-/// How a list is told.
+/// How a list or a page is told.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub enum Listing {
-    /// A table for a person
+    /// For a person
     #[default]
     Text,
     /// An object a line
@@ -153,6 +199,13 @@ fn setting(text: &str) -> Result<Setting, String> {
     Ok(Setting { key: key.trim().to_owned(), value: value.to_owned() })
 }
 
+/// A part of a whole: "5%" or 0.05.
+fn part(text: &str) -> Result<f64, String> {
+    let (number, whole) = text.trim().strip_suffix('%').map_or((text.trim(), 1.0), |number| (number.trim(), 100.0));
+    let value = number.parse::<f64>().ok().map(|number| number / whole).filter(|part| part.is_finite() && *part > 0.0);
+    value.ok_or_else(|| "write a part above 0, such as 5% or 0.05".to_owned())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -161,6 +214,12 @@ mod tests {
     #[test]
     fn the_shape_is_sound() {
         Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn a_part_is_written_with_or_without_its_sign() {
+        assert_eq!((part("5%"), part("0.05"), part(" 0.5 % ")), (Ok(0.05), Ok(0.05), Ok(0.005)));
+        assert!(["", "%", "five", "-1%", "0", "nan", "inf%"].iter().all(|text| part(text).is_err()));
     }
 
     #[test]

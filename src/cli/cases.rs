@@ -25,7 +25,12 @@ impl Opened {
 
 /// Read a case and change what the settings name.
 pub(super) fn open(path: &Path, settings: &[Setting], streams: &mut Streams) -> Result<Opened, Exit> {
-    let mut document = Document::read(path).map_err(|error| unread(&error, streams))?;
+    let document = Document::read(path).map_err(|error| unread(&error, streams))?;
+    changed(path.display().to_string(), document, settings, streams)
+}
+
+/// A document as it is once the settings have changed what they name.
+pub(super) fn changed(name: String, mut document: Document, settings: &[Setting], streams: &mut Streams) -> Result<Opened, Exit> {
     for Setting { key, value } in settings {
         document.case.set(key, value).map_err(|problem| {
             streams.say(&format!("--set: {problem}"));
@@ -34,7 +39,7 @@ pub(super) fn open(path: &Path, settings: &[Setting], streams: &mut Streams) -> 
     }
     match document.case.inputs() {
         // Nothing waits for a report, so it is given the digits.
-        Ok(inputs) => Ok(Opened { name: path.display().to_string(), document, inputs }),
+        Ok(inputs) => Ok(Opened { name, document, inputs }),
         Err(problems) => Err(unfit(&document, problems, settings, streams)),
     }
 }

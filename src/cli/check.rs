@@ -4,7 +4,7 @@ use super::cases::{self, Opened};
 use super::{Check, Exit, Streams};
 use crate::case::visible::visible;
 use crate::model::{self, Quantity, Stages};
-use crate::report::verdict::{Standing, Verdict, verdicts};
+use crate::report::verdict::{Standing, refused, verdicts};
 use std::io::{self, Write};
 
 pub(super) fn run(options: &Check, streams: &mut Streams) -> io::Result<Exit> {
@@ -20,30 +20,26 @@ pub(super) fn run(options: &Check, streams: &mut Streams) -> io::Result<Exit> {
 }
 
 fn check(opened: &Opened, streams: &mut Streams) -> io::Result<Exit> {
-    let solution = match model::solve(&opened.inputs, stages(opened)) {
-        Ok(solution) => solution,
-        Err(refusal) => return Ok(opened.refused(&refusal, streams)),
+    let case = &opened.document.case;
+    let (verdicts, refusal) = match model::solve(&opened.inputs, stages(opened)) {
+        Ok(solution) => (verdicts(case, &solution), solution.withheld),
+        Err(refusal) => (refused(case, &refusal), Some(refusal)),
     };
-    let verdicts = verdicts(&opened.document.case, &solution);
-    let unknown = verdicts.iter().any(|verdict| verdict.standing == Standing::Unknown);
-    if let Some(refusal) = solution.withheld.filter(|_| unknown) {
+    for verdict in &verdicts {
+        writeln!(streams.output, "{} {}: {verdict}", verdict.standing.word(), visible(&opened.name))?;
+    }
+    let is_settled = verdicts.iter().all(|verdict| verdict.standing != Standing::Unknown) && !verdicts.is_empty();
+    if let Some(refusal) = refusal.filter(|_| !is_settled) {
         return Ok(opened.refused(&refusal, streams));
     }
-    let broken: Vec<&Verdict> = verdicts.iter().filter(|verdict| !verdict.standing.holds()).collect();
-    let (word, exit) = if broken.is_empty() { ("ok", Exit::Done) } else { ("EXCEEDED", Exit::Exceeded) };
-    let told = if broken.is_empty() { verdicts.iter().collect() } else { broken };
-    writeln!(streams.output, "{word} {}: {}", visible(&opened.name), list(&told))?;
-    Ok(exit)
+    if verdicts.is_empty() {
+        writeln!(streams.output, "ok {}: no limits", visible(&opened.name))?;
+    }
+    let holds = verdicts.iter().all(|verdict| verdict.standing.holds());
+    Ok(if holds { Exit::Done } else { Exit::Exceeded })
 }
 
 fn stages(opened: &Opened) -> Stages {
     let limited = opened.document.case.limits.iter().filter_map(|limit| Quantity::find(limit.quantity));
     limited.fold(Stages::of(model::Stage::Geometry), |stages, quantity| stages.and(Stages::of(quantity.stage)))
-}
-
-fn list(verdicts: &[&Verdict]) -> String {
-    if verdicts.is_empty() {
-        return "no limits".to_owned();
-    }
-    verdicts.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }

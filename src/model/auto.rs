@@ -116,7 +116,8 @@ fn period(solution: &Solution) -> Option<f64> {
 pub(super) const READS: Stages = Stages::of(Stage::Impact);
 
 /// The inputs of the rung that was taken.
-pub(super) fn taken(inputs: &Inputs, rung: Rung) -> Inputs {
+#[must_use]
+pub fn taken(inputs: &Inputs, rung: Rung) -> Inputs {
     /// The tolerance of the peak force is this part of what may be left in all.
     const NUMERICAL: f64 = 0.02;
     Inputs { rung, tolerance: (NUMERICAL * inputs.within).max(1e-12), ..inputs.clone() }

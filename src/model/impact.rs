@@ -142,7 +142,7 @@ pub fn impact(
 
 /// What Eq. 32 lacks of Hertz's duration: 2.868265699 π^(2/5), where the first factor is
 /// 2 (15/16)^(2/5) ∫₀¹ dx/√(1 − x^(5/2)).
-const HERTZ_PREFACTOR: f64 = 4.533_977_164_008_488;
+pub const HERTZ_PREFACTOR: f64 = 4.533_977_164_008_488;
 
 /// Impact duration by Eq. 32 as printed, in s.
 ///

@@ -1,9 +1,11 @@
 //! The rungs in which every pair in contact takes its share of the load: as much of the mesh as they need, then `static`
 //! and `dynamic`.
 
+use std::sync::Arc;
+
 use super::dynamic::{Dynamic, Settings, dynamic};
-use super::inputs::Inputs;
 use super::mesh::Mesh;
+use super::solve::Solving;
 use super::spacing::Spacing;
 use super::stage::{Stage, Stages};
 use super::static_load::{StaticLoad, static_load};
@@ -11,63 +13,87 @@ use super::{Outcome, Refusal, Solution};
 
 /// What the wanted rungs found.
 struct Shared {
-    mesh_stiffness: f64,
+    mesh: Arc<Mesh>,
     static_load: Option<StaticLoad>,
     dynamic: Option<Dynamic>,
+    ran: Stages,
 }
 
 /// Add to the solution what the wanted stages find. Whether the tooth strikes is then what the last of them says.
 ///
 /// # Errors
 /// Those of [`Mesh::new`], [`static_load`] and [`dynamic`].
-pub(super) fn share(
-    solution: &mut Solution,
-    inputs: &Inputs,
-    wanted: Stages,
-    go_on: &dyn Fn(f64) -> bool,
-) -> Result<(), Refusal> {
-    let shared = within_reach(solution, inputs, wanted, go_on)?;
-    let ran = [Stage::Mesh, Stage::Static, Stage::Dynamic].into_iter().filter(|&stage| wanted.has(stage));
-    solution.stages = ran.fold(solution.stages, Stages::with);
+pub(super) fn share(solution: &mut Solution, asked: &Solving<'_>, go_on: &dyn Fn(f64) -> bool) -> Result<(), Refusal> {
+    let shared = within_reach(solution, asked, go_on)?;
+    let present = [Stage::Mesh, Stage::Static, Stage::Dynamic].into_iter().filter(|&stage| asked.wanted.has(stage));
+    solution.stages = present.fold(solution.stages, Stages::with);
+    solution.ran = solution.ran.and(shared.ran);
     let static_angle = shared.static_load.as_ref().map(|load| load.first_contact_angle);
     let dynamic_angle = shared.dynamic.as_ref().map(|dynamic| dynamic.first_contact_angle);
     if let Some(angle) = dynamic_angle.or(static_angle) {
         solution.outcome = if angle.is_some() { Outcome::CornerContact } else { Outcome::NoCornerContact };
     }
-    solution.mesh_stiffness = Some(shared.mesh_stiffness);
+    solution.mesh = Some(shared.mesh);
     solution.static_load = shared.static_load;
     solution.dynamic = shared.dynamic;
     Ok(())
 }
 
 /// The mesh is computed no further than the pairs yield: where that was not far enough, again and further.
-fn within_reach(solution: &Solution, inputs: &Inputs, wanted: Stages, go_on: &dyn Fn(f64) -> bool) -> Result<Shared, Refusal> {
+fn within_reach(solution: &Solution, asked: &Solving<'_>, go_on: &dyn Fn(f64) -> bool) -> Result<Shared, Refusal> {
     const AT_FIRST: f64 = 8.0;
     const FURTHER: f64 = 16.0;
+    let inputs = asked.inputs;
+    if let Some(mesh) = asked.kept(Stage::Mesh).and_then(|earlier| earlier.mesh.clone()) {
+        match run(&mesh, solution.reduced_mass, asked, Stages::NONE, go_on) {
+            Err(Refusal::BeyondReach) if !mesh.is_whole() => (),
+            found => return found,
+        }
+    }
     let reliefs = [&inputs.driver, &inputs.driven].map(|gear| gear.tip_relief + gear.root_relief);
     let deviation = &solution.deviation;
     let yields = deviation.combined_deflection + deviation.equivalent_error.abs() + reliefs.iter().sum::<f64>();
     let mut reach = AT_FIRST * yields;
     loop {
         let mesh = Mesh::new(inputs, &solution.geometry, solution.mesh_force, deviation.equivalent_error, reach)?;
-        match run(&mesh, solution.reduced_mass, inputs, wanted, go_on) {
+        let mesh = Arc::new(mesh);
+        match run(&mesh, solution.reduced_mass, asked, Stages::NONE.with(Stage::Mesh), go_on) {
             Err(Refusal::BeyondReach) if !mesh.is_whole() => reach *= FURTHER,
             found => return found,
         }
     }
 }
 
-fn run(mesh: &Mesh, mass: f64, inputs: &Inputs, wanted: Stages, go_on: &dyn Fn(f64) -> bool) -> Result<Shared, Refusal> {
-    let settings = Settings {
-        mass,
-        damping_ratio: inputs.damping_ratio,
-        warmup_cycles: inputs.warmup_cycles,
-        tolerance: inputs.tolerance,
-        spacing: Spacing::of(inputs),
+/// The wanted rungs on this mesh, as far as nothing earlier holds.
+fn run(
+    mesh: &Arc<Mesh>,
+    mass: f64,
+    asked: &Solving<'_>,
+    mut ran: Stages,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Shared, Refusal> {
+    let (inputs, wanted) = (asked.inputs, asked.wanted);
+    let spacing = Spacing::of(inputs);
+    let held = asked.kept(Stage::Static).and_then(|earlier| earlier.static_load.clone());
+    let static_load = if !wanted.has(Stage::Static) || held.is_some() {
+        held.filter(|_| wanted.has(Stage::Static))
+    } else {
+        ran = ran.with(Stage::Static);
+        Some(static_load(mesh, spacing)?)
     };
-    Ok(Shared {
-        mesh_stiffness: mesh.mean_stiffness,
-        static_load: wanted.has(Stage::Static).then(|| static_load(mesh, Spacing::of(inputs))).transpose()?,
-        dynamic: wanted.has(Stage::Dynamic).then(|| dynamic(mesh, &settings, go_on)).transpose()?,
-    })
+    let held = asked.kept(Stage::Dynamic).and_then(|earlier| earlier.dynamic.clone());
+    let dynamic = if !wanted.has(Stage::Dynamic) || held.is_some() {
+        held.filter(|_| wanted.has(Stage::Dynamic))
+    } else {
+        ran = ran.with(Stage::Dynamic);
+        let settings = Settings {
+            mass,
+            damping_ratio: inputs.damping_ratio,
+            warmup_cycles: inputs.warmup_cycles,
+            tolerance: inputs.tolerance,
+            spacing,
+        };
+        Some(dynamic(mesh, &settings, go_on)?)
+    };
+    Ok(Shared { mesh: Arc::clone(mesh), static_load, dynamic, ran })
 }

@@ -177,22 +177,22 @@ impl Mesh {
     /// Stiffness and gap of a pair, its error counted.
     pub(super) fn spring(&self, ahead: i32, zone: usize, s: f64) -> (f64, f64) {
         let at = s + f64::from(ahead) * self.base_pitch;
-        let series = &self.zones[zone].series;
-        (series.one(STIFFNESS, at), series.one(GAP, at) - self.error_of(ahead))
+        let [stiffness, gap] = self.zones[zone].series.at(at);
+        (stiffness, gap - self.error_of(ahead))
     }
 
     /// Gap of a pair, its error counted, in m, and how it grows with s.
     pub(super) fn gap(&self, ahead: i32, zone: usize, s: f64) -> (f64, f64) {
         let at = s + f64::from(ahead) * self.base_pitch;
-        let series = &self.zones[zone].series;
-        (series.one(GAP, at) - self.error_of(ahead), series.slope(GAP, at))
+        let [(gap, slope)] = self.zones[zone].series.with_slopes(GAP, at);
+        (gap - self.error_of(ahead), slope)
     }
 
-    /// Stiffness of a pair, in N/m, and how it grows with s.
-    pub(super) fn stiffness(&self, ahead: i32, zone: usize, s: f64) -> (f64, f64) {
+    /// Stiffness and gap of a pair, its error counted, each with how it grows with s.
+    pub(super) fn spring_with_slopes(&self, ahead: i32, zone: usize, s: f64) -> [(f64, f64); 2] {
         let at = s + f64::from(ahead) * self.base_pitch;
-        let series = &self.zones[zone].series;
-        (series.one(STIFFNESS, at), series.slope(STIFFNESS, at))
+        let [stiffness, (gap, slope)] = self.zones[zone].series.with_slopes(STIFFNESS, at);
+        [stiffness, (gap - self.error_of(ahead), slope)]
     }
 
     /// Sliding velocity of the incoming pair at `s`, in m/s.
@@ -204,8 +204,8 @@ impl Mesh {
     /// Arm of the friction force over the driver's base radius, and sliding velocity in m/s.
     pub(super) fn slide(&self, ahead: i32, zone: usize, s: f64) -> (f64, f64) {
         let at = s + f64::from(ahead) * self.base_pitch;
-        let series = &self.zones[zone].series;
-        (series.one(LEVER, at), series.one(SLIDING, at))
+        let [_, _, lever, sliding] = self.zones[zone].series.at(at);
+        (lever, sliding)
     }
 
     fn error_of(&self, ahead: i32) -> f64 {

@@ -92,7 +92,7 @@ pub static QUANTITIES: &[Quantity] = &[
     quantity!("friction_ratio", "f", "friction ratio", "1", "1", 4, "Eq. 64", Friction, |s| s.friction?.ratio),
     quantity!("stick_limit", "μ_stick", "stick limit", "1", "1", 4, "ΔVτ/(2ΔVn)", Velocity, |s| Some(s.velocity?.stick_limit)),
     quantity!("impulse_ratio", "κ", "impulse ratio", "1", "1", 4, "(2/π)F_S·T_S/(M·ΔV_n)", Impact, |s| Some(s.impact?.impulse_ratio)),
-    quantity!("mesh_stiffness", "k_m", "mean mesh stiffness", "N/m", "N/m", 6, "mean of b/q", Mesh, |s| s.mesh_stiffness),
+    quantity!("mesh_stiffness", "k_m", "mean mesh stiffness", "N/m", "N/m", 6, "mean of b/q", Mesh, |s| Some(s.mesh.as_ref()?.mean_stiffness)),
     quantity!("static_first_contact_angle", "u_s", "static: angle before E", "rad", "deg", 6, "ΣF = F0", Static, |s| s.static_load.as_ref()?.first_contact_angle),
     quantity!("static_force_at_start", "F_s,E", "static: force at E", "N", "N", 5, "ΣF = F0", Static, |s| Some(s.static_load.as_ref()?.force_at_start)),
     quantity!("static_peak_force", "F_s,max", "static: greatest force", "N", "N", 5, "ΣF = F0", Static, |s| Some(s.static_load.as_ref()?.peak_force)),

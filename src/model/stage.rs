@@ -121,6 +121,12 @@ impl Stages {
         Stages(self.0 | 1 << stage as u8)
     }
 
+    /// This set without one stage.
+    #[must_use]
+    pub const fn without(self, stage: Stage) -> Stages {
+        Stages(self.0 & !(1 << stage as u8))
+    }
+
     /// The union of two sets.
     #[must_use]
     pub const fn and(self, other: Stages) -> Stages {

@@ -97,8 +97,11 @@ pub fn stations(
     (found.into_iter().flatten().collect(), refused)
 }
 
-/// The impact as if it happened at the angle `angle` before E.
-fn station(inputs: &Inputs, geometry: &Geometry, masses: &Masses, angle: f64) -> Result<Station, Refusal> {
+/// The impact as if it happened at the driven gear's angle `angle` before E, in rad.
+///
+/// # Errors
+/// The [`Refusal`] of the stage that has no force there.
+pub fn station(inputs: &Inputs, geometry: &Geometry, masses: &Masses, angle: f64) -> Result<Station, Refusal> {
     let tip = tip_at(geometry, angle);
     let velocity = velocity::velocity(inputs, &tip);
     let impact_force = if angle > 0.0 {

@@ -1,6 +1,9 @@
-//! Functions of one variable as pieces of Chebyshev series, cheap to evaluate and as exact as the digits allow.
+//! Functions of one variable as polynomials on pieces, found as Chebyshev series, cheap to evaluate and as exact as the
+//! digits allow.
 
+use std::array::from_fn;
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 /// Terms of a piece.
 const TERMS: usize = 16;
@@ -9,7 +12,7 @@ const TAIL: usize = 3;
 /// A piece is halved no further: a function that is still not smooth there has a branch point.
 const MOST_HALVINGS: u32 = 30;
 
-/// `N` functions on one interval, each a Chebyshev series on every piece of it.
+/// `N` functions on one interval, each a polynomial on every piece of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series<const N: usize> {
     pieces: Vec<Piece<N>>,
@@ -19,8 +22,16 @@ pub struct Series<const N: usize> {
 struct Piece<const N: usize> {
     from: f64,
     to: f64,
-    terms: [[f64; TERMS]; N],
+    /// Coefficients of the powers of the place on the piece from −1 to 1. The terms of a series that has settled fall so
+    /// fast that the powers keep its digits.
+    powers: Terms<N>,
 }
+
+/// What belongs to each order, of all functions side by side, so that several are summed at once.
+type Terms<const N: usize> = [[f64; N]; TERMS];
+
+/// cos(k π/(2 TERMS)) over a whole turn.
+static COSINES: LazyLock<[f64; 4 * TERMS]> = LazyLock::new(|| from_fn(|k| (k as f64 * PI / (2 * TERMS) as f64).cos()));
 
 impl<const N: usize> Series<N> {
     /// The functions `f` from `from` to `to`, halved until the last terms of each series are below what `rest` allows on
@@ -42,31 +53,31 @@ impl<const N: usize> Series<N> {
         Ok(Series { pieces })
     }
 
-    /// The values at `x`; outside the interval its end pieces go on.
+    /// The values of the first `M` functions at `x`; outside the interval its end pieces go on.
     #[must_use]
-    pub fn at(&self, x: f64) -> [f64; N] {
-        let Some(piece) = self.piece(x) else { return [f64::NAN; N] };
-        let t = piece.inner(x);
-        std::array::from_fn(|function| clenshaw(&piece.terms[function], t))
+    pub fn at<const M: usize>(&self, x: f64) -> [f64; M] {
+        self.piece(x).map_or([f64::NAN; M], |piece| values(&piece.powers, 0, piece.inner(x)))
     }
 
     /// The value of one function at `x`.
     #[must_use]
     pub fn one(&self, function: usize, x: f64) -> f64 {
-        self.piece(x).map_or(f64::NAN, |piece| clenshaw(&piece.terms[function], piece.inner(x)))
+        let [value] = self.piece(x).map_or([f64::NAN], |piece| values(&piece.powers, function, piece.inner(x)));
+        value
     }
 
-    /// The slope of one function at `x`.
+    /// The values of `M` functions, from `first` on, at `x`, and their slopes there.
     #[must_use]
-    pub fn slope(&self, function: usize, x: f64) -> f64 {
-        let Some(piece) = self.piece(x) else { return f64::NAN };
-        slope(&piece.terms[function], piece.inner(x)) * 2.0 / (piece.to - piece.from)
+    pub fn with_slopes<const M: usize>(&self, first: usize, x: f64) -> [(f64, f64); M] {
+        let Some(piece) = self.piece(x) else { return [(f64::NAN, f64::NAN); M] };
+        let (t, scale) = (piece.inner(x), 2.0 / (piece.to - piece.from));
+        values_and_slopes::<N, M>(&piece.powers, first, t).map(|(value, slope)| (value, slope * scale))
     }
 
     /// The integral of one function over the whole interval.
     #[must_use]
     pub fn integral(&self, function: usize) -> f64 {
-        self.pieces.iter().map(|piece| 0.5 * (piece.to - piece.from) * integral(&piece.terms[function])).sum()
+        self.pieces.iter().map(|piece| 0.5 * (piece.to - piece.from) * integral(&piece.powers, function)).sum()
     }
 
     fn piece(&self, x: f64) -> Option<&Piece<N>> {
@@ -95,8 +106,8 @@ fn halve<const N: usize, E>(
 ) -> Result<(), E> {
     let terms = interpolate(from, to, f)?;
     let middle = f64::midpoint(from, to);
-    if halvings == 0 || terms.iter().zip(rest(from, to)).all(|(terms, rest)| has_settled(terms, rest)) {
-        pieces.push(Piece { from, to, terms });
+    if halvings == 0 || has_settled(&terms, &rest(from, to)) {
+        pieces.push(Piece { from, to, powers: powers(&terms) });
         return Ok(());
     }
     halve(from, middle, rest, halvings - 1, f, pieces)?;
@@ -104,50 +115,76 @@ fn halve<const N: usize, E>(
 }
 
 /// The terms of the polynomials through the function's values at the Chebyshev points of the first kind.
-fn interpolate<const N: usize, E>(from: f64, to: f64, f: &impl Fn(f64) -> Result<[f64; N], E>) -> Result<[[f64; TERMS]; N], E> {
-    let angle = |point: usize| PI * (point as f64 + 0.5) / TERMS as f64;
-    let mut values = [[0.0; TERMS]; N];
+fn interpolate<const N: usize, E>(from: f64, to: f64, f: &impl Fn(f64) -> Result<[f64; N], E>) -> Result<Terms<N>, E> {
+    let cosines = &*COSINES;
+    let mut terms = [[0.0; N]; TERMS];
     for point in 0..TERMS {
-        let x = f64::midpoint(from, to) + 0.5 * (to - from) * angle(point).cos();
-        for (value, found) in values.iter_mut().zip(f(x)?) {
-            value[point] = found;
+        let x = f64::midpoint(from, to) + 0.5 * (to - from) * cosines[2 * point + 1];
+        let found = f(x)?;
+        for (order, sums) in terms.iter_mut().enumerate() {
+            let weight = cosines[order * (2 * point + 1) % cosines.len()];
+            sums.iter_mut().zip(found).for_each(|(sum, value)| *sum += value * weight);
         }
     }
-    Ok(values.map(|value| {
-        std::array::from_fn(|order| {
-            let sum: f64 = (0..TERMS).map(|point| value[point] * (order as f64 * angle(point)).cos()).sum();
-            sum * if order == 0 { 1.0 } else { 2.0 } / TERMS as f64
-        })
-    }))
-}
-
-/// Whether the last terms are small enough, or so large that no halving would help.
-fn has_settled(terms: &[f64; TERMS], rest: f64) -> bool {
-    terms[TERMS - TAIL..].iter().all(|term| !term.is_finite() || term.abs() <= rest)
-}
-
-/// Σ c_n T_n(t) by Clenshaw's recurrence.
-fn clenshaw(terms: &[f64; TERMS], t: f64) -> f64 {
-    let (mut one, mut two) = (0.0, 0.0);
-    for term in terms[1..].iter().rev() {
-        (one, two) = (term + 2.0 * t * one - two, one);
+    for (order, sums) in terms.iter_mut().enumerate() {
+        let scale = if order == 0 { 1.0 } else { 2.0 } / TERMS as f64;
+        sums.iter_mut().for_each(|sum| *sum *= scale);
     }
-    terms[0] + t * one - two
+    Ok(terms)
 }
 
-/// Σ n c_n U_(n−1)(t), the derivative of the series, by the same recurrence.
-fn slope(terms: &[f64; TERMS], t: f64) -> f64 {
-    let (mut one, mut two) = (0.0, 0.0);
-    for (order, term) in terms.iter().enumerate().skip(1).rev() {
-        (one, two) = (order as f64 * term + 2.0 * t * one - two, one);
+/// Whether the last terms of each function are small enough, or so large that no halving would help.
+fn has_settled<const N: usize>(terms: &Terms<N>, rest: &[f64; N]) -> bool {
+    let tail = &terms[TERMS - TAIL..];
+    tail.iter().flat_map(|terms| terms.iter().zip(rest)).all(|(term, rest)| !term.is_finite() || term.abs() <= *rest)
+}
+
+/// The coefficients of the powers: Σ c_n T_n(t) = Σ a_k t^k.
+fn powers<const N: usize>(terms: &Terms<N>) -> Terms<N> {
+    let mut powers = [[0.0; N]; TERMS];
+    let (mut before, mut polynomial) = ([0.0; TERMS], [0.0; TERMS]);
+    polynomial[0] = 1.0;
+    for (order, terms) in terms.iter().enumerate() {
+        for (sums, coefficient) in powers.iter_mut().zip(polynomial) {
+            sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += coefficient * term);
+        }
+        // T_1 = t, T_(n+1) = 2 t T_n − T_(n−1).
+        let scale = if order == 0 { 1.0 } else { 2.0 };
+        let next = from_fn(|power: usize| power.checked_sub(1).map_or(0.0, |lower| scale * polynomial[lower]) - before[power]);
+        (before, polynomial) = (polynomial, next);
     }
-    one
+    powers
 }
 
-/// ∫ of the series from −1 to 1.
-fn integral(terms: &[f64; TERMS]) -> f64 {
-    let even = terms.iter().enumerate().step_by(2);
-    even.map(|(order, term)| 2.0 * term / (1.0 - (order * order) as f64)).sum()
+/// Σ a_k t^k of `M` functions, from `first` on, by Estrin's scheme: pairs, pairs of pairs and so on, which do not wait for
+/// each other.
+#[inline]
+fn values<const N: usize, const M: usize>(powers: &Terms<N>, first: usize, t: f64) -> [f64; M] {
+    let (square, fourth) = (t * t, (t * t) * (t * t));
+    let pair = |at: usize, function: usize| powers[at][function] + powers[at + 1][function] * t;
+    let four = |at: usize, function: usize| pair(at, function) + pair(at + 2, function) * square;
+    let eight = |at: usize, function: usize| four(at, function) + four(at + 4, function) * fourth;
+    from_fn(|function| eight(0, first + function) + eight(8, first + function) * (fourth * fourth))
+}
+
+/// The same with Σ k a_k t^(k−1), which follows from the scheme by the rule for products.
+#[inline]
+fn values_and_slopes<const N: usize, const M: usize>(powers: &Terms<N>, first: usize, t: f64) -> [(f64, f64); M] {
+    let (square, cube) = (t * t, t * t * t);
+    let (fourth, eighth) = (square * square, square * square * square * square);
+    let join = |low: (f64, f64), high: (f64, f64), power: f64, slope: f64| {
+        (low.0 + high.0 * power, low.1 + high.1 * power + high.0 * slope)
+    };
+    let pair = |at: usize, function: usize| (powers[at][function] + powers[at + 1][function] * t, powers[at + 1][function]);
+    let four = |at: usize, function: usize| join(pair(at, function), pair(at + 2, function), square, 2.0 * t);
+    let eight = |at: usize, function: usize| join(four(at, function), four(at + 4, function), fourth, 4.0 * cube);
+    from_fn(|function| join(eight(0, first + function), eight(8, first + function), eighth, 8.0 * cube * fourth))
+}
+
+/// ∫ of a function from −1 to 1.
+fn integral<const N: usize>(powers: &Terms<N>, function: usize) -> f64 {
+    let even = powers.iter().enumerate().step_by(2);
+    even.map(|(order, powers)| 2.0 * powers[function] / (order + 1) as f64).sum()
 }
 
 #[cfg(test)]
@@ -164,9 +201,10 @@ mod tests {
         for step in 0..=900 {
             let x = -2.0 + 0.01 * f64::from(step);
             let [sine, growth] = found.at(x);
+            let [(_, slope), (also_growth, _)] = found.with_slopes(0, x);
             assert!((sine - x.sin()).abs() < 2e-14 && (growth / (0.3 * x).exp() - 1.0).abs() < 2e-14, "{x}");
-            assert!((found.slope(0, x) - x.cos()).abs() < 1e-11, "{x}: {}", found.slope(0, x));
-            assert!((found.one(1, x) - growth).abs() == 0.0);
+            assert!((slope - x.cos()).abs() < 1e-11, "{x}: {slope}");
+            assert!((found.one(1, x) - growth).abs() == 0.0 && (also_growth - growth).abs() == 0.0);
         }
         assert!((found.integral(0) - (2f64.cos() - 7f64.cos())).abs() < 1e-13);
     }

@@ -11,6 +11,9 @@ use std::io::{self, Write};
 /// Greatest width of a line of a list.
 const WIDTH: usize = 100;
 
+/// What follows the quantities.
+const TO_EXPLAIN: &str = "`tipstrike explain KEY [CASE]` shows how one is found, with the numbers of a case.";
+
 const FIELD_HEAD: [&str; 6] = ["key", "symbol", "unit", "range", "default", "meaning"];
 const QUANTITY_HEAD: [&str; 5] = ["key", "symbol", "unit", "equation", "meaning"];
 
@@ -33,7 +36,8 @@ pub fn write_quantities(out: &mut dyn Write) -> io::Result<()> {
     let rows = QUANTITIES.iter().map(|quantity| {
         [quantity.key, quantity.symbol, quantity.unit, quantity.equation, quantity.label.trim_start()].map(str::to_owned)
     });
-    write_table(QUANTITY_HEAD, rows.collect(), out)
+    write_table(QUANTITY_HEAD, rows.collect(), out)?;
+    writeln!(out, "\n{TO_EXPLAIN}")
 }
 
 /// Write every field as JSON, an object a line.

@@ -2,7 +2,7 @@
 
 use super::layout::{WIDTH, flow, item, widest};
 use super::stations::{columns, rows};
-use super::verdict::{Standing, Verdict, verdicts};
+use super::verdict::{Verdict, verdicts};
 use super::{Report, Shown, shown, value};
 use crate::case::FIELDS;
 use crate::case::fields::Absent;
@@ -210,13 +210,9 @@ fn limits(report: &Report) -> Vec<String> {
     if !report.selection.is_whole() {
         return Vec::new();
     }
-    let mark = |verdict: &Verdict| match verdict.standing {
-        Standing::Within | Standing::NotApplicable => "  ok        ",
-        Standing::Exceeded => "  EXCEEDED  ",
-        Standing::Unknown => "  unknown   ",
-    };
+    let mark = |verdict: &Verdict| format!("  {:10}", verdict.standing.word());
     let verdicts = verdicts(&report.case, &report.solution);
-    titled("Limits", verdicts.iter().flat_map(|verdict| item(mark(verdict), &verdict.to_string())))
+    titled("Limits", verdicts.iter().flat_map(|verdict| item(&mark(verdict), &verdict.to_string())))
 }
 
 fn station_table(report: &Report) -> Vec<String> {

@@ -1,9 +1,10 @@
 //! A case held against its own limits.
 
-use super::{shown, value};
+use super::{shown_in, value};
+use crate::case::units::System;
 use crate::case::visible::visible;
 use crate::case::{Case, Limit};
-use crate::model::{Outcome, Quantity, Solution};
+use crate::model::{Outcome, Quantity, Refusal, Solution};
 use std::fmt;
 
 /// How a quantity stands to its limit.
@@ -25,6 +26,16 @@ impl Standing {
     pub fn holds(self) -> bool {
         matches!(self, Standing::Within | Standing::NotApplicable)
     }
+
+    /// The word in front of a verdict.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Standing::Within | Standing::NotApplicable => "ok",
+            Standing::Exceeded => "EXCEEDED",
+            Standing::Unknown => "unknown",
+        }
+    }
 }
 
 /// A limit of a case and what was found of it.
@@ -36,6 +47,8 @@ pub struct Verdict<'a> {
     pub value: Option<f64>,
     /// How the two stand.
     pub standing: Standing,
+    /// Why the model gives no value, where it says so.
+    pub withheld: Option<Refusal>,
 }
 
 /// Every limit of the case held against the solution, in the case's order.
@@ -44,7 +57,9 @@ pub fn verdicts<'a>(case: &'a Case, solution: &Solution) -> Vec<Verdict<'a>> {
     case.limits.iter().map(|limit| verdict(limit, solution)).collect()
 }
 
-fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Verdict<'a> {
+/// The verdict on one limit.
+#[must_use]
+pub fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Verdict<'a> {
     let value = Quantity::find(limit.quantity).and_then(|quantity| value(quantity, solution));
     let standing = match value {
         Some(value) if value <= limit.value => Standing::Within,
@@ -52,21 +67,77 @@ fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Verdict<'a> {
         None if solution.outcome == Outcome::NoCornerContact => Standing::NotApplicable,
         None => Standing::Unknown,
     };
-    Verdict { limit, value, standing }
+    let withheld = solution.withheld.filter(|_| standing == Standing::Unknown);
+    Verdict { limit, value, standing, withheld }
+}
+
+/// Every limit of a case that the model refuses: none can be held against anything.
+#[must_use]
+pub fn refused<'a>(case: &'a Case, refusal: &Refusal) -> Vec<Verdict<'a>> {
+    let verdict = |limit| Verdict { limit, value: None, standing: Standing::Unknown, withheld: Some(*refusal) };
+    case.limits.iter().map(verdict).collect()
+}
+
+impl Verdict<'_> {
+    /// The value as a part of the limit, where that says something.
+    #[must_use]
+    pub fn part(&self) -> Option<f64> {
+        let value = self.value.filter(|&value| self.limit.value > 0.0 && self.limit.value.is_finite() && value >= 0.0)?;
+        Some(value / self.limit.value)
+    }
+
+    /// The verdict in a line, the value in metric or inch units; the limit as it was written.
+    #[must_use]
+    pub fn told(&self, system: System) -> String {
+        let (key, limit) = (self.limit.quantity, visible(&self.limit.text));
+        let (Some(value), Some(quantity)) = (self.value, Quantity::find(key)) else {
+            return match self.withheld {
+                Some(refusal) => format!("{key} cannot be computed: {refusal} (limit {limit})"),
+                None if self.standing == Standing::Unknown => format!("{key} has no value here (limit {limit})"),
+                None => format!("{key} none, no corner contact (limit {limit})"),
+            };
+        };
+        let sign = if self.standing == Standing::Exceeded { ">" } else { "<=" };
+        let part = self.part().map(|part| format!(" ({:.0} %)", 100.0 * part));
+        format!("{key} {} {sign} {limit}{}", shown_in(quantity, value, system), part.unwrap_or_default())
+    }
 }
 
 impl fmt::Display for Verdict<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (key, limit) = (self.limit.quantity, visible(&self.limit.text));
-        let (Some(value), Some(quantity)) = (self.value, Quantity::find(key)) else {
-            let why = if self.standing == Standing::Unknown { "has no value here" } else { "none, no corner contact" };
-            return write!(f, "{key} {why} (limit {limit})");
-        };
-        let sign = if self.standing == Standing::Exceeded { ">" } else { "<=" };
-        write!(f, "{key} {} {sign} {limit}", shown(quantity, value))?;
-        if self.limit.value > 0.0 && value >= 0.0 {
-            write!(f, " ({:.0} %)", 100.0 * value / self.limit.value)?;
+        f.write_str(&self.told(System::Metric))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Stages;
+
+    fn told(limits: &[(&str, &str)], system: System) -> Vec<String> {
+        let mut case = Case::table_1();
+        for (quantity, text) in limits {
+            case.set_limit(quantity, text).unwrap();
         }
-        Ok(())
+        let solution = crate::model::solve(&case.inputs().unwrap(), Stages::ALL).unwrap();
+        verdicts(&case, &solution).iter().map(|verdict| format!("{} {}", verdict.standing.word(), verdict.told(system))).collect()
+    }
+
+    #[test]
+    fn a_limit_stays_as_it_was_written_in_either_system() {
+        let limits = [("impact_force", "500 lbf"), ("contact_ratio", "1.5")];
+        assert_eq!(
+            told(&limits, System::Metric),
+            ["ok impact_force 2191.0 N <= 500 lbf (99 %)", "EXCEEDED contact_ratio 1.5568 > 1.5 (104 %)"]
+        );
+        assert_eq!(told(&limits, System::Inch)[0], "ok impact_force 492.56 lbf <= 500 lbf (99 %)");
+    }
+
+    #[test]
+    fn a_refused_case_gives_the_reason_for_every_limit() {
+        let case = Case::table_1();
+        let verdicts = refused(&case, &Refusal::ContactRatioBelowOne { ratio: 0.9 });
+        assert!(!verdicts[0].standing.holds());
+        assert!(verdicts[0].to_string().starts_with("impact_force cannot be computed: the contact ratio is 0.9000"));
     }
 }

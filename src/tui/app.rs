@@ -9,13 +9,15 @@ use super::actions::Place;
 use super::pane::{Pane, Panes};
 use super::prompt::Prompt;
 use super::recovery::Access;
+use super::rows;
 use super::settings::Settings;
 use super::solver::{self, Answer, Request};
 use super::tab::Tab;
 use super::theme::Look;
 use super::update::files::NEWER;
+use super::view::teeth::TeethView;
 use super::view::{self, form, results};
-use crate::case::fields::{Absent, Kind};
+use crate::case::fields::Absent;
 use crate::case::{Case, Document, FIELDS, Problem, fields};
 use crate::model::Stages;
 
@@ -40,9 +42,13 @@ pub struct App {
     pub baseline: Option<Baseline>,
     /// Whether the results are to be pinned as soon as all of them are there.
     pub is_pinning: bool,
+    /// Whether the results tell what they took.
+    pub shows_cost: bool,
     /// The driver's roll angle before E that chart and teeth point at, in rad; negative after E.
     pub cursor: Option<f64>,
-    /// Whether the cursor runs from D to E by itself.
+    /// What of the teeth is in sight.
+    pub teeth: TeethView,
+    /// Whether the cursor runs to E by itself.
     pub is_playing: bool,
     /// Long work that goes on.
     pub progress: Option<Progress>,
@@ -109,7 +115,9 @@ impl App {
             is_editing: true,
             baseline: None,
             is_pinning: false,
+            shows_cost: false,
             cursor: None,
+            teeth: TeethView::default(),
             is_playing: false,
             progress: None,
             prompts: Vec::new(),
@@ -123,7 +131,7 @@ impl App {
         }
         app.follow();
         if let Some(request) = app.request() {
-            app.take(solver::answer(&request));
+            app.take(solver::first_answer(&request));
         }
         app
     }
@@ -140,7 +148,7 @@ impl App {
         match self.prompts.last() {
             Some(prompt) => prompt.place(),
             None if !self.has_line() => self.panes.focus.place(),
-            None if matches!(FIELDS[self.tab.focus].kind, Kind::Choice(..)) => Place::CHOICE,
+            None if !rows::names(&self.tab.case, self.tab.focus).is_empty() => Place::CHOICE,
             None => Place::TEXT,
         }
     }
@@ -202,16 +210,22 @@ impl App {
                 let tab = &mut self.tab;
                 (tab.serial, tab.asked, tab.is_settled) = (self.last_serial, stages, false);
                 tab.problems.clear();
-                Some(Request { serial: tab.serial, inputs, stages })
+                Some(Request { serial: tab.serial, case: tab.case.clone(), inputs, stages })
             }
             Err(problems) => {
                 self.tab.refusal = None;
-                let focus = self.tab.focus;
-                let place_of = |problem: &Problem| fields::index_of(&problem.field).unwrap_or(focus);
-                self.tab.problems = problems.into_iter().map(|problem| (place_of(&problem), problem)).collect();
+                let (case, focus) = (&self.tab.case, self.tab.focus);
+                let place_of = |problem: &Problem| rows::of_key(case, &problem.field).unwrap_or(focus);
+                self.tab.problems = problems.into_iter().map(|problem| (place_of(&problem), problem.for_form())).collect();
                 None
             }
         }
+    }
+
+    /// What the worker shall solve because the first picture could not wait for it.
+    pub(super) fn unanswered(&mut self) -> Option<Request> {
+        let waits = self.tab.answer.as_ref().is_some_and(|answer| answer.pending.is_some());
+        if waits { self.request() } else { None }
     }
 
     /// What the worker shall solve anew because something came in sight that was not asked for.

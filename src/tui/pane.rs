@@ -72,7 +72,7 @@ impl Pane {
             Pane::Form | Pane::Trade => Stages::NONE,
             Pane::Results => Stages::CLOSED_FORM.with(Stage::Band).and(Stages::of(Stage::Static)).with(Stage::Dynamic),
             Pane::Chart => Stages::STATIONS,
-            Pane::Teeth => Stages::of(Stage::Position),
+            Pane::Teeth => Stages::of(Stage::Impact).and(Stages::of(Stage::Static)).with(Stage::Dynamic),
         }
     }
 

@@ -6,7 +6,9 @@ use tui_input::Input;
 
 use super::actions::{self, Command};
 use super::clean::symbol;
-use crate::case::FIELDS;
+use crate::case::materials::{self, Material};
+use crate::case::{FIELDS, search};
+use crate::model::{QUANTITIES, Quantity};
 
 /// A name must be this like what is typed to be offered when nothing contains it.
 const LIKENESS: f64 = 0.75;
@@ -29,6 +31,10 @@ pub enum List {
     Commands,
     /// Every field of the form.
     Fields,
+    /// Every material, for these gears.
+    Materials(&'static [&'static str]),
+    /// Every quantity that may be held to a limit.
+    Limits,
     /// The cases that were open last.
     Recents(Vec<PathBuf>),
 }
@@ -40,6 +46,10 @@ pub enum Pick {
     Run(Command),
     /// Go to a field.
     Go(usize),
+    /// Make the gears of a material.
+    Make(&'static [&'static str], &'static Material),
+    /// Hold a quantity to a limit.
+    Limit(&'static str),
     /// Open a case.
     Load(PathBuf),
 }
@@ -70,6 +80,10 @@ impl Picker {
         match self.list {
             List::Commands => "Commands",
             List::Fields => "Go to a field",
+            List::Materials(["driver"]) => "Material of the driver",
+            List::Materials(["driven"]) => "Material of the driven gear",
+            List::Materials(_) => "Material of both gears",
+            List::Limits => "Hold to a limit",
             List::Recents(_) => "Recent cases",
         }
     }
@@ -77,6 +91,9 @@ impl Picker {
     /// The lines in which every typed word occurs, those that begin with it first; else those that are most like it.
     #[must_use]
     pub fn fitting(&self) -> Vec<Item> {
+        if self.list == List::Fields {
+            return search(self.input.value()).into_iter().map(|(index, _)| field(index)).collect();
+        }
         let typed = self.input.value().to_lowercase();
         let words: Vec<&str> = typed.split_whitespace().collect();
         let items = self.items();
@@ -100,6 +117,8 @@ impl Picker {
         match &self.list {
             List::Commands => actions::commands().map(command).collect(),
             List::Fields => (0..FIELDS.len()).map(field).collect(),
+            List::Materials(gears) => materials::all().iter().map(|material| of_material(gears, material)).collect(),
+            List::Limits => QUANTITIES.iter().map(quantity).collect(),
             List::Recents(paths) => paths.iter().map(|path| recent(path)).collect(),
         }
     }
@@ -120,6 +139,25 @@ fn field(index: usize) -> Item {
         pick: Pick::Go(index),
         name: field.key.to_owned(),
         about: format!("{} {}", field.symbol, field.label).trim_start().to_owned(),
+        keys: String::new(),
+    }
+}
+
+fn of_material(gears: &'static [&'static str], material: &'static Material) -> Item {
+    let Material { name, group, young, density, .. } = material;
+    Item {
+        pick: Pick::Make(gears, material),
+        name: name.clone(),
+        about: format!("{young}, {density}, {group}"),
+        keys: String::new(),
+    }
+}
+
+fn quantity(quantity: &'static Quantity) -> Item {
+    Item {
+        pick: Pick::Limit(quantity.key),
+        name: quantity.key.to_owned(),
+        about: format!("{} {}", quantity.symbol, quantity.label.trim_start()),
         keys: String::new(),
     }
 }

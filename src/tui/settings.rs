@@ -11,6 +11,7 @@ use tempfile::NamedTempFile;
 use toml_edit::{DocumentMut, Item, Value};
 
 use super::theme::{Look, ThemeName};
+use crate::case::units::System;
 
 /// Markers by their names in the file.
 const MARKERS: [(&str, Marker); 3] = [("braille", Marker::Braille), ("halfblock", Marker::HalfBlock), ("dot", Marker::Dot)];
@@ -28,24 +29,14 @@ pub struct Settings {
     /// The colours; else what the environment asks for.
     pub theme: Option<ThemeName>,
     /// The units in which values are shown beside what was typed.
-    pub units: Units,
+    pub units: System,
     /// Whether nothing but ASCII is drawn; else what the environment asks for.
     pub ascii: Option<bool>,
 }
 
-/// Units to show values in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Units {
-    /// Millimetres and newtons.
-    #[default]
-    Metric,
-    /// Inches and pounds.
-    Inch,
-}
-
 impl Default for Settings {
     fn default() -> Settings {
-        Settings { marker: Marker::Braille, mouse: false, theme: None, units: Units::Metric, ascii: None }
+        Settings { marker: Marker::Braille, mouse: false, theme: None, units: System::Metric, ascii: None }
     }
 }
 
@@ -61,7 +52,7 @@ impl Settings {
             marker: word("marker").and_then(marker_of).unwrap_or(usual.marker),
             mouse: flag("mouse").unwrap_or(usual.mouse),
             theme: word("theme").and_then(|name| ThemeName::ALL.into_iter().find(|theme| theme.name() == name)),
-            units: if word("units") == Some("inch") { Units::Inch } else { Units::Metric },
+            units: word("units").and_then(System::find).unwrap_or(usual.units),
             ascii: flag("ascii"),
         }
     }
@@ -83,7 +74,7 @@ impl Settings {
         set("marker", Some(marker_name(self.marker).into()));
         set("mouse", Some(self.mouse.into()));
         set("theme", self.theme.map(|theme| theme.name().into()));
-        set("units", Some(if self.units == Units::Inch { "inch" } else { "metric" }.into()));
+        set("units", Some(self.units.name().into()));
         set("ascii", self.ascii.map(Value::from));
         Ok(file.to_string())
     }
@@ -167,7 +158,7 @@ mod tests {
     #[test]
     fn every_setting_comes_back() {
         for theme in ThemeName::ALL.map(Some).into_iter().chain([None]) {
-            for (units, ascii) in [(Units::Metric, None), (Units::Inch, Some(true)), (Units::Inch, Some(false))] {
+            for (units, ascii) in [(System::Metric, None), (System::Inch, Some(true)), (System::Inch, Some(false))] {
                 let settings = Settings { marker: Marker::Dot, mouse: true, theme, units, ascii };
                 assert_eq!(Settings::parse(&settings.render("").expect("nothing is TOML")), settings);
             }

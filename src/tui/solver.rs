@@ -1,12 +1,18 @@
-//! The one worker that solves: the latest request wins, and a fault in it never takes the screen down.
+//! The one worker that solves: the latest request wins, a slow rung gives way to it, and a fault in it never takes the
+//! screen down.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread;
+use std::time::{Duration, Instant};
 
 use super::fault;
+use crate::case::{Case, Evaluator};
 use crate::model::inputs::Rung;
 use crate::model::{self, Inputs, Note, Refusal, Solution, Stages};
+
+/// So long a slow rung may take before the closed form's answer is shown in its place.
+const PATIENCE: Duration = Duration::from_millis(30);
 
 /// The name of the worker's thread.
 pub const THREAD: &str = "solver";
@@ -16,7 +22,9 @@ pub const THREAD: &str = "solver";
 pub struct Request {
     /// Counts the edits, so that a late answer is known as such.
     pub serial: u64,
-    /// The pair.
+    /// The case.
+    pub case: Case,
+    /// The pair that it describes.
     pub inputs: Inputs,
     /// The stages whose results are in sight.
     pub stages: Stages,
@@ -29,12 +37,27 @@ pub struct Answer {
     pub serial: u64,
     /// The stages that were asked for.
     pub stages: Stages,
-    /// The rung that the case asks for.
+    /// The pair, as it was solved.
+    pub inputs: Inputs,
+    /// The rung whose results stand first: that of the case, or `exact` while that one is not done.
     pub active: Rung,
+    /// The rung that is still being solved.
+    pub pending: Option<Rung>,
+    /// What it took.
+    pub cost: Cost,
     /// Every rung, cheapest first.
     pub rungs: Vec<(Rung, Result<Solution, Refusal>)>,
     /// What a reader must know beside the active result.
     pub notes: Vec<Note>,
+}
+
+/// What an answer took.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Cost {
+    /// Stages that ran, over all rungs; the others still held.
+    pub stages: usize,
+    /// Time, in us.
+    pub micros: u64,
 }
 
 /// What comes back from the worker.
@@ -84,22 +107,38 @@ impl Solver {
     /// # Errors
     /// When the system gives no thread.
     pub fn start(tell: impl Fn(Reply) -> bool + Send + 'static) -> std::io::Result<Solver> {
-        Solver::start_with(answer, tell)
+        let mut evaluator = Evaluator::default();
+        let solve = move |request: &Request, wanted: Wanted<'_>| {
+            let begun = Instant::now();
+            let mut waiting = Some(begun + PATIENCE);
+            let go_on = |at_once: &dyn Fn() -> Answer| {
+                if waiting.is_some_and(|until| Instant::now() > until) {
+                    waiting = None;
+                    wanted.tell(at_once());
+                }
+                wanted.is_wanted()
+            };
+            solved(&mut evaluator, request, begun, go_on)
+        };
+        Solver::start_with(solve, tell)
     }
 
-    /// Start the worker with another way to solve.
+    /// Start the worker with another way to solve, which may tell an answer before its last one, and is told when it is
+    /// wanted no more.
     ///
     /// # Errors
     /// When the system gives no thread.
     pub fn start_with(
-        solve: impl Fn(&Request) -> Answer + Send + 'static,
+        mut solve: impl FnMut(&Request, Wanted<'_>) -> Option<Answer> + Send + 'static,
         tell: impl Fn(Reply) -> bool + Send + 'static,
     ) -> std::io::Result<Solver> {
         let desk = Arc::new(Desk::default());
         let theirs = Arc::clone(&desk);
         thread::Builder::new().name(THREAD.to_owned()).spawn(move || {
             while let Some(request) = theirs.next() {
-                if !tell(attempt(&solve, &request)) {
+                let wanted = Wanted { desk: &theirs, tell: &tell };
+                let reply = attempt(&mut solve, &request, wanted);
+                if reply.is_some_and(|reply| !tell(reply)) {
                     return;
                 }
             }
@@ -139,41 +178,119 @@ impl Desk {
     }
 }
 
+/// Whether an answer is still wanted, and whom to tell one that is not the last.
+#[derive(Clone, Copy)]
+pub struct Wanted<'a> {
+    desk: &'a Desk,
+    tell: &'a dyn Fn(Reply) -> bool,
+}
+
+impl Wanted<'_> {
+    /// Whether no later request has come.
+    #[must_use]
+    pub fn is_wanted(&self) -> bool {
+        let tray = self.desk.tray.lock().unwrap_or_else(PoisonError::into_inner);
+        tray.request.is_none() && !tray.closed
+    }
+
+    /// Tell an answer that stands until the last one is there.
+    pub fn tell(&self, answer: Answer) {
+        // Whether anybody listens shows when the last one is told.
+        let _ = (self.tell)(Reply::Solved(Box::new(answer)));
+    }
+}
+
 /// Solve with the closed forms, which cost nothing, and the rung of the case: their difference is what the engineer came for.
 #[must_use]
 pub fn answer(request: &Request) -> Answer {
-    let active = request.inputs.rung;
-    let mut inputs = request.inputs.clone();
-    let sharing = Some(active).filter(|rung| rung.shares_load());
+    let whole = solved(&mut Evaluator::default(), request, Instant::now(), |_| true);
+    whole.unwrap_or_else(|| at_once(&mut Evaluator::default(), request, Instant::now()))
+}
+
+/// The same for a first picture: where the rung of the case takes long, the closed forms alone.
+#[must_use]
+pub fn first_answer(request: &Request) -> Answer {
+    let begun = Instant::now();
+    let whole = solved(&mut Evaluator::default(), request, begun, |_| begun.elapsed() < PATIENCE);
+    whole.unwrap_or_else(|| at_once(&mut Evaluator::default(), request, begun))
+}
+
+/// Every rung's answer; none where `go_on`, which may show what stands at once, says no.
+fn solved(
+    evaluator: &mut Evaluator,
+    request: &Request,
+    begun: Instant,
+    mut go_on: impl FnMut(&dyn Fn() -> Answer) -> bool,
+) -> Option<Answer> {
+    let first = at_once(evaluator, request, begun);
+    let Some(rung) = first.pending else { return Some(first) };
+    let asked = std::cell::RefCell::new(&mut go_on);
+    let ask = |_: f64| (asked.borrow_mut())(&|| first.clone());
+    let found = evaluator.solve(&request.case, &request.inputs, rung, request.stages, &ask);
+    if matches!(found, Err(Refusal::Stopped)) {
+        return None;
+    }
+    let ran = found.as_ref().map_or(0, |solution| solution.ran.iter().count());
+    // Where the program chose, its choice stands for it.
+    let active = found.as_ref().map_or(rung, |solution| solution.rung);
+    let mut answer = Answer { active, pending: None, ..first.clone() };
+    answer.rungs.retain(|(known, _)| *known != active);
+    answer.rungs.push((active, found));
+    answer.cost = Cost { stages: first.cost.stages + ran, micros: micros(begun) };
+    answer.notes = answer.of(active).map(|solution| model::notes(&request.inputs, solution)).unwrap_or_default();
+    Some(answer)
+}
+
+/// The closed forms' answer.
+fn at_once(evaluator: &mut Evaluator, request: &Request, begun: Instant) -> Answer {
+    let asked = request.inputs.rung;
     let rungs: Vec<_> = Rung::CLOSED_FORM
         .into_iter()
-        .chain(sharing)
-        .map(|rung| {
-            inputs.rung = rung;
-            (rung, model::solve(&inputs, request.stages))
-        })
+        .map(|rung| (rung, evaluator.solve(&request.case, &request.inputs, rung, request.stages, &|_| true)))
         .collect();
-    let mut answer = Answer { serial: request.serial, stages: request.stages, active, rungs, notes: Vec::new() };
-    answer.notes = answer.of(active).map(|solution| model::notes(&request.inputs, solution)).unwrap_or_default();
+    let pending = Some(asked).filter(|rung| !Rung::CLOSED_FORM.contains(rung));
+    let ran = rungs.iter().filter_map(|(_, found)| found.as_ref().ok()).map(|solution| solution.ran.iter().count());
+    let mut answer = Answer {
+        serial: request.serial,
+        stages: request.stages,
+        inputs: request.inputs.clone(),
+        active: if pending.is_some() { Rung::Exact } else { asked },
+        pending,
+        cost: Cost { stages: ran.sum(), micros: micros(begun) },
+        rungs,
+        notes: Vec::new(),
+    };
+    answer.notes = answer.of(answer.active).map(|solution| model::notes(&request.inputs, solution)).unwrap_or_default();
     answer
 }
 
-fn attempt(solve: &impl Fn(&Request) -> Answer, request: &Request) -> Reply {
+fn micros(begun: Instant) -> u64 {
+    u64::try_from(begun.elapsed().as_micros()).unwrap_or(u64::MAX)
+}
+
+fn attempt(
+    mut solve: impl FnMut(&Request, Wanted<'_>) -> Option<Answer>,
+    request: &Request,
+    wanted: Wanted<'_>,
+) -> Option<Reply> {
     let solve = || {
         fault::on_demand(THREAD);
-        solve(request)
+        solve(request, wanted)
     };
-    catch_unwind(AssertUnwindSafe(solve)).map_or(Reply::Failed(request.serial), |answer| Reply::Solved(Box::new(answer)))
+    match catch_unwind(AssertUnwindSafe(solve)) {
+        Ok(answer) => answer.map(|answer| Reply::Solved(Box::new(answer))),
+        Err(_) => Some(Reply::Failed(request.serial)),
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::Case;
     use std::sync::mpsc::{Sender, channel};
 
     fn request(serial: u64) -> Request {
-        Request { serial, inputs: Case::table_1().inputs().expect("Table 1 is valid"), stages: Stages::EVERY }
+        let case = Case::table_1();
+        Request { serial, inputs: case.inputs().expect("Table 1 is valid"), case, stages: Stages::EVERY }
     }
 
     fn teller(sender: Sender<Reply>) -> impl Fn(Reply) -> bool + Send + 'static {
@@ -183,9 +300,9 @@ mod tests {
     #[test]
     fn a_panic_is_told_and_the_next_request_is_solved() {
         let (sender, replies) = channel();
-        let solve = |request: &Request| {
+        let solve = |request: &Request, _: Wanted<'_>| {
             assert!(request.serial != 1, "planted");
-            answer(request)
+            Some(answer(request))
         };
         let solver = Solver::start_with(solve, teller(sender)).expect("a thread");
         solver.ask(request(1));
@@ -199,10 +316,10 @@ mod tests {
         let (begun, has_begun) = channel();
         let (go, gate) = channel::<()>();
         let (sender, replies) = channel();
-        let solve = move |request: &Request| {
+        let solve = move |request: &Request, _: Wanted<'_>| {
             begun.send(request.serial).expect("the test listens");
             gate.recv().expect("the test goes on");
-            answer(request)
+            Some(answer(request))
         };
         let solver = Solver::start_with(solve, teller(sender)).expect("a thread");
         solver.ask(request(1));
@@ -212,5 +329,30 @@ mod tests {
         let serials: Vec<_> =
             replies.iter().take(2).map(|reply| if let Reply::Solved(answer) = reply { answer.serial } else { 0 }).collect();
         assert_eq!(serials, [1, 9]);
+    }
+
+    #[test]
+    fn a_slow_rung_gives_way_to_a_later_request_and_shows_the_closed_form_meanwhile() {
+        let (sender, replies) = channel();
+        let solver = Solver::start(teller(sender)).expect("a thread");
+        let mut slow = request(1);
+        (slow.inputs.rung, slow.inputs.tolerance, slow.inputs.warmup_cycles) = (Rung::Dynamic, 1e-12, 10_000);
+        solver.ask(slow);
+        let first = replies.recv().expect("an answer");
+        assert!(matches!(&first, Reply::Solved(answer) if answer.pending == Some(Rung::Dynamic) && answer.active == Rung::Exact));
+        solver.ask(request(2));
+        let second = replies.recv().expect("an answer");
+        assert!(matches!(&second, Reply::Solved(answer) if answer.serial == 2 && answer.pending.is_none()), "{second:?}");
+    }
+
+    #[test]
+    fn the_rung_of_the_case_stands_first_and_auto_is_told_by_its_choice() {
+        for (rung, active) in [(Rung::Paper, Rung::Paper), (Rung::Static, Rung::Static), (Rung::Auto, Rung::Dynamic)] {
+            let mut asked = request(1);
+            asked.inputs.rung = rung;
+            let found = answer(&asked);
+            assert_eq!((found.active, found.pending), (active, None));
+            assert!(found.of(active).is_some() && found.of(Rung::Exact).is_some());
+        }
     }
 }

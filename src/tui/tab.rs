@@ -6,9 +6,10 @@ use tui_input::Input;
 
 use super::history::History;
 use super::recovery::Access;
+use super::rows::{self, Row};
 use super::scale::Scale;
 use super::solver::Answer;
-use crate::case::{Case, Document, FIELDS, Problem, fields};
+use crate::case::{Case, Document, Problem, fields};
 use crate::model::{Refusal, Stages};
 
 /// An open case.
@@ -130,17 +131,20 @@ impl Tab {
         }
     }
 
-    /// Move to a field, the cursor at the end of its text.
-    pub(super) fn focus_on(&mut self, field: usize) {
-        self.focus = field.min(FIELDS.len() - 1);
-        self.input = Input::from(self.case.text(self.focus).unwrap_or_default());
+    /// Move to a row of the form, the cursor at the end of its text. A limit that holds nothing is left behind for good.
+    pub(super) fn focus_on(&mut self, at: usize) {
+        let at = at.min(rows::count(&self.case) - 1);
+        let limit = if let Row::Limit(limit) = rows::row(&self.case, at) { Some(limit.quantity) } else { None };
+        self.case.drop_empty_limits(limit);
+        self.focus = limit.and_then(|quantity| rows::of_limit(&self.case, quantity)).unwrap_or(at);
+        self.input = Input::from(rows::text(&self.case, self.focus).unwrap_or_default());
         self.history.end_visit();
     }
 
     /// Show an answer to the present request.
     pub(super) fn take(&mut self, answer: Answer) {
         self.has_failed = false;
-        self.is_settled = true;
+        self.is_settled = answer.pending.is_none();
         self.refusal = answer.refusal().copied();
         if self.refusal.is_none() {
             self.scale = self.scale.fitted(&answer);

@@ -27,6 +27,12 @@ pub struct Theme {
     pub key: Style,
     /// The pinned results, and their curve.
     pub baseline: Style,
+    /// The driver's outline.
+    pub driver: Style,
+    /// The driven gear's outline.
+    pub driven: Style,
+    /// The path of contact.
+    pub path: Style,
 }
 
 /// The themes by their names.
@@ -92,6 +98,9 @@ pub static QUIET: Theme = Theme {
     other: Style::new().fg(Color::Magenta),
     key: Style::new().add_modifier(Modifier::REVERSED),
     baseline: Style::new().fg(Color::Blue),
+    driver: Style::new().fg(Color::Cyan),
+    driven: Style::new().fg(Color::Yellow),
+    path: Style::new().fg(Color::Magenta),
 };
 
 /// Bright colours and bold letters, where the quiet ones are hard to read.
@@ -104,6 +113,9 @@ pub static CONTRAST: Theme = Theme {
     active: Style::new().fg(Color::LightGreen).add_modifier(Modifier::BOLD),
     other: Style::new().fg(Color::LightMagenta).add_modifier(Modifier::BOLD),
     baseline: Style::new().fg(Color::LightBlue).add_modifier(Modifier::BOLD),
+    driver: Style::new().fg(Color::LightCyan),
+    driven: Style::new().fg(Color::LightYellow),
+    path: Style::new().fg(Color::LightMagenta),
     ..QUIET
 };
 
@@ -115,6 +127,9 @@ pub static MONO: Theme = Theme {
     active: Style::new().add_modifier(Modifier::BOLD),
     other: Style::new(),
     baseline: Style::new(),
+    driver: Style::new(),
+    driven: Style::new(),
+    path: Style::new(),
     ..QUIET
 };
 
@@ -161,7 +176,18 @@ mod tests {
     #[test]
     fn no_color_leaves_no_colour() {
         let theme = look(&[("NO_COLOR", "1")]).theme;
-        for style in [theme.title, theme.problem, theme.note, theme.active, theme.other, theme.key, theme.baseline] {
+        for style in [
+            theme.title,
+            theme.problem,
+            theme.note,
+            theme.active,
+            theme.other,
+            theme.key,
+            theme.baseline,
+            theme.driver,
+            theme.driven,
+            theme.path,
+        ] {
             assert_eq!(style.fg.or(style.bg), None);
         }
         assert_eq!(look(&[("NO_COLOR", "")]).theme, &QUIET);

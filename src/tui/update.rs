@@ -1,5 +1,6 @@
 //! The only place where the state changes: no files, no clock, no threads; those are asked for as effects.
 
+mod catalogue;
 mod copy;
 mod cursor;
 mod edit;
@@ -11,6 +12,7 @@ mod panes;
 mod pointer;
 mod recovery;
 mod tabs;
+mod teeth;
 mod walk;
 
 use std::path::PathBuf;
@@ -23,7 +25,7 @@ use super::settings::Settings;
 use super::solver::Request;
 use super::view;
 use crate::case::Document;
-use crate::case::fields::{self, Kind};
+use crate::case::fields;
 use crate::model::inputs::Rung;
 
 /// What the state asks of the world.
@@ -158,8 +160,15 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
             cursor::stop(app)
         }
         Command::CycleMarker => options::cycle_marker(app),
+        Command::ShowCost => {
+            app.shows_cost = !app.shows_cost;
+            Vec::new()
+        }
         Command::CycleTheme => options::cycle_theme(app),
         Command::ToggleAscii => options::toggle_ascii(app),
+        Command::CycleUnits => options::cycle_units(app),
+        Command::Step(by) => edit::step(app, by),
+        Command::Limit => catalogue::limit(app),
         Command::ToggleMouse => options::toggle_mouse(app),
         other => {
             show(app, other);
@@ -174,6 +183,7 @@ fn show(app: &mut App, command: Command) {
         Command::Help => app.prompts.push(Prompt::Read(Page::new("Help", view::help::lines()))),
         Command::Palette => app.prompts.push(Prompt::Pick(Picker::new(List::Commands))),
         Command::SearchField => app.prompts.push(Prompt::Pick(Picker::new(List::Fields))),
+        Command::Material => catalogue::materials(app),
         Command::Explain => page::explain(app),
         Command::PinBaseline => hold::toggle(app),
         Command::NextTab => tabs::step(app, 1),
@@ -185,6 +195,10 @@ fn show(app: &mut App, command: Command) {
         Command::CycleLower => panes::cycle_lower(app),
         Command::Zoom => panes::zoom(app),
         Command::StartEdit => app.is_editing = true,
+        Command::TeethBy(steps) => teeth::zoom(app, steps),
+        Command::TeethAnew => teeth::anew(app),
+        Command::TeethCentre => teeth::centre_next(app),
+        Command::TeethGap => teeth::exaggerate_or_not(app),
         other => walk::walk(app, other),
     }
 }
@@ -238,11 +252,4 @@ fn toggle_rung(app: &mut App) -> Vec<Effect> {
 
 fn solve(request: Option<Request>) -> Vec<Effect> {
     request.map(|request| Effect::Solve(Box::new(request))).into_iter().collect()
-}
-
-fn options_of(field: usize) -> &'static [&'static str] {
-    match fields::FIELDS[field].kind {
-        Kind::Choice(names, _) => names,
-        Kind::Text | Kind::Number(..) | Kind::Count(..) => &[],
-    }
 }

@@ -11,8 +11,7 @@ use proptest::sample::select;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Rect, Size};
 use tempfile::TempDir;
-use tipstrike::case::fields::Kind;
-use tipstrike::case::{Case, Document, FIELDS};
+use tipstrike::case::{Case, Document};
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::app::App;
 use tipstrike::tui::events::{Event, take_action};
@@ -20,7 +19,7 @@ use tipstrike::tui::prompt::Prompt;
 use tipstrike::tui::solver::{self, Request};
 use tipstrike::tui::theme::Look;
 use tipstrike::tui::update::{Effect, update};
-use tipstrike::tui::{store, view};
+use tipstrike::tui::{rows, store, view};
 
 use crate::values::{HOSTILE, field_and_text};
 use crate::{hold, is_hostile, texts};
@@ -307,8 +306,8 @@ impl Bench {
 
     fn assert_sound(&self) {
         let app = &self.app;
-        if !matches!(FIELDS[app.focus].kind, Kind::Choice(..)) {
-            assert_eq!(app.input.value(), app.case.text(app.focus).unwrap_or_default(), "the line is the field's");
+        if rows::names(&app.case, app.focus).is_empty() {
+            assert_eq!(app.input.value(), rows::text(&app.case, app.focus).unwrap_or_default(), "the line is the row's");
         }
         assert_eq!(app.problems.is_empty(), app.case.inputs().is_ok());
         assert!(app.tabs().all(|tab| self.on_disk.contains(&tab.saved)), "the mark tells whether the file differs");

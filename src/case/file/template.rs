@@ -41,7 +41,7 @@ pub(super) fn entries(case: &Case) -> Vec<Entry> {
         let value = value(field, case.text(index)?);
         Some(Entry { table: field.table(), name: field.name().to_owned(), value })
     });
-    let limits = case.limits.iter().map(|limit| {
+    let limits = case.limits.iter().filter(|limit| !limit.text.is_empty()).map(|limit| {
         let bare = units::parse(&limit.text, Dimension::Number, "").is_ok();
         let value = if bare { number(&limit.text) } else { string(&limit.text) };
         Entry { table: "limits", name: limit.quantity.to_owned(), value }

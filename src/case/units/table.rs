@@ -149,6 +149,8 @@ pub(super) static FAMILIES: [Family; 13] = [
         ten("mJ", &[], -3),
         ten("uJ", &[], -6),
         ten("kJ", &[], 3),
+        times("ft lbf", &["ft lb"], 1.3558179483314003, 5.338232996145962e-17),
+        times("in lbf", &["in lb"], 0.1129848290276167, 4.448527496788302e-18),
     ]),
     family(Dimension::Compliance, "a compliance per width", &[
         ten("um mm/N", &["mm um/N"], -9),

@@ -47,12 +47,6 @@ pub fn covers(inputs: &Inputs) -> bool {
 /// [`Refusal::TeethOutsideFit`], [`Refusal::ShiftOutsideFit`]; [`Refusal::HeightOutsideFit`] on a tooth so high that the
 /// fit, linear in the height, falls below 0.
 pub fn tooth(module: f64, gear: &Gear, circles: &Circles, radius: f64) -> Result<f64, Refusal> {
-    const A: [[f64; 4]; 4] = [
-        [3.867, 1.612, -0.02916, 0.0001553],
-        [17.060, 0.7289, -0.01728, 0.0000999],
-        [2.637, -1.222, 0.02217, -0.0001179],
-        [-6.330, -1.033, 0.02068, -0.0001130],
-    ];
     const NEWTON_PER_MICRON_MILLIMETRE: f64 = 1e9;
     let (least, most) = TEETH;
     if !(least..=most).contains(&gear.teeth) {
@@ -62,11 +56,23 @@ pub fn tooth(module: f64, gear: &Gear, circles: &Circles, radius: f64) -> Result
     if shift.abs() > SHIFT {
         return Err(Refusal::ShiftOutsideFit { shift });
     }
-    let teeth = f64::from(gear.teeth);
-    let [a0, a1, a2, a3] = A.map(|[c0, c1, c2, c3]| c0 + teeth * (c1 + teeth * (c2 + teeth * c3)));
+    let [a0, a1, a2, a3] = coefficients(gear.teeth);
     let height = (radius - circles.reference) / ((1.0 + shift) * module);
     let stiffness = NEWTON_PER_MICRON_MILLIMETRE * (a0 + a1 * shift + (a2 + a3 * shift) * height);
     if stiffness > 0.0 { Ok(1.0 / stiffness) } else { Err(Refusal::HeightOutsideFit { height }) }
+}
+
+/// The coefficients A_0 to A_3 of the fit, in N/(µm mm).
+#[must_use]
+pub fn coefficients(teeth: u32) -> [f64; 4] {
+    const A: [[f64; 4]; 4] = [
+        [3.867, 1.612, -0.02916, 0.0001553],
+        [17.060, 0.7289, -0.01728, 0.0000999],
+        [2.637, -1.222, 0.02217, -0.0001179],
+        [-6.330, -1.033, 0.02068, -0.0001130],
+    ];
+    let teeth = f64::from(teeth);
+    A.map(|[c0, c1, c2, c3]| c0 + teeth * (c1 + teeth * (c2 + teeth * c3)))
 }
 
 #[cfg(test)]

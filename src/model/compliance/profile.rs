@@ -71,6 +71,24 @@ impl Profile {
         profile
     }
 
+    /// Half of the pitch angle π/z, in rad.
+    #[must_use]
+    pub fn half_pitch(&self) -> f64 {
+        self.half_pitch
+    }
+
+    /// Half of the tooth's angle at the base circle, in rad, where its flanks begin if nothing undercuts them.
+    #[must_use]
+    pub fn base_half_angle(&self) -> f64 {
+        self.base_half_angle
+    }
+
+    /// The circles of the gear.
+    #[must_use]
+    pub fn circles(&self) -> &Circles {
+        &self.circles
+    }
+
     /// Half of the tooth's angle at the root circle, in rad.
     #[must_use]
     pub fn root_half_angle(&self) -> f64 {

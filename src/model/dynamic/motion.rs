@@ -192,9 +192,9 @@ impl<'a> Forces<'a> {
     pub(super) fn force(&self, pair: usize, t: f64, y: &State) -> (f64, f64) {
         let Standing { ahead, zone, .. } = self.window.pairs[pair];
         let (mesh, s) = (self.motion.mesh, self.motion.place(t));
-        let (stiffness, slope) = mesh.stiffness(ahead, zone, s);
-        let (pressed, rate) = self.pressed(pair, t, y);
-        (stiffness * pressed, stiffness * rate + slope * mesh.speed * pressed)
+        let [(stiffness, stiffening), (gap, opening)] = mesh.spring_with_slopes(ahead, zone, s);
+        let (pressed, rate) = (y[0] - gap, y[1] - opening * mesh.speed);
+        (stiffness * pressed, stiffness * rate + stiffening * mesh.speed * pressed)
     }
 
     /// Forces of all pairs together, in N.

@@ -26,11 +26,11 @@ pub(super) fn lost_in_motion(_: &Inputs, solution: &Solution) -> Option<Note> {
 
 /// The mesh has no time to follow the load at rest.
 pub(super) fn inertia(inputs: &Inputs, solution: &Solution) -> Option<Note> {
-    let (Rung::Static, Some(stiffness), Some(load)) = (solution.rung, solution.mesh_stiffness, &solution.static_load) else {
+    let (Rung::Static, Some(mesh), Some(load)) = (solution.rung, &solution.mesh, &solution.static_load) else {
         return None;
     };
     let time = load.first_contact_angle? / inputs.driven_speed();
-    let period = std::f64::consts::TAU * (solution.reduced_mass / stiffness).sqrt();
+    let period = std::f64::consts::TAU * (solution.reduced_mass / mesh.mean_stiffness).sqrt();
     let part = period / (std::f64::consts::PI * time);
     let message = || {
         let (period, time) = (four(period * 1e6), four(time * 1e6));

@@ -1,12 +1,12 @@
 //! Copying to the clipboard of the user's own terminal.
 
 use super::Effect;
-use crate::case::FIELDS;
 use crate::model::QUANTITIES;
 use crate::report;
 use crate::tui::app::App;
 use crate::tui::clean;
 use crate::tui::pane::Pane;
+use crate::tui::rows::{self, Row};
 use crate::tui::view::results;
 
 /// Terminals refuse more than this, or cut it.
@@ -15,15 +15,19 @@ const MOST_BYTES: usize = 48 * 1024;
 /// The focused value: of the form its text, of the other panes the marked result.
 pub(super) fn value(app: &mut App) -> Vec<Effect> {
     if app.panes.focus == Pane::Form {
-        let text = app.case.effective(app.focus).unwrap_or_default().to_owned();
-        return copy(app, text, FIELDS[app.focus].label.trim());
+        let text = match rows::row(&app.case, app.focus) {
+            Row::Field(field) => app.case.effective(field).unwrap_or_default().to_owned(),
+            Row::Limit(limit) => limit.text.clone(),
+        };
+        let label = rows::label(&app.case, app.focus);
+        return copy(app, text, label);
     }
     let Some(quantity) = results::marked(app) else {
         app.complain("there are no results to copy");
         return Vec::new();
     };
     let value = app.answer.as_ref().and_then(|answer| report::value(quantity, answer.of(answer.active)?));
-    let text = value.map(|value| report::shown(quantity, value).to_string()).unwrap_or_default();
+    let text = value.map(|value| report::shown_in(quantity, value, app.settings.units).to_string()).unwrap_or_default();
     copy(app, text, quantity.label.trim())
 }
 

@@ -1,19 +1,23 @@
 //! The cursor in the driver's roll angle that chart and teeth share: where it may go, and how it runs by itself.
 
 use super::Effect;
-use crate::model::Solution;
+use crate::model::{Solution, moment};
 use crate::tui::app::App;
 use crate::tui::pane::Pane;
 use crate::tui::view::chart;
 
-/// Pictures from D to E: four seconds at twelve a second.
+/// Pictures of a run: four seconds at twelve a second.
 const PICTURES: f64 = 48.0;
+/// In the teeth a run begins before D, where the tip is still to come: at this many times the angle from D to E.
+const APPROACH: f64 = 1.6;
 
 /// Where the cursor may stand, in rad before E.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Reach {
     /// The first contact D, or E where no tooth strikes.
     pub(super) start: f64,
+    /// Where a run begins.
+    pub(super) run_from: f64,
     /// The leftmost angle.
     pub(super) most: f64,
     /// The rightmost angle, negative after E.
@@ -31,7 +35,7 @@ impl Reach {
 
     /// The next picture of the approach, none when E is reached.
     pub(super) fn played(self, cursor: f64) -> Option<f64> {
-        let next = cursor - self.start / PICTURES;
+        let next = cursor - self.run_from / PICTURES;
         (next > 0.0 && next < cursor).then_some(next)
     }
 
@@ -66,7 +70,7 @@ pub(super) fn to_end(app: &mut App) -> Vec<Effect> {
     stop(app)
 }
 
-/// Start or stop the run from D to E; from E it starts again at D.
+/// Start or stop the run to E; from E it starts again.
 pub(super) fn play(app: &mut App) -> Vec<Effect> {
     if app.is_playing {
         return stop(app);
@@ -75,8 +79,8 @@ pub(super) fn play(app: &mut App) -> Vec<Effect> {
         app.complain("no corner contact: nothing to play");
         return Vec::new();
     };
-    if app.cursor.is_none_or(|cursor| cursor <= 0.0 || cursor > reach.start) {
-        app.cursor = Some(reach.start);
+    if app.cursor.is_none_or(|cursor| cursor <= 0.0 || cursor > reach.run_from) {
+        app.cursor = Some(reach.run_from);
     }
     app.is_playing = true;
     vec![Effect::Play(true)]
@@ -97,24 +101,23 @@ pub(super) fn stop(app: &mut App) -> Vec<Effect> {
     if std::mem::take(&mut app.is_playing) { vec![Effect::Play(false)] } else { Vec::new() }
 }
 
-// The chart ends at E; the teeth go on until the next pair is where this one was.
+// The chart ends at E; the teeth go on until the next pair is where this one was, and come from further.
 fn reach(app: &App) -> Option<Reach> {
     let solution = solution(app)?;
     let pitch = solution.geometry.base_pitch / solution.geometry.driver.base;
     let start = first_contact(solution).unwrap_or(0.0);
     let axis = app.scale.angle.to_radians();
-    let most = if axis > 0.0 { axis.max(start) } else { start.max(pitch / 10.0) };
-    let least = if app.panes.focus == Pane::Teeth { -pitch } else { 0.0 };
-    Some(Reach { start, most, least, column: most / f64::from(chart::columns(app).max(2) - 1) })
+    let shown = if axis > 0.0 { axis.max(start) } else { start.max(pitch / 10.0) };
+    let in_teeth = app.panes.focus == Pane::Teeth;
+    let run_from = if in_teeth { APPROACH * start } else { start };
+    let (most, least) = if in_teeth { (shown.max(2.0 * start), -pitch) } else { (shown, 0.0) };
+    Some(Reach { start, run_from, most, least, column: shown / f64::from(chart::columns(app).max(2) - 1) })
 }
 
 // The driver's angle before E at the first contact of the rung.
 fn first_contact(solution: &Solution) -> Option<f64> {
     let ratio = solution.geometry.driven.base / solution.geometry.driver.base;
-    let shared = solution.static_load.as_ref().and_then(|load| load.first_contact_angle);
-    let moving = solution.dynamic.as_ref().and_then(|dynamic| dynamic.first_contact_angle);
-    let of_rung = moving.or(shared).map(|angle| angle * ratio);
-    of_rung.or(solution.position.map(|position| position.approach_angle_driver))
+    moment::first_contact(solution).map(|angle| angle * ratio)
 }
 
 fn solution(app: &App) -> Option<&Solution> {
@@ -126,7 +129,7 @@ fn solution(app: &App) -> Option<&Solution> {
 mod tests {
     use super::*;
 
-    const REACH: Reach = Reach { start: 0.024, most: 0.03, least: 0.0, column: 0.0003 };
+    const REACH: Reach = Reach { start: 0.024, run_from: 0.024, most: 0.03, least: 0.0, column: 0.0003 };
 
     #[test]
     fn the_first_key_brings_the_cursor_to_d() {
@@ -152,7 +155,7 @@ mod tests {
 
     #[test]
     fn the_approach_is_over_after_its_pictures() {
-        let mut cursor = Some(REACH.start);
+        let mut cursor = Some(REACH.run_from);
         let mut pictures = 0;
         while let Some(now) = cursor {
             cursor = REACH.played(now);
@@ -160,6 +163,6 @@ mod tests {
             assert!(pictures < 100);
         }
         assert!((47..=49).contains(&pictures), "{pictures}");
-        assert_eq!(Reach { start: 0.0, ..REACH }.played(0.0), None);
+        assert_eq!(Reach { start: 0.0, run_from: 0.0, ..REACH }.played(0.0), None);
     }
 }

@@ -2,13 +2,13 @@
 
 use tui_input::InputRequest;
 
-use super::{Effect, options_of, solve};
-use crate::case::FIELDS;
+use super::{Effect, solve};
 use crate::case::fields::{Absent, index_of};
+use crate::case::{Case, FIELDS};
 use crate::tui::app::App;
-use crate::tui::clean;
 use crate::tui::prompt::Prompt;
 use crate::tui::update::files;
+use crate::tui::{clean, rows};
 
 /// A longer text is no value, title or path.
 const LONGEST: usize = 4096;
@@ -18,7 +18,7 @@ pub(super) fn insert(app: &mut App, letter: char) -> Vec<Effect> {
     if let Some(Prompt::Ask(question)) = app.prompts.last() {
         return question.by_letter(letter).map_or_else(Vec::new, |choice| files::choose(app, choice));
     }
-    if app.prompts.is_empty() && app.has_line() && !options_of(app.focus).is_empty() {
+    if app.prompts.is_empty() && app.has_line() && !names(app).is_empty() {
         return choose_by_letter(app, letter);
     }
     paste(app, letter.encode_utf8(&mut [0; 4]))
@@ -27,7 +27,7 @@ pub(super) fn insert(app: &mut App, letter: char) -> Vec<Effect> {
 /// Text pasted: into a line of text and nowhere else, what controls a terminal left out.
 pub(super) fn paste(app: &mut App, text: &str) -> Vec<Effect> {
     let editing_case = app.prompts.is_empty();
-    let takes_text = app.has_line() && options_of(app.focus).is_empty();
+    let takes_text = app.has_line() && names(app).is_empty();
     let line = match app.prompts.last_mut() {
         Some(prompt) => prompt.input_mut(),
         None => Some(&mut app.tab.input).filter(|_| takes_text),
@@ -57,7 +57,7 @@ pub(super) fn handle(app: &mut App, request: InputRequest) -> Vec<Effect> {
 
 /// Take the next or the previous of the names of the focused field.
 pub(super) fn cycle(app: &mut App, by: isize) -> Vec<Effect> {
-    choose(app, app.focus, options_of(app.focus), by)
+    choose(app, app.focus, names(app), by)
 }
 
 /// Take a name beside the present one, in any field of names.
@@ -69,6 +69,21 @@ pub(super) fn choose(app: &mut App, field: usize, names: &[&str], by: isize) -> 
     set(app, field, name)
 }
 
+/// The names that the focused row offers.
+fn names(app: &App) -> &'static [&'static str] {
+    rows::names(&app.case, app.focus)
+}
+
+/// Move the value of the focused row by so many units of its last digit.
+pub(super) fn step(app: &mut App, by: i32) -> Vec<Effect> {
+    let Some(text) = rows::stepped(&app.case, app.focus, by) else {
+        app.say(format!("{} has no step here", rows::label(&app.case, app.focus)));
+        return Vec::new();
+    };
+    app.tab.input = text.into();
+    write(app)
+}
+
 /// The name that holds in a field of names.
 pub(super) fn chosen(app: &App, field: usize) -> &str {
     match (app.case.text(field), FIELDS[field].absent) {
@@ -78,7 +93,7 @@ pub(super) fn chosen(app: &App, field: usize) -> &str {
 }
 
 fn choose_by_letter(app: &mut App, letter: char) -> Vec<Effect> {
-    let name = options_of(app.focus).iter().find(|name| name.starts_with(letter.to_ascii_lowercase()));
+    let name = names(app).iter().find(|name| name.starts_with(letter.to_ascii_lowercase()));
     name.map_or_else(Vec::new, |name| set(app, app.focus, name))
 }
 
@@ -108,15 +123,26 @@ fn set(app: &mut App, field: usize, name: &str) -> Vec<Effect> {
     checked(app)
 }
 
+/// Put another case into the form as one edit of its own.
+pub(super) fn replace(app: &mut App, case: Case) -> Vec<Effect> {
+    if case == app.case {
+        return Vec::new();
+    }
+    app.tab.history.end_visit();
+    app.tab.before_edit();
+    let focus = app.focus;
+    solve(app.replace_case(case, focus))
+}
+
 fn write(app: &mut App) -> Vec<Effect> {
     app.tab.before_edit();
-    let field = app.focus;
+    let focus = app.focus;
     let text = app.tab.input.value().to_owned();
-    app.tab.case.write(field, &text);
-    if let Absent::Either(other) = FIELDS[field].absent
+    rows::write(&mut app.tab.case, focus, &text);
+    if let Some(Absent::Either(other)) = rows::field(&app.case, focus).map(|field| field.absent)
         && let Some(other) = index_of(other)
     {
-        take_turns(app, field, other);
+        take_turns(app, focus, other);
     }
     checked(app)
 }

@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use tui_input::Input;
 
-use super::{Effect, Over, Saving, recovery, solve, tabs};
+use super::{Effect, Over, Saving, catalogue, recovery, solve, tabs};
 use crate::case::Document;
+use crate::model::Quantity;
 use crate::tui::actions::Next;
 use crate::tui::app::App;
 use crate::tui::clean;
@@ -202,6 +203,8 @@ fn pick(app: &mut App, pick: Pick) -> Vec<Effect> {
     match pick {
         Pick::Run(command) => super::run(app, command),
         Pick::Load(path) => open(app, path),
+        Pick::Make(gears, material) => catalogue::make(app, gears, material),
+        Pick::Limit(key) => Quantity::find(key).map_or_else(Vec::new, |quantity| catalogue::hold(app, quantity)),
         Pick::Go(field) => {
             app.panes.focus = crate::tui::pane::Pane::Form;
             app.focus_on(field);

@@ -1,4 +1,4 @@
-//! What the user chooses for every case: marker, theme, ASCII, mouse.
+//! What the user chooses for every case: marker, theme, ASCII, units, mouse.
 
 use ratatui::symbols::Marker;
 
@@ -40,6 +40,13 @@ pub(super) fn toggle_ascii(app: &mut App) -> Vec<Effect> {
     app.look.ascii = !app.look.ascii;
     app.settings.ascii = Some(app.look.ascii);
     app.say(if app.look.ascii { "drawn in ASCII" } else { "drawn with the whole of Unicode" });
+    keep(app)
+}
+
+/// Metric units for what is shown, or inch.
+pub(super) fn cycle_units(app: &mut App) -> Vec<Effect> {
+    app.settings.units = app.settings.units.other();
+    app.say(format!("results and hints in {} units; the case stays as it is written", app.settings.units.name()));
     keep(app)
 }
 

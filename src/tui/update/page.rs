@@ -19,7 +19,10 @@ pub(super) fn explain(app: &mut App) {
 
 fn lines(app: &App, quantity: &'static Quantity) -> Vec<String> {
     let value = app.answer.as_ref().and_then(|answer| report::value(quantity, answer.of(answer.active)?));
-    let value = value.map_or_else(|| "none in this case".to_owned(), |value| report::shown(quantity, value).to_string());
+    let value = value.map_or_else(
+        || "none in this case".to_owned(),
+        |value| report::shown_in(quantity, value, app.settings.units).to_string(),
+    );
     let unit = if quantity.unit == "1" { "a number" } else { quantity.unit };
     [
         ("symbol", quantity.symbol.to_owned()),

@@ -2,7 +2,7 @@
 
 use ratatui::layout::Position;
 
-use super::{Effect, cursor, panes};
+use super::{Effect, cursor, panes, teeth};
 use crate::tui::app::App;
 use crate::tui::pane::Pane;
 use crate::tui::prompt::Prompt;
@@ -46,6 +46,7 @@ pub(super) fn wheel(app: &mut App, at: Position, by: isize) {
         None => match pane_at(app, at) {
             Some(Pane::Form) => app.tab.form_top = form::scrolled(app, by),
             Some(Pane::Results) => app.tab.results_top = results::scrolled(app, by),
+            Some(Pane::Teeth) => teeth::zoom(app, if by < 0 { 1 } else { -1 }),
             _ => (),
         },
     }

@@ -1,10 +1,11 @@
 //! Walking: lines, groups and pages, in the focused pane or in what lies over it.
 
-use crate::case::FIELDS;
+use crate::case::Case;
 use crate::tui::actions::Command;
 use crate::tui::app::App;
 use crate::tui::pane::Pane;
 use crate::tui::prompt::Prompt;
+use crate::tui::rows;
 use crate::tui::view::{popup, results};
 
 /// A command that moves a focus or a mark; others change nothing.
@@ -45,7 +46,7 @@ fn leap(app: &mut App, by: isize) {
     let page_of_prompt = isize::try_from(popup::room(app.size).height).unwrap_or(1).max(1);
     match app.prompts.last_mut() {
         None if app.panes.focus == Pane::Results => turn(app, by * page(app)),
-        None => app.focus_on(group_beside(app.focus, by)),
+        None => app.focus_on(group_beside(&app.case, app.focus, by)),
         Some(Prompt::Browse(browser)) => browser.mark(by * page_of_prompt),
         Some(Prompt::Pick(picker)) => picker.mark(by * page_of_prompt),
         Some(Prompt::Read(text)) => popup::scroll(text, by * page_of_prompt, app.size),
@@ -74,10 +75,9 @@ fn page(app: &App) -> isize {
 }
 
 // The first field of the next group, of this one, or of the one before.
-fn group_beside(focus: usize, by: isize) -> usize {
-    let starts: Vec<_> =
-        (0..FIELDS.len()).filter(|&field| field == 0 || FIELDS[field].table() != FIELDS[field - 1].table()).collect();
+fn group_beside(case: &Case, focus: usize, by: isize) -> usize {
+    let starts = rows::groups(case);
     let found =
         if by > 0 { starts.iter().find(|&&start| start > focus) } else { starts.iter().rev().find(|&&start| start < focus) };
-    found.copied().unwrap_or(if by > 0 { FIELDS.len() - 1 } else { 0 })
+    found.copied().unwrap_or(if by > 0 { rows::count(case) - 1 } else { 0 })
 }

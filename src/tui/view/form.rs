@@ -3,15 +3,21 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::{Modifier, Style};
+use unicode_width::UnicodeWidthStr;
 
 use super::{plan, text, titled};
 use crate::case::fields::{GROUPS, Kind};
-use crate::case::{FIELDS, Field};
+use crate::case::{Acting, FIELDS, Limit, acts, materials};
+use crate::model::{Inputs, Quantity};
+use crate::report::verdict::verdict;
 use crate::tui::app::{self, App};
-use crate::tui::clean::{clean, symbol};
+use crate::tui::clean::{self, symbol};
 use crate::tui::pane::Pane;
+use crate::tui::rows;
 
 const MARK: u16 = 2;
+/// Stands before a field that the chosen rung does without.
+const IDLE: &str = "-";
 const SYMBOL: u16 = 6;
 const LABEL: u16 = 20;
 const VALUE: u16 = 15;
@@ -22,8 +28,10 @@ const WHOLE: u16 = MARK + SYMBOL + LABEL + 1 + VALUE;
 /// A line of the form.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Row {
-    Group(&'static str),
-    Field(usize),
+    /// The group that begins with that line.
+    Group(usize),
+    /// A field or a limit, by its place among those that take the focus.
+    Line(usize),
     Reason(String),
 }
 
@@ -34,10 +42,11 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     if inner.is_empty() {
         return None;
     }
+    let inputs = app.case.inputs_so_far();
     let mut cursor = None;
     for (row, y) in rows.iter().skip(app.form_top).zip(inner.top()..inner.bottom()) {
         let line = Rect { y, height: 1, width: inner.width - 1, ..inner };
-        cursor = draw_row(app, row, line, buffer).or(cursor);
+        cursor = draw_row(app, &inputs, row, line, buffer).or(cursor);
     }
     scroll_bar(app.form_top, rows.len(), Rect { x: inner.right() - 1, width: 1, ..inner }, buffer);
     cursor
@@ -52,7 +61,7 @@ pub fn top_for(app: &App) -> usize {
     }
     let height = usize::from(area.height.saturating_sub(1)).max(1);
     let rows = rows(app, area.width);
-    let focused = rows.iter().position(|row| *row == Row::Field(app.focus)).unwrap_or(0);
+    let focused = rows.iter().position(|row| *row == Row::Line(app.focus)).unwrap_or(0);
     let reasons = rows[focused + 1..].iter().take_while(|row| matches!(row, Row::Reason(_))).count();
     let follows_group = focused > 0 && matches!(rows[focused - 1], Row::Group(_));
     let first = focused - usize::from(follows_group);
@@ -67,7 +76,7 @@ pub fn top_for(app: &App) -> usize {
 pub fn field_at(app: &App, area: Rect, at: Position) -> Option<usize> {
     let line = usize::from(at.y.checked_sub(area.y + 1)?);
     match rows(app, area.width).get(app.form_top + line)? {
-        Row::Field(index) => Some(*index),
+        Row::Line(index) => Some(*index),
         Row::Group(_) | Row::Reason(_) => None,
     }
 }
@@ -95,19 +104,25 @@ pub fn scroll_bar(top: usize, lines: usize, area: Rect, buffer: &mut Buffer) {
 }
 
 fn rows(app: &App, width: u16) -> Vec<Row> {
-    let mut rows = Vec::with_capacity(FIELDS.len() + GROUPS.len() + app.problems.len());
-    for (index, field) in FIELDS.iter().enumerate() {
-        if index == 0 || field.table() != FIELDS[index - 1].table() {
-            rows.push(Row::Group(group_title(field)));
+    let count = rows::count(&app.case);
+    let groups = rows::groups(&app.case);
+    let mut lines = Vec::with_capacity(count + groups.len() + app.problems.len());
+    for index in 0..count {
+        if groups.contains(&index) {
+            lines.push(Row::Group(index));
         }
-        rows.push(Row::Field(index));
-        rows.extend(reasons(app, index, width).map(Row::Reason));
+        lines.push(Row::Line(index));
+        lines.extend(reasons(app, index, width).map(Row::Reason));
     }
-    rows
+    lines
 }
 
-fn group_title(field: &Field) -> &'static str {
-    GROUPS.iter().find(|(table, _)| *table == field.table()).map_or("", |(_, title)| title)
+// The title of a group; of a gear also its material, where that is known.
+fn group_title(app: &App, index: usize) -> String {
+    let Some(field) = rows::field(&app.case, index) else { return "Limits".to_owned() };
+    let title = GROUPS.iter().find(|(table, _)| *table == field.table()).map_or("", |(_, title)| title);
+    let material = materials::name_of_gear(&app.case, field.table());
+    material.map_or_else(|| title.to_owned(), |material| format!("{title}, {material}"))
 }
 
 fn reasons(app: &App, field: usize, width: u16) -> impl Iterator<Item = String> {
@@ -118,10 +133,11 @@ fn reasons(app: &App, field: usize, width: u16) -> impl Iterator<Item = String> 
     })
 }
 
-fn draw_row(app: &App, row: &Row, line: Rect, buffer: &mut Buffer) -> Option<Position> {
+fn draw_row(app: &App, inputs: &Inputs, row: &Row, line: Rect, buffer: &mut Buffer) -> Option<Position> {
     let theme = app.look.theme;
     match row {
-        Row::Group(title) => {
+        Row::Group(index) => {
+            let title = text::cut(&group_title(app, *index), line.width.into());
             buffer.set_stringn(line.x, line.y, title, line.width.into(), theme.title);
             None
         }
@@ -129,58 +145,127 @@ fn draw_row(app: &App, row: &Row, line: Rect, buffer: &mut Buffer) -> Option<Pos
             buffer.set_stringn(line.x + MARK, line.y, reason, line.width.into(), theme.problem);
             None
         }
-        Row::Field(index) => draw_field(app, *index, line, buffer),
+        Row::Line(index) => match rows::row(&app.case, *index) {
+            rows::Row::Field(field) => draw_field(app, inputs, field, line, buffer),
+            rows::Row::Limit(limit) => draw_limit(app, *index, limit, line, buffer),
+        },
     }
 }
 
-fn draw_field(app: &App, index: usize, line: Rect, buffer: &mut Buffer) -> Option<Position> {
+fn draw_field(app: &App, inputs: &Inputs, index: usize, line: Rect, buffer: &mut Buffer) -> Option<Position> {
     let field = &FIELDS[index];
-    let is_focused = app.focus == index;
-    let style = if is_focused { app.look.theme.focus } else { Style::new() };
-    let is_wrong = app.problems.iter().any(|(at, _)| *at == index);
-    let mark = if is_wrong { "!" } else { "▸" };
-    if is_focused || is_wrong {
-        buffer.set_stringn(line.x, line.y, mark, 1, if is_wrong { app.look.theme.problem } else { style });
+    let theme = app.look.theme;
+    let is_idle = matches!(acts(index, inputs), Acting::No(_));
+    let style = match (app.focus == index, is_idle) {
+        (true, _) => theme.focus,
+        (false, true) => theme.faint,
+        (false, false) => Style::new(),
+    };
+    if is_idle {
+        buffer.set_stringn(line.x, line.y, IDLE, 1, style);
     }
-    let offset = draw_name(
-        field,
-        Rect { x: line.x + MARK, width: line.width.saturating_sub(MARK), ..line },
-        app.look.ascii,
-        style,
-        buffer,
-    );
+    draw_mark(app, index, line, buffer);
+    let name = Rect { x: line.x + MARK, width: line.width.saturating_sub(MARK), ..line };
+    let offset = if matches!(field.kind, Kind::Text) {
+        draw_words(field.label, name, style, buffer)
+    } else {
+        draw_name(&symbol(field.symbol, app.look.ascii), field.label, name, style, buffer)
+    };
     let value = Rect { x: line.x + offset, width: line.width.saturating_sub(offset), ..line };
     draw_value(app, index, value, style, buffer)
 }
 
-// Symbol and label; how far into the line they go. Words have no symbol, and need the room for themselves.
-fn draw_name(field: &Field, area: Rect, ascii: bool, style: Style, buffer: &mut Buffer) -> u16 {
-    if matches!(field.kind, Kind::Text) {
-        buffer.set_stringn(area.x, area.y, field.label, SYMBOL.into(), style);
-        return MARK + SYMBOL;
+// The limit as it is written, and how the result stands to it.
+fn draw_limit(app: &App, index: usize, limit: &Limit, line: Rect, buffer: &mut Buffer) -> Option<Position> {
+    let theme = app.look.theme;
+    let style = if app.focus == index { theme.focus } else { Style::new() };
+    draw_mark(app, index, line, buffer);
+    let name = Rect { x: line.x + MARK, width: line.width.saturating_sub(MARK), ..line };
+    let symbol = Quantity::find(limit.quantity).map_or("", |quantity| quantity.symbol);
+    let symbol = self::symbol(symbol, app.look.ascii);
+    let offset = draw_name(&symbol, rows::label(&app.case, index), name, style, buffer);
+    let room = line.width.saturating_sub(offset);
+    let (word, of_word) = standing(app, limit);
+    let word = text::cut(&word, usize::from(room) / 2);
+    let width = word.width() as u16;
+    buffer.set_string(line.right() - width, line.y, &word, of_word);
+    let value = Rect { x: line.x + offset, width: room.saturating_sub(width + u16::from(width > 0)), ..line };
+    draw_text(
+        app,
+        index,
+        Some(&limit.text).filter(|text| !text.is_empty()).map(String::as_str),
+        "(no limit)",
+        value,
+        style,
+        buffer,
+    )
+}
+
+// How the last valid result stands to the limit, in a word and with its style.
+fn standing(app: &App, limit: &Limit) -> (String, Style) {
+    let theme = app.look.theme;
+    let is_told = !app.is_stale() && !limit.text.is_empty();
+    let solution = app.answer.as_ref().and_then(|answer| answer.of(answer.active)).filter(|_| is_told);
+    let Some(verdict) = solution.map(|solution| verdict(limit, solution)) else { return (String::new(), Style::new()) };
+    let style = if verdict.standing.holds() { theme.note } else { theme.problem };
+    let part = verdict.part().map_or_else(String::new, |part| format!(" {:.0} %", 100.0 * part));
+    (format!("{}{part}", verdict.standing.word()), style)
+}
+
+fn draw_mark(app: &App, index: usize, line: Rect, buffer: &mut Buffer) {
+    let theme = app.look.theme;
+    if app.problems.iter().any(|(at, _)| *at == index) {
+        buffer.set_stringn(line.x, line.y, "!", 1, theme.problem);
+    } else if app.focus == index {
+        buffer.set_stringn(line.x, line.y, "▸", 1, theme.focus);
     }
+}
+
+// Words have no symbol, and need the room for themselves.
+fn draw_words(label: &str, area: Rect, style: Style, buffer: &mut Buffer) -> u16 {
+    buffer.set_stringn(area.x, area.y, label, SYMBOL.into(), style);
+    MARK + SYMBOL
+}
+
+// Symbol and label; how far into the line they go.
+fn draw_name(symbol: &str, label: &str, area: Rect, style: Style, buffer: &mut Buffer) -> u16 {
     let value = if area.width + MARK < WHOLE { NARROW_VALUE } else { VALUE };
-    let label = LABEL.min(area.width.saturating_sub(SYMBOL + 1 + value));
-    let name = text::cut(&symbol(field.symbol, ascii), usize::from(SYMBOL) - 1);
+    let width = LABEL.min(area.width.saturating_sub(SYMBOL + 1 + value));
+    let name = text::cut(symbol, usize::from(SYMBOL) - 1);
     buffer.set_stringn(area.x, area.y, name, SYMBOL.into(), style);
-    buffer.set_stringn(area.x + SYMBOL, area.y, text::cut(field.label, label.into()), label.into(), style);
-    MARK + SYMBOL + label + 1
+    buffer.set_stringn(area.x + SYMBOL, area.y, text::cut(label, width.into()), width.into(), style);
+    MARK + SYMBOL + width + 1
 }
 
 fn draw_value(app: &App, index: usize, area: Rect, style: Style, buffer: &mut Buffer) -> Option<Position> {
-    let width = usize::from(area.width);
-    let is_focused = app.focus == index;
-    let is_edited = is_focused && app.has_line();
-    let is_choice = matches!(FIELDS[index].kind, Kind::Choice(..));
+    let unwritten = app::unwritten(&app.case, index);
     let written = app.case.text(index);
-    let shown = written.map_or_else(|| app::unwritten(&app.case, index), |text| clean(text).into_owned());
-    if is_edited && is_choice {
+    let is_edited = app.focus == index && app.has_line();
+    if is_edited && matches!(FIELDS[index].kind, Kind::Choice(..)) {
+        let shown = written.map_or(unwritten, |text| clean::clean(text).into_owned());
+        let width = usize::from(area.width);
         buffer.set_stringn(area.x, area.y, text::cut(&format!("‹ {shown} ›"), width), width, style);
         return None;
     }
+    draw_text(app, index, written, &unwritten, area, style, buffer)
+}
+
+// What is written in a row, as a line to edit where it is edited, else the words for what is not.
+fn draw_text(
+    app: &App,
+    index: usize,
+    written: Option<&str>,
+    unwritten: &str,
+    area: Rect,
+    style: Style,
+    buffer: &mut Buffer,
+) -> Option<Position> {
+    let width = usize::from(area.width);
+    let is_edited = app.focus == index && app.has_line();
     if is_edited && written.is_some() {
         return text::edited(&app.input, area, style.add_modifier(Modifier::UNDERLINED), buffer);
     }
+    let shown = written.map_or(unwritten.into(), clean::clean);
     let faint = if written.is_none() { app.look.theme.faint } else { style };
     buffer.set_stringn(area.x, area.y, text::cut(&shown, width), width, faint);
     is_edited.then_some(Position::new(area.x, area.y))

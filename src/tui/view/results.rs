@@ -95,16 +95,16 @@ pub fn row_at(app: &App, area: Rect, at: Position) -> Option<usize> {
 
 /// The outcome of a solve, in a sentence.
 #[must_use]
-pub fn sentence(solution: &Solution, ascii: bool) -> String {
-    let value = |key| quantity_text(key, solution).unwrap_or_default();
+pub fn sentence(app: &App, solution: &Solution) -> String {
+    let value = |key| quantity_text(app, key, solution).unwrap_or_default();
     match solution.outcome {
         Outcome::CornerContact => {
-            let force =
-                quantity_text("impact_force", solution).map_or("no force is given".to_owned(), |force| format!("with {force}"));
+            let force = quantity_text(app, "impact_force", solution)
+                .map_or("no force is given".to_owned(), |force| format!("with {force}"));
             format!("Corner contact {} of the driver before E, {force}.", value("approach_angle_driver"))
         }
         Outcome::NoCornerContact => {
-            let total = symbol("Δ", ascii);
+            let total = symbol("Δ", app.look.ascii);
             format!("No corner contact: {total} = {}, the tooth comes in on time.", value("total_deviation"))
         }
     }
@@ -127,7 +127,12 @@ fn title(app: &App, parts: &Parts) -> String {
     let last = (app.results_top + parts.rows).min(count);
     let range = if count > parts.rows { format!(", {}-{last} of {count}", app.results_top + 1) } else { String::new() };
     let against = app.baseline.as_ref().map_or_else(String::new, |baseline| format!(", against {}", baseline.name));
-    format!("{name}{range}{against}")
+    let answer = app.answer.as_ref();
+    let pending = answer.and_then(|answer| answer.pending).map_or_else(String::new, |rung| format!(", {} to come", rung.name()));
+    let cost = answer
+        .filter(|_| app.shows_cost)
+        .map_or_else(String::new, |answer| format!(", {} stages in {} us", answer.cost.stages, answer.cost.micros));
+    format!("{name}{range}{against}{pending}{cost}")
 }
 
 // With room every gauge and note is told in full, else each in a line, and the notes in one.
@@ -138,7 +143,7 @@ fn parts(app: &App, area: Rect) -> Parts {
     let (mut gauges, mut notes) = (Vec::new(), Vec::new());
     if let Some(answer) = &app.answer {
         head.extend(outcome(app, answer, width));
-        gauges = self::gauges(answer, app.look.ascii);
+        gauges = self::gauges(app, answer);
         notes = answer.notes.iter().map(|note| format!("* {}", note.message)).collect();
     }
     let whole = |texts: &[String]| texts.iter().flat_map(|text| text::wrap(text, width)).collect::<Vec<_>>();
@@ -179,19 +184,21 @@ fn banner(app: &App, width: usize) -> Vec<Line<'static>> {
 fn outcome(app: &App, answer: &Answer, width: usize) -> Vec<Line<'static>> {
     let Some(solution) = answer.of(answer.active) else { return Vec::new() };
     let style = if app.is_stale() { app.look.theme.faint } else { app.look.theme.focus };
-    let lines = text::wrap(&sentence(solution, app.look.ascii), width);
+    let lines = text::wrap(&sentence(app, solution), width);
     lines.into_iter().map(|line| Line::styled(line, style)).collect()
 }
 
-fn gauges(answer: &Answer, ascii: bool) -> Vec<String> {
-    answer.of(answer.active).and_then(band).into_iter().chain(ratios(answer, ascii)).collect()
+fn gauges(app: &App, answer: &Answer) -> Vec<String> {
+    let band = answer.of(answer.active).and_then(|solution| band(app, solution));
+    band.into_iter().chain(ratios(answer, app.look.ascii)).collect()
 }
 
 // How far the force depends on the choice of stiffness model.
-fn band(solution: &Solution) -> Option<String> {
+fn band(app: &App, solution: &Solution) -> Option<String> {
     let (band, force) = (solution.band?, solution.impact?.force);
     let percent = |end: f64| 100.0 * (end / force - 1.0) + 0.0;
-    let (low, high) = (quantity_number("impact_force_low", solution)?, quantity_text("impact_force_high", solution)?);
+    let (low, high) =
+        (shown(app, Quantity::find("impact_force_low")?, solution)?.number, quantity_text(app, "impact_force_high", solution)?);
     Some(format!("stiffness band {low}..{high} ({:+.1}..{:+.1} %)", percent(band.low), percent(band.high)))
 }
 
@@ -211,15 +218,10 @@ fn rounded(ratio: f64) -> String {
     format!("{ratio:.digits$}")
 }
 
-fn shown(quantity: &Quantity, solution: &Solution) -> Option<Shown> {
-    (quantity.value)(solution).map(|value| report::shown(quantity, value))
+fn shown(app: &App, quantity: &Quantity, solution: &Solution) -> Option<Shown> {
+    (quantity.value)(solution).map(|value| report::shown_in(quantity, value, app.settings.units))
 }
 
-fn quantity_number(key: &str, solution: &Solution) -> Option<String> {
-    Some(shown(Quantity::find(key)?, solution)?.number)
-}
-
-fn quantity_text(key: &str, solution: &Solution) -> Option<String> {
-    let Shown { number, unit } = shown(Quantity::find(key)?, solution)?;
-    Some(format!("{number} {unit}").trim_end().to_owned())
+fn quantity_text(app: &App, key: &str, solution: &Solution) -> Option<String> {
+    shown(app, Quantity::find(key)?, solution).map(|shown| shown.to_string())
 }

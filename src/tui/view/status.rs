@@ -7,12 +7,15 @@ use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
 use super::{chart, results, text};
-use crate::case::FIELDS;
 use crate::case::fields::{self, Absent, Field, Kind};
+use crate::case::units::System;
+use crate::case::{Acting, FIELDS, Limit, acts, materials};
+use crate::report::verdict::verdict;
 use crate::tui::actions::{BINDINGS, Binding, Chord};
 use crate::tui::app::{App, Progress};
 use crate::tui::clean::symbol;
 use crate::tui::pane::Pane;
+use crate::tui::rows::{self, Row};
 use crate::tui::tab::Tab;
 
 /// A longer name of a case is cut where there are several.
@@ -73,13 +76,14 @@ pub fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
 
 /// What a field is, in its own words.
 #[must_use]
-pub fn about(field: &Field, ascii: bool) -> String {
+pub fn about(field: &Field, ascii: bool, units: System) -> String {
     let name = [symbol(field.symbol, ascii).as_ref(), field.label].join(" ");
     let bounds = match field.kind {
         Kind::Text => String::new(),
-        Kind::Number(_, range, _) => {
+        Kind::Number(_, range, _) if units.unit(range.unit) == range.unit => {
             format!(", {}..{} {}", number(range.from), number(range.to), range.unit).trim_end().to_owned()
         }
+        Kind::Number(..) => format!(", {}", field.range_in(units)),
         Kind::Count(from, to, _) => format!(", {from}..{to}"),
         Kind::Choice(names, _) => format!(", {}", names.join(" | ")),
     };
@@ -147,7 +151,10 @@ fn window(names: &[String], middle: usize, width: usize) -> (usize, usize) {
 
 fn focused(app: &App) -> String {
     match app.panes.focus {
-        Pane::Form => about(&FIELDS[app.focus], app.look.ascii),
+        Pane::Form => match rows::row(&app.case, app.focus) {
+            Row::Field(field) => about_field(app, field),
+            Row::Limit(limit) => about_limit(app, limit),
+        },
         Pane::Results => results::marked(app).map_or_else(String::new, |quantity| {
             let name = symbol(quantity.symbol, app.look.ascii);
             format!("{name} {}, {} ({}).", quantity.label.trim(), quantity.equation, quantity.key)
@@ -157,9 +164,41 @@ fn focused(app: &App) -> String {
     }
 }
 
+// What is typed in another unit, why it does not act, what it is.
+fn about_field(app: &App, index: usize) -> String {
+    let field = &FIELDS[index];
+    let converted = app.case.text(index).and_then(|text| field.converted(text, app.settings.units));
+    let idle = match acts(index, &app.case.inputs_so_far()) {
+        Acting::No(why) | Acting::Beside(why) if !matches!(field.kind, Kind::Text) => Some(format!("Does not act: {why}.")),
+        _ => None,
+    };
+    let about = about(field, app.look.ascii, app.settings.units);
+    [converted.map(|value| value + "."), idle, material(app, field), Some(about)]
+        .into_iter()
+        .flatten()
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+// Where the value is from, where it is that of a material.
+fn material(app: &App, field: &Field) -> Option<String> {
+    let is_of_material = matches!(field.name(), "young" | "poisson" | "density");
+    match materials::of_gear(&app.case, field.table())[..] {
+        [material] if is_of_material => Some(format!("{}: {}.", material.name, material.source)),
+        _ => None,
+    }
+}
+
+fn about_limit(app: &App, limit: &Limit) -> String {
+    let solution = app.answer.as_ref().and_then(|answer| answer.of(answer.active)).filter(|_| !app.is_stale());
+    let verdict = solution.filter(|_| !limit.text.is_empty()).map(|solution| verdict(limit, solution));
+    let told = verdict.map(|verdict| format!("{} {}. ", verdict.standing.word(), verdict.told(app.settings.units)));
+    format!("{}The greatest value that {} may take; empty: none.", told.unwrap_or_default(), rows::label(&app.case, app.focus))
+}
+
 fn at_cursor(app: &App) -> String {
     let Some(cursor) = app.cursor else {
-        return "No cursor: h and l bring it, Space lets it run from D to E.".to_owned();
+        return "No cursor: h and l bring it, Space lets it run to E.".to_owned();
     };
     let side = if cursor < 0.0 { "after" } else { "before" };
     let angle = format!("{:.4} deg of the driver {side} E", cursor.abs().to_degrees());

@@ -1,27 +1,53 @@
-//! The teeth at the driver's roll angle.
+//! The teeth, drawn: the pair true to scale around the strike, with every value at the cursor.
+
+pub mod ink;
+pub mod labels;
+pub mod pen;
+pub mod picture;
+pub mod readings;
+pub mod scene;
+pub mod trace;
+pub mod window;
+pub mod zoom;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 
-use super::{text, titled};
+use super::titled;
+use crate::model::{Inputs, Solution};
 use crate::tui::app::App;
 use crate::tui::pane::Pane;
 
+pub use picture::Picture;
+pub use zoom::{Centre, Exaggeration, TeethView};
+
+const NOTHING: &str = "  No valid results of this rung.";
+
 /// Draw the pane.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
-    let inner = titled(app, Pane::Teeth, "Teeth", area, buffer);
-    let position = app.answer.as_ref().and_then(|answer| answer.of(answer.active)?.position);
-    let words = match position {
-        Some(position) => format!(
-            "The driven tip touches the driver's flank {:.4} deg of the driver before E, at {:.4} mm from its axis.",
-            position.approach_angle_driver.to_degrees(),
-            1e3 * position.contact.radius_driver
-        ),
-        None => "The teeth meet at E, where the normal path of contact begins.".to_owned(),
+    let stale = if app.is_stale() { "LAST VALID, " } else { "" };
+    let title = format!("{stale}Teeth, true to scale, around {}", app.teeth.centre.name());
+    let inner = titled(app, Pane::Teeth, &title, area, buffer);
+    let Some((inputs, solution)) = solved(app) else {
+        buffer.set_stringn(inner.x, inner.y, NOTHING, inner.width.into(), Style::new());
+        return;
     };
-    let width = inner.width.saturating_sub(2).into();
-    for (line, y) in text::wrap(&words, width).iter().zip(inner.top()..inner.bottom()) {
-        buffer.set_stringn(inner.x + 1, y, line, width, Style::new());
-    }
+    let picture = Picture {
+        inputs,
+        solution,
+        cursor: app.cursor,
+        view: &app.teeth,
+        look: app.look,
+        marker: app.settings.marker,
+        is_stale: app.is_stale(),
+    };
+    picture::draw(&picture, inner, buffer);
+}
+
+/// The pair that the active rung has solved last, and what it found.
+#[must_use]
+pub fn solved(app: &App) -> Option<(&Inputs, &Solution)> {
+    let answer = app.answer.as_ref()?;
+    Some((&answer.inputs, answer.of(answer.active)?))
 }

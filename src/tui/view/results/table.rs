@@ -7,6 +7,7 @@ use super::{shown, text};
 use crate::model::inputs::Rung;
 use crate::model::{Outcome, QUANTITIES, Quantity, Solution};
 use crate::report;
+use crate::report::verdict::{Standing, verdict};
 use crate::tui::app::App;
 use crate::tui::clean::symbol;
 use crate::tui::solver::Answer;
@@ -101,12 +102,12 @@ fn row(app: &App, answer: &Answer, quantity: &Quantity, columns: &Columns) -> Li
     };
     let mut unit = "";
     for &rung in &columns.rungs {
-        let shown = answer.of(rung).and_then(|solution| shown(quantity, solution));
+        let shown = answer.of(rung).and_then(|solution| shown(app, quantity, solution));
         unit = shown.as_ref().map_or(unit, |shown| shown.unit);
         let number = shown.map_or_else(|| "–".to_owned(), |shown| shown.number);
         let is_active = rung == answer.active;
         let style = if is_active { app.look.theme.focus } else { Style::new() };
-        let mark = if is_active && is_changed(app, answer, quantity) { "•" } else { " " };
+        let mark = if is_active { mark(app, answer, quantity) } else { " " };
         spans.push(Span::styled(format!("{number:>0$}{mark}", VALUE - 1), style));
     }
     spans.push(Span::raw(text::padded(unit, UNIT)));
@@ -120,10 +121,23 @@ fn row(app: &App, answer: &Answer, quantity: &Quantity, columns: &Columns) -> Li
     Line::from(spans)
 }
 
+// Above its limit, or changed.
+fn mark(app: &App, answer: &Answer, quantity: &Quantity) -> &'static str {
+    let solution = answer.of(answer.active).filter(|_| !app.is_stale());
+    let limit = app.case.limits.iter().find(|limit| limit.quantity == quantity.key);
+    let is_exceeded =
+        limit.zip(solution).is_some_and(|(limit, solution)| verdict(limit, solution).standing == Standing::Exceeded);
+    match is_exceeded {
+        true => "!",
+        false if is_changed(app, answer, quantity) => "•",
+        false => " ",
+    }
+}
+
 // Whether this visit of a field changed what is shown of the quantity.
 fn is_changed(app: &App, answer: &Answer, quantity: &Quantity) -> bool {
     let Some(earlier) = app.earlier.as_ref().filter(|_| !app.is_stale()) else { return false };
-    let told = |answer: &Answer| shown(quantity, answer.of(answer.active)?);
+    let told = |answer: &Answer| shown(app, quantity, answer.of(answer.active)?);
     told(earlier) != told(answer)
 }
 

@@ -1,0 +1,51 @@
+//! What one picture of the teeth costs: `cargo bench --bench teeth`.
+
+use std::hint::black_box;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::symbols::Marker;
+use tipstrike::case::Case;
+use tipstrike::model::{Stages, solve};
+use tipstrike::tui::theme::Look;
+use tipstrike::tui::view::teeth::{self, Centre, Picture, TeethView};
+
+fn pictures(criterion: &mut Criterion) {
+    let inputs = Case::table_1().inputs().unwrap_or_else(|_| unreachable!("the built-in case is valid"));
+    let solution = solve(&inputs, Stages::ALL).unwrap_or_else(|_| unreachable!("the built-in case is solved"));
+    let mut group = criterion.benchmark_group("teeth at 200x60");
+    for (name, centre, zoom) in [
+        ("strike", Centre::Strike, 0),
+        ("strike, close up", Centre::Strike, 10),
+        ("path", Centre::PitchPoint, 0),
+        ("pair", Centre::Pair, 0),
+    ] {
+        let view = TeethView { centre, zoom, ..TeethView::default() };
+        let picture = Picture {
+            inputs: &inputs,
+            solution: &solution,
+            cursor: None,
+            view: &view,
+            look: Look::FULL,
+            marker: Marker::Braille,
+            is_stale: false,
+        };
+        let area = Rect::new(0, 0, 200, 60);
+        let mut buffer = Buffer::empty(area);
+        group.bench_function(name, |bencher| {
+            bencher.iter(|| {
+                buffer.reset();
+                teeth::picture::draw(black_box(&picture), area, &mut buffer);
+            });
+        });
+    }
+    group.finish();
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default().warm_up_time(std::time::Duration::from_millis(300)).measurement_time(std::time::Duration::from_secs(2));
+    targets = pictures
+}
+criterion_main!(benches);

@@ -1,0 +1,126 @@
+//! Whether a field makes a difference in a case, and why it does not. That it does is what `reach` says; this adds the words.
+
+use super::fields::FIELDS;
+use super::reach::is_read;
+use super::{Case, check};
+use crate::model::Inputs;
+use crate::model::inputs::{ContactCompliance, Rung};
+
+/// Whether what stands in a field makes a difference to the results.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Acting {
+    /// Some quantity or station depends on it.
+    Yes,
+    /// It is told or noted beside the results, and no quantity depends on it.
+    Beside(&'static str),
+    /// The case does without it.
+    No(&'static str),
+}
+
+/// Why some fields are idle.
+struct Reason {
+    keys: &'static [&'static str],
+    when: fn(&Inputs) -> bool,
+    why: &'static str,
+}
+
+/// The first that fits is told.
+const REASONS: &[Reason] = &[
+    Reason {
+        keys: &["driver.tip_relief", "driven.root_relief"],
+        when: by_impact,
+        why: "at run-in the driven tip meets the driver's root: this relief acts at run-out, which this rung does not follow",
+    },
+    Reason {
+        keys: &[
+            "driver.tip_relief_length",
+            "driver.root_relief_length",
+            "driven.tip_relief_length",
+            "driven.root_relief_length",
+            "model.relief_shape",
+        ],
+        when: by_impact,
+        why: "this rung takes the whole relief at the first contact, whatever its length and shape",
+    },
+    Reason {
+        keys: &["driver.tip_radius"],
+        when: by_impact,
+        why: "the driver's tip touches at run-out only, which this rung does not follow",
+    },
+    Reason {
+        keys: &["driver.tip_radius", "driven.tip_radius"],
+        when: by_constant_contact,
+        why: "the constant contact compliance does not depend on curvature",
+    },
+    Reason {
+        keys: &["model.deflection"],
+        when: |inputs| inputs.rung.shares_load(),
+        why: "this rung computes the deflection from the load",
+    },
+    Reason {
+        keys: &["model.damping_ratio", "model.warmup_cycles", "model.tolerance"],
+        when: always,
+        why: "only the rung dynamic follows the motion in time",
+    },
+    Reason { keys: &["model.within"], when: always, why: "only the rung auto chooses by how much the answer may be off" },
+    Reason {
+        keys: &["model.station_tolerance"],
+        when: always,
+        why: "the number of stations is given, and not chosen by the curve",
+    },
+];
+
+/// Why a field is idle for which there are no words of its own.
+const OTHERWISE: &str = "nothing that this case computes depends on it";
+
+/// Fields that stand beside the results, where no quantity depends on them.
+const BESIDE: [(&str, &str); 3] = [
+    ("title", "a name for people"),
+    ("notes", "words for people"),
+    ("operation.friction_coefficient", "a note holds it against the stick limit; no quantity of this rung depends on it"),
+];
+
+fn always(_: &Inputs) -> bool {
+    true
+}
+
+fn by_impact(inputs: &Inputs) -> bool {
+    !inputs.rung.shares_load()
+}
+
+fn by_constant_contact(inputs: &Inputs) -> bool {
+    inputs.contact_compliance == ContactCompliance::Constant
+}
+
+impl Case {
+    /// The inputs as far as the case can be read: enough to tell which fields act in it.
+    #[must_use]
+    pub fn inputs_so_far(&self) -> Inputs {
+        check::read(self, &[]).0
+    }
+}
+
+/// Whether the field makes a difference in a case with these inputs.
+#[must_use]
+pub fn acts(field: usize, inputs: &Inputs) -> Acting {
+    let key = FIELDS[field].key;
+    if reaches(field, inputs) {
+        return Acting::Yes;
+    }
+    if let Some((_, why)) = BESIDE.iter().find(|(beside, _)| *beside == key) {
+        return Acting::Beside(why);
+    }
+    let reason = REASONS.iter().find(|reason| reason.keys.contains(&key) && (reason.when)(inputs));
+    Acting::No(reason.map_or(OTHERWISE, |reason| reason.why))
+}
+
+/// Whether any stage reads the field; of the rung `auto`, any stage of the rungs that it chooses from.
+fn reaches(field: usize, inputs: &Inputs) -> bool {
+    let by = |rung| is_read(field, &Inputs { rung, ..inputs.clone() });
+    match (FIELDS[field].key, inputs.rung) {
+        ("model.within", rung) => rung == Rung::Auto,
+        ("model.station_tolerance", _) => inputs.stations.is_none(),
+        (_, Rung::Auto) => [Rung::Exact, Rung::Static, Rung::Dynamic].into_iter().any(by),
+        _ => is_read(field, inputs),
+    }
+}

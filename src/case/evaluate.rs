@@ -1,0 +1,123 @@
+//! Cases solved one after the other, each from what the one before it has in common with it.
+
+use super::reach::stages_of;
+use super::{Case, FIELDS};
+use crate::model::inputs::Rung;
+use crate::model::solve::{Earlier, solve_after};
+use crate::model::{Inputs, Refusal, Solution, Stages};
+
+/// What was solved last with each rung.
+#[derive(Debug, Clone, Default)]
+pub struct Evaluator {
+    kept: Vec<Solved>,
+}
+
+#[derive(Debug, Clone)]
+struct Solved {
+    rung: Rung,
+    case: Case,
+    inputs: Inputs,
+    solution: Solution,
+}
+
+impl Evaluator {
+    /// Solve a case with a rung, whichever the case itself asks for, running only the stages that are wanted and that the
+    /// edits since the last solve with this rung reach. [`Solution::ran`] tells which those were.
+    ///
+    /// # Errors
+    /// Those of [`solve_after`]; what was kept then stays.
+    pub fn solve(
+        &mut self,
+        case: &Case,
+        inputs: &Inputs,
+        rung: Rung,
+        wanted: Stages,
+        go_on: &dyn Fn(f64) -> bool,
+    ) -> Result<Solution, Refusal> {
+        let inputs = Inputs { rung, ..inputs.clone() };
+        let at = self.kept.iter().position(|solved| solved.rung == rung);
+        let earlier = at.map(|at| self.kept[at].seen_from(case, &inputs));
+        let solution = solve_after(&inputs, wanted, earlier, go_on)?;
+        let solved = Solved { rung, case: case.clone(), inputs, solution: solution.clone() };
+        match at {
+            Some(at) => self.kept[at] = solved,
+            None => self.kept.push(solved),
+        }
+        Ok(solution)
+    }
+}
+
+impl Solved {
+    /// This solve, and what of it the edits since then reach.
+    fn seen_from(&self, case: &Case, inputs: &Inputs) -> Earlier<'_> {
+        let edited = (0..FIELDS.len()).filter(|&field| self.case.text(field) != case.text(field));
+        let stale = edited.fold(Stages::NONE, |stale, field| {
+            // The rung is the same one, whatever the case says.
+            if FIELDS[field].key == "model.rung" {
+                return stale;
+            }
+            stale.and(stages_of(field, &self.inputs)).and(stages_of(field, inputs))
+        });
+        Earlier { solution: &self.solution, stale }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::fields::index_of;
+    use crate::model::{QUANTITIES, Stage, solve};
+
+    fn edited(key: &str, text: &str) -> Case {
+        let mut case = Case::table_1();
+        case.write(index_of(key).unwrap(), text);
+        case
+    }
+
+    /// The stages that run when this field is edited after a whole solve of Table 1.
+    fn ran(rung: Rung, key: &str, text: &str) -> Stages {
+        let mut evaluator = Evaluator::default();
+        let (before, after) = (Case::table_1(), edited(key, text));
+        let mut run = |case: &Case| evaluator.solve(case, &case.inputs().unwrap(), rung, Stages::EVERY, &|_| true).unwrap();
+        assert_eq!(run(&before).ran, run_fresh(rung, &before).ran);
+        let (kept, fresh) = (run(&after), run_fresh(rung, &after));
+        assert_eq!(kept.stages, fresh.stages);
+        for quantity in QUANTITIES {
+            assert_eq!((quantity.value)(&kept), (quantity.value)(&fresh), "{} after {key} = {text}", quantity.key);
+        }
+        kept.ran
+    }
+
+    fn run_fresh(rung: Rung, case: &Case) -> Solution {
+        solve(&Inputs { rung, ..case.inputs().unwrap() }, Stages::EVERY).unwrap()
+    }
+
+    #[test]
+    fn an_edit_runs_only_the_stages_that_it_reaches() {
+        for rung in [Rung::Paper, Rung::Exact, Rung::Static, Rung::Dynamic] {
+            assert_eq!(ran(rung, "title", "another"), Stages::NONE);
+            let density = ran(rung, "driver.density", "7900 kg/m3");
+            for stage in [Stage::Geometry, Stage::Position, Stage::Velocity, Stage::Mesh, Stage::Static] {
+                assert!(!density.has(stage), "{}: density runs {}", rung.name(), stage.name());
+            }
+            assert!(density.has(Stage::Load) && density.has(Stage::Impact));
+            assert_eq!(density.has(Stage::Dynamic), rung == Rung::Dynamic);
+            assert!(!ran(rung, "operation.speed", "1900 rpm").has(Stage::Geometry));
+            assert!(ran(rung, "pair.module", "5.5 mm").has(Stage::Geometry));
+        }
+        let damping = ran(Rung::Dynamic, "model.damping_ratio", "0.1");
+        assert_eq!(damping, Stages::NONE.with(Stage::Dynamic));
+        let stations = ran(Rung::Exact, "model.stations", "32");
+        assert_eq!(stations, Stages::NONE.with(Stage::Stations));
+    }
+
+    #[test]
+    fn stages_that_were_not_wanted_before_are_all_that_run() {
+        let (mut evaluator, case) = (Evaluator::default(), Case::table_1());
+        let inputs = case.inputs().unwrap();
+        let mut ran = |wanted| evaluator.solve(&case, &inputs, Rung::Exact, wanted, &|_| true).unwrap().ran;
+        assert!(ran(Stages::of(Stage::Position)).has(Stage::Position));
+        assert_eq!(ran(Stages::of(Stage::Velocity)), Stages::NONE.with(Stage::Velocity));
+        assert_eq!(ran(Stages::of(Stage::Velocity)), Stages::NONE);
+    }
+}

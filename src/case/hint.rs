@@ -1,0 +1,70 @@
+//! What a form says about a field beside its text: its usual unit, its range, its value in other units.
+
+use super::fields::{Field, Kind};
+use super::units::{self, System};
+
+/// Significant digits of the ends of a range that is not told as the table of fields has it.
+const RANGE_DIGITS: usize = 3;
+
+impl Field {
+    /// The unit in which values of the field are mostly written; empty for a number, a count, a choice and words.
+    #[must_use]
+    pub fn usual_unit(&self) -> &'static str {
+        match self.kind {
+            Kind::Number(..) => self.example().split_once(' ').map_or("", |(_, unit)| unit),
+            Kind::Text | Kind::Count(..) | Kind::Choice(..) => "",
+        }
+    }
+
+    /// What a typed text is in the field's usual unit, see [`units::converted`].
+    #[must_use]
+    pub fn converted(&self, typed: &str, system: System) -> Option<String> {
+        match self.kind {
+            Kind::Number(dimension, ..) => units::converted(typed, dimension, self.usual_unit(), system),
+            Kind::Text | Kind::Count(..) | Kind::Choice(..) => None,
+        }
+    }
+
+    /// The least and the greatest value as [`Field::range_text`] tells them, in inch units rounded.
+    #[must_use]
+    pub fn range_in(&self, system: System) -> String {
+        let Kind::Number(_, range, _) = self.kind else { return self.range_text() };
+        let unit = system.unit(range.unit);
+        if unit == range.unit {
+            return self.range_text();
+        }
+        let factor = units::factor(range.unit).unwrap_or(1.0);
+        let end = |value: f64| units::system::shown(value * factor, range.unit, RANGE_DIGITS, system).0;
+        format!("about {} to {} {unit}", end(range.from), end(range.to))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::fields::{FIELDS, index_of};
+
+    fn field(key: &str) -> &'static Field {
+        &FIELDS[index_of(key).unwrap()]
+    }
+
+    #[test]
+    fn every_measure_has_a_usual_unit_of_its_dimension() {
+        for field in &FIELDS {
+            let Kind::Number(dimension, range, _) = field.kind else { continue };
+            let unit = field.usual_unit();
+            assert_eq!(unit.is_empty(), range.unit.is_empty(), "{}", field.key);
+            assert_eq!(units::Dimension::of_unit(unit), Some(dimension), "{}", field.key);
+        }
+    }
+
+    #[test]
+    fn a_hint_tells_the_value_in_the_usual_unit_and_the_range_in_either_system() {
+        assert_eq!(field("operation.power").converted("20 hp", System::Metric).as_deref(), Some("= 14.914 kW"));
+        assert_eq!(field("driver.teeth").converted("20", System::Metric), None);
+        assert_eq!(field("pair.module").range_in(System::Metric), "0.05 to 50 mm");
+        assert_eq!(field("pair.module").range_in(System::Inch), "about 0.00197 to 1.97 in");
+        assert_eq!(field("driver.teeth").range_in(System::Inch), "5 to 1000");
+        assert_eq!(field("operation.speed").range_in(System::Inch), "0.001 to 1000000 rpm");
+    }
+}

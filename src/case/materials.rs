@@ -1,0 +1,192 @@
+//! Materials of gears: what they are made of fills three fields at once, and the three fields tell what it is.
+
+use std::sync::LazyLock;
+
+use serde::Deserialize;
+
+use super::fields::index_of;
+use super::{Case, Problem, check, fields};
+use crate::model::inputs::Gear;
+
+/// A material with the values that the fields of a gear take, as texts, and their source.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+pub struct Material {
+    /// Its name, such as `42CrMo4`.
+    pub name: String,
+    /// What kind of material it is, such as `case-hardening steel`.
+    pub group: String,
+    /// Young's modulus with its unit.
+    pub young: String,
+    /// Poisson's ratio.
+    pub poisson: String,
+    /// Density with its unit.
+    pub density: String,
+    /// Where the values are from.
+    pub source: String,
+    /// What a reader must know of them.
+    pub note: String,
+}
+
+#[derive(Deserialize)]
+struct Catalogue {
+    material: Vec<Material>,
+}
+
+const TEXT: &str = include_str!("../../assets/materials.toml");
+
+static ALL: LazyLock<Vec<Material>> =
+    LazyLock::new(|| toml::from_str::<Catalogue>(TEXT).map(|catalogue| catalogue.material).unwrap_or_default());
+
+/// The three values of each in SI.
+static CONSTANTS: LazyLock<Vec<Option<[f64; 3]>>> = LazyLock::new(|| {
+    let of = |material| {
+        let mut made = Case::empty();
+        apply(&mut made, "driver", material).ok().and_then(|()| constants(&made, "driver"))
+    };
+    all().iter().map(of).collect()
+});
+
+/// Values closer than this are the same, relatively: one may be written in another unit.
+const SAME: f64 = 1e-9;
+
+/// Every material, those of a group together.
+#[must_use]
+pub fn all() -> &'static [Material] {
+    &ALL
+}
+
+/// The material of that name, in small or capital letters.
+#[must_use]
+pub fn find(name: &str) -> Option<&'static Material> {
+    all().iter().find(|material| material.name.eq_ignore_ascii_case(name.trim()))
+}
+
+impl Material {
+    /// The gear's fields that it fills, and with what.
+    fn texts(&self) -> [(&'static str, &str); 3] {
+        [("young", &self.young), ("poisson", &self.poisson), ("density", &self.density)]
+    }
+}
+
+/// Make a gear, `driver` or `driven`, of a material: write its three fields.
+///
+/// # Errors
+/// As [`Case::set`], where there is no such gear; the case then stays as it was.
+pub fn apply(case: &mut Case, gear: &str, material: &Material) -> Result<(), Problem> {
+    let mut changed = case.clone();
+    for (name, text) in material.texts() {
+        changed.set(&format!("{gear}.{name}"), text)?;
+    }
+    *case = changed;
+    Ok(())
+}
+
+/// The materials whose three values the gear has; several where they have the same ones, none where it is no known one.
+#[must_use]
+pub fn of_gear(case: &Case, gear: &str) -> Vec<&'static Material> {
+    let Some(own) = constants(case, gear) else { return Vec::new() };
+    let same = |a: f64, b: f64| (a - b).abs() <= SAME * b.abs();
+    let fits = |known: &Option<[f64; 3]>| known.is_some_and(|known| known.into_iter().zip(own).all(|(a, b)| same(a, b)));
+    all().iter().zip(CONSTANTS.iter()).filter(|(_, known)| fits(known)).map(|(material, _)| material).collect()
+}
+
+/// What the gear is made of, as it stands beside its fields: `42CrMo4`, or `Steel, 18CrNiMo7-6 or 20CrMnTi` where the values
+/// are those of several.
+#[must_use]
+pub fn name_of_gear(case: &Case, gear: &str) -> Option<String> {
+    let found = of_gear(case, gear);
+    let (last, others) = found.split_last()?;
+    let others: Vec<&str> = others.iter().map(|material| material.name.as_str()).collect();
+    Some(if others.is_empty() { last.name.clone() } else { format!("{} or {}", others.join(", "), last.name) })
+}
+
+/// Young's modulus, Poisson's ratio and density of a gear in SI, where all three can be read.
+fn constants(case: &Case, gear: &str) -> Option<[f64; 3]> {
+    let mut inputs = fields::blank();
+    for name in ["young", "poisson", "density"] {
+        check::put(case, index_of(&format!("{gear}.{name}"))?, &mut inputs).ok()?;
+    }
+    let Gear { young, poisson, density, .. } = if gear == "driver" { inputs.driver } else { inputs.driven };
+    Some([young, poisson, density])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn every_material_fits_the_fields_and_names_its_source() {
+        assert!(all().len() >= 12, "{} materials were read", all().len());
+        for material in all() {
+            for gear in ["driver", "driven"] {
+                let mut case = Case::table_1();
+                assert_eq!(apply(&mut case, gear, material), Ok(()), "{}", material.name);
+                assert!(case.inputs().is_ok(), "{}", material.name);
+            }
+            let told = [&material.name, &material.group, &material.source, &material.note];
+            assert!(told.iter().all(|text| !text.trim().is_empty() && text.is_ascii()), "{material:?}");
+            assert!(material.source.len() > 15 && material.source.chars().any(|c| c.is_ascii_digit()), "{}", material.source);
+        }
+    }
+
+    #[test]
+    fn names_are_unique_and_groups_stand_together() {
+        let names: BTreeSet<String> = all().iter().map(|material| material.name.to_lowercase()).collect();
+        assert_eq!(names.len(), all().len());
+        let mut groups: Vec<&str> = all().iter().map(|material| material.group.as_str()).collect();
+        groups.dedup();
+        assert_eq!(groups.iter().collect::<BTreeSet<_>>().len(), groups.len(), "{groups:?}");
+    }
+
+    #[test]
+    fn elastic_constants_are_those_of_their_kind() {
+        for material in all() {
+            let mut case = Case::empty();
+            apply(&mut case, "driver", material).unwrap();
+            let [young, poisson, density] = constants(&case, "driver").unwrap();
+            let (moduli, densities) = match material.group.as_str() {
+                group if group.ends_with("steel") => (195e9..215e9, 7650.0..7900.0),
+                "grey cast iron" => (80e9..140e9, 7000.0..7400.0),
+                "nodular cast iron" => (165e9..180e9, 7000.0..7300.0),
+                "bronze" => (95e9..130e9, 7400.0..8900.0),
+                "plastic" => (1e9..5e9, 1000.0..1500.0),
+                other => panic!("{other} is a new group"),
+            };
+            assert!(moduli.contains(&young) && densities.contains(&density), "{material:?}");
+            assert!((0.25..=0.4).contains(&poisson), "{material:?}");
+        }
+    }
+
+    #[test]
+    fn a_material_fills_three_fields_and_is_told_by_them() {
+        let mut case = Case::table_1();
+        assert_eq!(name_of_gear(&case, "driver"), None);
+        apply(&mut case, "driver", find("42crmo4").unwrap()).unwrap();
+        let text = |key: &str| case.text(index_of(key).unwrap());
+        assert_eq!((text("driver.young"), text("driver.density")), (Some("210 GPa"), Some("7720 kg/m3")));
+        assert_eq!(text("driven.young"), Some("205 GPa"));
+        assert_eq!(name_of_gear(&case, "driver").as_deref(), Some("42CrMo4"));
+        case.set("driver.young", "210000 N/mm2").unwrap();
+        assert_eq!(name_of_gear(&case, "driver").as_deref(), Some("42CrMo4"));
+        case.set("driver.density", "7721 kg/m3").unwrap();
+        assert_eq!(name_of_gear(&case, "driver"), None);
+        case.write(index_of("driver.density").unwrap(), "heavy");
+        assert_eq!(name_of_gear(&case, "driver"), None);
+    }
+
+    #[test]
+    fn materials_of_the_same_values_are_all_named() {
+        let mut case = Case::table_1();
+        apply(&mut case, "driven", find("Steel").unwrap()).unwrap();
+        assert_eq!(name_of_gear(&case, "driven").as_deref(), Some("Steel, 18CrNiMo7-6 or 20CrMnTi"));
+    }
+
+    #[test]
+    fn an_unknown_gear_changes_nothing() {
+        let mut case = Case::table_1();
+        assert!(apply(&mut case, "idler", &all()[0]).is_err());
+        assert_eq!(case, Case::table_1());
+        assert!(of_gear(&case, "idler").is_empty());
+    }
+}

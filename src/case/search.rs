@@ -1,0 +1,199 @@
+//! Finding a field by whatever of it comes to mind: its symbol, its label, its key, a word of its help, a Greek letter by name.
+
+use std::sync::LazyLock;
+
+use super::fields::{FIELDS, Field, GROUPS};
+
+/// Greek letters as they are spelled on a keyboard.
+const GREEK: [(char, &str); 14] = [
+    ('α', "alpha"),
+    ('β', "beta"),
+    ('γ', "gamma"),
+    ('δ', "delta"),
+    ('ε', "epsilon"),
+    ('ζ', "zeta"),
+    ('η', "eta"),
+    ('θ', "theta"),
+    ('μ', "mu"),
+    ('ν', "nu"),
+    ('ρ', "rho"),
+    ('σ', "sigma"),
+    ('τ', "tau"),
+    ('ω', "omega"),
+];
+
+/// The least likeness of a mistyped word to the one that is meant.
+const LIKE: f64 = 0.75;
+
+/// What of a field is searched, and how much a word found there counts.
+struct Entry {
+    /// Its symbol, whole and without the number of the gear.
+    symbols: [String; 2],
+    /// Words by how much they count, the best first.
+    words: [(u32, Vec<String>); 4],
+}
+
+static ENTRIES: LazyLock<Vec<Entry>> = LazyLock::new(|| FIELDS.iter().map(Entry::of).collect());
+
+/// Fields that fit every word of the query, the best first, each with its score; of equal ones in the order of the form.
+/// Case is ignored, Greek letters may be spelled out, underscores left out, words shortened or slightly mistyped. An empty
+/// query fits all fields alike.
+#[must_use]
+pub fn search(query: &str) -> Vec<(usize, u32)> {
+    let sought: Vec<String> =
+        query.split(|c: char| c.is_whitespace() || c == '.').map(plain).filter(|word| !word.is_empty()).collect();
+    let score = |entry: &Entry| sought.iter().map(|word| entry.score(word)).sum::<Option<u32>>();
+    let mut found: Vec<(usize, u32)> =
+        ENTRIES.iter().enumerate().filter_map(|(field, entry)| Some((field, score(entry)?))).collect();
+    found.sort_by_key(|&(field, score)| (std::cmp::Reverse(score), field));
+    found
+}
+
+impl Entry {
+    fn of(field: &Field) -> Entry {
+        let symbol = plain(field.symbol);
+        let stem = symbol.trim_end_matches(['1', '2']).to_owned();
+        let group = GROUPS.iter().find(|(table, _)| *table == field.table()).map_or("", |(_, title)| title);
+        let name = words(field.name()).into_iter().chain([plain(field.name())]).collect();
+        Entry {
+            symbols: [symbol, stem],
+            words: [(40, words(field.label)), (30, name), (20, words(group)), (10, words(field.help))],
+        }
+    }
+
+    /// How well the entry fits one word of the query; `None` where it does not.
+    fn score(&self, sought: &str) -> Option<u32> {
+        let symbol = self.symbols.iter().any(|symbol| symbol == sought).then_some(100);
+        let begun = self.symbols[0].starts_with(sought).then_some(60);
+        let word = self.words.iter().filter_map(|(weight, words)| {
+            let best = words.iter().filter_map(|word| fit(sought, word)).max()?;
+            Some(weight + best)
+        });
+        word.chain(symbol).chain(begun).max()
+    }
+}
+
+/// How well a word fits what is sought: whole, begun, within, nearly, or with letters left out.
+fn fit(sought: &str, word: &str) -> Option<u32> {
+    let long = sought.len() > 2;
+    if word == sought {
+        Some(50)
+    } else if word.starts_with(sought) {
+        Some(40)
+    } else if long && word.contains(sought) {
+        Some(25)
+    } else if sought.len() > 3 && strsim::normalized_damerau_levenshtein(sought, word) >= LIKE {
+        Some(20)
+    } else if long && is_shortened(sought, word) {
+        Some(5)
+    } else {
+        None
+    }
+}
+
+/// Whether the word becomes what is sought when letters after the first are left out.
+fn is_shortened(sought: &str, word: &str) -> bool {
+    let mut rest = word.chars();
+    word.chars().next() == sought.chars().next() && sought.chars().all(|letter| rest.any(|other| other == letter))
+}
+
+/// The words of a text, plain.
+fn words(text: &str) -> Vec<String> {
+    let split = text.split(|c: char| !c.is_alphanumeric() && c != '\'');
+    split.map(plain).filter(|word| !word.is_empty()).collect()
+}
+
+/// Letters and digits in small letters of the keyboard: `α_w` is alphaw, `f_pb` is fpb, `ha*1` is ha1.
+fn plain(text: &str) -> String {
+    let mut plain = String::with_capacity(text.len());
+    for letter in text.chars().flat_map(char::to_lowercase).filter(|letter| letter.is_alphanumeric()) {
+        let letter = if letter == 'µ' { 'μ' } else { letter };
+        match GREEK.iter().find(|(greek, _)| *greek == letter) {
+            Some((_, name)) => plain.push_str(name),
+            None => plain.push(letter),
+        }
+    }
+    plain
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn keys(query: &str) -> Vec<&'static str> {
+        search(query).into_iter().map(|(field, _)| FIELDS[field].key).collect()
+    }
+
+    #[test]
+    fn what_is_meant_comes_first() {
+        for (query, key) in [
+            ("alpha", "pair.pressure_angle"),
+            ("α", "pair.pressure_angle"),
+            ("rho", "driver.density"),
+            ("ρ2", "driven.density"),
+            ("nu", "driver.poisson"),
+            ("mu", "operation.friction_coefficient"),
+            ("µ", "operation.friction_coefficient"),
+            ("delta", "model.deflection"),
+            ("fpb", "deviations.base_pitch"),
+            ("f_pb", "deviations.base_pitch"),
+            ("jbn", "deviations.backlash"),
+            ("ha", "driver.addendum"),
+            ("ha*2", "driven.addendum"),
+            ("E2", "driven.young"),
+            ("z1", "driver.teeth"),
+            ("a", "pair.centre_distance"),
+            ("m", "pair.module"),
+            ("MODULE", "pair.module"),
+            ("n1", "operation.speed"),
+            ("teeth", "driver.teeth"),
+            ("young's", "driver.young"),
+            ("pressure angle", "pair.pressure_angle"),
+            ("driven tip relief", "driven.tip_relief"),
+            ("driven relief length", "driven.tip_relief_length"),
+            ("bore", "driver.bore_radius"),
+            ("center distance", "pair.centre_distance"),
+            ("defl", "model.deflection"),
+            ("presure", "pair.pressure_angle"),
+            ("rung", "model.rung"),
+            ("double", "model.accurate"),
+            ("coulomb", "operation.friction_coefficient"),
+            ("driven.teeth", "driven.teeth"),
+            ("base_pitch", "deviations.base_pitch"),
+            ("driven.tip_radius", "driven.tip_radius"),
+        ] {
+            assert_eq!(keys(query).first(), Some(&key), "{query}: {:?}", keys(query));
+        }
+    }
+
+    #[test]
+    fn every_word_must_fit() {
+        assert!(keys("module relief").is_empty());
+        assert!(keys("xyzzy").is_empty());
+        assert!(keys("driven").iter().all(|key| !key.starts_with("pair")));
+    }
+
+    #[test]
+    fn an_empty_query_fits_all_in_the_order_of_the_form() {
+        let all: Vec<usize> = search("  ").into_iter().map(|(field, _)| field).collect();
+        assert_eq!(all, (0..FIELDS.len()).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn every_field_is_found_first_by_its_key_and_by_label_and_gear() {
+        for field in &FIELDS {
+            assert_eq!(keys(&field.key.replace(['.', '_'], " ")).first(), Some(&field.key));
+            let gear = if matches!(field.table(), "driver" | "driven") { field.table() } else { "" };
+            assert_eq!(keys(&format!("{gear} {}", field.label)).first(), Some(&field.key), "{}", field.label);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn no_query_makes_a_search_panic_and_the_best_come_first(query in ".{0,12}") {
+            let found = search(&query);
+            prop_assert!(found.is_sorted_by(|a, b| a.1 >= b.1));
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! Metric or inch: the units in which results and hints are shown. Files stay as they are written.
+
+use super::factor;
+use crate::numeric::decimal::significant;
+
+/// The units in which a person reads values.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum System {
+    /// mm, um, N, kW, N m, GPa.
+    #[default]
+    Metric,
+    /// in, thou, lbf, hp, lbf ft, ksi.
+    Inch,
+}
+
+/// Each metric unit in which something is shown, and the inch unit that stands for it. A unit that is not here, such as
+/// deg, rpm or us, serves both.
+const PAIRS: [(&str, &str); 17] = [
+    ("m", "ft"),
+    ("mm", "in"),
+    ("um", "thou"),
+    ("N", "lbf"),
+    ("kN", "lbf"),
+    ("N m", "lbf ft"),
+    ("W", "hp"),
+    ("kW", "hp"),
+    ("J", "ft lbf"),
+    ("kg", "lb"),
+    ("kg/m3", "lb/in3"),
+    ("Pa", "psi"),
+    ("MPa", "psi"),
+    ("GPa", "ksi"),
+    ("m/s", "ft/s"),
+    ("um mm/N", "in2/lbf"),
+    ("m2/N", "in2/lbf"),
+];
+
+impl System {
+    /// Both, in the order in which a key goes through them.
+    pub const ALL: [System; 2] = [System::Metric, System::Inch];
+
+    /// The name in settings and messages.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            System::Metric => "metric",
+            System::Inch => "inch",
+        }
+    }
+
+    /// The system of that name.
+    #[must_use]
+    pub fn find(name: &str) -> Option<System> {
+        System::ALL.into_iter().find(|system| system.name() == name)
+    }
+
+    /// The other one.
+    #[must_use]
+    pub fn other(self) -> System {
+        match self {
+            System::Metric => System::Inch,
+            System::Inch => System::Metric,
+        }
+    }
+
+    /// The unit of this system that stands for a metric one.
+    #[must_use]
+    pub fn unit(self, metric: &'static str) -> &'static str {
+        let inch = || PAIRS.iter().find(|(from, _)| *from == metric).map_or(metric, |(_, to)| to);
+        if self == System::Inch { inch() } else { metric }
+    }
+}
+
+/// A value in SI as this system shows it: the number with that many significant digits, and its unit, empty for a number.
+#[must_use]
+pub fn shown(value: f64, metric: &'static str, digits: usize, system: System) -> (String, &'static str) {
+    let unit = system.unit(metric);
+    (significant(value / factor(unit).unwrap_or(1.0), digits), if unit == "1" { "" } else { unit })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Dimension, parse};
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn the_units_are_worth_what_their_definitions_say() {
+        for (unit, si) in [
+            ("in", 25.4e-3),
+            ("thou", 25.4e-6),
+            ("ft", 0.3048),
+            ("lbf", 4.4482216152605),
+            ("lbf ft", 1.3558179483314004),
+            ("ft lbf", 1.3558179483314004),
+            ("hp", 745.699_871_582_270_2),
+            ("lb", 0.45359237),
+            ("lb/in3", 27679.904710203125),
+            ("psi", 6894.757293168361),
+            ("ksi", 6894757.293168361),
+            ("ft/s", 0.3048),
+            ("in2/lbf", 0.00064516 / 4.4482216152605),
+        ] {
+            let worth = factor(unit).unwrap_or(f64::NAN);
+            assert!((worth / si - 1.0).abs() < 4e-16, "{unit}: {worth:e} for {si:e}");
+        }
+    }
+
+    #[test]
+    fn both_units_of_a_pair_are_of_one_dimension() {
+        for (metric, inch) in PAIRS {
+            let (metric, inch) = (Dimension::of_unit(metric).unwrap(), inch);
+            assert!(parse(&format!("1 {inch}"), metric, "").is_ok(), "{inch} is no unit of {}", metric.name());
+        }
+    }
+
+    #[test]
+    fn results_in_inch_units_read_as_an_engineer_writes_them() {
+        let told = |value, metric, digits| {
+            let (number, unit) = shown(value, metric, digits, System::Inch);
+            format!("{number} {unit}").trim_end().to_owned()
+        };
+        assert_eq!(told(0.047891485, "mm", 6), "1.88549 in");
+        assert_eq!(told(47.327e-6, "um", 5), "1.8633 thou");
+        assert_eq!(told(2191.016, "N", 5), "492.56 lbf");
+        assert_eq!(told(0.8210639, "m/s", 5), "2.6938 ft/s");
+        assert_eq!(told(206e9, "GPa", 5), "29878 ksi");
+        assert_eq!(told(15e3, "kW", 5), "20.115 hp");
+        assert_eq!(told(71.6197, "N m", 5), "52.824 lbf ft");
+        assert_eq!(told(7800.0, "kg/m3", 5), "0.28179 lb/in3");
+        assert_eq!(told(2000.0 * factor("rpm").unwrap(), "rpm", 5), "2000.0 rpm");
+        assert_eq!(told(1.5568, "1", 5), "1.5568");
+        assert_eq!(told(133.9e-6, "us", 4), "133.9 us");
+    }
+
+    #[test]
+    fn metric_stays_as_it_is() {
+        assert_eq!(shown(47.327e-6, "um", 5, System::Metric), ("47.327".to_owned(), "um"));
+        assert_eq!(System::find("inch").map(System::other), Some(System::Metric));
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_shown_is_the_value_to_its_digits(value in 1e-9f64..1e12, pair in 0..PAIRS.len(), inch: bool) {
+            let system = if inch { System::Inch } else { System::Metric };
+            let metric = PAIRS[pair].0;
+            let dimension = Dimension::of_unit(metric).unwrap();
+            let (number, unit) = shown(value, metric, 6, system);
+            let read = parse(&format!("{number} {unit}"), dimension, unit).unwrap_or(f64::NAN);
+            prop_assert!((read / value - 1.0).abs() <= 5.001e-6, "{value:e} is shown as {number} {unit}, which is {read:e}");
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! A quantity of a case explained.
+
+use super::cases::{self, Opened};
+use super::{Exit, Explain, Listing, Setting, Streams};
+use crate::case::Document;
+use crate::model::{self, Stages};
+use crate::report::explain::{explain, render, write_json};
+use std::io::{self, Write};
+
+/// What the built-in case is called.
+const BUILT_IN: &str = "Table 1 of Zhou & Chen 2014";
+
+pub(super) fn run(options: &Explain, streams: &mut Streams) -> io::Result<Exit> {
+    let rung = options.rung.map(|rung| Setting { key: "model.rung".to_owned(), value: rung.name().to_owned() });
+    let settings: Vec<Setting> = options.settings.iter().cloned().chain(rung).collect();
+    let opened = match &options.case {
+        Some(path) => cases::open(path, &settings, streams),
+        None => cases::changed(BUILT_IN.to_owned(), Document::table_1(), &settings, streams),
+    };
+    match opened {
+        Ok(opened) => tell(options, &opened, streams),
+        Err(exit) => Ok(exit),
+    }
+}
+
+fn tell(options: &Explain, opened: &Opened, streams: &mut Streams) -> io::Result<Exit> {
+    let Opened { name, document, inputs } = opened;
+    let solution = match model::solve(inputs, Stages::of(options.quantity.stage)) {
+        Ok(solution) => solution,
+        Err(refusal) => return Ok(opened.refused(&refusal, streams)),
+    };
+    let Some(page) = explain(options.quantity, &document.case, inputs, &solution) else {
+        streams.say(&format!("explain: {}: no explanation is written for this quantity", options.quantity.key));
+        return Ok(Exit::Usage);
+    };
+    match options.format {
+        Listing::Text => streams.output.write_all(render(&page, name).as_bytes())?,
+        Listing::Json => write_json(&page, name, &mut streams.output)?,
+    }
+    Ok(Exit::Done)
+}

@@ -1,0 +1,43 @@
+//! A progress bar on the error stream, for what takes over a second, where that is a terminal.
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::cell::Cell;
+use std::io::{self, IsTerminal};
+use std::time::{Duration, Instant};
+
+/// How long nothing is shown.
+const QUIET: Duration = Duration::from_secs(1);
+
+/// The bar. What is not a terminal sees nothing of it.
+pub(super) struct Bar {
+    begun: Instant,
+    shown: ProgressBar,
+    is_up: Cell<bool>,
+}
+
+impl Bar {
+    /// A bar of so many of these.
+    pub(super) fn new(what: &'static str) -> Bar {
+        let shown = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
+        if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} {msg}, {eta} left") {
+            shown.set_style(style.progress_chars("=> "));
+        }
+        shown.set_message(what);
+        Bar { begun: Instant::now(), shown, is_up: Cell::new(false) }
+    }
+
+    /// So many are done of so many.
+    pub(super) fn stands_at(&self, done: usize, of: usize) {
+        if !self.is_up.get() && self.begun.elapsed() >= QUIET && io::stderr().is_terminal() {
+            self.is_up.set(true);
+            self.shown.set_draw_target(ProgressDrawTarget::stderr());
+        }
+        self.shown.set_length(of as u64);
+        self.shown.set_position(done as u64);
+    }
+
+    /// Leave no trace.
+    pub(super) fn clear(&self) {
+        self.shown.finish_and_clear();
+    }
+}

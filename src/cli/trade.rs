@@ -1,0 +1,32 @@
+//! Speed against accuracy of every rung on one case.
+
+use super::cases::{self, Opened};
+use super::progress::Bar;
+use super::{Exit, Listing, Streams, Trading};
+use crate::report::trade::{Told, write, write_json};
+use crate::study::trade::{Patience, Question, trade};
+use std::io;
+
+pub(super) fn run(options: &Trading, streams: &mut Streams) -> io::Result<Exit> {
+    let opened = match cases::open(&options.case, &options.settings, streams) {
+        Ok(opened) => opened,
+        Err(exit) => return Ok(exit),
+    };
+    let question = Question { within: options.within.unwrap_or(opened.inputs.within), patience: Patience::STEADY };
+    let bar = Bar::new("settings");
+    let found = trade(&opened.inputs, &question, &|| true, &mut |sofar| bar.stands_at(sofar.settings.len(), sofar.planned));
+    bar.clear();
+    let Opened { name, document, .. } = &opened;
+    let title = crate::case::fields::index_of("title").and_then(|field| document.case.text(field)).unwrap_or_default();
+    match found {
+        Err(refusal) => Ok(opened.refused(&refusal, streams)),
+        Ok(trade) => {
+            let told = Told { name, title, trade: &trade };
+            match options.format {
+                Listing::Text => write(&told, streams.output.as_mut())?,
+                Listing::Json => write_json(&told, streams.output.as_mut())?,
+            }
+            Ok(Exit::Done)
+        }
+    }
+}

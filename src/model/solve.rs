@@ -1,0 +1,245 @@
+//! A solve: the stages in their order, each run only where it is wanted and nothing earlier still holds.
+
+use std::cell::OnceCell;
+
+use twofloat::TwoFloat;
+
+use super::impact::Masses;
+use super::inputs::{Inputs, Rung};
+use super::stage::{Stage, Stages};
+use super::{
+    Choice, Geometry, Kept, Outcome, Position, Refusal, Solution, auto, band, compliance, deviation, friction, geometry, impact,
+    load_sharing, position, stations, velocity,
+};
+use crate::numeric::Real;
+
+/// An earlier solve of the same rung, and the stages whose results no longer hold.
+#[derive(Debug, Clone, Copy)]
+pub struct Earlier<'a> {
+    /// What was found.
+    pub solution: &'a Solution,
+    /// What the edits since then reach.
+    pub stale: Stages,
+}
+
+/// Solve the pair, running only the wanted stages and what they need.
+///
+/// Geometry, load and deviation always run, since they tell the outcome. Where a small difference decides, geometry and
+/// position are computed in double-double arithmetic, asked for or not.
+///
+/// # Errors
+/// A [`Refusal`] where the pair cannot mesh, or D does not exist. Where only the force cannot be computed, the rest is
+/// given and [`Solution::withheld`] says why.
+pub fn solve(inputs: &Inputs, wanted: Stages) -> Result<Solution, Refusal> {
+    solve_while(inputs, wanted, &|_| true)
+}
+
+/// The same, asked now and then whether to go on, with the part that is done, from 0 to 1.
+///
+/// # Errors
+/// Those of [`solve`], and [`Refusal::Stopped`] where `go_on` says no.
+pub fn solve_while(inputs: &Inputs, wanted: Stages, go_on: &dyn Fn(f64) -> bool) -> Result<Solution, Refusal> {
+    solve_after(inputs, wanted, None, go_on)
+}
+
+/// The same after an earlier solve: what still holds of it is kept, and [`Solution::ran`] tells what was not.
+///
+/// # Errors
+/// Those of [`solve_while`].
+pub fn solve_after(
+    inputs: &Inputs,
+    wanted: Stages,
+    earlier: Option<Earlier<'_>>,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Solution, Refusal> {
+    if inputs.rung == Rung::Auto {
+        return solve_by_choice(inputs, wanted, go_on);
+    }
+    let earlier = earlier.filter(|earlier| earlier.solution.rung == inputs.rung);
+    let solving = Solving { inputs, wanted: wanted.within(inputs.rung.stages()), earlier, precise: OnceCell::new() };
+    solving.run(go_on)
+}
+
+/// Solve with the rung that the closed form calls for. One that is too slow to be followed in time is at rest.
+fn solve_by_choice(inputs: &Inputs, wanted: Stages, go_on: &dyn Fn(f64) -> bool) -> Result<Solution, Refusal> {
+    let read = wanted.within(Stages::CLOSED_FORM).and(auto::READS);
+    let closed_form = solve(&auto::taken(inputs, Rung::Exact), read);
+    let choice = auto::choose(inputs, &closed_form);
+    let solved = |rung: Rung| solve_while(&auto::taken(inputs, rung), wanted, go_on);
+    let mut solution = match choice.rung {
+        Rung::Exact if read.covers(wanted.within(Rung::Exact.stages())) => closed_form,
+        rung => match solved(rung) {
+            Err(Refusal::TooSlow { .. }) => solved(Rung::Static),
+            found => found,
+        },
+    }?;
+    solution.choice = Some(Choice { rung: solution.rung, ..choice });
+    Ok(solution)
+}
+
+/// A solve on its way.
+pub(super) struct Solving<'a> {
+    pub(super) inputs: &'a Inputs,
+    pub(super) wanted: Stages,
+    earlier: Option<Earlier<'a>>,
+    /// Geometry in double-double arithmetic, where it is called for.
+    precise: OnceCell<Option<Geometry<TwoFloat>>>,
+}
+
+impl<'a> Solving<'a> {
+    /// The earlier solution, where this stage's result of it still holds.
+    pub(super) fn kept(&self, stage: Stage) -> Option<&'a Solution> {
+        let Earlier { solution, stale } = self.earlier?;
+        (solution.stages.has(stage) && !stale.has(stage)).then_some(solution)
+    }
+
+    fn run(&self, go_on: &dyn Fn(f64) -> bool) -> Result<Solution, Refusal> {
+        let mut solution = self.begun()?;
+        if self.wanted.has(Stage::Position) {
+            self.locate(&mut solution)?;
+        }
+        if self.wanted.has(Stage::Mesh) {
+            load_sharing::share(&mut solution, self, go_on)?;
+        }
+        Ok(solution)
+    }
+
+    /// Geometry, load and deviation.
+    fn begun(&self) -> Result<Solution, Refusal> {
+        let inputs = self.inputs;
+        let mut ran = Stages::NONE;
+        let geometry = match self.kept(Stage::Geometry) {
+            Some(earlier) => earlier.geometry,
+            None => self.geometry(&mut ran)?,
+        };
+        let (masses, mesh_force) = if let Some(earlier) = self.kept(Stage::Load) {
+            (earlier.kept.masses, earlier.mesh_force)
+        } else {
+            ran = ran.with(Stage::Load);
+            let masses = self.precise(&geometry)?.map_or_else(|| Masses::of(inputs, &geometry), |pair| Masses::of(inputs, &pair));
+            (masses?, inputs.torque() / geometry.driver.base)
+        };
+        let deviation = if let Some(earlier) = self.kept(Stage::Deviation) {
+            earlier.kept.deviation
+        } else {
+            ran = ran.with(Stage::Deviation);
+            deviation::deviation(inputs, &geometry, mesh_force)?
+        };
+        let strikes = deviation.total.rounded() > 0.0;
+        Ok(Solution {
+            rung: inputs.rung,
+            choice: None,
+            outcome: if strikes { Outcome::CornerContact } else { Outcome::NoCornerContact },
+            stages: Stages::of(Stage::Deviation),
+            ran,
+            geometry,
+            mesh_force,
+            reduced_mass: masses.reduced(),
+            deviation: deviation.rounded(),
+            kept: Kept { masses, deviation },
+            position: None,
+            velocity: None,
+            compliance: None,
+            impact: None,
+            friction: None,
+            band: None,
+            stations: Vec::new(),
+            mesh: None,
+            static_load: None,
+            dynamic: None,
+            withheld: None,
+            stations_withheld: None,
+        })
+    }
+
+    fn geometry(&self, ran: &mut Stages) -> Result<Geometry, Refusal> {
+        *ran = ran.with(Stage::Geometry);
+        let plain = geometry::geometry::<f64>(self.inputs);
+        let precise = self.precise_of(plain.as_ref().ok())?;
+        let _ = self.precise.set(precise);
+        precise.map_or(plain, |precise| Ok(precise.rounded()))
+    }
+
+    /// Geometry in double-double arithmetic, where it is asked for or small differences call for it.
+    fn precise(&self, plain: &Geometry) -> Result<Option<Geometry<TwoFloat>>, Refusal> {
+        match self.precise.get() {
+            Some(&known) => Ok(known),
+            None => self.precise_of(Some(plain)),
+        }
+    }
+
+    fn precise_of(&self, plain: Option<&Geometry>) -> Result<Option<Geometry<TwoFloat>>, Refusal> {
+        let close_call = plain.is_none_or(|geometry| geometry.is_close_call(self.inputs));
+        (self.inputs.accurate || close_call).then(|| geometry::geometry::<TwoFloat>(self.inputs)).transpose()
+    }
+
+    /// D, and everything after it.
+    fn locate(&self, solution: &mut Solution) -> Result<(), Refusal> {
+        let found = if let Some(earlier) = self.kept(Stage::Position) {
+            Ok(earlier.position)
+        } else {
+            solution.ran = solution.ran.with(Stage::Position);
+            let precise = self.precise(&solution.geometry)?;
+            position::position(self.inputs, &solution.geometry, precise.as_ref(), &solution.kept.deviation)
+        };
+        solution.stages = solution.stages.with(Stage::Position);
+        match found {
+            Ok(Some(position)) => {
+                solution.position = Some(position);
+                solution.withheld = self.strike(solution, &position).err();
+            }
+            Ok(None) => solution.outcome = Outcome::NoCornerContact,
+            // The rungs that share the load do not need it.
+            Err(refusal) if self.inputs.rung.shares_load() => {
+                solution.stages = solution.stages.without(Stage::Position);
+                solution.withheld = Some(refusal);
+            }
+            Err(refusal) => return Err(refusal),
+        }
+        Ok(())
+    }
+
+    /// The stages from the velocity on, as far as they are wanted and can be computed.
+    fn strike(&self, solution: &mut Solution, position: &Position) -> Result<(), Refusal> {
+        let (inputs, geometry, tip) = (self.inputs, solution.geometry, &position.contact);
+        let masses = solution.kept.masses;
+        solution.velocity = self.stage(solution, Stage::Velocity, |s| s.velocity, || Ok(velocity::velocity(inputs, tip)))?;
+        let place = || compliance::ContactPlace::at_tip(inputs, &geometry, tip);
+        let borne = || compliance::teeth(inputs, &geometry, &place());
+        solution.compliance = self.stage(solution, Stage::Compliance, |s| s.compliance, borne)?;
+        let (Some(velocity), Some(teeth)) = (solution.velocity, solution.compliance) else { return Ok(()) };
+        let struck = || impact::impact(inputs, &geometry, &masses, tip, &teeth, &velocity);
+        let Some(impact) = self.stage(solution, Stage::Impact, |s| s.impact, struck)? else { return Ok(()) };
+        solution.impact = Some(impact);
+        let rubbed = || Ok(friction::friction(inputs, &geometry, tip, &velocity, &impact, masses.reduced()));
+        solution.friction = self.stage(solution, Stage::Friction, |s| s.friction, rubbed)?;
+        solution.band = self.stage(solution, Stage::Band, |s| s.band, || Ok(band::band(inputs, impact.force)))?;
+        let stood = || Ok(stations::stations(inputs, &geometry, &masses, position, impact.force));
+        let earlier = |s: &Solution| Some((s.stations.clone(), s.stations_withheld));
+        if let Some((stations, withheld)) = self.stage(solution, Stage::Stations, earlier, stood)? {
+            (solution.stations, solution.stations_withheld) = (stations, withheld);
+        }
+        Ok(())
+    }
+
+    /// A stage's result: the earlier one where it still holds, else a new one where it is wanted.
+    fn stage<T>(
+        &self,
+        solution: &mut Solution,
+        stage: Stage,
+        earlier: impl Fn(&Solution) -> Option<T>,
+        new: impl FnOnce() -> Result<T, Refusal>,
+    ) -> Result<Option<T>, Refusal> {
+        if !self.wanted.has(stage) {
+            return Ok(None);
+        }
+        if let Some(held) = self.kept(stage).and_then(earlier) {
+            solution.stages = solution.stages.with(stage);
+            return Ok(Some(held));
+        }
+        let found = new()?;
+        solution.stages = solution.stages.with(stage);
+        solution.ran = solution.ran.with(stage);
+        Ok(Some(found))
+    }
+}

@@ -1,0 +1,123 @@
+//! Results that explain themselves: for a quantity of a case the formula, the same with the case's numbers in it, its source,
+//! what was mended, where it holds, what it is worth and what it depends on.
+
+mod effects;
+mod formula;
+mod json;
+mod known;
+mod mended;
+mod models;
+mod numbers;
+mod page;
+mod steps;
+mod table;
+mod valid;
+mod work;
+mod worth;
+
+use super::{Shown, shown, value};
+use crate::case::Case;
+use crate::model::inputs::Rung;
+use crate::model::{Inputs, Outcome, Quantity, Solution, Stage, auto};
+
+pub use effects::Effect;
+pub use json::write as write_json;
+pub use known::{Known, STEP_UNITS};
+pub use mended::{MENDS, Mend};
+pub use page::{Kind, Line, lines, render};
+pub use valid::Finding;
+pub use work::{How, Leaf, Work};
+
+/// All that there is to say of a quantity in a case.
+#[derive(Debug, Clone)]
+pub struct Page {
+    /// The quantity.
+    pub quantity: &'static Quantity,
+    /// The rung of the solve.
+    pub rung: &'static str,
+    /// Its value in SI, where it has one.
+    pub value: Option<f64>,
+    /// The value as a person reads it.
+    pub shown: Option<Shown>,
+    /// Why it has no value.
+    pub missing: Option<String>,
+    /// What it is and what it is good for.
+    pub says: &'static str,
+    /// How it is found, the quantity first and then each step on the way.
+    pub work: Vec<Work>,
+    /// What the formulas take from elsewhere: other quantities, and fields.
+    pub leaves: Vec<Leaf>,
+    /// Author, year, equation.
+    pub source: &'static str,
+    /// What was mended in print.
+    pub mended: Vec<&'static Mend>,
+    /// What is taken for granted.
+    pub assumes: &'static str,
+    /// Where it holds, and how the case stands there.
+    pub valid: Vec<Finding>,
+    /// What the figure is worth.
+    pub worth: Vec<String>,
+    /// The fields that it depends on, and what a small step of each does.
+    pub effects: Vec<Effect>,
+}
+
+/// Explain a quantity of a solved case. The solution must hold the quantity's stage; `None` for a quantity that no
+/// explanation is written for.
+#[must_use]
+pub fn explain(quantity: &'static Quantity, case: &Case, inputs: &Inputs, solution: &Solution) -> Option<Page> {
+    // What the rung `auto` took is explained.
+    let taken = if inputs.rung == Rung::Auto { auto::taken(inputs, solution.rung) } else { inputs.clone() };
+    let known = Known { case, inputs: &taken, solution };
+    let about = table::of(quantity)?;
+    let value = value(quantity, solution);
+    let (work, leaves) = work::of(quantity, about, &known);
+    Some(Page {
+        quantity,
+        rung: solution.rung.name(),
+        value,
+        shown: value.map(|value| shown(quantity, value)),
+        missing: value.is_none().then(|| missing(quantity, &known)),
+        says: about.says,
+        work,
+        leaves,
+        source: about.source,
+        mended: about.mended.iter().filter_map(|equation| mended::find(equation)).collect(),
+        assumes: about.assumes,
+        valid: about.valid.iter().filter_map(|look| look(&known)).collect(),
+        worth: worth::of(quantity, &known),
+        effects: effects::of(quantity, &known),
+    })
+}
+
+/// Why a quantity of a solved case has no value.
+fn missing(quantity: &Quantity, known: &Known) -> String {
+    let solution = known.solution;
+    let rungs = Rung::ALL.into_iter().filter(|rung| rung.stages().has(quantity.stage)).map(Rung::name);
+    if !solution.rung.stages().has(quantity.stage) {
+        return format!(
+            "No value: the rung is {}, and this is of {}",
+            solution.rung.name(),
+            rungs.collect::<Vec<_>>().join(", ")
+        );
+    }
+    if solution.outcome == Outcome::NoCornerContact && !solution.rung.shares_load() {
+        let total = numbers::tidy(solution.deviation.total * 1e6, 5);
+        return format!("No value: no corner contact, the total deviation of {total} um does not bring the tooth in early");
+    }
+    match (solution.withheld, quantity.stage) {
+        (_, Stage::Static | Stage::Dynamic) if known.inputs.friction_coefficient.is_none() && is_of_friction(quantity) => {
+            "No value: the case gives no friction coefficient, operation.friction_coefficient".to_owned()
+        }
+        (_, Stage::Static | Stage::Dynamic) => "No value: the tooth does not come to it".to_owned(),
+        (Some(refusal), _) => format!("No value: {refusal}; {}", refusal.mend()),
+        (None, _) if solution.outcome == Outcome::NoCornerContact || solution.position.is_none() => {
+            "No value: no corner contact".to_owned()
+        }
+        (None, _) => "No value: the end of the impact D' does not exist, since the triangle of Eq. 34 does not close".to_owned(),
+    }
+}
+
+/// Whether there is nothing of it without friction.
+fn is_of_friction(quantity: &Quantity) -> bool {
+    matches!(quantity.key, "pitch_contact_jump" | "dynamic_friction_work")
+}

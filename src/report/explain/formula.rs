@@ -1,0 +1,293 @@
+//! A formula in the field's writing, read into a tree: `ΔV_n √(b M/q_s)`, `2 (x1 + x2) tan α/(z1 + z2)`.
+
+use std::f64::consts::PI;
+
+use super::known::factor;
+
+/// A right-hand side.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Tree {
+    /// A literal, as written.
+    Number(String),
+    /// π.
+    Pi,
+    /// A symbol.
+    Symbol(String),
+    /// One of a unit, in brackets.
+    Unit(String),
+    /// Terms, each with whether it is taken away.
+    Sum(Vec<(bool, Tree)>),
+    /// Factors, each with whether it divides.
+    Product(Vec<(bool, Tree)>),
+    /// Base and exponent.
+    Power(Box<Tree>, Box<Tree>),
+    /// √.
+    Root(Box<Tree>),
+    /// Without its sign.
+    Absolute(Box<Tree>),
+    /// A function of one argument or more.
+    Call(Function, Vec<Tree>),
+}
+
+/// A function by its name in print, and what it does.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Function {
+    pub(super) name: &'static str,
+    arguments: usize,
+    of: fn(&[f64]) -> f64,
+}
+
+impl PartialEq for Function {
+    fn eq(&self, other: &Function) -> bool {
+        self.name == other.name
+    }
+}
+
+/// Every function; one of no fixed count of arguments has the count 0.
+const FUNCTIONS: [Function; 9] = [
+    Function { name: "sin", arguments: 1, of: |x| x[0].sin() },
+    Function { name: "cos", arguments: 1, of: |x| x[0].cos() },
+    Function { name: "tan", arguments: 1, of: |x| x[0].tan() },
+    Function { name: "acos", arguments: 1, of: |x| x[0].acos() },
+    Function { name: "atan2", arguments: 2, of: |x| x[0].atan2(x[1]) },
+    Function { name: "ln", arguments: 1, of: |x| x[0].ln() },
+    Function { name: "inv", arguments: 1, of: |x| x[0].tan() - x[0] },
+    Function { name: "min", arguments: 0, of: |x| x.iter().copied().fold(f64::INFINITY, f64::min) },
+    Function { name: "max", arguments: 0, of: |x| x.iter().copied().fold(f64::NEG_INFINITY, f64::max) },
+];
+
+impl Tree {
+    /// The tree of a text; `None` where it is no formula.
+    pub(super) fn read(text: &str) -> Option<Tree> {
+        let mut reader = Reader { tokens: tokens(text)?, at: 0 };
+        let tree = reader.sum()?;
+        (reader.at == reader.tokens.len()).then_some(tree)
+    }
+
+    /// Its value, where every symbol has one.
+    pub(super) fn value(&self, of: &dyn Fn(&str) -> Option<f64>) -> Option<f64> {
+        let list = |parts: &[Tree]| parts.iter().map(|part| part.value(of)).collect::<Option<Vec<f64>>>();
+        match self {
+            Tree::Number(text) => text.parse().ok(),
+            Tree::Pi => Some(PI),
+            Tree::Symbol(symbol) => of(symbol),
+            Tree::Unit(unit) => factor(unit),
+            Tree::Sum(terms) => terms.iter().try_fold(0.0, |sum, (taken, term)| {
+                let term = term.value(of)?;
+                Some(if *taken { sum - term } else { sum + term })
+            }),
+            Tree::Product(factors) => factors.iter().try_fold(1.0, |product, (divides, factor)| {
+                let factor = factor.value(of)?;
+                Some(if *divides { product / factor } else { product * factor })
+            }),
+            Tree::Power(base, exponent) => Some(base.value(of)?.powf(exponent.value(of)?)),
+            Tree::Root(inner) => Some(inner.value(of)?.sqrt()),
+            Tree::Absolute(inner) => Some(inner.value(of)?.abs()),
+            Tree::Call(function, arguments) => list(arguments).map(|arguments| (function.of)(&arguments)),
+        }
+    }
+
+    /// Every symbol, in the order of reading, each once.
+    pub(super) fn symbols(&self) -> Vec<&str> {
+        let mut found = Vec::new();
+        self.collect(&mut found);
+        found
+    }
+
+    fn collect<'a>(&'a self, found: &mut Vec<&'a str>) {
+        match self {
+            Tree::Number(_) | Tree::Pi | Tree::Unit(_) => {}
+            Tree::Symbol(symbol) if found.contains(&symbol.as_str()) => {}
+            Tree::Symbol(symbol) => found.push(symbol),
+            Tree::Sum(parts) | Tree::Product(parts) => parts.iter().for_each(|(_, part)| part.collect(found)),
+            Tree::Power(base, exponent) => [base, exponent].into_iter().for_each(|part| part.collect(found)),
+            Tree::Root(inner) | Tree::Absolute(inner) => inner.collect(found),
+            Tree::Call(_, arguments) => arguments.iter().for_each(|argument| argument.collect(found)),
+        }
+    }
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Token {
+    Number(String),
+    Word(String),
+    Unit(String),
+    Mark(char),
+}
+
+const SUPERSCRIPTS: [(char, &str); 3] = [('²', "2"), ('³', "3"), ('⁴', "4")];
+
+fn tokens(text: &str) -> Option<Vec<Token>> {
+    let mut found = Vec::new();
+    let mut rest = text.trim_start();
+    while let Some(first) = rest.chars().next() {
+        let length = match first {
+            '0'..='9' => length(rest, |c, _| c.is_ascii_digit() || c == '.'),
+            _ if is_letter(first) => length(rest, |c, next| is_letter(c) || "_'*".contains(c) || c == ',' && is_letter(next)),
+            '[' => rest.find(']')? + 1,
+            _ => first.len_utf8(),
+        };
+        let (token, after) = rest.split_at(length);
+        found.push(match first {
+            '0'..='9' => Token::Number(token.to_owned()),
+            _ if is_letter(first) => Token::Word(token.to_owned()),
+            '[' => Token::Unit(token[1..token.len() - 1].to_owned()),
+            '+' | '-' | '·' | '/' | '^' | '(' | ')' | ',' | '|' | '√' => Token::Mark(first),
+            _ if SUPERSCRIPTS.iter().any(|(mark, _)| *mark == first) => Token::Mark(first),
+            _ => return None,
+        });
+        rest = after.trim_start();
+    }
+    Some(found)
+}
+
+fn is_letter(c: char) -> bool {
+    c.is_alphanumeric() && SUPERSCRIPTS.iter().all(|(mark, _)| *mark != c)
+}
+
+/// How many bytes of the text belong to its first token.
+fn length(text: &str, belongs: impl Fn(char, char) -> bool) -> usize {
+    let next = |at: usize, c: char| text[at + c.len_utf8()..].chars().next().unwrap_or(' ');
+    text.char_indices().find(|&(at, c)| !belongs(c, next(at, c))).map_or(text.len(), |(at, _)| at)
+}
+
+/// Tokens and how many of them are read.
+struct Reader {
+    tokens: Vec<Token>,
+    at: usize,
+}
+
+impl Reader {
+    fn peek(&self) -> Option<&Token> {
+        self.tokens.get(self.at)
+    }
+
+    /// Whether the mark came next; then it is read.
+    fn took(&mut self, mark: char) -> bool {
+        let is_next = self.peek() == Some(&Token::Mark(mark));
+        self.at += usize::from(is_next);
+        is_next
+    }
+
+    fn sum(&mut self) -> Option<Tree> {
+        let mut terms = vec![(self.took('-'), self.product()?)];
+        while let Some(&Token::Mark(mark @ ('+' | '-'))) = self.peek() {
+            self.at += 1;
+            terms.push((mark == '-', self.product()?));
+        }
+        Some(if matches!(terms[..], [(false, _)]) { terms.remove(0).1 } else { Tree::Sum(terms) })
+    }
+
+    fn product(&mut self) -> Option<Tree> {
+        let mut factors = vec![(false, self.factor()?)];
+        loop {
+            let divides = self.took('/');
+            let told = divides || self.took('·');
+            let follows =
+                matches!(self.peek(), Some(Token::Number(_) | Token::Word(_) | Token::Unit(_) | Token::Mark('(' | '√')));
+            if !told && !follows {
+                break;
+            }
+            factors.push((divides, self.factor()?));
+        }
+        Some(if factors.len() == 1 { factors.remove(0).1 } else { Tree::Product(factors) })
+    }
+
+    fn factor(&mut self) -> Option<Tree> {
+        let base = self.base()?;
+        if self.took('^') {
+            return Some(Tree::Power(Box::new(base), Box::new(self.base()?)));
+        }
+        let raised = SUPERSCRIPTS.iter().find(|(mark, _)| self.took(*mark));
+        Some(match raised {
+            Some((_, exponent)) => Tree::Power(Box::new(base), Box::new(Tree::Number((*exponent).to_owned()))),
+            None => base,
+        })
+    }
+
+    fn base(&mut self) -> Option<Tree> {
+        let token = self.peek()?.clone();
+        self.at += 1;
+        match token {
+            Token::Number(text) => Some(Tree::Number(text)),
+            Token::Word(word) if word == "π" => Some(Tree::Pi),
+            Token::Word(word) => match FUNCTIONS.into_iter().find(|function| function.name == word) {
+                Some(function) => self.call(function),
+                None => Some(Tree::Symbol(word)),
+            },
+            Token::Unit(unit) => Some(Tree::Unit(unit)),
+            Token::Mark('√') => Some(Tree::Root(Box::new(self.base()?))),
+            Token::Mark('(') => self.closed(')'),
+            Token::Mark('|') => Some(Tree::Absolute(Box::new(self.closed('|')?))),
+            Token::Mark(_) => None,
+        }
+    }
+
+    fn closed(&mut self, end: char) -> Option<Tree> {
+        let inner = self.sum()?;
+        self.took(end).then_some(inner)
+    }
+
+    fn call(&mut self, function: Function) -> Option<Tree> {
+        let mut arguments = Vec::new();
+        if self.took('(') {
+            arguments.push(self.sum()?);
+            while self.took(',') {
+                arguments.push(self.sum()?);
+            }
+            if !self.took(')') {
+                return None;
+            }
+        } else {
+            arguments.push(self.base()?);
+        }
+        let fits = function.arguments == 0 || function.arguments == arguments.len();
+        fits.then_some(Tree::Call(function, arguments))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Tree;
+
+    fn value(text: &str) -> f64 {
+        let of = |symbol: &str| {
+            Some(match symbol {
+                "a" | "ha*1" => 2.0,
+                "T_S,32" => 3.0,
+                "r_b2'" => 5.0,
+                _ => return None,
+            })
+        };
+        Tree::read(text).and_then(|tree| tree.value(&of)).unwrap_or(f64::NAN)
+    }
+
+    #[test]
+    fn a_formula_means_what_it_says_in_print() {
+        for (text, expected) in [
+            ("1 + 2 3", 7.0),
+            ("-(a + 1) T_S,32", -9.0),
+            ("12/a T_S,32", 18.0),
+            ("12/(a T_S,32)", 2.0),
+            ("2 a²/r_b2' - ha*1", -0.4),
+            ("√(a T_S,32 - 2)/a", 1.0),
+            ("(a a)^(1/2)", 2.0),
+            ("|1 - a|/|a - 4|", 0.5),
+            ("min(r_b2', T_S,32)", 3.0),
+            ("4 atan2(1, 1) - π", 0.0),
+            ("cos π a + a", 0.0),
+            ("3 sin(a - a) + inv(0)", 0.0),
+            ("2 [N/(um mm)]/[mm]", 2e12),
+        ] {
+            assert!((value(text) - expected).abs() < 1e-15, "{text}: {}", value(text));
+        }
+    }
+
+    #[test]
+    fn what_is_no_formula_is_refused() {
+        for text in ["", "a +", "(a", "a)", "|a", "atan2(a)", "a ? a", "a ^", "cos"] {
+            assert_eq!(Tree::read(text), None, "{text}");
+        }
+        assert!(value("unknown").is_nan());
+    }
+}

@@ -1,0 +1,245 @@
+//! A trade of speed against accuracy as a person or a script reads it.
+
+pub mod plot;
+mod table;
+
+use std::io::{self, Write};
+
+use serde::{Serialize, Serializer};
+
+use super::json::write_line;
+use super::layout::{WIDTH, flow};
+use crate::case::fields::AUTO;
+use crate::case::visible::visible;
+use crate::model::inputs::Rung;
+use crate::numeric::decimal::significant;
+use crate::study::trade::{Differences, Measured, Setting, Subject, Trade, greatest};
+
+/// A trade and the case it was made of.
+#[derive(Debug, Clone, Copy)]
+pub struct Told<'a> {
+    /// The case's name, as the user gave it.
+    pub name: &'a str,
+    /// The case's title, empty without one.
+    pub title: &'a str,
+    /// What was measured.
+    pub trade: &'a Trade,
+}
+
+/// Write it for a person, 80 columns wide.
+///
+/// # Errors
+/// What the writer refuses.
+pub fn write(told: &Told<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let sections = [heading(told), reference(told.trade), table::models(told.trade), table::settings(told.trade)];
+    for section in sections {
+        writeln!(out, "{}\n", section.join("\n"))?;
+    }
+    conclusion(told.trade).iter().try_for_each(|line| writeln!(out, "{line}"))
+}
+
+fn heading(told: &Told<'_>) -> Vec<String> {
+    let title = if told.title.is_empty() { "Case without a title" } else { told.title };
+    let mut lines = flow(visible(title).split_whitespace(), WIDTH);
+    lines.extend(flow([visible(told.name).as_str(), "·", "speed against accuracy, measured here and now"], WIDTH));
+    lines
+}
+
+fn reference(trade: &Trade) -> Vec<String> {
+    let sentence = match &trade.reference {
+        Err(refusal) => format!("No reference: the rung dynamic refuses the case: {refusal}."),
+        Ok(reference) => {
+            let check = match &reference.disagreement {
+                Ok(off) => format!("a second way is within {:.0e} of it", greatest(off).unwrap_or(0.0)),
+                Err(refusal) => format!("it could not be checked by a second way: {refusal}"),
+            };
+            format!("Reference: {}; {check}.", reference.setting)
+        }
+    };
+    flow(sentence.split(' '), WIDTH)
+}
+
+/// What to take, in one line.
+fn conclusion(trade: &Trade) -> Vec<String> {
+    let within = percent(trade.within);
+    let sentence = match trade.recommended.and_then(|at| trade.settings.get(at)) {
+        Some(measured) => {
+            let (total, time) = (percent(measured.total().unwrap_or(0.0)), duration(measured.seconds()));
+            format!("Within {within} %: {}, {total} % in {time}", measured.setting)
+        }
+        None => format!("Within {within} %: none"),
+    };
+    flow(sentence.split(' '), WIDTH)
+}
+
+/// A relative difference in per cent, without the sign.
+fn percent(difference: f64) -> String {
+    significant(100.0 * difference, if difference < 0.1 { 2 } else { 3 })
+}
+
+/// A time with its unit.
+#[must_use]
+pub fn duration(seconds: f64) -> String {
+    let (factor, unit) = match seconds {
+        _ if seconds < 1e-3 => (1e6, "us"),
+        _ if seconds < 1.0 => (1e3, "ms"),
+        _ => (1.0, "s"),
+    };
+    format!("{} {unit}", significant(factor * seconds, 3))
+}
+
+#[derive(Serialize)]
+struct Line<'a> {
+    case: &'a str,
+    title: &'a str,
+    version: &'static str,
+    within: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reference: Option<ReferenceLine>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    no_reference: Option<String>,
+    settings: Vec<SettingLine>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    recommended: Option<SettingLine>,
+}
+
+#[derive(Serialize)]
+struct ReferenceLine {
+    rung: &'static str,
+    #[serde(serialize_with = "count_or_auto")]
+    stations: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tolerance: Option<f64>,
+    quantities: serde_json::Map<String, serde_json::Value>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    disagreement: Option<serde_json::Map<String, serde_json::Value>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unchecked: Option<String>,
+}
+
+#[derive(Serialize)]
+struct SettingLine {
+    rung: &'static str,
+    /// What the rung `auto` took.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    took: Option<&'static str>,
+    #[serde(serialize_with = "count_or_auto")]
+    stations: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tolerance: Option<f64>,
+    accurate: bool,
+    current: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    seconds: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    spread: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    runs: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    evaluations: Option<u64>,
+    errors: serde_json::Map<String, serde_json::Value>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    total: Option<f64>,
+    pareto: bool,
+    qualifies: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refusal: Option<String>,
+}
+
+/// A number, or the word for as many as it takes.
+#[expect(clippy::ref_option, reason = "serde's signature")]
+fn count_or_auto<S: Serializer>(count: &Option<usize>, serializer: S) -> Result<S::Ok, S::Error> {
+    match count {
+        Some(count) => serializer.serialize_u64(*count as u64),
+        None => serializer.serialize_str(AUTO),
+    }
+}
+
+/// Write it as one line of JSON: SI units, seconds, errors relative; what does not exist is absent.
+///
+/// # Errors
+/// What the writer refuses.
+pub fn write_json(told: &Told<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let trade = told.trade;
+    let line = Line {
+        case: told.name,
+        title: told.title,
+        version: env!("CARGO_PKG_VERSION"),
+        within: trade.within,
+        reference: reference_line(trade),
+        no_reference: trade.reference.as_ref().err().map(ToString::to_string),
+        settings: trade.settings.iter().map(|measured| setting_line(trade, measured)).collect(),
+        recommended: trade.recommended.and_then(|at| trade.settings.get(at)).map(|measured| setting_line(trade, measured)),
+    };
+    write_line(&line, out)
+}
+
+fn reference_line(trade: &Trade) -> Option<ReferenceLine> {
+    let reference = trade.reference.as_ref().ok()?;
+    let Setting { rung, stations, tolerance, .. } = reference.setting;
+    let quantities = Subject::ALL.into_iter().filter_map(|subject| {
+        let quantity = subject.quantity(rung)?;
+        Some((quantity.key.to_owned(), reference.answer.value(subject)?.into()))
+    });
+    Some(ReferenceLine {
+        rung: rung.name(),
+        stations,
+        tolerance,
+        quantities: quantities.collect(),
+        disagreement: reference.disagreement.as_ref().ok().map(|off| by_subject(|subject| off[subject as usize].map(Into::into))),
+        unchecked: reference.disagreement.as_ref().err().map(ToString::to_string),
+    })
+}
+
+fn setting_line(trade: &Trade, measured: &Measured) -> SettingLine {
+    let Setting { rung, stations, tolerance, accurate } = measured.setting;
+    let figures = measured.found.as_ref().ok();
+    SettingLine {
+        rung: rung.name(),
+        took: figures.map(|figures| figures.rung).filter(|&took| took != rung).map(Rung::name),
+        stations,
+        tolerance,
+        accurate,
+        current: measured.is_current,
+        seconds: figures.map(|figures| figures.time.seconds),
+        spread: figures.map(|figures| figures.time.spread),
+        runs: figures.map(|figures| figures.time.runs),
+        evaluations: figures.and_then(|figures| figures.evaluations),
+        errors: figures.map_or_else(serde_json::Map::new, |_| by_subject(|subject| errors(trade, measured, subject))),
+        total: measured.total(),
+        pareto: measured.is_on_front,
+        qualifies: measured.qualifies,
+        refusal: measured.found.as_ref().err().map(ToString::to_string),
+    }
+}
+
+/// The three errors of a subject, where there are any.
+fn errors(trade: &Trade, measured: &Measured, subject: Subject) -> Option<serde_json::Value> {
+    let figures = measured.found.as_ref().ok()?;
+    let model = model_off(trade, figures.rung);
+    let of = |differences: &Differences| differences[subject as usize];
+    let parts = [("numerical", of(&figures.numerical)), ("model", of(&model)), ("total", of(&figures.total))];
+    let known: serde_json::Map<_, _> =
+        parts.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?.into()))).collect();
+    (!known.is_empty()).then(|| known.into())
+}
+
+fn by_subject(value: impl Fn(Subject) -> Option<serde_json::Value>) -> serde_json::Map<String, serde_json::Value> {
+    Subject::ALL.into_iter().filter_map(|subject| Some((subject.key().to_owned(), value(subject)?))).collect()
+}
+
+/// What a rung's physics leaves out.
+fn model_off(trade: &Trade, rung: Rung) -> Differences {
+    trade.model(rung).map_or([None; Subject::ALL.len()], |model| model.off)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{duration, percent};
+
+    #[test]
+    fn times_and_errors_have_three_digits_at_most() {
+        assert_eq!([duration(1.234e-6), duration(0.0123), duration(61.0)], ["1.23 us", "12.3 ms", "61.0 s"]);
+        assert_eq!([percent(0.05), percent(0.55), percent(1.2e-9), percent(0.0)], ["5.0", "55.0", "1.2e-7", "0"]);
+    }
+}

@@ -1,0 +1,3 @@
+//! Many solves of one case, for what a single one cannot tell.
+
+pub mod trade;

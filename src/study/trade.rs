@@ -1,0 +1,271 @@
+//! Speed against accuracy: every rung by several settings, each timed and held against one reference, here and now.
+
+mod answer;
+mod clock;
+mod second;
+mod setting;
+
+use std::hint::black_box;
+
+pub use answer::{Answer, Subject, stages};
+pub use clock::{Patience, Time};
+pub use setting::{RUNGS, STATIONS, Setting};
+
+use crate::model::inputs::Rung;
+use crate::model::{Inputs, Refusal};
+
+/// What a trade is asked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Question {
+    /// The error that a setting may have, relative to the reference; what the rung `auto` may leave as well.
+    pub within: f64,
+    /// How long each setting is timed.
+    pub patience: Patience,
+}
+
+/// The rungs and their settings, measured on one case.
+#[derive(Debug, Clone)]
+pub struct Trade {
+    /// The error that a setting may have.
+    pub within: f64,
+    /// How many settings there will be.
+    pub planned: usize,
+    /// Those that are measured so far.
+    pub settings: Vec<Measured>,
+    /// What they are held against, or why there is nothing.
+    pub reference: Result<Reference, Refusal>,
+    /// Each rung's best setting against the reference: what its physics leaves out.
+    pub models: Vec<Model>,
+    /// The place of the cheapest setting that qualifies.
+    pub recommended: Option<usize>,
+}
+
+/// The answer that counts as true.
+#[derive(Debug, Clone)]
+pub struct Reference {
+    /// How it was found.
+    pub setting: Setting,
+    /// What it is.
+    pub answer: Answer,
+    /// How far a second way, that shares the mesh alone, is from it, in the order of [`Subject::ALL`]; or why it is not known.
+    pub disagreement: Result<Differences, Refusal>,
+}
+
+/// Relative differences in the order of [`Subject::ALL`], where there are any.
+pub type Differences = [Option<f64>; Subject::ALL.len()];
+
+/// What a rung's physics leaves out.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// The rung.
+    pub rung: Rung,
+    /// Its answer by its best setting, or why there is none.
+    pub best: Result<Answer, Refusal>,
+    /// How far that is from the reference.
+    pub off: Differences,
+}
+
+/// A setting with its time and errors.
+#[derive(Debug, Clone)]
+pub struct Measured {
+    /// The setting.
+    pub setting: Setting,
+    /// Whether it is the case's own.
+    pub is_current: bool,
+    /// What was measured, or why it does not solve the case.
+    pub found: Result<Figures, Refusal>,
+    /// Whether no other setting is both as quick and as near to the reference.
+    pub is_on_front: bool,
+    /// Whether it is within what was asked.
+    pub qualifies: bool,
+}
+
+/// Time and errors.
+#[derive(Debug, Clone)]
+pub struct Figures {
+    /// The rung of the answer.
+    pub rung: Rung,
+    /// Of a whole solve, as far as the answer needs it.
+    pub time: Time,
+    /// Evaluations of the forces, in the rung `dynamic`.
+    pub evaluations: Option<u64>,
+    /// Against the same rung by its best setting.
+    pub numerical: Differences,
+    /// Against the reference.
+    pub total: Differences,
+}
+
+/// The greatest of the differences there are.
+#[must_use]
+pub fn greatest(differences: &Differences) -> Option<f64> {
+    differences.iter().flatten().copied().reduce(f64::max)
+}
+
+/// Measure every setting on the case; `told` sees what is known after each of them.
+///
+/// # Errors
+/// [`Refusal::Stopped`] where `go_on` says no; the model's refusal where no rung at all can be computed.
+pub fn trade(
+    inputs: &Inputs,
+    question: &Question,
+    go_on: &dyn Fn() -> bool,
+    told: &mut dyn FnMut(&Trade),
+) -> Result<Trade, Refusal> {
+    let inputs = &Inputs { within: question.within, ..inputs.clone() };
+    let settings = settings(inputs);
+    let mut trade = Trade::begin(inputs, question, settings.len(), go_on)?;
+    told(&trade);
+    for setting in settings {
+        let measured = trade.measure(inputs, setting, &question.patience, go_on)?;
+        trade.settings.push(measured);
+        trade.judge();
+        told(&trade);
+    }
+    let refusals = trade.settings.iter().map(|measured| measured.found.as_ref().err());
+    match refusals.collect::<Option<Vec<_>>>() {
+        Some(refusals) if !refusals.is_empty() => Err(*refusals[0]),
+        _ => Ok(trade),
+    }
+}
+
+/// Every setting, the case's own among them.
+fn settings(inputs: &Inputs) -> Vec<Setting> {
+    let (mut settings, current) = (Setting::all(), Setting::of(inputs));
+    if !settings.contains(&current) {
+        settings.push(current);
+    }
+    settings
+}
+
+impl Trade {
+    /// The reference, its check, and the best of each rung.
+    fn begin(inputs: &Inputs, question: &Question, planned: usize, go_on: &dyn Fn() -> bool) -> Result<Trade, Refusal> {
+        let reference = stopped(Reference::of(inputs, go_on))?;
+        let mut models = Vec::new();
+        for rung in RUNGS {
+            let best = match &reference {
+                Ok(reference) if rung == reference.setting.rung => Ok(reference.answer.clone()),
+                _ => stopped(answer_of(inputs, Setting::best(rung), go_on))?,
+            };
+            let off = best.as_ref().ok().zip(reference.as_ref().ok());
+            let off = off.map_or([None; Subject::ALL.len()], |(best, reference)| differences(best, &reference.answer));
+            models.push(Model { rung, best, off });
+        }
+        Ok(Trade { within: question.within, planned, settings: Vec::new(), reference, models, recommended: None })
+    }
+
+    /// The rung's best answer and how far it is from the reference.
+    #[must_use]
+    pub fn model(&self, rung: Rung) -> Option<&Model> {
+        self.models.iter().find(|model| model.rung == rung)
+    }
+
+    /// Time and errors of a setting.
+    fn measure(
+        &self,
+        inputs: &Inputs,
+        setting: Setting,
+        patience: &Patience,
+        go_on: &dyn Fn() -> bool,
+    ) -> Result<Measured, Refusal> {
+        let found = match stopped(answer_of(inputs, setting, go_on))? {
+            Ok(answer) => Ok(self.figures(&answer, clocked(&setting.inputs(inputs), patience, go_on)?)),
+            Err(refusal) => Err(refusal),
+        };
+        let is_current = setting == Setting::of(inputs);
+        Ok(Measured { setting, is_current, found, is_on_front: false, qualifies: false })
+    }
+
+    fn figures(&self, answer: &Answer, time: Time) -> Figures {
+        let none = [None; Subject::ALL.len()];
+        let best = self.model(answer.rung).and_then(|model| model.best.as_ref().ok());
+        let numerical = best.map_or(none, |best| differences(answer, best));
+        let total = self.reference.as_ref().map_or(none, |reference| differences(answer, &reference.answer));
+        Figures { rung: answer.rung, time, evaluations: answer.evaluations, numerical, total }
+    }
+
+    /// Mark who qualifies, who stands on the front, and who is the cheapest.
+    fn judge(&mut self) {
+        let points: Vec<Option<(f64, f64)>> = self.settings.iter().map(Measured::point).collect();
+        for (measured, point) in self.settings.iter_mut().zip(&points) {
+            measured.qualifies = measured.is_within(self.within);
+            measured.is_on_front = point.is_some_and(|point| !points.iter().flatten().any(|other| dominates(other, &point)));
+        }
+        let qualified = (0..points.len()).filter(|&at| self.settings[at].qualifies);
+        self.recommended =
+            qualified.min_by(|&one, &other| self.settings[one].seconds().total_cmp(&self.settings[other].seconds()));
+    }
+}
+
+impl Measured {
+    /// Time of a solve in s; infinite where there is none.
+    #[must_use]
+    pub fn seconds(&self) -> f64 {
+        self.found.as_ref().map_or(f64::INFINITY, |figures| figures.time.seconds)
+    }
+
+    /// The greatest total error, where the setting answers all that is needed.
+    #[must_use]
+    pub fn total(&self) -> Option<f64> {
+        let figures = self.found.as_ref().ok()?;
+        let answers = Subject::NEEDED.iter().all(|&subject| figures.total[subject as usize].is_some());
+        greatest(&figures.total).filter(|_| answers)
+    }
+
+    /// Error and time.
+    fn point(&self) -> Option<(f64, f64)> {
+        self.total().map(|total| (total, self.seconds()))
+    }
+
+    fn is_within(&self, within: f64) -> bool {
+        self.total().is_some_and(|total| total <= within)
+    }
+}
+
+impl Reference {
+    fn of(inputs: &Inputs, go_on: &dyn Fn() -> bool) -> Result<Reference, Refusal> {
+        let setting = Setting::best(Rung::Dynamic);
+        let inputs = setting.inputs(inputs);
+        let solution = answer::solve(&inputs, go_on)?;
+        let answer = Answer::of(&solution);
+        let second = stopped(second::second_way(&inputs, &solution, go_on))?;
+        let off = |second: second::Second| Subject::ALL.map(|subject| apart(second.value(subject), answer.value(subject)));
+        let disagreement = second.map(off);
+        Ok(Reference { setting, answer, disagreement })
+    }
+}
+
+/// Two findings of one quantity: how far they lie apart, nothing where there is none.
+fn apart(second: Option<f64>, first: Option<f64>) -> Option<f64> {
+    match (second?, first?) {
+        (second, first) if first == second => Some(0.0),
+        (second, first) => Some(((second - first) / first).abs()),
+    }
+}
+
+/// One is nowhere worse than the other and somewhere better.
+fn dominates(one: &(f64, f64), other: &(f64, f64)) -> bool {
+    one.0 <= other.0 && one.1 <= other.1 && one != other
+}
+
+fn differences(answer: &Answer, truth: &Answer) -> Differences {
+    Subject::ALL.map(|subject| answer.off(truth, subject))
+}
+
+fn answer_of(inputs: &Inputs, setting: Setting, go_on: &dyn Fn() -> bool) -> Result<Answer, Refusal> {
+    answer::solve(&setting.inputs(inputs), go_on).map(|solution| Answer::of(&solution))
+}
+
+/// What a solve takes.
+fn clocked(inputs: &Inputs, patience: &Patience, go_on: &dyn Fn() -> bool) -> Result<Time, Refusal> {
+    let once = || go_on() && black_box(answer::solve(black_box(inputs), go_on)).is_ok();
+    clock::time(patience, once).ok_or(Refusal::Stopped)
+}
+
+/// A refusal is a finding; to be stopped is not.
+fn stopped<T>(found: Result<T, Refusal>) -> Result<Result<T, Refusal>, Refusal> {
+    match found {
+        Err(Refusal::Stopped) => Err(Refusal::Stopped),
+        other => Ok(other),
+    }
+}

@@ -1,0 +1,254 @@
+//! What an engineer asks of a solve, whatever the rung, and how far two answers lie apart.
+
+use crate::model::inputs::Rung;
+use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Solution, Stage, Stages};
+
+/// A question that several rungs answer, each by a quantity of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Subject {
+    /// Driven gear's angle before E at the first contact.
+    FirstContact,
+    /// Greatest force of the incoming tooth.
+    PeakForce,
+    /// Its greatest force before E.
+    PeakApproachForce,
+    /// Duration of the first impact.
+    Duration,
+    /// The kinematic friction ratio.
+    FrictionRatio,
+    /// The force over the driver's roll angle from D to E.
+    Curve,
+}
+
+impl Subject {
+    /// Every subject, in order.
+    pub const ALL: [Subject; 6] = [
+        Subject::FirstContact,
+        Subject::PeakForce,
+        Subject::PeakApproachForce,
+        Subject::Duration,
+        Subject::FrictionRatio,
+        Subject::Curve,
+    ];
+    /// What a setting must answer to be of use.
+    pub const NEEDED: [Subject; 3] = [Subject::FirstContact, Subject::PeakForce, Subject::Curve];
+
+    /// The name in JSON.
+    #[must_use]
+    pub fn key(self) -> &'static str {
+        match self {
+            Subject::FirstContact => "first_contact_angle",
+            Subject::PeakForce => "peak_force",
+            Subject::PeakApproachForce => "peak_approach_force",
+            Subject::Duration => "impact_duration",
+            Subject::FrictionRatio => "friction_ratio",
+            Subject::Curve => "curve",
+        }
+    }
+
+    /// A few words for a person.
+    #[must_use]
+    pub fn label(self) -> &'static str {
+        match self {
+            Subject::FirstContact => "first contact angle",
+            Subject::PeakForce => "peak force",
+            Subject::PeakApproachForce => "peak force before E",
+            Subject::Duration => "duration of the impact",
+            Subject::FrictionRatio => "friction ratio",
+            Subject::Curve => "force from D to E",
+        }
+    }
+
+    /// The quantity by which a rung answers; none for the curve, and where the rung has none.
+    #[must_use]
+    pub fn quantity(self, rung: Rung) -> Option<&'static Quantity> {
+        let keys = match self {
+            Subject::FirstContact => ["approach_angle_driven", "static_first_contact_angle", "dynamic_first_contact_angle"],
+            Subject::PeakForce => ["impact_force", "static_peak_force", "dynamic_peak_force"],
+            Subject::PeakApproachForce => ["impact_force", "static_force_at_start", "dynamic_peak_approach_force"],
+            Subject::Duration => ["impact_duration", "", "dynamic_impact_duration"],
+            Subject::FrictionRatio => ["friction_ratio", "", ""],
+            Subject::Curve => return None,
+        };
+        let [closed_form, shared, with_inertia] = keys;
+        let key = match rung {
+            Rung::Paper | Rung::Exact => closed_form,
+            Rung::Static => shared,
+            Rung::Dynamic => with_inertia,
+            Rung::Auto => return None,
+        };
+        Quantity::find(key)
+    }
+
+    /// Whether the rung answers at all.
+    #[must_use]
+    pub fn is_of(self, rung: Rung) -> bool {
+        self == Subject::Curve || self.quantity(rung).is_some()
+    }
+}
+
+/// What a solve answers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Answer {
+    /// By which rung, that which was taken where the choice was the program's.
+    pub rung: Rung,
+    /// Whether the tooth strikes.
+    pub outcome: Outcome,
+    /// Forces of [`Subject::quantity`], in SI, in the order of [`Subject::ALL`].
+    values: [Option<f64>; Subject::ALL.len()],
+    /// Driver's angle before E in rad and force in N, from the first contact to E.
+    curve: Vec<(f64, f64)>,
+    /// Evaluations of the forces, in the rung `dynamic`.
+    pub evaluations: Option<u64>,
+}
+
+/// The stages that a rung's answer needs.
+#[must_use]
+pub fn stages(rung: Rung) -> Stages {
+    match rung {
+        Rung::Paper | Rung::Exact => Stages::CLOSED_FORM.with(Stage::Stations),
+        Rung::Static => Stages::of(Stage::Static),
+        Rung::Dynamic => Stages::of(Stage::Dynamic),
+        Rung::Auto => Stages::CLOSED_FORM.and(Stages::STATIONS),
+    }
+}
+
+/// Solve for the answer and no more.
+///
+/// # Errors
+/// Why there is none, or not all of it; [`Refusal::Stopped`] where `go_on` says no.
+pub(super) fn solve(inputs: &Inputs, go_on: &dyn Fn() -> bool) -> Result<Solution, Refusal> {
+    let solution = model::solve_while(inputs, stages(inputs.rung), &|_| go_on())?;
+    match solution.withheld.or(solution.stations_withheld) {
+        Some(refusal) => Err(refusal),
+        None => Ok(solution),
+    }
+}
+
+impl Answer {
+    /// The answer of a solve.
+    #[must_use]
+    pub fn of(solution: &Solution) -> Answer {
+        let value = |subject: Subject| subject.quantity(solution.rung).and_then(|quantity| (quantity.value)(solution));
+        Answer {
+            rung: solution.rung,
+            outcome: solution.outcome,
+            values: Subject::ALL.map(value),
+            curve: curve(solution),
+            evaluations: solution.dynamic.as_ref().map(|dynamic| dynamic.effort.evaluations),
+        }
+    }
+
+    /// The value in SI, where there is one.
+    #[must_use]
+    pub fn value(&self, subject: Subject) -> Option<f64> {
+        self.values[subject as usize]
+    }
+
+    /// How far this answer is from the true one, relative to it: nothing where one of the rungs has no such quantity. That
+    /// no tooth strikes by both is agreement, by one of them an error of 1.
+    #[must_use]
+    pub fn off(&self, truth: &Answer, subject: Subject) -> Option<f64> {
+        if !(subject.is_of(self.rung) && subject.is_of(truth.rung)) {
+            return None;
+        }
+        if subject == Subject::Curve {
+            return Some(self.off_curve(truth));
+        }
+        match (self.value(subject), truth.value(subject)) {
+            (Some(found), Some(expected)) => Some(relative(found - expected, expected)),
+            (None, None) => Some(0.0),
+            _ if self.outcome == truth.outcome && self.outcome == Outcome::NoCornerContact => Some(0.0),
+            _ => Some(1.0),
+        }
+    }
+
+    /// The greatest difference of the forces over the driver's roll angle from the earlier first contact to E, over the true
+    /// peak. Read linearly, both curves differ most at a station of one of them.
+    fn off_curve(&self, truth: &Answer) -> f64 {
+        let angles = self.curve.iter().chain(&truth.curve).map(|&(angle, _)| angle);
+        let apart = angles.map(|angle| (self.force_at(angle) - truth.force_at(angle)).abs()).fold(0.0, f64::max);
+        match (self.outcome, truth.outcome) {
+            (Outcome::NoCornerContact, Outcome::NoCornerContact) => 0.0,
+            (Outcome::CornerContact, Outcome::CornerContact) => {
+                relative(apart, truth.value(Subject::PeakForce).unwrap_or_default())
+            }
+            _ => 1.0,
+        }
+    }
+
+    /// The force at the driver's angle before E, as a reader of the stations takes it: linearly between two of them, 0
+    /// before the first contact.
+    #[must_use]
+    pub fn force_at(&self, angle: f64) -> f64 {
+        /// A first contact that differs by rounding alone is the same one.
+        const ROUNDING: f64 = 1e-9;
+        let next = self.curve.partition_point(|station| station.0 > angle);
+        match (next.checked_sub(1).map(|before| self.curve[before]), self.curve.get(next)) {
+            (Some(before), Some(&after)) => before.1 + (after.1 - before.1) * (before.0 - angle) / (before.0 - after.0),
+            (None, Some(&first)) if angle <= first.0 * (1.0 + ROUNDING) => first.1,
+            (None, _) => 0.0,
+            (Some(last), None) => last.1,
+        }
+    }
+}
+
+/// The force from the first contact to E.
+fn curve(solution: &Solution) -> Vec<(f64, f64)> {
+    let shared = match solution.rung {
+        Rung::Paper | Rung::Exact | Rung::Auto => {
+            return solution.stations.iter().map(|station| (station.roll_angle_driver, station.impact_force)).collect();
+        }
+        Rung::Static => solution.static_load.as_ref().map(|load| &load.stations),
+        Rung::Dynamic => solution.dynamic.as_ref().map(|dynamic| &dynamic.stations),
+    };
+    let before_end = shared.into_iter().flatten().filter(|station| station.roll_angle_driver >= 0.0);
+    before_end.map(|station| (station.roll_angle_driver, station.force)).collect()
+}
+
+/// A difference over a size; 1 over none.
+fn relative(difference: f64, size: f64) -> f64 {
+    if difference == 0.0 {
+        return 0.0;
+    }
+    let relative = (difference / size).abs();
+    if relative.is_finite() { relative } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Case;
+
+    fn answer(rung: Rung, stations: usize) -> Answer {
+        let inputs = Inputs { rung, stations: Some(stations), ..Case::table_1().inputs().unwrap() };
+        Answer::of(&solve(&inputs, &|| true).unwrap())
+    }
+
+    #[test]
+    fn a_curve_is_read_linearly_and_is_nothing_before_the_first_contact() {
+        let shared = answer(Rung::Static, 4);
+        let (first, second) = (shared.curve[0], shared.curve[1]);
+        assert_eq!((shared.curve.len(), shared.curve[4].0), (5, 0.0));
+        assert!((shared.force_at(f64::midpoint(first.0, second.0)) - f64::midpoint(first.1, second.1)).abs() < 1e-9);
+        assert!((shared.force_at(0.0) - shared.value(Subject::PeakApproachForce).unwrap()).abs() < 1e-9);
+        assert_eq!(shared.force_at(1.01 * first.0), 0.0);
+        let impact = answer(Rung::Exact, 4);
+        assert_eq!(Some(impact.force_at(impact.curve[0].0 * (1.0 + 1e-15))), impact.value(Subject::PeakForce));
+    }
+
+    #[test]
+    fn an_answer_differs_from_others_and_not_from_itself() {
+        let (shared, impact) = (answer(Rung::Static, 16), answer(Rung::Exact, 16));
+        for subject in Subject::ALL {
+            assert_eq!(shared.off(&shared, subject), subject.is_of(Rung::Static).then_some(0.0));
+        }
+        assert_eq!(impact.off(&shared, Subject::Duration), None);
+        assert!(impact.off(&shared, Subject::Curve).unwrap() > 0.5);
+        let on_time = Answer { outcome: Outcome::NoCornerContact, values: [None; 6], curve: Vec::new(), ..impact.clone() };
+        assert_eq!(on_time.off(&shared, Subject::FirstContact), Some(1.0));
+        assert_eq!(on_time.off(&shared, Subject::Curve), Some(1.0));
+        let also = Answer { outcome: Outcome::NoCornerContact, ..shared };
+        assert!(Subject::NEEDED.iter().all(|&subject| on_time.off(&also, subject) == Some(0.0)));
+    }
+}

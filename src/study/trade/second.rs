@@ -1,0 +1,246 @@
+//! A second way to the answers of the rung `dynamic`, sharing with the first no more than the mesh: even steps of the
+//! extrapolated midpoint rule, and contacts found by looking at each step.
+
+use nalgebra::Vector2;
+
+use super::answer::Subject;
+use crate::model::mesh::Mesh;
+use crate::model::static_load::balance;
+use crate::model::{Inputs, Refusal, Solution};
+use crate::numeric::extrapolated::step;
+use crate::numeric::ode::Equation;
+use crate::numeric::root;
+
+/// Displacement of the driver ahead in m and its rate in m/s.
+type State = Vector2<f64>;
+
+/// What the second way finds, in SI.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Second {
+    first_contact_angle: Option<f64>,
+    peak_force: f64,
+    peak_approach_force: f64,
+}
+
+impl Second {
+    pub(super) fn value(&self, subject: Subject) -> Option<f64> {
+        match subject {
+            Subject::FirstContact => self.first_contact_angle,
+            Subject::PeakForce => Some(self.peak_force),
+            Subject::PeakApproachForce => Some(self.peak_approach_force),
+            Subject::Duration | Subject::FrictionRatio | Subject::Curve => None,
+        }
+    }
+}
+
+/// The case once more, from the static balance to a base pitch after B.
+///
+/// # Errors
+/// Those of [`Mesh::new`], and [`Refusal::Stopped`] where `go_on` says no.
+pub(super) fn second_way(inputs: &Inputs, solution: &Solution, go_on: &dyn Fn() -> bool) -> Result<Second, Refusal> {
+    const FURTHER: f64 = 16.0;
+    let error = solution.deviation.equivalent_error;
+    let mut reach = error.abs() + 4.0 * solution.deviation.combined_deflection;
+    loop {
+        let mesh = Mesh::new(inputs, &solution.geometry, solution.mesh_force, error, reach)?;
+        let mut run = Run::begin(&mesh, inputs, solution.reduced_mass);
+        run.go(go_on)?;
+        if run.most_ahead + error.max(0.0) < reach || mesh.is_whole() {
+            return Ok(run.found());
+        }
+        reach *= FURTHER;
+    }
+}
+
+/// The oscillator while the same pairs touch.
+struct Oscillator<'a> {
+    mesh: &'a Mesh,
+    mass: f64,
+    damping: f64,
+    /// A place between the borders.
+    inside: f64,
+    /// How many base pitches ahead the pairs are that touch.
+    touching: Vec<i32>,
+}
+
+impl Oscillator<'_> {
+    fn place(&self, t: f64) -> f64 {
+        t * self.mesh.speed
+    }
+
+    /// The least of what each pair keeps: pressed where it touches, apart where it does not; in m.
+    fn kept(&self, t: f64, y: &State) -> f64 {
+        let pressed = self.mesh.pairs(self.place(t), self.inside).map(|pair| self.kept_by(pair.ahead, y[0] - pair.place.gap));
+        pressed.fold(f64::INFINITY, f64::min)
+    }
+
+    fn kept_by(&self, ahead: i32, pressed: f64) -> f64 {
+        if self.touching.contains(&ahead) { pressed } else { -pressed }
+    }
+
+    /// The pair that keeps least turns.
+    fn turn(&mut self, t: f64, y: &State) -> Option<i32> {
+        let pairs = self.mesh.pairs(self.place(t), self.inside);
+        let kept = pairs.map(|pair| (pair.ahead, self.kept_by(pair.ahead, y[0] - pair.place.gap)));
+        let (turned, _) = kept.min_by(|one, other| one.1.total_cmp(&other.1))?;
+        match self.touching.iter().position(|&ahead| ahead == turned) {
+            Some(at) => drop(self.touching.swap_remove(at)),
+            None => self.touching.push(turned),
+        }
+        Some(turned)
+    }
+
+    /// Force of the incoming tooth, in N.
+    fn force(&self, t: f64, y: &State) -> f64 {
+        let incoming = self.mesh.pairs(self.place(t), self.inside).find(|pair| pair.ahead == 0);
+        incoming.map_or(0.0, |pair| pair.place.stiffness * (y[0] - pair.place.gap).max(0.0))
+    }
+}
+
+impl Equation<2> for Oscillator<'_> {
+    fn slope(&self, t: f64, y: &State) -> State {
+        let pairs = self.mesh.pairs(self.place(t), self.inside).filter(|pair| self.touching.contains(&pair.ahead));
+        let carried: f64 = pairs.map(|pair| pair.weight * pair.place.stiffness * (y[0] - pair.place.gap)).sum();
+        let damping = if self.touching.is_empty() { 0.0 } else { self.damping * y[1] };
+        State::new(y[1], (self.mesh.force - carried - damping) / self.mass)
+    }
+}
+
+/// A stretch on which the same pairs touch, short against the period.
+#[derive(Debug, Clone, Copy)]
+struct Stretch {
+    t: f64,
+    y: State,
+    length: f64,
+}
+
+/// A run on its way.
+struct Run<'a> {
+    oscillator: Oscillator<'a>,
+    borders: Vec<f64>,
+    t: f64,
+    y: State,
+    /// The longest stretch, in s.
+    longest: f64,
+    first_touch: Option<f64>,
+    peak_force: f64,
+    peak_approach_force: f64,
+    most_ahead: f64,
+}
+
+impl<'a> Run<'a> {
+    fn begin(mesh: &'a Mesh, inputs: &Inputs, mass: f64) -> Run<'a> {
+        const STRETCHES_OF_A_PERIOD: f64 = 16.0;
+        let frequency = (mesh.mean_stiffness / mass).sqrt();
+        let start = -f64::from(inputs.warmup_cycles) * mesh.base_pitch;
+        let borders = mesh.borders(start, mesh.ends().1.min(mesh.length + mesh.base_pitch));
+        let inside = f64::midpoint(borders[0], borders[1]);
+        let displacement = balance(mesh, start, inside).displacement;
+        let touching = mesh.pairs(start, inside).filter(|pair| displacement > pair.place.gap).map(|pair| pair.ahead);
+        Run {
+            oscillator: Oscillator {
+                mesh,
+                mass,
+                damping: 2.0 * inputs.damping_ratio * mass * frequency,
+                inside,
+                touching: touching.collect(),
+            },
+            borders,
+            t: start / mesh.speed,
+            y: State::new(displacement, 0.0),
+            longest: std::f64::consts::TAU / (STRETCHES_OF_A_PERIOD * frequency),
+            first_touch: None,
+            peak_force: 0.0,
+            peak_approach_force: 0.0,
+            most_ahead: 0.0,
+        }
+    }
+
+    /// From border to border.
+    fn go(&mut self, go_on: &dyn Fn() -> bool) -> Result<(), Refusal> {
+        let mesh = self.oscillator.mesh;
+        for at in 1..self.borders.len() {
+            let (from, to) = (self.borders[at - 1], self.borders[at]);
+            self.oscillator.inside = f64::midpoint(from, to);
+            let end = to / mesh.speed;
+            while self.t < end {
+                if !go_on() {
+                    return Err(Refusal::Stopped);
+                }
+                self.advance(end);
+            }
+        }
+        Ok(())
+    }
+
+    /// One stretch, to `end` at most and to the next change of a contact.
+    fn advance(&mut self, end: f64) {
+        let stretches = ((end - self.t) / self.longest).ceil().max(1.0);
+        let whole = Stretch { t: self.t, y: self.y, length: (end - self.t) / stretches };
+        let turn = self.turn_within(&whole);
+        let stretch = Stretch { length: turn.unwrap_or(whole.length), ..whole };
+        self.watch(&stretch);
+        self.y = self.after(&stretch, stretch.length);
+        self.most_ahead = self.most_ahead.max(self.y[0]);
+        self.t = if turn.is_none() && stretches == 1.0 { end } else { self.t + stretch.length };
+        if turn.is_some() {
+            let turned = self.oscillator.turn(self.t, &self.y);
+            if turned == Some(0) && self.first_touch.is_none() {
+                self.first_touch = Some(self.t);
+            }
+        }
+    }
+
+    /// When a pair ceases to be what it is, as far as two looks show it.
+    fn turn_within(&self, stretch: &Stretch) -> Option<f64> {
+        /// A pair that has just turned stands at 0, within rounding.
+        const SHORTEST: f64 = 1e-9;
+        let kept = |after: f64| self.oscillator.kept(stretch.t + after, &self.after(stretch, after));
+        let looks = [SHORTEST * stretch.length, 0.5 * stretch.length, stretch.length];
+        let at = (0..looks.len()).find(|&at| kept(looks[at]) < 0.0)?;
+        Some(if at == 0 { looks[0] } else { root::between(looks[at - 1], looks[at], kept) })
+    }
+
+    fn after(&self, stretch: &Stretch, length: f64) -> State {
+        step(&self.oscillator, stretch.t, &stretch.y, length)
+    }
+
+    /// Look for the incoming tooth's peaks.
+    fn watch(&mut self, stretch: &Stretch) {
+        if !self.oscillator.touching.contains(&0) {
+            return;
+        }
+        let peak = self.peak(stretch);
+        self.peak_force = self.peak_force.max(peak);
+        // E is a border.
+        if stretch.t < 0.0 {
+            self.peak_approach_force = self.peak_approach_force.max(peak);
+        }
+    }
+
+    /// The greatest force of a stretch: where it rises first and falls then, to the last digits.
+    fn peak(&self, stretch: &Stretch) -> f64 {
+        const ASIDE: f64 = 1e-3;
+        let force = |after: f64| self.oscillator.force(stretch.t + after, &self.after(stretch, after));
+        let slope = |after: f64| {
+            let aside = ASIDE * stretch.length;
+            force((after + aside).min(stretch.length)) - force((after - aside).max(0.0))
+        };
+        let (start, end) = (force(0.0), force(stretch.length));
+        if slope(0.0) > 0.0 && slope(stretch.length) < 0.0 {
+            let top = root::between(0.0, stretch.length, slope);
+            return force(top).max(start).max(end);
+        }
+        start.max(end)
+    }
+
+    fn found(&self) -> Second {
+        let mesh = self.oscillator.mesh;
+        let angle = self.first_touch.map(|t| -self.oscillator.place(t) / mesh.base_radii.1);
+        Second {
+            first_contact_angle: angle.filter(|&angle| angle > 0.0),
+            peak_force: self.peak_force,
+            peak_approach_force: self.peak_approach_force,
+        }
+    }
+}

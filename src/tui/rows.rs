@@ -1,0 +1,102 @@
+//! The rows of the form that take the focus: the fields, and after them the limits of the case.
+
+use crate::case::fields::{Field, Kind, index_of};
+use crate::case::{Case, FIELDS, Limit, step};
+use crate::model::Quantity;
+
+/// What stands in a row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Row<'c> {
+    /// A field, by its place in the table.
+    Field(usize),
+    /// A limit of the case.
+    Limit(&'c Limit),
+}
+
+/// How many rows there are.
+#[must_use]
+pub fn count(case: &Case) -> usize {
+    FIELDS.len() + case.limits.len()
+}
+
+/// What stands in a row; beyond the last one, the last field.
+#[must_use]
+pub fn row(case: &Case, at: usize) -> Row<'_> {
+    let limit = at.checked_sub(FIELDS.len()).and_then(|at| case.limits.get(at));
+    limit.map_or(Row::Field(at.min(FIELDS.len() - 1)), Row::Limit)
+}
+
+/// The row of a key, such as `pair.module` or `limits.impact_force`.
+#[must_use]
+pub fn of_key(case: &Case, key: &str) -> Option<usize> {
+    index_of(key).or_else(|| of_limit(case, key.strip_prefix("limits.")?))
+}
+
+/// The row of the limit of a quantity.
+#[must_use]
+pub fn of_limit(case: &Case, quantity: &str) -> Option<usize> {
+    case.limits.iter().position(|limit| limit.quantity == quantity).map(|at| FIELDS.len() + at)
+}
+
+/// What is written in a row.
+#[must_use]
+pub fn text(case: &Case, at: usize) -> Option<&str> {
+    match row(case, at) {
+        Row::Field(field) => case.text(field),
+        Row::Limit(limit) => Some(limit.text.as_str()).filter(|text| !text.is_empty()),
+    }
+}
+
+/// Write into a row, whether or not the text is valid.
+pub fn write(case: &mut Case, at: usize, text: &str) {
+    match row(case, at) {
+        Row::Field(field) => case.write(field, text),
+        Row::Limit(&Limit { quantity, .. }) => case.write_limit(quantity, text),
+    }
+}
+
+/// What a step makes of a row's text.
+#[must_use]
+pub fn stepped(case: &Case, at: usize, by: i32) -> Option<String> {
+    match row(case, at) {
+        Row::Field(field) => case.stepped(field, by),
+        Row::Limit(limit) => step::step_limit(&limit.text, limit.quantity, by),
+    }
+}
+
+/// The names that a row offers, where it is a choice.
+#[must_use]
+pub fn names(case: &Case, at: usize) -> &'static [&'static str] {
+    match field(case, at).map(|field| field.kind) {
+        Some(Kind::Choice(names, _)) => names,
+        _ => &[],
+    }
+}
+
+/// The field of a row, where it is one.
+#[must_use]
+pub fn field(case: &Case, at: usize) -> Option<&'static Field> {
+    match row(case, at) {
+        Row::Field(field) => Some(&FIELDS[field]),
+        Row::Limit(_) => None,
+    }
+}
+
+/// In a few words.
+#[must_use]
+pub fn label(case: &Case, at: usize) -> &'static str {
+    match row(case, at) {
+        Row::Field(field) => FIELDS[field].label,
+        Row::Limit(limit) => Quantity::find(limit.quantity).map_or(limit.quantity, |quantity| quantity.label.trim_start()),
+    }
+}
+
+/// Where groups begin.
+#[must_use]
+pub fn groups(case: &Case) -> Vec<usize> {
+    let begins = |at: usize| match row(case, at) {
+        Row::Field(field) => field == 0 || FIELDS[field].table() != FIELDS[field - 1].table(),
+        Row::Limit(_) => at == FIELDS.len(),
+    };
+    (0..count(case)).filter(|&at| begins(at)).collect()
+}

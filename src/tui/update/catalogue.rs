@@ -1,0 +1,74 @@
+//! What comes from lists: a material for a gear, a limit for a result.
+
+use super::{Effect, edit};
+use crate::case::fields::index_of;
+use crate::case::materials::{self, Material};
+use crate::case::step::step_limit;
+use crate::case::{FIELDS, Limit};
+use crate::model::Quantity;
+use crate::report;
+use crate::tui::app::App;
+use crate::tui::pane::Pane;
+use crate::tui::pick::{List, Picker};
+use crate::tui::prompt::Prompt;
+use crate::tui::rows::{self, Row};
+use crate::tui::view::results;
+
+/// Ask for the material of the gear whose field is focused, else of both.
+pub(super) fn materials(app: &mut App) {
+    let gears: &[&str] = match rows::row(&app.case, app.focus) {
+        Row::Field(field) if FIELDS[field].table() == "driver" => &["driver"],
+        Row::Field(field) if FIELDS[field].table() == "driven" => &["driven"],
+        _ => &["driver", "driven"],
+    };
+    app.prompts.push(Prompt::Pick(Picker::new(List::Materials(gears))));
+}
+
+/// Make the gears of a material: one edit, which undo takes back.
+pub(super) fn make(app: &mut App, gears: &[&str], material: &Material) -> Vec<Effect> {
+    let mut case = app.case.clone();
+    let made = gears.iter().try_for_each(|gear| materials::apply(&mut case, gear, material));
+    if let Err(problem) = made {
+        app.complain(problem.for_form().to_string());
+        return Vec::new();
+    }
+    let effects = edit::replace(app, case);
+    app.say(format!("{}: {}", material.name, material.source));
+    effects
+}
+
+/// Hold the marked result to a limit where the results have the focus, else ask which.
+pub(super) fn limit(app: &mut App) -> Vec<Effect> {
+    match results::marked(app).filter(|_| app.panes.focus == Pane::Results) {
+        Some(quantity) => hold(app, quantity),
+        None => {
+            app.prompts.push(Prompt::Pick(Picker::new(List::Limits)));
+            Vec::new()
+        }
+    }
+}
+
+/// Go to the limit of a quantity; a new one begins with what the quantity is now.
+pub(super) fn hold(app: &mut App, quantity: &'static Quantity) -> Vec<Effect> {
+    let mut effects = Vec::new();
+    if rows::of_limit(&app.case, quantity.key).is_none() {
+        let mut case = app.case.clone();
+        case.write_limit(quantity.key, &beginning(app, quantity));
+        effects = edit::replace(app, case);
+    }
+    app.panes.focus = Pane::Form;
+    app.is_editing = true;
+    let row = rows::of_limit(&app.case, quantity.key).or_else(|| index_of("model.rung"));
+    app.focus_on(row.unwrap_or(app.focus));
+    effects
+}
+
+// The quantity's value as it is shown, rounded up so that it holds.
+fn beginning(app: &App, quantity: &'static Quantity) -> String {
+    let value = app.answer.as_ref().and_then(|answer| report::value(quantity, answer.of(answer.active)?));
+    let Some(value) = value else { return String::new() };
+    let text = report::shown_in(quantity, value, app.settings.units).to_string();
+    let is_below = Limit::new(quantity.key, &text).is_ok_and(|limit| limit.value < value);
+    let raised = step_limit(&text, quantity.key, 1).filter(|_| is_below);
+    raised.unwrap_or(text)
+}

@@ -1,0 +1,33 @@
+//! What of the teeth is in sight: zoom, centre and the factor of the gap.
+
+use crate::tui::app::App;
+use crate::tui::view::teeth::{Exaggeration, TeethView, solved};
+
+/// Some steps closer, or farther below 0.
+pub(super) fn zoom(app: &mut App, steps: i32) {
+    match solved(app).map(|(inputs, solution)| app.teeth.zoomed(steps, inputs, solution)) {
+        Some(view) if view == app.teeth => app.say(if steps > 0 { "this is the closest" } else { "this is all of it" }),
+        Some(view) => app.teeth = view,
+        None => app.complain("no valid results to look at"),
+    }
+}
+
+/// As at first.
+pub(super) fn anew(app: &mut App) {
+    app.teeth = TeethView::default();
+}
+
+/// Around something else.
+pub(super) fn centre_next(app: &mut App) {
+    app.teeth = app.teeth.centred_next();
+    app.say(format!("the teeth around {}", app.teeth.centre.name()));
+}
+
+/// The gap wider than it is, or as it is.
+pub(super) fn exaggerate_or_not(app: &mut App) {
+    app.teeth = app.teeth.exaggerated_or_not();
+    app.say(match app.teeth.exaggeration {
+        Exaggeration::Fitted => "the gap is drawn wider by the factor that is told",
+        Exaggeration::True => "the gap is drawn as it is",
+    });
+}

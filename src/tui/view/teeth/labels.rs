@@ -1,0 +1,145 @@
+//! Names beside their points, the scale and the factor, none over another.
+
+use nalgebra::Point2;
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect};
+use ratatui::style::Style;
+use unicode_width::UnicodeWidthStr;
+
+use super::ink::Ink;
+use super::picture::Picture;
+use super::scene::Scene;
+use crate::model::placing::{driven_tangent_point, driver_tangent_point};
+use crate::numeric::decimal::significant;
+
+/// Units of the scale bar, the longest first, in m.
+const UNITS: [(f64, &str); 4] = [(1.0, "m"), (1e-3, "mm"), (1e-6, "um"), (1e-9, "nm")];
+
+/// What stands on the picture, so that no word comes to lie over another.
+#[derive(Debug)]
+pub struct Labels {
+    area: Rect,
+    marks: Vec<Position>,
+    words: Vec<Rect>,
+}
+
+impl Labels {
+    /// None yet, on a picture drawn in that area.
+    #[must_use]
+    pub fn new(area: Rect) -> Labels {
+        Labels { area, marks: Vec::new(), words: Vec::new() }
+    }
+
+    /// Write the scale, the factor, and every name that has room; the cells that they take.
+    pub fn draw(mut self, scene: &Scene, picture: &Picture, buffer: &mut Buffer) -> Vec<Rect> {
+        let theme = picture.look.theme;
+        self.draw_scale(scene, Ink::Mark.style(theme), buffer);
+        self.draw_factor(scene, Ink::Mark.style(theme), buffer);
+        let cells: Vec<_> = scene.points.iter().filter_map(|point| Some((point.name, self.cell(scene, point.at)?))).collect();
+        self.marks.extend(cells.iter().map(|(_, at)| *at));
+        for (name, at) in cells {
+            self.put_beside(name, at, Ink::Mark.style(theme), buffer);
+        }
+        for (name, at) in self.ways_out(scene, picture) {
+            self.put_beside(name, at, theme.faint, buffer);
+        }
+        for (name, places, ink) in [("driver", &scene.bodies[0], Ink::Driver), ("driven", &scene.bodies[1], Ink::Driven)] {
+            self.put_inside(name, scene, places, ink.style(theme), buffer);
+        }
+        self.words
+    }
+
+    /// The length of the bar beside it, in the lower left corner.
+    fn draw_scale(&mut self, scene: &Scene, style: Style, buffer: &mut Buffer) {
+        let Some(end) = self.cell(scene, scene.bar.1) else { return };
+        let text = length((scene.bar.1 - scene.bar.0).norm());
+        let line = Rect { y: self.area.bottom() - 1, height: 1, ..self.area };
+        self.put(&text, Rect { x: end.x + 2, width: text.width() as u16, ..line }, style, buffer);
+        self.words.push(Rect { width: end.x + 1 - self.area.x, ..line });
+    }
+
+    /// How far the gap is exaggerated, in the upper right corner.
+    fn draw_factor(&mut self, scene: &Scene, style: Style, buffer: &mut Buffer) {
+        let Some(factor) = scene.factor else { return };
+        let text = format!("gap x{}", times(factor));
+        let width = text.width() as u16;
+        let x = self.area.right().saturating_sub(width + 1).max(self.area.x);
+        self.put(&text, Rect { x, y: self.area.y, width, height: 1 }, style, buffer);
+    }
+
+    /// Where the line of action leaves what is in sight, towards a point of tangency that is not.
+    fn ways_out(&self, scene: &Scene, picture: &Picture) -> Vec<(&'static str, Position)> {
+        let geometry = &picture.solution.geometry;
+        let (first, second) = (driver_tangent_point(geometry), driven_tangent_point(geometry));
+        let Some((from, to)) = scene.window.clip(first, second) else { return Vec::new() };
+        let at = |part: f64| first + (second - first) * part;
+        let inward = 1e-9 * (to - from);
+        let ends = [("to N1", first, from + inward), ("to N2", second, to - inward)];
+        let out_of_sight = ends.into_iter().filter(|(_, end, _)| !scene.window.sees(*end));
+        out_of_sight.filter_map(|(name, _, part)| Some((name, self.cell(scene, at(part))?))).collect()
+    }
+
+    fn cell(&self, scene: &Scene, at: Point2<f64>) -> Option<Position> {
+        let (x, y) = scene.window.cell(at)?;
+        Some(Position { x: self.area.x + x, y: self.area.y + y })
+    }
+
+    /// Write a name where it covers least of the picture around its point.
+    fn put_beside(&mut self, name: &str, at: Position, style: Style, buffer: &mut Buffer) {
+        let width = i32::from(name.width() as u16);
+        let places = [(1, 0), (2, -1), (2, 1), (-width, 0), (-width - 1, -1), (-width - 1, 1), (-width / 2, -1), (-width / 2, 1)];
+        let further = [(2, -2), (2, 2), (-width - 1, -2), (-width - 1, 2), (4, 0), (-width - 3, 0)];
+        let rooms = places.into_iter().chain(further).filter_map(|(right, down)| self.room(at, right, down, width));
+        let free = rooms.filter(|room| self.is_free(*room)).min_by_key(|room| covered(*room, buffer));
+        if let Some(room) = free {
+            self.put(name, room, style, buffer);
+        }
+    }
+
+    /// Write a name at the first of several places where it covers nothing of the picture.
+    fn put_inside(&mut self, name: &str, scene: &Scene, places: &[Point2<f64>], style: Style, buffer: &mut Buffer) {
+        let width = i32::from(name.width() as u16);
+        let cells = places.iter().filter_map(|place| self.cell(scene, *place));
+        let mut rooms = cells.filter_map(|at| self.room(at, -width / 2, 0, width));
+        let found = rooms.find(|room| self.is_free(*room) && covered(*room, buffer) == 0);
+        if let Some(room) = found {
+            self.put(name, room, style, buffer);
+        }
+    }
+
+    /// The cells of a word some columns and rows from a place, where they are on the picture.
+    fn room(&self, at: Position, right: i32, down: i32, width: i32) -> Option<Rect> {
+        let (x, y) = (u16::try_from(i32::from(at.x) + right).ok()?, u16::try_from(i32::from(at.y) + down).ok()?);
+        let room = Rect { x, y, width: u16::try_from(width).ok()?, height: 1 };
+        (self.area.intersection(room) == room).then_some(room)
+    }
+
+    /// Whether no mark stands in the cells, and no word in them or beside them.
+    fn is_free(&self, room: Rect) -> bool {
+        let spaced = Rect { x: room.x.saturating_sub(1), width: room.width + 2, ..room };
+        !self.marks.iter().any(|mark| room.contains(*mark)) && !self.words.iter().any(|word| word.intersects(spaced))
+    }
+
+    fn put(&mut self, text: &str, room: Rect, style: Style, buffer: &mut Buffer) {
+        let room = room.intersection(self.area);
+        buffer.set_stringn(room.x, room.y, text, room.width.into(), Style::reset().patch(style));
+        self.words.push(room);
+    }
+}
+
+/// How many cells of a room are drawn on.
+fn covered(room: Rect, buffer: &Buffer) -> usize {
+    room.positions().filter(|position| buffer.cell(*position).is_some_and(|cell| !cell.symbol().trim().is_empty())).count()
+}
+
+/// A length in the unit in which it is a small number.
+fn length(length: f64) -> String {
+    let last = UNITS[UNITS.len() - 1];
+    let (unit, name) = UNITS.into_iter().find(|(unit, _)| length >= 0.999 * unit).unwrap_or(last);
+    format!("{} {name}", significant(length / unit, 1))
+}
+
+/// A factor: whole, or with two digits.
+fn times(factor: f64) -> String {
+    if (factor - factor.round()).abs() < 1e-9 { format!("{factor:.0}") } else { format!("{factor:.1}") }
+}

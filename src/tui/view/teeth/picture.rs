@@ -1,0 +1,74 @@
+//! The picture itself: the pair true to scale, and below it every value at the cursor.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+use ratatui::symbols::Marker;
+
+use super::labels::Labels;
+use super::scene::Scene;
+use super::zoom::TeethView;
+use super::{ink, readings};
+use crate::model::{Inputs, Moment, Solution, moment};
+use crate::tui::clean::symbol;
+use crate::tui::theme::Look;
+
+/// Least width and height of the picture itself, in cells.
+const SMALLEST: (u16, u16) = (12, 4);
+/// From this width on the values have room in one line, whatever they are, and from this height on in two: the picture
+/// keeps its size when values come and go.
+const ONE_LINE_FROM: u16 = 130;
+const TWO_LINES_FROM: u16 = 13;
+
+/// All that the picture shows.
+#[derive(Debug, Clone, Copy)]
+pub struct Picture<'a> {
+    /// The pair.
+    pub inputs: &'a Inputs,
+    /// What the model found.
+    pub solution: &'a Solution,
+    /// The driver's roll angle before E, in rad; without it D, or E where no tooth strikes.
+    pub cursor: Option<f64>,
+    /// What of the plane is in sight.
+    pub view: &'a TeethView,
+    /// What the terminal is able to show.
+    pub look: Look,
+    /// How a point is drawn.
+    pub marker: Marker,
+    /// Whether the results are not those of what the form says now.
+    pub is_stale: bool,
+}
+
+impl Picture<'_> {
+    /// The driver's roll angle before E that is shown, in rad.
+    #[must_use]
+    pub fn angle(&self) -> f64 {
+        let contact = moment::first_contact(self.solution).unwrap_or(0.0) * self.inputs.ratio();
+        self.cursor.filter(|cursor| cursor.is_finite()).unwrap_or(contact)
+    }
+}
+
+/// Draw the teeth, and below them the values at the cursor.
+pub fn draw(picture: &Picture, area: Rect, buffer: &mut Buffer) {
+    let area = area.intersection(buffer.area);
+    let moment = Moment::at(picture.inputs, picture.solution, picture.angle());
+    let lines = if area.width < ONE_LINE_FROM && area.height >= TWO_LINES_FROM { 2 } else { 1 };
+    let plot = Rect { height: area.height.saturating_sub(lines), ..area };
+    let values = values(picture, moment.as_ref(), area.width);
+    for (line, y) in values.iter().zip(plot.bottom()..area.bottom()) {
+        buffer.set_stringn(area.x + 1, y, line, usize::from(area.width.saturating_sub(1)), Style::new());
+    }
+    if plot.width < SMALLEST.0 || plot.height < SMALLEST.1 {
+        return;
+    }
+    let scene = Scene::of(picture, moment.as_ref(), plot.as_size());
+    ink::draw(&scene, picture, plot, buffer);
+    let _ = Labels::new(plot).draw(&scene, picture, buffer);
+}
+
+/// The values at the cursor, in lines.
+fn values(picture: &Picture, moment: Option<&Moment>, width: u16) -> Vec<String> {
+    let told = moment.map(readings::readings).unwrap_or_default();
+    let told = told.iter().map(|reading| symbol(&reading.to_string(), picture.look.ascii).into_owned());
+    readings::lines(told, usize::from(width.saturating_sub(1)))
+}

@@ -1,0 +1,212 @@
+//! The part of the plane in sight, in m, and its dots on the screen.
+
+use nalgebra::{Point2, Vector2};
+use ratatui::layout::Size;
+use ratatui::symbols::Marker;
+
+use super::zoom::{Centre, TeethView, whole};
+use crate::model::moment::first_contact_point;
+use crate::model::placing::on_line_of_action;
+use crate::model::{Inputs, Solution};
+use crate::tui::scale::bounds;
+
+/// A cell of the screen is twice as high as it is wide.
+const CELL_HEIGHT: f64 = 2.0;
+/// Bounds of the width of a cell, in m: beyond, differences of coordinates are lost or overflow.
+const CELL: (f64, f64) = (1e-12, 1e6);
+
+/// The part of the plane in sight.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Window {
+    /// Its middle.
+    pub centre: Point2<f64>,
+    /// From the middle to the middles of the outermost dots.
+    pub half: Vector2<f64>,
+    /// Width of a dot.
+    pub dot: f64,
+    /// Columns and rows of the screen.
+    pub size: Size,
+    /// Dots of a cell, side by side and above each other.
+    pub(super) dots: (u16, u16),
+}
+
+impl Window {
+    /// What the view shows on a screen of that size. The scale is the same in both directions; what is in sight does not
+    /// leave the pair further than it must.
+    #[must_use]
+    pub fn of(view: &TeethView, inputs: &Inputs, solution: &Solution, size: Size, marker: Marker) -> Window {
+        let geometry = &solution.geometry;
+        let dots = dots(marker);
+        let span = |cells: u16, dots: u16| (f64::from(cells) - 1.0 / f64::from(dots)).max(0.5);
+        let (wide, high) = (span(size.width, dots.0), CELL_HEIGHT * span(size.height, dots.1));
+        let (height, width) = whole(geometry);
+        let fitting = (width / wide).max(height / high);
+        let cell = if view.centre == Centre::Pair {
+            fitting * view.extent(inputs, solution) / width
+        } else {
+            view.extent(inputs, solution) / wide.min(high)
+        };
+        let cell = cell.min(fitting).max(CELL.0).min(CELL.1);
+        let half = Vector2::new(wide, high) * (0.5 * cell);
+        let middle = Point2::new(0.5 * (geometry.centre_distance + geometry.driven.tip - geometry.driver.tip), 0.0);
+        let held = |at: f64, middle: f64, room: f64| at.max(middle - room.max(0.0)).min(middle + room.max(0.0));
+        let at = anchor(view.centre, solution).unwrap_or(middle);
+        let centre = Point2::new(held(at.x, middle.x, 0.5 * width - half.x), held(at.y, middle.y, 0.5 * height - half.y));
+        Window { centre, half, dot: cell / f64::from(dots.0), size, dots }
+    }
+
+    /// Ends of the x axis.
+    #[must_use]
+    pub fn across(&self) -> [f64; 2] {
+        bounds(self.centre.x - self.half.x, self.centre.x + self.half.x)
+    }
+
+    /// Ends of the y axis.
+    #[must_use]
+    pub fn upright(&self) -> [f64; 2] {
+        bounds(self.centre.y - self.half.y, self.centre.y + self.half.y)
+    }
+
+    /// Whether a point is in sight.
+    #[must_use]
+    pub fn sees(&self, point: Point2<f64>) -> bool {
+        let off = point - self.centre;
+        off.x.abs() <= self.half.x && off.y.abs() <= self.half.y
+    }
+
+    /// Distance from a point to what is in sight, 0 inside.
+    #[must_use]
+    pub fn distance(&self, point: Point2<f64>) -> f64 {
+        let off = point - self.centre;
+        Vector2::new((off.x.abs() - self.half.x).max(0.0), (off.y.abs() - self.half.y).max(0.0)).norm()
+    }
+
+    /// The part of a straight line that is in sight, as shares of its length from its beginning (Liang & Barsky 1984).
+    #[must_use]
+    pub fn clip(&self, from: Point2<f64>, to: Point2<f64>) -> Option<(f64, f64)> {
+        let (start, way) = (from - self.centre, to - from);
+        let (mut first, mut last) = (0.0f64, 1.0f64);
+        for axis in 0..2 {
+            for side in [-1.0, 1.0] {
+                let (speed, room) = (side * way[axis], self.half[axis] - side * start[axis]);
+                if speed > 0.0 {
+                    last = last.min(room / speed);
+                } else if speed < 0.0 {
+                    first = first.max(room / speed);
+                } else if room < 0.0 {
+                    return None;
+                }
+            }
+        }
+        (first <= last).then_some((first, last))
+    }
+
+    /// Column and row of a point in sight.
+    #[must_use]
+    pub fn cell(&self, point: Point2<f64>) -> Option<(u16, u16)> {
+        if !self.sees(point) {
+            return None;
+        }
+        let off = point - self.centre;
+        let dot = |part: f64, cells: u16, dots: u16| (part * (f64::from(cells) * f64::from(dots) - 1.0)).round() as u16 / dots;
+        let right = 0.5 * (1.0 + off.x / self.half.x);
+        let down = 0.5 * (1.0 - off.y / self.half.y);
+        Some((dot(right, self.size.width, self.dots.0), dot(down, self.size.height, self.dots.1)))
+    }
+
+    /// Width of a column of the screen.
+    #[must_use]
+    pub fn column(&self) -> f64 {
+        self.dot * f64::from(self.dots.0)
+    }
+
+    /// Height of a dot.
+    #[must_use]
+    pub fn dot_height(&self) -> f64 {
+        self.column() * CELL_HEIGHT / f64::from(self.dots.1)
+    }
+}
+
+/// What stands in the middle, where it is a point.
+fn anchor(centre: Centre, solution: &Solution) -> Option<Point2<f64>> {
+    let geometry = &solution.geometry;
+    let start = on_line_of_action(geometry, geometry.start);
+    match centre {
+        Centre::Strike => Some(first_contact_point(solution).unwrap_or(start)),
+        Centre::PitchPoint => Some(on_line_of_action(geometry, geometry.start + geometry.approach_length)),
+        Centre::Pair => None,
+    }
+}
+
+/// Dots of a cell for each way of drawing, side by side and above each other.
+fn dots(marker: Marker) -> (u16, u16) {
+    match marker {
+        Marker::Braille | Marker::Octant => (2, 4),
+        Marker::Sextant => (2, 3),
+        Marker::Quadrant => (2, 2),
+        Marker::HalfBlock => (1, 2),
+        _ => (1, 1),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Case;
+    use crate::model::{self, Stages};
+    use ratatui::buffer::Buffer;
+    use ratatui::layout::Rect;
+    use ratatui::style::Color;
+    use ratatui::widgets::Widget;
+    use ratatui::widgets::canvas::{Canvas, Line};
+
+    const MARKERS: [Marker; 3] = [Marker::Braille, Marker::HalfBlock, Marker::Dot];
+
+    fn windows() -> Vec<(Window, Marker)> {
+        let inputs = Case::table_1().inputs().unwrap();
+        let solution = model::solve(&inputs, Stages::CLOSED_FORM).unwrap();
+        let of = |(marker, size)| (Window::of(&TeethView::default(), &inputs, &solution, size, marker), marker);
+        MARKERS.into_iter().flat_map(|marker| [Size::new(80, 24), Size::new(30, 40)].map(|size| (marker, size))).map(of).collect()
+    }
+
+    #[test]
+    fn scale_is_the_same_in_both_directions() {
+        for (window, marker) in windows() {
+            let (columns, rows) = (f64::from(window.size.width), f64::from(window.size.height));
+            let (wide, high) = (columns - 1.0 / f64::from(window.dots.0), rows - 1.0 / f64::from(window.dots.1));
+            let (column, row) = (2.0 * window.half.x / wide, 2.0 * window.half.y / high);
+            assert!((row / column - CELL_HEIGHT).abs() < 1e-12, "{marker:?}: {column} m and {row} m");
+            assert!((column - window.column()).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn a_point_is_drawn_in_the_cell_that_is_told() {
+        for (window, marker) in windows() {
+            for (right, up) in [(0.02, -0.03), (0.3, -0.7), (-0.99, 0.99), (0.999, 0.999), (-0.999, -0.999), (0.51, 0.13)] {
+                let point = window.centre + Vector2::new(right * window.half.x, up * window.half.y);
+                let area = Rect::new(0, 0, window.size.width, window.size.height);
+                let mut buffer = Buffer::empty(area);
+                Canvas::default()
+                    .marker(marker)
+                    .x_bounds(window.across())
+                    .y_bounds(window.upright())
+                    .paint(|context| context.draw(&Line::new(point.x, point.y, point.x, point.y, Color::Reset)))
+                    .render(area, &mut buffer);
+                let drawn = area.positions().find(|position| buffer[*position].symbol() != " ").map(|cell| (cell.x, cell.y));
+                assert_eq!(drawn, window.cell(point), "{marker:?} {right} {up}");
+            }
+        }
+    }
+
+    #[test]
+    fn lines_are_cut_at_the_edges() {
+        let (window, _) = windows()[0];
+        let at = |right: f64, up: f64| window.centre + Vector2::new(right * window.half.x, up * window.half.y);
+        assert_eq!(window.clip(at(0.1, 0.2), at(-0.5, 0.9)), Some((0.0, 1.0)));
+        let (first, last) = window.clip(at(-3.0, 0.0), at(1.0, 0.0)).unwrap();
+        assert!((first - 0.5).abs() < 1e-9 && (last - 1.0).abs() < 1e-9);
+        assert_eq!(window.clip(at(-3.0, 1.5), at(3.0, 1.5)), None);
+        assert_eq!(window.clip(at(-3.0, 0.0), at(0.0, 3.0)), None);
+    }
+}

@@ -1,0 +1,176 @@
+//! What of the plane is in sight, and how far the gap is exaggerated: the state of the picture.
+
+use crate::model::moment::{Phase, first_contact_point};
+use crate::model::placing::on_line_of_action;
+use crate::model::{Geometry, Inputs, Moment, Solution};
+
+/// Before any zoom the picture around the strike is this many modules high, and this many times the way from D to E.
+const STRIKE: (f64, f64) = (3.4, 4.0);
+/// The picture around the pitch point is this many times the way from there to the further end of the path of contact.
+const PATH: f64 = 2.4;
+/// Each step of the zoom is √2. The last step in shows some micrometres of an ordinary gear.
+const LAST_STEP_IN: i32 = 20;
+/// No case needs so many steps out: two gears of 1000 teeth.
+const LAST_STEP_OUT: i32 = -24;
+/// The deviation exaggerated has this share of the picture's height, and at most this many modules.
+const SHARE: f64 = 0.1;
+const MOST_DEVIATION: f64 = 0.2;
+/// The opening exaggerated has at most this many modules.
+const MOST_OPENING: f64 = 0.3;
+/// The greatest factor.
+const MOST_FACTOR: f64 = 1000.0;
+
+/// What of the plane is in sight.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct TeethView {
+    /// What stands in the middle.
+    pub centre: Centre,
+    /// Steps of √2, in above 0 and out below.
+    pub zoom: i32,
+    /// Whether the gap is exaggerated.
+    pub exaggeration: Exaggeration,
+}
+
+/// What stands in the middle of the picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Centre {
+    /// D, or E where no tooth strikes.
+    #[default]
+    Strike,
+    /// The pitch point.
+    PitchPoint,
+    /// The whole pair.
+    Pair,
+}
+
+/// Whether the gap is exaggerated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Exaggeration {
+    /// As far as it takes to see it.
+    #[default]
+    Fitted,
+    /// Not at all.
+    True,
+}
+
+impl Centre {
+    /// The next of the three.
+    #[must_use]
+    pub fn next(self) -> Centre {
+        match self {
+            Centre::Strike => Centre::PitchPoint,
+            Centre::PitchPoint => Centre::Pair,
+            Centre::Pair => Centre::Strike,
+        }
+    }
+
+    /// The name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Centre::Strike => "the strike",
+            Centre::PitchPoint => "the pitch point",
+            Centre::Pair => "the pair",
+        }
+    }
+}
+
+impl TeethView {
+    /// The view some steps closer, or farther below 0; not beyond the whole pair, nor so close that nothing is left to see.
+    #[must_use]
+    pub fn zoomed(self, steps: i32, inputs: &Inputs, solution: &Solution) -> TeethView {
+        let unzoomed = TeethView { zoom: 0, ..self }.extent(inputs, solution);
+        let beyond = 2.0 * (whole(&solution.geometry).1 / unzoomed).log2().ceil();
+        let last_out = if beyond > 0.0 { -beyond as i32 } else { 0 };
+        let zoom = self.zoom.saturating_add(steps).max(last_out.max(LAST_STEP_OUT)).min(LAST_STEP_IN);
+        TeethView { zoom, ..self }
+    }
+
+    /// The view around the next centre, not zoomed.
+    #[must_use]
+    pub fn centred_next(self) -> TeethView {
+        TeethView { centre: self.centre.next(), zoom: 0, ..self }
+    }
+
+    /// The view with the gap exaggerated, or no longer.
+    #[must_use]
+    pub fn exaggerated_or_not(self) -> TeethView {
+        let exaggeration = match self.exaggeration {
+            Exaggeration::Fitted => Exaggeration::True,
+            Exaggeration::True => Exaggeration::Fitted,
+        };
+        TeethView { exaggeration, ..self }
+    }
+
+    /// Length that the lesser side of the picture spans, in m.
+    #[must_use]
+    pub fn extent(&self, inputs: &Inputs, solution: &Solution) -> f64 {
+        let geometry = &solution.geometry;
+        let contact = first_contact_point(solution);
+        let way = |from: f64| {
+            let from = on_line_of_action(geometry, from);
+            contact.map_or(0.0, |contact| (contact - from).norm())
+        };
+        let pitch_point = geometry.start + geometry.approach_length;
+        let unzoomed = match self.centre {
+            Centre::Strike => (STRIKE.0 * inputs.module).max(STRIKE.1 * way(geometry.start)),
+            Centre::PitchPoint => {
+                PATH * way(pitch_point).max(geometry.end - pitch_point).max(geometry.approach_length).max(inputs.module)
+            }
+            Centre::Pair => whole(geometry).1,
+        };
+        let steps = self.zoom.clamp(LAST_STEP_OUT, LAST_STEP_IN);
+        unzoomed * 2f64.powf(-0.5 * f64::from(steps))
+    }
+
+    /// How many times as wide as it is the opening is drawn. 1 where that is to be seen anyhow.
+    ///
+    /// The factor is a round number that makes the deviation up to 10 % of the picture's height. Far from the flank it falls,
+    /// so that the struck tooth keeps to its place. After B nothing is exaggerated.
+    #[must_use]
+    pub fn factor(&self, inputs: &Inputs, solution: &Solution, moment: &Moment) -> f64 {
+        if self.exaggeration == Exaggeration::True || moment.phase == Phase::RunOut {
+            return 1.0;
+        }
+        let room = (SHARE * self.extent(inputs, solution)).min(MOST_DEVIATION * inputs.module);
+        let fitted = round_down(room / solution.deviation.total.abs()).min(MOST_FACTOR);
+        fitted.min(MOST_OPENING * inputs.module / moment.opening).max(1.0)
+    }
+}
+
+/// Height and width of the whole pair with a margin, in m.
+#[must_use]
+pub fn whole(geometry: &Geometry) -> (f64, f64) {
+    const MARGIN: f64 = 1.04;
+    let (driver, driven) = (geometry.driver.tip, geometry.driven.tip);
+    (MARGIN * 2.0 * driver.max(driven), MARGIN * (geometry.centre_distance + driver + driven))
+}
+
+/// The greatest of 1, 2, 5, 10, 20 .. that is not above the value, for any power of ten; 1 where there is none.
+#[must_use]
+pub fn round_down(value: f64) -> f64 {
+    if !(value.is_finite() && value > 0.0) {
+        return 1.0;
+    }
+    let power = 10f64.powf(value.log10().floor());
+    let steps = [10.0, 5.0, 2.0, 1.0].map(|step| step * power);
+    steps.into_iter().find(|step| *step <= value * (1.0 + 1e-12)).unwrap_or(power)
+}
+
+#[cfg(test)]
+#[expect(clippy::float_cmp, reason = "a step is one of few numbers")]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn factors_and_bars_are_round() {
+        for (value, round) in [(1.0, 1.0), (1.99, 1.0), (2.0, 2.0), (49.0, 20.0), (50.0, 50.0), (999.0, 500.0), (1000.0, 1000.0)]
+        {
+            assert_eq!(round_down(value), round);
+        }
+        assert!((round_down(0.0034) / 0.002 - 1.0).abs() < 1e-12);
+        for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(round_down(value), 1.0);
+        }
+    }
+}

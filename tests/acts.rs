@@ -1,0 +1,160 @@
+//! What the form says of each field, whether it acts, is what the model does when the field changes.
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+use std::collections::BTreeSet;
+use std::fs;
+
+use tipstrike::case::fields::{Field, Kind, index_of};
+use tipstrike::case::{Acting, Case, Document, FIELDS, acts};
+use tipstrike::model::{self, QUANTITIES, Solution, Stage, Stages};
+
+/// Every case of the house, and Table 1 with what the others leave out, so that whatever can act does.
+fn samples() -> Vec<Case> {
+    let mut paths: Vec<_> = fs::read_dir("cases").expect("the folder of cases").map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    let mut found: Vec<Case> = paths.iter().map(|path| Document::read(path).expect("a case of the house is good").case).collect();
+    let changed = |changes: &[(&str, &str)]| {
+        let mut case = Case::table_1();
+        for (key, text) in changes {
+            case.set(key, text).expect("a change that fits");
+        }
+        case
+    };
+    let relieved = [
+        ("driver.tip_relief", "10 um"),
+        ("driver.root_relief", "4 um"),
+        ("driven.tip_relief", "5 um"),
+        ("driven.root_relief", "3 um"),
+        ("driver.tip_relief_length", "3 mm"),
+        ("driven.tip_relief_length", "3 mm"),
+    ];
+    found.push(changed(&[("model.deflection", ""), ("model.tooth_compliance", ""), ("operation.friction_coefficient", "0.06")]));
+    found.push(changed(&[("model.tooth_compliance", "beam"), ("model.contact_compliance", "weber"), ("model.deflection", "")]));
+    found.push(changed(&[("driven.tip_radius", "0.4 mm"), ("driver.tip_radius", "0.4 mm"), ("operation.torque", "70 N m")]));
+    found.push(changed(&[&relieved[..], &[("pair.centre_distance", "100.2 mm")]].concat()));
+    found.push(changed(&[("model.stations", "auto"), ("model.contact_compliance", "constant"), ("driven.tip_radius", "0.4 mm")]));
+    found
+}
+
+/// Other texts that the field takes: near what holds in it, and across its range.
+fn others(field: &Field, index: usize, case: &Case) -> Vec<String> {
+    match field.kind {
+        Kind::Text => vec!["other words".to_owned()],
+        Kind::Choice(names, _) => names.iter().map(|name| (*name).to_owned()).collect(),
+        Kind::Count(..) => [1, 10, -1].into_iter().filter_map(|by| case.stepped(index, by)).collect(),
+        Kind::Number(_, range, _) => {
+            let factor = tipstrike::case::units::factor(range.unit).unwrap();
+            let near = [1.02, 0.98, 1.3].map(|times| case.value(index).map(|value| value / factor * times));
+            let across = [1e-5, 1e-3, 0.02, 0.3].map(|part| Some(range.from + (range.to - range.from) * part));
+            let text = |value: f64| format!("{value} {}", range.unit).trim_end().to_owned();
+            near.into_iter().chain(across).flatten().filter(|value| (range.from..=range.to).contains(value)).map(text).collect()
+        }
+    }
+}
+
+/// As far as the rung goes, without the motion in time, which takes long.
+fn solve(case: &Case) -> Option<Solution> {
+    let shares = case.inputs().ok()?.rung.shares_load();
+    let wanted = if shares { Stages::of(Stage::Static).and(Stages::ALL) } else { Stages::ALL };
+    model::solve(&case.inputs().ok()?, wanted).ok()
+}
+
+/// Every quantity to the last bit, and every station.
+fn told(solution: &Solution) -> (Vec<Option<u64>>, String) {
+    let quantities = QUANTITIES.iter().map(|quantity| (quantity.value)(solution).map(f64::to_bits)).collect();
+    (quantities, format!("{:?} {:?}", solution.outcome, solution.stations))
+}
+
+/// Hold every field of every sample against the model in a rung; the fields that were said to act and those that did.
+fn hold(rung: &str, samples: &[Case]) -> (BTreeSet<&'static str>, BTreeSet<&'static str>) {
+    let (mut said, mut found) = (BTreeSet::new(), BTreeSet::new());
+    for case in samples {
+        let mut case = case.clone();
+        case.set("model.rung", rung).unwrap();
+        let (Ok(inputs), Some(before)) = (case.inputs(), solve(&case)) else { continue };
+        for (index, field) in FIELDS.iter().enumerate() {
+            let acting = acts(index, &inputs);
+            if acting == Acting::Yes {
+                said.insert(field.key);
+            }
+            if acting == Acting::Yes && found.contains(field.key) {
+                continue;
+            }
+            for text in others(field, index, &case) {
+                let mut changed = case.clone();
+                if changed.set(field.key, &text).is_err() || solve(&changed).is_none_or(|after| told(&after) == told(&before)) {
+                    continue;
+                }
+                found.insert(field.key);
+                let given = case.text(index).is_some();
+                assert!(
+                    acting == Acting::Yes || !given,
+                    "rung {rung}: {} is said to be {acting:?}; {text} changes something",
+                    field.key
+                );
+            }
+        }
+    }
+    (said, found)
+}
+
+#[test]
+fn what_acts_is_what_changes_a_result() {
+    for rung in ["paper", "exact"] {
+        let (said, found) = hold(rung, &samples());
+        let idle: Vec<_> = said.difference(&found).collect();
+        assert!(idle.is_empty(), "rung {rung}: said to act, and no change of it changes anything: {idle:?}");
+        let more: Vec<_> = found.difference(&said).collect();
+        assert!(more.is_empty(), "rung {rung}: said not to act, and it does: {more:?}");
+    }
+}
+
+#[test]
+fn what_is_idle_where_the_load_is_shared_changes_nothing() {
+    hold("static", &samples()[..1]);
+}
+
+#[test]
+fn the_reason_is_a_short_sentence_and_not_a_makeshift() {
+    for rung in ["paper", "exact", "static", "dynamic", "auto"] {
+        let mut case = Case::table_1();
+        case.set("model.rung", rung).unwrap();
+        for (index, field) in FIELDS.iter().enumerate() {
+            let (Acting::No(why) | Acting::Beside(why)) = acts(index, &case.inputs_so_far()) else { continue };
+            assert!((10..=130).contains(&why.len()) && why.is_ascii() && !why.ends_with('.'), "{why}");
+            assert!(!why.starts_with("nothing that"), "{rung}: {} has no reason of its own", field.key);
+        }
+    }
+}
+
+#[test]
+fn each_rung_has_its_idle_fields() {
+    let idle = |rung: &str, key: &str| {
+        let mut case = Case::table_1();
+        case.set("model.rung", rung).unwrap();
+        acts(index_of(key).unwrap(), &case.inputs().unwrap()) != Acting::Yes
+    };
+    for (key, rungs) in [
+        ("driver.tip_relief", &["paper", "exact"][..]),
+        ("driven.tip_relief", &[]),
+        ("driver.tip_relief_length", &["paper", "exact"]),
+        ("model.deflection", &["static", "dynamic"]),
+        ("model.damping_ratio", &["paper", "exact", "static"]),
+        ("model.within", &["paper", "exact", "static", "dynamic"]),
+        ("operation.friction_coefficient", &["paper", "exact"]),
+        ("driver.density", &[]),
+    ] {
+        let found: Vec<&str> =
+            ["paper", "exact", "static", "dynamic", "auto"].into_iter().filter(|rung| idle(rung, key)).collect();
+        assert_eq!(found, rungs, "{key}");
+    }
+}
+
+#[test]
+fn a_case_that_is_not_valid_is_told_as_far_as_it_can_be_read() {
+    let mut case = Case::table_1();
+    case.write(index_of("pair.module").unwrap(), "five");
+    let inputs = case.inputs_so_far();
+    assert!(matches!(acts(index_of("driver.tip_relief").unwrap(), &inputs), Acting::No(_)));
+    assert_eq!(acts(index_of("driven.tip_relief").unwrap(), &inputs), Acting::Yes);
+}

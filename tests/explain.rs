@@ -1,0 +1,223 @@
+//! Every quantity explains itself, and what the explanation prints is true.
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+// A test may stop at what it did not expect.
+
+#[path = "explain/evaluate.rs"]
+mod evaluate;
+
+use evaluate::{evaluate, factor};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+use std::sync::LazyLock;
+use tipstrike::case::{Case, Document};
+use tipstrike::model::{QUANTITIES, Quantity, Stages, solve};
+use tipstrike::report::explain::{How, MENDS, Page, Work, explain, lines, render};
+
+type Settings = &'static [(&'static str, &'static str)];
+
+/// Settings that turn a case into one with other formulas.
+const VARIANTS: [Settings; 8] = [
+    &[],
+    &[("model.rung", "paper")],
+    &[("model.deflection", "")],
+    &[("model.tooth_compliance", "beam"), ("model.contact_compliance", "weber"), ("model.deflection", "")],
+    &[("model.contact_compliance", "constant"), ("driven.tip_radius", "0.3 mm"), ("model.accurate", "true")],
+    &[("operation.torque", "40 lbf ft"), ("driven.tip_relief", "2 um"), ("deviations.backlash", "1 um")],
+    &[("operation.speed", "1.5 rad/s"), ("operation.friction_coefficient", "0.07"), ("driven.tip_chamfer", "0.01 in")],
+    &[("deviations.base_pitch", "-0.3 um"), ("driver.profile_shift", "-0.02"), ("model.rung", "paper")],
+];
+
+struct Told {
+    name: String,
+    pages: Vec<Page>,
+}
+
+fn cases() -> Vec<(String, Case)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+    let mut paths: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    let name = |path: &Path| format!("cases/{}", path.file_name().unwrap().to_string_lossy());
+    paths.iter().map(|path| (name(path), Document::read(path).unwrap().case)).collect()
+}
+
+/// The pages of a case once the settings have changed it; none where the model refuses it.
+fn told(name: &str, case: &Case, settings: &[(&str, &str)]) -> Option<Told> {
+    let mut case = case.clone();
+    for (key, value) in settings {
+        case.set(key, value).unwrap();
+    }
+    let inputs = case.inputs().unwrap();
+    let solution = solve(&inputs, Stages::CLOSED_FORM.and(Stages::ALL)).ok()?;
+    let pages = QUANTITIES.iter().map(|quantity| explain(quantity, &case, &inputs, &solution).expect(quantity.key)).collect();
+    Some(Told { name: format!("{name} {settings:?}"), pages })
+}
+
+static TOLD: LazyLock<Vec<Told>> = LazyLock::new(|| {
+    let cases = cases();
+    let variants = cases.iter().flat_map(|(name, case)| VARIANTS.iter().map(move |settings| (name, case, settings)));
+    variants.filter_map(|(name, case, settings)| told(name, case, settings)).collect()
+});
+
+fn every_page(mut look: impl FnMut(&str, &Page)) {
+    TOLD.iter().for_each(|told| told.pages.iter().for_each(|page| look(&told.name, page)));
+}
+
+fn page(case: &str, key: &str, settings: &[(&str, &str)]) -> Page {
+    let (name, case) = cases().into_iter().find(|(name, _)| name.contains(case)).unwrap();
+    let told = told(&name, &case, settings).unwrap();
+    told.pages.into_iter().find(|page| page.quantity.key == key).unwrap()
+}
+
+/// A number rounded to the digits of a page, or to those of a longer whole number.
+fn rounded(value: f64, work: &Work) -> f64 {
+    let shown = work.shown.as_ref().unwrap().number.split('e').next().unwrap();
+    let written = shown.chars().filter(char::is_ascii_digit).collect::<String>().trim_start_matches('0').len();
+    format!("{value:.*e}", work.digits.max(written) - 1).parse().unwrap()
+}
+
+/// What is printed behind the last equals sign, in its unit, and what the numbers before it make.
+fn printed(work: &Work) -> Option<(f64, f64)> {
+    let (numbers, shown) = (work.numbers.as_ref()?, work.shown.as_ref()?);
+    let unit = factor(shown.unit).unwrap_or_else(|| panic!("{shown}"));
+    Some((shown.number.parse().unwrap(), evaluate(numbers) / unit))
+}
+
+#[test]
+fn the_printed_numbers_make_the_printed_value() {
+    let mut checked = 0;
+    every_page(|name, page| {
+        for work in &page.work {
+            let Some((shown, found)) = printed(work) else { continue };
+            let agree = (rounded(found, work) - shown).abs() <= 1e-12 * shown.abs();
+            assert!(agree, "{name}, {}: {} = {:?} makes {found}, not {shown}", page.quantity.key, work.symbol, work.numbers);
+            checked += 1;
+        }
+    });
+    assert!(checked > 10_000, "{checked}");
+}
+
+#[test]
+fn every_value_with_a_formula_is_shown_with_its_numbers() {
+    every_page(|name, page| {
+        for work in page.work.iter().filter(|work| work.how == How::Equals && work.shown.is_some()) {
+            assert!(work.numbers.is_some(), "{name}, {}: {} = {}", page.quantity.key, work.symbol, work.formula);
+        }
+        for work in page.work.iter().filter(|work| work.how == How::Solves && work.shown.is_some()) {
+            assert_eq!(work.residual.as_deref(), Some("both sides meet within 1e-12 of either"), "{name}, {}", work.symbol);
+        }
+    });
+}
+
+#[test]
+fn every_quantity_is_explained_in_all_its_parts() {
+    every_page(|name, page| {
+        let Quantity { key, symbol, .. } = page.quantity;
+        assert!([page.says, page.source, page.assumes].iter().all(|part| part.ends_with('.')), "{key}");
+        assert_eq!(page.work.first().map(|work| work.symbol), Some(*symbol), "{key}");
+        assert_eq!(page.value.is_some(), page.missing.is_none(), "{name}, {key}");
+        assert_eq!(page.value.is_some(), !page.worth.is_empty(), "{name}, {key}");
+        assert!(!page.effects.is_empty(), "{name}, {key}");
+        let given = page.work[0].how == How::Told;
+        let sides = !page.work[0].formula.is_empty() && (given || page.work.len() + page.leaves.len() > 1);
+        assert!(sides, "{name}, {key}");
+    });
+}
+
+#[test]
+fn every_equation_that_is_cited_is_one() {
+    let mut mended = BTreeSet::new();
+    every_page(|_, page| {
+        mended.extend(page.mended.iter().map(|mend| mend.equation));
+        let equation = page.quantity.equation;
+        let cited = [page.source, page.says, page.assumes];
+        let named = if let [number] = equations(equation)[..] {
+            equations(page.source).contains(&number)
+        } else {
+            let head = equation.split(' ').next().unwrap();
+            equation == "by the rung" || cited.iter().any(|part| part.contains(head))
+        };
+        assert!(named, "{}: {equation} in {}", page.quantity.key, page.source);
+        for text in cited {
+            assert!(equations(text).iter().all(|number| (1..=64).contains(number)), "{text}");
+        }
+    });
+    let table: BTreeSet<&str> = MENDS.iter().map(|mend| mend.equation).collect();
+    assert_eq!(mended, table);
+    for mend in MENDS {
+        let known = equations(mend.equation).iter().all(|number| (1..=64).contains(number));
+        assert!(known && !mend.wrong.is_empty() && !mend.used.is_empty(), "{}", mend.equation);
+    }
+}
+
+/// The numbers behind every "Eq." and "Eqs." of a text, ranges in full.
+fn equations(text: &str) -> Vec<u32> {
+    let lists = text.match_indices("Eq").filter_map(|(at, _)| text[at + 2..].trim_start_matches('s').strip_prefix(". "));
+    let end = |rest: &str| rest.find(|c: char| !c.is_ascii_digit() && !"-, and".contains(c)).unwrap_or(rest.len());
+    let words = lists.flat_map(|rest| rest[..end(rest)].split([',', ' ']).filter(|word| !word.is_empty()));
+    words.filter_map(span).flatten().collect()
+}
+
+/// The numbers of "7" or of "7-20".
+fn span(word: &str) -> Option<std::ops::RangeInclusive<u32>> {
+    let (from, to) = word.split_once('-').unwrap_or((word, word));
+    Some(from.parse().ok()?..=to.parse().ok()?)
+}
+
+#[test]
+fn no_line_is_wider_than_asked_for() {
+    for (name, case) in cases() {
+        for page in told(&name, &case, &[]).unwrap().pages {
+            for width in [38, 58, 80, 100] {
+                let lines = lines(&page, &name, width);
+                let wide = lines.iter().find(|line| line.text.chars().count() > width);
+                assert_eq!(wide, None, "{width}, {name}, {}", page.quantity.key);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_step_of_a_field_does_what_a_solve_says() {
+    let page = page("zhou", "impact_force", &[]);
+    let of = |key: &str| page.effects.iter().find(|effect| effect.key == key).unwrap();
+    let more = told("", &Case::table_1(), &[("deviations.base_pitch", "17 um")]).unwrap();
+    let force = more.pages.iter().find(|page| page.quantity.key == "impact_force").unwrap().value.unwrap();
+    let share = 100.0 * (force / page.value.unwrap() - 1.0);
+    assert_eq!(of("deviations.base_pitch").change, format!("+{share:.2} %"));
+    assert_eq!(of("deviations.base_pitch").text, "16 um");
+    assert_eq!((of("model.rung").step.as_str(), of("model.rung").change.as_str()), ("", ""));
+    assert!(page.effects.iter().all(|effect| !["title", "operation.torque", "driver.tip_relief"].contains(&effect.key)));
+}
+
+#[test]
+fn a_quantity_without_a_value_says_why() {
+    let relieved = page("tip-relief-enough", "impact_force", &[]);
+    assert!(relieved.missing.unwrap().starts_with("No value: no corner contact"));
+    let withheld = page("zhou", "impact_force", &[("driver.teeth", "120"), ("driven.teeth", "120")]);
+    assert!(withheld.missing.unwrap().contains("outside the Kuang-Yang fit"));
+}
+
+#[test]
+fn pages_read_as_they_did() {
+    let samples: [(&str, &str, Settings); 14] = [
+        ("zhou", "impact_force", &[]),
+        ("zhou", "approach_angle_driven", &[]),
+        ("zhou", "approach_angle_driver", &[("model.rung", "paper")]),
+        ("zhou", "friction_ratio", &[("model.rung", "paper")]),
+        ("zhou", "impact_duration_printed", &[]),
+        ("zhou", "closed_gap", &[("model.rung", "paper")]),
+        ("fzg", "contact_ratio", &[]),
+        ("fzg", "pair_compliance", &[]),
+        ("fzg", "reduced_mass", &[]),
+        ("mill", "working_pressure_angle", &[]),
+        ("nasa", "mesh_force", &[]),
+        ("high-contact", "combined_deflection", &[]),
+        ("hydro", "impact_force_low", &[]),
+        ("tip-relief", "normal_velocity", &[]),
+    ];
+    for (case, key, settings) in samples {
+        let rung = settings.first().map(|(_, rung)| format!("_{rung}")).unwrap_or_default();
+        insta::assert_snapshot!(format!("{case}_{key}{rung}"), render(&page(case, key, settings), case));
+    }
+}
