@@ -38,11 +38,12 @@ fn a_panic_of_the_worker_is_told_and_the_workbench_lives_on() {
     tty.type_in("\x156 mm");
     tty.wait_for("the solver failed");
     assert!(tty.screen().alternate_screen(), "the screen is still ours");
-    tty.type_in("\x15 7 mm\x13");
-    tty.wait_for("saved ");
+    tty.type_in("\x157 mm\x13");
+    let case = tty.case();
+    tty.wait_until("the save", |_| fs::read_to_string(&case).is_ok_and(|text| text.contains("\"7 mm\"")));
+    tty.wait_until("the mark to go", |tty| !tty.shows("*unsaved*"));
     tty.quit();
     tty.assert_restored();
-    assert!(fs::read_to_string(tty.case()).is_ok_and(|text| text.contains("7 mm")));
 }
 
 #[test]
