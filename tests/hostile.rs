@@ -162,7 +162,7 @@ fn what_reaches_a_terminal_is_text_and_the_sequences_of_a_screen() {
         let launch = Launch::of(tempfile::tempdir().expect("a folder").into()).argument(path);
         let mut tty = launch.start();
         tty.written = Some(Vec::new());
-        tty.wait_for("quit");
+        tty.wait_for("tipstrike");
         tty.type_in("\x0f");
         tty.settle(std::time::Duration::from_millis(100));
         tty.type_in("\x1b");

@@ -196,18 +196,20 @@ fn number_after(text: &str, name: &str) -> u64 {
 
 #[test]
 fn a_typed_digit_costs_few_bytes() {
-    for (rows, columns, chart) in [(24, 80, 1400), (40, 120, 3000)] {
+    for (rows, columns) in [(24, 80), (40, 120)] {
         let mut tty = opened(Launch::on_table_1().size(rows, columns));
         // In a field that the results do not depend on, the field alone is written.
         tty.type_in("\x1b[1;5H\x1b[B\x15");
         tty.settle(QUIET);
-        let alone = percentile(each_key(&mut tty, "0123456789"));
+        // The first key of a visit also puts the mark of unsaved edits into the header.
+        let first = each_key(&mut tty, "0")[0];
+        let alone = largest(each_key(&mut tty, "123456789"));
         tty.type_in("\x1b[1;5H\x1b[B\x1b[B\x155.");
         tty.settle(QUIET);
-        let whole = percentile(each_key(&mut tty, "00123456789123456789"));
-        println!("{columns}x{rows}: {alone} bytes for a field alone, {whole} with results and chart, at the 95th percentile");
+        let whole = largest(each_key(&mut tty, "00123456789123456789"));
+        println!("{columns}x{rows}: {alone} bytes for a field alone ({first} with the mark), {whole} with results and chart");
         assert!(alone <= 120, "{columns}x{rows}: {alone} bytes for a field alone");
-        assert!(whole <= 600 + chart, "{columns}x{rows}: {whole} bytes with results and chart");
+        assert!(first <= 600 && whole <= 600, "{columns}x{rows}: {whole} bytes with results and chart");
         tty.type_in("\x11");
         tty.wait_for("Discard");
         tty.type_in("d");
@@ -223,8 +225,7 @@ fn each_key(tty: &mut Tty, keys: &str) -> Vec<usize> {
     keys.chars().map(one).collect()
 }
 
-fn percentile(mut counts: Vec<usize>) -> usize {
-    counts.sort_unstable();
+fn largest(counts: Vec<usize>) -> usize {
     println!("{counts:?}");
-    counts[(counts.len() * 95).div_ceil(100) - 1]
+    counts.into_iter().max().unwrap_or(0)
 }

@@ -340,7 +340,7 @@ fn the_results_have_a_cursor_a_page_and_are_copied() {
     desk.keys(&["1", "y"]);
     assert_eq!(desk.copied.as_deref(), Some("5 mm"));
     desk.keys(&["2", "G"]);
-    assert!(desk.shows("▸W_μ"));
+    assert!(desk.shows("▸κ"));
 }
 
 #[test]

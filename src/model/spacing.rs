@@ -25,24 +25,38 @@ impl Spacing {
 
     /// What `at` gives at the stations from one end to the other, both ends among them. `at` gives the height of the curve
     /// as well; one that is no number is not looked at more closely.
-    pub fn stations<T>(self, from: f64, to: f64, peak: f64, mut at: impl FnMut(f64) -> (f64, T)) -> Vec<T> {
+    pub fn stations<T>(self, from: f64, to: f64, peak: f64, at: impl FnMut(f64) -> (f64, T)) -> Vec<T> {
+        let mut found = Vec::with_capacity(self.first_count() + 1);
+        self.walk(from, to, peak, at, |value| found.push(value));
+        found
+    }
+
+    /// Intervals to begin with.
+    #[must_use]
+    pub fn first_count(self) -> usize {
+        match self {
+            Spacing::Even(count) => count.max(1),
+            Spacing::AsNeeded(_) => AT_FIRST,
+        }
+    }
+
+    /// The same, each given to `keep` in its turn.
+    pub fn walk<T>(self, from: f64, to: f64, peak: f64, mut at: impl FnMut(f64) -> (f64, T), mut keep: impl FnMut(T)) {
         let (count, allowed) = match self {
-            Spacing::Even(count) => (count.max(1), f64::INFINITY),
-            Spacing::AsNeeded(part) => (AT_FIRST, part * peak),
+            Spacing::Even(_) => (self.first_count(), f64::INFINITY),
+            Spacing::AsNeeded(part) => (self.first_count(), part * peak),
         };
-        let mut found = Vec::with_capacity(count + 1);
         let mut last: Option<Point> = None;
         for step in 0..=count {
             let place = if step == count { to } else { from + (to - from) * step as f64 / count as f64 };
             let (height, value) = at(place);
             let next = Point { place, height };
             if let Some(last) = last.filter(|_| allowed.is_finite()) {
-                fill(last, next, allowed, MOST_HALVINGS, &mut at, &mut found);
+                fill(last, next, allowed, MOST_HALVINGS, &mut at, &mut keep);
             }
-            found.push(value);
+            keep(value);
             last = Some(next);
         }
-        found
     }
 }
 
@@ -53,7 +67,7 @@ struct Point {
 }
 
 /// What stands between two places, where the curve lies too far off the straight line in the middle.
-fn fill<T>(from: Point, to: Point, allowed: f64, halvings: u32, at: &mut impl FnMut(f64) -> (f64, T), found: &mut Vec<T>) {
+fn fill<T>(from: Point, to: Point, allowed: f64, halvings: u32, at: &mut impl FnMut(f64) -> (f64, T), keep: &mut impl FnMut(T)) {
     let place = f64::midpoint(from.place, to.place);
     let (height, value) = at(place);
     let bend = (height - f64::midpoint(from.height, to.height)).abs();
@@ -63,9 +77,9 @@ fn fill<T>(from: Point, to: Point, allowed: f64, halvings: u32, at: &mut impl Fn
         return;
     }
     let middle = Point { place, height };
-    fill(from, middle, allowed, halvings - 1, at, found);
-    found.push(value);
-    fill(middle, to, allowed, halvings - 1, at, found);
+    fill(from, middle, allowed, halvings - 1, at, keep);
+    keep(value);
+    fill(middle, to, allowed, halvings - 1, at, keep);
 }
 
 #[cfg(test)]

@@ -88,13 +88,17 @@ pub fn stations(
     position: &Position,
     peak: f64,
 ) -> (Vec<Station>, Option<Refusal>) {
-    let mut refused = None;
-    let found = Spacing::of(inputs).stations(position.approach_angle_driven, 0.0, peak, |angle| {
+    let (spacing, mut refused) = (Spacing::of(inputs), None);
+    let mut found = Vec::with_capacity(spacing.first_count() + 1);
+    let at = |angle: f64| {
         let station = station(inputs, geometry, masses, angle);
-        let height = station.as_ref().map_or(f64::NAN, |station| station.impact_force);
-        (height, station.map_err(|refusal| refused = refused.or(Some(refusal))).ok())
+        (station.as_ref().map_or(f64::NAN, |station| station.impact_force), station)
+    };
+    spacing.walk(position.approach_angle_driven, 0.0, peak, at, |station| match station {
+        Ok(station) => found.push(station),
+        Err(refusal) => refused = refused.or(Some(refusal)),
     });
-    (found.into_iter().flatten().collect(), refused)
+    (found, refused)
 }
 
 /// The impact as if it happened at the driven gear's angle `angle` before E, in rad.

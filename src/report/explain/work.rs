@@ -100,7 +100,7 @@ impl Target {
     fn of(quantity: &'static Quantity, known: &Known) -> Target {
         let value = value(quantity, known.solution);
         let shown = value.map(|value| shown(quantity, value));
-        let symbol = if quantity.symbol.is_empty() { quantity.key } else { quantity.symbol };
+        let symbol = if quantity.symbol.is_empty() { "value" } else { quantity.symbol };
         Target { symbol, meaning: "", value, unit: quantity.shown, digits: quantity.digits, shown }
     }
 

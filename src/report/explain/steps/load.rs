@@ -4,8 +4,8 @@ use super::{step, told};
 use crate::model::compliance::{ContactPlace, pair_at_load};
 use crate::model::position::{gap, tip_at};
 use crate::model::relief::Relief;
+use crate::model::static_load::balance;
 use crate::model::tip::TipContact;
-use crate::model::{MeshStation, StaticLoad};
 use crate::numeric::quadrature;
 use crate::report::explain::known::Formula::{Text, Words};
 use crate::report::explain::known::{Known, Step};
@@ -20,7 +20,7 @@ pub(super) static STEPS: &[Step] = &[
         pair_at_load(k.inputs, geometry, &place, k.solution.mesh_force).ok()
     }),
     step!("x_E", "how far the driver runs ahead while the tooth stands at E", "um", Words("from ΣF = F_0 of all pairs"),
-        |k| Some(at_start(k)?.transmission_error)),
+        |k| Some(balance(k.solution.mesh.as_deref()?, 0.0, 0.0).displacement)),
     step!("C_E", "relief of both flanks there", "um", Words("by length and shape of the reliefs"), |k| Some(relief(k, &tip_at(&k.solution.geometry, 0.0)))),
     step!("S_s", "gap S(u) between tip and flank at the first contact", "um", Words("as S(u) on closed_gap's page, at u_s"), |k| {
         let tip = first_contact(k)?;
@@ -28,23 +28,18 @@ pub(super) static STEPS: &[Step] = &[
     }),
     step!("C_s", "relief of both flanks there", "um", Words("by length and shape of the reliefs"), |k| Some(relief(k, &first_contact(k)?))),
     step!("x_s", "how far the other pairs let the driver run ahead there", "um", Words("from ΣF = F_0 of the other pairs"),
-        |k| Some(load(k)?.stations.first()?.transmission_error)),
+        |k| {
+            let s = -first_contact(k)?.angle * k.solution.geometry.driven.base;
+            Some(balance(k.solution.mesh.as_deref()?, s, s).displacement)
+        }),
     told!("f_n", "natural frequency of the mesh at its mean stiffness", "Hz", Text("√(k_m/m_red)/(2 π)")),
     told!("f_z", "tooth frequency", "Hz", Text("z1 ω_1/(2 π)")),
     told!("c", "damping of the mesh, while a pair is in contact", "N s/m", Text("2 ζ √(k_m m_red)")),
 ];
 
-fn load<'a>(known: &Known<'a>) -> Option<&'a StaticLoad> {
-    known.solution.static_load.as_ref()
-}
-
-/// The balance at E, where the tooth carries there.
-fn at_start<'a>(known: &Known<'a>) -> Option<&'a MeshStation> {
-    load(known)?.stations.iter().find(|station| station.roll_angle_driven == 0.0)
-}
-
 fn first_contact(known: &Known) -> Option<TipContact> {
-    Some(tip_at(&known.solution.geometry, load(known)?.first_contact_angle?))
+    let angle = known.solution.static_load.as_ref()?.first_contact_angle?;
+    Some(tip_at(&known.solution.geometry, angle))
 }
 
 /// What both flanks lack where the driven tip stands.

@@ -1,14 +1,13 @@
 //! Explanations of the rungs in which every pair takes its share of the load.
 
 use super::Explanation;
-use crate::report::explain::known::Formula::{By, Found, Solved, Text};
-use crate::report::explain::known::{Formula, Known};
+use crate::report::explain::known::Formula::{self, Found, Solved, Text};
 use crate::report::explain::valid::{load, pair, stiffness};
 
 const AT_REST: &str = "Every pair is a spring b/q with a gap, and they share the mesh force at rest. Of the pairs only the incoming one \
-    deviates, by Δf; all have their reliefs. A deflection that the case gives is left aside.";
+    deviates, by e = Δf; all have their reliefs. A deflection that the case gives is left aside.";
 const IN_MOTION: &str = "One mass m_red on the springs and gaps of every pair, with damping while a pair touches; shafts are rigid, the load \
-    is steady. Of the pairs only the incoming one deviates.";
+    is steady. Of the pairs only the incoming one deviates, by e = Δf.";
 const BALANCE: &str = "Balance ΣF = F0 of parallel springs with gaps, as in Seireg & Houser 1970, with the gap S(u) of the tips off the line \
     of action; compliances of Zhou & Chen 2014, Eqs. 54-56.";
 const MOTION: &str = "The oscillator of gear dynamics with backlash, Özgüven & Houser 1988, m x'' + ΣF = F0, with the gap S(u) of the tips off \
@@ -55,7 +54,7 @@ pub(super) static TABLE: &[Explanation] = &[
         key: "static_force_at_start",
         says: "What the incoming tooth carries at rest when it comes to E: with a good tip relief nothing, without any a good part of the \
             mesh force.",
-        formula: By(at_start),
+        formula: Text("max(k_E (x_E + Δf - C_E), 0)"),
         source: BALANCE,
         mended: &["Eq. 53", "Eq. 54"],
         assumes: AT_REST,
@@ -178,12 +177,3 @@ pub(super) static TABLE: &[Explanation] = &[
 
 const BALANCE_OF_ERROR: &str = "Displacement x of the driver ahead along the line of action, max x − min x, by the balance ΣF = F0 of parallel \
     springs with gaps, as in Seireg & Houser 1970.";
-
-/// The tooth at E as a spring, where it carries there.
-fn at_start(known: &Known) -> Formula {
-    if known.term("x_E").is_some() {
-        Text("max(k_E (x_E + Δf - C_E), 0)")
-    } else {
-        Found { words: "0: the tooth comes in after E", with: SHARED }
-    }
-}
