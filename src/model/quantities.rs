@@ -104,6 +104,6 @@ pub static QUANTITIES: &[Quantity] = &[
     quantity!("dynamic_peak_force", "F_d,max", "dynamic: greatest force", "N", "N", 5, "m x'' + ΣF = F0", Dynamic, |s| Some(s.dynamic.as_ref()?.peak_force)),
     quantity!("dynamic_impact_duration", "T_d", "dynamic: first impact", "s", "us", 4, "m x'' + ΣF = F0", Dynamic, |s| s.dynamic.as_ref()?.impact_duration),
     quantity!("dynamic_last_contact_angle", "θ_d,B", "dynamic: angle after B", "rad", "deg", 6, "m x'' + ΣF = F0", Dynamic, |s| s.dynamic.as_ref()?.last_contact_angle),
-    quantity!("dynamic_contact_lost", "", "dynamic: contact lost", "1", "yes/no", 1, "no pair touches", Dynamic, |s| Some(f64::from(u8::from(s.dynamic.as_ref()?.contact_lost)))),
+    quantity!("dynamic_contact_lost", "lost", "dynamic: contact lost", "1", "yes/no", 1, "no pair touches", Dynamic, |s| Some(f64::from(u8::from(s.dynamic.as_ref()?.contact_lost)))),
     quantity!("dynamic_friction_work", "W_μ", "dynamic: friction work", "J", "J", 5, "∫μ F |v| dt", Dynamic, |s| s.dynamic.as_ref()?.friction_work),
 ];

@@ -130,7 +130,9 @@ fn interpolate<const N: usize, E>(from: f64, to: f64, f: &impl Fn(f64) -> Result
     }
     for (order, sums) in terms.iter_mut().enumerate() {
         let scale = if order == 0 { 1.0 } else { 2.0 } / TERMS as f64;
-        sums.iter_mut().for_each(|sum| *sum *= scale);
+        for sum in sums.iter_mut() {
+            *sum *= scale;
+        }
     }
     Ok(terms)
 }

@@ -26,10 +26,10 @@ pub fn step<const N: usize>(equation: &impl Equation<N>, t: f64, y: &SVector<f64
     for row in 0..COLUMNS {
         let parts = 2 * (row + 1);
         best = midpoint(equation, t, (y, &slope), length, parts);
-        for column in 0..row {
+        for (column, before) in row_before.iter_mut().enumerate().take(row) {
             let ratio = parts as f64 / (2 * (row - column)) as f64;
-            let better = best + (best - row_before[column]) / (ratio * ratio - 1.0);
-            row_before[column] = best;
+            let better = best + (best - *before) / (ratio * ratio - 1.0);
+            *before = best;
             best = better;
         }
         row_before[row] = best;

@@ -118,6 +118,7 @@ struct ReferenceLine {
 }
 
 #[derive(Serialize)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a name that scripts read")]
 struct SettingLine {
     rung: &'static str,
     /// What the rung `auto` took.

@@ -238,7 +238,8 @@ impl Reference {
 /// Two findings of one quantity: how far they lie apart, nothing where there is none.
 fn apart(second: Option<f64>, first: Option<f64>) -> Option<f64> {
     match (second?, first?) {
-        (second, first) if first == second => Some(0.0),
+        // Both 0 as well.
+        (second, first) if first.to_bits() == second.to_bits() => Some(0.0),
         (second, first) => Some(((second - first) / first).abs()),
     }
 }

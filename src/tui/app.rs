@@ -23,6 +23,7 @@ use crate::model::Stages;
 
 /// Everything that the screen shows. What is read of the current case is read as if it stood here.
 #[derive(Debug, Clone)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own")]
 pub struct App {
     /// The current case.
     pub tab: Tab,

@@ -182,7 +182,7 @@ impl<'a> Run<'a> {
         self.watch(&stretch);
         self.y = self.after(&stretch, stretch.length);
         self.most_ahead = self.most_ahead.max(self.y[0]);
-        self.t = if turn.is_none() && stretches == 1.0 { end } else { self.t + stretch.length };
+        self.t = if turn.is_none() && stretches < 1.5 { end } else { self.t + stretch.length };
         if turn.is_some() {
             let turned = self.oscillator.turn(self.t, &self.y);
             if turned == Some(0) && self.first_touch.is_none() {

@@ -39,13 +39,11 @@ pub(super) fn make(app: &mut App, gears: &[&str], material: &Material) -> Vec<Ef
 
 /// Hold the marked result to a limit where the results have the focus, else ask which.
 pub(super) fn limit(app: &mut App) -> Vec<Effect> {
-    match results::marked(app).filter(|_| app.panes.focus == Pane::Results) {
-        Some(quantity) => hold(app, quantity),
-        None => {
-            app.prompts.push(Prompt::Pick(Picker::new(List::Limits)));
-            Vec::new()
-        }
+    if let Some(quantity) = results::marked(app).filter(|_| app.panes.focus == Pane::Results) {
+        return hold(app, quantity);
     }
+    app.prompts.push(Prompt::Pick(Picker::new(List::Limits)));
+    Vec::new()
 }
 
 /// Go to the limit of a quantity; a new one begins with what the quantity is now.
