@@ -2,6 +2,7 @@
 
 pub mod beam;
 pub mod contact;
+pub mod flanks;
 pub mod kuang_yang;
 pub mod profile;
 
@@ -68,16 +69,19 @@ impl ContactPlace {
 /// # Errors
 /// A [`Refusal`] outside the range of the fit.
 pub fn teeth(inputs: &Inputs, geometry: &Geometry, place: &ContactPlace) -> Result<TeethCompliance, Refusal> {
-    let model = model_of(inputs);
-    let tooth = |gear: &Gear, circles: &Circles, radius: f64| match model {
+    Ok(TeethCompliance {
+        model: model_of(inputs),
+        driver: tooth(inputs, &inputs.driver, &geometry.driver, place.radius_driver)?,
+        driven: tooth(inputs, &inputs.driven, &geometry.driven, place.radius_driven)?,
+    })
+}
+
+/// Compliance of one tooth loaded at a radius, in m²/N.
+fn tooth(inputs: &Inputs, gear: &Gear, circles: &Circles, radius: f64) -> Result<f64, Refusal> {
+    match model_of(inputs) {
         ToothCompliance::KuangYang => kuang_yang::tooth(inputs.module, gear, circles, radius),
         ToothCompliance::Beam => beam::tooth(inputs, gear, circles, radius),
-    };
-    Ok(TeethCompliance {
-        model,
-        driver: tooth(&inputs.driver, &geometry.driver, place.radius_driver)?,
-        driven: tooth(&inputs.driven, &geometry.driven, place.radius_driven)?,
-    })
+    }
 }
 
 /// The tooth compliance that serves the pair: the case's own choice, else Kuang and Yang's inside its range.

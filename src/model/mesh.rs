@@ -1,7 +1,8 @@
 //! Gap and stiffness of every tooth pair along the line of action: what the rungs `static` and `dynamic` share.
 
 use super::Refusal;
-use super::compliance::{self, ContactPlace};
+use super::compliance::ContactPlace;
+use super::compliance::flanks::Flanks;
 use super::geometry::{Geometry, geometry};
 use super::inputs::Inputs;
 use super::position::first_contact;
@@ -73,6 +74,7 @@ struct Zone {
 struct End {
     inputs: Inputs,
     geometry: Geometry,
+    flanks: Flanks,
     /// −1 where s falls with the distance from the path of contact.
     side: f64,
 }
@@ -93,14 +95,15 @@ impl Mesh {
     /// A [`Refusal`] where no compliance can be computed, or the run-out interferes.
     pub fn new(inputs: &Inputs, geometry: &Geometry, force: f64, error: f64, reach: f64) -> Result<Mesh, Refusal> {
         let relief = Relief::of(inputs, geometry);
-        let run_in = End { inputs: inputs.clone(), geometry: *geometry, side: -1.0 };
+        let flanks = Flanks::new(inputs, geometry)?;
+        let run_in = End { inputs: inputs.clone(), geometry: *geometry, flanks: flanks.clone(), side: -1.0 };
         let run_out = run_in.swapped()?;
         let length = geometry.end - geometry.start;
         let (before, is_whole_before) = run_in.angle_of_reach(reach);
         let (after, is_whole_after) = run_out.angle_of_reach(reach);
         let mut zones = Vec::new();
         run_in.zones(&relief, force, before, 0.0, &mut zones)?;
-        line_zones(inputs, geometry, &relief, force, &mut zones)?;
+        line_zones(inputs, geometry, (&flanks, &relief), force, &mut zones)?;
         run_out.zones(&relief, force, after, length, &mut zones)?;
         zones.sort_by(|one, other| one.from.total_cmp(&other.from));
         let levers = zones.iter().flat_map(|zone| [zone.from, zone.to].map(|s| zone.series.one(LEVER, s)));
@@ -265,14 +268,20 @@ fn push_zones(
 }
 
 /// The zones of the line of action.
-fn line_zones(inputs: &Inputs, geometry: &Geometry, relief: &Relief, force: f64, zones: &mut Vec<Zone>) -> Result<(), Refusal> {
+fn line_zones(
+    inputs: &Inputs,
+    geometry: &Geometry,
+    (flanks, relief): (&Flanks, &Relief),
+    force: f64,
+    zones: &mut Vec<Zone>,
+) -> Result<(), Refusal> {
     let length = geometry.end - geometry.start;
     let rest = geometry.tangent_length - geometry.start;
     let speeds = inputs.speed + inputs.driven_speed();
     let at = |s: f64| {
         let along = geometry.start + s;
         let place = ContactPlace::on_line_of_action(geometry, along);
-        let compliance = compliance::pair_at_load(inputs, geometry, &place, force)?;
+        let compliance = flanks.pair_at_load(inputs, geometry, &place, (along, rest - s), force)?;
         Ok([
             inputs.common_width() / compliance,
             relief.at(along, rest - s),
@@ -303,7 +312,7 @@ impl End {
             Refusal::Interference { start } => Refusal::InterferenceAtEnd { start },
             other => other,
         })?;
-        Ok(End { inputs, geometry, side: 1.0 })
+        Ok(End { inputs, geometry, flanks: self.flanks.swapped(), side: 1.0 })
     }
 
     /// The angle up to which gaps below `reach` stand, and whether the tip's circle ends there.
@@ -336,7 +345,8 @@ impl End {
     fn at(&self, relief: &Relief, force: f64, angle: f64) -> Result<[f64; 4], Refusal> {
         let tip = tip_at(&self.geometry, angle);
         let place = ContactPlace::at_tip(&self.inputs, &self.geometry, &tip);
-        let compliance = compliance::pair_at_load(&self.inputs, &self.geometry, &place, force)?;
+        let arms = (tip.curvature_driver, self.geometry.driven.tip_curvature);
+        let compliance = self.flanks.pair_at_load(&self.inputs, &self.geometry, &place, arms, force)?;
         let sliding = self.inputs.driven_speed() * tip.sliding_arm;
         let (relief, lever) = if self.side < 0.0 {
             (

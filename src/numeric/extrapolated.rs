@@ -57,17 +57,9 @@ fn midpoint<const N: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numeric::ode::tests::Oscillator;
     use nalgebra::Vector2;
 
-    struct Oscillator;
-
-    impl Equation<2> for Oscillator {
-        fn slope(&self, t: f64, y: &Vector2<f64>) -> Vector2<f64> {
-            Vector2::new(y[1], -y[0] + 0.1 * t)
-        }
-    }
-
-    /// y = cos t + 0.1 t.
     fn error_after(steps: u32) -> f64 {
         let length = 6.0 / f64::from(steps);
         let start = Vector2::new(1.0, 0.1);

@@ -188,11 +188,12 @@ const FIFTH: [(usize, f64); 8] = [
 ];
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use nalgebra::Vector2;
 
-    struct Oscillator;
+    /// y'' = 0.1 t - y; from (1, 0.1) on y = cos t + 0.1 t.
+    pub(in crate::numeric) struct Oscillator;
 
     impl Equation<2> for Oscillator {
         fn slope(&self, t: f64, y: &Vector2<f64>) -> Vector2<f64> {
@@ -200,7 +201,6 @@ mod tests {
         }
     }
 
-    /// y = cos t + 0.1 t.
     fn error_after(steps: u32) -> f64 {
         let length = 2.0 / f64::from(steps);
         let mut point = Point::new(&Oscillator, 0.0, Vector2::new(1.0, 0.1));

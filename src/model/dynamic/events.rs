@@ -2,7 +2,7 @@
 
 use super::motion::{Forces, State};
 use crate::numeric::ode::Point;
-use crate::numeric::root;
+use crate::numeric::root::{self, Known};
 
 /// A pair that touches or leaves.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,34 +33,40 @@ struct Crossing<'a> {
 impl Crossing<'_> {
     /// When the pair ceases to be what it is.
     fn find(&self, to: &State) -> Option<f64> {
-        let (start, start_rate) = self.kept(self.from.t, &self.from.y);
-        let (end, end_rate) = self.kept(self.from.t + self.length, to);
-        if end < 0.0 {
-            return Some(self.turn_from(start, start_rate, end_rate));
+        let start = known(0.0, self.kept(self.from.t, &self.from.y));
+        let end = known(self.length, self.kept(self.from.t + self.length, to));
+        if end.value < 0.0 {
+            return Some(self.turn_from(start, end));
         }
-        let dips = start_rate < 0.0 && end_rate > 0.0;
-        if !dips || self.least_of_cubic(start, start_rate, end, end_rate) > 0.25 * start.max(end) {
+        let dips = start.slope < 0.0 && end.slope > 0.0;
+        if !dips || Crossing::least_of_cubic(&start, &end) > 0.25 * start.value.max(end.value) {
             return None;
         }
-        let lowest = root::between(0.0, self.length, |after| self.at(after).1);
-        (self.at(lowest).0 < 0.0).then(|| self.turn(0.0, lowest))
+        let lowest = self.level();
+        (lowest.value < 0.0).then(|| self.turn(start, lowest))
     }
 
     /// The turn of a pair that ends the step as the other kind. One that has just become what it is stands at 0, within
     /// rounding, and may first go up.
-    fn turn_from(&self, start: f64, start_rate: f64, end_rate: f64) -> f64 {
-        if start > 0.0 {
-            return self.turn(0.0, self.length);
+    fn turn_from(&self, start: Known, end: Known) -> f64 {
+        if start.value > 0.0 {
+            return self.turn(start, end);
         }
-        if start_rate <= 0.0 || end_rate >= 0.0 {
+        if start.slope <= 0.0 || end.slope >= 0.0 {
             return 0.0;
         }
-        let highest = root::between(0.0, self.length, |after| self.at(after).1);
-        if self.at(highest).0 > 0.0 { self.turn(highest, self.length) } else { 0.0 }
+        let highest = self.level();
+        if highest.value > 0.0 { self.turn(highest, end) } else { 0.0 }
     }
 
-    fn turn(&self, from: f64, to: f64) -> f64 {
-        root::between(from, to, |after| self.at(after).0)
+    fn turn(&self, from: Known, to: Known) -> f64 {
+        root::between_known(from, to, |after| self.at(after))
+    }
+
+    /// Where what is kept neither grows nor falls.
+    fn level(&self) -> Known {
+        let after = root::between(0.0, self.length, |after| self.at(after).1);
+        known(after, self.at(after))
     }
 
     /// What is kept after a part of the step, and its rate.
@@ -75,13 +81,13 @@ impl Crossing<'_> {
     }
 
     /// The least of Hermite's cubic through both ends, near enough to tell whether a closer look is worth it.
-    fn least_of_cubic(&self, start: f64, start_rate: f64, end: f64, end_rate: f64) -> f64 {
+    fn least_of_cubic(start: &Known, end: &Known) -> f64 {
         const LOOKS: u32 = 16;
-        let (rise, fall) = (start_rate * self.length, end_rate * self.length);
-        let cubic = |t: f64| {
-            let rest = 1.0 - t;
-            rest * rest * ((1.0 + 2.0 * t) * start + t * rise) + t * t * ((1.0 + 2.0 * rest) * end - rest * fall)
-        };
-        (1..LOOKS).map(|look| cubic(f64::from(look) / f64::from(LOOKS))).fold(f64::INFINITY, f64::min)
+        let looks = (1..LOOKS).map(|look| root::cubic(start, end, f64::from(look) / f64::from(LOOKS)));
+        looks.fold(f64::INFINITY, f64::min)
     }
+}
+
+fn known(at: f64, (value, slope): (f64, f64)) -> Known {
+    Known { at, value, slope }
 }
