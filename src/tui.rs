@@ -10,6 +10,7 @@ pub mod clean;
 pub mod events;
 mod fault;
 pub mod history;
+pub mod measurer;
 pub mod pane;
 pub mod pick;
 pub mod prompt;
@@ -38,6 +39,7 @@ use signal_hook::consts::{SIGCONT, SIGTSTP};
 use actions::Action;
 use app::App;
 use events::{Event, Events};
+use measurer::Measurer;
 use settings::Settings;
 use solver::Solver;
 use store::chest::Chest;
@@ -59,6 +61,7 @@ struct Workbench {
     screen: Screen,
     events: Events,
     solver: Solver,
+    measurer: Measurer,
     keeper: Keeper,
     /// When the next picture of what plays is due.
     alarm: Option<Instant>,
@@ -119,8 +122,9 @@ fn session(case: Option<PathBuf>, events: Events, chest: &Arc<Chest>) -> io::Res
     if let Some(request) = app.unanswered() {
         solver.ask(request);
     }
+    let measurer = Measurer::new(events.teller());
     let keeper = Keeper::new(store::state::folder().as_deref(), Arc::clone(chest));
-    Workbench { app, screen, events, solver, keeper, alarm: None }.stay()
+    Workbench { app, screen, events, solver, measurer, keeper, alarm: None }.stay()
 }
 
 fn report(app: &mut App, trouble: Trouble) {
@@ -201,6 +205,8 @@ impl Workbench {
                     }
                     Effect::Suspend => self.suspend()?,
                     Effect::Solve(request) => self.solver.ask(*request),
+                    Effect::Measure(measuring) => self.measurer.begin(*measuring)?,
+                    Effect::CancelWork => self.measurer.stop(),
                     Effect::Save(saving) => actions.push(self.keeper.save(*saving)),
                     Effect::Adopt(journal) => self.keeper.adopt(journal),
                     Effect::Copy(text) => self.screen.copy(&text)?,

@@ -10,6 +10,7 @@ use ratatui::layout::{Position, Size};
 use tui_input::InputRequest;
 
 use super::app::Progress;
+use super::measurer::Measured;
 use super::pane::Pane;
 use super::recovery::Claim;
 use super::solver::Answer;
@@ -38,6 +39,8 @@ pub enum Action {
     Tick,
     /// The worker has an answer.
     Solved(Box<Answer>),
+    /// More is known of a measurement.
+    Measured(Box<Measured>),
     /// The worker failed on the request of that serial.
     SolverFailed(u64),
     /// Long work goes on, or is over.
@@ -98,6 +101,8 @@ pub enum Command {
     ResultsUp,
     ResultsDown,
     Explain,
+    Measure,
+    TakeSetting,
     PinBaseline,
     CopyValue,
     CopyResults,

@@ -12,7 +12,7 @@ use super::recovery::Access;
 use super::rows;
 use super::settings::Settings;
 use super::solver::{self, Answer, Request};
-use super::tab::Tab;
+use super::tab::{Tab, Traded};
 use super::theme::Look;
 use super::update::files::NEWER;
 use super::view::teeth::TeethView;
@@ -241,6 +241,12 @@ impl App {
             tab.take(answer);
         }
         self.follow();
+    }
+
+    /// The measurement of that serial.
+    pub(super) fn traded_of(&mut self, serial: u64) -> Option<&mut Traded> {
+        let all = std::iter::once(&mut self.tab).chain(&mut self.others);
+        all.filter_map(|tab| tab.traded.as_mut()).find(|traded| traded.serial == serial)
     }
 
     /// The tab that waits for the answer of that serial.

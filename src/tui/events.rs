@@ -121,7 +121,7 @@ impl Events {
     }
 
     /// A way for the worker to tell its replies.
-    pub fn teller(&self) -> impl Fn(Reply) -> bool + Send + 'static {
+    pub fn teller(&self) -> impl Fn(Reply) -> bool + Send + Sync + 'static {
         let sender = self.sender.clone();
         move |reply| sender.send(Event::Reply(reply)).is_ok()
     }
@@ -165,6 +165,7 @@ pub fn take_action(inputs: &mut std::iter::Peekable<impl Iterator<Item = Event>>
         Event::Input(Input::Paste(text)) => Some(Action::Paste(text)),
         Event::Input(Input::Resize(width, height)) => Some(Action::Resize(Size { width, height })),
         Event::Reply(Reply::Solved(answer)) => Some(Action::Solved(answer)),
+        Event::Reply(Reply::Measured(measured)) => Some(Action::Measured(measured)),
         Event::Reply(Reply::Failed(serial)) => Some(Action::SolverFailed(serial)),
         Event::Warned(text) => Some(Action::Failed(text)),
         Event::Input(Input::Mouse(mouse)) => of_mouse(mouse),

@@ -7,6 +7,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::fault;
+use super::measurer::Measured;
 use crate::case::{Case, Evaluator};
 use crate::model::inputs::Rung;
 use crate::model::{self, Inputs, Note, Refusal, Solution, Stages};
@@ -60,11 +61,13 @@ pub struct Cost {
     pub micros: u64,
 }
 
-/// What comes back from the worker.
-#[derive(Debug, Clone, PartialEq)]
+/// What comes back from a worker.
+#[derive(Debug, Clone)]
 pub enum Reply {
     /// It is solved.
     Solved(Box<Answer>),
+    /// More is known of a measurement.
+    Measured(Box<Measured>),
     /// The solver failed in a way that it never should.
     Failed(u64),
 }
@@ -306,7 +309,7 @@ mod tests {
         };
         let solver = Solver::start_with(solve, teller(sender)).expect("a thread");
         solver.ask(request(1));
-        assert_eq!(replies.recv(), Ok(Reply::Failed(1)));
+        assert!(matches!(replies.recv(), Ok(Reply::Failed(1))));
         solver.ask(request(2));
         assert!(matches!(replies.recv(), Ok(Reply::Solved(answer)) if answer.serial == 2));
     }

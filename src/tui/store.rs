@@ -123,6 +123,7 @@ pub fn perform(effect: Effect) -> Option<Action> {
         | Effect::Copy(_)
         | Effect::Mouse(_)
         | Effect::Play(_)
+        | Effect::Measure(_)
         | Effect::CancelWork
         | Effect::Redraw
         | Effect::Suspend

@@ -10,7 +10,8 @@ use super::rows::{self, Row};
 use super::scale::Scale;
 use super::solver::Answer;
 use crate::case::{Case, Document, Problem, fields};
-use crate::model::{Refusal, Stages};
+use crate::model::{Inputs, Refusal, Stages};
+use crate::study::trade::{Setting, Trade};
 
 /// An open case.
 #[derive(Debug, Clone)]
@@ -55,10 +56,34 @@ pub struct Tab {
     pub scale: Scale,
     /// The first line of the form that is shown.
     pub form_top: usize,
+    /// What was measured of error and time.
+    pub traded: Option<Traded>,
     /// The marked line among the quantities.
     pub row: usize,
     /// The first line of the quantities that is shown.
     pub results_top: usize,
+}
+
+/// Error and time of every setting, on the case as it was then.
+#[derive(Debug, Clone)]
+pub struct Traded {
+    /// The measurement's.
+    pub serial: u64,
+    /// The pair as it was then.
+    pub inputs: Inputs,
+    /// What is measured so far.
+    pub trade: Option<Trade>,
+    /// The setting on which the mark stands.
+    pub marked: Option<Setting>,
+}
+
+impl Traded {
+    /// Whether the case is another one by now, but for the setting.
+    #[must_use]
+    pub fn is_stale(&self, inputs: &Inputs) -> bool {
+        let Inputs { rung, tolerance, within, stations, station_tolerance, accurate, .. } = inputs.clone();
+        Inputs { rung, tolerance, within, stations, station_tolerance, accurate, ..self.inputs.clone() } != *inputs
+    }
 }
 
 impl Tab {
@@ -88,6 +113,7 @@ impl Tab {
             has_failed: false,
             scale: Scale::default(),
             form_top: 0,
+            traded: None,
             row: 0,
             results_top: 0,
         }

@@ -13,12 +13,14 @@ mod pointer;
 mod recovery;
 mod tabs;
 mod teeth;
+mod trade;
 mod walk;
 
 use std::path::PathBuf;
 
 use super::actions::{Action, Command, Next};
 use super::app::App;
+use super::measurer::Measuring;
 use super::pick::{List, Picker};
 use super::prompt::{Page, Prompt, Question};
 use super::settings::Settings;
@@ -55,6 +57,8 @@ pub enum Effect {
     Mouse(bool),
     /// Tick, or be silent.
     Play(bool),
+    /// Measure, and tell what is known as [`Action::Measured`].
+    Measure(Box<Measuring>),
     /// Stop the long work.
     CancelWork,
     /// Draw every cell anew.
@@ -117,6 +121,7 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
             app.take(*answer);
             hold::pin(app);
         }
+        Action::Measured(measured) => trade::measured(app, *measured),
         Action::SolverFailed(serial) => solver_failed(app, serial),
         Action::Progress(progress) => app.progress = progress,
         Action::Loaded(path, result) => return files::loaded(app, path, result),
@@ -151,6 +156,8 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::Leave => panes::leave(app),
         Command::CopyValue => copy::value(app),
         Command::CopyResults => copy::results(app),
+        Command::Measure => trade::measure(app),
+        Command::TakeSetting => trade::take(app),
         Command::CursorBy(columns) => cursor::step(app, columns),
         Command::CursorToD => cursor::to_start(app),
         Command::CursorToE => cursor::to_end(app),

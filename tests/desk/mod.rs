@@ -2,8 +2,10 @@
 
 #![allow(dead_code, reason = "each test file uses its own part")]
 
+use std::cell::RefCell;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::Terminal;
@@ -12,8 +14,10 @@ use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Size;
 use tempfile::TempDir;
 use tipstrike::case::Document;
+use tipstrike::study::trade::Patience;
 use tipstrike::tui::actions::{self, Action};
 use tipstrike::tui::app::App;
+use tipstrike::tui::measurer::{Measuring, measure};
 use tipstrike::tui::settings::Settings;
 use tipstrike::tui::theme::Look;
 use tipstrike::tui::update::{Effect, update};
@@ -105,6 +109,7 @@ impl Desk {
             for effect in update(&mut self.app, action) {
                 match effect {
                     Effect::Solve(request) => actions.push(Action::Solved(Box::new(solver::answer(&request)))),
+                    Effect::Measure(measuring) => actions.extend(measured(*measuring)),
                     Effect::Quit => self.has_quit = true,
                     Effect::Copy(text) => self.copied = Some(text),
                     Effect::Mouse(takes) => self.has_mouse = takes,
@@ -172,12 +177,24 @@ impl Desk {
     }
 }
 
+/// All that a measurement tells, the last first; each setting is run once.
+fn measured(measuring: Measuring) -> Vec<Action> {
+    let told = RefCell::new(Vec::new());
+    measure(&Measuring { patience: Patience::ONCE, ..measuring }, &AtomicBool::new(false), &|measured| {
+        told.borrow_mut().push(Action::Measured(Box::new(measured)));
+        true
+    });
+    let mut told = told.into_inner();
+    told.reverse();
+    told
+}
+
 /// A file that holds a case and its name.
 pub(crate) fn name(path: &Path) -> &str {
     path.to_str().expect("a name in UTF-8")
 }
 
-fn named(key: &str) -> Option<KeyEvent> {
+pub(crate) fn named(key: &str) -> Option<KeyEvent> {
     let (modifiers, name) = match key.split_once('-') {
         Some(("Ctrl", name)) => (KeyModifiers::CONTROL, name),
         Some(("Alt", name)) => (KeyModifiers::ALT, name),

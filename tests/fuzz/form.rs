@@ -288,7 +288,8 @@ impl Bench {
             | Effect::Mouse(_)
             | Effect::CancelWork
             | Effect::Redraw
-            | Effect::Suspend => None,
+            | Effect::Suspend
+            | Effect::Measure(_) => None,
         }
     }
 

@@ -35,6 +35,10 @@ pub static BINDINGS: &[Binding] = &[
     // Outside a field, where letters are commands.
     shown(Place::FIELD, &[key(KeyCode::Enter), letter('i')], Do::StartEdit, "edit", "Type into the focused field; Esc leaves it."),
     shown(Place::RESULTS, &[key(KeyCode::Enter)], Do::Explain, "explain", "Where the marked result comes from."),
+    shown(Place::TRADE, &[key(KeyCode::Enter)], Do::TakeSetting, "take setting", "Make the marked setting the case's; where nothing is measured yet, measure."),
+    shown(Place::TRADE, &[letter('m')], Do::Measure, "measure", "Measure error and time of every rung and setting on this case."),
+    told(Place::TRADE, &[letter('l'), letter('j'), key(KeyCode::Right), key(KeyCode::Down)], Do::Next, "The next slower setting."),
+    told(Place::TRADE, &[letter('h'), letter('k'), key(KeyCode::Left), key(KeyCode::Up)], Do::Previous, "The next quicker setting."),
     shown(Place::CURSOR, &[letter(' ')], Do::Play, "play", "Let the cursor run to E, from D or in the teeth from before it, or stop it."),
     told(Place::CURSOR, &[letter('h'), key(KeyCode::Left)], Do::CursorBy(-1), "The cursor a column towards D."),
     shown(Place::CURSOR, &[letter('l'), key(KeyCode::Right)], Do::CursorBy(1), "cursor", "The cursor a column towards E."),

@@ -1,5 +1,6 @@
 //! Walking: lines, groups and pages, in the focused pane or in what lies over it.
 
+use super::trade;
 use crate::case::Case;
 use crate::tui::actions::Command;
 use crate::tui::app::App;
@@ -33,6 +34,7 @@ fn field(app: &mut App, field: usize) {
 fn step(app: &mut App, by: isize) {
     match app.prompts.last_mut() {
         None if app.panes.focus == Pane::Results => mark(app, by),
+        None if app.panes.focus == Pane::Trade => trade::step(app, by),
         None => app.focus_on(app.focus.saturating_add_signed(by)),
         Some(Prompt::Browse(browser)) => browser.mark(by),
         Some(Prompt::Pick(picker)) => picker.mark(by),

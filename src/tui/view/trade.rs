@@ -1,18 +1,167 @@
-//! Error of every rung against its time.
+//! Error of every setting against its time, both on logarithmic scales.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 
-use super::titled;
+use super::{text, titled};
+use crate::model::inputs::Rung;
+use crate::report::trade::plot::{Axis, shown, time};
+use crate::report::trade::{percent, summary};
+use crate::study::trade::{Measured, Setting, Trade};
 use crate::tui::app::App;
 use crate::tui::pane::Pane;
+use crate::tui::tab::Traded;
+
+/// Columns of a number beside the vertical axis.
+const LABEL: u16 = 8;
+const INVITATION: &str = "Nothing is measured yet: Enter measures every rung by its settings on this case. It takes a few seconds; \
+    Esc stops it, and what was measured stays.";
 
 /// Draw the pane.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
-    let inner = titled(app, Pane::Trade, "Error against time", area, buffer);
-    let width = usize::from(inner.width).saturating_sub(1);
-    if !inner.is_empty() {
-        buffer.set_stringn(inner.x + 1, inner.y, "Nothing is measured yet.", width, Style::new());
+    let inner = titled(app, Pane::Trade, &title(app), area, buffer);
+    if inner.is_empty() {
+        return;
+    }
+    let traded = app.traded.as_ref().and_then(|traded| Some((traded, traded.trade.as_ref()?)));
+    let Some((traded, trade)) = traded.filter(|(_, trade)| !trade.settings.is_empty()) else {
+        let words = if app.traded.is_some() { "The reference is computed first." } else { INVITATION };
+        return write(words, inner, buffer);
+    };
+    let (plot, words) = split(inner);
+    if plot.height >= 3 && plot.width >= 20 {
+        draw_plot(app, traded, trade, plot, buffer);
+    }
+    write(&told(traded, trade), words, buffer);
+}
+
+/// The settings that have an error and a time, the quicker ones first.
+#[must_use]
+pub fn ordered(trade: &Trade) -> Vec<&Measured> {
+    let mut found: Vec<&Measured> = trade.settings.iter().filter(|measured| measured.total().is_some()).collect();
+    found.sort_by(|one, other| one.seconds().total_cmp(&other.seconds()));
+    found
+}
+
+fn title(app: &App) -> String {
+    let stale = app.traded.as_ref().is_some_and(|traded| app.case.inputs().is_ok_and(|inputs| traded.is_stale(&inputs)));
+    let stale = if stale { "AS IT WAS, m measures anew: " } else { "" };
+    format!("{stale}Error in % over time: paper, exact, static, dynamic, auto; CAPITAL: none nearer and quicker; (own) [marked]")
+}
+
+/// The room of the plot with its axes, and of the words below it.
+fn split(inner: Rect) -> (Rect, Rect) {
+    let words = inner.height.min(if inner.height > 9 { 2 } else { 1 });
+    let plot = Rect { height: inner.height - words, ..inner };
+    (plot, Rect { y: plot.bottom(), height: words, ..inner })
+}
+
+/// The marked setting, and what holds for it; else what the trade recommends.
+fn told(traded: &Traded, trade: &Trade) -> String {
+    let marked = traded.marked.and_then(|marked| trade.settings.iter().find(|measured| measured.setting == marked));
+    let refused = trade.settings.iter().filter(|measured| measured.found.is_err()).count();
+    let refused = if refused > 0 { format!("; {refused} settings refuse the case") } else { String::new() };
+    match marked {
+        Some(measured) => {
+            let qualifies = if measured.qualifies { "within" } else { "not within" };
+            format!("[{}] {qualifies} {} %{refused}", summary(measured), percent(trade.within))
+        }
+        None => format!("{} of {} settings measured{refused}", trade.settings.len(), trade.planned),
+    }
+}
+
+fn write(words: &str, area: Rect, buffer: &mut Buffer) {
+    let width = usize::from(area.width).saturating_sub(2);
+    for (line, y) in text::wrap(words, width).iter().zip(area.top()..area.bottom()) {
+        buffer.set_stringn(area.x + 1, y, line, width, Style::new());
+    }
+}
+
+fn draw_plot(app: &App, traded: &Traded, trade: &Trade, area: Rect, buffer: &mut Buffer) {
+    let field = Rect { x: area.x + LABEL + 1, width: area.width - LABEL - 2, height: area.height - 2, ..area };
+    let mut found = ordered(trade);
+    let errors = found.iter().filter_map(|measured| measured.total()).map(shown);
+    let across = Axis::of(found.iter().map(|measured| measured.seconds()), f64::from(field.left()), f64::from(field.right() - 1));
+    let up = Axis::of(errors, f64::from(field.bottom() - 1), f64::from(field.top()));
+    draw_axes(app, &across, &up, field, buffer);
+    let own = app.case.inputs().ok().map(|inputs| Setting::of(&inputs));
+    // What is marked and what is the case's own lie on top.
+    let weight =
+        |measured: &Measured| (traded.marked == Some(measured.setting), own == Some(measured.setting), measured.is_on_front);
+    found.sort_by_key(|measured| weight(measured));
+    for measured in found {
+        let Some(error) = measured.total() else { continue };
+        let (x, y) = (across.at(measured.seconds()).round() as u16, up.at(shown(error)).round() as u16);
+        draw_mark(app, measured, weight(measured), (x, y), field, buffer);
+    }
+}
+
+/// The rung's letter, a capital on the front; in brackets where it is marked or the case's own.
+fn draw_mark(
+    app: &App,
+    measured: &Measured,
+    (is_marked, is_own, is_on_front): (bool, bool, bool),
+    (x, y): (u16, u16),
+    field: Rect,
+    buffer: &mut Buffer,
+) {
+    let theme = app.look.theme;
+    let (letter, style) = match measured.setting.rung {
+        Rung::Paper => ('p', theme.faint),
+        Rung::Exact => ('e', theme.other),
+        Rung::Static => ('s', theme.path),
+        Rung::Dynamic => ('d', theme.active),
+        Rung::Auto => ('a', theme.note),
+    };
+    let letter = if is_on_front { letter.to_ascii_uppercase() } else { letter };
+    let (mark, style) = match (is_marked, is_own) {
+        (true, _) => (format!("[{letter}]"), theme.key),
+        (false, true) => (format!("({letter})"), theme.focus),
+        (false, false) => (letter.to_string(), style),
+    };
+    let x = if mark.len() == 3 { x.saturating_sub(1).clamp(field.left(), field.right().saturating_sub(3)) } else { x };
+    buffer.set_string(x, y, mark, style);
+}
+
+fn draw_axes(app: &App, across: &Axis, up: &Axis, field: Rect, buffer: &mut Buffer) {
+    let rule = app.look.theme.rule;
+    let axis = field.bottom();
+    for y in field.top()..axis {
+        buffer.set_string(field.x - 1, y, "│", rule);
+    }
+    buffer.set_string(field.x - 1, axis, "└", rule);
+    buffer.set_string(field.x, axis, "─".repeat(field.width.into()), rule);
+    for decade in up.marks(usize::from(field.height / 2)) {
+        let y = up.at(10f64.powi(decade)).round() as u16;
+        buffer.set_string(field.x - LABEL - 1, y, format!("{:>1$}", in_percent(decade), usize::from(LABEL) - 1), Style::new());
+        buffer.set_string(field.x - 1, y, "┤", rule);
+    }
+    for decade in across.marks(usize::from(field.width / 9)) {
+        let x = across.at(10f64.powi(decade)).round() as u16;
+        let label = time(decade);
+        let width = label.len() as u16;
+        let start = x.saturating_sub(width / 2).clamp(field.x, field.right().saturating_sub(width).max(field.x));
+        buffer.set_string(x, axis, "┴", rule);
+        buffer.set_stringn(start, axis + 1, label, usize::from(field.width), Style::new());
+    }
+}
+
+/// A power of ten in per cent, in seven characters at most.
+fn in_percent(decade: i32) -> String {
+    match decade + 2 {
+        exponent @ -3..=5 => format!("{}", 10f64.powi(exponent)),
+        exponent => format!("1e{exponent}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_percent;
+
+    #[test]
+    fn powers_of_ten_in_percent_are_short() {
+        let told: Vec<String> = [-16, -5, -2, 0, 3].map(in_percent).to_vec();
+        assert_eq!(told, ["1e-14", "0.001", "1", "100", "100000"]);
     }
 }

@@ -1,0 +1,79 @@
+//! Error against time: measuring, walking along the settings, taking one.
+
+use super::{Effect, edit};
+use crate::report::trade::conclusion;
+use crate::study::trade::{Patience, Setting};
+use crate::tui::app::{App, Progress};
+use crate::tui::measurer::{End, Measured, Measuring};
+use crate::tui::tab::Traded;
+use crate::tui::view::trade::ordered;
+
+/// Measure every rung on the case in the form.
+pub(super) fn measure(app: &mut App) -> Vec<Effect> {
+    let Ok(inputs) = app.case.inputs() else {
+        app.complain("the form is not valid: nothing can be measured");
+        return Vec::new();
+    };
+    app.last_serial += 1;
+    let serial = app.last_serial;
+    app.tab.traded = Some(Traded { serial, inputs: inputs.clone(), trade: None, marked: None });
+    app.progress = Some(Progress { what: "measuring".to_owned(), part: 0.0 });
+    vec![Effect::Measure(Box::new(Measuring { serial, inputs, patience: Patience::STEADY }))]
+}
+
+/// More is known, or all of it.
+pub(super) fn measured(app: &mut App, measured: Measured) {
+    let Measured { serial, trade, end } = measured;
+    let is_shown = app.tab.traded.as_ref().is_some_and(|traded| traded.serial == serial);
+    let is_latest =
+        app.progress.is_some() && app.tabs().filter_map(|tab| tab.traded.as_ref()).all(|traded| traded.serial <= serial);
+    if let Some(trade) = trade {
+        let part = trade.settings.len() as f64 / trade.planned.max(1) as f64;
+        if is_latest {
+            app.progress = Some(Progress { what: "measuring".to_owned(), part });
+        }
+        if let Some(traded) = app.traded_of(serial) {
+            traded.trade = Some(*trade);
+        }
+    }
+    let Some(end) = end else { return };
+    if is_latest {
+        app.progress = None;
+    }
+    let recommended = app.traded_of(serial).and_then(|traded| {
+        let trade = traded.trade.as_ref()?;
+        let setting = trade.recommended.and_then(|at| trade.settings.get(at)).map(|measured| measured.setting);
+        traded.marked = traded.marked.or(setting);
+        Some(conclusion(trade))
+    });
+    match end {
+        _ if !is_shown => (),
+        End::Whole => app.say(recommended.unwrap_or_default()),
+        End::Stopped => app.say("the measurement is stopped; what was measured stays"),
+        End::Failed(reason) => app.complain(format!("nothing is measured: {reason}")),
+    }
+}
+
+/// So many settings further, in the order of their times.
+pub(super) fn step(app: &mut App, by: isize) {
+    let Some(traded) = app.tab.traded.as_mut() else { return };
+    let settings: Vec<Setting> = traded.trade.iter().flat_map(ordered).map(|measured| measured.setting).collect();
+    let Some(last) = settings.len().checked_sub(1) else { return };
+    let now = traded.marked.and_then(|marked| settings.iter().position(|setting| *setting == marked));
+    let next = now.map_or(0, |now| now.saturating_add_signed(by).min(last));
+    traded.marked = Some(settings[next]);
+}
+
+/// The marked setting becomes the case's; where nothing is measured yet, that comes first.
+pub(super) fn take(app: &mut App) -> Vec<Effect> {
+    let Some(traded) = &app.tab.traded else { return measure(app) };
+    let Some(setting) = traded.marked else {
+        app.say("no setting is marked: the arrow keys mark one");
+        return Vec::new();
+    };
+    let mut case = app.case.clone();
+    setting.apply(&mut case);
+    let effects = edit::replace(app, case);
+    app.say(format!("the case is solved by {setting}"));
+    effects
+}

@@ -1,0 +1,155 @@
+//! The pane of error against time: measuring, stopping, walking along the settings, taking one.
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+#![cfg(feature = "tui")]
+
+mod desk;
+
+use crossterm::event::KeyCode;
+use desk::{Desk, LARGE, SMALL, TABLE_1};
+use ratatui::layout::Size;
+use tipstrike::model::inputs::Rung;
+use tipstrike::study::trade::Setting;
+use tipstrike::tui::actions::Action;
+use tipstrike::tui::app::Progress;
+use tipstrike::tui::measurer::{End, Measured, Measuring};
+use tipstrike::tui::update::{Effect, update};
+
+fn measured(size: Size) -> Desk {
+    let mut desk = Desk::on(size, "case.toml", TABLE_1);
+    desk.keys(&["Esc", "5", "z", "Enter"]);
+    desk
+}
+
+fn own(desk: &Desk) -> Setting {
+    Setting::of(&desk.app.case.inputs().expect("a valid form"))
+}
+
+/// The effects of a key, not performed.
+fn asked(desk: &mut Desk, key: &str) -> Vec<Effect> {
+    let letter = || KeyCode::Char(key.chars().next().expect("a key")).into();
+    let event = desk::named(key).unwrap_or_else(letter);
+    let action = tipstrike::tui::actions::of_key(event, desk.app.place()).expect("an action");
+    update(&mut desk.app, action)
+}
+
+#[test]
+fn nothing_is_measured_until_it_is_asked_for() {
+    let mut desk = Desk::new(LARGE);
+    desk.keys(&["Esc", "5", "z"]);
+    assert!(desk.shows("Nothing is measured yet: Enter measures"), "{}", desk.screen());
+    desk.keys(&["Right"]);
+    assert!(desk.app.traded.is_none());
+}
+
+#[test]
+fn enter_measures_and_the_cheapest_that_will_do_is_marked() {
+    let desk = measured(LARGE);
+    let traded = desk.app.traded.as_ref().expect("a measurement");
+    assert_eq!(traded.marked.expect("a mark").rung, Rung::Dynamic);
+    assert!(desk.shows("Within 5.0 %: dynamic with"), "{}", desk.screen());
+    assert!(desk.shows("(e)") && (desk.shows("[D]") || desk.shows("[d]")), "{}", desk.screen());
+    assert!(desk.shows("P") && desk.shows("1 ms") && desk.app.progress.is_none());
+}
+
+#[test]
+fn arrows_walk_from_the_quickest_to_the_slowest() {
+    let mut desk = measured(LARGE);
+    let seconds = |desk: &Desk| {
+        let traded = desk.app.traded.as_ref().unwrap();
+        let marked = traded.marked.unwrap();
+        traded.trade.as_ref().unwrap().settings.iter().find(|one| one.setting == marked).unwrap().seconds()
+    };
+    for _ in 0..100 {
+        desk.keys(&["Left"]);
+    }
+    let mut last = seconds(&desk);
+    for _ in 0..10 {
+        desk.keys(&["l"]);
+        assert!(seconds(&desk) >= last);
+        last = seconds(&desk);
+    }
+    assert!(desk.shows("not within 5.0 %"), "{}", desk.screen());
+}
+
+#[test]
+fn enter_makes_the_marked_setting_the_cases_and_undo_takes_it_back() {
+    let mut desk = measured(LARGE);
+    let before = own(&desk);
+    let marked = desk.app.traded.as_ref().unwrap().marked.unwrap();
+    desk.keys(&["Enter"]);
+    assert_eq!(own(&desk), marked);
+    assert_eq!(desk.app.answer.as_ref().unwrap().active, Rung::Dynamic);
+    assert!(!desk.shows("AS IT WAS"), "a setting makes no other case");
+    desk.keys(&["u"]);
+    assert_eq!(own(&desk), before);
+}
+
+#[test]
+fn another_case_makes_the_measurement_one_of_before() {
+    let mut desk = measured(LARGE);
+    desk.keys(&["z"]);
+    desk.fill("operation.speed", "1500 rpm");
+    desk.keys(&["Esc", "5", "z"]);
+    assert!(desk.shows("AS IT WAS, m measures anew"), "{}", desk.screen());
+    desk.keys(&["m"]);
+    assert!(!desk.shows("AS IT WAS"), "{}", desk.screen());
+}
+
+#[test]
+fn esc_stops_a_measurement_and_what_was_measured_stays() {
+    let mut desk = Desk::new(LARGE);
+    desk.keys(&["Esc", "5", "z"]);
+    let effects = asked(&mut desk, "Enter");
+    let serial = match &effects[..] {
+        [Effect::Measure(measuring)] => {
+            let Measuring { serial, .. } = **measuring;
+            serial
+        }
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(desk.app.progress, Some(Progress { what: "measuring".to_owned(), part: 0.0 }));
+    assert!(matches!(asked(&mut desk, "Esc")[..], [Effect::CancelWork]));
+    update(&mut desk.app, Action::Measured(Box::new(Measured { serial, trade: None, end: Some(End::Stopped) })));
+    assert!(desk.app.progress.is_none() && desk.shows("the measurement is stopped"));
+}
+
+#[test]
+fn what_a_later_measurement_overtook_changes_nothing() {
+    let mut desk = Desk::new(LARGE);
+    desk.keys(&["Esc", "5", "z"]);
+    let first = asked(&mut desk, "m");
+    let second = asked(&mut desk, "m");
+    let serials = [&first, &second].map(|effects| match &effects[..] {
+        [Effect::Measure(measuring)] => measuring.serial,
+        other => panic!("{other:?}"),
+    });
+    assert!(serials[0] < serials[1]);
+    let late = Measured { serial: serials[0], trade: None, end: Some(End::Stopped) };
+    update(&mut desk.app, Action::Measured(Box::new(late)));
+    assert!(desk.app.progress.is_some(), "the second goes on");
+    let failed = Measured { serial: serials[1], trade: None, end: Some(End::Failed("no mesh".to_owned())) };
+    update(&mut desk.app, Action::Measured(Box::new(failed)));
+    assert!(desk.app.progress.is_none() && desk.shows("nothing is measured: no mesh"));
+}
+
+#[test]
+fn an_invalid_form_is_not_measured() {
+    let mut desk = Desk::new(LARGE);
+    desk.fill("pair.module", "x");
+    desk.keys(&["Esc", "5"]);
+    assert!(asked(&mut desk, "m").is_empty());
+    assert!(desk.shows("the form is not valid"));
+}
+
+#[test]
+fn it_is_drawn_at_every_size() {
+    let mut desk = measured(SMALL);
+    for width in (0..=150).step_by(7) {
+        for height in 0..=50 {
+            let screen = desk.screen_at(Size { width, height });
+            assert!(!screen.contains("NaN") && !screen.contains("inf"), "{screen}");
+        }
+    }
+    desk.keys(&["Tab", "BackTab", "Right", "Left"]);
+    assert!(desk.shows("1 ms") || desk.shows("100 us"), "{}", desk.screen());
+}
