@@ -407,6 +407,32 @@ fn what_cannot_be_explained_is_refused_as_a_solve_is() {
 }
 
 #[test]
+fn a_trade_names_the_cheapest_setting_that_will_do() {
+    let page = told(&["trade", TABLE_1]);
+    assert!(page.contains("Reference: dynamic with 4096 stations and tolerance 1e-12"), "{page}");
+    assert!(page.lines().last().unwrap().starts_with("Within 5.0 %: dynamic with"), "{page}");
+    let traded = json(&["trade", TABLE_1, "--within", "40%", "--format", "json"]);
+    assert_eq!((&traded["case"], &traded["within"]), (&TABLE_1.into(), &0.4.into()));
+    assert_eq!(traded["recommended"]["rung"], "static");
+    let own: Vec<&Value> = traded["settings"].as_array().unwrap().iter().filter(|one| one["current"] == true).collect();
+    assert_eq!((own.len(), &own[0]["rung"], &own[0]["stations"]), (1, &"exact".into(), &64.into()));
+}
+
+#[test]
+fn a_trade_that_cannot_be_made_says_why() {
+    for within in ["0", "-5%", "five", "nan"] {
+        let output = run(&["trade", TABLE_1, "--within", within]);
+        assert_eq!((code(&output), out(&output).as_str()), (2, ""), "{within}");
+    }
+    assert_eq!(code(&run(&["trade", "no-such-file.toml"])), 5);
+    assert_eq!(code(&run(&["trade"])), 2);
+    let (_folder, path) = changed("module = \"5 mm\"", "module = \"5 mm\"\ncentre_distance = \"50 mm\"");
+    let refused = run(&["trade", &path]);
+    assert_eq!((code(&refused), out(&refused).as_str()), (3, ""));
+    assert!(err(&refused).contains("centre_distance"), "{}", err(&refused));
+}
+
+#[test]
 fn every_shell_has_completions_and_the_manual_a_name() {
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         assert!(told(&["completions", shell]).contains("tipstrike"), "{shell}");

@@ -35,7 +35,7 @@ pub fn write(told: &Told<'_>, out: &mut dyn Write) -> io::Result<()> {
     for section in sections {
         writeln!(out, "{}\n", section.join("\n"))?;
     }
-    conclusion(told.trade).iter().try_for_each(|line| writeln!(out, "{line}"))
+    flow(conclusion(told.trade).split(' '), WIDTH).iter().try_for_each(|line| writeln!(out, "{line}"))
 }
 
 fn heading(told: &Told<'_>) -> Vec<String> {
@@ -59,21 +59,31 @@ fn reference(trade: &Trade) -> Vec<String> {
     flow(sentence.split(' '), WIDTH)
 }
 
-/// What to take, in one line.
-fn conclusion(trade: &Trade) -> Vec<String> {
+/// What to take, in a sentence.
+#[must_use]
+pub fn conclusion(trade: &Trade) -> String {
     let within = percent(trade.within);
-    let sentence = match trade.recommended.and_then(|at| trade.settings.get(at)) {
-        Some(measured) => {
-            let (total, time) = (percent(measured.total().unwrap_or(0.0)), duration(measured.seconds()));
-            format!("Within {within} %: {}, {total} % in {time}", measured.setting)
-        }
+    match trade.recommended.and_then(|at| trade.settings.get(at)) {
+        Some(measured) => format!("Within {within} %: {}", summary(measured)),
         None => format!("Within {within} %: none"),
-    };
-    flow(sentence.split(' '), WIDTH)
+    }
+}
+
+/// A setting with its error and time.
+#[must_use]
+pub fn summary(measured: &Measured) -> String {
+    match (measured.total(), &measured.found) {
+        (_, Err(refusal)) => format!("{}: {refusal}", measured.setting),
+        (None, Ok(figures)) => format!("{}, {}", measured.setting, duration(figures.time.seconds)),
+        (Some(total), Ok(figures)) => {
+            format!("{}, {} % in {}", measured.setting, percent(total), duration(figures.time.seconds))
+        }
+    }
 }
 
 /// A relative difference in per cent, without the sign.
-fn percent(difference: f64) -> String {
+#[must_use]
+pub fn percent(difference: f64) -> String {
     significant(100.0 * difference, if difference < 0.1 { 2 } else { 3 })
 }
 

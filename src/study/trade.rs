@@ -6,6 +6,7 @@ mod second;
 mod setting;
 
 use std::hint::black_box;
+use std::sync::Arc;
 
 pub use answer::{Answer, Subject, stages};
 pub use clock::{Patience, Time};
@@ -46,7 +47,7 @@ pub struct Reference {
     /// How it was found.
     pub setting: Setting,
     /// What it is.
-    pub answer: Answer,
+    pub answer: Arc<Answer>,
     /// How far a second way, that shares the mesh alone, is from it, in the order of [`Subject::ALL`]; or why it is not known.
     pub disagreement: Result<Differences, Refusal>,
 }
@@ -60,7 +61,7 @@ pub struct Model {
     /// The rung.
     pub rung: Rung,
     /// Its answer by its best setting, or why there is none.
-    pub best: Result<Answer, Refusal>,
+    pub best: Result<Arc<Answer>, Refusal>,
     /// How far that is from the reference.
     pub off: Differences,
 }
@@ -144,8 +145,8 @@ impl Trade {
         let mut models = Vec::new();
         for rung in RUNGS {
             let best = match &reference {
-                Ok(reference) if rung == reference.setting.rung => Ok(reference.answer.clone()),
-                _ => stopped(answer_of(inputs, Setting::best(rung), go_on))?,
+                Ok(reference) if rung == reference.setting.rung => Ok(Arc::clone(&reference.answer)),
+                _ => stopped(answer_of(inputs, Setting::best(rung), go_on))?.map(Arc::new),
             };
             let off = best.as_ref().ok().zip(reference.as_ref().ok());
             let off = off.map_or([None; Subject::ALL.len()], |(best, reference)| differences(best, &reference.answer));
@@ -227,7 +228,7 @@ impl Reference {
         let setting = Setting::best(Rung::Dynamic);
         let inputs = setting.inputs(inputs);
         let solution = answer::solve(&inputs, go_on)?;
-        let answer = Answer::of(&solution);
+        let answer = Arc::new(Answer::of(&solution));
         let second = stopped(second::second_way(&inputs, &solution, go_on))?;
         let off = |second: second::Second| Subject::ALL.map(|subject| apart(second.value(subject), answer.value(subject)));
         let disagreement = second.map(off);

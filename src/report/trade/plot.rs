@@ -59,12 +59,14 @@ const SIZE: (f64, f64) = (760.0, 420.0);
 const FIELD: (f64, f64, f64, f64) = (80.0, 40.0, 600.0, 370.0);
 /// Below this an error is rounding.
 const ROUNDING: f64 = 1e-16;
+/// Numbers on an axis.
+const MARKS: usize = 10;
 /// What no picture is needed for.
 const GREATEST: f64 = 1e4;
 
 /// Decades from one end of an axis to the other, and where they lie.
-#[derive(Debug, Clone, Copy)]
-struct Axis {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Axis {
     from: i32,
     to: i32,
     start: f64,
@@ -72,7 +74,9 @@ struct Axis {
 }
 
 impl Axis {
-    fn of(values: impl Iterator<Item = f64>, start: f64, end: f64) -> Axis {
+    /// Whole decades around the values, from one place to the other.
+    #[must_use]
+    pub fn of(values: impl Iterator<Item = f64>, start: f64, end: f64) -> Axis {
         let logs = values.map(f64::log10).filter(|log| log.is_finite());
         let (least, most) = logs.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), log| (least.min(log), most.max(log)));
         if least > most {
@@ -82,15 +86,17 @@ impl Axis {
         Axis { from, to: (most.ceil() as i32).max(from + 1), start, end }
     }
 
-    fn at(&self, value: f64) -> f64 {
+    /// Where a value lies.
+    #[must_use]
+    pub fn at(&self, value: f64) -> f64 {
         let part = (value.log10() - f64::from(self.from)) / f64::from(self.to - self.from);
         self.start + part * (self.end - self.start)
     }
 
-    /// The decades that have room for a number.
-    fn marks(&self) -> impl Iterator<Item = i32> {
-        let step = 1 + (self.to - self.from) / 9;
-        (self.from..=self.to).step_by(step as usize)
+    /// Decades from one end on, evenly and no more than `most`.
+    pub fn marks(&self, most: usize) -> impl Iterator<Item = i32> + use<> {
+        let decades = (self.to - self.from) as usize;
+        (self.from..=self.to).step_by(1 + decades / most.max(2))
     }
 }
 
@@ -101,8 +107,8 @@ pub fn svg(plot: &Plot<'_>) -> String {
     let across = Axis::of(points().map(|point| point.seconds), FIELD.0, FIELD.2);
     let up = Axis::of(points().map(|point| shown(point.error)), FIELD.3, FIELD.1);
     let mut lines = vec![frame(plot)];
-    lines.extend(across.marks().map(|decade| upright(decade, across.at(10f64.powi(decade)))));
-    lines.extend(up.marks().map(|decade| level(decade, up.at(10f64.powi(decade)))));
+    lines.extend(across.marks(MARKS).map(|decade| upright(decade, across.at(10f64.powi(decade)))));
+    lines.extend(up.marks(MARKS).map(|decade| level(decade, up.at(10f64.powi(decade)))));
     for (at, series) in plot.series.iter().enumerate() {
         lines.push(drawn(series, &across, &up));
         lines.push(legend(series, at));
@@ -110,7 +116,9 @@ pub fn svg(plot: &Plot<'_>) -> String {
     lines.join("\n") + "\n</svg>\n"
 }
 
-fn shown(error: f64) -> f64 {
+/// An error that has a place on a logarithmic scale.
+#[must_use]
+pub fn shown(error: f64) -> f64 {
     error.clamp(ROUNDING, GREATEST)
 }
 
@@ -152,7 +160,8 @@ fn level(decade: i32, y: f64) -> String {
 }
 
 /// A power of ten seconds.
-fn time(decade: i32) -> String {
+#[must_use]
+pub fn time(decade: i32) -> String {
     let (unit, zero) = match decade {
         ..=-7 => ("ns", -9),
         -6..=-4 => ("us", -6),

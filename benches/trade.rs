@@ -1,0 +1,83 @@
+//! Speed against accuracy over the cases in `cases/`: `cargo bench --bench trade` prints the table and draws the picture;
+//! with `TIPSTRIKE_REGENERATE=1` both are kept, `tests/trade/table.md` and `assets/trade.svg`.
+#![allow(clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "a bench says what it found")]
+
+#[path = "../tests/trade/table.rs"]
+mod table;
+
+use table::{Row, Table};
+use tipstrike::model::inputs::Rung;
+use tipstrike::report::trade::plot::{LOOKS, Plot, Point, Series, svg};
+use tipstrike::study::trade::{Patience, RUNGS, Setting, Subject, greatest};
+
+fn main() {
+    // `cargo test --benches` and `cargo bench -- --test` ask whether it starts, not what it finds.
+    if std::env::args().any(|argument| argument == "--test") {
+        return;
+    }
+    let trades = table::trades(&Patience::STEADY);
+    let made = Table::of(&trades);
+    println!("{}", made.markdown());
+    println!("{}", models(&trades));
+    if std::env::var_os("TIPSTRIKE_REGENERATE").is_some() {
+        made.keep();
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/trade.svg");
+        std::fs::write(path, picture(&made)).expect("the picture is written");
+        println!("for README.md:\n{}", Table::of_readme().join("\n"));
+    }
+}
+
+/// What each rung leaves out, a line a case.
+fn models(trades: &[(String, tipstrike::study::trade::Trade)]) -> String {
+    let mut lines =
+        vec!["| case | paper | exact | static | two ways to the reference |".to_owned(), "|---|---|---|---|---|".to_owned()];
+    for (name, trade) in trades {
+        let percent = |rung: Rung| {
+            let off = trade.model(rung).map_or([None; Subject::ALL.len()], |model| model.off);
+            let needed =
+                Subject::NEEDED.map(|subject| off[subject as usize].map_or("-".to_owned(), |off| format!("{:.1}", 100.0 * off)));
+            needed.join(" / ")
+        };
+        let check = trade.reference.as_ref().ok().and_then(|reference| greatest(reference.disagreement.as_ref().ok()?));
+        let check = check.map_or("-".to_owned(), |off| format!("{off:.0e}"));
+        lines.push(format!(
+            "| `{name}` | {} | {} | {} | {check} |",
+            percent(Rung::Paper),
+            percent(Rung::Exact),
+            percent(Rung::Static)
+        ));
+    }
+    lines.join("\n")
+}
+
+/// Numerical error against time: a line a rung over its stations, and one over the tolerances.
+fn picture(table: &Table) -> String {
+    let stations = RUNGS.map(|rung| (format!("{}: stations", rung.name()), Setting::usual(rung), 1));
+    let tolerances = ("dynamic: tolerance".to_owned(), Setting::usual(Rung::Dynamic), 0);
+    let series: Vec<Series> = stations
+        .into_iter()
+        .chain([tolerances])
+        .zip(LOOKS)
+        .map(|((name, usual, error), look)| {
+            let alike = |setting: &Setting| {
+                let same = if error == 1 { setting.tolerance == usual.tolerance } else { setting.stations == usual.stations };
+                setting.rung == usual.rung && setting.accurate == usual.accurate && setting.stations.is_some() && same
+            };
+            let mut settings: Vec<Setting> = Setting::all().into_iter().filter(alike).collect();
+            settings.sort_by(|one, other| other.tolerance.unwrap_or(0.0).total_cmp(&one.tolerance.unwrap_or(0.0)));
+            let points = settings.iter().filter_map(|setting| point(table, setting, *setting == usual, error));
+            Series { name, look, points: points.collect() }
+        })
+        .collect();
+    svg(&Plot {
+        title: "Numerical error against time: median over the cases of cases/",
+        across: "time of a whole solve",
+        up: "relative error: of the curve, by stations; of the numbers, by tolerance",
+        series: &series,
+    })
+}
+
+fn point(table: &Table, setting: &Setting, is_usual: bool, error: usize) -> Option<Point> {
+    let row: &Row = table.0.iter().find(|row| row.setting == setting.to_string())?;
+    Some(Point { seconds: row.seconds?, error: row.errors[error]?.0, is_usual })
+}

@@ -1,0 +1,170 @@
+//! The work-precision table of the cases in `cases/`, made, kept and compared.
+#![allow(dead_code, reason = "test and bench each use their own part")]
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use tipstrike::case::file::Document;
+use tipstrike::model::Inputs;
+use tipstrike::report::trade::duration;
+use tipstrike::study::trade::{Differences, Patience, Question, Setting, Subject, Trade, greatest, trade};
+
+/// Below this an error is rounding, and one machine may differ from another.
+const ROUNDING: f64 = 1e-11;
+
+/// The cases, by name.
+pub(crate) fn cases() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+    let files = std::fs::read_dir(folder).expect("the cases").map(|entry| entry.expect("an entry").path());
+    let mut cases: Vec<PathBuf> = files.filter(|path| path.extension().is_some_and(|ending| ending == "toml")).collect();
+    cases.sort();
+    cases
+}
+
+pub(crate) fn inputs(path: &Path) -> Inputs {
+    let document = Document::read(path).unwrap_or_else(|error| panic!("{error}"));
+    document.case.inputs().unwrap_or_else(|problems| panic!("{}: {}", path.display(), problems[0]))
+}
+
+/// A power of ten as it is read from a file.
+pub(crate) fn tidy(tolerance: f64) -> f64 {
+    format!("{tolerance:.0e}").parse().expect("a number")
+}
+
+/// A setting over all cases.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Row {
+    /// The setting in words.
+    pub(crate) setting: String,
+    /// Median time, in s.
+    pub(crate) seconds: Option<f64>,
+    /// Median evaluations of the forces.
+    pub(crate) evaluations: Option<f64>,
+    /// Median and greatest numerical error of the numbers, of the curve, and in total.
+    pub(crate) errors: [Option<(f64, f64)>; 3],
+}
+
+/// The table.
+pub(crate) struct Table(pub(crate) Vec<Row>);
+
+fn path() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/trade/table.md")
+}
+
+/// The settings of every case that are the same in all of them.
+pub(crate) fn trades(patience: &Patience) -> Vec<(String, Trade)> {
+    let question = Question { within: 0.05, patience: *patience };
+    let made = |path: PathBuf| {
+        let found = trade(&inputs(&path), &question, &|| true, &mut |_| ());
+        let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
+        (name, found.unwrap_or_else(|refusal| panic!("{}: {refusal}", path.display())))
+    };
+    cases().into_iter().map(made).collect()
+}
+
+impl Table {
+    pub(crate) fn made(patience: &Patience) -> Table {
+        Table::of(&trades(patience))
+    }
+
+    pub(crate) fn of(trades: &[(String, Trade)]) -> Table {
+        Table(Setting::all().iter().map(|setting| row(setting, trades)).collect())
+    }
+
+    pub(crate) fn stored() -> Table {
+        let text = std::fs::read_to_string(path()).expect("the stored table");
+        Table(text.lines().skip(2).map(read).collect())
+    }
+
+    pub(crate) fn keep(&self) {
+        std::fs::write(path(), self.markdown()).expect("the table is written");
+    }
+
+    /// As Markdown.
+    pub(crate) fn markdown(&self) -> String {
+        let mut text = "| setting | time | evaluations | numbers | curve | total |\n|---|---|---|---|---|---|\n".to_owned();
+        for row in &self.0 {
+            let time = row.seconds.map_or_else(|| "-".to_owned(), duration);
+            let evaluations = row.evaluations.map_or_else(|| "-".to_owned(), |count| format!("{count:.0}"));
+            let errors = row
+                .errors
+                .map(|error| error.map_or_else(|| "-".to_owned(), |(median, most)| format!("{median:.1e} / {most:.1e}")));
+            writeln!(text, "| {} | {time} | {evaluations} | {} |", row.setting, errors.join(" | ")).expect("a string");
+        }
+        text
+    }
+
+    /// The lines of the README: a few of the stored ones, as they stand.
+    pub(crate) fn of_readme() -> Vec<String> {
+        let text = std::fs::read_to_string(path()).expect("the stored table");
+        let names: Vec<String> =
+            Setting::all().iter().filter(|setting| is_told(setting)).map(|setting| format!("| {setting} |")).collect();
+        let lines = text.lines().enumerate();
+        let told = lines.filter(|(at, line)| *at < 2 || names.iter().any(|name| line.starts_with(name)));
+        told.map(|(_, line)| line.to_owned()).collect()
+    }
+
+    /// No error of the other table is more than twice the one of this; times may differ.
+    pub(crate) fn holds(&self, made: &Table) {
+        let names = |table: &Table| table.0.iter().map(|row| row.setting.clone()).collect::<Vec<_>>();
+        assert_eq!(names(self), names(made), "the stored table has other settings");
+        for (stored, made) in self.0.iter().zip(&made.0) {
+            for (stored_error, error) in stored.errors.iter().zip(&made.errors) {
+                let held = match (stored_error, error) {
+                    (Some(stored), Some(made)) => {
+                        made.0 <= 2.0 * stored.0.max(ROUNDING) && made.1 <= 2.0 * stored.1.max(ROUNDING)
+                    }
+                    (None, None) => true,
+                    _ => false,
+                };
+                assert!(held, "{}: {stored_error:?} is stored and {error:?} is made", made.setting);
+            }
+        }
+    }
+}
+
+/// Whether it stands in the README.
+fn is_told(setting: &Setting) -> bool {
+    let few = setting.stations.is_none_or(|stations| [8, 64, 1024].contains(&stations));
+    few && !setting.accurate
+}
+
+fn row(setting: &Setting, trades: &[(String, Trade)]) -> Row {
+    let found: Vec<_> =
+        trades.iter().flat_map(|(_, trade)| &trade.settings).filter(|measured| measured.setting == *setting).collect();
+    let figures = || found.iter().filter_map(|measured| measured.found.as_ref().ok());
+    let numbers = figures().filter_map(|figures| greatest(&without_curve(&figures.numerical))).collect();
+    let curve = figures().filter_map(|figures| figures.numerical[Subject::Curve as usize]).collect();
+    let total = found.iter().filter_map(|measured| measured.total()).collect();
+    Row {
+        setting: setting.to_string(),
+        seconds: median(figures().map(|figures| figures.time.seconds).collect()).map(|(median, _)| median),
+        evaluations: median(figures().filter_map(|figures| figures.evaluations).map(|count| count as f64).collect())
+            .map(|(median, _)| median),
+        errors: [numbers, curve, total].map(median),
+    }
+}
+
+fn without_curve(differences: &Differences) -> Differences {
+    let mut numbers = *differences;
+    numbers[Subject::Curve as usize] = None;
+    numbers
+}
+
+/// Median and greatest.
+pub(crate) fn median(mut values: Vec<f64>) -> Option<(f64, f64)> {
+    values.sort_by(f64::total_cmp);
+    Some((*values.get(values.len() / 2)?, *values.last()?))
+}
+
+fn read(line: &str) -> Row {
+    let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
+    let number = |text: &str| text.parse::<f64>().expect("a number");
+    let error = |text: &str| text.split_once(" / ").map(|(median, most)| (number(median), number(most)));
+    Row {
+        setting: cells[0].to_owned(),
+        seconds: None,
+        evaluations: cells[2].parse().ok(),
+        errors: [error(cells[3]), error(cells[4]), error(cells[5])],
+    }
+}
