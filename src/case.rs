@@ -135,7 +135,7 @@ impl Case {
     /// # Errors
     /// The cause and the mend, in the same words as for a file.
     pub fn check_field(&self, field: usize) -> Result<(), Problem> {
-        check::put(self, field, &mut fields::blank())
+        check::put(self, field, &mut Inputs::default())
     }
 
     /// The model's inputs.

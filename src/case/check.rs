@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use super::fields::{AUTO, Absent, FIELDS, Field, Kind, Range, blank, index_of};
+use super::fields::{AUTO, Absent, FIELDS, Field, Kind, Range, index_of};
 use super::units::{self, Dimension, Misread};
 use super::visible::{quoted, visible};
 use super::{Case, Limit, suggest};
@@ -53,7 +53,7 @@ pub(super) fn inputs(case: &Case) -> Result<Inputs, Vec<Problem>> {
 /// The inputs as far as they can be read, and everything that is wrong with the case, passing over the fields that are
 /// known to be wrong.
 pub(super) fn read(case: &Case, wrong: &[usize]) -> (Inputs, Vec<Problem>) {
-    let mut inputs = blank();
+    let mut inputs = Inputs::default();
     let mut problems: Vec<Problem> = Vec::new();
     for field in (0..FIELDS.len()).filter(|field| !wrong.contains(field)) {
         problems.extend(put(case, field, &mut inputs).err());

@@ -6,7 +6,6 @@ use super::units::Dimension;
 use crate::model::Inputs;
 
 pub use table::FIELDS;
-pub(super) use table::blank;
 
 /// One line of the form, one key of the case file.
 #[derive(Debug, Clone, Copy)]

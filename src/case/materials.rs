@@ -5,7 +5,8 @@ use std::sync::LazyLock;
 use serde::Deserialize;
 
 use super::fields::index_of;
-use super::{Case, Problem, check, fields};
+use super::{Case, Problem, check};
+use crate::model::Inputs;
 use crate::model::inputs::Gear;
 
 /// A material with the values that the fields of a gear take, as texts, and their source.
@@ -102,7 +103,7 @@ pub fn name_of_gear(case: &Case, gear: &str) -> Option<String> {
 
 /// Young's modulus, Poisson's ratio and density of a gear in SI, where all three can be read.
 fn constants(case: &Case, gear: &str) -> Option<[f64; 3]> {
-    let mut inputs = fields::blank();
+    let mut inputs = Inputs::default();
     for name in ["young", "poisson", "density"] {
         check::put(case, index_of(&format!("{gear}.{name}"))?, &mut inputs).ok()?;
     }

@@ -37,6 +37,30 @@ pub struct Gear {
     pub tip_radius: Option<f64>,
 }
 
+/// A full-depth gear without shift, relief and bore, of which nothing else is given yet: teeth, width and material are zero,
+/// which no check lets through.
+impl Default for Gear {
+    fn default() -> Gear {
+        Gear {
+            teeth: 0,
+            profile_shift: 0.0,
+            addendum: 1.0,
+            dedendum: 1.25,
+            face_width: 0.0,
+            bore_radius: 0.0,
+            young: 0.0,
+            poisson: 0.0,
+            density: 0.0,
+            tip_relief: 0.0,
+            root_relief: 0.0,
+            tip_relief_length: None,
+            root_relief_length: None,
+            tip_chamfer: 0.0,
+            tip_radius: None,
+        }
+    }
+}
+
 /// What drives the pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Drive {
@@ -200,6 +224,37 @@ pub struct Inputs {
     pub station_tolerance: f64,
     /// Geometry and position in double-double arithmetic.
     pub accurate: bool,
+}
+
+/// What a case stands for that says nothing: no size, no gears, no load, which no check lets through, and the model's usual
+/// settings.
+impl Default for Inputs {
+    fn default() -> Inputs {
+        Inputs {
+            module: 0.0,
+            pressure_angle: 0.0,
+            centre_distance: None,
+            driver: Gear::default(),
+            driven: Gear::default(),
+            base_pitch_deviation: 0.0,
+            backlash: 0.0,
+            drive: Drive::Power(0.0),
+            speed: 0.0,
+            friction_coefficient: None,
+            rung: Rung::Exact,
+            deflection: None,
+            tooth_compliance: None,
+            contact_compliance: ContactCompliance::Logarithmic,
+            relief_shape: ReliefShape::Linear,
+            damping_ratio: 0.07,
+            warmup_cycles: 20,
+            tolerance: 1e-6,
+            within: 0.05,
+            stations: Some(64),
+            station_tolerance: 1e-3,
+            accurate: false,
+        }
+    }
 }
 
 impl Inputs {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::thread;
 
 use serde_json::Value;
-use tipstrike::model::inputs::{ContactCompliance, Drive, Gear, ReliefShape, Rung, ToothCompliance};
+use tipstrike::model::inputs::{ContactCompliance, Drive, Rung, ToothCompliance};
 use tipstrike::model::{Inputs, QUANTITIES};
 
 use crate::envelope::{self, Corner, Random};
@@ -213,47 +213,11 @@ fn chosen(choices: &str) -> Inputs {
     let words: Vec<&str> = choices.split(' ').collect();
     let named = |contact: &ContactCompliance| format!("{contact:?}") == words[3];
     Inputs {
-        module: 0.0,
-        pressure_angle: 0.0,
-        centre_distance: None,
-        driver: blank(),
-        driven: blank(),
-        base_pitch_deviation: 0.0,
-        backlash: 0.0,
         drive: if words[1] == "power" { Drive::Power(0.0) } else { Drive::Torque(0.0) },
-        speed: 0.0,
-        friction_coefficient: None,
         rung: Rung::ALL.into_iter().find(|rung| rung.name() == words[0]).expect("a rung"),
-        deflection: None,
         tooth_compliance: ToothCompliance::ALL.into_iter().find(|tooth| tooth.name() == words[2]),
         contact_compliance: ContactCompliance::ALL.into_iter().find(named).expect("a contact compliance"),
         stations: Some(8),
-        relief_shape: ReliefShape::Linear,
-        damping_ratio: 0.07,
-        warmup_cycles: 20,
-        tolerance: 1e-6,
-        within: 0.05,
-        station_tolerance: 1e-3,
-        accurate: false,
-    }
-}
-
-fn blank() -> Gear {
-    Gear {
-        teeth: 0,
-        profile_shift: 0.0,
-        addendum: 0.0,
-        dedendum: 1.25,
-        face_width: 0.0,
-        bore_radius: 0.0,
-        young: 0.0,
-        poisson: 0.0,
-        density: 0.0,
-        tip_relief: 0.0,
-        root_relief: 0.0,
-        tip_relief_length: None,
-        root_relief_length: None,
-        tip_chamfer: 0.0,
-        tip_radius: None,
+        ..Inputs::default()
     }
 }

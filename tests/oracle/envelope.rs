@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, SQRT_2};
 
 use tipstrike::model::Inputs;
-use tipstrike::model::inputs::{ContactCompliance, Drive, Gear, ReliefShape, Rung, ToothCompliance};
+use tipstrike::model::inputs::{ContactCompliance, Drive, Gear, Rung, ToothCompliance};
 
 /// A small generator with a named sequence (splitmix64, Steele, Lea & Flood 2014), the same on every machine.
 pub(crate) struct Random(u64);
@@ -116,26 +116,15 @@ fn anywhere(random: &mut Random, fit: bool) -> Inputs {
     Inputs {
         module,
         pressure_angle,
-        centre_distance: None,
         driver,
         driven,
-        base_pitch_deviation: 0.0,
-        backlash: 0.0,
         drive: if random.chance(0.5) { Drive::Torque(torque) } else { Drive::Power(torque * speed) },
         speed,
-        friction_coefficient: None,
         rung: random.one_of(&[Rung::Exact, Rung::Exact, Rung::Exact, Rung::Paper]),
-        deflection: None,
         tooth_compliance: fit.then_some(ToothCompliance::KuangYang),
         contact_compliance: random.one_of(&ContactCompliance::ALL),
         stations: Some(8),
-        relief_shape: ReliefShape::Linear,
-        damping_ratio: 0.07,
-        warmup_cycles: 20,
-        tolerance: 1e-6,
-        within: 0.05,
-        station_tolerance: 1e-3,
-        accurate: false,
+        ..Inputs::default()
     }
 }
 
@@ -160,19 +149,15 @@ fn gear(random: &mut Random, module: f64, pressure_angle: f64, teeth: u32, fit: 
     Gear {
         teeth,
         profile_shift,
-        dedendum: 1.25,
         addendum: if random.chance(0.5) { 1.0 } else { random.even(0.3, 1.3) },
         face_width: random.decades(1e-4, 1.0),
         bore_radius: bore,
         young: if fit { random.decades(1e10, 1e12) } else { random.decades(1e6, 1e12) },
         poisson: random.even(0.0, 0.49),
         density: random.decades(500.0, 20e3),
-        tip_relief: 0.0,
-        root_relief: 0.0,
-        tip_relief_length: None,
-        root_relief_length: None,
         tip_chamfer: if random.chance(0.8) { 0.0 } else { module * random.decades(1e-3, 0.1) },
         tip_radius: if random.chance(0.8) { None } else { Some(module * random.decades(1e-3, 0.3)) },
+        ..Gear::default()
     }
 }
 

@@ -3,8 +3,7 @@
 use super::Absent::{self, Default, Either, Refused, Without};
 use super::{FLAG, Field, Kind, Range};
 use crate::case::units::Dimension;
-use crate::model::Inputs;
-use crate::model::inputs::{ContactCompliance, Drive, Gear, ReliefShape, Rung, ToothCompliance};
+use crate::model::inputs::{ContactCompliance, Drive, ReliefShape, Rung, ToothCompliance};
 
 const fn range(from: f64, to: f64, unit: &'static str) -> Range {
     Range { from, to, unit }
@@ -336,49 +335,4 @@ const fn table() -> [Field; 53] {
         part += 1;
     }
     all
-}
-
-/// Inputs that no field has filled yet.
-pub(in crate::case) fn blank() -> Inputs {
-    let gear = Gear {
-        teeth: 0,
-        profile_shift: 0.0,
-        addendum: 1.0,
-        dedendum: 1.25,
-        face_width: 0.0,
-        bore_radius: 0.0,
-        young: 0.0,
-        poisson: 0.0,
-        density: 0.0,
-        tip_relief: 0.0,
-        root_relief: 0.0,
-        tip_relief_length: None,
-        root_relief_length: None,
-        tip_chamfer: 0.0,
-        tip_radius: None,
-    };
-    Inputs {
-        module: 0.0,
-        pressure_angle: 0.0,
-        centre_distance: None,
-        driver: gear.clone(),
-        driven: gear,
-        base_pitch_deviation: 0.0,
-        backlash: 0.0,
-        drive: Drive::Power(0.0),
-        speed: 0.0,
-        friction_coefficient: None,
-        rung: Rung::Exact,
-        deflection: None,
-        tooth_compliance: None,
-        contact_compliance: ContactCompliance::Logarithmic,
-        stations: Some(64),
-        relief_shape: ReliefShape::Linear,
-        damping_ratio: 0.07,
-        warmup_cycles: 20,
-        tolerance: 1e-6,
-        within: 0.05,
-        station_tolerance: 1e-3,
-        accurate: false,
-    }
 }
