@@ -3,6 +3,7 @@
 pub mod csv;
 pub mod explain;
 pub mod fields;
+pub mod graphs;
 pub mod json;
 mod layout;
 pub mod stations;

@@ -55,6 +55,8 @@ pub struct Mesh {
     pub mean_stiffness: f64,
     /// Base radii, in m.
     pub base_radii: (f64, f64),
+    /// Common face width b, in m.
+    pub width: f64,
     friction: f64,
     pitch_point: f64,
     zones: Vec<Zone>,
@@ -122,6 +124,7 @@ impl Mesh {
             error,
             mean_stiffness: stiffness / geometry.base_pitch,
             base_radii: (geometry.driver.base, geometry.driven.base),
+            width: inputs.common_width(),
             friction,
             pitch_point: geometry.approach_length,
             zones,
@@ -198,10 +201,11 @@ impl Mesh {
         [stiffness, (gap - self.error_of(ahead), slope)]
     }
 
-    /// Sliding velocity of the incoming pair at `s`, in m/s.
+    /// The incoming pair at `s`, without its error.
     #[must_use]
-    pub fn sliding(&self, s: f64) -> f64 {
-        self.zones[self.zone(s)].series.one(SLIDING, s)
+    pub fn incoming(&self, s: f64) -> Place {
+        let [stiffness, gap, lever, sliding] = self.zones[self.zone(s)].series.at(s);
+        Place { stiffness, gap, lever, sliding }
     }
 
     /// Arm of the friction force over the driver's base radius, and sliding velocity in m/s.

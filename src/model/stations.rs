@@ -7,8 +7,11 @@ use super::inputs::Inputs;
 use super::mesh::Mesh;
 use super::position::Position;
 use super::spacing::Spacing;
-use super::tip::tip_at;
+use super::tip::{gap_without, tip_at};
 use super::{Refusal, velocity};
+
+/// The gap in closed form may lose this factor of its digits before the quadrature serves.
+const LOSS: f64 = 1e4;
 
 /// A place between D and E at which the impact is computed as if it were D.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,6 +28,12 @@ pub struct Station {
     pub sliding_velocity: f64,
     /// Impact force, in N.
     pub impact_force: f64,
+    /// Gap S(u) between tip and flank without deviation, in m; Δ at D, 0 at E.
+    pub gap: f64,
+    /// Pair compliance q_s at the impact force, in m²/N; none at E, where there is no force.
+    pub pair_compliance: Option<f64>,
+    /// Normal kinetic energy E_k of the whole width, in J.
+    pub impact_energy: f64,
 }
 
 /// A place of the incoming tooth from its first contact through E to its last.
@@ -42,6 +51,10 @@ pub struct MeshStation {
     pub transmission_error: f64,
     /// Sliding velocity of the incoming pair, in m/s.
     pub sliding_velocity: f64,
+    /// Its gap S without deviation and load, reliefs included, in m.
+    pub gap: f64,
+    /// Its compliance q_s at the force along the line of action, in m²/N.
+    pub pair_compliance: f64,
     /// Time since E, in s; in the rung `dynamic` alone.
     pub time: Option<f64>,
 }
@@ -63,13 +76,16 @@ impl MeshStation {
 
     /// The station at which the incoming pair stands `s` after E.
     pub(super) fn at(mesh: &Mesh, s: f64, force: f64, total: f64, displacement: f64, time: Option<f64>) -> MeshStation {
+        let own = mesh.incoming(s);
         MeshStation {
             roll_angle_driver: 0.0 - s / mesh.base_radii.0,
             roll_angle_driven: 0.0 - s / mesh.base_radii.1,
             force,
             load_share: if total > 0.0 { force / total } else { 0.0 },
             transmission_error: displacement,
-            sliding_velocity: mesh.sliding(s),
+            sliding_velocity: own.sliding,
+            gap: own.gap,
+            pair_compliance: mesh.width / own.stiffness,
             time,
         }
     }
@@ -108,11 +124,11 @@ pub fn stations(
 pub fn station(inputs: &Inputs, geometry: &Geometry, masses: &Masses, angle: f64) -> Result<Station, Refusal> {
     let tip = tip_at(geometry, angle);
     let velocity = velocity::velocity(inputs, &tip);
-    let impact_force = if angle > 0.0 {
+    let struck = if angle > 0.0 {
         let teeth = compliance::teeth(inputs, geometry, &ContactPlace::at_tip(inputs, geometry, &tip))?;
-        impact(inputs, geometry, masses, &tip, &teeth, &velocity)?.force
+        Some(impact(inputs, geometry, masses, &tip, &teeth, &velocity)?)
     } else {
-        0.0
+        None
     };
     Ok(Station {
         roll_angle_driver: angle * inputs.ratio(),
@@ -120,6 +136,9 @@ pub fn station(inputs: &Inputs, geometry: &Geometry, masses: &Masses, angle: f64
         radius_driver: tip.radius_driver,
         normal_velocity: velocity.normal,
         sliding_velocity: velocity.sliding,
-        impact_force,
+        impact_force: struck.map_or(0.0, |impact| impact.force),
+        gap: gap_without(LOSS, geometry, &tip),
+        pair_compliance: struck.map(|impact| impact.pair_compliance),
+        impact_energy: struck.map_or(0.0, |impact| impact.energy),
     })
 }

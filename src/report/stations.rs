@@ -44,7 +44,7 @@ macro_rules! column {
 
 /// Every column, in the order of a row.
 #[rustfmt::skip]
-pub static COLUMNS: [Column; 10] = [
+pub static COLUMNS: [Column; 13] = [
     column!("roll_angle_driver", "θ_1", "rad", "deg", 5, EVERY, |row| Some(row.both(|s| s.roll_angle_driver, |s| s.roll_angle_driver))),
     column!("roll_angle_driven", "u", "rad", "deg", 5, EVERY, |row| Some(row.both(|s| s.roll_angle_driven, |s| s.roll_angle_driven))),
     column!("time", "t", "s", "us", 5, DYNAMIC, |row| row.load()?.time),
@@ -55,6 +55,9 @@ pub static COLUMNS: [Column; 10] = [
     column!("force", "F", "N", "N", 5, SHARING, |row| Some(row.load()?.force)),
     column!("load_share", "F/ΣF", "1", "1", 4, SHARING, |row| Some(row.load()?.load_share)),
     column!("transmission_error", "x", "m", "um", 5, SHARING, |row| Some(row.load()?.transmission_error)),
+    column!("gap", "S", "m", "um", 5, EVERY, |row| Some(row.both(|s| s.gap, |s| s.gap))),
+    column!("pair_compliance", "q_s", "m2/N", "um mm/N", 5, EVERY, |row| row.both(|s| s.pair_compliance, |s| Some(s.pair_compliance))),
+    column!("impact_energy", "E_k", "J", "J", 5, CLOSED_FORM, |row| Some(row.impact()?.impact_energy)),
 ];
 
 /// The columns that the stations of a rung have.
@@ -74,7 +77,7 @@ pub fn rows(solution: &Solution) -> Vec<Row<'_>> {
 }
 
 impl<'a> Row<'a> {
-    fn both(self, impact: fn(&Station) -> f64, load: fn(&MeshStation) -> f64) -> f64 {
+    fn both<T>(self, impact: fn(&Station) -> T, load: fn(&MeshStation) -> T) -> T {
         match self {
             Row::Impact(station) => impact(station),
             Row::Load(station) => load(station),

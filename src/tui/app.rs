@@ -15,6 +15,7 @@ use super::solver::{self, Answer, Request};
 use super::tab::{Tab, Traded};
 use super::theme::Look;
 use super::update::files::NEWER;
+use super::view::chart::{self, ChartView};
 use super::view::teeth::TeethView;
 use super::view::{self, form, results};
 use crate::case::fields::Absent;
@@ -49,7 +50,9 @@ pub struct App {
     pub cursor: Option<f64>,
     /// What of the teeth is in sight.
     pub teeth: TeethView,
-    /// Whether the cursor runs to E by itself.
+    /// What of the roll angle is in sight in the charts.
+    pub chart: ChartView,
+    /// Whether the cursor runs by itself.
     pub is_playing: bool,
     /// Long work that goes on.
     pub progress: Option<Progress>,
@@ -119,6 +122,7 @@ impl App {
             shows_cost: false,
             cursor: None,
             teeth: TeethView::default(),
+            chart: ChartView::default(),
             is_playing: false,
             progress: None,
             prompts: Vec::new(),
@@ -134,6 +138,7 @@ impl App {
         if let Some(request) = app.request() {
             app.take(solver::first_answer(&request));
         }
+        app.fit();
         app
     }
 
@@ -247,6 +252,11 @@ impl App {
     pub(super) fn traded_of(&mut self, serial: u64) -> Option<&mut Traded> {
         let all = std::iter::once(&mut self.tab).chain(&mut self.others);
         all.filter_map(|tab| tab.traded.as_mut()).find(|traded| traded.serial == serial)
+    }
+
+    /// Fit the axes of the charts in sight to their curves.
+    pub(super) fn fit(&mut self) {
+        self.tab.scale = chart::fitted(self);
     }
 
     /// The tab that waits for the answer of that serial.

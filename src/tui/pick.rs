@@ -9,6 +9,7 @@ use super::clean::symbol;
 use crate::case::materials::{self, Material};
 use crate::case::{FIELDS, search};
 use crate::model::{QUANTITIES, Quantity};
+use crate::report::graphs::{GRAPHS, Graph};
 
 /// A name must be this like what is typed to be offered when nothing contains it.
 const LIKENESS: f64 = 0.75;
@@ -115,7 +116,7 @@ impl Picker {
 
     fn items(&self) -> Vec<Item> {
         match &self.list {
-            List::Commands => actions::commands().map(command).collect(),
+            List::Commands => actions::commands().map(command).chain(GRAPHS.iter().enumerate().map(graph)).collect(),
             List::Fields => (0..FIELDS.len()).map(field).collect(),
             List::Materials(gears) => materials::all().iter().map(|material| of_material(gears, material)).collect(),
             List::Limits => QUANTITIES.iter().map(quantity).collect(),
@@ -130,6 +131,16 @@ fn command(binding: &actions::Binding) -> Item {
         name: binding.name.to_owned(),
         about: binding.sentence.to_owned(),
         keys: actions::keys_of(binding.command),
+    }
+}
+
+fn graph((place, graph): (usize, &Graph)) -> Item {
+    let symbols: Vec<_> = graph.all_columns().map(|column| column.symbol).collect();
+    Item {
+        pick: Pick::Run(Command::Chart(place)),
+        name: format!("chart: {}", graph.label.to_lowercase()),
+        about: format!("Show {} over the driver's roll angle.", symbols.join(", ")),
+        keys: String::new(),
     }
 }
 
@@ -220,7 +231,7 @@ mod tests {
     #[test]
     fn the_whole_list_stands_while_nothing_is_typed() {
         let all = Picker::new(List::Commands).fitting();
-        assert_eq!(all.len(), actions::commands().count());
+        assert_eq!(all.len(), actions::commands().count() + GRAPHS.len());
         assert_eq!(Picker::new(List::Fields).fitting().len(), FIELDS.len());
     }
 }

@@ -1,49 +1,143 @@
-//! The chart's axes: round steps that stay until the curve leaves them.
+//! The chart's axes: round ends that stay until a curve leaves them, and ticks at multiples of 1, 2 or 5.
 
-use super::solver::Answer;
-use crate::model::Station;
+use crate::report::graphs::GRAPHS;
 
-/// Ends of an axis, times a power of ten.
-const STEPS: [f64; 8] = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0];
+/// Ends of an axis that begins at 0, times a power of ten.
+const ENDS: [f64; 9] = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
+/// Steps from tick to tick, times a power of ten.
+const STEPS: [f64; 4] = [1.0, 2.0, 5.0, 10.0];
 
-/// Below this part of the axis the curve is too small, and the axis shrinks. A step is at most 1.5 times
-/// the one before, so that a curve that has just left its axis fills two thirds of the next.
+/// Below this part of the axis the curve is too small, and the axis shrinks. An end is at most 1.5 times the one before,
+/// so that a curve that has just left its axis fills two thirds of the next.
 const TOO_SMALL: f64 = 0.45;
 
-/// Ends of the two axes; both begin at 0.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Values whose least is above this part of the greatest are drawn without 0.
+const FAR_FROM_ZERO: f64 = 0.5;
+
+/// What is less than this part of the rest is 0 but for rounding.
+const NOTHING: f64 = 1e-9;
+
+/// Values that differ by less than this part of themselves are drawn with 0: no label could tell them apart.
+const ALIKE: f64 = 1e-3;
+
+/// A stretch of an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Span {
+    /// Where it begins.
+    pub from: f64,
+    /// Where it ends, not before.
+    pub to: f64,
+}
+
+/// The axes of the charts.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Scale {
-    /// Roll angle of the driver before E, in deg.
-    pub angle: f64,
-    /// Force, in N.
-    pub force: f64,
+    /// Roll angle of the driver after E, in deg, below 0 before it: the whole way of the contact.
+    pub across: Span,
+    /// The same, from D to a little after E.
+    pub strike: Span,
+    /// Values of each chart, in the unit that it is read in.
+    pub upright: [Span; GRAPHS.len()],
 }
 
-impl Default for Scale {
-    fn default() -> Scale {
-        Scale { angle: 0.0, force: 0.0 }
-    }
+/// Ticks of an axis.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Ticks {
+    /// Where they stand, with their labels.
+    pub labelled: Vec<(f64, String)>,
+    /// The labels are to be taken times ten to this power.
+    pub power: i32,
 }
 
-impl Scale {
-    /// The scale on which every curve of the answer has its place, this one when it serves.
+impl Span {
+    /// A stretch that holds nothing.
+    pub const NONE: Span = Span { from: f64::INFINITY, to: f64::NEG_INFINITY };
+
+    /// From where to where.
     #[must_use]
-    pub fn fitted(self, answer: &Answer) -> Scale {
-        let solutions = answer.rungs.iter().filter_map(|(_, result)| result.as_ref().ok());
-        let points: Vec<_> = solutions.flat_map(|solution| curve(&solution.stations)).collect();
-        if points.is_empty() {
+    pub fn new(from: f64, to: f64) -> Span {
+        Span { from, to }
+    }
+
+    /// Its length.
+    #[must_use]
+    pub fn length(self) -> f64 {
+        self.to - self.from
+    }
+
+    /// Whether it holds nothing, or a single point.
+    #[must_use]
+    pub fn is_empty(self) -> bool {
+        self.length().is_nan() || self.length() <= 0.0
+    }
+
+    /// The stretch and one point more.
+    #[must_use]
+    pub fn with(self, value: f64) -> Span {
+        Span { from: self.from.min(value), to: self.to.max(value) }
+    }
+
+    /// The stretch that holds both.
+    #[must_use]
+    pub fn and(self, other: Span) -> Span {
+        Span { from: self.from.min(other.from), to: self.to.max(other.to) }
+    }
+
+    /// Whether the other lies within.
+    #[must_use]
+    pub fn covers(self, other: Span) -> bool {
+        self.from <= other.from && other.to <= self.to
+    }
+
+    /// How far along a value stands, 0 at the beginning and 1 at the end.
+    #[must_use]
+    pub fn part(self, value: f64) -> f64 {
+        if self.is_empty() { 0.0 } else { (value - self.from) / self.length() }
+    }
+
+    /// The stretch moved as little as brings it into the other, which is longer.
+    #[must_use]
+    pub fn within(self, other: Span) -> Span {
+        let from = self.from.min(other.to - self.length()).max(other.from);
+        Span { from, to: (from + self.length()).min(other.to) }
+    }
+
+    /// An axis with a place for all of these values: this one as long as it serves.
+    #[must_use]
+    pub fn fitted(self, values: Span) -> Span {
+        if !(values.from.is_finite() && values.to.is_finite()) {
             return self;
         }
-        let (angle, force) = points.iter().fold((0.0, 0.0), |(x, y): (f64, f64), point| (x.max(-point.0), y.max(point.1)));
-        Scale { angle: step(self.angle, angle), force: step(self.force, force) }
+        let needed = with_zero(values);
+        let serves = self.covers(needed) && needed.length() >= TOO_SMALL * self.length() && !self.is_empty();
+        if serves && (self.from > 0.0) == (needed.from > 0.0) { self } else { rounded(needed) }
     }
-}
 
-/// The curve of the impact force: minus the roll angle before E in deg, and the force in N. Only what is finite
-/// reaches a chart.
-pub fn curve(stations: &[Station]) -> impl Iterator<Item = (f64, f64)> {
-    let points = stations.iter().map(|station| (-station.roll_angle_driver.to_degrees(), station.impact_force));
-    points.filter(|(x, y)| x.is_finite() && y.is_finite())
+    /// The same, but never a shorter one.
+    #[must_use]
+    pub fn grown(self, values: Span) -> Span {
+        if self.covers(values) && !self.is_empty() { self } else { self.fitted(values) }
+    }
+
+    /// Ticks at multiples of the least step of 1, 2 or 5 that gives no more intervals than this.
+    #[must_use]
+    pub fn ticks(self, most: u16) -> Ticks {
+        let greatest = self.from.abs().max(self.to.abs());
+        let step = round_up(self.length() / f64::from(most.max(1)), &STEPS);
+        if self.is_empty() || !(1e-250..1e250).contains(&greatest) || step < 1e-12 * greatest {
+            return Ticks::default();
+        }
+        let power = power(greatest);
+        let unit = 10f64.powi(power);
+        let decimals = (-(step / unit * (1.0 + 1e-9)).log10().floor()).max(0.0) as usize;
+        let first = (self.from / step - 1e-6).ceil() as i64;
+        let last = (self.to / step + 1e-6).floor() as i64;
+        let tick = |count: i64| {
+            let value = count as f64 * step;
+            (value, if count == 0 { "0".to_owned() } else { format!("{:.decimals$}", value / unit) })
+        };
+        Ticks { labelled: (first..=last).map(tick).collect(), power }
+    }
 }
 
 /// Bounds that a chart can bear: finite, the lesser first, never equal.
@@ -55,43 +149,76 @@ pub fn bounds(from: f64, to: f64) -> [f64; 2] {
     [from - pad, to + pad]
 }
 
-/// The least end of an axis that is not below the value.
-#[must_use]
-pub fn round_up(value: f64) -> f64 {
-    if !value.is_normal() || value < 1e-30 {
-        return 1e-30;
-    }
-    let power = 10f64.powi(value.log10().floor() as i32);
-    let step = STEPS.into_iter().find(|step| step * power >= value * (1.0 - 1e-12));
-    step.unwrap_or(10.0) * power
+// Values far from 0 stand for themselves; others are seen from 0.
+fn with_zero(values: Span) -> Span {
+    let least = values.from.abs().min(values.to.abs());
+    let greatest = values.from.abs().max(values.to.abs());
+    let sound = |value: f64| if value.abs() <= NOTHING * greatest { 0.0 } else { value };
+    let values = Span::new(sound(values.from), sound(values.to));
+    let one_side = values.from.signum() == values.to.signum();
+    let apart = one_side && least > FAR_FROM_ZERO * greatest && values.length() > ALIKE * greatest;
+    if apart { values } else { values.with(0.0) }
 }
 
-fn step(now: f64, greatest: f64) -> f64 {
-    if greatest > now || greatest < TOO_SMALL * now { round_up(greatest) } else { now }
+// From 0 to a round end, or between multiples of a tick's step.
+fn rounded(values: Span) -> Span {
+    let end = |value: f64| round_up(value, &ENDS);
+    match (values.from, values.to) {
+        (0.0, to) => Span::new(0.0, end(to)),
+        (from, 0.0) => Span::new(-end(-from), 0.0),
+        (from, to) => {
+            let step = round_up((to - from) / 16.0, &STEPS);
+            Span::new((from / step - 1e-9).floor() * step, (to / step + 1e-9).ceil() * step)
+        }
+    }
+}
+
+// The least of the round numbers that is not below the value; the smallest that is drawn where the value is less.
+fn round_up(value: f64, round: &[f64]) -> f64 {
+    const LEAST: f64 = 1e-30;
+    if !value.is_normal() || value < LEAST {
+        return LEAST;
+    }
+    let power = 10f64.powi(value.log10().floor() as i32);
+    let step = round.iter().find(|&&step| step * power >= value * (1.0 - 1e-12));
+    step.unwrap_or(&10.0) * power
+}
+
+// Labels of up to five digits before the point stand as they are, others in thousands or thousandths and so on.
+fn power(greatest: f64) -> i32 {
+    if (0.01..1e5).contains(&greatest) { 0 } else { 3 * (greatest.log10() / 3.0).floor() as i32 }
 }
 
 #[cfg(test)]
-#[expect(clippy::float_cmp, reason = "a step is one of few numbers, and stays the same one")]
+#[expect(clippy::float_cmp, reason = "an end is one of few numbers, and stays the same one")]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
-    #[test]
-    fn an_axis_stays_until_the_curve_leaves_it() {
-        assert_eq!(step(0.0, 2191.0), 3000.0);
-        assert_eq!(step(3000.0, 2999.0), 3000.0);
-        assert_eq!(step(3000.0, 1400.0), 3000.0);
-        assert_eq!(step(3000.0, 1300.0), 1500.0);
-        assert_eq!(step(2000.0, 2001.0), 3000.0);
+    fn to(value: f64) -> Span {
+        Span::new(0.0, value)
     }
 
     #[test]
-    fn just_after_a_change_the_axis_stays() {
-        for tenths in 1..100_000 {
-            let value = f64::from(tenths) / 10.0;
-            let axis = round_up(value);
-            assert!(axis >= value * (1.0 - 1e-9));
-            assert_eq!(step(axis, value), axis, "{value}");
+    fn an_axis_stays_until_the_curve_leaves_it() {
+        for (now, greatest, then) in
+            [(0.0, 2191.0, 3000.0), (3000.0, 2999.0, 3000.0), (3000.0, 1400.0, 3000.0), (3000.0, 1300.0, 1500.0)]
+        {
+            assert_eq!(to(now).fitted(to(greatest)), to(then));
         }
+        assert_eq!(to(2000.0).fitted(to(2001.0)), to(3000.0));
+        assert_eq!(to(3000.0).grown(to(100.0)), to(3000.0));
+    }
+
+    #[test]
+    fn a_curve_that_changes_its_sign_has_both_sides_and_one_far_from_zero_stands_for_itself() {
+        assert_eq!(Span::default().fitted(Span::new(-1.366, 24.6)), Span::new(-2.0, 26.0));
+        assert_eq!(Span::default().fitted(Span::new(-1.366, 0.0)), Span::new(-1.5, 0.0));
+        let fitted = Span::default().fitted(Span::new(47.34, 47.89));
+        assert!((fitted.from - 47.3).abs() < 1e-9 && (fitted.to - 47.9).abs() < 1e-9, "{fitted:?}");
+        assert_eq!(Span::default().fitted(Span::new(1.0, 1.0)), to(1.0));
+        assert_eq!(Span::new(-5.0, 25.0).fitted(Span::new(-1.0, 20.0)), Span::new(-5.0, 25.0));
+        assert_eq!(to(3.0).fitted(Span::NONE), to(3.0));
     }
 
     #[test]
@@ -101,6 +228,55 @@ mod tests {
             for to in hostile {
                 let [low, high] = bounds(from, to);
                 assert!(low < high && (high - low).is_finite(), "{from} {to}");
+            }
+        }
+    }
+
+    #[test]
+    fn labels_are_short_and_large_numbers_have_a_power() {
+        let labels = |from, to, most| {
+            let ticks = Span::new(from, to).ticks(most);
+            (ticks.labelled.into_iter().map(|(_, label)| label).collect::<Vec<_>>().join(" "), ticks.power)
+        };
+        assert_eq!(labels(0.0, 3000.0, 2), ("0 2000".into(), 0));
+        assert_eq!(labels(-1.5, 0.0, 8), ("-1.4 -1.2 -1.0 -0.8 -0.6 -0.4 -0.2 0".into(), 0));
+        assert_eq!(labels(0.0, 3e5, 3), ("0 100 200 300".into(), 3));
+        assert_eq!(labels(0.0, 2e-6, 4), ("0 0.5 1.0 1.5 2.0".into(), -6));
+        assert_eq!(labels(47.3, 47.9, 6), ("47.3 47.4 47.5 47.6 47.7 47.8 47.9".into(), 0));
+    }
+
+    proptest! {
+        #[test]
+        fn just_after_a_change_the_axis_stays(from in -1e6..1e6f64, length in 0.0..1e6f64, shrunk in -12..3i32) {
+            let length = length * 10f64.powi(shrunk);
+            let values = Span::new(from, from + length);
+            let axis = Span::default().fitted(values);
+            prop_assert!(axis.covers(Span::new(from + 1e-9 * length, from + length * (1.0 - 1e-9))) || length < 1e-9);
+            prop_assert_eq!(axis.fitted(values), axis);
+        }
+
+        #[test]
+        fn ticks_are_multiples_of_1_2_or_5_and_every_label_is_another(
+            from in -1e9..1e9f64, length in 1e-4..1.0f64, power in -20..12i32, most in 1..30u16,
+        ) {
+            let size = 10f64.powi(power);
+            let span = Span::new(from * 1e-9 * size, (from * 1e-9 + length) * size);
+            let ticks = span.ticks(most);
+            let labels: Vec<_> = ticks.labelled.iter().map(|(_, label)| label.clone()).collect();
+            prop_assert!(labels.len() <= usize::from(most) + 1);
+            let mut distinct = labels.clone();
+            distinct.dedup();
+            prop_assert_eq!(&labels, &distinct);
+            let unit = 10f64.powi(ticks.power);
+            for pair in ticks.labelled.windows(2) {
+                let step = pair[1].0 - pair[0].0;
+                let digit = step / 10f64.powf((step * (1.0 + 1e-6)).log10().floor());
+                prop_assert!([1.0, 2.0, 5.0].iter().any(|round| (digit - round).abs() < 1e-3), "{digit}");
+            }
+            for (value, label) in &ticks.labelled {
+                let read: f64 = label.parse().unwrap();
+                prop_assert!((read * unit - value).abs() <= 1e-9 * size, "{label} {value}");
+                prop_assert!(label != "-0" && label.len() <= 10, "{label}");
             }
         }
     }

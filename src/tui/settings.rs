@@ -1,4 +1,4 @@
-//! What the user chose for every case: marker, mouse, theme, units, ASCII; kept in a file of its own.
+//! What the user chose for every case: chart, marker, mouse, theme, units, ASCII; kept in a file of its own.
 
 use std::env;
 use std::fs;
@@ -12,6 +12,7 @@ use toml_edit::{DocumentMut, Item, Value};
 
 use super::theme::{Look, ThemeName};
 use crate::case::units::System;
+use crate::report::graphs::{GRAPHS, Graph};
 
 /// Markers by their names in the file.
 const MARKERS: [(&str, Marker); 3] = [("braille", Marker::Braille), ("halfblock", Marker::HalfBlock), ("dot", Marker::Dot)];
@@ -32,11 +33,15 @@ pub struct Settings {
     pub units: System,
     /// Whether nothing but ASCII is drawn; else what the environment asks for.
     pub ascii: Option<bool>,
+    /// The chart, by its place in the table.
+    pub chart: usize,
+    /// Whether the charts tell the time after E in place of the roll angle before it.
+    pub by_time: bool,
 }
 
 impl Default for Settings {
     fn default() -> Settings {
-        Settings { marker: Marker::Braille, mouse: false, theme: None, units: System::Metric, ascii: None }
+        Settings { marker: Marker::Braille, mouse: false, theme: None, units: System::Metric, ascii: None, chart: 0, by_time: false }
     }
 }
 
@@ -54,6 +59,8 @@ impl Settings {
             theme: word("theme").and_then(|name| ThemeName::ALL.into_iter().find(|theme| theme.name() == name)),
             units: word("units").and_then(System::find).unwrap_or(usual.units),
             ascii: flag("ascii"),
+            chart: word("chart").and_then(Graph::find).unwrap_or(usual.chart),
+            by_time: flag("time_axis").unwrap_or(usual.by_time),
         }
     }
 
@@ -76,6 +83,8 @@ impl Settings {
         set("theme", self.theme.map(|theme| theme.name().into()));
         set("units", Some(self.units.name().into()));
         set("ascii", self.ascii.map(Value::from));
+        set("chart", GRAPHS.get(self.chart).map(|graph| graph.key.into()));
+        set("time_axis", Some(self.by_time.into()));
         Ok(file.to_string())
     }
 
@@ -159,7 +168,7 @@ mod tests {
     fn every_setting_comes_back() {
         for theme in ThemeName::ALL.map(Some).into_iter().chain([None]) {
             for (units, ascii) in [(System::Metric, None), (System::Inch, Some(true)), (System::Inch, Some(false))] {
-                let settings = Settings { marker: Marker::Dot, mouse: true, theme, units, ascii };
+                let settings = Settings { marker: Marker::Dot, mouse: true, theme, units, ascii, chart: 3, by_time: true };
                 assert_eq!(Settings::parse(&settings.render("").expect("nothing is TOML")), settings);
             }
         }

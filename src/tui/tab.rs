@@ -52,7 +52,7 @@ pub struct Tab {
     pub refusal: Option<Refusal>,
     /// Whether the worker failed on what the form says.
     pub has_failed: bool,
-    /// The axes of the chart.
+    /// The axes of the charts.
     pub scale: Scale,
     /// The first line of the form that is shown.
     pub form_top: usize,
@@ -173,7 +173,6 @@ impl Tab {
         self.is_settled = answer.pending.is_none();
         self.refusal = answer.refusal().copied();
         if self.refusal.is_none() {
-            self.scale = self.scale.fitted(&answer);
             self.answer = Some(answer);
         }
     }

@@ -1,6 +1,7 @@
 //! The only place where the state changes: no files, no clock, no threads; those are asked for as effects.
 
 mod catalogue;
+mod chart;
 mod copy;
 mod cursor;
 mod edit;
@@ -98,8 +99,10 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     if matches!(action, Action::Do(_) | Action::Insert(_) | Action::Paste(_) | Action::Click(_)) {
         app.message = None;
     }
+    let cursor = app.cursor;
     let mut effects = happen(app, action);
     effects.extend(solve(app.catch_up()));
+    chart::settle(app, cursor);
     effects
 }
 
@@ -166,6 +169,9 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
             app.cursor = None;
             cursor::stop(app)
         }
+        Command::ChartBy(by) => chart::step(app, by),
+        Command::Chart(graph) => chart::choose(app, graph),
+        Command::ChartTime => chart::time_or_angle(app),
         Command::CycleMarker => options::cycle_marker(app),
         Command::ShowCost => {
             app.shows_cost = !app.shows_cost;
@@ -202,6 +208,9 @@ fn show(app: &mut App, command: Command) {
         Command::CycleLower => panes::cycle_lower(app),
         Command::Zoom => panes::zoom(app),
         Command::StartEdit => app.is_editing = true,
+        Command::ChartZoom(steps) => chart::zoom(app, steps),
+        Command::ChartWhole => chart::whole(app),
+        Command::ChartStrike => chart::strike_or_whole(app),
         Command::TeethBy(steps) => teeth::zoom(app, steps),
         Command::TeethAnew => teeth::anew(app),
         Command::TeethCentre => teeth::centre_next(app),

@@ -1,10 +1,10 @@
 //! The cursor in the driver's roll angle that chart and teeth share: where it may go, and how it runs by itself.
 
 use super::Effect;
-use crate::model::{Solution, moment};
+use crate::model::Solution;
 use crate::tui::app::App;
 use crate::tui::pane::Pane;
-use crate::tui::view::chart;
+use crate::tui::view::chart::{self, first_contact, last_contact};
 
 /// Pictures of a run: four seconds at twelve a second.
 const PICTURES: f64 = 48.0;
@@ -18,6 +18,8 @@ pub(super) struct Reach {
     pub(super) start: f64,
     /// Where a run begins.
     pub(super) run_from: f64,
+    /// Where it ends: at E, or at the last contact where the rung goes on to it.
+    pub(super) run_to: f64,
     /// The leftmost angle.
     pub(super) most: f64,
     /// The rightmost angle, negative after E.
@@ -33,10 +35,10 @@ impl Reach {
         self.held(cursor - f64::from(columns) * self.column)
     }
 
-    /// The next picture of the approach, none when E is reached.
+    /// The next picture of the run, none when its end is reached.
     pub(super) fn played(self, cursor: f64) -> Option<f64> {
-        let next = cursor - self.run_from / PICTURES;
-        (next > 0.0 && next < cursor).then_some(next)
+        let next = cursor - (self.run_from - self.run_to) / PICTURES;
+        (next > self.run_to && next < cursor).then_some(next)
     }
 
     fn held(self, angle: f64) -> f64 {
@@ -70,16 +72,16 @@ pub(super) fn to_end(app: &mut App) -> Vec<Effect> {
     stop(app)
 }
 
-/// Start or stop the run to E; from E it starts again.
+/// Start or stop the run; from its end it starts again.
 pub(super) fn play(app: &mut App) -> Vec<Effect> {
     if app.is_playing {
         return stop(app);
     }
-    let Some(reach) = reach(app).filter(|reach| reach.start > 0.0) else {
+    let Some(reach) = reach(app).filter(|reach| reach.run_from > reach.run_to) else {
         app.complain("no corner contact: nothing to play");
         return Vec::new();
     };
-    if app.cursor.is_none_or(|cursor| cursor <= 0.0 || cursor > reach.run_from) {
+    if app.cursor.is_none_or(|cursor| cursor <= reach.run_to || cursor > reach.run_from) {
         app.cursor = Some(reach.run_from);
     }
     app.is_playing = true;
@@ -91,8 +93,9 @@ pub(super) fn tick(app: &mut App) -> Vec<Effect> {
     if !app.is_playing {
         return vec![Effect::Play(false)];
     }
-    let next = reach(app).zip(app.cursor).and_then(|(reach, cursor)| reach.played(cursor));
-    app.cursor = Some(next.unwrap_or(0.0));
+    let reach = reach(app);
+    let next = reach.zip(app.cursor).and_then(|(reach, cursor)| reach.played(cursor));
+    app.cursor = Some(next.unwrap_or(reach.map_or(0.0, |reach| reach.run_to)));
     if next.is_none() { stop(app) } else { Vec::new() }
 }
 
@@ -101,23 +104,22 @@ pub(super) fn stop(app: &mut App) -> Vec<Effect> {
     if std::mem::take(&mut app.is_playing) { vec![Effect::Play(false)] } else { Vec::new() }
 }
 
-// The chart ends at E; the teeth go on until the next pair is where this one was, and come from further.
+// The chart ends where its axis does; the teeth go on until the next pair is where this one was, and come from further.
 fn reach(app: &App) -> Option<Reach> {
     let solution = solution(app)?;
     let pitch = solution.geometry.base_pitch / solution.geometry.driver.base;
     let start = first_contact(solution).unwrap_or(0.0);
-    let axis = app.scale.angle.to_radians();
-    let shown = if axis > 0.0 { axis.max(start) } else { start.max(pitch / 10.0) };
-    let in_teeth = app.panes.focus == Pane::Teeth;
-    let run_from = if in_teeth { APPROACH * start } else { start };
-    let (most, least) = if in_teeth { (shown.max(2.0 * start), -pitch) } else { (shown, 0.0) };
-    Some(Reach { start, run_from, most, least, column: shown / f64::from(chart::columns(app).max(2) - 1) })
-}
-
-// The driver's angle before E at the first contact of the rung.
-fn first_contact(solution: &Solution) -> Option<f64> {
-    let ratio = solution.geometry.driven.base / solution.geometry.driver.base;
-    moment::first_contact(solution).map(|angle| angle * ratio)
+    let end = last_contact(solution).unwrap_or(0.0).min(0.0);
+    let axis = app.scale.across;
+    let before = if axis.is_empty() { start.max(pitch / 10.0) } else { start.max(-axis.from.to_radians()) };
+    let columns = f64::from(chart::columns(app).max(2) - 1);
+    if app.panes.focus == Pane::Teeth {
+        let (most, least) = (before.max(2.0 * start), end.min(-pitch));
+        return Some(Reach { start, run_from: APPROACH * start, run_to: 0.0, most, least, column: before / columns });
+    }
+    let window = app.chart.window(&app.scale);
+    let (least, shown) = if axis.is_empty() { (end, before) } else { (end.min(-axis.to.to_radians()), window.length().to_radians()) };
+    Some(Reach { start, run_from: start, run_to: end, most: before, least, column: shown / columns })
 }
 
 fn solution(app: &App) -> Option<&Solution> {
@@ -129,7 +131,7 @@ fn solution(app: &App) -> Option<&Solution> {
 mod tests {
     use super::*;
 
-    const REACH: Reach = Reach { start: 0.024, run_from: 0.024, most: 0.03, least: 0.0, column: 0.0003 };
+    const REACH: Reach = Reach { start: 0.024, run_from: 0.024, run_to: 0.0, most: 0.03, least: 0.0, column: 0.0003 };
 
     #[test]
     fn the_first_key_brings_the_cursor_to_d() {

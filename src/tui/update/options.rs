@@ -63,6 +63,7 @@ pub(super) fn toggle_mouse(app: &mut App) -> Vec<Effect> {
     effects
 }
 
-fn keep(app: &App) -> Vec<Effect> {
+/// Keep what was chosen.
+pub(super) fn keep(app: &App) -> Vec<Effect> {
     vec![Effect::Keep(app.settings)]
 }

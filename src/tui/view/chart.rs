@@ -1,220 +1,186 @@
-//! The impact force over the driver's roll angle, from D to E.
+//! The charts: what the stations tell over the driver's roll angle, the chosen one and as many others as have room.
+
+pub mod axes;
+pub mod curves;
+pub mod ink;
+pub mod legend;
+pub mod readout;
+pub mod window;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
-use ratatui::symbols::Marker;
-use ratatui::widgets::{Axis, Chart, Dataset, GraphType, Widget};
 
-use super::{plan, titled};
-use crate::model::inputs::Rung;
-use crate::model::{Outcome, Quantity, Refusal, Solution, Station};
-use crate::report;
+use super::{plan, text, titled};
+use crate::model::{Outcome, Solution};
+use crate::report::graphs::{GRAPHS, Graph};
 use crate::tui::app::App;
+use crate::tui::clean::symbol;
 use crate::tui::pane::Pane;
-use crate::tui::scale::{Scale, bounds, curve};
-use crate::tui::solver::Answer;
+use crate::tui::scale::{Scale, Span};
 
-const LABEL: u16 = 7;
+use axes::{Axes, Ruler};
+use curves::{Curve, Whose, curves};
+
+pub use curves::{first_contact, last_contact};
+pub use readout::readout;
+pub use window::{ChartView, Frame};
+
+/// Rows that another chart below the chosen one asks for, and the most charts.
+const ROWS: u16 = 16;
+const MOST: u16 = 3;
+/// A title above so many columns has room for all of its words.
+const WIDE: u16 = 80;
 /// Columns of the plot on a terminal of 80.
 const USUAL_COLUMNS: u16 = 71;
+/// After E the strike goes on for this part of the way from D to E.
+const AFTER_E: f64 = 0.5;
 
-/// A rung's points: minus the angle before E in deg, and the force in N.
-type Curve = (Rung, Vec<(f64, f64)>);
-
-/// Draw the chart with its axes.
+/// Draw the charts with their axes.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
-    let inner = titled(app, Pane::Chart, &title(app), area, buffer);
-    if inner.height < 4 || inner.width < 30 {
-        return;
+    let panels = panels(app, area);
+    let window = app.chart.window(&app.scale);
+    let titles: Vec<String> = panels.iter().map(|(graph, axes)| title(app, &GRAPHS[*graph], axes)).collect();
+    let stale = if app.is_stale() { "LAST VALID, " } else { "" };
+    let first = format!("{stale}{}", titles.first().map_or("Chart", String::as_str));
+    titled(app, Pane::Chart, &first, area, buffer);
+    for (at, (graph, axes)) in panels.iter().enumerate() {
+        if at > 0 {
+            let above = Rect { x: area.x, y: axes.plot.y.saturating_sub(1), width: area.width, height: 1 };
+            text::titled(&titles[at], above, app.look.theme, buffer);
+        }
+        draw_panel(app, &GRAPHS[*graph], axes, window, area, buffer);
     }
-    let curves = curves(app);
-    if curves.iter().all(|(_, points)| points.is_empty()) {
-        let (x, y) = (inner.x + 2, inner.y + inner.height / 2);
-        buffer.set_stringn(x, y, nothing(app), usize::from(inner.width - 2), Style::new());
-        return;
-    }
-    let plot = plot(area);
-    draw_axes(app.scale, plot, buffer);
-    draw_curves(app, &curves, plot, buffer);
-    draw_marks(app, &curves, plot, buffer);
-    draw_cursor(app, plot, buffer);
 }
 
-/// How many columns stand for the axis: those in sight, else those of a usual chart.
+/// How many columns stand for the roll angles in sight: those of the chart, else those of a usual one.
 #[must_use]
 pub fn columns(app: &App) -> u16 {
-    let plot = plot(plan(app.size, app.panes).chart);
-    if plot.width > 1 { plot.width } else { USUAL_COLUMNS }
+    let columns = panels(app, plan(app.size, app.panes).chart).first().map_or(0, |(_, axes)| axes.plot.width);
+    if columns > 1 { columns } else { USUAL_COLUMNS }
 }
 
-/// The driver's roll angle before E on a cell of the plot, in rad.
+/// The driver's roll angle before E on a cell of a plot, in rad.
 #[must_use]
 pub fn angle_at(app: &App, area: Rect, at: Position) -> Option<f64> {
-    let plot = plot(area);
-    let last = plot.width.checked_sub(1).filter(|&last| last > 0)?;
-    let column = at.x.checked_sub(plot.x).filter(|_| plot.contains(at))?;
-    Some(app.scale.angle.to_radians() * (1.0 - f64::from(column) / f64::from(last)))
+    let panels = panels(app, area);
+    let (_, axes) = panels.iter().find(|(_, axes)| axes.plot.contains(at))?;
+    Some(0.0 - axes.angle(at.x).to_radians()).filter(|angle| angle.is_finite())
 }
 
-/// The force of the active rung at an angle before E, in N, between the stations on either side.
+/// The axes on which every curve in sight has its place, the present ones where they serve.
 #[must_use]
-pub fn force_at(answer: &Answer, angle: f64) -> Option<f64> {
-    let stations = &answer.of(answer.active)?.stations;
-    let between = |pair: &[Station]| (pair[1].roll_angle_driver..=pair[0].roll_angle_driver).contains(&angle);
-    let pair = stations.windows(2).find(|pair| between(pair))?;
-    let (before, after) = (pair[0], pair[1]);
-    let part = (before.roll_angle_driver - angle) / (before.roll_angle_driver - after.roll_angle_driver);
-    let force = before.impact_force + part * (after.impact_force - before.impact_force);
-    force.is_finite().then_some(force)
-}
-
-// The room of the curves within the area of the pane.
-fn plot(area: Rect) -> Rect {
-    if area.height < 5 || area.width < 30 {
-        return Rect::ZERO;
+pub fn fitted(app: &App) -> Scale {
+    let mut scale = app.scale;
+    let Some(answer) = &app.answer else { return scale };
+    for graph in shown(app, plan(app.size, app.panes).chart) {
+        let curves = curves(app, &GRAPHS[graph]);
+        let values = curves.iter().map(Curve::upright).fold(Span::NONE, Span::and);
+        scale.upright[graph] = scale.upright[graph].fitted(values);
+        let of_answer = curves.iter().filter(|curve| curve.whose != Whose::Pinned);
+        let way = of_answer.map(Curve::across).fold(Span::NONE, Span::and);
+        // While a rung is to come, its axis waits for it.
+        scale.across = if answer.pending.is_some() { scale.across.grown(way) } else { scale.across.fitted(way) };
     }
-    Rect { x: area.x + LABEL + 1, y: area.y + 1, width: area.width - LABEL - 2, height: area.height - 3 }
+    if let Some(first) = answer.of(answer.active).and_then(first_contact).map(f64::to_degrees).filter(|first| *first > 0.0) {
+        scale.strike = scale.strike.fitted(Span::new(-first, AFTER_E * first));
+    }
+    scale
 }
 
-// A broken line where the curves leave room for it, and a mark on the axis.
-fn draw_cursor(app: &App, plot: Rect, buffer: &mut Buffer) {
-    let Some(cursor) = app.cursor else { return };
-    let part = 1.0 - cursor.to_degrees() / app.scale.angle;
-    if !(0.0..=1.0).contains(&part) {
+/// The charts in sight: the chosen one, and below it the next ones that the active rung has.
+#[must_use]
+pub fn shown(app: &App, area: Rect) -> Vec<usize> {
+    if area.is_empty() {
+        return Vec::new();
+    }
+    let count = usize::from((area.height / ROWS).clamp(1, MOST));
+    let chosen = app.settings.chart;
+    let rung = app.answer.as_ref().map(|answer| answer.active);
+    let others = (1..GRAPHS.len()).map(|by| (chosen + by) % GRAPHS.len());
+    let has_curve = |graph: &usize| rung.is_some_and(|rung| GRAPHS[*graph].column(rung).is_some());
+    std::iter::once(chosen).chain(others.filter(has_curve)).take(count).collect()
+}
+
+/// The charts in sight, from top to bottom, each with its axes below its title.
+fn panels(app: &App, area: Rect) -> Vec<(usize, Axes)> {
+    let shown = shown(app, area);
+    let Some(answer) = &app.answer else { return shown.into_iter().map(|graph| (graph, Axes::default())).collect() };
+    let height = area.height / u16::try_from(shown.len().max(1)).unwrap_or(1);
+    let window = app.chart.window(&app.scale);
+    let ruler = Ruler::of(app.settings.by_time, answer.inputs.speed, window);
+    let uprights = shown.iter().map(|graph| app.scale.upright[*graph]);
+    let margin = axes::margin(uprights, height.saturating_sub(3));
+    let below = |at: usize| {
+        let y = area.y + height * at as u16;
+        let height = if at + 1 == shown.len() { area.bottom() - y } else { height };
+        Rect { y: y + 1, height: height.saturating_sub(1), ..area }
+    };
+    let axes = |(at, graph): (usize, &usize)| (*graph, Axes::new(below(at), margin, (window, app.scale.upright[*graph]), ruler));
+    shown.iter().enumerate().map(axes).collect()
+}
+
+fn draw_panel(app: &App, graph: &Graph, axes: &Axes, window: Span, area: Rect, buffer: &mut Buffer) {
+    let curves = curves(app, graph);
+    let lacks = lack(app, graph, &curves);
+    if axes.plot.is_empty() || curves.is_empty() || window.is_empty() {
+        let y = if axes.plot.is_empty() { area.y + 1 } else { axes.plot.y + axes.plot.height / 2 };
+        let said = lacks.unwrap_or_else(|| "There is no room for a chart.".to_owned());
+        if y < area.bottom() {
+            buffer.set_stringn(area.x + 2, y, text::cut(&said, usize::from(area.width.saturating_sub(3))), area.width.into(), Style::new());
+        }
         return;
     }
-    let x = plot.x + (f64::from(plot.width - 1) * part).round() as u16;
-    for y in plot.top()..plot.bottom() {
-        if buffer.cell((x, y)).is_some_and(|cell| cell.symbol() == " ") {
-            buffer.set_string(x, y, "┊", app.look.theme.faint);
-        }
+    axes.draw(buffer);
+    for curve in &curves {
+        ink::draw(app, curve, (axes.across, axes.upright), axes.plot, buffer);
     }
-    buffer.set_string(x, plot.bottom(), "▴", app.look.theme.focus);
+    axes.draw_marks(app, buffer);
+    legend::draw(app, &curves, lacks, axes.plot, buffer);
+    axes.draw_zero(app, buffer);
+    axes.draw_cursor(app, buffer);
 }
 
-fn title(app: &App) -> String {
-    let stale = if app.is_stale() { "LAST VALID, " } else { "" };
-    let marks: Vec<String> = app.answer.iter().flat_map(forces).collect();
-    let marks = if marks.is_empty() { String::new() } else { format!("; {}", marks.join(", ")) };
-    format!("{stale}F_S in N over driver angle before E in deg{marks}")
-}
-
-// The force at D of each rung, the active one first, with the letter that marks D on the axis.
-fn forces(answer: &Answer) -> Vec<String> {
-    let Some(quantity) = Quantity::find("impact_force") else { return Vec::new() };
-    let mut rungs: Vec<_> = answer.rungs.iter().collect();
-    rungs.sort_by_key(|(rung, _)| *rung != answer.active);
-    let force = |(rung, result): &(Rung, _)| {
-        let result: &Result<Solution, Refusal> = result;
-        let value = (quantity.value)(result.as_ref().ok()?)?;
-        Some(format!("{} {} {}", mark(answer, *rung), rung.name(), report::shown(quantity, value).number))
-    };
-    rungs.into_iter().filter_map(force).collect()
-}
-
-// D marks the active rung's first contact on the axis, its first letter that of another.
-fn mark(answer: &Answer, rung: Rung) -> &'static str {
-    if rung == answer.active { "D" } else { rung.name().get(..1).unwrap_or("d") }
-}
-
-fn nothing(app: &App) -> &'static str {
-    let outcome = app.answer.as_ref().and_then(|answer| answer.of(answer.active)).map(|solution| solution.outcome);
-    match outcome {
-        Some(Outcome::NoCornerContact) => "No corner contact: the tooth comes in on time, without an impact.",
-        Some(Outcome::CornerContact) | None => "No force between D and E: the notes say why.",
-    }
-}
-
-// The active rung's curve last, so that it lies on top.
-fn curves(app: &App) -> Vec<Curve> {
-    let Some(answer) = &app.answer else { return Vec::new() };
-    let mut curves: Vec<_> = answer
-        .rungs
-        .iter()
-        .filter_map(|(rung, result)| Some((*rung, curve(&result.as_ref().ok()?.stations).collect())))
-        .collect();
-    curves.sort_by_key(|(rung, _)| *rung == answer.active);
-    curves
-}
-
-// The pinned curve of its active rung, as far as it is on the axis.
-fn baseline_curve(app: &App) -> Vec<(f64, f64)> {
-    let solution = app.baseline.as_ref().and_then(|baseline| baseline.answer.of(baseline.answer.active));
-    solution.map(|solution| curve(&solution.stations).collect()).unwrap_or_default()
-}
-
-fn draw_axes(scale: Scale, plot: Rect, buffer: &mut Buffer) {
-    let axis = plot.bottom();
-    let ticks = if plot.width >= 60 { 4 } else { 2 };
-    buffer.set_string(plot.x - 1, axis, "└", Style::new());
-    buffer.set_string(plot.x, axis, "─".repeat(plot.width.into()), Style::new());
-    for y in plot.top()..axis {
-        buffer.set_string(plot.x - 1, y, "│", Style::new());
-    }
-    for tick in 0..=ticks {
-        let part = f64::from(tick) / f64::from(ticks);
-        let x = plot.x + (f64::from(plot.width - 1) * part).round() as u16;
-        let angle = scale.angle * (1.0 - part);
-        let label = if tick == ticks { "E".to_owned() } else { number(angle) };
-        let width = label.len() as u16;
-        if tick > 0 {
-            buffer.set_string(x, axis, "┴", Style::new());
-        }
-        buffer.set_string(x.saturating_sub(width / 2).max(plot.x), axis + 1, label, Style::new());
-    }
-    let steps = if plot.height > 8 { 4 } else { 2 };
-    for step in 0..=steps {
-        let part = f64::from(step) / f64::from(steps);
-        let y = axis - 1 - (f64::from(plot.height - 1) * part).round() as u16;
-        let label = format!("{:>1$}", number(scale.force * part), usize::from(LABEL) - 1);
-        buffer.set_string(plot.x - LABEL - 1, y, label, Style::new());
-        buffer.set_string(plot.x - 1, y, "┤", Style::new());
-    }
-}
-
-fn draw_curves(app: &App, curves: &[Curve], plot: Rect, buffer: &mut Buffer) {
-    let theme = app.look.theme;
-    let last = curves.len().saturating_sub(1);
-    let pinned = baseline_curve(app);
-    let behind = Dataset::default().data(&pinned).graph_type(GraphType::Line).style(theme.baseline).marker(Marker::Dot);
-    let sets = curves.iter().enumerate().map(|(index, (_, points))| {
-        let (style, marker) = if index == last { (theme.active, own_marker(app)) } else { (theme.other, Marker::Dot) };
-        Dataset::default().data(points).graph_type(GraphType::Line).style(faded(app, style)).marker(marker)
+// In words, with the symbol and the units.
+fn title(app: &App, graph: &Graph, axes: &Axes) -> String {
+    let rung = app.answer.as_ref().map(|answer| answer.active);
+    let column = rung.and_then(|rung| graph.column(rung)).or_else(|| graph.all_columns().next());
+    let name = column.map_or_else(String::new, |column| {
+        format!(" {}{}", symbol(column.symbol, app.look.ascii), unit(column.shown, axes.beside.power))
     });
-    Chart::new(std::iter::once(behind).chain(sets).collect())
-        .x_axis(Axis::default().bounds(bounds(-app.scale.angle, 0.0)))
-        .y_axis(Axis::default().bounds(bounds(0.0, app.scale.force)))
-        .legend_position(None)
-        .render(plot, buffer);
+    let ruler = axes.ruler;
+    // Where E stands is marked on the axis as well.
+    let side = if axes.plot.width < WIDE { String::new() } else { format!(" {}", ruler.side) };
+    format!("{}{name} over {}{side}{}", graph.label, ruler.label, unit(ruler.unit, axes.below.power))
 }
 
-fn draw_marks(app: &App, curves: &[Curve], plot: Rect, buffer: &mut Buffer) {
-    let Some(answer) = &app.answer else { return };
-    for (rung, points) in curves {
-        let Some((x, _)) = points.first() else { continue };
-        let part = (1.0 + x / app.scale.angle).clamp(0.0, 1.0);
-        let style = if *rung == answer.active { app.look.theme.active } else { app.look.theme.other };
-        let column = plot.x + (f64::from(plot.width - 1) * part).round() as u16;
-        buffer.set_string(column, plot.bottom(), mark(answer, *rung), style);
+fn unit(unit: &str, power: i32) -> String {
+    match (unit, power) {
+        ("1" | "", 0) => String::new(),
+        ("1" | "", power) => format!(" in 1e{power}"),
+        (unit, 0) => format!(" in {unit}"),
+        (unit, power) => format!(" in 1e{power} {unit}"),
     }
 }
 
-fn own_marker(app: &App) -> Marker {
-    if app.look.ascii { Marker::Custom('*') } else { app.settings.marker }
-}
-
-fn faded(app: &App, style: Style) -> Style {
-    if app.is_stale() { style.patch(app.look.theme.faint) } else { style }
-}
-
-// Six characters at most.
-fn number(value: f64) -> String {
-    let plain = value == 0.0 || (1e-3..1e6).contains(&value.abs());
-    if !plain {
-        return format!("{value:.0e}");
+// Why the active rung has no curve, where it has none.
+fn lack(app: &App, graph: &Graph, curves: &[Curve]) -> Option<String> {
+    let Some(answer) = &app.answer else { return Some("No valid results of this rung.".to_owned()) };
+    if curves.iter().any(|curve| matches!(curve.whose, Whose::Active(_))) {
+        return None;
     }
-    let text = format!("{value:.4}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    text.chars().take(6).collect()
+    let label = graph.label.to_lowercase();
+    let active = answer.active;
+    if graph.column(active).is_none() {
+        let rungs: Vec<_> = graph.rungs().map(crate::model::inputs::Rung::name).collect();
+        return Some(format!("The rung {} has no {label}: {} do.", active.name(), rungs.join(" and ")));
+    }
+    Some(answer.of(active).map_or_else(|| "No valid results of this rung.".to_owned(), |solution| nothing(solution, &label)))
+}
+
+fn nothing(solution: &Solution, label: &str) -> String {
+    match solution.outcome {
+        Outcome::NoCornerContact => "No corner contact: the tooth comes in on time, without an impact.".to_owned(),
+        Outcome::CornerContact => format!("No {label} between D and E: the notes say why."),
+    }
 }

@@ -197,13 +197,13 @@ fn about_limit(app: &App, limit: &Limit) -> String {
 }
 
 fn at_cursor(app: &App) -> String {
-    let Some(cursor) = app.cursor else {
-        return "No cursor: h and l bring it, Space lets it run to E.".to_owned();
-    };
-    let side = if cursor < 0.0 { "after" } else { "before" };
-    let angle = format!("{:.4} deg of the driver {side} E", cursor.abs().to_degrees());
-    let force = app.answer.as_ref().and_then(|answer| chart::force_at(answer, cursor));
-    force.map_or_else(|| format!("{angle}."), |force| format!("{angle}: F_S {force:.1} N."))
+    const NONE: &str = "No cursor: h and l bring it, Space lets it run.";
+    const MARKS: &str = "D first contact, E and B ends of the path of contact, L last contact, d another rung's D.";
+    match app.cursor {
+        Some(cursor) => chart::readout(app, cursor),
+        None if app.panes.focus == Pane::Chart => format!("{NONE} {MARKS}"),
+        None => NONE.to_owned(),
+    }
 }
 
 fn bar(progress: &Progress) -> String {

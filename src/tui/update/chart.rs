@@ -1,0 +1,58 @@
+//! The charts: which one, how much of the roll angle, and what it is told in.
+
+use super::{Effect, options};
+use crate::report::graphs::GRAPHS;
+use crate::tui::app::App;
+use crate::tui::view::chart::{ChartView, Frame, first_contact};
+
+/// The chart so many places further, round and round.
+pub(super) fn step(app: &mut App, by: isize) -> Vec<Effect> {
+    choose(app, (app.settings.chart + GRAPHS.len()).saturating_add_signed(by) % GRAPHS.len())
+}
+
+/// The chart at that place of the table.
+pub(super) fn choose(app: &mut App, graph: usize) -> Vec<Effect> {
+    app.settings.chart = graph.min(GRAPHS.len() - 1);
+    options::keep(app)
+}
+
+/// The time after E in place of the roll angle before it, or back.
+pub(super) fn time_or_angle(app: &mut App) -> Vec<Effect> {
+    app.settings.by_time = !app.settings.by_time;
+    app.say(if app.settings.by_time { "the charts tell the time after E" } else { "the charts tell the roll angle before E" });
+    options::keep(app)
+}
+
+/// Some steps closer around the cursor, or around D without one; farther below 0.
+pub(super) fn zoom(app: &mut App, steps: i32) {
+    let start = app.answer.as_ref().and_then(|answer| first_contact(answer.of(answer.active)?));
+    let around = 0.0 - app.cursor.or(start).unwrap_or(0.0).to_degrees();
+    let view = app.chart.zoomed(steps, around, &app.scale);
+    if view == app.chart {
+        app.say(if steps > 0 { "this is the closest" } else { "this is all of it" });
+    }
+    app.chart = view;
+}
+
+/// All of the roll angle.
+pub(super) fn whole(app: &mut App) {
+    app.chart = ChartView::default();
+}
+
+/// From D to a little after E, or all of it.
+pub(super) fn strike_or_whole(app: &mut App) {
+    app.chart = app.chart.strike_or_whole();
+    app.say(match app.chart.frame {
+        Frame::Strike if app.scale.strike.is_empty() => "no corner contact: there is no strike to look at",
+        Frame::Strike => "the charts around the strike",
+        Frame::Whole => "the charts over the whole contact",
+    });
+}
+
+/// After anything happened: the axes fit what is in sight, and a cursor that moved is in sight.
+pub(super) fn settle(app: &mut App, cursor_before: Option<f64>) {
+    app.fit();
+    if let Some(cursor) = app.cursor.filter(|_| app.cursor != cursor_before) {
+        app.chart = app.chart.following(0.0 - cursor.to_degrees(), &app.scale);
+    }
+}

@@ -1,0 +1,197 @@
+//! The frame of a chart: where its plot stands, ticks with their labels, and the marks of the contact.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+
+use super::curves::{first_contact, last_contact};
+use crate::model::Solution;
+use crate::tui::app::App;
+use crate::tui::scale::{Span, Ticks};
+
+/// Least columns of the labels beside the plot.
+const LABEL: usize = 6;
+/// A label below the plot has so many columns for itself, and one beside it so many rows.
+const ROOM: (u16, u16) = (9, 2);
+/// In ms from so many us on.
+const MOST_MICROS: f64 = 5000.0;
+
+/// What the roll angle is told in.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Ruler {
+    /// The number on the ruler over the roll angle after E in deg.
+    pub factor: f64,
+    /// Its unit.
+    pub unit: &'static str,
+    /// What it tells.
+    pub label: &'static str,
+    /// Before or after what.
+    pub side: &'static str,
+}
+
+/// Where a chart stands and what is in sight of it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Axes {
+    /// The room of the curves.
+    pub plot: Rect,
+    /// Roll angles in sight, in deg after E.
+    pub across: Span,
+    /// Values in sight.
+    pub upright: Span,
+    /// Ticks below, by the ruler.
+    pub below: Ticks,
+    /// Ticks beside.
+    pub beside: Ticks,
+    /// What the roll angle is told in.
+    pub ruler: Ruler,
+}
+
+impl Ruler {
+    /// The driver's angle before E, or the time since E at its speed in rad/s.
+    #[must_use]
+    pub fn of(by_time: bool, speed: f64, window: Span) -> Ruler {
+        let micros = 1f64.to_radians() / speed * 1e6;
+        let longest = micros * window.from.abs().max(window.to.abs());
+        match by_time {
+            false => Ruler { factor: -1.0, unit: "deg", label: "roll angle", side: "before E" },
+            true if longest < MOST_MICROS => Ruler { factor: micros, unit: "us", label: "time", side: "after E" },
+            true => Ruler { factor: 1e-3 * micros, unit: "ms", label: "time", side: "after E" },
+        }
+    }
+
+    fn ticks(self, window: Span, width: u16) -> Ticks {
+        let ends = (window.from * self.factor, window.to * self.factor);
+        Span::new(ends.0.min(ends.1), ends.0.max(ends.1)).ticks(width / ROOM.0)
+    }
+}
+
+/// Columns that the labels of some axes of that height need.
+#[must_use]
+pub fn margin(uprights: impl Iterator<Item = Span>, height: u16) -> u16 {
+    let labels = uprights.flat_map(|span| beside(span, height).labelled);
+    labels.map(|(_, label)| label.len()).max().unwrap_or(0).max(LABEL) as u16 + 2
+}
+
+fn beside(span: Span, height: u16) -> Ticks {
+    span.ticks(height.saturating_sub(1) / ROOM.1)
+}
+
+impl Axes {
+    /// The axes in an area with so many columns for labels; without a plot where there is no room.
+    #[must_use]
+    pub fn new(area: Rect, margin: u16, (across, upright): (Span, Span), ruler: Ruler) -> Axes {
+        let (width, height) = (area.width.saturating_sub(margin + 1), area.height.saturating_sub(2));
+        let has_room = width >= 20 && height >= 2;
+        let plot = if has_room { Rect { x: area.x + margin, y: area.y, width, height } } else { Rect::ZERO };
+        Axes { plot, across, upright, below: ruler.ticks(across, width), beside: beside(upright, height), ruler }
+    }
+
+    /// The column of an angle in sight.
+    #[must_use]
+    pub fn column(&self, x: f64) -> Option<u16> {
+        let part = self.across.part(x);
+        let rounding = 1e-9;
+        (-rounding..=1.0 + rounding).contains(&part).then(|| {
+            self.plot.x + (f64::from(self.plot.width.saturating_sub(1)) * part.clamp(0.0, 1.0)).round() as u16
+        })
+    }
+
+    /// The angle on a column.
+    #[must_use]
+    pub fn angle(&self, column: u16) -> f64 {
+        let part = f64::from(column.saturating_sub(self.plot.x)) / f64::from(self.plot.width.max(2) - 1);
+        self.across.from + part * self.across.length()
+    }
+
+    fn row(&self, y: f64) -> u16 {
+        let dots = 4 * self.plot.height;
+        let dot = ((1.0 - self.upright.part(y)).clamp(0.0, 1.0) * f64::from(dots - 1)).round() as u16;
+        self.plot.y + dot / 4
+    }
+
+    /// Draw lines, ticks and labels.
+    pub fn draw(&self, buffer: &mut Buffer) {
+        let plot = self.plot;
+        let (left, axis) = (plot.x - 1, plot.bottom());
+        buffer.set_string(left, axis, "└", Style::new());
+        buffer.set_string(plot.x, axis, "─".repeat(plot.width.into()), Style::new());
+        for y in plot.top()..axis {
+            buffer.set_string(left, y, "│", Style::new());
+        }
+        for (value, label) in &self.beside.labelled {
+            let (y, room) = (self.row(*value), label.len() as u16 + 1);
+            buffer.set_string(left.saturating_sub(room), y, label, Style::new());
+            buffer.set_string(left, y, "┤", Style::new());
+        }
+        let mut free = 0;
+        for (column, label) in self.labels_below() {
+            buffer.set_string(column, axis, "┴", Style::new());
+            let width = label.len() as u16;
+            let x = column.saturating_sub(width / 2).min((plot.right() + 1).saturating_sub(width));
+            if x >= free {
+                buffer.set_string(x, axis + 1, label, Style::new());
+                free = x + width + 1;
+            }
+        }
+    }
+
+    // From left to right.
+    fn labels_below(&self) -> Vec<(u16, &str)> {
+        let ticks = self.below.labelled.iter();
+        let mut labels: Vec<_> =
+            ticks.filter_map(|(value, label)| Some((self.column(value / self.ruler.factor)?, label.as_str()))).collect();
+        labels.sort_by_key(|(column, _)| *column);
+        labels
+    }
+
+    /// A faint line at 0 where values have both signs, in cells that are free.
+    pub fn draw_zero(&self, app: &App, buffer: &mut Buffer) {
+        if self.upright.from < 0.0 && self.upright.to > 0.0 {
+            let y = self.row(0.0);
+            for x in self.plot.left()..self.plot.right() {
+                put_where_free((x, y), "┄", app.look.theme.faint, buffer);
+            }
+        }
+    }
+
+    /// The marks of the contact on the axis: where the other rungs strike, B and the last contact L, E and D.
+    pub fn draw_marks(&self, app: &App, buffer: &mut Buffer) {
+        let Some(answer) = &app.answer else { return };
+        let theme = app.look.theme;
+        let others = answer.rungs.iter().filter(|(rung, _)| *rung != answer.active).filter_map(|(_, found)| found.as_ref().ok());
+        let struck = others.filter_map(first_contact).map(|angle| (0.0 - angle.to_degrees(), "d", theme.other));
+        let own = answer.of(answer.active).map(marks).unwrap_or_default();
+        for (x, name, style) in struck.chain(own.into_iter().map(|(x, name)| (x, name, theme.active))) {
+            if let Some(column) = self.column(x) {
+                buffer.set_string(column, self.plot.bottom(), name, style);
+            }
+        }
+    }
+
+    /// A broken line where the curves leave room for it, and a mark on the axis.
+    pub fn draw_cursor(&self, app: &App, buffer: &mut Buffer) {
+        let column = app.cursor.and_then(|cursor| self.column(0.0 - cursor.to_degrees()));
+        let Some(x) = column else { return };
+        for y in self.plot.top()..self.plot.bottom() {
+            put_where_free((x, y), "┊", app.look.theme.faint, buffer);
+        }
+        buffer.set_string(x, self.plot.bottom(), "▴", app.look.theme.focus);
+    }
+}
+
+// B, the end of the path of contact; L, the last contact; E; D.
+fn marks(solution: &Solution) -> Vec<(f64, &'static str)> {
+    let geometry = &solution.geometry;
+    let end = ((geometry.start - geometry.end) / geometry.driver.base, "B");
+    let last = last_contact(solution).map(|angle| (angle, "L"));
+    let first = first_contact(solution).map(|angle| (angle, "D"));
+    let found = [Some(end), last, Some((0.0, "E")), first];
+    found.into_iter().flatten().map(|(angle, name)| (0.0 - angle.to_degrees(), name)).collect()
+}
+
+/// Write into a cell that nothing is drawn in.
+pub fn put_where_free(at: (u16, u16), symbol: &str, style: Style, buffer: &mut Buffer) {
+    if buffer.cell(at).is_some_and(|cell| cell.symbol() == " ") {
+        buffer.set_string(at.0, at.1, symbol, style);
+    }
+}

@@ -1,0 +1,196 @@
+//! What stands in a chart: the curve of every rung, of the pinned results, and what the values are held against.
+
+use crate::case::units;
+use crate::model::inputs::Rung;
+use crate::model::spacing::Spacing;
+use crate::model::{Inputs, Solution, moment};
+use crate::report::graphs::Graph;
+use crate::report::stations::{Column, Row, rows};
+use crate::tui::app::App;
+use crate::tui::scale::Span;
+use crate::tui::solver::Answer;
+
+/// An interval between stations is at most this many times as long as they are asked for; in a longer one some are left out.
+const LEFT_OUT: f64 = 1.5;
+
+/// Whose curve it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Whose {
+    /// That of the rung in force.
+    Active(Rung),
+    /// That of another rung.
+    Other(Rung),
+    /// That of the pinned results.
+    Pinned,
+    /// What the active rung's values are held against.
+    Bound(&'static str),
+}
+
+/// A point: the driver's roll angle after E in deg, and the value in the unit that it is read in.
+pub type Point = (f64, f64);
+
+/// A curve, in pieces between which there is nothing.
+#[derive(Debug, Clone)]
+pub struct Curve {
+    /// Whose it is.
+    pub whose: Whose,
+    /// The column that it is of.
+    pub column: &'static Column,
+    /// Its points, from D onwards.
+    pub pieces: Vec<Vec<Point>>,
+}
+
+/// Every curve of a chart, the lowest first.
+#[must_use]
+pub fn curves(app: &App, graph: &Graph) -> Vec<Curve> {
+    let Some(answer) = &app.answer else { return Vec::new() };
+    let pinned = app.baseline.as_ref().and_then(|baseline| active(&baseline.answer, graph, Whose::Pinned));
+    let others = answer.rungs.iter().filter(|(rung, _)| *rung != answer.active).filter_map(|(rung, found)| {
+        Curve::of(graph, &answer.inputs, found.as_ref().ok()?, Whose::Other(*rung))
+    });
+    let own = active(answer, graph, Whose::Active(answer.active));
+    pinned.into_iter().chain(others).chain(bound(answer, graph)).chain(own).collect()
+}
+
+fn active(answer: &Answer, graph: &Graph, whose: Whose) -> Option<Curve> {
+    Curve::of(graph, &answer.inputs, answer.of(answer.active)?, whose)
+}
+
+fn bound(answer: &Answer, graph: &Graph) -> Option<Curve> {
+    let (solution, bound) = (answer.of(answer.active)?, graph.bound?);
+    let symbol = bound.symbols[usize::from(solution.rung.shares_load())];
+    Curve::with(graph, &answer.inputs, solution, Whose::Bound(symbol), |row| (bound.value)(solution, row))
+}
+
+impl Curve {
+    // None where the rung has no such column, or no station.
+    fn of(graph: &Graph, inputs: &Inputs, solution: &Solution, whose: Whose) -> Option<Curve> {
+        let column = graph.column(solution.rung)?;
+        Curve::with(graph, inputs, solution, whose, |row| column.of(row))
+    }
+
+    fn with(
+        graph: &Graph,
+        inputs: &Inputs,
+        solution: &Solution,
+        whose: Whose,
+        value: impl Fn(Row) -> Option<f64>,
+    ) -> Option<Curve> {
+        let column = graph.column(solution.rung)?;
+        let unit = units::factor(column.shown).unwrap_or(1.0);
+        let points = rows(solution).into_iter().map(|row| (angle(row), value(row).map(|value| value / unit)));
+        let pieces = pieces(points, longest_interval(inputs, solution));
+        (!pieces.is_empty()).then_some(Curve { whose, column, pieces })
+    }
+
+    /// The least and the greatest value.
+    #[must_use]
+    pub fn upright(&self) -> Span {
+        self.points().fold(Span::NONE, |span, (_, y)| span.with(y))
+    }
+
+    /// Where it begins and where it ends.
+    #[must_use]
+    pub fn across(&self) -> Span {
+        self.points().fold(Span::NONE, |span, (x, _)| span.with(x))
+    }
+
+    /// Its value at an angle, between the stations on either side; after a jump, where there is one.
+    #[must_use]
+    pub fn at(&self, x: f64) -> Option<f64> {
+        self.pieces.iter().find_map(|piece| {
+            let after = piece.partition_point(|point| point.0 <= x);
+            let (before, last) = (piece.get(after.checked_sub(1)?)?, piece.len() - 1);
+            let rounding = 1e-12 * x.abs();
+            match piece.get(after) {
+                Some(next) => Some(before.1 + (next.1 - before.1) * (x - before.0) / (next.0 - before.0)),
+                None => (x <= piece[last].0 + rounding).then_some(before.1),
+            }
+        })
+    }
+
+    fn points(&self) -> impl Iterator<Item = Point> {
+        self.pieces.iter().flatten().copied()
+    }
+}
+
+/// The driver's angle before E at the first contact of the rung, in rad.
+#[must_use]
+pub fn first_contact(solution: &Solution) -> Option<f64> {
+    let ratio = solution.geometry.driven.base / solution.geometry.driver.base;
+    moment::first_contact(solution).map(|angle| angle * ratio)
+}
+
+/// The driver's angle before E at the last contact, below 0 after E, in rad; in the rungs that go on after E.
+#[must_use]
+pub fn last_contact(solution: &Solution) -> Option<f64> {
+    match rows(solution).last() {
+        Some(Row::Load(station)) => Some(station.roll_angle_driver),
+        _ => None,
+    }
+}
+
+fn angle(row: Row) -> f64 {
+    let angle = match row {
+        Row::Impact(station) => station.roll_angle_driver,
+        Row::Load(station) => station.roll_angle_driver,
+    };
+    0.0 - angle.to_degrees()
+}
+
+// Only what is finite reaches a chart; where a station is left out, the line breaks off.
+fn pieces(points: impl Iterator<Item = (f64, Option<f64>)>, longest: f64) -> Vec<Vec<Point>> {
+    let mut pieces: Vec<Vec<Point>> = Vec::new();
+    let mut follows = false;
+    for (x, y) in points {
+        let Some(y) = y.filter(|y| y.is_finite() && x.is_finite()) else {
+            follows = false;
+            continue;
+        };
+        match pieces.last_mut().filter(|piece| follows && piece.last().is_some_and(|last| x - last.0 <= longest)) {
+            Some(piece) => piece.push((x, y)),
+            None => pieces.push(vec![(x, y)]),
+        }
+        follows = true;
+    }
+    pieces
+}
+
+// In the closed forms a station whose force cannot be computed is left out; the others have every one.
+fn longest_interval(inputs: &Inputs, solution: &Solution) -> f64 {
+    match solution.position {
+        Some(position) if !solution.rung.shares_load() => {
+            let count = Spacing::of(inputs).first_count() as f64;
+            LEFT_OUT * position.approach_angle_driver.to_degrees() / count
+        }
+        _ => f64::INFINITY,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pieces_of(points: &[(f64, Option<f64>)]) -> Vec<Vec<Point>> {
+        pieces(points.iter().copied(), 1.5)
+    }
+
+    #[test]
+    fn a_curve_breaks_where_a_station_is_missing_or_no_number() {
+        let one = Some(1.0);
+        assert_eq!(pieces_of(&[(0.0, one), (1.0, one), (3.0, one)]), [vec![(0.0, 1.0), (1.0, 1.0)], vec![(3.0, 1.0)]]);
+        assert_eq!(pieces_of(&[(0.0, one), (1.0, None), (2.0, one)]).len(), 2);
+        assert_eq!(pieces_of(&[(0.0, one), (1.0, Some(f64::NAN)), (2.0, one)]).len(), 2);
+        assert_eq!(pieces_of(&[]), Vec::<Vec<Point>>::new());
+    }
+
+    #[test]
+    fn a_value_between_stations_is_on_the_line_and_beyond_them_there_is_none() {
+        let column = &crate::report::stations::COLUMNS[6];
+        let curve = Curve { whose: Whose::Pinned, column, pieces: vec![vec![(-1.0, 4.0), (0.0, 2.0), (0.0, 8.0), (1.0, 0.0)]] };
+        for (x, y) in [(-1.0, Some(4.0)), (-0.5, Some(3.0)), (0.0, Some(8.0)), (1.0, Some(0.0)), (1.1, None), (-1.1, None)] {
+            assert_eq!(curve.at(x), y, "{x}");
+        }
+        assert_eq!((curve.upright(), curve.across()), (Span::new(0.0, 8.0), Span::new(-1.0, 1.0)));
+    }
+}

@@ -1,0 +1,62 @@
+//! What every curve says at the cursor.
+
+use super::curves::{Curve, Whose, curves};
+use super::{plan, shown};
+use crate::numeric::decimal::significant;
+use crate::report::graphs::{GRAPHS, Graph};
+use crate::tui::app::App;
+use crate::tui::clean::symbol;
+
+/// Significant digits of the time since E.
+const TIME_DIGITS: usize = 4;
+
+/// The angle, the curves in sight there, and every other value of the active rung.
+#[must_use]
+pub fn readout(app: &App, cursor: f64) -> String {
+    let side = if cursor < 0.0 { "after" } else { "before" };
+    let mut parts = vec![format!("{:.4} deg of the driver {side} E{}", cursor.abs().to_degrees(), time(app, cursor))];
+    let chart = plan(app.size, app.panes).chart;
+    let graphs = shown(app, chart);
+    let chosen = if graphs.is_empty() { vec![app.settings.chart] } else { graphs };
+    let x = 0.0 - cursor.to_degrees();
+    let seen: Vec<String> = chosen.iter().filter_map(|&graph| all(app, &GRAPHS[graph], x)).collect();
+    let rest = (0..GRAPHS.len()).filter(|graph| !chosen.contains(graph));
+    let rest: Vec<String> = rest.filter_map(|graph| own(app, &GRAPHS[graph], x)).collect();
+    parts.extend(seen);
+    parts.extend((!rest.is_empty()).then(|| rest.join(", ")));
+    let (angle, values) = parts.split_at(1);
+    if values.is_empty() { format!("{}.", angle[0]) } else { format!("{}: {}.", angle[0], values.join("; ")) }
+}
+
+fn time(app: &App, cursor: f64) -> String {
+    let speed = app.answer.as_ref().map_or(0.0, |answer| answer.inputs.speed);
+    let micros = 1e6 * cursor.abs() / speed;
+    if app.settings.by_time && micros.is_finite() { format!(", {} us", significant(micros, TIME_DIGITS)) } else { String::new() }
+}
+
+// Every curve of a chart, the active rung first.
+fn all(app: &App, graph: &Graph, x: f64) -> Option<String> {
+    let curves = curves(app, graph);
+    let told: Vec<String> = curves.iter().rev().filter_map(|curve| Some(told(app, curve, curve.at(x)?))).collect();
+    (!told.is_empty()).then(|| told.join(", "))
+}
+
+// The active rung's value alone.
+fn own(app: &App, graph: &Graph, x: f64) -> Option<String> {
+    let curves = curves(app, graph);
+    let own = curves.iter().find(|curve| matches!(curve.whose, Whose::Active(_)))?;
+    Some(told(app, own, own.at(x)?))
+}
+
+fn told(app: &App, curve: &Curve, value: f64) -> String {
+    let name = |text: &'static str| symbol(text, app.look.ascii).into_owned();
+    let number = significant(value + 0.0, curve.column.digits);
+    let unit = if curve.column.shown == "1" { String::new() } else { format!(" {}", curve.column.shown) };
+    let number = format!("{number}{unit}");
+    match curve.whose {
+        Whose::Active(_) => format!("{} {number}", name(curve.column.symbol)),
+        Whose::Other(rung) => format!("{} {number}", rung.name()),
+        Whose::Pinned => format!("baseline {number}"),
+        Whose::Bound(bound) => format!("{} {number}", name(bound)),
+    }
+}
