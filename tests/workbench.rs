@@ -295,7 +295,7 @@ fn the_cursor_walks_by_columns_and_goes_away() {
     desk.keys(&["h", "L", "Shift-Left"]);
     assert!((at - desk.app.cursor.expect("a cursor")).abs() < 1e-12);
     desk.keys(&["End"]);
-    assert!(desk.app.cursor == Some(0.0) && desk.shows("F_S 0.0 N"));
+    assert!(desk.app.cursor == Some(0.0) && desk.shows("F_S 0 N"));
     desk.keys(&["Right"]);
     assert!(desk.app.cursor == Some(0.0), "the chart ends at E");
     desk.keys(&["4", "Right"]);

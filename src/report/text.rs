@@ -1,7 +1,7 @@
 //! A solve as a page of text for a person, 80 columns wide.
 
 use super::layout::{WIDTH, flow, item, widest};
-use super::stations::{columns, rows};
+use super::stations::{Column, columns, rows};
 use super::verdict::{Verdict, verdicts};
 use super::{Report, Shown, shown, value};
 use crate::case::FIELDS;
@@ -215,18 +215,25 @@ fn limits(report: &Report) -> Vec<String> {
     titled("Limits", verdicts.iter().flat_map(|verdict| item(&mark(verdict), &verdict.to_string())))
 }
 
+// As many tables beside the angle as a line has no room for the columns of one.
 fn station_table(report: &Report) -> Vec<String> {
     const CELL: usize = 12;
+    const IN_A_LINE: usize = 5;
     if !report.selection.stations {
         return Vec::new();
     }
-    let columns = columns(report.solution.rung);
-    let head = columns.clone().map(|column| format!("{} {}", column.symbol, column.shown)).collect();
-    let rows = rows(&report.solution).into_iter();
-    let stations = rows.map(|row| columns.clone().map(|column| column.told(row)).collect());
+    let rows = rows(&report.solution);
+    let columns: Vec<_> = columns(report.solution.rung).collect();
+    let (angle, values) = columns.split_at(1);
     let line = |row: Vec<String>| row.iter().map(|cell| format!("{cell:>CELL$}")).collect::<Vec<_>>().concat();
+    let table = |values: &[&Column]| {
+        let columns: Vec<_> = angle.iter().chain(values).copied().collect();
+        let head = columns.iter().map(|column| format!("{} {}", column.symbol, column.shown)).collect();
+        let stations = rows.iter().map(|row| columns.iter().map(|column| column.told(*row)).collect());
+        std::iter::once(head).chain(stations).map(line).collect::<Vec<_>>()
+    };
     let title = if report.solution.rung.shares_load() { "Stations from D to the last contact" } else { "Stations from D to E" };
-    titled(title, std::iter::once(head).chain(stations).map(line))
+    titled(title, values.chunks(IN_A_LINE).flat_map(table))
 }
 
 fn titled(title: &str, lines: impl IntoIterator<Item = String>) -> Vec<String> {

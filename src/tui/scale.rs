@@ -190,7 +190,6 @@ fn power(greatest: f64) -> i32 {
 }
 
 #[cfg(test)]
-#[expect(clippy::float_cmp, reason = "an end is one of few numbers, and stays the same one")]
 mod tests {
     use super::*;
     use proptest::prelude::*;

@@ -41,7 +41,15 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Settings {
-        Settings { marker: Marker::Braille, mouse: false, theme: None, units: System::Metric, ascii: None, chart: 0, by_time: false }
+        Settings {
+            marker: Marker::Braille,
+            mouse: false,
+            theme: None,
+            units: System::Metric,
+            ascii: None,
+            chart: 0,
+            by_time: false,
+        }
     }
 }
 

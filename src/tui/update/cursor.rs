@@ -118,7 +118,8 @@ fn reach(app: &App) -> Option<Reach> {
         return Some(Reach { start, run_from: APPROACH * start, run_to: 0.0, most, least, column: before / columns });
     }
     let window = app.chart.window(&app.scale);
-    let (least, shown) = if axis.is_empty() { (end, before) } else { (end.min(-axis.to.to_radians()), window.length().to_radians()) };
+    let (least, shown) =
+        if axis.is_empty() { (end, before) } else { (end.min(-axis.to.to_radians()), window.length().to_radians()) };
     Some(Reach { start, run_from: start, run_to: end, most: before, least, column: shown / columns })
 }
 

@@ -127,7 +127,13 @@ fn draw_panel(app: &App, graph: &Graph, axes: &Axes, window: Span, area: Rect, b
         let y = if axes.plot.is_empty() { area.y + 1 } else { axes.plot.y + axes.plot.height / 2 };
         let said = lacks.unwrap_or_else(|| "There is no room for a chart.".to_owned());
         if y < area.bottom() {
-            buffer.set_stringn(area.x + 2, y, text::cut(&said, usize::from(area.width.saturating_sub(3))), area.width.into(), Style::new());
+            buffer.set_stringn(
+                area.x + 2,
+                y,
+                text::cut(&said, usize::from(area.width.saturating_sub(3))),
+                area.width.into(),
+                Style::new(),
+            );
         }
         return;
     }

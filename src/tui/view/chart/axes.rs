@@ -91,9 +91,9 @@ impl Axes {
     pub fn column(&self, x: f64) -> Option<u16> {
         let part = self.across.part(x);
         let rounding = 1e-9;
-        (-rounding..=1.0 + rounding).contains(&part).then(|| {
-            self.plot.x + (f64::from(self.plot.width.saturating_sub(1)) * part.clamp(0.0, 1.0)).round() as u16
-        })
+        (-rounding..=1.0 + rounding)
+            .contains(&part)
+            .then(|| self.plot.x + (f64::from(self.plot.width.saturating_sub(1)) * part.clamp(0.0, 1.0)).round() as u16)
     }
 
     /// The angle on a column.

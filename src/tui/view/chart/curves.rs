@@ -45,9 +45,11 @@ pub struct Curve {
 pub fn curves(app: &App, graph: &Graph) -> Vec<Curve> {
     let Some(answer) = &app.answer else { return Vec::new() };
     let pinned = app.baseline.as_ref().and_then(|baseline| active(&baseline.answer, graph, Whose::Pinned));
-    let others = answer.rungs.iter().filter(|(rung, _)| *rung != answer.active).filter_map(|(rung, found)| {
-        Curve::of(graph, &answer.inputs, found.as_ref().ok()?, Whose::Other(*rung))
-    });
+    let others = answer
+        .rungs
+        .iter()
+        .filter(|(rung, _)| *rung != answer.active)
+        .filter_map(|(rung, found)| Curve::of(graph, &answer.inputs, found.as_ref().ok()?, Whose::Other(*rung)));
     let own = active(answer, graph, Whose::Active(answer.active));
     pinned.into_iter().chain(others).chain(bound(answer, graph)).chain(own).collect()
 }

@@ -47,11 +47,8 @@ pub fn style(app: &App, whose: Whose) -> Style {
 /// Draw a curve, as far as it is in sight.
 pub fn draw(app: &App, curve: &Curve, (across, upright): (Span, Span), plot: Rect, buffer: &mut Buffer) {
     let pieces: Vec<Vec<Point>> = curve.pieces.iter().map(|piece| seen(piece, across, plot.width)).collect();
-    let canvas = Canvas::default()
-        .marker(marker(app, curve.whose))
-        .x_bounds(held(across))
-        .y_bounds(held(upright))
-        .paint(|context| {
+    let canvas =
+        Canvas::default().marker(marker(app, curve.whose)).x_bounds(held(across)).y_bounds(held(upright)).paint(|context| {
             for piece in &pieces {
                 context.draw(&Points { coords: if piece.len() == 1 { piece } else { &[] }, color: OWN });
                 for ends in piece.windows(2) {

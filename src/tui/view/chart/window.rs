@@ -79,8 +79,11 @@ impl ChartView {
 mod tests {
     use super::*;
 
-    const SCALE: Scale =
-        Scale { across: Span { from: -5.0, to: 25.0 }, strike: Span { from: -1.5, to: 0.5 }, upright: [Span { from: 0.0, to: 1.0 }; 9] };
+    const SCALE: Scale = Scale {
+        across: Span { from: -5.0, to: 25.0 },
+        strike: Span { from: -1.5, to: 0.5 },
+        upright: [Span { from: 0.0, to: 1.0 }; 9],
+    };
 
     #[test]
     fn it_opens_on_the_whole_and_comes_back_to_it() {
