@@ -100,9 +100,9 @@ impl Column {
         (self.value)(row).filter(|value| value.is_finite()).map(|value| value + 0.0)
     }
 
-    /// The station's value as a person reads it, without the unit.
+    /// The station's value as a person reads it, without the unit; a dash where it has none.
     #[must_use]
     pub fn told(&self, row: Row<'_>) -> String {
-        super::number((self.value)(row).unwrap_or(f64::NAN), self.shown, self.digits)
+        (self.value)(row).map_or_else(|| "-".to_owned(), |value| super::number(value, self.shown, self.digits))
     }
 }
