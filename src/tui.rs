@@ -65,6 +65,8 @@ struct Workbench {
     keeper: Keeper,
     /// When the next picture of what plays is due.
     alarm: Option<Instant>,
+    /// The settings that are to be kept once all that has come is done.
+    chosen: Option<Settings>,
 }
 
 /// How the workbench came to its end.
@@ -113,6 +115,7 @@ fn session(case: Option<PathBuf>, events: Events, chest: &Arc<Chest>) -> io::Res
     let look = Look::of(|name| std::env::var_os(name));
     let look = settings.look(look, |name| std::env::var_os(name).is_some_and(|value| !value.is_empty()));
     let mut app = App { settings, ..App::new(document, path, look, screen.size()?) };
+    app.fit();
     screen.take_mouse(settings.mouse)?;
     if let Some(trouble) = trouble {
         report(&mut app, trouble);
@@ -124,7 +127,7 @@ fn session(case: Option<PathBuf>, events: Events, chest: &Arc<Chest>) -> io::Res
     }
     let measurer = Measurer::new(events.teller());
     let keeper = Keeper::new(store::state::folder().as_deref(), Arc::clone(chest));
-    Workbench { app, screen, events, solver, measurer, keeper, alarm: None }.stay()
+    Workbench { app, screen, events, solver, measurer, keeper, alarm: None, chosen: None }.stay()
 }
 
 fn report(app: &mut App, trouble: Trouble) {
@@ -147,6 +150,7 @@ impl Workbench {
             }
             batch = self.events.batch(self.alarm, self.keeper.deadline());
         };
+        self.keep_settings();
         if matches!(end, End::Left) {
             self.keeper.end();
         }
@@ -176,6 +180,7 @@ impl Workbench {
             }
             self.keep();
         }
+        self.keep_settings();
         if self.keep() || has_changed {
             self.screen.draw(&self.app)?;
         }
@@ -208,6 +213,7 @@ impl Workbench {
                     Effect::Measure(measuring) => self.measurer.begin(*measuring)?,
                     Effect::CancelWork => self.measurer.stop(),
                     Effect::Save(saving) => actions.push(self.keeper.save(*saving)),
+                    Effect::Keep(settings) => self.chosen = Some(settings),
                     Effect::Adopt(journal) => self.keeper.adopt(journal),
                     Effect::Copy(text) => self.screen.copy(&text)?,
                     Effect::Mouse(takes) => self.screen.take_mouse(takes)?,
@@ -217,6 +223,14 @@ impl Workbench {
             }
         }
         Ok(false)
+    }
+
+    // A flood of choices is written once.
+    fn keep_settings(&mut self) {
+        let kept = self.chosen.take().and_then(|settings| store::perform(Effect::Keep(settings)));
+        if let Some(action) = kept {
+            update(&mut self.app, action);
+        }
     }
 
     // Whether there was something to tell.

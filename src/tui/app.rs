@@ -256,7 +256,11 @@ impl App {
 
     /// Fit the axes of the charts in sight to their curves.
     pub(super) fn fit(&mut self) {
-        self.tab.scale = chart::fitted(self);
+        let occasion = chart::Occasion::of(self);
+        if self.tab.fitted != occasion {
+            self.tab.scale = chart::fitted(self);
+            self.tab.fitted = occasion;
+        }
     }
 
     /// The tab that waits for the answer of that serial.

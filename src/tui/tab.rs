@@ -9,6 +9,7 @@ use super::recovery::Access;
 use super::rows::{self, Row};
 use super::scale::Scale;
 use super::solver::Answer;
+use super::view::chart::Occasion;
 use crate::case::{Case, Document, Problem, fields};
 use crate::model::{Inputs, Refusal, Stages};
 use crate::study::trade::{Setting, Trade};
@@ -54,6 +55,8 @@ pub struct Tab {
     pub has_failed: bool,
     /// The axes of the charts.
     pub scale: Scale,
+    /// What they were last fitted to.
+    pub fitted: Occasion,
     /// The first line of the form that is shown.
     pub form_top: usize,
     /// What was measured of error and time.
@@ -112,6 +115,7 @@ impl Tab {
             refusal: None,
             has_failed: false,
             scale: Scale::default(),
+            fitted: Occasion::default(),
             form_top: 0,
             traded: None,
             row: 0,

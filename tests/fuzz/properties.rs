@@ -141,8 +141,8 @@ fn assert_csv(report: &Report) {
     let empty: Vec<usize> = empty.filter(|(_, cell)| cell.is_empty()).map(|(at, _)| at).collect();
     assert!(empty.len() <= 1 && empty.iter().all(|&at| at + 2 == stations.len()), "{empty:?}");
     let numbers =
-        |row: &[String]| row.iter().skip(1).all(|cell| cell.is_empty() || cell.parse::<f64>().is_ok_and(f64::is_finite));
-    assert!(stations[1..].iter().all(|row| numbers(row)));
+        |row: &csv::StringRecord| row.iter().skip(1).all(|cell| cell.is_empty() || cell.parse::<f64>().is_ok_and(f64::is_finite));
+    assert!(stations[1..].iter().all(numbers));
 }
 
 fn assert_page(report: &Report) {

@@ -36,6 +36,28 @@ const USUAL_COLUMNS: u16 = 71;
 /// After E the strike goes on for this part of the way from D to E.
 const AFTER_E: f64 = 0.5;
 
+/// What the axes are to fit: they are fitted again only when it is something else.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Occasion {
+    answered: Option<(u64, bool)>,
+    pinned: Option<u64>,
+    chosen: usize,
+    count: usize,
+}
+
+impl Occasion {
+    /// What is in sight now.
+    #[must_use]
+    pub fn of(app: &App) -> Occasion {
+        Occasion {
+            answered: app.answer.as_ref().map(|answer| (answer.serial, answer.pending.is_some())),
+            pinned: app.baseline.as_ref().map(|baseline| baseline.answer.serial),
+            chosen: app.settings.chart,
+            count: count(plan(app.size, app.panes).chart),
+        }
+    }
+}
+
 /// Draw the charts with their axes.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let panels = panels(app, area);
@@ -91,15 +113,15 @@ pub fn fitted(app: &App) -> Scale {
 /// The charts in sight: the chosen one, and below it the next ones that the active rung has.
 #[must_use]
 pub fn shown(app: &App, area: Rect) -> Vec<usize> {
-    if area.is_empty() {
-        return Vec::new();
-    }
-    let count = usize::from((area.height / ROWS).clamp(1, MOST));
     let chosen = app.settings.chart;
     let rung = app.answer.as_ref().map(|answer| answer.active);
     let others = (1..GRAPHS.len()).map(|by| (chosen + by) % GRAPHS.len());
     let has_curve = |graph: &usize| rung.is_some_and(|rung| GRAPHS[*graph].column(rung).is_some());
-    std::iter::once(chosen).chain(others.filter(has_curve)).take(count).collect()
+    std::iter::once(chosen).chain(others.filter(has_curve)).take(count(area)).collect()
+}
+
+fn count(area: Rect) -> usize {
+    if area.is_empty() { 0 } else { usize::from((area.height / ROWS).clamp(1, MOST)) }
 }
 
 /// The charts in sight, from top to bottom, each with its axes below its title.
