@@ -13,6 +13,8 @@ use crate::report::graphs::{GRAPHS, Graph};
 
 /// A name must be this like what is typed to be offered when nothing contains it.
 const LIKENESS: f64 = 0.75;
+/// What is longer is like no name, and would take long to compare.
+const LONGEST_NAME: usize = 64;
 
 /// A list under a line of text.
 #[derive(Debug, Clone)]
@@ -99,7 +101,7 @@ impl Picker {
         let words: Vec<&str> = typed.split_whitespace().collect();
         let items = self.items();
         let mut fitting: Vec<_> = items.iter().filter_map(|item| Some((rank(item, &words)?, item))).collect();
-        if fitting.is_empty() {
+        if fitting.is_empty() && typed.len() <= LONGEST_NAME {
             let likeness = |item: &Item| strsim::jaro_winkler(&typed, &item.name.to_lowercase());
             let alike = items.iter().map(|item| (likeness(item), item)).filter(|(likeness, _)| *likeness > LIKENESS);
             fitting = alike.map(|(likeness, item)| (((1.0 - likeness) * 1e3) as usize, item)).collect();
