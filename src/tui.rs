@@ -7,6 +7,7 @@
 pub mod actions;
 pub mod app;
 pub mod clean;
+mod ending;
 pub mod events;
 mod fault;
 pub mod history;
@@ -38,6 +39,7 @@ use signal_hook::consts::{SIGCONT, SIGTSTP};
 
 use actions::Action;
 use app::App;
+use ending::TERMINAL_LOST;
 use events::{Event, Events};
 use measurer::Measurer;
 use settings::Settings;
@@ -50,7 +52,6 @@ use theme::Look;
 use update::{Effect, update};
 
 const NO_TERMINAL: u8 = 2;
-const TERMINAL_LOST: u8 = 5;
 const PANICKED: u8 = 101;
 /// Time between two pictures of what plays.
 const TICK: Duration = Duration::from_millis(83);
@@ -98,7 +99,7 @@ pub fn run(case: Option<PathBuf>) -> ExitCode {
     }
     keep_what_is_left(&chest);
     match ended {
-        Ok(Ok(End::Signal(signal))) => ExitCode::from(u8::try_from(events::SIGNALLED + signal).unwrap_or(u8::MAX)),
+        Ok(Ok(End::Signal(signal))) => ExitCode::from(u8::try_from(ending::SIGNALLED + signal).unwrap_or(u8::MAX)),
         Ok(Ok(End::Left | End::Lost)) => ExitCode::from(TERMINAL_LOST),
         Ok(Err(error)) => fail(TERMINAL_LOST, &format!("the terminal does not answer: {error}")),
         Err(_) => fail(PANICKED, &format!("a fault of the program: {}", terminal::last_panic().unwrap_or_default())),

@@ -7,10 +7,12 @@ mod tty;
 
 use std::env;
 use std::fs;
-use std::os::unix::fs::PermissionsExt;
+use std::io::Write;
+use std::os::unix::fs::{MetadataExt, PermissionsExt};
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
+use std::sync::LazyLock;
 
 use tempfile::TempDir;
 use tipstrike::case::{Document, fields};
@@ -18,11 +20,13 @@ use tipstrike::case::{Document, fields};
 use tty::{Launch, PROGRAM, TABLE_1, is_there, skip};
 
 /// Every call by which a file is made, filled and put into its place.
-const CALLS: &str = "openat,write,fsync,fdatasync,fchmod,fchown,rename,renameat,renameat2,link,linkat,unlink,close,ftruncate";
+const CALLS: &str = "openat,write,fsync,fdatasync,fchmod,fchown,flistxattr,llistxattr,lgetxattr,fsetxattr,rename,renameat,renameat2,link,linkat,unlink,close,ftruncate";
 /// More steps than any save has; the loop ends before, when nothing is hit any more.
 const MOST_STEPS: usize = 100;
 /// Where the save to be disturbed finds its file.
 const TARGET: &str = "TIPSTRIKE_SAVE_TARGET";
+/// An attribute that the case has, where the file system knows such.
+const MARK: &str = "user.tipstrike.test";
 const SAVED: i32 = 0;
 const REFUSED: i32 = 5;
 
@@ -38,6 +42,8 @@ fn saver() {
         Ok(()) => std::process::exit(SAVED),
         Err(error) => {
             assert!(!error.to_string().contains('\n'));
+            // Past the harness, which would hold it back.
+            std::io::stderr().write_all(error.to_string().as_bytes()).expect("someone reads");
             std::process::exit(REFUSED)
         }
     }
@@ -58,7 +64,20 @@ fn folder_with_case() -> (TempDir, std::path::PathBuf) {
     let path = folder.path().join("case.toml");
     fs::write(&path, TABLE_1).expect("room on the disk");
     fs::set_permissions(&path, fs::Permissions::from_mode(0o640)).expect("our own file");
+    if let Err(error) = xattr::set(&path, MARK, b"1") {
+        skip(&format!("attributes of files: {error}"));
+    }
     (folder, path)
+}
+
+fn mark(path: &Path) -> Option<Vec<u8>> {
+    xattr::get(path, MARK).ok().flatten()
+}
+
+/// What a fresh case has: nothing, where the file system knows no attributes.
+fn mark_of_a_case() -> Option<Vec<u8>> {
+    static FRESH: LazyLock<Option<Vec<u8>>> = LazyLock::new(|| mark(&folder_with_case().1));
+    FRESH.clone()
 }
 
 fn new_text() -> String {
@@ -73,6 +92,7 @@ fn assert_old_or_new(path: &Path, code: Option<i32>, fault: &str) {
     assert!(is_old || text == new_text(), "{fault}: half a file: {text:?}");
     let mode = fs::metadata(path).expect("it is there").permissions().mode();
     assert_eq!(mode & 0o7777, 0o640, "{fault}");
+    assert_eq!(mark(path), mark_of_a_case(), "{fault}");
     match code {
         Some(SAVED) => assert!(!is_old, "{fault}: said to be saved, and is not"),
         Some(REFUSED) => assert!(is_old, "{fault}: said to be refused, and is saved"),
@@ -236,6 +256,74 @@ fn a_folder_that_may_not_be_written_leaves_the_old_file() {
         assert_old_or_new(&path, code, "closed folder");
     }
     fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o755)).expect("our own folder");
+}
+
+/// An access list as the system keeps it: version 2, then tag, permissions and who, 8 bytes each.
+fn access_list(entries: &[(u16, u16, u32)]) -> Vec<u8> {
+    let bytes = |&(tag, may, who): &(u16, u16, u32)| [&tag.to_le_bytes()[..], &may.to_le_bytes(), &who.to_le_bytes()].concat();
+    [2_u32.to_le_bytes().to_vec(), entries.iter().flat_map(bytes).collect()].concat()
+}
+
+#[test]
+fn access_lists_and_attributes_stay_and_none_comes_from_the_folder() {
+    const LIST: &str = "system.posix_acl_access";
+    const OF_NEW_FILES: &str = "system.posix_acl_default";
+    const NOBODY_IN_PARTICULAR: u32 = u32::MAX;
+    let entries = |group: u16| {
+        let own = [(1, 6, NOBODY_IN_PARTICULAR), (2, 4, 65534)];
+        let others = [(4, group, NOBODY_IN_PARTICULAR), (16, 4, NOBODY_IN_PARTICULAR), (32, 0, NOBODY_IN_PARTICULAR)];
+        access_list(&[&own[..], &others].concat())
+    };
+    let (folder, path) = folder_with_case();
+    let save = |path: &Path| {
+        let output = saver_command(&[], path).output().expect("it starts");
+        assert_eq!(output.status.code(), Some(SAVED), "{output:?}");
+        assert_eq!(fs::read_to_string(path).expect("it is there"), new_text());
+    };
+    if let Err(error) = xattr::set(&path, LIST, &entries(0)) {
+        return skip(&format!("access lists: {error}"));
+    }
+    let list = xattr::get(&path, LIST).expect("a list").expect("a list");
+    save(&path);
+    assert_eq!(xattr::get(&path, LIST).expect("a list"), Some(list), "the group may not what only the mask allows");
+    assert_eq!(mark(&path), mark_of_a_case());
+    assert_eq!(fs::metadata(&path).expect("it is there").permissions().mode() & 0o7777, 0o640);
+    // A folder that opens its new files to others does not open an old one.
+    let plain = folder.path().join("plain.toml");
+    fs::write(&plain, TABLE_1).expect("room on the disk");
+    xattr::set(folder.path(), OF_NEW_FILES, &entries(4)).expect("a list for new files");
+    save(&plain);
+    assert_eq!(xattr::get(&plain, LIST).expect("no list"), None);
+}
+
+#[test]
+fn a_file_of_someone_else_keeps_its_owner_or_is_left_alone() {
+    let nobody = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", "--inh-caps=-all", "--bounding-set=-all", "--"];
+    if !is_there("setpriv") || !Command::new(nobody[0]).args(&nobody[1..]).arg("true").status().is_ok_and(|status| status.success()) {
+        return skip("nobody cannot be made of us here");
+    }
+    // Where all may write: in a folder that lets each rename all, and in one that lets each rename but his own.
+    for (folder_mode, told) in [(0o777, "belongs to user 0"), (0o1777, "belongs to user 0")] {
+        let (folder, path) = folder_with_case();
+        fs::set_permissions(folder.path(), fs::Permissions::from_mode(folder_mode)).expect("our own folder");
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o666)).expect("our own file");
+        let output = saver_command(&nobody, &path).output().expect("it starts");
+        let words = String::from_utf8_lossy(&output.stderr).into_owned();
+        if !words.contains(told) && output.status.code() != Some(REFUSED) {
+            return skip(&format!("the test cannot be started as nobody: {output:?}"));
+        }
+        assert_eq!(output.status.code(), Some(REFUSED), "{words}");
+        assert!(words.contains(told) && words.contains("save under another name"), "{words}");
+        assert_eq!(fs::read_to_string(&path).expect("it is there"), TABLE_1);
+        let left = fs::read_dir(folder.path()).expect("a folder").count();
+        assert_eq!(left, 1, "nothing is left beside it");
+    }
+    // Who may give files away does.
+    let (_folder, path) = folder_with_case();
+    std::os::unix::fs::chown(&path, Some(65534), Some(65534)).expect("we may");
+    assert_eq!(saver_command(&[], &path).output().expect("it starts").status.code(), Some(SAVED));
+    let about = fs::metadata(&path).expect("it is there");
+    assert_eq!((about.uid(), about.gid(), about.mode() & 0o7777), (65534, 65534, 0o640));
 }
 
 #[test]

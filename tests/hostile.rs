@@ -82,7 +82,10 @@ fn no_command_says_a_control() {
             &["completions", HOSTILE],
             &["man", HOSTILE],
         ] {
-            let output = Command::new(PROGRAM).args(words).arg(path).env("TERM", "xterm").output().expect("it starts");
+            let mut command = Command::new(PROGRAM);
+            // Some of them are names of files to be made.
+            command.args(words).arg(path).env("TERM", "xterm").current_dir(folder.path());
+            let output = command.output().expect("it starts");
             for bytes in [&output.stdout, &output.stderr] {
                 let text = std::str::from_utf8(bytes).expect("words in UTF-8");
                 let raw = text.chars().find(|&letter| letter != '\n' && is_hidden(letter));

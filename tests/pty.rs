@@ -28,11 +28,11 @@ fn it_types_saves_quits_and_gives_the_terminal_back() {
 
 #[test]
 fn a_signal_to_end_gives_the_terminal_back() {
-    for (signal, code) in [("TERM", 128 + 15), ("HUP", 128 + 1), ("INT", 128 + 2)] {
+    for (signal, code) in [("TERM", 15), ("HUP", 1), ("INT", 2), ("QUIT", 3), ("USR1", 10), ("USR2", 12), ("XCPU", 24)] {
         let mut tty = Tty::open();
         tty.wait_for("Corner contact");
         tty.send_signal(signal);
-        assert_eq!(tty.wait_for_end().exit_code(), code, "{signal}");
+        assert_eq!(tty.wait_for_end().exit_code(), 128 + code, "{signal}");
         tty.assert_restored();
     }
 }

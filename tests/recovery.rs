@@ -21,7 +21,7 @@ use tipstrike::tui::store::chest::Chest;
 use tipstrike::tui::store::keeper::Keeper;
 use tipstrike::tui::theme::Look;
 
-use tty::{Launch, PATIENCE, TABLE_1, Tty, journals, stat};
+use tty::{Launch, PATIENCE, TABLE_1, Tty, is_there, journals, stat};
 
 const SECOND: Duration = Duration::from_secs(1);
 const OFFER: &str = "Unsaved edits were kept";
@@ -158,7 +158,7 @@ fn kill_9_after_two_seconds_loses_nothing() {
 
 #[test]
 fn a_signal_keeps_what_was_typed_just_before_it() {
-    for signal in ["HUP", "TERM", "INT"] {
+    for signal in ["HUP", "TERM", "INT", "QUIT"] {
         let mut tty = opened();
         tty.type_in("\x15 1.25 in");
         tty.wait_for("1.25 in");
@@ -182,12 +182,61 @@ fn a_terminal_that_hangs_up_ends_it_at_once_without_loss_and_without_work() {
     let mut tty = opened();
     tty.type_in("\x151.25 in");
     tty.wait_for("1.25 in");
+    let kept = hang_up(&mut tty);
+    assert!(kept.contains("1.25 in"), "{kept}");
+}
+
+#[test]
+fn a_workbench_that_is_stuck_is_ended_by_a_hang_up_without_loss_and_without_work() {
+    let mut tty = Launch::on_table_1().variable("TIPSTRIKE_FAULT", "stuck screen").start();
+    tty.wait_for("Corner contact");
+    tty.type_in("\x151.25 in");
+    tty.wait_for("1.25 in");
+    // From here on it draws nothing, hears nothing and ends nothing by itself.
+    tty.type_in("\x0c");
+    tty.settle(Duration::from_millis(100));
+    tty.type_in("7");
+    assert_eq!(tty.settle(Duration::from_millis(200)), 0, "it is stuck");
+    let kept = hang_up(&mut tty);
+    assert!(kept.contains("1.25 in"), "{kept}");
+}
+
+#[test]
+fn a_terminal_that_goes_without_a_signal_is_noticed() {
+    if !is_there("setsid") {
+        return;
+    }
+    for fault in ["", "stuck screen"] {
+        // In a session of its own the terminal is not its terminal, whose end then is told to nobody.
+        let launch = Launch::on_table_1().through(&["setsid", "--wait"]).variable("TIPSTRIKE_FAULT", fault);
+        let mut tty = launch.start();
+        tty.wait_for("Corner contact");
+        tty.type_in("\x151.25 in");
+        tty.wait_for("1.25 in");
+        tty.type_in("\x0c");
+        tty.settle(Duration::from_millis(100));
+        let children = fs::read_to_string(format!("/proc/{0}/task/{0}/children", tty.id())).expect("it runs");
+        let child = children.split_whitespace().next().and_then(|child| child.parse().ok()).expect("a child");
+        let kept = hang_up_of(&mut tty, child);
+        assert!(kept.contains("1.25 in"), "{fault}: {kept}");
+    }
+}
+
+/// Break the line and wait for the end; what the journal keeps then.
+fn hang_up(tty: &mut Tty) -> String {
+    let id = tty.id();
+    hang_up_of(tty, id)
+}
+
+fn hang_up_of(tty: &mut Tty, id: u32) -> String {
     let ticks = |id| stat(id).map_or(0, |words| words[11].parse::<u64>().unwrap_or(0) + words[12].parse::<u64>().unwrap_or(0));
-    let (id, before) = (tty.id(), ticks(tty.id()));
+    let before = ticks(id);
+    assert!(journals(tty.folder.path()).is_empty(), "nothing is kept yet");
     let broken = Instant::now();
     tty.hang_up();
     let (mut kept, mut burnt) = (None, before);
-    while !tty.has_ended() {
+    // One that is gone may still have to be buried.
+    while !tty.has_ended() || stat(id).is_some_and(|words| words[0] != "Z") {
         kept = kept.or_else(|| (!journals(tty.folder.path()).is_empty()).then(|| broken.elapsed()));
         burnt = burnt.max(ticks(id));
         assert!(broken.elapsed() < PATIENCE, "it stays without a terminal");
@@ -195,10 +244,11 @@ fn a_terminal_that_hangs_up_ends_it_at_once_without_loss_and_without_work() {
     }
     let gone = broken.elapsed();
     println!("kept after {:.1?}, gone after {gone:.1?}, {} ticks of 10 ms", kept.unwrap_or(gone), burnt - before);
+    // The promise is 0.2 s and 1 s; a machine that is busy may take a while to wake it.
+    assert!(kept.unwrap_or(gone) < SECOND / 2, "its edits are kept after {kept:?}");
     assert!(gone < 5 * SECOND, "it stays for {gone:.1?}");
-    assert!(burnt - before <= 20, "it burns {} ticks on its way out", burnt - before);
-    let kept = journals(tty.folder.path());
-    assert!(fs::read_to_string(&kept[0]).is_ok_and(|text| text.contains("1.25 in")), "{kept:?}");
+    assert!(burnt - before <= 8, "it burns {} ticks on its way out", burnt - before);
+    journals(tty.folder.path()).first().and_then(|path| fs::read_to_string(path).ok()).unwrap_or_default()
 }
 
 #[test]

@@ -100,6 +100,38 @@ fn a_terminal_that_takes_nothing_more_does_not_hold_it() {
 }
 
 #[test]
+fn a_slow_line_is_not_flooded_and_the_way_out_stays_open() {
+    const PACE: usize = 6000;
+    const KEYS: usize = 3000;
+    let mut tty = opened(Launch::on_table_1().size(40, 120));
+    let before = resident(tty.id());
+    tty.written = Some(Vec::new());
+    tty.set_pace(PACE);
+    // More pictures than the system's own queue for the line holds, each key apart.
+    let keys = [&b"\x0c"[..], b"\x1b[B", b"\x0c", b"\x1b[A"];
+    for key in (0..KEYS).map(|at| keys[at % keys.len()]) {
+        tty.type_in(key);
+        tty.take_output(Duration::from_micros(500));
+    }
+    let grown = resident(tty.id()).saturating_sub(before);
+    let start = Instant::now();
+    tty.type_in("\x11");
+    while !tty.has_ended() {
+        assert!(start.elapsed() < PATIENCE, "it hears nothing any more");
+        tty.take_output(Duration::from_millis(5));
+    }
+    let left = start.elapsed();
+    tty.set_pace(0);
+    assert_eq!(tty.wait_for_end().exit_code(), 0);
+    let written = tty.written.as_ref().map_or(0, Vec::len);
+    println!("{KEYS} keys at {PACE} bytes/s: {written} bytes, {grown} KiB more, gone {left:.1?} after the last key");
+    // A picture a key would be 9 MB; 64 KiB wait in the system, and one more picture and the line's own share are on their way.
+    assert!(written <= 200 << 10, "{written} bytes");
+    assert!(grown <= 2 << 10, "{grown} KiB");
+    tty.assert_restored();
+}
+
+#[test]
 fn a_storm_of_sizes_ends_in_the_right_picture() {
     let mut tty = opened(Launch::on_table_1());
     let sizes: Vec<_> = (0..400u16).map(|at| (at * 7 % 61, at * 13 % 201)).chain([(24, 80)]).collect();

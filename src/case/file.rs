@@ -1,5 +1,6 @@
 //! Reading and saving case files: a case together with the text it was read from.
 
+mod about;
 mod disk;
 mod edit;
 mod fault;

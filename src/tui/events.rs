@@ -2,17 +2,16 @@
 
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use crossterm::event::{self, Event as Input, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
-use crossterm::terminal::disable_raw_mode;
 use ratatui::layout::{Position, Size};
-use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGTERM, SIGTSTP};
-use signal_hook::iterator::Signals;
 
 use super::actions::{self, Action, Place};
+use super::ending;
 use super::solver::Reply;
 
 /// Something from outside.
@@ -46,11 +45,6 @@ const BATCH: Duration = Duration::from_millis(50);
 const ESCAPE: Duration = Duration::from_millis(50);
 /// Lines that a turn of the wheel moves.
 const WHEEL: isize = 3;
-
-/// So long may the workbench take to end after a signal.
-const GRACE: Duration = Duration::from_millis(700);
-/// A program that a signal ends has this and the signal's number as its exit code.
-pub const SIGNALLED: i32 = 128;
 
 /// What follows `Esc` in the sequences of the common keys.
 const SEQUENCES: [(&str, KeyCode); 20] = [
@@ -90,28 +84,17 @@ impl Events {
         Events { sender, receiver }
     }
 
-    /// Listen to the terminal and to signals, each in a thread that sleeps until something comes. A signal to end is
-    /// told to `last_words` before anything else.
+    /// Listen to the terminal and to signals, each in a thread that sleeps until something comes. Whatever ends the
+    /// workbench from outside is told to `last_words` before anything else.
     ///
     /// # Errors
     /// When the system gives no thread or no signal handler.
-    pub fn listen(&self, last_words: impl Fn() + Send + 'static) -> io::Result<()> {
+    pub fn listen(&self, last_words: impl Fn() + Send + Sync + 'static) -> io::Result<()> {
         // Makes the handler of new sizes now: one that comes before the thread runs would be lost.
         event::poll(Duration::ZERO)?;
-        let (keys, caught) = (self.sender.clone(), self.sender.clone());
+        let keys = self.sender.clone();
         thread::Builder::new().name("keys".to_owned()).spawn(move || read_terminal(&keys))?;
-        let mut signals = Signals::new([SIGHUP, SIGTERM, SIGINT, SIGTSTP, SIGCONT])?;
-        thread::Builder::new().name("signals".to_owned()).spawn(move || {
-            for signal in signals.forever() {
-                if [SIGHUP, SIGTERM, SIGINT].contains(&signal) {
-                    last_words();
-                    end_by(signal, &caught);
-                } else if caught.send(Event::Signal(signal)).is_err() {
-                    return;
-                }
-            }
-        })?;
-        Ok(())
+        ending::listen(&self.sender, Arc::new(last_words))
     }
 
     /// A way for the keeper to tell what goes wrong.
@@ -199,14 +182,6 @@ fn letter_of(event: &Event, place: Place) -> Option<char> {
         Action::Insert(letter) => Some(letter),
         _ => None,
     }
-}
-
-// The workbench ends as it should, unless it waits for a terminal that takes nothing more.
-fn end_by(signal: i32, sender: &SyncSender<Event>) {
-    drop(sender.try_send(Event::Signal(signal)));
-    thread::sleep(GRACE);
-    drop(disable_raw_mode());
-    std::process::exit(SIGNALLED + signal);
 }
 
 fn read_terminal(sender: &SyncSender<Event>) {

@@ -1,11 +1,15 @@
 //! Faults of the program on demand, for the tests of what becomes of them; a release has none.
 
-/// Panic where the tests ask for it at this place.
+/// Panic where the tests ask for it at this place, or stay there for ever.
 #[cfg(debug_assertions)]
-#[expect(clippy::panic, clippy::manual_assert, reason = "a fault is what is asked for")]
+#[expect(clippy::panic, reason = "a fault is what is asked for")]
 pub(super) fn on_demand(place: &str) {
-    if std::env::var_os("TIPSTRIKE_FAULT").is_some_and(|asked| asked == place) {
-        panic!("a fault on demand");
+    match std::env::var("TIPSTRIKE_FAULT").unwrap_or_default() {
+        asked if asked == place => panic!("a fault on demand"),
+        asked if asked.strip_prefix("stuck ") == Some(place) => loop {
+            std::thread::park();
+        },
+        _ => {}
     }
 }
 

@@ -9,7 +9,7 @@ use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
@@ -21,6 +21,9 @@ pub(crate) const PROGRAM: &str = env!("CARGO_BIN_EXE_tipstrike");
 pub(crate) const TABLE_1: &str = include_str!("../../cases/zhou-chen-2014.toml");
 /// Far longer than anything takes; only a failing test waits for it.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(20);
+
+/// How often in a second a slow line takes something.
+const BEATS: usize = 100;
 
 /// What to start, and on which terminal.
 pub(crate) struct Launch {
@@ -49,6 +52,8 @@ struct Line {
     output: Receiver<Vec<u8>>,
     reader: JoinHandle<()>,
     is_stalled: Arc<AtomicBool>,
+    /// Bytes that are read in a second; 0 stands for all that there are.
+    pace: Arc<AtomicUsize>,
 }
 
 impl Launch {
@@ -116,18 +121,26 @@ impl Launch {
         let (sender, output) = channel();
         let is_stalled = Arc::new(AtomicBool::new(false));
         let stalled = Arc::clone(&is_stalled);
+        let pace = Arc::new(AtomicUsize::new(0));
+        let their_pace = Arc::clone(&pace);
         let reader = thread::spawn(move || {
             let mut buffer = [0; 16384];
-            while let Ok(count @ 1..) = reader.read(&mut buffer) {
+            loop {
+                let pace = their_pace.load(Ordering::Relaxed);
+                let most = if pace == 0 { buffer.len() } else { (pace / BEATS).clamp(1, buffer.len()) };
+                let Ok(count @ 1..) = reader.read(&mut buffer[..most]) else { return };
                 if sender.send(buffer[..count].to_vec()).is_err() {
                     return;
+                }
+                if pace > 0 {
+                    thread::sleep(Duration::from_secs(1) / u32::try_from(BEATS).unwrap_or(1));
                 }
                 while stalled.load(Ordering::Relaxed) && Arc::strong_count(&stalled) > 1 {
                     thread::sleep(Duration::from_millis(5));
                 }
             }
         });
-        let line = Some(Line { master: pair.master, writer, output, reader, is_stalled });
+        let line = Some(Line { master: pair.master, writer, output, reader, is_stalled, pace });
         let screen = vt100::Parser::new(cells(rows), cells(cols), 0);
         Tty { folder: self.folder, child, written: None, line, screen, before }
     }
@@ -273,12 +286,13 @@ impl Tty {
         let Line { master, writer, output, reader, .. } = self.line.take().expect("the terminal has not hung up");
         drop(output);
         drop(writer);
-        // The reader sleeps on a copy of our end until something comes: a new size has the program write.
+        // The reader sleeps on a copy of our end until something comes: we write to the other end ourselves.
+        let other_end = master.tty_name().expect("the terminal has a name");
+        let end = Instant::now() + PATIENCE;
         while !reader.is_finished() {
-            for columns in [81, 80] {
-                master.resize(PtySize { rows: 24, cols: columns, ..PtySize::default() }).ok();
-                thread::sleep(Duration::from_millis(2));
-            }
+            fs::OpenOptions::new().write(true).open(&other_end).and_then(|mut terminal| terminal.write_all(b" ")).ok();
+            assert!(Instant::now() < end, "the reader stays");
+            thread::sleep(Duration::from_millis(2));
         }
     }
 
@@ -296,6 +310,11 @@ impl Tty {
             self.type_in("\x0c");
             thread::sleep(Duration::from_millis(3));
         }
+    }
+
+    /// The line takes only so many bytes a second from now on; 0 stands for all that there are.
+    pub(crate) fn set_pace(&mut self, bytes_a_second: usize) {
+        self.line().pace.store(bytes_a_second, Ordering::Relaxed);
     }
 
     pub(crate) fn modes(&self) -> String {

@@ -3,13 +3,13 @@
 use std::borrow::Cow;
 use std::fs::{self, File, OpenOptions, Permissions};
 use std::io::{self, ErrorKind, Read, Write};
-use std::os::unix::fs::{MetadataExt, PermissionsExt, fchown};
+use std::os::unix::fs::{MetadataExt, PermissionsExt};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use thiserror::Error;
 
-use super::{Document, Fault, FaultKind, MOST_BYTES};
+use super::{Document, Fault, FaultKind, MOST_BYTES, about};
 use crate::case::Case;
 use crate::case::journal::Stamp;
 use crate::case::visible::visible;
@@ -301,7 +301,7 @@ impl Target {
         let mut file = tempfile::Builder::new().prefix(&prefix).permissions(mode).tempfile_in(folder)?;
         file.write_all(bytes)?;
         if let Some(old) = &self.old {
-            keep_owner_and_mode(file.as_file(), old)?;
+            about::keep(old, &self.path, file.as_file())?;
         }
         file.as_file().sync_all()?;
         match self.old {
@@ -342,15 +342,7 @@ fn mend(error: &io::Error) -> &'static str {
         ErrorKind::FileTooLarge => "raise the limit on the size of files (ulimit -f)",
         ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => "save into a folder that may be written",
         ErrorKind::InvalidFilename => "take a shorter name",
+        ErrorKind::Unsupported => "save under another name",
         _ => "save elsewhere",
     }
-}
-
-fn keep_owner_and_mode(file: &File, old: &fs::Metadata) -> io::Result<()> {
-    let new = file.metadata()?;
-    if (new.uid(), new.gid()) != (old.uid(), old.gid()) {
-        // Only the owner may be unable to give a file away; the content matters more.
-        let _ = fchown(file, Some(old.uid()), Some(old.gid()));
-    }
-    file.set_permissions(Permissions::from_mode(old.mode() & 0o7777))
 }

@@ -102,10 +102,12 @@ pub(super) const fn with(modifiers: KeyModifiers, code: KeyCode) -> Chord {
 }
 
 impl Chord {
-    // Shift is part of the letter and of BackTab, and terminals differ in whether they say so.
+    // Shift is part of the letter and of BackTab, and terminals differ in whether they say so. Ctrl-4 and Ctrl-\ are one
+    // byte, which the reader takes for the former.
     pub(super) fn of(event: KeyEvent) -> Chord {
         let held = event.modifiers & (CTRL | ALT | SHIFT);
         match event.code {
+            KeyCode::Char('4') if held == CTRL => Chord(KeyCode::Char('\\'), CTRL),
             KeyCode::Char(letter) if held.contains(CTRL) => Chord(KeyCode::Char(letter.to_ascii_lowercase()), held - SHIFT),
             KeyCode::Char(_) | KeyCode::BackTab => Chord(event.code, held - SHIFT),
             code => Chord(code, held),

@@ -158,7 +158,7 @@ pub static BINDINGS: &[Binding] = &[
     shown(Place::LIST.or(Place::PATH).or(Place::ASK), &[key(KeyCode::Enter)], Do::Accept, "accept", "Do it."),
     told(Place::READ, &[key(KeyCode::Enter), letter('q'), letter('?'), function(1)], Do::Leave, "Close the page."),
     shown(Place::PROMPT, &[key(KeyCode::Esc)], Do::Leave, "back", "Close; nothing is lost."),
-    told(Place::ALL, &[ctrl('c')], Do::Cancel, "Close a prompt, stop what runs; else ask whether to quit."),
+    told(Place::ALL, &[ctrl('c'), ctrl('\\')], Do::Cancel, "Close a prompt, stop what runs; else ask whether to quit: nothing is lost."),
     // In a line of text.
     told(Place::LINE, &[key(KeyCode::Left)], Do::Edit(Line::GoToPrevChar), "A character to the left."),
     told(Place::LINE, &[key(KeyCode::Right)], Do::Edit(Line::GoToNextChar), "A character to the right."),

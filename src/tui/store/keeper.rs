@@ -107,9 +107,11 @@ impl Keeper {
         drop(self.chest.write(false));
     }
 
-    /// Write a case, unless another session has its file open; how it went.
+    /// Write a case, unless another session has its file open; how it went. The edits are kept first: whatever ends the
+    /// process in the midst of it, they are in the file or in the journal.
     #[must_use]
     pub fn save(&mut self, mut saving: Saving) -> Action {
+        self.keep();
         saving.path = expanded(&saving);
         let holder = followed(&saving.path).ok().and_then(|path| self.lock(&path));
         let result = holder.map_or_else(|| save(&saving), |holder| Err(SaveFault::Held(holder.words(clock::now()))));

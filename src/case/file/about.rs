@@ -1,0 +1,65 @@
+//! What a file has beside its bytes, for the one that takes its place: owner, mode, access list, extended attributes.
+
+use std::collections::BTreeSet;
+use std::ffi::{OsStr, OsString};
+use std::fs::{File, Metadata, Permissions};
+use std::io::{self, ErrorKind};
+use std::os::unix::ffi::OsStrExt;
+use std::os::unix::fs::{MetadataExt, PermissionsExt, fchown};
+use std::path::Path;
+
+use xattr::FileExt;
+
+/// What the system itself says of a file, some of it of its bytes: labels and hashes, which it gives anew.
+const OF_THE_SYSTEM: &[u8] = b"security.";
+
+/// Give a new file all that the old one has, but for its bytes.
+///
+/// # Errors
+/// Where the new one cannot have it: [`ErrorKind::Unsupported`] when it is not for lack of room.
+pub(super) fn keep(old: &Metadata, path: &Path, new: &File) -> io::Result<()> {
+    keep_owner(old, new)?;
+    keep_attributes(path, new)?;
+    // The last, since a new owner takes bits away, and an access list sets them.
+    new.set_permissions(Permissions::from_mode(old.mode() & 0o7777))
+}
+
+fn keep_owner(old: &Metadata, new: &File) -> io::Result<()> {
+    let now = new.metadata()?;
+    if (now.uid(), now.gid()) == (old.uid(), old.gid()) {
+        return Ok(());
+    }
+    let owner = format!("the file belongs to user {} and group {}, and a new one would not", old.uid(), old.gid());
+    fchown(new, Some(old.uid()), Some(old.gid())).map_err(|error| refused(&error, owner))
+}
+
+// A new file may have an access list from its folder, which the old one need not have.
+fn keep_attributes(path: &Path, new: &File) -> io::Result<()> {
+    let kept = names(xattr::list(path))?;
+    for name in names(new.list_xattr())?.difference(&kept) {
+        new.remove_xattr(name).map_err(|error| lost(&error, name))?;
+    }
+    for name in &kept {
+        let value = xattr::get(path, name).map_err(|error| lost(&error, name))?;
+        value.map_or(Ok(()), |value| new.set_xattr(name, &value)).map_err(|error| lost(&error, name))?;
+    }
+    Ok(())
+}
+
+// A file system without attributes has none to lose.
+fn names(list: io::Result<xattr::XAttrs>) -> io::Result<BTreeSet<OsString>> {
+    match list {
+        Ok(list) => Ok(list.filter(|name| !name.as_bytes().starts_with(OF_THE_SYSTEM)).collect()),
+        Err(error) if error.kind() == ErrorKind::Unsupported => Ok(BTreeSet::new()),
+        Err(error) => Err(error),
+    }
+}
+
+fn lost(error: &io::Error, name: &OsStr) -> io::Error {
+    refused(error, format!("the attribute {} of the file would be lost ({error})", name.display()))
+}
+
+fn refused(error: &io::Error, words: String) -> io::Error {
+    let is_full = matches!(error.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded);
+    io::Error::new(if is_full { error.kind() } else { ErrorKind::Unsupported }, words)
+}
