@@ -38,7 +38,8 @@ const EDITORS: [Editor; 4] = [
     Editor { name: "micro", ready: "format = 1", typing: ("# ", ""), save: "\x13" },
 ];
 
-const FAULTS: [&str; 4] = ["dies at the first write of a save", "the disk is full", "the terminal hangs up", "kill -9 after 2.2 s"];
+const FAULTS: [&str; 4] =
+    ["dies at the first write of a save", "the disk is full", "the terminal hangs up", "kill -9 after 2.2 s"];
 
 /// What is left after a fault.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -222,9 +223,10 @@ fn file(path: &Path) -> String {
 
 /// Whether what was typed is in any file.
 fn kept(folder: &Path) -> bool {
-    files(folder).iter().filter(|path| !path.ends_with("log")).any(|path| {
-        fs::read(path).is_ok_and(|bytes| bytes.windows(TYPED.len()).any(|part| part == TYPED.as_bytes()))
-    })
+    files(folder)
+        .iter()
+        .filter(|path| !path.ends_with("log"))
+        .any(|path| fs::read(path).is_ok_and(|bytes| bytes.windows(TYPED.len()).any(|part| part == TYPED.as_bytes())))
 }
 
 fn files(folder: &Path) -> Vec<PathBuf> {

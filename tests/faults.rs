@@ -299,7 +299,9 @@ fn access_lists_and_attributes_stay_and_none_comes_from_the_folder() {
 #[test]
 fn a_file_of_someone_else_keeps_its_owner_or_is_left_alone() {
     let nobody = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", "--inh-caps=-all", "--bounding-set=-all", "--"];
-    if !is_there("setpriv") || !Command::new(nobody[0]).args(&nobody[1..]).arg("true").status().is_ok_and(|status| status.success()) {
+    if !is_there("setpriv")
+        || !Command::new(nobody[0]).args(&nobody[1..]).arg("true").status().is_ok_and(|status| status.success())
+    {
         return skip("nobody cannot be made of us here");
     }
     // Where all may write: in a folder that lets each rename all, and in one that lets each rename but his own.
