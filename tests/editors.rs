@@ -180,7 +180,8 @@ fn on_a_full_disk(editor: &Editor) -> Option<Left> {
     let folder = Launch::on_table_1();
     let (case, disk, last) = (folder.case(), folder.folder.path().join("disk"), folder.folder.path().join("last"));
     fs::write(&case, old_text()).expect("room on the disk");
-    fs::create_dir(&disk).expect("a folder");
+    // Where vim goes when there is no room beside the file.
+    fs::create_dir(&disk).and_then(|()| fs::create_dir(folder.folder.path().join("tmp"))).expect("a folder");
     // The editor works on a copy on the full disk; what that says in the end is copied back.
     let script = r#"trap : HUP
         mount -t tmpfs -o size=16k none "$0" && cp "$1" "$0/case.toml" || exit 9
