@@ -13,7 +13,7 @@ mod trade;
 use crate::case::visible::visible;
 use crate::report::fields;
 
-pub use arguments::{Arguments, Check, Command, Explain, Fields, Format, Listing, Setting, Solve, Trading};
+pub use arguments::{Arguments, Check, Command, Explain, Fields, Format, Listing, New, Setting, Solve, Trading};
 use clap::{CommandFactory, FromArgMatches};
 use std::ffi::OsString;
 use std::io::{self, BufWriter, Write};
@@ -103,7 +103,7 @@ pub fn run(command: &Command, streams: &mut Streams) -> Exit {
         Command::Explain(options) => explain::run(options, streams),
         Command::Trade(options) => trade::run(options, streams),
         Command::Fields(options) => list_fields(options, streams.output.as_mut()),
-        Command::New { file } => new::run(file.as_deref(), streams),
+        Command::New(options) => new::run(options, streams),
         Command::Completions { shell } => shell::completions(*shell, streams.output.as_mut()),
         Command::Man { command } => shell::man(command.as_deref(), streams),
     };

@@ -1,6 +1,7 @@
 //! What a person or a script reads of a solve.
 
 pub mod csv;
+pub mod digest;
 pub mod explain;
 pub mod fields;
 pub mod graphs;

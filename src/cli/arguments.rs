@@ -2,7 +2,7 @@
 #![allow(rustdoc::broken_intra_doc_links, reason = "the help names tables of the case file, such as [limits]")]
 
 use super::Exit;
-use crate::case::Case;
+use crate::case::{Case, EXAMPLES, Example};
 use crate::model::inputs::Rung;
 use crate::model::{QUANTITIES, Quantity};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -43,11 +43,7 @@ pub enum Command {
     /// List every field of a case with its unit, range, default and meaning
     Fields(Fields),
     /// Write a commented case to start from
-    New {
-        /// File to write, which must not exist yet; else standard output
-        #[arg(value_hint = ValueHint::FilePath)]
-        file: Option<PathBuf>,
-    },
+    New(New),
     /// Write a shell's completions to standard output
     Completions {
         /// The shell
@@ -141,6 +137,20 @@ pub struct Fields {
     pub format: Listing,
 }
 
+/// What `new` is asked.
+#[derive(Debug, Args)]
+pub struct New {
+    /// Begin with this example instead of every field of Table 1
+    #[arg(long, value_name = "EXAMPLE", value_parser = examples())]
+    pub from: Option<&'static Example>,
+    /// List the examples instead, each with its pair and its verdict
+    #[arg(long, conflicts_with_all = ["from", "file"])]
+    pub list: bool,
+    /// File to write, which must not exist yet; else standard output
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub file: Option<PathBuf>,
+}
+
 /// How a solve is told.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub enum Format {
@@ -185,6 +195,10 @@ fn rungs() -> impl TypedValueParser<Value = Rung> {
 fn quantities() -> impl TypedValueParser<Value = &'static Quantity> {
     PossibleValuesParser::new(QUANTITIES.iter().map(|quantity| quantity.key))
         .try_map(|key| Quantity::find(&key).ok_or("no such quantity"))
+}
+
+fn examples() -> impl TypedValueParser<Value = &'static Example> {
+    PossibleValuesParser::new(EXAMPLES.iter().map(|example| example.name)).try_map(|name| Example::find(&name))
 }
 
 /// A number of stations that fits its field.

@@ -3,8 +3,8 @@
 use super::cases::{self, Opened};
 use super::{Check, Exit, Streams};
 use crate::case::visible::visible;
-use crate::model::{self, Quantity, Stages};
-use crate::report::verdict::{Standing, refused, verdicts};
+use crate::model;
+use crate::report::verdict::{Standing, refused, stages, verdicts};
 use std::io::{self, Write};
 
 pub(super) fn run(options: &Check, streams: &mut Streams) -> io::Result<Exit> {
@@ -21,7 +21,7 @@ pub(super) fn run(options: &Check, streams: &mut Streams) -> io::Result<Exit> {
 
 fn check(opened: &Opened, streams: &mut Streams) -> io::Result<Exit> {
     let case = &opened.document.case;
-    let (verdicts, refusal) = match model::solve(&opened.inputs, stages(opened)) {
+    let (verdicts, refusal) = match model::solve(&opened.inputs, stages(case)) {
         Ok(solution) => (verdicts(case, &solution), solution.withheld),
         Err(refusal) => (refused(case, &refusal), Some(refusal)),
     };
@@ -37,9 +37,4 @@ fn check(opened: &Opened, streams: &mut Streams) -> io::Result<Exit> {
     }
     let holds = verdicts.iter().all(|verdict| verdict.standing.holds());
     Ok(if holds { Exit::Done } else { Exit::Exceeded })
-}
-
-fn stages(opened: &Opened) -> Stages {
-    let limited = opened.document.case.limits.iter().filter_map(|limit| Quantity::find(limit.quantity));
-    limited.fold(Stages::of(model::Stage::Geometry), |stages, quantity| stages.and(Stages::of(quantity.stage)))
 }

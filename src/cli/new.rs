@@ -1,19 +1,41 @@
-//! A commented case to start from.
+//! A commented case to start from: every field with its help, or one of the examples.
 
-use super::{Exit, Streams};
+use super::{Exit, New, Streams};
 use crate::case::file::{self, SaveError};
-use crate::case::{Case, Document};
-use std::io;
-use std::path::Path;
+use crate::case::units::System;
+use crate::case::{Case, Document, EXAMPLES, Example};
+use crate::report::digest::Digest;
+use std::io::{self, Write};
 
-pub(super) fn run(file: Option<&Path>, streams: &mut Streams) -> io::Result<Exit> {
-    let text = Document::new(Case::table_1()).render();
-    match file.filter(|file| file.as_os_str() != "-") {
+pub(super) fn run(options: &New, streams: &mut Streams) -> io::Result<Exit> {
+    if options.list {
+        return list(streams.output.as_mut()).map(|()| Exit::Done);
+    }
+    let text = options.from.map_or_else(|| Document::new(Case::table_1()).render(), |example| example.text.to_owned());
+    match options.file.as_deref().filter(|file| file.as_os_str() != "-") {
         None => streams.output.write_all(text.as_bytes()).map(|()| Exit::Done),
         Some(path) => {
             Ok(file::write(path, text.as_bytes(), false).map_or_else(|error| refused(&error, streams), |()| Exit::Done))
         }
     }
+}
+
+/// The examples, each with its title, its pair and its verdict.
+fn list(out: &mut dyn Write) -> io::Result<()> {
+    let width = EXAMPLES.iter().map(|example| example.name.len()).max().unwrap_or(0);
+    for example in EXAMPLES {
+        let digest = digest(example);
+        writeln!(out, "{:width$}  {}", example.name, digest.title)?;
+        writeln!(out, "{:width$}  {}; {}", "", digest.pair, digest.load)?;
+        writeln!(out, "{:width$}  {}", "", digest.verdict())?;
+    }
+    Ok(())
+}
+
+fn digest(example: &Example) -> Digest {
+    let case = example.document().case;
+    let inputs = case.inputs().ok();
+    inputs.and_then(|inputs| Digest::solve(&case, &inputs, System::Metric, &|_| true)).unwrap_or_default()
 }
 
 fn refused(error: &SaveError, streams: &mut Streams) -> Exit {

@@ -4,7 +4,7 @@ use super::{shown_in, value};
 use crate::case::units::System;
 use crate::case::visible::visible;
 use crate::case::{Case, Limit};
-use crate::model::{Outcome, Quantity, Refusal, Solution};
+use crate::model::{Outcome, Quantity, Refusal, Solution, Stage, Stages};
 use std::fmt;
 
 /// How a quantity stands to its limit.
@@ -55,6 +55,13 @@ pub struct Verdict<'a> {
 #[must_use]
 pub fn verdicts<'a>(case: &'a Case, solution: &Solution) -> Vec<Verdict<'a>> {
     case.limits.iter().map(|limit| verdict(limit, solution)).collect()
+}
+
+/// The stages that every limit of a case needs.
+#[must_use]
+pub fn stages(case: &Case) -> Stages {
+    let limited = case.limits.iter().filter_map(|limit| Quantity::find(limit.quantity));
+    limited.fold(Stages::of(Stage::Geometry), |stages, quantity| stages.and(Stages::of(quantity.stage)))
 }
 
 /// The verdict on one limit.

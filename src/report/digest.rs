@@ -1,0 +1,244 @@
+//! A case in a few lines: its title, the pair, what is asked of it, and its verdict - whether the tooth strikes and how
+//! its limits stand.
+
+use super::verdict::{self, Standing};
+use super::{shown_in, value};
+use crate::case::fields::index_of;
+use crate::case::units::System;
+use crate::case::visible::visible;
+use crate::case::{Case, Evaluator};
+use crate::model::inputs::Rung;
+use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Solution, Stage, Stages};
+
+/// A case in a few lines, safe for a terminal.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Digest {
+    /// Its title; empty where it has none.
+    pub title: String,
+    /// Teeth, module, pressure angle, face width.
+    pub pair: String,
+    /// Power or torque, and speed.
+    pub load: String,
+    /// The rung, and the one that `auto` took.
+    pub rung: String,
+    /// Whether the tooth strikes, in a sentence; or why the model does not tell.
+    pub outcome: String,
+    /// The same in two or three words.
+    pub short: String,
+    /// The word and the line of each limit.
+    pub limits: Vec<(Standing, String)>,
+    /// What a reader must know beside it.
+    pub notes: Vec<String>,
+}
+
+impl Digest {
+    /// Solve a case as far as its digest needs it, unless `go_on` says no.
+    #[must_use]
+    pub fn solve(case: &Case, inputs: &Inputs, system: System, go_on: &dyn Fn(f64) -> bool) -> Option<Digest> {
+        let found = Evaluator::default().solve(case, inputs, inputs.rung, stages(case, inputs.rung), go_on);
+        match found {
+            Err(Refusal::Stopped) => None,
+            found => Some(Digest::of(case, inputs, found.as_ref(), system)),
+        }
+    }
+
+    /// The digest of a case and of what the model says of it.
+    #[must_use]
+    pub fn of(case: &Case, inputs: &Inputs, found: Result<&Solution, &Refusal>, system: System) -> Digest {
+        let written = Digest { title: text(case, "title"), pair: pair(case), load: load(case), ..Digest::default() };
+        match found {
+            Ok(solution) => Digest {
+                rung: rung(inputs.rung, solution),
+                outcome: sentence(solution, system),
+                short: short(solution, system),
+                limits: verdict::verdicts(case, solution)
+                    .iter()
+                    .map(|verdict| (verdict.standing, verdict.told(system)))
+                    .collect(),
+                notes: model::notes(inputs, solution).into_iter().map(|note| note.message).collect(),
+                ..written
+            },
+            Err(refusal) => Digest {
+                rung: inputs.rung.name().to_owned(),
+                outcome: format!("The model refuses it: {refusal}; {}.", refusal.mend()),
+                short: "refused".to_owned(),
+                limits: verdict::refused(case, refusal).iter().map(|verdict| (verdict.standing, verdict.told(system))).collect(),
+                ..written
+            },
+        }
+    }
+
+    /// The verdict in a line: whether it strikes, and how the limits stand.
+    #[must_use]
+    pub fn verdict(&self) -> String {
+        match self.limits.len() {
+            0 => self.short.clone(),
+            _ => format!("{}; {}", self.short, self.of_limits()),
+        }
+    }
+
+    /// How many of the limits hold, in words.
+    #[must_use]
+    pub fn of_limits(&self) -> String {
+        let count = self.limits.len();
+        let limits = if count == 1 { "1 limit".to_owned() } else { format!("{count} limits") };
+        let missed = |standing| self.limits.iter().filter(|(own, _)| *own == standing).count();
+        match (missed(Standing::Exceeded), missed(Standing::Unknown)) {
+            _ if count == 0 => "no limits".to_owned(),
+            (0, 0) if count == 1 => "limit held".to_owned(),
+            (0, 0) => format!("{limits} held"),
+            (0, unknown) => format!("{unknown} of {limits} unknown"),
+            (exceeded, _) => format!("{exceeded} of {limits} EXCEEDED"),
+        }
+    }
+}
+
+/// The outcome of a solve, in a sentence.
+#[must_use]
+pub fn sentence(solution: &Solution, system: System) -> String {
+    let part = |before: &str, key, after: &str| {
+        told(key, solution, system).map(|shown| format!("{before}{shown}{after}")).unwrap_or_default()
+    };
+    match solution.outcome {
+        Outcome::CornerContact => {
+            let (angle, gear) = first_touch(solution.rung);
+            let (force, before) = force(solution.rung);
+            let force =
+                told(force, solution, system).map_or_else(|| "no force is given".to_owned(), |told| before.to_owned() + &told);
+            format!("Corner contact{}, {force}.", part(" ", angle, &format!(" of the {gear} before E")))
+        }
+        Outcome::NoCornerContact => {
+            format!("No corner contact: {}the tooth comes in on time.", part("Δ = ", "total_deviation", ", "))
+        }
+    }
+}
+
+fn short(solution: &Solution, system: System) -> String {
+    let (force, before) = force(solution.rung);
+    match (solution.outcome, told(force, solution, system)) {
+        (Outcome::NoCornerContact, _) => "does not strike".to_owned(),
+        (Outcome::CornerContact, Some(force)) => format!("strikes {before}{force}"),
+        (Outcome::CornerContact, None) => "strikes".to_owned(),
+    }
+}
+
+// The closed form has an impact of its own; where the load is shared the tooth takes it over from the others.
+fn first_touch(rung: Rung) -> (&'static str, &'static str) {
+    match rung {
+        Rung::Static => ("static_first_contact_angle", "driven gear"),
+        Rung::Dynamic => ("dynamic_first_contact_angle", "driven gear"),
+        Rung::Paper | Rung::Exact | Rung::Auto => ("approach_angle_driver", "driver"),
+    }
+}
+
+fn force(rung: Rung) -> (&'static str, &'static str) {
+    match rung {
+        Rung::Static => ("static_peak_force", "at most "),
+        Rung::Dynamic => ("dynamic_peak_force", "at most "),
+        Rung::Paper | Rung::Exact | Rung::Auto => ("impact_force", "with "),
+    }
+}
+
+fn told(key: &str, solution: &Solution, system: System) -> Option<String> {
+    let quantity = Quantity::find(key)?;
+    Some(shown_in(quantity, value(quantity, solution)?, system).to_string())
+}
+
+/// The stages behind the outcome, the notes and the limits of a case.
+fn stages(case: &Case, rung: Rung) -> Stages {
+    let shared = match rung {
+        Rung::Static => Stages::of(Stage::Static),
+        Rung::Dynamic | Rung::Auto => Stages::of(Stage::Dynamic),
+        Rung::Paper | Rung::Exact => Stages::NONE,
+    };
+    verdict::stages(case).and(Stages::CLOSED_FORM).and(shared)
+}
+
+fn rung(asked: Rung, solution: &Solution) -> String {
+    if asked == solution.rung { asked.name().to_owned() } else { format!("{}, by {}", solution.rung.name(), asked.name()) }
+}
+
+fn pair(case: &Case) -> String {
+    let teeth = format!("z {}/{}", text(case, "driver.teeth"), text(case, "driven.teeth"));
+    let width = match (text(case, "driver.face_width"), text(case, "driven.face_width")) {
+        (one, other) if one == other => one,
+        (one, other) => format!("{one}/{other}"),
+    };
+    format!("{teeth}, m {}, α {}, b {width}", text(case, "pair.module"), text(case, "pair.pressure_angle"))
+}
+
+fn load(case: &Case) -> String {
+    let load = ["operation.power", "operation.torque"].map(|key| text(case, key));
+    let load = load.into_iter().find(|text| !text.is_empty()).unwrap_or_default();
+    format!("{load} at {}", text(case, "operation.speed"))
+}
+
+fn text(case: &Case, key: &str) -> String {
+    index_of(key).and_then(|field| case.effective(field)).map(visible).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::EXAMPLES;
+
+    fn digest(text: &[(&str, &str)]) -> Digest {
+        let mut case = Case::table_1();
+        for (key, value) in text {
+            case.set(key, value).unwrap();
+        }
+        Digest::solve(&case, &case.inputs().unwrap(), System::Metric, &|_| true).unwrap()
+    }
+
+    #[test]
+    fn a_case_is_told_in_a_few_lines() {
+        let told = digest(&[]);
+        assert_eq!((told.pair.as_str(), told.load.as_str()), ("z 20/20, m 5 mm, α 20 deg, b 8 mm", "15 kW at 2000 rpm"));
+        assert_eq!(told.outcome, "Corner contact 1.36628 deg of the driver before E, with 2191.0 N.");
+        assert_eq!(told.verdict(), "strikes with 2191.0 N; limit held");
+        assert_eq!(told.rung, "exact");
+        assert!(!told.notes.is_empty());
+    }
+
+    #[test]
+    fn a_limit_that_is_exceeded_and_a_tooth_that_does_not_strike_are_said() {
+        assert_eq!(digest(&[("limits.impact_force", "2 kN")]).verdict(), "strikes with 2191.0 N; 1 of 1 limit EXCEEDED");
+        let relieved = digest(&[("driven.tip_relief", "80 um"), ("limits.impact_force", "")]);
+        assert_eq!(relieved.verdict(), "does not strike");
+        assert!(relieved.outcome.starts_with("No corner contact: Δ = "));
+    }
+
+    #[test]
+    fn each_rung_tells_its_own_force() {
+        let forces = ["static", "dynamic", "auto"].map(|rung| digest(&[("model.rung", rung)]));
+        assert!(forces.iter().all(|told| told.short.starts_with("strikes at most ")), "{forces:?}");
+        assert_eq!(forces[2].rung, "dynamic, by auto");
+    }
+
+    #[test]
+    fn a_refusal_is_the_verdict() {
+        let told = digest(&[("driven.addendum", "1.9")]);
+        assert!(
+            told.outcome.starts_with("The model refuses it: ") && told.verdict() == "refused; 1 of 1 limit unknown",
+            "{told:?}"
+        );
+    }
+
+    #[test]
+    fn no_byte_of_a_case_controls_a_terminal() {
+        let told = digest(&[("title", "a\u{1b}[2J\u{202e}b")]);
+        assert_eq!(told.title, r"a\u{1b}[2J\u{202e}b");
+    }
+
+    #[test]
+    fn every_example_has_a_verdict_and_a_stop_has_none() {
+        for example in EXAMPLES {
+            let case = example.document().case;
+            let inputs = case.inputs().unwrap();
+            let told = Digest::solve(&case, &inputs, System::Metric, &|_| true).unwrap();
+            assert!(told.short.contains("strike"), "{}: {told:?}", example.name);
+            let slow = Inputs { rung: Rung::Dynamic, ..inputs };
+            assert_eq!(Digest::solve(&case, &slow, System::Metric, &|_| false), None, "{}", example.name);
+        }
+    }
+}
