@@ -6,9 +6,12 @@
 
 pub mod actions;
 pub mod app;
+pub mod browser;
 pub mod clean;
 mod ending;
+pub mod errands;
 pub mod events;
+pub mod explanation;
 mod fault;
 pub mod history;
 pub mod measurer;
@@ -20,6 +23,7 @@ pub mod recovery;
 pub mod rows;
 pub mod scale;
 pub mod settings;
+pub mod slot;
 pub mod solver;
 pub mod store;
 pub mod tab;
@@ -40,6 +44,7 @@ use signal_hook::consts::{SIGCONT, SIGTSTP};
 use actions::Action;
 use app::App;
 use ending::TERMINAL_LOST;
+use errands::Errands;
 use events::{Event, Events};
 use measurer::Measurer;
 use settings::Settings;
@@ -63,6 +68,7 @@ struct Workbench {
     events: Events,
     solver: Solver,
     measurer: Measurer,
+    errands: Errands,
     keeper: Keeper,
     /// When the next picture of what plays is due.
     alarm: Option<Instant>,
@@ -127,8 +133,9 @@ fn session(case: Option<PathBuf>, events: Events, chest: &Arc<Chest>) -> io::Res
         solver.ask(request);
     }
     let measurer = Measurer::new(events.teller());
+    let errands = Errands::new(events.messenger());
     let keeper = Keeper::new(store::state::folder().as_deref(), Arc::clone(chest));
-    Workbench { app, screen, events, solver, measurer, keeper, alarm: None, chosen: None }.stay()
+    Workbench { app, screen, events, solver, measurer, errands, keeper, alarm: None, chosen: None }.stay()
 }
 
 fn report(app: &mut App, trouble: Trouble) {
@@ -213,6 +220,7 @@ impl Workbench {
                     Effect::Solve(request) => self.solver.ask(*request),
                     Effect::Measure(measuring) => self.measurer.begin(*measuring)?,
                     Effect::CancelWork => self.measurer.stop(),
+                    Effect::Errand(errand) => self.errands.ask(errand)?,
                     Effect::Save(saving) => actions.push(self.keeper.save(*saving)),
                     Effect::Keep(settings) => self.chosen = Some(settings),
                     Effect::Adopt(journal) => self.keeper.adopt(journal),

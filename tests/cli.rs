@@ -356,6 +356,32 @@ fn a_new_case_overwrites_nothing() {
 }
 
 #[test]
+fn a_new_case_begins_with_an_example_wherever_the_program_stands() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let path = path.to_str().unwrap();
+    let elsewhere = |arguments: &[&str]| program(arguments).current_dir(folder.path()).output().unwrap();
+    let listed = out(&elsewhere(&["new", "--list"]));
+    for entry in fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/cases")).unwrap().map(Result::unwrap) {
+        let name = entry.path().file_stem().unwrap().to_str().unwrap().to_owned();
+        let text = fs::read_to_string(entry.path()).unwrap();
+        assert_eq!(out(&elsewhere(&["new", "--from", &name])), text, "the very file");
+        assert!(listed.contains(&name));
+    }
+    assert!(
+        listed.contains("strikes with 2191.0 N; limit held") && listed.contains("does not strike; 2 limits held"),
+        "{listed}"
+    );
+    assert_eq!(code(&elsewhere(&["new", "--from", "fzg-type-c", path])), 0);
+    assert!(told(&["solve", path]).contains("FZG type C"));
+    let again = elsewhere(&["new", "--from", "fzg-type-c", path]);
+    assert!(code(&again) == 5 && err(&again).contains("it exists already"));
+    let slip = elsewhere(&["new", "--from", "fzg-type"]);
+    assert!(code(&slip) == 2 && err(&slip).contains("fzg-type-c"), "{}", err(&slip));
+    assert_eq!(code(&elsewhere(&["new", "--list", path])), 2);
+}
+
+#[test]
 fn the_fields_are_listed_for_people_and_for_scripts() {
     let table = told(&["fields"]);
     assert!(table.lines().all(|line| line.chars().count() <= 100));

@@ -4,7 +4,7 @@
 
 mod desk;
 
-use desk::{Desk, LARGE, SMALL, TABLE_1};
+use desk::{Desk, LARGE, SMALL, TABLE_1, without_folder};
 use insta::assert_snapshot;
 use ratatui::layout::Size;
 use tipstrike::tui::actions::Action;
@@ -156,14 +156,4 @@ fn sizes() -> impl Iterator<Item = Size> {
     let widths = [0, 1, 2, 3, 7, 20, 40, 59, 60, 61, 75, 80, 100, 200];
     let heights = [0, 1, 2, 3, 5, 10, 15, 16, 17, 20, 24, 35, 80];
     widths.into_iter().flat_map(move |width| heights.into_iter().map(move |height| Size { width, height }))
-}
-
-// The name of a folder of a test has a length of its own, and with it the lines that it stands in.
-fn without_folder(desk: &Desk) -> String {
-    let lines = desk.screen();
-    let kept = lines.lines().map(|line| match line.find("DIR") {
-        Some(at) => format!("{}…", &line[..at + 3]),
-        None => line.to_owned(),
-    });
-    kept.collect::<Vec<_>>().join("\n")
 }

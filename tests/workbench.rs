@@ -456,13 +456,12 @@ fn keystrokes(count: usize) -> Vec<f64> {
 
 #[test]
 fn the_screens() {
-    let openings: [(&str, &[&str]); 6] = [
+    let openings: [(&str, &[&str]); 5] = [
         ("outside_a_field", &["Esc"]),
         ("palette", &["Ctrl-P", "cur"]),
         ("search", &["Esc", "/", "face"]),
         ("cursor", &["Esc", "3", "l", "L"]),
         ("baseline", &["Alt-B", "Ctrl-U", "5.5 mm"]),
-        ("explanation", &["Esc", "2", "j", "Enter"]),
     ];
     for (screen, keys) in openings {
         for (size, look) in [("80x24", Look::FULL), ("140x45", Look::FULL), ("ascii", Look { theme: &MONO, ascii: true })] {

@@ -10,12 +10,18 @@ use ratatui::layout::{Position, Size};
 use tui_input::InputRequest;
 
 use super::app::Progress;
+use super::browser::Sight;
+use super::errands::Explained;
 use super::measurer::Measured;
 use super::pane::Pane;
+use super::recents::Recent;
 use super::recovery::Claim;
 use super::solver::Answer;
-use super::store::{Entry, SaveFault};
+use super::store::SaveFault;
+use super::store::folder::Listing;
+use super::store::preview::Preview;
 use crate::case::Document;
+use crate::report::digest::Digest;
 
 pub use keys::{Chord, Place};
 pub use table::BINDINGS;
@@ -50,11 +56,17 @@ pub enum Action {
     /// A file was written, or not; and what comes next.
     Saved(PathBuf, Next, Result<Box<Document>, SaveFault>),
     /// What stands in a folder.
-    Listed(String, Vec<Entry>),
+    Listed(Box<Listing>),
+    /// What a file or a folder holds.
+    Previewed(Sight, Box<Preview>),
     /// What was found out about a case that was opened.
     Claimed(Box<Claim>),
     /// The cases that were open last, the latest first.
-    Recents(Vec<PathBuf>),
+    Recents(Vec<Recent>),
+    /// What the examples are, in their order.
+    Examples(Vec<Digest>),
+    /// Where a result comes from.
+    Explained(Box<Explained>),
     /// Something that was asked for, or that keeps what is typed, did not succeed.
     Failed(String),
 }
@@ -85,7 +97,9 @@ pub enum Command {
     SaveAs,
     Open,
     Recent,
+    FolderUp,
     New,
+    Example,
     NextTab,
     PreviousTab,
     Tab(usize),
@@ -103,6 +117,8 @@ pub enum Command {
     Explain,
     Measure,
     TakeSetting,
+    NextReason,
+    PreviousReason,
     PinBaseline,
     CopyValue,
     CopyResults,

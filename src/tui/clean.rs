@@ -10,7 +10,7 @@ use crate::case::visible::is_hidden;
 const VEILED: char = '\u{FFFD}';
 
 /// Symbols in the field's writing, and in letters that every terminal has.
-const WRITTEN_OUT: [(&str, &str); 9] = [
+const WRITTEN_OUT: [(&str, &str); 34] = [
     ("ΔV_", "dV_"),
     ("Δf", "Df"),
     ("Δ", "Delta"),
@@ -20,6 +20,31 @@ const WRITTEN_OUT: [(&str, &str); 9] = [
     ("ρ", "rho"),
     ("τ", "tau"),
     ("ε", "eps"),
+    ("ν", "nu"),
+    ("κ", "kappa"),
+    ("μ", "mu"),
+    ("µ", "mu"),
+    ("π", "pi"),
+    ("ω", "omega"),
+    ("Σ", "Sum"),
+    ("η", "eta"),
+    ("ζ", "zeta"),
+    ("χ", "chi"),
+    ("γ", "gamma"),
+    ("ψ", "psi"),
+    ("β", "beta"),
+    ("√", "sqrt"),
+    ("∫", "integral"),
+    ("²", "^2"),
+    ("³", "^3"),
+    ("⁴", "^4"),
+    ("·", "*"),
+    ("×", "x"),
+    ("−", "-"),
+    ("Ö", "Oe"),
+    ("ü", "ue"),
+    ("ä", "ae"),
+    ("ö", "oe"),
 ];
 
 /// What one cell becomes on a terminal without Unicode.
@@ -71,8 +96,27 @@ pub fn symbol(text: &str, ascii: bool) -> Cow<'_, str> {
     if !ascii || text.is_ascii() {
         return Cow::Borrowed(text);
     }
-    let written = WRITTEN_OUT.iter().fold(text.to_owned(), |text, (from, to)| text.replace(from, to));
-    Cow::Owned(written.replace('ν', "nu").replace('κ', "kappa").replace(['μ', 'µ'], "mu"))
+    Cow::Owned(WRITTEN_OUT.iter().fold(text.to_owned(), |text, (from, to)| text.replace(from, to)))
+}
+
+/// A line of a page in letters that every terminal has. Its columns stay where they are as far as the gaps before them have
+/// room.
+#[must_use]
+pub fn written_out(line: &str) -> Cow<'_, str> {
+    if line.is_ascii() {
+        return Cow::Borrowed(line);
+    }
+    let (mut written, mut over) = (String::with_capacity(line.len() + 16), 0);
+    for part in line.split_inclusive(' ') {
+        if part == " " && over > 0 && written.ends_with(' ') {
+            over -= 1;
+            continue;
+        }
+        let plain = symbol(part, true);
+        over += plain.len().saturating_sub(part.chars().count());
+        written.push_str(&plain);
+    }
+    Cow::Owned(written)
 }
 
 /// The last pass over a finished screen.
@@ -122,5 +166,7 @@ mod tests {
         assert_eq!(buffer.area, Rect::new(0, 0, 20, 1));
         assert_eq!(symbol("ΔV_τ", true), "dV_tau");
         assert_eq!(symbol("α_w", true), "alpha_w");
+        assert_eq!(written_out("  α     pair.pressure_angle"), "  alpha pair.pressure_angle");
+        assert_eq!(written_out("  = √(r² - b²)"), "  = sqrt(r^2 - b^2)");
     }
 }

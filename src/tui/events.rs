@@ -25,6 +25,8 @@ pub enum Event {
     Reply(Reply),
     /// From the keeper of unsaved edits, which cannot keep them.
     Warned(String),
+    /// From an errand.
+    Found(Box<Action>),
     /// Time for the next picture of what plays.
     Tick,
     /// The terminal is gone.
@@ -103,6 +105,12 @@ impl Events {
         move |text| drop(sender.send(Event::Warned(text)))
     }
 
+    /// A way for errands to tell what they found.
+    pub fn messenger(&self) -> impl Fn(Action) -> bool + Send + Sync + 'static {
+        let sender = self.sender.clone();
+        move |found| sender.send(Event::Found(Box::new(found))).is_ok()
+    }
+
     /// A way for the worker to tell its replies.
     pub fn teller(&self) -> impl Fn(Reply) -> bool + Send + Sync + 'static {
         let sender = self.sender.clone();
@@ -151,6 +159,7 @@ pub fn take_action(inputs: &mut std::iter::Peekable<impl Iterator<Item = Event>>
         Event::Reply(Reply::Measured(measured)) => Some(Action::Measured(measured)),
         Event::Reply(Reply::Failed(serial)) => Some(Action::SolverFailed(serial)),
         Event::Warned(text) => Some(Action::Failed(text)),
+        Event::Found(found) => Some(*found),
         Event::Input(Input::Mouse(mouse)) => of_mouse(mouse),
         Event::Tick => Some(Action::Tick),
         Event::Input(_) | Event::Signal(_) | Event::Lost => None,

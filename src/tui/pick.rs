@@ -1,14 +1,13 @@
-//! Lists that are filtered by what is typed: the palette of commands, the fields, the cases that were open last.
-
-use std::path::{Path, PathBuf};
+//! Lists that are filtered by what is typed: the palette of commands, the fields, materials, limits, examples.
 
 use tui_input::Input;
 
 use super::actions::{self, Command};
 use super::clean::symbol;
 use crate::case::materials::{self, Material};
-use crate::case::{FIELDS, search};
+use crate::case::{EXAMPLES, Example, FIELDS, search};
 use crate::model::{QUANTITIES, Quantity};
+use crate::report::digest::Digest;
 use crate::report::graphs::{GRAPHS, Graph};
 
 /// A name must be this like what is typed to be offered when nothing contains it.
@@ -38,12 +37,12 @@ pub enum List {
     Materials(&'static [&'static str]),
     /// Every quantity that may be held to a limit.
     Limits,
-    /// The cases that were open last.
-    Recents(Vec<PathBuf>),
+    /// The examples, each with its digest as soon as it is there.
+    Examples(Vec<Digest>),
 }
 
 /// What is picked.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pick {
     /// Run a command.
     Run(Command),
@@ -53,8 +52,8 @@ pub enum Pick {
     Make(&'static [&'static str], &'static Material),
     /// Hold a quantity to a limit.
     Limit(&'static str),
-    /// Open a case.
-    Load(PathBuf),
+    /// Begin a case with an example.
+    Begin(&'static Example),
 }
 
 /// A line of a list.
@@ -87,7 +86,7 @@ impl Picker {
             List::Materials(["driven"]) => "Material of the driven gear",
             List::Materials(_) => "Material of both gears",
             List::Limits => "Hold to a limit",
-            List::Recents(_) => "Recent cases",
+            List::Examples(_) => "New from an example",
         }
     }
 
@@ -122,7 +121,7 @@ impl Picker {
             List::Fields => (0..FIELDS.len()).map(field).collect(),
             List::Materials(gears) => materials::all().iter().map(|material| of_material(gears, material)).collect(),
             List::Limits => QUANTITIES.iter().map(quantity).collect(),
-            List::Recents(paths) => paths.iter().map(|path| recent(path)).collect(),
+            List::Examples(digests) => EXAMPLES.iter().enumerate().map(|(at, one)| example(one, digests.get(at))).collect(),
         }
     }
 }
@@ -175,8 +174,9 @@ fn quantity(quantity: &'static Quantity) -> Item {
     }
 }
 
-fn recent(path: &Path) -> Item {
-    Item { pick: Pick::Load(path.to_owned()), name: path.display().to_string(), about: String::new(), keys: String::new() }
+fn example(example: &'static Example, digest: Option<&Digest>) -> Item {
+    let about = digest.map_or_else(String::new, |digest| format!("{}: {}", digest.title, digest.verdict()));
+    Item { pick: Pick::Begin(example), name: example.name.to_owned(), about, keys: String::new() }
 }
 
 // The less the better; none where a word does not occur. Symbols may be typed as a bare keyboard can.

@@ -5,36 +5,26 @@ use std::path::{Path, PathBuf};
 use tui_input::Input;
 
 use super::actions::{Next, Place};
+use super::browser::Browser;
+use super::explanation::Explanation;
 use super::pick::Picker;
 use super::recovery::{self, Offer};
-use super::store::Entry;
 
 /// Something that lies over the form and takes the keys.
 #[derive(Debug, Clone)]
 pub enum Prompt {
     /// Which file to open.
-    Browse(Browser),
+    Browse(Box<Browser>),
     /// Where to save, and what comes next.
     SaveAs(Input, Next),
     /// A question with buttons.
     Ask(Question),
     /// A page to read, scrolled to a line.
     Read(Page),
+    /// Where a result comes from.
+    Explain(Explanation),
     /// A list to pick from.
     Pick(Picker),
-}
-
-/// The list of a folder beneath a path that is typed.
-#[derive(Debug, Clone, Default)]
-pub struct Browser {
-    /// The path so far.
-    pub input: Input,
-    /// The folder part of the path, as written.
-    pub folder: String,
-    /// What stands in it.
-    pub entries: Vec<Entry>,
-    /// The marked one of those that fit.
-    pub marked: usize,
 }
 
 /// A question with buttons.
@@ -91,6 +81,7 @@ impl Prompt {
             Prompt::SaveAs(..) => Place::PATH,
             Prompt::Ask(_) => Place::ASK,
             Prompt::Read(_) => Place::READ,
+            Prompt::Explain(_) => Place::EXPLAIN,
             Prompt::Pick(_) => Place::PICK,
         }
     }
@@ -101,44 +92,8 @@ impl Prompt {
             Prompt::Browse(browser) => Some(&mut browser.input),
             Prompt::SaveAs(input, _) => Some(input),
             Prompt::Pick(picker) => Some(&mut picker.input),
-            Prompt::Ask(_) | Prompt::Read(_) => None,
+            Prompt::Ask(_) | Prompt::Read(_) | Prompt::Explain(_) => None,
         }
-    }
-}
-
-impl Browser {
-    /// Begin in the folder of the present case.
-    #[must_use]
-    pub fn beside(path: Option<&Path>) -> Browser {
-        let folder = path.and_then(Path::parent).filter(|folder| !folder.as_os_str().is_empty());
-        let folder = folder.map(|folder| format!("{}/", folder.display())).unwrap_or_default();
-        Browser { input: Input::from(folder.as_str()), folder, ..Browser::default() }
-    }
-
-    /// The typed path up to its last slash, and what follows.
-    #[must_use]
-    pub fn split(&self) -> (&str, &str) {
-        let typed = self.input.value();
-        typed.split_at(typed.rfind('/').map_or(0, |slash| slash + 1))
-    }
-
-    /// The entries that fit what is typed.
-    pub fn fitting(&self) -> impl Iterator<Item = &Entry> {
-        let wanted = self.split().1.to_lowercase();
-        self.entries.iter().filter(move |entry| entry.name.to_lowercase().contains(&wanted))
-    }
-
-    /// The path of the marked entry, and whether it is a folder.
-    #[must_use]
-    pub fn marked_path(&self) -> Option<(String, bool)> {
-        let entry = self.fitting().nth(self.marked)?;
-        Some((format!("{}{}", self.folder, entry.name), entry.is_folder))
-    }
-
-    /// Move the mark, as far as there are entries.
-    pub fn mark(&mut self, by: isize) {
-        let last = self.fitting().count().saturating_sub(1);
-        self.marked = self.marked.saturating_add_signed(by).min(last);
     }
 }
 

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 use super::store::state;
+use crate::case::visible::visible;
 
 /// So many are remembered.
 const MOST: usize = 20;
@@ -16,6 +17,27 @@ const MOST: usize = 20;
 const MOST_BYTES: u64 = 256 * 1024;
 /// The one character that no path holds.
 const END: u8 = 0;
+
+/// A case that was open once.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Recent {
+    /// Its path.
+    pub path: PathBuf,
+    /// The path as a person reads it, in small letters.
+    pub folded: String,
+    /// Whether nothing is there any more.
+    pub is_missing: bool,
+}
+
+/// Look whether the cases are still there.
+#[must_use]
+pub fn looked_at(paths: Vec<PathBuf>) -> Vec<Recent> {
+    let look = |path: PathBuf| {
+        let is_missing = fs::metadata(&path).is_err_and(|error| error.kind() == io::ErrorKind::NotFound);
+        Recent { folded: visible(&path.to_string_lossy()).to_lowercase(), is_missing, path }
+    };
+    paths.into_iter().map(look).collect()
+}
 
 /// The cases that were open last.
 #[must_use]

@@ -2,9 +2,11 @@
 
 pub mod chest;
 mod clock;
+pub mod folder;
 mod journals;
 pub mod keeper;
 pub mod lock;
+pub mod preview;
 pub mod state;
 
 use std::env;
@@ -15,16 +17,8 @@ use super::actions::Action;
 use super::update::{Effect, Over, Saving};
 use super::{recents, recovery};
 use crate::case::file::{ReadError, SaveError};
+use crate::case::visible::visible;
 use crate::case::{Document, changes};
-
-/// An entry of a folder.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Entry {
-    /// Folders stand after the cases.
-    pub is_folder: bool,
-    /// Its name, as well as text can tell it.
-    pub name: String,
-}
 
 /// Why a case was not written.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -100,15 +94,10 @@ pub fn perform(effect: Effect) -> Option<Action> {
             let result = save(&saving);
             Some(Action::Saved(saving.path, saving.next, result))
         }
-        Effect::List(folder) => {
-            let entries = list(&folder);
-            Some(Action::Listed(folder, entries))
-        }
         Effect::Remember(path) => {
             recents::add(&path);
             None
         }
-        Effect::Recall => Some(Action::Recents(recents::list())),
         Effect::Keep(settings) => {
             let kept = settings.keep();
             kept.err().map(|reason| Action::Failed(format!("the settings are not kept: {reason}")))
@@ -119,6 +108,7 @@ pub fn perform(effect: Effect) -> Option<Action> {
             None
         }
         Effect::Solve(_)
+        | Effect::Errand(_)
         | Effect::Adopt(_)
         | Effect::Copy(_)
         | Effect::Mouse(_)
@@ -136,15 +126,18 @@ fn load(path: &Path) -> Result<Box<Document>, Vec<String>> {
     if path == Path::new("-") {
         return Err(vec!["standard input is no case for the workbench: name a file, or use tipstrike solve -".to_owned()]);
     }
-    // The page that shows them has the name in its title.
-    let name = format!("{}:", path.display());
-    let without_name = |fault: &str| fault.strip_prefix(&name).unwrap_or(fault).trim_start().to_owned();
     let document = match Document::read(path) {
         Err(ReadError::NewerFormat(_)) => Document::read_newer(path),
         document => document,
     };
     let document = document.map_err(|error| error.to_string());
-    document.map(Box::new).map_err(|faults| faults.lines().map(without_name).collect())
+    document.map(Box::new).map_err(|faults| faults.lines().map(|fault| without_name(path, fault)).collect())
+}
+
+// What shows the faults has the name in its title.
+fn without_name(path: &Path, fault: &str) -> String {
+    let name = format!("{}:", visible(&path.display().to_string()));
+    fault.strip_prefix(&name).unwrap_or(fault).trim_start().to_owned()
 }
 
 fn save(saving: &Saving) -> Result<Box<Document>, SaveFault> {
@@ -194,23 +187,4 @@ fn at_home(path: &Path) -> PathBuf {
         (Ok(rest), Some(home)) => home.join(rest),
         _ => path.to_owned(),
     }
-}
-
-// A folder that cannot be read has nothing to offer.
-fn list(folder: &str) -> Vec<Entry> {
-    let path = if folder.is_empty() { PathBuf::from(".") } else { at_home(Path::new(folder)) };
-    let found = fs::read_dir(path).into_iter().flatten().flatten().filter_map(|entry| {
-        let name = entry.file_name().to_string_lossy().into_owned();
-        let is_folder = entry.path().is_dir();
-        let wanted = !name.starts_with('.') && (is_folder || is_case(&name));
-        wanted.then_some(Entry { is_folder, name })
-    });
-    let mut entries: Vec<_> = found.collect();
-    entries.sort();
-    entries.push(Entry { is_folder: true, name: "..".to_owned() });
-    entries
-}
-
-fn is_case(name: &str) -> bool {
-    Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
 }

@@ -23,6 +23,8 @@ pub struct Tab {
     pub document: Document,
     /// Where it was read from, or last saved to.
     pub path: Option<PathBuf>,
+    /// The example that it began with, where it did.
+    pub example: Option<&'static str>,
     /// The case in the form.
     pub case: Case,
     /// The case as the file has it.
@@ -103,6 +105,7 @@ impl Tab {
             case,
             document,
             path,
+            example: None,
             in_place_of: None,
             focus,
             history: History::default(),
@@ -144,7 +147,11 @@ impl Tab {
     /// The name of the case in the title and in questions.
     #[must_use]
     pub fn name(&self) -> String {
-        self.path.as_ref().map_or_else(|| "built-in Table 1".to_owned(), |path| path.display().to_string())
+        match (&self.path, self.example) {
+            (Some(path), _) => path.display().to_string(),
+            (None, Some(example)) => format!("new case from {example}"),
+            (None, None) => "built-in Table 1".to_owned(),
+        }
     }
 
     /// The name without its folders.

@@ -1,5 +1,6 @@
 //! The only place where the state changes: no files, no clock, no threads; those are asked for as effects.
 
+mod browse;
 mod catalogue;
 mod chart;
 mod copy;
@@ -21,6 +22,7 @@ use std::path::PathBuf;
 
 use super::actions::{Action, Command, Next};
 use super::app::App;
+use super::errands::Errand;
 use super::measurer::Measuring;
 use super::pick::{List, Picker};
 use super::prompt::{Page, Prompt, Question};
@@ -40,16 +42,14 @@ pub enum Effect {
     Load(PathBuf),
     /// Write a case, and tell it as [`Action::Saved`].
     Save(Box<Saving>),
-    /// Look what stands in a folder, and tell it as [`Action::Listed`].
-    List(String),
+    /// Look into something, without keeping the screen waiting.
+    Errand(Errand),
     /// Open this case when the workbench starts the next time.
     Remember(PathBuf),
     /// The edits of this journal are in the form now.
     Adopt(PathBuf),
     /// The edits of this journal are not wanted.
     Forget(PathBuf),
-    /// Look which cases were open last, and tell it as [`Action::Recents`].
-    Recall,
     /// Keep the settings.
     Keep(Settings),
     /// Hand a text to the clipboard of the user's own terminal.
@@ -103,6 +103,7 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     let mut effects = happen(app, action);
     effects.extend(solve(app.catch_up()));
     chart::settle(app, cursor);
+    effects.extend(browse::look(app));
     effects
 }
 
@@ -129,9 +130,12 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
         Action::Progress(progress) => app.progress = progress,
         Action::Loaded(path, result) => return files::loaded(app, path, result),
         Action::Saved(path, next, result) => return files::saved(app, path, next, result),
-        Action::Listed(folder, entries) => return files::listed(app, &folder, entries),
+        Action::Listed(listing) => browse::listed(app, *listing),
+        Action::Previewed(sight, preview) => browse::previewed(app, sight, *preview),
         Action::Claimed(claim) => recovery::claimed(app, *claim),
-        Action::Recents(paths) => app.prompts.push(Prompt::Pick(Picker::new(List::Recents(paths)))),
+        Action::Recents(recents) => browse::recalled(app, recents),
+        Action::Examples(digests) => catalogue::digested(app, digests),
+        Action::Explained(explained) => page::explained(app, *explained),
         Action::Failed(reason) => app.complain(reason),
     }
     Vec::new()
@@ -142,14 +146,17 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::Edit(request) => edit::handle(app, request),
         Command::Save => files::save(app, Next::Stay),
         Command::SaveAs => files::ask_where(app, Next::Stay),
-        Command::Open => files::browse(app),
-        Command::Recent => vec![Effect::Recall],
+        Command::Open => browse::open(app, false),
+        Command::Recent => browse::recent(app),
+        Command::FolderUp => browse::up(app),
+        Command::Example => catalogue::examples(app),
+        Command::Explain => page::explain(app),
         Command::New => solve(tabs::fresh(app)),
         Command::CloseTab => files::close(app),
         Command::Quit => files::quit(app),
         Command::Cancel => cancel(app),
         Command::Accept => files::accept(app),
-        Command::Complete => files::complete(app),
+        Command::Complete => browse::complete(app),
         Command::Undo | Command::Redo => travel(app, command),
         Command::ToggleRung => toggle_rung(app),
         Command::NextChoice => edit::cycle(app, 1),
@@ -197,7 +204,8 @@ fn show(app: &mut App, command: Command) {
         Command::Palette => app.prompts.push(Prompt::Pick(Picker::new(List::Commands))),
         Command::SearchField => app.prompts.push(Prompt::Pick(Picker::new(List::Fields))),
         Command::Material => catalogue::materials(app),
-        Command::Explain => page::explain(app),
+        Command::NextReason => page::step(app, 1),
+        Command::PreviousReason => page::step(app, -1),
         Command::PinBaseline => hold::toggle(app),
         Command::NextTab => tabs::step(app, 1),
         Command::PreviousTab => tabs::step(app, -1),

@@ -1,6 +1,9 @@
 //! The screen, drawn from the state alone.
 
+pub mod browser;
 pub mod chart;
+pub mod digest;
+pub mod explain;
 pub mod form;
 pub mod help;
 pub mod layout;

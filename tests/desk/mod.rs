@@ -17,11 +17,12 @@ use tipstrike::case::Document;
 use tipstrike::study::trade::Patience;
 use tipstrike::tui::actions::{self, Action};
 use tipstrike::tui::app::App;
+use tipstrike::tui::errands::{self, Errand};
 use tipstrike::tui::measurer::{Measuring, measure};
 use tipstrike::tui::settings::Settings;
 use tipstrike::tui::theme::Look;
 use tipstrike::tui::update::{Effect, update};
-use tipstrike::tui::{solver, store, view};
+use tipstrike::tui::{recents, solver, store, view};
 
 pub(crate) const SMALL: Size = Size { width: 80, height: 24 };
 pub(crate) const LARGE: Size = Size { width: 140, height: 45 };
@@ -116,7 +117,8 @@ impl Desk {
                     Effect::Play(plays) => self.ticks = plays,
                     Effect::CancelWork => self.has_cancelled = true,
                     Effect::Keep(settings) => self.kept = Some(settings),
-                    Effect::Recall => actions.push(Action::Recents(self.recents.clone())),
+                    Effect::Errand(Errand::Recents) => actions.push(Action::Recents(recents::looked_at(self.recents.clone()))),
+                    Effect::Errand(errand) => actions.extend(errands::perform(errand, &|_| true)),
                     Effect::Remember(_) => (),
                     other => actions.extend(store::perform(other)),
                 }
@@ -192,6 +194,22 @@ fn measured(measuring: Measuring) -> Vec<Action> {
 /// A file that holds a case and its name.
 pub(crate) fn name(path: &Path) -> &str {
     path.to_str().expect("a name in UTF-8")
+}
+
+/// The press of a key by its name, or of a letter.
+pub(crate) fn event(key: &str) -> KeyEvent {
+    let letter = || KeyEvent::new(KeyCode::Char(key.chars().next().expect("a key")), KeyModifiers::NONE);
+    named(key).unwrap_or_else(letter)
+}
+
+/// The screen without the rest of the lines in which a folder of the test is named: its name has a length of its own.
+pub(crate) fn without_folder(desk: &Desk) -> String {
+    let lines = desk.screen();
+    let kept = lines.lines().map(|line| match line.find("DIR") {
+        Some(at) => format!("{}.", &line[..at + 3]),
+        None => line.to_owned(),
+    });
+    kept.collect::<Vec<_>>().join("\n")
 }
 
 pub(crate) fn named(key: &str) -> Option<KeyEvent> {

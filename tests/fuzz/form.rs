@@ -15,12 +15,15 @@ use tipstrike::case::{Case, Document};
 use tipstrike::model::inputs::Rung;
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::app::App;
+use tipstrike::tui::browser::Sight;
+use tipstrike::tui::errands::{self, Errand};
 use tipstrike::tui::events::{Event, take_action};
 use tipstrike::tui::prompt::Prompt;
 use tipstrike::tui::solver::{self, Request};
+use tipstrike::tui::store::{self, folder};
 use tipstrike::tui::theme::Look;
 use tipstrike::tui::update::{Effect, update};
-use tipstrike::tui::{rows, store, view};
+use tipstrike::tui::{recents, rows, view};
 
 use crate::values::{HOSTILE, field_and_text};
 use crate::{hold, is_hostile, texts};
@@ -71,8 +74,21 @@ fn whatever_is_typed_the_form_stays_sound_and_the_screen_safe() {
         bench.assert_undone();
         seen.borrow_mut().append(&mut bench.seen);
     });
-    let all =
-        ["browse", "save as", "ask", "page", "pick", "loaded", "not loaded", "saved", "not saved", "quit", "invalid", "refused"];
+    let all = [
+        "browse",
+        "save as",
+        "ask",
+        "page",
+        "explanation",
+        "pick",
+        "loaded",
+        "not loaded",
+        "saved",
+        "not saved",
+        "quit",
+        "invalid",
+        "refused",
+    ];
     assert_eq!(*seen.borrow(), BTreeSet::from(all), "the keys get too seldom to all that the workbench does");
 }
 
@@ -201,6 +217,7 @@ impl Bench {
             Prompt::SaveAs(..) => "save as",
             Prompt::Ask(_) => "ask",
             Prompt::Read(_) => "page",
+            Prompt::Explain(_) => "explanation",
             Prompt::Pick(_) => "pick",
         });
         let invalid = (!self.app.problems.is_empty()).then_some("invalid");
@@ -268,11 +285,19 @@ impl Bench {
                 saving.path = self.within(&saving.path);
                 store::perform(Effect::Save(saving))
             }
-            Effect::List(folder) => match store::perform(Effect::List(self.within(Path::new(&folder)).display().to_string())) {
-                Some(Action::Listed(_, entries)) => Some(Action::Listed(folder, entries)),
-                other => other,
+            Effect::Errand(Errand::Folder(base, typed)) => {
+                let mut listing = folder::list(self.within(&folder::beneath(&base, &typed)), String::new());
+                listing.asked = (base, typed);
+                Some(Action::Listed(Box::new(listing)))
+            }
+            Effect::Errand(Errand::Recents) => {
+                Some(Action::Recents(recents::looked_at(vec![self.folder.path().join("case.toml")])))
+            }
+            Effect::Errand(Errand::Preview(sight, units)) => match sight {
+                Sight::File(path) => errands::perform(Errand::Preview(Sight::File(self.within(&path)), units), &|_| true),
+                Sight::Folder(_) => None,
             },
-            Effect::Recall => Some(Action::Recents(vec![self.folder.path().join("case.toml")])),
+            Effect::Errand(errand) => errands::perform(errand, &|_| true),
             Effect::Play(plays) => {
                 assert_eq!(plays, self.app.is_playing, "it ticks while something plays");
                 None

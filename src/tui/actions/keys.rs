@@ -39,6 +39,8 @@ impl Place {
     pub const TEETH: Place = Place(1024);
     /// Error against time.
     pub const TRADE: Place = Place(2048);
+    /// The explanation of a result.
+    pub const EXPLAIN: Place = Place(4096);
     /// A field that takes text or a name.
     pub const FORM: Place = Place::TEXT.or(Place::CHOICE);
     /// The panes in which letters are commands.
@@ -47,9 +49,10 @@ impl Place {
     pub const WORK: Place = Place::FORM.or(Place::OUTSIDE);
     /// The panes that the roll angle's cursor shows in.
     pub const CURSOR: Place = Place::CHART.or(Place::TEETH);
+    pub(super) const PAGE: Place = Place::READ.or(Place::EXPLAIN);
     pub(super) const LIST: Place = Place::BROWSE.or(Place::PICK);
     pub(super) const LINE: Place = Place::TEXT.or(Place::LIST).or(Place::PATH);
-    pub(super) const PROMPT: Place = Place::LIST.or(Place::PATH).or(Place::ASK).or(Place::READ);
+    pub(super) const PROMPT: Place = Place::LIST.or(Place::PATH).or(Place::ASK).or(Place::PAGE);
     pub(super) const ALL: Place = Place::WORK.or(Place::PROMPT);
     /// Where letters are more than commands of the table.
     pub(super) const TYPED: Place = Place::LINE.or(Place::CHOICE).or(Place::ASK);

@@ -7,7 +7,9 @@ use crate::case::step::step_limit;
 use crate::case::{FIELDS, Limit};
 use crate::model::Quantity;
 use crate::report;
+use crate::report::digest::Digest;
 use crate::tui::app::App;
+use crate::tui::errands::Errand;
 use crate::tui::pane::Pane;
 use crate::tui::pick::{List, Picker};
 use crate::tui::prompt::Prompt;
@@ -22,6 +24,19 @@ pub(super) fn materials(app: &mut App) {
         _ => &["driver", "driven"],
     };
     app.prompts.push(Prompt::Pick(Picker::new(List::Materials(gears))));
+}
+
+/// Ask for an example to begin with.
+pub(super) fn examples(app: &mut App) -> Vec<Effect> {
+    app.prompts.push(Prompt::Pick(Picker::new(List::Examples(Vec::new()))));
+    vec![Effect::Errand(Errand::Examples(app.settings.units))]
+}
+
+/// What the examples are has been found out.
+pub(super) fn digested(app: &mut App, found: Vec<Digest>) {
+    if let Some(Prompt::Pick(Picker { list: List::Examples(digests), .. })) = app.prompts.last_mut() {
+        *digests = found;
+    }
 }
 
 /// Make the gears of a material: one edit, which undo takes back.

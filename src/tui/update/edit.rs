@@ -7,7 +7,7 @@ use crate::case::fields::{Absent, index_of};
 use crate::case::{Case, FIELDS};
 use crate::tui::app::App;
 use crate::tui::prompt::Prompt;
-use crate::tui::update::files;
+use crate::tui::update::{browse, files};
 use crate::tui::{clean, rows};
 
 /// A longer text is no value, title or path.
@@ -45,6 +45,9 @@ pub(super) fn paste(app: &mut App, text: &str) -> Vec<Effect> {
 
 /// A key that moves in the line or deletes from it.
 pub(super) fn handle(app: &mut App, request: InputRequest) -> Vec<Effect> {
+    if request == InputRequest::DeletePrevChar && browse::is_in_empty_line(app) {
+        return browse::up(app);
+    }
     if let Some(prompt) = app.prompts.last_mut() {
         let changed = prompt.input_mut().and_then(|input| input.handle(request));
         return if changed.is_some_and(|changed| changed.value) { files::typed(app) } else { Vec::new() };

@@ -4,28 +4,21 @@ use std::path::{Path, PathBuf};
 
 use tui_input::Input;
 
-use super::{Effect, Over, Saving, catalogue, recovery, solve, tabs};
+use super::{Effect, Over, Saving, browse, catalogue, page, recovery, solve, tabs};
 use crate::case::Document;
 use crate::model::Quantity;
 use crate::tui::actions::Next;
 use crate::tui::app::App;
 use crate::tui::clean;
+use crate::tui::pane::Pane;
 use crate::tui::pick::Pick;
-use crate::tui::prompt::{Browser, Choice, Page, Prompt, Question};
+use crate::tui::prompt::{Choice, Page, Prompt, Question};
 use crate::tui::recovery::Access;
-use crate::tui::store::{Entry, SaveFault};
+use crate::tui::store::SaveFault;
 use crate::tui::tab::Tab;
 
 /// What there is to say of a case of a newer format.
 pub(in crate::tui) const NEWER: &str = "read-only: of a newer format; only what this version knows is shown";
-
-/// Ask for a file to open.
-pub(super) fn browse(app: &mut App) -> Vec<Effect> {
-    let browser = Browser::beside(app.path.as_deref());
-    let folder = browser.folder.clone();
-    app.prompts.push(Prompt::Browse(browser));
-    vec![Effect::List(folder)]
-}
 
 /// Leave, or ask when anything is unsaved.
 pub(super) fn quit(app: &mut App) -> Vec<Effect> {
@@ -78,7 +71,8 @@ pub(super) fn ask_where(app: &mut App, next: Next) -> Vec<Effect> {
 /// Enter in a prompt.
 pub(super) fn accept(app: &mut App) -> Vec<Effect> {
     match app.prompts.last().cloned() {
-        Some(Prompt::Browse(browser)) => accept_path(app, &browser),
+        Some(Prompt::Browse(_)) => browse::accept(app),
+        Some(Prompt::Explain(explanation)) => page::accept(app, &explanation),
         Some(Prompt::SaveAs(input, next)) => accept_name(app, input.value(), next),
         Some(Prompt::Ask(question)) => match question.buttons.get(question.marked) {
             Some((_, choice)) => choose(app, choice.clone()),
@@ -111,43 +105,16 @@ pub(super) fn choose(app: &mut App, choice: Choice) -> Vec<Effect> {
     }
 }
 
-/// Write the marked name into the line.
-pub(super) fn complete(app: &mut App) -> Vec<Effect> {
-    let Some(Prompt::Browse(browser)) = app.prompts.last_mut() else { return Vec::new() };
-    let Some((path, is_folder)) = browser.marked_path() else { return Vec::new() };
-    browser.input = Input::new(if is_folder { path + "/" } else { path });
-    typed(app)
-}
-
 /// The line of a prompt has changed.
 pub(super) fn typed(app: &mut App) -> Vec<Effect> {
-    let browser = match app.prompts.last_mut() {
-        Some(Prompt::Browse(browser)) => browser,
+    match app.prompts.last_mut() {
+        Some(Prompt::Browse(browser)) => browse::typed(browser),
         Some(Prompt::Pick(picker)) => {
             picker.marked = 0;
-            return Vec::new();
+            Vec::new()
         }
-        _ => return Vec::new(),
-    };
-    browser.marked = 0;
-    let folder = browser.split().0.to_owned();
-    if folder == browser.folder {
-        return Vec::new();
+        _ => Vec::new(),
     }
-    browser.folder.clone_from(&folder);
-    browser.entries.clear();
-    vec![Effect::List(folder)]
-}
-
-/// The entries of a folder have come.
-pub(super) fn listed(app: &mut App, folder: &str, entries: Vec<Entry>) -> Vec<Effect> {
-    if let Some(Prompt::Browse(browser)) = app.prompts.last_mut()
-        && browser.folder == folder
-    {
-        browser.entries = entries;
-        browser.mark(0);
-    }
-    Vec::new()
 }
 
 /// A file was read, or its faults were found: then nothing changes but what is told.
@@ -202,15 +169,20 @@ fn pick(app: &mut App, pick: Pick) -> Vec<Effect> {
     app.prompts.pop();
     match pick {
         Pick::Run(command) => super::run(app, command),
-        Pick::Load(path) => open(app, path),
+        Pick::Begin(example) => solve(tabs::begin(app, example)),
         Pick::Make(gears, material) => catalogue::make(app, gears, material),
         Pick::Limit(key) => Quantity::find(key).map_or_else(Vec::new, |quantity| catalogue::hold(app, quantity)),
         Pick::Go(field) => {
-            app.panes.focus = crate::tui::pane::Pane::Form;
-            app.focus_on(field);
+            go_to(app, field);
             Vec::new()
         }
     }
+}
+
+/// Go to a field of the form.
+pub(super) fn go_to(app: &mut App, field: usize) {
+    app.panes.focus = Pane::Form;
+    app.focus_on(field);
 }
 
 fn go(app: &mut App, next: Next) -> Vec<Effect> {
@@ -230,8 +202,8 @@ fn save_rest(app: &mut App) -> Vec<Effect> {
     save(app, Next::SaveRest)
 }
 
-// A case that is open already is gone to, with what is unsaved in it.
-fn open(app: &mut App, path: PathBuf) -> Vec<Effect> {
+/// Open a file; a case that is open already is gone to, with what is unsaved in it.
+pub(super) fn open(app: &mut App, path: PathBuf) -> Vec<Effect> {
     let Some(at) = place_of(app, &path) else { return vec![Effect::Load(path)] };
     app.prompts.clear();
     tabs::go_to(app, at);
@@ -265,15 +237,6 @@ fn saving(app: &App, path: PathBuf, over: Over, next: Next) -> Effect {
     let mut document = app.document.clone();
     document.case = app.case.clone();
     Effect::Save(Box::new(Saving { document, path, over, next }))
-}
-
-fn accept_path(app: &mut App, browser: &Browser) -> Vec<Effect> {
-    match browser.marked_path() {
-        Some((_, true)) => complete(app),
-        Some((path, false)) => open(app, path.into()),
-        None if browser.input.value().is_empty() => Vec::new(),
-        None => open(app, browser.input.value().into()),
-    }
 }
 
 fn accept_name(app: &mut App, name: &str, next: Next) -> Vec<Effect> {

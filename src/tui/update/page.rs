@@ -1,37 +1,56 @@
-//! The page on one result.
+//! The page on one result, and the way from it to the fields behind it.
 
-use crate::model::Quantity;
+use super::{Effect, files};
+use crate::case::fields::index_of;
+use crate::case::units::System;
 use crate::report;
 use crate::tui::app::App;
-use crate::tui::prompt::{Page, Prompt};
-use crate::tui::view::results;
+use crate::tui::errands::{Asked, Errand, Explained};
+use crate::tui::explanation::Explanation;
+use crate::tui::prompt::Prompt;
+use crate::tui::view::{explain, results};
 
 /// Open the page on the marked result.
-pub(super) fn explain(app: &mut App) {
-    match results::marked(app) {
-        Some(quantity) => {
-            let page = Page::new(quantity.label.trim(), lines(app, quantity));
-            app.prompts.push(Prompt::Read(page));
-        }
-        None => app.complain("there are no results to explain"),
+pub(super) fn explain(app: &mut App) -> Vec<Effect> {
+    let Some(quantity) = results::marked(app) else {
+        app.complain("there are no results to explain");
+        return Vec::new();
+    };
+    let Ok(inputs) = app.case.inputs() else {
+        app.complain("these are the last valid results: mend what is marked with ! to have one explained");
+        return Vec::new();
+    };
+    let solution = app.answer.as_ref().and_then(|answer| answer.of(answer.active));
+    let value = solution.and_then(|solution| report::value(quantity, solution));
+    let value = value.filter(|_| app.settings.units != System::Metric);
+    let value = value.map(|value| report::shown_in(quantity, value, app.settings.units));
+    app.prompts.push(Prompt::Explain(Explanation::new(quantity, app.name(), value)));
+    vec![Effect::Errand(Errand::Explain(Box::new(Asked { quantity, case: app.case.clone(), inputs })))]
+}
+
+/// The page has been written.
+pub(super) fn explained(app: &mut App, explained: Explained) {
+    if let Some(Prompt::Explain(explanation)) = app.prompts.last_mut() {
+        explanation.take(explained);
     }
 }
 
-fn lines(app: &App, quantity: &'static Quantity) -> Vec<String> {
-    let value = app.answer.as_ref().and_then(|answer| report::value(quantity, answer.of(answer.active)?));
-    let value = value.map_or_else(
-        || "none in this case".to_owned(),
-        |value| report::shown_in(quantity, value, app.settings.units).to_string(),
-    );
-    let unit = if quantity.unit == "1" { "a number" } else { quantity.unit };
-    [
-        ("symbol", quantity.symbol.to_owned()),
-        ("value", value),
-        ("key", quantity.key.to_owned()),
-        ("unit in reports", unit.to_owned()),
-        ("equation", quantity.equation.to_owned()),
-        ("stage", quantity.stage.name().to_owned()),
-    ]
-    .map(|(name, text)| format!("{name:<16} {text}"))
-    .to_vec()
+/// Mark another one of the fields, and bring it into sight.
+pub(super) fn step(app: &mut App, by: isize) {
+    if let Some(Prompt::Explain(explanation)) = app.prompts.last_mut() {
+        explanation.mark(by);
+        explain::follow(explanation, app.size, app.look.ascii);
+    }
+}
+
+/// Go to the marked field; where none is marked, mark the first one.
+pub(super) fn accept(app: &mut App, explanation: &Explanation) -> Vec<Effect> {
+    match explanation.field().and_then(index_of) {
+        Some(field) => {
+            app.prompts.clear();
+            files::go_to(app, field);
+        }
+        None => step(app, 1),
+    }
+    Vec::new()
 }

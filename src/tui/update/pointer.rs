@@ -6,7 +6,7 @@ use super::{Effect, cursor, panes, teeth};
 use crate::tui::app::App;
 use crate::tui::pane::Pane;
 use crate::tui::prompt::Prompt;
-use crate::tui::view::{self, chart, form, popup, results};
+use crate::tui::view::{self, chart, explain, form, popup, results};
 
 /// A press: into a field, onto a result, onto the chart.
 pub(super) fn click(app: &mut App, at: Position) -> Vec<Effect> {
@@ -40,6 +40,7 @@ pub(super) fn click(app: &mut App, at: Position) -> Vec<Effect> {
 pub(super) fn wheel(app: &mut App, at: Position, by: isize) {
     match app.prompts.last_mut() {
         Some(Prompt::Read(page)) => popup::scroll(page, by, app.size),
+        Some(Prompt::Explain(page)) => explain::scroll(page, by, app.size, app.look.ascii),
         Some(Prompt::Browse(browser)) => browser.mark(by),
         Some(Prompt::Pick(picker)) => picker.mark(by),
         Some(Prompt::Ask(_) | Prompt::SaveAs(..)) => (),

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::case::Document;
+use crate::case::{Document, Example};
 use crate::model::Stages;
 use crate::tui::app::App;
 use crate::tui::pane::Pane;
@@ -57,6 +57,14 @@ pub(super) fn fresh(app: &mut App) -> Option<Request> {
     let replaces = app.is_untouched();
     let request = put(app, Tab::new(store::built_in(), None), replaces);
     app.say("a new case, beginning with Table 1");
+    request
+}
+
+/// Begin a case with an example, in a tab of its own.
+pub(super) fn begin(app: &mut App, example: &'static Example) -> Option<Request> {
+    let replaces = app.is_untouched();
+    let request = put(app, Tab { example: Some(example.name), ..Tab::new(example.document(), None) }, replaces);
+    app.say(format!("a new case, beginning with {}; it has no file yet", example.name));
     request
 }
 

@@ -7,7 +7,7 @@ use crate::tui::app::App;
 use crate::tui::pane::Pane;
 use crate::tui::prompt::Prompt;
 use crate::tui::rows;
-use crate::tui::view::{popup, results};
+use crate::tui::view::{explain, popup, results};
 
 /// A command that moves a focus or a mark; others change nothing.
 pub(super) fn walk(app: &mut App, command: Command) {
@@ -40,6 +40,7 @@ fn step(app: &mut App, by: isize) {
         Some(Prompt::Pick(picker)) => picker.mark(by),
         Some(Prompt::Ask(question)) => question.mark(by),
         Some(Prompt::Read(page)) => popup::scroll(page, by, app.size),
+        Some(Prompt::Explain(explanation)) => explain::scroll(explanation, by, app.size, app.look.ascii),
         Some(Prompt::SaveAs(..)) => (),
     }
 }
@@ -52,6 +53,7 @@ fn leap(app: &mut App, by: isize) {
         Some(Prompt::Browse(browser)) => browser.mark(by * page_of_prompt),
         Some(Prompt::Pick(picker)) => picker.mark(by * page_of_prompt),
         Some(Prompt::Read(text)) => popup::scroll(text, by * page_of_prompt, app.size),
+        Some(Prompt::Explain(text)) => explain::scroll(text, by * page_of_prompt, app.size, app.look.ascii),
         Some(Prompt::Ask(_) | Prompt::SaveAs(..)) => (),
     }
 }

@@ -9,7 +9,7 @@ const BEFORE: [&str; 4] = [
     "D is where the driven tip first touches, E where the normal path of contact begins. The rung paper keeps the printed Eqs. 7-20, exact finds D where the gap closes.",
 ];
 
-const PLACES: [(&str, Place); 10] = [
+const PLACES: [(&str, Place); 11] = [
     ("Everywhere", Place::WORK),
     ("In a field", Place::TEXT),
     ("Outside a field (Esc leaves one)", Place::FIELD),
@@ -20,6 +20,7 @@ const PLACES: [(&str, Place); 10] = [
     ("In the list of files", Place::BROWSE),
     ("In a question (or its first letter)", Place::ASK),
     ("In a page like this", Place::READ),
+    ("In the explanation of a result", Place::EXPLAIN),
 ];
 
 /// The lines of the help.

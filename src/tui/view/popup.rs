@@ -7,11 +7,12 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
-use super::{form, text};
+use super::{browser, digest, explain, form, text};
+use crate::case::EXAMPLES;
+use crate::report::digest::Digest;
 use crate::tui::app::App;
-use crate::tui::pick::{Item, Picker};
-use crate::tui::prompt::{Browser, Page, Prompt, Question};
-use crate::tui::store::Entry;
+use crate::tui::pick::{Item, List, Picker};
+use crate::tui::prompt::{Page, Prompt, Question};
 use crate::tui::theme::Theme;
 
 const WIDEST: u16 = 100;
@@ -36,7 +37,11 @@ pub fn draw(app: &App, prompt: &Prompt, screen: Rect, buffer: &mut Buffer) -> Op
             let inner = frame("Save as", Size::new(WIDEST, 1), screen, theme, buffer);
             text::edited(input, inner, Style::new(), buffer)
         }
-        Prompt::Browse(browser) => draw_browser(browser, screen, theme, buffer),
+        Prompt::Explain(explanation) => {
+            explain::draw(explanation, screen, app.look, buffer);
+            None
+        }
+        Prompt::Browse(browser) => browser::draw(browser, screen, theme, buffer),
         Prompt::Pick(picker) => draw_picker(picker, screen, theme, buffer),
     }
 }
@@ -122,42 +127,76 @@ fn question_lines(question: &Question, room: Size) -> Vec<String> {
     lines
 }
 
-fn draw_browser(browser: &Browser, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Option<Position> {
-    let inner = frame("Open", Size::new(WIDEST, 16), screen, theme, buffer);
-    let name = |entry: &Entry| format!("{}{}", entry.name, if entry.is_folder { "/" } else { "" });
-    let entries: Vec<_> = browser.fitting().map(name).collect();
-    draw_list(&entries, browser.marked, below(inner), theme, buffer);
-    text::edited(&browser.input, Rect { height: inner.height.min(1), ..inner }, theme.focus, buffer)
-}
-
 fn draw_picker(picker: &Picker, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Option<Position> {
     let inner = frame(picker.title(), Size::new(WIDEST, 16), screen, theme, buffer);
     let items = picker.fitting();
+    let list = below(inner);
+    if let List::Examples(digests) = &picker.list {
+        draw_examples(&items, digests, picker.marked, list, theme, buffer);
+    } else {
+        draw_items(&items, picker.marked, list, theme, buffer);
+    }
+    text::edited(&picker.input, Rect { height: inner.height.min(1), ..inner }, theme.focus, buffer)
+}
+
+fn draw_items(items: &[Item], marked: usize, area: Rect, theme: &Theme, buffer: &mut Buffer) {
     let widest = |text: fn(&Item) -> &str| items.iter().map(|item| text(item).width()).max().unwrap_or(0);
-    let name = widest(|item| &item.name).min(usize::from(inner.width));
+    let name = widest(|item| &item.name).min(usize::from(area.width));
     let keys = widest(|item| &item.keys).min(KEYS);
-    let about = usize::from(inner.width).saturating_sub(name + keys + 6);
+    let about = usize::from(area.width).saturating_sub(name + keys + 6);
     let line = |item: &Item| {
         let (left, right) = (text::padded(&item.name, name), text::padded(&item.about, about));
         format!("{left}  {right}  {}", text::cut(&item.keys, keys)).trim_end().to_owned()
     };
-    draw_list(&items.iter().map(line).collect::<Vec<_>>(), picker.marked, below(inner), theme, buffer);
-    text::edited(&picker.input, Rect { height: inner.height.min(1), ..inner }, theme.focus, buffer)
+    draw_window(items.len(), |at| line(&items[at]), Some(marked), area, theme, buffer);
+    say_if_none(items, area, theme, buffer);
+}
+
+// The names on the left, what the marked one is on the right.
+fn draw_examples(items: &[Item], digests: &[Digest], marked: usize, area: Rect, theme: &Theme, buffer: &mut Buffer) {
+    let (left, right) = halves(area, buffer);
+    draw_window(items.len(), |at| items[at].name.clone(), Some(marked), left, theme, buffer);
+    say_if_none(items, left, theme, buffer);
+    let at = items.get(marked).and_then(|item| EXAMPLES.iter().position(|example| example.name == item.name));
+    let lines = at.and_then(|at| digests.get(at)).map(|digest| digest::lines(digest, right.width.into(), theme));
+    for ((line, style), y) in lines.unwrap_or_default().iter().zip(right.top()..right.bottom()) {
+        buffer.set_stringn(right.x, y, line, right.width.into(), *style);
+    }
+}
+
+fn say_if_none(items: &[Item], area: Rect, theme: &Theme, buffer: &mut Buffer) {
+    if items.is_empty() && !area.is_empty() {
+        buffer.set_stringn(area.x, area.y, "(nothing here fits)", area.width.into(), theme.faint);
+    }
 }
 
 fn below(inner: Rect) -> Rect {
     Rect { y: inner.y + 1, height: inner.height.saturating_sub(1), ..inner }
 }
 
-// The lines around the marked one.
-fn draw_list(lines: &[String], marked: usize, area: Rect, theme: &Theme, buffer: &mut Buffer) {
-    let top = (marked + 1).saturating_sub(area.height.into());
-    if lines.is_empty() && !area.is_empty() {
-        buffer.set_stringn(area.x, area.y, "(nothing here fits)", area.width.into(), theme.faint);
+/// A list on the left and what belongs to it on the right, with a rule between them.
+pub fn halves(area: Rect, buffer: &mut Buffer) -> (Rect, Rect) {
+    let left = area.width * 2 / 5;
+    for y in area.top()..area.bottom() {
+        buffer.set_stringn(area.x + left, y, "│", usize::from(area.width > left), Style::new());
     }
-    for ((index, line), y) in lines.iter().enumerate().skip(top).zip(area.top()..area.bottom()) {
-        let is_marked = index == marked;
-        let line = format!("{} {line}", if is_marked { "▸" } else { " " });
+    let right = area.width.saturating_sub(left + 2);
+    (Rect { width: left.saturating_sub(1), ..area }, Rect { x: area.right() - right, width: right, ..area })
+}
+
+/// The lines of a list around the marked one; of the others nothing is made.
+pub fn draw_window(
+    count: usize,
+    line: impl Fn(usize) -> String,
+    marked: Option<usize>,
+    area: Rect,
+    theme: &Theme,
+    buffer: &mut Buffer,
+) {
+    let top = marked.map_or(0, |marked| (marked + 1).saturating_sub(area.height.into()));
+    for (at, y) in (top..count).zip(area.top()..area.bottom()) {
+        let is_marked = marked == Some(at);
+        let line = format!("{} {}", if is_marked { "▸" } else { " " }, line(at));
         let style = if is_marked { theme.focus } else { Style::new() };
         buffer.set_stringn(area.x, y, text::cut(&line, area.width.into()), area.width.into(), style);
     }
@@ -170,8 +209,8 @@ fn extent(lines: &[String], more: usize) -> Size {
     Size { width: size(width), height: size(lines.len() + more) }
 }
 
-// An emptied box with a border, as large as is wanted if there is room.
-fn frame(title: &str, wanted: Size, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Rect {
+/// An emptied box with a border, as large as is wanted if there is room.
+pub fn frame(title: &str, wanted: Size, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Rect {
     let room = room(screen.as_size());
     let height = wanted.height.clamp(1, room.height.max(1)) + 2;
     let width = wanted.width.max(NARROWEST).min(room.width) + 4;

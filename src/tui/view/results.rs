@@ -10,8 +10,8 @@ use ratatui::widgets::Widget;
 
 use super::{plan, text, titled};
 use crate::model::inputs::Rung;
-use crate::model::{Outcome, Quantity, Solution};
-use crate::report::{self, Shown};
+use crate::model::{Quantity, Solution};
+use crate::report::{self, Shown, digest};
 use crate::tui::app::App;
 use crate::tui::clean::symbol;
 use crate::tui::pane::Pane;
@@ -96,18 +96,8 @@ pub fn row_at(app: &App, area: Rect, at: Position) -> Option<usize> {
 /// The outcome of a solve, in a sentence.
 #[must_use]
 pub fn sentence(app: &App, solution: &Solution) -> String {
-    let value = |key| quantity_text(app, key, solution).unwrap_or_default();
-    match solution.outcome {
-        Outcome::CornerContact => {
-            let force = quantity_text(app, "impact_force", solution)
-                .map_or("no force is given".to_owned(), |force| format!("with {force}"));
-            format!("Corner contact {} of the driver before E, {force}.", value("approach_angle_driver"))
-        }
-        Outcome::NoCornerContact => {
-            let total = symbol("Δ", app.look.ascii);
-            format!("No corner contact: {total} = {}, the tooth comes in on time.", value("total_deviation"))
-        }
-    }
+    let sentence = digest::sentence(solution, app.settings.units);
+    if app.look.ascii { sentence.replace('Δ', &symbol("Δ", true)) } else { sentence }
 }
 
 fn draw_lines(lines: &[Line<'static>], area: Rect, buffer: &mut Buffer) {
@@ -125,7 +115,7 @@ fn title(app: &App, parts: &Parts) -> String {
     let name = if app.is_stale() { "Results: LAST VALID" } else { "Results" };
     let count = count(app);
     let last = (app.results_top + parts.rows).min(count);
-    let range = if count > parts.rows { format!(", {}-{last} of {count}", app.results_top + 1) } else { String::new() };
+    let range = if count > parts.rows { format!(", {}-{last}/{count}", app.results_top + 1) } else { String::new() };
     let against = app.baseline.as_ref().map_or_else(String::new, |baseline| format!(", against {}", baseline.name));
     let answer = app.answer.as_ref();
     let pending = answer.and_then(|answer| answer.pending).map_or_else(String::new, |rung| format!(", {} to come", rung.name()));

@@ -23,6 +23,17 @@ pub fn cut(text: &str, width: usize) -> String {
     kept
 }
 
+/// The text cut to the width at its beginning, with a mark where something is left out: a path is known by its end.
+#[must_use]
+pub fn cut_front(text: &str, width: usize) -> String {
+    let text = clean(text);
+    let over = text.width().saturating_sub(width);
+    if over == 0 {
+        return text.into_owned();
+    }
+    if width == 0 { String::new() } else { format!("…{}", skip(&text, over + 1)) }
+}
+
 /// The text cut to the width, or filled up to it.
 #[must_use]
 pub fn padded(text: &str, width: usize) -> String {
@@ -139,6 +150,8 @@ mod tests {
         assert_eq!(cut("combined deflection", 10), "combined …");
         assert_eq!(cut("module", 6), "module");
         assert_eq!(cut("module", 0), "");
+        assert_eq!(cut_front("/home/me/case.toml", 10), "…case.toml");
+        assert_eq!((cut_front("case", 4).as_str(), cut_front("case", 0).as_str()), ("case", ""));
     }
 
     #[test]

@@ -37,10 +37,6 @@ const LABEL: usize = 25;
 const VALUE: usize = 10;
 const UNIT: usize = 7;
 const EQUATION: usize = 12;
-/// Below this width only the active rung has room.
-const ALL_RUNGS_FROM: usize = SYMBOL + 2 * VALUE + UNIT;
-/// From this width the labels have room too.
-const LABELS_FROM: usize = ALL_RUNGS_FROM - SYMBOL + LONG_SYMBOL + LABEL;
 /// Below this part of the baseline a difference is none that a person reads.
 const NO_DIFFERENCE: f64 = 5e-6;
 
@@ -88,11 +84,21 @@ impl Columns {
     fn of(app: &App, answer: &Answer, width: usize) -> Columns {
         let difference = app.baseline.is_some();
         let more = if difference { VALUE } else { 0 };
-        let all = width >= ALL_RUNGS_FROM + more;
-        let rungs = if all { answer.rungs.iter().map(|(rung, _)| *rung).collect() } else { vec![answer.active] };
-        let labels = width >= LABELS_FROM + more || !all && width >= LABELS_FROM;
-        Columns { labels, rungs, difference, equation: !difference && width >= LABELS_FROM + EQUATION }
+        let room_for_values = width.saturating_sub(SYMBOL + UNIT + more) / VALUE;
+        let rungs = rungs(answer, room_for_values);
+        let with_labels = LONG_SYMBOL + LABEL + rungs.len() * VALUE + UNIT + more;
+        Columns { labels: width >= with_labels, rungs, difference, equation: !difference && width >= with_labels + EQUATION }
     }
+}
+
+// The active rung, and of the others as many as have room: the nearest below it first.
+fn rungs(answer: &Answer, room: usize) -> Vec<Rung> {
+    let mut rungs: Vec<Rung> = answer.rungs.iter().map(|(rung, _)| *rung).collect();
+    while rungs.len() > room.max(1) {
+        let first = rungs.iter().position(|rung| *rung != answer.active).unwrap_or(0);
+        rungs.remove(first);
+    }
+    rungs
 }
 
 fn heading(app: &App, answer: &Answer, columns: &Columns) -> Line<'static> {

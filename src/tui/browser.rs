@@ -1,0 +1,257 @@
+//! The browser of files: a folder and the cases that were open last, both filtered by what is typed, and what the marked
+//! one holds.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+use tui_input::Input;
+
+use super::recents::Recent;
+use super::store::folder::{Entry, Listing, beneath};
+use super::store::preview::Preview;
+
+/// A folder, and the cases that were open last.
+#[derive(Debug, Clone, Default)]
+pub struct Browser {
+    /// What is typed: a part of a name, or a path.
+    pub input: Input,
+    /// What stands in the folder; `None` while it is being read.
+    pub listing: Option<Listing>,
+    /// The cases that were open last.
+    pub recents: Vec<Recent>,
+    /// The marked one of those that fit: first the folder's, then the recent ones.
+    pub marked: usize,
+    /// What the marked one holds, as far as it is known.
+    pub preview: Option<(Sight, Preview)>,
+    /// The folder that it began in or went to, as it is called from here.
+    base: PathBuf,
+    /// The folders of the path that is typed, of which the listing is.
+    typed_folder: String,
+    /// Places in the listing of the entries that fit.
+    fitting: Vec<usize>,
+    /// The same of the recent cases.
+    fitting_recents: Vec<usize>,
+    /// Whether a recent case is to be marked rather than one of the folder.
+    prefers_recents: bool,
+    /// The entry to be marked: the present case, or the folder that it came up from.
+    came_from: Option<OsString>,
+    /// What a preview was asked of.
+    looked_at: Option<Sight>,
+}
+
+/// What a preview is of.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Sight {
+    /// A file.
+    File(PathBuf),
+    /// A folder.
+    Folder(PathBuf),
+}
+
+/// A line that may be marked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Line<'b> {
+    /// The folder above.
+    Up,
+    /// An entry of the folder.
+    Entry(&'b Entry),
+    /// A case that was open last.
+    Recent(&'b Recent),
+}
+
+impl Browser {
+    /// Begin in the folder of the present case, in its recent cases where they are preferred.
+    #[must_use]
+    pub fn beside(path: Option<&Path>, prefers_recents: bool) -> Browser {
+        let base = path.and_then(Path::parent).map(Path::to_owned).unwrap_or_default();
+        let came_from = path.and_then(Path::file_name).map(ToOwned::to_owned);
+        Browser { base, prefers_recents, came_from, ..Browser::default() }
+    }
+
+    /// What the listing is asked of.
+    #[must_use]
+    pub fn asks(&self) -> (PathBuf, String) {
+        (self.base.clone(), self.typed_folder.clone())
+    }
+
+    /// The typed path up to its last slash, and what follows. A lone `~` is the home folder.
+    #[must_use]
+    pub fn split(&self) -> (&str, &str) {
+        let typed = self.input.value();
+        if typed == "~" { (typed, "") } else { typed.split_at(typed.rfind('/').map_or(0, |slash| slash + 1)) }
+    }
+
+    /// Follow what was typed; whether it leads to another folder.
+    pub fn follow(&mut self) -> bool {
+        let (folder, _) = self.split();
+        let is_other = folder != self.typed_folder;
+        if is_other {
+            folder.to_owned().clone_into(&mut self.typed_folder);
+            self.listing = None;
+        }
+        self.refit();
+        is_other
+    }
+
+    /// Take what was found in a folder, if it is the present one.
+    pub fn take(&mut self, listing: Listing) {
+        if listing.asked == self.asks() {
+            self.listing = Some(listing);
+            self.refit();
+            let came_from = self.came_from.take();
+            let is_it = |entry: &Entry| Some(&entry.file) == came_from.as_ref();
+            let at = self.entries().position(is_it).map(|at| at + usize::from(self.has_up()));
+            self.marked = at.filter(|_| !self.prefers_recents).unwrap_or(self.marked);
+        }
+    }
+
+    /// Take the cases that were open last.
+    pub fn remember(&mut self, recents: Vec<Recent>) {
+        self.recents = recents;
+        self.refit();
+    }
+
+    /// Mark the first of the recent cases, or go back to the folder.
+    pub fn to_recents(&mut self) {
+        self.prefers_recents = !self.marks_recent();
+        self.mark_first();
+    }
+
+    /// Whether the folder above is offered.
+    #[must_use]
+    pub fn has_up(&self) -> bool {
+        self.listing.is_some() && self.split().1.is_empty()
+    }
+
+    /// The entries of the folder that fit.
+    pub fn entries(&self) -> impl Iterator<Item = &Entry> {
+        let entries = self.listing.as_ref().and_then(|listing| listing.entries.as_ref().ok());
+        self.fitting.iter().filter_map(move |&at| entries?.get(at))
+    }
+
+    /// How many lines of the folder there are.
+    #[must_use]
+    pub fn count_of_folder(&self) -> usize {
+        self.fitting.len() + usize::from(self.has_up())
+    }
+
+    /// How many recent cases fit.
+    #[must_use]
+    pub fn count_of_recents(&self) -> usize {
+        self.fitting_recents.len()
+    }
+
+    /// Whether the mark is among the recent cases.
+    #[must_use]
+    pub fn marks_recent(&self) -> bool {
+        self.count_of_recents() > 0 && self.marked >= self.count_of_folder()
+    }
+
+    /// A line of those that fit, the folder's first.
+    #[must_use]
+    pub fn line(&self, at: usize) -> Option<Line<'_>> {
+        if self.has_up() && at == 0 {
+            return Some(Line::Up);
+        }
+        let in_folder = at - usize::from(self.has_up());
+        if let Some(&entry) = self.fitting.get(in_folder) {
+            return self.listing.as_ref()?.entries.as_ref().ok()?.get(entry).map(Line::Entry);
+        }
+        let recent = *self.fitting_recents.get(in_folder - self.fitting.len())?;
+        self.recents.get(recent).map(Line::Recent)
+    }
+
+    /// The file or the folder of a line.
+    #[must_use]
+    pub fn sight(&self, line: Line<'_>) -> Sight {
+        match line {
+            Line::Up => Sight::Folder(self.above()),
+            Line::Recent(recent) => Sight::File(recent.path.clone()),
+            Line::Entry(entry) => {
+                let path = beneath(&self.base, &self.typed_folder).join(&entry.file);
+                if entry.is_folder { Sight::Folder(path) } else { Sight::File(path) }
+            }
+        }
+    }
+
+    /// What the marked line is of.
+    #[must_use]
+    pub fn marked_sight(&self) -> Option<Sight> {
+        self.line(self.marked).map(|line| self.sight(line))
+    }
+
+    /// The path of what is typed.
+    #[must_use]
+    pub fn typed_path(&self) -> PathBuf {
+        beneath(&self.base, self.input.value())
+    }
+
+    /// Move the mark, as far as there are lines.
+    pub fn mark(&mut self, by: isize) {
+        let last = (self.count_of_folder() + self.count_of_recents()).saturating_sub(1);
+        self.marked = self.marked.saturating_add_signed(by).min(last);
+    }
+
+    /// Go into a folder.
+    pub fn enter(&mut self, folder: PathBuf) {
+        self.came_from =
+            (folder == self.above()).then(|| self.listing.as_ref()?.folder.file_name().map(ToOwned::to_owned)).flatten();
+        self.base = folder;
+        (self.input, self.typed_folder, self.listing) = (Input::default(), String::new(), None);
+        self.prefers_recents = false;
+        self.refit();
+    }
+
+    /// The folder above, in full where that is known.
+    #[must_use]
+    pub fn above(&self) -> PathBuf {
+        let known = self.listing.as_ref().map(|listing| listing.folder.parent().unwrap_or(&listing.folder).to_owned());
+        known.unwrap_or_else(|| beneath(&self.base, &self.typed_folder).join(".."))
+    }
+
+    /// What a preview is to be asked of, once.
+    pub fn look(&mut self) -> Option<Sight> {
+        let sight = self.marked_sight();
+        if sight == self.looked_at {
+            return None;
+        }
+        self.looked_at.clone_from(&sight);
+        sight
+    }
+
+    /// Take what something holds, if it is what was asked of last.
+    pub fn show(&mut self, sight: Sight, preview: Preview) {
+        if self.looked_at.as_ref() == Some(&sight) {
+            self.preview = Some((sight, preview));
+        }
+    }
+
+    // Hidden entries are offered where their dot is typed.
+    fn refit(&mut self) {
+        let wanted = self.split().1.to_lowercase();
+        let fits = |entry: &Entry| (wanted.starts_with('.') || !entry.name.starts_with('.')) && entry.folded.contains(&wanted);
+        let entries = self.listing.as_ref().and_then(|listing| listing.entries.as_ref().ok()).map(Vec::as_slice);
+        let places =
+            |fits: &mut dyn Iterator<Item = bool>| fits.enumerate().filter_map(|(at, fits)| fits.then_some(at)).collect();
+        let fitting = places(&mut entries.unwrap_or_default().iter().map(fits));
+        let typed = self.input.value().to_lowercase();
+        let fitting_recents = places(&mut self.recents.iter().map(|recent| recent.folded.contains(&typed)));
+        (self.fitting, self.fitting_recents) = (fitting, fitting_recents);
+        self.mark_first();
+    }
+
+    // The first that a person looks for: no way up, where there is anything else.
+    fn mark_first(&mut self) {
+        let folder = self.count_of_folder();
+        let is_recent = self.count_of_recents() > 0 && (self.prefers_recents || folder == 0);
+        self.marked = if is_recent { folder } else { usize::from(self.has_up() && !self.fitting.is_empty()) + self.best() };
+    }
+
+    // The entry that is called what is typed, else one that begins with it.
+    fn best(&self) -> usize {
+        let wanted = self.split().1.to_lowercase();
+        let at = |is_it: &dyn Fn(&Entry) -> bool| self.entries().position(is_it);
+        let begins = || at(&|entry| entry.folded.starts_with(&wanted));
+        if wanted.is_empty() { 0 } else { at(&|entry| entry.folded == wanted).or_else(begins).unwrap_or(0) }
+    }
+}

@@ -1,0 +1,154 @@
+//! What must not keep the screen waiting: looking into folders and files, explaining a result. Each kind has a thread of
+//! its own, begun when it is first wanted; of a kind the latest request wins.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::{io, thread};
+
+use super::actions::Action;
+use super::browser::Sight;
+use super::fault;
+use super::recents;
+use super::slot::Slot;
+use super::store::{folder, preview};
+use crate::case::units::System;
+use crate::case::{Case, EXAMPLES};
+use crate::model::{self, Inputs, Quantity, Stages};
+use crate::report::digest::Digest;
+use crate::report::explain::{self, Page};
+
+/// Something to look into.
+#[derive(Debug, Clone)]
+pub enum Errand {
+    /// What stands in a folder, and tell it as [`Action::Listed`]: where the browser is, and the folders typed after it.
+    Folder(PathBuf, String),
+    /// What a file or a folder holds, and tell it as [`Action::Previewed`].
+    Preview(Sight, System),
+    /// Which cases were open last, and tell it as [`Action::Recents`].
+    Recents,
+    /// What the examples are, and tell it as [`Action::Examples`].
+    Examples(System),
+    /// Where a result comes from, and tell it as [`Action::Explained`].
+    Explain(Box<Asked>),
+}
+
+/// A result to be explained.
+#[derive(Debug, Clone)]
+pub struct Asked {
+    /// The result.
+    pub quantity: &'static Quantity,
+    /// The case.
+    pub case: Case,
+    /// The pair that it describes.
+    pub inputs: Inputs,
+}
+
+/// The explanation of a result, or why there is none.
+#[derive(Debug, Clone)]
+pub struct Explained {
+    /// The result.
+    pub quantity: &'static Quantity,
+    /// The page.
+    pub page: Result<Box<Page>, String>,
+}
+
+/// The threads.
+pub struct Errands {
+    tell: Arc<dyn Fn(Action) -> bool + Send + Sync>,
+    slots: [Option<Arc<Slot<Errand>>>; Errand::KINDS],
+}
+
+impl Errand {
+    const KINDS: usize = 5;
+
+    const fn kind(&self) -> (usize, &'static str) {
+        match self {
+            Errand::Folder(..) => (0, "folders"),
+            Errand::Preview(..) => (1, "previews"),
+            Errand::Recents => (2, "recents"),
+            Errand::Examples(_) => (3, "examples"),
+            Errand::Explain(_) => (4, "explain"),
+        }
+    }
+}
+
+impl Errands {
+    /// No thread yet; each tells what it found until `tell` says that nobody listens.
+    pub fn new(tell: impl Fn(Action) -> bool + Send + Sync + 'static) -> Errands {
+        Errands { tell: Arc::new(tell), slots: [const { None }; Errand::KINDS] }
+    }
+
+    /// Ask, in place of an errand of that kind that has not begun.
+    ///
+    /// # Errors
+    /// When the system gives no thread.
+    pub fn ask(&mut self, errand: Errand) -> io::Result<()> {
+        let (kind, name) = errand.kind();
+        let slot = match &self.slots[kind] {
+            Some(slot) => slot,
+            None => self.slots[kind].insert(begin(name, Arc::clone(&self.tell))?),
+        };
+        slot.put(errand);
+        Ok(())
+    }
+}
+
+impl Drop for Errands {
+    fn drop(&mut self) {
+        self.slots.iter().flatten().for_each(|slot| slot.close());
+    }
+}
+
+fn begin(name: &'static str, tell: Arc<dyn Fn(Action) -> bool + Send + Sync>) -> io::Result<Arc<Slot<Errand>>> {
+    let slot = Arc::new(Slot::default());
+    let theirs: Arc<Slot<Errand>> = Arc::clone(&slot);
+    thread::Builder::new().name(name.to_owned()).spawn(move || {
+        while let Some(errand) = theirs.take() {
+            let done = catch_unwind(AssertUnwindSafe(|| {
+                fault::on_demand(name);
+                perform(errand, &|_| theirs.is_idle())
+            }));
+            let told = done.unwrap_or_else(|_| Some(Action::Failed(format!("a fault of the program: {name} cannot be shown"))));
+            if told.is_some_and(|told| !tell(told)) {
+                return;
+            }
+        }
+    })?;
+    Ok(slot)
+}
+
+/// Do an errand; nothing to tell where `go_on` says that it is wanted no more.
+#[must_use]
+pub fn perform(errand: Errand, go_on: &dyn Fn(f64) -> bool) -> Option<Action> {
+    Some(match errand {
+        Errand::Folder(base, typed) => Action::Listed(Box::new(folder::list(base, typed))),
+        Errand::Preview(sight, system) => {
+            let preview = preview::of(&sight, system, go_on)?;
+            Action::Previewed(sight, Box::new(preview))
+        }
+        Errand::Recents => Action::Recents(recents::looked_at(recents::list())),
+        Errand::Examples(system) => Action::Examples(examples(system, go_on)?),
+        Errand::Explain(asked) => Action::Explained(Box::new(explained(*asked))),
+    })
+}
+
+fn examples(system: System, go_on: &dyn Fn(f64) -> bool) -> Option<Vec<Digest>> {
+    let digest = |case: &Case| match case.inputs() {
+        Ok(inputs) => Digest::solve(case, &inputs, system, go_on),
+        Err(_) => Some(Digest::default()),
+    };
+    EXAMPLES.iter().map(|example| digest(&example.document().case)).collect()
+}
+
+// As `tipstrike explain` does it.
+fn explained(asked: Asked) -> Explained {
+    let Asked { quantity, case, inputs } = asked;
+    let page = match model::solve(&inputs, Stages::of(quantity.stage)) {
+        Ok(solution) => explain::explain(quantity, &case, &inputs, &solution)
+            .map(Box::new)
+            .ok_or_else(|| "no explanation is written for this result".to_owned()),
+        Err(refusal) => Err(format!("Not solved: {refusal}. Mend: {}.", refusal.mend())),
+    };
+    Explained { quantity, page }
+}

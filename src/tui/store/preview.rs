@@ -1,0 +1,64 @@
+//! What a file or a folder holds, in a few lines: a case with its verdict, or what is wrong with it.
+
+use std::path::Path;
+
+use super::{at_home, folder, load, without_name};
+use crate::case::units::System;
+use crate::report::digest::Digest;
+use crate::tui::browser::Sight;
+
+/// More faults of a file are counted and not shown.
+const MOST_FAULTS: usize = 20;
+
+/// What something on the disk holds.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Preview {
+    /// A case, and whether it is of a newer format.
+    Case(Digest, bool),
+    /// What is wrong with it, the first of them, and how many more there are.
+    Faults(Vec<String>, usize),
+    /// A folder with so many cases and folders.
+    Folder(usize, usize),
+}
+
+/// Look; `None` where `go_on` says that it is wanted no more.
+#[must_use]
+pub fn of(sight: &Sight, system: System, go_on: &dyn Fn(f64) -> bool) -> Option<Preview> {
+    match sight {
+        Sight::File(path) => of_file(&at_home(path), system, go_on),
+        Sight::Folder(path) => Some(of_folder(&at_home(path))),
+    }
+}
+
+fn of_folder(path: &Path) -> Preview {
+    match folder::entries(path) {
+        Ok(entries) => {
+            let cases = entries.iter().filter(|entry| !entry.is_folder).count();
+            Preview::Folder(cases, entries.len() - cases)
+        }
+        Err(reason) => Preview::Faults(vec![reason], 0),
+    }
+}
+
+fn of_file(path: &Path, system: System, go_on: &dyn Fn(f64) -> bool) -> Option<Preview> {
+    let document = match load(path) {
+        Ok(document) => document,
+        Err(faults) => return Some(first_of(faults)),
+    };
+    match document.case.inputs() {
+        Ok(inputs) => {
+            let digest = Digest::solve(&document.case, &inputs, system, go_on)?;
+            Some(Preview::Case(digest, document.is_newer()))
+        }
+        Err(problems) => {
+            let faults = problems.into_iter().map(|problem| without_name(path, &document.fault(problem).to_string()));
+            Some(first_of(faults.collect()))
+        }
+    }
+}
+
+fn first_of(mut faults: Vec<String>) -> Preview {
+    let more = faults.len().saturating_sub(MOST_FAULTS);
+    faults.truncate(MOST_FAULTS);
+    Preview::Faults(faults, more)
+}

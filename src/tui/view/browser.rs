@@ -1,0 +1,121 @@
+//! The browser of files: a folder on the left, the recent cases below it, what the marked one holds on the right.
+
+use std::path::Path;
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect, Size};
+use ratatui::style::Style;
+
+use super::{digest, popup, text};
+use crate::tui::browser::{Browser, Line, Sight};
+use crate::tui::store::preview::Preview;
+use crate::tui::theme::Theme;
+
+/// So many lines at most, where there is more room.
+const HIGHEST: u16 = 34;
+/// So many of the recent cases are in sight.
+const RECENTS: usize = 6;
+
+/// Draw the browser over the screen; where the cursor stands.
+pub fn draw(browser: &Browser, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Option<Position> {
+    let inner = popup::frame("Open a case", Size::new(u16::MAX, HIGHEST), screen, theme, buffer);
+    let folder = browser.listing.as_ref().map_or_else(String::new, |listing| listing.folder.display().to_string());
+    let width = usize::from(inner.width);
+    buffer.set_stringn(inner.x, inner.y, text::cut_front(&folder, width), width, theme.title);
+    let body = Rect { y: inner.y + 2, height: inner.height.saturating_sub(2), ..inner };
+    let (left, right) = popup::halves(body, buffer);
+    draw_lists(browser, left, theme, buffer);
+    draw_preview(browser, right, theme, buffer);
+    let line = Rect { y: inner.y + 1, height: inner.height.saturating_sub(1).min(1), ..inner };
+    if browser.input.value().is_empty() {
+        buffer.set_stringn(line.x + 1, line.y, " type a part of a name, or a path; ~ is the home folder", width - 1, theme.faint);
+    }
+    text::edited(&browser.input, line, theme.focus, buffer)
+}
+
+fn draw_lists(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffer) {
+    let recents = browser.count_of_recents().min(RECENTS).min(usize::from(area.height) / 3);
+    let below = if recents == 0 { 0 } else { recents as u16 + 1 };
+    let above = Rect { height: area.height - below, ..area };
+    draw_folder(browser, above, theme, buffer);
+    if recents > 0 {
+        let area = text::titled("Recent cases", Rect { y: above.bottom(), height: below, ..area }, theme, buffer);
+        let first = browser.count_of_folder();
+        let name = |at: usize| line_of(browser, first + at);
+        let marked = browser.marked.checked_sub(first);
+        popup::draw_window(browser.count_of_recents(), name, marked, area, theme, buffer);
+    }
+}
+
+fn draw_folder(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffer) {
+    let count = browser.count_of_folder();
+    let marked = Some(browser.marked).filter(|&marked| marked < count);
+    popup::draw_window(count, |at| line_of(browser, at), marked, area, theme, buffer);
+    let said = match &browser.listing {
+        None => "reading ...",
+        Some(listing) => match &listing.entries {
+            Err(reason) => reason,
+            Ok(_) if listing.is_cut => "There are more than are listed.",
+            Ok(entries) if entries.is_empty() => "No folders and no *.toml here.",
+            Ok(_) if count == 0 => "Nothing here fits.",
+            Ok(_) => return,
+        },
+    };
+    let from = area.y + u16::try_from(count).unwrap_or(u16::MAX).min(area.height.saturating_sub(3));
+    for (line, y) in text::wrap(said, area.width.into()).iter().zip(from..area.bottom()) {
+        buffer.set_stringn(area.x, y, format!("{line:<0$}", usize::from(area.width)), area.width.into(), theme.note);
+    }
+}
+
+fn line_of(browser: &Browser, at: usize) -> String {
+    match browser.line(at) {
+        None => String::new(),
+        Some(Line::Up) => "../".to_owned(),
+        Some(Line::Entry(entry)) if entry.is_folder => format!("{}/", entry.name),
+        Some(Line::Entry(entry)) => entry.name.clone(),
+        Some(Line::Recent(recent)) => {
+            let name = recent.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+            let folder = recent.path.parent().and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
+            let missing = if recent.is_missing { "  (missing)" } else { "" };
+            let folder = folder.map_or_else(String::new, |folder| format!("  in {folder}/"));
+            format!("{name}{missing}{folder}")
+        }
+    }
+}
+
+fn draw_preview(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffer) {
+    let Some(sight) = browser.marked_sight() else { return };
+    let is_missing = matches!(browser.line(browser.marked), Some(Line::Recent(recent)) if recent.is_missing);
+    let preview = browser.preview.as_ref().filter(|(own, _)| *own == sight).map(|(_, preview)| preview);
+    let mut lines = Vec::new();
+    if let (Sight::File(path), true) = (&sight, browser.marks_recent()) {
+        lines.push((text::cut_front(&path.display().to_string(), area.width.into()), theme.faint));
+    }
+    match preview {
+        _ if is_missing => lines.push(("There is no such file any more.".to_owned(), theme.problem)),
+        None => lines.push(("reading ...".to_owned(), theme.faint)),
+        Some(preview) => lines.extend(told(preview, area.width.into(), theme)),
+    }
+    for ((line, style), y) in lines.iter().zip(area.top()..area.bottom()) {
+        buffer.set_stringn(area.x, y, line, area.width.into(), *style);
+    }
+}
+
+fn told(preview: &Preview, width: usize, theme: &Theme) -> Vec<(String, Style)> {
+    match preview {
+        Preview::Case(case, is_newer) => {
+            let newer = is_newer.then(|| ("Of a newer format: it opens read-only.".to_owned(), theme.problem));
+            newer.into_iter().chain(digest::lines(case, width, theme)).collect()
+        }
+        Preview::Folder(cases, folders) => {
+            let counted = |count: usize, one: &str| if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") };
+            vec![(format!("A folder with {}, {}.", counted(*cases, "case"), counted(*folders, "folder")), Style::new())]
+        }
+        Preview::Faults(faults, more) => {
+            let head = text::wrap("It cannot be opened:", width).into_iter().map(|line| (line, theme.problem));
+            let faults = faults.iter().flat_map(|fault| text::wrap(fault, width)).map(|line| (line, Style::new()));
+            let more = (*more > 0).then(|| (format!("and {more} more"), Style::new()));
+            head.chain(faults).chain(more).collect()
+        }
+    }
+}
