@@ -74,21 +74,8 @@ fn whatever_is_typed_the_form_stays_sound_and_the_screen_safe() {
         bench.assert_undone();
         seen.borrow_mut().append(&mut bench.seen);
     });
-    let all = [
-        "browse",
-        "save as",
-        "ask",
-        "page",
-        "explanation",
-        "pick",
-        "loaded",
-        "not loaded",
-        "saved",
-        "not saved",
-        "quit",
-        "invalid",
-        "refused",
-    ];
+    let all =
+        ["browse", "save as", "ask", "page", "pick", "loaded", "not loaded", "saved", "not saved", "quit", "invalid", "refused"];
     assert_eq!(*seen.borrow(), BTreeSet::from(all), "the keys get too seldom to all that the workbench does");
 }
 
@@ -216,8 +203,7 @@ impl Bench {
             Prompt::Browse(_) => "browse",
             Prompt::SaveAs(..) => "save as",
             Prompt::Ask(_) => "ask",
-            Prompt::Read(_) => "page",
-            Prompt::Explain(_) => "explanation",
+            Prompt::Read(_) | Prompt::Explain(_) => "page",
             Prompt::Pick(_) => "pick",
         });
         let invalid = (!self.app.problems.is_empty()).then_some("invalid");
