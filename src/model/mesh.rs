@@ -201,11 +201,12 @@ impl Mesh {
         [stiffness, (gap - self.error_of(ahead), slope)]
     }
 
-    /// The incoming pair at `s`, without its error.
+    /// The incoming pair at `s`, without its error, and how its gap grows with s.
     #[must_use]
-    pub fn incoming(&self, s: f64) -> Place {
-        let [stiffness, gap, lever, sliding] = self.zones[self.zone(s)].series.at(s);
-        Place { stiffness, gap, lever, sliding }
+    pub fn incoming(&self, s: f64) -> (Place, f64) {
+        let series = &self.zones[self.zone(s)].series;
+        let ([stiffness, gap, lever, sliding], [(_, slope)]) = (series.at(s), series.with_slopes(GAP, s));
+        (Place { stiffness, gap, lever, sliding }, slope)
     }
 
     /// Arm of the friction force over the driver's base radius, and sliding velocity in m/s.

@@ -241,6 +241,7 @@ fn between(from: &MeshStation, to: &MeshStation, part: f64) -> MeshStation {
         load_share: mix(from.load_share, to.load_share),
         transmission_error: mix(from.transmission_error, to.transmission_error),
         sliding_velocity: mix(from.sliding_velocity, to.sliding_velocity),
+        normal_velocity: mix(from.normal_velocity, to.normal_velocity),
         gap: mix(from.gap, to.gap),
         pair_compliance: mix(from.pair_compliance, to.pair_compliance),
         time: from.time.zip(to.time).map(|(from, to)| mix(from, to)),

@@ -49,7 +49,9 @@ pub struct MeshStation {
     pub load_share: f64,
     /// Displacement of the driver ahead along the line of action, in m.
     pub transmission_error: f64,
-    /// Sliding velocity of the incoming pair, in m/s.
+    /// Approach velocity of the incoming pair without load, −dS/dt, in m/s; below 0 where tip and flank part.
+    pub normal_velocity: f64,
+    /// Its sliding velocity, in m/s.
     pub sliding_velocity: f64,
     /// Its gap S without deviation and load, reliefs included, in m.
     pub gap: f64,
@@ -76,13 +78,14 @@ impl MeshStation {
 
     /// The station at which the incoming pair stands `s` after E.
     pub(super) fn at(mesh: &Mesh, s: f64, force: f64, total: f64, displacement: f64, time: Option<f64>) -> MeshStation {
-        let own = mesh.incoming(s);
+        let (own, slope) = mesh.incoming(s);
         MeshStation {
             roll_angle_driver: 0.0 - s / mesh.base_radii.0,
             roll_angle_driven: 0.0 - s / mesh.base_radii.1,
             force,
             load_share: if total > 0.0 { force / total } else { 0.0 },
             transmission_error: displacement,
+            normal_velocity: 0.0 - slope * mesh.speed,
             sliding_velocity: own.sliding,
             gap: own.gap,
             pair_compliance: mesh.width / own.stiffness,

@@ -49,7 +49,7 @@ pub static COLUMNS: [Column; 13] = [
     column!("roll_angle_driven", "u", "rad", "deg", 5, EVERY, |row| Some(row.both(|s| s.roll_angle_driven, |s| s.roll_angle_driven))),
     column!("time", "t", "s", "us", 5, DYNAMIC, |row| row.load()?.time),
     column!("radius_driver", "O1J", "m", "mm", 6, CLOSED_FORM, |row| Some(row.impact()?.radius_driver)),
-    column!("normal_velocity", "ΔV_n", "m/s", "m/s", 5, CLOSED_FORM, |row| Some(row.impact()?.normal_velocity)),
+    column!("normal_velocity", "ΔV_n", "m/s", "m/s", 5, EVERY, |row| Some(row.both(|s| s.normal_velocity, |s| s.normal_velocity))),
     column!("sliding_velocity", "ΔV_τ", "m/s", "m/s", 5, EVERY, |row| Some(row.both(|s| s.sliding_velocity, |s| s.sliding_velocity))),
     column!("impact_force", "F_S", "N", "N", 5, CLOSED_FORM, |row| Some(row.impact()?.impact_force)),
     column!("force", "F", "N", "N", 5, SHARING, |row| Some(row.load()?.force)),

@@ -4,6 +4,8 @@ use crate::report::graphs::GRAPHS;
 
 /// Ends of an axis that begins at 0, times a power of ten.
 const ENDS: [f64; 9] = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
+/// So many more intervals always give two ticks.
+const CLOSER: u16 = 4;
 /// Steps from tick to tick, times a power of ten.
 const STEPS: [f64; 4] = [1.0, 2.0, 5.0, 10.0];
 
@@ -119,14 +121,17 @@ impl Span {
         if self.covers(values) && !self.is_empty() { self } else { self.fitted(values) }
     }
 
-    /// Ticks at multiples of the least step of 1, 2 or 5 that gives no more intervals than this.
+    /// Ticks at multiples of the least step of 1, 2 or 5 that gives no more intervals than this; but never less than two
+    /// ticks, without which an axis has no scale.
     #[must_use]
     pub fn ticks(self, most: u16) -> Ticks {
         let greatest = self.from.abs().max(self.to.abs());
-        let step = round_up(self.length() / f64::from(most.max(1)), &STEPS);
-        if self.is_empty() || !(1e-250..1e250).contains(&greatest) || step < 1e-12 * greatest {
+        let intervals = (most.max(1)..=most.max(1) + CLOSER).map(|most| self.length() / f64::from(most));
+        let mut steps = intervals.map(|step| round_up(step, &STEPS));
+        let step = steps.find(|step| (self.to / step + 1e-6).floor() - (self.from / step - 1e-6).ceil() >= 1.0);
+        let Some(step) = step.filter(|step| (1e-250..1e250).contains(&greatest) && *step > 1e-12 * greatest) else {
             return Ticks::default();
-        }
+        };
         let power = power(greatest);
         let unit = 10f64.powi(power);
         let decimals = (-(step / unit * (1.0 + 1e-9)).log10().floor()).max(0.0) as usize;
@@ -262,7 +267,7 @@ mod tests {
             let span = Span::new(from * 1e-9 * size, (from * 1e-9 + length) * size);
             let ticks = span.ticks(most);
             let labels: Vec<_> = ticks.labelled.iter().map(|(_, label)| label.clone()).collect();
-            prop_assert!(labels.len() <= usize::from(most) + 1);
+            prop_assert!((2..=usize::from(most).max(4) + 1).contains(&labels.len()), "{labels:?}");
             let mut distinct = labels.clone();
             distinct.dedup();
             prop_assert_eq!(&labels, &distinct);

@@ -2,11 +2,12 @@
 
 use ratatui::layout::Position;
 
-use super::{Effect, cursor, panes, teeth};
+use super::{Effect, chart, cursor, panes, teeth};
 use crate::tui::app::App;
 use crate::tui::pane::Pane;
 use crate::tui::prompt::Prompt;
-use crate::tui::view::{self, chart, explain, form, popup, results};
+use crate::tui::view::chart::angle_at;
+use crate::tui::view::{self, explain, form, popup, results};
 
 /// A press: into a field, onto a result, onto the chart.
 pub(super) fn click(app: &mut App, at: Position) -> Vec<Effect> {
@@ -26,7 +27,7 @@ pub(super) fn click(app: &mut App, at: Position) -> Vec<Effect> {
             }
         }
         Pane::Chart => {
-            if let Some(angle) = chart::angle_at(app, area, at) {
+            if let Some(angle) = angle_at(app, area, at) {
                 app.cursor = Some(angle);
                 return cursor::stop(app);
             }
@@ -47,6 +48,7 @@ pub(super) fn wheel(app: &mut App, at: Position, by: isize) {
         None => match pane_at(app, at) {
             Some(Pane::Form) => app.tab.form_top = form::scrolled(app, by),
             Some(Pane::Results) => app.tab.results_top = results::scrolled(app, by),
+            Some(Pane::Chart) => chart::zoom(app, if by < 0 { 1 } else { -1 }),
             Some(Pane::Teeth) => teeth::zoom(app, if by < 0 { 1 } else { -1 }),
             _ => (),
         },

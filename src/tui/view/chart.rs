@@ -20,7 +20,7 @@ use crate::tui::pane::Pane;
 use crate::tui::scale::{Scale, Span};
 
 use axes::{Axes, Ruler};
-use curves::{Curve, Whose, curves};
+use curves::{Curve, Whose, curves, way};
 
 pub use curves::{first_contact, last_contact};
 pub use readout::readout;
@@ -94,16 +94,16 @@ pub fn angle_at(app: &App, area: Rect, at: Position) -> Option<f64> {
 #[must_use]
 pub fn fitted(app: &App) -> Scale {
     let mut scale = app.scale;
-    let Some(answer) = &app.answer else { return scale };
-    for graph in shown(app, plan(app.size, app.panes).chart) {
+    let area = plan(app.size, app.panes).chart;
+    let Some(answer) = app.answer.as_ref().filter(|_| !area.is_empty()) else { return scale };
+    for graph in shown(app, area) {
         let curves = curves(app, &GRAPHS[graph]);
         let values = curves.iter().map(Curve::upright).fold(Span::NONE, Span::and);
         scale.upright[graph] = scale.upright[graph].fitted(values);
-        let of_answer = curves.iter().filter(|curve| curve.whose != Whose::Pinned);
-        let way = of_answer.map(Curve::across).fold(Span::NONE, Span::and);
-        // While a rung is to come, its axis waits for it.
-        scale.across = if answer.pending.is_some() { scale.across.grown(way) } else { scale.across.fitted(way) };
     }
+    // While a rung is to come, its axis waits for it.
+    let way = way(answer);
+    scale.across = if answer.pending.is_some() { scale.across.grown(way) } else { scale.across.fitted(way) };
     if let Some(first) = answer.of(answer.active).and_then(first_contact).map(f64::to_degrees).filter(|first| *first > 0.0) {
         scale.strike = scale.strike.fitted(Span::new(-first, AFTER_E * first));
     }

@@ -118,8 +118,12 @@ impl Axes {
         for y in plot.top()..axis {
             buffer.set_string(left, y, "│", Style::new());
         }
+        let mut last = None;
         for (value, label) in &self.beside.labelled {
             let (y, room) = (self.row(*value), label.len() as u16 + 1);
+            if last.replace(y) == Some(y) {
+                continue;
+            }
             buffer.set_string(left.saturating_sub(room), y, label, Style::new());
             buffer.set_string(left, y, "┤", Style::new());
         }

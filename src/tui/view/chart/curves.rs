@@ -91,12 +91,6 @@ impl Curve {
         self.points().fold(Span::NONE, |span, (_, y)| span.with(y))
     }
 
-    /// Where it begins and where it ends.
-    #[must_use]
-    pub fn across(&self) -> Span {
-        self.points().fold(Span::NONE, |span, (x, _)| span.with(x))
-    }
-
     /// Its value at an angle, between the stations on either side; after a jump, where there is one.
     #[must_use]
     pub fn at(&self, x: f64) -> Option<f64> {
@@ -130,6 +124,17 @@ pub fn last_contact(solution: &Solution) -> Option<f64> {
         Some(Row::Load(station)) => Some(station.roll_angle_driver),
         _ => None,
     }
+}
+
+/// From the first station of any rung to the last, in deg after E.
+#[must_use]
+pub fn way(answer: &Answer) -> Span {
+    let solutions = answer.rungs.iter().filter_map(|(_, found)| found.as_ref().ok());
+    let ends = solutions.flat_map(|solution| {
+        let rows = rows(solution);
+        [rows.first().copied().map(angle), rows.last().copied().map(angle)]
+    });
+    ends.flatten().fold(Span::NONE, Span::with)
 }
 
 fn angle(row: Row) -> f64 {
@@ -193,6 +198,6 @@ mod tests {
         for (x, y) in [(-1.0, Some(4.0)), (-0.5, Some(3.0)), (0.0, Some(8.0)), (1.0, Some(0.0)), (1.1, None), (-1.1, None)] {
             assert_eq!(curve.at(x), y, "{x}");
         }
-        assert_eq!((curve.upright(), curve.across()), (Span::new(0.0, 8.0), Span::new(-1.0, 1.0)));
+        assert_eq!(curve.upright(), Span::new(0.0, 8.0));
     }
 }
