@@ -218,7 +218,7 @@ pub fn first_answer(request: &Request) -> Answer {
     whole.unwrap_or_else(|| at_once(&mut Evaluator::default(), request, begun))
 }
 
-/// Every rung's answer; none where `go_on`, which may show what stands at once, says no.
+/// The answers of the closed forms, of the rung of the case and of the load at rest below its inertia; none where `go_on`, which may show what stands at once, says no.
 fn solved(
     evaluator: &mut Evaluator,
     request: &Request,
@@ -233,13 +233,16 @@ fn solved(
     if matches!(found, Err(Refusal::Stopped)) {
         return None;
     }
-    let ran = found.as_ref().map_or(0, |solution| solution.ran.iter().count());
     // Where the program chose, its choice stands for it.
     let active = found.as_ref().map_or(rung, |solution| solution.rung);
     let mut answer = Answer { active, pending: None, ..first.clone() };
     answer.rungs.retain(|(known, _)| *known != active);
+    if active == Rung::Dynamic {
+        let shared = evaluator.solve(&request.case, &request.inputs, Rung::Static, request.stages, &|_| true);
+        answer.rungs.push((Rung::Static, shared));
+    }
     answer.rungs.push((active, found));
-    answer.cost = Cost { stages: first.cost.stages + ran, micros: micros(begun) };
+    answer.cost = Cost { stages: stages_run(&answer.rungs), micros: micros(begun) };
     answer.notes = answer.of(active).map(|solution| model::notes(&request.inputs, solution)).unwrap_or_default();
     Some(answer)
 }
@@ -252,19 +255,22 @@ fn at_once(evaluator: &mut Evaluator, request: &Request, begun: Instant) -> Answ
         .map(|rung| (rung, evaluator.solve(&request.case, &request.inputs, rung, request.stages, &|_| true)))
         .collect();
     let pending = Some(asked).filter(|rung| !Rung::CLOSED_FORM.contains(rung));
-    let ran = rungs.iter().filter_map(|(_, found)| found.as_ref().ok()).map(|solution| solution.ran.iter().count());
     let mut answer = Answer {
         serial: request.serial,
         stages: request.stages,
         inputs: request.inputs.clone(),
         active: if pending.is_some() { Rung::Exact } else { asked },
         pending,
-        cost: Cost { stages: ran.sum(), micros: micros(begun) },
+        cost: Cost { stages: stages_run(&rungs), micros: micros(begun) },
         rungs,
         notes: Vec::new(),
     };
     answer.notes = answer.of(answer.active).map(|solution| model::notes(&request.inputs, solution)).unwrap_or_default();
     answer
+}
+
+fn stages_run(rungs: &[(Rung, Result<Solution, Refusal>)]) -> usize {
+    rungs.iter().filter_map(|(_, found)| found.as_ref().ok()).map(|solution| solution.ran.iter().count()).sum()
 }
 
 fn micros(begun: Instant) -> u64 {

@@ -25,6 +25,7 @@ pub fn marker(app: &App, whose: Whose) -> Marker {
         Whose::Active(_) if plain => Marker::Custom('*'),
         Whose::Active(_) => app.settings.marker,
         Whose::Other(Rung::Paper) => Marker::Custom(if plain { '.' } else { '·' }),
+        Whose::Other(Rung::Static) => Marker::Custom(if plain { 'x' } else { '×' }),
         Whose::Other(_) => Marker::Custom(if plain { 'o' } else { '∘' }),
         Whose::Pinned => Marker::Custom(if plain { '+' } else { '•' }),
         Whose::Bound(_) => Marker::Custom(if plain { '-' } else { '╌' }),

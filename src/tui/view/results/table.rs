@@ -91,9 +91,11 @@ impl Columns {
     }
 }
 
-// The active rung, and of the others as many as have room: the nearest below it first.
+// The active rung, and of the others as many as have room: the nearest below it first. What `static` says stands among
+// what `dynamic` says.
 fn rungs(answer: &Answer, room: usize) -> Vec<Rung> {
-    let mut rungs: Vec<Rung> = answer.rungs.iter().map(|(rung, _)| *rung).collect();
+    let said = |rung: Rung| rung == Rung::Static && answer.active == Rung::Dynamic;
+    let mut rungs: Vec<Rung> = answer.rungs.iter().map(|(rung, _)| *rung).filter(|&rung| !said(rung)).collect();
     while rungs.len() > room.max(1) {
         let first = rungs.iter().position(|rung| *rung != answer.active).unwrap_or(0);
         rungs.remove(first);
