@@ -117,6 +117,7 @@ pub enum Command {
     Explain,
     Measure,
     TakeSetting,
+    Notes,
     NextReason,
     PreviousReason,
     PinBaseline,

@@ -65,6 +65,7 @@ pub static BINDINGS: &[Binding] = &[
     told(Place::FIELD, &[letter('>')], Do::Step(10), "The value ten steps up."),
     told(Place::FIELD, &[letter('<')], Do::Step(-10), "The value ten steps down."),
     shown(Place::FIELD, &[letter('m')], Do::Material, "material", "Give this gear, or both, a material of the catalogue."),
+    shown(Place::RESULTS, &[letter('n')], Do::Notes, "notes", "The outcome, the gauges and every note of the model in full."),
     shown(Place::RESULTS, &[letter('l')], Do::Limit, "limit", "Hold a result to a limit: the marked one, or one of a list."),
     shown(Place::OUTSIDE, &[letter(':')], Do::Palette, "commands", "Every command by name: type a few letters, Enter runs it."),
     shown(Place::OUTSIDE, &[letter('q')], Do::Quit, "quit", "Quit; asks when something is unsaved."),

@@ -7,7 +7,7 @@ use crate::report;
 use crate::tui::app::App;
 use crate::tui::errands::{Asked, Errand, Explained};
 use crate::tui::explanation::Explanation;
-use crate::tui::prompt::Prompt;
+use crate::tui::prompt::{Page, Prompt};
 use crate::tui::view::{explain, results};
 
 /// Open the page on the marked result.
@@ -26,6 +26,16 @@ pub(super) fn explain(app: &mut App) -> Vec<Effect> {
     let value = value.map(|value| report::shown_in(quantity, value, app.settings.units));
     app.prompts.push(Prompt::Explain(Explanation::new(quantity, app.name(), value)));
     vec![Effect::Errand(Errand::Explain(Box::new(Asked { quantity, case: app.case.clone(), inputs })))]
+}
+
+/// Open a page with all that stands above and below the results, however little room they have.
+pub(super) fn notes(app: &mut App) {
+    let lines = results::told(app);
+    if lines.is_empty() {
+        app.complain("there are no results to tell of");
+    } else {
+        app.prompts.push(Prompt::Read(Page::new("Outcome, gauges, notes", lines)));
+    }
 }
 
 /// The page has been written.

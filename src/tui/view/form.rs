@@ -186,7 +186,9 @@ fn draw_limit(app: &App, index: usize, limit: &Limit, line: Rect, buffer: &mut B
     let offset = draw_name(&symbol, rows::label(&app.case, index), name, style, buffer);
     let room = line.width.saturating_sub(offset);
     let (word, of_word) = standing(app, limit);
-    let word = text::cut(&word, usize::from(room) / 2);
+    let left = usize::from(room).saturating_sub(limit.text.width() + 2).max(usize::from(room) / 2);
+    let alone = word.split(' ').next().unwrap_or_default();
+    let word = if word.width() <= left { word } else { text::cut(alone, left) };
     let width = word.width() as u16;
     buffer.set_string(line.right() - width, line.y, &word, of_word);
     let value = Rect { x: line.x + offset, width: room.saturating_sub(width + u16::from(width > 0)), ..line };

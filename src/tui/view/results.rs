@@ -22,6 +22,12 @@ const ENOUGH_ROWS: usize = 8;
 /// So many at least, whatever stands above them.
 const LEAST_ROWS: usize = 2;
 
+/// How far the results may be off, in words, and in as few letters as can be read.
+struct Gauge {
+    words: String,
+    short: String,
+}
+
 /// What stands in the pane, from its top to its bottom.
 struct Parts {
     /// The refusal, the outcome, the gauges.
@@ -100,6 +106,17 @@ pub fn sentence(app: &App, solution: &Solution) -> String {
     if app.look.ascii { sentence.replace('Δ', &symbol("Δ", true)) } else { sentence }
 }
 
+/// The outcome, the gauges and the notes in full, a line each.
+#[must_use]
+pub fn told(app: &App) -> Vec<String> {
+    let Some(answer) = &app.answer else { return Vec::new() };
+    let outcome = answer.of(answer.active).map(|solution| sentence(app, solution));
+    let gauges = gauges(app, answer).into_iter().map(|gauge| gauge.words + ".");
+    let notes = answer.notes.iter().map(|note| format!("* {}.", note.message));
+    let lines = outcome.into_iter().chain(gauges).chain(notes);
+    lines.flat_map(|line| [line, String::new()]).collect()
+}
+
 fn draw_lines(lines: &[Line<'static>], area: Rect, buffer: &mut Buffer) {
     for (line, y) in lines.iter().zip(area.top()..area.bottom()) {
         line.render(Rect { y, height: 1, ..area }, buffer);
@@ -133,7 +150,7 @@ fn parts(app: &App, area: Rect) -> Parts {
     let (mut gauges, mut notes) = (Vec::new(), Vec::new());
     if let Some(answer) = &app.answer {
         head.extend(outcome(app, answer, width));
-        gauges = self::gauges(app, answer);
+        gauges = self::gauges(app, answer).iter().map(|gauge| gauge.fitting(width)).collect();
         notes = answer.notes.iter().map(|note| format!("* {}", note.message)).collect();
     }
     let whole = |texts: &[String]| texts.iter().flat_map(|text| text::wrap(text, width)).collect::<Vec<_>>();
@@ -178,29 +195,40 @@ fn outcome(app: &App, answer: &Answer, width: usize) -> Vec<Line<'static>> {
     lines.into_iter().map(|line| Line::styled(line, style)).collect()
 }
 
-fn gauges(app: &App, answer: &Answer) -> Vec<String> {
+impl Gauge {
+    fn fitting(&self, width: usize) -> String {
+        if self.words.chars().count() <= width { self.words.clone() } else { self.short.clone() }
+    }
+}
+
+fn gauges(app: &App, answer: &Answer) -> Vec<Gauge> {
     let band = answer.of(answer.active).and_then(|solution| band(app, solution));
     band.into_iter().chain(ratios(answer, app.look.ascii)).collect()
 }
 
 // How far the force depends on the choice of stiffness model.
-fn band(app: &App, solution: &Solution) -> Option<String> {
+fn band(app: &App, solution: &Solution) -> Option<Gauge> {
     let (band, force) = (solution.band?, solution.impact?.force);
     let percent = |end: f64| 100.0 * (end / force - 1.0) + 0.0;
     let (low, high) =
         (shown(app, Quantity::find("impact_force_low")?, solution)?.number, quantity_text(app, "impact_force_high", solution)?);
-    Some(format!("stiffness band {low}..{high} ({:+.1}..{:+.1} %)", percent(band.low), percent(band.high)))
+    let range = format!("{low}..{high} ({:+.1}..{:+.1} %)", percent(band.low), percent(band.high));
+    Some(Gauge { words: format!("the stiffness models in range give F_S {range}"), short: format!("band {range}") })
 }
 
 // How far the printed position is off, where both rungs find one.
-fn ratios(answer: &Answer, ascii: bool) -> Option<String> {
+fn ratios(answer: &Answer, ascii: bool) -> Option<Gauge> {
     let (paper, exact) = (answer.of(Rung::Paper)?, answer.of(Rung::Exact)?);
     let ratio = |key| {
         let quantity = Quantity::find(key)?;
         let ratio = (quantity.value)(exact)? / (quantity.value)(paper)?;
-        ratio.is_finite().then(|| format!("{} {}x", symbol(quantity.symbol, ascii), rounded(ratio)))
+        ratio.is_finite().then(|| (symbol(quantity.symbol, ascii), rounded(ratio)))
     };
-    Some(format!("exact/paper: {}, {}", ratio("approach_angle_driven")?, ratio("impact_force")?))
+    let ((u, times), (force, more)) = (ratio("approach_angle_driven")?, ratio("impact_force")?);
+    Some(Gauge {
+        words: format!("the exact {u} is {times} times that of the printed equations, {force} {more} times"),
+        short: format!("exact/paper: {u} {times}x, {force} {more}x"),
+    })
 }
 
 fn rounded(ratio: f64) -> String {

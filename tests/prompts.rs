@@ -1,0 +1,100 @@
+//! What lies over the panes and stands around them, as a person sees it: at 80x24, at 140x45 and in ASCII.
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+#![cfg(feature = "tui")]
+
+mod desk;
+
+use desk::{Desk, LARGE, SMALL, TABLE_1, without_folder};
+use insta::assert_snapshot;
+use tipstrike::case::Change;
+use tipstrike::tui::actions::{Action, Next};
+use tipstrike::tui::app::Progress;
+use tipstrike::tui::prompt::{Prompt, Question};
+use tipstrike::tui::recovery::{Access, Claim, Offer};
+use tipstrike::tui::store::SaveFault;
+use tipstrike::tui::theme::{Look, MONO};
+
+const HOLDER: &str = "process 4711 on drawing-office, since 12 min";
+
+/// What is done to come to a screen.
+type Way = fn(&mut Desk);
+
+const SCREENS: &[(&str, Way)] = &[
+    ("materials", |desk| {
+        desk.keys(&["Esc", "l", "m", "18cr"]);
+    }),
+    ("limits_to_pick", |desk| {
+        desk.keys(&["Alt-L", "dyn"]);
+    }),
+    ("limits", |desk| {
+        desk.keys(&["Esc", "2", "jjj", "l", "Ctrl-U", "2000 N"]);
+    }),
+    ("inch_units", |desk| {
+        desk.keys(&[":", "Backspace", "Esc", ":", "units", "Enter", "2", "jjj"]);
+    }),
+    ("converted", |desk| {
+        desk.fill("operation.power", "20 hp");
+    }),
+    ("progress", |desk| desk.act(Action::Progress(Some(Progress { what: "trade".to_owned(), part: 0.37 })))),
+    ("changed_on_disk", |desk| {
+        desk.fill("operation.speed", "1500 rpm");
+        desk.write("case.toml", &TABLE_1.replace("2000 rpm", "2100 rpm").replace("\"5 mm\"", "\"6 mm\""));
+        desk.keys(&["Ctrl-S"]);
+    }),
+    ("exists", |desk| {
+        let taken = desk.write("taken.toml", TABLE_1);
+        desk.keys(&["F2", "Ctrl-U", desk::name(&taken), "Enter"]);
+    }),
+    ("save_as", |desk| {
+        desk.keys(&["F2", "Ctrl-U", "~/mine.toml"]);
+    }),
+    ("read_only", |desk| {
+        let claim = Claim::of(desk.app.tab.id, Access::Held(HOLDER.to_owned()));
+        desk.act(Action::Claimed(Box::new(claim)));
+        desk.fill("operation.speed", "1500 rpm");
+    }),
+    ("held", |desk| {
+        let path = desk.path("case.toml");
+        desk.act(Action::Saved(path, Next::Stay, Err(SaveFault::Held(HOLDER.to_owned()))));
+    }),
+    ("recovery", |desk| {
+        let change = |key: &str, from: &str, to: &str| Change {
+            key: key.to_owned(),
+            from: Some(from.to_owned()),
+            to: Some(to.to_owned()),
+        };
+        let changes = vec![change("operation.speed", "2000 rpm", "1500 rpm"), change("driven.tip_relief", "0 um", "48 um")];
+        let offer = Offer { journal: desk.path("journal"), age: "3 min".to_owned(), changes, is_file_changed: true };
+        desk.app.prompts.push(Prompt::Ask(Question::recover("case.toml", offer)));
+    }),
+    ("quit", |desk| {
+        desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-Q"]);
+    }),
+    ("help", |desk| {
+        desk.keys(&["F1"]);
+    }),
+    ("notes", |desk| {
+        desk.keys(&["Ctrl-T", "Esc", "2", "n"]);
+    }),
+    ("results_alone", |desk| {
+        desk.keys(&["Ctrl-T", "Esc", "2", "z"]);
+    }),
+    ("refused", |desk| {
+        desk.fill("driven.addendum", "1.9");
+    }),
+    ("in_place_of", |desk| desk.app.tab.in_place_of = Some("gone.toml".into())),
+];
+
+#[test]
+fn the_screens() {
+    for (name, way) in SCREENS {
+        for (size, look) in [("80x24", Look::FULL), ("140x45", Look::FULL), ("ascii", Look { theme: &MONO, ascii: true })] {
+            let mut desk = Desk::on(if size == "140x45" { LARGE } else { SMALL }, "case.toml", TABLE_1);
+            desk.app.look = look;
+            way(&mut desk);
+            let screen = without_folder(&desk);
+            assert!(size != "ascii" || screen.is_ascii(), "{name}: {screen}");
+            assert_snapshot!(format!("{name}_{size}"), screen);
+        }
+    }
+}
