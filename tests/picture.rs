@@ -1,4 +1,4 @@
-//! The README's picture is what the workbench shows: `TIPSTRIKE_REGENERATE=1 cargo test --test picture` draws it anew.
+//! The README's pictures are what the workbench shows: `TIPSTRIKE_REGENERATE=1 cargo test --test picture` draws them anew.
 #![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
 #![cfg(feature = "tui")]
 
@@ -6,34 +6,63 @@ mod desk;
 
 use std::fmt::Write;
 
-use desk::Desk;
+use desk::{Desk, LARGE};
 use ratatui::buffer::{Buffer, Cell};
-use ratatui::layout::Size;
 use ratatui::style::{Color, Modifier};
+use tipstrike::case::{Document, EXAMPLES};
+use tipstrike::tui::app::App;
+use tipstrike::tui::theme::Look;
 
-const SIZE: Size = Size { width: 110, height: 36 };
 const CELL: (f64, f64) = (8.4, 18.0);
 const MARGIN: f64 = 12.0;
 
+/// The name of a picture, its title, and the keys to its screen.
+const PICTURES: [(&str, &str, &[&str]); 3] = [
+    ("workbench", "The tipstrike workbench on Table 1", &[]),
+    ("explanation", "The impact force explained", &["Esc", "2", "jjj", "Enter"]),
+    ("browser", "Opening a case", &["Ctrl-O", "Up", "Up", "Up"]),
+];
+
 #[test]
-fn the_picture_of_the_readme() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/workbench.svg");
-    let picture = picture(&Desk::new(SIZE).buffer(SIZE));
-    if std::env::var_os("TIPSTRIKE_REGENERATE").is_some() {
-        std::fs::write(path, &picture).expect("the picture is written");
+fn the_pictures_of_the_readme() {
+    for (name, title, keys) in PICTURES {
+        let path = format!("{}/assets/{name}.svg", env!("CARGO_MANIFEST_DIR"));
+        let picture = taken(title, keys);
+        if std::env::var_os("TIPSTRIKE_REGENERATE").is_some() {
+            std::fs::write(&path, &picture).expect("the picture is written");
+        }
+        let kept = std::fs::read_to_string(&path).unwrap_or_default();
+        assert!(kept == picture, "assets/{name}.svg is not what the workbench shows: draw it anew with TIPSTRIKE_REGENERATE=1");
     }
-    let kept = std::fs::read_to_string(path).unwrap_or_default();
-    assert!(kept == picture, "assets/workbench.svg is not what the workbench shows: draw it anew with TIPSTRIKE_REGENERATE=1");
+}
+
+/// The picture of a screen, over a folder with the examples.
+fn taken(title: &str, keys: &[&str]) -> String {
+    let mut desk = Desk::new(LARGE);
+    for example in EXAMPLES {
+        desk.write(&format!("{}.toml", example.name), example.text);
+    }
+    desk.recents = vec![desk.path("zhou-chen-2014.toml"), desk.path("gone.toml")];
+    let path = desk.path("zhou-chen-2014.toml");
+    desk.app = App::new(Document::read(&path).expect("a good case"), Some(path), Look::FULL, LARGE);
+    desk.keys(keys);
+    // The folder of a test has another name each time.
+    let folder = desk.folder.path().display().to_string();
+    let last = desk.folder.path().file_name().expect("a name").to_string_lossy().into_owned();
+    let stand_in = |name: &str, text: &str| format!("{name:<0$}", text.chars().count());
+    let picture = picture(title, &desk.buffer(LARGE));
+    picture.replace(&folder, &stand_in("/home/me/gears", &folder)).replace(&last, &stand_in("gears", &last))
 }
 
 /// A screen as SVG: a text a row, cut where the style changes, each piece at its column.
-fn picture(buffer: &Buffer) -> String {
-    let (width, height) = (f64::from(SIZE.width) * CELL.0 + 2.0 * MARGIN, f64::from(SIZE.height) * CELL.1 + 2.0 * MARGIN);
+fn picture(title: &str, buffer: &Buffer) -> String {
+    let (columns, rows) = (buffer.area.width, buffer.area.height);
+    let (width, height) = (f64::from(columns) * CELL.0 + 2.0 * MARGIN, f64::from(rows) * CELL.1 + 2.0 * MARGIN);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.1} {height:.1}\" font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\" font-size=\"14\">\n\
-         <title>The tipstrike workbench on Table 1</title>\n<rect width=\"100%\" height=\"100%\" rx=\"8\" fill=\"#1b1f24\"/>\n"
+         <title>{title}</title>\n<rect width=\"100%\" height=\"100%\" rx=\"8\" fill=\"#1b1f24\"/>\n"
     );
-    for (y, row) in buffer.content.chunks(usize::from(SIZE.width)).enumerate() {
+    for (y, row) in buffer.content.chunks(usize::from(columns)).enumerate() {
         let mut from = 0;
         for piece in row.chunk_by(|a, b| look(a) == look(b)) {
             add(&mut svg, piece, from, y);

@@ -59,7 +59,7 @@ pub static BINDINGS: &[Binding] = &[
     listed(Place::TEETH, &[letter('0')], Do::TeethAnew, "teeth anew", "The teeth around the strike, as at first."),
     shown(Place::TEETH, &[letter('v')], Do::TeethCentre, "view", "The teeth around the strike, around the pitch point, or the whole pair."),
     listed(Place::TEETH, &[letter('x')], Do::TeethGap, "gap", "Draw the gap between the teeth wider than it is, by the factor that is told, or as it is."),
-    shown(Place::FIELD, &[letter('/')], Do::SearchField, "search", "Find a field by its name, symbol, key or a word of its help."),
+    shown(Place::OUTSIDE, &[letter('/')], Do::SearchField, "search", "Find a field by its name, symbol, key or a word of its help."),
     told(Place::FIELD, &[letter('+'), letter('=')], Do::Step(1), "The value one step up: its last digit moves."),
     told(Place::FIELD, &[letter('-')], Do::Step(-1), "The value one step down."),
     told(Place::FIELD, &[letter('>')], Do::Step(10), "The value ten steps up."),
