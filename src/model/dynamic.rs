@@ -35,7 +35,7 @@ pub struct Dynamic {
     pub contact_lost: bool,
     /// Work of friction on the incoming tooth, in J; where the case gives a friction coefficient.
     pub friction_work: Option<f64>,
-    /// From the first contact through E to the last.
+    /// From the first contact through E to the last, its peaks and valleys among them.
     pub stations: Vec<MeshStation>,
     /// What it cost.
     pub effort: Effort,

@@ -131,3 +131,14 @@ impl Forces<'_> {
         (0..self.pairs()).filter(|&pair| self.touches(pair)).map(power).sum()
     }
 }
+
+#[test]
+fn no_peak_falls_between_two_stations() {
+    for stations in [Some(8), Some(64), None] {
+        let inputs = Inputs { stations, base_pitch_deviation: 30e-6, rung: Rung::Dynamic, ..standard_pair(20, 20, 5e-3) };
+        let dynamic = solve(&inputs, Stages::EVERY).unwrap().dynamic.unwrap();
+        let highest = dynamic.stations.iter().map(|station| station.force).fold(0.0, f64::max);
+        assert!((highest / dynamic.peak_force - 1.0).abs() < 2e-3, "{highest} {}", dynamic.peak_force);
+        assert!(dynamic.stations.is_sorted_by(|one, other| one.time < other.time));
+    }
+}

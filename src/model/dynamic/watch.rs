@@ -155,7 +155,8 @@ impl Watch {
         last.filter(|_| falls)
     }
 
-    /// Stations from the first contact to E and from there to the last.
+    /// Stations from the first contact to E and from there to the last, and one wherever the force turns, so that none of
+    /// its peaks falls between two of them.
     fn stations(&self, motion: &Motion<'_>, first: f64, last: f64, peak: f64, spacing: Spacing) -> Vec<MeshStation> {
         let found = |from: f64, to: f64| {
             spacing.stations(from, to, peak, |t| {
@@ -163,7 +164,24 @@ impl Watch {
                 (station.map_or(f64::NAN, |station| station.force), station)
             })
         };
-        MeshStation::through_start(first, last, |from, to| found(from, to).into_iter().flatten().collect())
+        let stations = MeshStation::through_start(first, last, |from, to| found(from, to).into_iter().flatten().collect());
+        self.with_turns(motion, stations)
+    }
+
+    /// The stations and those where the force neither grows nor falls, but for what stands beside one of them anyhow.
+    fn with_turns(&self, motion: &Motion<'_>, mut stations: Vec<MeshStation>) -> Vec<MeshStation> {
+        const BESIDE: f64 = 0.02;
+        let turns = self.carried(motion).filter(|(_, ends)| (ends.start.1 > 0.0) != (ends.end.1 > 0.0));
+        for turn in turns.map(|(record, _)| self.turning_point(motion, record).0) {
+            let time = |at: usize| stations.get(at).and_then(|station| station.time);
+            let after = stations.partition_point(|station| station.time.is_some_and(|time| time < turn));
+            let ends = after.checked_sub(1).and_then(time).zip(time(after));
+            let is_apart = |(from, to): (f64, f64)| (turn - from).min(to - turn) > BESIDE * (to - from);
+            if ends.is_some_and(is_apart) {
+                stations.splice(after..after, self.station(motion, turn));
+            }
+        }
+        stations
     }
 
     fn station(&self, motion: &Motion<'_>, t: f64) -> Option<MeshStation> {
