@@ -143,7 +143,7 @@ fn panels(app: &App, area: Rect) -> Vec<(usize, Axes)> {
 }
 
 fn draw_panel(app: &App, graph: &Graph, axes: &Axes, window: Span, area: Rect, buffer: &mut Buffer) {
-    let curves = curves(app, graph);
+    let curves = curves::apart(curves(app, graph));
     let lacks = lack(app, graph, &curves);
     if axes.plot.is_empty() || curves.is_empty() || window.is_empty() {
         let y = if axes.plot.is_empty() { area.y + 1 } else { axes.plot.y + axes.plot.height / 2 };

@@ -13,6 +13,9 @@ use crate::tui::solver::Answer;
 /// An interval between stations is at most this many times as long as they are asked for; in a longer one some are left out.
 const LEFT_OUT: f64 = 1.5;
 
+/// Curves that differ by no more than this part of what is in sight lie on each other.
+const ALIKE: f64 = 2e-3;
+
 /// Whose curve it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Whose {
@@ -64,7 +67,33 @@ fn bound(answer: &Answer, graph: &Graph) -> Option<Curve> {
     Curve::with(graph, &answer.inputs, solution, Whose::Bound(symbol), |row| (bound.value)(solution, row))
 }
 
+/// The curves without what lies on the active one, where nothing would be seen but specks of it.
+#[must_use]
+pub fn apart(curves: Vec<Curve>) -> Vec<Curve> {
+    let Some(own) = curves.iter().find(|curve| matches!(curve.whose, Whose::Active(_))).cloned() else { return curves };
+    let alike = ALIKE * curves.iter().map(Curve::upright).fold(Span::NONE, Span::and).length();
+    let lies_on = |(x, y): Point| own.at(x).is_some_and(|value| (value - y).abs() <= alike);
+    let shown = curves.into_iter().map(|curve| match curve.whose {
+        Whose::Other(_) | Whose::Pinned => curve.without(lies_on),
+        Whose::Active(_) | Whose::Bound(_) => curve,
+    });
+    // Pinned results stand in the legend even where nothing of them differs.
+    shown.filter(|curve| curve.whose == Whose::Pinned || !curve.pieces.is_empty()).collect()
+}
+
 impl Curve {
+    // The points that are not hidden, and those beside them, so that the line leads to where it goes under.
+    fn without(self, is_hidden: impl Fn(Point) -> bool) -> Curve {
+        let pieces = self.pieces.iter().flat_map(|piece| {
+            let hidden: Vec<bool> = piece.iter().map(|point| is_hidden(*point)).collect();
+            let around = |at: usize| at.saturating_sub(1)..=(at + 1).min(piece.len() - 1);
+            let kept: Vec<usize> = (0..piece.len()).filter(|&at| around(at).any(|near| !hidden[near])).collect();
+            let runs = kept.chunk_by(|one, next| one + 1 == *next && !(hidden[*one] && hidden[*next]));
+            runs.map(|run| run.iter().map(|&at| piece[at]).collect()).collect::<Vec<Vec<Point>>>()
+        });
+        Curve { pieces: pieces.collect(), ..self }
+    }
+
     // None where the rung has no such column, or no station.
     fn of(graph: &Graph, inputs: &Inputs, solution: &Solution, whose: Whose) -> Option<Curve> {
         let column = graph.column(solution.rung)?;
@@ -189,6 +218,22 @@ mod tests {
         assert_eq!(pieces_of(&[(0.0, one), (1.0, None), (2.0, one)]).len(), 2);
         assert_eq!(pieces_of(&[(0.0, one), (1.0, Some(f64::NAN)), (2.0, one)]).len(), 2);
         assert_eq!(pieces_of(&[]), Vec::<Vec<Point>>::new());
+    }
+
+    #[test]
+    fn what_lies_on_the_active_curve_is_not_drawn_again() {
+        let column = &crate::report::stations::COLUMNS[6];
+        let curve = |whose, points: &[f64]| {
+            let points = points.iter().enumerate().map(|(at, y)| (at as f64, *y)).collect();
+            Curve { whose, column, pieces: vec![points] }
+        };
+        let own = curve(Whose::Active(Rung::Exact), &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
+        let same = curve(Whose::Other(Rung::Static), &[0.0, 1.0, 2.0, 3.0, 4.0]);
+        let other = curve(Whose::Other(Rung::Paper), &[9.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+        let shown = apart(vec![same, other, own]);
+        assert_eq!(shown.len(), 2);
+        assert_eq!(shown[0].pieces, [vec![(0.0, 9.0), (1.0, 1.0)], vec![(5.0, 5.0), (6.0, 6.0), (7.0, 7.0)]]);
+        assert_eq!(shown[1].pieces[0].len(), 6);
     }
 
     #[test]
