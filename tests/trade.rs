@@ -208,20 +208,22 @@ fn the_page_is_eighty_columns_wide() {
     }
 }
 
-/// Twice as many cycles or stations cost twice as many evaluations, but for what a run costs anyway.
+/// Twice as many cycles or stations cost twice as many evaluations, but for what a run costs anyway; cycles only as long as
+/// they differ.
 #[test]
 fn cost_grows_linearly_with_cycles_and_stations() {
-    let evaluations = |cycles, stations| {
-        let inputs =
-            Inputs { rung: Rung::Dynamic, warmup_cycles: cycles, stations: Some(stations), deflection: None, ..table_1() };
-        let solution = solve(&inputs, Stages::of(Stage::Dynamic)).expect("a solution");
+    let evaluations = |damping_ratio, cycles, stations| {
+        let inputs = Inputs { rung: Rung::Dynamic, warmup_cycles: cycles, stations: Some(stations), deflection: None, ..table_1() };
+        let solution = solve(&Inputs { damping_ratio, ..inputs }, Stages::of(Stage::Dynamic)).expect("a solution");
         solution.dynamic.expect("the rung").effort.evaluations as f64
     };
     let slope = |from: f64, to: f64, steps: f64| (to - from) / steps;
-    let (few, some, many) = (evaluations(20, 64), evaluations(40, 64), evaluations(160, 64));
+    let (few, some, many) = (evaluations(0.0, 20, 64), evaluations(0.0, 40, 64), evaluations(0.0, 160, 64));
     let ratio = slope(some, many, 120.0) / slope(few, some, 20.0);
     assert!((0.8..1.25).contains(&ratio), "a cycle costs {ratio} times as much later on: {few} {some} {many}");
-    let (few, some, many) = (evaluations(20, 64), evaluations(20, 128), evaluations(20, 1024));
+    let (few, many) = (evaluations(0.07, 20, 64), evaluations(0.07, 1000, 64));
+    assert!(many < 1.1 * few, "a cycle that repeats costs nothing: {few} {many}");
+    let (few, some, many) = (evaluations(0.07, 20, 64), evaluations(0.07, 20, 128), evaluations(0.07, 20, 1024));
     let ratio = slope(some, many, 896.0) / slope(few, some, 64.0);
     assert!((0.9..1.1).contains(&ratio), "a station costs {ratio} times as much later on: {few} {some} {many}");
 }

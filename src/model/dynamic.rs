@@ -1,7 +1,9 @@
 //! The rung `dynamic`: the shared load with inertia and damping, integrated from contact event to contact event.
 
 mod events;
+mod laps;
 mod motion;
+mod swing;
 #[cfg(test)]
 mod tests;
 mod watch;
@@ -15,6 +17,7 @@ use super::static_load;
 use super::stations::MeshStation;
 use crate::numeric::ode::{self, Point};
 use events::Event;
+use laps::Laps;
 use motion::{Forces, Motion, State, Touching, Window};
 use watch::Watch;
 
@@ -93,6 +96,7 @@ pub fn dynamic(mesh: &Mesh, settings: &Settings, go_on: &dyn Fn(f64) -> bool) ->
             return Err(Refusal::Stopped);
         }
         run.cross_window()?;
+        run.skip_what_repeats();
     }
     run.watch.finish(&motion, settings.spacing, Effort { evaluations: run.evaluations.get(), ..run.effort })
 }
@@ -111,6 +115,7 @@ struct Run<'a> {
     length: f64,
     /// The error that a step may have, in units of the state's scale.
     allowed: f64,
+    laps: Laps,
     watch: Watch,
     effort: Effort,
     evaluations: Cell<u64>,
@@ -139,6 +144,7 @@ impl<'a> Run<'a> {
             ahead: touching.map(|pair| pair.ahead).collect(),
             borders,
             length: motion.longest_step(),
+            laps: Laps::new(start, tolerance),
             allowed: SHARE_OF_A_STEP * tolerance,
             watch: Watch::default(),
             effort: Effort::default(),
@@ -169,6 +175,21 @@ impl<'a> Run<'a> {
         }
         self.ahead = window.ahead(touching);
         Ok(())
+    }
+
+    /// Once a base pitch of the warm-up is as the one before, the others are too: go on where the last of them ends.
+    fn skip_what_repeats(&mut self) {
+        let (mesh, s) = (self.motion.mesh, self.borders[self.next - 1]);
+        if !self.laps.repeats(self.motion, s, &self.y, &self.ahead) {
+            return;
+        }
+        let pitches = ((mesh.ends().0 - s) / mesh.base_pitch).floor();
+        let to = s + pitches * mesh.base_pitch;
+        let border = self.borders.iter().position(|border| (border - to).abs() <= laps::ALIKE * mesh.base_pitch);
+        let Some(border) = border.filter(|_| pitches >= 1.0) else { return };
+        self.next = border + 1;
+        self.t = self.motion.time(self.borders[border]);
+        self.ahead.iter_mut().for_each(|ahead| *ahead -= pitches as i32);
     }
 
     /// One step, to `end` at most; the pairs that touch after it.

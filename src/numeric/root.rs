@@ -48,6 +48,13 @@ pub fn cubic(from: &Known, to: &Known, part: f64) -> f64 {
     rest * rest * near_start + part * part * near_end
 }
 
+/// The slope of the same.
+#[must_use]
+pub fn cubic_slope(from: &Known, to: &Known, part: f64) -> f64 {
+    let (mean, rest) = ((to.value - from.value) / (to.at - from.at), 1.0 - part);
+    6.0 * part * rest * mean + rest * (1.0 - 3.0 * part) * from.slope + part * (3.0 * part - 2.0) * to.slope
+}
+
 /// The root of `f` between `from` and `to`, where it changes its sign, by Brent's method, to the last digits.
 ///
 /// # Source
@@ -100,7 +107,7 @@ fn bold_step(best: (f64, f64), other: (f64, f64), opposite: (f64, f64)) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Known, between, between_known};
+    use super::{Known, between, between_known, cubic, cubic_slope};
 
     #[test]
     fn roots_are_found_to_the_last_digits_in_few_steps() {
@@ -141,6 +148,18 @@ mod tests {
             });
             assert!((found - root).abs() <= 4e-15 * root.abs(), "{found} for {root}");
             assert!(looks <= most, "{looks} for {root}");
+        }
+    }
+
+    #[test]
+    fn a_cubic_is_its_own_cubic() {
+        let known = |at: f64| Known { at, value: at * at * at - 2.0 * at, slope: 3.0 * at * at - 2.0 };
+        let (from, to) = (known(-1.0), known(3.0));
+        for step in 0..=8 {
+            let part = f64::from(step) / 8.0;
+            let there = known(-1.0 + 4.0 * part);
+            let slope = cubic_slope(&from, &to, part);
+            assert!((cubic(&from, &to, part) - there.value).abs() < 1e-13 && (slope - there.slope).abs() < 1e-13, "{part}");
         }
     }
 

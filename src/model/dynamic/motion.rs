@@ -43,6 +43,7 @@ struct Standing {
 pub(super) struct Touching(u64);
 
 /// The equation while the same pairs stay in contact.
+#[derive(Clone, Copy)]
 pub(super) struct Forces<'a> {
     motion: &'a Motion<'a>,
     window: &'a Window,

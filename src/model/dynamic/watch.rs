@@ -3,12 +3,12 @@
 use std::cell::Cell;
 
 use super::motion::{Forces, Motion, State, Touching, Window};
+use super::swing::{self, Stretch};
 use super::{Dynamic, Effort};
 use crate::model::Refusal;
 use crate::model::spacing::Spacing;
 use crate::model::stations::MeshStation;
 use crate::numeric::ode::Point;
-use crate::numeric::root;
 
 /// A step of the run while the incoming pair may touch.
 struct Record {
@@ -29,13 +29,6 @@ pub(super) struct Watch {
     most_ahead: f64,
     contact_lost: bool,
     evaluations: Cell<u64>,
-}
-
-/// How the incoming tooth's force grows at the two ends of a step, in N and N/s.
-#[derive(Clone, Copy)]
-struct Ends {
-    start: (f64, f64),
-    end: (f64, f64),
 }
 
 impl Watch {
@@ -80,13 +73,15 @@ impl Watch {
         let before_start = |t: f64| (t < 0.0).then(|| -motion.place(t) / mesh.base_radii.1);
         let after_end = |t: f64| Some((motion.place(t) - mesh.length) / mesh.base_radii.0).filter(|&angle| angle > 0.0);
         let work = self.records.last().map_or(0.0, |record| record.to[2]);
-        let peak_force = self.peak(motion, |_| true);
+        let stretches = self.stretches(motion);
+        let peak_force = swing::peak(&stretches);
+        let before = stretches.partition_point(|stretch| stretch.begin() < 0.0);
         Ok(Dynamic {
             first_contact_angle: first.and_then(before_start),
             last_contact_angle: last.and_then(after_end),
-            peak_approach_force: self.peak(motion, |record| record.from.t < 0.0),
+            peak_approach_force: swing::peak(&stretches[..before]),
             peak_force,
-            impact_duration: first.and_then(|first| self.end_of_first_impact(motion).map(|end| end - first)),
+            impact_duration: first.and_then(|first| swing::end_of_first_impact(&stretches).map(|end| end - first)),
             contact_lost: self.contact_lost,
             friction_work: (mesh.friction() > 0.0).then_some(work),
             stations: first
@@ -108,51 +103,16 @@ impl Watch {
         }
     }
 
-    /// The steps in which the incoming tooth carries, with its force at both ends.
-    fn carried<'a>(&'a self, motion: &'a Motion<'a>) -> impl Iterator<Item = (&'a Record, Ends)> {
-        self.records.iter().filter_map(move |record| {
+    /// The steps in which the incoming tooth carries, cut where its force may turn more than once.
+    fn stretches<'a>(&'a self, motion: &'a Motion<'a>) -> Vec<Stretch<'a>> {
+        let carried = self.records.iter().filter_map(|record| {
             let incoming = self.windows[record.window].incoming().filter(|&pair| record.touching.has(pair))?;
-            let forces = self.forces(motion, record);
-            let start = forces.force(incoming, record.from.t, &record.from.y);
-            let end = forces.force(incoming, record.from.t + record.length, &record.to);
-            Some((record, Ends { start, end }))
-        })
-    }
-
-    /// Time and force where the incoming tooth's force neither grows nor falls within a step.
-    fn turning_point(&self, motion: &Motion<'_>, record: &Record) -> (f64, f64) {
-        let forces = self.forces(motion, record);
-        let incoming = self.windows[record.window].incoming().unwrap_or(0);
-        let at = |after: f64| forces.force(incoming, record.from.t + after, &forces.after(&record.from, after));
-        let after = root::between(0.0, record.length, |after| at(after).1);
-        (record.from.t + after, at(after).0)
-    }
-
-    /// The greatest force over some of the steps.
-    fn peak(&self, motion: &Motion<'_>, counts: impl Fn(&Record) -> bool) -> f64 {
-        let steps = self.carried(motion).filter(|(record, _)| counts(record));
-        steps.fold(0.0, |peak: f64, (record, ends)| {
-            let has_top = ends.start.1 > 0.0 && ends.end.1 < 0.0;
-            let top = if has_top { self.turning_point(motion, record).1 } else { 0.0 };
-            peak.max(ends.start.0).max(ends.end.0).max(top)
-        })
-    }
-
-    /// When the force of the incoming tooth is least for the first time after its first peak, or the contact is lost.
-    fn end_of_first_impact(&self, motion: &Motion<'_>) -> Option<f64> {
-        let (mut falls, mut last) = (false, None);
-        for (record, ends) in self.carried(motion) {
-            let follows = last.is_none_or(|end| record.from.t <= end);
-            if falls && (!follows || ends.start.1 > 0.0) {
-                return last;
-            }
-            if falls && ends.end.1 > 0.0 {
-                return Some(self.turning_point(motion, record).0);
-            }
-            falls |= ends.end.1 < 0.0;
-            last = Some(record.from.t + record.length);
-        }
-        last.filter(|_| falls)
+            Some((self.forces(motion, record), incoming, record))
+        });
+        let cut = |(forces, incoming, record): (Forces<'a>, usize, &'a Record)| {
+            Stretch::of(forces, incoming, (&record.from, record.length, &record.to))
+        };
+        carried.flat_map(cut).collect()
     }
 
     /// Stations from the first contact to E and from there to the last, and one wherever the force turns, so that none of
