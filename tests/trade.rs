@@ -213,7 +213,8 @@ fn the_page_is_eighty_columns_wide() {
 #[test]
 fn cost_grows_linearly_with_cycles_and_stations() {
     let evaluations = |damping_ratio, cycles, stations| {
-        let inputs = Inputs { rung: Rung::Dynamic, warmup_cycles: cycles, stations: Some(stations), deflection: None, ..table_1() };
+        let inputs =
+            Inputs { rung: Rung::Dynamic, warmup_cycles: cycles, stations: Some(stations), deflection: None, ..table_1() };
         let solution = solve(&Inputs { damping_ratio, ..inputs }, Stages::of(Stage::Dynamic)).expect("a solution");
         solution.dynamic.expect("the rung").effort.evaluations as f64
     };

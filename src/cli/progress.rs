@@ -1,8 +1,11 @@
-//! A progress bar on the error stream, for what takes over a second, where that is a terminal.
+//! What goes on while a command takes long: a progress bar on the error stream, where that is a terminal, and Ctrl-C.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use signal_hook::consts::SIGINT;
 use std::cell::Cell;
 use std::io::{self, IsTerminal};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// How long nothing is shown.
@@ -39,5 +42,28 @@ impl Bar {
     /// Leave no trace.
     pub(super) fn clear(&self) {
         self.shown.finish_and_clear();
+    }
+}
+
+/// Ctrl-C, heeded where the work looks for it, so that no bar is left behind.
+pub(super) struct Interrupt(Arc<AtomicBool>);
+
+impl Interrupt {
+    /// From now on Ctrl-C is noted.
+    pub(super) fn heeded() -> Interrupt {
+        let noted = Arc::default();
+        // Where the system refuses, Ctrl-C ends the program as it always does.
+        drop(signal_hook::flag::register(SIGINT, Arc::clone(&noted)));
+        Interrupt(noted)
+    }
+
+    /// Whether the work goes on.
+    pub(super) fn go_on(&self) -> bool {
+        !self.0.load(Ordering::Relaxed)
+    }
+
+    /// End as a program that Ctrl-C ends, without a word: who called it then knows.
+    pub(super) fn end(&self) {
+        drop(signal_hook::low_level::emulate_default_handler(SIGINT));
     }
 }

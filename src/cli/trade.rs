@@ -1,10 +1,11 @@
 //! Speed against accuracy of every rung on one case.
 
 use super::cases::{self, Opened};
-use super::progress::Bar;
+use super::progress::{Bar, Interrupt};
 use super::{Exit, Listing, Streams, Trading};
+use crate::model::Refusal;
 use crate::report::trade::{Told, write, write_json};
-use crate::study::trade::{Patience, Question, trade};
+use crate::study::trade::{Patience, Question, Trade, trade};
 use std::io;
 
 pub(super) fn run(options: &Trading, streams: &mut Streams) -> io::Result<Exit> {
@@ -13,9 +14,13 @@ pub(super) fn run(options: &Trading, streams: &mut Streams) -> io::Result<Exit> 
         Err(exit) => return Ok(exit),
     };
     let question = Question { within: options.within.unwrap_or(opened.inputs.within), patience: Patience::STEADY };
-    let bar = Bar::new("settings");
-    let found = trade(&opened.inputs, &question, &|| true, &mut |sofar| bar.stands_at(sofar.settings.len(), sofar.planned));
+    let (bar, interrupt) = (Bar::new("settings"), Interrupt::heeded());
+    let mut told = |sofar: &Trade| bar.stands_at(sofar.settings.len(), sofar.planned);
+    let found = trade(&opened.inputs, &question, &|| interrupt.go_on(), &mut told);
     bar.clear();
+    if matches!(found, Err(Refusal::Stopped)) {
+        interrupt.end();
+    }
     let Opened { name, document, .. } = &opened;
     let title = crate::case::fields::index_of("title").and_then(|field| document.case.text(field)).unwrap_or_default();
     match found {

@@ -66,9 +66,13 @@ fn solve_by_choice(inputs: &Inputs, wanted: Stages, go_on: &dyn Fn(f64) -> bool)
     let closed_form = solve(&auto::taken(inputs, Rung::Exact), read);
     let choice = auto::choose(inputs, &closed_form);
     let solved = |rung: Rung| solve_while(&auto::taken(inputs, rung), wanted, go_on);
-    let mut solution = match choice.rung {
-        Rung::Exact if read.covers(wanted.within(Rung::Exact.stages())) => closed_form,
-        rung => match solved(rung) {
+    let mut solution = match (choice.rung, &closed_form) {
+        (Rung::Exact, Ok(known)) => {
+            let earlier = Earlier { solution: known, stale: Stages::NONE };
+            let found = solve_after(&auto::taken(inputs, Rung::Exact), wanted, Some(earlier), go_on)?;
+            Ok(Solution { ran: found.ran.and(known.ran), ..found })
+        }
+        (rung, _) => match solved(rung) {
             Err(Refusal::TooSlow { .. }) => solved(Rung::Static),
             found => found,
         },

@@ -37,8 +37,12 @@ impl<'a> Stretch<'a> {
         (0..cuts as usize).map(stretch)
     }
 
-    /// When it begins, in s.
-    pub(super) fn begin(&self) -> f64 {
+    /// Whether it lies before E, where a step ends within rounding.
+    pub(super) fn is_before_start(&self) -> bool {
+        self.begin() + self.end() < 0.0
+    }
+
+    fn begin(&self) -> f64 {
         self.step.t + self.from.at
     }
 

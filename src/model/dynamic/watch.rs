@@ -75,7 +75,7 @@ impl Watch {
         let work = self.records.last().map_or(0.0, |record| record.to[2]);
         let stretches = self.stretches(motion);
         let peak_force = swing::peak(&stretches);
-        let before = stretches.partition_point(|stretch| stretch.begin() < 0.0);
+        let before = stretches.partition_point(Stretch::is_before_start);
         Ok(Dynamic {
             first_contact_angle: first.and_then(before_start),
             last_contact_angle: last.and_then(after_end),

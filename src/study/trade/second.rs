@@ -212,8 +212,8 @@ impl<'a> Run<'a> {
         }
         let peak = self.peak(stretch);
         self.peak_force = self.peak_force.max(peak);
-        // E is a border.
-        if stretch.t < 0.0 {
+        // E is a border, within rounding.
+        if stretch.t + 0.5 * stretch.length < 0.0 {
             self.peak_approach_force = self.peak_approach_force.max(peak);
         }
     }

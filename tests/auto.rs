@@ -1,0 +1,120 @@
+//! The rung `auto` takes what a trade would recommend, at about its cost.
+//!
+//! `TIPSTRIKE_PAIRS=600 cargo test --test auto -- --nocapture` looks at 600 pairs in place of 60.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test that cannot go on says why, and prints the figures of the README"
+)]
+#![allow(dead_code, reason = "what it shares with other tests is more than it needs")]
+
+#[path = "oracle/envelope.rs"]
+mod envelope;
+#[path = "trade/pairs.rs"]
+mod pairs;
+#[path = "trade/table.rs"]
+mod table;
+
+use std::time::Instant;
+
+use tipstrike::model::inputs::Rung;
+use tipstrike::model::{Inputs, Refusal, Solution, Stages, solve};
+use tipstrike::study::trade::{Answer, Patience, Question, RUNGS, Subject, stages, trade};
+
+const WITHIN: f64 = 0.05;
+
+fn by_choice(inputs: &Inputs) -> Inputs {
+    Inputs { rung: Rung::Auto, within: WITHIN, ..inputs.clone() }
+}
+
+/// A solve with what a trade needs to know, or why there is none.
+fn solved(inputs: &Inputs) -> Result<Solution, Refusal> {
+    let solution = solve(inputs, stages(inputs.rung))?;
+    solution.withheld.or(solution.stations_withheld).map_or(Ok(solution), Err)
+}
+
+/// Evaluations of the forces, and stages that ran.
+fn counts(solution: &Solution) -> (f64, f64) {
+    let evaluations = solution.dynamic.as_ref().map_or(0, |dynamic| dynamic.effort.evaluations);
+    (evaluations as f64, solution.ran.iter().count() as f64)
+}
+
+/// No tooth strikes by either closed form: which of them is quicker is chance, and `auto` takes the sound one.
+fn sound(rung: Rung) -> Rung {
+    if rung == Rung::Paper { Rung::Exact } else { rung }
+}
+
+#[test]
+fn over_the_cases_it_takes_the_rung_that_a_trade_recommends_at_its_cost() {
+    for path in table::cases() {
+        let inputs = by_choice(&table::inputs(&path));
+        let question = Question { within: WITHIN, patience: Patience::ONCE };
+        let trade = trade(&inputs, &question, &|| true, &mut |_| ()).expect("a trade");
+        let best = &trade.settings[trade.recommended.expect("one qualifies")];
+        let recommended = sound(best.found.as_ref().expect("figures").rung);
+        let chosen = solved(&inputs).expect("a solution");
+        assert_eq!(chosen.rung, recommended, "{}", path.display());
+        let named = Inputs { rung: recommended, tolerance: 1e-3, ..inputs.clone() };
+        let ((evaluations, stages), (named_evaluations, named_stages)) = (counts(&chosen), counts(&solved(&named).unwrap()));
+        assert!(evaluations <= 1.5 * named_evaluations, "{}: {evaluations} for {named_evaluations}", path.display());
+        // The choice itself is made of the closed form, which takes microseconds where the others take milliseconds.
+        let closed_form = Stages::CLOSED_FORM.iter().count() as f64;
+        assert!(stages <= 1.5 * named_stages + closed_form, "{}: {stages} for {named_stages}", path.display());
+        let ratio = least_time(&inputs) / least_time(&named);
+        println!("{}: {}, {ratio:.2} times its time", path.display(), recommended.name());
+        if ratio > 1.5 {
+            println!("WARNING: {} takes {ratio:.2} times as long by choice", path.display());
+        }
+    }
+}
+
+fn least_time(inputs: &Inputs) -> f64 {
+    let time = |_| {
+        let begun = Instant::now();
+        assert!(solved(inputs).is_ok());
+        begun.elapsed().as_secs_f64()
+    };
+    (0..20).map(time).fold(f64::INFINITY, f64::min)
+}
+
+/// Greatest difference from `dynamic` at 1e-8.
+fn off(inputs: &Inputs, rung: Rung, truth: &Answer) -> Option<f64> {
+    let answer = Answer::of(&solved(&Inputs { rung, stations: Some(512), ..inputs.clone() }).ok()?);
+    Some(Subject::ALL.into_iter().filter_map(|subject| answer.off(truth, subject)).fold(0.0, f64::max))
+}
+
+#[test]
+fn over_other_pairs_it_is_never_wrong_and_seldom_takes_more_than_it_needs() {
+    let count: u64 = std::env::var("TIPSTRIKE_PAIRS").map_or(60, |count| count.parse().expect("a count"));
+    let (mut looked_at, mut agreed) = (0, 0);
+    for number in 0..count {
+        let inputs = pairs::numbered(number);
+        let fine = Inputs { rung: Rung::Dynamic, tolerance: 1e-8, stations: Some(512), ..inputs.clone() };
+        let (Ok(truth), Ok(chosen)) = (solved(&fine), solved(&by_choice(&inputs))) else { continue };
+        let truth = Answer::of(&truth);
+        let is_within = |rung| off(&inputs, rung, &truth).is_some_and(|off| off <= WITHIN);
+        assert!(chosen.rung == Rung::Dynamic || is_within(chosen.rung), "{number}: {:?} is not within", chosen.choice);
+        let cheapest = RUNGS[1..].iter().copied().find(|&rung| rung == Rung::Dynamic || is_within(rung));
+        looked_at += 1;
+        agreed += u32::from(cheapest == Some(chosen.rung));
+    }
+    println!("{agreed} of {looked_at} pairs: the cheapest rung within {WITHIN}; of the others a dearer one");
+    assert!(4 * agreed >= 3 * looked_at, "{agreed} of {looked_at}");
+}
+
+#[test]
+fn first_contact_and_peaks_converge_with_the_tolerance() {
+    for number in 0..40 {
+        let inputs = Inputs { rung: Rung::Dynamic, stations: Some(1), ..pairs::numbered(number) };
+        let at = |tolerance| solved(&Inputs { tolerance, ..inputs.clone() }).map(|solution| solution.dynamic.expect("the rung"));
+        let (Ok(coarse), Ok(fine)) = (at(1e-5), at(1e-9)) else { continue };
+        let near = |coarse: f64, fine: f64| (coarse - fine).abs() <= 1e-3 * fine.abs();
+        assert!(near(coarse.peak_force, fine.peak_force), "{number}: {} {}", coarse.peak_force, fine.peak_force);
+        let peaks = (coarse.peak_approach_force, fine.peak_approach_force);
+        assert!(near(peaks.0, peaks.1), "{number}: before E {peaks:?}");
+        let angles = coarse.first_contact_angle.zip(fine.first_contact_angle);
+        assert!(angles.is_none_or(|(coarse, fine)| near(coarse, fine)), "{number}: first contact {angles:?}");
+    }
+}
