@@ -114,6 +114,15 @@ fn esc_stops_a_measurement_and_what_was_measured_stays() {
 }
 
 #[test]
+fn a_measurement_out_of_sight_stops() {
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Esc", "5"]);
+    assert!(matches!(asked(&mut desk, "m")[..], [Effect::Measure(_)]));
+    assert!(asked(&mut desk, "2").iter().all(|effect| !matches!(effect, Effect::CancelWork)), "it is in sight");
+    assert!(matches!(asked(&mut desk, "3")[..], [Effect::CancelWork]), "the chart takes its place");
+}
+
+#[test]
 fn what_a_later_measurement_overtook_changes_nothing() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc", "5", "z"]);

@@ -98,7 +98,7 @@ fn f5_switches_the_lower_area_and_names_what_is_hidden() {
     desk.keys(&["F5"]);
     assert!(desk.shows("4 Teeth, true to scale") && desk.shows("3 Chart  5 Trade"));
     desk.keys(&["F5"]);
-    assert!(desk.shows("Error in % over time"));
+    assert!(desk.shows("Error against time"));
     desk.keys(&["F5"]);
     assert!(desk.shows("F_S in N over"));
     assert!(desk.app.has_line(), "the field keeps the keys");

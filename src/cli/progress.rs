@@ -3,7 +3,7 @@
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use signal_hook::consts::SIGINT;
 use std::cell::Cell;
-use std::io::{self, IsTerminal};
+use std::io::{self, IsTerminal, Write};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -31,7 +31,10 @@ impl Bar {
 
     /// So many are done of so many.
     pub(super) fn stands_at(&self, done: usize, of: usize) {
-        if !self.is_up.get() && self.begun.elapsed() >= QUIET && io::stderr().is_terminal() {
+        if !self.is_up.get() {
+            if self.begun.elapsed() < QUIET || !io::stderr().is_terminal() {
+                return;
+            }
             self.is_up.set(true);
             self.shown.set_draw_target(ProgressDrawTarget::stderr());
         }
@@ -42,6 +45,15 @@ impl Bar {
     /// Leave no trace.
     pub(super) fn clear(&self) {
         self.shown.finish_and_clear();
+    }
+
+    /// The same after Ctrl-C: the terminal has written `^C` behind the bar, which fills its line, and so on the next one.
+    pub(super) fn clear_after_interrupt(&self) {
+        const LINE_ABOVE: &[u8] = b"\x1b[A\x1b[2K";
+        self.clear();
+        if self.is_up.get() {
+            drop(io::stderr().write_all(LINE_ABOVE));
+        }
     }
 }
 

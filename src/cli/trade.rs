@@ -6,6 +6,7 @@ use super::{Exit, Listing, Streams, Trading};
 use crate::model::Refusal;
 use crate::report::trade::{Told, write, write_json};
 use crate::study::trade::{Patience, Question, Trade, trade};
+use std::cell::Cell;
 use std::io;
 
 pub(super) fn run(options: &Trading, streams: &mut Streams) -> io::Result<Exit> {
@@ -15,12 +16,21 @@ pub(super) fn run(options: &Trading, streams: &mut Streams) -> io::Result<Exit> 
     };
     let question = Question { within: options.within.unwrap_or(opened.inputs.within), patience: Patience::STEADY };
     let (bar, interrupt) = (Bar::new("settings"), Interrupt::heeded());
-    let mut told = |sofar: &Trade| bar.stands_at(sofar.settings.len(), sofar.planned);
-    let found = trade(&opened.inputs, &question, &|| interrupt.go_on(), &mut told);
-    bar.clear();
+    let (done, planned) = (Cell::new(0), Cell::new(1));
+    let go_on = || {
+        bar.stands_at(done.get(), planned.get());
+        interrupt.go_on()
+    };
+    let mut told = |sofar: &Trade| {
+        done.set(sofar.settings.len());
+        planned.set(sofar.planned);
+    };
+    let found = trade(&opened.inputs, &question, &go_on, &mut told);
     if matches!(found, Err(Refusal::Stopped)) {
+        bar.clear_after_interrupt();
         interrupt.end();
     }
+    bar.clear();
     let Opened { name, document, .. } = &opened;
     let title = crate::case::fields::index_of("title").and_then(|field| document.case.text(field)).unwrap_or_default();
     match found {

@@ -81,6 +81,16 @@ pub fn summary(measured: &Measured) -> String {
     }
 }
 
+/// Where the error of a setting comes from, where it has one.
+#[must_use]
+pub fn parts(trade: &Trade, measured: &Measured) -> Option<String> {
+    let figures = measured.found.as_ref().ok()?;
+    let (numbers, curve) = table::parts(&figures.numerical);
+    let model = greatest(&model_off(trade, figures.rung));
+    let [numbers, curve, model] = [numbers, curve, model].map(|off| off.map_or_else(|| "-".to_owned(), percent));
+    Some(format!("numbers {numbers} %, curve {curve} %, model {model} %"))
+}
+
 /// A relative difference in per cent, without the sign.
 #[must_use]
 pub fn percent(difference: f64) -> String {

@@ -104,6 +104,7 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     effects.extend(solve(app.catch_up()));
     chart::settle(app, cursor);
     effects.extend(browse::look(app));
+    effects.extend(trade::stop_unseen(app));
     effects
 }
 

@@ -59,7 +59,7 @@ fn name(measured: &Measured) -> String {
 }
 
 /// The greatest difference of the numbers, and that of the curve.
-fn parts(differences: &Differences) -> (Option<f64>, Option<f64>) {
+pub(super) fn parts(differences: &Differences) -> (Option<f64>, Option<f64>) {
     let mut numbers = *differences;
     let curve = std::mem::take(&mut numbers[Subject::Curve as usize]);
     (greatest(&numbers), curve)

@@ -5,8 +5,12 @@ use crate::report::trade::conclusion;
 use crate::study::trade::{Patience, Setting};
 use crate::tui::app::{App, Progress};
 use crate::tui::measurer::{End, Measured, Measuring};
+use crate::tui::pane::Pane;
 use crate::tui::tab::Traded;
-use crate::tui::view::trade::ordered;
+use crate::tui::view::{self, trade::ordered};
+
+/// The work that the progress tells of.
+const MEASURING: &str = "measuring";
 
 /// Measure every rung on the case in the form.
 pub(super) fn measure(app: &mut App) -> Vec<Effect> {
@@ -17,20 +21,32 @@ pub(super) fn measure(app: &mut App) -> Vec<Effect> {
     app.last_serial += 1;
     let serial = app.last_serial;
     app.tab.traded = Some(Traded { serial, inputs: inputs.clone(), trade: None, marked: None });
-    app.progress = Some(Progress { what: "measuring".to_owned(), part: 0.0 });
+    app.progress = Some(Progress { what: MEASURING.to_owned(), part: 0.0 });
     vec![Effect::Measure(Box::new(Measuring { serial, inputs, patience: Patience::STEADY }))]
+}
+
+/// What is measured out of sight stops: it would cost the machine what nobody looks at.
+pub(super) fn stop_unseen(app: &App) -> Vec<Effect> {
+    let is_measuring = app.progress.as_ref().is_some_and(|progress| progress.what == MEASURING);
+    let is_own = app.tab.traded.as_ref().is_some_and(|traded| traded.serial == last_serial(app));
+    let is_shown = is_own && !view::plan(app.size, app.panes).area(Pane::Trade).is_empty();
+    if is_measuring && !is_shown { vec![Effect::CancelWork] } else { Vec::new() }
+}
+
+/// That of the latest measurement.
+fn last_serial(app: &App) -> u64 {
+    app.tabs().filter_map(|tab| tab.traded.as_ref()).map(|traded| traded.serial).max().unwrap_or(0)
 }
 
 /// More is known, or all of it.
 pub(super) fn measured(app: &mut App, measured: Measured) {
     let Measured { serial, trade, end } = measured;
     let is_shown = app.tab.traded.as_ref().is_some_and(|traded| traded.serial == serial);
-    let is_latest =
-        app.progress.is_some() && app.tabs().filter_map(|tab| tab.traded.as_ref()).all(|traded| traded.serial <= serial);
+    let is_latest = app.progress.is_some() && last_serial(app) == serial;
     if let Some(trade) = trade {
         let part = trade.settings.len() as f64 / trade.planned.max(1) as f64;
         if is_latest {
-            app.progress = Some(Progress { what: "measuring".to_owned(), part });
+            app.progress = Some(Progress { what: MEASURING.to_owned(), part });
         }
         if let Some(traded) = app.traded_of(serial) {
             traded.trade = Some(*trade);

@@ -7,14 +7,18 @@ use ratatui::style::Style;
 use super::{text, titled};
 use crate::model::inputs::Rung;
 use crate::report::trade::plot::{Axis, shown, time};
-use crate::report::trade::{percent, summary};
-use crate::study::trade::{Measured, Setting, Trade};
+use crate::report::trade::{parts, percent, summary};
+use crate::study::trade::{Measured, RUNGS, Setting, Trade};
 use crate::tui::app::App;
 use crate::tui::pane::Pane;
 use crate::tui::tab::Traded;
 
 /// Columns of a number beside the vertical axis.
-const LABEL: u16 = 8;
+const LABEL: u16 = 9;
+/// Rows from which on the legend has one of its own.
+const TALL: u16 = 8;
+/// The line of the error that is good enough.
+const LEVEL: &str = "╌";
 const INVITATION: &str = "Nothing is measured yet: Enter measures every rung by its settings on this case. It takes a few seconds; \
     Esc stops it, and what was measured stays.";
 
@@ -29,11 +33,12 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         let words = if app.traded.is_some() { "The reference is computed first." } else { INVITATION };
         return write(words, inner, buffer);
     };
-    let (plot, words) = split(inner);
+    let (legend, plot, words) = split(inner);
+    draw_legend(app, trade, legend, buffer);
     if plot.height >= 3 && plot.width >= 20 {
         draw_plot(app, traded, trade, plot, buffer);
     }
-    write(&told(traded, trade), words, buffer);
+    write(&told(app, traded, trade), words, buffer);
 }
 
 /// The settings that have an error and a time, the quicker ones first.
@@ -47,28 +52,34 @@ pub fn ordered(trade: &Trade) -> Vec<&Measured> {
 fn title(app: &App) -> String {
     let stale = app.traded.as_ref().is_some_and(|traded| app.case.inputs().is_ok_and(|inputs| traded.is_stale(&inputs)));
     let stale = if stale { "AS IT WAS, m measures anew: " } else { "" };
-    format!("{stale}Error in % over time: paper, exact, static, dynamic, auto; CAPITAL: none nearer and quicker; (own) [marked]")
+    format!("{stale}Error against time of a solve, both logarithmic")
 }
 
-/// The room of the plot with its axes, and of the words below it.
-fn split(inner: Rect) -> (Rect, Rect) {
-    let words = inner.height.min(if inner.height > 9 { 2 } else { 1 });
-    let plot = Rect { height: inner.height - words, ..inner };
-    (plot, Rect { y: plot.bottom(), height: words, ..inner })
+/// The rooms of the legend, of the plot with its axes, and of the words below it.
+fn split(inner: Rect) -> (Rect, Rect, Rect) {
+    let legend = u16::from(inner.height >= TALL);
+    let words = inner.height.min(if inner.height > TALL { 2 } else { 1 });
+    let plot = Rect { y: inner.y + legend, height: inner.height - legend - words, ..inner };
+    (Rect { height: legend, ..inner }, plot, Rect { y: plot.bottom(), height: words, ..inner })
 }
 
-/// The marked setting, and what holds for it; else what the trade recommends.
-fn told(traded: &Traded, trade: &Trade) -> String {
+/// The marked setting in words; else how far the measurement is.
+fn told(app: &App, traded: &Traded, trade: &Trade) -> String {
     let marked = traded.marked.and_then(|marked| trade.settings.iter().find(|measured| measured.setting == marked));
     let refused = trade.settings.iter().filter(|measured| measured.found.is_err()).count();
     let refused = if refused > 0 { format!("; {refused} settings refuse the case") } else { String::new() };
-    match marked {
-        Some(measured) => {
-            let qualifies = if measured.qualifies { "within" } else { "not within" };
-            format!("[{}] {qualifies} {} %{refused}", summary(measured), percent(trade.within))
-        }
-        None => format!("{} of {} settings measured{refused}", trade.settings.len(), trade.planned),
-    }
+    let Some(measured) = marked else {
+        return format!("{} of {} settings measured{refused}", trade.settings.len(), trade.planned);
+    };
+    let qualifies = if measured.qualifies { "within" } else { "not within" };
+    let own = if own(app) == Some(measured.setting) { "; it is the case's own" } else { "" };
+    let front = if measured.is_on_front { "; none is both nearer and quicker" } else { "" };
+    let parts = parts(trade, measured).map_or_else(String::new, |parts| format!("; {parts}"));
+    format!("[{}] {qualifies} {} %{parts}{front}{own}{refused}", summary(measured), percent(trade.within))
+}
+
+fn own(app: &App) -> Option<Setting> {
+    app.case.inputs().ok().map(|inputs| Setting::of(&inputs))
 }
 
 fn write(words: &str, area: Rect, buffer: &mut Buffer) {
@@ -78,22 +89,71 @@ fn write(words: &str, area: Rect, buffer: &mut Buffer) {
     }
 }
 
+/// A rung's letter, with its colour.
+fn mark(app: &App, rung: Rung) -> (char, Style) {
+    let theme = app.look.theme;
+    match rung {
+        Rung::Paper => ('p', theme.faint),
+        Rung::Exact => ('e', theme.other),
+        Rung::Static => ('s', theme.path),
+        Rung::Dynamic => ('d', theme.active),
+        Rung::Auto => ('a', theme.note),
+    }
+}
+
+/// What the letters mean, a word each, and then their writing.
+fn draw_legend(app: &App, trade: &Trade, area: Rect, buffer: &mut Buffer) {
+    let rungs = RUNGS.into_iter().chain([Rung::Auto]);
+    let words = rungs.map(|rung| (rung.name().to_owned(), mark(app, rung).1));
+    let within = format!("{LEVEL}{LEVEL} within {} %", percent(trade.within));
+    let writing = ["CAPITAL on the front".to_owned(), "(own)".to_owned(), "[marked]".to_owned(), within];
+    let mut x = area.x + 1;
+    for (word, style) in words.chain(writing.map(|word| (word, Style::new()))) {
+        let width = word.chars().count() as u16;
+        if area.is_empty() || x + width > area.right() {
+            return;
+        }
+        buffer.set_string(x, area.y, &word, style);
+        x += width + 2;
+    }
+}
+
 fn draw_plot(app: &App, traded: &Traded, trade: &Trade, area: Rect, buffer: &mut Buffer) {
     let field = Rect { x: area.x + LABEL + 1, width: area.width - LABEL - 2, height: area.height - 2, ..area };
     let mut found = ordered(trade);
-    let errors = found.iter().filter_map(|measured| measured.total()).map(shown);
+    let errors = found.iter().filter_map(|measured| measured.total()).chain([trade.within]).map(shown);
     let across = Axis::of(found.iter().map(|measured| measured.seconds()), f64::from(field.left()), f64::from(field.right() - 1));
     let up = Axis::of(errors, f64::from(field.bottom() - 1), f64::from(field.top()));
     draw_axes(app, &across, &up, field, buffer);
-    let own = app.case.inputs().ok().map(|inputs| Setting::of(&inputs));
+    let level = up.at(shown(trade.within)).round() as u16;
+    buffer.set_string(field.x, level, LEVEL.repeat(field.width.into()), app.look.theme.rule);
+    let place = |measured: &Measured| {
+        let error = measured.total()?;
+        Some((across.at(measured.seconds()).round() as u16, up.at(shown(error)).round() as u16))
+    };
+    let front: Vec<(u16, u16)> = found.iter().filter(|measured| measured.is_on_front).filter_map(|one| place(one)).collect();
+    draw_front(app, &front, field, buffer);
+    let own = own(app);
     // What is marked and what is the case's own lie on top.
     let weight =
         |measured: &Measured| (traded.marked == Some(measured.setting), own == Some(measured.setting), measured.is_on_front);
     found.sort_by_key(|measured| weight(measured));
     for measured in found {
-        let Some(error) = measured.total() else { continue };
-        let (x, y) = (across.at(measured.seconds()).round() as u16, up.at(shown(error)).round() as u16);
-        draw_mark(app, measured, weight(measured), (x, y), field, buffer);
+        if let Some(at) = place(measured) {
+            draw_mark(app, measured, weight(measured), at, field, buffer);
+        }
+    }
+}
+
+/// The stairs under which no setting lies: the best error that is to be had by a time.
+fn draw_front(app: &App, front: &[(u16, u16)], field: Rect, buffer: &mut Buffer) {
+    let mut dot = |x: u16, y: u16| {
+        buffer.set_string(x, y, "·", app.look.theme.note);
+    };
+    for (at, &(x, y)) in front.iter().enumerate() {
+        let next = front.get(at + 1).copied().unwrap_or((field.right() - 1, y));
+        (x..=next.0).for_each(|x| dot(x, y));
+        (y.min(next.1)..=y.max(next.1)).for_each(|y| dot(next.0, y));
     }
 }
 
@@ -107,13 +167,7 @@ fn draw_mark(
     buffer: &mut Buffer,
 ) {
     let theme = app.look.theme;
-    let (letter, style) = match measured.setting.rung {
-        Rung::Paper => ('p', theme.faint),
-        Rung::Exact => ('e', theme.other),
-        Rung::Static => ('s', theme.path),
-        Rung::Dynamic => ('d', theme.active),
-        Rung::Auto => ('a', theme.note),
-    };
+    let (letter, style) = mark(app, measured.setting.rung);
     let letter = if is_on_front { letter.to_ascii_uppercase() } else { letter };
     let (mark, style) = match (is_marked, is_own) {
         (true, _) => (format!("[{letter}]"), theme.key),
@@ -132,10 +186,13 @@ fn draw_axes(app: &App, across: &Axis, up: &Axis, field: Rect, buffer: &mut Buff
     }
     buffer.set_string(field.x - 1, axis, "└", rule);
     buffer.set_string(field.x, axis, "─".repeat(field.width.into()), rule);
+    for decade in up.marks(usize::from(field.height)) {
+        let y = up.at(10f64.powi(decade)).round() as u16;
+        buffer.set_string(field.x - 1, y, "┤", rule);
+    }
     for decade in up.marks(usize::from(field.height / 2)) {
         let y = up.at(10f64.powi(decade)).round() as u16;
-        buffer.set_string(field.x - LABEL - 1, y, format!("{:>1$}", in_percent(decade), usize::from(LABEL) - 1), Style::new());
-        buffer.set_string(field.x - 1, y, "┤", rule);
+        buffer.set_string(field.x - LABEL - 1, y, format!("{:>1$} %", in_percent(decade), usize::from(LABEL) - 2), Style::new());
     }
     for decade in across.marks(usize::from(field.width / 9)) {
         let x = across.at(10f64.powi(decade)).round() as u16;
