@@ -23,7 +23,7 @@ fn launch(command: &[&str]) -> Launch {
     let case = launch.case();
     match command {
         [] => launch,
-        words => words.iter().fold(Launch::of(launch.folder), |launch, word| launch.argument(word)).argument(case),
+        words => words.iter().fold(Launch::of(launch.folder), Launch::argument).argument(case),
     }
 }
 

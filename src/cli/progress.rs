@@ -75,7 +75,7 @@ impl Interrupt {
     }
 
     /// End as a program that Ctrl-C ends, without a word: who called it then knows.
-    pub(super) fn end(&self) {
+    pub(super) fn end() {
         drop(signal_hook::low_level::emulate_default_handler(SIGINT));
     }
 }

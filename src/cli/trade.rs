@@ -28,7 +28,7 @@ pub(super) fn run(options: &Trading, streams: &mut Streams) -> io::Result<Exit> 
     let found = trade(&opened.inputs, &question, &go_on, &mut told);
     if matches!(found, Err(Refusal::Stopped)) {
         bar.clear_after_interrupt();
-        interrupt.end();
+        Interrupt::end();
     }
     bar.clear();
     let Opened { name, document, .. } = &opened;
