@@ -188,6 +188,7 @@ impl Tty {
                 self.resize(rows, columns);
             }
             self.take_output(Duration::from_millis(5));
+            self.wake();
             assert!(Instant::now() < end, "it takes no more keys");
         }
         self.line().writer = pouring.join().expect("all is poured");
@@ -256,6 +257,13 @@ impl Tty {
     pub(crate) fn send_signal(&self, name: &str) {
         let status = Command::new("kill").args([format!("-{name}"), self.id().to_string()]).status().expect("kill is there");
         assert!(status.success());
+    }
+
+    /// Go on, if it has suspended itself.
+    pub(crate) fn wake(&self) {
+        if self.state() == Some('T') {
+            self.send_signal("CONT");
+        }
     }
 
     pub(crate) fn has_ended(&mut self) -> bool {
