@@ -124,6 +124,11 @@ fn made(run: &impl Fn(&[&str]) -> Output) -> Vec<&'static str> {
     let (output, log) = traced(&["-e", &format!("trace={CALLS}")], run);
     assert!(output.status.success(), "{output:?}");
     assert!(["openat(", "write(", "fsync(", "rename"].iter().all(|call| log.contains(call)), "not the calls of a save: {log}");
+    // The bytes are on the disk before the name leads to them, and the name is before all is said to be done.
+    let calls: Vec<_> = log.lines().filter(|line| line.contains("fsync(") || line.contains("rename")).collect();
+    let at = calls.iter().position(|line| line.contains("rename")).expect("a name");
+    assert!(calls[..at].iter().any(|line| line.contains("fsync(")), "not on the disk before it is in place: {log}");
+    assert!(calls[at..].iter().any(|line| line.contains("fsync(")), "its name is not on the disk: {log}");
     CALLS.split(',').filter(|call| log.contains(&format!(" {call}("))).collect()
 }
 
