@@ -12,6 +12,7 @@ use std::process::Command;
 use std::time::{Duration, SystemTime};
 
 use desk::{Desk, SMALL, TABLE_1};
+use tipstrike::case::{Document, fields};
 use tty::{Launch, PROGRAM};
 
 fn edited() -> Desk {
@@ -98,6 +99,22 @@ fn a_mere_touch_does_not_ask() {
         desk.keys(&["Ctrl-S"]);
         assert!(desk.shows("saved ") && desk.read("case.toml").contains("1500 rpm"), "{how}\n{}", desk.screen());
     }
+}
+
+#[test]
+fn after_a_save_the_form_says_what_the_file_says() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    for (key, text) in
+        [("driver.teeth", " 21  "), ("operation.speed", " 1500  rpm "), ("title", " a \t"), ("pair.module", "5.5 mm ")]
+    {
+        desk.fill(key, text).keys(&["Ctrl-S"]);
+        assert!(desk.shows("saved ") && !desk.app.is_unsaved(), "{key}\n{}", desk.screen());
+        let file = Document::read(&desk.path("case.toml")).expect("a good case");
+        assert!(desk.app.case == file.case, "{key}");
+        let field = fields::index_of(key).expect("a field");
+        assert_eq!(desk.app.tab.input.value(), file.case.text(field).unwrap_or_default(), "{key}");
+    }
+    assert_eq!(desk.app.case.text(fields::index_of("driver.teeth").expect("a field")), Some("21"));
 }
 
 #[test]

@@ -148,11 +148,16 @@ impl Document {
         Fault::new(&self.name, self.place(&problem.field), problem)
     }
 
-    /// Take the text that was saved for the one that was read.
+    /// Take the text that was saved for the one that was read, and the case as it says it: a number may have been typed
+    /// with spaces around it, which no file keeps.
     fn settle(&mut self, text: &str, name: String, origin: PathBuf) {
         text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text).clone_into(&mut self.text);
+        let reading = tree::read(&self.text);
+        if reading.faults.is_empty() {
+            self.case = reading.case;
+        }
         self.loaded = self.case.clone();
-        self.places = tree::read(&self.text).places;
+        self.places = reading.places;
         self.name = name;
         self.origin = Some(origin);
     }

@@ -148,6 +148,10 @@ pub(super) fn saved(app: &mut App, path: PathBuf, next: Next, result: Result<Box
                 app.prompts.pop();
             }
             app.tab.saved = document.case.clone();
+            if app.tab.case != document.case {
+                app.tab.case = document.case.clone();
+                app.focus_on(app.focus);
+            }
             app.tab.document = *document;
             app.tab.in_place_of = None;
             app.say(format!("saved {}", path.display()));
