@@ -131,3 +131,15 @@ fn finish(done: io::Result<Exit>, streams: &mut Streams) -> Exit {
         Exit::Unreadable
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whatever_is_said_controls_no_terminal() {
+        let mut said = Vec::new();
+        Streams { output: Box::new(io::sink()), errors: Box::new(&mut said) }.say("a\u{1b}[2J\u{9b}\nb\u{202e}");
+        assert_eq!(String::from_utf8_lossy(&said), "a\\u{1b}[2J\\u{9b}\\nb\\u{202e}\n");
+    }
+}

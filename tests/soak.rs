@@ -156,19 +156,22 @@ impl Soak {
         }
         for mend in MENDS.iter().cycle().take(MOST_MENDS) {
             let (name, is_unsaved) = self.case()?;
-            if self.tty.shows("Save as") && !self.tty.shows("Reload") {
+            if name.starts_with("built-in") {
                 // The built-in case has no file.
-                self.press(b"\x1b");
-                self.press(b"\x0fcase\r");
-                self.press(b"\x13");
+                for keys in [&b"\x1b"[..], b"\x1b", b"\x1b", b"\x0f", b"\x15case.toml", b"\r", b"\x13"] {
+                    self.press(keys);
+                }
             } else if self.tty.shows("Reload") {
                 // Another tab has the same file, by way of a save under another name.
                 self.press(b"o");
             } else if is_unsaved {
                 // The first field that is wrong has the focus.
-                self.press(&[b"\x15", *mend, b"\x13"].concat());
+                self.press(b"\x1b");
+                self.press(&[b"1i\x15", *mend, b"\x13"].concat());
             } else {
-                return Some(self.tty.folder.path().join(name));
+                // Names may end in what no screen shows.
+                let is_it = |path: &PathBuf| path.file_name().is_some_and(|own| own.to_string_lossy().trim() == name);
+                return files(self.tty.folder.path()).into_iter().find(is_it);
             }
         }
         None

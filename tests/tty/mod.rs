@@ -68,7 +68,8 @@ impl Launch {
     /// The workbench in a folder that is there already.
     pub(crate) fn of(folder: Arc<TempDir>) -> Launch {
         let state = folder.path().to_str().expect("a name in UTF-8");
-        let variables = [("XDG_STATE_HOME", state), ("TERM", "xterm-256color"), ("LC_ALL", "C.UTF-8")];
+        let variables =
+            [("XDG_STATE_HOME", state), ("XDG_CONFIG_HOME", state), ("TERM", "xterm-256color"), ("LC_ALL", "C.UTF-8")];
         let variables = variables.map(|(name, value)| (name.to_owned(), value.to_owned())).to_vec();
         Launch { command: vec![PROGRAM.into()], variables, size: (24, 80), folder }
     }
