@@ -108,3 +108,9 @@ pub(super) fn end_of_first_impact(stretches: &[Stretch<'_>]) -> Option<f64> {
     }
     last.filter(|_| falls)
 }
+
+/// When the force neither grows nor falls, in s.
+pub(super) fn turns(stretches: &[Stretch<'_>]) -> impl Iterator<Item = f64> {
+    let turning = stretches.iter().filter(|stretch| (stretch.from.slope > 0.0) != (stretch.to.slope > 0.0));
+    turning.map(|stretch| stretch.turning_point().0)
+}

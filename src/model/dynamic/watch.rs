@@ -131,8 +131,8 @@ impl Watch {
     /// The stations and those where the force neither grows nor falls, but for what stands beside one of them anyhow.
     fn with_turns(&self, motion: &Motion<'_>, mut stations: Vec<MeshStation>) -> Vec<MeshStation> {
         const BESIDE: f64 = 0.02;
-        let turns = self.carried(motion).filter(|(_, ends)| (ends.start.1 > 0.0) != (ends.end.1 > 0.0));
-        for turn in turns.map(|(record, _)| self.turning_point(motion, record).0) {
+        let stretches = self.stretches(motion);
+        for turn in swing::turns(&stretches) {
             let time = |at: usize| stations.get(at).and_then(|station| station.time);
             let after = stations.partition_point(|station| station.time.is_some_and(|time| time < turn));
             let ends = after.checked_sub(1).and_then(time).zip(time(after));
