@@ -39,6 +39,7 @@ const LOOKS: &[Look] = &[
     load::inertia,
     impact::withheld,
     impact::stations_left_out,
+    impact::barely_clear,
     impact::outlasting,
     impact::impulse,
     impact::contact_lost,

@@ -8,6 +8,7 @@ use crate::case::units::System;
 use crate::case::visible::visible;
 use crate::case::{Case, Evaluator};
 use crate::model::inputs::Rung;
+use crate::model::moment::first_contact;
 use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Solution, Stage, Stages};
 
 /// A case in a few lines, safe for a terminal.
@@ -96,46 +97,57 @@ impl Digest {
 /// The outcome of a solve, in a sentence.
 #[must_use]
 pub fn sentence(solution: &Solution, system: System) -> String {
-    let part = |before: &str, key, after: &str| {
-        told(key, solution, system).map(|shown| format!("{before}{shown}{after}")).unwrap_or_default()
-    };
     match solution.outcome {
         Outcome::CornerContact => {
-            let (angle, gear) = first_touch(solution.rung);
-            let (force, before) = force(solution.rung);
-            let force =
-                told(force, solution, system).map_or_else(|| "no force is given".to_owned(), |told| before.to_owned() + &told);
-            format!("Corner contact{}, {force}.", part(" ", angle, &format!(" of the {gear} before E")))
+            let angle = first_touch(solution)
+                .map(|(quantity, angle)| format!(" {} of the driver before E", shown_in(quantity, angle, system)));
+            let force = force(solution.rung, |key| told(key, solution, system));
+            let force = force.unwrap_or_else(|| "no force is given".to_owned());
+            format!("Corner contact{}, {force}.", angle.unwrap_or_default())
         }
         Outcome::NoCornerContact => {
-            format!("No corner contact: {}the tooth comes in on time.", part("Δ = ", "total_deviation", ", "))
+            let total = told("total_deviation", solution, system).map(|total| format!("Δ = {total}, "));
+            format!("No corner contact: {}the tooth comes in on time.", total.unwrap_or_default())
         }
     }
 }
 
 fn short(solution: &Solution, system: System) -> String {
-    let (force, before) = force(solution.rung);
-    match (solution.outcome, told(force, solution, system)) {
+    let key = match solution.rung {
+        Rung::Static => "static_force_at_start",
+        Rung::Dynamic => "dynamic_peak_approach_force",
+        Rung::Paper | Rung::Exact | Rung::Auto => "impact_force",
+    };
+    match (solution.outcome, told(key, solution, system)) {
         (Outcome::NoCornerContact, _) => "does not strike".to_owned(),
-        (Outcome::CornerContact, Some(force)) => format!("strikes {before}{force}"),
+        (Outcome::CornerContact, Some(force)) => format!("strikes with {force}"),
         (Outcome::CornerContact, None) => "strikes".to_owned(),
     }
 }
 
-// The closed form has an impact of its own; where the load is shared the tooth takes it over from the others.
-fn first_touch(rung: Rung) -> (&'static str, &'static str) {
-    match rung {
-        Rung::Static => ("static_first_contact_angle", "driven gear"),
-        Rung::Dynamic => ("dynamic_first_contact_angle", "driven gear"),
-        Rung::Paper | Rung::Exact | Rung::Auto => ("approach_angle_driver", "driver"),
-    }
+/// The driver's roll angle before E at which the tooth touches, in rad, and how it is shown; of the driver in every rung, so
+/// that they can be held against each other.
+pub(super) fn first_touch(solution: &Solution) -> Option<(&'static Quantity, f64)> {
+    let quantity = Quantity::find("approach_angle_driver")?;
+    let angle = if solution.rung.shares_load() {
+        let geometry = &solution.geometry;
+        first_contact(solution)? * geometry.driven.base / geometry.driver.base
+    } else {
+        value(quantity, solution)?
+    };
+    Some((quantity, angle))
 }
 
-fn force(rung: Rung) -> (&'static str, &'static str) {
+/// The force of the incoming tooth in words: of the closed form its impact, of the load at rest what it carries at E, in
+/// motion its peaks.
+pub(super) fn force(rung: Rung, told: impl Fn(&str) -> Option<String>) -> Option<String> {
     match rung {
-        Rung::Static => ("static_peak_force", "at most "),
-        Rung::Dynamic => ("dynamic_peak_force", "at most "),
-        Rung::Paper | Rung::Exact | Rung::Auto => ("impact_force", "with "),
+        Rung::Static => Some(format!("carrying {} at E", told("static_force_at_start")?)),
+        Rung::Dynamic => {
+            let (before, most) = (told("dynamic_peak_approach_force")?, told("dynamic_peak_force")?);
+            Some(format!("with up to {before} before E and {most} in all"))
+        }
+        Rung::Paper | Rung::Exact | Rung::Auto => Some(format!("with {}", told("impact_force")?)),
     }
 }
 

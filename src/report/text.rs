@@ -1,5 +1,6 @@
 //! A solve as a page of text for a person, 80 columns wide.
 
+use super::digest::{first_touch, force};
 use super::layout::{WIDTH, flow, item, widest};
 use super::stations::{Column, columns, rows};
 use super::verdict::{Verdict, verdicts};
@@ -94,24 +95,15 @@ fn outcome(report: &Report) -> Vec<String> {
 /// The outcome, as far as the stages that ran can tell it.
 fn sentence(solution: &Solution) -> String {
     let part = |before: &str, key| told(key, solution).map(|shown| format!("{before}{shown}")).unwrap_or_default();
-    let (angle, force) = match solution.rung {
-        Rung::Static => ("static_first_contact_angle", "static_peak_force"),
-        Rung::Dynamic => ("dynamic_first_contact_angle", "dynamic_peak_force"),
-        _ => ("approach_angle_driver", "impact_force"),
-    };
-    if solution.rung.shares_load() && solution.outcome == Outcome::CornerContact {
-        return format!(
-            "Corner contact: the tooth touches{}{}.",
-            told(angle, solution).map(|angle| format!(" {angle} of the driven gear before E")).unwrap_or_default(),
-            part(" and carries at most ", force),
-        );
-    }
+    let verb = if solution.rung.shares_load() { "touches" } else { "strikes" };
     match solution.outcome {
         Outcome::CornerContact => format!(
-            "Corner contact: the tooth strikes{}{}{}.",
-            told(angle, solution).map(|angle| format!(" {angle} of the driver before E")).unwrap_or_default(),
-            part(" with ", force),
-            part(", approaching at ", "normal_velocity"),
+            "Corner contact: the tooth {verb}{}{}{}.",
+            first_touch(solution)
+                .map(|(quantity, angle)| format!(" {} of the driver before E", glued(quantity, angle)))
+                .unwrap_or_default(),
+            force(solution.rung, |key| told(key, solution)).map(|force| format!(" {force}")).unwrap_or_default(),
+            if solution.rung.shares_load() { String::new() } else { part(", approaching at ", "normal_velocity") },
         ),
         Outcome::NoCornerContact => {
             format!("No corner contact: the tooth comes in on time{}.", part(", the total deviation is ", "total_deviation"))
@@ -122,13 +114,17 @@ fn sentence(solution: &Solution) -> String {
 fn other_rung(inputs: &Inputs, rung: Rung) -> Option<String> {
     let other = model::solve(&Inputs { rung, ..inputs.clone() }, Stages::of(Stage::Impact)).ok()?;
     let (angle, force) = (told("approach_angle_driver", &other)?, told("impact_force", &other)?);
-    Some(format!("For comparison, rung {}: {angle} before E with {force}.", rung.name()))
+    Some(format!("For comparison, rung {}: {angle} of the driver before E with {force}.", rung.name()))
 }
 
 /// A quantity's value, glued to its unit.
 fn told(key: &str, solution: &Solution) -> Option<String> {
     let quantity = Quantity::find(key)?;
-    Some(shown(quantity, value(quantity, solution)?).to_string().replace(' ', GLUE))
+    Some(glued(quantity, value(quantity, solution)?))
+}
+
+fn glued(quantity: &Quantity, value: f64) -> String {
+    shown(quantity, value).to_string().replace(' ', GLUE)
 }
 
 fn inputs(report: &Report) -> Vec<String> {

@@ -1,8 +1,10 @@
 //! Notes on the impact itself.
 
+use std::f64::consts::SQRT_2;
+
 use super::{Note, four};
 use crate::model::inputs::Rung;
-use crate::model::{Inputs, Solution};
+use crate::model::{Inputs, Outcome, Solution};
 
 const MICRO: f64 = 1e6;
 
@@ -20,6 +22,29 @@ pub(super) fn stations_left_out(inputs: &Inputs, solution: &Solution) -> Option<
         None => format!("some stations are left out: {refusal}"),
     };
     Some(Note::new("stations-left-out", message))
+}
+
+/// The closed form's tooth comes in on time, but a little more of the base pitch deviation would make it strike.
+///
+/// # Formula
+/// ```text
+/// f_pb,0 = f_pb − Δ/√2,  told where f_pb,0 < 1.1 f_pb
+/// ```
+/// where Δ grows by √2 f_pb, Eqs. 1 and 5.
+pub(super) fn barely_clear(inputs: &Inputs, solution: &Solution) -> Option<Note> {
+    const CLOSE: f64 = 1.1;
+    if solution.outcome != Outcome::NoCornerContact || solution.rung.shares_load() {
+        return None;
+    }
+    let clear = -solution.deviation.total;
+    let (now, enough) = (inputs.base_pitch_deviation, inputs.base_pitch_deviation + clear / SQRT_2);
+    let message = || {
+        let (clear, now, enough) = (four(clear * MICRO), four(now * MICRO), four(enough * MICRO));
+        format!(
+            "the tooth clears by {clear} um only: it strikes from a base pitch deviation of {enough} um on, and {now} um is given"
+        )
+    };
+    (enough < CLOSE * now).then(|| Note::new("barely-clear", message()))
 }
 
 /// The impact is longer than the way from D to E.
@@ -92,4 +117,36 @@ pub(super) fn friction(inputs: &Inputs, solution: &Solution) -> Option<Note> {
         ("sticking", format!("not below the stick limit {limit}: sliding stops within the impact"))
     };
     Some(Note::new(code, format!("the friction coefficient is {friction}, {does}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::sample::standard_pair;
+    use crate::model::stage::Stages;
+    use crate::model::{notes, solve};
+
+    /// Table 1's deviations, with this tip relief on the driven gear.
+    fn relieved(relief: f64, deviation: f64) -> Inputs {
+        let mut inputs = standard_pair(20, 20, 5e-3);
+        (inputs.base_pitch_deviation, inputs.deflection) = (deviation, Some(24.7e-6));
+        inputs.driven.tip_relief = relief;
+        inputs
+    }
+
+    fn clears_barely(inputs: &Inputs) -> bool {
+        let solution = solve(inputs, Stages::EVERY).unwrap();
+        notes::notes(inputs, &solution).iter().any(|note| note.code == "barely-clear")
+    }
+
+    #[test]
+    fn a_tooth_that_clears_by_little_is_told_with_the_deviation_that_makes_it_strike() {
+        assert!(clears_barely(&relieved(48e-6, 16e-6)));
+        assert!(!clears_barely(&relieved(47e-6, 16e-6)), "it strikes");
+        assert!(!clears_barely(&relieved(60e-6, 16e-6)), "it clears by far");
+        let clear = -solve(&relieved(48e-6, 16e-6), Stages::EVERY).unwrap().deviation.total;
+        let enough = 16e-6 + clear / SQRT_2;
+        assert_eq!(solve(&relieved(48e-6, enough * 1.0001), Stages::EVERY).unwrap().outcome, Outcome::CornerContact);
+        assert_eq!(solve(&relieved(48e-6, enough * 0.9999), Stages::EVERY).unwrap().outcome, Outcome::NoCornerContact);
+    }
 }

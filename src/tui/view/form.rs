@@ -216,10 +216,11 @@ fn standing(app: &App, limit: &Limit) -> (String, Style) {
 
 fn draw_mark(app: &App, index: usize, line: Rect, buffer: &mut Buffer) {
     let theme = app.look.theme;
-    if app.problems.iter().any(|(at, _)| *at == index) {
-        buffer.set_stringn(line.x, line.y, "!", 1, theme.problem);
-    } else if app.focus == index {
+    // The reason stands below the line and has a mark of its own.
+    if app.focus == index {
         buffer.set_stringn(line.x, line.y, "▸", 1, theme.focus);
+    } else if app.problems.iter().any(|(at, _)| *at == index) {
+        buffer.set_stringn(line.x, line.y, "!", 1, theme.problem);
     }
 }
 

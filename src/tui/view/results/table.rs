@@ -113,7 +113,9 @@ fn heading(app: &App, answer: &Answer, columns: &Columns) -> Line<'static> {
         spans.push(Span::styled(format!("{name:>0$} ", VALUE - 1), style));
     }
     if columns.difference {
-        spans.push(Span::styled(format!("{:UNIT$}{:>2$}", "", "to base", VALUE - 1), app.look.theme.baseline));
+        let base = app.baseline.as_ref().map(|baseline| base_rung(answer, &baseline.answer));
+        let other = base.filter(|&base| base != answer.active).map_or("base", Rung::name);
+        spans.push(Span::styled(format!("{:UNIT$}{:>2$}", "", format!("to {other}"), VALUE - 1), app.look.theme.baseline));
     }
     Line::from(spans)
 }
@@ -166,16 +168,21 @@ fn is_changed(app: &App, answer: &Answer, quantity: &Quantity) -> bool {
     told(earlier) != told(answer)
 }
 
-// The active rung's value against that of the baseline, in percent of it.
+// The active rung's value against the same rung's of the baseline, in percent of it.
 fn difference(app: &App, answer: &Answer, quantity: &Quantity) -> String {
-    let value = |answer: &Answer| report::value(quantity, answer.of(answer.active)?);
-    let base = app.baseline.as_ref().and_then(|baseline| value(&baseline.answer));
-    match (value(answer), base) {
+    let value = |answer: &Answer, rung| report::value(quantity, answer.of(rung)?);
+    let base = app.baseline.as_ref().and_then(|baseline| value(&baseline.answer, base_rung(answer, &baseline.answer)));
+    match (value(answer, answer.active), base) {
         (Some(now), Some(base)) => against(now, base),
         (Some(_), None) => "new".to_owned(),
         (None, Some(_)) => "gone".to_owned(),
         (None, None) => String::new(),
     }
+}
+
+// The rung of the baseline that the active one is held against: the same one, where it was solved.
+fn base_rung(answer: &Answer, base: &Answer) -> Rung {
+    if base.of(answer.active).is_some() { answer.active } else { base.active }
 }
 
 fn against(now: f64, base: f64) -> String {
