@@ -287,6 +287,14 @@ fn a_check_is_a_verdict_a_line() {
 }
 
 #[test]
+fn a_limit_is_tried_on_another_rung_and_on_a_changed_field() {
+    let dynamic = told(&["check", TABLE_1, "--rung", "dynamic"]);
+    assert_eq!(dynamic, format!("ok {TABLE_1}: impact_force 2011.2 N <= 2500 N (80 %)\n"));
+    let relieved = told(&["check", TABLE_1, "--set", "driven.tip_relief=60 um"]);
+    assert_eq!(relieved, format!("ok {TABLE_1}: impact_force none, no corner contact (limit 2500 N)\n"));
+}
+
+#[test]
 fn a_bad_case_outranks_an_exceeded_limit() {
     let (_folder, strict) = changed("\"2500 N\"", "\"2 N\"");
     let (_other, bad) = changed("teeth = 20", "teeth = 0");

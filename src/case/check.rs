@@ -8,6 +8,7 @@ use super::visible::{quoted, visible};
 use super::{Case, Limit, suggest};
 use crate::model::inputs::Gear;
 use crate::model::{Inputs, QUANTITIES};
+use crate::numeric::decimal::shortest;
 
 /// What is wrong at one place: the cause and the mend.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -156,10 +157,10 @@ fn number(known: &Field, field: usize, text: &str, dimension: Dimension, range: 
     // The same end may be written in another unit, and be off by its rounding there.
     let slack = 4.0 * f64::EPSILON;
     if value < from - slack * from.abs() {
-        return Err(outside(known, text, "below", range.from, range.unit));
+        return Err(outside(known, text, "below", shortest(range.from), range.unit));
     }
     if value > to + slack * to.abs() {
-        return Err(outside(known, text, "above", range.to, range.unit));
+        return Err(outside(known, text, "above", shortest(range.to), range.unit));
     }
     Ok(value)
 }

@@ -4,6 +4,7 @@ mod table;
 
 use super::units::Dimension;
 use crate::model::Inputs;
+use crate::numeric::decimal::shortest;
 
 pub use table::FIELDS;
 
@@ -116,8 +117,10 @@ impl Field {
         match self.kind {
             Kind::Count(from, to, _) if self.takes_auto() => format!("{from} to {to}, or {AUTO}"),
             Kind::Count(from, to, _) => format!("{from} to {to}"),
-            Kind::Number(_, range, _) if range.unit.is_empty() => format!("{} to {}", range.from, range.to),
-            Kind::Number(_, range, _) => format!("{} to {} {}", range.from, range.to, range.unit),
+            Kind::Number(_, range, _) if range.unit.is_empty() => {
+                format!("{} to {}", shortest(range.from), shortest(range.to))
+            }
+            Kind::Number(_, range, _) => format!("{} to {} {}", shortest(range.from), shortest(range.to), range.unit),
             Kind::Text => String::new(),
             Kind::Choice(names, _) => names.join(", "),
         }

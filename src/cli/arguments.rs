@@ -56,6 +56,26 @@ pub enum Command {
     },
 }
 
+/// What is asked of a case in place of what it says itself.
+#[derive(Debug, Args)]
+pub struct Changes {
+    /// Solve on this rung instead of the case's
+    #[arg(long, value_parser = rungs())]
+    rung: Option<Rung>,
+    /// Change a field of the case, such as "operation.speed=3000 rpm"
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
+    settings: Vec<Setting>,
+}
+
+impl Changes {
+    /// The fields that change; the rung is one of them, and the last word on it.
+    #[must_use]
+    pub fn settings(&self) -> Vec<Setting> {
+        let rung = self.rung.map(|rung| Setting { key: "model.rung".to_owned(), value: rung.name().to_owned() });
+        self.settings.iter().cloned().chain(rung).collect()
+    }
+}
+
 /// What `solve` is asked.
 #[derive(Debug, Args)]
 #[command(after_help = CSV_SHAPE)]
@@ -63,12 +83,9 @@ pub struct Solve {
     /// Case files; - is standard input
     #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub cases: Vec<PathBuf>,
-    /// Solve on this rung instead of the case's
-    #[arg(long, value_parser = rungs())]
-    pub rung: Option<Rung>,
-    /// Change a field of every case, such as "operation.speed=3000 rpm"
-    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
-    pub settings: Vec<Setting>,
+    /// What differs from the case
+    #[command(flatten)]
+    pub changes: Changes,
     /// Tell these quantities alone, and run no more than they need; `tipstrike fields --results` lists them
     #[arg(long, value_name = "QUANTITY,...", value_delimiter = ',', hide_possible_values = true, value_parser = quantities())]
     pub only: Vec<&'static Quantity>,
@@ -86,6 +103,9 @@ pub struct Check {
     /// Case files; - is standard input
     #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub cases: Vec<PathBuf>,
+    /// What differs from the case
+    #[command(flatten)]
+    pub changes: Changes,
 }
 
 /// What `explain` is asked.
@@ -97,12 +117,9 @@ pub struct Explain {
     /// The case file, - for standard input; else Table 1 of Zhou & Chen 2014
     #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub case: Option<PathBuf>,
-    /// Solve on this rung instead of the case's
-    #[arg(long, value_parser = rungs())]
-    pub rung: Option<Rung>,
-    /// Change a field of the case, such as "operation.speed=3000 rpm"
-    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
-    pub settings: Vec<Setting>,
+    /// What differs from the case
+    #[command(flatten)]
+    pub changes: Changes,
     /// How to tell it
     #[arg(long, value_enum, default_value_t)]
     pub format: Listing,

@@ -8,9 +8,10 @@ use crate::report::verdict::{Standing, refused, stages, verdicts};
 use std::io::{self, Write};
 
 pub(super) fn run(options: &Check, streams: &mut Streams) -> io::Result<Exit> {
+    let settings = options.changes.settings();
     let mut worst = Exit::Done;
     for path in &options.cases {
-        let exit = match cases::open(path, &[], streams) {
+        let exit = match cases::open(path, &settings, streams) {
             Ok(opened) => check(&opened, streams)?,
             Err(exit) => exit,
         };

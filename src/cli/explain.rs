@@ -1,7 +1,7 @@
 //! A quantity of a case explained.
 
 use super::cases::{self, Opened};
-use super::{Exit, Explain, Listing, Setting, Streams};
+use super::{Exit, Explain, Listing, Streams};
 use crate::case::Document;
 use crate::model::{self, Stages};
 use crate::report::explain::{explain, render, write_json};
@@ -11,8 +11,7 @@ use std::io::{self, Write};
 const BUILT_IN: &str = "Table 1 of Zhou & Chen 2014";
 
 pub(super) fn run(options: &Explain, streams: &mut Streams) -> io::Result<Exit> {
-    let rung = options.rung.map(|rung| Setting { key: "model.rung".to_owned(), value: rung.name().to_owned() });
-    let settings: Vec<Setting> = options.settings.iter().cloned().chain(rung).collect();
+    let settings = options.changes.settings();
     let opened = match &options.case {
         Some(path) => cases::open(path, &settings, streams),
         None => cases::changed(BUILT_IN.to_owned(), Document::table_1(), &settings, streams),

@@ -23,11 +23,10 @@ pub(super) fn run(options: &Solve, streams: &mut Streams) -> io::Result<Exit> {
     Ok(worst)
 }
 
-/// `--rung` and `--stations` are fields as well.
+/// `--stations` is a field as well.
 fn settings(options: &Solve) -> Vec<Setting> {
-    let rung = options.rung.map(|rung| Setting { key: "model.rung".to_owned(), value: rung.name().to_owned() });
     let stations = options.stations.clone().map(|value| Setting { key: "model.stations".to_owned(), value });
-    options.settings.iter().cloned().chain(rung).chain(stations).collect()
+    options.changes.settings().into_iter().chain(stations).collect()
 }
 
 fn selection(options: &Solve) -> Selection {

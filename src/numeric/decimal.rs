@@ -1,5 +1,12 @@
 //! Numbers as a person reads them.
 
+/// A number in as few digits as tell it from every other: plain from 1e-4 to 1e7, else with an exponent.
+#[must_use]
+pub fn shortest(value: f64) -> String {
+    let is_plain = value == 0.0 || (1e-4..1e7).contains(&value.abs());
+    if is_plain { format!("{value}") } else { format!("{value:e}") }
+}
+
 /// A number with this many significant digits: plain from 1e-3 to 1e6, else with an exponent; never NaN or minus zero.
 #[must_use]
 pub fn significant(value: f64, digits: usize) -> String {

@@ -197,6 +197,9 @@ fn lack(app: &App, graph: &Graph, curves: &[Curve]) -> Option<String> {
     if curves.iter().any(|curve| matches!(curve.whose, Whose::Active(_))) {
         return None;
     }
+    if app.is_stale() {
+        return Some("Nothing is drawn anew while a field is wrong.".to_owned());
+    }
     let label = graph.label.to_lowercase();
     let active = answer.active;
     if graph.column(active).is_none() {

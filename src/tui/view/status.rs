@@ -10,6 +10,7 @@ use super::{chart, results, text};
 use crate::case::fields::{self, Absent, Field, Kind};
 use crate::case::units::System;
 use crate::case::{Acting, FIELDS, Limit, acts, materials};
+use crate::numeric::decimal::shortest;
 use crate::report::verdict::verdict;
 use crate::tui::actions::{BINDINGS, Binding, Chord};
 use crate::tui::app::{App, Progress};
@@ -81,7 +82,7 @@ pub fn about(field: &Field, ascii: bool, units: System) -> String {
     let bounds = match field.kind {
         Kind::Text => String::new(),
         Kind::Number(_, range, _) if units.unit(range.unit) == range.unit => {
-            format!(", {}..{} {}", number(range.from), number(range.to), range.unit).trim_end().to_owned()
+            format!(", {}..{} {}", shortest(range.from), shortest(range.to), range.unit).trim_end().to_owned()
         }
         Kind::Number(..) => format!(", {}", field.range_in(units)),
         Kind::Count(from, to, _) => format!(", {from}..{to}"),
@@ -157,7 +158,7 @@ fn focused(app: &App) -> String {
         },
         Pane::Results => results::marked(app).map_or_else(String::new, |quantity| {
             let name = symbol(quantity.symbol, app.look.ascii);
-            format!("{name} {}, {} ({}).", quantity.label.trim(), quantity.equation, quantity.key)
+            format!("{name} {}, {} ({}).", quantity.label.trim(), symbol(quantity.equation, app.look.ascii), quantity.key)
         }),
         Pane::Chart | Pane::Teeth => at_cursor(app),
         Pane::Trade => "Error of every rung against its time.".to_owned(),
@@ -211,11 +212,6 @@ fn bar(progress: &Progress) -> String {
     let full = (part * BAR as f64).floor() as usize;
     let bar = "█".repeat(full) + &"░".repeat(BAR - full);
     format!("{bar} {:3.0} % {}; Esc cancels", part * 100.0, progress.what)
-}
-
-fn number(value: f64) -> String {
-    let is_plain = value == 0.0 || (1e-4..1e7).contains(&value.abs());
-    if is_plain { format!("{value}") } else { format!("{value:e}") }
 }
 
 fn short(binding: &Binding) -> String {
