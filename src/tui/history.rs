@@ -1,13 +1,29 @@
 //! Undo and redo: states of a case to go back to, one for each visit of a field, without a limit.
 
-use crate::case::Case;
+use crate::case::{Case, FIELDS, Limit, Spread};
 
 /// States of a case, each with the field that had the focus.
 #[derive(Debug, Clone, Default)]
 pub struct History {
-    past: Vec<(Case, usize)>,
-    future: Vec<(Case, usize)>,
+    past: States,
+    future: States,
     is_visiting: bool,
+}
+
+/// The last state in full, and each one before it by what it says otherwise than the one after it, so that a long session
+/// stays small.
+#[derive(Debug, Clone, Default)]
+struct States {
+    last: Option<(Case, usize)>,
+    before: Vec<(Difference, usize)>,
+}
+
+/// What a case says otherwise than another.
+#[derive(Debug, Clone)]
+struct Difference {
+    texts: Vec<(usize, Box<str>)>,
+    limits: Option<Vec<Limit>>,
+    spread: Option<Vec<Spread>>,
 }
 
 impl History {
@@ -15,16 +31,16 @@ impl History {
     pub(super) fn before_edit(&mut self, case: &Case, focus: usize) -> bool {
         let is_first = !self.is_visiting;
         if is_first {
-            self.past.push((case.clone(), focus));
+            self.past.push(case, focus);
             self.is_visiting = true;
         }
-        self.future.clear();
+        self.future = States::default();
         is_first
     }
 
     /// The case before the first edit of this visit.
     pub(super) fn before_visit(&self) -> Option<&Case> {
-        self.past.last().filter(|_| self.is_visiting).map(|(case, _)| case)
+        self.past.last.as_ref().filter(|_| self.is_visiting).map(|(case, _)| case)
     }
 
     /// The next edit begins a state of its own.
@@ -35,14 +51,102 @@ impl History {
     /// The state before, in exchange for the present one.
     pub(super) fn undo(&mut self, case: &Case, focus: usize) -> Option<(Case, usize)> {
         let state = self.past.pop()?;
-        self.future.push((case.clone(), focus));
+        self.future.push(case, focus);
         Some(state)
     }
 
     /// The state that was undone, in exchange for the present one.
     pub(super) fn redo(&mut self, case: &Case, focus: usize) -> Option<(Case, usize)> {
         let state = self.future.pop()?;
-        self.past.push((case.clone(), focus));
+        self.past.push(case, focus);
         Some(state)
+    }
+}
+
+impl States {
+    fn push(&mut self, case: &Case, focus: usize) {
+        if let Some((last, at)) = self.last.replace((case.clone(), focus)) {
+            self.before.push((Difference::of(&last, case), at));
+        }
+    }
+
+    fn pop(&mut self) -> Option<(Case, usize)> {
+        let state = self.last.take()?;
+        self.last = self.before.pop().map(|(difference, at)| (difference.put_into(state.0.clone()), at));
+        Some(state)
+    }
+}
+
+impl Difference {
+    /// What `case` says otherwise than `other`.
+    fn of(case: &Case, other: &Case) -> Difference {
+        let texts = (0..FIELDS.len()).filter(|&field| case.text(field) != other.text(field));
+        Difference {
+            texts: texts.map(|field| (field, case.text(field).unwrap_or_default().into())).collect(),
+            limits: (case.limits != other.limits).then(|| case.limits.clone()),
+            spread: (case.spread != other.spread).then(|| case.spread.clone()),
+        }
+    }
+
+    /// The case, out of the other one.
+    fn put_into(self, mut other: Case) -> Case {
+        for (field, text) in self.texts {
+            other.write(field, &text);
+        }
+        other.limits = self.limits.unwrap_or(other.limits);
+        other.spread = self.spread.unwrap_or(other.spread);
+        other
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn states() -> Vec<Case> {
+        let edited = |case: &Case, change: &dyn Fn(&mut Case)| {
+            let mut case = case.clone();
+            change(&mut case);
+            case
+        };
+        let first = Case::table_1();
+        let second = edited(&first, &|case| case.write(3, "6 mm"));
+        let third = edited(&second, &|case| case.write_limit("friction_ratio", "0.5"));
+        let fourth = edited(&third, &|case| case.spread.push(Spread::new("pair.module", "normal", "4 um").unwrap()));
+        let fifth = edited(&fourth, &|case| (0..9).for_each(|field| case.write(field, "")));
+        vec![first, second, third, fourth, fifth]
+    }
+
+    #[test]
+    fn every_state_comes_back_whole_and_in_turn() {
+        let states = states();
+        let (mut history, last) = (History::default(), states.len() - 1);
+        for (focus, state) in states[..last].iter().enumerate() {
+            assert!(history.before_edit(state, focus));
+            assert_eq!(history.before_visit(), Some(state));
+            history.end_visit();
+        }
+        for _ in 0..2 {
+            for at in (0..last).rev() {
+                assert_eq!(history.undo(&states[at + 1], at + 1), Some((states[at].clone(), at)));
+            }
+            assert_eq!(history.undo(&states[0], 0), None);
+            for at in 1..=last {
+                assert_eq!(history.redo(&states[at - 1], at - 1), Some((states[at].clone(), at)));
+            }
+            assert_eq!(history.redo(&states[last], last), None);
+        }
+    }
+
+    #[test]
+    fn a_state_takes_no_more_than_what_it_says_otherwise() {
+        let mut history = History::default();
+        let mut case = Case::table_1();
+        for number in 0..1000 {
+            history.before_edit(&case, 0);
+            history.end_visit();
+            case.write(0, &format!("title {number}"));
+        }
+        assert!(history.past.before.iter().all(|(difference, _)| difference.texts.len() == 1));
     }
 }
