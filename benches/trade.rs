@@ -72,7 +72,7 @@ fn picture(table: &Table) -> String {
     svg(&Plot {
         title: "Numerical error against time: median over the cases of cases/",
         across: "time of a whole solve",
-        up: "relative error: of the curve, by stations; of the numbers, by tolerance",
+        up: "relative error of the curve (stations), the numbers (tolerance)",
         series: &series,
     })
 }

@@ -82,18 +82,51 @@ fn add(svg: &mut String, piece: &[Cell], column: usize, row: usize) {
         writeln!(svg, "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{length:.1}\" height=\"{height}\" fill=\"{fill}\"/>")
             .expect("room");
     }
-    if text.trim().is_empty() {
-        return;
-    }
     let ink = if reversed { "#1b1f24" } else { fill };
     let weight = if bold { " font-weight=\"bold\"" } else { "" };
-    let text = text.replace('&', "&amp;").replace('<', "&lt;");
     let baseline = y + 0.75 * CELL.1;
-    writeln!(
-        svg,
-        "<text x=\"{x:.1}\" y=\"{baseline:.1}\" textLength=\"{length:.1}\" fill=\"{ink}\"{weight} xml:space=\"preserve\">{text}</text>"
-    )
-    .expect("room");
+    let dots: String = text.chars().enumerate().flat_map(|(at, cell)| dots(cell, x + at as f64 * CELL.0, y)).collect();
+    if !dots.is_empty() {
+        writeln!(svg, "<path d=\"{dots}\" stroke=\"{ink}\" stroke-width=\"2\" stroke-linecap=\"round\"/>").expect("room");
+    }
+    let text = text.replace(is_dotted, " ");
+    for (start, words) in stretches(&text) {
+        let (x, length) = (x + start as f64 * CELL.0, words.chars().count() as f64 * CELL.0);
+        let words = words.replace('&', "&amp;").replace('<', "&lt;");
+        writeln!(svg, "<text x=\"{x:.1}\" y=\"{baseline:.1}\" textLength=\"{length:.1}\" fill=\"{ink}\"{weight}>{words}</text>")
+            .expect("room");
+    }
+}
+
+/// Braille is drawn, since few fonts have it at the width of their letters.
+fn is_dotted(cell: char) -> bool {
+    ('\u{2800}'..='\u{28ff}').contains(&cell)
+}
+
+/// The dots of a cell of Braille at this place.
+fn dots(cell: char, x: f64, y: f64) -> Vec<String> {
+    const PLACES: [(u8, u8); 8] = [(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (0, 3), (1, 3)];
+    let set = if is_dotted(cell) { u32::from(cell) - 0x2800 } else { 0 };
+    let at = |(column, row): (u8, u8)| {
+        let (x, y) = (x + (0.25 + 0.5 * f64::from(column)) * CELL.0, y + (0.125 + 0.25 * f64::from(row)) * CELL.1);
+        format!("M{x:.1} {y:.1}h0")
+    };
+    (0..8).filter(|bit| set >> bit & 1 == 1).map(|bit| at(PLACES[bit])).collect()
+}
+
+/// What stands between gaps of two blanks and more, each with its column, so that columns stay columns in any font.
+fn stretches(text: &str) -> Vec<(usize, &str)> {
+    let mut column = 0;
+    let mut found = Vec::new();
+    for part in text.split("  ") {
+        let words = part.trim_start_matches(' ');
+        let start = column + part.chars().count() - words.chars().count();
+        if !words.trim_end().is_empty() {
+            found.push((start, words.trim_end()));
+        }
+        column += part.chars().count() + 2;
+    }
+    found
 }
 
 /// Colour, bold and reversed.
