@@ -70,6 +70,13 @@ const SCREENS: &[(&str, Way)] = &[
     ("quit", |desk| {
         desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-Q"]);
     }),
+    ("close_unsaved", |desk| {
+        desk.fill("operation.speed", "1500 rpm").keys(&["Alt-W"]);
+    }),
+    ("quit_several", |desk| {
+        desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-N"]);
+        desk.fill("title", "another").keys(&["Ctrl-Q"]);
+    }),
     ("help", |desk| {
         desk.keys(&["F1"]);
     }),

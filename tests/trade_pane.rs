@@ -6,12 +6,14 @@ mod desk;
 
 use crossterm::event::KeyCode;
 use desk::{Desk, LARGE, SMALL, TABLE_1};
+use insta::assert_snapshot;
 use ratatui::layout::Size;
 use tipstrike::model::inputs::Rung;
-use tipstrike::study::trade::Setting;
+use tipstrike::study::trade::{Setting, Time};
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::app::Progress;
 use tipstrike::tui::measurer::{End, Measured, Measuring};
+use tipstrike::tui::theme::{Look, MONO};
 use tipstrike::tui::update::{Effect, update};
 
 fn measured(size: Size) -> Desk {
@@ -142,6 +144,20 @@ fn what_a_later_measurement_overtook_changes_nothing() {
 }
 
 #[test]
+fn a_measurement_ends_although_its_case_was_closed() {
+    let mut desk = Desk::new(LARGE);
+    desk.keys(&["Ctrl-N", "Esc", "5"]);
+    let serial = match &asked(&mut desk, "m")[..] {
+        [Effect::Measure(measuring)] => measuring.serial,
+        other => panic!("{other:?}"),
+    };
+    desk.keys(&["Alt-W"]);
+    assert!(desk.app.progress.is_some() && desk.has_cancelled, "{}", desk.screen());
+    update(&mut desk.app, Action::Measured(Box::new(Measured { serial, trade: None, end: Some(End::Stopped) })));
+    assert!(desk.app.progress.is_none() && desk.app.measuring.is_none(), "{}", desk.screen());
+}
+
+#[test]
 fn an_invalid_form_is_not_measured() {
     let mut desk = Desk::new(LARGE);
     desk.fill("pair.module", "x");
@@ -161,4 +177,34 @@ fn it_is_drawn_at_every_size() {
     }
     desk.keys(&["Tab", "BackTab", "Right", "Left"]);
     assert!(desk.shows("1 ms") || desk.shows("100 us"), "{}", desk.screen());
+}
+
+/// Times that are the same on every machine: each setting takes a tenth more than the one before.
+fn timed(size: Size) -> Desk {
+    let mut desk = measured(size);
+    let traded = desk.app.tab.traded.as_mut().expect("a measurement");
+    let trade = traded.trade.as_mut().expect("it is whole");
+    for (number, one) in trade.settings.iter_mut().enumerate() {
+        let seconds = 4e-6 * 1.1f64.powi(i32::try_from(number).expect("few settings"));
+        let figures = one.found.as_mut().expect("every rung answers on Table 1");
+        figures.time = Time { seconds, ..figures.time };
+    }
+    trade.judge();
+    traded.marked = trade.recommended.map(|at| trade.settings[at].setting);
+    desk.app.message = None;
+    desk
+}
+
+#[test]
+fn the_pane_as_it_looks() {
+    for (name, size) in [("80x24", SMALL), ("140x45", LARGE)] {
+        let desk = timed(size);
+        assert_snapshot!(format!("alone_{name}"), desk.screen());
+    }
+    let mut desk = timed(SMALL);
+    desk.app.look = Look { theme: &MONO, ascii: true };
+    assert!(desk.screen().is_ascii());
+    assert_snapshot!("alone_ascii", desk.screen());
+    desk.keys(&["z"]);
+    assert_snapshot!("beside_the_others_ascii", desk.screen());
 }

@@ -267,6 +267,8 @@ fn the_baseline_holds_over_tabs_and_has_its_curve_even_if_no_chart_was_in_sight(
     desk.keys(&["Alt-1", "F5", "Esc", "b", "Alt-3"]);
     let pinned = desk.app.baseline.as_ref().expect("it is pinned");
     assert_eq!((pinned.name.as_str(), pinned.answer.stages), ("one.toml", Stages::EVERY));
+    desk.fill("driven.tip_relief", "20 um").keys(&["Esc", "2", "z"]);
+    assert!(desk.shows("to base") && desk.shows(" %"), "{}", desk.screen());
     desk.fill("operation.speed", "bad").keys(&["Esc", "b", "b"]);
     assert!(desk.shows("no valid results to pin"));
 }

@@ -185,8 +185,8 @@ impl Trade {
         Figures { rung: answer.rung, time, evaluations: answer.evaluations, numerical, total }
     }
 
-    /// Mark who qualifies, who stands on the front, and who is the cheapest.
-    fn judge(&mut self) {
+    /// Mark who qualifies, who stands on the front, and who is the cheapest, by the times and errors that stand there.
+    pub fn judge(&mut self) {
         let points: Vec<Option<(f64, f64)>> = self.settings.iter().map(Measured::point).collect();
         for (measured, point) in self.settings.iter_mut().zip(&points) {
             measured.qualifies = measured.is_within(self.within);

@@ -56,6 +56,8 @@ pub struct App {
     pub is_playing: bool,
     /// Long work that goes on.
     pub progress: Option<Progress>,
+    /// The serial of the measurement that goes on; its tab may be closed by now.
+    pub measuring: Option<u64>,
     /// What lies over the panes, the topmost last.
     pub prompts: Vec<Prompt>,
     /// Said once, until the next key.
@@ -125,6 +127,7 @@ impl App {
             chart: ChartView::default(),
             is_playing: false,
             progress: None,
+            measuring: None,
             prompts: Vec::new(),
             message: None,
             size,

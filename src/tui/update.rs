@@ -272,7 +272,8 @@ fn toggle_rung(app: &mut App) -> Vec<Effect> {
     let Some(field) = fields::index_of("model.rung") else { return Vec::new() };
     let names: Vec<_> = Rung::ALL.iter().map(|rung| rung.name()).collect();
     let effects = edit::choose(app, field, &names, 1);
-    app.say(format!("rung {}", edit::chosen(app, field)));
+    let waits = if app.is_stale() { ", solved when every field is right" } else { "" };
+    app.say(format!("rung {}{waits}", edit::chosen(app, field)));
     effects
 }
 

@@ -21,28 +21,24 @@ pub(super) fn measure(app: &mut App) -> Vec<Effect> {
     app.last_serial += 1;
     let serial = app.last_serial;
     app.tab.traded = Some(Traded { serial, inputs: inputs.clone(), trade: None, marked: None });
+    app.measuring = Some(serial);
     app.progress = Some(Progress { what: MEASURING.to_owned(), part: 0.0 });
     vec![Effect::Measure(Box::new(Measuring { serial, inputs, patience: Patience::STEADY }))]
 }
 
 /// What is measured out of sight stops: it would cost the machine what nobody looks at.
 pub(super) fn stop_unseen(app: &App) -> Vec<Effect> {
-    let is_measuring = app.progress.as_ref().is_some_and(|progress| progress.what == MEASURING);
-    let is_own = app.tab.traded.as_ref().is_some_and(|traded| traded.serial == last_serial(app));
+    let Some(serial) = app.measuring else { return Vec::new() };
+    let is_own = app.tab.traded.as_ref().is_some_and(|traded| traded.serial == serial);
     let is_shown = is_own && !view::plan(app.size, app.panes).area(Pane::Trade).is_empty();
-    if is_measuring && !is_shown { vec![Effect::CancelWork] } else { Vec::new() }
-}
-
-/// That of the latest measurement.
-fn last_serial(app: &App) -> u64 {
-    app.tabs().filter_map(|tab| tab.traded.as_ref()).map(|traded| traded.serial).max().unwrap_or(0)
+    if is_shown { Vec::new() } else { vec![Effect::CancelWork] }
 }
 
 /// More is known, or all of it.
 pub(super) fn measured(app: &mut App, measured: Measured) {
     let Measured { serial, trade, end } = measured;
     let is_shown = app.tab.traded.as_ref().is_some_and(|traded| traded.serial == serial);
-    let is_latest = app.progress.is_some() && last_serial(app) == serial;
+    let is_latest = app.measuring == Some(serial);
     if let Some(trade) = trade {
         let part = trade.settings.len() as f64 / trade.planned.max(1) as f64;
         if is_latest {
@@ -54,7 +50,7 @@ pub(super) fn measured(app: &mut App, measured: Measured) {
     }
     let Some(end) = end else { return };
     if is_latest {
-        app.progress = None;
+        (app.progress, app.measuring) = (None, None);
     }
     let recommended = app.traded_of(serial).and_then(|traded| {
         let trade = traded.trade.as_ref()?;

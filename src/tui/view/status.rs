@@ -47,6 +47,10 @@ pub fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
         let (mark, style) = if message.is_fault { ("! ", theme.problem) } else { ("", theme.note) };
         lines.insert(0, Line::styled(text::cut(&format!("{mark}{}", message.text), width), style));
     }
+    let room = usize::from(area.height);
+    if let Some(at) = room.checked_sub(1).filter(|_| lines.len() > room) {
+        lines[at] = Line::raw(text::cut(&format!("{} {}", lines[at], lines[room]), width));
+    }
     for (line, y) in lines.iter().zip(area.top()..area.bottom()) {
         line.render(Rect { y, height: 1, ..area }, buffer);
     }

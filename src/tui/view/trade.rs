@@ -50,7 +50,7 @@ pub fn ordered(trade: &Trade) -> Vec<&Measured> {
 }
 
 fn title(app: &App) -> String {
-    let stale = app.traded.as_ref().is_some_and(|traded| app.case.inputs().is_ok_and(|inputs| traded.is_stale(&inputs)));
+    let stale = app.traded.as_ref().is_some_and(|traded| app.case.inputs().map_or(true, |inputs| traded.is_stale(&inputs)));
     let stale = if stale { "AS IT WAS, m measures anew: " } else { "" };
     format!("{stale}Error against time of a solve, both logarithmic")
 }

@@ -10,6 +10,9 @@ use crate::tui::clean::symbol;
 /// Significant digits of the time since E.
 const TIME_DIGITS: usize = 4;
 
+/// Below this part of the curve's greatest value a value is what rounding leaves of zero.
+const ROUNDING: f64 = 1e-9;
+
 /// The angle, the curves in sight there, and every other value of the active rung.
 #[must_use]
 pub fn readout(app: &App, cursor: f64) -> String {
@@ -50,7 +53,8 @@ fn own(app: &App, graph: &Graph, x: f64) -> Option<String> {
 
 fn told(app: &App, curve: &Curve, value: f64) -> String {
     let name = |text: &'static str| symbol(text, app.look.ascii).into_owned();
-    let number = significant(value + 0.0, curve.column.digits);
+    let most = curve.pieces.iter().flatten().map(|(_, y)| y.abs()).fold(0.0, f64::max);
+    let number = significant(if value.abs() < ROUNDING * most { 0.0 } else { value }, curve.column.digits);
     let unit = if curve.column.shown == "1" { String::new() } else { format!(" {}", curve.column.shown) };
     let number = format!("{number}{unit}");
     match curve.whose {
