@@ -192,7 +192,9 @@ impl Trade {
             measured.qualifies = measured.is_within(self.within);
             measured.is_on_front = point.is_some_and(|point| !points.iter().flatten().any(|other| dominates(other, &point)));
         }
-        let qualified = (0..points.len()).filter(|&at| self.settings[at].qualifies);
+        // What `auto` takes is one of the others, and no setting of its own.
+        let is_candidate = |measured: &Measured| measured.qualifies && measured.setting.rung != Rung::Auto;
+        let qualified = (0..points.len()).filter(|&at| is_candidate(&self.settings[at]));
         self.recommended =
             qualified.min_by(|&one, &other| self.settings[one].seconds().total_cmp(&self.settings[other].seconds()));
     }
