@@ -15,6 +15,7 @@ pub mod search;
 pub mod spread;
 pub mod step;
 mod suggest;
+mod typing;
 pub mod units;
 pub mod visible;
 pub mod words;
@@ -30,6 +31,7 @@ pub use file::Document;
 pub use search::search;
 pub use spread::Spread;
 pub use step::step;
+pub use typing::Measure;
 
 /// A case: what the user wrote in each field, in the order of [`FIELDS`], and the limits it is held to.
 #[derive(Debug, Clone, PartialEq)]

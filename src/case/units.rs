@@ -4,12 +4,14 @@ mod converted;
 mod number;
 pub mod system;
 mod table;
+mod typing;
 
 use super::suggest;
 use super::visible::{cut, quoted};
 pub use converted::converted;
 pub use system::System;
 use table::{FAMILIES, Scale, Unit, name_of, units_of};
+pub use typing::{Open, ending, open, written_unit};
 
 /// A physical dimension that a field or a quantity has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

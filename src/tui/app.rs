@@ -168,6 +168,21 @@ impl App {
         self.panes.focus == Pane::Form && self.is_editing
     }
 
+    /// What completes the text that is typed into the focused field: its unit, or the rest of it.
+    #[must_use]
+    pub fn ending(&self) -> Option<String> {
+        let (tab, system) = (&self.tab, self.settings.units);
+        let typed = || rows::ending(&tab.case, tab.focus, tab.input.value(), tab.written_unit.as_deref(), system);
+        if self.has_line() { typed() } else { None }
+    }
+
+    /// Whether what is wrong in a row is merely that it is being typed.
+    #[must_use]
+    pub fn is_unfinished(&self, row: usize) -> bool {
+        let is_typed = self.has_line() && self.focus == row;
+        is_typed && rows::is_unfinished(&self.tab.case, row, self.tab.input.value())
+    }
+
     /// The stages of a solve whose results are in sight.
     #[must_use]
     pub fn wanted(&self) -> Stages {

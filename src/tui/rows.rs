@@ -1,7 +1,8 @@
 //! The rows of the form that take the focus: the fields, and after them the limits of the case.
 
 use crate::case::fields::{Field, Kind, index_of};
-use crate::case::{Case, FIELDS, Limit, step};
+use crate::case::units::{self, System};
+use crate::case::{Case, FIELDS, Limit, Measure, step};
 use crate::model::Quantity;
 
 /// What stands in a row.
@@ -52,6 +53,37 @@ pub fn write(case: &mut Case, at: usize, text: &str) {
     match row(case, at) {
         Row::Field(field) => case.write(field, text),
         Row::Limit(&Limit { quantity, .. }) => case.write_limit(quantity, text),
+    }
+}
+
+/// What the number of a row is measured in.
+fn measure(case: &Case, at: usize, system: System) -> Option<Measure> {
+    match row(case, at) {
+        Row::Field(field) => FIELDS[field].measure(system),
+        Row::Limit(limit) => limit.measure(system),
+    }
+}
+
+/// The unit of what is written in a row, as it is written.
+#[must_use]
+pub fn written_unit(case: &Case, at: usize) -> Option<String> {
+    let measure = measure(case, at, System::Metric)?;
+    units::written_unit(text(case, at)?, measure.dimension).map(str::to_owned)
+}
+
+/// What completes a text that is typed into a row: the unit in which its value was written, else the one in which it is shown.
+#[must_use]
+pub fn ending(case: &Case, at: usize, typed: &str, written: Option<&str>, system: System) -> Option<String> {
+    let measure = measure(case, at, system)?;
+    units::ending(typed, measure.dimension, written.unwrap_or(measure.unit))
+}
+
+/// Whether what is typed into a row, and is not taken, may be taken by typing on.
+#[must_use]
+pub fn is_unfinished(case: &Case, at: usize, typed: &str) -> bool {
+    match row(case, at) {
+        Row::Field(field) => FIELDS[field].is_unfinished(typed),
+        Row::Limit(limit) => limit.measure(System::Metric).is_some_and(|measure| measure.is_unfinished(typed)),
     }
 }
 

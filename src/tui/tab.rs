@@ -35,8 +35,10 @@ pub struct Tab {
     pub in_place_of: Option<PathBuf>,
     /// The focused field.
     pub focus: usize,
-    /// The text of the focused field, and the cursor in it.
+    /// The text that is typed into the focused field, and the cursor in it; the case has it with its unit.
     pub input: Input,
+    /// The unit in which the focused field was written when it got the focus.
+    pub written_unit: Option<String>,
     /// States to go back to.
     pub history: History,
     /// What is wrong in the form.
@@ -101,6 +103,7 @@ impl Tab {
             id: 0,
             access: Access::of(&document),
             input: Input::from(case.text(focus).unwrap_or_default()),
+            written_unit: rows::written_unit(&case, focus),
             saved: case.clone(),
             case,
             document,
@@ -175,7 +178,16 @@ impl Tab {
         self.case.drop_empty_limits(limit);
         self.focus = limit.and_then(|quantity| rows::of_limit(&self.case, quantity)).unwrap_or(at);
         self.input = Input::from(rows::text(&self.case, self.focus).unwrap_or_default());
+        self.written_unit = rows::written_unit(&self.case, self.focus);
         self.history.end_visit();
+    }
+
+    /// Take over what the case has of the focused row, as when its line is left.
+    pub(super) fn read_line_anew(&mut self) {
+        let text = rows::text(&self.case, self.focus).unwrap_or_default();
+        if text != self.input.value() {
+            self.input = Input::from(text);
+        }
     }
 
     /// Show an answer to the present request.

@@ -101,6 +101,9 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     }
     let cursor = app.cursor;
     let mut effects = happen(app, action);
+    if !app.has_line() {
+        app.tab.read_line_anew();
+    }
     effects.extend(solve(app.catch_up()));
     chart::settle(app, cursor);
     effects.extend(browse::look(app));

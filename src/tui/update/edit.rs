@@ -3,7 +3,7 @@
 use tui_input::InputRequest;
 
 use super::{Effect, solve};
-use crate::case::fields::{Absent, index_of};
+use crate::case::fields::{Absent, Kind, index_of};
 use crate::case::{Case, FIELDS};
 use crate::tui::app::App;
 use crate::tui::prompt::Prompt;
@@ -138,9 +138,12 @@ pub(super) fn replace(app: &mut App, case: Case) -> Vec<Effect> {
 }
 
 fn write(app: &mut App) -> Vec<Effect> {
-    app.tab.before_edit();
     let focus = app.focus;
-    let text = app.tab.input.value().to_owned();
+    let text = completed(app);
+    if rows::text(&app.case, focus).unwrap_or_default() == text {
+        return Vec::new();
+    }
+    app.tab.before_edit();
     rows::write(&mut app.tab.case, focus, &text);
     if let Some(Absent::Either(other)) = rows::field(&app.case, focus).map(|field| field.absent)
         && let Some(other) = index_of(other)
@@ -148,6 +151,13 @@ fn write(app: &mut App) -> Vec<Effect> {
         take_turns(app, focus, other);
     }
     checked(app)
+}
+
+// What is typed, a number with its unit; blanks around a number are none of it.
+fn completed(app: &App) -> String {
+    let text = [app.tab.input.value(), &app.ending().unwrap_or_default()].concat();
+    let is_words = rows::field(&app.case, app.focus).is_some_and(|field| matches!(field.kind, Kind::Text));
+    if is_words { text } else { text.trim().to_owned() }
 }
 
 // Of two fields that exclude each other the one that is typed stays; emptied again, it gives way to the other.

@@ -125,8 +125,10 @@ fn group_title(app: &App, index: usize) -> String {
     material.map_or_else(|| title.to_owned(), |material| format!("{title}, {material}"))
 }
 
+// What is merely unfinished is told beside the form until the field is left.
 fn reasons(app: &App, field: usize, width: u16) -> impl Iterator<Item = String> {
-    let own = app.problems.iter().filter(move |(at, _)| *at == field);
+    let is_unfinished = app.is_unfinished(field);
+    let own = app.problems.iter().filter(move |(at, _)| *at == field && !is_unfinished);
     own.flat_map(move |(_, problem)| {
         let lines = text::wrap(&format!("{}: {}", problem.cause, problem.mend), usize::from(width).saturating_sub(5));
         lines.into_iter().enumerate().map(|(index, line)| format!("{} {line}", if index == 0 { "!" } else { " " }))
@@ -253,6 +255,14 @@ fn draw_value(app: &App, index: usize, area: Rect, style: Style, buffer: &mut Bu
     draw_text(app, index, written, &unwritten, area, style, buffer)
 }
 
+// What completes the line, after it.
+fn draw_ending(app: &App, area: Rect, buffer: &mut Buffer) {
+    let typed = app.input.value().width() as u16;
+    let Some(ending) = app.ending().filter(|_| typed < area.width) else { return };
+    let style = app.look.theme.faint.remove_modifier(Modifier::BOLD | Modifier::UNDERLINED);
+    buffer.set_stringn(area.x + typed, area.y, ending, usize::from(area.width - typed), style);
+}
+
 // What is written in a row, as a line to edit where it is edited, else the words for what is not.
 fn draw_text(
     app: &App,
@@ -266,7 +276,9 @@ fn draw_text(
     let width = usize::from(area.width);
     let is_edited = app.focus == index && app.has_line();
     if is_edited && written.is_some() {
-        return text::edited(&app.input, area, style.add_modifier(Modifier::UNDERLINED), buffer);
+        let cursor = text::edited(&app.input, area, style.add_modifier(Modifier::UNDERLINED), buffer);
+        draw_ending(app, area, buffer);
+        return cursor;
     }
     let shown = written.map_or(unwritten.into(), clean::clean);
     let faint = if written.is_none() { app.look.theme.faint } else { style };

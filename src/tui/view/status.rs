@@ -156,10 +156,13 @@ fn window(names: &[String], middle: usize, width: usize) -> (usize, usize) {
 
 fn focused(app: &App) -> String {
     match app.panes.focus {
-        Pane::Form => match rows::row(&app.case, app.focus) {
-            Row::Field(field) => about_field(app, field),
-            Row::Limit(limit) => about_limit(app, limit),
-        },
+        Pane::Form => {
+            let about = match rows::row(&app.case, app.focus) {
+                Row::Field(field) => about_field(app, field),
+                Row::Limit(limit) => about_limit(app, limit),
+            };
+            typed(app).into_iter().chain([about]).collect::<Vec<_>>().join(" ")
+        }
         Pane::Results => results::marked(app).map_or_else(String::new, |quantity| {
             let name = symbol(quantity.symbol, app.look.ascii);
             format!("{name} {}, {} ({}).", quantity.label.trim(), symbol(quantity.equation, app.look.ascii), quantity.key)
@@ -167,6 +170,16 @@ fn focused(app: &App) -> String {
         Pane::Chart | Pane::Teeth => at_cursor(app),
         Pane::Trade => "Error of every rung against its time.".to_owned(),
     }
+}
+
+// What a number that is typed without its unit will be, or why it is none yet.
+fn typed(app: &App) -> Option<String> {
+    if app.is_unfinished(app.focus)
+        && let Some((_, problem)) = app.problems.iter().find(|(at, _)| *at == app.focus)
+    {
+        return Some(format!("Not yet: {}: {}.", problem.cause, problem.mend));
+    }
+    app.ending().map(|ending| format!("{}{ending} will be taken.", app.input.value().trim_start()))
 }
 
 // What is typed in another unit, why it does not act, what it is.

@@ -1,0 +1,109 @@
+//! What a form makes of a text while it is typed: the unit that completes it, and whether it is wrong or merely unfinished.
+
+use super::fields::{AUTO, Field, Kind};
+use super::units::{self, Dimension, Open, System};
+use super::{Limit, Problem};
+use crate::model::Quantity;
+
+/// What a number is measured in, where it is shown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measure {
+    /// Its dimension.
+    pub dimension: Dimension,
+    /// The unit that a bare number takes where nothing else was written; empty for a bare number.
+    pub unit: &'static str,
+    /// The least value, in SI.
+    pub least: f64,
+}
+
+impl Field {
+    /// What its numbers are measured in; `None` for words and names.
+    #[must_use]
+    pub fn measure(&self, system: System) -> Option<Measure> {
+        let least = |from: f64, unit: &str| from * units::factor(unit).unwrap_or(1.0);
+        match self.kind {
+            Kind::Number(dimension, range, _) => {
+                Some(Measure { dimension, unit: system.unit(self.usual_unit()), least: least(range.from, range.unit) })
+            }
+            Kind::Count(from, ..) => Some(Measure { dimension: Dimension::Number, unit: "", least: f64::from(from) }),
+            Kind::Text | Kind::Choice(..) => None,
+        }
+    }
+
+    /// Whether a text that the field does not take is merely unfinished: it may become a value by typing on.
+    #[must_use]
+    pub fn is_unfinished(&self, typed: &str) -> bool {
+        let is_auto_begun = self.takes_auto() && AUTO.starts_with(typed.trim());
+        is_auto_begun || self.measure(System::Metric).is_some_and(|measure| measure.is_unfinished(typed))
+    }
+}
+
+impl Limit {
+    /// What it is measured in.
+    #[must_use]
+    pub fn measure(&self, system: System) -> Option<Measure> {
+        let quantity = Quantity::find(self.quantity)?;
+        let unit = if quantity.shown == "1" { "" } else { system.unit(quantity.shown) };
+        Some(Measure { dimension: Dimension::of_unit(quantity.unit)?, unit, least: f64::NEG_INFINITY })
+    }
+
+    /// What is wrong with the text.
+    #[must_use]
+    pub fn problem(&self) -> Option<Problem> {
+        Limit::new(self.quantity, &self.text).err().filter(|_| !self.text.is_empty())
+    }
+}
+
+impl Measure {
+    /// Whether a text that is not taken may become a value by typing on: by a unit, or by digits where it is too small.
+    #[must_use]
+    pub fn is_unfinished(&self, typed: &str) -> bool {
+        let is_too_small = || units::parse(typed, self.dimension, "").map_or(true, |value| value < self.least);
+        match units::open(typed, self.dimension) {
+            Some(Open::Unit) => true,
+            Some(Open::Number) => self.dimension != Dimension::Number || is_too_small(),
+            None => false,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::fields::{FIELDS, index_of};
+
+    fn is_unfinished(key: &str, typed: &str) -> bool {
+        FIELDS[index_of(key).unwrap()].is_unfinished(typed)
+    }
+
+    #[test]
+    fn what_may_become_a_value_is_unfinished() {
+        for (key, typed) in [
+            ("pair.pressure_angle", "2"),
+            ("driver.face_width", "8000"),
+            ("driver.tip_relief", "48 m"),
+            ("driver.tip_relief", "-"),
+            ("driver.teeth", "3"),
+            ("driver.profile_shift", "-."),
+            ("model.stations", "au"),
+        ] {
+            assert!(is_unfinished(key, typed), "{key} {typed}");
+        }
+    }
+
+    #[test]
+    fn what_becomes_none_by_typing_on_is_wrong() {
+        for (key, typed) in [
+            ("pair.pressure_angle", "31 rad"),
+            ("pair.pressure_angle", "2 x"),
+            ("driver.tip_relief", "48 umm"),
+            ("driver.teeth", "2000"),
+            ("driver.poisson", "0.9"),
+            ("driver.poisson", "0.3 x"),
+            ("model.stations", "many"),
+            ("title", "a"),
+        ] {
+            assert!(!is_unfinished(key, typed), "{key} {typed}");
+        }
+    }
+}
