@@ -16,11 +16,11 @@ fn text<'d>(desk: &'d Desk, key: &str) -> &'d str {
 fn a_bare_number_is_completed_while_it_is_typed_and_written_with_its_unit() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.fill("deviations.base_pitch", "48");
-    assert!(desk.shows("48 um will be taken.") && desk.shows("base pitch deviation 48 um"), "{}", desk.screen());
+    assert!(desk.shows("Unit added: um.") && desk.shows("base pitch deviation 48 um"), "{}", desk.screen());
     assert!(!desk.shows("LAST VALID") && !desk.shows("2191.0"), "the results are those of 48 um");
     assert_eq!((desk.app.input.value(), text(&desk, "deviations.base_pitch")), ("48", "48 um"));
     desk.keys(&["Down"]);
-    assert!(desk.shows("base pitch deviation 48 um") && !desk.shows("will be taken"), "{}", desk.screen());
+    assert!(desk.shows("base pitch deviation 48 um") && !desk.shows("Unit added"), "{}", desk.screen());
     desk.keys(&["Ctrl-S"]);
     assert_eq!(desk.read("case.toml"), TABLE_1.replace("16 um", "48 um"));
     desk.keys(&["Up", "Esc"]);
@@ -66,7 +66,7 @@ fn the_unit_is_the_one_that_was_written_else_the_one_that_is_shown() {
     assert_eq!(text(&desk, "driver.tip_radius"), "0.2 mm");
     desk.app.settings.units = System::Inch;
     desk.fill("driven.tip_radius", "0.02");
-    assert!(desk.shows("0.02 in will be taken."));
+    assert!(desk.shows("Unit added: in."));
     assert_eq!(text(&desk, "driven.tip_radius"), "0.02 in");
     desk.fill("pair.module", "4");
     assert_eq!(text(&desk, "pair.module"), "4 mm", "it was written in mm");

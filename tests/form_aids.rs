@@ -99,7 +99,7 @@ fn a_limit_begins_with_what_the_result_is_and_goes_when_it_is_emptied() {
     desk.keys(&["Ctrl-U"]);
     assert!(desk.shows("(no limit)"));
     desk.keys(&["0.8"]);
-    assert!(desk.shows("0.8 m/s will be taken."), "{}", desk.screen());
+    assert!(desk.shows("Unit added: m/s.") && desk.shows("0.8 m/s"), "{}", desk.screen());
     desk.keys(&[" m/s", "Ctrl-U", "Up"]);
     assert!(!desk.shows("(no limit)") && !desk.app.is_unsaved(), "{}", desk.screen());
 }

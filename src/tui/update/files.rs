@@ -152,6 +152,7 @@ pub(super) fn saved(app: &mut App, path: PathBuf, next: Next, result: Result<Box
                 app.tab.case = document.case.clone();
                 app.focus_on(app.focus);
             }
+            app.tab.read_line_anew();
             app.tab.document = *document;
             app.tab.in_place_of = None;
             app.say(format!("saved {}", path.display()));

@@ -172,14 +172,16 @@ fn focused(app: &App) -> String {
     }
 }
 
-// What a number that is typed without its unit will be, or why it is none yet.
+// The unit that a number typed without one takes, or why it is no value yet. That it stays as it is while digits are typed
+// spares bytes.
 fn typed(app: &App) -> Option<String> {
     if app.is_unfinished(app.focus)
         && let Some((_, problem)) = app.problems.iter().find(|(at, _)| *at == app.focus)
     {
         return Some(format!("Not yet: {}: {}.", problem.cause, problem.mend));
     }
-    app.ending().map(|ending| format!("{}{ending} will be taken.", app.input.value().trim_start()))
+    app.ending()?;
+    rows::written_unit(&app.case, app.focus).map(|unit| format!("Unit added: {unit}."))
 }
 
 // What is typed in another unit, why it does not act, what it is.
