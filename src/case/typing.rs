@@ -69,7 +69,6 @@ impl Measure {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::case::fields::{FIELDS, index_of};
 
     fn is_unfinished(key: &str, typed: &str) -> bool {

@@ -42,7 +42,7 @@ pub fn open(typed: &str, dimension: Dimension) -> Option<Open> {
 
 /// The unit of a value as it is written; `None` where the text is no value.
 #[must_use]
-pub fn written_unit<'t>(text: &'t str, dimension: Dimension) -> Option<&'t str> {
+pub fn written_unit(text: &str, dimension: Dimension) -> Option<&str> {
     parse(text, dimension, "").ok()?;
     number::split(text.trim(), "").ok().map(|(_, unit)| unit).filter(|unit| !unit.is_empty())
 }
