@@ -19,6 +19,7 @@ const TABLE_1: &str = include_str!("../cases/zhou-chen-2014.toml");
 fn cases() -> Vec<(PathBuf, String)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
     let mut paths: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|ending| ending == "toml"));
     paths.sort();
     assert!(paths.len() >= 8);
     paths.into_iter().map(|path| (path.clone(), fs::read_to_string(path).unwrap())).collect()

@@ -6,6 +6,7 @@ use serde_json::Value;
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Command, Output, Stdio};
+use tipstrike::case::EXAMPLES;
 
 const TABLE_1: &str = "cases/zhou-chen-2014.toml";
 
@@ -370,11 +371,10 @@ fn a_new_case_begins_with_an_example_wherever_the_program_stands() {
     let path = path.to_str().unwrap();
     let elsewhere = |arguments: &[&str]| program(arguments).current_dir(folder.path()).output().unwrap();
     let listed = out(&elsewhere(&["new", "--list"]));
-    for entry in fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/cases")).unwrap().map(Result::unwrap) {
-        let name = entry.path().file_stem().unwrap().to_str().unwrap().to_owned();
-        let text = fs::read_to_string(entry.path()).unwrap();
-        assert_eq!(out(&elsewhere(&["new", "--from", &name])), text, "the very file");
-        assert!(listed.contains(&name));
+    for example in EXAMPLES {
+        let text = fs::read_to_string(format!(concat!(env!("CARGO_MANIFEST_DIR"), "/cases/{}.toml"), example.name)).unwrap();
+        assert_eq!(out(&elsewhere(&["new", "--from", example.name])), text, "the very file");
+        assert!(listed.contains(example.name));
     }
     assert!(
         listed.contains("strikes with 2191.0 N; limit held") && listed.contains("does not strike; 2 limits held"),

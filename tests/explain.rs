@@ -7,10 +7,8 @@ mod evaluate;
 
 use evaluate::{evaluate, factor};
 use std::collections::BTreeSet;
-use std::fs;
-use std::path::Path;
 use std::sync::LazyLock;
-use tipstrike::case::{Case, Document};
+use tipstrike::case::{Case, EXAMPLES};
 use tipstrike::model::{QUANTITIES, Quantity, Stages, solve};
 use tipstrike::report::explain::{How, MENDS, Page, Work, explain, lines, render};
 
@@ -34,11 +32,7 @@ struct Told {
 }
 
 fn cases() -> Vec<(String, Case)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
-    let mut paths: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    paths.sort();
-    let name = |path: &Path| format!("cases/{}", path.file_name().unwrap().to_string_lossy());
-    paths.iter().map(|path| (name(path), Document::read(path).unwrap().case)).collect()
+    EXAMPLES.iter().map(|example| (format!("cases/{}.toml", example.name), example.document().case)).collect()
 }
 
 /// The pages of a case once the settings have changed it; none where the model refuses it.

@@ -58,7 +58,8 @@ mod tests {
     fn every_case_of_the_folder_is_an_example_and_opens() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
         let names = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
-        let kept: BTreeSet<String> = names.collect();
+        // A workbench that has one open keeps its lock beside it.
+        let kept: BTreeSet<String> = names.filter(|name| !name.starts_with('.')).collect();
         let known: BTreeSet<String> = EXAMPLES.iter().map(|example| format!("{}.toml", example.name)).collect();
         assert_eq!(kept, known, "list it in src/case/examples.rs");
         for example in EXAMPLES {

@@ -2,12 +2,13 @@
 //! screen down.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
 
 use super::fault;
 use super::measurer::Measured;
+use super::slot::Slot;
 use crate::case::{Case, Evaluator};
 use crate::model::inputs::Rung;
 use crate::model::{self, Inputs, Note, Refusal, Solution, Stages};
@@ -75,19 +76,7 @@ pub enum Reply {
 /// The worker's thread. It ends when this is dropped.
 #[derive(Debug)]
 pub struct Solver {
-    desk: Arc<Desk>,
-}
-
-#[derive(Debug, Default)]
-struct Desk {
-    tray: Mutex<Tray>,
-    bell: Condvar,
-}
-
-#[derive(Debug, Default)]
-struct Tray {
-    request: Option<Request>,
-    closed: bool,
+    slot: Arc<Slot<Request>>,
 }
 
 impl Answer {
@@ -135,56 +124,36 @@ impl Solver {
         mut solve: impl FnMut(&Request, Wanted<'_>) -> Option<Answer> + Send + 'static,
         tell: impl Fn(Reply) -> bool + Send + 'static,
     ) -> std::io::Result<Solver> {
-        let desk = Arc::new(Desk::default());
-        let theirs = Arc::clone(&desk);
+        let slot = Arc::new(Slot::default());
+        let theirs: Arc<Slot<Request>> = Arc::clone(&slot);
         thread::Builder::new().name(THREAD.to_owned()).spawn(move || {
-            while let Some(request) = theirs.next() {
-                let wanted = Wanted { desk: &theirs, tell: &tell };
+            while let Some(request) = theirs.take() {
+                let wanted = Wanted { slot: &theirs, tell: &tell };
                 let reply = attempt(&mut solve, &request, wanted);
                 if reply.is_some_and(|reply| !tell(reply)) {
                     return;
                 }
             }
         })?;
-        Ok(Solver { desk })
+        Ok(Solver { slot })
     }
 
     /// Ask for a solve, in place of one that has not begun.
     pub fn ask(&self, request: Request) {
-        self.desk.change(|tray| tray.request = Some(request));
+        self.slot.put(request);
     }
 }
 
 impl Drop for Solver {
     fn drop(&mut self) {
-        self.desk.change(|tray| tray.closed = true);
-    }
-}
-
-impl Desk {
-    fn change(&self, change: impl FnOnce(&mut Tray)) {
-        change(&mut self.tray.lock().unwrap_or_else(PoisonError::into_inner));
-        self.bell.notify_one();
-    }
-
-    fn next(&self) -> Option<Request> {
-        let mut tray = self.tray.lock().unwrap_or_else(PoisonError::into_inner);
-        loop {
-            if tray.closed {
-                return None;
-            }
-            if let Some(request) = tray.request.take() {
-                return Some(request);
-            }
-            tray = self.bell.wait(tray).unwrap_or_else(PoisonError::into_inner);
-        }
+        self.slot.close();
     }
 }
 
 /// Whether an answer is still wanted, and whom to tell one that is not the last.
 #[derive(Clone, Copy)]
 pub struct Wanted<'a> {
-    desk: &'a Desk,
+    slot: &'a Slot<Request>,
     tell: &'a dyn Fn(Reply) -> bool,
 }
 
@@ -192,8 +161,7 @@ impl Wanted<'_> {
     /// Whether no later request has come.
     #[must_use]
     pub fn is_wanted(&self) -> bool {
-        let tray = self.desk.tray.lock().unwrap_or_else(PoisonError::into_inner);
-        tray.request.is_none() && !tray.closed
+        self.slot.is_idle()
     }
 
     /// Tell an answer that stands until the last one is there.

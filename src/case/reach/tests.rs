@@ -1,12 +1,11 @@
 //! The table of reach held against the truth: every field is changed in every case, and the bits are compared.
 
 use std::collections::BTreeSet;
-use std::path::Path;
 
 use super::table::ROWS;
 use super::{fields_of, first_stage, stages_of};
 use crate::case::fields::{Kind, index_of};
-use crate::case::{Case, Document, FIELDS};
+use crate::case::{Case, EXAMPLES, FIELDS};
 use crate::model::inputs::{ContactCompliance, Rung, ToothCompliance};
 use crate::model::{self, Inputs, QUANTITIES, Quantity, Refusal, Solution, Stage, Stages};
 
@@ -81,27 +80,23 @@ fn solve(inputs: &Inputs) -> Result<Solution, Refusal> {
 }
 
 fn solved_cases() -> Vec<Solved> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
-    let mut paths: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    paths.sort();
-    let cases = paths.iter().map(|path| Document::read(path).unwrap().case);
-    cases.zip(&paths).flat_map(|(case, path)| variants(&case, &path.display().to_string())).collect()
+    EXAMPLES.iter().flat_map(|example| variants(&example.document().case, example.name)).collect()
 }
 
-fn variants(case: &Case, path: &str) -> Vec<Solved> {
+fn variants(case: &Case, name: &str) -> Vec<Solved> {
     /// The load that every pair shares takes a thousand times as long to find: three kinds of pair stand for all.
     const SHARING: [&str; 3] = ["zhou", "turbo", "high-contact"];
-    let shares = SHARING.iter().any(|name| path.contains(name));
-    let of = |(name, change): (&'static str, Change)| {
+    let shares = SHARING.iter().any(|kind| name.contains(kind));
+    let of = |(variant, change): (&'static str, Change)| {
         let mut inputs = case.inputs().unwrap();
         (inputs.stations, inputs.warmup_cycles, inputs.tolerance) = (Some(1), 1, 1e-3);
         change(&mut inputs);
-        let costly = inputs.rung.shares_load() || name != "as it is";
+        let costly = inputs.rung.shares_load() || variant != "as it is";
         if costly && !shares {
             return None;
         }
         let solution = solve(&inputs).ok()?;
-        Some(Solved { name: format!("{path}, {name}"), variant: name, case: case.clone(), inputs, solution })
+        Some(Solved { name: format!("{name}, {variant}"), variant, case: case.clone(), inputs, solution })
     };
     VARIANTS.into_iter().filter_map(of).collect()
 }
