@@ -20,6 +20,8 @@ pub mod units;
 pub mod visible;
 pub mod words;
 
+use std::sync::Arc;
+
 use crate::model::{Inputs, QUANTITIES, Quantity};
 pub use acts::{Acting, acts};
 pub use changes::Change;
@@ -36,7 +38,8 @@ pub use typing::Measure;
 /// A case: what the user wrote in each field, in the order of [`FIELDS`], and the limits it is held to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Case {
-    texts: Vec<Option<String>>,
+    /// Shared by the states of a case until one of them is written to: many are kept.
+    texts: Arc<Vec<Option<Box<str>>>>,
     /// Limits by quantity, greatest value in SI.
     pub limits: Vec<Limit>,
     /// Distributions of fields around their values.
@@ -75,7 +78,7 @@ impl Case {
     /// A case in which nothing is written yet.
     #[must_use]
     pub fn empty() -> Case {
-        Case { texts: vec![None; FIELDS.len()], limits: Vec::new(), spread: Vec::new() }
+        Case { texts: Arc::new(vec![None; FIELDS.len()]), limits: Vec::new(), spread: Vec::new() }
     }
 
     /// Table 1 of Zhou & Chen 2014: the same text as `cases/zhou-chen-2014.toml`.
@@ -92,7 +95,7 @@ impl Case {
 
     /// Write a field (empty text takes it out), whether or not the text is valid.
     pub fn write(&mut self, field: usize, text: &str) {
-        self.texts[field] = (!text.is_empty()).then(|| text.to_owned());
+        Arc::make_mut(&mut self.texts)[field] = (!text.is_empty()).then(|| text.into());
     }
 
     /// What holds in the field: its text, else its default, else the words for doing without.

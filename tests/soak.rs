@@ -32,10 +32,9 @@ const COMPARE: usize = 500;
 const MENDS: [&[u8]; 10] = [b"", b"5 mm", b"20 deg", b"22", b"0.25", b"200 GPa", b"7800 kg/m3", b"15 kW", b"2000 rpm", b"exact"];
 const MOST_MENDS: usize = 60;
 
-/// What a session is made of. None leaves the folder, none quits but where the question to quit is refused, and none
-/// suspends: `z` would after an Esc.
+/// What a session is made of. None leaves the folder, and none quits but where the question to quit is refused.
 #[rustfmt::skip]
-const ACTIONS: [&[u8]; 75] = [
+const ACTIONS: [&[u8]; 77] = [
     // Edits.
     b"\x151.25 in", b"\x155 mm", b"\x1522", b"\x150.1", b"\x15no number", b"7", b"\x7f", b"\x1b[3~", b"\x17", b" ", b"+", b"-",
     b"\x1b[1;2A", b"\x1b[1;2B", b"\x1b[200~ 5 mm\x1b[201~", b"\x15\x1b[200~a\x07b\r\nc\x1b[201~", b"\x0b", b"\x01",
@@ -46,7 +45,7 @@ const ACTIONS: [&[u8]; 75] = [
     b"\x1a", b"\x1a\x1a", b"\x19", b"\x12", b"\x13", b"\x13", b"\x1bOQ\r", b"\x14",
     // Cases and tabs.
     b"\x0f", b"\x0fother\r", b"\x0fcase\r", b"\x0fcase\r", b"other\r", b"\x0e", b"\x1bw", b"\x1b1", b"\x1b2", b"\x1b[5;5~",
-    b"\x1b[6;5~", b"\x1br",
+    b"\x1b[6;5~", b"\x1br", b"\x1bwd", b"\x1bwd",
     // Panes, cursor, teeth.
     b"1", b"2", b"3", b"4", b"\x1b[15~", b"\x1b[20~", b"b", b"y", b"v", b"x",
     // Help, palette, settings, drawing anew.
@@ -63,6 +62,9 @@ struct Soak {
     suspensions: usize,
     values: usize,
     saves: usize,
+    /// How many cases were open at the last comparison, and at most.
+    tabs: usize,
+    most_tabs: usize,
 }
 
 impl Soak {
@@ -90,6 +92,8 @@ impl Soak {
             }
         }
         self.tty.take_output(Duration::from_millis(1));
+        // The palette has the command to suspend, too.
+        self.tty.wake();
     }
 
     /// Ctrl-C or Ctrl-\, and no to what it asks.
@@ -114,7 +118,12 @@ impl Soak {
             assert!(Journal::from_text(&text).is_ok(), "{text}");
         }
         self.tty.send_signal("CONT");
-        self.tty.wait_until("it to come back", |tty| tty.screen().alternate_screen());
+        let is_back = |tty: &mut Tty| {
+            // It may have been about to suspend itself.
+            tty.wake();
+            tty.screen().alternate_screen()
+        };
+        self.tty.wait_until("it to come back", is_back);
         self.suspensions += 1;
     }
 
@@ -147,6 +156,16 @@ impl Soak {
         assert!(!self.tty.has_ended(), "it quits with an unsaved edit");
         self.press(b"\x1b");
         self.press(b"\x1a");
+        self.tabs = self.count_tabs();
+        self.most_tabs = self.most_tabs.max(self.tabs);
+    }
+
+    /// How many cases are open: from the first one, the one before it is the last.
+    fn count_tabs(&mut self) -> usize {
+        self.press(b"\x1b1\x1b[5;5~");
+        let screen = self.tty.screen().contents();
+        let current = screen.lines().next().and_then(|head| head.split_once('[')?.1.split(' ').next()?.parse().ok());
+        current.unwrap_or(1)
     }
 
     /// Save, mending what stands in the way; the file, where the form has one.
@@ -184,7 +203,7 @@ impl Soak {
         let own = head.split_once('[').and_then(|(_, rest)| Some(rest.split_once(']')?.0.split_once(' ')?.1));
         let (name, is_unsaved) = match own {
             Some(own) => (own.trim_end_matches('*'), own.ends_with('*')),
-            None => (head.split_once('/')?.1.split("  ").next()?, head.contains("*unsaved*")),
+            None => (head.strip_prefix("tipstrike")?.trim_start().split("  ").next()?, head.contains("*unsaved*")),
         };
         let name = name.trim_end_matches("*unsaved*").trim();
         Some((name.rsplit_once('/').map_or(name, |(_, name)| name).to_owned(), is_unsaved))
@@ -263,7 +282,7 @@ fn a_long_session_loses_nothing_and_does_not_grow() {
     let mut tty = launch.start();
     tty.wait_for("quit");
     let random = 0x9e37_79b9_7f4a_7c15;
-    let mut soak = Soak { tty, random, looks: 0, comparisons: 0, suspensions: 0, values: 0, saves: 0 };
+    let mut soak = Soak { tty, random, looks: 0, comparisons: 0, suspensions: 0, values: 0, saves: 0, tabs: 1, most_tabs: 1 };
     let (begun, start) = (Instant::now(), resident(&soak.tty));
     let (mut early, mut most, mut end) = (0, 0, start);
     for step in 1..=count {
@@ -275,19 +294,19 @@ fn a_long_session_loses_nothing_and_does_not_grow() {
                 early = most;
             }
             if step % (count / 4).max(LOOK) == 0 {
-                println!("{step}: {end} KiB, {:.0} s", begun.elapsed().as_secs_f64());
+                println!("{step}: {end} KiB, {} cases open, {:.0} s", soak.tabs, begun.elapsed().as_secs_f64());
             }
         }
         if step % COMPARE == 0 {
             soak.compare();
         }
     }
-    let Soak { looks, comparisons, suspensions, values, saves, .. } = soak;
+    let Soak { looks, comparisons, suspensions, values, saves, most_tabs, .. } = soak;
     let rate = count as f64 / begun.elapsed().as_secs_f64();
     println!(
         "{count} actions, {rate:.0}/s: {start} KiB at first, {early} in the first quarter, {most} at most, {end} at the end"
     );
-    println!("{looks} files parsed, {saves} saves asked for, {suspensions} suspensions");
+    println!("{looks} files parsed, {saves} saves asked for, {suspensions} suspensions, {most_tabs} cases open at most");
     println!("{comparisons} comparisons of form and file, {values} values");
     assert!(comparisons * COMPARE * 2 >= count, "too few comparisons: {comparisons}");
     assert!(most <= early + MOST_GROWTH && most <= 30 << 10, "{early} KiB, then {most} KiB");

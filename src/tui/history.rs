@@ -21,9 +21,9 @@ struct States {
 /// What a case says otherwise than another.
 #[derive(Debug, Clone)]
 struct Difference {
-    texts: Vec<(usize, Box<str>)>,
-    limits: Option<Vec<Limit>>,
-    spread: Option<Vec<Spread>>,
+    texts: Box<[(usize, Box<str>)]>,
+    /// Limits and spreads, which seldom change.
+    others: Option<Box<(Vec<Limit>, Vec<Spread>)>>,
 }
 
 impl History {
@@ -81,10 +81,10 @@ impl Difference {
     /// What `case` says otherwise than `other`.
     fn of(case: &Case, other: &Case) -> Difference {
         let texts = (0..FIELDS.len()).filter(|&field| case.text(field) != other.text(field));
+        let differ = (&case.limits, &case.spread) != (&other.limits, &other.spread);
         Difference {
             texts: texts.map(|field| (field, case.text(field).unwrap_or_default().into())).collect(),
-            limits: (case.limits != other.limits).then(|| case.limits.clone()),
-            spread: (case.spread != other.spread).then(|| case.spread.clone()),
+            others: differ.then(|| Box::new((case.limits.clone(), case.spread.clone()))),
         }
     }
 
@@ -93,8 +93,9 @@ impl Difference {
         for (field, text) in self.texts {
             other.write(field, &text);
         }
-        other.limits = self.limits.unwrap_or(other.limits);
-        other.spread = self.spread.unwrap_or(other.spread);
+        if let Some(others) = self.others {
+            (other.limits, other.spread) = *others;
+        }
         other
     }
 }

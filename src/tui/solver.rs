@@ -11,7 +11,7 @@ use super::measurer::Measured;
 use super::slot::Slot;
 use crate::case::{Case, Evaluator};
 use crate::model::inputs::Rung;
-use crate::model::{self, Inputs, Note, Refusal, Solution, Stages};
+use crate::model::{self, Inputs, Note, QUANTITIES, Refusal, Solution, Stages};
 
 /// So long a slow rung may take before the closed form's answer is shown in its place.
 const PATIENCE: Duration = Duration::from_millis(30);
@@ -53,6 +53,9 @@ pub struct Answer {
     pub notes: Vec<Note>,
 }
 
+/// A value of each quantity, in SI, in the order of [`QUANTITIES`].
+pub type Values = Box<[Option<f64>]>;
+
 /// What an answer took.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Cost {
@@ -84,6 +87,13 @@ impl Answer {
     #[must_use]
     pub fn of(&self, rung: Rung) -> Option<&Solution> {
         self.rungs.iter().find(|(own, _)| *own == rung).and_then(|(_, result)| result.as_ref().ok())
+    }
+
+    /// What the active rung finds of every quantity.
+    #[must_use]
+    pub fn values(&self) -> Values {
+        let solution = self.of(self.active);
+        QUANTITIES.iter().map(|quantity| solution.and_then(quantity.value)).collect()
     }
 
     /// The refusal of the active rung, where it refuses.

@@ -8,7 +8,7 @@ use super::history::History;
 use super::recovery::Access;
 use super::rows::{self, Row};
 use super::scale::Scale;
-use super::solver::Answer;
+use super::solver::{Answer, Values};
 use super::view::chart::Occasion;
 use crate::case::{Case, Document, Problem, fields};
 use crate::model::{Inputs, Refusal, Stages};
@@ -51,8 +51,8 @@ pub struct Tab {
     pub is_settled: bool,
     /// The last valid results.
     pub answer: Option<Answer>,
-    /// The results before the present visit of a field.
-    pub earlier: Option<Answer>,
+    /// The values before the present visit of a field, in the order of the quantities.
+    pub earlier: Option<Values>,
     /// Why the model does not solve what the form says.
     pub refusal: Option<Refusal>,
     /// Whether the worker failed on what the form says.
@@ -167,8 +167,13 @@ impl Tab {
     /// Remember the state before an edit, and the results with it.
     pub(super) fn before_edit(&mut self) {
         if self.history.before_edit(&self.case, self.focus) {
-            self.earlier.clone_from(&self.answer);
+            self.remember();
         }
+    }
+
+    /// Remember the values, to mark those that change from now on.
+    pub(super) fn remember(&mut self) {
+        self.earlier = self.answer.as_ref().map(Answer::values);
     }
 
     /// Move to a row of the form, the cursor at the end of its text. A limit that holds nothing is left behind for good.

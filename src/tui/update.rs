@@ -267,7 +267,7 @@ fn travel(app: &mut App, command: Command) -> Vec<Effect> {
         app.say(if command == Command::Undo { "nothing to undo" } else { "nothing to redo" });
         return Vec::new();
     };
-    tab.earlier.clone_from(&tab.answer);
+    tab.remember();
     solve(app.replace_case(case, focus))
 }
 

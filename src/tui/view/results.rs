@@ -237,7 +237,11 @@ fn rounded(ratio: f64) -> String {
 }
 
 fn shown(app: &App, quantity: &Quantity, solution: &Solution) -> Option<Shown> {
-    (quantity.value)(solution).map(|value| report::shown_in(quantity, value, app.settings.units))
+    (quantity.value)(solution).map(|value| shown_in(app, quantity, value))
+}
+
+fn shown_in(app: &App, quantity: &Quantity, value: f64) -> Shown {
+    report::shown_in(quantity, value, app.settings.units)
 }
 
 fn quantity_text(app: &App, key: &str, solution: &Solution) -> Option<String> {

@@ -3,7 +3,7 @@
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
-use super::{shown, text};
+use super::{shown, shown_in, text};
 use crate::model::inputs::Rung;
 use crate::model::{Outcome, QUANTITIES, Quantity, Solution, Stages};
 use crate::report;
@@ -164,8 +164,11 @@ fn mark(app: &App, answer: &Answer, quantity: &Quantity) -> &'static str {
 // Whether this visit of a field changed what is shown of the quantity.
 fn is_changed(app: &App, answer: &Answer, quantity: &Quantity) -> bool {
     let Some(earlier) = app.earlier.as_ref().filter(|_| !app.is_stale()) else { return false };
-    let told = |answer: &Answer| shown(app, quantity, answer.of(answer.active)?);
-    told(earlier) != told(answer)
+    let at = QUANTITIES.iter().position(|known| known.key == quantity.key);
+    let before = at.and_then(|at| earlier.get(at).copied().flatten());
+    let now = answer.of(answer.active).and_then(quantity.value);
+    let told = |value: Option<f64>| value.map(|value| shown_in(app, quantity, value));
+    told(before) != told(now)
 }
 
 // The active rung's value against the same rung's of the baseline, in percent of it.
