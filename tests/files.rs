@@ -13,6 +13,9 @@ use std::time::{Duration, SystemTime};
 
 use desk::{Desk, SMALL, TABLE_1};
 use tipstrike::case::{Document, fields};
+use tipstrike::tui::actions::{Action, Command as Do, Next};
+use tipstrike::tui::store::{self, SaveFault};
+use tipstrike::tui::update::{Effect, update};
 use tty::{Launch, PROGRAM};
 
 fn edited() -> Desk {
@@ -74,6 +77,52 @@ fn then_it_is_reloaded_saved_elsewhere_overwritten_or_left() {
         assert_eq!(desk.path("other.toml").exists(), keys[0] == "s", "{keys:?}");
         assert!(desk.app.prompts.is_empty(), "{keys:?}");
     }
+}
+
+#[test]
+fn a_save_that_fails_changes_nothing_and_nothing_comes_after_it() {
+    let faults = [
+        SaveFault::Exists,
+        SaveFault::Changed(vec!["speed".to_owned()]),
+        SaveFault::Held("process 1 on another machine for 3 s".to_owned()),
+        SaveFault::Failed("no room".to_owned()),
+    ];
+    let nexts = [Next::Stay, Next::Quit, Next::Close, Next::SaveRest, Next::Load("other.toml".into())];
+    for (fault, next) in faults.iter().flat_map(|fault| nexts.iter().map(move |next| (fault, next))) {
+        let mut desk = edited();
+        let before = desk.app.tab.clone();
+        let failed = Action::Saved(desk.path("other.toml"), next.clone(), Err(fault.clone()));
+        assert!(update(&mut desk.app, failed).is_empty(), "{fault:?} {next:?}");
+        let after = &desk.app.tab;
+        assert_eq!((&after.path, &after.case, &after.saved), (&before.path, &before.case, &before.saved), "{fault:?} {next:?}");
+        assert_eq!(after.document.stamp(), before.document.stamp(), "{fault:?} {next:?}");
+        assert!(after.is_unsaved() && desk.app.tabs().count() == 1, "{fault:?} {next:?}");
+        desk.keys(&["Esc", "Esc", "Ctrl-Q"]);
+        assert!(desk.shows("has unsaved edits") && !desk.has_quit, "{fault:?} {next:?}\n{}", desk.screen());
+    }
+}
+
+#[test]
+fn what_is_typed_while_a_save_runs_stays_and_stays_unsaved() {
+    let mut desk = edited();
+    let effects = update(&mut desk.app, Action::Do(Do::Save));
+    let save = effects.into_iter().find(|effect| matches!(effect, Effect::Save(_))).expect("a save");
+    desk.keys(&["Ctrl-U", "1600 rpm"]);
+    desk.act(store::perform(save).expect("it tells how it went"));
+    assert!(desk.shows("saved ") && desk.read("case.toml").contains("1500 rpm"));
+    assert!(desk.shows("1600 rpm") && desk.app.is_unsaved(), "{}", desk.screen());
+    desk.keys(&["Ctrl-S"]);
+    assert!(desk.read("case.toml").contains("1600 rpm") && !desk.app.is_unsaved());
+}
+
+#[test]
+fn after_a_save_under_another_name_the_case_is_the_new_file() {
+    let mut desk = edited();
+    let new = desk.path("new.toml").display().to_string();
+    desk.keys(&["F2", "Ctrl-U", &new, "Enter"]);
+    assert!(desk.shows("saved ") && desk.app.short_name() == "new.toml", "{}", desk.screen());
+    desk.fill("operation.speed", "1600 rpm").keys(&["Ctrl-S"]);
+    assert!(desk.read("new.toml").contains("1600 rpm") && desk.read("case.toml") == TABLE_1);
 }
 
 #[test]

@@ -112,6 +112,27 @@ fn a_faulty_form_is_not_saved() {
 }
 
 #[test]
+fn a_faulty_form_is_not_taken_for_saved_by_any_way_to_save() {
+    for keys in [&["Ctrl-S"][..], &["F2"], &["Alt-S"], &["Ctrl-Q", "s"], &["Alt-W", "s"], &["Ctrl-P", "save as", "Enter"]] {
+        let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+        desk.fill("operation.speed", "fast").keys(keys);
+        assert!(desk.shows("not saved: mend") && desk.shows("*unsaved*"), "{keys:?}\n{}", desk.screen());
+        assert!(desk.app.is_unsaved() && desk.app.prompts.is_empty() && !desk.has_quit, "{keys:?}");
+        assert_eq!(desk.app.case.text(desk.app.focus), Some("fast"), "{keys:?}");
+        desk.keys(&["Ctrl-Q"]);
+        assert!(desk.shows("has unsaved edits") && !desk.has_quit, "{keys:?}");
+        assert_eq!(desk.read("case.toml"), TABLE_1, "{keys:?}");
+    }
+    // Of several cases, the faulty one stops the leaving; the others are saved.
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.fill("operation.speed", "1500 rpm");
+    let other = desk.write("other.toml", TABLE_1);
+    desk.keys(&["Ctrl-O", "Ctrl-U", name(&other), "Enter"]).fill("operation.speed", "fast").keys(&["Ctrl-Q", "s"]);
+    assert!(!desk.has_quit && desk.shows("not saved: mend") && desk.shows("[2 other.toml*]"), "{}", desk.screen());
+    assert!(desk.read("case.toml").contains("1500 rpm") && desk.read("other.toml") == TABLE_1);
+}
+
+#[test]
 fn a_file_that_cannot_be_written_is_told_and_nothing_is_lost() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.fill("operation.speed", "1500 rpm");

@@ -111,6 +111,42 @@ fn a_journal_is_there_as_long_as_there_are_unsaved_edits() {
 }
 
 #[test]
+fn a_journal_that_could_not_be_written_is_written_as_soon_as_it_can_be() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut app, mut keeper, chest) = bench(folder.path());
+    keeper.follow(&sheets(&app), Instant::now());
+    write(&mut app, "pair.module", "6 mm");
+    keeper.follow(&sheets(&app), Instant::now());
+    let place = folder.path().join("tipstrike/journals");
+    fs::remove_dir_all(&place).expect("our own folder");
+    assert!(chest.write(false).is_err() && chest.is_needed());
+    fs::create_dir(&place).expect("our own folder");
+    assert!(chest.write(false).is_ok());
+    let kept = journals(folder.path()).pop().expect("a journal");
+    assert!(fs::read_to_string(kept).is_ok_and(|text| text.contains("6 mm")));
+    keeper.end();
+}
+
+#[test]
+fn a_journal_whose_edits_are_in_the_form_stays_until_they_are_kept_anew() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut app, mut keeper, _chest) = bench(folder.path());
+    keeper.follow(&sheets(&app), Instant::now());
+    write(&mut app, "pair.module", "6 mm");
+    keeper.follow(&sheets(&app), Instant::now());
+    let (place, old) = (folder.path().join("tipstrike/journals"), folder.path().join("old.toml"));
+    fs::remove_dir_all(&place).expect("our own folder");
+    fs::write(&old, "the edits of an earlier session").expect("room on the disk");
+    keeper.adopt(old.clone());
+    keeper.follow(&sheets(&app), Instant::now());
+    assert!(old.exists(), "nothing else holds them");
+    fs::create_dir(&place).expect("our own folder");
+    keeper.follow(&sheets(&app), Instant::now());
+    assert!(!old.exists() && journals(folder.path()).len() == 1);
+    keeper.end();
+}
+
+#[test]
 fn edits_that_cannot_be_kept_are_told() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("tipstrike"), "no folder").expect("room on the disk");
@@ -354,7 +390,14 @@ fn a_second_session_reads_names_the_first_and_may_save_elsewhere() {
     second.wait_for(&format!("process {}", first.id()));
     let host = fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
     assert!(second.shows(&format!("on {} for ", host.trim())), "{}", second.screen().contents());
-    second.type_in("\x156 mm\x13");
+    second.type_in("\x156 mm");
+    wait_for_journal(&mut second, "6 mm");
+    assert!(second.shows("*unsaved*"), "{}", second.screen().contents());
+    second.type_in("\x13");
+    second.wait_for("Open elsewhere");
+    second.type_in("c\x11");
+    second.wait_for("has unsaved edits");
+    second.type_in("c\x13");
     second.wait_for("Open elsewhere");
     second.type_in("s");
     second.wait_for("Save as");

@@ -99,8 +99,19 @@ impl Soak {
     /// Ctrl-C or Ctrl-\, and no to what it asks.
     fn cancel(&mut self) {
         let key: &[u8] = if self.next(2) == 0 { b"\x03" } else { b"\x1c" };
+        // Where it has suspended itself, such a key would end it, as it would anything.
+        self.be_there();
         self.press(key);
         self.press(b"\x1b");
+    }
+
+    fn be_there(&mut self) {
+        self.tty.settle(QUIET);
+        let is_back = |tty: &mut Tty| {
+            tty.wake();
+            tty.screen().alternate_screen()
+        };
+        self.tty.wait_until("it to come back", is_back);
     }
 
     /// A key alone, and all that it does.
@@ -118,12 +129,7 @@ impl Soak {
             assert!(Journal::from_text(&text).is_ok(), "{text}");
         }
         self.tty.send_signal("CONT");
-        let is_back = |tty: &mut Tty| {
-            // It may have been about to suspend itself.
-            tty.wake();
-            tty.screen().alternate_screen()
-        };
-        self.tty.wait_until("it to come back", is_back);
+        self.be_there();
         self.suspensions += 1;
     }
 

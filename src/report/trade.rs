@@ -200,7 +200,7 @@ fn reference_line(trade: &Trade) -> Option<ReferenceLine> {
     let Setting { rung, stations, tolerance, .. } = reference.setting;
     let quantities = Subject::ALL.into_iter().filter_map(|subject| {
         let quantity = subject.quantity(rung)?;
-        Some((quantity.key.to_owned(), reference.answer.value(subject)?.into()))
+        Some((quantity.key.to_owned(), reference.values[subject as usize]?.into()))
     });
     Some(ReferenceLine {
         rung: rung.name(),

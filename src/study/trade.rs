@@ -46,8 +46,8 @@ pub struct Trade {
 pub struct Reference {
     /// How it was found.
     pub setting: Setting,
-    /// What it is.
-    pub answer: Arc<Answer>,
+    /// What it finds, in SI, in the order of [`Subject::ALL`].
+    pub values: [Option<f64>; Subject::ALL.len()],
     /// How far a second way, that shares the mesh alone, is from it, in the order of [`Subject::ALL`]; or why it is not known.
     pub disagreement: Result<Differences, Refusal>,
 }
@@ -55,14 +55,21 @@ pub struct Reference {
 /// Relative differences in the order of [`Subject::ALL`], where there are any.
 pub type Differences = [Option<f64>; Subject::ALL.len()];
 
+const NO_DIFFERENCES: Differences = [None; Subject::ALL.len()];
+
+/// The answers that the others are held against, with their curves: they are needed while it is measured, and no longer.
+struct Standards {
+    truth: Option<Arc<Answer>>,
+    /// Each rung's by its best setting, where there is one.
+    best: Vec<(Rung, Arc<Answer>)>,
+}
+
 /// What a rung's physics leaves out.
 #[derive(Debug, Clone)]
 pub struct Model {
     /// The rung.
     pub rung: Rung,
-    /// Its answer by its best setting, or why there is none.
-    pub best: Result<Arc<Answer>, Refusal>,
-    /// How far that is from the reference.
+    /// How far its best setting is from the reference.
     pub off: Differences,
 }
 
@@ -114,10 +121,10 @@ pub fn trade(
 ) -> Result<Trade, Refusal> {
     let inputs = &Inputs { within: question.within, ..inputs.clone() };
     let settings = settings(inputs);
-    let mut trade = Trade::begin(inputs, question, settings.len(), go_on)?;
+    let (mut trade, standards) = Standards::find(inputs, question, settings.len(), go_on)?;
     told(&trade);
     for setting in settings {
-        let measured = trade.measure(inputs, setting, &question.patience, go_on)?;
+        let measured = standards.measure(inputs, setting, &question.patience, go_on)?;
         trade.settings.push(measured);
         trade.judge();
         told(&trade);
@@ -138,27 +145,28 @@ fn settings(inputs: &Inputs) -> Vec<Setting> {
     settings
 }
 
-impl Trade {
+impl Standards {
     /// The reference, its check, and the best of each rung.
-    fn begin(inputs: &Inputs, question: &Question, planned: usize, go_on: &dyn Fn() -> bool) -> Result<Trade, Refusal> {
-        let reference = stopped(Reference::of(inputs, go_on))?;
-        let mut models = Vec::new();
+    fn find(
+        inputs: &Inputs,
+        question: &Question,
+        planned: usize,
+        go_on: &dyn Fn() -> bool,
+    ) -> Result<(Trade, Standards), Refusal> {
+        let (reference, truth) = stopped(Reference::of(inputs, go_on))?
+            .map_or_else(|refusal| (Err(refusal), None), |(reference, truth)| (Ok(reference), Some(Arc::new(truth))));
+        let (mut models, mut best) = (Vec::new(), Vec::new());
         for rung in RUNGS {
-            let best = match &reference {
-                Ok(reference) if rung == reference.setting.rung => Ok(Arc::clone(&reference.answer)),
-                _ => stopped(answer_of(inputs, Setting::best(rung), go_on))?.map(Arc::new),
+            let found = match (&reference, &truth) {
+                (Ok(reference), Some(truth)) if rung == reference.setting.rung => Some(Arc::clone(truth)),
+                _ => stopped(answer_of(inputs, Setting::best(rung), go_on))?.ok().map(Arc::new),
             };
-            let off = best.as_ref().ok().zip(reference.as_ref().ok());
-            let off = off.map_or([None; Subject::ALL.len()], |(best, reference)| differences(best, &reference.answer));
-            models.push(Model { rung, best, off });
+            let off = found.as_ref().zip(truth.as_ref()).map_or(NO_DIFFERENCES, |(found, truth)| differences(found, truth));
+            models.push(Model { rung, off });
+            best.extend(found.map(|found| (rung, found)));
         }
-        Ok(Trade { within: question.within, planned, settings: Vec::new(), reference, models, recommended: None })
-    }
-
-    /// The rung's best answer and how far it is from the reference.
-    #[must_use]
-    pub fn model(&self, rung: Rung) -> Option<&Model> {
-        self.models.iter().find(|model| model.rung == rung)
+        let trade = Trade { within: question.within, planned, settings: Vec::new(), reference, models, recommended: None };
+        Ok((trade, Standards { truth, best }))
     }
 
     /// Time and errors of a setting.
@@ -178,11 +186,18 @@ impl Trade {
     }
 
     fn figures(&self, answer: &Answer, time: Time) -> Figures {
-        let none = [None; Subject::ALL.len()];
-        let best = self.model(answer.rung).and_then(|model| model.best.as_ref().ok());
-        let numerical = best.map_or(none, |best| differences(answer, best));
-        let total = self.reference.as_ref().map_or(none, |reference| differences(answer, &reference.answer));
+        let best = self.best.iter().find(|(rung, _)| *rung == answer.rung);
+        let numerical = best.map_or(NO_DIFFERENCES, |(_, best)| differences(answer, best));
+        let total = self.truth.as_ref().map_or(NO_DIFFERENCES, |truth| differences(answer, truth));
         Figures { rung: answer.rung, time, evaluations: answer.evaluations, numerical, total }
+    }
+}
+
+impl Trade {
+    /// How far the rung's best answer is from the reference.
+    #[must_use]
+    pub fn model(&self, rung: Rung) -> Option<&Model> {
+        self.models.iter().find(|model| model.rung == rung)
     }
 
     /// Mark who qualifies, who stands on the front, and who is the cheapest, by the times and errors that stand there.
@@ -226,15 +241,16 @@ impl Measured {
 }
 
 impl Reference {
-    fn of(inputs: &Inputs, go_on: &dyn Fn() -> bool) -> Result<Reference, Refusal> {
+    /// The reference and its whole answer.
+    fn of(inputs: &Inputs, go_on: &dyn Fn() -> bool) -> Result<(Reference, Answer), Refusal> {
         let setting = Setting::best(Rung::Dynamic);
         let inputs = setting.inputs(inputs);
         let solution = answer::solve(&inputs, go_on)?;
-        let answer = Arc::new(Answer::of(&solution));
+        let answer = Answer::of(&solution);
         let second = stopped(second::second_way(&inputs, &solution, go_on))?;
         let off = |second: second::Second| Subject::ALL.map(|subject| apart(second.value(subject), answer.value(subject)));
         let disagreement = second.map(off);
-        Ok(Reference { setting, answer, disagreement })
+        Ok((Reference { setting, values: Subject::ALL.map(|subject| answer.value(subject)), disagreement }, answer))
     }
 }
 

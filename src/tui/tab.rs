@@ -29,6 +29,8 @@ pub struct Tab {
     pub case: Case,
     /// The case as the file has it.
     pub saved: Case,
+    /// The case as it was when a save was asked for that has not been told of yet.
+    pub being_saved: Option<Case>,
     /// Whether the file may be written.
     pub access: Access,
     /// What was asked for and could not be opened, where the built-in case stands for it.
@@ -105,6 +107,7 @@ impl Tab {
             input: Input::from(case.text(focus).unwrap_or_default()),
             written_unit: rows::written_unit(&case, focus),
             saved: case.clone(),
+            being_saved: None,
             case,
             document,
             path,

@@ -142,13 +142,16 @@ pub(super) fn loaded(app: &mut App, path: PathBuf, result: Result<Box<Document>,
 
 /// A file was written, or not.
 pub(super) fn saved(app: &mut App, path: PathBuf, next: Next, result: Result<Box<Document>, SaveFault>) -> Vec<Effect> {
+    let asked = app.tab.being_saved.take();
     match result {
         Ok(document) => {
             if matches!(app.prompts.last(), Some(Prompt::SaveAs(..))) {
                 app.prompts.pop();
             }
             app.tab.saved = document.case.clone();
-            if app.tab.case != document.case {
+            // What was typed since then is not saved, and stays.
+            let is_as_asked = asked.is_none_or(|asked| asked == app.tab.case);
+            if is_as_asked && app.tab.case != document.case {
                 app.tab.case = document.case.clone();
                 app.focus_on(app.focus);
             }
@@ -238,9 +241,10 @@ fn refuse_faulty(app: &mut App) -> bool {
     true
 }
 
-fn saving(app: &App, path: PathBuf, over: Over, next: Next) -> Effect {
+fn saving(app: &mut App, path: PathBuf, over: Over, next: Next) -> Effect {
     let mut document = app.document.clone();
     document.case = app.case.clone();
+    app.tab.being_saved = Some(app.case.clone());
     Effect::Save(Box::new(Saving { document, path, over, next }))
 }
 
