@@ -5,6 +5,7 @@
 
 pub mod auto;
 pub mod band;
+pub mod between;
 pub mod compliance;
 pub mod deviation;
 pub mod dynamic;
@@ -34,6 +35,7 @@ pub mod velocity;
 
 pub use auto::Choice;
 pub use band::Band;
+pub use between::Told;
 pub use compliance::TeethCompliance;
 pub use deviation::Deviation;
 pub use dynamic::Dynamic;

@@ -5,6 +5,7 @@ pub mod digest;
 pub mod explain;
 pub mod fields;
 pub mod graphs;
+pub mod groups;
 pub mod json;
 mod layout;
 pub mod stations;

@@ -13,13 +13,15 @@ use proptest::prelude::*;
 use ratatui::backend::{Backend, CrosstermBackend};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
-use tipstrike::model::Outcome;
+use tipstrike::model::{Moment, Outcome};
 use tipstrike::report::graphs::GRAPHS;
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::pane::Pane;
+use tipstrike::tui::solver::Answer;
 use tipstrike::tui::theme::{Look, MONO};
 use tipstrike::tui::view;
-use tipstrike::tui::view::chart::Frame;
+use tipstrike::tui::view::chart::{self, Frame};
+use tipstrike::tui::view::teeth::readings::readings;
 
 const HUGE: Size = Size { width: 240, height: 70 };
 const MIDDLE: Size = Size { width: 120, height: 40 };
@@ -202,9 +204,60 @@ fn the_time_axis_tells_the_same_curve_in_time() {
     assert_eq!(angle[1..angle.len() - 2], time[1..time.len() - 2], "the curves stay where they are");
     desk.keys(&["l"]);
     assert!(desk.shows(" us: F "), "{}", desk.screen());
-    assert!(desk.kept.is_some_and(|kept| kept.by_time));
+    assert_eq!(desk.kept, None, "a way to look at it is no setting");
     desk.keys(&["c", "t"]);
     assert_eq!(chart(&desk), angle);
+}
+
+#[test]
+fn pinned_results_and_the_present_ones_are_in_sight_from_end_to_end() {
+    for rung in ["paper", "exact", "static", "dynamic"] {
+        for relief in ["46 um", "48 um", "80 um"] {
+            let mut desk = at_rung(SMALL, rung);
+            desk.keys(&["b"]);
+            let pinned = desk.app.scale;
+            desk.fill("driven.tip_relief", relief);
+            for frame in [Frame::Whole, Frame::Strike] {
+                let window = desk.app.chart.window(&desk.app.scale);
+                let solution = |answer: &Answer| answer.of(answer.active).expect("solved").clone();
+                let baseline = solution(&desk.app.baseline.as_ref().expect("pinned").answer);
+                let now = solution(desk.app.answer.as_ref().expect("solved"));
+                for first in [&baseline, &now].into_iter().filter_map(chart::first_contact) {
+                    assert!(window.from <= -first.to_degrees(), "{rung} {relief} {frame:?}: {window:?} {first}");
+                }
+                desk.keys(&["Esc", "3", "v"]);
+            }
+            // Of pinned results of the rung paper the other rung, which drew the axis, is not drawn.
+            assert!(
+                rung == "paper" || desk.app.scale.across == pinned.across,
+                "{rung} {relief}: the axis stays as long as it serves"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_readout_and_the_teeth_tell_the_same_numbers() {
+    for rung in ["paper", "exact", "static", "dynamic"] {
+        let mut desk = at_rung(LARGE, rung);
+        desk.keys(&["Home", "lllll"]);
+        for _ in 0..6 {
+            desk.keys(&["l"]);
+            let angle = desk.app.cursor.expect("a cursor");
+            let answer = desk.app.answer.as_ref().expect("solved");
+            let moment = Moment::at(&answer.inputs, answer.of(answer.active).expect("solved"), angle).expect("in sight");
+            let said = chart::readout(&desk.app, angle);
+            let told = |symbol| readings(&moment).into_iter().find(|reading| reading.symbol == symbol).map(|one| one.to_string());
+            for symbol in ["F_S", "F", "S", "ΔV_n", "ΔV_τ", "x", "F/ΣF", "q_s", "E_k"] {
+                if let Some(told) = told(symbol) {
+                    let alone = format!(" {told}");
+                    let same = said.split([':', ',', ';']).any(|part| part.trim_end_matches('.') == alone);
+                    assert!(same, "{rung}: {told} in {said}");
+                }
+            }
+            assert!(told("S").is_some() && (told("F_S").is_some() || told("F").is_some()), "{rung}");
+        }
+    }
 }
 
 #[test]

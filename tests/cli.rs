@@ -288,9 +288,72 @@ fn a_check_is_a_verdict_a_line() {
 }
 
 #[test]
+fn json_says_which_quantities_are_of_the_free_impact() {
+    for (rung, of) in [("exact", Value::Null), ("static", "free-impact".into()), ("dynamic", "free-impact".into())] {
+        let quantities = &json(&["solve", TABLE_1, "--format", "json", "--rung", rung])["quantities"];
+        for key in ["impact_force", "impact_duration", "normal_velocity", "friction_ratio"] {
+            assert_eq!(quantities[key]["of"], of, "{rung} {key}");
+        }
+        for key in ["mesh_force", "total_deviation", "contact_ratio", "static_peak_force", "dynamic_peak_force"] {
+            assert_eq!(quantities[key]["of"], Value::Null, "{rung} {key}");
+        }
+    }
+}
+
+#[test]
+fn what_a_rung_resolves_itself_stands_before_the_free_impact() {
+    for (rung, first) in [("static", "static: force at E"), ("dynamic", "dynamic: peak before E")] {
+        let text = told(&["solve", TABLE_1, "--rung", rung]);
+        let (own, free) = text.split_once("Free impact at D, closed form: first contact D").unwrap();
+        assert!(own.contains(first) && free.contains("F_S      impact force"), "{text}");
+        assert!(free.contains("ok        impact_force 2011.2 N <= 2500 N (80 %): of the free impact"), "{text}");
+        let page = told(&["explain", "impact_force", TABLE_1, "--rung", rung]);
+        assert!(page.contains("This is of the free impact, in closed form"), "{page}");
+    }
+    assert!(!told(&["solve", TABLE_1]).contains("Free impact"));
+}
+
+#[test]
+fn the_relief_that_is_told_stops_it_and_a_little_less_does_not() {
+    let told_relief = |rung: &str| {
+        let text = told(&["solve", "cases/nasa-lewis-28-28.toml", "--rung", rung]);
+        let line = text.lines().find(|line| line.contains("more tip relief")).unwrap_or_default().to_owned();
+        line.split(' ').next().unwrap_or_default().parse::<f64>().unwrap()
+    };
+    for rung in ["exact", "static"] {
+        let relief = told_relief(rung);
+        for (part, outcome) in [(1.0, "no-corner-contact"), (0.998, "corner-contact")] {
+            let set = format!("driven.tip_relief={:.6} um", relief * part);
+            let case = ["solve", "cases/nasa-lewis-28-28.toml", "--rung", rung, "--set", &set, "--format", "json"];
+            assert_eq!(json(&case)["outcome"], outcome, "{rung} {set}");
+        }
+    }
+}
+
+#[test]
+fn the_page_of_a_result_by_auto_says_which_tolerance_was_taken() {
+    let page = told(&["explain", "dynamic_peak_force", TABLE_1, "--rung", "auto"]);
+    let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(page.contains("rung dynamic, taken by auto"), "{page}");
+    assert!(
+        page.contains("good to 1e-3, as auto takes it for model.within = 0.05; model.tolerance = 1e-6 is not used"),
+        "{page}"
+    );
+    assert!(page.contains("model.within = ") && !page.contains("model.tolerance = 1e-6,"), "{page}");
+    let given = told(&["explain", "dynamic_peak_force", TABLE_1, "--rung", "dynamic"]);
+    assert!(given.contains("good to model.tolerance = 1e-6"), "{given}");
+}
+
+#[test]
 fn a_limit_is_tried_on_another_rung_and_on_a_changed_field() {
     let dynamic = told(&["check", TABLE_1, "--rung", "dynamic"]);
-    assert_eq!(dynamic, format!("ok {TABLE_1}: impact_force 2011.2 N <= 2500 N (80 %)\n"));
+    let beside = "of the free impact, in closed form; dynamic itself finds dynamic_peak_approach_force 1410.8 N";
+    assert_eq!(dynamic, format!("ok {TABLE_1}: impact_force 2011.2 N <= 2500 N (80 %): {beside}\n"));
+    let by_auto = told(&["check", TABLE_1, "--rung", "auto"]);
+    assert_eq!(by_auto, dynamic, "the name means the same whatever the rung");
+    let (_folder, own) = changed("impact_force = \"2500 N\"", "dynamic_peak_approach_force = \"2500 N\"\ncontact_ratio = 1.7");
+    let own = told(&["check", &own, "--rung", "dynamic"]);
+    assert!(!own.contains("free impact") && own.contains("dynamic_peak_approach_force 1410.8 N <= 2500 N (56 %)\n"), "{own}");
     let relieved = told(&["check", TABLE_1, "--set", "driven.tip_relief=60 um"]);
     assert_eq!(relieved, format!("ok {TABLE_1}: impact_force none, no corner contact (limit 2500 N)\n"));
 }

@@ -76,7 +76,7 @@ fn the_page_of_every_result_is_that_of_the_command_and_can_be_read_through() {
 #[test]
 fn from_the_fields_behind_a_result_one_goes_to_the_form() {
     let mut desk = Desk::new(SMALL);
-    desk.keys(&["Esc", "2", "jjj", "Enter"]);
+    desk.keys(&["Esc", "2", "Enter"]);
     let fields = of(&desk).fields();
     assert!(fields.len() > 20 && fields[0] == "pair.module");
     for (at, key) in fields.iter().enumerate() {
@@ -97,7 +97,7 @@ fn from_the_fields_behind_a_result_one_goes_to_the_form() {
 #[test]
 fn a_page_that_is_being_written_says_so_and_a_late_one_is_dropped() {
     let mut desk = Desk::new(SMALL);
-    desk.keys(&["Esc", "2", "jjj"]);
+    desk.keys(&["Esc", "2"]);
     let event = desk::event("Enter");
     let action = tipstrike::tui::actions::of_key(event, desk.app.place()).expect("a key");
     let effects = tipstrike::tui::update::update(&mut desk.app, action);
@@ -124,7 +124,7 @@ fn what_the_model_refuses_and_what_is_invalid_is_told_in_words() {
 #[test]
 fn the_page_says_which_units_it_is_in() {
     let mut desk = Desk::new(SMALL);
-    desk.keys(&["Esc", "2", "jjj", "Enter"]);
+    desk.keys(&["Esc", "2", "Enter"]);
     assert!(!desk.shows("inch"));
     desk.keys(&["Esc", ":", "units", "Enter", "2", "Enter"]);
     assert!(desk.shows("492.56 lbf in inch units; this page is in metric ones."), "{}", desk.screen());
@@ -150,7 +150,7 @@ fn every_letter_of_every_page_has_its_like_in_ascii() {
 #[test]
 fn it_scrolls_no_farther_than_its_end_at_any_size() {
     let mut desk = Desk::new(SMALL);
-    desk.keys(&["Esc", "2", "jjj", "Enter", "PageDown", "Tab"]);
+    desk.keys(&["Esc", "2", "Enter", "PageDown", "Tab"]);
     for (width, height) in [(0, 0), (1, 1), (60, 16), (61, 17), (80, 24), (200, 60), (300, 100)] {
         desk.act(Action::Resize(ratatui::layout::Size { width, height }));
         desk.keys(&["PageDown", "PageDown", "Down", "Tab", "PageUp"]);
@@ -168,7 +168,7 @@ fn the_screens() {
     for (size, look) in [("80x24", Look::FULL), ("140x45", Look::FULL), ("ascii", Look { theme: &MONO, ascii: true })] {
         let mut desk = Desk::new(if size == "140x45" { LARGE } else { SMALL });
         desk.app.look = look;
-        desk.keys(&["Esc", "2", "jjj", "Enter"]);
+        desk.keys(&["Esc", "2", "Enter"]);
         assert_snapshot!(format!("page_{size}"), desk.screen());
         desk.keys(&["Tab", "Tab"]);
         assert_snapshot!(format!("fields_{size}"), desk.screen());

@@ -19,7 +19,7 @@ const MARGIN: f64 = 12.0;
 /// The name of a picture, its title, and the keys to its screen.
 const PICTURES: [(&str, &str, &[&str]); 3] = [
     ("workbench", "The tipstrike workbench on Table 1", &[]),
-    ("explanation", "The impact force explained", &["Esc", "2", "jjj", "Enter"]),
+    ("explanation", "The impact force explained", &["Esc", "2", "Enter"]),
     ("browser", "Opening a case", &["Ctrl-O", "Up", "Up", "Up"]),
 ];
 

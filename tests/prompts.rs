@@ -27,10 +27,10 @@ const SCREENS: &[(&str, Way)] = &[
         desk.keys(&["Alt-L", "dyn"]);
     }),
     ("limits", |desk| {
-        desk.keys(&["Esc", "2", "jjj", "l", "Ctrl-U", "2000 N"]);
+        desk.keys(&["Esc", "2", "l", "Ctrl-U", "2000 N"]);
     }),
     ("inch_units", |desk| {
-        desk.keys(&[":", "Backspace", "Esc", ":", "units", "Enter", "2", "jjj"]);
+        desk.keys(&[":", "Backspace", "Esc", ":", "units", "Enter", "2"]);
     }),
     ("converted", |desk| {
         desk.fill("operation.power", "20 hp");

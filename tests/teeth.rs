@@ -111,7 +111,7 @@ fn the_cursor_turns_the_gears_and_its_values_are_the_solutions() {
     let view = TeethView::default();
     let at_d = screen(&picture(&table_1, &view, 1.0), (140, 30));
     for value in
-        ["1.3663 deg", "O1J 47.8915 mm", "ΔV_n 0.82106 m/s", "ΔV_τ 5.2227 m/s", "F_S 2191.0 N", "S 47.33 um", "open 0 um"]
+        ["1.3663 deg", "O1J 47.8915 mm", "ΔV_n 0.82106 m/s", "ΔV_τ 5.2227 m/s", "F_S 2191.0 N", "S 47.327 um", "open 0 um"]
     {
         assert!(at_d.contains(value), "no {value} in\n{at_d}");
     }

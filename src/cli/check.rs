@@ -2,9 +2,10 @@
 
 use super::cases::{self, Opened};
 use super::{Check, Exit, Streams};
+use crate::case::Case;
 use crate::case::visible::visible;
-use crate::model;
-use crate::report::verdict::{Standing, refused, stages, verdicts};
+use crate::model::{self, Inputs, Refusal, Solution};
+use crate::report::verdict::{Standing, refused, stages, stages_beside, verdicts};
 use std::io::{self, Write};
 
 pub(super) fn run(options: &Check, streams: &mut Streams) -> io::Result<Exit> {
@@ -22,7 +23,7 @@ pub(super) fn run(options: &Check, streams: &mut Streams) -> io::Result<Exit> {
 
 fn check(opened: &Opened, streams: &mut Streams) -> io::Result<Exit> {
     let case = &opened.document.case;
-    let (verdicts, refusal) = match model::solve(&opened.inputs, stages(case)) {
+    let (verdicts, refusal) = match solve(case, &opened.inputs) {
         Ok(solution) => (verdicts(case, &solution), solution.withheld),
         Err(refusal) => (refused(case, &refusal), Some(refusal)),
     };
@@ -38,4 +39,12 @@ fn check(opened: &Opened, streams: &mut Streams) -> io::Result<Exit> {
     }
     let holds = verdicts.iter().all(|verdict| verdict.standing.holds());
     Ok(if holds { Exit::Done } else { Exit::Exceeded })
+}
+
+/// As far as the limits need it, and what the rung itself finds beside them, where it does.
+fn solve(case: &Case, inputs: &Inputs) -> Result<Solution, Refusal> {
+    let needed = stages(case);
+    let solution = model::solve(inputs, needed)?;
+    let whole = needed.and(stages_beside(case, solution.rung));
+    if needed.covers(whole) { Ok(solution) } else { model::solve(inputs, whole).or(Ok(solution)) }
 }

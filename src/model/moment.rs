@@ -2,13 +2,13 @@
 
 use nalgebra::Point2;
 
+use super::between::Told;
 use super::geometry::geometry;
-use super::impact::Masses;
 use super::inputs::Inputs;
 use super::placing::{on_line_of_action, tip_point};
 use super::tip::{TipContact, gap_without, tip_at};
 use super::velocity::velocity;
-use super::{Geometry, MeshStation, Solution, stations};
+use super::{Geometry, Solution};
 
 /// No tip is followed further from its end of the path of contact, in rad of its gear.
 pub const MOST_ANGLE: f64 = 1.0;
@@ -40,10 +40,8 @@ pub struct Moment {
     pub normal_velocity: f64,
     /// Sliding velocity ΔV_τ, in m/s.
     pub sliding_velocity: f64,
-    /// The impact force, in N, if the tooth struck here: in the rungs `paper` and `exact`, from D to E, where it has one.
-    pub impact_force: Option<f64>,
-    /// Between the stations of the rungs `static` and `dynamic`, what they say.
-    pub load: Option<MeshStation>,
+    /// What the rung tells of the tooth here, where it is in contact.
+    pub told: Option<Told>,
 }
 
 /// Where in its course the incoming pair is.
@@ -122,7 +120,7 @@ impl Moment {
     /// Whether the pair touches.
     #[must_use]
     pub fn touches(&self) -> bool {
-        self.opening <= 0.0 && self.load.is_none_or(|load| load.force > 0.0)
+        self.opening <= 0.0 && self.told.as_ref().and_then(Told::load).is_none_or(|load| load.force > 0.0)
     }
 
     fn is_sound(&self) -> bool {
@@ -148,8 +146,7 @@ fn run_in(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> Moment {
         opening: opening(solution, gap),
         normal_velocity: velocity.normal,
         sliding_velocity: velocity.sliding,
-        impact_force: force(inputs, solution, angle),
-        load: load(solution, roll_angle),
+        told: Told::at(inputs, solution, roll_angle),
     }
 }
 
@@ -168,8 +165,7 @@ fn line(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> Moment {
         opening: opening(solution, 0.0),
         normal_velocity: 0.0,
         sliding_velocity: inputs.driven_speed() * rest - inputs.speed * curvature,
-        impact_force: None,
-        load: load(solution, roll_angle),
+        told: Told::at(inputs, solution, roll_angle),
     }
 }
 
@@ -179,7 +175,7 @@ fn run_out(inputs: &Inputs, solution: &Solution, roll_angle: f64, last: f64) -> 
         Inputs { driver: inputs.driven.clone(), driven: inputs.driver.clone(), speed: inputs.driven_speed(), ..inputs.clone() };
     let geometry = geometry::<f64>(&swapped).ok()?;
     let tip = tip_at(&geometry, last - roll_angle);
-    let (gap, velocity, load) = (gap_of(&geometry, &tip), velocity(&swapped, &tip), load(solution, roll_angle));
+    let (gap, velocity, told) = (gap_of(&geometry, &tip), velocity(&swapped, &tip), Told::at(inputs, solution, roll_angle));
     let point = tip_point(&geometry, &tip);
     Some(Moment {
         phase: Phase::RunOut,
@@ -188,11 +184,10 @@ fn run_out(inputs: &Inputs, solution: &Solution, roll_angle: f64, last: f64) -> 
         point: Point2::new(geometry.centre_distance - point.x, -point.y),
         radius_driver: geometry.driven.tip,
         gap,
-        opening: if load.is_some() { 0.0 } else { gap },
+        opening: if told.is_some() { 0.0 } else { gap },
         normal_velocity: -velocity.normal,
         sliding_velocity: -velocity.sliding,
-        impact_force: None,
-        load,
+        told,
     })
 }
 
@@ -210,42 +205,6 @@ fn opening(solution: &Solution, gap: f64) -> f64 {
     };
     let left = gap - closed;
     if left > ROUNDING * closed.abs() { left } else { 0.0 }
-}
-
-/// The impact force from D to E.
-fn force(inputs: &Inputs, solution: &Solution, angle: f64) -> Option<f64> {
-    let first = solution.position?.approach_angle_driven * (1.0 + ROUNDING);
-    let has_force = angle <= first && !shares_load(solution);
-    let masses = Masses::of(inputs, &solution.geometry).ok().filter(|_| has_force)?;
-    let station = stations::station(inputs, &solution.geometry, &masses, angle).ok()?;
-    Some(station.impact_force).filter(|force| force.is_finite())
-}
-
-/// What the stations of the rungs `static` and `dynamic` say at an angle, in a straight line from one to the next.
-fn load(solution: &Solution, roll_angle: f64) -> Option<MeshStation> {
-    let at_rest = solution.static_load.as_ref().map(|load| &load.stations);
-    let stations = solution.dynamic.as_ref().map(|dynamic| &dynamic.stations).or(at_rest)?;
-    let encloses = |pair: &&[MeshStation]| (pair[1].roll_angle_driver..=pair[0].roll_angle_driver).contains(&roll_angle);
-    let pair = stations.windows(2).find(encloses)?;
-    let way = pair[0].roll_angle_driver - pair[1].roll_angle_driver;
-    let part = if way > 0.0 { (pair[0].roll_angle_driver - roll_angle) / way } else { 1.0 };
-    Some(between(&pair[0], &pair[1], part))
-}
-
-fn between(from: &MeshStation, to: &MeshStation, part: f64) -> MeshStation {
-    let mix = |from: f64, to: f64| from + part * (to - from);
-    MeshStation {
-        roll_angle_driver: mix(from.roll_angle_driver, to.roll_angle_driver),
-        roll_angle_driven: mix(from.roll_angle_driven, to.roll_angle_driven),
-        force: mix(from.force, to.force),
-        load_share: mix(from.load_share, to.load_share),
-        transmission_error: mix(from.transmission_error, to.transmission_error),
-        sliding_velocity: mix(from.sliding_velocity, to.sliding_velocity),
-        normal_velocity: mix(from.normal_velocity, to.normal_velocity),
-        gap: mix(from.gap, to.gap),
-        pair_compliance: mix(from.pair_compliance, to.pair_compliance),
-        time: from.time.zip(to.time).map(|(from, to)| mix(from, to)),
-    }
 }
 
 #[cfg(test)]
@@ -270,19 +229,23 @@ mod tests {
         found
     }
 
+    fn force(moment: &Moment) -> Option<f64> {
+        Some(moment.told?.impact()?.impact_force)
+    }
+
     #[test]
     fn values_at_d_and_at_the_stations_are_the_solutions() {
         for (inputs, solution) in solved() {
             let Some(position) = solution.position else { continue };
             let moment = Moment::at(&inputs, &solution, position.approach_angle_driver).unwrap();
             assert_eq!((moment.opening, moment.radius_driver), (0.0, position.contact.radius_driver));
-            assert_eq!(moment.impact_force, solution.impact.map(|impact| impact.force));
+            assert_eq!(force(&moment), solution.impact.map(|impact| impact.force));
             for station in &solution.stations {
                 let moment = Moment::at(&inputs, &solution, station.roll_angle_driver).unwrap();
                 let close = |found: f64, expected: f64| (found - expected).abs() <= 1e-9 * expected.abs();
                 assert!(close(moment.normal_velocity, station.normal_velocity), "{moment:?} {station:?}");
                 assert!(close(moment.sliding_velocity, station.sliding_velocity), "{moment:?} {station:?}");
-                assert!(close(moment.impact_force.unwrap(), station.impact_force), "{moment:?} {station:?}");
+                assert!(close(force(&moment).unwrap(), station.impact_force), "{moment:?} {station:?}");
                 assert!(close(moment.radius_driver, station.radius_driver), "{moment:?} {station:?}");
             }
         }
@@ -305,7 +268,7 @@ mod tests {
         assert_eq!(solution.position, None);
         for angle in [0.0, -0.05] {
             let moment = Moment::at(&inputs, &solution, angle).unwrap();
-            assert!((moment.opening - 20e-6).abs() < 1e-15 && moment.impact_force.is_none(), "{moment:?}");
+            assert!((moment.opening - 20e-6).abs() < 1e-15 && force(&moment).is_none(), "{moment:?}");
         }
     }
 
@@ -326,15 +289,15 @@ mod tests {
         for (inputs, solution) in shared() {
             let first = first_contact(&solution).unwrap() * inputs.ratio();
             let before = Moment::at(&inputs, &solution, 1.001 * first).unwrap();
-            assert!(before.opening > 0.0 && before.load.is_none() && !before.touches(), "{before:?}");
+            assert!(before.opening > 0.0 && before.told.is_none() && !before.touches(), "{before:?}");
             let stations = solution.dynamic.map_or_else(|| solution.static_load.clone().unwrap().stations, |run| run.stations);
             let solution = solve(&inputs, Stages::EVERY).unwrap();
             for station in &stations {
                 let moment = Moment::at(&inputs, &solution, station.roll_angle_driver).unwrap();
-                let load = moment.load.unwrap();
+                let load = *moment.told.as_ref().and_then(Told::load).unwrap();
                 assert!((load.force - station.force).abs() < 1e-9 * (1.0 + station.force), "{load:?} {station:?}");
                 assert!((moment.sliding_velocity - station.sliding_velocity).abs() < 1e-9, "{moment:?} {station:?}");
-                assert!(moment.opening == 0.0 && moment.impact_force.is_none(), "{moment:?}");
+                assert!(moment.opening == 0.0 && force(&moment).is_none(), "{moment:?}");
             }
         }
     }

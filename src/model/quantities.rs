@@ -1,5 +1,6 @@
 //! The one table of quantities, from which results pane, text, JSON, CSV, limits and `--only` are derived.
 
+use super::inputs::Rung;
 use super::{Solution, Stage};
 
 /// A result with a name.
@@ -32,12 +33,50 @@ impl Quantity {
         self.shown == "yes/no"
     }
 
+    /// Whether there is nothing of it without a friction coefficient.
+    #[must_use]
+    pub fn needs_friction(&self) -> bool {
+        matches!(self.key, "pitch_contact_jump" | "dynamic_friction_work")
+    }
+
+    /// Whether it is of the free impact at D: the closed form, which every rung has beside its own results.
+    #[must_use]
+    pub fn is_of_free_impact(&self) -> bool {
+        FREE_IMPACT.contains(&self.stage)
+    }
+
+    /// What a rung itself finds in place of a quantity of the free impact; the quantity where the rung is the closed form.
+    #[must_use]
+    pub fn by(&'static self, rung: Rung) -> Option<&'static Quantity> {
+        let at = match rung {
+            Rung::Paper | Rung::Exact => return Some(self),
+            Rung::Static => 1,
+            Rung::Dynamic => 2,
+            Rung::Auto => return None,
+        };
+        let row = RESOLVED.iter().find(|[free, ..]| self.key == *free || self.key.starts_with(&format!("{free}_")))?;
+        Quantity::find(row[at])
+    }
+
     /// The quantity of that name.
     #[must_use]
     pub fn find(key: &str) -> Option<&'static Quantity> {
         QUANTITIES.iter().find(|quantity| quantity.key == key)
     }
 }
+
+/// The stages of the free impact at D.
+const FREE_IMPACT: [Stage; 7] =
+    [Stage::Position, Stage::Velocity, Stage::Compliance, Stage::Impact, Stage::Friction, Stage::Band, Stage::Stations];
+
+/// What the closed form tells of the free impact, and what `static` and `dynamic` find in its place; empty where they do not.
+/// What a name goes on with, as in `impact_force_low`, is another reading of the same.
+const RESOLVED: [[&str; 3]; 4] = [
+    ["approach_angle_driven", "static_first_contact_angle", "dynamic_first_contact_angle"],
+    ["approach_angle_driver", "static_first_contact_angle", "dynamic_first_contact_angle"],
+    ["impact_force", "static_force_at_start", "dynamic_peak_approach_force"],
+    ["impact_duration", "", "dynamic_impact_duration"],
+];
 
 macro_rules! quantity {
     ($key:literal, $symbol:literal, $label:literal, $unit:literal, $shown:literal, $digits:literal, $equation:literal, $stage:ident, $value:expr) => {

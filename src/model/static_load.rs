@@ -121,9 +121,14 @@ fn shared(pairs: impl Iterator<Item = Pair>, force: f64) -> Balance {
         preload += pair.weight * pair.place.stiffness * pair.place.gap;
         displacement = preload / stiffness;
     }
-    let carried = |pair: &Pair| pair.place.stiffness * (displacement - pair.place.gap).max(0.0);
+    let force = |pair: &Pair| carried(pair, displacement);
     let incoming = pairs.iter().find(|pair| pair.ahead == 0);
-    Balance { displacement, force: incoming.map_or(0.0, carried), total: pairs.iter().map(carried).sum() }
+    Balance { displacement, force: incoming.map_or(0.0, force), total: pairs.iter().map(force).sum() }
+}
+
+/// The force of a pair at that displacement of the driver ahead, in N.
+pub(super) fn carried(pair: &Pair, displacement: f64) -> f64 {
+    pair.place.stiffness * (displacement - pair.place.gap).max(0.0)
 }
 
 /// By how much the others' displacement is beyond the incoming pair's gap: above 0 it carries.

@@ -59,6 +59,8 @@ pub struct MeshStation {
     pub pair_compliance: f64,
     /// Time since E, in s; in the rung `dynamic` alone.
     pub time: Option<f64>,
+    /// How fast the displacement grows, in m/s; in the rung `dynamic` alone.
+    pub rate: Option<f64>,
 }
 
 impl MeshStation {
@@ -90,6 +92,7 @@ impl MeshStation {
             gap: own.gap,
             pair_compliance: mesh.width / own.stiffness,
             time,
+            rate: None,
         }
     }
 }

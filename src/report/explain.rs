@@ -15,8 +15,10 @@ mod valid;
 mod work;
 mod worth;
 
+use super::verdict::Beside;
 use super::{Shown, shown, value};
 use crate::case::Case;
+use crate::case::units::System;
 use crate::model::inputs::Rung;
 use crate::model::{Inputs, Outcome, Quantity, Solution, Stage, auto};
 
@@ -35,6 +37,8 @@ pub struct Page {
     pub quantity: &'static Quantity,
     /// The rung of the solve.
     pub rung: &'static str,
+    /// Whether the rung `auto` took it.
+    pub is_by_auto: bool,
     /// Its value in SI, where it has one.
     pub value: Option<f64>,
     /// The value as a person reads it.
@@ -43,6 +47,8 @@ pub struct Page {
     pub missing: Option<String>,
     /// What it is and what it is good for.
     pub says: &'static str,
+    /// What the rung itself finds in its place, where it is of the free impact.
+    pub beside: Option<String>,
     /// How it is found, the quantity first and then each step on the way.
     pub work: Vec<Work>,
     /// What the formulas take from elsewhere: other quantities, and fields.
@@ -67,17 +73,19 @@ pub struct Page {
 pub fn explain(quantity: &'static Quantity, case: &Case, inputs: &Inputs, solution: &Solution) -> Option<Page> {
     // What the rung `auto` took is explained.
     let taken = if inputs.rung == Rung::Auto { auto::taken(inputs, solution.rung) } else { inputs.clone() };
-    let known = Known { case, inputs: &taken, solution };
+    let known = Known { case, inputs: &taken, given: inputs, solution };
     let about = table::of(quantity)?;
     let value = value(quantity, solution);
     let (work, leaves) = work::of(quantity, about, &known);
     Some(Page {
         quantity,
         rung: solution.rung.name(),
+        is_by_auto: inputs.rung == Rung::Auto,
         value,
         shown: value.map(|value| shown(quantity, value)),
         missing: value.is_none().then(|| missing(quantity, &known)),
         says: about.says,
+        beside: Beside::of(quantity, solution).map(|beside| format!("This is {}.", beside.told(System::Metric))),
         work,
         leaves,
         source: about.source,
@@ -105,7 +113,7 @@ fn missing(quantity: &Quantity, known: &Known) -> String {
         return format!("No value: no corner contact, the total deviation of {total} um does not bring the tooth in early");
     }
     match (solution.withheld, quantity.stage) {
-        (_, Stage::Static | Stage::Dynamic) if known.inputs.friction_coefficient.is_none() && is_of_friction(quantity) => {
+        (_, Stage::Static | Stage::Dynamic) if known.inputs.friction_coefficient.is_none() && quantity.needs_friction() => {
             "No value: the case gives no friction coefficient, operation.friction_coefficient".to_owned()
         }
         (_, Stage::Static | Stage::Dynamic) => "No value: the tooth does not come to it".to_owned(),
@@ -115,9 +123,4 @@ fn missing(quantity: &Quantity, known: &Known) -> String {
         }
         (None, _) => "No value: the end of the impact D' does not exist, since the triangle of Eq. 34 does not close".to_owned(),
     }
-}
-
-/// Whether there is nothing of it without friction.
-fn is_of_friction(quantity: &Quantity) -> bool {
-    matches!(quantity.key, "pitch_contact_jump" | "dynamic_friction_work")
 }

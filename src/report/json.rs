@@ -27,6 +27,9 @@ struct Line<'a> {
 struct Measured {
     value: Value,
     unit: &'static str,
+    /// What it is of, where that is not what the rung resolves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    of: Option<&'static str>,
 }
 
 #[derive(Serialize)]
@@ -52,7 +55,10 @@ struct Quantities<'a>(&'a Report);
 
 impl Serialize for Quantities<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let measured = |quantity: &Quantity, value| Measured { value: Value::of(quantity, value), unit: quantity.unit };
+        let shares_load = self.0.solution.rung.shares_load();
+        let of = |quantity: &Quantity| (shares_load && quantity.is_of_free_impact()).then_some("free-impact");
+        let measured =
+            |quantity: &Quantity, value| Measured { value: Value::of(quantity, value), unit: quantity.unit, of: of(quantity) };
         serializer.collect_map(self.0.values().map(|(quantity, value)| (quantity.key, measured(quantity, value))))
     }
 }

@@ -1,7 +1,8 @@
 //! The one table of what a station of the incoming tooth tells, for text, JSON, CSV and charts.
 
+use crate::model::between::DIGITS_BETWEEN;
 use crate::model::inputs::Rung;
-use crate::model::{MeshStation, Solution, Station};
+use crate::model::{MeshStation, Solution, Station, Told};
 
 /// A place of the incoming tooth.
 #[derive(Debug, Clone, Copy)]
@@ -76,6 +77,15 @@ pub fn rows(solution: &Solution) -> Vec<Row<'_>> {
     loads.into_iter().flatten().map(Row::Load).collect()
 }
 
+impl<'a> From<&'a Told> for Row<'a> {
+    fn from(told: &'a Told) -> Row<'a> {
+        match told {
+            Told::Impact(station) => Row::Impact(station),
+            Told::Load(station) | Told::Between(station) => Row::Load(station),
+        }
+    }
+}
+
 impl<'a> Row<'a> {
     fn both<T>(self, impact: fn(&Station) -> T, load: fn(&MeshStation) -> T) -> T {
         match self {
@@ -94,6 +104,14 @@ impl<'a> Row<'a> {
 }
 
 impl Column {
+    /// Significant digits that a person reads of it there: no more than are good.
+    #[must_use]
+    pub fn digits_of(&self, told: &Told) -> usize {
+        let is_of_motion = ["force", "load_share", "transmission_error"].contains(&self.key);
+        let is_between = matches!(told, Told::Between(_)) && is_of_motion;
+        if is_between { self.digits.min(DIGITS_BETWEEN) } else { self.digits }
+    }
+
     /// The station's value in SI where it is a number, zero without a sign.
     #[must_use]
     pub fn of(&self, row: Row<'_>) -> Option<f64> {

@@ -1,12 +1,14 @@
 //! A solve as a page of text for a person, 80 columns wide.
 
-use super::digest::{first_touch, force};
+use super::digest::{self, first_touch, force};
+use super::groups::{FREE_IMPACT, Group, groups};
 use super::layout::{WIDTH, flow, item, widest};
 use super::stations::{Column, columns, rows};
 use super::verdict::{Verdict, verdicts};
 use super::{Report, Shown, shown, value};
 use crate::case::FIELDS;
 use crate::case::fields::Absent;
+use crate::case::units::System;
 use crate::case::visible::visible;
 use crate::model::inputs::Rung;
 use crate::model::{self, Inputs, Outcome, Quantity, Solution, Stage, Stages};
@@ -14,21 +16,6 @@ use std::io::{self, Write};
 
 /// The parts of a page, in order; an empty one leaves no trace.
 const SECTIONS: [fn(&Report) -> Vec<String>; 7] = [heading, outcome, inputs, quantities, notes, limits, station_table];
-
-/// The stages whose quantities share a heading.
-const GROUPS: [(&str, &[Stage]); 11] = [
-    ("Geometry", &[Stage::Geometry]),
-    ("Load", &[Stage::Load]),
-    ("Deviation", &[Stage::Deviation]),
-    ("First contact D", &[Stage::Position]),
-    ("Velocity at D", &[Stage::Velocity]),
-    ("Impact", &[Stage::Compliance, Stage::Impact, Stage::Band]),
-    ("Friction", &[Stage::Friction]),
-    ("From D to E", &[Stage::Stations]),
-    ("Mesh", &[Stage::Mesh]),
-    ("Load shared by every pair", &[Stage::Static]),
-    ("Load shared, with inertia", &[Stage::Dynamic]),
-];
 
 /// The inputs that say which pair this is; one that is not given, zero or as usual goes unsaid.
 const TOLD_INPUTS: &[&str] = &[
@@ -84,6 +71,7 @@ fn heading(report: &Report) -> Vec<String> {
 fn outcome(report: &Report) -> Vec<String> {
     let mut sentences = vec![sentence(&report.solution)];
     if report.selection.is_whole() {
+        sentences.extend(digest::relief(&report.solution, System::Metric).map(|[words, ..]| format!("{words}.")));
         let others = Rung::CLOSED_FORM.into_iter().filter(|&rung| rung != report.solution.rung);
         sentences.extend(others.filter_map(|rung| other_rung(&report.inputs, rung)));
     }
@@ -152,13 +140,20 @@ fn quantities(report: &Report) -> Vec<String> {
     if !report.selection.is_whole() {
         return rows.iter().map(|row| columns.line(row)).collect();
     }
-    let group = |&(title, stages): &(&str, &[Stage])| {
-        let lines: Vec<String> =
-            rows.iter().filter(|row| stages.contains(&row.quantity.stage)).map(|row| columns.line(row)).collect();
-        let title = (!lines.is_empty()).then(|| title.to_owned());
-        title.into_iter().chain(lines).collect::<Vec<_>>()
+    let rung = report.solution.rung;
+    let group = |group: &'static Group| {
+        let line = |quantity: &Quantity| rows.iter().find(|row| row.quantity.key == quantity.key).map(|row| columns.line(row));
+        let lines: Vec<String> = group.quantities().filter_map(line).collect();
+        let title = if group.is_beside(rung) { format!("{FREE_IMPACT}: {}", lower(group.title)) } else { group.title.to_owned() };
+        titled(&title, lines)
     };
-    GROUPS.iter().flat_map(group).collect()
+    groups(rung).into_iter().flat_map(group).collect()
+}
+
+// A heading within another.
+fn lower(title: &str) -> String {
+    let mut letters = title.chars();
+    letters.next().map(|first| first.to_lowercase().chain(letters).collect()).unwrap_or_default()
 }
 
 /// A quantity and its value as it is shown.
@@ -236,16 +231,4 @@ fn titled(title: &str, lines: impl IntoIterator<Item = String>) -> Vec<String> {
     let mut lines = lines.into_iter().peekable();
     let title = lines.peek().is_some().then(|| title.to_owned());
     title.into_iter().chain(lines).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_stage_has_one_heading() {
-        for stage in Stage::ALL {
-            assert_eq!(GROUPS.iter().filter(|(_, stages)| stages.contains(&stage)).count(), 1, "{}", stage.name());
-        }
-    }
 }

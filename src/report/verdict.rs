@@ -4,6 +4,7 @@ use super::{shown_in, value};
 use crate::case::units::System;
 use crate::case::visible::visible;
 use crate::case::{Case, Limit};
+use crate::model::inputs::Rung;
 use crate::model::{Outcome, Quantity, Refusal, Solution, Stage, Stages};
 use std::fmt;
 
@@ -49,6 +50,41 @@ pub struct Verdict<'a> {
     pub standing: Standing,
     /// Why the model gives no value, where it says so.
     pub withheld: Option<Refusal>,
+    /// What the rung itself finds in place of the limited quantity, where that is the closed form's.
+    pub beside: Option<Beside>,
+}
+
+/// What stands beside a quantity of the free impact in a rung that resolves the impact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Beside {
+    /// The rung.
+    pub rung: Rung,
+    /// Its own quantity and the value in SI, where it has them.
+    pub own: Option<(&'static str, Option<f64>)>,
+}
+
+impl Beside {
+    /// What stands beside that quantity of a solution.
+    #[must_use]
+    pub fn of(quantity: &'static Quantity, solution: &Solution) -> Option<Beside> {
+        let rung = solution.rung;
+        let own = || quantity.by(rung).map(|own| (own.key, value(own, solution)));
+        (rung.shares_load() && quantity.is_of_free_impact()).then(|| Beside { rung, own: own() })
+    }
+
+    /// In words, the value in metric or inch units.
+    #[must_use]
+    pub fn told(&self, system: System) -> String {
+        let own = self.own.and_then(|(key, value)| Some((Quantity::find(key)?, value)));
+        let rung = self.rung.name();
+        match own {
+            Some((own, Some(value))) => {
+                format!("of the free impact, in closed form; {rung} itself finds {} {}", own.key, shown_in(own, value, system))
+            }
+            Some((own, None)) => format!("of the free impact, in closed form; {rung} itself tells {}", own.key),
+            None => format!("of the free impact, in closed form, and not of {rung}"),
+        }
+    }
 }
 
 /// Every limit of the case held against the solution, in the case's order.
@@ -60,14 +96,28 @@ pub fn verdicts<'a>(case: &'a Case, solution: &Solution) -> Vec<Verdict<'a>> {
 /// The stages that every limit of a case needs.
 #[must_use]
 pub fn stages(case: &Case) -> Stages {
-    let limited = case.limits.iter().filter_map(|limit| Quantity::find(limit.quantity));
-    limited.fold(Stages::of(Stage::Geometry), |stages, quantity| stages.and(Stages::of(quantity.stage)))
+    of_all(limited(case))
+}
+
+/// The stages of what a rung itself finds in place of the limited quantities.
+#[must_use]
+pub fn stages_beside(case: &Case, rung: Rung) -> Stages {
+    of_all(limited(case).filter(|quantity| quantity.is_of_free_impact()).filter_map(|quantity| quantity.by(rung)))
+}
+
+fn limited(case: &Case) -> impl Iterator<Item = &'static Quantity> {
+    case.limits.iter().filter_map(|limit| Quantity::find(limit.quantity))
+}
+
+fn of_all(quantities: impl Iterator<Item = &'static Quantity>) -> Stages {
+    quantities.fold(Stages::of(Stage::Geometry), |stages, quantity| stages.and(Stages::of(quantity.stage)))
 }
 
 /// The verdict on one limit.
 #[must_use]
 pub fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Verdict<'a> {
-    let value = Quantity::find(limit.quantity).and_then(|quantity| value(quantity, solution));
+    let quantity = Quantity::find(limit.quantity);
+    let value = quantity.and_then(|quantity| value(quantity, solution));
     let standing = match value {
         Some(value) if value <= limit.value => Standing::Within,
         Some(_) => Standing::Exceeded,
@@ -75,13 +125,14 @@ pub fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Verdict<'a> {
         None => Standing::Unknown,
     };
     let withheld = solution.withheld.filter(|_| standing == Standing::Unknown);
-    Verdict { limit, value, standing, withheld }
+    let beside = quantity.and_then(|quantity| Beside::of(quantity, solution));
+    Verdict { limit, value, standing, withheld, beside }
 }
 
 /// Every limit of a case that the model refuses: none can be held against anything.
 #[must_use]
 pub fn refused<'a>(case: &'a Case, refusal: &Refusal) -> Vec<Verdict<'a>> {
-    let verdict = |limit| Verdict { limit, value: None, standing: Standing::Unknown, withheld: Some(*refusal) };
+    let verdict = |limit| Verdict { limit, value: None, standing: Standing::Unknown, withheld: Some(*refusal), beside: None };
     case.limits.iter().map(verdict).collect()
 }
 
@@ -96,6 +147,11 @@ impl Verdict<'_> {
     /// The verdict in a line, the value in metric or inch units; the limit as it was written.
     #[must_use]
     pub fn told(&self, system: System) -> String {
+        let beside = self.beside.map_or_else(String::new, |beside| format!(": {}", beside.told(system)));
+        self.said(system) + &beside
+    }
+
+    fn said(&self, system: System) -> String {
         let (key, limit) = (self.limit.quantity, visible(&self.limit.text));
         let (Some(value), Some(quantity)) = (self.value, Quantity::find(key)) else {
             return match self.withheld {

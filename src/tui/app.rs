@@ -52,6 +52,8 @@ pub struct App {
     pub teeth: TeethView,
     /// What of the roll angle is in sight in the charts.
     pub chart: ChartView,
+    /// Whether the charts tell the time after E in place of the roll angle before it; until the workbench is left.
+    pub by_time: bool,
     /// Whether the cursor runs by itself.
     pub is_playing: bool,
     /// Long work that goes on.
@@ -125,6 +127,7 @@ impl App {
             cursor: None,
             teeth: TeethView::default(),
             chart: ChartView::default(),
+            by_time: false,
             is_playing: false,
             progress: None,
             measuring: None,

@@ -35,21 +35,11 @@ pub struct Settings {
     pub ascii: Option<bool>,
     /// The chart, by its place in the table.
     pub chart: usize,
-    /// Whether the charts tell the time after E in place of the roll angle before it.
-    pub by_time: bool,
 }
 
 impl Default for Settings {
     fn default() -> Settings {
-        Settings {
-            marker: Marker::Braille,
-            mouse: false,
-            theme: None,
-            units: System::Metric,
-            ascii: None,
-            chart: 0,
-            by_time: false,
-        }
+        Settings { marker: Marker::Braille, mouse: false, theme: None, units: System::Metric, ascii: None, chart: 0 }
     }
 }
 
@@ -68,7 +58,6 @@ impl Settings {
             units: word("units").and_then(System::find).unwrap_or(usual.units),
             ascii: flag("ascii"),
             chart: word("chart").and_then(Graph::find).unwrap_or(usual.chart),
-            by_time: flag("time_axis").unwrap_or(usual.by_time),
         }
     }
 
@@ -92,7 +81,6 @@ impl Settings {
         set("units", Some(self.units.name().into()));
         set("ascii", self.ascii.map(Value::from));
         set("chart", GRAPHS.get(self.chart).map(|graph| graph.key.into()));
-        set("time_axis", Some(self.by_time.into()));
         Ok(file.to_string())
     }
 
@@ -176,7 +164,7 @@ mod tests {
     fn every_setting_comes_back() {
         for theme in ThemeName::ALL.map(Some).into_iter().chain([None]) {
             for (units, ascii) in [(System::Metric, None), (System::Inch, Some(true)), (System::Inch, Some(false))] {
-                let settings = Settings { marker: Marker::Dot, mouse: true, theme, units, ascii, chart: 3, by_time: true };
+                let settings = Settings { marker: Marker::Dot, mouse: true, theme, units, ascii, chart: 3 };
                 assert_eq!(Settings::parse(&settings.render("").expect("nothing is TOML")), settings);
             }
         }

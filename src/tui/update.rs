@@ -182,7 +182,10 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         }
         Command::ChartBy(by) => chart::step(app, by),
         Command::Chart(graph) => chart::choose(app, graph),
-        Command::ChartTime => chart::time_or_angle(app),
+        Command::ChartTime => {
+            chart::time_or_angle(app);
+            Vec::new()
+        }
         Command::CycleMarker => options::cycle_marker(app),
         Command::ShowCost => {
             app.shows_cost = !app.shows_cost;

@@ -151,6 +151,7 @@ impl Watch {
         let state = forces.after(&record.from, t - record.from.t);
         let incoming = self.windows[record.window].incoming()?;
         let force = if record.touching.has(incoming) { forces.force(incoming, t, &state).0.max(0.0) } else { 0.0 };
-        Some(MeshStation::at(motion.mesh, motion.place(t), force, forces.total(t, &state), state[0], Some(t)))
+        let station = MeshStation::at(motion.mesh, motion.place(t), force, forces.total(t, &state), state[0], Some(t));
+        Some(MeshStation { rate: Some(state[1]), ..station })
     }
 }

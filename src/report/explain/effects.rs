@@ -3,14 +3,18 @@
 use super::known::{Known, factor};
 use super::worth::{noise, value_of};
 use crate::case::FIELDS;
-use crate::case::fields::{Absent, Kind};
+use crate::case::fields::{Absent, Kind, index_of};
 use crate::case::reach::fields_of;
 use crate::case::units::Dimension;
 use crate::case::visible::visible;
 use crate::model::compliance::model_of;
-use crate::model::{Inputs, Quantity};
+use crate::model::inputs::Rung;
+use crate::model::{Inputs, Quantity, Stage};
 use crate::numeric::decimal::significant;
 use crate::report::{shown, value};
+
+/// The tolerance of the motion with which a small step is told from none.
+const FINE: f64 = 1e-6;
 
 /// A field and what a small step of it does.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -29,11 +33,20 @@ pub struct Effect {
 
 /// The fields behind a quantity, in the order of the form.
 pub(super) fn of(quantity: &Quantity, known: &Known) -> Vec<Effect> {
-    // A step must not change over from one stiffness model to the other.
-    let held = Inputs { tooth_compliance: Some(model_of(known.inputs)), ..known.inputs.clone() };
+    // A step must not change over from one stiffness model to the other, nor be lost in the steps of the motion.
+    let tolerance = known.inputs.tolerance.min(FINE);
+    let held = Inputs { tooth_compliance: Some(model_of(known.inputs)), tolerance, ..known.inputs.clone() };
+    let is_coarse = quantity.stage == Stage::Dynamic && tolerance < known.inputs.tolerance;
     let own = value(quantity, known.solution);
-    let fields = fields_of(quantity, known.inputs).into_iter();
-    fields.filter_map(|field| effect(quantity, field, known, &held, own)).collect()
+    let own = if is_coarse { value_of(quantity, &held) } else { own };
+    fields(quantity, known).into_iter().filter_map(|field| effect(quantity, field, known, &held, own)).collect()
+}
+
+/// The fields behind a quantity; the rung `auto` takes the tolerance from what it may leave in all.
+fn fields(quantity: &Quantity, known: &Known) -> Vec<usize> {
+    let [given, taken] = ["model.within", "model.tolerance"].map(index_of);
+    let by_auto = |field: usize| if known.given.rung == Rung::Auto && Some(field) == taken { given } else { Some(field) };
+    fields_of(quantity, known.inputs).into_iter().filter_map(by_auto).collect()
 }
 
 fn effect(quantity: &Quantity, field: usize, known: &Known, held: &Inputs, own: Option<f64>) -> Option<Effect> {
@@ -44,8 +57,7 @@ fn effect(quantity: &Quantity, field: usize, known: &Known, held: &Inputs, own: 
     }
     let stepped = known.case.value(field).and_then(|now| stepped(field, now, held));
     let (step, inputs) = stepped.unzip();
-    let change =
-        own.zip(inputs).map(|(own, inputs)| change(quantity, own, value_of(quantity, &inputs), noise(quantity, known.inputs)));
+    let change = own.zip(inputs).map(|(own, inputs)| change(quantity, own, value_of(quantity, &inputs), noise(quantity, held)));
     let (step, change) = (step.unwrap_or_default(), change.unwrap_or_default());
     Some(Effect { key: known_field.key, symbol: known_field.symbol, text, step, change })
 }

@@ -23,6 +23,8 @@ struct Line<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     missing: Option<&'a str>,
     says: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    beside: Option<&'a str>,
     work: Vec<WorkLine<'a>>,
     with: Vec<LeafLine<'a>>,
     source: &'static str,
@@ -98,6 +100,7 @@ pub fn write(page: &Page, name: &str, out: &mut dyn Write) -> io::Result<()> {
         shown: page.shown.as_ref().map(Shown::to_string),
         missing: page.missing.as_deref(),
         says: page.says,
+        beside: page.beside.as_deref(),
         work: page.work.iter().map(WorkLine::of).collect(),
         with: page.leaves.iter().map(LeafLine::of).collect(),
         source: page.source,

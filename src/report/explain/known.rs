@@ -16,8 +16,10 @@ pub const STEP_UNITS: [(&str, f64); 5] = [("kg m2", 1.0), ("N/(um mm)", 1e9), ("
 pub struct Known<'a> {
     /// As the user wrote it.
     pub case: &'a Case,
-    /// What the model read of it.
+    /// What the model read of it, with what the rung `auto` took.
     pub inputs: &'a Inputs,
+    /// The same as the case gives it.
+    pub given: &'a Inputs,
     /// What the model found.
     pub solution: &'a Solution,
 }

@@ -81,12 +81,14 @@ fn head(page: &Page, name: &str, width: usize) -> Vec<Line> {
     };
     let symbol = if quantity.symbol.is_empty() { String::new() } else { format!(", {}", quantity.symbol) };
     let title = format!("{}{symbol} ({})", quantity.label.trim_start(), quantity.equation);
-    let of = format!("{} · {} · rung {}", quantity.key, visible(name), page.rung);
+    let by = if page.is_by_auto { ", taken by auto" } else { "" };
+    let of = format!("{} · {} · rung {}{by}", quantity.key, visible(name), page.rung);
     let mut lines = block(Kind::Title, &title, "", "", width);
     lines.extend(block(Kind::Title, &value, "", "  ", width));
     lines.extend(block(Kind::Text, &of, "", "", width));
     lines.push(Line::new(Kind::Text, ""));
     lines.extend(paragraph(page.says, 0, width));
+    lines.extend(page.beside.iter().flat_map(|beside| paragraph(beside, 0, width)));
     lines
 }
 

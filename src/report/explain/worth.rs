@@ -30,13 +30,23 @@ fn numerical(quantity: &Quantity, known: &Known) -> Option<String> {
     let digits = format!("{} digits are shown", quantity.digits);
     Some(match quantity.stage {
         _ if quantity.is_flag() => return None,
-        Stage::Dynamic => {
-            format!("Arithmetic: the peak force is good to model.tolerance = {:e}; {digits}.", known.inputs.tolerance)
-        }
+        Stage::Dynamic => format!("Arithmetic: the peak force is good to {}; {digits}.", tolerance(known)),
         Stage::Static => format!("Arithmetic: good to 1e-11 of the value; {digits}."),
         _ if known.inputs.accurate => format!("Arithmetic: good to 1e-13 of the value; {digits}."),
         _ => format!("Arithmetic: good to 1e-12 of the value; {digits}."),
     })
+}
+
+/// The tolerance of the motion, and whose it is.
+fn tolerance(known: &Known) -> String {
+    let Inputs { rung, tolerance, within, .. } = known.given;
+    let taken = known.inputs.tolerance;
+    match rung {
+        Rung::Auto => {
+            format!("{taken:e}, as auto takes it for model.within = {within}; model.tolerance = {tolerance:e} is not used")
+        }
+        _ => format!("model.tolerance = {taken:e}"),
+    }
 }
 
 /// The quantity's value under other inputs, where it has one.

@@ -62,22 +62,18 @@ impl Subject {
     /// The quantity by which a rung answers; none for the curve, and where the rung has none.
     #[must_use]
     pub fn quantity(self, rung: Rung) -> Option<&'static Quantity> {
-        let keys = match self {
-            Subject::FirstContact => ["approach_angle_driven", "static_first_contact_angle", "dynamic_first_contact_angle"],
-            Subject::PeakForce => ["impact_force", "static_peak_force", "dynamic_peak_force"],
-            Subject::PeakApproachForce => ["impact_force", "static_force_at_start", "dynamic_peak_approach_force"],
-            Subject::Duration => ["impact_duration", "", "dynamic_impact_duration"],
-            Subject::FrictionRatio => ["friction_ratio", "", ""],
+        let free = match self {
+            Subject::FirstContact => "approach_angle_driven",
+            Subject::PeakForce | Subject::PeakApproachForce => "impact_force",
+            Subject::Duration => "impact_duration",
+            Subject::FrictionRatio => "friction_ratio",
             Subject::Curve => return None,
         };
-        let [closed_form, shared, with_inertia] = keys;
-        let key = match rung {
-            Rung::Paper | Rung::Exact => closed_form,
-            Rung::Static => shared,
-            Rung::Dynamic => with_inertia,
-            Rung::Auto => return None,
-        };
-        Quantity::find(key)
+        match (self, rung) {
+            (Subject::PeakForce, Rung::Static) => Quantity::find("static_peak_force"),
+            (Subject::PeakForce, Rung::Dynamic) => Quantity::find("dynamic_peak_force"),
+            _ => Quantity::find(free)?.by(rung),
+        }
     }
 
     /// Whether the rung answers at all.

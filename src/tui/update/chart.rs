@@ -17,10 +17,9 @@ pub(super) fn choose(app: &mut App, graph: usize) -> Vec<Effect> {
 }
 
 /// The time after E in place of the roll angle before it, or back.
-pub(super) fn time_or_angle(app: &mut App) -> Vec<Effect> {
-    app.settings.by_time = !app.settings.by_time;
-    app.say(if app.settings.by_time { "the charts tell the time after E" } else { "the charts tell the roll angle before E" });
-    options::keep(app)
+pub(super) fn time_or_angle(app: &mut App) {
+    app.by_time = !app.by_time;
+    app.say(if app.by_time { "the charts tell the time after E" } else { "the charts tell the roll angle before E" });
 }
 
 /// Some steps closer around the cursor, or around D without one; farther below 0.

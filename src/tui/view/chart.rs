@@ -20,7 +20,7 @@ use crate::tui::pane::Pane;
 use crate::tui::scale::{Scale, Span};
 
 use axes::{Axes, Ruler};
-use curves::{Curve, Whose, curves, way};
+use curves::{Curve, Whose, curves, way, way_of_active};
 
 pub use curves::{first_contact, last_contact};
 pub use readout::readout;
@@ -102,9 +102,12 @@ pub fn fitted(app: &App) -> Scale {
         scale.upright[graph] = scale.upright[graph].fitted(values);
     }
     // While a rung is to come, its axis waits for it.
-    let way = way(answer);
+    let pinned = app.baseline.as_ref().map(|baseline| &baseline.answer);
+    let way = pinned.map_or(Span::NONE, way_of_active).and(way(answer));
     scale.across = if answer.pending.is_some() { scale.across.grown(way) } else { scale.across.fitted(way) };
-    if let Some(first) = answer.of(answer.active).and_then(first_contact).map(f64::to_degrees).filter(|first| *first > 0.0) {
+    let touches = [Some(answer), pinned].into_iter().flatten().filter_map(|answer| first_contact(answer.of(answer.active)?));
+    let first = touches.fold(0.0, f64::max).to_degrees();
+    if first > 0.0 {
         scale.strike = scale.strike.fitted(Span::new(-first, AFTER_E * first));
     }
     scale
@@ -130,7 +133,7 @@ fn panels(app: &App, area: Rect) -> Vec<(usize, Axes)> {
     let Some(answer) = &app.answer else { return shown.into_iter().map(|graph| (graph, Axes::default())).collect() };
     let height = area.height / u16::try_from(shown.len().max(1)).unwrap_or(1);
     let window = app.chart.window(&app.scale);
-    let ruler = Ruler::of(app.settings.by_time, answer.inputs.speed, window);
+    let ruler = Ruler::of(app.by_time, answer.inputs.speed, window);
     let uprights = shown.iter().map(|graph| app.scale.upright[*graph]);
     let margin = axes::margin(uprights, height.saturating_sub(3));
     let below = |at: usize| {

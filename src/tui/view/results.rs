@@ -21,12 +21,12 @@ use crate::tui::solver::Answer;
 const ENOUGH_ROWS: usize = 8;
 /// So many at least, whatever stands above them.
 const LEAST_ROWS: usize = 2;
+/// A pane with fewer lines and columns has room for the outcome in a few words only.
+const LOW: usize = 20;
+const NARROW: usize = 30;
 
-/// How far the results may be off, in words, and in as few letters as can be read.
-struct Gauge {
-    words: String,
-    short: String,
-}
+/// What stops the impact and how far the results may be off, in words and then in fewer and fewer.
+struct Gauge([String; 3]);
 
 /// What stands in the pane, from its top to its bottom.
 struct Parts {
@@ -41,19 +41,19 @@ struct Parts {
 /// Draw the results.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let parts = parts(app, area);
-    let inner = titled(app, Pane::Results, &title(app, &parts), area, buffer);
+    let inner = titled(app, Pane::Results, &title(app), area, buffer);
     let Some(answer) = &app.answer else {
         draw_lines(&parts.head, inner, buffer);
         return;
     };
     let inner = Rect { x: inner.x + inner.width.min(1), width: inner.width.saturating_sub(1), ..inner };
-    let table = table::lines(app, answer, inner.width.into());
+    let table = table::lines(app, answer, inner.width.into(), hidden(app, parts.rows));
     let quantities = table.rows.iter().skip(app.results_top).take(parts.rows);
     let lines: Vec<Line<'static>> =
         parts.head.into_iter().chain([table.heading]).chain(quantities.cloned()).chain(parts.notes).collect();
     draw_lines(&lines, inner, buffer);
     if app.panes.focus == Pane::Results
-        && let Some(line) = app.row.checked_sub(app.results_top).filter(|&line| line < parts.rows)
+        && let Some(line) = line_of(app, app.row).checked_sub(app.results_top).filter(|&line| line < parts.rows)
     {
         let y = area.y + (lines_before(app, area) + line) as u16;
         buffer.set_stringn(area.x, y, "▸", 1, app.look.theme.focus);
@@ -78,25 +78,41 @@ pub fn marked(app: &App) -> Option<&'static Quantity> {
     table::order(app.answer.as_ref()?).nth(app.row)
 }
 
-/// The first quantity to be shown, so that the marked one is in sight.
+/// The first line to be shown, so that the marked quantity is in sight.
 #[must_use]
 pub fn top_for(app: &App) -> usize {
     let rows = page(app).max(1);
-    let least = (app.row + 1).saturating_sub(rows);
-    app.results_top.clamp(least, app.row.max(least)).min(count(app).saturating_sub(rows))
+    let line = line_of(app, app.row);
+    let least = (line + 1).saturating_sub(rows);
+    app.results_top.clamp(least, line.max(least)).min(line_count(app).saturating_sub(rows))
 }
 
-/// The first quantity to be shown after so many lines downwards.
+/// The first line to be shown after so many lines downwards.
 #[must_use]
 pub fn scrolled(app: &App, by: isize) -> usize {
-    app.results_top.saturating_add_signed(by).min(count(app).saturating_sub(page(app)))
+    app.results_top.saturating_add_signed(by).min(line_count(app).saturating_sub(page(app)))
 }
 
 /// The place of the quantity on a cell, where there is one.
 #[must_use]
 pub fn row_at(app: &App, area: Rect, at: Position) -> Option<usize> {
     let line = usize::from(at.y - area.y).checked_sub(lines_before(app, area))?;
-    (line < parts(app, area).rows).then_some(app.results_top + line).filter(|&row| row < count(app))
+    let in_sight = line < parts(app, area).rows;
+    table::row_of(app.answer.as_ref()?, app.results_top + line).filter(|&row| in_sight && row < count(app))
+}
+
+// The line of a quantity, by their places.
+fn line_of(app: &App, row: usize) -> usize {
+    app.answer.as_ref().map_or(row, |answer| table::line_of(answer, row))
+}
+
+fn line_count(app: &App) -> usize {
+    count(app).checked_sub(1).map_or(0, |last| line_of(app, last) + 1)
+}
+
+// How many lines of the table are out of sight, above and below.
+fn hidden(app: &App, rows: usize) -> (usize, usize) {
+    (app.results_top, line_count(app).saturating_sub(app.results_top + rows))
 }
 
 /// The outcome of a solve, in a sentence.
@@ -111,7 +127,7 @@ pub fn sentence(app: &App, solution: &Solution) -> String {
 pub fn told(app: &App) -> Vec<String> {
     let Some(answer) = &app.answer else { return Vec::new() };
     let outcome = answer.of(answer.active).map(|solution| sentence(app, solution));
-    let gauges = gauges(app, answer).into_iter().map(|gauge| gauge.words + ".");
+    let gauges = gauges(app, answer).into_iter().map(Gauge::in_full);
     let notes = answer.notes.iter().map(|note| format!("* {}.", note.message));
     let lines = outcome.into_iter().chain(gauges).chain(notes);
     lines.flat_map(|line| [line, String::new()]).collect()
@@ -128,18 +144,15 @@ fn lines_before(app: &App, area: Rect) -> usize {
     parts(app, area).head.len() + 2
 }
 
-fn title(app: &App, parts: &Parts) -> String {
+fn title(app: &App) -> String {
     let name = if app.is_stale() { "Results: LAST VALID" } else { "Results" };
-    let count = count(app);
-    let last = (app.results_top + parts.rows).min(count);
-    let range = if count > parts.rows { format!(", {}-{last}/{count}", app.results_top + 1) } else { String::new() };
     let against = app.baseline.as_ref().map_or_else(String::new, |baseline| format!(", against {}", baseline.name));
     let answer = app.answer.as_ref();
     let pending = answer.and_then(|answer| answer.pending).map_or_else(String::new, |rung| format!(", {} to come", rung.name()));
     let cost = answer
         .filter(|_| app.shows_cost)
         .map_or_else(String::new, |answer| format!(", {} stages in {} us", answer.cost.stages, answer.cost.micros));
-    format!("{name}{range}{against}{pending}{cost}")
+    format!("{name}{against}{pending}{cost}")
 }
 
 // With room every gauge and note is told in full, else each in a line, and the notes in one.
@@ -149,7 +162,7 @@ fn parts(app: &App, area: Rect) -> Parts {
     let mut head = banner(app, width);
     let (mut gauges, mut notes) = (Vec::new(), Vec::new());
     if let Some(answer) = &app.answer {
-        head.extend(outcome(app, answer, width));
+        head.extend(outcome(app, answer, width, height < LOW));
         gauges = self::gauges(app, answer).iter().map(|gauge| gauge.fitting(width)).collect();
         notes = answer.notes.iter().map(|note| format!("* {}", note.message)).collect();
     }
@@ -177,7 +190,7 @@ fn answer_notes(app: &App) -> Vec<&str> {
 fn shortened(notes: &[&str], width: usize) -> Vec<String> {
     let Some(first) = notes.first() else { return Vec::new() };
     let count = if notes.len() == 1 { "1 note".to_owned() } else { format!("{} notes", notes.len()) };
-    vec![text::cut(&format!("* {count}: {first}"), width)]
+    vec![text::cut(&format!("* {count} (n): {first}"), width)]
 }
 
 fn banner(app: &App, width: usize) -> Vec<Line<'static>> {
@@ -188,22 +201,35 @@ fn banner(app: &App, width: usize) -> Vec<Line<'static>> {
     cause.chain(said(format!("Mend: {}.", refusal.mend()), Style::new())).collect()
 }
 
-fn outcome(app: &App, answer: &Answer, width: usize) -> Vec<Line<'static>> {
+fn outcome(app: &App, answer: &Answer, width: usize, is_low: bool) -> Vec<Line<'static>> {
     let Some(solution) = answer.of(answer.active) else { return Vec::new() };
     let style = if app.is_stale() { app.look.theme.faint } else { app.look.theme.focus };
-    let lines = text::wrap(&sentence(app, solution), width);
+    let words = if is_low && width < NARROW { digest::short(solution, app.settings.units) } else { sentence(app, solution) };
+    let lines = text::wrap(&words, width);
     lines.into_iter().map(|line| Line::styled(line, style)).collect()
 }
 
 impl Gauge {
     fn fitting(&self, width: usize) -> String {
-        if self.words.chars().count() <= width { self.words.clone() } else { self.short.clone() }
+        let [.., shortest] = &self.0;
+        self.0.iter().find(|words| words.chars().count() <= width).unwrap_or(shortest).clone()
+    }
+
+    fn in_full(self) -> String {
+        let [words, ..] = self.0;
+        words + "."
     }
 }
 
 fn gauges(app: &App, answer: &Answer) -> Vec<Gauge> {
-    let band = answer.of(answer.active).and_then(|solution| band(app, solution));
-    band.into_iter().chain(ratios(answer, app.look.ascii)).collect()
+    let Some(solution) = answer.of(answer.active) else { return Vec::new() };
+    let ratios = (!solution.rung.shares_load()).then(|| ratios(answer, app.look.ascii)).flatten();
+    [relief(app, solution), band(app, solution), ratios].into_iter().flatten().collect()
+}
+
+// What stops it.
+fn relief(app: &App, solution: &Solution) -> Option<Gauge> {
+    digest::relief(solution, app.settings.units).map(Gauge)
 }
 
 // How far the force depends on the choice of stiffness model.
@@ -212,8 +238,14 @@ fn band(app: &App, solution: &Solution) -> Option<Gauge> {
     let percent = |end: f64| 100.0 * (end / force - 1.0) + 0.0;
     let (low, high) =
         (shown(app, Quantity::find("impact_force_low")?, solution)?.number, quantity_text(app, "impact_force_high", solution)?);
-    let range = format!("{low}..{high} ({:+.1}..{:+.1} %)", percent(band.low), percent(band.high));
-    Some(Gauge { words: format!("the stiffness models in range give F_S {range}"), short: format!("band {range}") })
+    let parts = format!("{:+.1}..{:+.1} %", percent(band.low), percent(band.high));
+    let range = format!("{low}..{high} ({parts})");
+    let (whose, name) = if solution.rung.shares_load() { ("the free impact's ", "free F_S") } else { ("", "band") };
+    Some(Gauge([
+        format!("the stiffness models in range give {whose}F_S {range}"),
+        format!("{name} {range}"),
+        format!("{name} {parts}"),
+    ]))
 }
 
 // How far the printed position is off, where both rungs find one.
@@ -225,10 +257,11 @@ fn ratios(answer: &Answer, ascii: bool) -> Option<Gauge> {
         ratio.is_finite().then(|| (symbol(quantity.symbol, ascii), rounded(ratio)))
     };
     let ((u, times), (force, more)) = (ratio("approach_angle_driven")?, ratio("impact_force")?);
-    Some(Gauge {
-        words: format!("the exact {u} is {times} times that of the printed equations, {force} {more} times"),
-        short: format!("exact/paper: {u} {times}x, {force} {more}x"),
-    })
+    Some(Gauge([
+        format!("the exact {u} is {times} times that of the printed equations, {force} {more} times"),
+        format!("exact/paper: {u} {times}x, {force} {more}x"),
+        format!("exact/paper: {force} {more}x"),
+    ]))
 }
 
 fn rounded(ratio: f64) -> String {

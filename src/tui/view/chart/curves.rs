@@ -158,12 +158,18 @@ pub fn last_contact(solution: &Solution) -> Option<f64> {
 /// From the first station of any rung to the last, in deg after E.
 #[must_use]
 pub fn way(answer: &Answer) -> Span {
-    let solutions = answer.rungs.iter().filter_map(|(_, found)| found.as_ref().ok());
-    let ends = solutions.flat_map(|solution| {
-        let rows = rows(solution);
-        [rows.first().copied().map(angle), rows.last().copied().map(angle)]
-    });
-    ends.flatten().fold(Span::NONE, Span::with)
+    answer.rungs.iter().filter_map(|(_, found)| found.as_ref().ok()).map(way_of).fold(Span::NONE, Span::and)
+}
+
+/// The same of the active rung alone, which of pinned results is what is drawn.
+#[must_use]
+pub fn way_of_active(answer: &Answer) -> Span {
+    answer.of(answer.active).map_or(Span::NONE, way_of)
+}
+
+fn way_of(solution: &Solution) -> Span {
+    let rows = rows(solution);
+    [rows.first(), rows.last()].into_iter().flatten().map(|row| angle(*row)).fold(Span::NONE, Span::with)
 }
 
 fn angle(row: Row) -> f64 {

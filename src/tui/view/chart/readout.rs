@@ -2,8 +2,12 @@
 
 use super::curves::{Curve, Whose, curves};
 use super::{plan, shown};
+use crate::case::units;
+use crate::model::Told;
+use crate::model::between::DIGITS_BETWEEN;
 use crate::numeric::decimal::significant;
 use crate::report::graphs::{GRAPHS, Graph};
+use crate::report::stations::Row;
 use crate::tui::app::App;
 use crate::tui::clean::symbol;
 
@@ -16,51 +20,71 @@ const ROUNDING: f64 = 1e-9;
 /// The angle, the curves in sight there, and every other value of the active rung.
 #[must_use]
 pub fn readout(app: &App, cursor: f64) -> String {
-    let side = if cursor < 0.0 { "after" } else { "before" };
-    let mut parts = vec![format!("{:.4} deg of the driver {side} E{}", cursor.abs().to_degrees(), time(app, cursor))];
+    let mut parts = vec![place(app, cursor)];
     let chart = plan(app.size, app.panes).chart;
     let graphs = shown(app, chart);
     let chosen = if graphs.is_empty() { vec![app.settings.chart] } else { graphs };
-    let x = 0.0 - cursor.to_degrees();
-    let seen: Vec<String> = chosen.iter().filter_map(|&graph| all(app, &GRAPHS[graph], x)).collect();
+    let seen: Vec<String> = chosen.iter().filter_map(|&graph| all(app, &GRAPHS[graph], cursor)).collect();
     let rest = (0..GRAPHS.len()).filter(|graph| !chosen.contains(graph));
-    let rest: Vec<String> = rest.filter_map(|graph| own(app, &GRAPHS[graph], x)).collect();
+    let rest: Vec<String> = rest.filter_map(|graph| own(app, &GRAPHS[graph], cursor)).collect();
     parts.extend(seen);
     parts.extend((!rest.is_empty()).then(|| rest.join(", ")));
     let (angle, values) = parts.split_at(1);
     if values.is_empty() { format!("{}.", angle[0]) } else { format!("{}: {}.", angle[0], values.join("; ")) }
 }
 
+fn place(app: &App, cursor: f64) -> String {
+    let (side, degrees) = (if cursor < 0.0 { "after" } else { "before" }, cursor.abs().to_degrees());
+    if degrees > 0.0 { format!("{degrees:.4} deg of the driver {side} E{}", time(app, cursor)) } else { "At E".to_owned() }
+}
+
 fn time(app: &App, cursor: f64) -> String {
     let speed = app.answer.as_ref().map_or(0.0, |answer| answer.inputs.speed);
     let micros = 1e6 * cursor.abs() / speed;
-    if app.settings.by_time && micros.is_finite() { format!(", {} us", significant(micros, TIME_DIGITS)) } else { String::new() }
+    if app.by_time && micros.is_finite() { format!(", {} us", significant(micros, TIME_DIGITS)) } else { String::new() }
 }
 
 // Every curve of a chart, the active rung first.
-fn all(app: &App, graph: &Graph, x: f64) -> Option<String> {
+fn all(app: &App, graph: &Graph, cursor: f64) -> Option<String> {
     let curves = curves(app, graph);
-    let told: Vec<String> = curves.iter().rev().filter_map(|curve| Some(told(app, curve, curve.at(x)?))).collect();
+    let told: Vec<String> = curves.iter().rev().filter_map(|curve| told(app, graph, curve, cursor)).collect();
     (!told.is_empty()).then(|| told.join(", "))
 }
 
 // The active rung's value alone.
-fn own(app: &App, graph: &Graph, x: f64) -> Option<String> {
+fn own(app: &App, graph: &Graph, cursor: f64) -> Option<String> {
     let curves = curves(app, graph);
     let own = curves.iter().find(|curve| matches!(curve.whose, Whose::Active(_)))?;
-    Some(told(app, own, own.at(x)?))
+    told(app, graph, own, cursor)
 }
 
-fn told(app: &App, curve: &Curve, value: f64) -> String {
+// By the same evaluation as in the teeth, not off the line that is drawn; and how many digits of it are good.
+fn value(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<(f64, usize)> {
+    let answer = if curve.whose == Whose::Pinned { &app.baseline.as_ref()?.answer } else { app.answer.as_ref()? };
+    let rung = if let Whose::Other(rung) = curve.whose { rung } else { answer.active };
+    let solution = answer.of(rung)?;
+    let told = Told::at(&answer.inputs, solution, cursor)?;
+    match curve.whose {
+        Whose::Bound(_) => {
+            let digits = if matches!(told, Told::Between(_)) { DIGITS_BETWEEN } else { curve.column.digits };
+            Some(((graph.bound?.value)(solution, Row::from(&told))?, digits))
+        }
+        _ => Some((curve.column.of(Row::from(&told))?, curve.column.digits_of(&told))),
+    }
+}
+
+fn told(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<String> {
     let name = |text: &'static str| symbol(text, app.look.ascii).into_owned();
+    let (value, digits) = value(app, graph, curve, cursor)?;
+    let value = value / units::factor(curve.column.shown).unwrap_or(1.0);
     let most = curve.pieces.iter().flatten().map(|(_, y)| y.abs()).fold(0.0, f64::max);
-    let number = significant(if value.abs() < ROUNDING * most { 0.0 } else { value }, curve.column.digits);
+    let number = significant(if value.abs() < ROUNDING * most { 0.0 } else { value }, digits);
     let unit = if curve.column.shown == "1" { String::new() } else { format!(" {}", curve.column.shown) };
     let number = format!("{number}{unit}");
-    match curve.whose {
+    Some(match curve.whose {
         Whose::Active(_) => format!("{} {number}", name(curve.column.symbol)),
         Whose::Other(rung) => format!("{} {number}", rung.name()),
         Whose::Pinned => format!("baseline {number}"),
         Whose::Bound(bound) => format!("{} {number}", name(bound)),
-    }
+    })
 }

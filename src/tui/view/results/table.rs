@@ -7,32 +7,49 @@ use super::{shown, shown_in, text};
 use crate::model::inputs::Rung;
 use crate::model::{Outcome, QUANTITIES, Quantity, Solution, Stages};
 use crate::report;
+use crate::report::groups::{self, FREE_IMPACT};
 use crate::report::verdict::{Standing, verdict};
 use crate::tui::app::App;
 use crate::tui::clean::symbol;
 use crate::tui::solver::Answer;
 
 /// What an engineer looks at first.
-const FIRST: [&str; 5] = ["approach_angle_driven", "contact_radius_driver", "normal_velocity", "impact_force", "impact_duration"];
+const FIRST: &[&str] =
+    &["impact_force", "impact_duration", "approach_angle_driven", "friction_ratio", "normal_velocity", "total_deviation"];
 /// The same, where every pair takes its share of the load.
-const FIRST_OF_STATIC: [&str; 5] =
-    ["static_first_contact_angle", "static_force_at_start", "static_peak_force", "static_transmission_error", "mesh_force"];
+const FIRST_OF_STATIC: &[&str] = &[
+    "static_force_at_start",
+    "static_peak_force",
+    "static_first_contact_angle",
+    "static_transmission_error",
+    "mesh_force",
+    "total_deviation",
+];
 /// The same with inertia.
-const FIRST_OF_DYNAMIC: [&str; 5] = [
-    "dynamic_first_contact_angle",
+const FIRST_OF_DYNAMIC: &[&str] = &[
     "dynamic_peak_approach_force",
     "dynamic_peak_force",
     "dynamic_impact_duration",
+    "dynamic_first_contact_angle",
     "dynamic_contact_lost",
+    "total_deviation",
 ];
 /// The same, when no tooth strikes.
-const FIRST_WITHOUT_CONTACT: [&str; 5] =
-    ["total_deviation", "equivalent_error", "combined_deflection", "mesh_force", "contact_ratio"];
+const FIRST_WITHOUT_CONTACT: &[&str] = &[
+    "total_deviation",
+    "dynamic_peak_force",
+    "dynamic_contact_lost",
+    "static_peak_force",
+    "equivalent_error",
+    "combined_deflection",
+    "mesh_force",
+    "contact_ratio",
+];
 
 const SYMBOL: usize = 7;
 /// Beside labels there is room for the longest symbol.
 const LONG_SYMBOL: usize = 9;
-const LABEL: usize = 25;
+const LABEL: usize = 27;
 /// A number and the mark of a change behind it.
 const VALUE: usize = 10;
 const UNIT: usize = 7;
@@ -44,7 +61,7 @@ const NO_DIFFERENCE: f64 = 5e-6;
 pub(super) struct Table {
     /// The names of the columns.
     pub(super) heading: Line<'static>,
-    /// A line for every quantity.
+    /// A line for every quantity, and one above those of the free impact.
     pub(super) rows: Vec<Line<'static>>,
 }
 
@@ -56,27 +73,53 @@ struct Columns {
     equation: bool,
 }
 
-/// The quantities that some rung has, in the order in which a person reads them: what matters first, then the table's.
+/// The quantities that some rung has, in the order in which a person reads them: what matters first, then the rung's own.
 pub(super) fn order(answer: &Answer) -> impl Iterator<Item = &'static Quantity> {
     let strikes = |solution: &Solution| solution.outcome == Outcome::CornerContact;
     let any_strikes = answer.rungs.iter().any(|(_, result)| result.as_ref().is_ok_and(strikes));
     let first = match answer.active {
-        _ if !any_strikes => &FIRST_WITHOUT_CONTACT,
-        Rung::Static => &FIRST_OF_STATIC,
-        Rung::Dynamic => &FIRST_OF_DYNAMIC,
-        Rung::Paper | Rung::Exact | Rung::Auto => &FIRST,
+        _ if !any_strikes => FIRST_WITHOUT_CONTACT,
+        Rung::Static => FIRST_OF_STATIC,
+        Rung::Dynamic => FIRST_OF_DYNAMIC,
+        Rung::Paper | Rung::Exact | Rung::Auto => FIRST,
     };
     let stages = answer.rungs.iter().fold(Stages::NONE, |stages, (rung, _)| stages.and(rung.stages()));
-    let rest = QUANTITIES.iter().filter(move |quantity| stages.has(quantity.stage) && !first.contains(&quantity.key));
-    first.iter().filter_map(|key| Quantity::find(key)).chain(rest)
+    let has_friction = answer.inputs.friction_coefficient.is_some();
+    let is_told = move |quantity: &&Quantity| !first.contains(&quantity.key) && (has_friction || !quantity.needs_friction());
+    let rest = groups::quantities(answer.active).filter(is_told);
+    first.iter().filter_map(|key| Quantity::find(key)).chain(rest).filter(move |quantity| stages.has(quantity.stage))
 }
 
-/// The whole table in that width.
-pub(super) fn lines(app: &App, answer: &Answer, width: usize) -> Table {
+/// How many quantities stand above the heading of those of the free impact, which the rung resolves itself.
+pub(super) fn above_heading(answer: &Answer) -> Option<usize> {
+    let own = || order(answer).position(Quantity::is_of_free_impact);
+    answer.active.shares_load().then(own).flatten()
+}
+
+/// The line of a quantity, by their places.
+pub(super) fn line_of(answer: &Answer, row: usize) -> usize {
+    row + usize::from(above_heading(answer).is_some_and(|above| above <= row))
+}
+
+/// The quantity on a line, by their places; none on a heading.
+pub(super) fn row_of(answer: &Answer, line: usize) -> Option<usize> {
+    match above_heading(answer) {
+        Some(above) if line == above => None,
+        Some(above) if line > above => Some(line - 1),
+        _ => Some(line),
+    }
+}
+
+/// The whole table in that width, with so many of its lines out of sight above and below.
+pub(super) fn lines(app: &App, answer: &Answer, width: usize, hidden: (usize, usize)) -> Table {
     let columns = Columns::of(app, answer, width);
     let faint = if app.is_stale() { app.look.theme.faint } else { Style::new() };
-    let rows = order(answer).map(|quantity| row(app, answer, quantity, &columns).patch_style(faint));
-    Table { heading: heading(app, answer, &columns).patch_style(faint), rows: rows.collect() }
+    let mut rows: Vec<Line<'static>> =
+        order(answer).map(|quantity| row(app, answer, quantity, &columns).patch_style(faint)).collect();
+    if let Some(above) = above_heading(answer) {
+        rows.insert(above, Line::styled(text::cut(&format!("{FREE_IMPACT}:"), width), app.look.theme.title).patch_style(faint));
+    }
+    Table { heading: heading(app, answer, &columns, hidden).patch_style(faint), rows }
 }
 
 impl Columns {
@@ -103,9 +146,21 @@ fn rungs(answer: &Answer, room: usize) -> Vec<Rung> {
     rungs
 }
 
-fn heading(app: &App, answer: &Answer, columns: &Columns) -> Line<'static> {
+// How much is out of sight, in as many words as have room.
+fn more(hidden: (usize, usize), room: usize) -> String {
+    let words = match hidden {
+        (0, 0) => String::new(),
+        (0, below) => format!("{below} more below"),
+        (above, 0) => format!("{above} above"),
+        (above, below) => format!("{above} above, {below} more below"),
+    };
+    let short = if hidden.1 > 0 { format!("{} more", hidden.1) } else { String::new() };
+    if words.len() < room { words } else { short }
+}
+
+fn heading(app: &App, answer: &Answer, columns: &Columns, hidden: (usize, usize)) -> Line<'static> {
     let indent = if columns.labels { LONG_SYMBOL + LABEL } else { SYMBOL };
-    let mut spans = vec![Span::raw(" ".repeat(indent))];
+    let mut spans = vec![Span::styled(format!("{:indent$}", more(hidden, indent)), app.look.theme.faint)];
     for &rung in &columns.rungs {
         let is_active = rung == answer.active;
         let name = if is_active { format!("▸{}", rung.name()) } else { rung.name().to_owned() };

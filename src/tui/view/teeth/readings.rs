@@ -6,10 +6,13 @@ use unicode_width::UnicodeWidthStr;
 
 use crate::model::Moment;
 use crate::report;
-use crate::report::stations::{COLUMNS, Column};
+use crate::report::stations::{COLUMNS, Column, Row};
 
-/// Significant digits of the gap.
+/// Significant digits of the opening.
 const GAP_DIGITS: usize = 4;
+
+/// What the charts tell and no picture shows.
+const CHARTS_ALONE: [&str; 2] = ["pair_compliance", "impact_energy"];
 
 /// A value at the cursor.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -29,31 +32,33 @@ impl fmt::Display for Reading {
     }
 }
 
-/// Every value that the moment has, as a station tells it, and the gap; the driven angle last, which is only the ratio off.
+/// Every value that the moment has, as a station tells it, and the opening; the driven angle last, which is only the ratio off.
 #[must_use]
 pub fn readings(moment: &Moment) -> Vec<Reading> {
     let (last, first): (Vec<_>, Vec<_>) = COLUMNS.iter().partition(|column| column.key == "roll_angle_driven");
-    let of_station = |column: &Column| {
-        let number = report::number(value(moment, column.key)?, column.shown, column.digits);
-        Some(Reading { symbol: column.symbol, number, unit: if column.shown == "1" { "" } else { column.shown } })
+    let told = moment.told.as_ref().map(Row::from);
+    let reading = |column: &&Column| {
+        if CHARTS_ALONE.contains(&column.key) {
+            return None;
+        }
+        let value = told.and_then(|row| column.of(row)).or_else(|| without_contact(moment, column.key))?;
+        let unit = if column.shown == "1" { "" } else { column.shown };
+        let digits = moment.told.as_ref().map_or(column.digits, |told| column.digits_of(told));
+        Some(Reading { symbol: column.symbol, number: report::number(value, column.shown, digits), unit })
     };
-    let gap = |symbol, value| Reading { symbol, number: report::number(value, "um", GAP_DIGITS), unit: "um" };
-    let gaps = [gap("S", moment.gap), gap("open", moment.opening)];
-    first.into_iter().filter_map(of_station).chain(gaps).chain(last.into_iter().filter_map(of_station)).collect()
+    let open = Reading { symbol: "open", number: report::number(moment.opening, "um", GAP_DIGITS), unit: "um" };
+    first.iter().filter_map(reading).chain([open]).chain(last.iter().filter_map(reading)).collect()
 }
 
-fn value(moment: &Moment, key: &str) -> Option<f64> {
+/// What the involutes do where the rung tells nothing.
+fn without_contact(moment: &Moment, key: &str) -> Option<f64> {
     match key {
         "roll_angle_driver" => Some(moment.roll_angle_driver),
         "roll_angle_driven" => Some(moment.roll_angle_driven),
         "radius_driver" => Some(moment.radius_driver),
         "normal_velocity" => Some(moment.normal_velocity),
         "sliding_velocity" => Some(moment.sliding_velocity),
-        "impact_force" => moment.impact_force,
-        "time" => moment.load?.time,
-        "force" => Some(moment.load?.force),
-        "load_share" => Some(moment.load?.load_share),
-        "transmission_error" => Some(moment.load?.transmission_error),
+        "gap" => Some(moment.gap),
         _ => None,
     }
 }

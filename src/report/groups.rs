@@ -1,0 +1,97 @@
+//! The quantities in groups under headings, in the order in which a rung tells them: what it resolves itself first.
+
+use crate::model::inputs::Rung;
+use crate::model::{QUANTITIES, Quantity, Stage};
+
+/// What stands above the quantities of the free impact where the rung resolves the impact itself.
+pub const FREE_IMPACT: &str = "Free impact at D, closed form";
+
+/// Quantities that stand together.
+#[derive(Debug, Clone, Copy)]
+pub struct Group {
+    /// The heading.
+    pub title: &'static str,
+    /// The stages that they come from.
+    stages: &'static [Stage],
+}
+
+/// Every group, in the order of a rung in closed form.
+static GROUPS: [Group; 11] = [
+    Group { title: "Geometry", stages: &[Stage::Geometry] },
+    Group { title: "Load", stages: &[Stage::Load] },
+    Group { title: "Deviation", stages: &[Stage::Deviation] },
+    Group { title: "First contact D", stages: &[Stage::Position] },
+    Group { title: "Velocity at D", stages: &[Stage::Velocity] },
+    Group { title: "Impact", stages: &[Stage::Compliance, Stage::Impact, Stage::Band] },
+    Group { title: "Friction", stages: &[Stage::Friction] },
+    Group { title: "From D to E", stages: &[Stage::Stations] },
+    Group { title: "Mesh", stages: &[Stage::Mesh] },
+    Group { title: "Load shared by every pair", stages: &[Stage::Static] },
+    Group { title: "Load shared, with inertia", stages: &[Stage::Dynamic] },
+];
+
+impl Group {
+    /// Its quantities, in the table's order.
+    pub fn quantities(&self) -> impl Iterator<Item = &'static Quantity> {
+        let stages = self.stages;
+        QUANTITIES.iter().filter(move |quantity| stages.contains(&quantity.stage))
+    }
+
+    /// Whether it is of the free impact, which the rung resolves itself.
+    #[must_use]
+    pub fn is_beside(&self, rung: Rung) -> bool {
+        rung.shares_load() && self.quantities().any(Quantity::is_of_free_impact)
+    }
+
+    // The last stages first, the closed form of what they resolve at the end.
+    fn rank(&self, rung: Rung) -> usize {
+        match self.stages {
+            _ if !rung.shares_load() => 0,
+            [Stage::Dynamic] => 1,
+            [Stage::Static] => 2,
+            [Stage::Mesh] => 3,
+            _ if self.is_beside(rung) => 5,
+            _ => 4,
+        }
+    }
+}
+
+/// The groups in the order in which a rung tells them.
+#[must_use]
+pub fn groups(rung: Rung) -> Vec<&'static Group> {
+    let mut groups: Vec<&Group> = GROUPS.iter().collect();
+    groups.sort_by_key(|group| group.rank(rung));
+    groups
+}
+
+/// Every quantity, in that order.
+pub fn quantities(rung: Rung) -> impl Iterator<Item = &'static Quantity> {
+    groups(rung).into_iter().flat_map(Group::quantities)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_quantity_stands_in_one_group() {
+        for rung in Rung::ALL {
+            let mut keys: Vec<_> = quantities(rung).map(|quantity| quantity.key).collect();
+            keys.sort_unstable();
+            let mut all: Vec<_> = QUANTITIES.iter().map(|quantity| quantity.key).collect();
+            all.sort_unstable();
+            assert_eq!(keys, all);
+        }
+    }
+
+    #[test]
+    fn a_rung_tells_its_own_first_and_the_closed_form_last() {
+        for (rung, first) in [(Rung::Exact, Stage::Geometry), (Rung::Static, Stage::Static), (Rung::Dynamic, Stage::Dynamic)] {
+            let own = quantities(rung).find(|quantity| quantity.stage == first || !rung.shares_load());
+            assert_eq!(own.map(|own| own.stage), Some(first));
+        }
+        let order: Vec<_> = quantities(Rung::Dynamic).collect();
+        assert_eq!(order[0].stage, Stage::Dynamic);
+        assert!(order.is_sorted_by_key(|quantity| quantity.is_of_free_impact()));
+    }
+}
