@@ -6,12 +6,15 @@ mod desk;
 mod tty;
 
 use std::fs::{self, File, Permissions};
+use std::io::ErrorKind;
 use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
 use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, SystemTime};
 
 use desk::{Desk, SMALL, TABLE_1};
+use ratatui::layout::Size;
+use tipstrike::case::file::SaveError;
 use tipstrike::case::{Document, fields};
 use tipstrike::tui::actions::{Action, Command as Do, Next};
 use tipstrike::tui::store::{self, SaveFault};
@@ -123,6 +126,16 @@ fn after_a_save_under_another_name_the_case_is_the_new_file() {
     assert!(desk.shows("saved ") && desk.app.short_name() == "new.toml", "{}", desk.screen());
     desk.fill("operation.speed", "1600 rpm").keys(&["Ctrl-S"]);
     assert!(desk.read("new.toml").contains("1600 rpm") && desk.read("case.toml") == TABLE_1);
+}
+
+#[test]
+fn the_mend_of_a_failed_save_is_on_the_smallest_screen() {
+    let mut desk = edited();
+    desk.act(Action::Resize(Size::new(60, 16)));
+    let path = desk.path("case.toml");
+    let full = SaveError::Unwritable("folder/case.toml".to_owned(), ErrorKind::StorageFull.into());
+    desk.act(Action::Saved(path, Next::Stay, Err(SaveFault::Failed(full.to_string()))));
+    assert!(desk.shows("not saved: folder/case.toml") && desk.shows("save elsewhere"), "{}", desk.screen());
 }
 
 #[test]

@@ -15,10 +15,13 @@ use desk::{Desk, LARGE, SMALL, TABLE_1};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Rect, Size};
 use tempfile::TempDir;
+use tipstrike::case::Change;
 use tipstrike::case::Document;
 use tipstrike::case::visible::is_hidden;
-use tipstrike::tui::actions::Action;
+use tipstrike::tui::actions::{Action, Next};
 use tipstrike::tui::app::App;
+use tipstrike::tui::recovery::{Access, Claim, Offer};
+use tipstrike::tui::store::SaveFault;
 use tipstrike::tui::theme::Look;
 use tipstrike::tui::view;
 use tty::{Launch, PROGRAM};
@@ -99,9 +102,10 @@ fn no_command_says_a_control() {
 
 /// Every screen of the workbench, by the keys that lead there.
 #[rustfmt::skip]
-const SCREENS: [&[&str]; 16] = [
+const SCREENS: [&[&str]; 24] = [
     &[], &["F1"], &["F1", "PageDown"], &["Ctrl-P"], &["Ctrl-O"], &["F2"], &["Ctrl-Q"], &["Ctrl-C"], &["Esc", "/"],
     &["Esc", "2"], &["Esc", "3"], &["Esc", "4"], &["Esc", "5"], &["Esc", "2", "Enter"], &["Ctrl-N"], &["Ctrl-S"],
+    &["Alt-R"], &["Alt-N"], &["Alt-G"], &["Alt-L"], &["Esc", "2", "n"], &["Esc", "2", "Enter", "Tab"], &["Alt-W"], &["Esc", "?"],
 ];
 
 fn on(text: &str, size: Size, look: Look) -> Desk {
@@ -126,6 +130,7 @@ fn no_screen_shows_a_control() {
         for name in [HOSTILE, "b\u{202e}.toml"] {
             desk.write(&name.replace('/', ""), TABLE_1);
         }
+        desk.recents = paths.clone();
         desk.fill("title", HOSTILE).act(Action::Paste(HOSTILE.to_owned()));
         desk.keys(keys);
         desk.act(Action::Paste(HOSTILE.to_owned()));
@@ -135,9 +140,29 @@ fn no_screen_shows_a_control() {
             assert_harmless(&desk.buffer(size), &format!("{keys:?} {path:?}"));
             desk.keys(&["Esc"]);
         }
-        desk.act(Action::Failed(HOSTILE.to_owned()));
-        assert_harmless(&desk.buffer(size), &format!("{keys:?}"));
+        for action in told() {
+            let what = format!("{keys:?} {action:?}");
+            desk.act(action);
+            assert_harmless(&desk.buffer(size), &what);
+        }
     }
+}
+
+/// What is told of the world outside in words that others choose: of files, of locks, of journals.
+fn told() -> Vec<Action> {
+    let words = || HOSTILE.to_owned();
+    let saved = |fault| Action::Saved(HOSTILE.into(), Next::Stay, Err(fault));
+    let change = Change { key: "title".to_owned(), from: Some(words()), to: Some(words()) };
+    let offer = Offer { journal: HOSTILE.into(), age: words(), changes: vec![change], is_file_changed: true };
+    let claim = Claim { id: 0, access: Access::Held(words()), offers: vec![offer], notices: vec![words()] };
+    vec![
+        Action::Failed(words()),
+        saved(SaveFault::Exists),
+        saved(SaveFault::Changed(vec![words()])),
+        saved(SaveFault::Held(words())),
+        saved(SaveFault::Failed(words())),
+        Action::Claimed(Box::new(claim)),
+    ]
 }
 
 #[test]

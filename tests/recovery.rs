@@ -21,7 +21,7 @@ use tipstrike::tui::store::chest::Chest;
 use tipstrike::tui::store::keeper::Keeper;
 use tipstrike::tui::theme::Look;
 
-use tty::{Launch, PATIENCE, TABLE_1, Tty, is_there, journals, stat};
+use tty::{Launch, PATIENCE, TABLE_1, Tty, has_faults_on_demand, is_there, journals, stat};
 
 const SECOND: Duration = Duration::from_secs(1);
 const OFFER: &str = "Unsaved edits were kept";
@@ -162,6 +162,20 @@ fn edits_that_cannot_be_kept_are_told() {
 }
 
 #[test]
+fn a_folder_of_journals_that_goes_away_is_told_and_a_save_still_works() {
+    let mut tty = opened();
+    tty.type_in("\x151.25 in");
+    wait_for_journal(&mut tty, "1.25 in");
+    fs::remove_dir_all(tty.folder.path().join("tipstrike/journals")).expect("our own folder");
+    tty.type_in("\x151.5 in");
+    tty.wait_for("unsaved edits cannot be kept for a crash");
+    tty.type_in("\x13");
+    tty.wait_for("saved ");
+    tty.quit();
+    assert!(fs::read_to_string(tty.case()).is_ok_and(|text| text.contains("1.5 in")));
+}
+
+#[test]
 fn kill_9_after_two_seconds_loses_nothing() {
     let mut tty = opened();
     let typed = Instant::now();
@@ -224,6 +238,9 @@ fn a_terminal_that_hangs_up_ends_it_at_once_without_loss_and_without_work() {
 
 #[test]
 fn a_workbench_that_is_stuck_is_ended_by_a_hang_up_without_loss_and_without_work() {
+    if !has_faults_on_demand() {
+        return;
+    }
     let mut tty = Launch::on_table_1().variable("TIPSTRIKE_FAULT", "stuck screen").start();
     tty.wait_for("Corner contact");
     tty.type_in("\x151.25 in");
@@ -239,7 +256,7 @@ fn a_workbench_that_is_stuck_is_ended_by_a_hang_up_without_loss_and_without_work
 
 #[test]
 fn a_terminal_that_goes_without_a_signal_is_noticed() {
-    if !is_there("setsid") {
+    if !is_there("setsid") || !has_faults_on_demand() {
         return;
     }
     for fault in ["", "stuck screen"] {

@@ -384,6 +384,14 @@ pub(crate) fn is_there(tool: &str) -> bool {
     found
 }
 
+/// Whether the program has faults on demand; where it is a release, says so.
+pub(crate) fn has_faults_on_demand() -> bool {
+    if !cfg!(debug_assertions) {
+        skip("a release has no faults on demand");
+    }
+    cfg!(debug_assertions)
+}
+
 /// Say that a test did not run, past the harness, which holds back what passing tests print; `.ci/run` counts them.
 pub(crate) fn skip(why: &str) {
     let line = format!("SKIPPED {}: {why}\n", thread::current().name().unwrap_or("a test"));

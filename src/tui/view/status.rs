@@ -45,11 +45,16 @@ pub fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
     }
     if let Some(message) = &app.message {
         let (mark, style) = if message.is_fault { ("! ", theme.problem) } else { ("", theme.note) };
-        lines.insert(0, Line::styled(text::cut(&format!("{mark}{}", message.text), width), style));
+        let told = text::wrap(&format!("{mark}{}", message.text), width);
+        // A fault's mend stands at its end: a long message takes the place of what is focused.
+        if told.len() > 1 {
+            lines.clear();
+        }
+        lines.splice(0..0, told.into_iter().map(|line| Line::styled(line, style)));
     }
     let room = usize::from(area.height);
     if let Some(at) = room.checked_sub(1).filter(|_| lines.len() > room) {
-        lines[at] = Line::raw(text::cut(&format!("{} {}", lines[at], lines[room]), width));
+        lines[at] = Line::styled(text::cut(&format!("{} {}", lines[at], lines[room]), width), lines[at].style);
     }
     for (line, y) in lines.iter().zip(area.top()..area.bottom()) {
         line.render(Rect { y, height: 1, ..area }, buffer);
