@@ -5,6 +5,7 @@
 //! channel; the loop takes what has come, changes the state, draws once and sleeps.
 
 pub mod actions;
+pub mod aim;
 pub mod app;
 pub mod browser;
 pub mod clean;

@@ -47,6 +47,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 3 l L", "H", "", "1.3663 deg of the driver before E: F_S 2191.0 N"),
     ("Esc 3 l", "L", "", "1.1636 deg of the driver before E"),
     ("Esc 3 l l l", "Home", "", "1.3663 deg of the driver before E: F_S 2191.0 N"),
+    ("Esc 3", "a", "peak", "= 1.3663 deg (113.9 us) before E"),
     ("Esc 3", "End", "", "At E: F_S 0 N"),
     ("Esc 3 l", "c", "", "No cursor"),
     ("Esc 3", "j", "", "▸ 3 Gap S in um over roll angle"),

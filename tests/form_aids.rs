@@ -67,14 +67,20 @@ fn a_material_fills_three_fields_at_once_and_undo_takes_it_back() {
     desk.go_to("driven.teeth").keys(&["Alt-G"]);
     assert!(desk.shows("Material of the driven gear"));
     desk.keys(&["42cr", "Enter"]);
+    assert!(desk.shows("driven: E 210 GPa, ν 0.3, ρ 7720 kg/m3 from 42CrMo4"), "{}", desk.screen());
     assert_eq!((text(&desk, "driven.young"), text(&desk, "driven.density")), ("210 GPa", "7720 kg/m3"));
     assert_eq!(text(&desk, "driver.young"), "205 GPa");
     assert!(desk.shows("Driven (gear 2), 42CrMo4"), "{}", desk.screen());
+    desk.go_to("driven.density");
+    assert!(line(&desk, " *E2 ").contains("210 GPa") && line(&desk, "▸*ρ2 ").contains("7720 kg/m3"), "{}", desk.screen());
+    assert!(line(&desk, "  ν2 ").contains("0.3"), "what stayed is not marked:\n{}", desk.screen());
     desk.go_to("driven.young");
     assert!(desk.shows("42CrMo4: Deutsche Edelstahlwerke"), "{}", desk.screen());
     desk.keys(&["Ctrl-Z"]);
     assert!(!desk.app.is_unsaved());
+    assert!(!desk.shows(" *E2 "), "{}", desk.screen());
     desk.go_to("pair.module").keys(&["Alt-G", "PEEK", "Enter"]);
+    assert!(desk.shows("both gears: E 4 GPa"), "{}", desk.screen());
     assert_eq!((text(&desk, "driver.young"), text(&desk, "driven.young")), ("4 GPa", "4 GPa"));
 }
 

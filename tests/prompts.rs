@@ -23,6 +23,18 @@ const SCREENS: &[(&str, Way)] = &[
     ("materials", |desk| {
         desk.keys(&["Esc", "l", "m", "18cr"]);
     }),
+    ("aim", |desk| {
+        desk.keys(&["Esc", "a", "0.6"]);
+    }),
+    ("unit_added", |desk| {
+        desk.fill("deviations.base_pitch", "48");
+    }),
+    ("unfinished", |desk| {
+        desk.fill("deviations.base_pitch", "48 m");
+    }),
+    ("commands", |desk| {
+        desk.keys(&["Ctrl-P"]);
+    }),
     ("limits_to_pick", |desk| {
         desk.keys(&["Alt-L", "dyn"]);
     }),

@@ -64,7 +64,8 @@ pub fn find(name: &str) -> Option<&'static Material> {
 
 impl Material {
     /// The gear's fields that it fills, and with what.
-    fn texts(&self) -> [(&'static str, &str); 3] {
+    #[must_use]
+    pub fn texts(&self) -> [(&'static str, &str); 3] {
         [("young", &self.young), ("poisson", &self.poisson), ("density", &self.density)]
     }
 }

@@ -126,6 +126,7 @@ pub enum Command {
     CursorBy(i16),
     CursorToD,
     CursorToE,
+    CursorTo,
     CursorAway,
     Play,
     ChartBy(isize),

@@ -150,17 +150,17 @@ fn field(index: usize) -> Item {
     Item {
         pick: Pick::Go(index),
         name: field.key.to_owned(),
-        about: format!("{} {}", field.symbol, field.label).trim_start().to_owned(),
+        about: format!("{} {}. {}", field.symbol, field.label, field.help).trim_start().to_owned(),
         keys: String::new(),
     }
 }
 
 fn of_material(gears: &'static [&'static str], material: &'static Material) -> Item {
-    let Material { name, group, young, density, .. } = material;
+    let Material { name, group, young, poisson, density, source, .. } = material;
     Item {
         pick: Pick::Make(gears, material),
         name: name.clone(),
-        about: format!("{young}, {density}, {group}"),
+        about: format!("{young}, {poisson}, {density}, {group}; {source}"),
         keys: String::new(),
     }
 }

@@ -17,6 +17,8 @@ pub enum Prompt {
     Browse(Box<Browser>),
     /// Where to save, and what comes next.
     SaveAs(Input, Next),
+    /// Where the cursor is to go.
+    Aim(Input),
     /// A question with buttons.
     Ask(Question),
     /// A page to read, scrolled to a line.
@@ -78,7 +80,7 @@ impl Prompt {
     pub fn place(&self) -> Place {
         match self {
             Prompt::Browse(_) => Place::BROWSE,
-            Prompt::SaveAs(..) => Place::PATH,
+            Prompt::SaveAs(..) | Prompt::Aim(_) => Place::PATH,
             Prompt::Ask(_) => Place::ASK,
             Prompt::Read(_) => Place::READ,
             Prompt::Explain(_) => Place::EXPLAIN,
@@ -90,7 +92,7 @@ impl Prompt {
     pub fn input_mut(&mut self) -> Option<&mut Input> {
         match self {
             Prompt::Browse(browser) => Some(&mut browser.input),
-            Prompt::SaveAs(input, _) => Some(input),
+            Prompt::SaveAs(input, _) | Prompt::Aim(input) => Some(input),
             Prompt::Pick(picker) => Some(&mut picker.input),
             Prompt::Ask(_) | Prompt::Read(_) | Prompt::Explain(_) => None,
         }

@@ -48,6 +48,15 @@ pub fn text(case: &Case, at: usize) -> Option<&str> {
     }
 }
 
+/// Whether a row says otherwise than another case does.
+#[must_use]
+pub fn differs(case: &Case, other: &Case, at: usize) -> bool {
+    match row(case, at) {
+        Row::Field(field) => case.text(field) != other.text(field),
+        Row::Limit(limit) => !other.limits.contains(limit),
+    }
+}
+
 /// Write into a row, whether or not the text is valid.
 pub fn write(case: &mut Case, at: usize, text: &str) {
     match row(case, at) {

@@ -212,6 +212,7 @@ fn show(app: &mut App, command: Command) {
         Command::SearchField => app.prompts.push(Prompt::Pick(Picker::new(List::Fields))),
         Command::Material => catalogue::materials(app),
         Command::Notes => page::notes(app),
+        Command::CursorTo => cursor::ask(app),
         Command::NextReason => page::step(app, 1),
         Command::PreviousReason => page::step(app, -1),
         Command::PinBaseline => hold::toggle(app),

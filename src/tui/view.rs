@@ -1,5 +1,6 @@
 //! The screen, drawn from the state alone.
 
+pub mod aim;
 pub mod browser;
 pub mod chart;
 pub mod digest;
@@ -7,6 +8,7 @@ pub mod explain;
 pub mod form;
 pub mod help;
 pub mod layout;
+pub mod picker;
 pub mod popup;
 pub mod results;
 pub mod status;

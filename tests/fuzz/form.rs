@@ -202,6 +202,7 @@ impl Bench {
         let prompt = self.app.prompts.last().map(|prompt| match prompt {
             Prompt::Browse(_) => "browse",
             Prompt::SaveAs(..) => "save as",
+            Prompt::Aim(_) => "aim",
             Prompt::Ask(_) => "ask",
             Prompt::Read(_) | Prompt::Explain(_) => "page",
             Prompt::Pick(_) => "pick",

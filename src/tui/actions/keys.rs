@@ -21,7 +21,7 @@ impl Place {
     pub const CHOICE: Place = Place(2);
     /// A prompt for a path with a list.
     pub const BROWSE: Place = Place(4);
-    /// A prompt for a path.
+    /// A prompt for a line: a path, an angle.
     pub const PATH: Place = Place(8);
     /// A question with buttons.
     pub const ASK: Place = Place(16);

@@ -46,6 +46,7 @@ pub static BINDINGS: &[Binding] = &[
     told(Place::CURSOR, &[letter('L'), with(SHIFT, KeyCode::Right)], Do::CursorBy(10), "The cursor ten columns towards E."),
     listed(Place::CURSOR, &[key(KeyCode::Home)], Do::CursorToD, "cursor to D", "The cursor to the first contact D."),
     listed(Place::CURSOR, &[key(KeyCode::End)], Do::CursorToE, "cursor to E", "The cursor to E, where the normal path of contact begins."),
+    listed(Place::OUTSIDE, &[letter('a')], Do::CursorTo, "cursor to angle", "The cursor to a roll angle or a time, or to D, E, B, L or the peak."),
     listed(Place::CURSOR, &[letter('c')], Do::CursorAway, "cursor away", "Take the cursor away."),
     shown(Place::CHART, &[letter('j'), key(KeyCode::Down)], Do::ChartBy(1), "next chart", "The next of the charts."),
     listed(Place::CHART, &[letter('k'), key(KeyCode::Up)], Do::ChartBy(-1), "previous chart", "The chart before."),

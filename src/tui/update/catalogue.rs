@@ -9,6 +9,7 @@ use crate::model::Quantity;
 use crate::report;
 use crate::report::digest::Digest;
 use crate::tui::app::App;
+use crate::tui::clean::symbol;
 use crate::tui::errands::Errand;
 use crate::tui::pane::Pane;
 use crate::tui::pick::{List, Picker};
@@ -47,9 +48,22 @@ pub(super) fn make(app: &mut App, gears: &[&str], material: &Material) -> Vec<Ef
         app.complain(problem.for_form().to_string());
         return Vec::new();
     }
+    let is_other = case != app.case;
     let effects = edit::replace(app, case);
-    app.say(format!("{}: {}", material.name, material.source));
+    let whose = if let [gear] = gears { gear } else { "both gears" };
+    let verb = if is_other { "from" } else { "as they were, from" };
+    app.say(format!("{whose}: {} {verb} {}", told(app, material), material.name));
     effects
+}
+
+// What a material sets, by its symbols.
+fn told(app: &App, material: &Material) -> String {
+    let values = material.texts().map(|(name, text)| {
+        let field = FIELDS.iter().find(|field| field.name() == name);
+        let name = field.map_or("", |field| field.symbol.trim_end_matches(|c: char| c.is_ascii_digit()));
+        format!("{} {text}", symbol(name, app.look.ascii))
+    });
+    values.join(", ")
 }
 
 /// Hold the marked result to a limit where the results have the focus, else ask which.

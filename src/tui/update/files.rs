@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use tui_input::Input;
 
-use super::{Effect, Over, Saving, browse, catalogue, page, recovery, solve, tabs};
+use super::{Effect, Over, Saving, browse, catalogue, cursor, page, recovery, solve, tabs};
 use crate::case::Document;
 use crate::model::Quantity;
 use crate::tui::actions::Next;
@@ -73,6 +73,7 @@ pub(super) fn accept(app: &mut App) -> Vec<Effect> {
     match app.prompts.last().cloned() {
         Some(Prompt::Browse(_)) => browse::accept(app),
         Some(Prompt::Explain(explanation)) => page::accept(app, &explanation),
+        Some(Prompt::Aim(input)) => cursor::take_aim(app, input.value()),
         Some(Prompt::SaveAs(input, next)) => accept_name(app, input.value(), next),
         Some(Prompt::Ask(question)) => match question.buttons.get(question.marked) {
             Some((_, choice)) => choose(app, choice.clone()),

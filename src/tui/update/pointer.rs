@@ -44,7 +44,7 @@ pub(super) fn wheel(app: &mut App, at: Position, by: isize) {
         Some(Prompt::Explain(page)) => explain::scroll(page, by, app.size, app.look.ascii),
         Some(Prompt::Browse(browser)) => browser.mark(by),
         Some(Prompt::Pick(picker)) => picker.mark(by),
-        Some(Prompt::Ask(_) | Prompt::SaveAs(..)) => (),
+        Some(Prompt::Ask(_) | Prompt::SaveAs(..) | Prompt::Aim(_)) => (),
         None => match pane_at(app, at) {
             Some(Pane::Form) => app.tab.form_top = form::scrolled(app, by),
             Some(Pane::Results) => app.tab.results_top = results::scrolled(app, by),

@@ -41,7 +41,7 @@ fn step(app: &mut App, by: isize) {
         Some(Prompt::Ask(question)) => question.mark(by),
         Some(Prompt::Read(page)) => popup::scroll(page, by, app.size),
         Some(Prompt::Explain(explanation)) => explain::scroll(explanation, by, app.size, app.look.ascii),
-        Some(Prompt::SaveAs(..)) => (),
+        Some(Prompt::SaveAs(..) | Prompt::Aim(_)) => (),
     }
 }
 
@@ -54,7 +54,7 @@ fn leap(app: &mut App, by: isize) {
         Some(Prompt::Pick(picker)) => picker.mark(by * page_of_prompt),
         Some(Prompt::Read(text)) => popup::scroll(text, by * page_of_prompt, app.size),
         Some(Prompt::Explain(text)) => explain::scroll(text, by * page_of_prompt, app.size, app.look.ascii),
-        Some(Prompt::Ask(_) | Prompt::SaveAs(..)) => (),
+        Some(Prompt::Ask(_) | Prompt::SaveAs(..) | Prompt::Aim(_)) => (),
     }
 }
 

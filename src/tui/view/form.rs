@@ -18,6 +18,8 @@ use crate::tui::rows;
 const MARK: u16 = 2;
 /// Stands before a field that the chosen rung does without.
 const IDLE: &str = "-";
+/// Stands before a field that is not as the file has it.
+const EDITED: &str = "*";
 const SYMBOL: u16 = 6;
 const LABEL: u16 = 20;
 const VALUE: u16 = 15;
@@ -218,6 +220,9 @@ fn standing(app: &App, limit: &Limit) -> (String, Style) {
 
 fn draw_mark(app: &App, index: usize, line: Rect, buffer: &mut Buffer) {
     let theme = app.look.theme;
+    if rows::differs(&app.case, &app.saved, index) {
+        buffer.set_stringn(line.x + 1, line.y, EDITED, usize::from(line.width > 1), theme.note);
+    }
     // The reason stands below the line and has a mark of its own.
     if app.focus == index {
         buffer.set_stringn(line.x, line.y, "▸", 1, theme.focus);
@@ -255,14 +260,6 @@ fn draw_value(app: &App, index: usize, area: Rect, style: Style, buffer: &mut Bu
     draw_text(app, index, written, &unwritten, area, style, buffer)
 }
 
-// What completes the line, after it.
-fn draw_ending(app: &App, area: Rect, buffer: &mut Buffer) {
-    let typed = app.input.value().width() as u16;
-    let Some(ending) = app.ending().filter(|_| typed < area.width) else { return };
-    let style = app.look.theme.faint.remove_modifier(Modifier::BOLD | Modifier::UNDERLINED);
-    buffer.set_stringn(area.x + typed, area.y, ending, usize::from(area.width - typed), style);
-}
-
 // What is written in a row, as a line to edit where it is edited, else the words for what is not.
 fn draw_text(
     app: &App,
@@ -277,7 +274,7 @@ fn draw_text(
     let is_edited = app.focus == index && app.has_line();
     if is_edited && written.is_some() {
         let cursor = text::edited(&app.input, area, style.add_modifier(Modifier::UNDERLINED), buffer);
-        draw_ending(app, area, buffer);
+        text::ending(app.ending().as_deref(), app.input.value().width(), area, app.look.theme, buffer);
         return cursor;
     }
     let shown = written.map_or(unwritten.into(), clean::clean);

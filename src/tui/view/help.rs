@@ -2,10 +2,11 @@
 
 use crate::tui::actions::{BINDINGS, Binding, Place};
 
-const BEFORE: [&str; 4] = [
+const BEFORE: [&str; 5] = [
     "Every edit acts at once: results and chart follow each keystroke that leaves a valid value.",
-    "A value stands with its unit: 5 mm, 16 um, 0.2 in, 15 kW, 20 hp, 2000 rpm, 20 deg.",
+    "A value stands with its unit: 5 mm, 16 um, 0.2 in, 15 kW, 20 hp, 2000 rpm, 20 deg; a number alone takes the unit of its field.",
     "An empty field shows in brackets what then holds.",
+    "Before a field: * it is not as the file has it, - it makes no difference here, ! it is wrong.",
     "D is where the driven tip first touches, E where the normal path of contact begins. The rung paper keeps the printed Eqs. 7-20, exact finds D where the gap closes.",
 ];
 

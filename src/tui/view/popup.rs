@@ -7,19 +7,14 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
-use super::{browser, digest, explain, form, text};
-use crate::case::EXAMPLES;
-use crate::report::digest::Digest;
+use super::{aim, browser, explain, form, picker, text};
 use crate::tui::app::App;
-use crate::tui::pick::{Item, List, Picker};
 use crate::tui::prompt::{Page, Prompt, Question};
 use crate::tui::theme::Theme;
 
 const WIDEST: u16 = 100;
 /// Room for four buttons.
 const NARROWEST: u16 = 52;
-/// Room for the keys of a command.
-const KEYS: usize = 18;
 
 /// Draw a prompt over the screen; where the cursor stands.
 pub fn draw(app: &App, prompt: &Prompt, screen: Rect, buffer: &mut Buffer) -> Option<Position> {
@@ -37,12 +32,13 @@ pub fn draw(app: &App, prompt: &Prompt, screen: Rect, buffer: &mut Buffer) -> Op
             let inner = frame("Save as", Size::new(WIDEST, 1), screen, theme, buffer);
             text::edited(input, inner, Style::new(), buffer)
         }
+        Prompt::Aim(input) => aim::draw(app, input, screen, buffer),
         Prompt::Explain(explanation) => {
             explain::draw(explanation, screen, app.look, buffer);
             None
         }
         Prompt::Browse(browser) => browser::draw(browser, screen, theme, buffer),
-        Prompt::Pick(picker) => draw_picker(picker, screen, theme, buffer),
+        Prompt::Pick(picker) => picker::draw(picker, screen, theme, buffer),
     }
 }
 
@@ -125,53 +121,6 @@ fn question_lines(question: &Question, room: Size) -> Vec<String> {
         lines.push(format!("  and {} more", details.len() - shown));
     }
     lines
-}
-
-fn draw_picker(picker: &Picker, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Option<Position> {
-    let inner = frame(picker.title(), Size::new(WIDEST, 16), screen, theme, buffer);
-    let items = picker.fitting();
-    let list = below(inner);
-    if let List::Examples(digests) = &picker.list {
-        draw_examples(&items, digests, picker.marked, list, theme, buffer);
-    } else {
-        draw_items(&items, picker.marked, list, theme, buffer);
-    }
-    text::edited(&picker.input, Rect { height: inner.height.min(1), ..inner }, theme.focus, buffer)
-}
-
-fn draw_items(items: &[Item], marked: usize, area: Rect, theme: &Theme, buffer: &mut Buffer) {
-    let widest = |text: fn(&Item) -> &str| items.iter().map(|item| text(item).width()).max().unwrap_or(0);
-    let name = widest(|item| &item.name).min(usize::from(area.width));
-    let keys = widest(|item| &item.keys).min(KEYS);
-    let about = usize::from(area.width).saturating_sub(name + keys + 6);
-    let line = |item: &Item| {
-        let (left, right) = (text::padded(&item.name, name), text::padded(&item.about, about));
-        format!("{left}  {right}  {}", text::cut(&item.keys, keys)).trim_end().to_owned()
-    };
-    draw_window(items.len(), |at| line(&items[at]), Some(marked), area, theme, buffer);
-    say_if_none(items, area, theme, buffer);
-}
-
-// The names on the left, what the marked one is on the right.
-fn draw_examples(items: &[Item], digests: &[Digest], marked: usize, area: Rect, theme: &Theme, buffer: &mut Buffer) {
-    let (left, right) = halves(area, buffer);
-    draw_window(items.len(), |at| items[at].name.clone(), Some(marked), left, theme, buffer);
-    say_if_none(items, left, theme, buffer);
-    let at = items.get(marked).and_then(|item| EXAMPLES.iter().position(|example| example.name == item.name));
-    let lines = at.and_then(|at| digests.get(at)).map(|digest| digest::lines(digest, right.width.into(), theme));
-    for ((line, style), y) in lines.unwrap_or_default().iter().zip(right.top()..right.bottom()) {
-        buffer.set_stringn(right.x, y, line, right.width.into(), *style);
-    }
-}
-
-fn say_if_none(items: &[Item], area: Rect, theme: &Theme, buffer: &mut Buffer) {
-    if items.is_empty() && !area.is_empty() {
-        buffer.set_stringn(area.x, area.y, "(nothing here fits)", area.width.into(), theme.faint);
-    }
-}
-
-fn below(inner: Rect) -> Rect {
-    Rect { y: inner.y + 1, height: inner.height.saturating_sub(1), ..inner }
 }
 
 /// A list on the left and what belongs to it on the right, with a rule between them.

@@ -2,7 +2,7 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
-use ratatui::style::Style;
+use ratatui::style::{Modifier, Style};
 use tui_input::Input;
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
@@ -80,6 +80,15 @@ pub fn edited(input: &Input, area: Rect, style: Style, buffer: &mut Buffer) -> O
     buffer.set_style(area, style);
     buffer.set_stringn(area.x, area.y, skip(&shown, hidden), width, style);
     Some(Position::new(area.x + u16::try_from(before - hidden).unwrap_or(0), area.y))
+}
+
+/// What completes a line of text that is edited, after so many cells of it.
+pub fn ending(ending: Option<&str>, typed: usize, area: Rect, theme: &Theme, buffer: &mut Buffer) {
+    let width = usize::from(area.width);
+    if let Some(ending) = ending.filter(|_| typed < width && !area.is_empty()) {
+        let style = theme.faint.remove_modifier(Modifier::BOLD | Modifier::UNDERLINED);
+        buffer.set_stringn(area.x + typed as u16, area.y, ending, width - typed, style);
+    }
 }
 
 fn put(lines: &mut Vec<String>, word: &str, width: usize) {
