@@ -37,12 +37,14 @@ pub struct Reach {
 
 impl Reach {
     /// The angle so many columns towards E from this one, or from D where there is none yet.
+    #[must_use]
     pub fn moved(self, cursor: Option<f64>, columns: i16) -> f64 {
         let Some(cursor) = cursor else { return self.held(self.start) };
         self.held(cursor - f64::from(columns) * self.column)
     }
 
     /// The next picture of the run, none when its end is reached.
+    #[must_use]
     pub fn played(self, cursor: f64) -> Option<f64> {
         let next = cursor - (self.run_from - self.run_to) / PICTURES;
         (next > self.run_to && next < cursor).then_some(next)
