@@ -9,6 +9,9 @@ use insta::assert_snapshot;
 use ratatui::layout::Size;
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::theme::{Look, MONO};
+use tipstrike::tui::view::results;
+
+const TINY: Size = Size { width: 60, height: 16 };
 
 #[test]
 fn the_opening_screen() {
@@ -40,6 +43,47 @@ fn no_corner_contact_is_a_result() {
         let mut desk = Desk::new(size);
         desk.fill("driven.tip_relief", "80 um");
         assert_snapshot!(name, desk.screen());
+    }
+}
+
+/// Table 1 in motion, where the closed form stands beside what the rung resolves itself.
+fn in_motion(size: Size) -> Desk {
+    let mut desk = Desk::new(size);
+    desk.fill("model.rung", "dynamic");
+    desk.keys(&["Esc", "2"]);
+    desk
+}
+
+#[test]
+fn what_the_rung_resolves_itself_stands_first() {
+    for (name, size) in [("in_motion_80x24", SMALL), ("in_motion_140x45", LARGE), ("in_motion_60x16", TINY)] {
+        assert_snapshot!(name, in_motion(size).screen());
+    }
+    let mut desk = in_motion(SMALL);
+    desk.app.look = Look { theme: &MONO, ascii: true };
+    assert_snapshot!("in_motion_ascii", desk.screen());
+}
+
+#[test]
+fn every_quantity_comes_in_sight_and_the_mark_says_how_many_are_below() {
+    for size in [TINY, SMALL, LARGE] {
+        let mut desk = in_motion(size);
+        let (count, mut rows) = (results::count(&desk.app), Vec::new());
+        for row in 0..count {
+            assert_eq!(desk.app.row, row);
+            let marked = results::marked(&desk.app).expect("a quantity");
+            // A long symbol has no room where no labels are.
+            let symbol: String = format!("▸{}", marked.symbol).chars().take(5).collect();
+            assert!(desk.shows(&symbol), "{size}: {symbol}\n{}", desk.screen());
+            rows.push(marked.key);
+            desk.keys(&["j"]);
+        }
+        rows.dedup();
+        assert_eq!(rows.len(), count, "{size}");
+        let hidden = |desk: &Desk| format!("{} more", count + 1 - results::page(&desk.app) - desk.app.results_top);
+        assert!(!desk.shows(&hidden(&desk)), "{size}: nothing is below the last\n{}", desk.screen());
+        desk.keys(&["g"]);
+        assert!(desk.shows(&hidden(&desk)), "{size}: {}\n{}", hidden(&desk), desk.screen());
     }
 }
 

@@ -140,6 +140,12 @@ fn no_corner_contact_by_both_is_agreement() {
     let exact = of(&trade, &Setting::usual(Rung::Exact));
     assert_eq!(exact.found.as_ref().unwrap().total[Subject::FirstContact as usize], Some(0.0));
     assert!(exact.qualifies, "{:?}", exact.total());
+    let told = text(&trade).split_whitespace().collect::<Vec<_>>().join(" ");
+    let says = "No tooth strikes, by every rung: the cheapest that says so is ";
+    let (_, cheapest) = told.split_once(says).unwrap_or_else(|| panic!("{told}"));
+    let recommended = &json(&trade)["recommended"];
+    assert!(cheapest.starts_with(recommended["rung"].as_str().unwrap()), "{cheapest} {recommended}");
+    assert!(!text(&traded(&table_1(), 0.05)).contains("No tooth strikes"));
 }
 
 #[test]

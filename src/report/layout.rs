@@ -21,9 +21,24 @@ pub(super) fn flow<'a>(words: impl IntoIterator<Item = &'a str>, width: usize) -
 /// The sentence set into lines, those after the first moved in as far as the mark before it.
 pub(super) fn item(mark: &str, sentence: &str) -> Vec<String> {
     let indent = count(mark);
-    let lines = flow(sentence.split_whitespace(), WIDTH.saturating_sub(indent));
+    let words = with_units(sentence);
+    let lines = flow(words.iter().map(String::as_str), WIDTH.saturating_sub(indent));
     let lead = |index| if index == 0 { mark.to_owned() } else { " ".repeat(indent) };
     lines.iter().enumerate().map(|(index, line)| lead(index) + line).collect()
+}
+
+/// The words of a sentence, a number with what it is of: no line ends between the two.
+fn with_units(sentence: &str) -> Vec<String> {
+    let mut words: Vec<String> = Vec::new();
+    let mut after_number = false;
+    for word in sentence.split_whitespace() {
+        match words.last_mut().filter(|_| after_number) {
+            Some(number) => number.extend([" ", word]),
+            None => words.push(word.to_owned()),
+        }
+        after_number = !after_number && word.parse::<f64>().is_ok();
+    }
+    words
 }
 
 /// The greatest number of characters among the texts.
@@ -55,6 +70,14 @@ mod tests {
         assert_eq!(flow("one two three".split(' '), 7), ["one two", "three"]);
         assert_eq!(flow(["unbreakable"], 4), ["unbr", "eaka", "ble"]);
         assert!(flow([], 4).is_empty());
+    }
+
+    #[test]
+    fn no_line_ends_between_a_number_and_its_unit() {
+        for words in 1..40 {
+            let lines = item("  - ", &("ab ".repeat(words) + "12.5 um, and 3 mm/N 7"));
+            assert!(lines.iter().any(|line| line.contains("12.5 um,")) && lines.iter().any(|line| line.contains("3 mm/N")));
+        }
     }
 
     #[test]

@@ -137,10 +137,12 @@ fn told_input(report: &Report, key: &str) -> Option<String> {
 fn quantities(report: &Report) -> Vec<String> {
     let rows: Vec<Row> = report.values().map(|(quantity, value)| Row::new(quantity, value)).collect();
     let columns = Columns::of(&rows);
-    if !report.selection.is_whole() {
-        return rows.iter().map(|row| columns.line(row)).collect();
-    }
     let rung = report.solution.rung;
+    if !report.selection.is_whole() {
+        let is_beside = |row: &Row| rung.shares_load() && row.quantity.is_of_free_impact();
+        let line = |row: &Row| columns.line(row) + if is_beside(row) { ", free impact" } else { "" };
+        return rows.iter().map(line).collect();
+    }
     let group = |group: &'static Group| {
         let line = |quantity: &Quantity| rows.iter().find(|row| row.quantity.key == quantity.key).map(|row| columns.line(row));
         let lines: Vec<String> = group.quantities().filter_map(line).collect();

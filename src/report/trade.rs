@@ -59,11 +59,21 @@ fn reference(trade: &Trade) -> Vec<String> {
     flow(sentence.split(' '), WIDTH)
 }
 
+/// What every rung says where no tooth strikes.
+pub const ON_TIME: &str = "No tooth strikes, by every rung";
+
+/// What no rung in closed form says there.
+const CARRIED: &str = "What the teeth carry in the mesh, static and dynamic tell.";
+
 /// What to take, in a sentence.
 #[must_use]
 pub fn conclusion(trade: &Trade) -> String {
     let within = percent(trade.within);
     match trade.recommended.and_then(|at| trade.settings.get(at)) {
+        Some(measured) if trade.comes_in_on_time() => {
+            let Measured { setting, .. } = measured;
+            format!("{ON_TIME}: the cheapest that says so is {setting}, {}. {CARRIED}", duration(measured.seconds()))
+        }
         Some(measured) => format!("Within {within} %: {}", summary(measured)),
         None => format!("Within {within} %: none"),
     }

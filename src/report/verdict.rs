@@ -125,7 +125,8 @@ pub fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Verdict<'a> {
         None => Standing::Unknown,
     };
     let withheld = solution.withheld.filter(|_| standing == Standing::Unknown);
-    let beside = quantity.and_then(|quantity| Beside::of(quantity, solution));
+    // Where nothing strikes no rung tells another story.
+    let beside = quantity.filter(|_| value.is_some()).and_then(|quantity| Beside::of(quantity, solution));
     Verdict { limit, value, standing, withheld, beside }
 }
 
@@ -148,7 +149,17 @@ impl Verdict<'_> {
     #[must_use]
     pub fn told(&self, system: System) -> String {
         let beside = self.beside.map_or_else(String::new, |beside| format!(": {}", beside.told(system)));
-        self.said(system) + &beside
+        let above = if self.is_exceeded_beside() { ", above the limit" } else { "" };
+        self.said(system) + &beside + above
+    }
+
+    /// Whether what the rung itself finds is above the limit of what the closed form says.
+    #[must_use]
+    pub fn is_exceeded_beside(&self) -> bool {
+        // An angle may be of the other gear.
+        let is_held = |key: &str| Quantity::find(key).is_some_and(|own| own.unit != "rad");
+        let own = self.beside.and_then(|beside| beside.own).filter(|(key, _)| is_held(key)).and_then(|(_, own)| own);
+        own.is_some_and(|own| own > self.limit.value)
     }
 
     fn said(&self, system: System) -> String {
@@ -184,6 +195,24 @@ mod tests {
         }
         let solution = crate::model::solve(&case.inputs().unwrap(), Stages::ALL).unwrap();
         verdicts(&case, &solution).iter().map(|verdict| format!("{} {}", verdict.standing.word(), verdict.told(system))).collect()
+    }
+
+    #[test]
+    fn what_the_rung_itself_finds_stands_beside_the_free_impact_and_leaves_the_verdict() {
+        let verdicts = |rung, limit| {
+            let mut case = Case::table_1();
+            case.set("model.rung", rung).unwrap();
+            case.set_limit("impact_force", limit).unwrap();
+            let solution = crate::model::solve(&case.inputs().unwrap(), Stages::EVERY).unwrap();
+            verdicts(&case, &solution).iter().map(|verdict| (verdict.standing, verdict.to_string())).collect::<Vec<_>>()
+        };
+        assert_eq!(verdicts("exact", "2500 N"), [(Standing::Within, "impact_force 2191.0 N <= 2500 N (88 %)".to_owned())]);
+        let [(standing, told)] = &verdicts("dynamic", "2100 N")[..] else { panic!("one limit") };
+        assert_eq!(*standing, Standing::Within);
+        assert!(told.ends_with("; dynamic itself finds dynamic_peak_approach_force 1410.8 N"), "{told}");
+        let [(standing, told)] = &verdicts("static", "1 kN")[..] else { panic!("one limit") };
+        assert_eq!(*standing, Standing::Exceeded);
+        assert!(told.ends_with("; static itself finds static_force_at_start 1466.2 N, above the limit"), "{told}");
     }
 
     #[test]

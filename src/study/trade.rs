@@ -13,7 +13,7 @@ pub use clock::{Patience, Time};
 pub use setting::{RUNGS, STATIONS, Setting};
 
 use crate::model::inputs::Rung;
-use crate::model::{Inputs, Refusal};
+use crate::model::{Inputs, Outcome, Refusal};
 
 /// What a trade is asked.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,6 +71,8 @@ pub struct Model {
     pub rung: Rung,
     /// How far its best setting is from the reference.
     pub off: Differences,
+    /// Whether the tooth strikes by its best setting, where that solves the case.
+    pub outcome: Option<Outcome>,
 }
 
 /// A setting with its time and errors.
@@ -162,7 +164,7 @@ impl Standards {
                 _ => stopped(answer_of(inputs, Setting::best(rung), go_on))?.ok().map(Arc::new),
             };
             let off = found.as_ref().zip(truth.as_ref()).map_or(NO_DIFFERENCES, |(found, truth)| differences(found, truth));
-            models.push(Model { rung, off });
+            models.push(Model { rung, off, outcome: found.as_ref().map(|found| found.outcome) });
             best.extend(found.map(|found| (rung, found)));
         }
         let trade = Trade { within: question.within, planned, settings: Vec::new(), reference, models, recommended: None };
@@ -198,6 +200,13 @@ impl Trade {
     #[must_use]
     pub fn model(&self, rung: Rung) -> Option<&Model> {
         self.models.iter().find(|model| model.rung == rung)
+    }
+
+    /// Whether no tooth strikes, by every rung that solves the case.
+    #[must_use]
+    pub fn comes_in_on_time(&self) -> bool {
+        let mut outcomes = self.models.iter().filter_map(|model| model.outcome).peekable();
+        outcomes.peek().is_some() && outcomes.all(|outcome| outcome == Outcome::NoCornerContact)
     }
 
     /// Mark who qualifies, who stands on the front, and who is the cheapest, by the times and errors that stand there.

@@ -179,6 +179,9 @@ fn draw_field(app: &App, inputs: &Inputs, index: usize, line: Rect, buffer: &mut
     draw_value(app, index, value, style, buffer)
 }
 
+/// Behind a verdict on the free impact: what the rung itself finds is above the limit.
+const ABOVE_BESIDE: &str = " (!)";
+
 // The limit as it is written, and how the result stands to it.
 fn draw_limit(app: &App, index: usize, limit: &Limit, line: Rect, buffer: &mut Buffer) -> Option<Position> {
     let theme = app.look.theme;
@@ -192,7 +195,8 @@ fn draw_limit(app: &App, index: usize, limit: &Limit, line: Rect, buffer: &mut B
     let (word, of_word) = standing(app, limit);
     let left = usize::from(room).saturating_sub(limit.text.width() + 2).max(usize::from(room) / 2);
     let alone = word.split(' ').next().unwrap_or_default();
-    let word = if word.width() <= left { word } else { text::cut(alone, left) };
+    let marked = if word.ends_with(ABOVE_BESIDE) { format!("{alone}{ABOVE_BESIDE}") } else { alone.to_owned() };
+    let word = if word.width() <= left { word } else { text::cut(&marked, left) };
     let width = word.width() as u16;
     buffer.set_string(line.right() - width, line.y, &word, of_word);
     let value = Rect { x: line.x + offset, width: room.saturating_sub(width + u16::from(width > 0)), ..line };
@@ -213,9 +217,11 @@ fn standing(app: &App, limit: &Limit) -> (String, Style) {
     let is_told = !app.is_stale() && !limit.text.is_empty();
     let solution = app.answer.as_ref().and_then(|answer| answer.of(answer.active)).filter(|_| is_told);
     let Some(verdict) = solution.map(|solution| verdict(limit, solution)) else { return (String::new(), Style::new()) };
-    let style = if verdict.standing.holds() { theme.note } else { theme.problem };
+    let is_above_beside = verdict.is_exceeded_beside();
+    let style = if verdict.standing.holds() && !is_above_beside { theme.note } else { theme.problem };
     let part = verdict.part().map_or_else(String::new, |part| format!(" {:.0} %", 100.0 * part));
-    (format!("{}{part}", verdict.standing.word()), style)
+    let beside = if is_above_beside { ABOVE_BESIDE } else { "" };
+    (format!("{}{part}{beside}", verdict.standing.word()), style)
 }
 
 fn draw_mark(app: &App, index: usize, line: Rect, buffer: &mut Buffer) {

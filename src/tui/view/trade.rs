@@ -7,7 +7,7 @@ use ratatui::style::Style;
 use super::{text, titled};
 use crate::model::inputs::Rung;
 use crate::report::trade::plot::{Axis, shown, time};
-use crate::report::trade::{parts, percent, summary};
+use crate::report::trade::{ON_TIME, parts, percent, summary};
 use crate::study::trade::{Measured, RUNGS, Setting, Trade};
 use crate::tui::app::App;
 use crate::tui::pane::Pane;
@@ -75,7 +75,8 @@ fn told(app: &App, traded: &Traded, trade: &Trade) -> String {
     let own = if own(app) == Some(measured.setting) { "; it is the case's own" } else { "" };
     let front = if measured.is_on_front { "; none is both nearer and quicker" } else { "" };
     let parts = parts(trade, measured).map_or_else(String::new, |parts| format!("; {parts}"));
-    format!("[{}] {qualifies} {} %{parts}{front}{own}{refused}", summary(measured), percent(trade.within))
+    let on_time = if trade.comes_in_on_time() { format!("{ON_TIME}: ") } else { String::new() };
+    format!("{on_time}[{}] {qualifies} {} %{parts}{front}{own}{refused}", summary(measured), percent(trade.within))
 }
 
 fn own(app: &App) -> Option<Setting> {

@@ -54,6 +54,8 @@ const LABEL: usize = 27;
 const VALUE: usize = 10;
 const UNIT: usize = 7;
 const EQUATION: usize = 12;
+/// Labels are worth more than a further rung from so many on.
+const ENOUGH_RUNGS: usize = 2;
 /// Below this part of the baseline a difference is none that a person reads.
 const NO_DIFFERENCE: f64 = 5e-6;
 
@@ -76,9 +78,9 @@ struct Columns {
 /// The quantities that some rung has, in the order in which a person reads them: what matters first, then the rung's own.
 pub(super) fn order(answer: &Answer) -> impl Iterator<Item = &'static Quantity> {
     let strikes = |solution: &Solution| solution.outcome == Outcome::CornerContact;
-    let any_strikes = answer.rungs.iter().any(|(_, result)| result.as_ref().is_ok_and(strikes));
+    let strikes = answer.of(answer.active).is_none_or(strikes);
     let first = match answer.active {
-        _ if !any_strikes => FIRST_WITHOUT_CONTACT,
+        _ if !strikes => FIRST_WITHOUT_CONTACT,
         Rung::Static => FIRST_OF_STATIC,
         Rung::Dynamic => FIRST_OF_DYNAMIC,
         Rung::Paper | Rung::Exact | Rung::Auto => FIRST,
@@ -127,8 +129,9 @@ impl Columns {
     fn of(app: &App, answer: &Answer, width: usize) -> Columns {
         let difference = app.baseline.is_some();
         let more = if difference { VALUE } else { 0 };
-        let room_for_values = width.saturating_sub(SYMBOL + UNIT + more) / VALUE;
-        let rungs = rungs(answer, room_for_values);
+        let room_beside = |names: usize| width.saturating_sub(names + UNIT + more) / VALUE;
+        let beside_labels = room_beside(LONG_SYMBOL + LABEL);
+        let rungs = rungs(answer, if beside_labels >= ENOUGH_RUNGS { beside_labels } else { room_beside(SYMBOL) });
         let with_labels = LONG_SYMBOL + LABEL + rungs.len() * VALUE + UNIT + more;
         Columns { labels: width >= with_labels, rungs, difference, equation: !difference && width >= with_labels + EQUATION }
     }
