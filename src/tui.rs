@@ -221,6 +221,7 @@ impl Workbench {
                     Effect::Solve(request) => self.solver.ask(*request),
                     Effect::Measure(measuring) => self.measurer.begin(*measuring)?,
                     Effect::CancelWork => self.measurer.stop(),
+                    Effect::CancelSolve => self.solver.stop(),
                     Effect::Errand(errand) => self.errands.ask(errand)?,
                     Effect::Save(saving) => actions.push(self.keeper.save(*saving)),
                     Effect::Keep(settings) => self.chosen = Some(settings),

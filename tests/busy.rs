@@ -8,7 +8,7 @@ mod tty;
 use std::fs;
 use std::time::{Duration, Instant};
 
-use tty::{Launch, PATIENCE, TABLE_1, Tty};
+use tty::{Launch, PATIENCE, TABLE_1, Tty, stat};
 
 const KEYS: usize = 40;
 const PART: Duration = Duration::from_millis(1);
@@ -72,6 +72,26 @@ fn keys_are_echoed_while_a_solve_runs() {
     assert!(busy.shows("exact"), "the closed form stands for what is not solved yet");
     assert!(solving <= MOST_FOR_A_KEY, "{solving:.1?}");
     leave(busy);
+}
+
+#[test]
+fn a_solve_that_takes_long_shows_how_far_it_is_and_esc_ends_it() {
+    // Without damping nothing comes to rest, and every cycle is run.
+    let mut tty = open(&slow_case().replace("[model]\n", "[model]\ndamping_ratio = 0.0\n"));
+    tty.wait_for("solving dynamic; Esc cancels");
+    let start = Instant::now();
+    tty.type_in("\x1b");
+    tty.wait_for("rung dynamic is stopped: the closed form stands until the next edit");
+    println!("Esc ends the solve within {:.1?}, of which 50 ms are for what an escape sequence may take", start.elapsed());
+    assert!(start.elapsed() <= MOST_FOR_ESC, "{:.1?}", start.elapsed());
+    tty.settle(Duration::from_millis(100));
+    let ticks = || stat(tty.id()).map(|words| (words[11].clone(), words[12].clone()));
+    let before = ticks();
+    std::thread::sleep(Duration::from_millis(300));
+    assert_eq!(ticks(), before, "nothing is solved any more");
+    tty.type_in("i7");
+    tty.wait_for("solving dynamic; Esc cancels");
+    leave(tty);
 }
 
 #[test]

@@ -13,11 +13,13 @@ use insta::assert_snapshot;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 use ratatui::symbols::Marker;
+use tipstrike::model::inputs::Rung;
 use tipstrike::model::{Stage, Stages};
-use tipstrike::tui::actions::{self, Action};
+use tipstrike::tui::actions::{self, Action, Command};
 use tipstrike::tui::app::Progress;
 use tipstrike::tui::pane::Pane;
 use tipstrike::tui::settings::Settings;
+use tipstrike::tui::solver::Answer;
 use tipstrike::tui::theme::{CONTRAST, Look, MONO};
 use tipstrike::tui::update::{Effect, update};
 use tipstrike::tui::view;
@@ -375,6 +377,23 @@ fn long_work_shows_how_far_it_is_and_esc_cancels_it() {
     assert!(desk.has_cancelled && desk.app.has_line());
     desk.act(Action::Progress(None));
     assert!(!desk.shows("25 %"));
+}
+
+#[test]
+fn a_slow_solve_shows_how_far_it_is_and_esc_stops_it() {
+    let mut desk = three_cases(LARGE);
+    let effects = update(&mut desk.app, Action::Do(Command::ToggleRung));
+    let Some(Effect::Solve(request)) = effects.into_iter().next() else { panic!("it asks for a solve") };
+    let whole = tipstrike::tui::solver::answer(&request);
+    let half = Answer { active: Rung::Exact, pending: Some(Rung::Static), ..whole };
+    desk.act(Action::Solved(Box::new(half)));
+    desk.act(Action::Solving(request.serial, 0.25));
+    assert!(desk.shows("25 % solving static; Esc cancels") && desk.shows("static to come"), "{}", desk.screen());
+    desk.keys(&["Esc"]);
+    assert!(desk.has_cancelled && desk.shows("rung static is stopped") && !desk.shows("to come"), "{}", desk.screen());
+    assert!(desk.app.has_line(), "the field keeps the keys");
+    desk.act(Action::Solving(request.serial, 0.5));
+    assert!(!desk.shows("solving"), "what is told late is not believed");
 }
 
 #[test]

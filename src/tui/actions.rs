@@ -45,6 +45,8 @@ pub enum Action {
     Tick,
     /// The worker has an answer.
     Solved(Box<Answer>),
+    /// The solve of that serial takes its time; this part of it is done.
+    Solving(u64, f64),
     /// More is known of a measurement.
     Measured(Box<Measured>),
     /// The worker failed on the request of that serial.

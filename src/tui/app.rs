@@ -235,7 +235,7 @@ impl App {
             Ok(inputs) => {
                 self.last_serial += 1;
                 let tab = &mut self.tab;
-                (tab.serial, tab.asked, tab.is_settled) = (self.last_serial, stages, false);
+                (tab.serial, tab.asked, tab.is_settled, tab.solving) = (self.last_serial, stages, false, None);
                 tab.problems.clear();
                 Some(Request { serial: tab.serial, case: tab.case.clone(), inputs, stages })
             }

@@ -156,6 +156,7 @@ pub fn take_action(inputs: &mut std::iter::Peekable<impl Iterator<Item = Event>>
         Event::Input(Input::Paste(text)) => Some(Action::Paste(text)),
         Event::Input(Input::Resize(width, height)) => Some(Action::Resize(Size { width, height })),
         Event::Reply(Reply::Solved(answer)) => Some(Action::Solved(answer)),
+        Event::Reply(Reply::Solving(serial, part)) => Some(Action::Solving(serial, part)),
         Event::Reply(Reply::Measured(measured)) => Some(Action::Measured(measured)),
         Event::Reply(Reply::Failed(serial)) => Some(Action::SolverFailed(serial)),
         Event::Warned(text) => Some(Action::Failed(text)),

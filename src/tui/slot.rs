@@ -12,12 +12,14 @@ pub struct Slot<T> {
 #[derive(Debug)]
 struct Tray<T> {
     request: Option<T>,
+    /// What was taken is not wanted any more.
+    is_stopped: bool,
     is_closed: bool,
 }
 
 impl<T> Default for Slot<T> {
     fn default() -> Slot<T> {
-        Slot { tray: Mutex::new(Tray { request: None, is_closed: false }), bell: Condvar::new() }
+        Slot { tray: Mutex::new(Tray { request: None, is_stopped: false, is_closed: false }), bell: Condvar::new() }
     }
 }
 
@@ -26,6 +28,11 @@ impl<T> Slot<T> {
     pub fn put(&self, request: T) {
         self.tray().request = Some(request);
         self.bell.notify_one();
+    }
+
+    /// What was taken is not wanted any more; the next request is.
+    pub fn stop(&self) {
+        self.tray().is_stopped = true;
     }
 
     /// Nothing more is asked.
@@ -42,17 +49,18 @@ impl<T> Slot<T> {
                 return None;
             }
             if let Some(request) = tray.request.take() {
+                tray.is_stopped = false;
                 return Some(request);
             }
             tray = self.bell.wait(tray).unwrap_or_else(PoisonError::into_inner);
         }
     }
 
-    /// Whether what was taken is still wanted: nothing later is asked.
+    /// Whether what was taken is still wanted: it is not stopped, and nothing later is asked.
     #[must_use]
     pub fn is_idle(&self) -> bool {
         let tray = self.tray();
-        tray.request.is_none() && !tray.is_closed
+        tray.request.is_none() && !tray.is_stopped && !tray.is_closed
     }
 
     fn tray(&self) -> MutexGuard<'_, Tray<T>> {
@@ -73,6 +81,10 @@ mod tests {
         assert!(!slot.is_idle());
         assert_eq!(slot.take(), Some(2));
         assert!(slot.is_idle());
+        slot.stop();
+        assert!(!slot.is_idle());
+        slot.put(4);
+        assert_eq!((slot.take(), slot.is_idle()), (Some(4), true));
         slot.put(3);
         slot.close();
         assert_eq!((slot.take(), slot.is_idle()), (None, false));

@@ -16,6 +16,11 @@ use crate::model::{self, Inputs, Note, QUANTITIES, Refusal, Solution, Stages};
 /// So long a slow rung may take before the closed form's answer is shown in its place.
 const PATIENCE: Duration = Duration::from_millis(30);
 
+/// What takes longer is told of, with how much of it is done,
+const LONG: Duration = Duration::from_secs(1);
+/// and again after so long.
+const STEP: Duration = Duration::from_millis(200);
+
 /// The name of the worker's thread.
 pub const THREAD: &str = "solver";
 
@@ -70,6 +75,8 @@ pub struct Cost {
 pub enum Reply {
     /// It is solved.
     Solved(Box<Answer>),
+    /// The solve of that serial takes its time; this part of it is done.
+    Solving(u64, f64),
     /// More is known of a measurement.
     Measured(Box<Measured>),
     /// The solver failed in a way that it never should.
@@ -112,11 +119,15 @@ impl Solver {
         let mut evaluator = Evaluator::default();
         let solve = move |request: &Request, wanted: Wanted<'_>| {
             let begun = Instant::now();
-            let mut waiting = Some(begun + PATIENCE);
-            let go_on = |at_once: &dyn Fn() -> Answer| {
-                if waiting.is_some_and(|until| Instant::now() > until) {
+            let (mut waiting, mut told) = (Some(begun + PATIENCE), begun + LONG);
+            let go_on = |part: f64, at_once: &dyn Fn() -> Answer| {
+                let now = Instant::now();
+                if waiting.is_some_and(|until| now > until) {
                     waiting = None;
-                    wanted.tell(at_once());
+                    wanted.tell(Reply::Solved(Box::new(at_once())));
+                } else if now > told {
+                    told = now + STEP;
+                    wanted.tell(Reply::Solving(request.serial, part));
                 }
                 wanted.is_wanted()
             };
@@ -152,6 +163,11 @@ impl Solver {
     pub fn ask(&self, request: Request) {
         self.slot.put(request);
     }
+
+    /// What is being solved is not wanted any more.
+    pub fn stop(&self) {
+        self.slot.stop();
+    }
 }
 
 impl Drop for Solver {
@@ -174,17 +190,17 @@ impl Wanted<'_> {
         self.slot.is_idle()
     }
 
-    /// Tell an answer that stands until the last one is there.
-    pub fn tell(&self, answer: Answer) {
+    /// Tell what stands until the last answer is there.
+    pub fn tell(&self, reply: Reply) {
         // Whether anybody listens shows when the last one is told.
-        let _ = (self.tell)(Reply::Solved(Box::new(answer)));
+        let _ = (self.tell)(reply);
     }
 }
 
 /// Solve with the closed forms, which cost nothing, and the rung of the case: their difference is what the engineer came for.
 #[must_use]
 pub fn answer(request: &Request) -> Answer {
-    let whole = solved(&mut Evaluator::default(), request, Instant::now(), |_| true);
+    let whole = solved(&mut Evaluator::default(), request, Instant::now(), |_, _| true);
     whole.unwrap_or_else(|| at_once(&mut Evaluator::default(), request, Instant::now()))
 }
 
@@ -192,7 +208,7 @@ pub fn answer(request: &Request) -> Answer {
 #[must_use]
 pub fn first_answer(request: &Request) -> Answer {
     let begun = Instant::now();
-    let whole = solved(&mut Evaluator::default(), request, begun, |_| begun.elapsed() < PATIENCE);
+    let whole = solved(&mut Evaluator::default(), request, begun, |_, _| begun.elapsed() < PATIENCE);
     whole.unwrap_or_else(|| at_once(&mut Evaluator::default(), request, begun))
 }
 
@@ -201,12 +217,12 @@ fn solved(
     evaluator: &mut Evaluator,
     request: &Request,
     begun: Instant,
-    mut go_on: impl FnMut(&dyn Fn() -> Answer) -> bool,
+    mut go_on: impl FnMut(f64, &dyn Fn() -> Answer) -> bool,
 ) -> Option<Answer> {
     let first = at_once(evaluator, request, begun);
     let Some(rung) = first.pending else { return Some(first) };
     let asked = std::cell::RefCell::new(&mut go_on);
-    let ask = |_: f64| (asked.borrow_mut())(&|| first.clone());
+    let ask = |part: f64| (asked.borrow_mut())(part, &|| first.clone());
     let found = evaluator.solve(&request.case, &request.inputs, rung, request.stages, &ask);
     if matches!(found, Err(Refusal::Stopped)) {
         return None;

@@ -115,6 +115,7 @@ pub fn perform(effect: Effect) -> Option<Action> {
         | Effect::Play(_)
         | Effect::Measure(_)
         | Effect::CancelWork
+        | Effect::CancelSolve
         | Effect::Redraw
         | Effect::Suspend
         | Effect::Quit => None,

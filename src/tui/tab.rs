@@ -49,6 +49,8 @@ pub struct Tab {
     pub serial: u64,
     /// The stages that were asked for with it.
     pub asked: Stages,
+    /// How much of it is done, where it takes its time.
+    pub solving: Option<f64>,
     /// Whether the worker has answered it, in whatever way.
     pub is_settled: bool,
     /// The last valid results.
@@ -118,6 +120,7 @@ impl Tab {
             problems: Vec::new(),
             serial: 0,
             asked: Stages::NONE,
+            solving: None,
             is_settled: false,
             answer: None,
             earlier: None,
@@ -202,6 +205,7 @@ impl Tab {
     pub(super) fn take(&mut self, answer: Answer) {
         self.has_failed = false;
         self.is_settled = answer.pending.is_none();
+        self.solving = self.solving.filter(|_| !self.is_settled);
         self.refusal = answer.refusal().copied();
         if self.refusal.is_none() {
             self.answer = Some(answer);

@@ -62,6 +62,8 @@ pub enum Effect {
     Measure(Box<Measuring>),
     /// Stop the long work.
     CancelWork,
+    /// Stop what is being solved.
+    CancelSolve,
     /// Draw every cell anew.
     Redraw,
     /// Give the terminal back to the shell, until it brings us back.
@@ -131,6 +133,11 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
         }
         Action::Measured(measured) => trade::measured(app, *measured),
         Action::SolverFailed(serial) => solver_failed(app, serial),
+        Action::Solving(serial, part) => {
+            if let Some(tab) = app.tab_of(serial).filter(|tab| !tab.is_settled) {
+                tab.solving = Some(part);
+            }
+        }
         Action::Progress(progress) => app.progress = progress,
         Action::Loaded(path, result) => return files::loaded(app, path, result),
         Action::Saved(path, next, result) => return files::saved(app, path, next, result),
@@ -241,8 +248,9 @@ fn cancel(app: &mut App) -> Vec<Effect> {
     if app.prompts.pop().is_some() {
         return Vec::new();
     }
-    if app.progress.is_some() {
-        return vec![Effect::CancelWork];
+    let stopped = stop(app);
+    if !stopped.is_empty() {
+        return stopped;
     }
     if app.is_playing {
         return cursor::stop(app);
@@ -254,9 +262,23 @@ fn cancel(app: &mut App) -> Vec<Effect> {
     Vec::new()
 }
 
+// What takes its time ends; what is known of it stays.
+fn stop(app: &mut App) -> Vec<Effect> {
+    let measuring = app.progress.as_ref().map(|_| Effect::CancelWork);
+    let solving = app.tab.solving.take().map(|_| {
+        app.tab.is_settled = true;
+        app.is_pinning = false;
+        if let Some(rung) = app.tab.answer.as_mut().and_then(|answer| answer.pending.take()) {
+            app.say(format!("rung {} is stopped: the closed form stands until the next edit", rung.name()));
+        }
+        Effect::CancelSolve
+    });
+    measuring.into_iter().chain(solving).collect()
+}
+
 fn solver_failed(app: &mut App, serial: u64) {
     let Some(tab) = app.tab_of(serial) else { return };
-    (tab.has_failed, tab.is_settled) = (true, true);
+    (tab.has_failed, tab.is_settled, tab.solving) = (true, true, None);
     if app.serial == serial {
         app.is_pinning = false;
         app.complain("a fault of the program: the solver failed on this; undo or change the last edit");

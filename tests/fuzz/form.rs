@@ -299,6 +299,7 @@ impl Bench {
             | Effect::Keep(_)
             | Effect::Mouse(_)
             | Effect::CancelWork
+            | Effect::CancelSolve
             | Effect::Redraw
             | Effect::Suspend
             | Effect::Measure(_) => None,

@@ -48,8 +48,9 @@ pub(super) fn leave(app: &mut App) -> Vec<Effect> {
     if app.prompts.pop().is_some() {
         return Vec::new();
     }
-    if app.progress.is_some() {
-        return vec![Effect::CancelWork];
+    let stopped = super::stop(app);
+    if !stopped.is_empty() {
+        return stopped;
     }
     if app.has_line() {
         app.tab.history.end_visit();

@@ -10,6 +10,7 @@ use super::{chart, results, text};
 use crate::case::fields::{self, Absent, Field, Kind};
 use crate::case::units::System;
 use crate::case::{Acting, FIELDS, Limit, acts, materials};
+use crate::model::inputs::Rung;
 use crate::numeric::decimal::shortest;
 use crate::report::verdict::verdict;
 use crate::tui::actions::{BINDINGS, Binding, Chord};
@@ -40,8 +41,8 @@ pub fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.look.theme;
     let width = usize::from(area.width);
     let mut lines = text::wrap(&focused(app), width).into_iter().map(Line::raw).collect::<Vec<_>>();
-    if let Some(progress) = &app.progress {
-        lines.insert(0, Line::styled(text::cut(&bar(progress), width), theme.note));
+    if let Some(progress) = app.progress.clone().or_else(|| solving(app)) {
+        lines.insert(0, Line::styled(text::cut(&bar(&progress), width), theme.note));
     }
     if let Some(message) = &app.message {
         let (mark, style) = if message.is_fault { ("! ", theme.problem) } else { ("", theme.note) };
@@ -229,6 +230,12 @@ fn at_cursor(app: &App) -> String {
         None if app.panes.focus == Pane::Chart => format!("{NONE} {MARKS}"),
         None => NONE.to_owned(),
     }
+}
+
+// A solve that takes its time.
+fn solving(app: &App) -> Option<Progress> {
+    let rung = app.answer.as_ref().and_then(|answer| answer.pending).map_or("", Rung::name);
+    app.solving.map(|part| Progress { what: format!("solving {rung}"), part })
 }
 
 fn bar(progress: &Progress) -> String {
