@@ -17,7 +17,7 @@ use insta::assert_snapshot;
 use tipstrike::tui::actions::{self, Action};
 use tipstrike::tui::clean::is_safe;
 use tipstrike::tui::errands::{Errand, Errands};
-use tipstrike::tui::store::folder;
+use tipstrike::tui::store::{below, folder};
 use tipstrike::tui::theme::{Look, MONO};
 use tipstrike::tui::update::{Effect, update};
 
@@ -126,7 +126,7 @@ fn the_entry_that_is_called_what_is_typed_is_marked_before_those_that_contain_it
     desk.keys(&["Ctrl-O", "case.toml"]);
     assert_eq!(marked(&desk), "case.toml");
     desk.keys(&["Ctrl-U", "DEEP"]);
-    assert!(desk.shows("Nothing here fits."));
+    assert_eq!(marked(&desk), "sub/deep.toml", "what is below is found too");
     desk.write(".hidden.toml", TABLE_1);
     desk.keys(&["Esc", "Ctrl-O"]);
     assert!(!desk.shows("hidden"));
@@ -221,7 +221,8 @@ fn a_folder_of_ten_thousand_is_read_once_and_a_key_asks_for_one_preview_at_most(
         desk.screen();
     }
     let previews = asked.iter().filter(|effect| matches!(effect, Effect::Errand(Errand::Preview(..)))).count();
-    assert!(previews == asked.len() && previews <= keys.len(), "{asked:?}");
+    let searches = asked.iter().filter(|effect| matches!(effect, Effect::Errand(Errand::Below(..)))).count();
+    assert!(previews + searches == asked.len() && previews <= keys.len() && searches == 1, "{asked:?}");
     assert!(desk.shows("99"), "{}", desk.screen());
 }
 
@@ -298,4 +299,50 @@ fn the_screens() {
             assert_snapshot!(format!("{screen}_{size}"), desk::without_folder(&desk));
         }
     }
+}
+
+#[test]
+fn what_is_typed_is_looked_for_below_the_folder_and_among_the_examples() {
+    let mut desk = desk_before_a_shelf(LARGE);
+    fs::create_dir_all(desk.path("sub/gearbox/stage 2")).expect("folders");
+    fs::create_dir_all(desk.path(".hidden/x")).expect("folders");
+    desk.write("sub/gearbox/stage 2/Pinion.toml", &TABLE_1.replace("2000 rpm", "777 rpm"));
+    desk.write(".hidden/x/pinion.toml", TABLE_1);
+    symlink(desk.folder.path(), desk.path("sub/round and round")).expect("a link");
+    desk.keys(&["Ctrl-O", "pinion"]);
+    assert_eq!(marked(&desk), "sub/gearbox/stage 2/Pinion.toml", "{}", desk.screen());
+    assert!(preview(&desk).contains("777 rpm") && !desk.shows("hidden"), "{}", desk.screen());
+    desk.keys(&["Enter"]);
+    assert_eq!(desk.app.path.as_deref(), Some(desk.path("sub/gearbox/stage 2/Pinion.toml").as_path()));
+    desk.keys(&["Ctrl-O", "fzg"]);
+    assert_eq!(marked(&desk), "fzg-type-c  (example)", "{}", desk.screen());
+    assert!(preview(&desk).contains("FZG"), "{}", desk.screen());
+    desk.keys(&["Enter"]);
+    assert!(desk.app.prompts.is_empty() && desk.shows("a new case, beginning with fzg-type-c"), "{}", desk.screen());
+    desk.keys(&["Ctrl-O", "no such"]);
+    assert!(desk.shows("Nothing here or below."), "{}", desk.screen());
+}
+
+#[test]
+fn a_search_below_is_bounded_and_asked_once_for_a_folder() {
+    let mut desk = desk_before_a_shelf(SMALL);
+    let deep = "1/2/3/4/5/6/7/8";
+    fs::create_dir_all(desk.path(deep)).expect("folders");
+    desk.write("1/2/3/near.toml", TABLE_1);
+    desk.write(&format!("{deep}/far.toml"), TABLE_1);
+    let below = below::find(desk.folder.path().to_owned(), String::new(), &|_| true).expect("it is wanted");
+    let names: Vec<&str> = below.cases.iter().map(|case| case.name.as_str()).collect();
+    assert_eq!((names, below.is_cut), (vec!["sub/deep.toml", "1/2/3/near.toml"], true));
+    assert_eq!(below::find(desk.folder.path().to_owned(), String::new(), &|_| false), None);
+    assert_eq!(below::find("/no/such/folder".into(), String::new(), &|_| true).expect("wanted").cases, []);
+    desk.keys(&["Ctrl-O"]);
+    let mut asked = 0;
+    for letter in "near".chars() {
+        let effects = update(&mut desk.app, Action::Insert(letter));
+        asked += effects.iter().filter(|effect| matches!(effect, Effect::Errand(Errand::Below(..)))).count();
+    }
+    assert_eq!(asked, 1);
+    assert!(desk.shows("Looking below ..."), "{}", desk.screen());
+    desk.act(Action::Found(Box::new(below::Below { cases: Vec::new(), ..below })));
+    assert!(desk.shows("Nothing here or below."), "{}", desk.screen());
 }

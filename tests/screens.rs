@@ -141,6 +141,10 @@ fn a_terminal_too_small_says_so_and_keeps_the_state() {
     let before = desk.screen();
     desk.act(Action::Resize(Size::new(40, 10)));
     assert_snapshot!("too_small_40x10", desk.screen());
+    for (width, height) in [(59, 16), (60, 15), (20, 5), (10, 3), (5, 1), (4, 4), (1, 1), (0, 0)] {
+        desk.act(Action::Resize(Size::new(width, height)));
+        assert_snapshot!(format!("too_small_{width}x{height}"), desk.screen());
+    }
     desk.act(Action::Resize(SMALL));
     assert_eq!(desk.screen(), before);
 }

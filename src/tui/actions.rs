@@ -18,6 +18,7 @@ use super::recents::Recent;
 use super::recovery::Claim;
 use super::solver::Answer;
 use super::store::SaveFault;
+use super::store::below::Below;
 use super::store::folder::Listing;
 use super::store::preview::Preview;
 use crate::case::Document;
@@ -59,6 +60,8 @@ pub enum Action {
     Saved(PathBuf, Next, Result<Box<Document>, SaveFault>),
     /// What stands in a folder.
     Listed(Box<Listing>),
+    /// Which cases stand below a folder.
+    Found(Box<Below>),
     /// What a file or a folder holds.
     Previewed(Sight, Box<Preview>),
     /// What was found out about a case that was opened.

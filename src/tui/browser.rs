@@ -7,8 +7,10 @@ use std::path::{Path, PathBuf};
 use tui_input::Input;
 
 use super::recents::Recent;
+use super::store::below::{self, Below};
 use super::store::folder::{Entry, Listing, beneath};
 use super::store::preview::Preview;
+use crate::case::{EXAMPLES, Example};
 
 /// A folder, and the cases that were open last.
 #[derive(Debug, Clone, Default)]
@@ -29,6 +31,14 @@ pub struct Browser {
     typed_folder: String,
     /// Places in the listing of the entries that fit.
     fitting: Vec<usize>,
+    /// What stands in the folders below, as soon as something is looked for.
+    below: Option<Below>,
+    /// Where that was looked for.
+    sought: Option<(PathBuf, String)>,
+    /// Places among the cases below of those that fit.
+    fitting_below: Vec<usize>,
+    /// The same of the examples.
+    fitting_examples: Vec<usize>,
     /// The same of the recent cases.
     fitting_recents: Vec<usize>,
     /// Whether a recent case is to be marked rather than one of the folder.
@@ -46,6 +56,8 @@ pub enum Sight {
     File(PathBuf),
     /// A folder.
     Folder(PathBuf),
+    /// An example.
+    Example(&'static Example),
 }
 
 /// A line that may be marked.
@@ -55,6 +67,10 @@ pub enum Line<'b> {
     Up,
     /// An entry of the folder.
     Entry(&'b Entry),
+    /// A case in a folder below.
+    Below(&'b below::Case),
+    /// An example to begin with.
+    Example(&'static Example),
     /// A case that was open last.
     Recent(&'b Recent),
 }
@@ -105,6 +121,31 @@ impl Browser {
         }
     }
 
+    /// Where cases below are to be looked for: once for each folder in which a name is looked for.
+    pub fn seek(&mut self) -> Option<(PathBuf, String)> {
+        let is_sought = self.sought.as_ref() == Some(&self.asks());
+        if is_sought || self.wanted().is_none() {
+            return None;
+        }
+        self.sought = Some(self.asks());
+        self.sought.clone()
+    }
+
+    /// Whether it is not known yet what stands below.
+    #[must_use]
+    pub fn is_seeking(&self) -> bool {
+        self.wanted().is_some() && self.own_below().is_none()
+    }
+
+    /// Take what stands in the folders below; a mark among the lines before stays where it is.
+    pub fn take_below(&mut self, below: Below) {
+        self.below = Some(below);
+        let marked = self.marked;
+        let is_above = marked < self.count_of_folder() && !self.fitting.is_empty();
+        self.refit();
+        self.marked = if is_above { marked } else { self.marked };
+    }
+
     /// Take the cases that were open last.
     pub fn remember(&mut self, recents: Vec<Recent>) {
         self.recents = recents;
@@ -132,7 +173,7 @@ impl Browser {
     /// How many lines of the folder there are.
     #[must_use]
     pub fn count_of_folder(&self) -> usize {
-        self.fitting.len() + usize::from(self.has_up())
+        self.fitting.len() + self.fitting_below.len() + self.fitting_examples.len() + usize::from(self.has_up())
     }
 
     /// How many recent cases fit.
@@ -157,7 +198,15 @@ impl Browser {
         if let Some(&entry) = self.fitting.get(in_folder) {
             return self.listing.as_ref()?.entries.as_ref().ok()?.get(entry).map(Line::Entry);
         }
-        let recent = *self.fitting_recents.get(in_folder - self.fitting.len())?;
+        let beyond = in_folder - self.fitting.len();
+        if let Some(&case) = self.fitting_below.get(beyond) {
+            return self.below.as_ref()?.cases.get(case).map(Line::Below);
+        }
+        let beyond = beyond - self.fitting_below.len();
+        if let Some(&example) = self.fitting_examples.get(beyond) {
+            return EXAMPLES.get(example).map(Line::Example);
+        }
+        let recent = *self.fitting_recents.get(beyond - self.fitting_examples.len())?;
         self.recents.get(recent).map(Line::Recent)
     }
 
@@ -167,6 +216,8 @@ impl Browser {
         match line {
             Line::Up => Sight::Folder(self.above()),
             Line::Recent(recent) => Sight::File(recent.path.clone()),
+            Line::Example(example) => Sight::Example(example),
+            Line::Below(case) => Sight::File(self.below.as_ref().map_or_else(|| case.way.clone(), |below| below.path(case))),
             Line::Entry(entry) => {
                 let path = beneath(&self.base, &self.typed_folder).join(&entry.file);
                 if entry.is_folder { Sight::Folder(path) } else { Sight::File(path) }
@@ -236,8 +287,27 @@ impl Browser {
         let fitting = places(&mut entries.unwrap_or_default().iter().map(fits));
         let typed = self.input.value().to_lowercase();
         let fitting_recents = places(&mut self.recents.iter().map(|recent| recent.folded.contains(&typed)));
+        let (fitting_below, fitting_examples) = match self.wanted() {
+            None => (Vec::new(), Vec::new()),
+            Some(wanted) => {
+                let cases = self.own_below().map(|below| below.cases.as_slice()).unwrap_or_default();
+                let below = places(&mut cases.iter().map(|case| case.folded.contains(&wanted)));
+                (below, places(&mut EXAMPLES.iter().map(|example| example.name.contains(&typed))))
+            }
+        };
         (self.fitting, self.fitting_recents) = (fitting, fitting_recents);
+        (self.fitting_below, self.fitting_examples) = (fitting_below, fitting_examples);
         self.mark_first();
+    }
+
+    // The part of a name that is looked for below and among the examples; hidden names are looked for here alone.
+    fn wanted(&self) -> Option<String> {
+        let wanted = self.split().1;
+        (!wanted.is_empty() && !wanted.starts_with(['.', '~'])).then(|| wanted.to_lowercase())
+    }
+
+    fn own_below(&self) -> Option<&Below> {
+        self.below.as_ref().filter(|below| below.asked == self.asks())
     }
 
     // The first that a person looks for: no way up, where there is anything else.

@@ -11,7 +11,7 @@ use super::browser::Sight;
 use super::fault;
 use super::recents;
 use super::slot::Slot;
-use super::store::{folder, preview};
+use super::store::{below, folder, preview};
 use crate::case::units::System;
 use crate::case::{Case, EXAMPLES};
 use crate::model::{self, Inputs, Quantity, Stages};
@@ -23,6 +23,8 @@ use crate::report::explain::{self, Page};
 pub enum Errand {
     /// What stands in a folder, and tell it as [`Action::Listed`]: where the browser is, and the folders typed after it.
     Folder(PathBuf, String),
+    /// Which cases stand below a folder, and tell it as [`Action::Found`].
+    Below(PathBuf, String),
     /// What a file or a folder holds, and tell it as [`Action::Previewed`].
     Preview(Sight, System),
     /// Which cases were open last, and tell it as [`Action::Recents`].
@@ -60,7 +62,7 @@ pub struct Errands {
 }
 
 impl Errand {
-    const KINDS: usize = 5;
+    const KINDS: usize = 6;
 
     const fn kind(&self) -> (usize, &'static str) {
         match self {
@@ -69,6 +71,7 @@ impl Errand {
             Errand::Recents => (2, "recents"),
             Errand::Examples(_) => (3, "examples"),
             Errand::Explain(_) => (4, "explain"),
+            Errand::Below(..) => (5, "search"),
         }
     }
 }
@@ -123,6 +126,7 @@ fn begin(name: &'static str, tell: Arc<dyn Fn(Action) -> bool + Send + Sync>) ->
 pub fn perform(errand: Errand, go_on: &dyn Fn(f64) -> bool) -> Option<Action> {
     Some(match errand {
         Errand::Folder(base, typed) => Action::Listed(Box::new(folder::list(base, typed))),
+        Errand::Below(base, typed) => Action::Found(Box::new(below::find(base, typed, go_on)?)),
         Errand::Preview(sight, system) => {
             let preview = preview::of(&sight, system, go_on)?;
             Action::Previewed(sight, Box::new(preview))

@@ -1,5 +1,6 @@
 //! Files: reading and writing cases, looking into folders, and keeping what is typed.
 
+pub mod below;
 pub mod chest;
 mod clock;
 pub mod folder;

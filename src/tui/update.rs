@@ -142,6 +142,7 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
         Action::Loaded(path, result) => return files::loaded(app, path, result),
         Action::Saved(path, next, result) => return files::saved(app, path, next, result),
         Action::Listed(listing) => browse::listed(app, *listing),
+        Action::Found(below) => browse::found(app, *below),
         Action::Previewed(sight, preview) => browse::previewed(app, sight, *preview),
         Action::Claimed(claim) => recovery::claimed(app, *claim),
         Action::Recents(recents) => browse::recalled(app, recents),

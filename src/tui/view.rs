@@ -75,12 +75,17 @@ fn hidden(app: &App, pane: Pane, width: u16) -> String {
     plan.hidden().map(|pane| format!(" {}", pane.number())).chain([" ".to_owned()]).collect()
 }
 
+// The most that fits whole.
 fn too_small(area: Rect, buffer: &mut Buffer) {
-    let lines = [
-        format!("tipstrike needs {}x{};", SMALLEST.width, SMALLEST.height),
-        format!("this is {}x{}.", area.width, area.height),
-        "Nothing is lost.".to_owned(),
-    ];
+    let needed = format!("{}x{}", SMALLEST.width, SMALLEST.height);
+    let needs = format!("tipstrike needs {needed};");
+    let this = format!("this is {}x{}.", area.width, area.height);
+    let width = usize::from(area.width);
+    let sayings = [vec![needs, this, "Nothing is lost.".to_owned()], vec![format!("needs {needed}")], vec![needed]];
+    let wrapped = |lines: &Vec<String>| lines.iter().flat_map(|line| text::wrap(line, width)).collect::<Vec<_>>();
+    let is_whole = |lines: &Vec<String>| lines.iter().flat_map(|line| line.split(' ')).all(|word| word.len() <= width);
+    let fits = |lines: &&Vec<String>| is_whole(lines) && wrapped(lines).len() <= usize::from(area.height);
+    let lines = sayings.iter().find(fits).or(sayings.last()).map(wrapped).unwrap_or_default();
     for (line, y) in lines.iter().zip(area.top()..area.bottom()) {
         buffer.set_stringn(area.x, y, line, area.width.into(), Style::new());
     }

@@ -39,12 +39,18 @@ pub struct Listing {
 /// Look into a folder.
 #[must_use]
 pub fn list(base: PathBuf, typed: String) -> Listing {
-    let place = at_home(&beneath(&base, &typed));
-    let place = if place.as_os_str().is_empty() { PathBuf::from(".") } else { place };
+    let place = place_of(&base, &typed);
     let folder = fs::canonicalize(&place).or_else(|_| std::path::absolute(&place)).unwrap_or(place);
     let found = entries(&folder);
     let is_cut = found.as_ref().is_ok_and(|entries| entries.len() >= MOST);
     Listing { asked: (base, typed), folder, entries: found, is_cut }
+}
+
+/// The folder that is meant, the present one where nothing is said.
+#[must_use]
+pub fn place_of(base: &Path, typed: &str) -> PathBuf {
+    let place = at_home(&beneath(base, typed));
+    if place.as_os_str().is_empty() { PathBuf::from(".") } else { place }
 }
 
 /// The path of what is typed while the browser is in `base`; `~` and `/` begin anew.
@@ -65,12 +71,18 @@ pub fn entries(folder: &Path) -> Result<Vec<Entry>, String> {
 }
 
 impl Entry {
+    /// Whether a file of that name is taken for a case.
+    #[must_use]
+    pub fn is_case(file: &Path) -> bool {
+        file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
+    }
+
     fn of(entry: &fs::DirEntry) -> Option<Entry> {
         let file = entry.file_name();
         let kind = entry.file_type().ok()?;
         // Only a link has to be followed to know.
         let is_folder = kind.is_dir() || kind.is_symlink() && entry.path().is_dir();
-        let is_case = !is_folder && Path::new(&file).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+        let is_case = !is_folder && Entry::is_case(Path::new(&file));
         let name = visible(&file.to_string_lossy());
         (is_folder || is_case).then(|| Entry { is_folder, folded: name.to_lowercase(), name, file })
     }

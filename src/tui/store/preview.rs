@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::{at_home, folder, load, without_name};
+use crate::case::Document;
 use crate::case::units::System;
 use crate::report::digest::Digest;
 use crate::tui::browser::Sight;
@@ -27,6 +28,7 @@ pub fn of(sight: &Sight, system: System, go_on: &dyn Fn(f64) -> bool) -> Option<
     match sight {
         Sight::File(path) => of_file(&at_home(path), system, go_on),
         Sight::Folder(path) => Some(of_folder(&at_home(path))),
+        Sight::Example(example) => of_document(&example.document(), Path::new(example.name), system, go_on),
     }
 }
 
@@ -45,6 +47,10 @@ fn of_file(path: &Path, system: System, go_on: &dyn Fn(f64) -> bool) -> Option<P
         Ok(document) => document,
         Err(faults) => return Some(first_of(faults)),
     };
+    of_document(&document, path, system, go_on)
+}
+
+fn of_document(document: &Document, path: &Path, system: System, go_on: &dyn Fn(f64) -> bool) -> Option<Preview> {
     match document.case.inputs() {
         Ok(inputs) => {
             let digest = Digest::solve(&document.case, &inputs, system, go_on)?;

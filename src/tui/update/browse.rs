@@ -1,11 +1,12 @@
 //! Looking for a case to open: into folders and up again, among the recent ones, with a look into what is marked.
 
-use super::{Effect, files};
+use super::{Effect, files, tabs};
 use crate::tui::app::App;
 use crate::tui::browser::{Browser, Sight};
 use crate::tui::errands::Errand;
 use crate::tui::prompt::Prompt;
 use crate::tui::recents::Recent;
+use crate::tui::store::below::Below;
 use crate::tui::store::folder::Listing;
 use crate::tui::store::preview::Preview;
 
@@ -53,6 +54,10 @@ pub(super) fn complete(app: &mut App) -> Vec<Effect> {
             browser.input = path.display().to_string().into();
             typed(browser)
         }
+        Some(Sight::Example(example)) => {
+            browser.input = example.name.into();
+            typed(browser)
+        }
         None => Vec::new(),
     }
 }
@@ -63,6 +68,10 @@ pub(super) fn accept(app: &mut App) -> Vec<Effect> {
     match browser.marked_sight() {
         Some(Sight::Folder(_)) => complete(app),
         Some(Sight::File(path)) => files::open(app, path),
+        Some(Sight::Example(example)) => {
+            app.prompts.pop();
+            super::solve(tabs::begin(app, example))
+        }
         None if browser.input.value().is_empty() => Vec::new(),
         None => {
             let path = browser.typed_path();
@@ -73,7 +82,16 @@ pub(super) fn accept(app: &mut App) -> Vec<Effect> {
 
 /// The line of a browser has changed.
 pub(super) fn typed(browser: &mut Browser) -> Vec<Effect> {
-    if browser.follow() { vec![list(browser)] } else { Vec::new() }
+    let list = if browser.follow() { Some(list(browser)) } else { None };
+    let below = browser.seek().map(|(base, typed)| Effect::Errand(Errand::Below(base, typed)));
+    list.into_iter().chain(below).collect()
+}
+
+/// Which cases stand in the folders below has been found out.
+pub(super) fn found(app: &mut App, below: Below) {
+    if let Some(browser) = browser(app) {
+        browser.take_below(below);
+    }
 }
 
 /// What stands in a folder has been found out.

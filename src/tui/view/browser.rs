@@ -50,14 +50,20 @@ fn draw_lists(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffer)
 fn draw_folder(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffer) {
     let count = browser.count_of_folder();
     let marked = Some(browser.marked).filter(|&marked| marked < count);
-    popup::draw_window(count, |at| line_of(browser, at), marked, area, theme, buffer);
+    let room = usize::from(area.width).saturating_sub(2);
+    let line = |at: usize| match browser.line(at) {
+        Some(Line::Below(case)) => text::cut_front(&case.name, room),
+        _ => line_of(browser, at),
+    };
+    popup::draw_window(count, line, marked, area, theme, buffer);
     let said = match &browser.listing {
         None => "reading ...",
         Some(listing) => match &listing.entries {
             Err(reason) => reason,
             Ok(_) if listing.is_cut => "There are more than are listed.",
             Ok(entries) if entries.is_empty() => "No folders and no *.toml here.",
-            Ok(_) if count == 0 => "Nothing here fits.",
+            Ok(_) if count == 0 && browser.is_seeking() => "Looking below ...",
+            Ok(_) if count == 0 => "Nothing here or below.",
             Ok(_) => return,
         },
     };
@@ -73,6 +79,8 @@ fn line_of(browser: &Browser, at: usize) -> String {
         Some(Line::Up) => "../".to_owned(),
         Some(Line::Entry(entry)) if entry.is_folder => format!("{}/", entry.name),
         Some(Line::Entry(entry)) => entry.name.clone(),
+        Some(Line::Below(case)) => case.name.clone(),
+        Some(Line::Example(example)) => format!("{}  (example)", example.name),
         Some(Line::Recent(recent)) => {
             let name = recent.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
             let folder = recent.path.parent().and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
