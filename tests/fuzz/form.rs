@@ -20,7 +20,7 @@ use tipstrike::tui::errands::{self, Errand};
 use tipstrike::tui::events::{Event, take_action};
 use tipstrike::tui::prompt::Prompt;
 use tipstrike::tui::solver::{self, Request};
-use tipstrike::tui::store::{self, folder};
+use tipstrike::tui::store::{self, below, folder};
 use tipstrike::tui::theme::Look;
 use tipstrike::tui::update::{Effect, update};
 use tipstrike::tui::{recents, rows, view};
@@ -282,8 +282,14 @@ impl Bench {
             }
             Effect::Errand(Errand::Preview(sight, units)) => match sight {
                 Sight::File(path) => errands::perform(Errand::Preview(Sight::File(self.within(&path)), units), &|_| true),
+                Sight::Example(_) => errands::perform(Errand::Preview(sight, units), &|_| true),
                 Sight::Folder(_) => None,
             },
+            Effect::Errand(Errand::Below(base, typed)) => {
+                let mut below = below::find(self.within(&folder::beneath(&base, &typed)), String::new(), &|_| true)?;
+                below.asked = (base, typed);
+                Some(Action::Found(Box::new(below)))
+            }
             Effect::Errand(errand) => errands::perform(errand, &|_| true),
             Effect::Play(plays) => {
                 assert_eq!(plays, self.app.is_playing, "it ticks while something plays");
