@@ -1,11 +1,13 @@
 //! Numerical methods that know no gears.
 
+pub mod bernstein;
 pub mod chebyshev;
 pub mod decimal;
 pub mod extrapolated;
-pub mod ode;
+pub mod polynomial;
 pub mod quadrature;
 pub mod real;
 pub mod root;
+pub mod taylor;
 
 pub use real::Real;

@@ -35,7 +35,7 @@ fn solved(inputs: &Inputs) -> Result<Solution, Refusal> {
     solution.withheld.or(solution.stations_withheld).map_or(Ok(solution), Err)
 }
 
-/// Evaluations of the forces, and stages that ran.
+/// Evaluations of the motion, and stages that ran.
 fn counts(solution: &Solution) -> (f64, f64) {
     let evaluations = solution.dynamic.as_ref().map_or(0, |dynamic| dynamic.effort.evaluations);
     (evaluations as f64, solution.ran.iter().count() as f64)

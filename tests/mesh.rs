@@ -155,6 +155,9 @@ fn friction_work_of_a_vanishing_coefficient_is_the_integral_of_force_and_sliding
 fn whether_the_tooth_strikes_is_what_the_last_rung_says() {
     for row in rows() {
         let strikes = row.answer("dynamic_first_contact_angle").is_some();
-        assert_eq!(row.solved(1e-6).outcome == Outcome::CornerContact, strikes, "{}", row.name);
+        let solution = row.solved(1e-6);
+        assert_eq!(solution.outcome == Outcome::CornerContact, strikes, "{}", row.name);
+        // Where none strikes there is no impact that could last.
+        assert_eq!(solution.dynamic.unwrap().impact_duration.is_some(), strikes, "{}", row.name);
     }
 }

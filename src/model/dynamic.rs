@@ -3,22 +3,21 @@
 mod events;
 mod laps;
 mod motion;
+mod step;
 mod swing;
 #[cfg(test)]
 mod tests;
 mod watch;
-
-use std::cell::Cell;
 
 use super::Refusal;
 use super::mesh::Mesh;
 use super::spacing::Spacing;
 use super::static_load;
 use super::stations::MeshStation;
-use crate::numeric::ode::{self, Point};
 use events::Event;
 use laps::Laps;
-use motion::{Forces, Motion, State, Touching, Window};
+use motion::{Motion, State, Touching, Window};
+use step::{Course, TERMS};
 use watch::Watch;
 
 /// What the incoming tooth carries, with inertia.
@@ -32,7 +31,7 @@ pub struct Dynamic {
     pub peak_approach_force: f64,
     /// Its greatest force anywhere, in N.
     pub peak_force: f64,
-    /// From the first contact to the first least force after the first peak, or to the loss of contact, in s.
+    /// From a first contact before E to the first least force after the first peak, or to the loss of contact, in s.
     pub impact_duration: Option<f64>,
     /// Whether no pair at all is in contact at some moment from one base pitch before E until the incoming tooth leaves.
     pub contact_lost: bool,
@@ -47,9 +46,9 @@ pub struct Dynamic {
 /// Counts of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Effort {
-    /// Steps that were kept.
+    /// Steps.
     pub steps: u64,
-    /// Evaluations of the forces.
+    /// Coefficients of the power series of the motion, and places at which a series was looked at.
     pub evaluations: u64,
     /// Contacts made and lost.
     pub events: u64,
@@ -78,12 +77,12 @@ pub struct Settings {
 /// c = 2 ζ √(k me) while a pair is in contact, else 0;   k the mean stiffness of the mesh
 /// ```
 /// from the static balance `warmup_cycles` base pitches before E, where no pair deviates, until the incoming tooth has
-/// left. Within a step the pairs in contact stay the same ones, so that every step is smooth; it ends where a pair touches
-/// or leaves, or passes from one zone of the mesh into the next.
+/// left. Within a step the pairs in contact stay the same ones, so that the equation is linear, its coefficients are
+/// polynomials and every step is a power series, see [`taylor`](crate::numeric::taylor); it ends where a pair touches or
+/// leaves, or passes from one zone of the mesh into the next.
 ///
 /// # Source
-/// The oscillator of gear dynamics with backlash, Özgüven & Houser 1988, with corner contact by the gap S(u); steps by
-/// Dormand and Prince's pair of order 8, see [`ode`].
+/// The oscillator of gear dynamics with backlash, Özgüven & Houser 1988, with corner contact by the gap S(u).
 ///
 /// # Errors
 /// [`Refusal::BeyondReach`] where the gears move apart further than the mesh is known, [`Refusal::TooSlow`] where the mesh
@@ -98,7 +97,7 @@ pub fn dynamic(mesh: &Mesh, settings: &Settings, go_on: &dyn Fn(f64) -> bool) ->
         run.cross_window()?;
         run.skip_what_repeats();
     }
-    run.watch.finish(&motion, settings.spacing, Effort { evaluations: run.evaluations.get(), ..run.effort })
+    run.watch.finish(&motion, settings.spacing, run.effort)
 }
 
 /// A run on its way.
@@ -111,21 +110,19 @@ struct Run<'a> {
     y: State,
     /// How many base pitches ahead the pairs are that touch.
     ahead: Vec<i32>,
-    /// The next step's, in s.
-    length: f64,
-    /// The error that a step may have, in units of the state's scale.
+    /// The pairs of the window that have touched or left where it stands.
+    turned: Touching,
+    /// What the last terms of a step's series may be, in m.
     allowed: f64,
     laps: Laps,
     watch: Watch,
     effort: Effort,
-    evaluations: Cell<u64>,
 }
 
 impl<'a> Run<'a> {
     fn begin(motion: &'a Motion<'a>, tolerance: f64) -> Result<Run<'a>, Refusal> {
-        /// The estimate of order 5 is far above the error of the step of order 8: what is allowed to one step keeps the
-        /// peak force within the tolerance, as measured over the reference pairs.
-        const SHARE_OF_A_STEP: f64 = 0.5;
+        /// Measured over the reference pairs, the peak force then keeps the tolerance with room to spare.
+        const SHARE_OF_A_STEP: f64 = 0.3;
         let mesh = motion.mesh;
         let (start, (_, end)) = (motion.start(), mesh.ends());
         motion.check_pace(end - start)?;
@@ -140,15 +137,14 @@ impl<'a> Run<'a> {
             motion,
             next: 1,
             t: motion.time(start),
-            y: State::new(displacement, 0.0, 0.0),
+            y: State::new(displacement, 0.0),
             ahead: touching.map(|pair| pair.ahead).collect(),
             borders,
-            length: motion.longest_step(),
+            turned: Touching::NONE,
+            allowed: SHARE_OF_A_STEP * tolerance * motion.scale()[0],
             laps: Laps::new(start, tolerance),
-            allowed: SHARE_OF_A_STEP * tolerance,
             watch: Watch::default(),
             effort: Effort::default(),
-            evaluations: Cell::new(0),
         })
     }
 
@@ -169,6 +165,7 @@ impl<'a> Run<'a> {
         let window = self.motion.window(from, to);
         let mut touching = window.touching(&self.ahead).ok_or(Refusal::BeyondReach)?;
         self.watch.enter(&window);
+        self.turned = Touching::NONE;
         let end = self.motion.time(to);
         while self.t < end {
             touching = self.advance(&window, touching, end)?;
@@ -194,40 +191,31 @@ impl<'a> Run<'a> {
 
     /// One step, to `end` at most; the pairs that touch after it.
     fn advance(&mut self, window: &Window, touching: Touching, end: f64) -> Result<Touching, Refusal> {
-        const SHORTEST: f64 = 1e-13;
         const MOST_STEPS: u64 = 100_000_000;
-        let evaluations = self.evaluations.clone();
-        let forces = Forces::new(self.motion, window, touching, &evaluations);
-        let from = Point::new(&forces, self.t, self.y);
-        let longest = self.motion.longest_step();
-        let (length, trial) = loop {
-            let left = end - self.t;
-            // The last step before a border is no splinter.
-            let length = if left <= self.length { left } else { self.length.min(0.5 * left) };
-            let trial = ode::step(&forces, &from, length);
-            let error = trial.error(&self.motion.scale()) / self.allowed;
-            self.length = (length * ode::stretch(error)).min(longest);
-            if error <= 1.0 || length <= SHORTEST * longest {
-                break (length, trial);
-            }
-        };
+        let course = Course::new(self.motion, window, touching);
+        let (step, gaps) = course.step(self.t, &self.y, end, self.allowed)?;
         self.effort.steps += 1;
+        self.effort.evaluations += TERMS as u64;
         if self.effort.steps > MOST_STEPS {
             return Err(Refusal::Unsettled);
         }
-        let event = events::first(&forces, &from, length, &trial.y);
-        let (length, y) = event.map_or((length, trial.y), |event| (event.after, forces.after(&from, event.after)));
-        self.evaluations = evaluations.clone();
-        self.watch.keep(self.motion, touching, from, length, y);
+        let range = step.range();
+        let event = events::first(&course, (&step, range), &gaps, self.turned);
+        let step = event.map_or(step, |event| step.cut(event.part));
         // A step to a border ends on it, whatever the rounding of the sum.
-        self.t = if event.is_none() && length >= end - self.t { end } else { self.t + length };
-        self.y = y;
+        self.t = if event.is_none() && step.length >= end - self.t { end } else { step.end() };
+        if step.length > 0.0 {
+            self.y = step.state(1.0);
+            self.turned = Touching::NONE;
+            self.watch.keep(self.motion, touching, step, range.1);
+        }
         Ok(event.map_or(touching, |event| self.turn(window, touching, event)))
     }
 
     /// A pair touches or leaves.
     fn turn(&mut self, window: &Window, touching: Touching, event: Event) -> Touching {
         self.effort.events += 1;
+        self.turned = self.turned.with(event.pair);
         if window.incoming() == Some(event.pair) {
             self.watch.turn(self.t, !touching.has(event.pair));
         }

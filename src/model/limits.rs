@@ -144,7 +144,7 @@ pub enum Refusal {
         limit: f64,
     },
     /// The mesh swings too often while a tooth passes.
-    #[error("too slow for the rung dynamic: the mesh swings {swings:.2e} times on the way, and the limit is {limit:.0e}")]
+    #[error("too slow to be followed: the mesh swings {swings:.2e} times on the way, and the limit is {limit:.0e}")]
     TooSlow {
         /// Swings of the mesh on the way.
         swings: f64,

@@ -8,7 +8,8 @@ use super::inputs::Inputs;
 use super::position::first_contact;
 use super::relief::Relief;
 use super::tip::{TipContact, angle_at_curvature, gap, tip_at};
-use crate::numeric::chebyshev::Series;
+use crate::numeric::chebyshev::{Series, TERMS};
+use crate::numeric::polynomial::Polynomial;
 use crate::numeric::root;
 
 /// No tip is followed further from its end of the path of contact, in rad.
@@ -187,18 +188,27 @@ impl Mesh {
         (stiffness, gap - self.error_of(ahead))
     }
 
-    /// Gap of a pair, its error counted, in m, and how it grows with s.
-    pub(super) fn gap(&self, ahead: i32, zone: usize, s: f64) -> (f64, f64) {
-        let at = s + f64::from(ahead) * self.base_pitch;
-        let [(gap, slope)] = self.zones[zone].series.with_slopes(GAP, at);
-        (gap - self.error_of(ahead), slope)
+    /// Stiffness and gap of a pair over the way from `s` up by `length`, its error counted, as polynomials of the part of it.
+    pub(super) fn spring_along(&self, ahead: i32, zone: usize, s: f64, length: f64) -> [Polynomial<TERMS>; 2] {
+        let [stiffness, mut gap] = self.zones[zone].series.local(STIFFNESS, self.above(ahead, s), length);
+        gap.0[0] -= self.error_of(ahead);
+        [stiffness, gap]
     }
 
-    /// Stiffness and gap of a pair, its error counted, each with how it grows with s.
-    pub(super) fn spring_with_slopes(&self, ahead: i32, zone: usize, s: f64) -> [(f64, f64); 2] {
-        let at = s + f64::from(ahead) * self.base_pitch;
-        let [stiffness, (gap, slope)] = self.zones[zone].series.with_slopes(STIFFNESS, at);
-        [stiffness, (gap - self.error_of(ahead), slope)]
+    /// Arm of the friction force over the driver's base radius, and sliding velocity, over the same way.
+    pub(super) fn slide_along(&self, ahead: i32, zone: usize, s: f64, length: f64) -> [Polynomial<TERMS>; 2] {
+        self.zones[zone].series.local(LEVER, self.above(ahead, s), length)
+    }
+
+    /// How far up from `s` those polynomials serve, within the zone.
+    pub(super) fn serves_until(&self, ahead: i32, zone: usize, s: f64) -> f64 {
+        let (at, least) = self.above(ahead, s);
+        s + (self.zones[zone].series.serves_until(at, least) - at)
+    }
+
+    /// Where a pair stands, and how near its place cannot be told from another.
+    fn above(&self, ahead: i32, s: f64) -> (f64, f64) {
+        (s + f64::from(ahead) * self.base_pitch, 16.0 * f64::EPSILON * s.abs())
     }
 
     /// The incoming pair at `s`, without its error, and how its gap grows with s.

@@ -5,8 +5,10 @@ use std::array::from_fn;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
+use super::polynomial::Polynomial;
+
 /// Terms of a piece.
-const TERMS: usize = 16;
+pub const TERMS: usize = 16;
 /// The last terms of a piece, in which the rest of the series shows.
 const TAIL: usize = 3;
 /// A piece is halved no further: a function that is still not smooth there has a branch point.
@@ -76,6 +78,23 @@ impl<const N: usize> Series<N> {
         values_and_slopes::<N, M>(&piece.powers, first, t).map(|(value, slope)| (value, slope * scale))
     }
 
+    /// `M` functions, from `first` on, over the way from `x` up by `length`, as polynomials of the part of it: those of the
+    /// piece that serves there by [`Series::serves_until`], about another place.
+    #[must_use]
+    pub fn local<const M: usize>(&self, first: usize, (x, least): (f64, f64), length: f64) -> [Polynomial<TERMS>; M] {
+        self.piece_above(x, least).map_or([Polynomial([f64::NAN; TERMS]); M], |piece| {
+            let scale = 2.0 * length / (piece.to - piece.from);
+            about::<N, M>(&piece.powers, first, piece.inner(x)).map(|powers| Polynomial(powers).stretched(scale))
+        })
+    }
+
+    /// Where the piece ends that serves from `x` up, of which more than `least` is left; infinite for the last.
+    #[must_use]
+    pub fn serves_until(&self, x: f64, least: f64) -> f64 {
+        let last = self.pieces.last().map_or(f64::NAN, |piece| piece.from);
+        self.piece_above(x, least).filter(|piece| piece.from < last).map_or(f64::INFINITY, |piece| piece.to)
+    }
+
     /// The integral of one function over the whole interval.
     #[must_use]
     pub fn integral(&self, function: usize) -> f64 {
@@ -87,6 +106,17 @@ impl<const N: usize> Series<N> {
             return Some(only);
         }
         let after = self.pieces.partition_point(|piece| piece.to < x);
+        self.pieces.get(after).or_else(|| self.pieces.last())
+    }
+
+    /// The piece that holds from `x` up. One of which next to nothing is left there is done.
+    fn piece_above(&self, x: f64, least: f64) -> Option<&Piece<N>> {
+        const NOTHING: f64 = 1e-6;
+        if let [only] = self.pieces.as_slice() {
+            return Some(only);
+        }
+        let is_done = |piece: &Piece<N>| piece.to - x <= least.max(NOTHING * (piece.to - piece.from));
+        let after = self.pieces.partition_point(is_done);
         self.pieces.get(after).or_else(|| self.pieces.last())
     }
 }
@@ -185,6 +215,26 @@ fn values_and_slopes<const N: usize, const M: usize>(powers: &Terms<N>, first: u
     from_fn(|function| join(eight(0, first + function), eight(8, first + function), eighth, 8.0 * cube * fourth))
 }
 
+/// The coefficients of the powers of t − `at`, by Horner's rule once for each of them.
+fn about<const N: usize, const M: usize>(powers: &Terms<N>, first: usize, at: f64) -> [[f64; TERMS]; M] {
+    let mut rest = [[0.0; M]; TERMS];
+    rest.iter_mut().zip(powers).for_each(|(rest, powers)| rest.copy_from_slice(&powers[first..first + M]));
+    for lowest in 0..TERMS - 1 {
+        let mut sums = rest[TERMS - 1];
+        for others in rest[lowest..TERMS - 1].iter_mut().rev() {
+            for (sum, other) in sums.iter_mut().zip(others.iter()) {
+                *sum = other + at * *sum;
+            }
+            *others = sums;
+        }
+    }
+    let mut all = [[0.0; TERMS]; M];
+    for (power, values) in rest.iter().enumerate() {
+        all.iter_mut().zip(values).for_each(|(function, value)| function[power] = *value);
+    }
+    all
+}
+
 /// ∫ of a function from −1 to 1.
 fn integral<const N: usize>(powers: &Terms<N>, function: usize) -> f64 {
     let even = powers.iter().enumerate().step_by(2);
@@ -221,6 +271,22 @@ mod tests {
             let x = 1e-3 * f64::from(step);
             let allowed = if step == 0 { 1e-5 } else { 1e-13 };
             assert!((found.one(0, x) - x.sqrt()).abs() < allowed, "{x}");
+        }
+    }
+
+    #[test]
+    fn about_another_place_the_pieces_are_the_same_functions() {
+        let found = series(-2.0, 7.0, |x| [x.sin(), (0.3 * x).exp(), x.abs()]);
+        let mut x = -2.0;
+        while x < 7.0 - 1e-9 {
+            let length = found.serves_until(x, 1e-12).min(7.0).min(x + 0.7) - x;
+            let [growth, distance] = found.local(1, (x, 1e-12), length);
+            for part in [0.0, 0.3, 1.0] {
+                let at = x + part * length;
+                assert!((growth.at(part) / (0.3 * at).exp() - 1.0).abs() < 1e-13, "{at}");
+                assert!((distance.at(part) - at.abs()).abs() < 1e-6, "{at}");
+            }
+            x += length;
         }
     }
 

@@ -1,8 +1,12 @@
-//! Steps of a differential equation by the extrapolated midpoint rule: a way of its own beside [`super::ode`], to check it.
+//! Steps of a differential equation by the extrapolated midpoint rule: a way of its own beside [`super::taylor`], to check it.
 
 use nalgebra::SVector;
 
-use super::ode::Equation;
+/// An equation y' = f(t, y).
+pub trait Equation<const N: usize> {
+    /// f(t, y).
+    fn slope(&self, t: f64, y: &SVector<f64, N>) -> SVector<f64, N>;
+}
 
 /// Extrapolations of a step, each of which raises its order by two.
 const COLUMNS: usize = 6;
@@ -57,8 +61,16 @@ fn midpoint<const N: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numeric::ode::tests::Oscillator;
     use nalgebra::Vector2;
+
+    /// y'' = 0.1 t - y; from (1, 0.1) on y = cos t + 0.1 t.
+    struct Oscillator;
+
+    impl Equation<2> for Oscillator {
+        fn slope(&self, t: f64, y: &Vector2<f64>) -> Vector2<f64> {
+            Vector2::new(y[1], -y[0] + 0.1 * t)
+        }
+    }
 
     fn error_after(steps: u32) -> f64 {
         let length = 6.0 / f64::from(steps);

@@ -1,60 +1,5 @@
 //! The root of a function in a bracket.
 
-/// A place with the value of a function and its slope there.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Known {
-    /// Where.
-    pub at: f64,
-    /// f.
-    pub value: f64,
-    /// f'.
-    pub slope: f64,
-}
-
-/// The root of a function between two places where its sign differs, to the last digits. For functions that cost much:
-/// each look is at the root of the cubic through values and slopes of the places on both sides, three or four where the
-/// function is smooth.
-#[must_use]
-pub fn between_known(mut from: Known, mut to: Known, mut f: impl FnMut(f64) -> (f64, f64)) -> f64 {
-    const LOOKS: usize = 12;
-    let mut last = f64::NAN;
-    for _ in 0..LOOKS {
-        let at = root_of_cubic(&from, &to);
-        if at <= from.at || at >= to.at || (at - last).abs() <= 2.0 * f64::EPSILON * at.abs() {
-            return at.clamp(from.at, to.at);
-        }
-        let (value, slope) = f(at);
-        if value == 0.0 {
-            return at;
-        }
-        let end = if (value > 0.0) == (from.value > 0.0) { &mut from } else { &mut to };
-        *end = Known { at, value, slope };
-        last = at;
-    }
-    between(from.at, to.at, |at| f(at).0)
-}
-
-fn root_of_cubic(from: &Known, to: &Known) -> f64 {
-    from.at + (to.at - from.at) * between(0.0, 1.0, |part| cubic(from, to, part))
-}
-
-/// Hermite's cubic through values and slopes at two places, a part of the way from one to the other.
-#[must_use]
-pub fn cubic(from: &Known, to: &Known, part: f64) -> f64 {
-    let (length, rest) = (to.at - from.at, 1.0 - part);
-    let (rise, fall) = (from.slope * length, to.slope * length);
-    let near_start = (1.0 + 2.0 * part) * from.value + part * rise;
-    let near_end = (1.0 + 2.0 * rest) * to.value - rest * fall;
-    rest * rest * near_start + part * part * near_end
-}
-
-/// The slope of the same.
-#[must_use]
-pub fn cubic_slope(from: &Known, to: &Known, part: f64) -> f64 {
-    let (mean, rest) = ((to.value - from.value) / (to.at - from.at), 1.0 - part);
-    6.0 * part * rest * mean + rest * (1.0 - 3.0 * part) * from.slope + part * (3.0 * part - 2.0) * to.slope
-}
-
 /// The root of `f` between `from` and `to`, where it changes its sign, by Brent's method, to the last digits.
 ///
 /// # Source
@@ -107,7 +52,7 @@ fn bold_step(best: (f64, f64), other: (f64, f64), opposite: (f64, f64)) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Known, between, between_known, cubic, cubic_slope};
+    use super::between;
 
     #[test]
     fn roots_are_found_to_the_last_digits_in_few_steps() {
@@ -127,39 +72,6 @@ mod tests {
             });
             assert!((found - root).abs() <= 4e-15 * root.abs(), "{found} for {root}");
             assert!(calls < 90, "{calls} for {root}");
-        }
-    }
-
-    #[test]
-    fn known_slopes_leave_few_looks() {
-        type Case = (f64, fn(f64) -> (f64, f64), f64, usize);
-        let cases: [Case; 4] = [
-            (2.0, |x| (x * x - 2.0, 2.0 * x), 2f64.sqrt(), 5),
-            (3.0, |x| (x.cos(), -x.sin()), std::f64::consts::FRAC_PI_2, 5),
-            (0.3, |x| (1e-9 - x * (1.0 + x), -1.0 - 2.0 * x), 1e-9 - 1e-18, 5),
-            (1.0, |x| if x < 0.3 { (-1.0, 0.0) } else { (x - 0.3 + 1e-9, 1.0) }, 0.3, 90),
-        ];
-        for (to, f, root, most) in cases {
-            let mut looks = 0;
-            let known = |at: f64| Known { at, value: f(at).0, slope: f(at).1 };
-            let found = between_known(known(0.0), known(to), |x| {
-                looks += 1;
-                f(x)
-            });
-            assert!((found - root).abs() <= 4e-15 * root.abs(), "{found} for {root}");
-            assert!(looks <= most, "{looks} for {root}");
-        }
-    }
-
-    #[test]
-    fn a_cubic_is_its_own_cubic() {
-        let known = |at: f64| Known { at, value: at * at * at - 2.0 * at, slope: 3.0 * at * at - 2.0 };
-        let (from, to) = (known(-1.0), known(3.0));
-        for step in 0..=8 {
-            let part = f64::from(step) / 8.0;
-            let there = known(-1.0 + 4.0 * part);
-            let slope = cubic_slope(&from, &to, part);
-            assert!((cubic(&from, &to, part) - there.value).abs() < 1e-13 && (slope - there.slope).abs() < 1e-13, "{part}");
         }
     }
 

@@ -97,7 +97,7 @@ pub struct Figures {
     pub rung: Rung,
     /// Of a whole solve, as far as the answer needs it.
     pub time: Time,
-    /// Evaluations of the forces, in the rung `dynamic`.
+    /// What the motion took in the rung `dynamic`, see [`Effort`](crate::model::dynamic::Effort).
     pub evaluations: Option<u64>,
     /// Against the same rung by its best setting.
     pub numerical: Differences,

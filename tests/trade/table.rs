@@ -38,7 +38,7 @@ pub(crate) struct Row {
     pub(crate) setting: String,
     /// Median time, in s.
     pub(crate) seconds: Option<f64>,
-    /// Median evaluations of the forces.
+    /// Median evaluations of the motion.
     pub(crate) evaluations: Option<f64>,
     /// Median and greatest numerical error of the numbers, of the curve, and in total.
     pub(crate) errors: [Option<(f64, f64)>; 3],

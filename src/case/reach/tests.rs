@@ -200,8 +200,14 @@ fn the_table_says_what_a_change_changes_and_no_less() {
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
     // Tolerances change nothing where every step, or every station, is short enough as it is; and the edge of a driven tip
-    // is felt by the next tooth's first contact only where the mesh still swings from the one before.
-    let seldom = ["model.tolerance", "model.station_tolerance", "driven.tip_radius: dynamic_first_contact_angle"];
+    // is felt by the next tooth's first contact only where the mesh still swings from the one before, and by the first
+    // impact only where a tooth strikes, which it does in none of the cases that are run with inertia.
+    let seldom = [
+        "model.tolerance",
+        "model.station_tolerance",
+        "driven.tip_radius: dynamic_first_contact_angle",
+        "driven.tip_radius: dynamic_impact_duration",
+    ];
     let mut idle = idle(&acting);
     idle.retain(|said| !seldom.iter().any(|start| said.starts_with(start)));
     assert!(idle.is_empty(), "said to act, and never did: {idle:#?}");

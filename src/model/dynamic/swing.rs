@@ -1,116 +1,77 @@
 //! How the incoming tooth's force rises and falls over the steps of a run.
 
-use super::motion::{Forces, State};
-use crate::numeric::ode::Point;
-use crate::numeric::root::{self, Known};
+use super::step::{FORCE_TERMS, Step};
+use crate::numeric::bernstein::sign_changes;
+use crate::numeric::polynomial::Polynomial;
 
-/// A part of a step in which the incoming tooth carries, on which its force turns once at most.
-pub(super) struct Stretch<'a> {
-    forces: Forces<'a>,
-    incoming: usize,
-    step: &'a Point<3>,
-    /// Force and its rate at both ends, over the time since the start of the step.
-    from: Known,
-    to: Known,
+/// A step in which the incoming tooth carries.
+pub(super) struct Swing {
+    /// When it begins and how long it takes, in s.
+    begin: f64,
+    length: f64,
+    force: Polynomial<FORCE_TERMS>,
+    /// The parts of the step after which the force turns.
+    turns: Vec<f64>,
 }
 
-impl<'a> Stretch<'a> {
-    /// The stretches of a step: the whole, or where ends and cubic tell that it may turn twice, many.
-    pub(super) fn of(
-        forces: Forces<'a>,
-        incoming: usize,
-        (from, length, to): (&'a Point<3>, f64, &State),
-    ) -> impl Iterator<Item = Stretch<'a>> {
-        const CUTS: u32 = 8;
-        let known = |after: f64, state: &State| {
-            let (value, slope) = forces.force(incoming, from.t + after, state);
-            Known { at: after, value, slope }
-        };
-        let ends = (known(0.0, &from.y), known(length, to));
-        let cuts = if may_turn_twice(&ends.0, &ends.1) { CUTS } else { 1 };
-        let inner = (1..cuts).map(|cut| {
-            let after = length * f64::from(cut) / f64::from(cuts);
-            known(after, &forces.after(from, after))
-        });
-        let all: Vec<Known> = std::iter::once(ends.0).chain(inner).chain([ends.1]).collect();
-        let stretch = move |at: usize| Stretch { forces, incoming, step: from, from: all[at], to: all[at + 1] };
-        (0..cuts as usize).map(stretch)
+/// A stretch on which the force rises throughout or falls throughout: when it ends, and by how much it rises, in N.
+struct Phase {
+    end: f64,
+    rise: f64,
+}
+
+impl Swing {
+    /// The swing of a force over a step, in N.
+    pub(super) fn of(step: &Step, force: &Polynomial<FORCE_TERMS>) -> Swing {
+        Swing { begin: step.t, length: step.length, force: *force, turns: sign_changes(&force.derivative()) }
     }
 
     /// Whether it lies before E, where a step ends within rounding.
     pub(super) fn is_before_start(&self) -> bool {
-        self.begin() + self.end() < 0.0
+        self.begin + 0.5 * self.length < 0.0
     }
 
-    fn begin(&self) -> f64 {
-        self.step.t + self.from.at
+    fn time(&self, part: f64) -> f64 {
+        self.begin + part * self.length
     }
 
-    fn end(&self) -> f64 {
-        self.step.t + self.to.at
+    /// When the force neither grows nor falls, in s.
+    pub(super) fn turns(&self) -> impl Iterator<Item = f64> {
+        self.turns.iter().map(|&part| self.time(part))
     }
 
-    fn ends(&self) -> f64 {
-        self.from.value.max(self.to.value)
+    fn phases(&self) -> impl Iterator<Item = Phase> {
+        let begins = std::iter::once(0.0).chain(self.turns.iter().copied());
+        let ends = self.turns.iter().copied().chain([1.0]);
+        begins.zip(ends).map(|(begin, end)| Phase { end: self.time(end), rise: self.force.at(end) - self.force.at(begin) })
     }
 
-    /// No force on a stretch that rises first and falls then is greater, in N: the tangents at its ends meet above an arch, and
-    /// as much again is room to spare.
-    fn bound(&self) -> f64 {
-        let (from, to) = (&self.from, &self.to);
-        let length = to.at - from.at;
-        let crossing = (to.value - from.value - to.slope * length) / (from.slope - to.slope);
-        let height = from.value + from.slope * crossing.clamp(0.0, length) - self.ends();
-        self.ends() + 2.0 * height.max(0.0)
-    }
-
-    /// Time and force where it turns.
-    fn turning_point(&self) -> (f64, f64) {
-        let at = |after: f64| self.forces.force(self.incoming, self.step.t + after, &self.forces.after(self.step, after));
-        let after = root::between(self.from.at, self.to.at, |after| at(after).1);
-        (self.step.t + after, at(after).0)
+    /// The greatest force, in N.
+    fn peak(&self) -> f64 {
+        let ends = [0.0, 1.0];
+        self.turns.iter().chain(&ends).map(|&part| self.force.at(part)).fold(0.0, f64::max)
     }
 }
 
-/// Whether a force that grows, or falls, at both ends may do otherwise between them: by the cubic, with room to spare.
-fn may_turn_twice(from: &Known, to: &Known) -> bool {
-    const INSIDE: [f64; 3] = [0.25, 0.5, 0.75];
-    let direction = from.slope.signum();
-    let least = from.slope.abs().min(to.slope.abs());
-    from.slope * to.slope > 0.0 && INSIDE.iter().any(|&part| direction * root::cubic_slope(from, to, part) < 0.5 * least)
-}
-
-/// The greatest force of some stretches, in N; only those that may hold it are looked at more closely.
-pub(super) fn peak(stretches: &[Stretch<'_>]) -> f64 {
-    let mut tops: Vec<(f64, &Stretch<'_>)> = stretches
-        .iter()
-        .filter(|stretch| stretch.from.slope > 0.0 && stretch.to.slope < 0.0)
-        .map(|stretch| (stretch.bound(), stretch))
-        .collect();
-    tops.sort_by(|one, other| other.0.total_cmp(&one.0));
-    let ends = stretches.iter().map(Stretch::ends).fold(0.0, f64::max);
-    tops.iter().fold(ends, |peak, (bound, stretch)| if *bound > peak { peak.max(stretch.turning_point().1) } else { peak })
+/// The greatest force of some swings, in N.
+pub(super) fn peak(swings: &[Swing]) -> f64 {
+    swings.iter().map(Swing::peak).fold(0.0, f64::max)
 }
 
 /// When the force is least for the first time after its first peak, or the contact is lost.
-pub(super) fn end_of_first_impact(stretches: &[Stretch<'_>]) -> Option<f64> {
-    let (mut falls, mut last) = (false, None);
-    for stretch in stretches {
-        let follows = last.is_none_or(|end| stretch.begin() <= end);
-        if falls && (!follows || stretch.from.slope > 0.0) {
-            return last;
+pub(super) fn end_of_first_impact(swings: &[Swing]) -> Option<f64> {
+    const ROUNDING: f64 = 1e-12;
+    let none = ROUNDING * peak(swings);
+    let (mut has_fallen, mut last) = (false, None);
+    for swing in swings {
+        let is_apart = |last: f64| swing.begin - last > ROUNDING * swing.begin.abs();
+        for phase in swing.phases() {
+            if has_fallen && (phase.rise > none || last.is_some_and(is_apart)) {
+                return last;
+            }
+            has_fallen |= phase.rise < -none;
+            last = Some(phase.end);
         }
-        if falls && stretch.to.slope > 0.0 {
-            return Some(stretch.turning_point().0);
-        }
-        falls |= stretch.to.slope < 0.0;
-        last = Some(stretch.end());
     }
-    last.filter(|_| falls)
-}
-
-/// When the force neither grows nor falls, in s.
-pub(super) fn turns(stretches: &[Stretch<'_>]) -> impl Iterator<Item = f64> {
-    let turning = stretches.iter().filter(|stretch| (stretch.from.slope > 0.0) != (stretch.to.slope > 0.0));
-    turning.map(|stretch| stretch.turning_point().0)
+    last.filter(|_| has_fallen)
 }

@@ -1,14 +1,14 @@
 //! The motion against what is known of it: the linear oscillator, and the balance of energies.
 
-use std::cell::Cell;
-
-use super::motion::{Forces, Motion, State};
+use super::motion::{Motion, State};
+use super::step::{Course, Step};
 use super::watch::Watch;
 use super::*;
 use crate::model::inputs::{Inputs, Rung};
 use crate::model::sample::standard_pair;
 use crate::model::{Stage, Stages, solve};
-use crate::numeric::ode::Equation;
+use crate::numeric::polynomial::Polynomial;
+use crate::numeric::quadrature;
 
 /// A pair that strikes, its mesh, and how it is run.
 fn struck(adjust: impl FnOnce(&mut Inputs)) -> (Mesh, Settings) {
@@ -50,22 +50,26 @@ fn a_pair_of_constant_stiffness_swings_as_the_linear_oscillator() {
         mesh.pairs(middle, middle).filter(|pair| pair.place.gap < balance.displacement).map(|pair| pair.ahead).collect();
     let stiffness: f64 =
         mesh.pairs(middle, middle).filter(|pair| touching.contains(&pair.ahead)).map(|pair| pair.place.stiffness).sum();
-    let evaluations = Cell::new(0);
-    let forces = Forces::new(&motion, &window, window.touching(&touching).unwrap(), &evaluations);
+    let course = Course::new(&motion, &window, window.touching(&touching).unwrap());
     let start = motion.time(middle);
     let swing = 0.1 * balance.displacement;
     let frequency = (stiffness / settings.mass).sqrt();
     let decay = settings.damping_ratio * (mesh.mean_stiffness / settings.mass).sqrt();
     let damped = (frequency * frequency - decay * decay).sqrt();
+    let (mut y, mut time) = (State::new(balance.displacement + swing, 0.0), 0.0);
+    let allowed = 1e-13 * balance.displacement;
     // The time itself is so large that its last digit would be felt; the equation sees only that the gears stand still.
-    let mut point = Point::new(&forces, start, State::new(balance.displacement + swing, 0.0, 0.0));
-    let length = 0.05 / frequency;
-    for step in 1..=400 {
-        point = Point { t: start, ..Point::new(&forces, start, forces.after(&point, length)) };
-        let time = f64::from(step) * length;
-        let (sine, cosine) = (damped * time).sin_cos();
-        let expected = balance.displacement + swing * (-decay * time).exp() * (cosine + decay / damped * sine);
-        assert!((point.y[0] - expected).abs() < 1e-10 * swing, "after {step} steps: {} and not {expected}", point.y[0]);
+    for number in 1..=20 {
+        let (step, _) = course.step(start, &y, start + 1.0, allowed).unwrap();
+        assert!(step.length * frequency > 1.0, "step {number} is short");
+        for part in [0.25, 0.5, 0.75, 1.0] {
+            let time = time + part * step.length;
+            let (sine, cosine) = (damped * time).sin_cos();
+            let expected = balance.displacement + swing * (-decay * time).exp() * (cosine + decay / damped * sine);
+            let found = step.state(part)[0];
+            assert!((found - expected).abs() < 1e-10 * swing, "step {number}: {found} and not {expected}");
+        }
+        (y, time) = (step.state(1.0), time + step.length);
     }
 }
 
@@ -89,46 +93,49 @@ impl Watch {
     /// What the energies leave unexplained over all kept steps, and how much energy was turned over, in J.
     fn energies(&self, motion: &Motion<'_>, mesh: &Mesh) -> (f64, f64) {
         let (mut unexplained, mut turned_over) = (0.0, 0.0);
-        self.each_step(motion, |forces, from, length, to| {
-            let stored = |t: f64, y: &State| forces.stored(t, y);
-            let power = |after: f64| {
-                let y = forces.after(from, after);
-                let t = from.t + after;
-                mesh.force * y[1] - forces.damped(t, &y) + forces.mesh_power(t, &y)
-            };
-            let put_in = length * crate::numeric::quadrature::unit_interval(|part| power(part * length));
-            unexplained += stored(from.t + length, to) - stored(from.t, &from.y) - put_in;
+        self.each_step(motion, |course, step| {
+            let put_in = step.length * over_halves(3, &|part| course.power(motion, mesh, step, part));
+            unexplained += course.stored(motion, step, 1.0) - course.stored(motion, step, 0.0) - put_in;
             turned_over += put_in.abs();
         });
         (unexplained.abs(), turned_over)
     }
 }
 
-impl Forces<'_> {
+/// ∫ of `f` from 0 to 1, on halves of halves.
+fn over_halves(times: u32, f: &dyn Fn(f64) -> f64) -> f64 {
+    if times == 0 {
+        return quadrature::unit_interval(f);
+    }
+    0.5 * (over_halves(times - 1, &|part| f(0.5 * part)) + over_halves(times - 1, &|part| f(0.5 + 0.5 * part)))
+}
+
+impl Course<'_> {
     /// Energy of the motion and of the springs that touch, in J.
-    fn stored(&self, t: f64, y: &State) -> f64 {
+    fn stored(&self, motion: &Motion<'_>, step: &Step, part: f64) -> f64 {
+        let (t, y) = (step.t + part * step.length, step.state(part));
         let springs = (0..self.pairs()).filter(|&pair| self.touches(pair));
-        let spring = |pair: usize| 0.5 * self.force(pair, t, y).0 * self.pressed(pair, t, y).0;
-        0.5 * self.mass() * y[1] * y[1] + springs.map(spring).sum::<f64>()
+        let spring = |pair: usize| 0.5 * self.force(pair, t, y[0]) * (y[0] - self.gap(pair, t));
+        0.5 * motion.mass * y[1] * y[1] + springs.map(spring).sum::<f64>()
     }
 
-    /// Power of the damper, in W.
-    fn damped(&self, t: f64, y: &State) -> f64 {
-        // The equation itself says what the damper takes.
-        let resting = State::new(y[0], 0.0, 0.0);
-        self.mass() * y[1] * (self.slope(t, &resting)[1] - self.slope(t, y)[1])
+    /// Power that the mean force and the moving mesh put in, less what the damper takes, in W.
+    fn power(&self, motion: &Motion<'_>, mesh: &Mesh, step: &Step, part: f64) -> f64 {
+        let rate = step.state(part)[1];
+        let touching = (0..self.pairs()).filter(|&pair| self.touches(pair));
+        let moved = touching.clone().map(|pair| self.mesh_power(pair, step, part)).sum::<f64>();
+        let damped = if touching.count() > 0 { motion.damping * rate * rate } else { 0.0 };
+        mesh.force * rate - damped + moved
     }
 
-    /// Power that the moving mesh puts in: its gaps close on springs that are pressed, and its stiffness changes, in W.
-    fn mesh_power(&self, t: f64, y: &State) -> f64 {
-        let still = State::new(y[0], 0.0, 0.0);
-        let power = |pair: usize| {
-            let (force, rate) = self.force(pair, t, &still);
-            let (pressed, closing) = self.pressed(pair, t, &still);
-            // d(k p^2/2)/dt at rest is k p p' + k' p^2/2, and the rate of the force is k p' + k' p.
-            0.5 * (rate * pressed + force * closing)
-        };
-        (0..self.pairs()).filter(|&pair| self.touches(pair)).map(power).sum()
+    /// Power that the moving mesh puts in at a pair: its gap closes on a spring that is pressed, and its stiffness changes, in W.
+    fn mesh_power(&self, pair: usize, step: &Step, part: f64) -> f64 {
+        // d(k p²/2)/dt at rest is k p p' + k' p²/2, and the rate of the force is k p' + k' p.
+        let still = Step { ahead: Polynomial::ZERO.plus(step.ahead.at(part), &Polynomial([1.0])), ..*step };
+        let force = self.force_along(pair, &still);
+        let [_, gap] = self.spring_along(pair, &still);
+        let pressed = still.ahead.0[0] - gap.at(part);
+        0.5 * (force.slope(part) * pressed - force.at(part) * gap.slope(part)) / step.length
     }
 }
 

@@ -2,21 +2,19 @@
 
 use std::cell::Cell;
 
-use super::motion::{Forces, Motion, State, Touching, Window};
-use super::swing::{self, Stretch};
+use super::motion::{Motion, Touching, Window};
+use super::step::{Course, Step};
+use super::swing::{self, Swing};
 use super::{Dynamic, Effort};
 use crate::model::Refusal;
 use crate::model::spacing::Spacing;
 use crate::model::stations::MeshStation;
-use crate::numeric::ode::Point;
 
 /// A step of the run while the incoming pair may touch.
 struct Record {
     window: usize,
     touching: Touching,
-    from: Point<3>,
-    length: f64,
-    to: State,
+    step: Step,
 }
 
 /// Records of a run.
@@ -28,7 +26,8 @@ pub(super) struct Watch {
     leaves: Vec<f64>,
     most_ahead: f64,
     contact_lost: bool,
-    evaluations: Cell<u64>,
+    /// Places at which the series were looked at.
+    looks: Cell<u64>,
 }
 
 impl Watch {
@@ -37,14 +36,14 @@ impl Watch {
         self.windows.push(window.clone());
     }
 
-    /// Keep a step that leads from `from` to `to`.
-    pub(super) fn keep(&mut self, motion: &Motion<'_>, touching: Touching, from: Point<3>, length: f64, to: State) {
-        self.most_ahead = self.most_ahead.max(to[0]);
-        let has_begun = motion.place(from.t) >= -motion.mesh.base_pitch * (1.0 + f64::EPSILON);
-        self.contact_lost |= has_begun && touching.is_none() && length > 0.0;
+    /// Keep a step, in which the driver is never more than `most` ahead.
+    pub(super) fn keep(&mut self, motion: &Motion<'_>, touching: Touching, step: Step, most: f64) {
+        self.most_ahead = self.most_ahead.max(most);
+        let has_begun = motion.place(step.t) >= -motion.mesh.base_pitch * (1.0 + f64::EPSILON);
+        self.contact_lost |= has_begun && touching.is_none();
         let window = self.windows.len() - 1;
         if self.windows[window].incoming().is_some() {
-            self.records.push(Record { window, touching, from, length, to });
+            self.records.push(Record { window, touching, step });
         }
     }
 
@@ -56,10 +55,9 @@ impl Watch {
     /// Whether the incoming pair has left for good: past B, apart, and further apart than the driver ever was ahead.
     pub(super) fn is_over(&self, motion: &Motion<'_>) -> bool {
         let Some(record) = self.records.last() else { return false };
-        let t = record.from.t + record.length;
+        let t = record.step.end();
         let Some(incoming) = self.windows[record.window].incoming() else { return false };
-        let forces = self.forces(motion, record);
-        let apart = record.to[0] - forces.pressed(incoming, t, &record.to).0;
+        let apart = self.course(motion, record).gap(incoming, t) - record.step.state(1.0)[0];
         motion.place(t) > motion.mesh.length && self.touches.len() == self.leaves.len() && apart > 2.0 * self.most_ahead
     }
 
@@ -70,54 +68,60 @@ impl Watch {
             return Err(Refusal::BeyondReach);
         }
         let (first, last) = (self.touches.first().copied(), self.leaves.last().copied());
-        let before_start = |t: f64| (t < 0.0).then(|| -motion.place(t) / mesh.base_radii.1);
+        let early = first.filter(|&first| first < 0.0);
         let after_end = |t: f64| Some((motion.place(t) - mesh.length) / mesh.base_radii.0).filter(|&angle| angle > 0.0);
-        let work = self.records.last().map_or(0.0, |record| record.to[2]);
-        let stretches = self.stretches(motion);
-        let peak_force = swing::peak(&stretches);
-        let before = stretches.partition_point(Stretch::is_before_start);
+        let swings = self.swings(motion);
+        let peak_force = swing::peak(&swings);
+        let before = swings.partition_point(Swing::is_before_start);
         Ok(Dynamic {
-            first_contact_angle: first.and_then(before_start),
+            first_contact_angle: early.map(|first| -motion.place(first) / mesh.base_radii.1),
             last_contact_angle: last.and_then(after_end),
-            peak_approach_force: swing::peak(&stretches[..before]),
+            peak_approach_force: swing::peak(&swings[..before]),
             peak_force,
-            impact_duration: first.and_then(|first| swing::end_of_first_impact(&stretches).map(|end| end - first)),
+            impact_duration: early.and_then(|first| swing::end_of_first_impact(&swings).map(|end| end - first)),
             contact_lost: self.contact_lost,
-            friction_work: (mesh.friction() > 0.0).then_some(work),
+            friction_work: (mesh.friction() > 0.0).then(|| self.friction_work(motion)),
             stations: first
                 .zip(last)
-                .map_or_else(Vec::new, |(first, last)| self.stations(motion, first, last, peak_force, spacing)),
-            effort: Effort { evaluations: effort.evaluations + self.evaluations.get(), ..effort },
+                .map_or_else(Vec::new, |(first, last)| self.stations(motion, &swings, (first, last), spacing)),
+            effort: Effort { evaluations: effort.evaluations + self.looks.get(), ..effort },
         })
     }
 
-    fn forces<'a>(&'a self, motion: &'a Motion<'a>, record: &Record) -> Forces<'a> {
-        Forces::new(motion, &self.windows[record.window], record.touching, &self.evaluations)
+    fn course<'a>(&'a self, motion: &'a Motion<'a>, record: &Record) -> Course<'a> {
+        Course::new(motion, &self.windows[record.window], record.touching)
     }
 
     /// Show every kept step, with what acts in it.
     #[cfg(test)]
-    pub(super) fn each_step(&self, motion: &Motion<'_>, mut show: impl FnMut(&Forces<'_>, &Point<3>, f64, &State)) {
+    pub(super) fn each_step(&self, motion: &Motion<'_>, mut show: impl FnMut(&Course<'_>, &Step)) {
         for record in &self.records {
-            show(&self.forces(motion, record), &record.from, record.length, &record.to);
+            show(&self.course(motion, record), &record.step);
         }
     }
 
-    /// The steps in which the incoming tooth carries, cut where its force may turn more than once.
-    fn stretches<'a>(&'a self, motion: &'a Motion<'a>) -> Vec<Stretch<'a>> {
-        let carried = self.records.iter().filter_map(|record| {
+    /// The steps in which the incoming tooth carries, with what acts in them and its place in the window.
+    fn carried<'a>(&'a self, motion: &'a Motion<'a>) -> impl Iterator<Item = (Course<'a>, usize, &'a Step)> {
+        self.records.iter().filter_map(move |record| {
             let incoming = self.windows[record.window].incoming().filter(|&pair| record.touching.has(pair))?;
-            Some((self.forces(motion, record), incoming, record))
-        });
-        let cut = |(forces, incoming, record): (Forces<'a>, usize, &'a Record)| {
-            Stretch::of(forces, incoming, (&record.from, record.length, &record.to))
-        };
-        carried.flat_map(cut).collect()
+            Some((self.course(motion, record), incoming, &record.step))
+        })
+    }
+
+    fn swings(&self, motion: &Motion<'_>) -> Vec<Swing> {
+        self.carried(motion).map(|(course, incoming, step)| Swing::of(step, &course.force_along(incoming, step))).collect()
+    }
+
+    /// ∫ μ F |ΔVτ| dt of the incoming tooth, in J.
+    fn friction_work(&self, motion: &Motion<'_>) -> f64 {
+        let rubbed = self.carried(motion).map(|(course, incoming, step)| step.length * course.rubbing_along(incoming, step));
+        motion.mesh.friction() * rubbed.sum::<f64>()
     }
 
     /// Stations from the first contact to E and from there to the last, and one wherever the force turns, so that none of
     /// its peaks falls between two of them.
-    fn stations(&self, motion: &Motion<'_>, first: f64, last: f64, peak: f64, spacing: Spacing) -> Vec<MeshStation> {
+    fn stations(&self, motion: &Motion<'_>, swings: &[Swing], (first, last): (f64, f64), spacing: Spacing) -> Vec<MeshStation> {
+        let peak = swing::peak(swings);
         let found = |from: f64, to: f64| {
             spacing.stations(from, to, peak, |t| {
                 let station = self.station(motion, t);
@@ -125,14 +129,13 @@ impl Watch {
             })
         };
         let stations = MeshStation::through_start(first, last, |from, to| found(from, to).into_iter().flatten().collect());
-        self.with_turns(motion, stations)
+        self.with_turns(motion, swings, stations)
     }
 
     /// The stations and those where the force neither grows nor falls, but for what stands beside one of them anyhow.
-    fn with_turns(&self, motion: &Motion<'_>, mut stations: Vec<MeshStation>) -> Vec<MeshStation> {
+    fn with_turns(&self, motion: &Motion<'_>, swings: &[Swing], mut stations: Vec<MeshStation>) -> Vec<MeshStation> {
         const BESIDE: f64 = 0.02;
-        let stretches = self.stretches(motion);
-        for turn in swing::turns(&stretches) {
+        for turn in swings.iter().flat_map(Swing::turns) {
             let time = |at: usize| stations.get(at).and_then(|station| station.time);
             let after = stations.partition_point(|station| station.time.is_some_and(|time| time < turn));
             let ends = after.checked_sub(1).and_then(time).zip(time(after));
@@ -145,13 +148,14 @@ impl Watch {
     }
 
     fn station(&self, motion: &Motion<'_>, t: f64) -> Option<MeshStation> {
-        let next = self.records.partition_point(|record| record.from.t <= t);
+        self.looks.set(self.looks.get() + 1);
+        let next = self.records.partition_point(|record| record.step.t <= t);
         let record = self.records.get(next.saturating_sub(1))?;
-        let forces = self.forces(motion, record);
-        let state = forces.after(&record.from, t - record.from.t);
+        let course = self.course(motion, record);
+        let state = record.step.state((t - record.step.t) / record.step.length);
         let incoming = self.windows[record.window].incoming()?;
-        let force = if record.touching.has(incoming) { forces.force(incoming, t, &state).0.max(0.0) } else { 0.0 };
-        let station = MeshStation::at(motion.mesh, motion.place(t), force, forces.total(t, &state), state[0], Some(t));
+        let force = if record.touching.has(incoming) { course.force(incoming, t, state[0]).max(0.0) } else { 0.0 };
+        let station = MeshStation::at(motion.mesh, motion.place(t), force, course.total(t, state[0]), state[0], Some(t));
         Some(MeshStation { rate: Some(state[1]), ..station })
     }
 }

@@ -94,7 +94,7 @@ pub struct Answer {
     values: [Option<f64>; Subject::ALL.len()],
     /// Driver's angle before E in rad and force in N, from the first contact to E.
     curve: Vec<(f64, f64)>,
-    /// Evaluations of the forces, in the rung `dynamic`.
+    /// What the motion took in the rung `dynamic`, see [`Effort`](crate::model::dynamic::Effort).
     pub evaluations: Option<u64>,
 }
 

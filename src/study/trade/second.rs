@@ -1,14 +1,15 @@
 //! A second way to the answers of the rung `dynamic`, sharing with the first no more than the mesh: even steps of the
 //! extrapolated midpoint rule, and contacts found by looking at each step.
 
+use std::f64::consts::TAU;
+
 use nalgebra::Vector2;
 
 use super::answer::Subject;
 use crate::model::mesh::Mesh;
 use crate::model::static_load::balance;
 use crate::model::{Inputs, Refusal, Solution};
-use crate::numeric::extrapolated::step;
-use crate::numeric::ode::Equation;
+use crate::numeric::extrapolated::{Equation, step};
 use crate::numeric::root;
 
 /// Displacement of the driver ahead in m and its rate in m/s.
@@ -36,14 +37,15 @@ impl Second {
 /// The case once more, from the static balance to a base pitch after B.
 ///
 /// # Errors
-/// Those of [`Mesh::new`], and [`Refusal::Stopped`] where `go_on` says no.
+/// Those of [`Mesh::new`], [`Refusal::TooSlow`] where it would take longer than a person waits for, and
+/// [`Refusal::Stopped`] where `go_on` says no.
 pub(super) fn second_way(inputs: &Inputs, solution: &Solution, go_on: &dyn Fn() -> bool) -> Result<Second, Refusal> {
     const FURTHER: f64 = 16.0;
     let error = solution.deviation.equivalent_error;
     let mut reach = error.abs() + 4.0 * solution.deviation.combined_deflection;
     loop {
         let mesh = Mesh::new(inputs, &solution.geometry, solution.mesh_force, error, reach)?;
-        let mut run = Run::begin(&mesh, inputs, solution.reduced_mass);
+        let mut run = Run::begin(&mesh, inputs, solution.reduced_mass)?;
         run.go(go_on)?;
         if run.most_ahead + error.max(0.0) < reach || mesh.is_whole() {
             return Ok(run.found());
@@ -129,15 +131,21 @@ struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    fn begin(mesh: &'a Mesh, inputs: &Inputs, mass: f64) -> Run<'a> {
+    fn begin(mesh: &'a Mesh, inputs: &Inputs, mass: f64) -> Result<Run<'a>, Refusal> {
         const STRETCHES_OF_A_PERIOD: f64 = 16.0;
+        /// A second or two.
+        const MOST_SWINGS: f64 = 4e3;
         let frequency = (mesh.mean_stiffness / mass).sqrt();
         let start = -f64::from(inputs.warmup_cycles) * mesh.base_pitch;
+        let swings = (mesh.length - start) / mesh.speed * frequency / TAU;
+        if swings > MOST_SWINGS {
+            return Err(Refusal::TooSlow { swings, limit: MOST_SWINGS });
+        }
         let borders = mesh.borders(start, mesh.ends().1.min(mesh.length + mesh.base_pitch));
         let inside = f64::midpoint(borders[0], borders[1]);
         let displacement = balance(mesh, start, inside).displacement;
         let touching = mesh.pairs(start, inside).filter(|pair| displacement > pair.place.gap).map(|pair| pair.ahead);
-        Run {
+        Ok(Run {
             oscillator: Oscillator {
                 mesh,
                 mass,
@@ -148,12 +156,12 @@ impl<'a> Run<'a> {
             borders,
             t: start / mesh.speed,
             y: State::new(displacement, 0.0),
-            longest: std::f64::consts::TAU / (STRETCHES_OF_A_PERIOD * frequency),
+            longest: TAU / (STRETCHES_OF_A_PERIOD * frequency),
             first_touch: None,
             peak_force: 0.0,
             peak_approach_force: 0.0,
             most_ahead: 0.0,
-        }
+        })
     }
 
     /// From border to border.

@@ -11,7 +11,7 @@ const IN_MOTION: &str = "One mass m_red on the springs and gaps of every pair, w
 const BALANCE: &str = "Balance ΣF = F0 of parallel springs with gaps, as in Seireg & Houser 1970, with the gap S(u) of the tips off the line \
     of action; compliances of Zhou & Chen 2014, Eqs. 54-56.";
 const MOTION: &str = "The oscillator of gear dynamics with backlash, Özgüven & Houser 1988, m x'' + ΣF = F0, with the gap S(u) of the tips off \
-    the line of action; steps of order 8 by Dormand & Prince, from contact event to contact event.";
+    the line of action; steps by Taylor series, from contact event to contact event.";
 const SHARED: &[&str] = &["F_0", "k_m", "Δf"];
 const SWING: &[&str] = &["m_red", "c", "f_n", "f_z"];
 const STATIC_VALID: &[load::Look] = &[pair::contact_ratio, stiffness::teeth, load::at_rest];
@@ -138,7 +138,7 @@ pub(super) static TABLE: &[Explanation] = &[
     },
     Explanation {
         key: "dynamic_impact_duration",
-        says: "From the first touch to the first least force after the first peak, or until the tooth comes off again.",
+        says: "From a first touch before E to the first least force after the first peak, or until the tooth comes off again.",
         formula: MOVED,
         source: MOTION,
         mended: &["Eq. 32"],

@@ -1,0 +1,202 @@
+//! Where a polynomial changes its sign between 0 and 1, none missed: by Bernstein's form, whose coefficients bound it.
+
+use super::polynomial::Polynomial;
+use super::root;
+
+/// Coefficients that are found at once; a form has some multiple of them.
+const SIDE_BY_SIDE: usize = 4;
+/// A part of the way is halved no further: two changes that are nearer to each other are none.
+const MOST_HALVINGS: u32 = 30;
+
+/// Σ b_i C(N−1, i) t^i (1−t)^(N−1−i): on the way from 0 to 1 it lies between the least and the greatest b.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bernstein<const N: usize>([f64; N]);
+
+impl<const N: usize> Bernstein<N> {
+    /// C(i, j)/C(N−1, j), by which a coefficient of t^j counts in b_i.
+    const WEIGHTS: &'static [[f64; N]; N] = &weights();
+
+    /// The form of a polynomial.
+    ///
+    /// # Source
+    /// Farouki & Rajan 1987, "On the numerical condition of polynomials in Bernstein form", Computer Aided Geometric
+    /// Design 4, Eq. 6.
+    #[must_use]
+    pub fn of(polynomial: &Polynomial<N>) -> Bernstein<N> {
+        const { assert!(N.is_multiple_of(SIDE_BY_SIDE), "coefficients go by fours") };
+        let (terms, mut form) = (polynomial.terms(), [0.0; N]);
+        for (part, sums) in form.as_chunks_mut::<SIDE_BY_SIDE>().0.iter_mut().enumerate() {
+            for (coefficient, weights) in terms.iter().zip(Self::WEIGHTS).take(SIDE_BY_SIDE * (part + 1)) {
+                let weights = &weights.as_chunks::<SIDE_BY_SIDE>().0[part];
+                sums.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += coefficient * weight);
+            }
+        }
+        Bernstein(form)
+    }
+
+    /// No value is below the first and none above the second.
+    #[must_use]
+    pub fn bounds(&self) -> (f64, f64) {
+        self.0.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| (low.min(value), high.max(value)))
+    }
+
+    /// The form on the first and on the second half of the way, by de Casteljau's means.
+    fn halves(&self) -> (Bernstein<N>, Bernstein<N>) {
+        let (mut left, mut right) = (*self, *self);
+        for size in (1..N).rev() {
+            left.0[N - 1 - size] = right.0[0];
+            for at in 0..size {
+                right.0[at] = 0.5 * (right.0[at] + right.0[at + 1]);
+            }
+        }
+        left.0[N - 1] = right.0[0];
+        (left, right)
+    }
+}
+
+const fn weights<const N: usize>() -> [[f64; N]; N] {
+    let mut weights = [[0.0; N]; N];
+    let mut power = 0;
+    while power < N {
+        // C(i+1, j)/C(i, j) = (i+1)/(i+1−j), backwards from 1 at i = N−1.
+        let mut at = N - 1;
+        weights[power][at] = 1.0;
+        while at > power {
+            weights[power][at - 1] = weights[power][at] * (at - power) as f64 / at as f64;
+            at -= 1;
+        }
+        power += 1;
+    }
+    weights
+}
+
+/// Where a polynomial that is not below 0 at 0 first falls below it, where it does by 1; at once where it is below 0 at 0.
+///
+/// # Source
+/// Descartes' rule on Bernstein's form: as many changes of sign as the coefficients have, or fewer by an even number, so
+/// that none and one are certain; more of them are looked at by halves. Lane & Riesenfeld 1981, "Bounds on a polynomial",
+/// BIT 21.
+#[must_use]
+pub fn first_fall<const N: usize>(polynomial: &Polynomial<N>) -> Option<f64> {
+    let form = Bernstein::of(polynomial);
+    if form.0.iter().all(|&value| value >= 0.0) {
+        return None;
+    }
+    let (mut first, mut sign) = (None, 1);
+    let mut search = Search { polynomial, floor: 0.0, sign: &mut sign, found: &mut |at| first.replace(at).is_some() };
+    search.within(&form, 0.0, 1.0, MOST_HALVINGS);
+    first
+}
+
+/// Every place between 0 and 1 where it changes its sign, in order; what is no more than rounding has none.
+#[must_use]
+pub fn sign_changes<const N: usize>(polynomial: &Polynomial<N>) -> Vec<f64> {
+    const ROUNDING: f64 = 64.0 * f64::EPSILON;
+    let form = Bernstein::of(polynomial);
+    let (low, high) = form.bounds();
+    let (mut all, mut sign) = (Vec::new(), 0);
+    if low < 0.0 && high > 0.0 {
+        let mut keep = |at| {
+            all.push(at);
+            true
+        };
+        let mut search = Search { polynomial, floor: ROUNDING * high.max(-low), sign: &mut sign, found: &mut keep };
+        search.within(&form, 0.0, 1.0, MOST_HALVINGS);
+    }
+    all
+}
+
+/// A search for changes of sign, from left to right.
+struct Search<'a, const N: usize> {
+    polynomial: &'a Polynomial<N>,
+    /// No coefficient that is nearer to 0 has a sign.
+    floor: f64,
+    /// The last sign, 0 where there was none yet.
+    sign: &'a mut i8,
+    /// Says whether to go on.
+    found: &'a mut dyn FnMut(f64) -> bool,
+}
+
+impl<const N: usize> Search<'_, N> {
+    /// Look at the part of the way; whether to go on after it.
+    fn within(&mut self, form: &Bernstein<N>, from: f64, to: f64, halvings: u32) -> bool {
+        let (at_once, inside, last) = self.changes(form);
+        let go_on = match (at_once, inside) {
+            (false, 0) => true,
+            (true, 0) => (self.found)(from),
+            (false, 1) => (self.found)(root::between(from, to, |t| self.polynomial.at(t))),
+            _ if halvings == 0 => last == *self.sign || (self.found)(to),
+            _ => {
+                let (left, right) = form.halves();
+                let middle = f64::midpoint(from, to);
+                return self.within(&left, from, middle, halvings - 1) && self.within(&right, middle, to, halvings - 1);
+            }
+        };
+        *self.sign = last;
+        go_on
+    }
+
+    /// Whether the first coefficient with a sign has another than the last one seen, how often it changes from there on, and
+    /// the last one then.
+    fn changes(&self, form: &Bernstein<N>) -> (bool, usize, i8) {
+        let mut signs = form.0.iter().filter(|value| value.abs() > self.floor).map(|&value| if value > 0.0 { 1 } else { -1 });
+        let Some(first) = signs.next() else { return (false, 0, *self.sign) };
+        let (inside, last) = signs.fold((0, first), |(inside, last), sign| (inside + usize::from(sign != last), sign));
+        (*self.sign == -first, inside, last)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The product of (t − root), times `factor`.
+    fn with_roots<const N: usize>(factor: f64, roots: &[f64]) -> Polynomial<N> {
+        let mut product = Polynomial::ZERO;
+        product.0[0] = factor;
+        roots.iter().fold(product, |product, root| product.times(&Polynomial([-root, 1.0])))
+    }
+
+    #[test]
+    fn planted_changes_are_found_and_double_roots_are_none() {
+        let cases: [(&[f64], &[f64]); 6] = [
+            (&[-0.3, 1.2, 5.0], &[]),
+            (&[0.25], &[0.25]),
+            (&[0.5, 0.5 + 1e-5, 0.75, -2.0, 1.001], &[0.5, 0.5 + 1e-5, 0.75]),
+            (&[0.1, 0.3, 0.3, 0.9, 0.95, 0.97], &[0.1, 0.9, 0.95, 0.97]),
+            (&[0.5, 0.5, 0.5], &[0.5]),
+            (&[0.4, 0.6, 0.4 + 1e-12], &[0.6]),
+        ];
+        for (roots, expected) in cases {
+            for factor in [1.0, -1e-9] {
+                let found = sign_changes(&with_roots::<12>(factor, roots));
+                assert_eq!(found.len(), expected.len(), "{roots:?}: {found:?}");
+                for (found, expected) in found.iter().zip(expected) {
+                    assert!((found - expected).abs() < 1e-9, "{roots:?}: {found} and not {expected}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_first_fall_is_the_first_however_short_the_dip() {
+        let dip = with_roots::<12>(1.0, &[0.3, 0.3 + 1e-4, 0.7, 0.8]);
+        assert!((first_fall(&dip).unwrap() - 0.3).abs() < 1e-10);
+        let touches = with_roots::<12>(1.0, &[0.4, 0.4]).plus(1e-9, &Polynomial([1.0]));
+        assert_eq!(first_fall(&touches), None);
+        assert_eq!(first_fall(&with_roots::<12>(1.0, &[0.25, 2.0]).scaled(-1.0)), Some(0.0));
+        assert_eq!(first_fall(&with_roots::<12>(1.0, &[-1.0, -0.1])), None);
+        let late = first_fall(&with_roots::<12>(1.0, &[0.999, 1.5])).unwrap();
+        assert!((late - 0.999).abs() < 1e-12, "{late}");
+    }
+
+    #[test]
+    fn the_bounds_hold() {
+        let polynomial = Polynomial([0.3, -2.0, 4.0, 1.0, -3.5, 0.0, 0.0, 0.0]);
+        let (low, high) = Bernstein::of(&polynomial).bounds();
+        for step in 0..=100 {
+            let value = polynomial.at(0.01 * f64::from(step));
+            assert!(value >= low && value <= high, "{value} beyond {low} and {high}");
+        }
+    }
+}

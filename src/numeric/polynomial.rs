@@ -1,0 +1,154 @@
+//! Polynomials by the coefficients of their powers, mostly of a part of a way that goes from 0 to 1.
+
+/// Σ a_k t^k of `N` terms.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Polynomial<const N: usize>(pub [f64; N]);
+
+impl<const N: usize> Polynomial<N> {
+    /// The polynomial that is 0 everywhere.
+    pub const ZERO: Polynomial<N> = Polynomial([0.0; N]);
+
+    /// The coefficients up to the last that is not 0.
+    #[must_use]
+    pub fn terms(&self) -> &[f64] {
+        let count = self.0.iter().rposition(|&coefficient| coefficient != 0.0).map_or(0, |last| last + 1);
+        &self.0[..count]
+    }
+
+    /// Its value at `t`.
+    #[must_use]
+    pub fn at(&self, t: f64) -> f64 {
+        horner(&self.0, t)
+    }
+
+    /// Its slope at `t`.
+    #[must_use]
+    pub fn slope(&self, t: f64) -> f64 {
+        self.derivative().at(t)
+    }
+
+    /// Its derivative; the last term is 0.
+    #[must_use]
+    pub fn derivative(&self) -> Polynomial<N> {
+        let mut derivative = [0.0; N];
+        for power in 1..N {
+            derivative[power - 1] = power as f64 * self.0[power];
+        }
+        Polynomial(derivative)
+    }
+
+    /// Its integral from 0 to 1.
+    #[must_use]
+    pub fn integral(&self) -> f64 {
+        self.0.iter().enumerate().map(|(power, coefficient)| coefficient / (power + 1) as f64).sum()
+    }
+
+    /// The same over another measure of the way: a(`by` t).
+    #[must_use]
+    pub fn stretched(mut self, by: f64) -> Polynomial<N> {
+        let mut factor = 1.0;
+        for coefficient in &mut self.0 {
+            *coefficient *= factor;
+            factor *= by;
+        }
+        self
+    }
+
+    /// Every coefficient times `factor`.
+    #[must_use]
+    pub fn scaled(mut self, factor: f64) -> Polynomial<N> {
+        self.0.iter_mut().for_each(|coefficient| *coefficient *= factor);
+        self
+    }
+
+    /// This and `factor` times another of no more terms.
+    #[must_use]
+    pub fn plus<const M: usize>(mut self, factor: f64, other: &Polynomial<M>) -> Polynomial<N> {
+        self.0.iter_mut().zip(other.0).for_each(|(sum, coefficient)| *sum += factor * coefficient);
+        self
+    }
+
+    /// The product with another, but for terms beyond `P`.
+    #[must_use]
+    pub fn times<const M: usize, const P: usize>(&self, other: &Polynomial<M>) -> Polynomial<P> {
+        let mut product = [0.0; P];
+        let (one, other) = (self.terms(), other.terms());
+        let known = product.iter_mut().take((one.len() + other.len()).saturating_sub(1));
+        known.enumerate().for_each(|(power, term)| *term = term_of_product(one, other, power));
+        Polynomial(product)
+    }
+
+    /// a(t)/t of a polynomial that is 0 at 0.
+    #[must_use]
+    pub fn over_argument(&self) -> Polynomial<N> {
+        let mut rest = [0.0; N];
+        rest[..N - 1].copy_from_slice(&self.0[1..]);
+        Polynomial(rest)
+    }
+}
+
+/// Σ a_k t^k by Horner's rule on every fourth term, in four sums that do not wait for each other.
+fn horner(powers: &[f64], t: f64) -> f64 {
+    let (fours, rest) = powers.as_chunks::<4>();
+    let (square, mut sums) = (t * t, [0.0; 4]);
+    rest.iter().zip(&mut sums).for_each(|(coefficient, sum)| *sum = *coefficient);
+    for four in fours.iter().rev() {
+        for lane in 0..4 {
+            sums[lane] = sums[lane] * (square * square) + four[lane];
+        }
+    }
+    (sums[0] + sums[1] * t) + (sums[2] + sums[3] * t) * square
+}
+
+/// Σ a_i b_(n−i), n the power, in four sums that do not wait for each other.
+#[inline]
+#[must_use]
+pub fn term_of_product(one: &[f64], other: &[f64], power: usize) -> f64 {
+    let (first, end) = ((power + 1).saturating_sub(other.len()), one.len().min(power + 1));
+    if first >= end {
+        return 0.0;
+    }
+    let (up, down) = (&one[first..end], &other[power + 1 - end..=power - first]);
+    let (fours, rest) = up.as_chunks::<4>();
+    let (rest_down, fours_down) = down.as_rchunks::<4>();
+    let mut sums = [0.0; 4];
+    for (up, down) in fours.iter().zip(fours_down.iter().rev()) {
+        for lane in 0..4 {
+            sums[lane] += up[lane] * down[3 - lane];
+        }
+    }
+    let tail: f64 = rest.iter().zip(rest_down.iter().rev()).map(|(up, down)| up * down).sum();
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + tail
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// (1 + t)(2 − t)(t + 3), and 1 − 2t.
+    const CUBIC: Polynomial<4> = Polynomial([6.0, 5.0, -2.0, -1.0]);
+    const LINE: Polynomial<2> = Polynomial([1.0, -2.0]);
+
+    #[test]
+    fn values_slopes_and_integrals_are_those_of_the_formula() {
+        for step in -4..=4 {
+            let t = 0.5 * f64::from(step);
+            assert!((CUBIC.at(t) - (1.0 + t) * (2.0 - t) * (t + 3.0)).abs() < 1e-13);
+            assert!((CUBIC.slope(t) - (5.0 - 4.0 * t - 3.0 * t * t)).abs() < 1e-13);
+            assert!((CUBIC.derivative().at(t) - CUBIC.slope(t)).abs() < 1e-13);
+            assert!((CUBIC.stretched(0.3).at(t) - CUBIC.at(0.3 * t)).abs() < 1e-13);
+            let product: Polynomial<5> = CUBIC.times(&LINE);
+            assert!((product.at(t) - CUBIC.at(t) * LINE.at(t)).abs() < 1e-12);
+            assert!((CUBIC.plus(-2.0, &LINE).at(t) - CUBIC.at(t) + 2.0 * LINE.at(t)).abs() < 1e-13);
+            assert!((Polynomial([0.0, 1.0, -2.0]).over_argument().at(t) - LINE.at(t)).abs() < 1e-13);
+        }
+        assert!((CUBIC.integral() - (6.0 + 2.5 - 2.0 / 3.0 - 0.25)).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_product_may_be_cut_short() {
+        let cut: Polynomial<3> = CUBIC.times(&LINE);
+        let whole: Polynomial<5> = CUBIC.times(&LINE);
+        assert_eq!(cut.0[..], whole.0[..3]);
+    }
+}
