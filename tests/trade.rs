@@ -103,11 +103,12 @@ fn errors_fall_with_stations_and_tolerance() {
         let setting = Setting { tolerance: Some(tolerance), ..Setting::usual(Rung::Dynamic) };
         numerical(of(&trade, &setting), Subject::PeakApproachForce)
     };
-    for exponent in 3..10 {
-        let (coarse, fine) = (10f64.powi(-exponent), 10f64.powi(-exponent - 1));
-        let (coarse, fine) = (off(table::tidy(coarse)), off(table::tidy(fine)));
-        assert!(fine < coarse, "1e-{exponent}: {coarse:e} {fine:e}");
+    // A coarse one may by chance be as good as a finer one: its steps end at the same borders.
+    for exponent in 3..=10 {
+        let tolerance = table::tidy(10f64.powi(-exponent));
+        assert!(off(tolerance) < 0.1 * tolerance, "{tolerance:e}: {:e}", off(tolerance));
     }
+    assert!(off(1e-10) < 1e-4 * off(1e-3), "{:e} {:e}", off(1e-10), off(1e-3));
 }
 
 #[test]

@@ -133,8 +133,8 @@ struct Run<'a> {
 impl<'a> Run<'a> {
     fn begin(mesh: &'a Mesh, inputs: &Inputs, mass: f64) -> Result<Run<'a>, Refusal> {
         const STRETCHES_OF_A_PERIOD: f64 = 16.0;
-        /// A second or two.
-        const MOST_SWINGS: f64 = 4e3;
+        /// Two or three seconds.
+        const MOST_SWINGS: f64 = 8e3;
         let frequency = (mesh.mean_stiffness / mass).sqrt();
         let start = -f64::from(inputs.warmup_cycles) * mesh.base_pitch;
         let swings = (mesh.length - start) / mesh.speed * frequency / TAU;
