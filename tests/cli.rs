@@ -309,6 +309,7 @@ fn what_a_rung_resolves_itself_stands_before_the_free_impact() {
         assert!(free.contains("ok        impact_force 2011.2 N <= 2500 N (80 %): of the free impact"), "{text}");
         let page = told(&["explain", "impact_force", TABLE_1, "--rung", rung]);
         assert!(page.contains("This is of the free impact, in closed form"), "{page}");
+        assert!(!page.contains(&format!("{rung} 2011.2 N")) && page.contains("exact with the deflection that"), "{page}");
     }
     assert!(!told(&["solve", TABLE_1]).contains("Free impact"));
 }

@@ -58,6 +58,11 @@ const REASONS: &[Reason] = &[
         why: "this rung computes the deflection from the load",
     },
     Reason {
+        keys: &["model.tolerance"],
+        when: |inputs| inputs.rung == Rung::Auto,
+        why: "the rung auto takes the tolerance from what is good enough, the field below",
+    },
+    Reason {
         keys: &["model.damping_ratio", "model.warmup_cycles", "model.tolerance"],
         when: always,
         why: "only the rung dynamic follows the motion in time",
@@ -119,6 +124,7 @@ fn reaches(field: usize, inputs: &Inputs) -> bool {
     let by = |rung| is_read(field, &Inputs { rung, ..inputs.clone() });
     match (FIELDS[field].key, inputs.rung) {
         ("model.within", rung) => rung == Rung::Auto,
+        ("model.tolerance", Rung::Auto) => false,
         ("model.station_tolerance", _) => inputs.stations.is_none(),
         (_, Rung::Auto) => [Rung::Exact, Rung::Static, Rung::Dynamic].into_iter().any(by),
         _ => is_read(field, inputs),

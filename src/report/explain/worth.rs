@@ -79,6 +79,13 @@ fn over_rungs(quantity: &Quantity, known: &Known) -> Option<String> {
     let found: Vec<(Rung, f64)> = Rung::CLOSED_FORM.into_iter().chain(own).filter_map(by).collect();
     let (&(_, first), others) = found.split_first()?;
     let apart = |(_, value): &(Rung, f64)| (value - first).abs() > noise(quantity, known.inputs) * first.abs();
-    let told: Vec<String> = found.iter().map(|&(rung, value)| format!("{} {}", rung.name(), shown(quantity, value))).collect();
+    let told: Vec<String> =
+        found.iter().map(|&(rung, value)| format!("{} {}", name(quantity, rung), shown(quantity, value))).collect();
     others.iter().any(apart).then(|| format!("Rungs: {}.", told.join(", ")))
+}
+
+/// The rung; of the free impact, where the rung resolves the impact itself, what the closed form takes from it.
+fn name(quantity: &Quantity, rung: Rung) -> String {
+    let is_beside = rung.shares_load() && quantity.is_of_free_impact();
+    if is_beside { format!("exact with the deflection that {} computes", rung.name()) } else { rung.name().to_owned() }
 }
