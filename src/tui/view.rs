@@ -61,6 +61,19 @@ pub fn titled(app: &App, pane: Pane, title: &str, area: Rect, buffer: &mut Buffe
     inner
 }
 
+/// The pane out of sight whose name or key stands on a cell.
+#[must_use]
+pub fn named_at(app: &App, at: Position) -> Option<Pane> {
+    let plan = plan(app.size, app.panes);
+    let owner = plan.names_hidden()?;
+    let area = plan.area(owner);
+    let names = hidden(app, owner, area.width);
+    let from = area.right().checked_sub(names.width() as u16 + 1)?;
+    let column = usize::from(at.x.checked_sub(from)?);
+    let begins = |pane: &Pane| names.find(&format!(" {}", pane.number())).is_some_and(|start| start <= column);
+    plan.hidden().filter(begins).last().filter(|_| at.y == area.y && column < names.width())
+}
+
 // The keys and names of the panes that are not in sight; their keys alone where names have no room.
 fn hidden(app: &App, pane: Pane, width: u16) -> String {
     let plan = plan(app.size, app.panes);

@@ -9,8 +9,12 @@ use crate::tui::prompt::Prompt;
 use crate::tui::view::chart::angle_at;
 use crate::tui::view::{self, explain, form, popup, results};
 
-/// A press: into a field, onto a result, onto the chart.
+/// A press: into a field, onto a result, onto the chart, onto the name of a pane out of sight.
 pub(super) fn click(app: &mut App, at: Position) -> Vec<Effect> {
+    if let Some(pane) = view::named_at(app, at).filter(|_| app.prompts.is_empty()) {
+        panes::show(app, pane);
+        return Vec::new();
+    }
     let Some(pane) = pane_at(app, at).filter(|_| app.prompts.is_empty()) else { return Vec::new() };
     let area = view::plan(app.size, app.panes).area(pane);
     panes::show(app, pane);

@@ -38,10 +38,10 @@ impl Labels {
         let cells: Vec<_> = scene.points.iter().filter_map(|point| Some((point.name, self.cell(scene, point.at)?))).collect();
         self.marks.extend(cells.iter().map(|(_, at)| *at));
         for (name, at) in cells {
-            self.put_beside(name, at, Ink::Mark.style(theme), buffer);
+            self.put_beside(name, at, usize::MAX, Ink::Mark.style(theme), buffer);
         }
         for (name, at) in self.ways_out(scene, picture) {
-            self.put_beside(name, at, theme.faint, buffer);
+            self.put_beside(name, at, 0, theme.faint, buffer);
         }
         for (name, places, ink) in [("driver", &scene.bodies[0], Ink::Driver), ("driven", &scene.bodies[1], Ink::Driven)] {
             self.put_inside(name, scene, places, ink.style(theme), buffer);
@@ -58,13 +58,17 @@ impl Labels {
         self.words.push(Rect { width: end.x + 1 - self.area.x, ..line });
     }
 
-    /// How far the gap is exaggerated, in the upper right corner.
+    /// How far the gap is exaggerated, in the first corner where nothing is drawn, else in the upper right one.
     fn draw_factor(&mut self, scene: &Scene, style: Style, buffer: &mut Buffer) {
         let Some(factor) = scene.factor else { return };
         let text = format!("gap x{}", times(factor));
         let width = text.width() as u16;
-        let x = self.area.right().saturating_sub(width + 1).max(self.area.x);
-        self.put(&text, Rect { x, y: self.area.y, width, height: 1 }, style, buffer);
+        let (left, right) = (self.area.x + 1, self.area.right().saturating_sub(width + 1).max(self.area.x));
+        let (top, bottom) = (self.area.y, self.area.bottom() - 1);
+        let corners = [(right, top), (left, top), (right, bottom), (left, bottom.saturating_sub(1))];
+        let rooms = corners.map(|(x, y)| Rect { x, y, width, height: 1 });
+        let free = rooms.into_iter().find(|room| self.is_free(*room) && covered(*room, buffer) == 0);
+        self.put(&text, free.unwrap_or(rooms[0]), style, buffer);
     }
 
     /// Where the line of action leaves what is in sight, towards a point of tangency that is not.
@@ -84,14 +88,14 @@ impl Labels {
         Some(Position { x: self.area.x + x, y: self.area.y + y })
     }
 
-    /// Write a name where it covers least of the picture around its point.
-    fn put_beside(&mut self, name: &str, at: Position, style: Style, buffer: &mut Buffer) {
+    /// Write a name where it covers least of the picture around its point, and no more cells than so many.
+    fn put_beside(&mut self, name: &str, at: Position, most: usize, style: Style, buffer: &mut Buffer) {
         let width = i32::from(name.width() as u16);
         let places = [(1, 0), (2, -1), (2, 1), (-width, 0), (-width - 1, -1), (-width - 1, 1), (-width / 2, -1), (-width / 2, 1)];
         let further = [(2, -2), (2, 2), (-width - 1, -2), (-width - 1, 2), (4, 0), (-width - 3, 0)];
         let rooms = places.into_iter().chain(further).filter_map(|(right, down)| self.room(at, right, down, width));
         let free = rooms.filter(|room| self.is_free(*room)).min_by_key(|room| covered(*room, buffer));
-        if let Some(room) = free {
+        if let Some(room) = free.filter(|room| covered(*room, buffer) <= most) {
             self.put(name, room, style, buffer);
         }
     }
