@@ -1,6 +1,9 @@
 //! Where stations stand on a curve: evenly, or as closely as the curve needs.
 
+mod look;
+
 use super::inputs::Inputs;
+use look::Look;
 
 /// How stations are placed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,108 +14,119 @@ pub enum Spacing {
     AsNeeded(f64),
 }
 
-/// Intervals to begin with, halved where the curve is not straight enough; a curve of fewer could hide a bend.
-const AT_FIRST: usize = 8;
-/// No interval is halved more often.
-const MOST_HALVINGS: u32 = 12;
-
 impl Spacing {
+    /// Where their number is not given, intervals in which the curve is looked at to begin with.
+    pub const LOOKS: usize = 8;
+
     /// As the case asks for it.
     #[must_use]
     pub fn of(inputs: &Inputs) -> Spacing {
         inputs.stations.map_or(Spacing::AsNeeded(inputs.station_tolerance), Spacing::Even)
     }
 
-    /// What `at` gives at the stations from one end to the other, both ends among them. `at` gives the height of the curve
-    /// as well; one that is no number is not looked at more closely.
-    pub fn stations<T>(self, from: f64, to: f64, peak: f64, at: impl FnMut(f64) -> (f64, T)) -> Vec<T> {
-        let mut found = Vec::with_capacity(self.first_count() + 1);
-        self.walk(from, to, peak, at, |value| found.push(value));
+    /// What `at` gives at the stations from the first of `ends` to the last, both among them. `at` gives the height of the
+    /// curve as well. Between two of the ends it should turn once at most: those in between are looked at, and are stations
+    /// only where the curve needs them.
+    pub fn stations<T>(self, ends: &[f64], peak: f64, at: impl FnMut(f64) -> (f64, T)) -> Vec<T> {
+        let mut found = Vec::with_capacity(self.count().map_or(0, |count| count + 1));
+        self.walk(ends, peak, at, |value| found.push(value));
         found
     }
 
-    /// Intervals to begin with.
+    /// Intervals, where their number is given.
     #[must_use]
-    pub fn first_count(self) -> usize {
+    pub fn count(self) -> Option<usize> {
         match self {
-            Spacing::Even(count) => count.max(1),
-            Spacing::AsNeeded(_) => AT_FIRST,
+            Spacing::Even(count) => Some(count.max(1)),
+            Spacing::AsNeeded(_) => None,
         }
     }
 
     /// The same, each given to `keep` in its turn.
-    pub fn walk<T>(self, from: f64, to: f64, peak: f64, mut at: impl FnMut(f64) -> (f64, T), mut keep: impl FnMut(T)) {
-        let (count, allowed) = match self {
-            Spacing::Even(_) => (self.first_count(), f64::INFINITY),
-            Spacing::AsNeeded(part) => (self.first_count(), part * peak),
-        };
-        let mut last: Option<Point> = None;
-        for step in 0..=count {
-            let place = if step == count { to } else { from + (to - from) * step as f64 / count as f64 };
-            let (height, value) = at(place);
-            let next = Point { place, height };
-            if let Some(last) = last.filter(|_| allowed.is_finite()) {
-                fill(last, next, allowed, MOST_HALVINGS, &mut at, &mut keep);
+    pub fn walk<T>(self, ends: &[f64], peak: f64, mut at: impl FnMut(f64) -> (f64, T), keep: impl FnMut(T)) {
+        let (Some(&from), Some(&to)) = (ends.first(), ends.last()) else { return };
+        match self {
+            Spacing::AsNeeded(part) => Look::along(ends, part * peak, at).needed().for_each(keep),
+            Spacing::Even(count) => {
+                let count = count.max(1);
+                let place = |step| if step == count { to } else { from + (to - from) * step as f64 / count as f64 };
+                (0..=count).map(|step| at(place(step)).1).for_each(keep);
             }
-            keep(value);
-            last = Some(next);
         }
     }
-}
-
-#[derive(Clone, Copy)]
-struct Point {
-    place: f64,
-    height: f64,
-}
-
-/// What stands between two places, where the curve lies too far off the straight line in the middle.
-fn fill<T>(from: Point, to: Point, allowed: f64, halvings: u32, at: &mut impl FnMut(f64) -> (f64, T), keep: &mut impl FnMut(T)) {
-    let place = f64::midpoint(from.place, to.place);
-    let (height, value) = at(place);
-    let bend = (height - f64::midpoint(from.height, to.height)).abs();
-    // A bend that is no number is none.
-    let is_bent = bend > allowed;
-    if halvings == 0 || !is_bent {
-        return;
-    }
-    let middle = Point { place, height };
-    fill(from, middle, allowed, halvings - 1, at, keep);
-    keep(value);
-    fill(middle, to, allowed, halvings - 1, at, keep);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn places(spacing: Spacing, f: impl Fn(f64) -> f64) -> Vec<f64> {
-        spacing.stations(0.0, 2.0, 1.0, |place| (f(place), place))
+    fn places(spacing: Spacing, ends: &[f64], f: impl Fn(f64) -> f64) -> Vec<f64> {
+        spacing.stations(ends, 1.0, |place| (f(place), place))
+    }
+
+    /// The greatest distance of the curve from the straight lines between the places.
+    fn worst(places: &[f64], f: impl Fn(f64) -> f64) -> f64 {
+        let off = |ends: &[f64], part: f64| {
+            let line = f(ends[0]) * (1.0 - part) + f(ends[1]) * part;
+            (line - f(ends[0] * (1.0 - part) + ends[1] * part)).abs()
+        };
+        let parts = (0..=64).map(|step| f64::from(step) / 64.0);
+        places.windows(2).flat_map(|ends| parts.clone().map(move |part| off(ends, part))).fold(0.0, f64::max)
     }
 
     #[test]
     fn even_places_have_both_ends() {
-        assert_eq!(places(Spacing::Even(4), |_| 0.0), [0.0, 0.5, 1.0, 1.5, 2.0]);
+        assert_eq!(places(Spacing::Even(4), &[0.0, 1.2, 2.0], |_| 0.0), [0.0, 0.5, 1.0, 1.5, 2.0]);
     }
 
     #[test]
-    fn a_straight_curve_takes_few_and_a_bent_one_as_many_as_it_needs() {
-        assert_eq!(places(Spacing::AsNeeded(1e-3), |x| 3.0 * x).len(), AT_FIRST + 1);
-        let bent = |x: f64| (3.0 * x).sin();
-        let (coarse, fine) = (places(Spacing::AsNeeded(1e-3), bent), places(Spacing::AsNeeded(1e-5), bent));
-        assert!(coarse.len() > AT_FIRST + 1 && fine.len() > 5 * coarse.len() && fine.len() < 20 * coarse.len());
-        for ends in coarse.windows(2) {
-            for step in 0..=10 {
-                let part = f64::from(step) / 10.0;
-                let line = bent(ends[0]) * (1.0 - part) + bent(ends[1]) * part;
-                let x = ends[0] * (1.0 - part) + ends[1] * part;
-                assert!((line - bent(x)).abs() < 1.2e-3, "{x}");
+    fn a_straight_curve_takes_its_ends_alone() {
+        assert_eq!(places(Spacing::AsNeeded(1e-3), &[2.0, 0.0], |x| 3.0 * x), [2.0, 0.0]);
+    }
+
+    #[test]
+    fn curves_take_about_as_many_as_they_need() {
+        let curves: [(&str, fn(f64) -> f64); 6] = [
+            ("an arch", |x| x * (2.0 - x)),
+            ("a swing", |x| (3.0 * x).sin()),
+            ("a bend just after the beginning", |x| if x < 0.04 { 10.0 * x } else { 0.4 + 0.1 * (x - 0.04) }),
+            ("a bend", |x| (x - 1.23).abs()),
+            ("a steep beginning", |x: f64| (0.5 * x).powf(0.75)),
+            ("a swing that dies away", |x| (40.0 * x).sin() * (-3.0 * x).exp()),
+        ];
+        for (name, curve) in curves {
+            for tolerance in [1e-1, 1e-2, 1e-3, 1e-4] {
+                let found = places(Spacing::AsNeeded(tolerance), &[0.0, 2.0], curve);
+                let off = worst(&found, curve);
+                assert!(off <= tolerance, "{name}: {off:e} for {tolerance:e}");
+                let fewest = fewest(curve, tolerance);
+                assert!(2 * (found.len() - 1) <= 3 * fewest + 3, "{name}, {tolerance:e}: {} for {fewest}", found.len() - 1);
             }
         }
     }
 
+    /// Intervals that one needs who knows the curve: each as long as can be.
+    fn fewest(curve: fn(f64) -> f64, tolerance: f64) -> usize {
+        const LOOKS: usize = 4000;
+        let at = |look: usize| 2.0 * look as f64 / LOOKS as f64;
+        let (mut from, mut count) = (0, 0);
+        while from < LOOKS {
+            let serves = |&to: &usize| worst(&[at(from), at(to)], curve) <= tolerance;
+            from = (from + 1..=LOOKS).take_while(|to| serves(to) || *to == from + 1).last().unwrap_or(LOOKS);
+            count += 1;
+        }
+        count
+    }
+
+    #[test]
+    fn the_highest_place_is_a_station() {
+        let found = places(Spacing::AsNeeded(0.1), &[0.0, 0.3, 2.0], |x| 1.0 - (x - 0.3).powi(2));
+        assert!(found.contains(&0.3), "{found:?}");
+    }
+
     #[test]
     fn a_height_that_is_no_number_is_let_be() {
-        assert_eq!(places(Spacing::AsNeeded(1e-3), |_| f64::NAN).len(), AT_FIRST + 1);
+        let found = places(Spacing::AsNeeded(1e-3), &[0.0, 2.0], |_| f64::NAN);
+        assert!(found.len() < 20 && found[0] == 0.0 && found[found.len() - 1] == 2.0, "{found:?}");
     }
 }

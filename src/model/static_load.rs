@@ -199,7 +199,7 @@ fn pitch_jump(mesh: &Mesh) -> Option<f64> {
 /// Stations from the first contact to E and from there to the last.
 fn stations(mesh: &Mesh, contact: Contact, peak: f64, spacing: Spacing) -> Vec<MeshStation> {
     MeshStation::through_start(contact.first, contact.last, |from, to| {
-        spacing.stations(from, to, peak, |s| {
+        spacing.stations(&[from, to], peak, |s| {
             let balance = balance(mesh, s, s);
             (balance.force, MeshStation::at(mesh, s, balance.force, balance.total, balance.displacement, None))
         })

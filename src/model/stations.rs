@@ -111,12 +111,12 @@ pub fn stations(
     peak: f64,
 ) -> (Vec<Station>, Option<Refusal>) {
     let (spacing, mut refused) = (Spacing::of(inputs), None);
-    let mut found = Vec::with_capacity(spacing.first_count() + 1);
+    let mut found = Vec::with_capacity(spacing.count().map_or(0, |count| count + 1));
     let at = |angle: f64| {
         let station = station(inputs, geometry, masses, angle);
         (station.as_ref().map_or(f64::NAN, |station| station.impact_force), station)
     };
-    spacing.walk(position.approach_angle_driven, 0.0, peak, at, |station| match station {
+    spacing.walk(&[position.approach_angle_driven, 0.0], peak, at, |station| match station {
         Ok(station) => found.push(station),
         Err(refusal) => refused = refused.or(Some(refusal)),
     });

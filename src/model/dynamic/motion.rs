@@ -77,6 +77,11 @@ impl<'a> Motion<'a> {
         t * self.mesh.speed
     }
 
+    /// Half the period of the mean stiffness, in s.
+    pub(super) fn half_swing(&self) -> f64 {
+        0.5 * TAU / self.frequency
+    }
+
     /// A step over which no series converges, in s.
     pub(super) fn longest_step(&self) -> f64 {
         8.0 / self.frequency

@@ -118,24 +118,42 @@ impl Watch {
         motion.mesh.friction() * rubbed.sum::<f64>()
     }
 
-    /// Stations from the first contact to E and from there to the last, and one wherever the force turns, so that none of
-    /// its peaks falls between two of them.
+    /// Stations from the first contact to E and from there to the last; where their number is given, one wherever the force
+    /// turns as well, so that none of its peaks falls between two of them.
     fn stations(&self, motion: &Motion<'_>, swings: &[Swing], (first, last): (f64, f64), spacing: Spacing) -> Vec<MeshStation> {
         let peak = swing::peak(swings);
+        let turns: Vec<f64> = swings.iter().flat_map(Swing::turns).collect();
+        let is_given = spacing.count().is_some();
         let found = |from: f64, to: f64| {
-            spacing.stations(from, to, peak, |t| {
+            let ends = if is_given { vec![from, to] } else { self.ends(motion, &turns, (from, to)) };
+            spacing.stations(&ends, peak, |t| {
                 let station = self.station(motion, t);
                 (station.map_or(f64::NAN, |station| station.force), station)
             })
         };
         let stations = MeshStation::through_start(first, last, |from, to| found(from, to).into_iter().flatten().collect());
-        self.with_turns(motion, swings, stations)
+        if is_given { self.with_turns(motion, &turns, stations) } else { stations }
+    }
+
+    /// The times between which the force is smooth, turns nowhere, and no swing has room to hide in.
+    fn ends(&self, motion: &Motion<'_>, turns: &[f64], (from, to): (f64, f64)) -> Vec<f64> {
+        let is_other = |pair: &&[Record]| (pair[0].window, pair[0].touching) != (pair[1].window, pair[1].touching);
+        let bends = self.records.windows(2).filter(is_other).map(|pair| pair[1].step.t);
+        let mut knots: Vec<f64> = turns.iter().copied().chain(bends).filter(|&knot| from < knot && knot < to).collect();
+        knots.extend([from, to]);
+        knots.sort_by(f64::total_cmp);
+        let between = |pair: &[f64]| {
+            let (from, to) = (pair[0], pair[1]);
+            let parts = ((to - from) / motion.half_swing()).ceil().max(1.0) as usize;
+            (0..parts).map(move |part| from + (to - from) * part as f64 / parts as f64)
+        };
+        knots.windows(2).flat_map(between).chain([to]).collect()
     }
 
     /// The stations and those where the force neither grows nor falls, but for what stands beside one of them anyhow.
-    fn with_turns(&self, motion: &Motion<'_>, swings: &[Swing], mut stations: Vec<MeshStation>) -> Vec<MeshStation> {
+    fn with_turns(&self, motion: &Motion<'_>, turns: &[f64], mut stations: Vec<MeshStation>) -> Vec<MeshStation> {
         const BESIDE: f64 = 0.02;
-        for turn in swings.iter().flat_map(Swing::turns) {
+        for &turn in turns {
             let time = |at: usize| stations.get(at).and_then(|station| station.time);
             let after = stations.partition_point(|station| station.time.is_some_and(|time| time < turn));
             let ends = after.checked_sub(1).and_then(time).zip(time(after));

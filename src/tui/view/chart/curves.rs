@@ -201,8 +201,8 @@ fn pieces(points: impl Iterator<Item = (f64, Option<f64>)>, longest: f64) -> Vec
 // In the closed forms a station whose force cannot be computed is left out; the others have every one.
 fn longest_interval(inputs: &Inputs, solution: &Solution) -> f64 {
     match solution.position {
-        Some(position) if !solution.rung.shares_load() => {
-            let count = Spacing::of(inputs).first_count() as f64;
+        Some(position) if solution.stations_withheld.is_some() => {
+            let count = Spacing::of(inputs).count().unwrap_or(Spacing::LOOKS) as f64;
             LEFT_OUT * position.approach_angle_driver.to_degrees() / count
         }
         _ => f64::INFINITY,
