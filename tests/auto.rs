@@ -20,13 +20,14 @@ mod table;
 use std::time::Instant;
 
 use tipstrike::model::inputs::Rung;
-use tipstrike::model::{Inputs, Refusal, Solution, Stages, solve};
+use tipstrike::model::{Inputs, Refusal, Solution, Stages, auto, solve};
 use tipstrike::study::trade::{Answer, Patience, Question, RUNGS, Subject, stages, trade};
 
-const WITHIN: f64 = 0.05;
+/// What is good enough.
+const WITHINS: [f64; 4] = [0.01, 0.05, 0.2, 0.5];
 
-fn by_choice(inputs: &Inputs) -> Inputs {
-    Inputs { rung: Rung::Auto, within: WITHIN, ..inputs.clone() }
+fn by_choice(inputs: &Inputs, within: f64) -> Inputs {
+    Inputs { rung: Rung::Auto, within, stations: None, ..inputs.clone() }
 }
 
 /// A solve with what a trade needs to know, or why there is none.
@@ -41,33 +42,38 @@ fn counts(solution: &Solution) -> (f64, f64) {
     (evaluations as f64, solution.ran.iter().count() as f64)
 }
 
-/// No tooth strikes by either closed form: which of them is quicker is chance, and `auto` takes the sound one.
-fn sound(rung: Rung) -> Rung {
-    if rung == Rung::Paper { Rung::Exact } else { rung }
-}
-
 #[test]
 fn over_the_cases_it_takes_the_rung_that_a_trade_recommends_at_its_cost() {
-    for path in table::cases() {
-        let inputs = by_choice(&table::inputs(&path));
-        let question = Question { within: WITHIN, patience: Patience::ONCE };
+    let mut dearer = Vec::new();
+    for (path, within) in table::cases().into_iter().flat_map(|path| WITHINS.map(|within| (path.clone(), within))) {
+        let inputs = by_choice(&table::inputs(&path), within);
+        let question = Question { within, patience: Patience::ONCE };
         let trade = trade(&inputs, &question, &|| true, &mut |_| ()).expect("a trade");
         let best = &trade.settings[trade.recommended.expect("one qualifies")];
-        let recommended = sound(best.found.as_ref().expect("figures").rung);
+        let recommended = best.setting.rung;
         let chosen = solved(&inputs).expect("a solution");
-        assert_eq!(chosen.rung, recommended, "{}", path.display());
-        let named = Inputs { rung: recommended, tolerance: 1e-3, ..inputs.clone() };
+        let name = format!("{} within {within}", path.file_stem().expect("a name").to_string_lossy());
+        let place = |rung| RUNGS.iter().position(|&one| one == rung);
+        assert!(place(chosen.rung) >= place(recommended), "{name}: {:?} for {recommended:?}", chosen.choice);
+        if chosen.rung != recommended {
+            dearer.push(name);
+            continue;
+        }
+        let named = best.setting.inputs(&inputs);
         let ((evaluations, stages), (named_evaluations, named_stages)) = (counts(&chosen), counts(&solved(&named).unwrap()));
-        assert!(evaluations <= 1.5 * named_evaluations, "{}: {evaluations} for {named_evaluations}", path.display());
         // The choice itself is made of the closed form, which takes microseconds where the others take milliseconds.
         let closed_form = Stages::CLOSED_FORM.iter().count() as f64;
-        assert!(stages <= 1.5 * named_stages + closed_form, "{}: {stages} for {named_stages}", path.display());
+        assert!(stages <= 1.5 * named_stages + closed_form + 1.0, "{name}: {stages} for {named_stages}");
         let ratio = least_time(&inputs) / least_time(&named);
-        println!("{}: {}, {ratio:.2} times its time", path.display(), recommended.name());
+        let evaluated = if named_evaluations > 0.0 { evaluations / named_evaluations } else { 1.0 };
+        println!("{name}: {}, {ratio:.2} times its time, {evaluated:.2} times its evaluations", recommended.name());
+        assert!(evaluated <= 1.5, "{name}: {evaluations} for {named_evaluations}");
         if ratio > 1.5 {
-            println!("WARNING: {} takes {ratio:.2} times as long by choice", path.display());
+            println!("WARNING: {name} takes {ratio:.2} times as long by choice");
         }
     }
+    println!("a dearer rung than recommended: {dearer:?}");
+    assert!(dearer.len() <= 3, "{dearer:?}");
 }
 
 fn least_time(inputs: &Inputs) -> f64 {
@@ -88,20 +94,28 @@ fn off(inputs: &Inputs, rung: Rung, truth: &Answer) -> Option<f64> {
 #[test]
 fn over_other_pairs_it_is_never_wrong_and_seldom_takes_more_than_it_needs() {
     let count: u64 = std::env::var("TIPSTRIKE_PAIRS").map_or(60, |count| count.parse().expect("a count"));
-    let (mut looked_at, mut agreed) = (0, 0);
+    let mut agreed = [0; WITHINS.len()];
+    let (mut looked_at, mut wrong) = (0, Vec::new());
     for number in 0..count {
         let inputs = pairs::numbered(number);
         let fine = Inputs { rung: Rung::Dynamic, tolerance: 1e-8, stations: Some(512), ..inputs.clone() };
-        let (Ok(truth), Ok(chosen)) = (solved(&fine), solved(&by_choice(&inputs))) else { continue };
+        let Ok(truth) = solved(&fine) else { continue };
         let truth = Answer::of(&truth);
-        let is_within = |rung| off(&inputs, rung, &truth).is_some_and(|off| off <= WITHIN);
-        assert!(chosen.rung == Rung::Dynamic || is_within(chosen.rung), "{number}: {:?} is not within", chosen.choice);
-        let cheapest = RUNGS[1..].iter().copied().find(|&rung| rung == Rung::Dynamic || is_within(rung));
+        let errors = auto::RUNGS.map(|rung| if rung == Rung::Dynamic { Some(0.0) } else { off(&inputs, rung, &truth) });
         looked_at += 1;
-        agreed += u32::from(cheapest == Some(chosen.rung));
+        for (within, agreed) in WITHINS.into_iter().zip(&mut agreed) {
+            let chosen = solved(&by_choice(&inputs, within)).expect("a solution");
+            let is_within = |at: usize| errors[at].is_some_and(|off| off <= within);
+            let at = auto::RUNGS.iter().position(|&rung| rung == chosen.rung).expect("one of them");
+            if !is_within(at) {
+                wrong.push(format!("{number} within {within}: {:?} is off by {:?}", chosen.choice, errors[at]));
+            }
+            *agreed += usize::from((0..at).all(|cheaper| !is_within(cheaper)));
+        }
     }
-    println!("{agreed} of {looked_at} pairs: the cheapest rung within {WITHIN}; of the others a dearer one");
-    assert!(4 * agreed >= 3 * looked_at, "{agreed} of {looked_at}");
+    println!("the cheapest rung within {WITHINS:?} for {agreed:?} of {looked_at} pairs; for the others a dearer one");
+    assert!(wrong.is_empty(), "not good enough: {wrong:#?}");
+    assert!(agreed.iter().all(|&agreed| 5 * agreed >= 4 * looked_at), "{agreed:?} of {looked_at}");
 }
 
 #[test]

@@ -22,7 +22,7 @@ pub(super) fn run(options: &Trading, streams: &mut Streams) -> io::Result<Exit> 
         interrupt.go_on()
     };
     let mut told = |sofar: &Trade| {
-        done.set(sofar.settings.len());
+        done.set((sofar.part * sofar.planned as f64) as usize);
         planned.set(sofar.planned);
     };
     let found = trade(&opened.inputs, &question, &go_on, &mut told);

@@ -60,25 +60,56 @@ pub fn solve_after(
     solving.run(go_on)
 }
 
-/// Solve with the rung that the closed form calls for. One that is too slow to be followed in time is at rest.
+/// Solve with the rung that the closed form calls for, or a trial where it cannot tell. Where `static` is taken, it stands
+/// for `dynamic` where that is wanted. One that is too slow to be followed in time is at rest.
 fn solve_by_choice(inputs: &Inputs, wanted: Stages, go_on: &dyn Fn(f64) -> bool) -> Result<Solution, Refusal> {
     let read = wanted.within(Stages::CLOSED_FORM).and(auto::READS);
     let closed_form = solve(&auto::taken(inputs, Rung::Exact), read);
     let choice = auto::choose(inputs, &closed_form);
-    let solved = |rung: Rung| solve_while(&auto::taken(inputs, rung), wanted, go_on);
-    let mut solution = match (choice.rung, &closed_form) {
+    let at_rest = || {
+        let wanted = if wanted.has(Stage::Dynamic) { wanted.and(Stages::of(Stage::Static)) } else { wanted };
+        solve_while(&auto::taken(inputs, Rung::Static), wanted, go_on)
+    };
+    let (solved, choice) = match (choice.rung, &closed_form) {
         (Rung::Exact, Ok(known)) => {
             let earlier = Earlier { solution: known, stale: Stages::NONE };
             let found = solve_after(&auto::taken(inputs, Rung::Exact), wanted, Some(earlier), go_on)?;
-            Ok(Solution { ran: found.ran.and(known.ran), ..found })
+            (Ok(Solution { ran: found.ran.and(known.ran), ..found }), choice)
         }
-        (rung, _) => match solved(rung) {
-            Err(Refusal::TooSlow { .. }) => solved(Rung::Static),
-            found => found,
+        (Rung::Static, _) => (at_rest(), choice),
+        _ if choice.is_open() && wanted.has(Stage::Dynamic) => decided(inputs, choice, at_rest()?, wanted, go_on)?,
+        _ => match solve_while(&auto::taken(inputs, Rung::Dynamic), wanted, go_on) {
+            Err(Refusal::TooSlow { .. }) => (at_rest(), choice),
+            found => (found, choice),
         },
-    }?;
-    solution.choice = Some(Choice { rung: solution.rung, ..choice });
-    Ok(solution)
+    };
+    let solution = solved?;
+    Ok(Solution { choice: Some(Choice { rung: solution.rung, ..choice }), ..solution })
+}
+
+/// After a trial on the mesh of the load at rest: that, or the motion on the same mesh.
+fn decided(
+    inputs: &Inputs,
+    choice: Choice,
+    at_rest: Solution,
+    wanted: Stages,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<(Result<Solution, Refusal>, Choice), Refusal> {
+    let shared = at_rest.mesh.as_deref().zip(at_rest.static_load.as_ref());
+    let tried = shared.map_or(Err(Refusal::BeyondReach), |shared| auto::trial(inputs, shared, at_rest.reduced_mass, go_on));
+    let choice = match tried {
+        Ok(adds) => choice.tried(inputs, adds),
+        Err(Refusal::Stopped) => return Err(Refusal::Stopped),
+        Err(Refusal::TooSlow { .. }) => Choice { rung: Rung::Static, ..choice },
+        Err(_) => choice,
+    };
+    if choice.rung == Rung::Static {
+        return Ok((Ok(at_rest), choice));
+    }
+    let known = Solution { rung: Rung::Dynamic, ..at_rest };
+    let earlier = Earlier { solution: &known, stale: Stages::NONE };
+    let found = solve_after(&auto::taken(inputs, Rung::Dynamic), wanted, Some(earlier), go_on);
+    Ok((found.map(|found| Solution { ran: found.ran.and(known.ran), ..found }), choice))
 }
 
 /// A solve on its way.

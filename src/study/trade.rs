@@ -2,10 +2,10 @@
 
 mod answer;
 mod clock;
+mod rounds;
 mod second;
 mod setting;
 
-use std::hint::black_box;
 use std::sync::Arc;
 
 pub use answer::{Answer, Subject, stages};
@@ -13,7 +13,8 @@ pub use clock::{Patience, Time};
 pub use setting::{RUNGS, STATIONS, Setting};
 
 use crate::model::inputs::Rung;
-use crate::model::{Inputs, Outcome, Refusal};
+use crate::model::{Inputs, Outcome, Refusal, auto};
+use rounds::Rounds;
 
 /// What a trade is asked.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,6 +34,8 @@ pub struct Trade {
     pub planned: usize,
     /// Those that are measured so far.
     pub settings: Vec<Measured>,
+    /// How much of the measurement is done, from 0 to 1.
+    pub part: f64,
     /// What they are held against, or why there is nothing.
     pub reference: Result<Reference, Refusal>,
     /// Each rung's best setting against the reference: what its physics leaves out.
@@ -111,7 +114,8 @@ pub fn greatest(differences: &Differences) -> Option<f64> {
     differences.iter().flatten().copied().reduce(f64::max)
 }
 
-/// Measure every setting on the case; `told` sees what is known after each of them.
+/// Measure every setting on the case: first its errors, then all their times in rounds, until the median of each is steady.
+/// `told` sees what is known after each setting and each round.
 ///
 /// # Errors
 /// [`Refusal::Stopped`] where `go_on` says no; the model's refusal where no rung at all can be computed.
@@ -125,10 +129,22 @@ pub fn trade(
     let settings = settings(inputs);
     let (mut trade, standards) = Standards::find(inputs, question, settings.len(), go_on)?;
     told(&trade);
+    let mut rounds = Rounds::begin(inputs, question.patience, go_on);
     for setting in settings {
-        let measured = standards.measure(inputs, setting, &question.patience, go_on)?;
+        let measured = standards.measure(inputs, setting, &mut rounds)?;
         trade.settings.push(measured);
         trade.judge();
+        trade.part = rounds.part(trade.planned);
+        told(&trade);
+    }
+    while rounds.go_on() {
+        for (measured, time) in trade.settings.iter_mut().zip(rounds.round()?) {
+            if let (Ok(figures), Some(time)) = (&mut measured.found, time) {
+                figures.time = time;
+            }
+        }
+        trade.judge();
+        trade.part = rounds.part(trade.planned);
         told(&trade);
     }
     let refusals = trade.settings.iter().map(|measured| measured.found.as_ref().err());
@@ -167,22 +183,14 @@ impl Standards {
             models.push(Model { rung, off, outcome: found.as_ref().map(|found| found.outcome) });
             best.extend(found.map(|found| (rung, found)));
         }
-        let trade = Trade { within: question.within, planned, settings: Vec::new(), reference, models, recommended: None };
+        let trade =
+            Trade { within: question.within, planned, settings: Vec::new(), part: 0.0, reference, models, recommended: None };
         Ok((trade, Standards { truth, best }))
     }
 
-    /// Time and errors of a setting.
-    fn measure(
-        &self,
-        inputs: &Inputs,
-        setting: Setting,
-        patience: &Patience,
-        go_on: &dyn Fn() -> bool,
-    ) -> Result<Measured, Refusal> {
-        let found = match stopped(answer_of(inputs, setting, go_on))? {
-            Ok(answer) => Ok(self.figures(&answer, clocked(&setting.inputs(inputs), patience, go_on)?)),
-            Err(refusal) => Err(refusal),
-        };
+    /// Errors of a setting, and a first look at its time.
+    fn measure(&self, inputs: &Inputs, setting: Setting, rounds: &mut Rounds<'_>) -> Result<Measured, Refusal> {
+        let found = rounds.first(setting)?.map(|(answer, time)| self.figures(&answer, time));
         let is_current = setting == Setting::of(inputs);
         Ok(Measured { setting, is_current, found, is_on_front: false, qualifies: false })
     }
@@ -216,11 +224,20 @@ impl Trade {
             measured.qualifies = measured.is_within(self.within);
             measured.is_on_front = point.is_some_and(|point| !points.iter().flatten().any(|other| dominates(other, &point)));
         }
-        // What `auto` takes is one of the others, and no setting of its own.
-        let is_candidate = |measured: &Measured| measured.qualifies && measured.setting.rung != Rung::Auto;
-        let qualified = (0..points.len()).filter(|&at| is_candidate(&self.settings[at]));
-        self.recommended =
-            qualified.min_by(|&one, &other| self.settings[one].seconds().total_cmp(&self.settings[other].seconds()));
+        self.recommended = self.cheapest();
+    }
+
+    /// The cheapest setting that qualifies of the rungs among which `auto` chooses: what that takes is one of the others, and
+    /// `paper` is the print, which says no more than `exact` even where nothing strikes. Of those whose times cannot be told
+    /// apart from it, the most accurate.
+    fn cheapest(&self) -> Option<usize> {
+        let is_candidate = |measured: &&Measured| measured.qualifies && auto::RUNGS.contains(&measured.setting.rung);
+        let candidates = || self.settings.iter().filter(is_candidate);
+        let quickest = candidates().min_by(|one, other| one.seconds().total_cmp(&other.seconds()))?;
+        let tied = candidates().filter(|measured| measured.ties(quickest));
+        let error = |measured: &Measured| measured.total().unwrap_or(f64::INFINITY);
+        let best = tied.min_by(|one, other| error(one).total_cmp(&error(other)))?;
+        self.settings.iter().position(|measured| std::ptr::eq(measured, best))
     }
 }
 
@@ -237,6 +254,12 @@ impl Measured {
         let figures = self.found.as_ref().ok()?;
         let answers = Subject::NEEDED.iter().all(|&subject| figures.total[subject as usize].is_some());
         greatest(&figures.total).filter(|_| answers)
+    }
+
+    /// Whether it cannot be told which of the two is the quicker.
+    fn ties(&self, other: &Measured) -> bool {
+        let time = |measured: &Measured| measured.found.as_ref().ok().map(|figures| figures.time);
+        time(self).zip(time(other)).is_some_and(|(one, other)| one.ties(&other))
     }
 
     /// Error and time.
@@ -283,12 +306,6 @@ fn differences(answer: &Answer, truth: &Answer) -> Differences {
 
 fn answer_of(inputs: &Inputs, setting: Setting, go_on: &dyn Fn() -> bool) -> Result<Answer, Refusal> {
     answer::solve(&setting.inputs(inputs), go_on).map(|solution| Answer::of(&solution))
-}
-
-/// What a solve takes.
-fn clocked(inputs: &Inputs, patience: &Patience, go_on: &dyn Fn() -> bool) -> Result<Time, Refusal> {
-    let once = || go_on() && black_box(answer::solve(black_box(inputs), go_on)).is_ok();
-    clock::time(patience, once).ok_or(Refusal::Stopped)
 }
 
 /// A refusal is a finding; to be stopped is not.

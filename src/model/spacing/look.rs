@@ -114,7 +114,9 @@ impl<T, F: FnMut(f64) -> (f64, T)> Looking<T, F> {
 
     /// Look at both halves of a part of which too little is known.
     fn closer(&mut self, part: Part, halvings: u32) {
-        if halvings == 0 || !(part.unknown() > BETWEEN * self.allowed) {
+        // What is no number is not looked at more closely.
+        let is_bent = part.unknown() > BETWEEN * self.allowed;
+        if halvings == 0 || !is_bent {
             return;
         }
         let Part { from, to, heights: [first, before, middle, after, last] } = part;

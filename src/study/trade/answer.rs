@@ -105,7 +105,8 @@ pub fn stages(rung: Rung) -> Stages {
         Rung::Paper | Rung::Exact => Stages::CLOSED_FORM.with(Stage::Stations),
         Rung::Static => Stages::of(Stage::Static),
         Rung::Dynamic => Stages::of(Stage::Dynamic),
-        Rung::Auto => Stages::CLOSED_FORM.and(Stages::STATIONS),
+        // Where `static` is taken, it stands for `dynamic`.
+        Rung::Auto => Stages::CLOSED_FORM.with(Stage::Stations).and(Stages::of(Stage::Dynamic)),
     }
 }
 

@@ -1,21 +1,21 @@
-//! How long a solve takes, here and now.
+//! How long solves take, here and now: all of them in rounds, so that what disturbs the machine hits all alike.
 
 use std::time::{Duration, Instant};
 
-/// How long a solve is measured.
+/// How long solves are measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Patience {
-    /// At least this long, where the runs do not suffice before.
-    pub least: Duration,
-    /// No further run is begun that would go beyond this.
+    /// A round runs each solve again and again for so long, and once at least.
+    pub batch: Duration,
+    /// No further round is begun after this.
     pub most: Duration,
 }
 
 impl Patience {
     /// Enough for a figure that stands.
-    pub const STEADY: Patience = Patience { least: Duration::from_millis(20), most: Duration::from_secs(2) };
+    pub const STEADY: Patience = Patience { batch: Duration::from_micros(300), most: Duration::from_millis(2500) };
     /// A single run: for those who want the errors alone.
-    pub const ONCE: Patience = Patience { least: Duration::ZERO, most: Duration::ZERO };
+    pub const ONCE: Patience = Patience { batch: Duration::ZERO, most: Duration::ZERO };
 }
 
 /// What a solve takes.
@@ -25,64 +25,137 @@ pub struct Time {
     pub seconds: f64,
     /// Half of what the middle half of the batches lies apart, in s.
     pub spread: f64,
+    /// From where to where the median lies in 95 of 100 measurements, relative to it; of too few batches, all of them.
+    pub between: (f64, f64),
     /// Solves that were run.
     pub runs: u64,
 }
 
-/// Batches of a measurement.
-const LEAST_BATCHES: u64 = 5;
-const MOST_BATCHES: u64 = 11;
-
-/// Run `once`, which says whether to go on, until the time it takes is known; nothing where it said no.
-pub(super) fn time(patience: &Patience, mut once: impl FnMut() -> bool) -> Option<Time> {
-    let mut batch = |solves: u64| {
-        let begin = Instant::now();
-        let done = (0..solves).all(|_| once());
-        done.then(|| begin.elapsed().as_secs_f64() / solves as f64)
-    };
-    let first = batch(1)?;
-    let (solves, batches) = plan(patience, first);
-    let mut times = vec![first; usize::from(batches == 0)];
-    for _ in 0..batches {
-        times.push(batch(solves)?);
-    }
-    times.sort_by(f64::total_cmp);
-    let quarter = |part: usize| times[(times.len() - 1) * part / 4];
-    Some(Time { seconds: quarter(2), spread: 0.5 * (quarter(3) - quarter(1)), runs: 1 + solves * batches })
+/// The batches of a solve.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Batches {
+    /// Seconds of a solve, in each of them.
+    seconds: Vec<f64>,
+    runs: u64,
 }
 
-/// How many solves a batch, and how many batches, for a solve that takes about so many seconds.
-fn plan(patience: &Patience, seconds: f64) -> (u64, u64) {
-    let fit = |duration: Duration| (duration.as_secs_f64() / seconds.max(1e-9)).ceil() as u64;
-    let wanted = fit(patience.least).max(LEAST_BATCHES).min(fit(patience.most));
-    let batches = wanted.clamp(wanted.min(LEAST_BATCHES), MOST_BATCHES);
-    (wanted.div_ceil(batches.max(1)), batches)
+impl Batches {
+    /// Run `once`, which says whether to go on, for so long, at least a time; whether it did.
+    pub(super) fn add(&mut self, batch: Duration, mut once: impl FnMut() -> bool) -> bool {
+        let solves = self.seconds.last().map_or(1, |&last| (batch.as_secs_f64() / last.max(1e-9)).ceil().clamp(1.0, 1e6) as u64);
+        let begin = Instant::now();
+        let done = (0..solves).all(|_| once());
+        if done {
+            // The first run of all fills the caches: it counts no more once there are others.
+            if self.runs == 1 {
+                self.seconds.clear();
+            }
+            self.seconds.push(begin.elapsed().as_secs_f64() / solves as f64);
+            self.runs += solves;
+        }
+        done
+    }
+
+    /// Whether more of them would hardly move the median.
+    pub(super) fn are_steady(&self) -> bool {
+        /// Of the median, on both sides together.
+        const FEW_PERCENT: f64 = 0.03;
+        /// Of fewer the interval has no ends.
+        const LEAST: usize = 6;
+        let is_narrow = |time: Time| time.between.1 - time.between.0 <= FEW_PERCENT;
+        self.seconds.len() >= LEAST && self.time().is_some_and(is_narrow)
+    }
+
+    /// What they tell; nothing where there is none.
+    pub(super) fn time(&self) -> Option<Time> {
+        let mut times = self.seconds.clone();
+        times.sort_by(f64::total_cmp);
+        let last = times.len().checked_sub(1)?;
+        let quarter = |part: usize| times[last * part / 4];
+        let seconds = quarter(2);
+        let aside = outside(times.len());
+        let between = (times[aside] / seconds, times[last - aside] / seconds);
+        Some(Time { seconds, spread: 0.5 * (quarter(3) - quarter(1)), between, runs: self.runs })
+    }
+}
+
+impl Time {
+    /// Whether the batches cannot tell which of two solves is the quicker.
+    #[must_use]
+    pub fn ties(&self, other: &Time) -> bool {
+        let ends = |time: &Time| (time.seconds * time.between.0, time.seconds * time.between.1);
+        let ((from, to), (other_from, other_to)) = (ends(self), ends(other));
+        from <= other_to && other_from <= to
+    }
+}
+
+/// How many batches on either side of the median's 95 % interval, by order statistics: fewer than that many lie below the
+/// median with a chance of 2.5 %, as in as many throws of a coin.
+fn outside(batches: usize) -> usize {
+    const CHANCE: f64 = 0.025;
+    let mut chance = 0.5f64.powi(i32::try_from(batches).unwrap_or(i32::MAX));
+    let (mut aside, mut below) = (0, chance);
+    while below <= CHANCE && 2 * aside + 2 < batches {
+        aside += 1;
+        chance *= (batches + 1 - aside) as f64 / aside as f64;
+        below += chance;
+    }
+    aside.saturating_sub(1)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn quick_solves_are_batched_and_slow_ones_are_not_run_for_ever() {
-        assert_eq!(plan(&Patience::STEADY, 1e-6), (1819, 11));
-        assert_eq!(plan(&Patience::STEADY, 1e-3), (2, 11));
-        assert_eq!(plan(&Patience::STEADY, 0.1), (1, 5));
-        assert_eq!(plan(&Patience::STEADY, 0.9), (1, 3));
-        assert_eq!(plan(&Patience::STEADY, 60.0), (1, 1));
-        assert_eq!(plan(&Patience::ONCE, 1e-6).1, 0);
+    fn batches(seconds: &[f64]) -> Batches {
+        Batches { seconds: seconds.to_vec(), runs: 100 }
+    }
+
+    fn of(seconds: &[f64]) -> Time {
+        batches(seconds).time().unwrap()
     }
 
     #[test]
-    fn every_run_is_counted_and_one_that_stops_ends_it() {
-        let mut runs = 0;
-        let time = super::time(&Patience::STEADY, || {
-            runs += 1;
-            true
-        });
-        let time = time.unwrap();
+    fn ranks_of_the_interval_are_those_of_the_tables() {
+        // Binomial, one half: the 95 % interval of the median of 6, 9, 12, 20, 40 values.
+        assert_eq!([1, 5, 6, 8, 9, 12, 20, 40].map(outside), [0, 0, 0, 0, 1, 2, 5, 13]);
+    }
+
+    #[test]
+    fn quick_solves_are_batched_and_every_run_is_counted() {
+        let (mut batches, mut runs) = (Batches::default(), 0u64);
+        for _ in 0..7 {
+            assert!(batches.add(Duration::from_micros(50), || {
+                runs += 1;
+                true
+            }));
+        }
+        let time = batches.time().unwrap();
         assert_eq!(time.runs, runs);
-        assert!(time.seconds > 0.0 && time.spread >= 0.0 && time.runs >= LEAST_BATCHES);
-        assert_eq!(super::time(&Patience::STEADY, || false), None);
+        assert!(runs > 7 && batches.seconds.len() == 6, "{runs} runs");
+        assert!(time.seconds > 0.0 && time.spread >= 0.0);
+    }
+
+    #[test]
+    fn a_run_that_stops_ends_it() {
+        let mut batches = Batches::default();
+        assert!(!batches.add(Duration::ZERO, || false));
+        assert_eq!(batches.time(), None);
+    }
+
+    #[test]
+    fn a_median_is_steady_where_most_batches_agree_whatever_the_others_say() {
+        let disturbed = batches(&[1.0, 1.001, 1.002, 1.0, 1.003, 1.001, 1.002, 1.0, 9.0, 1.001, 5.0, 1.002]);
+        assert!(disturbed.are_steady() && disturbed.time().unwrap().seconds < 1.01, "{disturbed:?}");
+        assert!(!batches(&[1.0, 1.3, 1.1, 1.6, 1.2, 1.5, 1.4, 1.0]).are_steady());
+        assert!(!batches(&[1.0; 5]).are_steady() && batches(&[1.0; 6]).are_steady());
+    }
+
+    #[test]
+    fn what_cannot_be_told_apart_ties() {
+        let (quick, slow) = (of(&[1.0, 1.1, 1.2, 1.1, 1.0, 1.2]), of(&[1.3, 1.4, 1.5, 1.4, 1.3, 1.5]));
+        let between = of(&[1.15, 1.25, 1.35, 1.25, 1.2, 1.3]);
+        assert!(!quick.ties(&slow) && !slow.ties(&quick));
+        assert!(between.ties(&quick) && slow.ties(&between));
     }
 }

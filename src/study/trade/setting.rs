@@ -49,7 +49,9 @@ impl Setting {
             .map(move |exponent| Setting { tolerance: Some(power_of_ten(-exponent)), ..inertia })
             .filter(move |setting| *setting != inertia);
         let choice = Setting { stations: None, ..Setting::usual(Rung::Auto) };
-        closed_form.chain(shared).chain(tolerances).chain(inertia.with_stations()).chain([choice]).collect()
+        let coarse = Setting { tolerance: Some(power_of_ten(-TOLERANCE_EXPONENTS.start())), ..inertia };
+        let corner = coarse.with_stations().filter(move |setting| *setting != coarse);
+        closed_form.chain(shared).chain(tolerances).chain(inertia.with_stations()).chain(corner).chain([choice]).collect()
     }
 
     /// The setting of a case that names the rung alone.
@@ -142,7 +144,7 @@ mod tests {
     #[test]
     fn every_setting_stands_once_and_becomes_the_case() {
         let settings = Setting::all();
-        assert_eq!(settings.len(), 2 * 2 * 9 + 9 + 7 + 9 + 1);
+        assert_eq!(settings.len(), 2 * 2 * 9 + 9 + 7 + 9 + 8 + 1);
         for (at, setting) in settings.iter().enumerate() {
             assert!(!settings[..at].contains(setting), "{setting} twice");
             let mut case = Case::table_1();

@@ -40,9 +40,8 @@ pub(super) fn measured(app: &mut App, measured: Measured) {
     let is_shown = app.tab.traded.as_ref().is_some_and(|traded| traded.serial == serial);
     let is_latest = app.measuring == Some(serial);
     if let Some(trade) = trade {
-        let part = trade.settings.len() as f64 / trade.planned.max(1) as f64;
         if is_latest {
-            app.progress = Some(Progress { what: MEASURING.to_owned(), part });
+            app.progress = Some(Progress { what: MEASURING.to_owned(), part: trade.part });
         }
         if let Some(traded) = app.traded_of(serial) {
             traded.trade = Some(*trade);
