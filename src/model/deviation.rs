@@ -81,7 +81,8 @@ fn combined_deflection(inputs: &Inputs, geometry: &Geometry, mesh_force: f64) ->
     let mut stiffness = 0.0;
     let mut along = geometry.start + geometry.base_pitch;
     if along > geometry.end || along >= geometry.tangent_length {
-        return Err(Refusal::ContactRatioBelowOne { ratio: geometry.contact_ratio });
+        let is_taken = !inputs.rung.shares_load();
+        return Err(Refusal::ContactRatioBelowOne { ratio: geometry.contact_ratio, is_deflection_taken: is_taken });
     }
     while along <= geometry.end && along < geometry.tangent_length {
         let place = ContactPlace::on_line_of_action(geometry, along);

@@ -59,6 +59,8 @@ pub enum Refusal {
     ContactRatioBelowOne {
         /// ε.
         ratio: f64,
+        /// Whether the rung takes a deflection that is given, in place of computing it.
+        is_deflection_taken: bool,
     },
     /// The bore leaves no gear body.
     #[error("the bore radius is {:.4} mm and must be below the root and base circles, {:.4} mm", .bore / MILLIMETRE, .limit / MILLIMETRE)]
@@ -209,10 +211,14 @@ impl Refusal {
                 ("centre-distance-jams", "pair.centre_distance", "give a greater centre distance, or leave it out")
             }
             Refusal::ShiftsLeaveNoMesh { .. } => ("no-mesh", "driver.profile_shift", "give a greater sum of profile shifts"),
-            Refusal::ContactRatioBelowOne { .. } => (
+            Refusal::ContactRatioBelowOne { is_deflection_taken, .. } => (
                 "contact-ratio-below-1",
                 "driven.addendum",
-                "lengthen the addenda or bring the gears closer, or give model.deflection",
+                if *is_deflection_taken {
+                    "lengthen the addenda or bring the gears closer, or give model.deflection"
+                } else {
+                    "lengthen the addenda or bring the gears closer; a deflection that is given counts in paper and exact alone"
+                },
             ),
             Refusal::BoreTooLarge { field, .. } => ("bore-too-large", *field, "give a smaller bore radius"),
             Refusal::NoFirstContact { .. } => {

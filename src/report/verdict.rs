@@ -228,7 +228,7 @@ mod tests {
     #[test]
     fn a_refused_case_gives_the_reason_for_every_limit() {
         let case = Case::table_1();
-        let verdicts = refused(&case, &Refusal::ContactRatioBelowOne { ratio: 0.9 });
+        let verdicts = refused(&case, &Refusal::ContactRatioBelowOne { ratio: 0.9, is_deflection_taken: true });
         assert!(!verdicts[0].standing.holds());
         assert!(verdicts[0].to_string().starts_with("impact_force cannot be computed: the contact ratio is 0.9000"));
     }

@@ -39,6 +39,9 @@ impl<'a> Rounds<'a> {
 
     /// One more setting: its answer and the time of that one solve, or why it has none.
     pub(super) fn first(&mut self, setting: Setting) -> Result<Result<(Answer, Time), Refusal>, Refusal> {
+        if !(self.is_wanted)() {
+            return Err(Refusal::Stopped);
+        }
         let inputs = setting.inputs(self.inputs);
         let (mut batches, mut found) = (Batches::default(), None);
         batches.add(Duration::ZERO, || found.insert(answer::solve(&inputs, self.is_wanted)).is_ok());
