@@ -1,5 +1,5 @@
 //! Speed against accuracy over the cases in `cases/`: `cargo bench --bench trade` prints the table and draws the picture;
-//! with `TIPSTRIKE_REGENERATE=1` both are kept, `tests/trade/table.md` and `assets/trade.svg`.
+//! with `TIPSTRIKE_REGENERATE=1` both are kept, `tests/trade/table.md` and `assets/trade.svg`, and the README's lines.
 #![allow(clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "a bench says what it found")]
 
 #[path = "../tests/trade/table.rs"]
@@ -23,7 +23,7 @@ fn main() {
         made.keep();
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/trade.svg");
         std::fs::write(path, picture(&made)).expect("the picture is written");
-        println!("for README.md:\n{}", Table::of_readme().join("\n"));
+        table::tell_readme();
     }
 }
 

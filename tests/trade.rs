@@ -1,6 +1,6 @@
 //! Speed against accuracy: what the trade promises, and the stored errors of the cases in `cases/`.
 //!
-//! `TIPSTRIKE_REGENERATE=1 cargo bench --bench trade` makes the stored table and the picture of the README anew.
+//! `TIPSTRIKE_REGENERATE=1 cargo bench --bench trade` makes the stored table, the README's lines and its picture anew.
 #![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
 
 #[path = "trade/table.rs"]

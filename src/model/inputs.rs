@@ -214,7 +214,8 @@ pub struct Inputs {
     pub damping_ratio: f64,
     /// Base pitches that pass before the incoming tooth reaches E.
     pub warmup_cycles: u32,
-    /// Relative error that the peak force of the rung `dynamic` may have.
+    /// Relative error that the peak force of the rung `dynamic` may have. A promise where the motion is damped: without damping
+    /// and with contact lost it is chaotic, and a small error grows with every base pitch.
     pub tolerance: f64,
     /// Relative error against the rung `dynamic` that the rung `auto` may leave.
     pub within: f64,

@@ -20,7 +20,7 @@ use super::view::teeth::TeethView;
 use super::view::{self, form, results};
 use crate::case::fields::Absent;
 use crate::case::{Case, Document, FIELDS, Problem, fields};
-use crate::model::Stages;
+use crate::model::{Stage, Stages};
 
 /// Everything that the screen shows. What is read of the current case is read as if it stood here.
 #[derive(Debug, Clone)]
@@ -194,8 +194,9 @@ impl App {
         }
         let plan = view::plan(self.size, self.panes);
         let seen = Pane::ALL.into_iter().filter(|&pane| !plan.area(pane).is_empty());
-        // The outcome and its notes are what the case is opened for, even where only the chart is in sight.
-        seen.fold(Pane::Results.needs(), |stages, pane| stages.and(pane.needs()))
+        // The verdict, with the outcome and its notes, stands there even where only the chart is in sight: all but the band.
+        let verdict = Pane::Results.needs().without(Stage::Band);
+        seen.fold(verdict, |stages, pane| stages.and(pane.needs()))
     }
 
     /// Say something until the next key.

@@ -123,9 +123,21 @@ impl Table {
     }
 }
 
+/// Write the lines of the README between its marks.
+pub(crate) fn tell_readme() {
+    const MARKS: [&str; 2] = ["<!-- speed against accuracy -->\n", "<!-- /speed against accuracy -->"];
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    let text = std::fs::read_to_string(&path).expect("the README");
+    let (before, rest) = text.split_once(MARKS[0]).expect("the first mark");
+    let (_, after) = rest.split_once(MARKS[1]).expect("the second mark");
+    let lines = Table::of_readme().join("\n");
+    std::fs::write(&path, format!("{before}{}{lines}\n{}{after}", MARKS[0], MARKS[1])).expect("the README is written");
+}
+
 /// Whether it stands in the README.
 fn is_told(setting: &Setting) -> bool {
     let few = setting.stations.is_none_or(|stations| [8, 64, 1024].contains(&stations));
+    // At the coarsest tolerance and at the usual one; each other tolerance once.
     few && !setting.accurate
 }
 

@@ -274,7 +274,7 @@ const TAIL: [Field; 18] = [
         "",
         Default("1e-6"),
         |inputs, value| inputs.tolerance = value,
-        "Relative error that the peak force may have; dynamic alone."
+        "Relative error that the peak force may have, where the motion is damped; dynamic alone."
     ),
     number!(
         "model.within",
