@@ -103,6 +103,42 @@ fn the_error_falls_with_the_tolerance_and_the_effort_grows_slowly() {
     }
 }
 
+/// When the first impact ends is a matter of the force, not of the steps by which it is followed: neither their length nor
+/// the rounding at their borders moves it.
+#[test]
+fn the_first_impact_ends_when_it_does_whatever_the_tolerance() {
+    let text = r#"
+        format = 1
+        pair = { module = "1.5 mm", pressure_angle = "20 deg" }
+        driver = { teeth = 47, face_width = "13.867 mm", bore_radius = "6 mm", young = "206 GPa", density = "7850 kg/m3", tip_relief = "5.77 um" }
+        driven = { teeth = 83, profile_shift = -0.2, face_width = "13.867 mm", bore_radius = "6 mm", young = "206 GPa", density = "7850 kg/m3", tip_relief = "5.77 um" }
+        deviations = { base_pitch = "19.48 um" }
+        operation = { torque = "62.5624 N m", speed = "5000 rpm" }
+    "#;
+    let fine = Document::parse("fine", text).expect("a case").case.inputs().expect("valid");
+    let mut seen = 0;
+    for inputs in [fine, case("zhou-chen-2014"), case("nasa-lewis-28-28"), case("turbo-fine-fast")] {
+        let drive = Drive::Torque(inputs.torque());
+        for faster in [0.4, 0.5, 0.65, 0.8, 1.0, 1.0149, 1.25, 1.6066, 2.0] {
+            let at = |tolerance: f64| {
+                let speed = inputs.speed * faster;
+                dynamic(&Inputs { speed, drive, tolerance, deflection: None, ..inputs.clone() }).1.impact_duration
+            };
+            let Some(reference) = at(1e-11) else { continue };
+            for tolerance in [1e-4, 1e-6, 1e-8] {
+                let found = at(tolerance).expect("it strikes at every tolerance");
+                let off = (found / reference - 1.0).abs();
+                assert!(
+                    off < 10.0 * tolerance.sqrt(),
+                    "{faster} times as fast at {tolerance:e}: {found:e} s and not {reference:e} s"
+                );
+            }
+            seen += 1;
+        }
+    }
+    assert!(seen > 25, "{seen}");
+}
+
 #[test]
 fn a_warm_up_that_repeats_itself_is_not_run_on_and_changes_nothing() {
     let run = |damping_ratio: f64, warmup_cycles: u32| {

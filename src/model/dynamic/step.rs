@@ -19,8 +19,8 @@ pub(super) type Along = Polynomial<{ chebyshev::TERMS }>;
 /// What acts while the same pairs stay in contact.
 #[derive(Clone, Copy)]
 pub(super) struct Course<'a> {
-    motion: &'a Motion<'a>,
-    window: &'a Window,
+    pub(super) motion: &'a Motion<'a>,
+    pub(super) window: &'a Window,
     touching: Touching,
 }
 
@@ -125,7 +125,7 @@ impl<'a> Course<'a> {
     }
 
     /// The stiffness by which a pair turns the driver.
-    fn carrying(&self, pair: &Standing, spring: &Along, s: f64, way: f64) -> Polynomial<TERMS> {
+    pub(super) fn carrying(&self, pair: &Standing, spring: &Along, s: f64, way: f64) -> Polynomial<TERMS> {
         let friction = self.motion.mesh.friction();
         let whole = Polynomial::ZERO.plus(1.0, spring);
         if friction == 0.0 {

@@ -73,19 +73,23 @@ fn a_pair_of_constant_stiffness_swings_as_the_linear_oscillator() {
     }
 }
 
-/// Work of the mean force and of the moving mesh goes into motion, springs and damper.
+/// Work of the mean force and of the moving mesh goes into motion, springs, damper and friction.
 #[test]
 fn energies_balance_to_the_tolerance() {
-    for (damping_ratio, torque) in [(0.07, 100.0), (0.0, 100.0), (0.02, 3.0), (0.3, 400.0)] {
+    for (damping_ratio, torque, friction) in
+        [(0.07, 100.0, 0.0), (0.0, 100.0, 0.0), (0.02, 3.0, 0.0), (0.3, 400.0, 0.0), (0.07, 100.0, 0.08), (0.0, 30.0, 0.2)]
+    {
         let (mesh, settings) = struck(|inputs| {
             inputs.damping_ratio = damping_ratio;
+            inputs.friction_coefficient = Some(friction);
             inputs.drive = crate::model::inputs::Drive::Torque(torque);
             inputs.driven.tip_relief = 5e-6;
         });
         let motion = Motion::new(&mesh, &settings);
         let run = ran(&motion, &settings);
         let (unexplained, turned_over) = run.watch.energies(&motion, &mesh);
-        assert!(unexplained < 1e-9 * turned_over, "damping {damping_ratio}: {unexplained:e} of {turned_over:e} J");
+        let told = format!("damping {damping_ratio}, friction {friction}: {unexplained:e} of {turned_over:e} J");
+        assert!(unexplained < 1e-9 * turned_over, "{told}");
     }
 }
 
@@ -119,13 +123,22 @@ impl Course<'_> {
         0.5 * motion.mass * y[1] * y[1] + springs.map(spring).sum::<f64>()
     }
 
-    /// Power that the mean force and the moving mesh put in, less what the damper takes, in W.
+    /// Power that the mean force, the moving mesh and friction put in, less what the damper takes, in W.
     fn power(&self, motion: &Motion<'_>, mesh: &Mesh, step: &Step, part: f64) -> f64 {
         let rate = step.state(part)[1];
         let touching = (0..self.pairs()).filter(|&pair| self.touches(pair));
         let moved = touching.clone().map(|pair| self.mesh_power(pair, step, part)).sum::<f64>();
-        let damped = if touching.count() > 0 { motion.damping * rate * rate } else { 0.0 };
-        mesh.force * rate - damped + moved
+        let damped = if touching.clone().count() > 0 { motion.damping * rate * rate } else { 0.0 };
+        let rubbed = touching.clone().map(|pair| self.friction(pair, step, part)).sum::<f64>() * rate;
+        mesh.force * rate - damped + moved + rubbed
+    }
+
+    /// What friction at a pair adds to the force that drives, in N.
+    fn friction(&self, pair: usize, step: &Step, part: f64) -> f64 {
+        let (s, way) = (self.motion.place(step.t), self.motion.mesh.speed * step.length);
+        let [spring, gap] = self.spring_along(pair, step);
+        let turning = self.carrying(&self.window.pairs[pair], &spring, s, way);
+        (spring.at(part) - turning.at(part)) * (step.ahead.at(part) - gap.at(part))
     }
 
     /// Power that the moving mesh puts in at a pair: its gap closes on a spring that is pressed, and its stiffness changes, in W.
