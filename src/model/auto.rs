@@ -3,12 +3,12 @@
 use std::f64::consts::PI;
 use std::fmt;
 
-use super::dynamic::{Dynamic, Settings, dynamic};
+use super::dynamic::Dynamic;
 use super::inputs::{Inputs, Rung};
 use super::mesh::Mesh;
 use super::spacing::Spacing;
 use super::stage::{Stage, Stages};
-use super::static_load::{StaticLoad, balance};
+use super::static_load::{StaticLoad, balance, static_load};
 use super::stations::MeshStation;
 use super::{Outcome, Refusal, Solution};
 use crate::numeric::decimal::significant;
@@ -71,7 +71,7 @@ pub enum Reason {
 /// ```
 /// A load that is taken over within a time t leaves a mesh of the period T_n swinging by at most T_n/(π t) of it: the
 /// response of an oscillator to a ramp. What of it `static` leaves out depends on much else, and was measured over 300 pairs,
-/// see `Reason::part_felt`; between least and most a trial decides. Without contact `exact` stays where the gap left is
+/// see `Reason::part_felt`; between least and most the motion itself is the trial. Without contact `exact` stays where the gap left is
 /// greater than that part of the deflection, t being the time in which two pairs share the load.
 #[must_use]
 pub fn choose(inputs: &Inputs, closed_form: &Result<Solution, Refusal>) -> Choice {
@@ -140,8 +140,8 @@ impl Choice {
     /// What it is after a trial that found inertia to add so much.
     #[must_use]
     pub fn tried(self, inputs: &Inputs, adds: f64) -> Choice {
-        /// A trial is coarse.
-        const SURE: f64 = 0.8;
+        /// The difference is looked at in places, and may be a little more between them.
+        const SURE: f64 = 0.9;
         let rung = if adds <= SURE * inputs.within { Rung::Static } else { Rung::Dynamic };
         Choice { rung, inertia: Some(Inertia::Tried(adds)), ..self }
     }
@@ -190,37 +190,13 @@ pub fn taken(inputs: &Inputs, rung: Rung) -> Inputs {
     }
 }
 
-/// What inertia adds to the shared load, by a coarse run: the greatest difference of first contact, peaks and force from the
-/// first contact to E, relative to the run's.
-///
-/// # Errors
-/// Those of [`dynamic`].
-pub(super) fn trial(
-    inputs: &Inputs,
-    (mesh, still): (&Mesh, &StaticLoad),
-    mass: f64,
-    go_on: &dyn Fn(f64) -> bool,
-) -> Result<f64, Refusal> {
-    const TOLERANCE: f64 = 1e-2;
-    /// From the first contact to E, in all and of a swing.
-    const STATIONS: (f64, f64) = (16.0, 8.0);
-    const MOST_STATIONS: f64 = 256.0;
-    /// Swings in which a start at rest is forgotten.
-    const SWINGS: f64 = 8.0;
-    const MOST_CYCLES: f64 = 8.0;
-    let period = 2.0 * PI * (mass / mesh.mean_stiffness).sqrt();
-    let approach = still.first_contact_angle.unwrap_or(0.0) * mesh.base_radii.1 / mesh.speed;
-    let stations = (STATIONS.1 * approach / period).clamp(STATIONS.0, MOST_STATIONS) as usize;
-    let cycles = (SWINGS * period * mesh.speed / mesh.base_pitch).ceil().clamp(1.0, MOST_CYCLES) as u32;
-    let settings = Settings {
-        mass,
-        damping_ratio: inputs.damping_ratio,
-        warmup_cycles: inputs.warmup_cycles.min(cycles),
-        tolerance: TOLERANCE,
-        spacing: Spacing::Even(stations),
-    };
-    let moved = dynamic(mesh, &settings, go_on)?;
-    Ok(difference(mesh, still, &moved))
+/// What inertia adds to the shared load, by the motion: the greatest difference of first contact, peaks and force from the
+/// first contact to E, relative to the motion's. Nothing where one of the two is not there.
+pub(super) fn added_by_inertia(moved: &Solution) -> Option<f64> {
+    let (mesh, motion) = (moved.mesh.as_deref()?, moved.dynamic.as_ref()?);
+    // Its numbers need no stations.
+    let still = static_load(mesh, Spacing::Even(1)).ok()?;
+    Some(difference(mesh, &still, motion))
 }
 
 fn difference(mesh: &Mesh, still: &StaticLoad, moved: &Dynamic) -> f64 {

@@ -60,26 +60,23 @@ pub fn solve_after(
     solving.run(go_on)
 }
 
-/// Solve with the rung that the closed form calls for, or a trial where it cannot tell. Where `static` is taken, it stands
+/// Solve with the rung that the closed form calls for, or with the motion as a trial where it cannot tell. Where `static` is taken, it stands
 /// for `dynamic` where that is wanted. One that is too slow to be followed in time is at rest.
 fn solve_by_choice(inputs: &Inputs, wanted: Stages, go_on: &dyn Fn(f64) -> bool) -> Result<Solution, Refusal> {
     let read = wanted.within(Stages::CLOSED_FORM).and(auto::READS);
     let closed_form = solve(&auto::taken(inputs, Rung::Exact), read);
     let choice = auto::choose(inputs, &closed_form);
-    let at_rest = || {
-        let wanted = if wanted.has(Stage::Dynamic) { wanted.and(Stages::of(Stage::Static)) } else { wanted };
-        solve_while(&auto::taken(inputs, Rung::Static), wanted, go_on)
-    };
+    let still = || solve_while(&auto::taken(inputs, Rung::Static), at_rest(wanted), go_on);
     let (solved, choice) = match (choice.rung, &closed_form) {
         (Rung::Exact, Ok(known)) => {
             let earlier = Earlier { solution: known, stale: Stages::NONE };
             let found = solve_after(&auto::taken(inputs, Rung::Exact), wanted, Some(earlier), go_on)?;
             (Ok(Solution { ran: found.ran.and(known.ran), ..found }), choice)
         }
-        (Rung::Static, _) => (at_rest(), choice),
-        _ if choice.is_open() && wanted.has(Stage::Dynamic) => decided(inputs, choice, at_rest()?, wanted, go_on)?,
+        (Rung::Static, _) => (still(), choice),
         _ => match solve_while(&auto::taken(inputs, Rung::Dynamic), wanted, go_on) {
-            Err(Refusal::TooSlow { .. }) => (at_rest(), choice),
+            Err(Refusal::TooSlow { .. }) => (still(), choice),
+            Ok(moved) if choice.is_open() => decided(inputs, choice, moved, wanted, go_on),
             found => (found, choice),
         },
     };
@@ -87,29 +84,27 @@ fn solve_by_choice(inputs: &Inputs, wanted: Stages, go_on: &dyn Fn(f64) -> bool)
     Ok(Solution { choice: Some(Choice { rung: solution.rung, ..choice }), ..solution })
 }
 
-/// After a trial on the mesh of the load at rest: that, or the motion on the same mesh.
+/// The motion, or the load at rest on the same mesh where inertia turns out to add little.
 fn decided(
     inputs: &Inputs,
     choice: Choice,
-    at_rest: Solution,
+    moved: Solution,
     wanted: Stages,
     go_on: &dyn Fn(f64) -> bool,
-) -> Result<(Result<Solution, Refusal>, Choice), Refusal> {
-    let shared = at_rest.mesh.as_deref().zip(at_rest.static_load.as_ref());
-    let tried = shared.map_or(Err(Refusal::BeyondReach), |shared| auto::trial(inputs, shared, at_rest.reduced_mass, go_on));
-    let choice = match tried {
-        Ok(adds) => choice.tried(inputs, adds),
-        Err(Refusal::Stopped) => return Err(Refusal::Stopped),
-        Err(Refusal::TooSlow { .. }) => Choice { rung: Rung::Static, ..choice },
-        Err(_) => choice,
-    };
-    if choice.rung == Rung::Static {
-        return Ok((Ok(at_rest), choice));
+) -> (Result<Solution, Refusal>, Choice) {
+    let choice = auto::added_by_inertia(&moved).map_or(choice, |adds| choice.tried(inputs, adds));
+    if choice.rung == Rung::Dynamic {
+        return (Ok(moved), choice);
     }
-    let known = Solution { rung: Rung::Dynamic, ..at_rest };
+    let known = Solution { rung: Rung::Static, ..moved };
     let earlier = Earlier { solution: &known, stale: Stages::NONE };
-    let found = solve_after(&auto::taken(inputs, Rung::Dynamic), wanted, Some(earlier), go_on);
-    Ok((found.map(|found| Solution { ran: found.ran.and(known.ran), ..found }), choice))
+    let found = solve_after(&auto::taken(inputs, Rung::Static), at_rest(wanted), Some(earlier), go_on);
+    (found.map(|found| Solution { ran: found.ran.and(known.ran), ..found }), choice)
+}
+
+/// What is wanted of the load at rest, which stands for the motion.
+fn at_rest(wanted: Stages) -> Stages {
+    if wanted.has(Stage::Dynamic) { wanted.and(Stages::of(Stage::Static)) } else { wanted }
 }
 
 /// A solve on its way.
