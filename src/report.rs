@@ -16,7 +16,8 @@ pub mod verdict;
 use crate::case::fields::index_of;
 use crate::case::units::System;
 use crate::case::{Case, units};
-use crate::model::{self, Inputs, Note, QUANTITIES, Quantity, Refusal, Solution, Stages};
+use crate::model::inputs::Rung;
+use crate::model::{self, Inputs, Note, QUANTITIES, Quantity, Refusal, Solution, Stage, Stages};
 use crate::numeric::decimal::significant;
 
 /// A value as a person reads it.
@@ -85,12 +86,12 @@ pub struct Report {
 }
 
 impl Report {
-    /// Solve the case as far as the selection needs it.
+    /// Solve the case as far as the selection and the rung's outcome need it.
     ///
     /// # Errors
     /// The model's refusal.
     pub fn solve(name: String, case: Case, inputs: Inputs, selection: Selection) -> Result<Report, Refusal> {
-        let solution = model::solve(&inputs, selection.stages())?;
+        let solution = model::solve(&inputs, selection.stages().and(deciding(inputs.rung)))?;
         Ok(Report::of(name, case, inputs, solution, selection))
     }
 
@@ -117,6 +118,15 @@ impl Report {
     /// The quantities asked for that have a value, in SI: finite, and zero without a sign.
     pub fn values(&self) -> impl Iterator<Item = (&'static Quantity, f64)> {
         self.selection.quantities().filter_map(|quantity| Some((quantity, value(quantity, &self.solution)?)))
+    }
+}
+
+/// The stages that decide whether the tooth strikes, beyond those that every solve has.
+fn deciding(rung: Rung) -> Stages {
+    match rung {
+        Rung::Paper | Rung::Exact => Stages::NONE,
+        Rung::Static => Stages::of(Stage::Static),
+        Rung::Dynamic | Rung::Auto => Stages::of(Stage::Dynamic),
     }
 }
 

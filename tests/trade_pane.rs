@@ -38,7 +38,7 @@ fn asked(desk: &mut Desk, key: &str) -> Vec<Effect> {
 fn nothing_is_measured_until_it_is_asked_for() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc", "5", "z"]);
-    assert!(desk.shows("Nothing is measured yet: Enter measures"), "{}", desk.screen());
+    assert!(desk.shows("Nothing is measured yet: Enter or m measures"), "{}", desk.screen());
     desk.keys(&["Right"]);
     assert!(desk.app.traded.is_none());
 }

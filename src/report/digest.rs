@@ -107,8 +107,18 @@ pub fn sentence(solution: &Solution, system: System) -> String {
         }
         Outcome::NoCornerContact => {
             let total = told("total_deviation", solution, system).map(|total| format!("Δ = {total}, "));
-            format!("No corner contact: {}the tooth comes in on time.", total.unwrap_or_default())
+            format!("No corner contact: {}{}.", total.unwrap_or_default(), without_contact(solution))
         }
+    }
+}
+
+/// Why the tooth does not strike: one that the load at rest, or the exact position, would bring in early may yet not.
+#[must_use]
+pub fn without_contact(solution: &Solution) -> &'static str {
+    match solution.rung {
+        _ if solution.deviation.total <= 0.0 => "the tooth comes in on time",
+        Rung::Paper => "the printed equations bring it in on time",
+        _ => "in motion the tooth does not touch before E",
     }
 }
 
@@ -119,7 +129,8 @@ pub fn relief(solution: &Solution, system: System) -> Option<[String; 3]> {
     const UP: f64 = 1.0 + 5e-4;
     const DIGITS: usize = 4;
     let quantity = Quantity::find("total_deviation")?;
-    let relief = solution.deviation.relief_to_clear(solution.rung)?;
+    let strikes = solution.outcome == Outcome::CornerContact;
+    let relief = solution.deviation.relief_to_clear(solution.rung).filter(|_| strikes)?;
     let shown = shown_in(&Quantity { digits: DIGITS, ..*quantity }, UP * relief, system);
     let (when, at_rest) = match solution.rung {
         Rung::Dynamic => (" at rest; in motion it may take more", " at rest"),

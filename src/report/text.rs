@@ -1,6 +1,6 @@
 //! A solve as a page of text for a person, 80 columns wide.
 
-use super::digest::{self, first_touch, force};
+use super::digest::{self, first_touch, force, without_contact};
 use super::groups::{FREE_IMPACT, Group, groups};
 use super::layout::{WIDTH, flow, item, widest};
 use super::stations::{Column, columns, rows};
@@ -94,7 +94,8 @@ fn sentence(solution: &Solution) -> String {
             if solution.rung.shares_load() { String::new() } else { part(", approaching at ", "normal_velocity") },
         ),
         Outcome::NoCornerContact => {
-            format!("No corner contact: the tooth comes in on time{}.", part(", the total deviation is ", "total_deviation"))
+            let deviates = part(", the total deviation is ", "total_deviation");
+            format!("No corner contact: {}{deviates}.", without_contact(solution))
         }
     }
 }

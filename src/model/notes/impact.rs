@@ -33,7 +33,8 @@ pub(super) fn stations_left_out(inputs: &Inputs, solution: &Solution) -> Option<
 /// where Δ grows by √2 f_pb, Eqs. 1 and 5.
 pub(super) fn barely_clear(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     const CLOSE: f64 = 1.1;
-    if solution.outcome != Outcome::NoCornerContact || solution.rung.shares_load() {
+    let deviates = solution.deviation.total > 0.0;
+    if solution.outcome != Outcome::NoCornerContact || solution.rung.shares_load() || deviates {
         return None;
     }
     let clear = -solution.deviation.total;

@@ -96,7 +96,7 @@ pub static BINDINGS: &[Binding] = &[
     shown(Place::WORK, &[ctrl('o')], Do::Open, "open", "Open another case, in a tab of its own."),
     shown(Place::WORK, &[ctrl('q')], Do::Quit, "quit", "Quit; asks when something is unsaved."),
     shown(Place::FORM, &[key(KeyCode::Esc)], Do::Leave, "leave field", "Leave the field: letters are commands then."),
-    shown(Place::WORK, &[ctrl('t'), function(6)], Do::ToggleRung, "rung", "Change the rung: paper, exact, static, dynamic."),
+    shown(Place::WORK, &[ctrl('t'), function(6)], Do::ToggleRung, "rung", "Next rung: paper, exact, static, dynamic, auto."),
     shown(Place::WORK, &[ctrl('z')], Do::Undo, "undo", "Undo the edits of the last field."),
     shown(Place::WORK, &[function(5), alt('p')], Do::CycleLower, "switch", "Switch the lower area: chart, teeth, trade."),
     listed(Place::WORK, &[function(9)], Do::Zoom, "zoom", "Give the focused pane the screen, or take it back."),

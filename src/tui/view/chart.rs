@@ -13,6 +13,7 @@ use ratatui::style::Style;
 
 use super::{plan, text, titled};
 use crate::model::{Outcome, Solution};
+use crate::report::digest::without_contact;
 use crate::report::graphs::{GRAPHS, Graph};
 use crate::tui::app::App;
 use crate::tui::clean::symbol;
@@ -214,7 +215,7 @@ fn lack(app: &App, graph: &Graph, curves: &[Curve]) -> Option<String> {
 
 fn nothing(solution: &Solution, label: &str) -> String {
     match solution.outcome {
-        Outcome::NoCornerContact => "No corner contact: the tooth comes in on time, without an impact.".to_owned(),
+        Outcome::NoCornerContact => format!("No corner contact: {}, without an impact.", without_contact(solution)),
         Outcome::CornerContact => format!("No {label} between D and E: the notes say why."),
     }
 }

@@ -19,7 +19,7 @@ const LABEL: u16 = 9;
 const TALL: u16 = 8;
 /// The line of the error that is good enough.
 const LEVEL: &str = "╌";
-const INVITATION: &str = "Nothing is measured yet: Enter measures every rung by its settings on this case. It takes a few seconds; \
+const INVITATION: &str = "Nothing is measured yet: Enter or m measures every rung by its settings on this case, for a few seconds; \
     Esc stops it, and what was measured stays.";
 
 /// Draw the pane.
