@@ -183,8 +183,9 @@ impl Standards {
             models.push(Model { rung, off, outcome: found.as_ref().map(|found| found.outcome) });
             best.extend(found.map(|found| (rung, found)));
         }
-        let trade =
-            Trade { within: question.within, planned, settings: Vec::new(), part: 0.0, reference, models, recommended: None };
+        // A measurement is kept with its case: it has room for what it will hold, and no more.
+        let settings = Vec::with_capacity(planned);
+        let trade = Trade { within: question.within, planned, settings, part: 0.0, reference, models, recommended: None };
         Ok((trade, Standards { truth, best }))
     }
 
