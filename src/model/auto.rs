@@ -71,8 +71,8 @@ pub enum Reason {
 /// ```
 /// A load that is taken over within a time t leaves a mesh of the period T_n swinging by at most T_n/(π t) of it: the
 /// response of an oscillator to a ramp. What of it `static` leaves out depends on much else, and was measured over 300 pairs,
-/// see `Reason::part_felt`; between least and most the motion itself is the trial. Without contact `exact` stays where the gap left is
-/// greater than that part of the deflection, t being the time in which two pairs share the load.
+/// see `Reason::part_felt`; between least and most the motion itself is the trial. Without contact `exact` stays where the
+/// gap left is greater than that part of the deflection, t being the time in which two pairs share the load.
 #[must_use]
 pub fn choose(inputs: &Inputs, closed_form: &Result<Solution, Refusal>) -> Choice {
     let Ok(solution) = closed_form else {

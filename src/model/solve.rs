@@ -60,8 +60,8 @@ pub fn solve_after(
     solving.run(go_on)
 }
 
-/// Solve with the rung that the closed form calls for, or with the motion as a trial where it cannot tell. Where `static` is taken, it stands
-/// for `dynamic` where that is wanted. One that is too slow to be followed in time is at rest.
+/// Solve with the rung that the closed form calls for, or with the motion as a trial where it cannot tell. Where `static` is
+/// taken, it stands for `dynamic` where that is wanted. One that is too slow to be followed in time is at rest.
 fn solve_by_choice(inputs: &Inputs, wanted: Stages, go_on: &dyn Fn(f64) -> bool) -> Result<Solution, Refusal> {
     let read = wanted.within(Stages::CLOSED_FORM).and(auto::READS);
     let closed_form = solve(&auto::taken(inputs, Rung::Exact), read);
