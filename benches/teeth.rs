@@ -9,7 +9,8 @@ use ratatui::symbols::Marker;
 use tipstrike::case::Case;
 use tipstrike::model::{Stages, solve};
 use tipstrike::tui::theme::Look;
-use tipstrike::tui::view::teeth::{self, Centre, Picture, TeethView};
+use tipstrike::tui::view::teeth::{self, Picture};
+use tipstrike::tui::zoom::{Centre, TeethView};
 
 fn pictures(criterion: &mut Criterion) {
     let inputs = Case::table_1().inputs().unwrap_or_else(|_| unreachable!("the built-in case is valid"));

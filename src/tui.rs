@@ -5,21 +5,23 @@
 //! channel; the loop takes what has come, changes the state, draws once and sleeps.
 
 pub mod actions;
-pub mod aim;
 pub mod app;
 pub mod browser;
 pub mod clean;
+pub mod commands;
 mod ending;
 pub mod errands;
 pub mod events;
 pub mod explanation;
 mod fault;
 pub mod history;
+pub mod keys;
+pub mod layout;
 pub mod measurer;
 pub mod pane;
+pub mod perform;
 pub mod pick;
 pub mod prompt;
-pub mod recents;
 pub mod recovery;
 pub mod rows;
 pub mod scale;
@@ -32,6 +34,8 @@ pub mod terminal;
 pub mod theme;
 pub mod update;
 pub mod view;
+pub mod window;
+pub mod zoom;
 
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -42,12 +46,13 @@ use std::time::{Duration, Instant};
 
 use signal_hook::consts::{SIGCONT, SIGTSTP};
 
-use actions::Action;
+use actions::{Action, Effect};
 use app::App;
 use ending::TERMINAL_LOST;
 use errands::Errands;
 use events::{Event, Events};
 use measurer::Measurer;
+use perform::{claimed, perform};
 use settings::Settings;
 use solver::Solver;
 use store::chest::Chest;
@@ -55,7 +60,7 @@ use store::keeper::Keeper;
 use store::{Opening, Trouble};
 use terminal::Screen;
 use theme::Look;
-use update::{Effect, update};
+use update::update;
 
 const NO_TERMINAL: u8 = 2;
 const PANICKED: u8 = 101;
@@ -117,13 +122,14 @@ fn session(case: Option<PathBuf>, events: Events, chest: &Arc<Chest>) -> io::Res
     let Opening { document, path, trouble } = store::opening(case);
     // Before the terminal is taken: a signal must never leave it in our modes.
     let last_words = Arc::clone(chest);
-    events.listen(move || drop(last_words.write(false)))?;
+    events.listen()?;
+    ending::listen(events.sender(), move || drop(last_words.write(false)))?;
     let mut screen = Screen::open()?;
     let settings = Settings::read();
     let look = Look::of(|name| std::env::var_os(name));
     let look = settings.look(look, |name| std::env::var_os(name).is_some_and(|value| !value.is_empty()));
     let mut app = App { settings, ..App::new(document, path, look, screen.size()?) };
-    app.fit();
+    update::settle(&mut app);
     screen.take_mouse(settings.mouse)?;
     if let Some(trouble) = trouble {
         report(&mut app, trouble);
@@ -133,7 +139,7 @@ fn session(case: Option<PathBuf>, events: Events, chest: &Arc<Chest>) -> io::Res
     if let Some(request) = app.unanswered() {
         solver.ask(request);
     }
-    let measurer = Measurer::new(events.teller());
+    let measurer = Measurer::new(events.meter());
     let errands = Errands::new(events.messenger());
     let keeper = Keeper::new(store::state::folder().as_deref(), Arc::clone(chest));
     Workbench { app, screen, events, solver, measurer, errands, keeper, alarm: None, chosen: None }.stay()
@@ -223,13 +229,16 @@ impl Workbench {
                     Effect::CancelWork => self.measurer.stop(),
                     Effect::CancelSolve => self.solver.stop(),
                     Effect::Errand(errand) => self.errands.ask(errand)?,
-                    Effect::Save(saving) => actions.push(self.keeper.save(*saving)),
+                    Effect::Save(saving, next) => {
+                        let (path, result) = self.keeper.save(*saving);
+                        actions.push(Action::Saved(path, next, result));
+                    }
                     Effect::Keep(settings) => self.chosen = Some(settings),
                     Effect::Adopt(journal) => self.keeper.adopt(journal),
                     Effect::Copy(text) => self.screen.copy(&text)?,
                     Effect::Mouse(takes) => self.screen.take_mouse(takes)?,
                     Effect::Play(plays) => self.alarm = plays.then(|| Instant::now() + TICK),
-                    other => actions.extend(store::perform(other)),
+                    other => actions.extend(perform(other)),
                 }
             }
         }
@@ -238,7 +247,7 @@ impl Workbench {
 
     // A flood of choices is written once.
     fn keep_settings(&mut self) {
-        let kept = self.chosen.take().and_then(|settings| store::perform(Effect::Keep(settings)));
+        let kept = self.chosen.take().and_then(|settings| perform(Effect::Keep(settings)));
         if let Some(action) = kept {
             update(&mut self.app, action);
         }
@@ -246,10 +255,10 @@ impl Workbench {
 
     // Whether there was something to tell.
     fn keep(&mut self) -> bool {
-        let told = self.keeper.follow(&recovery::sheets(&self.app), Instant::now());
+        let told = self.keeper.follow(&self.app.sheets(), Instant::now());
         let has_changed = !told.is_empty();
-        for action in told {
-            update(&mut self.app, action);
+        for claim in told {
+            update(&mut self.app, claimed(claim));
         }
         has_changed
     }

@@ -7,7 +7,7 @@ mod desk;
 use std::collections::BTreeSet;
 
 use desk::{Desk, LARGE, TABLE_1};
-use tipstrike::tui::actions::BINDINGS;
+use tipstrike::tui::commands::BINDINGS;
 
 /// Keys before, the key, keys after, and what is then on the screen, or asked of the world, that is not without the key.
 /// `:name` calls a command by the palette.

@@ -14,12 +14,13 @@ use std::time::Duration;
 
 use desk::{Desk, LARGE, SMALL, TABLE_1, name};
 use insta::assert_snapshot;
+use tipstrike::tui::actions::Effect;
 use tipstrike::tui::actions::{self, Action};
 use tipstrike::tui::clean::is_safe;
-use tipstrike::tui::errands::{Errand, Errands};
+use tipstrike::tui::errands::{Errand, Errands, Finding};
 use tipstrike::tui::store::{below, folder};
 use tipstrike::tui::theme::{Look, MONO};
-use tipstrike::tui::update::{Effect, update};
+use tipstrike::tui::update::update;
 
 /// Five cases and a folder; the second one is open.
 fn shelf(desk: &mut Desk) {
@@ -257,12 +258,12 @@ fn the_threads_answer_and_the_latest_wish_counts() {
     }
     let mut last = String::new();
     while last != "three/" {
-        let Ok(Action::Listed(listing)) = told.recv_timeout(Duration::from_secs(20)) else { panic!("an answer comes") };
+        let Ok(Finding::Folder(listing)) = told.recv_timeout(Duration::from_secs(20)) else { panic!("an answer comes") };
         assert!(listing.entries.is_ok());
         last = listing.asked.1;
     }
     errands.ask(Errand::Examples(tipstrike::case::units::System::Metric)).expect("a thread");
-    assert!(matches!(told.recv_timeout(Duration::from_secs(20)), Ok(Action::Examples(digests)) if digests.len() >= 8));
+    assert!(matches!(told.recv_timeout(Duration::from_secs(20)), Ok(Finding::Examples(digests)) if digests.len() >= 8));
 }
 
 #[test]

@@ -16,12 +16,13 @@ use ratatui::layout::{Position, Rect, Size};
 use tipstrike::model::{Moment, Outcome};
 use tipstrike::report::graphs::GRAPHS;
 use tipstrike::tui::actions::Action;
+use tipstrike::tui::layout;
 use tipstrike::tui::pane::Pane;
 use tipstrike::tui::solver::Answer;
 use tipstrike::tui::theme::{Look, MONO};
-use tipstrike::tui::view;
-use tipstrike::tui::view::chart::{self, Frame};
+use tipstrike::tui::view::chart;
 use tipstrike::tui::view::teeth::readings::readings;
+use tipstrike::tui::window::Frame;
 
 const HUGE: Size = Size { width: 240, height: 70 };
 const MIDDLE: Size = Size { width: 120, height: 40 };
@@ -37,7 +38,7 @@ fn at_rung(size: Size, rung: &str) -> Desk {
 }
 
 fn chart_area(desk: &Desk) -> Rect {
-    view::plan(desk.app.size, desk.app.panes).area(Pane::Chart)
+    layout::plan(desk.app.size, desk.app.panes).area(Pane::Chart)
 }
 
 /// The lines of the chart's pane.

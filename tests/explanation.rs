@@ -105,9 +105,9 @@ fn a_page_that_is_being_written_says_so_and_a_late_one_is_dropped() {
     desk.keys(&["Esc", "j", "Enter"]);
     let before = desk.screen();
     for effect in effects {
-        let tipstrike::tui::update::Effect::Errand(errand) = effect else { continue };
+        let tipstrike::tui::actions::Effect::Errand(errand) = effect else { continue };
         let late = tipstrike::tui::errands::perform(errand, &|_| true).expect("an answer");
-        desk.act(late);
+        desk.act(tipstrike::tui::perform::told(late));
     }
     assert_eq!(desk.screen(), before);
 }

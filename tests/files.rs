@@ -16,9 +16,13 @@ use desk::{Desk, SMALL, TABLE_1};
 use ratatui::layout::Size;
 use tipstrike::case::file::SaveError;
 use tipstrike::case::{Document, fields};
-use tipstrike::tui::actions::{Action, Command as Do, Next};
-use tipstrike::tui::store::{self, SaveFault};
-use tipstrike::tui::update::{Effect, update};
+use tipstrike::tui::actions::Action;
+use tipstrike::tui::actions::Effect;
+use tipstrike::tui::commands::Command as Do;
+use tipstrike::tui::perform::perform;
+use tipstrike::tui::prompt::Next;
+use tipstrike::tui::store::SaveFault;
+use tipstrike::tui::update::update;
 use tty::{Launch, PROGRAM};
 
 fn edited() -> Desk {
@@ -109,9 +113,9 @@ fn a_save_that_fails_changes_nothing_and_nothing_comes_after_it() {
 fn what_is_typed_while_a_save_runs_stays_and_stays_unsaved() {
     let mut desk = edited();
     let effects = update(&mut desk.app, Action::Do(Do::Save));
-    let save = effects.into_iter().find(|effect| matches!(effect, Effect::Save(_))).expect("a save");
+    let save = effects.into_iter().find(|effect| matches!(effect, Effect::Save(..))).expect("a save");
     desk.keys(&["Ctrl-U", "1600 rpm"]);
-    desk.act(store::perform(save).expect("it tells how it went"));
+    desk.act(perform(save).expect("it tells how it went"));
     assert!(desk.shows("saved ") && desk.read("case.toml").contains("1500 rpm"));
     assert!(desk.shows("1600 rpm") && desk.app.is_unsaved(), "{}", desk.screen());
     desk.keys(&["Ctrl-S"]);

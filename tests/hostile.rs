@@ -18,8 +18,8 @@ use tempfile::TempDir;
 use tipstrike::case::Change;
 use tipstrike::case::Document;
 use tipstrike::case::visible::is_hidden;
-use tipstrike::tui::actions::{Action, Next};
-use tipstrike::tui::app::App;
+use tipstrike::tui::actions::Action;
+use tipstrike::tui::prompt::Next;
 use tipstrike::tui::recovery::{Access, Claim, Offer};
 use tipstrike::tui::store::SaveFault;
 use tipstrike::tui::theme::Look;
@@ -112,7 +112,7 @@ fn on(text: &str, size: Size, look: Look) -> Desk {
     let mut desk = Desk::new(size);
     let path = desk.write(&HOSTILE.replace('/', ""), text);
     let document = Document::read(&path).expect("it opens");
-    desk.app = App::new(document, Some(path), look, size);
+    desk.app = tipstrike::tui::update::opened(document, Some(path), look, size);
     desk
 }
 

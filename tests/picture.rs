@@ -10,7 +10,6 @@ use desk::{Desk, LARGE};
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Modifier};
 use tipstrike::case::{Document, EXAMPLES};
-use tipstrike::tui::app::App;
 use tipstrike::tui::theme::Look;
 
 const CELL: (f64, f64) = (8.4, 18.0);
@@ -45,7 +44,7 @@ fn taken(title: &str, keys: &[&str]) -> String {
     }
     desk.recents = vec![desk.path("gears/zhou-chen-2014.toml"), desk.path("gears/gone.toml")];
     let path = desk.path("gears/zhou-chen-2014.toml");
-    desk.app = App::new(Document::read(&path).expect("a good case"), Some(path), Look::FULL, LARGE);
+    desk.app = tipstrike::tui::update::opened(Document::read(&path).expect("a good case"), Some(path), Look::FULL, LARGE);
     desk.keys(keys);
     // The folder of a test has another name each time.
     let folder = desk.folder.path().display().to_string();

@@ -14,9 +14,7 @@ use std::time::{Duration, Instant};
 use ratatui::layout::Size;
 use tipstrike::case::journal::Journal;
 use tipstrike::case::{Document, fields};
-use tipstrike::tui::actions::Action;
 use tipstrike::tui::app::App;
-use tipstrike::tui::recovery::sheets;
 use tipstrike::tui::store::chest::Chest;
 use tipstrike::tui::store::keeper::Keeper;
 use tipstrike::tui::theme::Look;
@@ -51,7 +49,7 @@ fn bench(folder: &Path) -> (App, Keeper, Arc<Chest>) {
     let path = folder.join("case.toml");
     fs::write(&path, TABLE_1).expect("room on the disk");
     let document = Document::read(&path).expect("a good case");
-    let app = App::new(document, Some(path), Look::FULL, Size::new(80, 24));
+    let app = tipstrike::tui::update::opened(document, Some(path), Look::FULL, Size::new(80, 24));
     let chest = Chest::open(|warning| panic!("{warning}")).expect("a thread");
     let keeper = Keeper::new(Some(&folder.join("tipstrike")), Arc::clone(&chest));
     (app, keeper, chest)
@@ -66,21 +64,21 @@ fn edits_are_kept_a_second_after_the_last_and_every_two_while_typing() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mut app, mut keeper, _chest) = bench(folder.path());
     let start = Instant::now();
-    assert!(keeper.follow(&sheets(&app), start).is_empty());
+    assert!(keeper.follow(&app.sheets(), start).is_empty());
     assert_eq!(keeper.deadline(), None, "nothing to keep wakes nobody");
     write(&mut app, "pair.module", "6 mm");
-    keeper.follow(&sheets(&app), start);
+    keeper.follow(&app.sheets(), start);
     assert!(keeper.deadline().is_some_and(|deadline| deadline <= start + SECOND));
     for tenth in 1..40 {
         let now = start + SECOND / 10 * tenth;
         write(&mut app, "pair.module", &format!("6.{tenth} mm"));
-        keeper.follow(&sheets(&app), now);
+        keeper.follow(&app.sheets(), now);
         let deadline = keeper.deadline().expect("there is something to keep");
         assert!(deadline <= start + 2 * SECOND && deadline <= now + SECOND, "{tenth}");
     }
     keeper.keep_if_due(start + 2 * SECOND);
     assert_eq!(keeper.deadline(), None, "what is kept wakes nobody");
-    keeper.follow(&sheets(&app), start + 3 * SECOND);
+    keeper.follow(&app.sheets(), start + 3 * SECOND);
     assert_eq!(keeper.deadline(), None, "what is kept is not kept again");
     keeper.end();
 }
@@ -89,9 +87,9 @@ fn edits_are_kept_a_second_after_the_last_and_every_two_while_typing() {
 fn a_journal_is_there_as_long_as_there_are_unsaved_edits() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mut app, mut keeper, _chest) = bench(folder.path());
-    keeper.follow(&sheets(&app), Instant::now());
+    keeper.follow(&app.sheets(), Instant::now());
     write(&mut app, "pair.module", "no \u{1b}[2J number");
-    keeper.follow(&sheets(&app), Instant::now());
+    keeper.follow(&app.sheets(), Instant::now());
     keeper.keep();
     let path = journals(folder.path()).pop().expect("a journal");
     let journal = Journal::from_text(&fs::read_to_string(path).expect("it is there")).expect("whole");
@@ -99,11 +97,11 @@ fn a_journal_is_there_as_long_as_there_are_unsaved_edits() {
     assert_eq!(journal.changes.len(), 1);
     assert_eq!(journal.changes[0].to.as_deref(), Some("no \u{1b}[2J number"));
     app.tab.case = app.saved.clone();
-    keeper.follow(&sheets(&app), Instant::now());
+    keeper.follow(&app.sheets(), Instant::now());
     keeper.keep();
     assert!(journals(folder.path()).is_empty());
     write(&mut app, "pair.module", "6 mm");
-    keeper.follow(&sheets(&app), Instant::now());
+    keeper.follow(&app.sheets(), Instant::now());
     keeper.end();
     assert!(journals(folder.path()).is_empty(), "who leaves on purpose leaves nothing");
     assert_eq!(fs::read_dir(folder.path().join("tipstrike/sessions")).map(Iterator::count).ok(), Some(0));
@@ -114,9 +112,9 @@ fn a_journal_is_there_as_long_as_there_are_unsaved_edits() {
 fn a_journal_that_could_not_be_written_is_written_as_soon_as_it_can_be() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mut app, mut keeper, chest) = bench(folder.path());
-    keeper.follow(&sheets(&app), Instant::now());
+    keeper.follow(&app.sheets(), Instant::now());
     write(&mut app, "pair.module", "6 mm");
-    keeper.follow(&sheets(&app), Instant::now());
+    keeper.follow(&app.sheets(), Instant::now());
     let place = folder.path().join("tipstrike/journals");
     fs::remove_dir_all(&place).expect("our own folder");
     assert!(chest.write(false).is_err() && chest.is_needed());
@@ -131,17 +129,17 @@ fn a_journal_that_could_not_be_written_is_written_as_soon_as_it_can_be() {
 fn a_journal_whose_edits_are_in_the_form_stays_until_they_are_kept_anew() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mut app, mut keeper, _chest) = bench(folder.path());
-    keeper.follow(&sheets(&app), Instant::now());
+    keeper.follow(&app.sheets(), Instant::now());
     write(&mut app, "pair.module", "6 mm");
-    keeper.follow(&sheets(&app), Instant::now());
+    keeper.follow(&app.sheets(), Instant::now());
     let (place, old) = (folder.path().join("tipstrike/journals"), folder.path().join("old.toml"));
     fs::remove_dir_all(&place).expect("our own folder");
     fs::write(&old, "the edits of an earlier session").expect("room on the disk");
     keeper.adopt(old.clone());
-    keeper.follow(&sheets(&app), Instant::now());
+    keeper.follow(&app.sheets(), Instant::now());
     assert!(old.exists(), "nothing else holds them");
     fs::create_dir(&place).expect("our own folder");
-    keeper.follow(&sheets(&app), Instant::now());
+    keeper.follow(&app.sheets(), Instant::now());
     assert!(!old.exists() && journals(folder.path()).len() == 1);
     keeper.end();
 }
@@ -151,14 +149,14 @@ fn edits_that_cannot_be_kept_are_told() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("tipstrike"), "no folder").expect("room on the disk");
     let (mut app, mut keeper, _chest) = bench(folder.path());
-    keeper.follow(&sheets(&app), Instant::now());
+    keeper.follow(&app.sheets(), Instant::now());
     write(&mut app, "pair.module", "6 mm");
-    let told = keeper.follow(&sheets(&app), Instant::now());
-    assert!(matches!(&told[..], [Action::Failed(text)] if text.contains("save soon")), "{told:?}");
+    let told = keeper.follow(&app.sheets(), Instant::now());
+    assert!(matches!(&told[..], [Err(text)] if text.contains("save soon")), "{told:?}");
     drop(keeper);
     let mut homeless = Keeper::new(None, Arc::new(Chest::default()));
-    let told = homeless.follow(&sheets(&app), Instant::now());
-    assert!(matches!(&told[..], [Action::Claimed(claim)] if claim.notices[0].contains("HOME")), "{told:?}");
+    let told = homeless.follow(&app.sheets(), Instant::now());
+    assert!(matches!(&told[..], [Ok(claim)] if claim.notices[0].contains("HOME")), "{told:?}");
 }
 
 #[test]

@@ -13,11 +13,12 @@ use std::time::{Duration, Instant};
 use ratatui::layout::Size;
 use tipstrike::case::Document;
 use tipstrike::case::journal::Journal;
-use tipstrike::tui::actions::{Action, Command};
-use tipstrike::tui::app::App;
+use tipstrike::tui::actions::Action;
+use tipstrike::tui::actions::Effect;
+use tipstrike::tui::commands::Command;
 use tipstrike::tui::rows;
 use tipstrike::tui::theme::Look;
-use tipstrike::tui::update::{Effect, update};
+use tipstrike::tui::update::{opened, update};
 use tty::{Launch, TABLE_1, Tty, journals};
 
 /// `TIPSTRIKE_SOAK` says how many; the suite has no time for more.
@@ -249,7 +250,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
 /// What the clipboard gets of each line of the form on a file.
 fn values_of_file(path: &Path) -> Vec<String> {
     let document = Document::read(path).unwrap_or_else(|error| panic!("{error}"));
-    let mut app = App::new(document, Some(path.to_owned()), Look::FULL, Size::new(80, 24));
+    let mut app = opened(document, Some(path.to_owned()), Look::FULL, Size::new(80, 24));
     let lines = 0..rows::count(&app.case);
     let copied = lines.filter_map(|line| {
         app.tab.focus = line;

@@ -25,7 +25,8 @@ use tipstrike::tui::clean;
 use tipstrike::tui::theme::{Look, MONO};
 use tipstrike::tui::view::teeth::labels::Labels;
 use tipstrike::tui::view::teeth::scene::Scene;
-use tipstrike::tui::view::teeth::{self, Centre, Exaggeration, Picture, TeethView};
+use tipstrike::tui::view::teeth::{self, Picture};
+use tipstrike::tui::zoom::{Centre, Exaggeration, TeethView};
 
 const SIZES: [(u16, u16); 3] = [(80, 18), (140, 30), (200, 60)];
 const ASCII: Look = Look { theme: &MONO, ascii: true };

@@ -2,7 +2,7 @@
 #![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
 // A test may stop at what it did not expect.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -23,6 +23,9 @@ const TERMINAL: [&str; 3] = ["ratatui", "crossterm", "tui_input"];
 /// What the computation core does without: shapes of files, files, threads, printing.
 const OUTSIDE: [&str; 10] =
     ["serde", "serde_json", "toml", "csv", "std::fs", "std::io", "std::thread", "println", "print", "eprintln"];
+
+/// Folders in which no file needs, by whatever way round, one that needs it. A file and its own folder count as one.
+const IN_ORDER: [&str; 9] = ["numeric", "case", "study", "report", "cli", "tui", "tui/store", "tui/update", "tui/view"];
 
 const MOST_LINES: usize = 400;
 
@@ -59,6 +62,15 @@ impl Source {
         let roots = ["crate::", "tipstrike::", to_root.as_str()];
         let named = roots.iter().flat_map(|root| after(&self.code, root)).flat_map(heads);
         named.filter(|name| ROOMS.iter().any(|(room, _)| room == name)).map(str::to_owned).collect()
+    }
+
+    /// What of the folder of these modules the code names, its tests left out.
+    fn neighbours_named(&self, folder: &[&str]) -> BTreeSet<String> {
+        let code = self.code.split("mod tests {").next().unwrap_or_default();
+        let whole = format!("crate::{}::", folder.join("::"));
+        let upwards = "super::".repeat(self.modules().len() - folder.len());
+        let from_here = |rest: &&str| !code[..code.len() - rest.len() - upwards.len()].ends_with("super::");
+        after(code, &whole).chain(after(code, &upwards).filter(from_here)).flat_map(heads).map(str::to_owned).collect()
     }
 
     fn names(&self, word: &str) -> bool {
@@ -122,6 +134,26 @@ fn rooms_open_only_upstream() {
         let wrong: Vec<String> =
             source.rooms_named().into_iter().filter(|name| name != room && !upstream.contains(&name.as_str())).collect();
         assert!(wrong.is_empty(), "{} names {wrong:?}", source.path.display());
+    }
+}
+
+#[test]
+fn no_file_needs_one_that_needs_it() {
+    for folder in IN_ORDER {
+        let modules: Vec<_> = folder.split('/').collect();
+        let mut needs: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+        for source in sources(&format!("src/{folder}")) {
+            let own = source.modules()[modules.len()].clone();
+            needs.entry(own).or_default().extend(source.neighbours_named(&modules));
+        }
+        // What needs nothing that is left can go; what stays needs itself by some way round.
+        while let Some(free) =
+            needs.iter().find(|(own, others)| others.iter().all(|other| other == *own || !needs.contains_key(other)))
+        {
+            let free = free.0.clone();
+            needs.remove(&free);
+        }
+        assert!(needs.is_empty(), "in {folder}: {needs:#?}");
     }
 }
 

@@ -11,10 +11,11 @@ use ratatui::layout::Size;
 use tipstrike::model::inputs::Rung;
 use tipstrike::study::trade::{Setting, Time};
 use tipstrike::tui::actions::Action;
+use tipstrike::tui::actions::Effect;
 use tipstrike::tui::app::Progress;
 use tipstrike::tui::measurer::{End, Measured, Measuring};
 use tipstrike::tui::theme::{Look, MONO};
-use tipstrike::tui::update::{Effect, update};
+use tipstrike::tui::update::update;
 
 fn measured(size: Size) -> Desk {
     let mut desk = Desk::on(size, "case.toml", TABLE_1);

@@ -15,13 +15,15 @@ use ratatui::layout::{Position, Rect, Size};
 use ratatui::symbols::Marker;
 use tipstrike::model::inputs::Rung;
 use tipstrike::model::{Stage, Stages};
-use tipstrike::tui::actions::{self, Action, Command};
+use tipstrike::tui::actions::Effect;
+use tipstrike::tui::actions::{self, Action};
 use tipstrike::tui::app::Progress;
+use tipstrike::tui::commands::Command;
 use tipstrike::tui::pane::Pane;
 use tipstrike::tui::settings::Settings;
 use tipstrike::tui::solver::Answer;
 use tipstrike::tui::theme::{CONTRAST, Look, MONO};
-use tipstrike::tui::update::{Effect, update};
+use tipstrike::tui::update::update;
 use tipstrike::tui::view;
 
 const TINY: Size = Size { width: 60, height: 16 };
@@ -136,7 +138,7 @@ fn the_palette_finds_and_runs_every_command() {
 #[test]
 fn no_command_of_the_palette_is_a_trouble_anywhere() {
     for pane in Pane::ALL {
-        for (index, command) in tipstrike::tui::actions::commands().enumerate() {
+        for (index, command) in tipstrike::tui::commands::commands().enumerate() {
             let mut desk = Desk::new(SMALL);
             desk.keys(&["Esc", &pane.number().to_string(), ":"]);
             for _ in 0..index {
@@ -228,7 +230,7 @@ fn an_answer_goes_to_the_case_that_asked_for_it() {
     desk.keys(&["Alt-1"]).fill("operation.speed", "1100 rpm");
     let late = update(&mut desk.app, Action::Insert('x'));
     assert!(!late.iter().any(|effect| matches!(effect, Effect::Solve(_))), "what is wrong is not solved");
-    let effects = update(&mut desk.app, Action::Do(tipstrike::tui::actions::Command::Undo));
+    let effects = update(&mut desk.app, Action::Do(Command::Undo));
     let Some(Effect::Solve(request)) = effects.into_iter().next() else { panic!("it asks for a solve") };
     desk.keys(&["Alt-2"]);
     let before = desk.screen();
@@ -242,7 +244,7 @@ fn an_answer_goes_to_the_case_that_asked_for_it() {
 fn a_request_that_another_case_put_aside_is_asked_for_again() {
     let mut desk = three_cases(LARGE);
     desk.keys(&["Alt-1"]).go_to("operation.speed");
-    update(&mut desk.app, Action::Do(tipstrike::tui::actions::Command::ToggleRung));
+    update(&mut desk.app, Action::Do(Command::ToggleRung));
     desk.keys(&["Alt-2", "Alt-1"]);
     assert!(desk.shows("▸static") && desk.app.is_settled);
 }

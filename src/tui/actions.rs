@@ -1,31 +1,26 @@
-//! What the user can do, and what else happens to the workbench.
-
-mod keys;
-mod table;
+//! What happens to the workbench, and what it asks of the world in turn.
 
 use std::path::PathBuf;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 use ratatui::layout::{Position, Size};
-use tui_input::InputRequest;
 
 use super::app::Progress;
-use super::browser::Sight;
-use super::errands::Explained;
-use super::measurer::Measured;
-use super::pane::Pane;
-use super::recents::Recent;
+use super::commands::{self, Command};
+use super::errands::{Errand, Explained};
+use super::keys::{Chord, Place};
+use super::measurer::{Measured, Measuring};
+use super::prompt::Next;
 use super::recovery::Claim;
-use super::solver::Answer;
-use super::store::SaveFault;
+use super::settings::Settings;
+use super::solver::{Answer, Request};
 use super::store::below::Below;
 use super::store::folder::Listing;
-use super::store::preview::Preview;
+use super::store::preview::{Preview, Sight};
+use super::store::recents::Recent;
+use super::store::{SaveFault, Saving};
 use crate::case::Document;
 use crate::report::digest::Digest;
-
-pub use keys::{Chord, Place};
-pub use table::BINDINGS;
 
 /// Something that happened: from a key, the mouse, the clock, the worker, or an effect that is done.
 #[derive(Debug, Clone)]
@@ -76,119 +71,43 @@ pub enum Action {
     Failed(String),
 }
 
-/// What comes after a save or a decision to lose the edits.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Next {
-    /// Go on with this case.
-    Stay,
-    /// Leave the workbench.
-    Quit,
-    /// Save what else is unsaved, then leave the workbench.
-    SaveRest,
-    /// Close this case.
-    Close,
-    /// Open this file in place of the case.
+/// What the state asks of the world.
+#[derive(Debug, Clone)]
+pub enum Effect {
+    /// Solve, in place of any request that has not begun.
+    Solve(Box<Request>),
+    /// Read a case, and tell it as [`Action::Loaded`].
     Load(PathBuf),
-}
-
-/// A command of the table.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[expect(missing_docs, reason = "each has its sentence in the table of bindings")]
-pub enum Command {
-    Help,
-    Palette,
-    SearchField,
-    Save,
-    SaveAs,
-    Open,
-    Recent,
-    FolderUp,
-    New,
-    Example,
-    NextTab,
-    PreviousTab,
-    Tab(usize),
-    CloseTab,
-    ToggleRung,
-    Undo,
-    Redo,
-    Show(Pane),
-    NextPane,
-    PreviousPane,
-    CycleLower,
-    Zoom,
-    ResultsUp,
-    ResultsDown,
-    Explain,
-    Measure,
-    TakeSetting,
-    Notes,
-    NextReason,
-    PreviousReason,
-    PinBaseline,
-    CopyValue,
-    CopyResults,
-    CursorBy(i16),
-    CursorToD,
-    CursorToE,
-    CursorTo,
-    CursorAway,
-    Play,
-    ChartBy(isize),
-    Chart(usize),
-    ChartZoom(i32),
-    ChartWhole,
-    ChartStrike,
-    ChartTime,
-    TeethBy(i32),
-    TeethAnew,
-    TeethCentre,
-    TeethGap,
-    CycleMarker,
-    ShowCost,
-    CycleTheme,
-    ToggleAscii,
-    CycleUnits,
-    ToggleMouse,
+    /// Write a case, and tell it with what comes next as [`Action::Saved`].
+    Save(Box<Saving>, Next),
+    /// Look into something, without keeping the screen waiting.
+    Errand(Errand),
+    /// Open this case when the workbench starts the next time.
+    Remember(PathBuf),
+    /// The edits of this journal are in the form now.
+    Adopt(PathBuf),
+    /// The edits of this journal are not wanted.
+    Forget(PathBuf),
+    /// Keep the settings.
+    Keep(Settings),
+    /// Hand a text to the clipboard of the user's own terminal.
+    Copy(String),
+    /// Take the mouse, or leave it to the terminal.
+    Mouse(bool),
+    /// Tick, or be silent.
+    Play(bool),
+    /// Measure, and tell what is known as [`Action::Measured`].
+    Measure(Box<Measuring>),
+    /// Stop the long work.
+    CancelWork,
+    /// Stop what is being solved.
+    CancelSolve,
+    /// Draw every cell anew.
     Redraw,
+    /// Give the terminal back to the shell, until it brings us back.
     Suspend,
-    Cancel,
+    /// Leave.
     Quit,
-    Next,
-    Previous,
-    NextGroup,
-    PreviousGroup,
-    First,
-    Last,
-    FirstField,
-    LastField,
-    Step(i32),
-    Material,
-    Limit,
-    NextChoice,
-    PreviousChoice,
-    StartEdit,
-    Complete,
-    Accept,
-    Leave,
-    Edit(InputRequest),
-}
-
-/// A line of the table.
-#[derive(Debug, Clone, Copy)]
-pub struct Binding {
-    /// The keys that call it; none where only the palette does.
-    pub chords: &'static [Chord],
-    /// What they call.
-    pub command: Command,
-    /// The places where they do.
-    pub places: Place,
-    /// One or two words for status line and palette; empty where it stands in neither.
-    pub name: &'static str,
-    /// One sentence for palette and help.
-    pub sentence: &'static str,
-    /// Whether the status line shows it.
-    pub in_footer: bool,
 }
 
 /// What a key does in a place.
@@ -198,8 +117,7 @@ pub fn of_key(event: KeyEvent, place: Place) -> Option<Action> {
         return None;
     }
     let chord = Chord::of(event);
-    let bound = BINDINGS.iter().find(|binding| binding.places.meets(place) && binding.chords.contains(&chord));
-    bound.map(|binding| Action::Do(binding.command)).or_else(|| typed(chord, place))
+    commands::called(chord, place).map(Action::Do).or_else(|| typed(chord, place))
 }
 
 fn typed(chord: Chord, place: Place) -> Option<Action> {
@@ -209,50 +127,12 @@ fn typed(chord: Chord, place: Place) -> Option<Action> {
     }
 }
 
-/// The commands of the palette: the first binding of each that has a name and does not belong to a prompt.
-pub fn commands() -> impl Iterator<Item = &'static Binding> {
-    let is_first =
-        |at: usize, command: Command| !BINDINGS[..at].iter().any(|binding| is_listed(binding) && binding.command == command);
-    let listed = BINDINGS.iter().enumerate().filter(|(_, binding)| is_listed(binding));
-    listed.filter(move |(at, binding)| is_first(*at, binding.command)).map(|(_, binding)| binding)
-}
-
-/// Every key that calls the command outside prompts, as a person reads it.
-#[must_use]
-pub fn keys_of(command: Command) -> String {
-    let bound = BINDINGS.iter().filter(|binding| binding.command == command && binding.places.meets(Place::WORK));
-    bound.map(Binding::keys).filter(|keys| !keys.is_empty()).collect::<Vec<_>>().join(", ")
-}
-
-fn is_listed(binding: &Binding) -> bool {
-    !binding.name.is_empty() && binding.places.meets(Place::WORK) && binding.command != Command::Leave
-}
-
-impl Binding {
-    /// The keys as a person reads them, Ctrl-H left out.
-    #[must_use]
-    pub fn keys(&self) -> String {
-        let names = self.chords.iter().filter(|chord| **chord != keys::ctrl('h')).map(Chord::name);
-        names.collect::<Vec<_>>().join(", ")
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn plain(letter: char) -> KeyEvent {
         KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE)
-    }
-
-    #[test]
-    fn no_key_has_two_meanings_in_a_place() {
-        for (index, binding) in BINDINGS.iter().enumerate() {
-            for other in &BINDINGS[index + 1..] {
-                let shared = binding.chords.iter().find(|chord| other.chords.contains(chord));
-                assert!(!binding.places.meets(other.places) || shared.is_none(), "{shared:?}: {}", binding.sentence);
-            }
-        }
     }
 
     #[test]
@@ -269,17 +149,6 @@ mod tests {
         for place in [Place::FIELD, Place::RESULTS, Place::CHART, Place::TEETH, Place::TRADE, Place::READ] {
             for letter in '!'..='~' {
                 assert!(!matches!(of_key(plain(letter), place), Some(Action::Insert(_))), "{letter}");
-            }
-        }
-    }
-
-    #[test]
-    fn one_command_has_one_name_and_one_sentence() {
-        for binding in BINDINGS.iter().filter(|binding| is_listed(binding)) {
-            for other in BINDINGS.iter().filter(|other| is_listed(other)) {
-                let same = binding.command == other.command;
-                assert_eq!(same, binding.name == other.name, "{} {}", binding.name, other.name);
-                assert!(!same || binding.sentence == other.sentence, "{}", binding.name);
             }
         }
     }

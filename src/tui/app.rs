@@ -5,19 +5,18 @@ use std::path::PathBuf;
 
 use ratatui::layout::Size;
 
-use super::actions::Place;
+use super::keys::Place;
+use super::layout::plan;
 use super::pane::{Pane, Panes};
 use super::prompt::Prompt;
-use super::recovery::Access;
+use super::recovery::{Access, NEWER, Sheet};
 use super::rows;
 use super::settings::Settings;
 use super::solver::{self, Answer, Request};
 use super::tab::{Tab, Traded};
 use super::theme::Look;
-use super::update::files::NEWER;
-use super::view::chart::{self, ChartView};
-use super::view::teeth::TeethView;
-use super::view::{self, form, results};
+use super::window::ChartView;
+use super::zoom::TeethView;
 use crate::case::fields::Absent;
 use crate::case::{Case, Document, FIELDS, Problem, fields};
 use crate::model::{Stage, Stages};
@@ -62,6 +61,8 @@ pub struct App {
     pub measuring: Option<u64>,
     /// What lies over the panes, the topmost last.
     pub prompts: Vec<Prompt>,
+    /// Whether what is focused may be out of sight in form or results.
+    pub is_astray: bool,
     /// Said once, until the next key.
     pub message: Option<Message>,
     /// The size of the terminal.
@@ -110,7 +111,7 @@ impl Deref for App {
 }
 
 impl App {
-    /// Open a document, solved at once so that the first frame is whole.
+    /// A document that was just opened, solved at once so that the first frame is whole.
     #[must_use]
     pub fn new(document: Document, path: Option<PathBuf>, look: Look, size: Size) -> App {
         let mut app = App {
@@ -132,6 +133,7 @@ impl App {
             progress: None,
             measuring: None,
             prompts: Vec::new(),
+            is_astray: false,
             message: None,
             size,
             settings: Settings::default(),
@@ -144,7 +146,6 @@ impl App {
         if let Some(request) = app.request() {
             app.take(solver::first_answer(&request));
         }
-        app.fit();
         app
     }
 
@@ -152,6 +153,12 @@ impl App {
     pub fn tabs(&self) -> impl Iterator<Item = &Tab> {
         let (before, after) = self.others.split_at(self.place_of_tab.min(self.others.len()));
         before.iter().chain(std::iter::once(&self.tab)).chain(after)
+    }
+
+    /// What every open case makes of its file.
+    #[must_use]
+    pub fn sheets(&self) -> Vec<Sheet<'_>> {
+        self.tabs().map(Tab::sheet).collect()
     }
 
     /// Where keys go.
@@ -192,7 +199,7 @@ impl App {
         if self.is_pinning {
             return Stages::EVERY;
         }
-        let plan = view::plan(self.size, self.panes);
+        let plan = plan(self.size, self.panes);
         let seen = Pane::ALL.into_iter().filter(|&pane| !plan.area(pane).is_empty());
         // The verdict, with the outcome and its notes, stands there even where only the chart is in sight: all but the band.
         let verdict = Pane::Results.needs().without(Stage::Band);
@@ -215,10 +222,9 @@ impl App {
         self.follow();
     }
 
-    /// Scroll form and results until what is focused is in sight with what is wrong with it.
+    /// Form and results are to scroll until what is focused is in sight with what is wrong with it.
     pub(super) fn follow(&mut self) {
-        self.tab.form_top = form::top_for(self);
-        self.tab.results_top = results::top_for(self);
+        self.is_astray = true;
     }
 
     /// Put another case into the form, and ask for its results.
@@ -274,15 +280,6 @@ impl App {
     pub(super) fn traded_of(&mut self, serial: u64) -> Option<&mut Traded> {
         let all = std::iter::once(&mut self.tab).chain(&mut self.others);
         all.filter_map(|tab| tab.traded.as_mut()).find(|traded| traded.serial == serial)
-    }
-
-    /// Fit the axes of the charts in sight to their curves.
-    pub(super) fn fit(&mut self) {
-        let occasion = chart::Occasion::of(self);
-        if self.tab.fitted != occasion {
-            self.tab.scale = chart::fitted(self);
-            self.tab.fitted = occasion;
-        }
     }
 
     /// The tab that waits for the answer of that serial.

@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 
 use tui_input::Input;
 
-use super::recents::Recent;
 use super::store::below::{self, Below};
 use super::store::folder::{Entry, Listing, beneath};
-use super::store::preview::Preview;
+use super::store::preview::{Preview, Sight};
+use super::store::recents::Recent;
 use crate::case::{EXAMPLES, Example};
 
 /// A folder, and the cases that were open last.
@@ -47,17 +47,6 @@ pub struct Browser {
     came_from: Option<OsString>,
     /// What a preview was asked of.
     looked_at: Option<Sight>,
-}
-
-/// What a preview is of.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Sight {
-    /// A file.
-    File(PathBuf),
-    /// A folder.
-    Folder(PathBuf),
-    /// An example.
-    Example(&'static Example),
 }
 
 /// A line that may be marked.

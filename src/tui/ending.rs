@@ -27,9 +27,11 @@ pub(super) const TERMINAL_LOST: u8 = 5;
 
 type LastWords = Arc<dyn Fn() + Send + Sync>;
 
-/// Listen to signals, and for the end of the terminal, each in a thread that sleeps until it comes.
-pub(super) fn listen(sender: &SyncSender<Event>, last_words: LastWords) -> io::Result<()> {
-    let (caught, gone, words) = (sender.clone(), sender.clone(), Arc::clone(&last_words));
+/// Listen to signals, and for the end of the terminal, each in a thread that sleeps until it comes. Whatever ends the
+/// workbench is told to `last_words` before anything else.
+pub(super) fn listen(sender: SyncSender<Event>, last_words: impl Fn() + Send + Sync + 'static) -> io::Result<()> {
+    let last_words: LastWords = Arc::new(last_words);
+    let (caught, gone, words) = (sender.clone(), sender, Arc::clone(&last_words));
     let mut signals = Signals::new(ENDING.into_iter().chain([SIGTSTP, SIGCONT]))?;
     thread::Builder::new().name("signals".to_owned()).spawn(move || {
         for signal in signals.forever() {

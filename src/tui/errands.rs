@@ -6,12 +6,12 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::{io, thread};
 
-use super::actions::Action;
-use super::browser::Sight;
 use super::fault;
-use super::recents;
 use super::slot::Slot;
-use super::store::{below, folder, preview};
+use super::store::below::{self, Below};
+use super::store::folder::{self, Listing};
+use super::store::preview::{self, Preview, Sight};
+use super::store::recents::{self, Recent};
 use crate::case::units::System;
 use crate::case::{Case, EXAMPLES};
 use crate::model::{self, Inputs, Quantity, Stages};
@@ -21,18 +21,37 @@ use crate::report::explain::{self, Page};
 /// Something to look into.
 #[derive(Debug, Clone)]
 pub enum Errand {
-    /// What stands in a folder, and tell it as [`Action::Listed`]: where the browser is, and the folders typed after it.
+    /// What stands in a folder: where the browser is, and the folders typed after it.
     Folder(PathBuf, String),
-    /// Which cases stand below a folder, and tell it as [`Action::Found`].
+    /// Which cases stand below a folder.
     Below(PathBuf, String),
-    /// What a file or a folder holds, and tell it as [`Action::Previewed`].
+    /// What a file or a folder holds.
     Preview(Sight, System),
-    /// Which cases were open last, and tell it as [`Action::Recents`].
+    /// Which cases were open last.
     Recents,
-    /// What the examples are, and tell it as [`Action::Examples`].
+    /// What the examples are.
     Examples(System),
-    /// Where a result comes from, and tell it as [`Action::Explained`].
+    /// Where a result comes from.
     Explain(Box<Asked>),
+}
+
+/// What an errand found.
+#[derive(Debug, Clone)]
+pub enum Finding {
+    /// What stands in a folder.
+    Folder(Box<Listing>),
+    /// Which cases stand below a folder.
+    Below(Box<Below>),
+    /// What a file or a folder holds.
+    Preview(Sight, Box<Preview>),
+    /// The cases that were open last, the latest first.
+    Recents(Vec<Recent>),
+    /// What the examples are, in their order.
+    Examples(Vec<Digest>),
+    /// Where a result comes from.
+    Explained(Box<Explained>),
+    /// A fault of the program, in words.
+    Failed(String),
 }
 
 /// A result to be explained.
@@ -57,7 +76,7 @@ pub struct Explained {
 
 /// The threads.
 pub struct Errands {
-    tell: Arc<dyn Fn(Action) -> bool + Send + Sync>,
+    tell: Arc<dyn Fn(Finding) -> bool + Send + Sync>,
     slots: [Option<Arc<Slot<Errand>>>; Errand::KINDS],
 }
 
@@ -78,7 +97,7 @@ impl Errand {
 
 impl Errands {
     /// No thread yet; each tells what it found until `tell` says that nobody listens.
-    pub fn new(tell: impl Fn(Action) -> bool + Send + Sync + 'static) -> Errands {
+    pub fn new(tell: impl Fn(Finding) -> bool + Send + Sync + 'static) -> Errands {
         Errands { tell: Arc::new(tell), slots: [const { None }; Errand::KINDS] }
     }
 
@@ -103,7 +122,7 @@ impl Drop for Errands {
     }
 }
 
-fn begin(name: &'static str, tell: Arc<dyn Fn(Action) -> bool + Send + Sync>) -> io::Result<Arc<Slot<Errand>>> {
+fn begin(name: &'static str, tell: Arc<dyn Fn(Finding) -> bool + Send + Sync>) -> io::Result<Arc<Slot<Errand>>> {
     let slot = Arc::new(Slot::default());
     let theirs: Arc<Slot<Errand>> = Arc::clone(&slot);
     thread::Builder::new().name(name.to_owned()).spawn(move || {
@@ -112,7 +131,7 @@ fn begin(name: &'static str, tell: Arc<dyn Fn(Action) -> bool + Send + Sync>) ->
                 fault::on_demand(name);
                 perform(errand, &|_| theirs.is_idle())
             }));
-            let told = done.unwrap_or_else(|_| Some(Action::Failed(format!("a fault of the program: {name} cannot be shown"))));
+            let told = done.unwrap_or_else(|_| Some(Finding::Failed(format!("a fault of the program: {name} cannot be shown"))));
             if told.is_some_and(|told| !tell(told)) {
                 return;
             }
@@ -123,17 +142,17 @@ fn begin(name: &'static str, tell: Arc<dyn Fn(Action) -> bool + Send + Sync>) ->
 
 /// Do an errand; nothing to tell where `go_on` says that it is wanted no more.
 #[must_use]
-pub fn perform(errand: Errand, go_on: &dyn Fn(f64) -> bool) -> Option<Action> {
+pub fn perform(errand: Errand, go_on: &dyn Fn(f64) -> bool) -> Option<Finding> {
     Some(match errand {
-        Errand::Folder(base, typed) => Action::Listed(Box::new(folder::list(base, typed))),
-        Errand::Below(base, typed) => Action::Found(Box::new(below::find(base, typed, go_on)?)),
+        Errand::Folder(base, typed) => Finding::Folder(Box::new(folder::list(base, typed))),
+        Errand::Below(base, typed) => Finding::Below(Box::new(below::find(base, typed, go_on)?)),
         Errand::Preview(sight, system) => {
             let preview = preview::of(&sight, system, go_on)?;
-            Action::Previewed(sight, Box::new(preview))
+            Finding::Preview(sight, Box::new(preview))
         }
-        Errand::Recents => Action::Recents(recents::looked_at(recents::list())),
-        Errand::Examples(system) => Action::Examples(examples(system, go_on)?),
-        Errand::Explain(asked) => Action::Explained(Box::new(explained(*asked))),
+        Errand::Recents => Finding::Recents(recents::looked_at(recents::list())),
+        Errand::Examples(system) => Finding::Examples(examples(system, go_on)?),
+        Errand::Explain(asked) => Finding::Explained(Box::new(explained(*asked))),
     })
 }
 

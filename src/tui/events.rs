@@ -2,7 +2,6 @@
 
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -10,8 +9,11 @@ use std::time::{Duration, Instant};
 use crossterm::event::{self, Event as Input, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use ratatui::layout::{Position, Size};
 
-use super::actions::{self, Action, Place};
-use super::ending;
+use super::actions::{self, Action};
+use super::errands::Finding;
+use super::keys::Place;
+use super::measurer::Measured;
+use super::perform::told;
 use super::solver::Reply;
 
 /// Something from outside.
@@ -23,10 +25,12 @@ pub enum Event {
     Signal(i32),
     /// From the worker.
     Reply(Reply),
+    /// From the measurer.
+    Measured(Box<Measured>),
     /// From the keeper of unsaved edits, which cannot keep them.
     Warned(String),
     /// From an errand.
-    Found(Box<Action>),
+    Found(Box<Finding>),
     /// Time for the next picture of what plays.
     Tick,
     /// The terminal is gone.
@@ -86,17 +90,22 @@ impl Events {
         Events { sender, receiver }
     }
 
-    /// Listen to the terminal and to signals, each in a thread that sleeps until something comes. Whatever ends the
-    /// workbench from outside is told to `last_words` before anything else.
+    /// Listen to the terminal, in a thread that sleeps until something comes.
     ///
     /// # Errors
-    /// When the system gives no thread or no signal handler.
-    pub fn listen(&self, last_words: impl Fn() + Send + Sync + 'static) -> io::Result<()> {
+    /// When the system gives no thread.
+    pub fn listen(&self) -> io::Result<()> {
         // Makes the handler of new sizes now: one that comes before the thread runs would be lost.
         event::poll(Duration::ZERO)?;
         let keys = self.sender.clone();
         thread::Builder::new().name("keys".to_owned()).spawn(move || read_terminal(&keys))?;
-        ending::listen(&self.sender, Arc::new(last_words))
+        Ok(())
+    }
+
+    /// A way for what ends the workbench to say so.
+    #[must_use]
+    pub fn sender(&self) -> SyncSender<Event> {
+        self.sender.clone()
     }
 
     /// A way for the keeper to tell what goes wrong.
@@ -106,15 +115,21 @@ impl Events {
     }
 
     /// A way for errands to tell what they found.
-    pub fn messenger(&self) -> impl Fn(Action) -> bool + Send + Sync + 'static {
+    pub fn messenger(&self) -> impl Fn(Finding) -> bool + Send + Sync + 'static {
         let sender = self.sender.clone();
-        move |found| sender.send(Event::Found(Box::new(found))).is_ok()
+        move |finding| sender.send(Event::Found(Box::new(finding))).is_ok()
     }
 
     /// A way for the worker to tell its replies.
     pub fn teller(&self) -> impl Fn(Reply) -> bool + Send + Sync + 'static {
         let sender = self.sender.clone();
         move |reply| sender.send(Event::Reply(reply)).is_ok()
+    }
+
+    /// A way for the measurer to tell what is known.
+    pub fn meter(&self) -> impl Fn(Measured) -> bool + Send + Sync + 'static {
+        let sender = self.sender.clone();
+        move |measured| sender.send(Event::Measured(Box::new(measured))).is_ok()
     }
 
     /// Wait for something, and take all that has come with it: a tick when nothing came before the alarm, nothing when
@@ -157,10 +172,10 @@ pub fn take_action(inputs: &mut std::iter::Peekable<impl Iterator<Item = Event>>
         Event::Input(Input::Resize(width, height)) => Some(Action::Resize(Size { width, height })),
         Event::Reply(Reply::Solved(answer)) => Some(Action::Solved(answer)),
         Event::Reply(Reply::Solving(serial, part)) => Some(Action::Solving(serial, part)),
-        Event::Reply(Reply::Measured(measured)) => Some(Action::Measured(measured)),
+        Event::Measured(measured) => Some(Action::Measured(measured)),
         Event::Reply(Reply::Failed(serial)) => Some(Action::SolverFailed(serial)),
         Event::Warned(text) => Some(Action::Failed(text)),
-        Event::Found(found) => Some(*found),
+        Event::Found(found) => Some(told(*found)),
         Event::Input(Input::Mouse(mouse)) => of_mouse(mouse),
         Event::Tick => Some(Action::Tick),
         Event::Input(_) | Event::Signal(_) | Event::Lost => None,

@@ -6,7 +6,6 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 
-use super::solver::Reply;
 use crate::model::{Inputs, Refusal};
 use crate::study::trade::{Patience, Question, Trade, trade};
 
@@ -45,13 +44,13 @@ pub enum End {
 
 /// Measures in a thread of its own, so that solving goes on.
 pub struct Measurer {
-    tell: Arc<dyn Fn(Reply) -> bool + Send + Sync>,
+    tell: Arc<dyn Fn(Measured) -> bool + Send + Sync>,
     stop: Arc<AtomicBool>,
 }
 
 impl Measurer {
     /// Nothing is measured yet; `tell` takes what is known, until it says that nobody listens.
-    pub fn new(tell: impl Fn(Reply) -> bool + Send + Sync + 'static) -> Measurer {
+    pub fn new(tell: impl Fn(Measured) -> bool + Send + Sync + 'static) -> Measurer {
         Measurer { tell: Arc::new(tell), stop: Arc::default() }
     }
 
@@ -63,8 +62,7 @@ impl Measurer {
         self.stop();
         self.stop = Arc::default();
         let (tell, stop) = (Arc::clone(&self.tell), Arc::clone(&self.stop));
-        let told = move |measured| tell(Reply::Measured(Box::new(measured)));
-        thread::Builder::new().name("measurer".to_owned()).spawn(move || measure(&measuring, &stop, &told))?;
+        thread::Builder::new().name("measurer".to_owned()).spawn(move || measure(&measuring, &stop, &*tell))?;
         Ok(())
     }
 
@@ -113,11 +111,10 @@ mod tests {
     #[test]
     fn what_is_known_grows_until_the_end() {
         let (sender, receiver) = channel();
-        let mut measurer = Measurer::new(move |reply| sender.send(reply).is_ok());
+        let mut measurer = Measurer::new(move |measured| sender.send(measured).is_ok());
         measurer.begin(measuring(7)).unwrap();
         let mut known = 0;
-        for reply in receiver {
-            let Reply::Measured(measured) = reply else { panic!("another reply") };
+        for measured in receiver {
             assert_eq!(measured.serial, 7);
             let trade = measured.trade.expect("a trade");
             assert!(trade.settings.len() >= known);

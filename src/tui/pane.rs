@@ -1,6 +1,6 @@
 //! The panes of the workbench: which one has the focus, which ones the screen has, and what each needs of the model.
 
-use super::actions::Place;
+use super::keys::Place;
 use crate::model::{Stage, Stages};
 
 /// A part of the screen with a title and keys of its own.

@@ -2,8 +2,8 @@
 
 use tui_input::Input;
 
-use super::actions::{self, Command};
 use super::clean::symbol;
+use super::commands::{self, Command};
 use crate::case::materials::{self, Material};
 use crate::case::{EXAMPLES, Example, FIELDS, search};
 use crate::model::{QUANTITIES, Quantity};
@@ -117,7 +117,7 @@ impl Picker {
 
     fn items(&self) -> Vec<Item> {
         match &self.list {
-            List::Commands => actions::commands().map(command).chain(GRAPHS.iter().enumerate().map(graph)).collect(),
+            List::Commands => commands::commands().map(command).chain(GRAPHS.iter().enumerate().map(graph)).collect(),
             List::Fields => (0..FIELDS.len()).map(field).collect(),
             List::Materials(gears) => materials::all().iter().map(|material| of_material(gears, material)).collect(),
             List::Limits => QUANTITIES.iter().map(quantity).collect(),
@@ -126,12 +126,12 @@ impl Picker {
     }
 }
 
-fn command(binding: &actions::Binding) -> Item {
+fn command(binding: &commands::Binding) -> Item {
     Item {
         pick: Pick::Run(binding.command),
         name: binding.name.to_owned(),
         about: binding.sentence.to_owned(),
-        keys: actions::keys_of(binding.command),
+        keys: commands::keys_of(binding.command),
     }
 }
 
@@ -233,7 +233,7 @@ mod tests {
     #[test]
     fn the_whole_list_stands_while_nothing_is_typed() {
         let all = Picker::new(List::Commands).fitting();
-        assert_eq!(all.len(), actions::commands().count() + GRAPHS.len());
+        assert_eq!(all.len(), commands::commands().count() + GRAPHS.len());
         assert_eq!(Picker::new(List::Fields).fitting().len(), FIELDS.len());
     }
 }

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use tui_input::Input;
 
-use super::actions::{Next, Place};
 use super::browser::Browser;
 use super::explanation::Explanation;
+use super::keys::Place;
 use super::pick::Picker;
 use super::recovery::{self, Offer};
 
@@ -27,6 +27,21 @@ pub enum Prompt {
     Explain(Explanation),
     /// A list to pick from.
     Pick(Picker),
+}
+
+/// What comes after a save or a decision to lose the edits.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Next {
+    /// Go on with this case.
+    Stay,
+    /// Leave the workbench.
+    Quit,
+    /// Save what else is unsaved, then leave the workbench.
+    SaveRest,
+    /// Close this case.
+    Close,
+    /// Open this file in place of the case.
+    Load(PathBuf),
 }
 
 /// A question with buttons.

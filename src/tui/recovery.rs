@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use super::app::App;
-use super::tab::Tab;
 use crate::case::changes::{self, Change};
 use crate::case::{Case, Document};
+
+/// What there is to say of a case of a newer format.
+pub const NEWER: &str = "read-only: of a newer format; only what this version knows is shown";
 
 /// Whether this workbench may write the file of a case.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -89,17 +90,6 @@ impl Access {
             Access::Held(_) | Access::Newer => " *read-only*",
         }
     }
-}
-
-/// Every case that is open.
-#[must_use]
-pub fn sheets(app: &App) -> Vec<Sheet<'_>> {
-    app.tabs().map(sheet).collect()
-}
-
-fn sheet(tab: &Tab) -> Sheet<'_> {
-    let path = tab.document.path().or(tab.path.as_deref()).filter(|_| tab.path.is_some());
-    Sheet { id: tab.id, path, document: &tab.document, case: &tab.case, is_held: matches!(tab.access, Access::Held(_)) }
 }
 
 /// A change in a line: what stands there now, and what would.

@@ -194,6 +194,19 @@ fn power(greatest: f64) -> i32 {
     if (0.01..1e5).contains(&greatest) { 0 } else { 3 * (greatest.log10() / 3.0).floor() as i32 }
 }
 
+/// What the axes were fitted to: they are fitted again only when it is something else.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Occasion {
+    /// The request that was answered, and whether more of the answer is to come.
+    pub answered: Option<(u64, bool)>,
+    /// The request of the baseline.
+    pub pinned: Option<u64>,
+    /// The chosen chart.
+    pub chosen: usize,
+    /// How many charts are in sight.
+    pub count: usize,
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -7,7 +7,6 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::fault;
-use super::measurer::Measured;
 use super::slot::Slot;
 use crate::case::{Case, Evaluator};
 use crate::model::inputs::Rung;
@@ -70,15 +69,13 @@ pub struct Cost {
     pub micros: u64,
 }
 
-/// What comes back from a worker.
+/// What comes back from the worker.
 #[derive(Debug, Clone)]
 pub enum Reply {
     /// It is solved.
     Solved(Box<Answer>),
     /// The solve of that serial takes its time; this part of it is done.
     Solving(u64, f64),
-    /// More is known of a measurement.
-    Measured(Box<Measured>),
     /// The solver failed in a way that it never should.
     Failed(u64),
 }

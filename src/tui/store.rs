@@ -8,15 +8,13 @@ mod journals;
 pub mod keeper;
 pub mod lock;
 pub mod preview;
+pub mod recents;
 pub mod state;
 
 use std::env;
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::actions::Action;
-use super::update::{Effect, Over, Saving};
-use super::{recents, recovery};
+use super::recovery;
 use crate::case::file::{ReadError, SaveError};
 use crate::case::visible::visible;
 use crate::case::{Document, changes};
@@ -32,6 +30,28 @@ pub enum SaveFault {
     Held(String),
     /// The reason, in words.
     Failed(String),
+}
+
+/// A save that is asked for.
+#[derive(Debug, Clone)]
+pub struct Saving {
+    /// The document, with the case as the form has it.
+    pub document: Document,
+    /// Where to.
+    pub path: PathBuf,
+    /// What may be written over.
+    pub over: Over,
+}
+
+/// What a save may write over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Over {
+    /// Nothing: a file of that name is not to be touched.
+    Nothing,
+    /// The file that was opened, as long as nobody else changed it.
+    Own,
+    /// Whatever is there.
+    Anything,
 }
 
 /// What the workbench begins with.
@@ -81,49 +101,7 @@ pub fn opening(asked: Option<PathBuf>) -> Opening {
     }
 }
 
-/// Do what the state asks of the files; what is to be told about it. The other effects are not for files.
-#[must_use]
-pub fn perform(effect: Effect) -> Option<Action> {
-    match effect {
-        Effect::Load(path) => {
-            let path = at_home(&path);
-            let result = load(&path);
-            Some(Action::Loaded(path, result))
-        }
-        Effect::Save(mut saving) => {
-            saving.path = expanded(&saving);
-            let result = save(&saving);
-            Some(Action::Saved(saving.path, saving.next, result))
-        }
-        Effect::Remember(path) => {
-            recents::add(&path);
-            None
-        }
-        Effect::Keep(settings) => {
-            let kept = settings.keep();
-            kept.err().map(|reason| Action::Failed(format!("the settings are not kept: {reason}")))
-        }
-        Effect::Forget(journal) => {
-            // One that stays is offered again.
-            drop(fs::remove_file(journal));
-            None
-        }
-        Effect::Solve(_)
-        | Effect::Errand(_)
-        | Effect::Adopt(_)
-        | Effect::Copy(_)
-        | Effect::Mouse(_)
-        | Effect::Play(_)
-        | Effect::Measure(_)
-        | Effect::CancelWork
-        | Effect::CancelSolve
-        | Effect::Redraw
-        | Effect::Suspend
-        | Effect::Quit => None,
-    }
-}
-
-fn load(path: &Path) -> Result<Box<Document>, Vec<String>> {
+pub(super) fn load(path: &Path) -> Result<Box<Document>, Vec<String>> {
     // Standard input is the keyboard here: reading a case from it would wait for ever.
     if path == Path::new("-") {
         return Err(vec!["standard input is no case for the workbench: name a file, or use tipstrike solve -".to_owned()]);
@@ -142,7 +120,7 @@ fn without_name(path: &Path, fault: &str) -> String {
     fault.strip_prefix(&name).unwrap_or(fault).trim_start().to_owned()
 }
 
-fn save(saving: &Saving) -> Result<Box<Document>, SaveFault> {
+pub(super) fn save(saving: &Saving) -> Result<Box<Document>, SaveFault> {
     let Saving { document, path, over, .. } = saving;
     // What is no file is told as such, rather than asked about.
     if *over == Over::Nothing && path.symlink_metadata().is_ok() && !path.is_dir() {
@@ -179,11 +157,11 @@ fn differences(saving: &Saving) -> Vec<String> {
 }
 
 /// The path of a save, with the home folder in place of `~`. The file that was opened is called what it is called.
-fn expanded(saving: &Saving) -> PathBuf {
+pub(super) fn expanded(saving: &Saving) -> PathBuf {
     if saving.over == Over::Own { saving.path.clone() } else { at_home(&saving.path) }
 }
 
-fn at_home(path: &Path) -> PathBuf {
+pub(super) fn at_home(path: &Path) -> PathBuf {
     let home = env::var_os("HOME").map(PathBuf::from).filter(|home| home.is_absolute());
     match (path.strip_prefix("~"), home) {
         (Ok(rest), Some(home)) => home.join(rest),

@@ -5,11 +5,10 @@ use std::path::PathBuf;
 use tui_input::Input;
 
 use super::history::History;
-use super::recovery::Access;
+use super::recovery::{Access, Sheet};
 use super::rows::{self, Row};
-use super::scale::Scale;
+use super::scale::{Occasion, Scale};
 use super::solver::{Answer, Values};
-use super::view::chart::Occasion;
 use crate::case::{Case, Document, Problem, fields};
 use crate::model::{Inputs, Refusal, Stages};
 use crate::study::trade::{Setting, Trade};
@@ -151,6 +150,14 @@ impl Tab {
     #[must_use]
     pub fn is_stale(&self) -> bool {
         !self.problems.is_empty() || self.refusal.is_some() || self.has_failed
+    }
+
+    /// What the form makes of its file.
+    #[must_use]
+    pub fn sheet(&self) -> Sheet<'_> {
+        let path = self.document.path().or(self.path.as_deref()).filter(|_| self.path.is_some());
+        let is_held = matches!(self.access, Access::Held(_));
+        Sheet { id: self.id, path, document: &self.document, case: &self.case, is_held }
     }
 
     /// The name of the case in the title and in questions.

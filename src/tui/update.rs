@@ -8,93 +8,34 @@ mod cursor;
 mod edit;
 pub(super) mod files;
 mod hold;
+mod leave;
 mod options;
 mod page;
 mod panes;
 mod pointer;
+mod prompts;
 mod recovery;
 mod tabs;
 mod teeth;
 mod trade;
 mod walk;
 
+use std::mem;
 use std::path::PathBuf;
 
-use super::actions::{Action, Command, Next};
+use ratatui::layout::Size;
+
+use super::actions::{Action, Effect};
 use super::app::App;
-use super::errands::Errand;
-use super::measurer::Measuring;
+use super::commands::Command;
 use super::pick::{List, Picker};
-use super::prompt::{Page, Prompt, Question};
-use super::settings::Settings;
+use super::prompt::{Next, Page, Prompt};
 use super::solver::Request;
+use super::theme::Look;
 use super::view;
 use crate::case::Document;
 use crate::case::fields;
 use crate::model::inputs::Rung;
-
-/// What the state asks of the world.
-#[derive(Debug, Clone)]
-pub enum Effect {
-    /// Solve, in place of any request that has not begun.
-    Solve(Box<Request>),
-    /// Read a case, and tell it as [`Action::Loaded`].
-    Load(PathBuf),
-    /// Write a case, and tell it as [`Action::Saved`].
-    Save(Box<Saving>),
-    /// Look into something, without keeping the screen waiting.
-    Errand(Errand),
-    /// Open this case when the workbench starts the next time.
-    Remember(PathBuf),
-    /// The edits of this journal are in the form now.
-    Adopt(PathBuf),
-    /// The edits of this journal are not wanted.
-    Forget(PathBuf),
-    /// Keep the settings.
-    Keep(Settings),
-    /// Hand a text to the clipboard of the user's own terminal.
-    Copy(String),
-    /// Take the mouse, or leave it to the terminal.
-    Mouse(bool),
-    /// Tick, or be silent.
-    Play(bool),
-    /// Measure, and tell what is known as [`Action::Measured`].
-    Measure(Box<Measuring>),
-    /// Stop the long work.
-    CancelWork,
-    /// Stop what is being solved.
-    CancelSolve,
-    /// Draw every cell anew.
-    Redraw,
-    /// Give the terminal back to the shell, until it brings us back.
-    Suspend,
-    /// Leave.
-    Quit,
-}
-
-/// A save that is asked for.
-#[derive(Debug, Clone)]
-pub struct Saving {
-    /// The document, with the case as the form has it.
-    pub document: Document,
-    /// Where to.
-    pub path: PathBuf,
-    /// What may be written over.
-    pub over: Over,
-    /// What comes next.
-    pub next: Next,
-}
-
-/// What a save may write over.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Over {
-    /// Nothing: a file of that name is not to be touched.
-    Nothing,
-    /// The file that was opened, as long as nobody else changed it.
-    Own,
-    /// Whatever is there.
-    Anything,
-}
 
 /// Change the state by what happened, and say what is to be done about it.
 pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
@@ -107,10 +48,28 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
         app.tab.read_line_anew();
     }
     effects.extend(solve(app.catch_up()));
-    chart::settle(app, cursor);
+    settle(app);
+    chart::follow_cursor(app, cursor);
     effects.extend(browse::look(app));
     effects.extend(trade::stop_unseen(app));
     effects
+}
+
+/// What follows from the rest of the state: how far form and results are scrolled, and the axes of the charts.
+pub fn settle(app: &mut App) {
+    if mem::take(&mut app.is_astray) {
+        app.tab.form_top = view::form::top_for(app);
+        app.tab.results_top = view::results::top_for(app);
+    }
+    chart::fit(app);
+}
+
+/// The workbench as it opens on a document.
+#[must_use]
+pub fn opened(document: Document, path: Option<PathBuf>, look: Look, size: Size) -> App {
+    let mut app = App::new(document, path, look, size);
+    settle(&mut app);
+    app
 }
 
 fn happen(app: &mut App, action: Action) -> Vec<Effect> {
@@ -166,8 +125,8 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::New => solve(tabs::fresh(app)),
         Command::CloseTab => files::close(app),
         Command::Quit => files::quit(app),
-        Command::Cancel => cancel(app),
-        Command::Accept => files::accept(app),
+        Command::Cancel => leave::cancel(app),
+        Command::Accept => prompts::accept(app),
         Command::Complete => browse::complete(app),
         Command::Undo | Command::Redo => travel(app, command),
         Command::ToggleRung => toggle_rung(app),
@@ -175,7 +134,7 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::PreviousChoice => edit::cycle(app, -1),
         Command::Redraw => vec![Effect::Redraw],
         Command::Suspend => vec![Effect::Suspend],
-        Command::Leave => panes::leave(app),
+        Command::Leave => leave::leave(app),
         Command::CopyValue => copy::value(app),
         Command::CopyResults => copy::results(app),
         Command::Measure => trade::measure(app),
@@ -242,39 +201,6 @@ fn show(app: &mut App, command: Command) {
         Command::TeethGap => teeth::exaggerate_or_not(app),
         other => walk::walk(app, other),
     }
-}
-
-// Ctrl-C: what is topmost goes; when nothing is left, the question whether to quit.
-fn cancel(app: &mut App) -> Vec<Effect> {
-    if app.prompts.pop().is_some() {
-        return Vec::new();
-    }
-    let stopped = stop(app);
-    if !stopped.is_empty() {
-        return stopped;
-    }
-    if app.is_playing {
-        return cursor::stop(app);
-    }
-    if app.tabs().any(super::tab::Tab::is_unsaved) {
-        return files::quit(app);
-    }
-    app.prompts.push(Prompt::Ask(Question::quit()));
-    Vec::new()
-}
-
-// What takes its time ends; what is known of it stays.
-fn stop(app: &mut App) -> Vec<Effect> {
-    let measuring = app.progress.as_ref().map(|_| Effect::CancelWork);
-    let solving = app.tab.solving.take().map(|_| {
-        app.tab.is_settled = true;
-        app.is_pinning = false;
-        if let Some(rung) = app.tab.answer.as_mut().and_then(|answer| answer.pending.take()) {
-            app.say(format!("rung {} is stopped: the closed form stands until the next edit", rung.name()));
-        }
-        Effect::CancelSolve
-    });
-    measuring.into_iter().chain(solving).collect()
 }
 
 fn solver_failed(app: &mut App, serial: u64) {

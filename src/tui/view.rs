@@ -1,15 +1,16 @@
 //! The screen, drawn from the state alone.
 
 pub mod aim;
+pub mod boxes;
 pub mod browser;
 pub mod chart;
 pub mod digest;
 pub mod explain;
 pub mod form;
 pub mod help;
-pub mod layout;
 pub mod picker;
 pub mod popup;
+pub mod reach;
 pub mod results;
 pub mod status;
 pub mod teeth;
@@ -23,9 +24,8 @@ use unicode_width::UnicodeWidthStr;
 
 use super::app::App;
 use super::clean;
+use super::layout::{self, SMALLEST, plan};
 use super::pane::Pane;
-
-pub use layout::{Plan, SMALLEST, plan};
 
 /// Room for a title beside the names of hidden panes.
 const LEAST_TITLE: usize = 16;

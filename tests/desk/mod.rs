@@ -15,14 +15,16 @@ use ratatui::layout::Size;
 use tempfile::TempDir;
 use tipstrike::case::Document;
 use tipstrike::study::trade::Patience;
+use tipstrike::tui::actions::Effect;
 use tipstrike::tui::actions::{self, Action};
 use tipstrike::tui::app::App;
 use tipstrike::tui::errands::{self, Errand};
 use tipstrike::tui::measurer::{Measuring, measure};
 use tipstrike::tui::settings::Settings;
+use tipstrike::tui::store::recents;
 use tipstrike::tui::theme::Look;
-use tipstrike::tui::update::{Effect, update};
-use tipstrike::tui::{recents, solver, store, view};
+use tipstrike::tui::update::update;
+use tipstrike::tui::{perform, solver, store, update, view};
 
 pub(crate) const SMALL: Size = Size { width: 80, height: 24 };
 pub(crate) const LARGE: Size = Size { width: 140, height: 45 };
@@ -46,7 +48,7 @@ pub(crate) struct Desk {
 impl Desk {
     /// On the built-in case.
     pub(crate) fn new(size: Size) -> Desk {
-        let app = App::new(store::built_in(), None, Look::FULL, size);
+        let app = update::opened(store::built_in(), None, Look::FULL, size);
         Desk {
             app,
             folder: tempfile::tempdir().expect("a folder"),
@@ -66,7 +68,7 @@ impl Desk {
     pub(crate) fn on(size: Size, name: &str, text: &str) -> Desk {
         let mut desk = Desk::new(size);
         let path = desk.write(name, text);
-        desk.app = App::new(Document::read(&path).expect("a good case"), Some(path), Look::FULL, size);
+        desk.app = update::opened(Document::read(&path).expect("a good case"), Some(path), Look::FULL, size);
         desk
     }
 
@@ -124,9 +126,9 @@ impl Desk {
                     Effect::Suspend => self.is_suspended = true,
                     Effect::Keep(settings) => self.kept = Some(settings),
                     Effect::Errand(Errand::Recents) => actions.push(Action::Recents(recents::looked_at(self.recents.clone()))),
-                    Effect::Errand(errand) => actions.extend(errands::perform(errand, &|_| true)),
+                    Effect::Errand(errand) => actions.extend(errands::perform(errand, &|_| true).map(perform::told)),
                     Effect::Remember(_) => (),
-                    other => actions.extend(store::perform(other)),
+                    other => actions.extend(perform::perform(other)),
                 }
             }
         }

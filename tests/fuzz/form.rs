@@ -15,16 +15,18 @@ use tipstrike::case::fields::Kind;
 use tipstrike::case::{Case, Document};
 use tipstrike::model::inputs::Rung;
 use tipstrike::tui::actions::Action;
+use tipstrike::tui::actions::Effect;
 use tipstrike::tui::app::App;
-use tipstrike::tui::browser::Sight;
 use tipstrike::tui::errands::{self, Errand};
 use tipstrike::tui::events::{Event, take_action};
 use tipstrike::tui::prompt::Prompt;
 use tipstrike::tui::solver::{self, Request};
+use tipstrike::tui::store::preview::Sight;
+use tipstrike::tui::store::recents;
 use tipstrike::tui::store::{self, below, folder};
 use tipstrike::tui::theme::Look;
-use tipstrike::tui::update::{Effect, update};
-use tipstrike::tui::{recents, rows, view};
+use tipstrike::tui::update::update;
+use tipstrike::tui::{perform, rows, update, view};
 
 use crate::values::{HOSTILE, field_and_text};
 use crate::{hold, is_hostile, texts};
@@ -155,6 +157,10 @@ fn ctrl(letter: char) -> KeyEvent {
     KeyEvent::new(KeyCode::Char(letter), KeyModifiers::CONTROL)
 }
 
+fn done(errand: Errand) -> Option<Action> {
+    errands::perform(errand, &|_| true).map(perform::told)
+}
+
 impl Bench {
     /// On a file of that text where it is a case, else on the built-in case.
     fn on(text: &str, ascii: bool) -> Bench {
@@ -164,7 +170,7 @@ impl Bench {
         let read = Document::read(&path).ok();
         let path = read.is_some().then_some(path);
         let look = Look { ascii, ..Look::FULL };
-        let app = App::new(read.unwrap_or_else(store::built_in), path, look, Size { width: 80, height: 24 });
+        let app = update::opened(read.unwrap_or_else(store::built_in), path, look, Size { width: 80, height: 24 });
         let first = app.case.clone();
         let opened = vec![first, Case::table_1()];
         Bench { app, folder, waiting: None, on_disk: opened.clone(), opened, seen: BTreeSet::new() }
@@ -269,10 +275,10 @@ impl Bench {
                 self.seen.insert("quit");
                 None
             }
-            Effect::Load(path) => store::perform(Effect::Load(self.within(&path))),
-            Effect::Save(mut saving) => {
+            Effect::Load(path) => perform::perform(Effect::Load(self.within(&path))),
+            Effect::Save(mut saving, next) => {
                 saving.path = self.within(&saving.path);
-                store::perform(Effect::Save(saving))
+                perform::perform(Effect::Save(saving, next))
             }
             Effect::Errand(Errand::Folder(base, typed)) => {
                 let mut listing = folder::list(self.within(&folder::beneath(&base, &typed)), String::new());
@@ -283,8 +289,8 @@ impl Bench {
                 Some(Action::Recents(recents::looked_at(vec![self.folder.path().join("case.toml")])))
             }
             Effect::Errand(Errand::Preview(sight, units)) => match sight {
-                Sight::File(path) => errands::perform(Errand::Preview(Sight::File(self.within(&path)), units), &|_| true),
-                Sight::Example(_) => errands::perform(Errand::Preview(sight, units), &|_| true),
+                Sight::File(path) => done(Errand::Preview(Sight::File(self.within(&path)), units)),
+                Sight::Example(_) => done(Errand::Preview(sight, units)),
                 Sight::Folder(_) => None,
             },
             Effect::Errand(Errand::Below(base, typed)) => {
@@ -292,7 +298,7 @@ impl Bench {
                 below.asked = (base, typed);
                 Some(Action::Found(Box::new(below)))
             }
-            Effect::Errand(errand) => errands::perform(errand, &|_| true),
+            Effect::Errand(errand) => done(errand),
             Effect::Play(plays) => {
                 assert_eq!(plays, self.app.is_playing, "it ticks while something plays");
                 None

@@ -13,14 +13,12 @@ use super::chest::Chest;
 use super::clock;
 use super::journals::{Found, Journals};
 use super::lock::{Holder, Lock, Taken};
-use super::{SaveFault, expanded, save};
-use crate::case::Case;
+use super::{SaveFault, Saving, expanded, save};
 use crate::case::changes::{self, Change};
 use crate::case::file::followed;
 use crate::case::journal::{Journal, Stamp};
-use crate::tui::actions::Action;
+use crate::case::{Case, Document};
 use crate::tui::recovery::{Access, Claim, Offer, Sheet};
-use crate::tui::update::Saving;
 
 /// Edits are kept so long after the last of them,
 const AFTER_LAST: Duration = Duration::from_millis(900);
@@ -75,13 +73,13 @@ impl Keeper {
         }
     }
 
-    /// Take note of what is open and of what was typed; what is to be told about it.
-    pub fn follow(&mut self, sheets: &[Sheet<'_>], now: Instant) -> Vec<Action> {
+    /// Take note of what is open and of what was typed; what is to be told about it, and why edits cannot be kept.
+    pub fn follow(&mut self, sheets: &[Sheet<'_>], now: Instant) -> Vec<Result<Claim, String>> {
         self.let_go(sheets);
         let claims: Vec<_> = sheets.iter().filter_map(|sheet| self.claim(sheet)).collect();
-        let mut told: Vec<_> = claims.into_iter().map(|claim| Action::Claimed(Box::new(claim))).collect();
+        let mut told: Vec<_> = claims.into_iter().map(Ok).collect();
         for sheet in sheets {
-            told.extend(self.note(sheet, now).err().map(Action::Failed));
+            told.extend(self.note(sheet, now).err().map(Err));
         }
         self.drop_adopted();
         told
@@ -107,15 +105,14 @@ impl Keeper {
         drop(self.chest.write(false));
     }
 
-    /// Write a case, unless another session has its file open; how it went. The edits are kept first: whatever ends the
+    /// Write a case, unless another session has its file open; where, and how it went. The edits are kept first: whatever ends the
     /// process in the midst of it, they are in the file or in the journal.
-    #[must_use]
-    pub fn save(&mut self, mut saving: Saving) -> Action {
+    pub fn save(&mut self, mut saving: Saving) -> (PathBuf, Result<Box<Document>, SaveFault>) {
         self.keep();
         saving.path = expanded(&saving);
         let holder = followed(&saving.path).ok().and_then(|path| self.lock(&path));
         let result = holder.map_or_else(|| save(&saving), |holder| Err(SaveFault::Held(holder.words(clock::now()))));
-        Action::Saved(saving.path, saving.next, result)
+        (saving.path, result)
     }
 
     /// Take a journal for dealt with, once the edits in the form are kept.

@@ -1,15 +1,25 @@
 //! What a file or a folder holds, in a few lines: a case with its verdict, or what is wrong with it.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::{at_home, folder, load, without_name};
-use crate::case::Document;
 use crate::case::units::System;
+use crate::case::{Document, Example};
 use crate::report::digest::Digest;
-use crate::tui::browser::Sight;
 
 /// More faults of a file are counted and not shown.
 const MOST_FAULTS: usize = 20;
+
+/// What a preview is of.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Sight {
+    /// A file.
+    File(PathBuf),
+    /// A folder.
+    Folder(PathBuf),
+    /// An example.
+    Example(&'static Example),
+}
 
 /// What something on the disk holds.
 #[derive(Debug, Clone, PartialEq, Eq)]

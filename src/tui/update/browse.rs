@@ -1,14 +1,15 @@
 //! Looking for a case to open: into folders and up again, among the recent ones, with a look into what is marked.
 
-use super::{Effect, files, tabs};
+use super::{files, tabs};
+use crate::tui::actions::Effect;
 use crate::tui::app::App;
-use crate::tui::browser::{Browser, Sight};
+use crate::tui::browser::Browser;
 use crate::tui::errands::Errand;
 use crate::tui::prompt::Prompt;
-use crate::tui::recents::Recent;
 use crate::tui::store::below::Below;
 use crate::tui::store::folder::Listing;
-use crate::tui::store::preview::Preview;
+use crate::tui::store::preview::{Preview, Sight};
+use crate::tui::store::recents::Recent;
 
 /// Ask for a file to open, from the folder of the present case or from the recent ones.
 pub(super) fn open(app: &mut App, prefers_recents: bool) -> Vec<Effect> {

@@ -1,6 +1,6 @@
 //! What comes from lists: a material for a gear, a limit for a result.
 
-use super::{Effect, edit};
+use super::edit;
 use crate::case::fields::index_of;
 use crate::case::materials::{self, Material};
 use crate::case::step::step_limit;
@@ -8,6 +8,7 @@ use crate::case::{FIELDS, Limit};
 use crate::model::Quantity;
 use crate::report;
 use crate::report::digest::Digest;
+use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::clean::symbol;
 use crate::tui::errands::Errand;

@@ -1,9 +1,11 @@
 //! The charts: which one, how much of the roll angle, and what it is told in.
 
-use super::{Effect, options};
+use super::options;
 use crate::report::graphs::GRAPHS;
+use crate::tui::actions::Effect;
 use crate::tui::app::App;
-use crate::tui::view::chart::{ChartView, Frame, first_contact};
+use crate::tui::view::chart::{first_contact, fitted, occasion};
+use crate::tui::window::{ChartView, Frame};
 
 /// The chart so many places further, round and round.
 pub(super) fn step(app: &mut App, by: isize) -> Vec<Effect> {
@@ -48,9 +50,17 @@ pub(super) fn strike_or_whole(app: &mut App) {
     });
 }
 
-/// After anything happened: the axes fit what is in sight, and a cursor that moved is in sight.
-pub(super) fn settle(app: &mut App, cursor_before: Option<f64>) {
-    app.fit();
+/// Fit the axes to the curves in sight.
+pub(super) fn fit(app: &mut App) {
+    let occasion = occasion(app);
+    if app.tab.fitted != occasion {
+        app.tab.scale = fitted(app);
+        app.tab.fitted = occasion;
+    }
+}
+
+/// A cursor that moved is brought in sight.
+pub(super) fn follow_cursor(app: &mut App, cursor_before: Option<f64>) {
     if let Some(cursor) = app.cursor.filter(|_| app.cursor != cursor_before) {
         app.chart = app.chart.following(0.0 - cursor.to_degrees(), &app.scale);
     }

@@ -1,8 +1,8 @@
 //! Copying to the clipboard of the user's own terminal.
 
-use super::Effect;
 use crate::model::QUANTITIES;
 use crate::report;
+use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::clean;
 use crate::tui::pane::Pane;

@@ -1,12 +1,13 @@
 //! The cursor in the driver's roll angle that chart and teeth share: how it goes by keys and by itself.
 
-use super::{Effect, panes};
-use crate::tui::aim::{aim, reach, solution};
+use super::panes;
+use crate::tui::actions::Effect;
 use crate::tui::app::App;
+use crate::tui::layout;
 use crate::tui::pane::Pane;
 use crate::tui::prompt::Prompt;
-use crate::tui::view;
 use crate::tui::view::chart::{self, first_contact};
+use crate::tui::view::reach::{aim, reach, solution};
 
 /// Move by columns towards E.
 pub(super) fn step(app: &mut App, columns: i16) -> Vec<Effect> {
@@ -41,7 +42,7 @@ pub(super) fn take_aim(app: &mut App, typed: &str) -> Vec<Effect> {
         Err(reason) => app.complain(reason),
         Ok(angle) => {
             app.prompts.pop();
-            let plan = view::plan(app.size, app.panes);
+            let plan = layout::plan(app.size, app.panes);
             if plan.chart.is_empty() && plan.teeth.is_empty() {
                 panes::show(app, Pane::Chart);
             }

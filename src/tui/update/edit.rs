@@ -2,9 +2,10 @@
 
 use tui_input::InputRequest;
 
-use super::{Effect, solve};
+use super::solve;
 use crate::case::fields::{Absent, Kind, index_of};
 use crate::case::{Case, FIELDS};
+use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::prompt::Prompt;
 use crate::tui::update::{browse, files};
@@ -40,7 +41,7 @@ pub(super) fn paste(app: &mut App, text: &str) -> Vec<Effect> {
     }
     let typed: String = letters.collect();
     splice(line, &typed);
-    if editing_case { write(app) } else { files::typed(app) }
+    if editing_case { write(app) } else { line_changed(app) }
 }
 
 /// A key that moves in the line or deletes from it.
@@ -50,7 +51,7 @@ pub(super) fn handle(app: &mut App, request: InputRequest) -> Vec<Effect> {
     }
     if let Some(prompt) = app.prompts.last_mut() {
         let changed = prompt.input_mut().and_then(|input| input.handle(request));
-        return if changed.is_some_and(|changed| changed.value) { files::typed(app) } else { Vec::new() };
+        return if changed.is_some_and(|changed| changed.value) { line_changed(app) } else { Vec::new() };
     }
     match app.tab.input.handle(request) {
         Some(changed) if changed.value => write(app),
@@ -184,4 +185,16 @@ fn checked(app: &mut App) -> Vec<Effect> {
     let request = app.request();
     app.follow();
     solve(request)
+}
+
+// The line of a prompt has changed.
+fn line_changed(app: &mut App) -> Vec<Effect> {
+    match app.prompts.last_mut() {
+        Some(Prompt::Browse(browser)) => browse::typed(browser),
+        Some(Prompt::Pick(picker)) => {
+            picker.marked = 0;
+            Vec::new()
+        }
+        _ => Vec::new(),
+    }
 }

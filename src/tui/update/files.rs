@@ -4,21 +4,15 @@ use std::path::{Path, PathBuf};
 
 use tui_input::Input;
 
-use super::{Effect, Over, Saving, browse, catalogue, cursor, page, recovery, solve, tabs};
+use super::{recovery, solve, tabs};
 use crate::case::Document;
-use crate::model::Quantity;
-use crate::tui::actions::Next;
+use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::clean;
-use crate::tui::pane::Pane;
-use crate::tui::pick::Pick;
-use crate::tui::prompt::{Choice, Page, Prompt, Question};
-use crate::tui::recovery::Access;
-use crate::tui::store::SaveFault;
+use crate::tui::prompt::{Choice, Next, Page, Prompt, Question};
+use crate::tui::recovery::{Access, NEWER};
+use crate::tui::store::{Over, SaveFault, Saving};
 use crate::tui::tab::Tab;
-
-/// What there is to say of a case of a newer format.
-pub(in crate::tui) const NEWER: &str = "read-only: of a newer format; only what this version knows is shown";
 
 /// Leave, or ask when anything is unsaved.
 pub(super) fn quit(app: &mut App) -> Vec<Effect> {
@@ -68,25 +62,6 @@ pub(super) fn ask_where(app: &mut App, next: Next) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Enter in a prompt.
-pub(super) fn accept(app: &mut App) -> Vec<Effect> {
-    match app.prompts.last().cloned() {
-        Some(Prompt::Browse(_)) => browse::accept(app),
-        Some(Prompt::Explain(explanation)) => page::accept(app, &explanation),
-        Some(Prompt::Aim(input)) => cursor::take_aim(app, input.value()),
-        Some(Prompt::SaveAs(input, next)) => accept_name(app, input.value(), next),
-        Some(Prompt::Ask(question)) => match question.buttons.get(question.marked) {
-            Some((_, choice)) => choose(app, choice.clone()),
-            None => Vec::new(),
-        },
-        Some(Prompt::Pick(picker)) => match picker.fitting().into_iter().nth(picker.marked) {
-            Some(item) => pick(app, item.pick),
-            None => Vec::new(),
-        },
-        Some(Prompt::Read(_)) | None => Vec::new(),
-    }
-}
-
 /// An answer to a question.
 pub(super) fn choose(app: &mut App, choice: Choice) -> Vec<Effect> {
     app.prompts.pop();
@@ -103,18 +78,6 @@ pub(super) fn choose(app: &mut App, choice: Choice) -> Vec<Effect> {
             }
             Vec::new()
         }
-    }
-}
-
-/// The line of a prompt has changed.
-pub(super) fn typed(app: &mut App) -> Vec<Effect> {
-    match app.prompts.last_mut() {
-        Some(Prompt::Browse(browser)) => browse::typed(browser),
-        Some(Prompt::Pick(picker)) => {
-            picker.marked = 0;
-            Vec::new()
-        }
-        _ => Vec::new(),
     }
 }
 
@@ -174,26 +137,6 @@ pub(super) fn saved(app: &mut App, path: PathBuf, next: Next, result: Result<Box
 }
 
 /// What was picked from a list.
-fn pick(app: &mut App, pick: Pick) -> Vec<Effect> {
-    app.prompts.pop();
-    match pick {
-        Pick::Run(command) => super::run(app, command),
-        Pick::Begin(example) => solve(tabs::begin(app, example)),
-        Pick::Make(gears, material) => catalogue::make(app, gears, material),
-        Pick::Limit(key) => Quantity::find(key).map_or_else(Vec::new, |quantity| catalogue::hold(app, quantity)),
-        Pick::Go(field) => {
-            go_to(app, field);
-            Vec::new()
-        }
-    }
-}
-
-/// Go to a field of the form.
-pub(super) fn go_to(app: &mut App, field: usize) {
-    app.panes.focus = Pane::Form;
-    app.focus_on(field);
-}
-
 fn go(app: &mut App, next: Next) -> Vec<Effect> {
     match next {
         Next::Stay => Vec::new(),
@@ -246,10 +189,11 @@ fn saving(app: &mut App, path: PathBuf, over: Over, next: Next) -> Effect {
     let mut document = app.document.clone();
     document.case = app.case.clone();
     app.tab.being_saved = Some(app.case.clone());
-    Effect::Save(Box::new(Saving { document, path, over, next }))
+    Effect::Save(Box::new(Saving { document, path, over }), next)
 }
 
-fn accept_name(app: &mut App, name: &str, next: Next) -> Vec<Effect> {
+/// Save under the name that is typed.
+pub(super) fn save_under(app: &mut App, name: &str, next: Next) -> Vec<Effect> {
     if name.trim().is_empty() {
         app.complain("a file needs a name");
         return Vec::new();

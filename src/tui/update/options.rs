@@ -2,7 +2,7 @@
 
 use ratatui::symbols::Marker;
 
-use super::Effect;
+use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::settings::marker_name;
 use crate::tui::theme::ThemeName;

@@ -1,9 +1,10 @@
 //! The page on one result, and the way from it to the fields behind it.
 
-use super::{Effect, files};
+use super::panes;
 use crate::case::fields::index_of;
 use crate::case::units::System;
 use crate::report;
+use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::errands::{Asked, Errand, Explained};
 use crate::tui::explanation::Explanation;
@@ -58,7 +59,7 @@ pub(super) fn accept(app: &mut App, explanation: &Explanation) -> Vec<Effect> {
     match explanation.field().and_then(index_of) {
         Some(field) => {
             app.prompts.clear();
-            files::go_to(app, field);
+            panes::go_to(app, field);
         }
         None => step(app, 1),
     }

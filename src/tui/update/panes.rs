@@ -1,16 +1,15 @@
 //! Focus and layout: which pane takes the keys, which ones have the screen.
 
-use super::{Effect, cursor};
 use crate::tui::app::App;
+use crate::tui::layout;
 use crate::tui::pane::Pane;
-use crate::tui::view;
 
 /// Go to a pane, and bring it into sight. In the form, letters stay commands until a field is entered.
 pub(super) fn show(app: &mut App, pane: Pane) {
     app.tab.history.end_visit();
     app.panes.focus = pane;
     app.is_editing = false;
-    if pane.is_lower() && view::plan(app.size, app.panes).area(pane).is_empty() {
+    if pane.is_lower() && layout::plan(app.size, app.panes).area(pane).is_empty() {
         app.panes.lower = pane;
     }
     app.follow();
@@ -23,7 +22,7 @@ pub(super) fn step(app: &mut App, by: isize) {
 
 /// Another pane into the lower area; the focus stays where it is unless it is there.
 pub(super) fn cycle_lower(app: &mut App) {
-    let plan = view::plan(app.size, app.panes);
+    let plan = layout::plan(app.size, app.panes);
     let now = Pane::LOWER.iter().position(|&pane| pane == app.panes.lower).unwrap_or(0);
     let others = (1..=Pane::LOWER.len()).map(|by| Pane::LOWER[(now + by) % Pane::LOWER.len()]);
     let next = others.into_iter().find(|&pane| plan.area(pane).is_empty()).unwrap_or(Pane::Chart);
@@ -43,26 +42,8 @@ pub(super) fn zoom(app: &mut App) {
     app.follow();
 }
 
-/// Esc: what is topmost goes, and nothing is lost.
-pub(super) fn leave(app: &mut App) -> Vec<Effect> {
-    if app.prompts.pop().is_some() {
-        return Vec::new();
-    }
-    let stopped = super::stop(app);
-    if !stopped.is_empty() {
-        return stopped;
-    }
-    if app.has_line() {
-        app.tab.history.end_visit();
-        app.is_editing = false;
-    } else if app.is_playing {
-        return cursor::stop(app);
-    } else if app.cursor.is_some() && app.panes.focus.is_lower() {
-        app.cursor = None;
-    } else if app.panes.is_zoomed {
-        zoom(app);
-    } else {
-        show(app, Pane::Form);
-    }
-    Vec::new()
+/// Go to a field of the form.
+pub(super) fn go_to(app: &mut App, field: usize) {
+    app.panes.focus = Pane::Form;
+    app.focus_on(field);
 }

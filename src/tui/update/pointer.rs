@@ -2,8 +2,10 @@
 
 use ratatui::layout::Position;
 
-use super::{Effect, chart, cursor, panes, teeth};
+use super::{chart, cursor, panes, teeth};
+use crate::tui::actions::Effect;
 use crate::tui::app::App;
+use crate::tui::layout;
 use crate::tui::pane::Pane;
 use crate::tui::prompt::Prompt;
 use crate::tui::view::chart::angle_at;
@@ -16,7 +18,7 @@ pub(super) fn click(app: &mut App, at: Position) -> Vec<Effect> {
         return Vec::new();
     }
     let Some(pane) = pane_at(app, at).filter(|_| app.prompts.is_empty()) else { return Vec::new() };
-    let area = view::plan(app.size, app.panes).area(pane);
+    let area = layout::plan(app.size, app.panes).area(pane);
     panes::show(app, pane);
     match pane {
         Pane::Form => {
@@ -60,6 +62,6 @@ pub(super) fn wheel(app: &mut App, at: Position, by: isize) {
 }
 
 fn pane_at(app: &App, at: Position) -> Option<Pane> {
-    let plan = view::plan(app.size, app.panes);
+    let plan = layout::plan(app.size, app.panes);
     Pane::ALL.into_iter().find(|&pane| plan.area(pane).contains(at))
 }

@@ -1,6 +1,7 @@
 //! What comes of a claim: who else has the case open is told, and kept edits are offered.
 
-use super::{Effect, solve, tabs};
+use super::{solve, tabs};
+use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::prompt::{Prompt, Question};
 use crate::tui::recovery::{Access, Claim, Offer};

@@ -1,7 +1,8 @@
 //! What of the teeth is in sight: zoom, centre and the factor of the gap.
 
 use crate::tui::app::App;
-use crate::tui::view::teeth::{Exaggeration, TeethView, solved};
+use crate::tui::view::teeth::solved;
+use crate::tui::zoom::{Exaggeration, TeethView};
 
 /// Some steps closer, or farther below 0.
 pub(super) fn zoom(app: &mut App, steps: i32) {

@@ -1,13 +1,15 @@
 //! Error against time: measuring, walking along the settings, taking one.
 
-use super::{Effect, edit};
+use super::edit;
 use crate::report::trade::conclusion;
 use crate::study::trade::{Patience, Setting};
+use crate::tui::actions::Effect;
 use crate::tui::app::{App, Progress};
+use crate::tui::layout;
 use crate::tui::measurer::{End, Measured, Measuring};
 use crate::tui::pane::Pane;
 use crate::tui::tab::Traded;
-use crate::tui::view::{self, trade::ordered};
+use crate::tui::view::trade::ordered;
 
 /// The work that the progress tells of.
 const MEASURING: &str = "measuring";
@@ -30,7 +32,7 @@ pub(super) fn measure(app: &mut App) -> Vec<Effect> {
 pub(super) fn stop_unseen(app: &App) -> Vec<Effect> {
     let Some(serial) = app.measuring else { return Vec::new() };
     let is_own = app.tab.traded.as_ref().is_some_and(|traded| traded.serial == serial);
-    let is_shown = is_own && !view::plan(app.size, app.panes).area(Pane::Trade).is_empty();
+    let is_shown = is_own && !layout::plan(app.size, app.panes).area(Pane::Trade).is_empty();
     if is_shown { Vec::new() } else { vec![Effect::CancelWork] }
 }
 

@@ -2,12 +2,12 @@
 
 use super::trade;
 use crate::case::Case;
-use crate::tui::actions::Command;
 use crate::tui::app::App;
+use crate::tui::commands::Command;
 use crate::tui::pane::Pane;
 use crate::tui::prompt::Prompt;
 use crate::tui::rows;
-use crate::tui::view::{explain, popup, results};
+use crate::tui::view::{boxes, explain, popup, results};
 
 /// A command that moves a focus or a mark; others change nothing.
 pub(super) fn walk(app: &mut App, command: Command) {
@@ -46,7 +46,7 @@ fn step(app: &mut App, by: isize) {
 }
 
 fn leap(app: &mut App, by: isize) {
-    let page_of_prompt = isize::try_from(popup::room(app.size).height).unwrap_or(1).max(1);
+    let page_of_prompt = isize::try_from(boxes::room(app.size).height).unwrap_or(1).max(1);
     match app.prompts.last_mut() {
         None if app.panes.focus == Pane::Results => turn(app, by * page(app)),
         None => app.focus_on(group_beside(&app.case, app.focus, by)),

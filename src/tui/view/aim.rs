@@ -6,8 +6,8 @@ use ratatui::style::Style;
 use tui_input::Input;
 use unicode_width::UnicodeWidthStr;
 
-use super::{popup, text};
-use crate::tui::aim::{HOW, aim, ending, told};
+use super::reach::{HOW, aim, ending, told};
+use super::{boxes, text};
 use crate::tui::app::App;
 
 /// Room for the sentence that says how, in two lines.
@@ -16,8 +16,8 @@ const WIDTH: u16 = 62;
 /// Draw it over the screen; where the cursor stands.
 pub fn draw(app: &App, input: &Input, screen: Rect, buffer: &mut Buffer) -> Option<Position> {
     let theme = app.look.theme;
-    let how = text::wrap(HOW, usize::from(WIDTH.min(popup::room(screen.as_size()).width)));
-    let inner = popup::frame("Cursor to", Size::new(WIDTH, how.len() as u16 + 2), screen, theme, buffer);
+    let how = text::wrap(HOW, usize::from(WIDTH.min(boxes::room(screen.as_size()).width)));
+    let inner = boxes::frame("Cursor to", Size::new(WIDTH, how.len() as u16 + 2), screen, theme, buffer);
     let (meant, style) = match aim(app, input.value()) {
         _ if input.value().trim().is_empty() => (String::new(), theme.faint),
         Ok(angle) => (format!("= {}", told(app, angle)), theme.note),

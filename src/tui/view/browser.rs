@@ -6,9 +6,9 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 use ratatui::style::Style;
 
-use super::{digest, popup, text};
-use crate::tui::browser::{Browser, Line, Sight};
-use crate::tui::store::preview::Preview;
+use super::{boxes, digest, text};
+use crate::tui::browser::{Browser, Line};
+use crate::tui::store::preview::{Preview, Sight};
 use crate::tui::theme::Theme;
 
 /// So many lines at most, where there is more room.
@@ -18,12 +18,12 @@ const RECENTS: usize = 6;
 
 /// Draw the browser over the screen; where the cursor stands.
 pub fn draw(browser: &Browser, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Option<Position> {
-    let inner = popup::frame("Open a case", Size::new(u16::MAX, HIGHEST), screen, theme, buffer);
+    let inner = boxes::frame("Open a case", Size::new(u16::MAX, HIGHEST), screen, theme, buffer);
     let folder = browser.listing.as_ref().map_or_else(String::new, |listing| listing.folder.display().to_string());
     let width = usize::from(inner.width);
     buffer.set_stringn(inner.x, inner.y, text::cut_front(&folder, width), width, theme.title);
     let body = Rect { y: inner.y + 2, height: inner.height.saturating_sub(2), ..inner };
-    let (left, right) = popup::halves(body, buffer);
+    let (left, right) = boxes::halves(body, buffer);
     draw_lists(browser, left, theme, buffer);
     draw_preview(browser, right, theme, buffer);
     let line = Rect { y: inner.y + 1, height: inner.height.saturating_sub(1).min(1), ..inner };
@@ -43,7 +43,7 @@ fn draw_lists(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffer)
         let first = browser.count_of_folder();
         let name = |at: usize| line_of(browser, first + at);
         let marked = browser.marked.checked_sub(first);
-        popup::draw_window(browser.count_of_recents(), name, marked, area, theme, buffer);
+        boxes::draw_window(browser.count_of_recents(), name, marked, area, theme, buffer);
     }
 }
 
@@ -55,7 +55,7 @@ fn draw_folder(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffer
         Some(Line::Below(case)) => text::cut_front(&case.name, room),
         _ => line_of(browser, at),
     };
-    popup::draw_window(count, line, marked, area, theme, buffer);
+    boxes::draw_window(count, line, marked, area, theme, buffer);
     let said = match &browser.listing {
         None => "reading ...",
         Some(listing) => match &listing.entries {

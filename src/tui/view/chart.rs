@@ -5,27 +5,26 @@ pub mod curves;
 pub mod ink;
 pub mod legend;
 pub mod readout;
-pub mod window;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 
-use super::{plan, text, titled};
+use super::{text, titled};
 use crate::model::{Outcome, Solution};
 use crate::report::digest::without_contact;
 use crate::report::graphs::{GRAPHS, Graph};
 use crate::tui::app::App;
 use crate::tui::clean::symbol;
+use crate::tui::layout::plan;
 use crate::tui::pane::Pane;
-use crate::tui::scale::{Scale, Span};
+use crate::tui::scale::{Occasion, Scale, Span};
 
 use axes::{Axes, Ruler};
 use curves::{Curve, Whose, curves, way, way_of_active};
 
 pub use curves::{first_contact, last_contact};
 pub use readout::readout;
-pub use window::{ChartView, Frame};
 
 /// Rows that another chart below the chosen one asks for, and the most charts.
 const ROWS: u16 = 16;
@@ -37,25 +36,14 @@ const USUAL_COLUMNS: u16 = 71;
 /// After E the strike goes on for this part of the way from D to E.
 const AFTER_E: f64 = 0.5;
 
-/// What the axes are to fit: they are fitted again only when it is something else.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Occasion {
-    answered: Option<(u64, bool)>,
-    pinned: Option<u64>,
-    chosen: usize,
-    count: usize,
-}
-
-impl Occasion {
-    /// What is in sight now.
-    #[must_use]
-    pub fn of(app: &App) -> Occasion {
-        Occasion {
-            answered: app.answer.as_ref().map(|answer| (answer.serial, answer.pending.is_some())),
-            pinned: app.baseline.as_ref().map(|baseline| baseline.answer.serial),
-            chosen: app.settings.chart,
-            count: count(plan(app.size, app.panes).chart),
-        }
+/// What the axes are to fit now.
+#[must_use]
+pub fn occasion(app: &App) -> Occasion {
+    Occasion {
+        answered: app.answer.as_ref().map(|answer| (answer.serial, answer.pending.is_some())),
+        pinned: app.baseline.as_ref().map(|baseline| baseline.answer.serial),
+        chosen: app.settings.chart,
+        count: count(plan(app.size, app.panes).chart),
     }
 }
 

@@ -4,7 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Rect, Size};
 use ratatui::style::Style;
 
-use super::{form, popup, text as words};
+use super::{boxes, form, text as words};
 use crate::report::explain::{Kind, Line, lines};
 use crate::tui::clean::written_out;
 use crate::tui::explanation::Explanation;
@@ -15,7 +15,7 @@ pub fn draw(explanation: &Explanation, screen: Rect, look: Look, buffer: &mut Bu
     let theme = look.theme;
     let lines = text(explanation, screen.as_size(), look.ascii);
     let wanted = Size { width: u16::MAX, height: u16::try_from(lines.len()).unwrap_or(u16::MAX) };
-    let inner = popup::frame(explanation.quantity.label.trim(), wanted, screen, theme, buffer);
+    let inner = boxes::frame(explanation.quantity.label.trim(), wanted, screen, theme, buffer);
     let marked = place_of_field(explanation, &lines);
     for ((at, line), y) in lines.iter().enumerate().skip(explanation.top).zip(inner.top()..inner.bottom()) {
         buffer.set_stringn(inner.x, y, &line.text, inner.width.into(), style(line.kind, theme));
@@ -32,21 +32,21 @@ pub fn draw(explanation: &Explanation, screen: Rect, look: Look, buffer: &mut Bu
 
 /// Scroll, as far as there are lines.
 pub fn scroll(explanation: &mut Explanation, by: isize, screen: Size, ascii: bool) {
-    let last = text(explanation, screen, ascii).len().saturating_sub(popup::room(screen).height.into());
+    let last = text(explanation, screen, ascii).len().saturating_sub(boxes::room(screen).height.into());
     explanation.top = explanation.top.saturating_add_signed(by).min(last);
 }
 
 /// Bring the marked field into sight.
 pub fn follow(explanation: &mut Explanation, screen: Size, ascii: bool) {
     let lines = text(explanation, screen, ascii);
-    let height = usize::from(popup::room(screen).height).max(1);
+    let height = usize::from(boxes::room(screen).height).max(1);
     if let Some((row, ..)) = place_of_field(explanation, &lines) {
         explanation.top = explanation.top.clamp((row + 1).saturating_sub(height), row);
     }
 }
 
 fn text(explanation: &Explanation, screen: Size, ascii: bool) -> Vec<Line> {
-    let width = popup::room(screen).width.into();
+    let width = boxes::room(screen).width.into();
     let said = |text: &str| vec![Line { kind: Kind::Text, text: text.to_owned() }];
     let page = match &explanation.page {
         None => said("being computed: each field behind it is moved a small step"),

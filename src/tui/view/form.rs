@@ -5,13 +5,14 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::{Modifier, Style};
 use unicode_width::UnicodeWidthStr;
 
-use super::{plan, text, titled};
+use super::{text, titled};
 use crate::case::fields::{GROUPS, Kind};
 use crate::case::{Acting, FIELDS, Limit, acts, materials};
 use crate::model::{Inputs, Quantity};
 use crate::report::verdict::verdict;
 use crate::tui::app::{self, App};
 use crate::tui::clean::{self, symbol};
+use crate::tui::layout::plan;
 use crate::tui::pane::Pane;
 use crate::tui::rows;
 

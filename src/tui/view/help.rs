@@ -1,6 +1,7 @@
 //! The help page, made from the table of bindings.
 
-use crate::tui::actions::{BINDINGS, Binding, Place};
+use crate::tui::commands::{BINDINGS, Binding};
+use crate::tui::keys::Place;
 
 const BEFORE: [&str; 5] = [
     "Every edit acts at once: results and chart follow each keystroke that leaves a valid value.",

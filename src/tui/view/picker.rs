@@ -5,7 +5,7 @@ use ratatui::layout::{Position, Rect, Size};
 use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
-use super::popup::{draw_window, frame, halves};
+use super::boxes::{draw_window, frame, halves};
 use super::{digest, text};
 use crate::case::EXAMPLES;
 use crate::report::digest::Digest;

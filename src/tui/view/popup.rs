@@ -1,20 +1,17 @@
-//! What lies over the form: a box in the middle of the screen.
+//! What lies over the form: pages, questions, lines and lists, each in its box.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Constraint, Position, Rect, Size};
+use ratatui::layout::{Position, Rect, Size};
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Block, Clear, Widget};
+use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
+use super::boxes::{WIDEST, frame, room};
 use super::{aim, browser, explain, form, picker, text};
 use crate::tui::app::App;
 use crate::tui::prompt::{Page, Prompt, Question};
 use crate::tui::theme::Theme;
-
-const WIDEST: u16 = 100;
-/// Room for four buttons.
-const NARROWEST: u16 = 52;
 
 /// Draw a prompt over the screen; where the cursor stands.
 pub fn draw(app: &App, prompt: &Prompt, screen: Rect, buffer: &mut Buffer) -> Option<Position> {
@@ -40,12 +37,6 @@ pub fn draw(app: &App, prompt: &Prompt, screen: Rect, buffer: &mut Buffer) -> Op
         Prompt::Browse(browser) => browser::draw(browser, screen, theme, buffer),
         Prompt::Pick(picker) => picker::draw(picker, screen, theme, buffer),
     }
-}
-
-/// The room inside the largest box.
-#[must_use]
-pub fn room(screen: Size) -> Size {
-    Size { width: screen.width.min(WIDEST).saturating_sub(5), height: screen.height.saturating_sub(4) }
 }
 
 /// The lines of a page as they stand in a box; lines that go on are indented.
@@ -123,51 +114,9 @@ fn question_lines(question: &Question, room: Size) -> Vec<String> {
     lines
 }
 
-/// A list on the left and what belongs to it on the right, with a rule between them.
-pub fn halves(area: Rect, buffer: &mut Buffer) -> (Rect, Rect) {
-    let left = area.width * 2 / 5;
-    for y in area.top()..area.bottom() {
-        buffer.set_stringn(area.x + left, y, "│", usize::from(area.width > left), Style::new());
-    }
-    let right = area.width.saturating_sub(left + 2);
-    (Rect { width: left.saturating_sub(1), ..area }, Rect { x: area.right() - right, width: right, ..area })
-}
-
-/// The lines of a list around the marked one; of the others nothing is made.
-pub fn draw_window(
-    count: usize,
-    line: impl Fn(usize) -> String,
-    marked: Option<usize>,
-    area: Rect,
-    theme: &Theme,
-    buffer: &mut Buffer,
-) {
-    let top = marked.map_or(0, |marked| (marked + 1).saturating_sub(area.height.into()));
-    for (at, y) in (top..count).zip(area.top()..area.bottom()) {
-        let is_marked = marked == Some(at);
-        let line = format!("{} {}", if is_marked { "▸" } else { " " }, line(at));
-        let style = if is_marked { theme.focus } else { Style::new() };
-        buffer.set_stringn(area.x, y, text::cut(&line, area.width.into()), area.width.into(), style);
-    }
-}
-
 // What the lines and some more below them take.
 fn extent(lines: &[String], more: usize) -> Size {
     let width = lines.iter().map(|line| line.width()).max().unwrap_or(0);
     let size = |length: usize| u16::try_from(length).unwrap_or(u16::MAX);
     Size { width: size(width), height: size(lines.len() + more) }
-}
-
-/// An emptied box with a border, as large as is wanted if there is room.
-pub fn frame(title: &str, wanted: Size, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Rect {
-    let room = room(screen.as_size());
-    let height = wanted.height.clamp(1, room.height.max(1)) + 2;
-    let width = wanted.width.max(NARROWEST).min(room.width) + 4;
-    let area = screen.centered(Constraint::Length(width), Constraint::Length(height)).intersection(screen);
-    Clear.render(area, buffer);
-    let title = Line::styled(format!(" {} ", text::cut(title, usize::from(area.width).saturating_sub(6))), theme.title);
-    let block = Block::bordered().title(title);
-    let inner = block.inner(area);
-    block.render(area, buffer);
-    Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner }
 }

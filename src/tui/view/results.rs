@@ -8,12 +8,13 @@ use ratatui::style::Style;
 use ratatui::text::Line;
 use ratatui::widgets::Widget;
 
-use super::{plan, text, titled};
+use super::{text, titled};
 use crate::model::inputs::Rung;
 use crate::model::{Quantity, Solution};
 use crate::report::{self, Shown, digest};
 use crate::tui::app::App;
 use crate::tui::clean::symbol;
+use crate::tui::layout::plan;
 use crate::tui::pane::Pane;
 use crate::tui::solver::Answer;
 

@@ -8,7 +8,6 @@ pub mod readings;
 pub mod scene;
 pub mod trace;
 pub mod window;
-pub mod zoom;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -20,7 +19,6 @@ use crate::tui::app::App;
 use crate::tui::pane::Pane;
 
 pub use picture::Picture;
-pub use zoom::{Centre, Exaggeration, TeethView};
 
 const NOTHING: &str = "  No valid results of this rung.";
 

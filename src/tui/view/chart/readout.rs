@@ -1,7 +1,7 @@
 //! What every curve says at the cursor.
 
 use super::curves::{Curve, Whose, curves};
-use super::{plan, shown};
+use super::shown;
 use crate::case::units;
 use crate::model::Told;
 use crate::model::between::DIGITS_BETWEEN;
@@ -10,6 +10,7 @@ use crate::report::graphs::{GRAPHS, Graph};
 use crate::report::stations::Row;
 use crate::tui::app::App;
 use crate::tui::clean::symbol;
+use crate::tui::layout::plan;
 
 /// Significant digits of the time since E.
 const TIME_DIGITS: usize = 4;

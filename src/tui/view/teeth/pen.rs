@@ -8,8 +8,8 @@ use nalgebra::{Point2, Vector2};
 use super::ink::Ink;
 use super::trace::{Stretch, trace};
 use super::window::Window;
-use super::zoom::round_down;
 use crate::model::placing::Placed;
+use crate::tui::zoom::round_down;
 
 /// Below this many dots from tooth to tooth the circles stand for them.
 const LEAST_PITCH: f64 = 5.0;

@@ -7,11 +7,11 @@ use ratatui::symbols::Marker;
 
 use super::labels::Labels;
 use super::scene::Scene;
-use super::zoom::TeethView;
 use super::{ink, readings};
 use crate::model::{Inputs, Moment, Solution, moment};
 use crate::tui::clean::symbol;
 use crate::tui::theme::Look;
+use crate::tui::zoom::TeethView;
 
 /// Least width and height of the picture itself, in cells.
 const SMALLEST: (u16, u16) = (12, 4);

@@ -4,11 +4,11 @@ use nalgebra::{Point2, Vector2};
 use ratatui::layout::Size;
 use ratatui::symbols::Marker;
 
-use super::zoom::{Centre, TeethView, whole};
 use crate::model::moment::first_contact_point;
 use crate::model::placing::on_line_of_action;
 use crate::model::{Inputs, Solution};
 use crate::tui::scale::bounds;
+use crate::tui::zoom::{Centre, TeethView, whole};
 
 /// A cell of the screen is twice as high as it is wide.
 const CELL_HEIGHT: f64 = 2.0;

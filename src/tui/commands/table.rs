@@ -4,8 +4,8 @@ use crossterm::event::KeyCode;
 use tui_input::InputRequest as Line;
 
 use super::Command as Do;
-use super::keys::{ALT, CTRL, Chord, Place, SHIFT, alt, ctrl, function, key, letter, with};
 use super::{Binding, Command};
+use crate::tui::keys::{ALT, CTRL, Chord, Place, SHIFT, alt, ctrl, function, key, letter, with};
 use crate::tui::pane::Pane;
 
 // In the status line, the palette and the help.

@@ -2,9 +2,9 @@
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-pub(super) const CTRL: KeyModifiers = KeyModifiers::CONTROL;
-pub(super) const ALT: KeyModifiers = KeyModifiers::ALT;
-pub(super) const SHIFT: KeyModifiers = KeyModifiers::SHIFT;
+pub(in crate::tui) const CTRL: KeyModifiers = KeyModifiers::CONTROL;
+pub(in crate::tui) const ALT: KeyModifiers = KeyModifiers::ALT;
+pub(in crate::tui) const SHIFT: KeyModifiers = KeyModifiers::SHIFT;
 
 /// Where keys go.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -12,7 +12,7 @@ pub struct Place(u16);
 
 /// A key with the modifiers held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Chord(pub(super) KeyCode, pub(super) KeyModifiers);
+pub struct Chord(pub(in crate::tui) KeyCode, pub(in crate::tui) KeyModifiers);
 
 impl Place {
     /// A field of words or of a value.
@@ -49,13 +49,13 @@ impl Place {
     pub const WORK: Place = Place::FORM.or(Place::OUTSIDE);
     /// The panes that the roll angle's cursor shows in.
     pub const CURSOR: Place = Place::CHART.or(Place::TEETH);
-    pub(super) const PAGE: Place = Place::READ.or(Place::EXPLAIN);
-    pub(super) const LIST: Place = Place::BROWSE.or(Place::PICK);
-    pub(super) const LINE: Place = Place::TEXT.or(Place::LIST).or(Place::PATH);
-    pub(super) const PROMPT: Place = Place::LIST.or(Place::PATH).or(Place::ASK).or(Place::PAGE);
-    pub(super) const ALL: Place = Place::WORK.or(Place::PROMPT);
+    pub(in crate::tui) const PAGE: Place = Place::READ.or(Place::EXPLAIN);
+    pub(in crate::tui) const LIST: Place = Place::BROWSE.or(Place::PICK);
+    pub(in crate::tui) const LINE: Place = Place::TEXT.or(Place::LIST).or(Place::PATH);
+    pub(in crate::tui) const PROMPT: Place = Place::LIST.or(Place::PATH).or(Place::ASK).or(Place::PAGE);
+    pub(in crate::tui) const ALL: Place = Place::WORK.or(Place::PROMPT);
     /// Where letters are more than commands of the table.
-    pub(super) const TYPED: Place = Place::LINE.or(Place::CHOICE).or(Place::ASK);
+    pub(in crate::tui) const TYPED: Place = Place::LINE.or(Place::CHOICE).or(Place::ASK);
 
     /// Whether the two have a place in common.
     #[must_use]
@@ -75,39 +75,39 @@ impl Place {
         self.meets(Place::LINE)
     }
 
-    pub(super) const fn or(self, other: Place) -> Place {
+    pub(in crate::tui) const fn or(self, other: Place) -> Place {
         Place(self.0 | other.0)
     }
 }
 
-pub(super) const fn key(code: KeyCode) -> Chord {
+pub(in crate::tui) const fn key(code: KeyCode) -> Chord {
     Chord(code, KeyModifiers::NONE)
 }
 
-pub(super) const fn letter(letter: char) -> Chord {
+pub(in crate::tui) const fn letter(letter: char) -> Chord {
     key(KeyCode::Char(letter))
 }
 
-pub(super) const fn function(number: u8) -> Chord {
+pub(in crate::tui) const fn function(number: u8) -> Chord {
     key(KeyCode::F(number))
 }
 
-pub(super) const fn ctrl(letter: char) -> Chord {
+pub(in crate::tui) const fn ctrl(letter: char) -> Chord {
     Chord(KeyCode::Char(letter), CTRL)
 }
 
-pub(super) const fn alt(letter: char) -> Chord {
+pub(in crate::tui) const fn alt(letter: char) -> Chord {
     Chord(KeyCode::Char(letter), ALT)
 }
 
-pub(super) const fn with(modifiers: KeyModifiers, code: KeyCode) -> Chord {
+pub(in crate::tui) const fn with(modifiers: KeyModifiers, code: KeyCode) -> Chord {
     Chord(code, modifiers)
 }
 
 impl Chord {
     // Shift is part of the letter and of BackTab, and terminals differ in whether they say so. Ctrl-4 and Ctrl-\ are one
     // byte, which the reader takes for the former.
-    pub(super) fn of(event: KeyEvent) -> Chord {
+    pub(in crate::tui) fn of(event: KeyEvent) -> Chord {
         let held = event.modifiers & (CTRL | ALT | SHIFT);
         match event.code {
             KeyCode::Char('4') if held == CTRL => Chord(KeyCode::Char('\\'), CTRL),

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-use super::store::state;
+use super::state;
 use crate::case::visible::visible;
 
 /// So many are remembered.

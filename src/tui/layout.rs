@@ -2,7 +2,7 @@
 
 use ratatui::layout::{Rect, Size};
 
-use crate::tui::pane::{Pane, Panes};
+use super::pane::{Pane, Panes};
 
 /// The smallest useful terminal.
 pub const SMALLEST: Size = Size { width: 60, height: 16 };

@@ -1,6 +1,6 @@
 //! What of the roll angle is in sight: the state of the chart.
 
-use crate::tui::scale::{Scale, Span};
+use super::scale::{Scale, Span};
 
 /// Each step of the zoom is √2; the last one shows a thousandth of what is there without it.
 const LAST_STEP_IN: i32 = 20;

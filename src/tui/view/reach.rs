@@ -1,14 +1,14 @@
 //! The roll angles at which the cursor may stand, and which of them is meant by what is typed.
 
-use super::app::App;
-use super::pane::Pane;
-use super::view;
-use super::view::chart::axes::Ruler;
-use super::view::chart::curves::{Whose, curves};
-use super::view::chart::{self, first_contact, last_contact};
+use super::chart::axes::Ruler;
+use super::chart::curves::{Whose, curves};
+use super::chart::{self, first_contact, last_contact};
 use crate::case::units::{self, Dimension};
 use crate::model::Solution;
 use crate::report::graphs::GRAPHS;
+use crate::tui::app::App;
+use crate::tui::layout::plan;
+use crate::tui::pane::Pane;
 
 /// How an angle is typed.
 pub const HOW: &str = "An angle before E (1.2 deg, 20 mrad), a time after E (-80 us, 0.1 ms), or a place: D, E, B, L, peak.";
@@ -146,7 +146,7 @@ pub fn reach(app: &App) -> Option<Reach> {
     let axis = app.scale.across;
     let before = if axis.is_empty() { start.max(pitch / 10.0) } else { start.max(-axis.from.to_radians()) };
     let columns = f64::from(chart::columns(app).max(2) - 1);
-    let plan = view::plan(app.size, app.panes);
+    let plan = plan(app.size, app.panes);
     if app.panes.focus == Pane::Teeth || plan.chart.is_empty() && !plan.teeth.is_empty() {
         let (most, least) = (before.max(2.0 * start), end.min(-pitch));
         return Some(Reach { start, run_from: APPROACH * start, run_to: 0.0, most, least, column: before / columns });

@@ -1,0 +1,171 @@
+//! What the user can do: every command, and the one table of keys, names and sentences.
+
+mod table;
+
+use tui_input::InputRequest;
+
+use super::keys::{self, Chord, Place};
+use super::pane::Pane;
+
+pub use table::BINDINGS;
+
+/// A command of the table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(missing_docs, reason = "each has its sentence in the table of bindings")]
+pub enum Command {
+    Help,
+    Palette,
+    SearchField,
+    Save,
+    SaveAs,
+    Open,
+    Recent,
+    FolderUp,
+    New,
+    Example,
+    NextTab,
+    PreviousTab,
+    Tab(usize),
+    CloseTab,
+    ToggleRung,
+    Undo,
+    Redo,
+    Show(Pane),
+    NextPane,
+    PreviousPane,
+    CycleLower,
+    Zoom,
+    ResultsUp,
+    ResultsDown,
+    Explain,
+    Measure,
+    TakeSetting,
+    Notes,
+    NextReason,
+    PreviousReason,
+    PinBaseline,
+    CopyValue,
+    CopyResults,
+    CursorBy(i16),
+    CursorToD,
+    CursorToE,
+    CursorTo,
+    CursorAway,
+    Play,
+    ChartBy(isize),
+    Chart(usize),
+    ChartZoom(i32),
+    ChartWhole,
+    ChartStrike,
+    ChartTime,
+    TeethBy(i32),
+    TeethAnew,
+    TeethCentre,
+    TeethGap,
+    CycleMarker,
+    ShowCost,
+    CycleTheme,
+    ToggleAscii,
+    CycleUnits,
+    ToggleMouse,
+    Redraw,
+    Suspend,
+    Cancel,
+    Quit,
+    Next,
+    Previous,
+    NextGroup,
+    PreviousGroup,
+    First,
+    Last,
+    FirstField,
+    LastField,
+    Step(i32),
+    Material,
+    Limit,
+    NextChoice,
+    PreviousChoice,
+    StartEdit,
+    Complete,
+    Accept,
+    Leave,
+    Edit(InputRequest),
+}
+
+/// A line of the table.
+#[derive(Debug, Clone, Copy)]
+pub struct Binding {
+    /// The keys that call it; none where only the palette does.
+    pub chords: &'static [Chord],
+    /// What they call.
+    pub command: Command,
+    /// The places where they do.
+    pub places: Place,
+    /// One or two words for status line and palette; empty where it stands in neither.
+    pub name: &'static str,
+    /// One sentence for palette and help.
+    pub sentence: &'static str,
+    /// Whether the status line shows it.
+    pub in_footer: bool,
+}
+
+/// The command that a key calls in a place.
+#[must_use]
+pub fn called(chord: Chord, place: Place) -> Option<Command> {
+    let bound = BINDINGS.iter().find(|binding| binding.places.meets(place) && binding.chords.contains(&chord));
+    bound.map(|binding| binding.command)
+}
+
+/// The commands of the palette: the first binding of each that has a name and does not belong to a prompt.
+pub fn commands() -> impl Iterator<Item = &'static Binding> {
+    let is_first =
+        |at: usize, command: Command| !BINDINGS[..at].iter().any(|binding| is_listed(binding) && binding.command == command);
+    let listed = BINDINGS.iter().enumerate().filter(|(_, binding)| is_listed(binding));
+    listed.filter(move |(at, binding)| is_first(*at, binding.command)).map(|(_, binding)| binding)
+}
+
+/// Every key that calls the command outside prompts, as a person reads it.
+#[must_use]
+pub fn keys_of(command: Command) -> String {
+    let bound = BINDINGS.iter().filter(|binding| binding.command == command && binding.places.meets(Place::WORK));
+    bound.map(Binding::keys).filter(|keys| !keys.is_empty()).collect::<Vec<_>>().join(", ")
+}
+
+fn is_listed(binding: &Binding) -> bool {
+    !binding.name.is_empty() && binding.places.meets(Place::WORK) && binding.command != Command::Leave
+}
+
+impl Binding {
+    /// The keys as a person reads them, Ctrl-H left out.
+    #[must_use]
+    pub fn keys(&self) -> String {
+        let names = self.chords.iter().filter(|chord| **chord != keys::ctrl('h')).map(Chord::name);
+        names.collect::<Vec<_>>().join(", ")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_key_has_two_meanings_in_a_place() {
+        for (index, binding) in BINDINGS.iter().enumerate() {
+            for other in &BINDINGS[index + 1..] {
+                let shared = binding.chords.iter().find(|chord| other.chords.contains(chord));
+                assert!(!binding.places.meets(other.places) || shared.is_none(), "{shared:?}: {}", binding.sentence);
+            }
+        }
+    }
+
+    #[test]
+    fn one_command_has_one_name_and_one_sentence() {
+        for binding in BINDINGS.iter().filter(|binding| is_listed(binding)) {
+            for other in BINDINGS.iter().filter(|other| is_listed(other)) {
+                let same = binding.command == other.command;
+                assert_eq!(same, binding.name == other.name, "{} {}", binding.name, other.name);
+                assert!(!same || binding.sentence == other.sentence, "{}", binding.name);
+            }
+        }
+    }
+}
