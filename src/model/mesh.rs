@@ -215,8 +215,8 @@ impl Mesh {
     #[must_use]
     pub fn incoming(&self, s: f64) -> (Place, f64) {
         let series = &self.zones[self.zone(s)].series;
-        let ([stiffness, gap, lever, sliding], [(_, slope)]) = (series.at(s), series.with_slopes(GAP, s));
-        (Place { stiffness, gap, lever, sliding }, slope)
+        let [stiffness, gap, lever, sliding] = series.at(s);
+        (Place { stiffness, gap, lever, sliding }, series.slope(GAP, s))
     }
 
     /// Arm of the friction force over the driver's base radius, and sliding velocity in m/s.
