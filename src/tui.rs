@@ -17,6 +17,7 @@ mod fault;
 pub mod history;
 pub mod keys;
 pub mod layout;
+pub mod line;
 pub mod measurer;
 pub mod pane;
 pub mod perform;

@@ -14,13 +14,12 @@ use tipstrike::tui::commands::BINDINGS;
 #[rustfmt::skip]
 const ACTIONS: &[(&str, &str, &str, &str)] = &[
     // In the form, outside its fields.
-    ("Esc", "Enter", "X", "5 mmX"),
+    ("Esc", "Enter", "7", "module               7 mm"),
     ("Esc", "/", "", "Go to a field"),
     ("Esc", "+", "", "module               6 mm"),
     ("Esc", "-", "", "4 mm"),
     ("Esc", ">", "", "module               15 mm"),
     ("Esc l", "<", "", "number of teeth      10"),
-    ("Esc", "m", "", "Material of both gears"),
     ("Esc", "j", "", "α pressure angle,"),
     ("Esc G", "k", "", "▸       accurate"),
     ("Esc", "l", "", "z1 number of teeth,"),
@@ -30,7 +29,9 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     // In the results.
     ("Esc 2", "Enter", "", "impact force, F_S (Eq. 57)"),
     ("Esc 2", "n", "", "Outcome, gauges, notes"),
-    ("Esc 2", "l", "", "ok impact_force 2191.0 N <= 2500 N (88 %)"),
+    ("Esc 2", "Alt-L", "", "ok impact_force 2191.0 N <= 2500 N (88 %)"),
+    ("Esc 2", "l", "", "r_b2' normal's radius, driven, Eq. 49"),
+    ("Esc 2 l", "h", "", "16 more below"),
     ("Esc 2", "j", "", "T_S impact duration, by the rung"),
     ("Esc 2 j j", "k", "", "T_S impact duration, by the rung"),
     ("Esc 2", "G", "", "(impulse_ratio)."),
@@ -61,6 +62,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 4 +", "-", "", "⡄ 10 mm"),
     ("Esc 4 + +", "0", "", "⡄ 10 mm"),
     ("Esc 4", "v", "", "the teeth around the pitch point"),
+    ("Esc 4", "k", "", "the teeth around the pair"),
     ("Esc 4", "x", "", "the gap is drawn as it is"),
     // Outside a field, in every pane.
     ("Esc 3", ":", "", "Commands"),
@@ -102,7 +104,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Ctrl-N", "Alt-W", "", "closed built-in Table 1"),
     ("Ctrl-N", "Alt-1", "", "[1 case.toml]"),
     ("Ctrl-N Alt-1", "Alt-2", "", "[2 built-in Table 1]"),
-    ("X Ctrl-Z", "Ctrl-Y", "", "5 mmX"),
+    ("X Ctrl-Z", "Ctrl-Y", "", "redo: module: 5 mm -> X"),
     ("", "Alt-B", "", "baseline: case.toml as it is now"),
     ("", "F8", "", "chart in halfblock"),
     ("", ":theme", "", "theme contrast"),
@@ -147,24 +149,24 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Ctrl-P units", "Enter", "", "492.56"),
     ("F1", "Enter", "", "▸ 1 Form"),
     ("Ctrl-P", "Esc", "", "▸ 1 Form"),
-    ("", "Ctrl-C", "", "Leave the workbench?"),
+    ("", "Ctrl-C", "", "Ctrl-C again quits"),
     // In an explanation.
     ("Esc 2 j j Enter", "Tab", "", "▸pair.module"),
     ("Esc 2 j j Enter", "BackTab", "", "▸model.accurate"),
     ("Esc 2 j j Enter Tab Tab Tab", "Enter", "", "z1 number of teeth,"),
     ("Esc 2 j j Enter", "q", "", "▸ 2 Results"),
     // In a line of text.
-    ("", "Left", "X", "5 mXm"),
+    ("End", "Left", "X", "5 mXm"),
     ("Home", "Right", "X", "5X mm"),
-    ("", "Ctrl-Left", "X", "5 Xmm"),
+    ("End", "Ctrl-Left", "X", "5 Xmm"),
     ("Home", "Ctrl-Right", "X", "5 Xmm"),
     ("", "Home", "X", "X5 mm"),
     ("Home", "End", "X", "5 mmX"),
-    ("", "Backspace", "X", "5 mX"),
+    ("End", "Backspace", "X", "5 mX"),
     ("Home", "Delete", "", "module                mm"),
     ("", "Ctrl-W", "X", "5 X"),
     ("Home Right", "Ctrl-K", "X", "module               5X    "),
-    ("", "Ctrl-U", "X", " X "),
+    ("End", "Ctrl-U", "X", " X "),
 ];
 
 fn bench() -> Desk {

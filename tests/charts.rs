@@ -92,18 +92,8 @@ fn charts_are_walked_through_and_chosen_by_name_and_the_choice_is_kept() {
     for graph in &GRAPHS {
         desk.keys(&["1", ":", "chart: ", &graph.label.to_lowercase(), "Enter", "3"]);
         assert!(desk.shows(&format!("3 {} ", graph.label)), "{}", desk.screen());
-        assert_eq!(desk.kept.map(|kept| GRAPHS[kept.chart].key), Some(graph.key));
     }
-}
-
-#[test]
-fn a_chart_that_was_kept_is_drawn_on_opening() {
-    let mut desk = at_rung(SMALL, "static");
-    let drawn = chart(desk.keys(&["j", "j", "j"]));
-    let mut again = at_rung(SMALL, "static");
-    again.app.settings.chart = 3;
-    again.act(Action::Tick);
-    assert_eq!(chart(&again), drawn);
+    assert_eq!(desk.kept, None, "which chart is looked at is no setting: a session begins with the force");
 }
 
 #[test]
@@ -411,7 +401,7 @@ fn a_chart_costs_few_bytes_a_key() {
             ["exact", "static", "dynamic"].iter().flat_map(|rung| (0..GRAPHS.len()).map(move |graph| (rung, graph)))
         {
             let mut desk = at_rung(size, rung);
-            desk.app.settings.chart = graph;
+            desk.app.graph = graph;
             for (field, unit, digits) in [
                 ("operation.speed", " rpm", "2123.4567"),
                 ("deviations.base_pitch", " um", "16.54321"),

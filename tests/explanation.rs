@@ -90,7 +90,7 @@ fn from_the_fields_behind_a_result_one_goes_to_the_form() {
     desk.keys(&["Enter"]);
     assert!(desk.app.prompts.is_empty());
     assert_eq!(tipstrike::case::FIELDS[desk.app.focus].key, wanted);
-    desk.keys(&["2", "Enter", "Enter"]);
+    desk.keys(&["Esc", "2", "Enter", "Enter"]);
     assert_eq!(of(&desk).field(), Some("pair.module"), "Enter marks the first one before it goes there");
 }
 

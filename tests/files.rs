@@ -89,7 +89,7 @@ fn then_it_is_reloaded_saved_elsewhere_overwritten_or_left() {
 #[test]
 fn a_save_that_fails_changes_nothing_and_nothing_comes_after_it() {
     let faults = [
-        SaveFault::Exists,
+        SaveFault::Exists(Vec::new()),
         SaveFault::Changed(vec!["speed".to_owned()]),
         SaveFault::Held("process 1 on another machine for 3 s".to_owned()),
         SaveFault::Failed("no room".to_owned()),
@@ -146,9 +146,9 @@ fn the_mend_of_a_failed_save_is_on_the_smallest_screen() {
 fn other_comments_and_no_case_at_all_are_told_as_such() {
     for (text, told) in [
         (format!("{TABLE_1}# mine\n"), "only comments or spacing differ"),
-        (TABLE_1.replace("\"5 mm\"", "5"), "no valid case now"),
-        (String::new(), "no valid case now"),
-        ("\u{1b}[2J\u{9b}".to_owned(), "no valid case now"),
+        (TABLE_1.replace("\"5 mm\"", "5"), "no valid case"),
+        (String::new(), "no valid case"),
+        ("\u{1b}[2J\u{9b}".to_owned(), "no valid case"),
     ] {
         let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
         meddle(&desk, "newer", &text);

@@ -157,7 +157,7 @@ fn told() -> Vec<Action> {
     let claim = Claim { id: 0, access: Access::Held(words()), offers: vec![offer], notices: vec![words()] };
     vec![
         Action::Failed(words()),
-        saved(SaveFault::Exists),
+        saved(SaveFault::Exists(vec![words()])),
         saved(SaveFault::Changed(vec![words()])),
         saved(SaveFault::Held(words())),
         saved(SaveFault::Failed(words())),

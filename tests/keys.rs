@@ -56,10 +56,10 @@ fn the_rung_is_a_field_and_a_key() {
 fn undo_goes_back_a_field_and_redo_forward() {
     let mut desk = Desk::new(SMALL);
     desk.fill("operation.speed", "1500 rpm").keys(&["Tab", "0.1", "Ctrl-Z"]);
-    assert!(!desk.shows("0.1"));
+    assert!(desk.shows("undo: friction coefficient: 0.1 -> (empty)"), "{}", desk.screen());
     assert!(desk.shows("1500 rpm"));
     desk.keys(&["Ctrl-Z"]);
-    assert!(desk.shows("2000 rpm"));
+    assert!(desk.shows("2000 rpm") && desk.shows("undo: speed: 1500 rpm -> 2000 rpm"), "{}", desk.screen());
     assert!(!desk.app.is_unsaved());
     desk.keys(&["Ctrl-Y"]);
     assert!(desk.shows("1500 rpm"));
@@ -236,11 +236,16 @@ fn edits_are_not_lost_unasked() {
 }
 
 #[test]
-fn without_edits_ctrl_q_leaves_at_once_and_ctrl_c_asks() {
+fn without_edits_ctrl_q_leaves_at_once_and_ctrl_c_the_second_time() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Ctrl-C"]);
-    assert!(!desk.has_quit);
-    desk.keys(&["Esc", "Ctrl-Q"]);
+    assert!(!desk.has_quit && desk.app.prompts.is_empty() && desk.shows("Ctrl-C again quits"), "{}", desk.screen());
+    desk.keys(&["Down", "Ctrl-C"]);
+    assert!(!desk.has_quit, "another key between them");
+    desk.keys(&["Ctrl-C"]);
+    assert!(desk.has_quit);
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Ctrl-Q"]);
     assert!(desk.has_quit);
 }
 
@@ -271,7 +276,7 @@ fn a_long_paste_is_cut_and_quick() {
 #[test]
 fn backspace_may_arrive_as_ctrl_h() {
     let mut desk = Desk::new(SMALL);
-    desk.go_to("operation.speed").keys(&["Ctrl-H", "Ctrl-H", "Ctrl-H", "rpm"]);
+    desk.go_to("operation.speed").keys(&["End", "Ctrl-H", "Ctrl-H", "Ctrl-H", "rpm"]);
     assert!(!desk.app.is_unsaved());
 }
 
@@ -326,4 +331,58 @@ fn a_failed_solve_is_told_and_the_results_are_marked() {
     assert!(desk.shows("solver failed") && desk.shows("LAST VALID"));
     desk.fill("operation.speed", "1500 rpm");
     assert!(!desk.shows("solver failed") && !desk.shows("LAST VALID"));
+}
+
+#[test]
+fn what_is_typed_takes_the_place_of_the_value_and_a_move_keeps_it() {
+    for (keys, text) in [
+        (&["1500"][..], "1500 rpm"),
+        (&["Enter", "Up", "1500"], "1500 rpm"),
+        (&["End", "x"], "2000 rpmx"),
+        (&["Home", "1"], "12000 rpm"),
+        (&["Delete", "900"], "900 rpm"),
+        (&["Esc", "Enter", "700"], "700 rpm"),
+        (&["Esc", "/", "speed", "Enter", "800"], "800 rpm"),
+    ] {
+        let mut desk = Desk::new(SMALL);
+        desk.go_to("operation.speed").keys(keys);
+        let speed = tipstrike::case::fields::index_of("operation.speed").expect("a field");
+        assert_eq!(desk.app.case.text(speed), Some(text), "{keys:?}\n{}", desk.screen());
+    }
+}
+
+#[test]
+fn a_letter_that_is_no_command_is_told_as_such() {
+    for (pane, letter, told) in [
+        ("1", "7", "7 is no command in Form: Enter edits the field, ? lists the keys"),
+        ("2", "x", "x is no command in Results: ? lists the keys"),
+        ("5", "Space", "Space is no command in Trade: ? lists the keys"),
+    ] {
+        let mut desk = Desk::new(SMALL);
+        desk.keys(&["Esc", pane, letter]);
+        assert!(desk.shows(told), "{}", desk.screen());
+    }
+}
+
+#[test]
+fn undo_tells_what_it_took_back() {
+    let mut desk = Desk::new(SMALL);
+    desk.go_to("driven.tip_relief").keys(&["48", "Esc", "u"]);
+    assert!(desk.shows("undo: driven tip relief: 48 um -> 0 um"), "{}", desk.screen());
+    desk.keys(&["Ctrl-R"]);
+    assert!(desk.shows("redo: driven tip relief: 0 um -> 48 um"), "{}", desk.screen());
+    desk.keys(&["Alt-G", "34crnimo", "Enter", "u"]);
+    assert!(desk.shows("undo: driven Young's modulus: ") && desk.shows("density: "), "{}", desk.screen());
+    desk.keys(&["Esc", "2", "Alt-L", "Esc", "u"]);
+    assert!(desk.shows("undo: limits."), "{}", desk.screen());
+}
+
+#[test]
+fn the_baseline_is_called_as_the_file_that_it_was_saved_to() {
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Alt-B"]);
+    assert!(desk.shows("for this session") && desk.shows("against built-in"), "{}", desk.screen());
+    let path = desk.path("whine.toml");
+    desk.keys(&["F2", "Ctrl-U", name(&path), "Enter"]);
+    assert!(desk.shows("against whine.toml"), "{}", desk.screen());
 }

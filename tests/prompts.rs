@@ -22,7 +22,7 @@ type Way = fn(&mut Desk);
 
 const SCREENS: &[(&str, Way)] = &[
     ("materials", |desk| {
-        desk.keys(&["Esc", "l", "m", "18cr"]);
+        desk.keys(&["Esc", "l", "Alt-G", "18cr"]);
     }),
     ("aim", |desk| {
         desk.keys(&["Esc", "a", "0.6"]);
@@ -40,7 +40,7 @@ const SCREENS: &[(&str, Way)] = &[
         desk.keys(&["Alt-L", "dyn"]);
     }),
     ("limits", |desk| {
-        desk.keys(&["Esc", "2", "l", "Ctrl-U", "2000 N"]);
+        desk.keys(&["Esc", "2", "Alt-L", "2000 N"]);
     }),
     ("inch_units", |desk| {
         desk.keys(&[":", "Backspace", "Esc", ":", "units", "Enter", "2"]);
@@ -59,7 +59,7 @@ const SCREENS: &[(&str, Way)] = &[
         desk.keys(&["F2", "Ctrl-U", desk::name(&taken), "Enter"]);
     }),
     ("save_as", |desk| {
-        desk.keys(&["F2", "Ctrl-U", "~/mine.toml"]);
+        desk.keys(&["F2", "Home", "Ctrl-K", "~/mine.toml"]);
     }),
     ("read_only", |desk| {
         let claim = Claim::of(desk.app.tab.id, Access::Held(HOLDER.to_owned()));
@@ -117,4 +117,38 @@ fn the_screens() {
             assert_snapshot!(format!("{name}_{size}"), screen);
         }
     }
+}
+
+#[test]
+fn a_name_that_is_typed_takes_the_place_of_the_one_that_is_offered() {
+    for (keys, file) in [
+        (&["whine48"][..], "whine48.toml"),
+        (&["Backspace", "whine48"], "whine48.toml"),
+        (&["Right", "2"], "case2.toml"),
+        (&["Left", "my-"], "my-case.toml"),
+        (&["End", ".old"], "case.toml.old"),
+    ] {
+        let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+        desk.keys(&["F2"]).keys(keys).keys(&["Enter"]);
+        assert!(desk.path(file).is_file() && desk.shows("saved "), "{keys:?} {file}\n{}", desk.screen());
+    }
+}
+
+#[test]
+fn what_would_be_written_over_is_told() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.write("other.toml", &TABLE_1.replace("2000 rpm", "900 rpm"));
+    desk.keys(&["F2", "other", "Enter"]);
+    assert!(desk.shows("speed: 900 rpm in the file, 2000 rpm here"), "{}", desk.screen());
+    desk.keys(&["Esc", "Ctrl-U", desk::name(&desk.path("case.toml")), "Enter"]);
+    assert!(desk.shows("saved "), "its own file is not asked about: {}", desk.screen());
+}
+
+#[test]
+fn an_angle_that_is_refused_gives_way_to_what_is_typed_next() {
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Esc", "a", "0,5", "Enter"]);
+    assert!(desk.shows("write 0.5, not 0,5"), "{}", desk.screen());
+    desk.keys(&["0.5", "Enter"]);
+    assert!(desk.app.prompts.is_empty() && desk.shows("0.5000 deg of the driver before E"), "{}", desk.screen());
 }

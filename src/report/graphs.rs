@@ -56,12 +56,6 @@ pub static GRAPHS: [Graph; 9] = [
 ];
 
 impl Graph {
-    /// The place in the table of the chart of that key.
-    #[must_use]
-    pub fn find(key: &str) -> Option<usize> {
-        GRAPHS.iter().position(|graph| graph.key == key)
-    }
-
     /// The column that a rung has.
     #[must_use]
     pub fn column(&self, rung: Rung) -> Option<&'static Column> {

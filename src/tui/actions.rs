@@ -29,6 +29,8 @@ pub enum Action {
     Do(Command),
     /// A character typed.
     Insert(char),
+    /// A letter that is no command where it was typed.
+    Stray(char),
     /// Text pasted, which never presses a button.
     Paste(String),
     /// The mouse pressed a cell.
@@ -123,6 +125,7 @@ pub fn of_key(event: KeyEvent, place: Place) -> Option<Action> {
 fn typed(chord: Chord, place: Place) -> Option<Action> {
     match chord {
         Chord(KeyCode::Char(letter), KeyModifiers::NONE) if place.meets(Place::TYPED) => Some(Action::Insert(letter)),
+        Chord(KeyCode::Char(letter), KeyModifiers::NONE) if place.meets(Place::OUTSIDE) => Some(Action::Stray(letter)),
         _ => None,
     }
 }

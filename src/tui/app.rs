@@ -51,6 +51,8 @@ pub struct App {
     pub teeth: TeethView,
     /// What of the roll angle is in sight in the charts.
     pub chart: ChartView,
+    /// The chart, by its place in the table; until the workbench is left.
+    pub graph: usize,
     /// Whether the charts tell the time after E in place of the roll angle before it; until the workbench is left.
     pub by_time: bool,
     /// Whether the cursor runs by itself.
@@ -76,6 +78,8 @@ pub struct App {
 /// Results to hold the others against.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Baseline {
+    /// The tab in which it was, for as long as that is open.
+    pub tab: usize,
     /// The name of the case.
     pub name: String,
     /// The case.
@@ -128,6 +132,7 @@ impl App {
             cursor: None,
             teeth: TeethView::default(),
             chart: ChartView::default(),
+            graph: 0,
             by_time: false,
             is_playing: false,
             progress: None,

@@ -4,8 +4,7 @@
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use tui_input::Input;
-
+use super::line::Line as Text;
 use super::store::below::{self, Below};
 use super::store::folder::{Entry, Listing, beneath};
 use super::store::preview::{Preview, Sight};
@@ -16,7 +15,7 @@ use crate::case::{EXAMPLES, Example};
 #[derive(Debug, Clone, Default)]
 pub struct Browser {
     /// What is typed: a part of a name, or a path.
-    pub input: Input,
+    pub input: Text,
     /// What stands in the folder; `None` while it is being read.
     pub listing: Option<Listing>,
     /// The cases that were open last.
@@ -237,7 +236,7 @@ impl Browser {
         self.came_from =
             (folder == self.above()).then(|| self.listing.as_ref()?.folder.file_name().map(ToOwned::to_owned)).flatten();
         self.base = folder;
-        (self.input, self.typed_folder, self.listing) = (Input::default(), String::new(), None);
+        (self.input, self.typed_folder, self.listing) = (Text::default(), String::new(), None);
         self.prefers_recents = false;
         self.refit();
     }

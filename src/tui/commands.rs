@@ -60,7 +60,7 @@ pub enum Command {
     ChartTime,
     TeethBy(i32),
     TeethAnew,
-    TeethCentre,
+    TeethCentre(isize),
     TeethGap,
     CycleMarker,
     ShowCost,
@@ -105,8 +105,8 @@ pub struct Binding {
     pub name: &'static str,
     /// One sentence for palette and help.
     pub sentence: &'static str,
-    /// Whether the status line shows it.
-    pub in_footer: bool,
+    /// Where the status line shows it.
+    pub footer: Place,
 }
 
 /// The command that a key calls in a place.
@@ -147,6 +147,7 @@ impl Binding {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crossterm::event::KeyCode;
 
     #[test]
     fn no_key_has_two_meanings_in_a_place() {
@@ -154,6 +155,31 @@ mod tests {
             for other in &BINDINGS[index + 1..] {
                 let shared = binding.chords.iter().find(|chord| other.chords.contains(chord));
                 assert!(!binding.places.meets(other.places) || shared.is_none(), "{shared:?}: {}", binding.sentence);
+            }
+        }
+    }
+
+    /// Letters that mean the like in several panes: a move, more or less, from the start, another view.
+    const ALIKE: &str = "hjklgG+=-0v";
+
+    #[test]
+    fn a_letter_has_one_meaning_in_all_panes() {
+        for letter in ('!'..='~').filter(|letter| !ALIKE.contains(*letter)) {
+            let chord = keys::letter(letter);
+            let bound = BINDINGS.iter().filter(|one| one.places.meets(Place::OUTSIDE) && one.chords.contains(&chord));
+            let mut commands: Vec<_> = bound.map(|one| one.command).collect();
+            commands.dedup();
+            assert!(commands.len() <= 1, "{letter}: {commands:?}");
+        }
+    }
+
+    #[test]
+    fn the_letters_that_move_do_so_in_every_pane() {
+        for place in [Place::FIELD, Place::RESULTS, Place::CHART, Place::TEETH, Place::TRADE] {
+            for (letter, arrow) in [('h', KeyCode::Left), ('j', KeyCode::Down), ('k', KeyCode::Up), ('l', KeyCode::Right)] {
+                let moved = called(keys::letter(letter), place);
+                assert!(moved.is_some(), "{letter} in {place:?}");
+                assert_eq!(moved, called(keys::key(arrow), place), "{letter} in {place:?}");
             }
         }
     }

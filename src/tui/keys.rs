@@ -15,6 +15,8 @@ pub struct Place(u16);
 pub struct Chord(pub(in crate::tui) KeyCode, pub(in crate::tui) KeyModifiers);
 
 impl Place {
+    /// Nowhere.
+    pub const NONE: Place = Place(0);
     /// A field of words or of a value.
     pub const TEXT: Place = Place(1);
     /// A field of a few names.

@@ -1,9 +1,8 @@
 //! Lists that are filtered by what is typed: the palette of commands, the fields, materials, limits, examples.
 
-use tui_input::Input;
-
 use super::clean::symbol;
 use super::commands::{self, Command};
+use super::line::Line;
 use crate::case::materials::{self, Material};
 use crate::case::{EXAMPLES, Example, FIELDS, search};
 use crate::model::{QUANTITIES, Quantity};
@@ -21,7 +20,7 @@ pub struct Picker {
     /// What is listed.
     pub list: List,
     /// What is typed.
-    pub input: Input,
+    pub input: Line,
     /// The marked one of those that fit.
     pub marked: usize,
 }
@@ -73,7 +72,7 @@ impl Picker {
     /// The whole list.
     #[must_use]
     pub fn new(list: List) -> Picker {
-        Picker { list, input: Input::default(), marked: 0 }
+        Picker { list, input: Line::default(), marked: 0 }
     }
 
     /// In a few words.

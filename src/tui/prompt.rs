@@ -2,11 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use tui_input::Input;
-
 use super::browser::Browser;
 use super::explanation::Explanation;
 use super::keys::Place;
+use super::line::Line;
 use super::pick::Picker;
 use super::recovery::{self, Offer};
 
@@ -16,9 +15,9 @@ pub enum Prompt {
     /// Which file to open.
     Browse(Box<Browser>),
     /// Where to save, and what comes next.
-    SaveAs(Input, Next),
+    SaveAs(Line, Next),
     /// Where the cursor is to go.
-    Aim(Input),
+    Aim(Line),
     /// A question with buttons.
     Ask(Question),
     /// A page to read, scrolled to a line.
@@ -104,7 +103,7 @@ impl Prompt {
     }
 
     /// The line of text that it edits.
-    pub fn input_mut(&mut self) -> Option<&mut Input> {
+    pub fn input_mut(&mut self) -> Option<&mut Line> {
         match self {
             Prompt::Browse(browser) => Some(&mut browser.input),
             Prompt::SaveAs(input, _) | Prompt::Aim(input) => Some(input),
@@ -147,25 +146,13 @@ impl Question {
         }
     }
 
-    /// Ctrl-C with nothing to cancel.
+    /// A file of that name is there, which says this otherwise than the form.
     #[must_use]
-    pub fn quit() -> Question {
-        Question {
-            title: "Quit",
-            text: "Leave the workbench? Nothing is unsaved.".to_owned(),
-            details: Vec::new(),
-            buttons: vec![("Quit", Choice::Proceed(Next::Quit)), ("Cancel", Choice::Cancel)],
-            marked: 1,
-        }
-    }
-
-    /// A file of that name is there.
-    #[must_use]
-    pub fn exists(path: &Path, next: &Next) -> Question {
+    pub fn exists(path: &Path, details: Vec<String>, next: &Next) -> Question {
         Question {
             title: "The file exists",
-            text: format!("{} is there already.", path.display()),
-            details: Vec::new(),
+            text: format!("{} is there already. Overwrite puts the form in its place.", path.display()),
+            details,
             buttons: vec![
                 ("Overwrite", Choice::Overwrite(path.to_owned(), next.clone())),
                 ("Save as", Choice::SaveAs(next.clone())),

@@ -98,6 +98,16 @@ pub fn line(change: &Change) -> String {
     format!("{}: {} -> {}", changes::label(&change.key), shown(change.from.as_deref()), shown(change.to.as_deref()))
 }
 
+/// Changes in a sentence: the first ones, and how many more there are.
+#[must_use]
+pub fn told(changes: &[Change]) -> String {
+    const MOST: usize = 3;
+    let first: Vec<_> = changes.iter().take(MOST).map(line).collect();
+    let more = changes.len().saturating_sub(MOST);
+    let more = if more > 0 { format!("; and {more} more") } else { String::new() };
+    if first.is_empty() { "nothing that is written".to_owned() } else { first.join("; ") + &more }
+}
+
 /// A text in a line, short, and the words for none.
 #[must_use]
 pub fn shown(text: Option<&str>) -> String {

@@ -1,4 +1,4 @@
-//! What the user chose for every case: chart, marker, mouse, theme, units, ASCII; kept in a file of its own.
+//! What the user chose for every case: marker, mouse, theme, units, ASCII; kept in a file of its own.
 
 use std::env;
 use std::fs;
@@ -12,7 +12,6 @@ use toml_edit::{DocumentMut, Item, Value};
 
 use super::theme::{Look, ThemeName};
 use crate::case::units::System;
-use crate::report::graphs::{GRAPHS, Graph};
 
 /// Markers by their names in the file.
 const MARKERS: [(&str, Marker); 3] = [("braille", Marker::Braille), ("halfblock", Marker::HalfBlock), ("dot", Marker::Dot)];
@@ -31,15 +30,13 @@ pub struct Settings {
     pub theme: Option<ThemeName>,
     /// The units in which values are shown beside what was typed.
     pub units: System,
-    /// Whether nothing but ASCII is drawn; else what the environment asks for.
-    pub ascii: Option<bool>,
-    /// The chart, by its place in the table.
-    pub chart: usize,
+    /// Whether nothing but ASCII is drawn, whatever the environment is able to show.
+    pub ascii: bool,
 }
 
 impl Default for Settings {
     fn default() -> Settings {
-        Settings { marker: Marker::Braille, mouse: false, theme: None, units: System::Metric, ascii: None, chart: 0 }
+        Settings { marker: Marker::Braille, mouse: false, theme: None, units: System::Metric, ascii: false }
     }
 }
 
@@ -56,8 +53,7 @@ impl Settings {
             mouse: flag("mouse").unwrap_or(usual.mouse),
             theme: word("theme").and_then(|name| ThemeName::ALL.into_iter().find(|theme| theme.name() == name)),
             units: word("units").and_then(System::find).unwrap_or(usual.units),
-            ascii: flag("ascii"),
-            chart: word("chart").and_then(Graph::find).unwrap_or(usual.chart),
+            ascii: flag("ascii").unwrap_or(usual.ascii),
         }
     }
 
@@ -79,8 +75,7 @@ impl Settings {
         set("mouse", Some(self.mouse.into()));
         set("theme", self.theme.map(|theme| theme.name().into()));
         set("units", Some(self.units.name().into()));
-        set("ascii", self.ascii.map(Value::from));
-        set("chart", GRAPHS.get(self.chart).map(|graph| graph.key.into()));
+        set("ascii", self.ascii.then(|| true.into()));
         Ok(file.to_string())
     }
 
@@ -109,12 +104,12 @@ impl Settings {
         write().map_err(told)
     }
 
-    /// What the terminal is able to show, as far as the user does not want it otherwise. No setting brings colours back
-    /// that the environment takes away.
+    /// What the terminal is able to show, as far as the user does not want it otherwise. No setting brings colours or
+    /// letters back that the environment takes away.
     #[must_use]
     pub fn look(&self, able: Look, variable: impl Fn(&str) -> bool) -> Look {
         let theme = self.theme.filter(|_| !variable("NO_COLOR")).map_or(able.theme, ThemeName::theme);
-        Look { theme, ascii: self.ascii.unwrap_or(able.ascii) }
+        Look { theme, ascii: self.ascii || able.ascii }
     }
 }
 
@@ -163,8 +158,8 @@ mod tests {
     #[test]
     fn every_setting_comes_back() {
         for theme in ThemeName::ALL.map(Some).into_iter().chain([None]) {
-            for (units, ascii) in [(System::Metric, None), (System::Inch, Some(true)), (System::Inch, Some(false))] {
-                let settings = Settings { marker: Marker::Dot, mouse: true, theme, units, ascii, chart: 3 };
+            for (units, ascii) in [(System::Metric, false), (System::Inch, true), (System::Inch, false)] {
+                let settings = Settings { marker: Marker::Dot, mouse: true, theme, units, ascii };
                 assert_eq!(Settings::parse(&settings.render("").expect("nothing is TOML")), settings);
             }
         }

@@ -15,15 +15,18 @@ use std::env;
 use std::path::{Path, PathBuf};
 
 use super::recovery;
+use crate::case::Document;
+use crate::case::changes::{self, Change};
 use crate::case::file::{ReadError, SaveError};
 use crate::case::visible::visible;
-use crate::case::{Document, changes};
+
+const ONLY_SPACING: &str = "Every field is the same: only comments or spacing differ.";
 
 /// Why a case was not written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum SaveFault {
-    /// A file of that name is there.
-    Exists,
+    /// A file of that name is there: what it says otherwise than the form, a line each.
+    Exists(Vec<String>),
     /// Someone else changed the file since it was read: what it says otherwise than the form, a line each.
     Changed(Vec<String>),
     /// Another session has the file open, which these words name.
@@ -124,36 +127,44 @@ pub(super) fn save(saving: &Saving) -> Result<Box<Document>, SaveFault> {
     let Saving { document, path, over, .. } = saving;
     // What is no file is told as such, rather than asked about.
     if *over == Over::Nothing && path.symlink_metadata().is_ok() && !path.is_dir() {
-        return Err(SaveFault::Exists);
+        return Err(SaveFault::Exists(occupied(saving)));
     }
     let mut document = document.clone();
     let written = if *over == Over::Anything { document.save_over(path) } else { document.save(path) };
     written.map(|()| Box::new(document)).map_err(|error| match error {
-        SaveError::ChangedOnDisk(_) => SaveFault::Changed(differences(saving)),
-        SaveError::AlreadyThere(_) => SaveFault::Exists,
+        SaveError::ChangedOnDisk(_) => SaveFault::Changed(differences(saving, ONLY_SPACING, |change| by_whom(saving, change))),
+        SaveError::AlreadyThere(_) => SaveFault::Exists(occupied(saving)),
         other => SaveFault::Failed(other.to_string()),
     })
 }
 
-/// What the file says otherwise than the form, a line each.
-fn differences(saving: &Saving) -> Vec<String> {
+/// What the file says otherwise than the form, a line each, with a remark; the words for nothing.
+fn differences(saving: &Saving, same: &str, remark: impl Fn(&Change) -> String) -> Vec<String> {
     let theirs = match Document::read(&saving.path) {
         Ok(theirs) => theirs.case,
-        Err(error) => return error.to_string().lines().take(1).map(|line| format!("It is no valid case now: {line}")).collect(),
+        Err(error) => return error.to_string().lines().take(1).map(|line| format!("It is no valid case: {line}")).collect(),
     };
-    let (opened, ours) = (saving.document.loaded(), &saving.document.case);
-    let lines = changes::between(&theirs, ours).into_iter().map(|change| {
-        let before = changes::text_of(opened, &change.key);
-        let by = match (before == change.from, before == change.to) {
-            (true, _) => "changed here",
-            (_, true) => "changed there",
-            (false, false) => "changed here and there",
-        };
+    let lines = changes::between(&theirs, &saving.document.case).into_iter().map(|change| {
         let (there, here) = (recovery::shown(change.from.as_deref()), recovery::shown(change.to.as_deref()));
-        format!("{}: {there} in the file, {here} here ({by})", changes::label(&change.key))
+        format!("{}: {there} in the file, {here} here{}", changes::label(&change.key), remark(&change))
     });
     let lines: Vec<_> = lines.collect();
-    if lines.is_empty() { vec!["Every field is the same: only comments or spacing differ.".to_owned()] } else { lines }
+    if lines.is_empty() { vec![same.to_owned()] } else { lines }
+}
+
+fn occupied(saving: &Saving) -> Vec<String> {
+    differences(saving, "Every field in it is as in the form.", |_| String::new())
+}
+
+// Who changed it, of a file that both began with.
+fn by_whom(saving: &Saving, change: &Change) -> String {
+    let before = changes::text_of(saving.document.loaded(), &change.key);
+    let by = match (before == change.from, before == change.to) {
+        (true, _) => "changed here",
+        (_, true) => "changed there",
+        (false, false) => "changed here and there",
+    };
+    format!(" ({by})")
 }
 
 /// The path of a save, with the home folder in place of `~`. The file that was opened is called what it is called.

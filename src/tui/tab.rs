@@ -2,9 +2,8 @@
 
 use std::path::PathBuf;
 
-use tui_input::Input;
-
 use super::history::History;
+use super::line::Line;
 use super::recovery::{Access, Sheet};
 use super::rows::{self, Row};
 use super::scale::{Occasion, Scale};
@@ -37,7 +36,7 @@ pub struct Tab {
     /// The focused field.
     pub focus: usize,
     /// The text that is typed into the focused field, and the cursor in it; the case has it with its unit.
-    pub input: Input,
+    pub input: Line,
     /// The unit in which the focused field was written when it got the focus.
     pub written_unit: Option<String>,
     /// States to go back to.
@@ -105,7 +104,7 @@ impl Tab {
         Tab {
             id: 0,
             access: Access::of(&document),
-            input: Input::from(case.text(focus).unwrap_or_default()),
+            input: Line::whole(case.text(focus).unwrap_or_default()),
             written_unit: rows::written_unit(&case, focus),
             saved: case.clone(),
             being_saved: None,
@@ -195,7 +194,7 @@ impl Tab {
         let limit = if let Row::Limit(limit) = rows::row(&self.case, at) { Some(limit.quantity) } else { None };
         self.case.drop_empty_limits(limit);
         self.focus = limit.and_then(|quantity| rows::of_limit(&self.case, quantity)).unwrap_or(at);
-        self.input = Input::from(rows::text(&self.case, self.focus).unwrap_or_default());
+        self.input = Line::whole(rows::text(&self.case, self.focus).unwrap_or_default());
         self.written_unit = rows::written_unit(&self.case, self.focus);
         self.history.end_visit();
     }
@@ -204,7 +203,7 @@ impl Tab {
     pub(super) fn read_line_anew(&mut self) {
         let text = rows::text(&self.case, self.focus).unwrap_or_default();
         if text != self.input.value() {
-            self.input = Input::from(text);
+            self.input = Line::whole(text);
         }
     }
 

@@ -33,13 +33,17 @@ use super::prompt::{Next, Page, Prompt};
 use super::solver::Request;
 use super::theme::Look;
 use super::view;
-use crate::case::Document;
-use crate::case::fields;
+use crate::case::{Document, changes, fields};
 use crate::model::inputs::Rung;
 
 /// Change the state by what happened, and say what is to be done about it.
 pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
-    if matches!(action, Action::Do(_) | Action::Insert(_) | Action::Paste(_) | Action::Click(_)) {
+    if matches!(action, Action::Do(_) | Action::Insert(_) | Action::Stray(_) | Action::Paste(_) | Action::Click(_)) {
+        let is_again =
+            matches!(action, Action::Do(Command::Cancel)) && app.message.take().is_some_and(|said| said.text == leave::LEAVING);
+        if is_again {
+            return files::quit(app);
+        }
         app.message = None;
     }
     let cursor = app.cursor;
@@ -77,6 +81,7 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
         Action::Do(command) => return run(app, command),
         Action::Insert(letter) => return edit::insert(app, letter),
         Action::Paste(text) => return edit::paste(app, &text),
+        Action::Stray(letter) => panes::stray(app, letter),
         Action::Click(at) => return pointer::click(app, at),
         Action::Wheel(at, by) => pointer::wheel(app, at, by),
         Action::Tick => return cursor::tick(app),
@@ -147,12 +152,6 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
             app.cursor = None;
             cursor::stop(app)
         }
-        Command::ChartBy(by) => chart::step(app, by),
-        Command::Chart(graph) => chart::choose(app, graph),
-        Command::ChartTime => {
-            chart::time_or_angle(app);
-            Vec::new()
-        }
         Command::CycleMarker => options::cycle_marker(app),
         Command::ShowCost => {
             app.shows_cost = !app.shows_cost;
@@ -191,13 +190,16 @@ fn show(app: &mut App, command: Command) {
         Command::PreviousPane => panes::step(app, -1),
         Command::CycleLower => panes::cycle_lower(app),
         Command::Zoom => panes::zoom(app),
-        Command::StartEdit => app.is_editing = true,
+        Command::StartEdit => edit::begin(app),
+        Command::ChartBy(by) => chart::step(app, by),
+        Command::Chart(graph) => chart::choose(app, graph),
         Command::ChartZoom(steps) => chart::zoom(app, steps),
+        Command::ChartTime => chart::time_or_angle(app),
         Command::ChartWhole => chart::whole(app),
         Command::ChartStrike => chart::strike_or_whole(app),
         Command::TeethBy(steps) => teeth::zoom(app, steps),
         Command::TeethAnew => teeth::anew(app),
-        Command::TeethCentre => teeth::centre_next(app),
+        Command::TeethCentre(by) => teeth::centre_step(app, by),
         Command::TeethGap => teeth::exaggerate_or_not(app),
         other => walk::walk(app, other),
     }
@@ -214,14 +216,19 @@ fn solver_failed(app: &mut App, serial: u64) {
 
 fn travel(app: &mut App, command: Command) -> Vec<Effect> {
     let tab = &mut app.tab;
-    let state =
-        if command == Command::Undo { tab.history.undo(&tab.case, tab.focus) } else { tab.history.redo(&tab.case, tab.focus) };
+    let (state, verb) = match command {
+        Command::Undo => (tab.history.undo(&tab.case, tab.focus), "undo"),
+        _ => (tab.history.redo(&tab.case, tab.focus), "redo"),
+    };
     let Some((case, focus)) = state else {
-        app.say(if command == Command::Undo { "nothing to undo" } else { "nothing to redo" });
+        app.say(format!("nothing to {verb}"));
         return Vec::new();
     };
     tab.remember();
-    solve(app.replace_case(case, focus))
+    let told = super::recovery::told(&changes::between(&tab.case, &case));
+    let effects = solve(app.replace_case(case, focus));
+    app.say(format!("{verb}: {told}"));
+    effects
 }
 
 fn toggle_rung(app: &mut App) -> Vec<Effect> {

@@ -54,14 +54,13 @@ pub enum Exaggeration {
 }
 
 impl Centre {
-    /// The next of the three.
+    const ALL: [Centre; 3] = [Centre::Strike, Centre::PitchPoint, Centre::Pair];
+
+    /// The one so many places further, round and round.
     #[must_use]
-    pub fn next(self) -> Centre {
-        match self {
-            Centre::Strike => Centre::PitchPoint,
-            Centre::PitchPoint => Centre::Pair,
-            Centre::Pair => Centre::Strike,
-        }
+    pub fn beside(self, by: isize) -> Centre {
+        let count = Centre::ALL.len();
+        Centre::ALL[(self as usize + count).saturating_add_signed(by) % count]
     }
 
     /// The name.
@@ -86,10 +85,10 @@ impl TeethView {
         TeethView { zoom, ..self }
     }
 
-    /// The view around the next centre, not zoomed.
+    /// The view around another centre, not zoomed.
     #[must_use]
-    pub fn centred_next(self) -> TeethView {
-        TeethView { centre: self.centre.next(), zoom: 0, ..self }
+    pub fn centred_beside(self, by: isize) -> TeethView {
+        TeethView { centre: self.centre.beside(by), zoom: 0, ..self }
     }
 
     /// The view with the gap exaggerated, or no longer.

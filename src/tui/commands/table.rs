@@ -10,7 +10,19 @@ use crate::tui::pane::Pane;
 
 // In the status line, the palette and the help.
 const fn shown(places: Place, chords: &'static [Chord], command: Command, name: &'static str, sentence: &'static str) -> Binding {
-    Binding { chords, command, places, name, sentence, in_footer: true }
+    shown_in(places, places, chords, command, name, sentence)
+}
+
+// In the palette and the help, and in the status line where it is wanted most.
+const fn shown_in(
+    footer: Place,
+    places: Place,
+    chords: &'static [Chord],
+    command: Command,
+    name: &'static str,
+    sentence: &'static str,
+) -> Binding {
+    Binding { chords, command, places, name, sentence, footer }
 }
 
 // In the palette and the help.
@@ -21,12 +33,12 @@ const fn listed(
     name: &'static str,
     sentence: &'static str,
 ) -> Binding {
-    Binding { chords, command, places, name, sentence, in_footer: false }
+    shown_in(Place::NONE, places, chords, command, name, sentence)
 }
 
 // In the help alone.
 const fn told(places: Place, chords: &'static [Chord], command: Command, sentence: &'static str) -> Binding {
-    Binding { chords, command, places, name: "", sentence, in_footer: false }
+    shown_in(Place::NONE, places, chords, command, "", sentence)
 }
 
 /// Every key of the workbench, in the order of the help; the status line shows as many as fit.
@@ -58,16 +70,17 @@ pub static BINDINGS: &[Binding] = &[
     shown(Place::TEETH, &[letter('+'), letter('=')], Do::TeethBy(1), "closer", "The teeth closer."),
     shown(Place::TEETH, &[letter('-')], Do::TeethBy(-1), "farther", "The teeth from farther away, as far as the whole pair."),
     listed(Place::TEETH, &[letter('0')], Do::TeethAnew, "teeth anew", "The teeth around the strike, as at first."),
-    shown(Place::TEETH, &[letter('v')], Do::TeethCentre, "view", "The teeth around the strike, around the pitch point, or the whole pair."),
+    shown(Place::TEETH, &[letter('v'), letter('j'), key(KeyCode::Down)], Do::TeethCentre(1), "view", "The teeth around the strike, around the pitch point, or the whole pair."),
+    told(Place::TEETH, &[letter('k'), key(KeyCode::Up)], Do::TeethCentre(-1), "The view before."),
     listed(Place::TEETH, &[letter('x')], Do::TeethGap, "gap", "Draw the gap between the teeth wider than it is, by the factor that is told, or as it is."),
     shown(Place::OUTSIDE, &[letter('/')], Do::SearchField, "search", "Find a field by its name, symbol, key or a word of its help."),
     told(Place::FIELD, &[letter('+'), letter('=')], Do::Step(1), "The value one step up: its last digit moves."),
     told(Place::FIELD, &[letter('-')], Do::Step(-1), "The value one step down."),
     told(Place::FIELD, &[letter('>')], Do::Step(10), "The value ten steps up."),
     told(Place::FIELD, &[letter('<')], Do::Step(-10), "The value ten steps down."),
-    shown(Place::FIELD, &[letter('m')], Do::Material, "material", "Give this gear, or both, a material of the catalogue."),
+    shown_in(Place::FIELD, Place::WORK, &[alt('g')], Do::Material, "material", "Give this gear, or both, a material of the catalogue."),
     shown(Place::RESULTS, &[letter('n')], Do::Notes, "notes", "The outcome, the gauges and every note of the model in full."),
-    shown(Place::RESULTS, &[letter('l')], Do::Limit, "limit", "Hold a result to a limit: the marked one, or one of a list."),
+    shown_in(Place::RESULTS, Place::WORK, &[alt('l')], Do::Limit, "limit", "Hold a result to a limit: the marked one, or one of a list."),
     shown(Place::OUTSIDE, &[letter(':')], Do::Palette, "commands", "Every command by name: type a few letters, Enter runs it."),
     shown(Place::OUTSIDE, &[letter('q')], Do::Quit, "quit", "Quit; asks when something is unsaved."),
     shown(Place::OUTSIDE, &[letter('?')], Do::Help, "help", "This page."),
@@ -85,8 +98,8 @@ pub static BINDINGS: &[Binding] = &[
     listed(Place::OUTSIDE, &[letter('5')], Do::Show(Pane::Trade), "trade", "Go to error against time."),
     told(Place::FIELD.or(Place::RESULTS), &[letter('j'), key(KeyCode::Down)], Do::Next, "The next line."),
     told(Place::FIELD.or(Place::RESULTS), &[letter('k'), key(KeyCode::Up)], Do::Previous, "The line before."),
-    told(Place::FIELD, &[letter('l'), key(KeyCode::Right)], Do::NextGroup, "The next group."),
-    told(Place::FIELD, &[letter('h'), key(KeyCode::Left)], Do::PreviousGroup, "The group before."),
+    told(Place::FIELD.or(Place::RESULTS), &[letter('l'), key(KeyCode::Right)], Do::NextGroup, "The next group, or page of results."),
+    told(Place::FIELD.or(Place::RESULTS), &[letter('h'), key(KeyCode::Left)], Do::PreviousGroup, "The group before, or page of results."),
     told(Place::FIELD.or(Place::RESULTS), &[letter('g'), key(KeyCode::Home)], Do::First, "The first line."),
     told(Place::FIELD.or(Place::RESULTS), &[letter('G'), key(KeyCode::End)], Do::Last, "The last line."),
     // Everywhere.
@@ -132,8 +145,6 @@ pub static BINDINGS: &[Binding] = &[
     told(Place::FORM, &[with(SHIFT, KeyCode::Down)], Do::Step(-1), "The value one step down."),
     told(Place::FORM.or(Place::FIELD), &[with(ALT, KeyCode::Up)], Do::Step(10), "The value ten steps up."),
     told(Place::FORM.or(Place::FIELD), &[with(ALT, KeyCode::Down)], Do::Step(-10), "The value ten steps down."),
-    listed(Place::WORK, &[alt('g')], Do::Material, "material", "Give this gear, or both, a material of the catalogue."),
-    listed(Place::WORK, &[alt('l')], Do::Limit, "limit", "Hold a result to a limit: the marked one, or one of a list."),
     told(Place::FORM, &[key(KeyCode::Down), key(KeyCode::Tab), key(KeyCode::Enter)], Do::Next, "The next field."),
     told(Place::FORM, &[key(KeyCode::Up), key(KeyCode::BackTab)], Do::Previous, "The field before."),
     told(Place::FORM.or(Place::FIELD).or(Place::RESULTS), &[key(KeyCode::PageDown)], Do::NextGroup, "The next group, or page of results."),
@@ -166,7 +177,7 @@ pub static BINDINGS: &[Binding] = &[
     shown(Place::LIST.or(Place::PATH).or(Place::ASK), &[key(KeyCode::Enter)], Do::Accept, "accept", "Do it."),
     told(Place::READ, &[key(KeyCode::Enter), letter('q'), letter('?'), function(1)], Do::Leave, "Close the page."),
     shown(Place::PROMPT, &[key(KeyCode::Esc)], Do::Leave, "back", "Close; nothing is lost."),
-    told(Place::ALL, &[ctrl('c'), ctrl('\\')], Do::Cancel, "Close a prompt, stop what runs; else ask whether to quit: nothing is lost."),
+    told(Place::ALL, &[ctrl('c'), ctrl('\\')], Do::Cancel, "Close a prompt, stop what runs; else twice it quits, and asks when something is unsaved."),
     // In a line of text.
     told(Place::LINE, &[key(KeyCode::Left)], Do::Edit(Line::GoToPrevChar), "A character to the left."),
     told(Place::LINE, &[key(KeyCode::Right)], Do::Edit(Line::GoToNextChar), "A character to the right."),

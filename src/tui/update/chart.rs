@@ -1,21 +1,18 @@
 //! The charts: which one, how much of the roll angle, and what it is told in.
 
-use super::options;
 use crate::report::graphs::GRAPHS;
-use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::view::chart::{first_contact, fitted, occasion};
 use crate::tui::window::{ChartView, Frame};
 
 /// The chart so many places further, round and round.
-pub(super) fn step(app: &mut App, by: isize) -> Vec<Effect> {
-    choose(app, (app.settings.chart + GRAPHS.len()).saturating_add_signed(by) % GRAPHS.len())
+pub(super) fn step(app: &mut App, by: isize) {
+    choose(app, (app.graph + GRAPHS.len()).saturating_add_signed(by) % GRAPHS.len());
 }
 
 /// The chart at that place of the table.
-pub(super) fn choose(app: &mut App, graph: usize) -> Vec<Effect> {
-    app.settings.chart = graph.min(GRAPHS.len() - 1);
-    options::keep(app)
+pub(super) fn choose(app: &mut App, graph: usize) {
+    app.graph = graph.min(GRAPHS.len() - 1);
 }
 
 /// The time after E in place of the roll angle before it, or back.

@@ -4,6 +4,7 @@ use super::panes;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::layout;
+use crate::tui::line::Line;
 use crate::tui::pane::Pane;
 use crate::tui::prompt::Prompt;
 use crate::tui::view::chart::{self, first_contact};
@@ -30,7 +31,7 @@ pub(super) fn to_start(app: &mut App) -> Vec<Effect> {
 /// Ask for an angle, a time or a place.
 pub(super) fn ask(app: &mut App) {
     if reach(app).is_some() {
-        app.prompts.push(Prompt::Aim(tui_input::Input::default()));
+        app.prompts.push(Prompt::Aim(Line::default()));
     } else {
         app.complain("no valid results to point at");
     }
@@ -39,7 +40,13 @@ pub(super) fn ask(app: &mut App) {
 /// To the angle that is typed, where there is such a one; a chart comes into sight where neither it nor the teeth are.
 pub(super) fn take_aim(app: &mut App, typed: &str) -> Vec<Effect> {
     match aim(app, typed) {
-        Err(reason) => app.complain(reason),
+        Err(reason) => {
+            app.complain(reason);
+            // What is typed next is meant anew.
+            if let Some(Prompt::Aim(line)) = app.prompts.last_mut() {
+                line.select_all();
+            }
+        }
         Ok(angle) => {
             app.prompts.pop();
             let plan = layout::plan(app.size, app.panes);

@@ -7,6 +7,8 @@ use crate::case::fields::{Absent, Kind, index_of};
 use crate::case::{Case, FIELDS};
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
+use crate::tui::line::Line;
+use crate::tui::pane::Pane;
 use crate::tui::prompt::Prompt;
 use crate::tui::update::{browse, files};
 use crate::tui::{clean, rows};
@@ -40,7 +42,7 @@ pub(super) fn paste(app: &mut App, text: &str) -> Vec<Effect> {
         return Vec::new();
     }
     let typed: String = letters.collect();
-    splice(line, &typed);
+    line.insert(&typed);
     if editing_case { write(app) } else { line_changed(app) }
 }
 
@@ -57,6 +59,13 @@ pub(super) fn handle(app: &mut App, request: InputRequest) -> Vec<Effect> {
         Some(changed) if changed.value => write(app),
         _ => Vec::new(),
     }
+}
+
+/// Type into the focused field: what is typed replaces its value, until the cursor is moved.
+pub(super) fn begin(app: &mut App) {
+    app.panes.focus = Pane::Form;
+    app.is_editing = true;
+    app.tab.input.select_all();
 }
 
 /// Take the next or the previous of the names of the focused field.
@@ -84,7 +93,7 @@ pub(super) fn step(app: &mut App, by: i32) -> Vec<Effect> {
         app.say(format!("{} has no step here", rows::label(&app.case, app.focus)));
         return Vec::new();
     };
-    app.tab.input = text.into();
+    app.tab.input = Line::whole(text);
     write(app)
 }
 
@@ -99,14 +108,6 @@ pub(super) fn chosen(app: &App, field: usize) -> &str {
 fn choose_by_letter(app: &mut App, letter: char) -> Vec<Effect> {
     let name = names(app).iter().find(|name| name.starts_with(letter.to_ascii_lowercase()));
     name.map_or_else(Vec::new, |name| set(app, app.focus, name))
-}
-
-// One splice, where a character at a time would cost the square of a long paste.
-fn splice(line: &mut tui_input::Input, typed: &str) {
-    let at = line.value().char_indices().nth(line.cursor()).map_or(line.value().len(), |(at, _)| at);
-    let (before, after) = line.value().split_at(at);
-    let cursor = line.cursor() + typed.chars().count();
-    *line = tui_input::Input::new([before, typed, after].concat()).with_cursor(cursor);
 }
 
 fn set(app: &mut App, field: usize, name: &str) -> Vec<Effect> {

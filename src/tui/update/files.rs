@@ -2,13 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use tui_input::Input;
-
-use super::{recovery, solve, tabs};
+use super::{hold, recovery, solve, tabs};
 use crate::case::Document;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::clean;
+use crate::tui::line::Line;
 use crate::tui::prompt::{Choice, Next, Page, Prompt, Question};
 use crate::tui::recovery::{Access, NEWER};
 use crate::tui::store::{Over, SaveFault, Saving};
@@ -58,7 +57,7 @@ pub(super) fn ask_where(app: &mut App, next: Next) -> Vec<Effect> {
         return Vec::new();
     }
     let path = app.path.as_ref().map_or_else(|| "case.toml".to_owned(), |path| path.display().to_string());
-    app.prompts.push(Prompt::SaveAs(Input::new(path), next));
+    app.prompts.push(Prompt::SaveAs(Line::named(path), next));
     Vec::new()
 }
 
@@ -124,11 +123,12 @@ pub(super) fn saved(app: &mut App, path: PathBuf, next: Next, result: Result<Box
             app.tab.in_place_of = None;
             app.say(format!("saved {}", path.display()));
             app.tab.path = Some(path.clone());
+            hold::rename(app);
             let mut effects = vec![Effect::Remember(path)];
             effects.extend(go(app, next));
             return effects;
         }
-        Err(SaveFault::Exists) => app.prompts.push(Prompt::Ask(Question::exists(&path, &next))),
+        Err(SaveFault::Exists(lines)) => app.prompts.push(Prompt::Ask(Question::exists(&path, lines, &next))),
         Err(SaveFault::Changed(lines)) => app.prompts.push(Prompt::Ask(Question::changed(&path, lines, &next))),
         Err(SaveFault::Held(holder)) => app.prompts.push(Prompt::Ask(Question::held(&path, &holder, &next))),
         Err(SaveFault::Failed(reason)) => app.complain(format!("not saved: {reason}")),
@@ -192,13 +192,21 @@ fn saving(app: &mut App, path: PathBuf, over: Over, next: Next) -> Effect {
     Effect::Save(Box::new(Saving { document, path, over }), next)
 }
 
+// A case has an ending, so that it is found among the cases of its folder.
+fn named(name: &str) -> PathBuf {
+    let last = name.rsplit('/').next().unwrap_or_default();
+    let is_place = matches!(last, "" | "." | ".." | "~");
+    let has_ending = last.rfind('.').is_some_and(|dot| dot > 0);
+    PathBuf::from(if is_place || has_ending { name.to_owned() } else { format!("{name}.toml") })
+}
+
 /// Save under the name that is typed.
 pub(super) fn save_under(app: &mut App, name: &str, next: Next) -> Vec<Effect> {
     if name.trim().is_empty() {
         app.complain("a file needs a name");
         return Vec::new();
     }
-    let path = PathBuf::from(name);
-    let over = if app.path.as_ref() == Some(&path) { Over::Own } else { Over::Nothing };
+    let is_own = app.path.as_deref() == Some(Path::new(name));
+    let (path, over) = if is_own { (PathBuf::from(name), Over::Own) } else { (named(name.trim()), Over::Nothing) };
     vec![saving(app, path, over, next)]
 }

@@ -19,9 +19,17 @@ pub(super) fn pin(app: &mut App) {
     let Some(answer) = app.answer.as_ref().filter(|answer| app.is_pinning && answer.stages == crate::model::Stages::EVERY) else {
         return;
     };
-    let baseline = Baseline { name: app.short_name(), case: app.case.clone(), answer: answer.clone() };
-    let words = format!("baseline: {} as it is now", baseline.name);
+    let baseline = Baseline { tab: app.tab.id, name: app.short_name(), case: app.case.clone(), answer: answer.clone() };
+    let words = format!("baseline: {} as it is now, for this session", baseline.name);
     app.is_pinning = false;
     app.baseline = Some(baseline);
     app.say(words);
+}
+
+/// The pinned case has another name now.
+pub(super) fn rename(app: &mut App) {
+    let (tab, name) = (app.tab.id, app.short_name());
+    if let Some(baseline) = app.baseline.as_mut().filter(|baseline| baseline.tab == tab) {
+        baseline.name = name;
+    }
 }

@@ -4,8 +4,10 @@ use super::{cursor, files, panes};
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::pane::Pane;
-use crate::tui::prompt::{Prompt, Question};
 use crate::tui::tab::Tab;
+
+/// Said by Ctrl-C where there is nothing to cancel and nothing unsaved.
+pub(super) const LEAVING: &str = "nothing runs and nothing is unsaved: Ctrl-C again quits";
 
 /// Esc: what is topmost goes, and nothing is lost.
 pub(super) fn leave(app: &mut App) -> Vec<Effect> {
@@ -31,7 +33,7 @@ pub(super) fn leave(app: &mut App) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Ctrl-C: what is topmost goes; when nothing is left, the question whether to quit.
+/// Ctrl-C: what is topmost goes. When nothing is left it quits the second time, for it is also the key by which others copy.
 pub(super) fn cancel(app: &mut App) -> Vec<Effect> {
     if app.prompts.pop().is_some() {
         return Vec::new();
@@ -46,7 +48,7 @@ pub(super) fn cancel(app: &mut App) -> Vec<Effect> {
     if app.tabs().any(Tab::is_unsaved) {
         return files::quit(app);
     }
-    app.prompts.push(Prompt::Ask(Question::quit()));
+    app.say(LEAVING);
     Vec::new()
 }
 

@@ -35,10 +35,10 @@ pub(super) fn cycle_theme(app: &mut App) -> Vec<Effect> {
     keep(app)
 }
 
-/// ASCII alone, or the whole of Unicode.
+/// ASCII alone, from now on; or, in this session whatever the environment says, the whole of Unicode.
 pub(super) fn toggle_ascii(app: &mut App) -> Vec<Effect> {
     app.look.ascii = !app.look.ascii;
-    app.settings.ascii = Some(app.look.ascii);
+    app.settings.ascii = app.look.ascii;
     app.say(if app.look.ascii { "drawn in ASCII" } else { "drawn with the whole of Unicode" });
     keep(app)
 }

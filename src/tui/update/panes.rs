@@ -1,6 +1,8 @@
 //! Focus and layout: which pane takes the keys, which ones have the screen.
 
+use super::edit;
 use crate::tui::app::App;
+use crate::tui::clean;
 use crate::tui::layout;
 use crate::tui::pane::Pane;
 
@@ -42,8 +44,15 @@ pub(super) fn zoom(app: &mut App) {
     app.follow();
 }
 
-/// Go to a field of the form.
+/// Go to a field of the form, to type into it.
 pub(super) fn go_to(app: &mut App, field: usize) {
-    app.panes.focus = Pane::Form;
     app.focus_on(field);
+    edit::begin(app);
+}
+
+/// A letter that is no command in the focused pane is told as such, with what may have been meant.
+pub(super) fn stray(app: &mut App, letter: char) {
+    let name = if letter == ' ' { "Space".to_owned() } else { letter.to_string() };
+    let meant = if app.panes.focus == Pane::Form { "Enter edits the field, " } else { "" };
+    app.say(format!("{} is no command in {}: {meant}? lists the keys", clean::clean(&name), app.panes.focus.name()));
 }

@@ -18,9 +18,9 @@ pub(super) fn anew(app: &mut App) {
     app.teeth = TeethView::default();
 }
 
-/// Around something else.
-pub(super) fn centre_next(app: &mut App) {
-    app.teeth = app.teeth.centred_next();
+/// Around the next of what there is to look at, or the one before, round and round.
+pub(super) fn centre_step(app: &mut App, by: isize) {
+    app.teeth = app.teeth.centred_beside(by);
     app.say(format!("the teeth around {}", app.teeth.centre.name()));
 }
 

@@ -3,18 +3,18 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 use ratatui::style::Style;
-use tui_input::Input;
 use unicode_width::UnicodeWidthStr;
 
 use super::reach::{HOW, aim, ending, told};
 use super::{boxes, text};
 use crate::tui::app::App;
+use crate::tui::line::Line;
 
 /// Room for the sentence that says how, in two lines.
 const WIDTH: u16 = 62;
 
 /// Draw it over the screen; where the cursor stands.
-pub fn draw(app: &App, input: &Input, screen: Rect, buffer: &mut Buffer) -> Option<Position> {
+pub fn draw(app: &App, input: &Line, screen: Rect, buffer: &mut Buffer) -> Option<Position> {
     let theme = app.look.theme;
     let how = text::wrap(HOW, usize::from(WIDTH.min(boxes::room(screen.as_size()).width)));
     let inner = boxes::frame("Cursor to", Size::new(WIDTH, how.len() as u16 + 2), screen, theme, buffer);

@@ -42,7 +42,7 @@ pub fn occasion(app: &App) -> Occasion {
     Occasion {
         answered: app.answer.as_ref().map(|answer| (answer.serial, answer.pending.is_some())),
         pinned: app.baseline.as_ref().map(|baseline| baseline.answer.serial),
-        chosen: app.settings.chart,
+        chosen: app.graph,
         count: count(plan(app.size, app.panes).chart),
     }
 }
@@ -105,7 +105,7 @@ pub fn fitted(app: &App) -> Scale {
 /// The charts in sight: the chosen one, and below it the next ones that the active rung has.
 #[must_use]
 pub fn shown(app: &App, area: Rect) -> Vec<usize> {
-    let chosen = app.settings.chart;
+    let chosen = app.graph;
     let rung = app.answer.as_ref().map(|answer| answer.active);
     let others = (1..GRAPHS.len()).map(|by| (chosen + by) % GRAPHS.len());
     let has_curve = |graph: &usize| rung.is_some_and(|rung| GRAPHS[*graph].column(rung).is_some());

@@ -32,13 +32,16 @@ pub fn lines() -> Vec<String> {
     let mut told = vec![false; BINDINGS.len()];
     for (title, place) in PLACES {
         lines.extend([String::new(), title.to_owned()]);
-        for (binding, told) in BINDINGS.iter().zip(&mut told) {
-            let is_here = if place == Place::WORK { binding.places.holds(place) } else { binding.places.meets(place) };
-            if !*told && is_here {
-                *told = true;
-                lines.extend(line(binding));
-            }
+        let is_here = |binding: &Binding| {
+            if place == Place::WORK { binding.places.holds(place) } else { binding.places.meets(place) }
+        };
+        let mut here: Vec<_> = (0..BINDINGS.len()).filter(|&at| !told[at] && is_here(&BINDINGS[at])).collect();
+        for &at in &here {
+            told[at] = true;
         }
+        // What the status line shows everywhere comes first.
+        here.sort_by_key(|&at| place == Place::WORK && !BINDINGS[at].footer.holds(place));
+        lines.extend(here.into_iter().filter_map(|at| line(&BINDINGS[at])));
     }
     lines
 }

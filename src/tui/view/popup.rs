@@ -13,6 +13,10 @@ use crate::tui::app::App;
 use crate::tui::prompt::{Page, Prompt, Question};
 use crate::tui::theme::Theme;
 
+/// How a name is given.
+const NAMING: &str =
+    "A name or a path, ~ is the home folder; without an ending it gets .toml. What is there already is asked about.";
+
 /// Draw a prompt over the screen; where the cursor stands.
 pub fn draw(app: &App, prompt: &Prompt, screen: Rect, buffer: &mut Buffer) -> Option<Position> {
     let theme = app.look.theme;
@@ -26,8 +30,12 @@ pub fn draw(app: &App, prompt: &Prompt, screen: Rect, buffer: &mut Buffer) -> Op
             None
         }
         Prompt::SaveAs(input, _) => {
-            let inner = frame("Save as", Size::new(WIDEST, 1), screen, theme, buffer);
-            text::edited(input, inner, Style::new(), buffer)
+            let how = text::wrap(NAMING, usize::from(room(screen.as_size()).width));
+            let inner = frame("Save as", Size::new(WIDEST, how.len() as u16 + 1), screen, theme, buffer);
+            for (line, y) in how.iter().zip(inner.top() + 1..inner.bottom()) {
+                buffer.set_stringn(inner.x, y, line, inner.width.into(), theme.faint);
+            }
+            text::edited(input, Rect { height: inner.height.min(1), ..inner }, theme.focus, buffer)
         }
         Prompt::Aim(input) => aim::draw(app, input, screen, buffer),
         Prompt::Explain(explanation) => {

@@ -115,7 +115,7 @@ fn place(app: &App, solution: &Solution, name: &str) -> Option<Result<f64, Strin
 
 // Where the active rung's curve in the chosen chart is farthest from 0.
 fn peak(app: &App) -> Option<f64> {
-    let curves = curves(app, &GRAPHS[app.settings.chart]);
+    let curves = curves(app, &GRAPHS[app.graph]);
     let own = curves.iter().find(|curve| matches!(curve.whose, Whose::Active(_)))?;
     let highest = own.pieces.iter().flatten().max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()))?;
     Some(0.0 - highest.0.to_radians())
@@ -127,7 +127,10 @@ fn measured(app: &App, typed: &str) -> Result<f64, String> {
     let angle = units::parse(&whole, Dimension::Angle, "deg");
     let speed = app.answer.as_ref().map_or(0.0, |answer| answer.inputs.speed);
     let time = || units::parse(&whole, Dimension::Time, "us").map(|time| 0.0 - time * speed);
-    angle.or_else(|_| time()).map_err(|_| format!("{} is no angle, time or place", typed.trim()))
+    angle.or_else(|_| time()).map_err(|_| match units::parse(typed.trim(), Dimension::Number, "") {
+        Err(misread) if typed.contains(',') => misread.mend,
+        _ => format!("{} is no angle, time or place", typed.trim()),
+    })
 }
 
 fn ruler(app: &App) -> Ruler {

@@ -70,7 +70,7 @@ pub fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
     let mut spans = Vec::new();
     let mut told: Vec<&str> = Vec::new();
     let mut left = usize::from(area.width);
-    for binding in BINDINGS.iter().filter(|binding| binding.places.meets(place) && binding.in_footer) {
+    for binding in BINDINGS.iter().filter(|binding| binding.places.meets(place) && binding.footer.meets(place)) {
         let key = short(binding);
         let used = key.width() + binding.name.width() + 3;
         if used > left + 2 {

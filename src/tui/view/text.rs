@@ -3,10 +3,10 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::{Modifier, Style};
-use tui_input::Input;
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 use crate::tui::clean::clean;
+use crate::tui::line::Line;
 use crate::tui::theme::Theme;
 
 /// The text cut to the width, with a mark where it goes on.
@@ -69,7 +69,7 @@ pub fn titled(title: &str, area: Rect, theme: &Theme, buffer: &mut Buffer) -> Re
 }
 
 /// A line of text that is edited, scrolled so that the cursor is in sight; where the cursor stands.
-pub fn edited(input: &Input, area: Rect, style: Style, buffer: &mut Buffer) -> Option<Position> {
+pub fn edited(input: &Line, area: Rect, style: Style, buffer: &mut Buffer) -> Option<Position> {
     let width = usize::from(area.width);
     if area.is_empty() {
         return None;
@@ -79,6 +79,11 @@ pub fn edited(input: &Input, area: Rect, style: Style, buffer: &mut Buffer) -> O
     let hidden = (before + 1).saturating_sub(width);
     buffer.set_style(area, style);
     buffer.set_stringn(area.x, area.y, skip(&shown, hidden), width, style);
+    if let Some(part) = input.selected() {
+        let cell = |at: usize| shown.chars().take(at).map(width_of).sum::<usize>().saturating_sub(hidden).min(width) as u16;
+        let (from, to) = (cell(part.start), cell(part.end));
+        buffer.set_style(Rect { x: area.x + from, width: to - from, height: 1, ..area }, Modifier::REVERSED);
+    }
     Some(Position::new(area.x + u16::try_from(before - hidden).unwrap_or(0), area.y))
 }
 
@@ -167,7 +172,7 @@ mod tests {
     fn the_cursor_of_a_long_text_is_in_sight() {
         let area = Rect::new(3, 0, 8, 1);
         let mut buffer = Buffer::empty(Rect::new(0, 0, 11, 1));
-        let input = Input::from("0123456789");
+        let input = Line::from("0123456789");
         assert_eq!(edited(&input, area, Style::new(), &mut buffer), Some(Position::new(10, 0)));
         assert_eq!(buffer, Buffer::with_lines(["   3456789 "]));
     }

@@ -24,7 +24,7 @@ pub fn readout(app: &App, cursor: f64) -> String {
     let mut parts = vec![place(app, cursor)];
     let chart = plan(app.size, app.panes).chart;
     let graphs = shown(app, chart);
-    let chosen = if graphs.is_empty() { vec![app.settings.chart] } else { graphs };
+    let chosen = if graphs.is_empty() { vec![app.graph] } else { graphs };
     let seen: Vec<String> = chosen.iter().filter_map(|&graph| all(app, &GRAPHS[graph], cursor)).collect();
     let rest = (0..GRAPHS.len()).filter(|graph| !chosen.contains(graph));
     let rest: Vec<String> = rest.filter_map(|graph| own(app, &GRAPHS[graph], cursor)).collect();
