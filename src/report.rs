@@ -152,6 +152,15 @@ pub fn value(quantity: &Quantity, solution: &Solution) -> Option<f64> {
     (quantity.value)(solution).filter(|value| value.is_finite()).map(|value| value + 0.0)
 }
 
+/// A quantity's value in SI as another rung defines the quantity, so that the two may be held against each other.
+#[must_use]
+pub fn value_as_in(quantity: &Quantity, solution: &Solution, other: Rung) -> Option<f64> {
+    match quantity.key {
+        "equivalent_error" => Some(solution.deviation.equivalent_error_as_in(solution.rung, other) + 0.0),
+        _ => value(quantity, solution),
+    }
+}
+
 /// A value in SI in another unit, with this many significant digits.
 #[must_use]
 pub fn number(value: f64, unit: &str, digits: usize) -> String {

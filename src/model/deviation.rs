@@ -13,6 +13,8 @@ use crate::numeric::Real;
 pub struct Deviation<T = f64> {
     /// Equivalent error Δf, Eqs. 1 and 2; in the rungs `static` and `dynamic` without the reliefs, which act on the flanks.
     pub equivalent_error: T,
+    /// Modification e_m at the run-in contact, Eq. 1: below 0 where material is taken off.
+    pub modification: T,
     /// Combined deflection δ of the pairs that carry the load, Eqs. 3 and 4.
     pub combined_deflection: T,
     /// Δ = Δf + δ, Eq. 5, reliefs counted in every rung. Without Δ > 0 no tooth strikes.
@@ -24,13 +26,14 @@ pub struct Deviation<T = f64> {
 /// # Errors
 /// A [`Refusal`] where the deflection has to be computed and cannot be.
 pub fn deviation(inputs: &Inputs, geometry: &Geometry, mesh_force: f64) -> Result<Deviation<TwoFloat>, Refusal> {
-    let combined_deflection = match inputs.deflection.filter(|_| !inputs.rung.shares_load()) {
+    let combined_deflection = match inputs.deflection_taken() {
         Some(given) => given.into(),
         None => combined_deflection(inputs, geometry, mesh_force)?.into(),
     };
     let with_reliefs = equivalent_error(inputs);
     let equivalent_error = if inputs.rung.shares_load() { random_error(inputs) } else { with_reliefs };
-    Ok(Deviation { equivalent_error, combined_deflection, total: with_reliefs + combined_deflection })
+    let modification = modification(inputs);
+    Ok(Deviation { equivalent_error, modification, combined_deflection, total: with_reliefs + combined_deflection })
 }
 
 /// Equivalent error Δf, in m.
@@ -46,11 +49,15 @@ pub fn deviation(inputs: &Inputs, geometry: &Geometry, mesh_force: f64) -> Resul
 /// Zhou & Chen 2014, Eqs. 1 and 2. The rung `paper` scales the modification e_m with the random errors, as printed;
 /// the others count it in full, since a relief that was ground is there in full.
 fn equivalent_error(inputs: &Inputs) -> TwoFloat {
-    let modification = -TwoFloat::new_add(inputs.driven.tip_relief, inputs.driver.root_relief);
     match inputs.rung {
-        Rung::Paper => (random_deviation(inputs) + modification) * twofloat::consts::FRAC_1_SQRT_2,
-        _ => random_error(inputs) + modification,
+        Rung::Paper => (random_deviation(inputs) + modification(inputs)) * twofloat::consts::FRAC_1_SQRT_2,
+        _ => random_error(inputs) + modification(inputs),
     }
+}
+
+/// Modification e_m = −(driven tip relief + driver root relief), in m.
+fn modification(inputs: &Inputs) -> TwoFloat {
+    -TwoFloat::new_add(inputs.driven.tip_relief, inputs.driver.root_relief)
 }
 
 /// Equivalent error without reliefs, (2 f_pb − j_bn)/√2, in m.
@@ -93,6 +100,18 @@ fn combined_deflection(inputs: &Inputs, geometry: &Geometry, mesh_force: f64) ->
 }
 
 impl Deviation {
+    /// The equivalent error as another rung defines it, in m: `static` and `dynamic` without the reliefs, the others with
+    /// them. The difference of two rungs then says something.
+    #[must_use]
+    pub fn equivalent_error_as_in(&self, own: Rung, other: Rung) -> f64 {
+        match (own.shares_load(), other.shares_load()) {
+            (true, false) => self.equivalent_error + self.modification,
+            (false, true) if own == Rung::Paper => self.equivalent_error - self.modification * std::f64::consts::FRAC_1_SQRT_2,
+            (false, true) => self.equivalent_error - self.modification,
+            _ => self.equivalent_error,
+        }
+    }
+
     /// Least tip relief of the driven gear, beyond what it has, with which the incoming tooth comes in on time, in m; in the
     /// rung `dynamic` with the mesh at rest. `None` where it comes in on time, and in the rung `paper`.
     ///
@@ -116,6 +135,7 @@ impl<T: Real> Deviation<T> {
     pub(super) fn rounded(self) -> Deviation {
         Deviation {
             equivalent_error: self.equivalent_error.rounded(),
+            modification: self.modification.rounded(),
             combined_deflection: self.combined_deflection.rounded(),
             total: self.total.rounded(),
         }

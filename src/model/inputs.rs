@@ -280,6 +280,12 @@ impl Inputs {
         }
     }
 
+    /// The deflection that the case gives, where the rung takes it, in m.
+    #[must_use]
+    pub fn deflection_taken(&self) -> Option<f64> {
+        self.deflection.filter(|_| !self.rung.shares_load())
+    }
+
     /// Common face width b, the smaller of the two, in m.
     #[must_use]
     pub fn common_width(&self) -> f64 {

@@ -39,6 +39,23 @@ impl Quantity {
         matches!(self.key, "pitch_contact_jump" | "dynamic_friction_work")
     }
 
+    /// The symbol in a rung: where the rung defines the quantity otherwise than the closed form does, another one.
+    #[must_use]
+    pub fn symbol_in(&self, rung: Rung) -> &'static str {
+        if self.leaves_reliefs_out(rung) { "Δf_0" } else { self.symbol }
+    }
+
+    /// A few words for a person, as the rung defines the quantity.
+    #[must_use]
+    pub fn label_in(&self, rung: Rung) -> &'static str {
+        if self.leaves_reliefs_out(rung) { "error without the reliefs" } else { self.label }
+    }
+
+    // In `static` and `dynamic` the reliefs act on the flanks, and are no part of Δf.
+    fn leaves_reliefs_out(&self, rung: Rung) -> bool {
+        self.key == "equivalent_error" && rung.shares_load()
+    }
+
     /// Whether it is of the free impact at D: the closed form, which every rung has beside its own results.
     #[must_use]
     pub fn is_of_free_impact(&self) -> bool {
@@ -103,6 +120,7 @@ pub static QUANTITIES: &[Quantity] = &[
     quantity!("working_pressure_angle", "α_w", "working pressure angle", "rad", "deg", 6, "ISO 21771", Geometry, |s| Some(s.geometry.working_pressure_angle)),
     quantity!("mesh_force", "F_0", "mesh force", "N", "N", 5, "T1/rb1", Load, |s| Some(s.mesh_force)),
     quantity!("equivalent_error", "Δf", "equivalent error", "m", "um", 5, "Eq. 1", Deviation, |s| Some(s.deviation.equivalent_error)),
+    quantity!("modification", "e_m", "modification at run-in", "m", "um", 5, "Eq. 1", Deviation, |s| Some(s.deviation.modification)),
     quantity!("combined_deflection", "δ", "combined deflection", "m", "um", 5, "Eq. 3", Deviation, |s| Some(s.deviation.combined_deflection)),
     quantity!("total_deviation", "Δ", "total deviation", "m", "um", 5, "Eq. 5", Deviation, |s| Some(s.deviation.total)),
     quantity!("approach_angle_driver", "θ_1", "driver angle before E", "rad", "deg", 6, "Eq. 12", Position, |s| Some(s.position?.approach_angle_driver)),

@@ -118,6 +118,7 @@ pub fn without_contact(solution: &Solution) -> &'static str {
     match solution.rung {
         _ if solution.deviation.total <= 0.0 => "the tooth comes in on time",
         Rung::Paper => "the printed equations bring it in on time",
+        Rung::Static => "at rest the pairs in contact do not give way so far",
         _ => "in motion the tooth does not touch before E",
     }
 }

@@ -35,6 +35,10 @@ pub use work::{How, Leaf, Work};
 pub struct Page {
     /// The quantity.
     pub quantity: &'static Quantity,
+    /// Its symbol in this rung.
+    pub symbol: &'static str,
+    /// What it is in this rung, in a few words.
+    pub label: &'static str,
     /// The rung of the solve.
     pub rung: &'static str,
     /// Whether the rung `auto` took it.
@@ -75,22 +79,25 @@ pub fn explain(quantity: &'static Quantity, case: &Case, inputs: &Inputs, soluti
     let taken = if inputs.rung == Rung::Auto { auto::taken(inputs, solution.rung) } else { inputs.clone() };
     let known = Known { case, inputs: &taken, given: inputs, solution };
     let about = table::of(quantity)?;
+    let otherwise = table::otherwise::of(quantity.key, &taken);
     let value = value(quantity, solution);
     let (work, leaves) = work::of(quantity, about, &known);
     Some(Page {
         quantity,
+        symbol: quantity.symbol_in(solution.rung),
+        label: quantity.label_in(solution.rung).trim_start(),
         rung: solution.rung.name(),
         is_by_auto: inputs.rung == Rung::Auto,
         value,
         shown: value.map(|value| shown(quantity, value)),
         missing: value.is_none().then(|| missing(quantity, &known)),
-        says: about.says,
+        says: otherwise.map_or(about.says, |otherwise| otherwise.says),
         beside: Beside::of(quantity, solution).map(|beside| format!("This is {}.", beside.told(System::Metric))),
         work,
         leaves,
         source: about.source,
         mended: about.mended.iter().filter_map(|equation| mended::find(equation)).collect(),
-        assumes: about.assumes,
+        assumes: otherwise.map(|otherwise| otherwise.assumes).filter(|assumes| !assumes.is_empty()).unwrap_or(about.assumes),
         valid: about.valid.iter().filter_map(|look| look(&known)).collect(),
         worth: worth::of(quantity, &known),
         effects: effects::of(quantity, &known),

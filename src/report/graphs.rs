@@ -34,7 +34,7 @@ macro_rules! graph {
 
 /// The tip touches where the gap is Δ; the pair carries where it is closed by more than the gap.
 const CLOSED: Bound = Bound {
-    symbols: ["Δ", "x+Δf"],
+    symbols: ["Δ", "x+Δf_0"],
     value: |solution, row| match row {
         Row::Impact(_) => Some(solution.deviation.total),
         Row::Load(station) => Some(station.transmission_error + solution.mesh.as_ref()?.error),

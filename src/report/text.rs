@@ -136,9 +136,9 @@ fn told_input(report: &Report, key: &str) -> Option<String> {
 }
 
 fn quantities(report: &Report) -> Vec<String> {
-    let rows: Vec<Row> = report.values().map(|(quantity, value)| Row::new(quantity, value)).collect();
-    let columns = Columns::of(&rows);
     let rung = report.solution.rung;
+    let rows: Vec<Row> = report.values().map(|(quantity, value)| Row::new(quantity, value, rung)).collect();
+    let columns = Columns::of(&rows);
     if !report.selection.is_whole() {
         let is_beside = |row: &Row| rung.shares_load() && row.quantity.is_of_free_impact();
         let line = |row: &Row| columns.line(row) + if is_beside(row) { ", free impact" } else { "" };
@@ -162,12 +162,14 @@ fn lower(title: &str) -> String {
 /// A quantity and its value as it is shown.
 struct Row {
     quantity: &'static Quantity,
+    symbol: &'static str,
+    label: &'static str,
     shown: Shown,
 }
 
 impl Row {
-    fn new(quantity: &'static Quantity, value: f64) -> Row {
-        Row { quantity, shown: shown(quantity, value) }
+    fn new(quantity: &'static Quantity, value: f64, rung: Rung) -> Row {
+        Row { quantity, symbol: quantity.symbol_in(rung), label: quantity.label_in(rung), shown: shown(quantity, value) }
     }
 }
 
@@ -182,17 +184,17 @@ struct Columns {
 impl Columns {
     fn of(rows: &[Row]) -> Columns {
         Columns {
-            symbol: widest(rows.iter().map(|row| row.quantity.symbol)),
-            label: widest(rows.iter().map(|row| row.quantity.label)),
+            symbol: widest(rows.iter().map(|row| row.symbol)),
+            label: widest(rows.iter().map(|row| row.label)),
             number: widest(rows.iter().map(|row| row.shown.number.as_str())),
             unit: widest(rows.iter().map(|row| row.shown.unit)),
         }
     }
 
     fn line(&self, row: &Row) -> String {
-        let Row { quantity, shown } = row;
+        let Row { quantity, symbol, label, shown } = row;
         let value = format!("{:>2$} {:3$}", shown.number, shown.unit, self.number, self.unit);
-        format!("  {:3$} {:4$} {value}  {}", quantity.symbol, quantity.label, quantity.equation, self.symbol, self.label)
+        format!("  {:3$} {:4$} {value}  {}", symbol, label, quantity.equation, self.symbol, self.label)
     }
 }
 

@@ -151,6 +151,7 @@ pub(super) static ROWS: &[Row] = &[
     part("contact_stiffness", by_depth, &["profile"]),
     row("equivalent_error", Deviation, always, &["deviations.base_pitch", "deviations.backlash", "rung"]),
     row("equivalent_error", Deviation, by_impact, &["driven.tip_relief", "driver.root_relief"]),
+    row("modification", Deviation, always, &["driven.tip_relief", "driver.root_relief"]),
     row("combined_deflection", Deviation, always, &["rung"]),
     row("combined_deflection", Deviation, by_impact, &["model.deflection"]),
     row("combined_deflection", Deviation, deflection_free, &["mesh_force", "start_of_contact", "end_of_contact", "base_pitch", "tooth_stiffness", "contact_stiffness", "*.face_width"]),

@@ -75,12 +75,12 @@ fn titled(title: &str, lines: Vec<Line>) -> Vec<Line> {
 fn head(page: &Page, name: &str, width: usize) -> Vec<Line> {
     let quantity = page.quantity;
     let value = match (&page.shown, &page.missing) {
-        (Some(shown), _) if quantity.symbol.is_empty() => shown.to_string(),
-        (Some(shown), _) => format!("{} = {shown}", quantity.symbol),
+        (Some(shown), _) if page.symbol.is_empty() => shown.to_string(),
+        (Some(shown), _) => format!("{} = {shown}", page.symbol),
         (None, reason) => reason.clone().unwrap_or_default(),
     };
-    let symbol = if quantity.symbol.is_empty() { String::new() } else { format!(", {}", quantity.symbol) };
-    let title = format!("{}{symbol} ({})", quantity.label.trim_start(), quantity.equation);
+    let symbol = if page.symbol.is_empty() { String::new() } else { format!(", {}", page.symbol) };
+    let title = format!("{}{symbol} ({})", page.label, quantity.equation);
     let by = if page.is_by_auto { ", taken by auto" } else { "" };
     let of = format!("{} · {} · rung {}{by}", quantity.key, visible(name), page.rung);
     let mut lines = block(Kind::Title, &title, "", "", width);

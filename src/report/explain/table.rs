@@ -5,6 +5,7 @@ mod friction;
 mod geometry;
 mod impact;
 mod load;
+pub(super) mod otherwise;
 mod position;
 
 use super::known::Formula;

@@ -67,14 +67,14 @@ pub struct Leaf {
 pub(super) fn of(quantity: &'static Quantity, about: &Explanation, known: &Known) -> (Vec<Work>, Vec<Leaf>) {
     let target = Target::of(quantity, known);
     let mut work = worked(&target, about.formula, known);
-    let mut seen = vec![quantity.symbol];
+    let mut seen = vec![quantity.symbol_in(known.solution.rung)];
     let mut leaves = Vec::new();
     let mut symbols = symbols(about.formula, known);
     let mut next = 0;
     while let Some(symbol) = symbols.get(next).cloned() {
         next += 1;
-        let Some(source) = known.source(&symbol).filter(|source| !seen.contains(&source.symbol())) else { continue };
-        seen.push(source.symbol());
+        let Some(source) = known.source(&symbol).filter(|source| !seen.contains(&source.symbol(known))) else { continue };
+        seen.push(source.symbol(known));
         match source {
             Source::Step(step) => {
                 work.extend(worked(&Target::step(step, known), step.formula, known));
@@ -100,7 +100,8 @@ impl Target {
     fn of(quantity: &'static Quantity, known: &Known) -> Target {
         let value = value(quantity, known.solution);
         let shown = value.map(|value| shown(quantity, value));
-        let symbol = if quantity.symbol.is_empty() { "value" } else { quantity.symbol };
+        let symbol = quantity.symbol_in(known.solution.rung);
+        let symbol = if symbol.is_empty() { "value" } else { symbol };
         Target { symbol, meaning: "", value, unit: quantity.shown, digits: quantity.digits, shown }
     }
 
@@ -180,22 +181,22 @@ fn symbols(formula: Formula, known: &Known) -> Vec<String> {
 }
 
 impl Source {
-    fn symbol(self) -> &'static str {
+    fn symbol(self, known: &Known) -> &'static str {
         match self {
-            Source::Quantity(quantity) => quantity.symbol,
+            Source::Quantity(quantity) => quantity.symbol_in(known.solution.rung),
             Source::Step(step) => step.symbol,
             Source::Field(field) => FIELDS[field].symbol,
         }
     }
 
     fn leaf(self, known: &Known) -> Leaf {
-        let symbol = self.symbol();
+        let symbol = self.symbol(known);
         let term = || known.term(symbol).map_or_else(|| "no value".to_owned(), |term| term.text(STEP_DIGITS));
         match self {
             Source::Quantity(quantity) => {
                 let shown = value(quantity, known.solution).map(|value| shown(quantity, value));
                 let shown = shown.map_or_else(|| "no value".to_owned(), |shown| with_unit(&shown.number, shown.unit));
-                Leaf { symbol, shown, meaning: quantity.label.trim_start(), key: quantity.key, is_quantity: true }
+                Leaf { symbol, shown, meaning: quantity.label_in(known.solution.rung).trim_start(), key: quantity.key, is_quantity: true }
             }
             Source::Step(step) => Leaf { symbol, shown: term(), meaning: step.meaning, key: "", is_quantity: false },
             Source::Field(field) => {

@@ -4,7 +4,7 @@ use super::known::Known;
 use super::models::models;
 use crate::model::inputs::Rung;
 use crate::model::{self, Inputs, Quantity, Stage, Stages};
-use crate::report::{shown, value};
+use crate::report::{shown, value, value_as_in};
 
 /// A change of a smaller part of the value is no change of it: rounding, or the steps of the motion.
 pub(super) fn noise(quantity: &Quantity, inputs: &Inputs) -> f64 {
@@ -74,7 +74,10 @@ fn over_models(quantity: &Quantity, known: &Known) -> Option<String> {
 
 /// The rungs side by side, where they differ.
 fn over_rungs(quantity: &Quantity, known: &Known) -> Option<String> {
-    let by = |rung: Rung| Some((rung, value_of(quantity, &Inputs { rung, ..known.inputs.clone() })?));
+    let by = |rung: Rung| {
+        let solution = model::solve(&Inputs { rung, ..known.inputs.clone() }, Stages::of(quantity.stage)).ok()?;
+        Some((rung, value_as_in(quantity, &solution, known.solution.rung)?))
+    };
     let own = Some(known.inputs.rung).filter(|rung| !Rung::CLOSED_FORM.contains(rung));
     let found: Vec<(Rung, f64)> = Rung::CLOSED_FORM.into_iter().chain(own).filter_map(by).collect();
     let (&(_, first), others) = found.split_first()?;

@@ -171,8 +171,9 @@ fn focused(app: &App) -> String {
             typed(app).into_iter().chain([about]).collect::<Vec<_>>().join(" ")
         }
         Pane::Results => results::marked(app).map_or_else(String::new, |quantity| {
-            let name = symbol(quantity.symbol, app.look.ascii);
-            format!("{name} {}, {} ({}).", quantity.label.trim(), symbol(quantity.equation, app.look.ascii), quantity.key)
+            let rung = app.answer.as_ref().map_or(Rung::Exact, |answer| answer.active);
+            let name = symbol(quantity.symbol_in(rung), app.look.ascii);
+            format!("{name} {}, {} ({}).", quantity.label_in(rung).trim(), symbol(quantity.equation, app.look.ascii), quantity.key)
         }),
         Pane::Chart | Pane::Teeth => at_cursor(app),
         Pane::Trade => "Error of every rung against its time.".to_owned(),

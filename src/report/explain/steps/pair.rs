@@ -28,5 +28,4 @@ pub(super) static STEPS: &[Step] = &[
     told!("J_2", "moment of inertia of the driven gear, likewise", "kg m2", Text("π ρ2 b2/2 (r_b2⁴ - rh2⁴)")),
     told!("m_1", "mass of the driver at its base circle, Eq. 46 in kg", "kg", Text("J_1/r_b1²")),
     told!("m_2", "mass of the driven gear at its base circle, Eq. 46 in kg", "kg", Text("J_2/r_b2²")),
-    told!("e_m", "modification at the run-in contact, negative where material is taken off", "um", Text("-(Ca2 + Cf1)")),
 ];

@@ -11,7 +11,7 @@ pub(super) static TABLE: &[Explanation] = &[
     Explanation {
         key: "equivalent_error",
         says: "What the gears' own deviations bring the incoming tooth in early, along the line of action. Relief counts \
-            against it.",
+            against it, in full.",
         formula: By(|k| match k.solution.rung {
             Rung::Paper => Text("(2 f_pb + e_m - j_bn)/√2"),
             rung if rung.shares_load() => Text("(2 f_pb - j_bn)/√2"),
@@ -24,10 +24,20 @@ pub(super) static TABLE: &[Explanation] = &[
         valid: &[],
     },
     Explanation {
+        key: "modification",
+        says: "What the reliefs take off where the incoming tooth first touches: the driven gear's tip relief and the driver's root \
+            relief, below 0. Δf and Δ count it in full.",
+        formula: Text("-(Ca2 + Cf1)"),
+        source: "Zhou & Chen 2014, Eqs. 1 and 2.",
+        mended: &["Eq. 1"],
+        assumes: "Both reliefs are there in full at the first contact, whatever their length.",
+        valid: &[],
+    },
+    Explanation {
         key: "combined_deflection",
         says: "How far the pairs that carry the load give way along the line of action while the incoming pair stands at E.",
         formula: By(|k| {
-            if k.inputs.deflection.is_some() && !k.inputs.rung.shares_load() { Given("model.deflection") } else { Made(shared) }
+            if k.inputs.deflection_taken().is_some() { Given("model.deflection") } else { Made(shared) }
         }),
         source: "Zhou & Chen 2014, Eqs. 3 and 4, with the compliances of Eqs. 54-56 in place of the curve in its Fig. 3; \
             Table 1 takes 24.7 um from its reference 20.",
@@ -40,7 +50,7 @@ pub(super) static TABLE: &[Explanation] = &[
         key: "total_deviation",
         says: "What brings the tooth in early, in all. Above 0 the tip strikes before E; at 0 or below it comes in on time, and \
             there is no corner contact.",
-        formula: By(|k| Text(if k.inputs.rung.shares_load() { "Δf + e_m + δ" } else { "Δf + δ" })),
+        formula: By(|k| Text(if k.inputs.rung.shares_load() { "Δf_0 + e_m + δ" } else { "Δf + δ" })),
         source: "Zhou & Chen 2014, Eq. 5.",
         mended: &["Eq. 1"],
         assumes: "Deviations and deflection add up along the line of action.",

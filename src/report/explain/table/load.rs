@@ -5,14 +5,14 @@ use crate::report::explain::known::Formula::{self, Found, Solved, Text};
 use crate::report::explain::valid::{load, pair, stiffness};
 
 const AT_REST: &str = "Every pair is a spring b/q with a gap, and they share the mesh force at rest. Of the pairs only the incoming one \
-    deviates, by e = Δf; all have their reliefs. A deflection that the case gives is left aside.";
+    deviates, by e = Δf_0; all have their reliefs. A deflection that the case gives is left aside.";
 const IN_MOTION: &str = "One mass m_red on the springs and gaps of every pair, with damping while a pair touches; shafts are rigid, the load \
-    is steady. Of the pairs only the incoming one deviates, by e = Δf.";
+    is steady. Of the pairs only the incoming one deviates, by e = Δf_0.";
 const BALANCE: &str = "Balance ΣF = F0 of parallel springs with gaps, as in Seireg & Houser 1970, with the gap S(u) of the tips off the line \
     of action; compliances of Zhou & Chen 2014, Eqs. 54-56.";
 const MOTION: &str = "The oscillator of gear dynamics with backlash, Özgüven & Houser 1988, m x'' + ΣF = F0, with the gap S(u) of the tips off \
     the line of action; steps by Taylor series, from contact event to contact event.";
-const SHARED: &[&str] = &["F_0", "k_m", "Δf"];
+const SHARED: &[&str] = &["F_0", "k_m", "Δf_0"];
 const SWING: &[&str] = &["m_red", "c", "f_n", "f_z"];
 const STATIC_VALID: &[load::Look] = &[pair::contact_ratio, stiffness::teeth, load::at_rest];
 const DYNAMIC_VALID: &[load::Look] = &[stiffness::teeth, load::forgotten, load::kept];
@@ -40,8 +40,8 @@ pub(super) static TABLE: &[Explanation] = &[
         says: "How far the driven gear stands before E when the incoming tooth begins to carry at rest: its gap is there what the other \
             pairs give way.",
         formula: Solved {
-            equation: "gap of the incoming pair = displacement by the other pairs, S_s + C_s - Δf = x_s",
-            left: "S_s + C_s - Δf",
+            equation: "gap of the incoming pair = displacement by the other pairs, S_s + C_s - Δf_0 = x_s",
+            left: "S_s + C_s - Δf_0",
             right: "x_s",
             unit: "um",
         },
@@ -54,7 +54,7 @@ pub(super) static TABLE: &[Explanation] = &[
         key: "static_force_at_start",
         says: "What the incoming tooth carries at rest when it comes to E: with a good tip relief nothing, without any a good part of the \
             mesh force.",
-        formula: Text("max(k_E (x_E + Δf - C_E), 0)"),
+        formula: Text("max(k_E (x_E + Δf_0 - C_E), 0)"),
         source: BALANCE,
         mended: &["Eq. 53", "Eq. 54"],
         assumes: AT_REST,

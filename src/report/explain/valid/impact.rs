@@ -3,8 +3,11 @@
 use super::{Finding, finding, four, micro};
 use crate::report::explain::known::Known;
 
-/// The pair ahead stays in contact while the incoming tooth carries its error.
+/// The pair ahead stays in contact while the incoming tooth carries its error; a rung that follows every pair asks no such thing.
 pub(in crate::report::explain) fn pair_ahead(known: &Known) -> Option<Finding> {
+    if known.solution.rung.shares_load() {
+        return None;
+    }
     let deviation = known.solution.deviation;
     let (deflection, error) = (deviation.combined_deflection, deviation.equivalent_error);
     let here = format!("δ = {}, Δf = {}", micro(deflection, "um"), micro(error, "um"));

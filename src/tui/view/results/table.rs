@@ -3,7 +3,7 @@
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
-use super::{shown, shown_in, text};
+use super::{shown_in, text};
 use crate::model::inputs::Rung;
 use crate::model::{Outcome, QUANTITIES, Quantity, Solution, Stages};
 use crate::report;
@@ -179,15 +179,16 @@ fn heading(app: &App, answer: &Answer, columns: &Columns, hidden: (usize, usize)
 }
 
 fn row(app: &App, answer: &Answer, quantity: &Quantity, columns: &Columns) -> Line<'static> {
-    let symbol = symbol(quantity.symbol, app.look.ascii);
+    let symbol = symbol(quantity.symbol_in(answer.active), app.look.ascii);
     let mut spans = if columns.labels {
-        vec![Span::raw(text::padded(&symbol, LONG_SYMBOL)), Span::raw(text::padded(quantity.label, LABEL))]
+        vec![Span::raw(text::padded(&symbol, LONG_SYMBOL)), Span::raw(text::padded(quantity.label_in(answer.active), LABEL))]
     } else {
         vec![Span::raw(text::padded(&symbol, SYMBOL))]
     };
     let mut unit = "";
     for &rung in &columns.rungs {
-        let shown = answer.of(rung).and_then(|solution| shown(app, quantity, solution));
+        let value = answer.of(rung).and_then(|solution| report::value_as_in(quantity, solution, answer.active));
+        let shown = value.map(|value| shown_in(app, quantity, value));
         unit = shown.as_ref().map_or(unit, |shown| shown.unit);
         let number = shown.map_or_else(|| "–".to_owned(), |shown| shown.number);
         let is_active = rung == answer.active;
@@ -231,7 +232,7 @@ fn is_changed(app: &App, answer: &Answer, quantity: &Quantity) -> bool {
 
 // The active rung's value against the same rung's of the baseline, in percent of it.
 fn difference(app: &App, answer: &Answer, quantity: &Quantity) -> String {
-    let value = |answer: &Answer, rung| report::value(quantity, answer.of(rung)?);
+    let value = |from: &Answer, rung| report::value_as_in(quantity, from.of(rung)?, answer.active);
     let base = app.baseline.as_ref().and_then(|baseline| value(&baseline.answer, base_rung(answer, &baseline.answer)));
     match (value(answer, answer.active), base) {
         (Some(now), Some(base)) => against(now, base),
