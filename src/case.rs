@@ -23,9 +23,9 @@ pub mod words;
 use std::sync::Arc;
 
 use crate::model::{Inputs, QUANTITIES, Quantity};
-pub use acts::{Acting, acts};
+pub use acts::{Acting, acts, acts_in_part};
 pub use changes::Change;
-pub use check::Problem;
+pub use check::{Problem, unknown_quantity};
 pub use evaluate::Evaluator;
 pub use examples::{EXAMPLES, Example};
 pub use fields::{FIELDS, Field};

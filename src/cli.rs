@@ -25,7 +25,7 @@ use std::process::ExitCode;
 pub enum Exit {
     /// All is done.
     Done = 0,
-    /// A case exceeds one of its limits.
+    /// A case exceeds one of its limits, or has no value to hold against it.
     Exceeded = 1,
     /// The command line is wrong.
     Usage = 2,
@@ -41,7 +41,7 @@ impl Exit {
     /// Every way to end, and its meaning.
     const MEANINGS: [(Exit, &'static str); 6] = [
         (Exit::Done, "done"),
-        (Exit::Exceeded, "a limit is exceeded"),
+        (Exit::Exceeded, "a limit is exceeded, or there is no value to hold against it"),
         (Exit::Usage, "wrong usage, or no terminal for the workbench"),
         (Exit::BadCase, "a bad case"),
         (Exit::NewerFormat, "a case of a newer format"),

@@ -1,5 +1,6 @@
 //! What a person or a script reads of a solve.
 
+pub mod absence;
 pub mod csv;
 pub mod digest;
 pub mod explain;
@@ -146,6 +147,22 @@ pub fn shown_in(quantity: &Quantity, value: f64, system: System) -> Shown {
     Shown { number, unit }
 }
 
+/// The unit in which values of a quantity that stand side by side are shown, by the greatest of them.
+#[must_use]
+pub fn unit_beside(quantity: &Quantity, values: impl Iterator<Item = f64>, system: System) -> &'static str {
+    let greatest = values.map(f64::abs).filter(|value| value.is_finite()).fold(0.0, f64::max);
+    units::system::unit_for(greatest, quantity.shown, quantity.digits, system)
+}
+
+/// A value in SI, as a person reads it in that unit.
+#[must_use]
+pub fn shown_with(quantity: &Quantity, value: f64, unit: &'static str) -> Shown {
+    if quantity.is_flag() {
+        return shown(quantity, value);
+    }
+    Shown { number: units::system::counted(value, unit, quantity.digits), unit: units::system::named(unit) }
+}
+
 /// A quantity's value in SI where there is one: finite, and zero without a sign.
 #[must_use]
 pub fn value(quantity: &Quantity, solution: &Solution) -> Option<f64> {
@@ -196,8 +213,8 @@ mod tests {
         assert_eq!(told(0.001_234_56, "N", 3), "0.00123 N");
         assert_eq!(told(0.000_999_4, "N", 3), "9.99e-4 N");
         assert_eq!(told(0.000_999_6, "N", 3), "0.00100 N");
-        assert_eq!(told(123_456.7, "N", 5), "123457 N");
-        assert_eq!(told(999_999.9, "N", 5), "1.0000e6 N");
+        assert_eq!(told(123_456.7, "N", 5), "123.46 kN");
+        assert_eq!(told(999_999.9, "N", 5), "1000.0 kN");
         assert_eq!(told(9.9996, "N", 4), "10.00 N");
     }
 

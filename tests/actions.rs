@@ -94,7 +94,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("", "F5", "", "Nothing is measured yet"),
     ("Esc 4", "F9", "", "⡄ 5 mm"),
     ("", "F4", "", "μ_stick  stick limit"),
-    ("F4", "F3", "", "O1D      driver radius"),
+    ("F4", "F3", "", "u        driven angle b"),
     ("", "F2", "", "Save as"),
     ("", "Ctrl-N", "", "a new case, beginning with Table 1"),
     ("", "Alt-N", "", "New from an example"),

@@ -4,7 +4,8 @@ use super::fields::FIELDS;
 use super::reach::is_read;
 use super::{Case, check};
 use crate::model::Inputs;
-use crate::model::inputs::{ContactCompliance, Rung};
+use crate::model::compliance::model_of;
+use crate::model::inputs::{ContactCompliance, Drive, Rung, ToothCompliance};
 
 /// Whether what stands in a field makes a difference to the results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -85,6 +86,54 @@ const BESIDE: [(&str, &str); 3] = [
     ("operation.friction_coefficient", "a note holds it against the stick limit; no quantity of this rung depends on it"),
 ];
 
+/// What some fields change, where it is less than one looks for.
+const PARTS: &[Reason] = &[
+    Reason {
+        keys: &["operation.power", "operation.torque"],
+        when: |inputs| inputs.rung != Rung::Auto && inputs.deflection_taken().is_some(),
+        why: "the deflection is given, and so the load changes F_0 alone, neither where nor how hard the tooth strikes",
+    },
+    Reason { keys: &["model.accurate"], when: always, why: "it changes the last digits alone, beyond those that are shown" },
+    Reason {
+        keys: &["model.stations", "model.station_tolerance"],
+        when: always,
+        why: "it changes how closely the curve is told, no result",
+    },
+    Reason { keys: &["model.tolerance"], when: always, why: "it changes results by no more than itself" },
+    Reason {
+        keys: &["driver.density", "driven.density", "driver.bore_radius", "driven.bore_radius"],
+        when: |inputs| inputs.rung == Rung::Static,
+        why: "the load at rest knows no masses: the free impact changes, and with the beam the stiffness",
+    },
+    Reason {
+        keys: &["driver.face_width"],
+        when: |inputs| inputs.rung == Rung::Static && inputs.driver.face_width >= inputs.driven.face_width,
+        why: WIDER,
+    },
+    Reason {
+        keys: &["driven.face_width"],
+        when: |inputs| inputs.rung == Rung::Static && inputs.driven.face_width >= inputs.driver.face_width,
+        why: WIDER,
+    },
+    Reason {
+        keys: &["driver.dedendum", "driven.dedendum"],
+        when: |inputs| model_of(inputs) == ToothCompliance::KuangYang && inputs.contact_compliance != ContactCompliance::Weber,
+        why: "the fit of Kuang and Yang knows no root: of the results the stiffness band alone changes, which tries the beam too",
+    },
+    Reason {
+        keys: &["driver.addendum", "driver.tip_chamfer"],
+        when: by_impact,
+        why: "the driver's tip leaves contact at B: at run-in it counts only by how many pairs carry the load",
+    },
+    Reason {
+        keys: &["operation.speed"],
+        when: |inputs| inputs.rung == Rung::Static && matches!(inputs.drive, Drive::Torque(_)),
+        why: "the load at rest knows no speed where the torque is given, and only the free impact changes",
+    },
+];
+
+const WIDER: &str = "only the narrower width carries, and the load at rest knows no masses";
+
 fn always(_: &Inputs) -> bool {
     true
 }
@@ -117,6 +166,14 @@ pub fn acts(field: usize, inputs: &Inputs) -> Acting {
     }
     let reason = REASONS.iter().find(|reason| reason.keys.contains(&key) && (reason.when)(inputs));
     Acting::No(reason.map_or(OTHERWISE, |reason| reason.why))
+}
+
+/// Why a field that acts in a case with these inputs moves less than one looks for, where it does.
+#[must_use]
+pub fn acts_in_part(field: usize, inputs: &Inputs) -> Option<&'static str> {
+    let key = FIELDS[field].key;
+    let part = PARTS.iter().find(|reason| reason.keys.contains(&key) && (reason.when)(inputs))?;
+    (acts(field, inputs) == Acting::Yes).then_some(part.why)
 }
 
 /// Whether any stage reads the field; of the rung `auto`, any stage of the rungs that it chooses from.

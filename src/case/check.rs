@@ -7,7 +7,7 @@ use super::units::{self, Dimension, Misread};
 use super::visible::{quoted, visible};
 use super::{Case, Limit, suggest};
 use crate::model::inputs::Gear;
-use crate::model::{Inputs, QUANTITIES};
+use crate::model::{Inputs, QUANTITIES, Quantity};
 use crate::numeric::decimal::shortest;
 
 /// What is wrong at one place: the cause and the mend.
@@ -152,7 +152,7 @@ static ENDS: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
 });
 
 fn number(known: &Field, field: usize, text: &str, dimension: Dimension, range: Range) -> Result<f64, Problem> {
-    let value = units::parse(text, dimension, range.unit).map_err(|misread| Problem::of(known.key, misread))?;
+    let value = units::parse(text, dimension, known.usual_unit()).map_err(|misread| Problem::of(known.key, misread))?;
     let (from, to) = ENDS[field];
     // The same end may be written in another unit, and be off by its rounding there.
     let slack = 4.0 * f64::EPSILON;
@@ -252,8 +252,14 @@ pub(super) fn unknown_key(key: &str) -> Problem {
 }
 
 /// The refusal of a limit on a quantity that does not exist.
-pub(super) fn unknown_quantity(field: &str, quantity: &str) -> Problem {
+#[must_use]
+pub fn unknown_quantity(field: &str, quantity: &str) -> Problem {
+    let is_symbol = |known: &&Quantity| !known.symbol.is_empty() && known.symbol.eq_ignore_ascii_case(quantity.trim());
+    if let Some(known) = QUANTITIES.iter().find(is_symbol) {
+        let cause = format!("{} is the symbol of {}", quoted(quantity), known.key);
+        return Problem::new(field, cause, format!("write {}", known.key));
+    }
     let known = QUANTITIES.iter().map(|quantity| quantity.key);
-    let mend = suggest::mend(quantity, known, || "name a quantity of the results, such as impact_force".to_owned());
+    let mend = suggest::mend(quantity, known, || "`tipstrike fields --results` lists every quantity".to_owned());
     Problem::new(field, format!("unknown quantity {}", quoted(quantity)), mend)
 }

@@ -2,6 +2,7 @@
 
 use super::fields::{Field, Kind};
 use super::units::{self, System};
+use crate::numeric::decimal::significant;
 
 /// Significant digits of the ends of a range that is not told as the table of fields has it.
 const RANGE_DIGITS: usize = 3;
@@ -34,7 +35,7 @@ impl Field {
             return self.range_text();
         }
         let factor = units::factor(range.unit).unwrap_or(1.0);
-        let end = |value: f64| units::system::shown(value * factor, range.unit, RANGE_DIGITS, system).0;
+        let end = |value: f64| significant(value * factor / units::factor(unit).unwrap_or(1.0), RANGE_DIGITS);
         format!("about {} to {} {unit}", end(range.from), end(range.to))
     }
 }

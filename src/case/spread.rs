@@ -51,11 +51,11 @@ impl Spread {
         let Some(field) = index_of(key).map(|index| &FIELDS[index]) else {
             return Err(Problem { field: place, ..check::unknown_key(key) });
         };
-        let Kind::Number(dimension, range, _) = field.kind else {
+        let Kind::Number(dimension, ..) = field.kind else {
             return Err(Problem::new(&place, format!("{key} cannot be spread"), "spread a field that is a measure"));
         };
         let shape = named(&place, shape)?;
-        let width = units::parse(text, dimension, range.unit).map_err(|misread| Problem::of(&place, misread))?;
+        let width = units::parse(text, dimension, field.usual_unit()).map_err(|misread| Problem::of(&place, misread))?;
         if width < 0.0 {
             return Err(Problem::new(&place, format!("the width {} is below 0", quoted(text)), "write a width of 0 or more"));
         }

@@ -14,11 +14,20 @@ pub(crate) fn nearest<'n>(typed: &str, known: impl Iterator<Item = &'n str>) -> 
         let same_letters = typed.eq_ignore_ascii_case(name);
         if same_letters { 1.0 } else { strsim::normalized_damerau_levenshtein(&typed.to_lowercase(), &name.to_lowercase()) }
     };
+    let letters = sorted(typed);
+    // Of two that are as near, the one with the same letters: "mu" is a turned "um" and no "m".
+    let is_nearer = |a: (f64, &str), b: (f64, &str)| a.0 > b.0 || a.0 >= b.0 && sorted(a.1) == letters;
     known
         .map(|name| (likeness(name), name))
         .filter(|&(likeness, _)| likeness >= limit)
-        .max_by(|(a, _), (b, _)| a.total_cmp(b))
+        .reduce(|best, next| if is_nearer(next, best) { next } else { best })
         .map(|(_, name)| name)
+}
+
+fn sorted(name: &str) -> Vec<char> {
+    let mut letters: Vec<char> = name.to_lowercase().chars().collect();
+    letters.sort_unstable();
+    letters
 }
 
 /// "did you mean X?" in front of what fits, or what fits alone.
@@ -36,5 +45,6 @@ mod tests {
         assert_eq!(nearest("modul", known.into_iter()), Some("module"));
         assert_eq!(nearest("center_distance", known.into_iter()), Some("centre_distance"));
         assert_eq!(nearest("colour", known.into_iter()), None);
+        assert_eq!(nearest("mu", ["mm", "um", "m"].into_iter()), Some("um"));
     }
 }

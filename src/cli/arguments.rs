@@ -2,16 +2,23 @@
 #![allow(rustdoc::broken_intra_doc_links, reason = "the help names tables of the case file, such as [limits]")]
 
 use super::Exit;
-use crate::case::{Case, EXAMPLES, Example};
+use crate::case::{Case, EXAMPLES, Example, Problem, unknown_quantity};
 use crate::model::inputs::Rung;
 use crate::model::{QUANTITIES, Quantity};
-use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::error::{Error, ErrorKind};
+use clap::{Arg, Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
+use std::ffi::OsStr;
 use std::path::PathBuf;
 
 const CSV_SHAPE: &str = "CSV is in SI units: a row a case with a column a quantity, such as `impact_force [N]`; with --stations \
     instead a row a station. JSON is an object a case, one a line, in SI units; what does not exist is absent.";
+
+const CHECK_SHAPE: &str = "A limit keeps its meaning in every rung: one on impact_force is held against the free impact in closed \
+    form, and what static or dynamic itself finds stands beside it, with the quantity to limit for that. Where nothing strikes, a \
+    limit on the impact holds. Where its quantity has no value, as one of another rung, it does not, and the line says why. JSON \
+    is an object a verdict, in SI units.";
 
 const TRADE_SHAPE: &str = "Each setting is timed here and now, and its first contact, forces and curve are held against the rung \
     dynamic at its finest: the greatest relative difference is its total error, what the same rung at its finest leaves of it is \
@@ -63,7 +70,7 @@ pub struct Changes {
     #[arg(long, value_parser = rungs())]
     rung: Option<Rung>,
     /// Change a field of the case, such as "operation.speed=3000 rpm"
-    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Settings)]
     settings: Vec<Setting>,
 }
 
@@ -71,7 +78,7 @@ impl Changes {
     /// The fields that change; the rung is one of them, and the last word on it.
     #[must_use]
     pub fn settings(&self) -> Vec<Setting> {
-        let rung = self.rung.map(|rung| Setting { key: "model.rung".to_owned(), value: rung.name().to_owned() });
+        let rung = self.rung.map(|rung| Setting::by("--rung", "model.rung", rung.name()));
         self.settings.iter().cloned().chain(rung).collect()
     }
 }
@@ -87,7 +94,7 @@ pub struct Solve {
     #[command(flatten)]
     pub changes: Changes,
     /// Tell these quantities alone, and run no more than they need; `tipstrike fields --results` lists them
-    #[arg(long, value_name = "QUANTITY,...", value_delimiter = ',', hide_possible_values = true, value_parser = quantities())]
+    #[arg(long, value_name = "QUANTITY,...", value_delimiter = ',', hide_possible_values = true, value_parser = Quantities)]
     pub only: Vec<&'static Quantity>,
     /// Tell the stations as well, in this many intervals between D and E, or auto
     #[arg(long, value_name = "N", value_parser = station_count)]
@@ -99,6 +106,7 @@ pub struct Solve {
 
 /// What `check` is asked.
 #[derive(Debug, Args)]
+#[command(after_help = CHECK_SHAPE)]
 pub struct Check {
     /// Case files; - is standard input
     #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
@@ -106,13 +114,16 @@ pub struct Check {
     /// What differs from the case
     #[command(flatten)]
     pub changes: Changes,
+    /// How to tell it
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Listing,
 }
 
 /// What `explain` is asked.
 #[derive(Debug, Args)]
 pub struct Explain {
     /// The quantity; `tipstrike fields --results` lists them
-    #[arg(value_name = "QUANTITY", hide_possible_values = true, value_parser = quantities())]
+    #[arg(value_name = "QUANTITY", hide_possible_values = true, value_parser = Quantities)]
     pub quantity: &'static Quantity,
     /// The case file, - for standard input; else Table 1 of Zhou & Chen 2014
     #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
@@ -133,7 +144,7 @@ pub struct Trading {
     #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub case: PathBuf,
     /// Change a field of the case, such as "operation.speed=3000 rpm"
-    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Settings)]
     pub settings: Vec<Setting>,
     /// Name the cheapest setting whose error is no greater, such as 5% or 0.05; else that of the case's model.within
     #[arg(long, value_name = "ERROR", value_parser = part)]
@@ -197,7 +208,29 @@ pub struct Setting {
     pub key: String,
     /// The text that a user would write.
     pub value: String,
+    /// The option that says so.
+    option: &'static str,
 }
+
+impl Setting {
+    /// What an option puts into a field.
+    #[must_use]
+    pub fn by(option: &'static str, key: &str, value: &str) -> Setting {
+        Setting { key: key.to_owned(), value: value.to_owned(), option }
+    }
+
+    /// As it stands on the command line.
+    #[must_use]
+    pub fn written(&self) -> String {
+        match self.option {
+            SET => format!("{SET} {}={}", self.key, self.value),
+            option => format!("{option} {}", self.value),
+        }
+    }
+}
+
+/// The option that changes any field.
+const SET: &str = "--set";
 
 fn exit_codes() -> String {
     let codes = Exit::MEANINGS.map(|(exit, meaning)| format!("{} {meaning}", exit as u8));
@@ -209,9 +242,43 @@ fn rungs() -> impl TypedValueParser<Value = Rung> {
         .try_map(|name| Rung::ALL.into_iter().find(|rung| rung.name() == name).ok_or("no such rung"))
 }
 
-fn quantities() -> impl TypedValueParser<Value = &'static Quantity> {
-    PossibleValuesParser::new(QUANTITIES.iter().map(|quantity| quantity.key))
-        .try_map(|key| Quantity::find(&key).ok_or("no such quantity"))
+/// Quantities by their names; a symbol or a slip is told the name that is meant.
+#[derive(Clone)]
+struct Quantities;
+
+impl TypedValueParser for Quantities {
+    type Value = &'static Quantity;
+
+    fn parse_ref(&self, _: &clap::Command, argument: Option<&Arg>, value: &OsStr) -> Result<Self::Value, Error> {
+        let text = value.to_string_lossy();
+        let name = argument.and_then(Arg::get_long).map_or("QUANTITY".to_owned(), |long| format!("--{long}"));
+        Quantity::find(&text).ok_or_else(|| {
+            let Problem { cause, mend, .. } = unknown_quantity("", &text);
+            misused(format!("{name}: {cause}: {mend}"))
+        })
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(QUANTITIES.iter().map(|quantity| PossibleValue::new(quantity.key))))
+    }
+}
+
+/// A field and its value, each on its own as it should be.
+#[derive(Clone)]
+struct Settings;
+
+impl TypedValueParser for Settings {
+    type Value = Setting;
+
+    fn parse_ref(&self, _: &clap::Command, _: Option<&Arg>, value: &OsStr) -> Result<Setting, Error> {
+        let text = value.to_string_lossy();
+        setting(&text).map_err(|told| misused(format!("{SET} {text}: {told}")))
+    }
+}
+
+/// One line of wrong usage.
+fn misused(told: String) -> Error {
+    Error::raw(ErrorKind::ValueValidation, told + "\n")
 }
 
 fn examples() -> impl TypedValueParser<Value = &'static Example> {
@@ -225,9 +292,9 @@ fn station_count(text: &str) -> Result<String, String> {
 
 /// A setting whose value fits its field, whatever the case.
 fn setting(text: &str) -> Result<Setting, String> {
-    let (key, value) = text.split_once('=').ok_or("write KEY=VALUE, such as \"operation.speed=3000 rpm\"")?;
-    Case::empty().set(key.trim(), value).map_err(|problem| problem.to_string())?;
-    Ok(Setting { key: key.trim().to_owned(), value: value.to_owned() })
+    let (key, value) = text.split_once('=').ok_or("no value is given: write KEY=VALUE, such as \"operation.speed=3000 rpm\"")?;
+    Case::empty().set(key.trim(), value).map_err(|problem| format!("{}: {}", problem.cause, problem.mend))?;
+    Ok(Setting::by(SET, key.trim(), value))
 }
 
 /// A part of a whole: "5%" or 0.05.
@@ -255,7 +322,7 @@ mod tests {
 
     #[test]
     fn a_setting_names_a_field_and_keeps_what_follows_the_first_equals_sign() {
-        assert_eq!(setting("title=a=b"), Ok(Setting { key: "title".to_owned(), value: "a=b".to_owned() }));
+        assert_eq!(setting("title=a=b"), Ok(Setting::by(SET, "title", "a=b")));
         assert!(setting("pair.modul=5 mm").unwrap_err().contains("did you mean pair.module?"));
         assert!(setting("pair.module").unwrap_err().contains("KEY=VALUE"));
     }

@@ -12,13 +12,15 @@ pub(super) struct Opened {
     pub(super) name: String,
     pub(super) document: Document,
     pub(super) inputs: Inputs,
+    /// What the command line changed.
+    settings: Vec<Setting>,
 }
 
 impl Opened {
     /// Say why the model refuses the case, at the field where the mend begins.
     pub(super) fn refused(&self, refusal: &Refusal, streams: &mut Streams) -> Exit {
         let (field, cause, mend) = (refusal.field().to_owned(), refusal.to_string(), refusal.mend().to_owned());
-        streams.say(&self.document.fault(Problem { field, cause, mend }).to_string());
+        streams.say(&placed(&self.document, Problem { field, cause, mend }, &self.settings));
         Exit::BadCase
     }
 }
@@ -31,15 +33,15 @@ pub(super) fn open(path: &Path, settings: &[Setting], streams: &mut Streams) -> 
 
 /// A document as it is once the settings have changed what they name.
 pub(super) fn changed(name: String, mut document: Document, settings: &[Setting], streams: &mut Streams) -> Result<Opened, Exit> {
-    for Setting { key, value } in settings {
-        document.case.set(key, value).map_err(|problem| {
-            streams.say(&format!("--set: {problem}"));
+    for setting in settings {
+        document.case.set(&setting.key, &setting.value).map_err(|problem| {
+            streams.say(&on_command_line(setting, &problem));
             Exit::Usage
         })?;
     }
     match document.case.inputs() {
         // Nothing waits for a report, so it is given the digits.
-        Ok(inputs) => Ok(Opened { name, document, inputs }),
+        Ok(inputs) => Ok(Opened { name, document, inputs, settings: settings.to_vec() }),
         Err(problems) => Err(unfit(&document, problems, settings, streams)),
     }
 }
@@ -63,12 +65,27 @@ fn unread(error: &ReadError, streams: &mut Streams) -> Exit {
     }
 }
 
-/// What the settings put out of order; a field that was set is wrong on the command line and not in the file.
+/// What the settings put out of order.
 fn unfit(document: &Document, problems: Vec<Problem>, settings: &[Setting], streams: &mut Streams) -> Exit {
     for problem in problems {
-        let set = settings.iter().any(|setting| setting.key == problem.field);
-        let message = if set { format!("--set: {problem}") } else { document.fault(problem).to_string() };
-        streams.say(&message);
+        streams.say(&placed(document, problem, settings));
     }
     Exit::BadCase
+}
+
+/// A problem at its place: a field that was set is wrong on the command line and not in the file; another may be wrong beside
+/// what was set.
+fn placed(document: &Document, problem: Problem, settings: &[Setting]) -> String {
+    match settings.iter().rev().find(|setting| setting.key == problem.field) {
+        Some(setting) => format!("{}, {}", document.name(), on_command_line(setting, &problem)),
+        None if settings.is_empty() => document.fault(problem).to_string(),
+        None => {
+            let written: Vec<String> = settings.iter().map(Setting::written).collect();
+            format!("{} (with {})", document.fault(problem), written.join(" "))
+        }
+    }
+}
+
+fn on_command_line(setting: &Setting, problem: &Problem) -> String {
+    format!("{}: {}: {}", setting.written(), problem.cause, problem.mend)
 }

@@ -1,11 +1,11 @@
 //! Each case held against its own limits.
 
 use super::cases::{self, Opened};
-use super::{Check, Exit, Streams};
+use super::{Check, Exit, Listing, Streams};
 use crate::case::Case;
 use crate::case::visible::visible;
 use crate::model::{self, Inputs, Refusal, Solution};
-use crate::report::verdict::{Standing, refused, stages, stages_beside, verdicts};
+use crate::report::verdict::{Standing, Verdict, refused, stages, stages_beside, verdicts, write_json};
 use std::io::{self, Write};
 
 pub(super) fn run(options: &Check, streams: &mut Streams) -> io::Result<Exit> {
@@ -13,7 +13,7 @@ pub(super) fn run(options: &Check, streams: &mut Streams) -> io::Result<Exit> {
     let mut worst = Exit::Done;
     for path in &options.cases {
         let exit = match cases::open(path, &settings, streams) {
-            Ok(opened) => check(&opened, streams)?,
+            Ok(opened) => check(&opened, options.format, streams)?,
             Err(exit) => exit,
         };
         worst = worst.max(exit);
@@ -21,24 +21,33 @@ pub(super) fn run(options: &Check, streams: &mut Streams) -> io::Result<Exit> {
     Ok(worst)
 }
 
-fn check(opened: &Opened, streams: &mut Streams) -> io::Result<Exit> {
+fn check(opened: &Opened, format: Listing, streams: &mut Streams) -> io::Result<Exit> {
     let case = &opened.document.case;
-    let (verdicts, refusal) = match solve(case, &opened.inputs) {
-        Ok(solution) => (verdicts(case, &solution), solution.withheld),
-        Err(refusal) => (refused(case, &refusal), Some(refusal)),
+    let (verdicts, refusal, rung) = match solve(case, &opened.inputs) {
+        Ok(solution) => (verdicts(case, &solution), solution.withheld, solution.rung),
+        Err(refusal) => (refused(case, &refusal), Some(refusal), opened.inputs.rung),
     };
-    for verdict in &verdicts {
-        writeln!(streams.output, "{} {}: {verdict}", verdict.standing.word(), visible(&opened.name))?;
-    }
     let is_settled = verdicts.iter().all(|verdict| verdict.standing != Standing::Unknown) && !verdicts.is_empty();
-    if let Some(refusal) = refusal.filter(|_| !is_settled) {
-        return Ok(opened.refused(&refusal, streams));
+    let refusal = refusal.filter(|_| !is_settled);
+    if refusal.is_none() || !verdicts.is_empty() {
+        match format {
+            Listing::Text => tell(&verdicts, &opened.name, &mut streams.output)?,
+            Listing::Json => write_json(&verdicts, &opened.name, rung, &mut streams.output)?,
+        }
     }
-    if verdicts.is_empty() {
-        writeln!(streams.output, "ok {}: no limits", visible(&opened.name))?;
+    if let Some(refusal) = refusal {
+        return Ok(opened.refused(&refusal, streams));
     }
     let holds = verdicts.iter().all(|verdict| verdict.standing.holds());
     Ok(if holds { Exit::Done } else { Exit::Exceeded })
+}
+
+fn tell(verdicts: &[Verdict], name: &str, out: &mut dyn Write) -> io::Result<()> {
+    let name = visible(name);
+    if verdicts.is_empty() {
+        return writeln!(out, "ok {name}: no limits");
+    }
+    verdicts.iter().try_for_each(|verdict| writeln!(out, "{} {name}: {verdict}", verdict.standing.word()))
 }
 
 /// As far as the limits need it, and what the rung itself finds beside them, where it does.

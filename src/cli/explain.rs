@@ -23,7 +23,7 @@ pub(super) fn run(options: &Explain, streams: &mut Streams) -> io::Result<Exit> 
 }
 
 fn tell(options: &Explain, opened: &Opened, streams: &mut Streams) -> io::Result<Exit> {
-    let Opened { name, document, inputs } = opened;
+    let Opened { name, document, inputs, .. } = opened;
     let solution = match model::solve(inputs, Stages::of(options.quantity.stage)) {
         Ok(solution) => solution,
         Err(refusal) => return Ok(opened.refused(&refusal, streams)),

@@ -25,7 +25,7 @@ pub(super) fn run(options: &Solve, streams: &mut Streams) -> io::Result<Exit> {
 
 /// `--stations` is a field as well.
 fn settings(options: &Solve) -> Vec<Setting> {
-    let stations = options.stations.clone().map(|value| Setting { key: "model.stations".to_owned(), value });
+    let stations = options.stations.clone().map(|value| Setting::by("--stations", "model.stations", &value));
     options.changes.settings().into_iter().chain(stations).collect()
 }
 
@@ -41,7 +41,7 @@ fn selection(options: &Solve) -> Selection {
 }
 
 fn solve(opened: &Opened, selection: &Selection, streams: &mut Streams) -> Result<Report, Exit> {
-    let Opened { name, document, inputs } = opened;
+    let Opened { name, document, inputs, .. } = opened;
     let solved = Report::solve(name.clone(), document.case.clone(), inputs.clone(), selection.clone());
     match solved.and_then(in_full) {
         Ok(report) => Ok(report),

@@ -45,6 +45,7 @@ const LOOKS: &[Look] = &[
     impact::contact_lost,
     impact::sliding_reverses,
     impact::friction,
+    load::deflection_given,
     compliance::chosen_by_range,
     compliance::outside_fit,
     compliance::foundation,

@@ -15,12 +15,13 @@ mod valid;
 mod work;
 mod worth;
 
+use super::absence::Absence;
 use super::verdict::Beside;
 use super::{Shown, shown, value};
 use crate::case::Case;
 use crate::case::units::System;
 use crate::model::inputs::Rung;
-use crate::model::{Inputs, Outcome, Quantity, Solution, Stage, auto};
+use crate::model::{Inputs, Quantity, Solution, auto};
 
 pub use effects::Effect;
 pub use json::write as write_json;
@@ -90,7 +91,7 @@ pub fn explain(quantity: &'static Quantity, case: &Case, inputs: &Inputs, soluti
         is_by_auto: inputs.rung == Rung::Auto,
         value,
         shown: value.map(|value| shown(quantity, value)),
-        missing: value.is_none().then(|| missing(quantity, &known)),
+        missing: value.is_none().then(|| format!("No value: {}", Absence::of(quantity, solution))),
         says: otherwise.map_or(about.says, |otherwise| otherwise.says),
         beside: Beside::of(quantity, solution).map(|beside| format!("This is {}.", beside.told(System::Metric))),
         work,
@@ -102,32 +103,4 @@ pub fn explain(quantity: &'static Quantity, case: &Case, inputs: &Inputs, soluti
         worth: worth::of(quantity, &known),
         effects: effects::of(quantity, &known),
     })
-}
-
-/// Why a quantity of a solved case has no value.
-fn missing(quantity: &Quantity, known: &Known) -> String {
-    let solution = known.solution;
-    let rungs = Rung::ALL.into_iter().filter(|rung| rung.stages().has(quantity.stage)).map(Rung::name);
-    if !solution.rung.stages().has(quantity.stage) {
-        return format!(
-            "No value: the rung is {}, and this is of {}",
-            solution.rung.name(),
-            rungs.collect::<Vec<_>>().join(", ")
-        );
-    }
-    if solution.outcome == Outcome::NoCornerContact && !solution.rung.shares_load() {
-        let total = numbers::tidy(solution.deviation.total * 1e6, 5);
-        return format!("No value: no corner contact, the total deviation of {total} um does not bring the tooth in early");
-    }
-    match (solution.withheld, quantity.stage) {
-        (_, Stage::Static | Stage::Dynamic) if known.inputs.friction_coefficient.is_none() && quantity.needs_friction() => {
-            "No value: the case gives no friction coefficient, operation.friction_coefficient".to_owned()
-        }
-        (_, Stage::Static | Stage::Dynamic) => "No value: the tooth does not come to it".to_owned(),
-        (Some(refusal), _) => format!("No value: {refusal}; {}", refusal.mend()),
-        (None, _) if solution.outcome == Outcome::NoCornerContact || solution.position.is_none() => {
-            "No value: no corner contact".to_owned()
-        }
-        (None, _) => "No value: the end of the impact D' does not exist, since the triangle of Eq. 34 does not close".to_owned(),
-    }
 }

@@ -1,11 +1,15 @@
 //! A case held against its own limits.
 
+mod json;
+
+use super::absence::Absence;
 use super::{shown_in, value};
 use crate::case::units::System;
 use crate::case::visible::visible;
 use crate::case::{Case, Limit};
 use crate::model::inputs::Rung;
-use crate::model::{Outcome, Quantity, Refusal, Solution, Stage, Stages};
+use crate::model::{Quantity, Refusal, Solution, Stage, Stages};
+pub use json::write as write_json;
 use std::fmt;
 
 /// How a quantity stands to its limit.
@@ -17,7 +21,7 @@ pub enum Standing {
     Exceeded,
     /// No tooth strikes, so that there is nothing to exceed it.
     NotApplicable,
-    /// A tooth strikes, and the quantity still has no value.
+    /// There is no value to hold against it, though a tooth may strike: the limit does not hold.
     Unknown,
 }
 
@@ -26,6 +30,17 @@ impl Standing {
     #[must_use]
     pub fn holds(self) -> bool {
         matches!(self, Standing::Within | Standing::NotApplicable)
+    }
+
+    /// The name for scripts.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Standing::Within => "within",
+            Standing::Exceeded => "exceeded",
+            Standing::NotApplicable => "not-applicable",
+            Standing::Unknown => "unknown",
+        }
     }
 
     /// The word in front of a verdict.
@@ -48,8 +63,8 @@ pub struct Verdict<'a> {
     pub value: Option<f64>,
     /// How the two stand.
     pub standing: Standing,
-    /// Why the model gives no value, where it says so.
-    pub withheld: Option<Refusal>,
+    /// Why there is no value.
+    pub absence: Option<Absence>,
     /// What the rung itself finds in place of the limited quantity, where that is the closed form's.
     pub beside: Option<Beside>,
 }
@@ -61,6 +76,8 @@ pub struct Beside {
     pub rung: Rung,
     /// Its own quantity and the value in SI, where it has them.
     pub own: Option<(&'static str, Option<f64>)>,
+    /// Whether the case holds that one to a limit of its own.
+    pub is_limited: bool,
 }
 
 impl Beside {
@@ -69,7 +86,7 @@ impl Beside {
     pub fn of(quantity: &'static Quantity, solution: &Solution) -> Option<Beside> {
         let rung = solution.rung;
         let own = || quantity.by(rung).map(|own| (own.key, value(own, solution)));
-        (rung.shares_load() && quantity.is_of_free_impact()).then(|| Beside { rung, own: own() })
+        (rung.shares_load() && quantity.is_of_free_impact()).then(|| Beside { rung, own: own(), is_limited: false })
     }
 
     /// In words, the value in metric or inch units.
@@ -90,7 +107,12 @@ impl Beside {
 /// Every limit of the case held against the solution, in the case's order.
 #[must_use]
 pub fn verdicts<'a>(case: &'a Case, solution: &Solution) -> Vec<Verdict<'a>> {
-    case.limits.iter().map(|limit| verdict(limit, solution)).collect()
+    let is_limited = |beside: &Beside| case.limits.iter().any(|limit| beside.own.is_some_and(|(own, _)| own == limit.quantity));
+    let of_case = |verdict: Verdict<'a>| Verdict {
+        beside: verdict.beside.map(|beside| Beside { is_limited: is_limited(&beside), ..beside }),
+        ..verdict
+    };
+    case.limits.iter().map(|limit| of_case(verdict(limit, solution))).collect()
 }
 
 /// The stages that every limit of a case needs.
@@ -118,22 +140,23 @@ fn of_all(quantities: impl Iterator<Item = &'static Quantity>) -> Stages {
 pub fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Verdict<'a> {
     let quantity = Quantity::find(limit.quantity);
     let value = quantity.and_then(|quantity| value(quantity, solution));
-    let standing = match value {
-        Some(value) if value <= limit.value => Standing::Within,
-        Some(_) => Standing::Exceeded,
-        None if solution.outcome == Outcome::NoCornerContact => Standing::NotApplicable,
-        None => Standing::Unknown,
+    let absence = quantity.filter(|_| value.is_none()).map(|quantity| Absence::of(quantity, solution));
+    let standing = match (value, absence) {
+        (Some(value), _) if value <= limit.value => Standing::Within,
+        (Some(_), _) => Standing::Exceeded,
+        (None, Some(absence)) if absence.is_for_want_of_contact() => Standing::NotApplicable,
+        (None, _) => Standing::Unknown,
     };
-    let withheld = solution.withheld.filter(|_| standing == Standing::Unknown);
     // Where nothing strikes no rung tells another story.
     let beside = quantity.filter(|_| value.is_some()).and_then(|quantity| Beside::of(quantity, solution));
-    Verdict { limit, value, standing, withheld, beside }
+    Verdict { limit, value, standing, absence, beside }
 }
 
 /// Every limit of a case that the model refuses: none can be held against anything.
 #[must_use]
 pub fn refused<'a>(case: &'a Case, refusal: &Refusal) -> Vec<Verdict<'a>> {
-    let verdict = |limit| Verdict { limit, value: None, standing: Standing::Unknown, withheld: Some(*refusal), beside: None };
+    let absence = Some(Absence::Withheld(*refusal));
+    let verdict = |limit| Verdict { limit, value: None, standing: Standing::Unknown, absence, beside: None };
     case.limits.iter().map(verdict).collect()
 }
 
@@ -150,7 +173,13 @@ impl Verdict<'_> {
     pub fn told(&self, system: System) -> String {
         let beside = self.beside.map_or_else(String::new, |beside| format!(": {}", beside.told(system)));
         let above = if self.is_exceeded_beside() { ", above the limit" } else { "" };
-        self.said(system) + &beside + above
+        self.said(system) + &beside + above + self.to_hold_beside()
+    }
+
+    // The limit keeps its meaning: how to hold what the rung finds, where the case does not.
+    fn to_hold_beside(&self) -> &'static str {
+        let may_be_limited = self.beside.is_some_and(|beside| beside.own.is_some() && !beside.is_limited);
+        if may_be_limited { "; a limit on that holds it" } else { "" }
     }
 
     /// Whether what the rung itself finds is above the limit of what the closed form says.
@@ -165,10 +194,12 @@ impl Verdict<'_> {
     fn said(&self, system: System) -> String {
         let (key, limit) = (self.limit.quantity, visible(&self.limit.text));
         let (Some(value), Some(quantity)) = (self.value, Quantity::find(key)) else {
-            return match self.withheld {
-                Some(refusal) => format!("{key} cannot be computed: {refusal} (limit {limit})"),
-                None if self.standing == Standing::Unknown => format!("{key} has no value here (limit {limit})"),
-                None => format!("{key} none, no corner contact (limit {limit})"),
+            return match self.absence {
+                Some(Absence::Withheld(refusal)) => format!("{key} cannot be computed: {refusal} (limit {limit})"),
+                Some(absence) if self.standing == Standing::Unknown => {
+                    format!("{key} has no value to hold against {limit}: {absence}")
+                }
+                _ => format!("{key} none, no corner contact (limit {limit})"),
             };
         };
         let sign = if self.standing == Standing::Exceeded { ">" } else { "<=" };
@@ -209,10 +240,50 @@ mod tests {
         assert_eq!(verdicts("exact", "2500 N"), [(Standing::Within, "impact_force 2191.0 N <= 2500 N (88 %)".to_owned())]);
         let [(standing, told)] = &verdicts("dynamic", "2100 N")[..] else { panic!("one limit") };
         assert_eq!(*standing, Standing::Within);
-        assert!(told.ends_with("; dynamic itself finds dynamic_peak_approach_force 1410.8 N"), "{told}");
+        assert!(
+            told.ends_with("; dynamic itself finds dynamic_peak_approach_force 1410.8 N; a limit on that holds it"),
+            "{told}"
+        );
         let [(standing, told)] = &verdicts("static", "1 kN")[..] else { panic!("one limit") };
         assert_eq!(*standing, Standing::Exceeded);
-        assert!(told.ends_with("; static itself finds static_force_at_start 1466.2 N, above the limit"), "{told}");
+        assert!(
+            told.ends_with("; static itself finds static_force_at_start 1466.2 N, above the limit; a limit on that holds it"),
+            "{told}"
+        );
+    }
+
+    #[test]
+    fn a_limit_without_a_value_says_why_and_passes_only_where_nothing_strikes() {
+        let stands = |rung, relief, key, limit| {
+            let mut case = Case::table_1();
+            case.set("model.rung", rung).unwrap();
+            case.set("driven.tip_relief", relief).unwrap();
+            case.set("limits.impact_force", "").unwrap();
+            case.set_limit(key, limit).unwrap();
+            let solution = crate::model::solve(&case.inputs().unwrap(), Stages::EVERY).unwrap();
+            let verdict = verdicts(&case, &solution).remove(0);
+            (verdict.standing, verdict.to_string())
+        };
+        let (standing, told) = stands("exact", "0 um", "dynamic_peak_force", "2 kN");
+        assert_eq!(standing, Standing::Unknown);
+        assert_eq!(told, "dynamic_peak_force has no value to hold against 2 kN: the rung is exact, and this is of dynamic, auto");
+        // That nothing strikes in closed form says nothing of the motion.
+        assert_eq!(stands("exact", "80 um", "dynamic_peak_force", "2 kN").0, Standing::Unknown);
+        assert_eq!(stands("exact", "80 um", "impact_force", "2 kN").0, Standing::NotApplicable);
+        let (standing, told) = stands("static", "80 um", "pitch_contact_jump", "2 kN");
+        assert_eq!(standing, Standing::Unknown);
+        assert!(told.ends_with("the case gives no friction coefficient, operation.friction_coefficient"), "{told}");
+        assert_eq!(stands("static", "80 um", "static_first_contact_angle", "1 deg").0, Standing::NotApplicable);
+    }
+
+    #[test]
+    fn who_limits_what_the_rung_finds_is_not_told_to() {
+        let mut case = Case::table_1();
+        case.set("model.rung", "static").unwrap();
+        case.set_limit("static_force_at_start", "1 kN").unwrap();
+        let solution = crate::model::solve(&case.inputs().unwrap(), Stages::EVERY).unwrap();
+        let told = verdicts(&case, &solution)[0].to_string();
+        assert!(told.ends_with("static itself finds static_force_at_start 1466.2 N"), "{told}");
     }
 
     #[test]

@@ -132,7 +132,7 @@ fn mistaken(field: &Field, value: &str) -> Option<Problem> {
         return problem(format!("{} is not in quotes", quoted(value)), format!("write \"{AUTO}\""));
     }
     let read = match field.kind {
-        Kind::Number(dimension, range, _) => units::parse(inner, dimension, range.unit),
+        Kind::Number(dimension, ..) => units::parse(inner, dimension, field.usual_unit()),
         Kind::Count(..) => units::parse(inner, Dimension::Number, ""),
         Kind::Text | Kind::Choice(..) => Ok(0.0),
     };

@@ -15,11 +15,16 @@ pub(super) fn split<'t>(text: &'t str, usual: &str) -> Result<(&'t str, &'t str)
     }
     let unit = rest.trim_start();
     let run_on = rest.starts_with(['.', '_', '\'']) || unit.starts_with(['+', '-']);
-    let second_number = unit.starts_with(|c: char| c.is_ascii_digit()) && !unit.starts_with("1/");
+    let second_number = unit.starts_with(|c: char| c.is_ascii_digit()) && !is_reciprocal(unit);
     if run_on || second_number {
         return Err(Misread::new(format!("{} is not one number and its unit", quoted(text)), example(usual)));
     }
     Ok((number, unit))
+}
+
+/// One over something: 1/min, 1 / min.
+fn is_reciprocal(unit: &str) -> bool {
+    unit.strip_prefix('1').is_some_and(|rest| rest.trim_start().starts_with('/'))
 }
 
 /// Length in bytes of the number at the start; 0 where there is none.

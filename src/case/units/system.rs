@@ -72,11 +72,64 @@ impl System {
     }
 }
 
+/// The unit into which a number goes up that has more places than digits.
+const NEXT: [(&str, &str); 13] = [
+    ("N", "kN"),
+    ("kN", "MN"),
+    ("us", "ms"),
+    ("ms", "s"),
+    ("um", "mm"),
+    ("mm", "m"),
+    ("J", "kJ"),
+    ("W", "kW"),
+    ("kW", "MW"),
+    ("N m", "kN m"),
+    ("kg", "t"),
+    ("thou", "in"),
+    ("psi", "ksi"),
+];
+
+/// The unit in which this system shows a value in SI: the one that stands for the metric one, or a greater one where its
+/// number would have more places than these digits.
+#[must_use]
+pub fn unit_for(value: f64, metric: &'static str, digits: usize, system: System) -> &'static str {
+    let mut unit = system.unit(metric);
+    while has_more_places(value, unit, digits) {
+        let Some((_, next)) = NEXT.iter().find(|(from, _)| *from == unit) else { break };
+        unit = next;
+    }
+    unit
+}
+
+/// A value in SI counted in a unit, with that many significant digits and no more, in an exponent's place if need be.
+#[must_use]
+pub fn counted(value: f64, unit: &str, digits: usize) -> String {
+    let number = value / factor(unit).unwrap_or(1.0);
+    if has_more_places(value, unit, digits) {
+        format!("{number:.*e}", digits.saturating_sub(1))
+    } else {
+        significant(number, digits)
+    }
+}
+
+// Whether the number, rounded, has more places before its point than digits.
+fn has_more_places(value: f64, unit: &str, digits: usize) -> bool {
+    let number = (value / factor(unit).unwrap_or(1.0)).abs();
+    let end = 10f64.powi(i32::try_from(digits).unwrap_or(i32::MAX));
+    number.is_finite() && number.round() >= end
+}
+
 /// A value in SI as this system shows it: the number with that many significant digits, and its unit, empty for a number.
 #[must_use]
 pub fn shown(value: f64, metric: &'static str, digits: usize, system: System) -> (String, &'static str) {
-    let unit = system.unit(metric);
-    (significant(value / factor(unit).unwrap_or(1.0), digits), if unit == "1" { "" } else { unit })
+    let unit = unit_for(value, metric, digits, system);
+    (counted(value, unit, digits), named(unit))
+}
+
+/// A unit as it stands behind a number: none for a number alone.
+#[must_use]
+pub fn named(unit: &'static str) -> &'static str {
+    if unit == "1" { "" } else { unit }
 }
 
 #[cfg(test)]
@@ -132,6 +185,23 @@ mod tests {
         assert_eq!(told(2000.0 * factor("rpm").unwrap(), "rpm", 5), "2000.0 rpm");
         assert_eq!(told(1.5568, "1", 5), "1.5568");
         assert_eq!(told(133.9e-6, "us", 4), "133.9 us");
+    }
+
+    #[test]
+    fn no_value_is_told_in_more_places_than_it_has_digits() {
+        let told = |value, metric, digits, system| {
+            let (number, unit) = shown(value, metric, digits, system);
+            format!("{number} {unit}").trim_end().to_owned()
+        };
+        assert_eq!(told(174_558.0, "N", 5, System::Metric), "174.56 kN");
+        assert_eq!(told(99_999.4, "N", 5, System::Metric), "99999 N");
+        assert_eq!(told(99_999.6, "N", 5, System::Metric), "100.00 kN");
+        assert_eq!(told(133_172e-6, "us", 4, System::Metric), "133.2 ms");
+        assert_eq!(told(-0.123_456_7, "um", 5, System::Metric), "-123.46 mm");
+        assert_eq!(told(3e12, "N", 5, System::Metric), "3.0000e6 MN");
+        assert_eq!(told(1_234_567.0, "1", 4, System::Metric), "1.235e6");
+        assert_eq!(told(3e6, "N", 5, System::Inch), "6.7443e5 lbf");
+        assert_eq!(told(3.0, "um", 5, System::Inch), "118.11 in");
     }
 
     #[test]

@@ -110,10 +110,10 @@ pub(super) static FAMILIES: [Family; 14] = [
         times("lbf ft", &["lb ft", "ft lbf", "ft lb", "lbfft"], 1.3558179483314003, 5.338232996145962e-17),
     ]),
     family(Dimension::AngularVelocity, "an angular velocity", &[
-        times("rpm", &["1/min", "min-1", "rev/min", "r/min", "RPM", "U/min"], 0.10471975511965978, -5.1697025413851275e-18),
+        times("rpm", &["1/min", "min-1", "min^-1", "min⁻¹", "rev/min", "r/min", "RPM", "U/min"], 0.10471975511965978, -5.1697025413851275e-18),
         ten("rad/s", &[], 0),
         times("deg/s", &["°/s"], 0.017453292519943295, 2.9486522708701687e-19),
-        times("rev/s", &["rps"], TAU, 2.4492935982947064e-16),
+        times("rev/s", &["rps", "r/s"], TAU, 2.4492935982947064e-16),
     ]),
     family(Dimension::Force, "a force", &[
         ten("N", &[], 0),

@@ -18,6 +18,13 @@ pub(super) fn deflection_ignored(inputs: &Inputs, solution: &Solution) -> Option
     Some(Note::new("deflection-ignored", message))
 }
 
+/// The case gives the deflection, so that the load moves nothing of the impact.
+pub(super) fn deflection_given(inputs: &Inputs, solution: &Solution) -> Option<Note> {
+    let given = four(inputs.deflection.filter(|_| !solution.rung.shares_load())? * 1e6);
+    let message = format!("the deflection of {given} um is given: power and torque change F_0 alone, neither D nor the impact");
+    Some(Note::new("deflection-given", message))
+}
+
 /// No pair carries at some moment.
 pub(super) fn lost_in_motion(_: &Inputs, solution: &Solution) -> Option<Note> {
     let lost = solution.dynamic.as_ref()?.contact_lost;

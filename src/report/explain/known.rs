@@ -90,7 +90,10 @@ impl Formula {
 impl Known<'_> {
     /// What a symbol stands for.
     pub(super) fn source(&self, symbol: &str) -> Option<Source> {
-        let quantity = QUANTITIES.iter().find(|quantity| quantity.symbol_in(self.solution.rung) == symbol && !quantity.is_flag()).map(Source::Quantity);
+        let quantity = QUANTITIES
+            .iter()
+            .find(|quantity| quantity.symbol_in(self.solution.rung) == symbol && !quantity.is_flag())
+            .map(Source::Quantity);
         let step = || steps().find(|step| step.symbol == symbol && self.has(step)).map(Source::Step);
         let field = || FIELDS.iter().position(|field| field.symbol == symbol).map(Source::Field);
         quantity.or_else(step).or_else(field)

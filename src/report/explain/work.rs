@@ -196,7 +196,13 @@ impl Source {
             Source::Quantity(quantity) => {
                 let shown = value(quantity, known.solution).map(|value| shown(quantity, value));
                 let shown = shown.map_or_else(|| "no value".to_owned(), |shown| with_unit(&shown.number, shown.unit));
-                Leaf { symbol, shown, meaning: quantity.label_in(known.solution.rung).trim_start(), key: quantity.key, is_quantity: true }
+                Leaf {
+                    symbol,
+                    shown,
+                    meaning: quantity.label_in(known.solution.rung).trim_start(),
+                    key: quantity.key,
+                    is_quantity: true,
+                }
             }
             Source::Step(step) => Leaf { symbol, shown: term(), meaning: step.meaning, key: "", is_quantity: false },
             Source::Field(field) => {

@@ -27,7 +27,7 @@ const LOW: usize = 20;
 const NARROW: usize = 30;
 
 /// What stops the impact and how far the results may be off, in words and then in fewer and fewer.
-struct Gauge([String; 3]);
+struct Gauge(Vec<String>);
 
 /// What stands in the pane, from its top to its bottom.
 struct Parts {
@@ -191,7 +191,7 @@ fn answer_notes(app: &App) -> Vec<&str> {
 fn shortened(notes: &[&str], width: usize) -> Vec<String> {
     let Some(first) = notes.first() else { return Vec::new() };
     let count = if notes.len() == 1 { "1 note".to_owned() } else { format!("{} notes", notes.len()) };
-    vec![text::cut(&format!("* {count} (n): {first}"), width)]
+    vec![text::cut(&format!("* {count} (press n): {first}"), width)]
 }
 
 fn banner(app: &App, width: usize) -> Vec<Line<'static>> {
@@ -212,13 +212,12 @@ fn outcome(app: &App, answer: &Answer, width: usize, is_low: bool) -> Vec<Line<'
 
 impl Gauge {
     fn fitting(&self, width: usize) -> String {
-        let [.., shortest] = &self.0;
-        self.0.iter().find(|words| words.chars().count() <= width).unwrap_or(shortest).clone()
+        let fits = self.0.iter().find(|words| words.chars().count() <= width);
+        fits.or(self.0.last()).cloned().unwrap_or_default()
     }
 
     fn in_full(self) -> String {
-        let [words, ..] = self.0;
-        words + "."
+        self.0.into_iter().next().unwrap_or_default() + "."
     }
 }
 
@@ -230,22 +229,24 @@ fn gauges(app: &App, answer: &Answer) -> Vec<Gauge> {
 
 // What stops it.
 fn relief(app: &App, solution: &Solution) -> Option<Gauge> {
-    digest::relief(solution, app.settings.units).map(Gauge)
+    digest::relief(solution, app.settings.units).map(|words| Gauge(words.into()))
 }
 
 // How far the force depends on the choice of stiffness model.
 fn band(app: &App, solution: &Solution) -> Option<Gauge> {
     let (band, force) = (solution.band?, solution.impact?.force);
     let percent = |end: f64| 100.0 * (end / force - 1.0) + 0.0;
-    let (low, high) =
-        (shown(app, Quantity::find("impact_force_low")?, solution)?.number, quantity_text(app, "impact_force_high", solution)?);
+    let quantity = Quantity::find("impact_force_low")?;
+    let unit = report::unit_beside(quantity, [band.low, band.high].into_iter(), app.settings.units);
+    let (low, high) = (report::shown_with(quantity, band.low, unit).number, report::shown_with(quantity, band.high, unit));
     let parts = format!("{:+.1}..{:+.1} %", percent(band.low), percent(band.high));
     let range = format!("{low}..{high} ({parts})");
-    let (whose, name) = if solution.rung.shares_load() { ("the free impact's ", "free F_S") } else { ("", "band") };
-    Some(Gauge([
+    let (whose, force) = if solution.rung.shares_load() { ("the free impact's ", "free F_S") } else { ("", "F_S") };
+    Some(Gauge(vec![
         format!("the stiffness models in range give {whose}F_S {range}"),
-        format!("{name} {range}"),
-        format!("{name} {parts}"),
+        format!("by stiffness: {force} {range}"),
+        format!("by stiffness: {force} {parts}"),
+        format!("stiffness {parts}"),
     ]))
 }
 
@@ -258,7 +259,7 @@ fn ratios(answer: &Answer, ascii: bool) -> Option<Gauge> {
         ratio.is_finite().then(|| (symbol(quantity.symbol, ascii), rounded(ratio)))
     };
     let ((u, times), (force, more)) = (ratio("approach_angle_driven")?, ratio("impact_force")?);
-    Some(Gauge([
+    Some(Gauge(vec![
         format!("the exact {u} is {times} times that of the printed equations, {force} {more} times"),
         format!("exact/paper: {u} {times}x, {force} {more}x"),
         format!("exact/paper: {force} {more}x"),
@@ -270,14 +271,6 @@ fn rounded(ratio: f64) -> String {
     format!("{ratio:.digits$}")
 }
 
-fn shown(app: &App, quantity: &Quantity, solution: &Solution) -> Option<Shown> {
-    (quantity.value)(solution).map(|value| shown_in(app, quantity, value))
-}
-
 fn shown_in(app: &App, quantity: &Quantity, value: f64) -> Shown {
     report::shown_in(quantity, value, app.settings.units)
-}
-
-fn quantity_text(app: &App, key: &str, solution: &Solution) -> Option<String> {
-    shown(app, Quantity::find(key)?, solution).map(|shown| shown.to_string())
 }

@@ -9,7 +9,7 @@ use unicode_width::UnicodeWidthStr;
 use super::{chart, results, text};
 use crate::case::fields::{self, Absent, Field, Kind};
 use crate::case::units::System;
-use crate::case::{Acting, FIELDS, Limit, acts, materials};
+use crate::case::{Acting, FIELDS, Limit, acts, acts_in_part, materials};
 use crate::model::inputs::Rung;
 use crate::numeric::decimal::shortest;
 use crate::report::verdict::verdict;
@@ -173,7 +173,12 @@ fn focused(app: &App) -> String {
         Pane::Results => results::marked(app).map_or_else(String::new, |quantity| {
             let rung = app.answer.as_ref().map_or(Rung::Exact, |answer| answer.active);
             let name = symbol(quantity.symbol_in(rung), app.look.ascii);
-            format!("{name} {}, {} ({}).", quantity.label_in(rung).trim(), symbol(quantity.equation, app.look.ascii), quantity.key)
+            format!(
+                "{name} {}, {} ({}).",
+                quantity.label_in(rung).trim(),
+                symbol(quantity.equation, app.look.ascii),
+                quantity.key
+            )
         }),
         Pane::Chart | Pane::Teeth => at_cursor(app),
         Pane::Trade => "Error of every rung against its time.".to_owned(),
@@ -196,9 +201,10 @@ fn typed(app: &App) -> Option<String> {
 fn about_field(app: &App, index: usize) -> String {
     let field = &FIELDS[index];
     let converted = app.case.text(index).and_then(|text| field.converted(text, app.settings.units));
-    let idle = match acts(index, &app.case.inputs_so_far()) {
+    let inputs = app.case.inputs_so_far();
+    let idle = match acts(index, &inputs) {
         Acting::No(why) | Acting::Beside(why) if !matches!(field.kind, Kind::Text) => Some(format!("Does not act: {why}.")),
-        _ => None,
+        _ => acts_in_part(index, &inputs).map(|why| format!("Acts in part: {why}.")),
     };
     let about = about(field, app.look.ascii, app.settings.units);
     [converted.map(|value| value + "."), idle, material(app, field), Some(about)]

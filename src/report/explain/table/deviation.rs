@@ -36,9 +36,7 @@ pub(super) static TABLE: &[Explanation] = &[
     Explanation {
         key: "combined_deflection",
         says: "How far the pairs that carry the load give way along the line of action while the incoming pair stands at E.",
-        formula: By(|k| {
-            if k.inputs.deflection_taken().is_some() { Given("model.deflection") } else { Made(shared) }
-        }),
+        formula: By(|k| if k.inputs.deflection_taken().is_some() { Given("model.deflection") } else { Made(shared) }),
         source: "Zhou & Chen 2014, Eqs. 3 and 4, with the compliances of Eqs. 54-56 in place of the curve in its Fig. 3; \
             Table 1 takes 24.7 um from its reference 20.",
         mended: &["Eq. 55", "Eq. 56"],

@@ -185,10 +185,11 @@ fn row(app: &App, answer: &Answer, quantity: &Quantity, columns: &Columns) -> Li
     } else {
         vec![Span::raw(text::padded(&symbol, SYMBOL))]
     };
+    let value = |rung: Rung| answer.of(rung).and_then(|solution| report::value_as_in(quantity, solution, answer.active));
+    let common = report::unit_beside(quantity, columns.rungs.iter().filter_map(|&rung| value(rung)), app.settings.units);
     let mut unit = "";
     for &rung in &columns.rungs {
-        let value = answer.of(rung).and_then(|solution| report::value_as_in(quantity, solution, answer.active));
-        let shown = value.map(|value| shown_in(app, quantity, value));
+        let shown = value(rung).map(|value| report::shown_with(quantity, value, common));
         unit = shown.as_ref().map_or(unit, |shown| shown.unit);
         let number = shown.map_or_else(|| "–".to_owned(), |shown| shown.number);
         let is_active = rung == answer.active;

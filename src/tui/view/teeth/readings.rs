@@ -4,6 +4,7 @@ use std::fmt;
 
 use unicode_width::UnicodeWidthStr;
 
+use crate::case::units::system::{self, System};
 use crate::model::Moment;
 use crate::report;
 use crate::report::stations::{COLUMNS, Column, Row};
@@ -42,9 +43,9 @@ pub fn readings(moment: &Moment) -> Vec<Reading> {
             return None;
         }
         let value = told.and_then(|row| column.of(row)).or_else(|| without_contact(moment, column.key))?;
-        let unit = if column.shown == "1" { "" } else { column.shown };
         let digits = moment.told.as_ref().map_or(column.digits, |told| column.digits_of(told));
-        Some(Reading { symbol: column.symbol, number: report::number(value, column.shown, digits), unit })
+        let (number, unit) = system::shown(value, column.shown, digits, System::Metric);
+        Some(Reading { symbol: column.symbol, number, unit })
     };
     let open = Reading { symbol: "open", number: report::number(moment.opening, "um", GAP_DIGITS), unit: "um" };
     first.iter().filter_map(reading).chain([open]).chain(last.iter().filter_map(reading)).collect()

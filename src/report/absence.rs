@@ -1,0 +1,79 @@
+//! Why a quantity of a solved case has no value.
+
+use std::fmt;
+
+use super::digest::without_contact;
+use crate::model::inputs::Rung;
+use crate::model::{Outcome, Quantity, Refusal, Solution, Stage};
+use crate::numeric::decimal::significant;
+
+/// Why a quantity has no value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Absence {
+    /// This rung has no such quantity; it is of one of the stages of another.
+    OtherRung(Rung, Stage),
+    /// Nothing strikes: why, and the total deviation in m.
+    NoContact(&'static str, f64),
+    /// The closed form finds no first contact, though the rung itself does.
+    NoFreeImpact,
+    /// It is of friction, and the case gives none.
+    NoFriction,
+    /// The tooth does not come to it.
+    NotReached,
+    /// The model refuses it.
+    Withheld(Refusal),
+    /// The end of the impact does not exist.
+    Unclosed,
+}
+
+impl Absence {
+    /// Why the quantity has no value in a solution that does without.
+    #[must_use]
+    pub fn of(quantity: &Quantity, solution: &Solution) -> Absence {
+        let is_without = solution.outcome == Outcome::NoCornerContact;
+        let no_contact = Absence::NoContact(without_contact(solution), solution.deviation.total);
+        match (quantity.stage, solution.withheld) {
+            (stage, _) if !solution.rung.stages().has(stage) => Absence::OtherRung(solution.rung, stage),
+            _ if is_without && !solution.rung.shares_load() => no_contact,
+            (Stage::Static | Stage::Dynamic, _) if quantity.needs_friction() && !has_friction(solution) => Absence::NoFriction,
+            (Stage::Static | Stage::Dynamic, _) if is_without => no_contact,
+            (Stage::Static | Stage::Dynamic, _) => Absence::NotReached,
+            (_, Some(refusal)) => Absence::Withheld(refusal),
+            _ if is_without => no_contact,
+            _ if solution.position.is_none() => Absence::NoFreeImpact,
+            _ => Absence::Unclosed,
+        }
+    }
+
+    /// Whether it has none because nothing strikes, so that no limit can be exceeded.
+    #[must_use]
+    pub fn is_for_want_of_contact(&self) -> bool {
+        matches!(self, Absence::NoContact(..))
+    }
+}
+
+fn has_friction(solution: &Solution) -> bool {
+    solution.mesh.as_ref().is_some_and(|mesh| mesh.friction() > 0.0)
+}
+
+impl fmt::Display for Absence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Absence::OtherRung(rung, stage) => {
+                let rungs = Rung::ALL.into_iter().filter(|rung| rung.stages().has(*stage)).map(Rung::name);
+                let rungs = rungs.collect::<Vec<_>>().join(", ");
+                write!(f, "the rung is {}, and this is of {rungs}", rung.name())
+            }
+            Absence::NoContact(why, total) => {
+                write!(f, "no corner contact: {why}, the total deviation is {} um", significant(total * 1e6, 5))
+            }
+            Absence::NoFreeImpact => f.write_str("the closed form finds no first contact at D"),
+            Absence::NoFriction => f.write_str("the case gives no friction coefficient, operation.friction_coefficient"),
+            Absence::NotReached => f.write_str("the tooth does not come to it"),
+            Absence::Withheld(refusal) => write!(f, "{refusal}; {}", refusal.mend()),
+            Absence::Unclosed => {
+                f.write_str("the end of the impact D' does not exist, since the triangle of Eq. 34 does not close")
+            }
+        }
+    }
+}

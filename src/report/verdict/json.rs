@@ -1,0 +1,73 @@
+//! Verdicts as JSON, an object a verdict: SI units, full precision, what does not exist is absent.
+
+use super::{Beside, Standing, Verdict};
+use crate::model::Quantity;
+use crate::model::inputs::Rung;
+use crate::report::json::write_line;
+use serde::Serialize;
+use std::io::{self, Write};
+
+#[derive(Serialize)]
+struct Line<'a> {
+    case: &'a str,
+    rung: &'static str,
+    standing: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    quantity: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    value: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    limit: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unit: Option<&'static str>,
+    /// What it is of, where that is not what the rung resolves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    of: Option<&'static str>,
+    /// What the rung itself finds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    own: Option<Own>,
+    message: String,
+}
+
+#[derive(Serialize)]
+struct Own {
+    quantity: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    value: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unit: Option<&'static str>,
+}
+
+impl Own {
+    fn of(beside: &Beside) -> Option<Own> {
+        let (quantity, value) = beside.own?;
+        Some(Own { quantity, value, unit: Quantity::find(quantity).map(|own| own.unit) })
+    }
+}
+
+/// Write the verdicts on a case, a line each; one line of a case without limits.
+///
+/// # Errors
+/// What the writer refuses.
+pub fn write(verdicts: &[Verdict], case: &str, rung: Rung, out: &mut dyn Write) -> io::Result<()> {
+    if verdicts.is_empty() {
+        let message = "no limits".to_owned();
+        let standing = Standing::Within.name();
+        let rung = rung.name();
+        let (quantity, value, limit, unit, of, own) = (None, None, None, None, None, None);
+        return write_line(&Line { case, rung, standing, quantity, value, limit, unit, of, own, message }, out);
+    }
+    let line = |verdict: &Verdict| Line {
+        case,
+        rung: rung.name(),
+        standing: verdict.standing.name(),
+        quantity: Some(verdict.limit.quantity),
+        value: verdict.value,
+        limit: Some(verdict.limit.value),
+        unit: Quantity::find(verdict.limit.quantity).map(|quantity| quantity.unit),
+        of: verdict.beside.map(|_| "free-impact"),
+        own: verdict.beside.as_ref().and_then(Own::of),
+        message: verdict.to_string(),
+    };
+    verdicts.iter().try_for_each(|verdict| write_line(&line(verdict), out))
+}

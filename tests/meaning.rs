@@ -1,0 +1,198 @@
+//! What a result, a verdict and a hint mean: one thing in a rung, and where a rung means another it says so.
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+use serde_json::Value;
+use std::process::{Command, Output, Stdio};
+use tipstrike::case::fields::{Kind, index_of};
+use tipstrike::case::{Acting, Case, EXAMPLES, FIELDS, acts, acts_in_part};
+use tipstrike::model::{self, Quantity, Solution};
+use tipstrike::report::{shown, value};
+
+const TABLE_1: &str = "cases/zhou-chen-2014.toml";
+const RUNGS: [&str; 5] = ["paper", "exact", "static", "dynamic", "auto"];
+
+fn run(arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_tipstrike"));
+    command.args(arguments).current_dir(env!("CARGO_MANIFEST_DIR")).stdin(Stdio::null()).output().unwrap()
+}
+
+fn told(arguments: &[&str]) -> String {
+    String::from_utf8(run(arguments).stdout).unwrap()
+}
+
+/// The one line with which a command refuses, and its exit code.
+fn refused(arguments: &[&str]) -> (i32, String) {
+    let output = run(arguments);
+    let line = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(line.lines().count(), 1, "{line}");
+    (output.status.code().unwrap(), line.trim_end().to_owned())
+}
+
+/// The text of a solve of Table 1 with reliefs, without its line ends.
+fn relieved(rung: &str, command: &[&str]) -> String {
+    let reliefs = ["--rung", rung, "--set", "driven.tip_relief=10 um", "--set", "driver.root_relief=5 um"];
+    told(&[command, &reliefs].concat()).split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn the_modification_is_told_in_every_rung_and_means_the_same() {
+    for rung in RUNGS {
+        let page = relieved(rung, &["solve", TABLE_1]);
+        assert!(page.contains("e_m modification at run-in -15.000 um Eq. 1"), "{rung}: {page}");
+    }
+}
+
+#[test]
+fn an_equivalent_error_without_the_reliefs_is_called_so() {
+    for (rung, row) in [
+        ("paper", "Δf equivalent error 12.021 um"),
+        ("exact", "Δf equivalent error 7.6274 um"),
+        ("static", "Δf_0 error without the reliefs 22.627 um"),
+        ("dynamic", "Δf_0 error without the reliefs 22.627 um"),
+    ] {
+        let page = relieved(rung, &["solve", TABLE_1]);
+        assert!(page.contains(row), "{rung}: {page}");
+    }
+    let page = relieved("static", &["explain", "equivalent_error"]);
+    assert!(page.contains("Δf_0 = (2 f_pb - j_bn)/√2"), "{page}");
+    assert!(page.contains("Rungs: ") == page.contains("paper 22.6"), "{page}");
+    assert!(!page.contains("exact 7.6"), "two definitions stand side by side: {page}");
+    let page = relieved("static", &["explain", "total_deviation"]);
+    assert!(page.contains("Δ = Δf_0 + e_m + δ"), "{page}");
+}
+
+#[test]
+fn an_explanation_says_what_holds_in_its_rung() {
+    let strikes = "Above 0 the tip strikes before E";
+    for (rung, holds) in [("paper", false), ("exact", true), ("static", false), ("dynamic", false), ("auto", false)] {
+        assert_eq!(relieved(rung, &["explain", "total_deviation"]).contains(strikes), holds, "{rung}");
+    }
+    let in_full = "Relief counts against it, in full";
+    for (rung, holds) in [("paper", false), ("exact", true), ("static", false)] {
+        assert_eq!(relieved(rung, &["explain", "equivalent_error"]).contains(in_full), holds, "{rung}");
+    }
+    let deflects = "the load that deflects the teeth";
+    assert!(!relieved("exact", &["explain", "mesh_force"]).contains(deflects), "the deflection is given");
+    assert!(relieved("static", &["explain", "mesh_force"]).contains(deflects));
+}
+
+#[test]
+fn a_limit_that_has_no_value_is_not_held_and_says_why() {
+    let output = run(&["check", TABLE_1, "--set", "limits.dynamic_peak_force=2 kN"]);
+    let page = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(page.contains("unknown cases/zhou-chen-2014.toml: dynamic_peak_force has no value to hold against 2 kN: "), "{page}");
+    assert!(page.contains("the rung is exact, and this is of dynamic, auto"), "{page}");
+    // Nothing strikes: a limit on the impact holds, one on the motion is not known.
+    let relieved = ["check", TABLE_1, "--set", "driven.tip_relief=80 um"];
+    assert_eq!(run(&relieved).status.code(), Some(0));
+    assert_eq!(run(&[&relieved[..], &["--set", "limits.dynamic_peak_force=2 kN"]].concat()).status.code(), Some(1));
+}
+
+#[test]
+fn a_verdict_names_what_to_limit_for_the_force_of_the_rung() {
+    let limit = ["check", TABLE_1, "--rung", "dynamic", "--set", "limits.impact_force=2.1 kN"];
+    let page = told(&limit);
+    let own = "of the free impact, in closed form; dynamic itself finds dynamic_peak_approach_force 1410.8 N";
+    assert!(page.contains(own) && page.trim_end().ends_with("; a limit on that holds it"), "{page}");
+    let line: Value = serde_json::from_str(&told(&[&limit[..], &["--format", "json"]].concat())).unwrap();
+    assert_eq!((&line["standing"], &line["of"]), (&"within".into(), &"free-impact".into()));
+    assert_eq!(line["own"]["quantity"], "dynamic_peak_approach_force");
+    assert!((line["own"]["value"].as_f64().unwrap() - 1410.76).abs() < 0.1);
+    let both = told(&[&limit[..], &["--set", "limits.dynamic_peak_approach_force=1400 N"]].concat());
+    assert!(both.contains("EXCEEDED cases/zhou-chen-2014.toml: dynamic_peak_approach_force 1410.8 N > 1400 N"), "{both}");
+    assert!(!both.contains("a limit on that"), "it has one: {both}");
+}
+
+#[test]
+fn a_hint_offers_the_usual_unit_and_names_the_command_line() {
+    let set = |text: &str| refused(&["solve", TABLE_1, "--set", text]);
+    let (code, line) = set("operation.power=15");
+    assert_eq!((code, line.ends_with("write \"15 kW\"")), (2, true), "{line}");
+    assert!(line.contains("--set operation.power=15: "), "{line}");
+    let (_, line) = set("deviations.base_pitch=48 mu");
+    assert!(line.contains("did you mean um?"), "{line}");
+    let (code, line) = set("pair.centre_distance=80 mm");
+    assert_eq!(code, 3);
+    assert!(line.starts_with("cases/zhou-chen-2014.toml, --set pair.centre_distance=80 mm: the centre distance jams"), "{line}");
+    let (_, line) = set("driver.bore_radius=44 mm");
+    assert!(line.starts_with("cases/zhou-chen-2014.toml, --set driver.bore_radius=44 mm: "), "{line}");
+    // The line of the file is the place where another field is wrong beside the one that was set.
+    let (_, line) = set("driver.teeth=5");
+    assert!(line.starts_with("cases/zhou-chen-2014.toml:") && line.ends_with("(with --set driver.teeth=5)"), "{line}");
+}
+
+#[test]
+fn a_quantity_is_found_by_its_symbol_and_after_a_slip() {
+    for command in [["solve", TABLE_1, "--only"], ["explain", "--rung", "exact"]] {
+        let asked = |name| refused(&[&command[..], &[name]].concat());
+        let (code, line) = asked("F_S");
+        assert_eq!((code, line.ends_with("`F_S` is the symbol of impact_force: write impact_force")), (2, true), "{line}");
+        assert!(asked("impact_forces").1.ends_with("did you mean impact_force?"));
+        assert!(asked("colour").1.ends_with("`tipstrike fields --results` lists every quantity"));
+    }
+}
+
+/// What a person looks at first, by rung.
+fn headlines(solution: &Solution) -> Vec<String> {
+    let keys: &[&str] = match solution.rung.name() {
+        "static" => &["static_force_at_start", "static_peak_force", "static_first_contact_angle", "static_transmission_error"],
+        "dynamic" => &["dynamic_peak_approach_force", "dynamic_peak_force", "dynamic_first_contact_angle"],
+        _ => &["impact_force", "impact_duration", "approach_angle_driven", "friction_ratio", "normal_velocity"],
+    };
+    let told = |key: &&str| {
+        let quantity = Quantity::find(key).unwrap();
+        value(quantity, solution).map_or_else(|| "none".to_owned(), |value| shown(quantity, value).to_string())
+    };
+    std::iter::once(solution.outcome.name().to_owned()).chain(keys.iter().map(told)).collect()
+}
+
+/// Every number of every case that changes none of the results that a person looks at says why, in each rung.
+#[test]
+fn a_field_that_moves_nothing_says_why() {
+    let mut silent = Vec::new();
+    for (rung, example) in RUNGS[..4].iter().flat_map(|rung| EXAMPLES.iter().take(3).map(move |example| (rung, example))) {
+        let mut case = example.document().case;
+        case.set("model.rung", rung).unwrap();
+        let inputs = case.inputs().unwrap();
+        let solve = |case: &Case| model::solve(&case.inputs().ok()?, case.inputs().ok()?.rung.stages()).ok();
+        let Some(before) = solve(&case) else { continue };
+        for (index, field) in FIELDS.iter().enumerate() {
+            let Kind::Number(..) = field.kind else { continue };
+            let (Some(now), Some(text)) = (case.value(index), case.effective(index)) else { continue };
+            if acts(index, &inputs) != Acting::Yes || acts_in_part(index, &inputs).is_some() || now == 0.0 {
+                continue;
+            }
+            let unit = text.split_once(' ').map_or("", |(_, unit)| unit);
+            let more = now * 1.1 / tipstrike::case::units::factor(unit).unwrap();
+            let mut changed = case.clone();
+            let is_silent = changed.set(field.key, format!("{more} {unit}").trim()).is_ok()
+                && solve(&changed).is_some_and(|after| headlines(&after) == headlines(&before));
+            if is_silent {
+                silent.push(format!("{} of {} at {rung}", field.key, example.name));
+            }
+        }
+    }
+    assert_eq!(silent, [""; 0], "these move nothing and do not say why");
+    assert!(index_of("operation.power").is_some_and(|power| {
+        acts_in_part(power, &Case::table_1().inputs().unwrap()).is_some_and(|why| why.contains("the deflection is given"))
+    }));
+}
+
+#[test]
+fn a_given_deflection_is_said_to_keep_the_load_out() {
+    let note = "the deflection of 24.70 um is given: power and torque change F_0 alone";
+    for (rung, says) in [("paper", true), ("exact", true), ("static", false), ("dynamic", false)] {
+        assert_eq!(relieved(rung, &["solve", TABLE_1]).contains(note), says, "{rung}");
+    }
+    assert!(!relieved("exact", &["solve", TABLE_1, "--set", "model.deflection="]).contains("is given"));
+}
+
+#[test]
+fn no_result_has_more_places_than_digits() {
+    let wide = ["--set", "driver.face_width=300 mm", "--set", "driven.face_width=300 mm", "--set", "operation.power=2 MW"];
+    let page = told(&[&["solve", TABLE_1, "--set", "model.deflection="][..], &wide].concat());
+    assert!(page.contains("F_0      mesh force                 203.24 kN"), "{page}");
+    let places = |word: &str| word.trim_start_matches('-').bytes().take_while(u8::is_ascii_digit).count();
+    assert!(page.split_whitespace().all(|word| places(word) < 6), "{page}");
+}
