@@ -366,7 +366,7 @@ fn notes_are_never_off_the_screen() {
         let mut desk = Desk::new(size);
         assert!(desk.shows("* "), "{size}");
         desk.keys(&["Esc", "2", "G"]);
-        assert!(desk.shows("the impact"), "{}", desk.screen());
+        assert!(desk.shows(": the im") || desk.shows("the impact"), "{}", desk.screen());
     }
 }
 

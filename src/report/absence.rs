@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use super::digest::without_contact;
 use crate::model::inputs::Rung;
 use crate::model::{Outcome, Quantity, Refusal, Solution, Stage};
 use crate::numeric::decimal::significant;
@@ -49,6 +48,17 @@ impl Absence {
     #[must_use]
     pub fn is_for_want_of_contact(&self) -> bool {
         matches!(self, Absence::NoContact(..))
+    }
+}
+
+/// Why the tooth does not strike: one that the load at rest, or the exact position, would bring in early may yet not.
+#[must_use]
+pub fn without_contact(solution: &Solution) -> &'static str {
+    match solution.rung {
+        _ if solution.deviation.total <= 0.0 => "the tooth comes in on time",
+        Rung::Paper => "the printed equations bring it in on time",
+        Rung::Static => "at rest the pairs in contact do not give way so far",
+        _ => "in motion the tooth does not touch before E",
     }
 }
 

@@ -1,6 +1,7 @@
 //! A case in a few lines: its title, the pair, what is asked of it, and its verdict - whether the tooth strikes and how
 //! its limits stand.
 
+use super::absence::without_contact;
 use super::verdict::{self, Standing};
 use super::{shown_in, value};
 use crate::case::fields::index_of;
@@ -109,17 +110,6 @@ pub fn sentence(solution: &Solution, system: System) -> String {
             let total = told("total_deviation", solution, system).map(|total| format!("Δ = {total}, "));
             format!("No corner contact: {}{}.", total.unwrap_or_default(), without_contact(solution))
         }
-    }
-}
-
-/// Why the tooth does not strike: one that the load at rest, or the exact position, would bring in early may yet not.
-#[must_use]
-pub fn without_contact(solution: &Solution) -> &'static str {
-    match solution.rung {
-        _ if solution.deviation.total <= 0.0 => "the tooth comes in on time",
-        Rung::Paper => "the printed equations bring it in on time",
-        Rung::Static => "at rest the pairs in contact do not give way so far",
-        _ => "in motion the tooth does not touch before E",
     }
 }
 

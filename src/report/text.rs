@@ -1,6 +1,7 @@
 //! A solve as a page of text for a person, 80 columns wide.
 
-use super::digest::{self, first_touch, force, without_contact};
+use super::absence::without_contact;
+use super::digest::{self, first_touch, force};
 use super::groups::{FREE_IMPACT, Group, groups};
 use super::layout::{WIDTH, flow, item, widest};
 use super::stations::{Column, columns, rows};

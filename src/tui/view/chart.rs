@@ -12,7 +12,7 @@ use ratatui::style::Style;
 
 use super::{text, titled};
 use crate::model::{Outcome, Solution};
-use crate::report::digest::without_contact;
+use crate::report::absence::without_contact;
 use crate::report::graphs::{GRAPHS, Graph};
 use crate::tui::app::App;
 use crate::tui::clean::symbol;

@@ -191,7 +191,7 @@ fn answer_notes(app: &App) -> Vec<&str> {
 fn shortened(notes: &[&str], width: usize) -> Vec<String> {
     let Some(first) = notes.first() else { return Vec::new() };
     let count = if notes.len() == 1 { "1 note".to_owned() } else { format!("{} notes", notes.len()) };
-    vec![text::cut(&format!("* {count} (press n): {first}"), width)]
+    vec![text::cut(&format!("* {count}, key n: {first}"), width)]
 }
 
 fn banner(app: &App, width: usize) -> Vec<Line<'static>> {
