@@ -386,3 +386,30 @@ fn the_baseline_is_called_as_the_file_that_it_was_saved_to() {
     desk.keys(&["F2", "Ctrl-U", name(&path), "Enter"]);
     assert!(desk.shows("against whine.toml"), "{}", desk.screen());
 }
+
+#[test]
+fn results_are_found_as_fields_are() {
+    for (keys, told) in [
+        (&["Esc", "/", "fs", "Enter"][..], "F_S impact force, Eq. 57"),
+        (&["Esc", "2", "/", "friction", "Enter"], "f friction ratio"),
+        (&["Esc", ":", "sliding_velocity", "Enter"], "sliding velocity"),
+        (&["Ctrl-P", "tip relief", "Enter"], "▸ Ca1   tip relief"),
+        (&["Ctrl-P", "driven tip relief", "Enter", "48"], "▸*Ca2   tip relief"),
+    ] {
+        let mut desk = Desk::new(LARGE);
+        desk.keys(keys);
+        assert!(desk.app.prompts.is_empty() && desk.shows(told), "{keys:?}\n{}", desk.screen());
+    }
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Esc", "/", "dynamic_peak_force"]);
+    assert!(!desk.shows("dynamic_peak_force, "), "no result of another rung:\n{}", desk.screen());
+}
+
+#[test]
+fn what_no_digit_mends_is_wrong_at_once() {
+    for (typed, told) in [("-48", "! -48 um is below"), ("48 mm", "! 48 mm is above"), ("48 um1", "! "), ("-", "Not yet: ")] {
+        let mut desk = Desk::new(LARGE);
+        desk.fill("driven.tip_relief", typed);
+        assert!(desk.shows(told), "{typed}\n{}", desk.screen());
+    }
+}

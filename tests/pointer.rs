@@ -1,10 +1,10 @@
-//! The mouse, where the user wants it: a press on the name of a pane out of sight brings the pane.
+//! The mouse, where the user wants it: a press marks, a second one does what Enter does.
 #![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
 #![cfg(feature = "tui")]
 
 mod desk;
 
-use desk::{Desk, SMALL};
+use desk::{Desk, LARGE, SMALL, TABLE_1};
 use ratatui::layout::{Position, Size};
 use tipstrike::tui::actions::Action;
 
@@ -28,4 +28,61 @@ fn the_name_of_a_pane_out_of_sight_brings_it() {
         desk.act(Action::Click(Position::new(size.width - 5, 13)));
         assert!(desk.shows("Commands"), "a press beside a list changes nothing");
     }
+}
+
+#[test]
+fn a_first_press_marks_a_line_of_a_list_and_a_second_takes_it() {
+    for size in [SMALL, LARGE] {
+        let mut desk = Desk::on(size, "case.toml", TABLE_1);
+        desk.keys(&["Ctrl-P", "m"]);
+        press(&mut desk, "marker ");
+        assert!(desk.shows("▸ marker"), "{}", desk.screen());
+        press(&mut desk, "marker ");
+        assert!(desk.shows("chart in halfblock"), "{}", desk.screen());
+        desk.keys(&["Alt-G"]);
+        press(&mut desk, "18CrNiMo7-6");
+        press(&mut desk, "18CrNiMo7-6");
+        assert!(desk.app.prompts.is_empty() && desk.shows("from 18CrNiMo7-6"), "{}", desk.screen());
+        desk.write("other.toml", &TABLE_1.replace("2000 rpm", "900 rpm"));
+        desk.recents = vec![desk.path("other.toml")];
+        desk.keys(&["Ctrl-O"]);
+        press(&mut desk, "other.toml  in");
+        assert!(desk.shows("▸ other.toml  in"), "{}", desk.screen());
+        press(&mut desk, "   other.toml ");
+        assert!(desk.shows("│ ▸ other.toml "), "{}", desk.screen());
+        press(&mut desk, "▸ other.toml ");
+        assert!(desk.shows("opened "), "{}", desk.screen());
+    }
+}
+
+#[test]
+fn a_button_and_the_name_of_a_case_are_pressed() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.keys(&["Ctrl-N", "7"]);
+    press(&mut desk, "1 case.toml");
+    assert!(desk.shows("[1 case.toml]"), "{}", desk.screen());
+    press(&mut desk, "2 built-in");
+    assert!(desk.shows("[2 built-in Table 1*]"), "{}", desk.screen());
+    for (button, leaves) in [("Cancel", false), ("Discard", true)] {
+        desk.keys(&["Ctrl-Q"]);
+        press(&mut desk, button);
+        assert!(desk.app.prompts.is_empty() && desk.has_quit == leaves, "{button}");
+    }
+    desk.keys(&["Ctrl-Q"]);
+    desk.act(Action::Click(Position::new(1, 1)));
+    assert!(desk.shows("[> Save <]"), "a press beside the buttons presses none");
+}
+
+#[test]
+fn a_press_goes_to_a_field_and_a_second_one_types_into_it() {
+    let mut desk = Desk::new(LARGE);
+    press(&mut desk, "number of teeth");
+    assert!(desk.shows("▸ z1") && !desk.app.has_line(), "{}", desk.screen());
+    press(&mut desk, "number of teeth");
+    desk.type_in("25");
+    assert!(desk.shows("number of teeth      25"), "{}", desk.screen());
+    press(&mut desk, "impact duration");
+    assert!(desk.shows("▸T_S"), "{}", desk.screen());
+    press(&mut desk, "impact duration");
+    assert!(desk.shows("impact duration, by the rung, T_S") || !desk.app.prompts.is_empty(), "{}", desk.screen());
 }

@@ -405,6 +405,8 @@ fn the_mouse_is_off_until_it_is_asked_for_and_then_points() {
     desk.keys(&["Ctrl-P", "mouse", "Enter"]);
     assert!(desk.has_mouse && desk.kept.is_some_and(|kept| kept.mouse));
     desk.act(Action::Click(Position::new(10, 7)));
+    assert!(!desk.app.has_line() && desk.shows("α pressure angle, "));
+    desk.act(Action::Click(Position::new(10, 7)));
     assert!(desk.app.has_line() && desk.shows("α pressure angle, "));
     desk.act(Action::Click(Position::new(50, 10)));
     assert_eq!(desk.app.panes.focus, Pane::Results);

@@ -1,8 +1,9 @@
-//! Finding a field by whatever of it comes to mind: its symbol, its label, its key, a word of its help, a Greek letter by name.
+//! Finding a field or a result by whatever of it comes to mind: symbol, label, key, a word of the help, a Greek letter by name.
 
 use std::sync::LazyLock;
 
 use super::fields::{FIELDS, Field, GROUPS};
+use crate::model::{QUANTITIES, Quantity};
 
 /// Greek letters as they are spelled on a keyboard.
 const GREEK: [(char, &str); 14] = [
@@ -25,7 +26,7 @@ const GREEK: [(char, &str); 14] = [
 /// The least likeness of a mistyped word to the one that is meant.
 const LIKE: f64 = 0.75;
 
-/// What of a field is searched, and how much a word found there counts.
+/// What of a field or a result is searched, and how much a word found there counts.
 struct Entry {
     /// Its symbol, whole and without the number of the gear.
     symbols: [String; 2],
@@ -33,32 +34,47 @@ struct Entry {
     words: [(u32, Vec<String>); 4],
 }
 
-static ENTRIES: LazyLock<Vec<Entry>> = LazyLock::new(|| FIELDS.iter().map(Entry::of).collect());
+static ENTRIES: LazyLock<Vec<Entry>> = LazyLock::new(|| FIELDS.iter().map(Entry::of_field).collect());
+static RESULTS: LazyLock<Vec<Entry>> = LazyLock::new(|| QUANTITIES.iter().map(Entry::of_result).collect());
 
 /// Fields that fit every word of the query, the best first, each with its score; of equal ones in the order of the form.
 /// Case is ignored, Greek letters may be spelled out, underscores left out, words shortened or slightly mistyped. An empty
 /// query fits all fields alike.
 #[must_use]
 pub fn search(query: &str) -> Vec<(usize, u32)> {
+    search_in(&ENTRIES, query)
+}
+
+/// Results that fit every word of the query, by their places in the table of quantities, as [`search`] finds fields.
+#[must_use]
+pub fn search_results(query: &str) -> Vec<(usize, u32)> {
+    search_in(&RESULTS, query)
+}
+
+fn search_in(entries: &[Entry], query: &str) -> Vec<(usize, u32)> {
     let sought: Vec<String> =
         query.split(|c: char| c.is_whitespace() || c == '.').map(plain).filter(|word| !word.is_empty()).collect();
     let score = |entry: &Entry| sought.iter().map(|word| entry.score(word)).sum::<Option<u32>>();
-    let mut found: Vec<(usize, u32)> =
-        ENTRIES.iter().enumerate().filter_map(|(field, entry)| Some((field, score(entry)?))).collect();
-    found.sort_by_key(|&(field, score)| (std::cmp::Reverse(score), field));
+    let mut found: Vec<(usize, u32)> = entries.iter().enumerate().filter_map(|(at, entry)| Some((at, score(entry)?))).collect();
+    found.sort_by_key(|&(at, score)| (std::cmp::Reverse(score), at));
     found
 }
 
 impl Entry {
-    fn of(field: &Field) -> Entry {
-        let symbol = plain(field.symbol);
-        let stem = symbol.trim_end_matches(['1', '2']).to_owned();
+    fn of_field(field: &Field) -> Entry {
         let group = GROUPS.iter().find(|(table, _)| *table == field.table()).map_or("", |(_, title)| title);
-        let name = words(field.name()).into_iter().chain([plain(field.name())]).collect();
-        Entry {
-            symbols: [symbol, stem],
-            words: [(40, words(field.label)), (30, name), (20, words(group)), (10, words(field.help))],
-        }
+        Entry::new(field.symbol, field.label, field.name(), group, field.help)
+    }
+
+    fn of_result(quantity: &Quantity) -> Entry {
+        Entry::new(quantity.symbol, quantity.label, quantity.key, "result", quantity.equation)
+    }
+
+    fn new(symbol: &str, label: &str, name: &str, group: &str, help: &str) -> Entry {
+        let symbol = plain(symbol);
+        let stem = symbol.trim_end_matches(['1', '2']).to_owned();
+        let name = words(name).into_iter().chain([plain(name)]).collect();
+        Entry { symbols: [symbol, stem], words: [(40, words(label)), (30, name), (20, words(group)), (10, words(help))] }
     }
 
     /// How well the entry fits one word of the query; `None` where it does not.
@@ -165,6 +181,23 @@ mod tests {
         ] {
             assert_eq!(keys(query).first(), Some(&key), "{query}: {:?}", keys(query));
         }
+    }
+
+    #[test]
+    fn a_result_is_found_by_symbol_label_and_key() {
+        for (query, key) in [
+            ("F_S", "impact_force"),
+            ("fs", "impact_force"),
+            ("impact force", "impact_force"),
+            ("friction ratio", "friction_ratio"),
+            ("dynamic_peak_force", "dynamic_peak_force"),
+            ("contact ratio", "contact_ratio"),
+            ("epsilon", "contact_ratio"),
+        ] {
+            let found = search_results(query).first().map(|&(at, _)| QUANTITIES[at].key);
+            assert_eq!(found, Some(key), "{query}");
+        }
+        assert!(search_results("xyzzy").is_empty());
     }
 
     #[test]

@@ -59,7 +59,11 @@ impl Measure {
     #[must_use]
     pub fn is_unfinished(&self, typed: &str) -> bool {
         let is_too_small = || units::parse(typed, self.dimension, "").map_or(true, |value| value < self.least);
+        // No digit and no unit makes more of a negative number than 0.
+        let is_negative =
+            || typed.trim().strip_prefix('-').is_some_and(|digits| digits.contains(|c: char| matches!(c, '1'..='9')));
         match units::open(typed, self.dimension) {
+            Some(_) if self.least >= 0.0 && is_negative() => false,
             Some(Open::Unit) => true,
             Some(Open::Number) => self.dimension != Dimension::Number || is_too_small(),
             None => false,
@@ -82,6 +86,7 @@ mod tests {
             ("driver.face_width", "8000"),
             ("driver.tip_relief", "48 m"),
             ("driver.tip_relief", "-"),
+            ("driver.tip_relief", "-0"),
             ("driver.teeth", "3"),
             ("driver.profile_shift", "-."),
             ("model.stations", "au"),
@@ -96,6 +101,10 @@ mod tests {
             ("pair.pressure_angle", "31 rad"),
             ("pair.pressure_angle", "2 x"),
             ("driver.tip_relief", "48 umm"),
+            ("driver.tip_relief", "-48"),
+            ("driver.tip_relief", "-48 u"),
+            ("driver.tip_relief", "-0.5"),
+            ("driver.tip_relief", "48 mm"),
             ("driver.teeth", "2000"),
             ("driver.poisson", "0.9"),
             ("driver.poisson", "0.3 x"),

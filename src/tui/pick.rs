@@ -11,6 +11,10 @@ use crate::report::graphs::{GRAPHS, Graph};
 
 /// A name must be this like what is typed to be offered when nothing contains it.
 const LIKENESS: f64 = 0.75;
+/// How far behind a line stands that merely tells of a word.
+const TOLD: usize = 100;
+/// The least score for each word of a field or a result that is called so.
+const CALLED: u32 = 65;
 /// What is longer is like no name, and would take long to compare.
 const LONGEST_NAME: usize = 64;
 
@@ -23,6 +27,8 @@ pub struct Picker {
     pub input: Line,
     /// The marked one of those that fit.
     pub marked: usize,
+    /// The results that may be gone to, by their keys, and whether they come before the fields.
+    pub results: (Vec<&'static str>, bool),
 }
 
 /// What is listed.
@@ -30,8 +36,8 @@ pub struct Picker {
 pub enum List {
     /// Every command.
     Commands,
-    /// Every field of the form.
-    Fields,
+    /// Every field of the form, and every result.
+    Places,
     /// Every material, for these gears.
     Materials(&'static [&'static str]),
     /// Every quantity that may be held to a limit.
@@ -47,6 +53,8 @@ pub enum Pick {
     Run(Command),
     /// Go to a field.
     Go(usize),
+    /// Go to a result, by its key.
+    Show(&'static str),
     /// Make the gears of a material.
     Make(&'static [&'static str], &'static Material),
     /// Hold a quantity to a limit.
@@ -72,7 +80,13 @@ impl Picker {
     /// The whole list.
     #[must_use]
     pub fn new(list: List) -> Picker {
-        Picker { list, input: Line::default(), marked: 0 }
+        Picker { list, input: Line::default(), marked: 0, results: (Vec::new(), false) }
+    }
+
+    /// The whole list, with these results, by their keys; and whether they come before the fields.
+    #[must_use]
+    pub fn over(list: List, results: Vec<&'static str>, are_first: bool) -> Picker {
+        Picker { results: (results, are_first), ..Picker::new(list) }
     }
 
     /// In a few words.
@@ -80,7 +94,7 @@ impl Picker {
     pub fn title(&self) -> &'static str {
         match self.list {
             List::Commands => "Commands",
-            List::Fields => "Go to a field",
+            List::Places => "Go to a field or a result",
             List::Materials(["driver"]) => "Material of the driver",
             List::Materials(["driven"]) => "Material of the driven gear",
             List::Materials(_) => "Material of both gears",
@@ -92,20 +106,38 @@ impl Picker {
     /// The lines in which every typed word occurs, those that begin with it first; else those that are most like it.
     #[must_use]
     pub fn fitting(&self) -> Vec<Item> {
-        if self.list == List::Fields {
-            return search(self.input.value()).into_iter().map(|(index, _)| field(index)).collect();
+        if self.list == List::Places {
+            return self.places().into_iter().map(|(_, item)| item).collect();
         }
         let typed = self.input.value().to_lowercase();
         let words: Vec<&str> = typed.split_whitespace().collect();
         let items = self.items();
         let mut fitting: Vec<_> = items.iter().filter_map(|item| Some((rank(item, &words)?, item))).collect();
-        if fitting.is_empty() && typed.len() <= LONGEST_NAME {
+        let places = if self.list == List::Commands && !words.is_empty() { self.places() } else { Vec::new() };
+        if fitting.is_empty() && places.is_empty() && typed.len() <= LONGEST_NAME {
             let likeness = |item: &Item| strsim::jaro_winkler(&typed, &item.name.to_lowercase());
             let alike = items.iter().map(|item| (likeness(item), item)).filter(|(likeness, _)| *likeness > LIKENESS);
             fitting = alike.map(|(likeness, item)| (((1.0 - likeness) * 1e3) as usize, item)).collect();
         }
         fitting.sort_by_key(|(rank, _)| *rank);
-        fitting.into_iter().map(|(_, item)| item.clone()).collect()
+        // What is called so comes before what is merely told with that word.
+        let (called, told): (Vec<_>, Vec<_>) = fitting.into_iter().partition(|(rank, _)| *rank < TOLD);
+        let commands = |found: Vec<(usize, &Item)>| found.into_iter().map(|(_, item)| item.clone()).collect::<Vec<_>>();
+        let is_called = |(score, _): &(u32, Item)| *score >= CALLED * words.len() as u32;
+        let (called_places, told_places): (Vec<_>, Vec<_>) = places.into_iter().partition(is_called);
+        let places = |found: Vec<(u32, Item)>| found.into_iter().map(|(_, item)| item).collect::<Vec<_>>();
+        [commands(called), places(called_places), commands(told), places(told_places)].concat()
+    }
+
+    // The fields and the results that fit, the best first of each, with their scores.
+    fn places(&self) -> Vec<(u32, Item)> {
+        let typed = self.input.value();
+        let (known, are_first) = &self.results;
+        let fields: Vec<_> = search::search(typed).into_iter().map(|(at, score)| (score, field(at))).collect();
+        let results = search::search_results(typed).into_iter().map(|(at, score)| (score, &QUANTITIES[at]));
+        let results = results.filter(|(_, quantity)| known.contains(&quantity.key));
+        let results = results.map(|(score, quantity)| (score, result(quantity))).collect();
+        if *are_first { [results, fields].concat() } else { [fields, results].concat() }
     }
 
     /// Move the mark, as far as there are lines.
@@ -117,7 +149,7 @@ impl Picker {
     fn items(&self) -> Vec<Item> {
         match &self.list {
             List::Commands => commands::commands().map(command).chain(GRAPHS.iter().enumerate().map(graph)).collect(),
-            List::Fields => (0..FIELDS.len()).map(field).collect(),
+            List::Places => Vec::new(),
             List::Materials(gears) => materials::all().iter().map(|material| of_material(gears, material)).collect(),
             List::Limits => QUANTITIES.iter().map(quantity).collect(),
             List::Examples(digests) => EXAMPLES.iter().enumerate().map(|(at, one)| example(one, digests.get(at))).collect(),
@@ -164,6 +196,12 @@ fn of_material(gears: &'static [&'static str], material: &'static Material) -> I
     }
 }
 
+fn result(quantity: &'static Quantity) -> Item {
+    let Quantity { key, symbol, label, equation, .. } = quantity;
+    let about = format!("{symbol} {}, a result; {equation}", label.trim_start());
+    Item { pick: Pick::Show(key), name: (*key).to_owned(), about, keys: String::new() }
+}
+
 fn quantity(quantity: &'static Quantity) -> Item {
     Item {
         pick: Pick::Limit(quantity.key),
@@ -190,7 +228,7 @@ fn rank(item: &Item, words: &[&str]) -> Option<usize> {
             (true, ..) => Some(0),
             (_, true, ..) => Some(1),
             (_, _, true, _) => Some(2),
-            (.., true) => Some(4),
+            (.., true) => Some(TOLD),
             _ => None,
         }
     };
@@ -225,7 +263,7 @@ mod tests {
             ("backl", "deviations.backlash"),
             ("ca1", "driver.tip_relief"),
         ] {
-            assert_eq!(first(List::Fields, typed).as_deref(), Some(key), "{typed}");
+            assert_eq!(first(List::Places, typed).as_deref(), Some(key), "{typed}");
         }
     }
 
@@ -233,6 +271,6 @@ mod tests {
     fn the_whole_list_stands_while_nothing_is_typed() {
         let all = Picker::new(List::Commands).fitting();
         assert_eq!(all.len(), commands::commands().count() + GRAPHS.len());
-        assert_eq!(Picker::new(List::Fields).fitting().len(), FIELDS.len());
+        assert_eq!(Picker::new(List::Places).fitting().len(), FIELDS.len());
     }
 }

@@ -28,6 +28,7 @@ use ratatui::layout::Size;
 use super::actions::{Action, Effect};
 use super::app::App;
 use super::commands::Command;
+use super::pane::Pane;
 use super::pick::{List, Picker};
 use super::prompt::{Next, Page, Prompt};
 use super::solver::Request;
@@ -174,8 +175,8 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
 fn show(app: &mut App, command: Command) {
     match command {
         Command::Help => app.prompts.push(Prompt::Read(Page::new("Help", view::help::lines()))),
-        Command::Palette => app.prompts.push(Prompt::Pick(Picker::new(List::Commands))),
-        Command::SearchField => app.prompts.push(Prompt::Pick(Picker::new(List::Fields))),
+        Command::Palette => find(app, List::Commands),
+        Command::SearchField => find(app, List::Places),
         Command::Material => catalogue::materials(app),
         Command::Notes => page::notes(app),
         Command::CursorTo => cursor::ask(app),
@@ -203,6 +204,13 @@ fn show(app: &mut App, command: Command) {
         Command::TeethGap => teeth::exaggerate_or_not(app),
         other => walk::walk(app, other),
     }
+}
+
+// A list in which the results that there are can be found.
+fn find(app: &mut App, list: List) {
+    let results = view::results::listed(app).map(|quantity| quantity.key).collect();
+    let are_first = app.panes.focus == Pane::Results;
+    app.prompts.push(Prompt::Pick(Picker::over(list, results, are_first)));
 }
 
 fn solver_failed(app: &mut App, serial: u64) {

@@ -5,6 +5,7 @@ use crate::tui::app::App;
 use crate::tui::clean;
 use crate::tui::layout;
 use crate::tui::pane::Pane;
+use crate::tui::view::results;
 
 /// Go to a pane, and bring it into sight. In the form, letters stay commands until a field is entered.
 pub(super) fn show(app: &mut App, pane: Pane) {
@@ -48,6 +49,13 @@ pub(super) fn zoom(app: &mut App) {
 pub(super) fn go_to(app: &mut App, field: usize) {
     app.focus_on(field);
     edit::begin(app);
+}
+
+/// Go to a result, by its key.
+pub(super) fn show_result(app: &mut App, key: &str) {
+    let row = results::listed(app).position(|quantity| quantity.key == key);
+    app.tab.row = row.unwrap_or(app.row);
+    show(app, Pane::Results);
 }
 
 /// A letter that is no command in the focused pane is told as such, with what may have been meant.

@@ -2,43 +2,83 @@
 
 use ratatui::layout::Position;
 
-use super::{chart, cursor, panes, teeth};
+use super::{chart, cursor, edit, page, panes, prompts, tabs, teeth};
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::layout;
 use crate::tui::pane::Pane;
 use crate::tui::prompt::Prompt;
 use crate::tui::view::chart::angle_at;
-use crate::tui::view::{self, explain, form, popup, results};
+use crate::tui::view::{self, browser, explain, form, picker, popup, results, status};
 
-/// A press: into a field, onto a result, onto the chart, onto the name of a pane out of sight.
+/// A press: onto a field, a result, the chart, the name of a case or of a pane out of sight, a line of a list, a button. A
+/// second press on what is marked does what Enter does.
 pub(super) fn click(app: &mut App, at: Position) -> Vec<Effect> {
-    if let Some(pane) = view::named_at(app, at).filter(|_| app.prompts.is_empty()) {
+    let size = app.size;
+    let is_again = match app.prompts.last_mut() {
+        None => return in_panes(app, at),
+        Some(Prompt::Pick(picker)) => picker::item_at(picker, size, at).map(|line| mark(&mut picker.marked, line)),
+        Some(Prompt::Browse(browser)) => browser::line_at(browser, size, at).map(|line| mark(&mut browser.marked, line)),
+        Some(Prompt::Ask(question)) => popup::button_at(question, size, at).map(|button| {
+            question.marked = button;
+            true
+        }),
+        Some(Prompt::Read(_) | Prompt::Explain(_) | Prompt::SaveAs(..) | Prompt::Aim(_)) => None,
+    };
+    if is_again == Some(true) { prompts::accept(app) } else { Vec::new() }
+}
+
+// Whether it was marked before.
+fn mark(marked: &mut usize, line: usize) -> bool {
+    std::mem::replace(marked, line) == line
+}
+
+fn in_panes(app: &mut App, at: Position) -> Vec<Effect> {
+    let plan = layout::plan(app.size, app.panes);
+    if let Some(tab) = status::tab_at(app, plan.header, at) {
+        tabs::go_to(app, tab);
+    } else if let Some(pane) = view::named_at(app, at) {
         panes::show(app, pane);
-        return Vec::new();
+    } else if let Some(pane) = pane_at(app, at) {
+        return in_pane(app, pane, at);
     }
-    let Some(pane) = pane_at(app, at).filter(|_| app.prompts.is_empty()) else { return Vec::new() };
+    Vec::new()
+}
+
+fn in_pane(app: &mut App, pane: Pane, at: Position) -> Vec<Effect> {
     let area = layout::plan(app.size, app.panes).area(pane);
-    panes::show(app, pane);
+    let had_focus = app.panes.focus == pane;
     match pane {
-        Pane::Form => {
-            if let Some(field) = form::field_at(app, area, at) {
-                app.is_editing = true;
-                app.focus_on(field);
-            }
-        }
+        Pane::Form => return in_form(app, form::field_at(app, area, at)),
         Pane::Results => {
-            if let Some(row) = results::row_at(app, area, at) {
-                app.tab.row = row;
+            panes::show(app, pane);
+            let row = results::row_at(app, area, at);
+            if row.is_some_and(|row| mark(&mut app.tab.row, row) && had_focus) {
+                return page::explain(app);
             }
         }
         Pane::Chart => {
+            panes::show(app, pane);
             if let Some(angle) = angle_at(app, area, at) {
                 app.cursor = Some(angle);
                 return cursor::stop(app);
             }
         }
-        Pane::Teeth | Pane::Trade => (),
+        Pane::Teeth | Pane::Trade => panes::show(app, pane),
+    }
+    Vec::new()
+}
+
+// The first press goes to a field, the second one types into it.
+fn in_form(app: &mut App, field: Option<usize>) -> Vec<Effect> {
+    let is_marked = app.panes.focus == Pane::Form && field == Some(app.focus);
+    match field {
+        Some(_) if is_marked && app.has_line() => app.tab.input.select_all(),
+        Some(_) if is_marked => edit::begin(app),
+        _ => {
+            panes::show(app, Pane::Form);
+            app.focus_on(field.unwrap_or(app.focus));
+        }
     }
     Vec::new()
 }

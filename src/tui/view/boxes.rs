@@ -1,7 +1,7 @@
 //! A box in the middle of the screen, and the lists in it.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Constraint, Rect, Size};
+use ratatui::layout::{Constraint, Position, Rect, Size};
 use ratatui::style::Style;
 use ratatui::text::Line;
 use ratatui::widgets::{Block, Clear, Widget};
@@ -22,15 +22,24 @@ pub fn room(screen: Size) -> Size {
 
 /// An emptied box with a border, as large as is wanted if there is room.
 pub fn frame(title: &str, wanted: Size, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Rect {
+    let area = outside(wanted, screen);
+    Clear.render(area, buffer);
+    let title = Line::styled(format!(" {} ", text::cut(title, usize::from(area.width).saturating_sub(6))), theme.title);
+    Block::bordered().title(title).render(area, buffer);
+    inside(wanted, screen)
+}
+
+fn outside(wanted: Size, screen: Rect) -> Rect {
     let room = room(screen.as_size());
     let height = wanted.height.clamp(1, room.height.max(1)) + 2;
     let width = wanted.width.max(NARROWEST).min(room.width) + 4;
-    let area = screen.centered(Constraint::Length(width), Constraint::Length(height)).intersection(screen);
-    Clear.render(area, buffer);
-    let title = Line::styled(format!(" {} ", text::cut(title, usize::from(area.width).saturating_sub(6))), theme.title);
-    let block = Block::bordered().title(title);
-    let inner = block.inner(area);
-    block.render(area, buffer);
+    screen.centered(Constraint::Length(width), Constraint::Length(height)).intersection(screen)
+}
+
+/// What is inside of such a box.
+#[must_use]
+pub fn inside(wanted: Size, screen: Rect) -> Rect {
+    let inner = Block::bordered().inner(outside(wanted, screen));
     Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner }
 }
 
@@ -40,6 +49,13 @@ pub fn halves(area: Rect, buffer: &mut Buffer) -> (Rect, Rect) {
     for y in area.top()..area.bottom() {
         buffer.set_stringn(area.x + left, y, "│", usize::from(area.width > left), Style::new());
     }
+    parted(area)
+}
+
+/// The two without the rule.
+#[must_use]
+pub fn parted(area: Rect) -> (Rect, Rect) {
+    let left = area.width * 2 / 5;
     let right = area.width.saturating_sub(left + 2);
     (Rect { width: left.saturating_sub(1), ..area }, Rect { x: area.right() - right, width: right, ..area })
 }
@@ -53,11 +69,21 @@ pub fn draw_window(
     theme: &Theme,
     buffer: &mut Buffer,
 ) {
-    let top = marked.map_or(0, |marked| (marked + 1).saturating_sub(area.height.into()));
-    for (at, y) in (top..count).zip(area.top()..area.bottom()) {
+    for (at, y) in (top_of(marked, area)..count).zip(area.top()..area.bottom()) {
         let is_marked = marked == Some(at);
         let line = format!("{} {}", if is_marked { "▸" } else { " " }, line(at));
         let style = if is_marked { theme.focus } else { Style::new() };
         buffer.set_stringn(area.x, y, text::cut(&line, area.width.into()), area.width.into(), style);
     }
+}
+
+/// The line of such a list on a cell, where there is one.
+#[must_use]
+pub fn line_at(count: usize, marked: Option<usize>, area: Rect, at: Position) -> Option<usize> {
+    let line = area.contains(at).then(|| top_of(marked, area) + usize::from(at.y - area.y));
+    line.filter(|&line| line < count)
+}
+
+fn top_of(marked: Option<usize>, area: Rect) -> usize {
+    marked.map_or(0, |marked| (marked + 1).saturating_sub(area.height.into()))
 }

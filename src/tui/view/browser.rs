@@ -11,18 +11,18 @@ use crate::tui::browser::{Browser, Line};
 use crate::tui::store::preview::{Preview, Sight};
 use crate::tui::theme::Theme;
 
-/// So many lines at most, where there is more room.
-const HIGHEST: u16 = 34;
+/// As wide as may be, and so many lines at most.
+const SIZE: Size = Size { width: u16::MAX, height: 34 };
 /// So many of the recent cases are in sight.
 const RECENTS: usize = 6;
 
 /// Draw the browser over the screen; where the cursor stands.
 pub fn draw(browser: &Browser, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Option<Position> {
-    let inner = boxes::frame("Open a case", Size::new(u16::MAX, HIGHEST), screen, theme, buffer);
+    let inner = boxes::frame("Open a case", SIZE, screen, theme, buffer);
     let folder = browser.listing.as_ref().map_or_else(String::new, |listing| listing.folder.display().to_string());
     let width = usize::from(inner.width);
     buffer.set_stringn(inner.x, inner.y, text::cut_front(&folder, width), width, theme.title);
-    let body = Rect { y: inner.y + 2, height: inner.height.saturating_sub(2), ..inner };
+    let body = below_line(inner);
     let (left, right) = boxes::halves(body, buffer);
     draw_lists(browser, left, theme, buffer);
     draw_preview(browser, right, theme, buffer);
@@ -33,13 +33,35 @@ pub fn draw(browser: &Browser, screen: Rect, theme: &Theme, buffer: &mut Buffer)
     text::edited(&browser.input, line, theme.focus, buffer)
 }
 
-fn draw_lists(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffer) {
+/// The line of the lists on a cell, where there is one.
+#[must_use]
+pub fn line_at(browser: &Browser, screen: Size, at: Position) -> Option<usize> {
+    let inner = boxes::inside(SIZE, Rect::from((Position::ORIGIN, screen)));
+    let (above, below) = stacked(browser, boxes::parted(below_line(inner)).0);
+    let first = browser.count_of_folder();
+    let in_folder = boxes::line_at(first, Some(browser.marked).filter(|&marked| marked < first), above, at);
+    let recents = Rect { y: below.y + 1, height: below.height.saturating_sub(1), ..below };
+    let recent = || boxes::line_at(browser.count_of_recents(), browser.marked.checked_sub(first), recents, at);
+    in_folder.or_else(|| recent().map(|line| first + line))
+}
+
+fn below_line(inner: Rect) -> Rect {
+    Rect { y: inner.y + 2, height: inner.height.saturating_sub(2), ..inner }
+}
+
+// The folder, and below it the recent cases with their title, where there are any.
+fn stacked(browser: &Browser, area: Rect) -> (Rect, Rect) {
     let recents = browser.count_of_recents().min(RECENTS).min(usize::from(area.height) / 3);
-    let below = if recents == 0 { 0 } else { recents as u16 + 1 };
-    let above = Rect { height: area.height - below, ..area };
+    let height = if recents == 0 { 0 } else { recents as u16 + 1 };
+    let above = Rect { height: area.height - height, ..area };
+    (above, Rect { y: above.bottom(), height, ..area })
+}
+
+fn draw_lists(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffer) {
+    let (above, below) = stacked(browser, area);
     draw_folder(browser, above, theme, buffer);
-    if recents > 0 {
-        let area = text::titled("Recent cases", Rect { y: above.bottom(), height: below, ..area }, theme, buffer);
+    if !below.is_empty() {
+        let area = text::titled("Recent cases", below, theme, buffer);
         let first = browser.count_of_folder();
         let name = |at: usize| line_of(browser, first + at);
         let marked = browser.marked.checked_sub(first);

@@ -5,11 +5,11 @@ use ratatui::layout::{Position, Rect, Size};
 use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
-use super::boxes::{draw_window, frame, halves};
+use super::boxes::{draw_window, frame, halves, inside, line_at, parted};
 use super::{digest, text};
 use crate::case::EXAMPLES;
 use crate::report::digest::Digest;
-use crate::tui::pick::{Item, List, Picker};
+use crate::tui::pick::{Item, List, Pick, Picker};
 use crate::tui::theme::Theme;
 
 /// A list has so many columns and lines where there is room.
@@ -22,24 +22,41 @@ const KEYS: usize = 14;
 pub fn draw(picker: &Picker, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Option<Position> {
     let inner = frame(picker.title(), SIZE, screen, theme, buffer);
     let items = picker.fitting();
-    let list = Rect { y: inner.y + 1, height: inner.height.saturating_sub(1), ..inner };
+    let list = below_line(inner);
     if let List::Examples(digests) = &picker.list {
         draw_examples(&items, digests, picker.marked, list, theme, buffer);
     } else {
-        let told = told_lines(&items, list);
-        let above = Rect { height: list.height - told, ..list };
+        let above = above_told(&items, list);
         draw_items(&items, picker.marked, above, theme, buffer);
-        let below = Rect { y: above.bottom(), height: told, ..list };
+        let below = Rect { y: above.bottom(), height: list.height - above.height, ..list };
         draw_told(items.get(picker.marked), below, theme, buffer);
     }
     text::edited(&picker.input, Rect { height: inner.height.min(1), ..inner }, theme.focus, buffer)
+}
+
+/// The line of the list on a cell, where there is one.
+#[must_use]
+pub fn item_at(picker: &Picker, screen: Size, at: Position) -> Option<usize> {
+    let items = picker.fitting();
+    let list = below_line(inside(SIZE, Rect::from((Position::ORIGIN, screen))));
+    let area = if matches!(picker.list, List::Examples(_)) { parted(list).0 } else { above_told(&items, list) };
+    line_at(items.len(), Some(picker.marked), area, at)
+}
+
+fn below_line(inner: Rect) -> Rect {
+    Rect { y: inner.y + 1, height: inner.height.saturating_sub(1), ..inner }
+}
+
+fn above_told(items: &[Item], list: Rect) -> Rect {
+    Rect { height: list.height - told_lines(items, list), ..list }
 }
 
 // Name, keys, and as much as fits of what more there is to say.
 fn draw_items(items: &[Item], marked: usize, area: Rect, theme: &Theme, buffer: &mut Buffer) {
     let widest = |text: fn(&Item) -> &str, most: usize| items.iter().map(|item| text(item).width().min(most)).max().unwrap_or(0);
     let keys = widest(|item| &item.keys, KEYS);
-    let most = if keys == 0 { usize::from(area.width) * 2 / 5 } else { NAME.max(usize::from(area.width) / 4) };
+    let has_places = items.iter().any(|item| matches!(item.pick, Pick::Go(_) | Pick::Show(_)));
+    let most = if keys == 0 || has_places { usize::from(area.width) * 2 / 5 } else { NAME.max(usize::from(area.width) / 4) };
     let name = widest(|item| &item.name, most);
     let line = |item: &Item| {
         let keys = if keys == 0 { String::new() } else { format!("  {}", text::padded(&item.keys, keys)) };

@@ -7,11 +7,14 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
-use super::boxes::{WIDEST, frame, room};
+use super::boxes::{WIDEST, frame, inside, room};
 use super::{aim, browser, explain, form, picker, text};
 use crate::tui::app::App;
 use crate::tui::prompt::{Page, Prompt, Question};
 use crate::tui::theme::Theme;
+
+/// Brackets, marks and the gap beside the name of a button.
+const BESIDE_NAME: u16 = 7;
 
 /// How a name is given.
 const NAMING: &str =
@@ -96,16 +99,34 @@ fn draw_question(question: &Question, screen: Rect, theme: &Theme, buffer: &mut 
     for (line, y) in lines.iter().zip(inner.top()..inner.bottom()) {
         buffer.set_stringn(inner.x, y, line, inner.width.into(), Style::new());
     }
+    let row = button_row(&lines, inner);
     let buttons = question.buttons.iter().enumerate().flat_map(|(index, (name, _))| {
         let marked = index == question.marked;
         let (text, style) = if marked { (format!("[> {name} <]"), theme.key) } else { (format!("[  {name}  ]"), Style::new()) };
         [Span::styled(text, style), Span::raw(" ")]
     });
+    buttons.collect::<Line<'_>>().render(row, buffer);
+}
+
+/// The button on a cell, where there is one.
+#[must_use]
+pub fn button_at(question: &Question, screen: Size, at: Position) -> Option<usize> {
+    let lines = question_lines(question, room(screen));
+    let row = button_row(&lines, inside(extent(&lines, 2), Rect::from((Position::ORIGIN, screen))));
+    let mut right = row.x;
+    let ends = question.buttons.iter().map(|(name, _)| {
+        right += name.width() as u16 + BESIDE_NAME;
+        right
+    });
+    let ends: Vec<_> = ends.collect();
+    // The gap before the next one is no button.
+    ends.iter().position(|&end| at.x + 1 < end).filter(|_| row.contains(at))
+}
+
+// Below the lines and one that is empty; nothing where it has no room.
+fn button_row(lines: &[String], inner: Rect) -> Rect {
     let below = u16::try_from(lines.len()).unwrap_or(u16::MAX).saturating_add(1);
-    if below < inner.height {
-        let row = Rect { y: inner.y + below, height: 1, ..inner };
-        buttons.collect::<Line<'_>>().render(row, buffer);
-    }
+    if below < inner.height { Rect { y: inner.y + below, height: 1, ..inner } } else { Rect::ZERO }
 }
 
 // The buttons below them must be in sight: of the details, as many as there is room for, a line each.

@@ -61,10 +61,15 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     }
 }
 
+/// The quantities in their order.
+pub fn listed(app: &App) -> impl Iterator<Item = &'static Quantity> {
+    app.answer.iter().flat_map(table::order)
+}
+
 /// How many quantities there are.
 #[must_use]
 pub fn count(app: &App) -> usize {
-    app.answer.as_ref().map_or(0, |answer| table::order(answer).count())
+    listed(app).count()
 }
 
 /// How many of them are in sight.

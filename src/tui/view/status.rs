@@ -1,7 +1,7 @@
 //! The lines around the panes: the open cases, what is focused, the keys.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
@@ -21,6 +21,10 @@ use crate::tui::pane::Pane;
 use crate::tui::rows::{self, Row};
 use crate::tui::tab::Tab;
 
+/// What the header begins with.
+const HEAD: &str = "tipstrike";
+/// Stands before the open cases where there are others before them.
+const BEFORE: &str = "‹ ";
 /// A longer name of a case is cut where there are several.
 const LONGEST_NAME: usize = 24;
 /// Cells of a bar of progress.
@@ -28,7 +32,7 @@ const BAR: usize = 20;
 
 /// The open cases, the current one with its path and title, and which of them are unsaved.
 pub fn header(app: &App, area: Rect, buffer: &mut Buffer) {
-    let mut spans = vec![Span::styled("tipstrike", app.look.theme.title), Span::raw("  ")];
+    let mut spans = vec![Span::styled(HEAD, app.look.theme.title), Span::raw("  ")];
     if app.others.is_empty() {
         spans.extend(only_case(app, area.width));
     } else {
@@ -118,11 +122,27 @@ fn only_case(app: &App, width: u16) -> Vec<Span<'static>> {
     vec![Span::raw(name), Span::styled(mark, app.look.theme.note), Span::raw(title)]
 }
 
+/// The place of the open case whose name stands on a cell, where there is one.
+#[must_use]
+pub fn tab_at(app: &App, area: Rect, at: Position) -> Option<usize> {
+    if app.others.is_empty() || !area.contains(at) {
+        return None;
+    }
+    let names: Vec<String> = app.tabs().enumerate().map(|(at, tab)| tab_name(at, tab)).collect();
+    let (from, to) = window(&names, app.place_of_tab, usize::from(area.width).saturating_sub(15));
+    let mut right = usize::from(area.x) + HEAD.width() + 2 + if from > 0 { BEFORE.width() } else { 0 };
+    (from..to).find(|&tab| {
+        let left = right;
+        right += names[tab].width() + 2;
+        (left..right).contains(&at.x.into())
+    })
+}
+
 // The open cases by their numbers, as many around the current one as have room; a mark at the end where others are.
 fn tabs(app: &App, width: u16) -> Vec<Span<'static>> {
     let names: Vec<String> = app.tabs().enumerate().map(|(at, tab)| tab_name(at, tab)).collect();
     let (from, to) = window(&names, app.place_of_tab, usize::from(width).saturating_sub(15));
-    let mut spans = vec![Span::raw(if from > 0 { "‹ " } else { "" })];
+    let mut spans = vec![Span::raw(if from > 0 { BEFORE } else { "" })];
     for (at, name) in names.iter().enumerate().take(to).skip(from) {
         if at == app.place_of_tab {
             spans.push(Span::styled(format!("[{name}]"), app.look.theme.key));
