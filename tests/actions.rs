@@ -238,6 +238,17 @@ fn every_key_does_what_its_line_says() {
 }
 
 #[test]
+fn the_help_has_every_key_with_its_sentence() {
+    let lines = tipstrike::tui::view::help::lines();
+    for binding in BINDINGS.iter().filter(|binding| !binding.sentence.is_empty()) {
+        let keys = if binding.chords.is_empty() { format!(":{}", binding.name) } else { binding.keys() };
+        let stands =
+            |line: &String| line.trim_start().strip_prefix(&keys).is_some_and(|rest| rest.trim_start() == binding.sentence);
+        assert!(lines.iter().any(stands), "{keys}: {}", binding.sentence);
+    }
+}
+
+#[test]
 fn the_cases_by_their_numbers() {
     let mut desk = bench();
     desk.keys(&[

@@ -11,13 +11,14 @@ const BEFORE: [&str; 5] = [
     "D is where the driven tip first touches, E where the normal path of contact begins. The rung paper keeps the printed Eqs. 7-20, exact finds D where the gap closes.",
 ];
 
-const PLACES: [(&str, Place); 11] = [
+const PLACES: [(&str, Place); 12] = [
     ("Everywhere", Place::WORK),
     ("In a field", Place::TEXT),
     ("Outside a field (Esc leaves one)", Place::FIELD),
     ("In a field of names", Place::CHOICE),
     ("In the results", Place::RESULTS),
     ("In chart and teeth", Place::CURSOR),
+    ("In error against time", Place::TRADE),
     ("In a list", Place::PICK),
     ("In the list of files", Place::BROWSE),
     ("In a question (or its first letter)", Place::ASK),
