@@ -74,7 +74,7 @@ fn outcome(report: &Report) -> Vec<String> {
     if report.selection.is_whole() {
         sentences.extend(digest::relief(&report.solution, System::Metric).map(|[words, ..]| format!("{words}.")));
         let others = Rung::CLOSED_FORM.into_iter().filter(|&rung| rung != report.solution.rung);
-        sentences.extend(others.filter_map(|rung| other_rung(&report.inputs, rung)));
+        sentences.extend(others.filter_map(|rung| other_rung(report, rung)));
     }
     // A number stays on the line of its unit.
     let lines = sentences.iter().flat_map(|sentence| flow(sentence.split(' '), WIDTH));
@@ -101,10 +101,19 @@ fn sentence(solution: &Solution) -> String {
     }
 }
 
-fn other_rung(inputs: &Inputs, rung: Rung) -> Option<String> {
-    let other = model::solve(&Inputs { rung, ..inputs.clone() }, Stages::of(Stage::Impact)).ok()?;
-    let (angle, force) = (told("approach_angle_driver", &other)?, told("impact_force", &other)?);
-    Some(format!("For comparison, rung {}: {angle} of the driver before E with {force}.", rung.name()))
+fn other_rung(report: &Report, rung: Rung) -> Option<String> {
+    let other = model::solve(&Inputs { rung, ..report.inputs.clone() }, Stages::of(Stage::Impact)).ok()?;
+    let with = if report.solution.rung.shares_load() && report.inputs.deflection.is_some() { " with the given deflection" } else { "" };
+    let found = match other.outcome {
+        Outcome::NoCornerContact => {
+            format!("no corner contact, the total deviation is {}", told("total_deviation", &other)?)
+        }
+        Outcome::CornerContact => {
+            let (angle, force) = (told("approach_angle_driver", &other)?, told("impact_force", &other)?);
+            format!("{angle} of the driver before E with {force}")
+        }
+    };
+    Some(format!("For comparison, rung {}{with}: {found}.", rung.name()))
 }
 
 /// A quantity's value, glued to its unit.

@@ -48,6 +48,26 @@ pub(super) fn barely_clear(inputs: &Inputs, solution: &Solution) -> Option<Note>
     (enough < CLOSE * now).then(|| Note::new("barely-clear", message()))
 }
 
+/// The printed equations put D where the tip has hardly closed its gap.
+pub(super) fn gap_left_open(_: &Inputs, solution: &Solution) -> Option<Note> {
+    const CLOSED: f64 = 1e-6;
+    let (closed, total) = (solution.position?.closed_gap, solution.deviation.total);
+    let message = || {
+        let (closed, total) = (four(closed * MICRO), four(total * MICRO));
+        format!(
+            "the printed equations put D where the tip has closed {closed} um of the {total} um that it must: angle, velocity and force are too small, and rung exact solves for all of it"
+        )
+    };
+    (solution.rung == Rung::Paper && closed < (1.0 - CLOSED) * total).then(|| Note::new("gap-left-open", message()))
+}
+
+/// There is no end of the impact, and so no friction ratio.
+pub(super) fn end_not_found(_: &Inputs, solution: &Solution) -> Option<Note> {
+    let is_without = solution.friction?.ratio.is_none();
+    let message = "no friction ratio is given: the triangle of Eq. 34 does not close, and the impact has no end D'".to_owned();
+    (solution.rung == Rung::Paper && is_without).then(|| Note::new("no-end-of-impact", message))
+}
+
 /// The impact is longer than the way from D to E.
 pub(super) fn outlasting(_: &Inputs, solution: &Solution) -> Option<Note> {
     let duration = solution.impact.filter(|_| !solution.rung.shares_load())?.duration * MICRO;
@@ -66,7 +86,8 @@ pub(super) fn impulse(_: &Inputs, solution: &Solution) -> Option<Note> {
     const ROUNDING: f64 = 1e-9;
     let ratio = solution.impact?.impulse_ratio;
     let cause = match solution.rung {
-        Rung::Paper => "Eq. 32 as printed lacks Hertz's prefactor",
+        Rung::Paper if ratio < 1.0 => "Eq. 32 as printed lacks Hertz's prefactor",
+        Rung::Paper => "Eq. 32 is of two spheres, and the force of the teeth's spring",
         _ => "force and duration do not belong to one impact",
     };
     let possible = 1.0 - ROUNDING..=2.0 + ROUNDING;

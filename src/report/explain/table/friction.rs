@@ -30,7 +30,7 @@ pub(super) static TABLE: &[Explanation] = &[
     Explanation {
         key: "impulse_ratio",
         says: "Impulse of a half sine of force F_S and duration T_S, over the approaching momentum. An elastic impact gives it back \
-            whole: 2. One that only stops: 1. Below 1 force and duration contradict each other.",
+            whole: 2. One that only stops: 1. Outside of 1 to 2 force and duration contradict each other.",
         formula: Text("(2/π) F_S T_S/(M ΔV_n)"),
         source: "Balance of momentum over the impact, (2/π)F_S·T_S/(M·ΔV_n); a gauge, not in Zhou & Chen 2014.",
         mended: &["Eq. 32"],

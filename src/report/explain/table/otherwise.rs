@@ -89,6 +89,47 @@ pub(in crate::report::explain) static TABLE: &[Otherwise] = &[
             the tip strikes where the printed equations find an angle before E, too.",
         assumes: "",
     },
+    Otherwise {
+        key: "combined_deflection",
+        when: |inputs| inputs.deflection_taken().is_some(),
+        says: "How far the pairs that carry the load give way along the line of action while the incoming pair stands at E: as the \
+            case gives it, whatever the load.",
+        assumes: "The given value is that of this load; nothing here holds the two against each other.",
+    },
+    Otherwise {
+        key: "approach_angle_driver",
+        when: by_print,
+        says: "How far the driver has still to turn from D to E by the printed equations, which are linear in Δ. They put D so close \
+            to E that the tip has hardly begun to close its gap: see closed_gap.",
+        assumes: "",
+    },
+    Otherwise {
+        key: "approach_angle_driven",
+        when: by_print,
+        says: "How far the driven gear has still to turn from D to E by the printed equations, which are linear in Δ. They put D so \
+            close to E that the tip has hardly begun to close its gap: see closed_gap.",
+        assumes: "",
+    },
+    Otherwise {
+        key: "impact_duration",
+        when: by_print,
+        says: "How long the impact lasts: by Eq. 32 as it stands in print.",
+        assumes: "Two spheres striking: the teeth's bending, which makes the force, has no part in it.",
+    },
+    Otherwise {
+        key: "friction_ratio",
+        when: by_print,
+        says: "The paper's averaged impact friction coefficient: change of the sliding velocity over change of the approach \
+            velocity from D to D', where the impact ends. D' is the tip where the triangle of Eq. 34 closes, after the turn of T_S,32.",
+        assumes: "",
+    },
+    Otherwise {
+        key: "static_peak_force",
+        when: |inputs| inputs.friction_coefficient.is_some(),
+        says: "The most that the incoming tooth carries at rest on its whole way; in single contact all of the mesh force, and what \
+            friction adds to it.",
+        assumes: "",
+    },
     Otherwise { key: "impact_force_low", when: by_sharing, says: LOWEST, assumes: BAND },
     Otherwise { key: "impact_force_high", when: by_sharing, says: HIGHEST, assumes: BAND },
 ];
