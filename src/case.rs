@@ -14,7 +14,7 @@ pub mod reach;
 pub mod search;
 pub mod spread;
 pub mod step;
-mod suggest;
+pub(crate) mod suggest;
 mod typing;
 pub mod units;
 pub mod visible;
@@ -174,6 +174,13 @@ impl Case {
         changed.check_field(field)?;
         *self = changed;
         Ok(())
+    }
+
+    /// Whether of two keys a case gives one alone.
+    #[must_use]
+    pub fn are_exclusive(key: &str, other: &str) -> bool {
+        fields::index_of(key)
+            .is_some_and(|field| check::partner(field).is_some() && check::partner(field) == fields::index_of(other))
     }
 
     /// Set the limit of a quantity; an empty text takes it out.

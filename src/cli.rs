@@ -10,13 +10,16 @@ mod shell;
 mod solve;
 mod trade;
 
+use crate::case::suggest;
 use crate::case::visible::visible;
 use crate::report::fields;
 
 pub use arguments::{Arguments, Check, Command, Explain, Fields, Format, Listing, New, Setting, Solve, Trading};
+use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches};
 use std::ffi::OsString;
 use std::io::{self, BufWriter, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 /// How a command ended; of several, the greatest counts.
@@ -83,7 +86,12 @@ impl Streams<'_> {
 /// # Errors
 /// Where there is nothing to run: help is told and all is done, or the usage is wrong.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>, streams: &mut Streams) -> Result<Arguments, Exit> {
-    let matches = Arguments::command().try_get_matches_from(arguments);
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let matches = Arguments::command().try_get_matches_from(&arguments);
+    if let Some(line) = matches.as_ref().err().and_then(|error| no_command(error, &arguments)) {
+        streams.say(&line);
+        return Err(Exit::Usage);
+    }
     matches.and_then(|matches| Arguments::from_arg_matches(&matches)).map_err(|error| {
         let text: String = error.render().to_string().lines().map(|line| visible(line) + "\n").collect();
         if error.use_stderr() {
@@ -93,6 +101,20 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>, streams: &mut Stream
         let told = streams.output.write_all(text.as_bytes()).map(|()| Exit::Done);
         finish(told, streams)
     })
+}
+
+/// Whether the first word was meant to be a command, and which.
+fn no_command(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
+    let first = arguments.get(1)?.to_str().filter(|first| !first.starts_with('-'))?;
+    let command = Arguments::command();
+    let is_command = command.get_subcommands().any(|known| known.get_name() == first) || first == "help";
+    let is_case = Path::new(first).extension().is_some() || Path::new(first).exists();
+    if error.kind() != ErrorKind::ArgumentConflict || is_command || is_case {
+        return None;
+    }
+    let known = command.get_subcommands().map(|known| known.get_name().to_owned()).collect::<Vec<_>>();
+    let mend = suggest::mend(first, known.iter().map(String::as_str), || "`tipstrike help` lists the commands".to_owned());
+    Some(format!("error: {first}: there is no such command: {mend}"))
 }
 
 /// Run a command to its end.

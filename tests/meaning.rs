@@ -129,8 +129,53 @@ fn a_quantity_is_found_by_its_symbol_and_after_a_slip() {
         let (code, line) = asked("F_S");
         assert_eq!((code, line.ends_with("`F_S` is the symbol of impact_force: write impact_force")), (2, true), "{line}");
         assert!(asked("impact_forces").1.ends_with("did you mean impact_force?"));
+        assert!(asked("impact_force normal_velocity").1.ends_with("put commas between names"));
         assert!(asked("colour").1.ends_with("`tipstrike fields --results` lists every quantity"));
     }
+}
+
+#[test]
+fn a_command_line_that_cannot_be_meant_is_told_in_a_line() {
+    for (arguments, exit, says) in [
+        (&["slove", TABLE_1][..], 2, "error: slove: there is no such command: did you mean solve?"),
+        (&["improve", TABLE_1], 2, "error: improve: there is no such command: `tipstrike help` lists the commands"),
+        (
+            &["solve", TABLE_1, "--only", "impact_force,"],
+            2,
+            "error: --only: no quantity is named: name one, such as impact_force",
+        ),
+        (
+            &["solve", TABLE_1, "--set", "operation.power=15 kW", "--set", "operation.torque=70 N m"],
+            2,
+            "--set operation.torque=70 N m: operation.power is set as well: leave one of them out",
+        ),
+        (&["solve", TABLE_1, "--set", "driver.young=205000"], 2, "error: --set driver.young=205000: 205000 is a bare number"),
+        (
+            &["solve", TABLE_1, "--set", "pair.centre_distance=200 mm"],
+            3,
+            "cases/zhou-chen-2014.toml, --set pair.centre_distance=200 mm: the tips do not reach each other",
+        ),
+    ] {
+        let (code, line) = refused(arguments);
+        assert!(code == exit && line.starts_with(says), "{arguments:?}: {code} {line}");
+    }
+    assert!(refused(&["solve", TABLE_1, "--set", "driver.young=205000"]).1.ends_with("write \"205000 MPa\""));
+    let negative = run(&["solve", TABLE_1, "--stations", "-1"]);
+    assert!(String::from_utf8(negative.stderr).unwrap().contains("`-1` is below the limit of 1"));
+}
+
+#[test]
+fn the_printed_equations_say_what_they_miss() {
+    let page = relieved("paper", &["solve", TABLE_1]);
+    assert!(page.contains("the printed equations put D where the tip has closed 0.0"), "{page}");
+    assert!(!relieved("exact", &["solve", TABLE_1]).contains("the printed equations put D"));
+    let page = told(&["solve", "cases/mill-coarse-slow.toml", "--rung", "paper"]);
+    assert!(page.contains("Eq. 32 is of two spheres") && !page.contains("lacks Hertz"), "{page}");
+    let page = told(&["solve", "cases/turbo-fine-fast.toml", "--rung", "paper"]);
+    assert!(page.contains("no friction ratio is given: the triangle of Eq. 34 does not close"), "{page}");
+    // 60 um of relief count as 42 um as printed: the tooth strikes by the printed equations alone.
+    let page = told(&["solve", TABLE_1, "--rung", "paper", "--set", "driven.tip_relief=60 um"]);
+    assert!(page.contains("For comparison, rung exact: no corner contact, the total deviation is -12.673 um."), "{page}");
 }
 
 /// What a person looks at first, by rung.

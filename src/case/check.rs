@@ -152,8 +152,11 @@ static ENDS: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
 });
 
 fn number(known: &Field, field: usize, text: &str, dimension: Dimension, range: Range) -> Result<f64, Problem> {
-    let value = units::parse(text, dimension, known.usual_unit()).map_err(|misread| Problem::of(known.key, misread))?;
     let (from, to) = ENDS[field];
+    let likely = || likely_unit(text, known, dimension, (from, to));
+    let value = units::parse(text, dimension, known.usual_unit())
+        .or_else(|_| units::parse(text, dimension, likely()))
+        .map_err(|misread| Problem::of(known.key, misread))?;
     // The same end may be written in another unit, and be off by its rounding there.
     let slack = 4.0 * f64::EPSILON;
     if value < from - slack * from.abs() {
@@ -163,6 +166,15 @@ fn number(known: &Field, field: usize, text: &str, dimension: Dimension, range: 
         return Err(outside(known, text, "above", shortest(range.to), range.unit));
     }
     Ok(value)
+}
+
+/// The unit that is most likely meant behind a bare number: the usual one, or where that is out of range another that is not.
+fn likely_unit(text: &str, known: &Field, dimension: Dimension, (from, to): (f64, f64)) -> &'static str {
+    let fits = |unit: &&str| {
+        let value = units::parse(&format!("{} {unit}", text.trim()), dimension, unit);
+        value.is_ok_and(|value| (from..=to).contains(&value))
+    };
+    std::iter::once(known.usual_unit()).chain(dimension.symbols()).find(fits).unwrap_or(known.usual_unit())
 }
 
 fn outside(known: &Field, text: &str, side: &str, end: impl std::fmt::Display, unit: &str) -> Problem {
@@ -258,6 +270,13 @@ pub fn unknown_quantity(field: &str, quantity: &str) -> Problem {
     if let Some(known) = QUANTITIES.iter().find(is_symbol) {
         let cause = format!("{} is the symbol of {}", quoted(quantity), known.key);
         return Problem::new(field, cause, format!("write {}", known.key));
+    }
+    if quantity.trim().is_empty() {
+        return Problem::new(field, "no quantity is named", "name one, such as impact_force; commas stand between names alone");
+    }
+    if quantity.trim().contains(' ') {
+        let cause = format!("unknown quantity {}", quoted(quantity));
+        return Problem::new(field, cause, "put commas between names");
     }
     let known = QUANTITIES.iter().map(|quantity| quantity.key);
     let mend = suggest::mend(quantity, known, || "`tipstrike fields --results` lists every quantity".to_owned());

@@ -97,7 +97,7 @@ pub struct Solve {
     #[arg(long, value_name = "QUANTITY,...", value_delimiter = ',', hide_possible_values = true, value_parser = Quantities)]
     pub only: Vec<&'static Quantity>,
     /// Tell the stations as well, in this many intervals between D and E, or auto
-    #[arg(long, value_name = "N", value_parser = station_count)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = station_count)]
     pub stations: Option<String>,
     /// How to tell it
     #[arg(long, value_enum, default_value_t)]
@@ -147,7 +147,7 @@ pub struct Trading {
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Settings)]
     pub settings: Vec<Setting>,
     /// Name the cheapest setting whose error is no greater, such as 5% or 0.05; else that of the case's model.within
-    #[arg(long, value_name = "ERROR", value_parser = part)]
+    #[arg(long, value_name = "ERROR", allow_negative_numbers = true, value_parser = part)]
     pub within: Option<f64>,
     /// How to tell it
     #[arg(long, value_enum, default_value_t)]
@@ -252,7 +252,7 @@ impl TypedValueParser for Quantities {
     fn parse_ref(&self, _: &clap::Command, argument: Option<&Arg>, value: &OsStr) -> Result<Self::Value, Error> {
         let text = value.to_string_lossy();
         let name = argument.and_then(Arg::get_long).map_or("QUANTITY".to_owned(), |long| format!("--{long}"));
-        Quantity::find(&text).ok_or_else(|| {
+        Quantity::find(text.trim()).ok_or_else(|| {
             let Problem { cause, mend, .. } = unknown_quantity("", &text);
             misused(format!("{name}: {cause}: {mend}"))
         })

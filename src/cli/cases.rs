@@ -2,7 +2,7 @@
 
 use super::{Exit, Setting, Streams};
 use crate::case::file::ReadError;
-use crate::case::{Document, Problem};
+use crate::case::{Case, Document, Problem};
 use crate::model::{Inputs, Refusal};
 use std::path::Path;
 
@@ -33,7 +33,11 @@ pub(super) fn open(path: &Path, settings: &[Setting], streams: &mut Streams) -> 
 
 /// A document as it is once the settings have changed what they name.
 pub(super) fn changed(name: String, mut document: Document, settings: &[Setting], streams: &mut Streams) -> Result<Opened, Exit> {
-    for setting in settings {
+    for (index, setting) in settings.iter().enumerate() {
+        if let Some(other) = settings[..index].iter().find(|other| Case::are_exclusive(&other.key, &setting.key)) {
+            streams.say(&format!("{}: {} is set as well: leave one of them out", setting.written(), other.key));
+            return Err(Exit::Usage);
+        }
         document.case.set(&setting.key, &setting.value).map_err(|problem| {
             streams.say(&on_command_line(setting, &problem));
             Exit::Usage

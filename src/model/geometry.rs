@@ -89,7 +89,11 @@ pub fn geometry<T: Real>(inputs: &Inputs) -> Result<Geometry<T>, Refusal> {
     let working_pressure_angle = tangent.angle_to(T::one());
     let end = driver.tip_curvature;
     if end <= start {
-        return Err(Refusal::NoPath { start: start.rounded(), end: end.rounded() });
+        return Err(Refusal::NoPath {
+            start: start.rounded(),
+            end: end.rounded(),
+            is_distance_given: inputs.centre_distance.is_some(),
+        });
     }
     Ok(Geometry {
         ratio: T::count(inputs.driven.teeth).over(T::count(inputs.driver.teeth)),

@@ -23,6 +23,8 @@ pub enum Refusal {
         start: f64,
         /// N₁B, in m.
         end: f64,
+        /// Whether the case gives the centre distance.
+        is_distance_given: bool,
     },
     /// No involute is left at the tip.
     #[error("the tip lies inside the base circle: its radius is {:.4} mm and must be above {:.4} mm", .tip / MILLIMETRE, .base / MILLIMETRE)]
@@ -202,6 +204,9 @@ impl Refusal {
                 "driven.addendum",
                 "shorten the driven addendum, or give the driver more teeth or more profile shift",
             ),
+            Refusal::NoPath { is_distance_given: true, .. } => {
+                ("no-path", "pair.centre_distance", "give a smaller centre distance, or leave it out")
+            }
             Refusal::NoPath { .. } => ("no-path", "driven.tip_chamfer", "take less off the tips, or bring the gears closer"),
             Refusal::TipInsideBase { .. } => {
                 ("tip-inside-base", "driven.addendum", "give a higher addendum or a smaller tip chamfer")

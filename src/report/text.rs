@@ -103,7 +103,8 @@ fn sentence(solution: &Solution) -> String {
 
 fn other_rung(report: &Report, rung: Rung) -> Option<String> {
     let other = model::solve(&Inputs { rung, ..report.inputs.clone() }, Stages::of(Stage::Impact)).ok()?;
-    let with = if report.solution.rung.shares_load() && report.inputs.deflection.is_some() { " with the given deflection" } else { "" };
+    let with =
+        if report.solution.rung.shares_load() && report.inputs.deflection.is_some() { " with the given deflection" } else { "" };
     let found = match other.outcome {
         Outcome::NoCornerContact => {
             format!("no corner contact, the total deviation is {}", told("total_deviation", &other)?)

@@ -98,6 +98,12 @@ fn told(at: usize, error: &Error, source: &str, line: std::ops::Range<usize>) ->
         let offset = value.as_ptr() as usize - text.as_ptr() as usize;
         return Found::new(line.start + offset, problem);
     }
+    if let Some((key, _)) = text.split_once(':').filter(|_| field.is_none())
+        && let Some(field) = field_of(source, line.start, key.trim())
+    {
+        let mend = format!("write {}", check::assignment(field));
+        return Found::new(line.start + key.len(), Problem::new(field.key, "`:` stands where `=` is due", mend));
+    }
     Found::new(at, in_general(error, &field_name(source, &line)))
 }
 
@@ -138,6 +144,9 @@ fn mistaken(field: &Field, value: &str) -> Option<Problem> {
     };
     match read {
         _ if value.contains(['"', '\'', '[', '{']) => None,
+        Err(misread) if matches!(field.kind, Kind::Count(..)) && misread.mend.contains("such as") => {
+            problem(misread.cause, format!("write a whole number, such as {}", field.example()))
+        }
         Err(misread) => problem(misread.cause, misread.mend),
         Ok(_) if field.is_flag() => {
             problem(format!("{} is neither true nor false", quoted(value)), "write true or false".to_owned())

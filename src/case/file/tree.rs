@@ -180,7 +180,7 @@ impl Reader {
             Kind::Choice(..) if known.is_flag() => flag(value.get_ref()),
             Kind::Text | Kind::Choice(..) => words(value.get_ref()),
             Kind::Count(..) if known.takes_auto() && value.get_ref().as_str() == Some(AUTO) => Ok(AUTO.to_owned()),
-            Kind::Number(..) | Kind::Count(..) if known.is_bare() => bare_number(value.get_ref()),
+            Kind::Number(..) | Kind::Count(..) if known.is_bare() => bare_number(value.get_ref(), &check::assignment(known)),
             Kind::Number(..) | Kind::Count(..) => measure(value.get_ref()),
         };
         let empty = |text: &String| text.is_empty() && !matches!(known.kind, Kind::Text);
@@ -208,13 +208,13 @@ impl Reader {
         self.note(&place, value);
         let known = Quantity::find(name);
         let bare = known.is_some_and(|quantity| quantity.unit == "1");
-        let written = if bare { bare_number(value.get_ref()) } else { measure(value.get_ref()) };
-        let example = if bare { "1.5" } else { "\"2500 N\"" };
+        let example = format!("{name} = {}", known.map_or_else(String::new, limit_by_example));
+        let written = if bare { bare_number(value.get_ref(), &example) } else { measure(value.get_ref()) };
         let taken = match written {
             _ if known.is_none() => Limit::new(name, ""),
             Ok(text) => Limit::new(name, &text),
             Err(misread) => {
-                let misread = misread.unwrap_or_else(|| misplaced(value.get_ref(), "a value", &format!("{name} = {example}")));
+                let misread = misread.unwrap_or_else(|| misplaced(value.get_ref(), "a value", &example));
                 Err(Problem::of(&place, misread))
             }
         };
@@ -281,7 +281,25 @@ fn is_table(name: &str) -> bool {
     matches!(name, "limits" | "spread") || GROUPS.iter().any(|(group, _)| *group == name && !name.is_empty())
 }
 
+/// How a limit of the quantity is written.
+fn limit_by_example(quantity: &Quantity) -> String {
+    match quantity.shown {
+        _ if quantity.is_flag() => "0".to_owned(),
+        "1" => "1.5".to_owned(),
+        "N" => "\"2500 N\"".to_owned(),
+        unit => format!("\"1 {unit}\""),
+    }
+}
+
+/// What others call the two gears.
+const GEARS: [&str; 8] = ["pinion", "wheel", "gear", "gears", "gear1", "gear2", "gear_1", "gear_2"];
+
 fn unknown_at_top(name: &str) -> Problem {
+    if GEARS.contains(&name.to_lowercase().as_str()) {
+        let cause = format!("unknown key or table {}", quoted(name));
+        return Problem::new(name, cause, "the gears are [driver] and [driven], whichever is the smaller");
+    }
+
     let known = GROUPS
         .iter()
         .map(|(table, _)| *table)

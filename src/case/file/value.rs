@@ -27,11 +27,15 @@ pub(super) fn measure(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
     scalar(value).ok_or(None)
 }
 
-pub(super) fn bare_number(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
+/// The text of a number without quotes; `example` shows how one is written.
+pub(super) fn bare_number(value: &DeValue<'_>, example: &str) -> Result<String, Option<Misread>> {
     match value.as_str() {
         Some(text) => {
             let cause = format!("{} stands in quotes where a bare number is due", quoted(text));
-            Err(Some(Misread::new(cause, "write the number without quotes")))
+            let is_number = text.trim().parse::<f64>().is_ok();
+            let mend =
+                if is_number { "write the number without quotes".to_owned() } else { format!("write {example}, without quotes") };
+            Err(Some(Misread::new(cause, mend)))
         }
         None => scalar(value).ok_or(None),
     }

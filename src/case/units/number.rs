@@ -50,6 +50,9 @@ fn number_length(text: &str) -> usize {
     at
 }
 
+/// Quotes as a word processor sets them.
+const CURLY: [char; 7] = ['“', '”', '„', '‘', '’', '«', '»'];
+
 fn no_number(text: &str, usual: &str) -> Misread {
     let signless = text.trim_start_matches(['+', '-']);
     let word = signless.get(..3).unwrap_or_default().to_ascii_lowercase();
@@ -59,6 +62,9 @@ fn no_number(text: &str, usual: &str) -> Misread {
         let rest: String = text.chars().skip(1).collect();
         let cause = format!("{} begins with a dash that is not the minus sign", quoted(text));
         Misread::new(cause, format!("write -{}", cut(&rest)))
+    } else if text.starts_with(CURLY) {
+        let cause = format!("{} stands in quotes that are not the straight ones", quoted(text));
+        Misread::new(cause, format!("write \"{}\"", cut(text.trim_matches(CURLY))))
     } else if word == "nan" || word == "inf" {
         Misread::new(format!("{} is not a finite number", quoted(text)), example(usual))
     } else {
