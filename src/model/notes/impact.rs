@@ -55,7 +55,7 @@ pub(super) fn gap_left_open(_: &Inputs, solution: &Solution) -> Option<Note> {
     let message = || {
         let (closed, total) = (four(closed * MICRO), four(total * MICRO));
         format!(
-            "the printed equations put D where the tip has closed {closed} um of the {total} um that it must: angle, velocity and force are too small, and rung exact solves for all of it"
+            "the printed equations put D where the tip has closed {closed} um of the {total} um that it must: angle, velocity and force are too small for that; rung exact closes all of it"
         )
     };
     (solution.rung == Rung::Paper && closed < (1.0 - CLOSED) * total).then(|| Note::new("gap-left-open", message()))
