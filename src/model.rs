@@ -6,6 +6,7 @@
 pub mod auto;
 pub mod band;
 pub mod between;
+pub mod clearing;
 pub mod compliance;
 pub mod deviation;
 pub mod dynamic;
@@ -36,6 +37,7 @@ pub mod velocity;
 pub use auto::Choice;
 pub use band::Band;
 pub use between::Told;
+pub use clearing::Clearing;
 pub use compliance::TeethCompliance;
 pub use deviation::Deviation;
 pub use dynamic::Dynamic;
@@ -134,6 +136,8 @@ pub struct Solution {
     pub static_load: Option<StaticLoad>,
     /// The same with inertia.
     pub dynamic: Option<Dynamic>,
+    /// The least tip relief with which the tooth comes in on time.
+    pub clearing: Option<Clearing>,
     /// Why the tooth strikes and yet compliance, force and what follows are absent, where that is so.
     pub withheld: Option<Refusal>,
     /// Why stations are missing between D and E, where some are.

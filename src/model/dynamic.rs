@@ -10,6 +10,7 @@ mod tests;
 mod watch;
 
 use super::Refusal;
+use super::inputs::Inputs;
 use super::mesh::Mesh;
 use super::spacing::Spacing;
 use super::static_load;
@@ -69,6 +70,20 @@ pub struct Settings {
     pub spacing: Spacing,
 }
 
+impl Settings {
+    /// Those of a case, with the mass at the line of action, in kg.
+    #[must_use]
+    pub fn of(inputs: &Inputs, mass: f64) -> Settings {
+        Settings {
+            mass,
+            damping_ratio: inputs.damping_ratio,
+            warmup_cycles: inputs.warmup_cycles,
+            tolerance: inputs.tolerance,
+            spacing: Spacing::of(inputs),
+        }
+    }
+}
+
 /// The force on the incoming tooth with inertia.
 ///
 /// # Formula
@@ -100,6 +115,25 @@ pub fn dynamic(mesh: &Mesh, settings: &Settings, go_on: &dyn Fn(f64) -> bool) ->
     run.watch.finish(&motion, settings.spacing, run.effort)
 }
 
+/// By how much the driver comes to be further ahead before E than the incoming tooth's gap is wide, in m: above 0 the tooth
+/// touches before E, below it is the gap that is left. So much of the same run in which the incoming tooth stands off.
+///
+/// # Errors
+/// Those of [`dynamic`].
+pub fn lead_before_start(mesh: &Mesh, settings: &Settings, go_on: &dyn Fn(f64) -> bool) -> Result<f64, Refusal> {
+    let motion = Motion::new(mesh, settings);
+    let mut run = Run { lead: Some(f64::NEG_INFINITY), ..Run::begin(&motion, settings.tolerance)? };
+    run.ahead.retain(|&ahead| ahead != 0);
+    while run.next < run.borders.len() && run.borders[run.next] <= 0.0 {
+        if !go_on(run.part_done()) {
+            return Err(Refusal::Stopped);
+        }
+        run.cross_window()?;
+        run.skip_what_repeats();
+    }
+    run.lead.filter(|lead| lead.is_finite()).ok_or(Refusal::BeyondReach)
+}
+
 /// A run on its way.
 struct Run<'a> {
     motion: &'a Motion<'a>,
@@ -117,6 +151,8 @@ struct Run<'a> {
     laps: Laps,
     watch: Watch,
     effort: Effort,
+    /// Where the incoming tooth stands off, the most by which the driver was further ahead than its gap is wide, in m.
+    lead: Option<f64>,
 }
 
 impl<'a> Run<'a> {
@@ -145,6 +181,7 @@ impl<'a> Run<'a> {
             laps: Laps::new(start, tolerance),
             watch: Watch::default(),
             effort: Effort::default(),
+            lead: None,
         })
     }
 
@@ -200,13 +237,18 @@ impl<'a> Run<'a> {
             return Err(Refusal::Unsettled);
         }
         let range = step.range();
-        let event = events::first(&course, (&step, range), &gaps, self.turned);
+        let standing_off = self.lead.and(window.incoming());
+        let event = events::first(&course, (&step, range), &gaps, (self.turned, standing_off));
+        let part = event.map_or(1.0, |event| event.part);
         let step = event.map_or(step, |event| step.cut(event.part));
         // A step to a border ends on it, whatever the rounding of the sum.
         self.t = if event.is_none() && step.length >= end - self.t { end } else { step.end() };
         if step.length > 0.0 {
             self.y = step.state(1.0);
             self.turned = Touching::NONE;
+            if let (Some(lead), Some(incoming)) = (self.lead, standing_off) {
+                self.lead = Some(step.most_beyond(&gaps[incoming].stretched(part), lead));
+            }
             self.watch.keep(self.motion, touching, step, range.1);
         }
         Ok(event.map_or(touching, |event| self.turn(window, touching, event)))

@@ -101,9 +101,9 @@ impl Rung {
     /// The stages that the rung has.
     #[must_use]
     pub fn stages(self) -> Stages {
-        let impact = Stages::CLOSED_FORM.with(Stage::Band);
+        let impact = Stages::CLOSED_FORM.with(Stage::Band).with(Stage::Clearing);
         match self {
-            Rung::Paper | Rung::Exact => Stages::ALL,
+            Rung::Paper | Rung::Exact => Stages::ALL.with(Stage::Clearing),
             Rung::Static => impact.and(Stages::of(Stage::Static)),
             Rung::Dynamic => impact.and(Stages::of(Stage::Static)).with(Stage::Dynamic),
             Rung::Auto => Stages::EVERY,

@@ -158,6 +158,12 @@ pub enum Refusal {
     /// The steps of the motion come to no end.
     #[error("the motion does not settle: contacts are made and lost without end")]
     Unsettled,
+    /// No relief keeps the incoming tooth from touching before E.
+    #[error("the tooth touches before E with up to {:.4} um more tip relief of the driven gear", .most / MICROMETRE)]
+    NoClearing {
+        /// The most that was tried, in m.
+        most: f64,
+    },
     /// Whoever asked does not want the answer any more.
     #[error("stopped before the end")]
     Stopped,
@@ -264,6 +270,9 @@ impl Refusal {
             }
             Refusal::Unsettled => {
                 ("unsettled", "model.damping_ratio", "give a greater damping ratio, or set model.rung to static")
+            }
+            Refusal::NoClearing { .. } => {
+                ("no-clearing-relief", "model.damping_ratio", "give a greater damping ratio, a smaller deviation or another speed")
             }
             Refusal::Stopped => ("stopped", "model.rung", "ask again"),
             Refusal::HertzWidthTooLarge { .. } => {

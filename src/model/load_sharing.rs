@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use super::dynamic::{Dynamic, Settings, dynamic};
+use super::inputs::Inputs;
 use super::mesh::Mesh;
 use super::solve::Solving;
 use super::spacing::Spacing;
@@ -41,15 +42,27 @@ pub(super) fn share(solution: &mut Solution, asked: &Solving<'_>, go_on: &dyn Fn
 
 /// The mesh is computed no further than the pairs yield: where that was not far enough, again and further.
 fn within_reach(solution: &Solution, asked: &Solving<'_>, go_on: &dyn Fn(f64) -> bool) -> Result<Shared, Refusal> {
-    const AT_FIRST: f64 = 8.0;
-    const FURTHER: f64 = 16.0;
-    let inputs = asked.inputs;
     if let Some(mesh) = asked.kept(Stage::Mesh).and_then(|earlier| earlier.mesh.clone()) {
         match run(&mesh, solution.reduced_mass, asked, Stages::NONE, go_on) {
             Err(Refusal::BeyondReach) if !mesh.is_whole() => (),
             found => return found,
         }
     }
+    on_mesh(asked.inputs, solution, |mesh| run(mesh, solution.reduced_mass, asked, Stages::NONE.with(Stage::Mesh), go_on))
+}
+
+/// What `find` finds on the mesh of a pair with the geometry, the load and the deviation of the solution, of which the pair
+/// may differ in its reliefs.
+///
+/// # Errors
+/// Those of [`Mesh::new`] and of `find`.
+pub(super) fn on_mesh<T>(
+    inputs: &Inputs,
+    solution: &Solution,
+    find: impl Fn(&Arc<Mesh>) -> Result<T, Refusal>,
+) -> Result<T, Refusal> {
+    const AT_FIRST: f64 = 8.0;
+    const FURTHER: f64 = 16.0;
     let reliefs = [&inputs.driver, &inputs.driven].map(|gear| gear.tip_relief + gear.root_relief);
     let deviation = &solution.deviation;
     let yields = deviation.combined_deflection + deviation.equivalent_error.abs() + reliefs.iter().sum::<f64>();
@@ -57,7 +70,7 @@ fn within_reach(solution: &Solution, asked: &Solving<'_>, go_on: &dyn Fn(f64) ->
     loop {
         let mesh = Mesh::new(inputs, &solution.geometry, solution.mesh_force, deviation.equivalent_error, reach)?;
         let mesh = Arc::new(mesh);
-        match run(&mesh, solution.reduced_mass, asked, Stages::NONE.with(Stage::Mesh), go_on) {
+        match find(&mesh) {
             Err(Refusal::BeyondReach) if !mesh.is_whole() => reach *= FURTHER,
             found => return found,
         }
@@ -86,14 +99,7 @@ fn run(
         held.filter(|_| wanted.has(Stage::Dynamic))
     } else {
         ran = ran.with(Stage::Dynamic);
-        let settings = Settings {
-            mass,
-            damping_ratio: inputs.damping_ratio,
-            warmup_cycles: inputs.warmup_cycles,
-            tolerance: inputs.tolerance,
-            spacing,
-        };
-        Some(dynamic(mesh, &settings, go_on)?)
+        Some(dynamic(mesh, &Settings::of(inputs, mass), go_on)?)
     };
     Ok(Shared { mesh: Arc::clone(mesh), static_load, dynamic, ran })
 }

@@ -7,7 +7,7 @@ use super::inputs::{Inputs, Rung};
 pub use super::tip::{TipContact, gap, gap_by_quadrature, tip_at};
 use super::tip::{angle_at_curvature, gap_without, largest_term};
 use super::{Deviation, Refusal};
-use crate::numeric::Real;
+use crate::numeric::{Real, root};
 
 /// Half a turn and more never brings a tip back: no contact is sought beyond, in rad.
 const LARGEST_ANGLE: f64 = 1.5;
@@ -107,6 +107,28 @@ fn printed_contact<T: Real>(geometry: &Geometry<T>, deviation: &Deviation<T>) ->
     let error = deviation.equivalent_error;
     let ahead = geometry.start + geometry.base_pitch - error;
     (turn(geometry.start, error) + turn(ahead, deviation.combined_deflection)).over(geometry.ratio)
+}
+
+/// Least tip relief of the driven gear, beyond what it has, with which the printed equations bring the tooth in on time, in
+/// m; `None` where they do so anyhow.
+///
+/// # Formula
+/// ```text
+/// C/√2 where u(Δf − C/√2) = 0
+/// ```
+/// since Eq. 1 as printed scales e_m. Less than √2 Δ: for a small Δ left, u is not above 0 already.
+///
+/// # Errors
+/// Those of [`geometry`](geometry::geometry).
+pub(super) fn printed_relief_to_clear(inputs: &Inputs, deviation: &Deviation<TwoFloat>) -> Result<Option<f64>, Refusal> {
+    const UP: f64 = 1.0 + 1e-14;
+    let geometry = geometry::geometry::<TwoFloat>(inputs)?;
+    let left = |relief: f64| {
+        let equivalent_error = deviation.equivalent_error - twofloat::consts::FRAC_1_SQRT_2 * TwoFloat::from(relief);
+        printed_contact(&geometry, &Deviation { equivalent_error, ..*deviation }).rounded()
+    };
+    let all = std::f64::consts::SQRT_2 * deviation.total.rounded();
+    Ok((left(0.0) > 0.0).then(|| UP * root::between(0.0, all, left)))
 }
 
 /// Reduced radius of curvature at the tip's contact ρ_S = ρ1 ρ2/(ρ1 + ρ2), in m; ρ2 is the driven flank's own at its

@@ -123,6 +123,7 @@ pub static QUANTITIES: &[Quantity] = &[
     quantity!("modification", "e_m", "modification at run-in", "m", "um", 5, "Eq. 1", Deviation, |s| Some(s.deviation.modification)),
     quantity!("combined_deflection", "δ", "combined deflection", "m", "um", 5, "Eq. 3", Deviation, |s| Some(s.deviation.combined_deflection)),
     quantity!("total_deviation", "Δ", "total deviation", "m", "um", 5, "Eq. 5", Deviation, |s| Some(s.deviation.total)),
+    quantity!("clearing_relief", "ΔC_a2", "least more tip relief", "m", "um", 5, "no touch before E", Clearing, |s| s.clearing?.relief),
     quantity!("approach_angle_driver", "θ_1", "driver angle before E", "rad", "deg", 6, "Eq. 12", Position, |s| Some(s.position?.approach_angle_driver)),
     quantity!("approach_angle_driven", "u", "driven angle before E", "rad", "deg", 6, "Eq. 11", Position, |s| Some(s.position?.approach_angle_driven)),
     quantity!("contact_radius_driver", "O1D", "driver radius at D", "m", "mm", 6, "Eq. 7", Position, |s| Some(s.position?.contact.radius_driver)),

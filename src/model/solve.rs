@@ -8,7 +8,7 @@ use super::impact::Masses;
 use super::inputs::{Inputs, Rung};
 use super::stage::{Stage, Stages};
 use super::{
-    Choice, Geometry, Kept, Outcome, Position, Refusal, Solution, auto, band, compliance, deviation, friction, geometry, impact,
+    Choice, Geometry, Kept, Outcome, Position, Refusal, Solution, auto, band, clearing, compliance, deviation, friction, geometry, impact,
     load_sharing, position, stations, velocity,
 };
 use crate::numeric::Real;
@@ -53,16 +53,39 @@ pub fn solve_after(
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Solution, Refusal> {
     if inputs.rung == Rung::Auto {
-        return solve_by_choice(inputs, wanted, go_on);
+        return solve_by_choice(inputs, wanted, earlier, go_on);
     }
     let earlier = earlier.filter(|earlier| earlier.solution.rung == inputs.rung);
     let solving = Solving { inputs, wanted: wanted.within(inputs.rung.stages()), earlier, precise: OnceCell::new() };
     solving.run(go_on)
 }
 
-/// Solve with the rung that the closed form calls for, or with the motion as a trial where it cannot tell. Where `static` is
-/// taken, it stands for `dynamic` where that is wanted. One that is too slow to be followed in time is at rest.
-fn solve_by_choice(inputs: &Inputs, wanted: Stages, go_on: &dyn Fn(f64) -> bool) -> Result<Solution, Refusal> {
+/// Solve with the rung that the closed form calls for, or with the motion as a trial where it cannot tell; with the one taken
+/// before where nothing has changed since. The least relief is that of the rung that was taken.
+fn solve_by_choice(
+    inputs: &Inputs,
+    wanted: Stages,
+    earlier: Option<Earlier<'_>>,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Solution, Refusal> {
+    let before = earlier.filter(|earlier| earlier.stale == Stages::NONE && earlier.solution.choice.is_some());
+    let chosen = match before {
+        Some(earlier) => Solution { ran: Stages::NONE, ..earlier.solution.clone() },
+        None => chosen(inputs, wanted.without(Stage::Clearing), go_on)?,
+    };
+    if before.is_none() && !wanted.has(Stage::Clearing) {
+        return Ok(chosen);
+    }
+    let taken = auto::taken(inputs, chosen.rung);
+    let wanted = if chosen.rung == Rung::Static { at_rest(wanted) } else { wanted };
+    let earlier = Earlier { solution: &chosen, stale: Stages::NONE };
+    let whole = solve_after(&taken, wanted, Some(earlier), go_on)?;
+    Ok(Solution { ran: whole.ran.and(chosen.ran), choice: chosen.choice, ..whole })
+}
+
+/// The rung that is taken, solved. Where `static` is, it stands for `dynamic` where that is wanted. One that is too slow to be
+/// followed in time is at rest.
+fn chosen(inputs: &Inputs, wanted: Stages, go_on: &dyn Fn(f64) -> bool) -> Result<Solution, Refusal> {
     let read = wanted.within(Stages::CLOSED_FORM).and(auto::READS);
     let closed_form = solve(&auto::taken(inputs, Rung::Exact), read);
     let choice = auto::choose(inputs, &closed_form);
@@ -131,7 +154,21 @@ impl<'a> Solving<'a> {
         if self.wanted.has(Stage::Mesh) {
             load_sharing::share(&mut solution, self, go_on)?;
         }
+        if self.wanted.has(Stage::Clearing) {
+            self.clear(&mut solution, go_on)?;
+        }
         Ok(solution)
+    }
+
+    /// The least relief, once the rung has told its outcome.
+    fn clear(&self, solution: &mut Solution, go_on: &dyn Fn(f64) -> bool) -> Result<(), Refusal> {
+        let held = self.kept(Stage::Clearing).and_then(|earlier| earlier.clearing);
+        if held.is_none() {
+            solution.ran = solution.ran.with(Stage::Clearing);
+        }
+        solution.clearing = Some(held.map_or_else(|| clearing::clearing(self.inputs, solution, go_on), Ok)?);
+        solution.stages = solution.stages.with(Stage::Clearing);
+        Ok(())
     }
 
     /// Geometry, load and deviation.
@@ -177,6 +214,7 @@ impl<'a> Solving<'a> {
             mesh: None,
             static_load: None,
             dynamic: None,
+            clearing: None,
             withheld: None,
             stations_withheld: None,
         })

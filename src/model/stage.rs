@@ -30,11 +30,13 @@ pub enum Stage {
     Static,
     /// The same with inertia.
     Dynamic,
+    /// The least tip relief with which the tooth comes in on time.
+    Clearing,
 }
 
 impl Stage {
     /// Every stage, in order.
-    pub const ALL: [Stage; 13] = [
+    pub const ALL: [Stage; 14] = [
         Stage::Geometry,
         Stage::Load,
         Stage::Deviation,
@@ -48,6 +50,7 @@ impl Stage {
         Stage::Mesh,
         Stage::Static,
         Stage::Dynamic,
+        Stage::Clearing,
     ];
 
     /// The name in a report.
@@ -67,6 +70,7 @@ impl Stage {
             Stage::Mesh => "mesh",
             Stage::Static => "static",
             Stage::Dynamic => "dynamic",
+            Stage::Clearing => "clearing-relief",
         }
     }
 
@@ -78,6 +82,8 @@ impl Stage {
             Stage::Static | Stage::Dynamic => Stages::NONE.with(Stage::Mesh),
             Stage::Deviation | Stage::Mesh => Stages::NONE.with(Stage::Geometry).with(Stage::Load),
             Stage::Position => Stages::NONE.with(Stage::Deviation),
+            // What the rung does not have falls away.
+            Stage::Clearing => Stages::NONE.with(Stage::Deviation).with(Stage::Static).with(Stage::Dynamic),
             Stage::Velocity | Stage::Compliance => Stages::NONE.with(Stage::Position),
             Stage::Impact => Stages::NONE.with(Stage::Velocity).with(Stage::Compliance),
             Stage::Friction | Stage::Band | Stage::Stations => Stages::NONE.with(Stage::Impact),
@@ -94,12 +100,12 @@ impl Stages {
     pub const NONE: Stages = Stages(0);
     /// From geometry to friction: all that one impact model says of D.
     pub const CLOSED_FORM: Stages = Stages::of(Stage::Friction);
-    /// Every stage of the rungs `paper` and `exact`.
+    /// Every stage of the rungs `paper` and `exact`, but for the least relief.
     pub const ALL: Stages = Stages::CLOSED_FORM.with(Stage::Band).with(Stage::Stations);
     /// The stages that give stations, each in its rungs.
     pub const STATIONS: Stages = Stages::of(Stage::Stations).and(Stages::of(Stage::Static)).with(Stage::Dynamic);
     /// Every stage there is.
-    pub const EVERY: Stages = Stages::ALL.and(Stages::of(Stage::Static)).with(Stage::Dynamic);
+    pub const EVERY: Stages = Stages::ALL.and(Stages::of(Stage::Clearing));
 
     /// The stage and all that it needs.
     #[must_use]

@@ -148,33 +148,66 @@ fn grid(mesh: &Mesh, from: f64, to: f64) -> Vec<f64> {
     borders.windows(2).flat_map(between).chain([to]).collect()
 }
 
+/// By how much the other pairs' displacement is beyond the incoming pair's gap before E, at most, in m: above 0 it touches
+/// before E, below it is the gap that is left.
+///
+/// # Errors
+/// [`Refusal::BeyondReach`] where the pairs yield further than the mesh is known.
+pub fn lead_before_start(mesh: &Mesh) -> Result<f64, Refusal> {
+    let leads = leads(mesh, &grid(mesh, mesh.ends().0, 0.0));
+    let has_end = leads.first().is_some_and(|&(_, lead)| lead <= 0.0);
+    if has_end { Ok(foremost(mesh, &leads).1) } else { Err(Refusal::BeyondReach) }
+}
+
+fn leads(mesh: &Mesh, places: &[f64]) -> Vec<(f64, f64)> {
+    places.iter().map(|&s| (s, lead(mesh, s))).collect()
+}
+
+/// Where before E the lead is greatest, and the lead there.
+fn foremost(mesh: &Mesh, leads: &[(f64, f64)]) -> (f64, f64) {
+    let before = leads.partition_point(|&(s, _)| s <= 0.0);
+    greatest(&leads[..before], |s| lead(mesh, s))
+}
+
 /// From the first contact of the incoming pair to its last; nothing where it never carries.
 fn contact(mesh: &Mesh, grid: &[f64]) -> Result<Option<Contact>, Refusal> {
-    let leads: Vec<f64> = grid.iter().map(|&s| lead(mesh, s)).collect();
-    let carries = |index: &usize| leads[*index] > 0.0;
-    let (Some(first), Some(last)) = ((0..grid.len()).find(carries), (0..grid.len()).rfind(carries)) else {
+    let mut leads = leads(mesh, grid);
+    let start = leads.partition_point(|&(s, _)| s <= 0.0);
+    if leads[..start].iter().all(|&(_, lead)| lead <= 0.0) {
+        // A touch before E may hide between two places.
+        let foremost = foremost(mesh, &leads);
+        let at = leads.partition_point(|&(s, _)| s <= foremost.0);
+        leads.insert(at, foremost);
+    }
+    let carries = |index: &usize| leads[*index].1 > 0.0;
+    let (Some(first), Some(last)) = ((0..leads.len()).find(carries), (0..leads.len()).rfind(carries)) else {
         return Ok(None);
     };
-    if first == 0 || last + 1 == grid.len() {
+    if first == 0 || last + 1 == leads.len() {
         return Err(Refusal::BeyondReach);
     }
-    let touch = |from: usize, to: usize| root::between(grid[from], grid[to], |s| lead(mesh, s));
+    let touch = |from: usize, to: usize| root::between(leads[from].0, leads[to].0, |s| lead(mesh, s));
     Ok(Some(Contact { first: touch(first - 1, first), last: touch(last, last + 1) }))
 }
 
-/// The greatest value over the contact: the best place of the grid, improved between its neighbours.
+/// The greatest value over the contact.
 fn peak(mesh: &Mesh, balances: &[(f64, Balance)], value: impl Fn(&Balance) -> f64) -> f64 {
+    let known: Vec<(f64, f64)> = balances.iter().map(|(s, balance)| (*s, value(balance))).collect();
+    if known.is_empty() { 0.0 } else { greatest(&known, |s| value(&balance(mesh, s, s))).1 }
+}
+
+/// The greatest value and its place: the best of the known places, improved between its neighbours.
+fn greatest(known: &[(f64, f64)], at: impl Fn(f64) -> f64) -> (f64, f64) {
     const STEPS: usize = 60;
     const GOLDEN: f64 = 0.618_033_988_749_894_8;
-    let best = (0..balances.len()).max_by(|&one, &other| value(&balances[one].1).total_cmp(&value(&balances[other].1)));
-    let Some(best) = best else { return 0.0 };
-    let at = |s: f64| value(&balance(mesh, s, s));
-    let (mut from, mut to) = (balances[best.saturating_sub(1)].0, balances[(best + 1).min(balances.len() - 1)].0);
-    let mut highest = value(&balances[best].1);
+    let best = (0..known.len()).max_by(|&one, &other| known[one].1.total_cmp(&known[other].1));
+    let Some(best) = best else { return (0.0, f64::NEG_INFINITY) };
+    let (mut from, mut to) = (known[best.saturating_sub(1)].0, known[(best + 1).min(known.len() - 1)].0);
+    let mut highest = known[best];
     let (mut left, mut right) = (to - GOLDEN * (to - from), from + GOLDEN * (to - from));
     let (mut at_left, mut at_right) = (at(left), at(right));
     for _ in 0..STEPS {
-        highest = highest.max(at_left).max(at_right);
+        highest = [(left, at_left), (right, at_right)].into_iter().fold(highest, |one, other| if other.1 > one.1 { other } else { one });
         if at_left > at_right {
             (to, right, at_right) = (right, left, at_left);
             left = to - GOLDEN * (to - from);

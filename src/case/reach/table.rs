@@ -1,7 +1,7 @@
 //! The one table of what each value of a solve reads: fields, and other values.
 
 use crate::model::Stage::{
-    self, Band, Compliance, Deviation, Dynamic, Friction, Geometry, Impact, Load, Mesh, Position, Static, Stations, Velocity,
+    self, Band, Clearing, Compliance, Deviation, Dynamic, Friction, Geometry, Impact, Load, Mesh, Position, Static, Stations, Velocity,
 };
 use crate::model::compliance::model_of;
 use crate::model::inputs::{ContactCompliance, Drive, Inputs, Rung, ToothCompliance};
@@ -227,4 +227,9 @@ pub(super) static ROWS: &[Row] = &[
     row("dynamic_friction_work", Dynamic, always, &["motion"]),
     row("dynamic_stations", Dynamic, always, &["rung"]),
     row("dynamic_stations", Dynamic, with_inertia, &["motion", "spacing"]),
+
+    row("clearing_relief", Clearing, always, &["total_deviation", "rung"]),
+    row("clearing_relief", Clearing, paper, &["start_of_contact", "base_pitch"]),
+    row("clearing_relief", Clearing, by_sharing, &["mesh"]),
+    row("clearing_relief", Clearing, with_inertia, &["motion"]),
 ];

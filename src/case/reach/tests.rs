@@ -161,6 +161,7 @@ fn same(stage: Stage, one: &Solution, other: &Solution) -> bool {
         Stage::Mesh => one.mesh == other.mesh,
         Stage::Static => one.static_load == other.static_load,
         Stage::Dynamic => one.dynamic == other.dynamic,
+        Stage::Clearing => one.clearing == other.clearing,
     }
 }
 

@@ -16,9 +16,15 @@ pub(super) struct Event {
 
 /// The first event of a step, where there is one: what a pair keeps, pressed where it touches, apart where it does not, is a
 /// polynomial over the step, so that no event hides. Those that have `turned` where the step begins stand at 0 there, within
-/// rounding: several of them may turn as one.
-pub(super) fn first(course: &Course<'_>, (step, range): (&Step, (f64, f64)), gaps: &[Along], turned: Touching) -> Option<Event> {
-    let events = gaps.iter().enumerate().filter_map(|(pair, gap)| {
+/// rounding: several of them may turn as one. A pair that stands off has no events.
+pub(super) fn first(
+    course: &Course<'_>,
+    (step, range): (&Step, (f64, f64)),
+    gaps: &[Along],
+    (turned, standing_off): (Touching, Option<usize>),
+) -> Option<Event> {
+    let may_turn = gaps.iter().enumerate().filter(|&(pair, _)| Some(pair) != standing_off);
+    let events = may_turn.filter_map(|(pair, gap)| {
         let touches = course.touches(pair);
         if is_clear(touches, range, gap) {
             return None;

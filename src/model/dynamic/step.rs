@@ -2,7 +2,7 @@
 
 use super::motion::{Motion, Standing, State, Touching, Window};
 use crate::model::Refusal;
-use crate::numeric::bernstein::Bernstein;
+use crate::numeric::bernstein::{Bernstein, sign_changes};
 use crate::numeric::chebyshev;
 use crate::numeric::polynomial::Polynomial;
 use crate::numeric::taylor::{Oscillator, convergent_part};
@@ -44,6 +44,16 @@ impl Step {
     /// Between what values the displacement stays, in m.
     pub(super) fn range(&self) -> (f64, f64) {
         Bernstein::of(&self.ahead).bounds()
+    }
+
+    /// The most by which the displacement is beyond the gap in it, in m, where that is more than `least`.
+    pub(super) fn most_beyond(&self, gap: &Along, least: f64) -> f64 {
+        let beyond: Polynomial<TERMS> = self.ahead.plus(-1.0, gap);
+        if Bernstein::of(&beyond).bounds().1 <= least {
+            return least;
+        }
+        let turns = sign_changes(&beyond.derivative());
+        turns.into_iter().chain([0.0, 1.0]).map(|part| beyond.at(part)).fold(least, f64::max)
     }
 
     /// When it ends, in s.
