@@ -9,6 +9,7 @@ pub mod graphs;
 pub mod groups;
 pub mod json;
 mod layout;
+pub mod relief;
 pub mod stations;
 pub mod text;
 pub mod trade;

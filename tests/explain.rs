@@ -9,7 +9,7 @@ use evaluate::{evaluate, factor};
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 use tipstrike::case::{Case, EXAMPLES};
-use tipstrike::model::{QUANTITIES, Quantity, Stages, solve};
+use tipstrike::model::{QUANTITIES, Quantity, Stage, Stages, solve};
 use tipstrike::report::explain::{How, MENDS, Page, Work, explain, lines, render};
 
 type Settings = &'static [(&'static str, &'static str)];
@@ -42,7 +42,7 @@ fn told(name: &str, case: &Case, settings: &[(&str, &str)]) -> Option<Told> {
         case.set(key, value).unwrap();
     }
     let inputs = case.inputs().unwrap();
-    let solution = solve(&inputs, Stages::CLOSED_FORM.and(Stages::ALL)).ok()?;
+    let solution = solve(&inputs, Stages::ALL.with(Stage::Clearing)).ok()?;
     let pages = QUANTITIES.iter().map(|quantity| explain(quantity, &case, &inputs, &solution).expect(quantity.key)).collect();
     Some(Told { name: format!("{name} {settings:?}"), pages })
 }

@@ -106,7 +106,7 @@ mod tests {
             assert!(ran(rung, "pair.module", "5.5 mm").has(Stage::Geometry));
         }
         let damping = ran(Rung::Dynamic, "model.damping_ratio", "0.1");
-        assert_eq!(damping, Stages::NONE.with(Stage::Dynamic));
+        assert_eq!(damping, Stages::NONE.with(Stage::Dynamic).with(Stage::Clearing));
         let stations = ran(Rung::Exact, "model.stations", "32");
         assert_eq!(stations, Stages::NONE.with(Stage::Stations));
     }

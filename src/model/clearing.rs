@@ -2,115 +2,174 @@
 
 use std::cell::Cell;
 
-use super::dynamic::{self, Settings};
+use super::dynamic::{Approach, Settings, approach};
 use super::inputs::{Gear, Inputs, Rung};
 use super::load_sharing::on_mesh;
 use super::position::printed_relief_to_clear;
-use super::static_load;
+use super::static_load::lead_before_start;
 use super::{Outcome, Refusal, Solution};
 
-/// What was found of that relief.
+/// No relief is sought beyond so many times what the pairs yield, the gears deviate and the flank lacks already.
+const MOST: f64 = 8.0;
+
+/// Greater reliefs, over the one that was found, with which the tooth must not touch either;
+const BEYOND: [f64; 4] = [1.05, 1.25, 1.5, 2.0];
+/// and so many evenly up to the last of these where contact is lost, since small causes then have large effects.
+const BEYOND_RATTLE: u32 = 50;
+
+/// What was found of the least relief.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Clearing {
-    /// The relief beyond what the gear has, in m; none where the tooth comes in on time anyhow, or where `withheld` says why.
+    /// Tip relief that the driven gear has, in m.
+    pub given: f64,
+    /// How much more it takes, in m; none where the tooth comes in on time anyhow, or where `withheld` says why.
     pub relief: Option<f64>,
-    /// Why there is none for a tooth that touches.
+    /// Why none is known for a tooth that touches.
     pub withheld: Option<Refusal>,
     /// How many balances or motions were tried.
     pub runs: u32,
 }
 
-impl Clearing {
-    const NEEDLESS: Clearing = Clearing { relief: None, withheld: None, runs: 0 };
-}
-
-pub(super) fn clearing(inputs: &Inputs, solution: &Solution, go_on: &dyn Fn(f64) -> bool) -> Result<Clearing, Refusal> {
-    if solution.outcome == Outcome::NoCornerContact {
-        return Ok(Clearing::NEEDLESS);
-    }
-    match inputs.rung {
-        Rung::Paper => {
-            let relief = printed_relief_to_clear(inputs, &solution.kept.deviation)?;
-            Ok(Clearing { relief, ..Clearing::NEEDLESS })
-        }
-        Rung::Static | Rung::Dynamic => searched(inputs, solution, go_on),
-        _ => Ok(Clearing { relief: Some(solution.deviation.total), ..Clearing::NEEDLESS }),
-    }
-}
-
-fn searched(inputs: &Inputs, solution: &Solution, go_on: &dyn Fn(f64) -> bool) -> Result<Clearing, Refusal> {
+/// The least tip relief of the driven gear, beyond what it has, with which the rung finds no contact before E.
+///
+/// # Formula
+/// ```text
+/// exact:    Δ,  since e_m counts in full and δ does not depend on it
+/// paper:    C with u(Δf − C/√2) = 0 by Eqs. 11-20: at most √2 Δ, since Eq. 1 as printed scales e_m
+/// static:   C with max over s ≤ 0 of x(s) + e − S(s) = 0,  x the displacement by the other pairs at rest
+/// dynamic:  C with max over t ≤ 0 of x(t) + e − S(t) = 0,  x that of the motion in which the incoming tooth stands off
+/// ```
+/// where S has the reliefs of both flanks, C among them along its whole length: what the pair ahead lacks at F lets the
+/// incoming tooth in earlier, and each base pitch shakes the mesh another way.
+///
+/// # Valid for
+/// With the relief rounded up the tooth comes in on time, in the rung's own solve, and with one less by no more than a
+/// 20,000th of it (or 1 pm, where that is more) it touches. At rest nothing else can be, as long as the relief ends before F: more relief only delays the
+/// tooth. In motion a greater relief may bring it back: four up to twice as much were tried and did not, fifty where contact
+/// is lost; what may lie between them is not known.
+///
+/// # Errors
+/// [`Refusal::Stopped`] where `go_on` says no.
+pub fn clearing(inputs: &Inputs, solution: &Solution, go_on: &dyn Fn(f64) -> bool) -> Result<Clearing, Refusal> {
     let runs = Cell::new(0);
-    let lead = |more: f64| {
-        runs.set(runs.get() + 1);
-        lead_with(more, inputs, solution, go_on)
+    let found = match (solution.outcome, inputs.rung) {
+        (Outcome::NoCornerContact, _) => Ok(None),
+        (_, Rung::Paper) => printed_relief_to_clear(inputs, &solution.kept.deviation),
+        (_, Rung::Static | Rung::Dynamic) => {
+            let tried = |relief: f64| {
+                runs.set(runs.get() + 1);
+                relieved(relief, inputs, solution, go_on)
+            };
+            let deviation = &solution.deviation;
+            let size = deviation.combined_deflection + deviation.equivalent_error.abs() + inputs.driven.tip_relief;
+            least(&tried, inputs.rung == Rung::Static, MOST * size).map(Some)
+        }
+        (_, Rung::Exact | Rung::Auto) => Ok(Some(solution.deviation.total)),
     };
-    let deviation = &solution.deviation;
-    let most = MOST * (deviation.combined_deflection + deviation.equivalent_error.abs() + inputs.driven.tip_relief);
-    match least(lead, most) {
-        Ok(relief) => Ok(Clearing { relief: Some(relief), withheld: None, runs: runs.get() }),
-        Err(Refusal::Stopped) => Err(Refusal::Stopped),
-        Err(refusal) => Ok(Clearing { relief: None, withheld: Some(refusal), runs: runs.get() }),
-    }
+    let (relief, withheld) = match found {
+        Ok(relief) => (relief, None),
+        Err(Refusal::Stopped) => return Err(Refusal::Stopped),
+        Err(refusal) => (None, Some(refusal)),
+    };
+    Ok(Clearing { given: inputs.driven.tip_relief, relief, withheld, runs: runs.get() })
 }
 
-const MOST: f64 = 8.0;
-
-/// How far the incoming tooth of the pair with so much more tip relief is early, in m.
-pub fn lead_with(more: f64, inputs: &Inputs, solution: &Solution, go_on: &dyn Fn(f64) -> bool) -> Result<f64, Refusal> {
-    let relieved = Inputs { driven: Gear { tip_relief: inputs.driven.tip_relief + more, ..inputs.driven.clone() }, ..inputs.clone() };
+/// The incoming tooth of the pair with so much more tip relief, in m, at rest or in motion.
+fn relieved(relief: f64, inputs: &Inputs, solution: &Solution, go_on: &dyn Fn(f64) -> bool) -> Result<Tried, Refusal> {
+    let driven = Gear { tip_relief: inputs.driven.tip_relief + relief, ..inputs.driven.clone() };
+    let relieved = Inputs { driven, ..inputs.clone() };
     let settings = Settings::of(inputs, solution.reduced_mass);
     on_mesh(&relieved, solution, |mesh| match inputs.rung {
-        Rung::Dynamic => dynamic::lead_before_start(mesh, &settings, &|_| go_on(1.0)),
-        _ => static_load::lead_before_start(mesh),
+        Rung::Dynamic => {
+            let Approach { lead, contact_lost } = approach(mesh, &settings, go_on)?;
+            Ok(Tried { relief, lead, contact_lost })
+        }
+        _ => Ok(Tried { relief, lead: lead_before_start(mesh)?, contact_lost: false }),
     })
 }
 
-/// A relief and how far the tooth is early with it.
-type Tried = (f64, f64);
+/// A relief and what comes of it.
+#[derive(Debug, Clone, Copy)]
+struct Tried {
+    /// In m.
+    relief: f64,
+    /// How early the tooth is with it, in m.
+    lead: f64,
+    contact_lost: bool,
+}
 
-fn least(lead: impl Fn(f64) -> Result<f64, Refusal>, most: f64) -> Result<f64, Refusal> {
-    let mut below = (0.0, lead(0.0)?);
-    if below.1 <= 0.0 {
-        return Ok(0.0);
+/// How a relief is tried.
+type Try<'a> = &'a dyn Fn(f64) -> Result<Tried, Refusal>;
+
+/// The least relief with which, and with greater ones, the tooth does not touch.
+fn least(tried: Try<'_>, is_monotonic: bool, most: f64) -> Result<f64, Refusal> {
+    let mut clear = crossing(tried, tried(0.0)?, most)?;
+    while !is_monotonic && let Some(touching) = touching_beyond(tried, clear)? {
+        clear = crossing(tried, touching, most)?;
     }
-    let mut more = below.1;
-    let above = loop {
-        more += 0.4 * width(more);
-        let tried = (more, lead(more)?);
-        if tried.1 <= 0.0 {
-            break tried;
+    Ok(clear.relief)
+}
+
+/// The greatest of some greater reliefs with which the tooth touches, where there is one.
+fn touching_beyond(tried: Try<'_>, clear: Tried) -> Result<Option<Tried>, Refusal> {
+    let [.., last] = BEYOND;
+    let even = (1..=BEYOND_RATTLE).map(|step| 1.0 + (last - 1.0) * f64::from(step) / f64::from(BEYOND_RATTLE));
+    let beyond: Vec<f64> = if clear.contact_lost { even.collect() } else { BEYOND.to_vec() };
+    for part in beyond.into_iter().rev() {
+        let found = tried(part * clear.relief)?;
+        if found.lead > 0.0 {
+            return Ok(Some(found));
         }
-        if more > most {
+    }
+    Ok(None)
+}
+
+/// The first relief found beyond one that touches with which the tooth does not.
+fn crossing(tried: Try<'_>, mut touching: Tried, most: f64) -> Result<Tried, Refusal> {
+    /// The lead mostly falls by as much as the relief grows; where it falls more slowly, so many times as far at most.
+    const STRIDE: f64 = 4.0;
+    let mut stride = 1.0;
+    while touching.lead > 0.0 {
+        if touching.relief > most {
             return Err(Refusal::NoClearing { most });
         }
-        let slope = ((tried.0 - below.0) / (below.1 - tried.1)).clamp(1.0, 4.0);
-        let slope = if slope.is_nan() { 4.0 } else { slope };
-        more = tried.0 + slope * tried.1;
-        below = tried;
-    };
-    between(lead, below, above)
-}
-
-fn between(lead: impl Fn(f64) -> Result<f64, Refusal>, mut below: Tried, mut above: Tried) -> Result<f64, Refusal> {
-    let mut before = f64::INFINITY;
-    for step in 0..100 {
-        let (from, to, width) = (below.0, above.0, width(above.0));
-        if to - from <= width {
-            break;
+        let aim = touching.relief + stride * touching.lead;
+        let found = tried(aim + ASIDE * closeness(aim))?;
+        if found.lead <= 0.0 {
+            return closed_in(tried, touching, found);
         }
-        let crossing = from + (to - from) * below.1 / (below.1 - above.1);
-        let aside = if to - crossing > crossing - from { 0.4 } else { -0.4 } * width;
-        let halve = step % 3 == 2 && to - from > 0.5 * before;
-        if step % 3 == 2 {
-            before = to - from;
-        }
-        let more = if halve { f64::midpoint(from, to) } else { (crossing + aside).clamp(from + 0.2 * width, to - 0.2 * width) };
-        let tried = (more, lead(more)?);
-        if tried.1 > 0.0 { below = tried } else { above = tried }
+        let fall = (touching.lead - found.lead) / (found.relief - touching.relief);
+        stride = if fall > 0.0 { (1.0 / fall).clamp(1.0, STRIDE) } else { STRIDE };
+        touching = found;
     }
-    Ok(above.0)
+    Ok(touching)
 }
 
-fn width(relief: f64) -> f64 {
-    (1e-5 * relief).max(1e-13)
+/// How near to the crossing is near enough, in m.
+fn closeness(relief: f64) -> f64 {
+    (5e-5 * relief).max(1e-12)
+}
+
+/// A try is made so much of the closeness beyond the crossing, so that the last two stand on both its sides.
+const ASIDE: f64 = 0.4;
+
+/// The clear one of two reliefs, one that touches and one that does not, as near to each other as is near enough: by secants,
+/// aiming a little to that side of the crossing on which the further one is, and by halves where these do not close in.
+fn closed_in(tried: Try<'_>, mut touching: Tried, mut clear: Tried) -> Result<Tried, Refusal> {
+    const PATIENCE: usize = 3;
+    let mut widths = [f64::INFINITY; PATIENCE];
+    loop {
+        let (width, near) = (clear.relief - touching.relief, closeness(clear.relief));
+        if width <= near {
+            return Ok(clear);
+        }
+        let before = touching.lead / (touching.lead - clear.lead);
+        let aside = ASIDE * near * if before < 0.5 { 1.0 } else { -1.0 };
+        let is_slow = width > 0.5 * widths[0];
+        let aim = touching.relief + if is_slow { 0.5 * width } else { before * width + aside };
+        widths.rotate_left(1);
+        widths[PATIENCE - 1] = width;
+        let found = tried(aim.clamp(touching.relief + 0.1 * near, clear.relief - 0.1 * near))?;
+        if found.lead > 0.0 { touching = found } else { clear = found }
+    }
 }

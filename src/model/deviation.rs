@@ -111,23 +111,6 @@ impl Deviation {
             _ => self.equivalent_error,
         }
     }
-
-    /// Least tip relief of the driven gear, beyond what it has, with which the incoming tooth comes in on time, in m; in the
-    /// rung `dynamic` with the mesh at rest. `None` where it comes in on time, and in the rung `paper`.
-    ///
-    /// # Formula
-    /// ```text
-    /// Δ
-    /// ```
-    /// since e_m = −(driven tip relief + driver root relief) counts in full and δ does not depend on it.
-    ///
-    /// # Valid for
-    /// `exact` and `static`. In motion the mesh swings about its rest, and the tooth may strike with a little more relief or
-    /// not with a little less. The printed equations of `paper` find no contact for a small Δ already.
-    #[must_use]
-    pub fn relief_to_clear(&self, rung: Rung) -> Option<f64> {
-        (rung != Rung::Paper && self.total > 0.0).then_some(self.total)
-    }
 }
 
 impl<T: Real> Deviation<T> {

@@ -115,23 +115,34 @@ pub fn dynamic(mesh: &Mesh, settings: &Settings, go_on: &dyn Fn(f64) -> bool) ->
     run.watch.finish(&motion, settings.spacing, run.effort)
 }
 
-/// By how much the driver comes to be further ahead before E than the incoming tooth's gap is wide, in m: above 0 the tooth
-/// touches before E, below it is the gap that is left. So much of the same run in which the incoming tooth stands off.
+/// How near the incoming tooth comes to a touch before E.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Approach {
+    /// The most by which the driver is further ahead than the tooth's gap is wide, in m: above 0 the tooth touches, below it is
+    /// the gap that is left.
+    pub lead: f64,
+    /// Whether no pair at all is in contact at some moment from one base pitch before E to E.
+    pub contact_lost: bool,
+}
+
+/// The approach of the incoming tooth to E: the run of [`dynamic`] so far, step by step the same until the tooth touches, but
+/// that the tooth stands off. So the lead grows and falls smoothly with what the flanks lack, through 0 as well.
 ///
 /// # Errors
 /// Those of [`dynamic`].
-pub fn lead_before_start(mesh: &Mesh, settings: &Settings, go_on: &dyn Fn(f64) -> bool) -> Result<f64, Refusal> {
+pub fn approach(mesh: &Mesh, settings: &Settings, go_on: &dyn Fn(f64) -> bool) -> Result<Approach, Refusal> {
     let motion = Motion::new(mesh, settings);
     let mut run = Run { lead: Some(f64::NEG_INFINITY), ..Run::begin(&motion, settings.tolerance)? };
     run.ahead.retain(|&ahead| ahead != 0);
-    while run.next < run.borders.len() && run.borders[run.next] <= 0.0 {
+    while run.borders.get(run.next).is_some_and(|&border| border <= 0.0) {
         if !go_on(run.part_done()) {
             return Err(Refusal::Stopped);
         }
         run.cross_window()?;
         run.skip_what_repeats();
     }
-    run.lead.filter(|lead| lead.is_finite()).ok_or(Refusal::BeyondReach)
+    let lead = run.lead.filter(|lead| lead.is_finite()).ok_or(Refusal::BeyondReach)?;
+    Ok(Approach { lead, contact_lost: run.watch.contact_lost() })
 }
 
 /// A run on its way.

@@ -271,9 +271,11 @@ impl Refusal {
             Refusal::Unsettled => {
                 ("unsettled", "model.damping_ratio", "give a greater damping ratio, or set model.rung to static")
             }
-            Refusal::NoClearing { .. } => {
-                ("no-clearing-relief", "model.damping_ratio", "give a greater damping ratio, a smaller deviation or another speed")
-            }
+            Refusal::NoClearing { .. } => (
+                "no-clearing-relief",
+                "model.damping_ratio",
+                "give a greater damping ratio, a smaller deviation or another speed",
+            ),
             Refusal::Stopped => ("stopped", "model.rung", "ask again"),
             Refusal::HertzWidthTooLarge { .. } => {
                 ("hertz-width", "driver.face_width", "lower the load or the speed, or widen the gears")

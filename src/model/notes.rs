@@ -36,6 +36,7 @@ const LOOKS: &[Look] = &[
     load::rung_taken,
     load::deflection_ignored,
     load::lost_in_motion,
+    load::not_cleared,
     load::inertia,
     impact::withheld,
     impact::stations_left_out,

@@ -8,8 +8,8 @@ use super::impact::Masses;
 use super::inputs::{Inputs, Rung};
 use super::stage::{Stage, Stages};
 use super::{
-    Choice, Geometry, Kept, Outcome, Position, Refusal, Solution, auto, band, clearing, compliance, deviation, friction, geometry, impact,
-    load_sharing, position, stations, velocity,
+    Choice, Geometry, Kept, Outcome, Position, Refusal, Solution, auto, band, clearing, compliance, deviation, friction,
+    geometry, impact, load_sharing, position, stations, velocity,
 };
 use crate::numeric::Real;
 

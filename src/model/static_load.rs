@@ -207,7 +207,9 @@ fn greatest(known: &[(f64, f64)], at: impl Fn(f64) -> f64) -> (f64, f64) {
     let (mut left, mut right) = (to - GOLDEN * (to - from), from + GOLDEN * (to - from));
     let (mut at_left, mut at_right) = (at(left), at(right));
     for _ in 0..STEPS {
-        highest = [(left, at_left), (right, at_right)].into_iter().fold(highest, |one, other| if other.1 > one.1 { other } else { one });
+        highest = [(left, at_left), (right, at_right)]
+            .into_iter()
+            .fold(highest, |one, other| if other.1 > one.1 { other } else { one });
         if at_left > at_right {
             (to, right, at_right) = (right, left, at_left);
             left = to - GOLDEN * (to - from);

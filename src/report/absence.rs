@@ -37,6 +37,7 @@ impl Absence {
             (Stage::Static | Stage::Dynamic, _) if quantity.needs_friction() && !has_friction(solution) => Absence::NoFriction,
             (Stage::Static | Stage::Dynamic, _) if is_without => no_contact,
             (Stage::Static | Stage::Dynamic, _) => Absence::NotReached,
+            (Stage::Clearing, _) if !is_without => cleared(solution),
             (_, Some(refusal)) => Absence::Withheld(refusal),
             _ if is_without => no_contact,
             _ if solution.position.is_none() => Absence::NoFreeImpact,
@@ -60,6 +61,11 @@ pub fn without_contact(solution: &Solution) -> &'static str {
         Rung::Static => "at rest the pairs in contact do not give way so far",
         _ => "in motion the tooth does not touch before E",
     }
+}
+
+/// Why no relief is known that stops it.
+fn cleared(solution: &Solution) -> Absence {
+    solution.clearing.and_then(|clearing| clearing.withheld).map_or(Absence::NotReached, Absence::Withheld)
 }
 
 fn has_friction(solution: &Solution) -> bool {

@@ -113,27 +113,6 @@ pub fn sentence(solution: &Solution, system: System) -> String {
     }
 }
 
-/// The relief that stops it, in words, in fewer and in the fewest: of the rungs in which the least one is known.
-#[must_use]
-pub fn relief(solution: &Solution, system: System) -> Option<[String; 3]> {
-    // Rounded up to four digits.
-    const UP: f64 = 1.0 + 5e-4;
-    const DIGITS: usize = 4;
-    let quantity = Quantity::find("total_deviation")?;
-    let strikes = solution.outcome == Outcome::CornerContact;
-    let relief = solution.deviation.relief_to_clear(solution.rung).filter(|_| strikes)?;
-    let shown = shown_in(&Quantity { digits: DIGITS, ..*quantity }, UP * relief, system);
-    let (when, at_rest) = match solution.rung {
-        Rung::Dynamic => (" at rest; in motion it may take more", " at rest"),
-        _ => ("", ""),
-    };
-    Some([
-        format!("{shown} more tip relief of the driven gear stops it{when}"),
-        format!("{shown} more tip relief stops it{at_rest}"),
-        format!("+{shown} relief stops it{at_rest}"),
-    ])
-}
-
 /// The outcome in two or three words.
 #[must_use]
 pub fn short(solution: &Solution, system: System) -> String {

@@ -16,10 +16,11 @@ pub struct Group {
 }
 
 /// Every group, in the order of a rung in closed form.
-static GROUPS: [Group; 11] = [
+static GROUPS: [Group; 12] = [
     Group { title: "Geometry", stages: &[Stage::Geometry] },
     Group { title: "Load", stages: &[Stage::Load] },
     Group { title: "Deviation", stages: &[Stage::Deviation] },
+    Group { title: "Tip relief", stages: &[Stage::Clearing] },
     Group { title: "First contact D", stages: &[Stage::Position] },
     Group { title: "Velocity at D", stages: &[Stage::Velocity] },
     Group { title: "Impact", stages: &[Stage::Compliance, Stage::Impact, Stage::Band] },
@@ -49,7 +50,7 @@ impl Group {
             _ if !rung.shares_load() => 0,
             [Stage::Dynamic] => 1,
             [Stage::Static] => 2,
-            [Stage::Mesh] => 3,
+            [Stage::Clearing | Stage::Mesh] => 3,
             _ if self.is_beside(rung) => 5,
             _ => 4,
         }

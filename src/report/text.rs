@@ -1,9 +1,10 @@
 //! A solve as a page of text for a person, 80 columns wide.
 
 use super::absence::without_contact;
-use super::digest::{self, first_touch, force};
+use super::digest::{first_touch, force};
 use super::groups::{FREE_IMPACT, Group, groups};
 use super::layout::{WIDTH, flow, item, widest};
+use super::relief::relief;
 use super::stations::{Column, columns, rows};
 use super::verdict::{Verdict, verdicts};
 use super::{Report, Shown, shown, value};
@@ -72,7 +73,7 @@ fn heading(report: &Report) -> Vec<String> {
 fn outcome(report: &Report) -> Vec<String> {
     let mut sentences = vec![sentence(&report.solution)];
     if report.selection.is_whole() {
-        sentences.extend(digest::relief(&report.solution, System::Metric).map(|[words, ..]| format!("{words}.")));
+        sentences.extend(relief(&report.solution, System::Metric).map(|[words, ..]| format!("{words}.")));
         let others = Rung::CLOSED_FORM.into_iter().filter(|&rung| rung != report.solution.rung);
         sentences.extend(others.filter_map(|rung| other_rung(report, rung)));
     }

@@ -206,8 +206,9 @@ impl App {
         }
         let plan = plan(self.size, self.panes);
         let seen = Pane::ALL.into_iter().filter(|&pane| !plan.area(pane).is_empty());
-        // The verdict, with the outcome and its notes, stands there even where only the chart is in sight: all but the band.
-        let verdict = Pane::Results.needs().without(Stage::Band);
+        // The verdict, with the outcome and its notes, stands there even where only the chart is in sight: all but the band and
+        // what stops it.
+        let verdict = Pane::Results.needs().without(Stage::Band).without(Stage::Clearing);
         seen.fold(verdict, |stages, pane| stages.and(pane.needs()))
     }
 
@@ -263,7 +264,8 @@ impl App {
 
     /// What the worker shall solve because the first picture could not wait for it.
     pub(super) fn unanswered(&mut self) -> Option<Request> {
-        let waits = self.tab.answer.as_ref().is_some_and(|answer| answer.pending.is_some());
+        let asked = self.tab.asked;
+        let waits = self.tab.answer.as_ref().is_some_and(|answer| answer.pending.is_some() || answer.stages != asked);
         if waits { self.request() } else { None }
     }
 

@@ -70,7 +70,7 @@ impl Pane {
     pub const fn needs(self) -> Stages {
         match self {
             Pane::Form | Pane::Trade => Stages::NONE,
-            Pane::Results => Stages::CLOSED_FORM.with(Stage::Band).and(Stages::of(Stage::Static)).with(Stage::Dynamic),
+            Pane::Results => Stages::CLOSED_FORM.with(Stage::Band).and(Stages::of(Stage::Clearing)),
             Pane::Chart => Stages::STATIONS,
             Pane::Teeth => Stages::of(Stage::Impact).and(Stages::of(Stage::Static)).with(Stage::Dynamic),
         }

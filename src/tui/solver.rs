@@ -1,16 +1,22 @@
 //! The one worker that solves: the latest request wins, a slow rung gives way to it, and a fault in it never takes the
 //! screen down.
 
+mod rungs;
+
+use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
 
+pub use rungs::{answer, first_answer};
+use rungs::{cleared, solved};
+
 use super::fault;
 use super::slot::Slot;
 use crate::case::{Case, Evaluator};
 use crate::model::inputs::Rung;
-use crate::model::{self, Inputs, Note, QUANTITIES, Refusal, Solution, Stages};
+use crate::model::{Inputs, Note, Outcome, QUANTITIES, Refusal, Solution, Stage, Stages};
 
 /// So long a slow rung may take before the closed form's answer is shown in its place.
 const PATIENCE: Duration = Duration::from_millis(30);
@@ -41,8 +47,11 @@ pub struct Request {
 pub struct Answer {
     /// The request's.
     pub serial: u64,
-    /// The stages that were asked for.
+    /// The stages that it holds, as far as the rungs have them: those that were asked for, or all but the least relief while
+    /// that one is still being sought.
     pub stages: Stages,
+    /// The stages that were asked for.
+    pub asked: Stages,
     /// The pair, as it was solved.
     pub inputs: Inputs,
     /// The rung whose results stand first: that of the case, or `exact` while that one is not done.
@@ -93,6 +102,18 @@ impl Answer {
         self.rungs.iter().find(|(own, _)| *own == rung).and_then(|(_, result)| result.as_ref().ok())
     }
 
+    /// Whether the incoming tooth strikes, by the active rung.
+    #[must_use]
+    pub fn strikes(&self) -> bool {
+        self.of(self.active).is_some_and(|solution| solution.outcome == Outcome::CornerContact)
+    }
+
+    /// Whether a stage that was asked for is still to come.
+    #[must_use]
+    pub fn lacks(&self, stage: Stage) -> bool {
+        self.asked.has(stage) && !self.stages.has(stage)
+    }
+
     /// What the active rung finds of every quantity.
     #[must_use]
     pub fn values(&self) -> Values {
@@ -116,19 +137,23 @@ impl Solver {
         let mut evaluator = Evaluator::default();
         let solve = move |request: &Request, wanted: Wanted<'_>| {
             let begun = Instant::now();
-            let (mut waiting, mut told) = (Some(begun + PATIENCE), begun + LONG);
+            let (waiting, told) = (Cell::new(Some(begun + PATIENCE)), Cell::new(begun + LONG));
             let go_on = |part: f64, at_once: &dyn Fn() -> Answer| {
                 let now = Instant::now();
-                if waiting.is_some_and(|until| now > until) {
-                    waiting = None;
+                if waiting.get().is_some_and(|until| now > until) {
+                    waiting.set(None);
                     wanted.tell(Reply::Solved(Box::new(at_once())));
-                } else if now > told {
-                    told = now + STEP;
+                } else if now > told.get() {
+                    told.set(now + STEP);
                     wanted.tell(Reply::Solving(request.serial, part));
                 }
                 wanted.is_wanted()
             };
-            solved(&mut evaluator, request, begun, go_on)
+            let answer = solved(&mut evaluator, request, begun, &go_on)?;
+            if answer.lacks(Stage::Clearing) && answer.strikes() {
+                wanted.tell(Reply::Solved(Box::new(answer.clone())));
+            }
+            cleared(&mut evaluator, request, answer, begun, &|_| wanted.is_wanted())
         };
         Solver::start_with(solve, tell)
     }
@@ -192,80 +217,6 @@ impl Wanted<'_> {
         // Whether anybody listens shows when the last one is told.
         let _ = (self.tell)(reply);
     }
-}
-
-/// Solve with the closed forms, which cost nothing, and the rung of the case: their difference is what the engineer came for.
-#[must_use]
-pub fn answer(request: &Request) -> Answer {
-    let whole = solved(&mut Evaluator::default(), request, Instant::now(), |_, _| true);
-    whole.unwrap_or_else(|| at_once(&mut Evaluator::default(), request, Instant::now()))
-}
-
-/// The same for a first picture: where the rung of the case takes long, the closed forms alone.
-#[must_use]
-pub fn first_answer(request: &Request) -> Answer {
-    let begun = Instant::now();
-    let whole = solved(&mut Evaluator::default(), request, begun, |_, _| begun.elapsed() < PATIENCE);
-    whole.unwrap_or_else(|| at_once(&mut Evaluator::default(), request, begun))
-}
-
-/// The answers of the closed forms, of the rung of the case and of the load at rest below its inertia; none where `go_on`, which may show what stands at once, says no.
-fn solved(
-    evaluator: &mut Evaluator,
-    request: &Request,
-    begun: Instant,
-    mut go_on: impl FnMut(f64, &dyn Fn() -> Answer) -> bool,
-) -> Option<Answer> {
-    let first = at_once(evaluator, request, begun);
-    let Some(rung) = first.pending else { return Some(first) };
-    let asked = std::cell::RefCell::new(&mut go_on);
-    let ask = |part: f64| (asked.borrow_mut())(part, &|| first.clone());
-    let found = evaluator.solve(&request.case, &request.inputs, rung, request.stages, &ask);
-    if matches!(found, Err(Refusal::Stopped)) {
-        return None;
-    }
-    // Where the program chose, its choice stands for it.
-    let active = found.as_ref().map_or(rung, |solution| solution.rung);
-    let mut answer = Answer { active, pending: None, ..first.clone() };
-    answer.rungs.retain(|(known, _)| *known != active);
-    if active == Rung::Dynamic {
-        let shared = evaluator.solve(&request.case, &request.inputs, Rung::Static, request.stages, &|_| true);
-        answer.rungs.push((Rung::Static, shared));
-    }
-    answer.rungs.push((active, found));
-    answer.cost = Cost { stages: stages_run(&answer.rungs), micros: micros(begun) };
-    answer.notes = answer.of(active).map(|solution| model::notes(&request.inputs, solution)).unwrap_or_default();
-    Some(answer)
-}
-
-/// The closed forms' answer.
-fn at_once(evaluator: &mut Evaluator, request: &Request, begun: Instant) -> Answer {
-    let asked = request.inputs.rung;
-    let rungs: Vec<_> = Rung::CLOSED_FORM
-        .into_iter()
-        .map(|rung| (rung, evaluator.solve(&request.case, &request.inputs, rung, request.stages, &|_| true)))
-        .collect();
-    let pending = Some(asked).filter(|rung| !Rung::CLOSED_FORM.contains(rung));
-    let mut answer = Answer {
-        serial: request.serial,
-        stages: request.stages,
-        inputs: request.inputs.clone(),
-        active: if pending.is_some() { Rung::Exact } else { asked },
-        pending,
-        cost: Cost { stages: stages_run(&rungs), micros: micros(begun) },
-        rungs,
-        notes: Vec::new(),
-    };
-    answer.notes = answer.of(answer.active).map(|solution| model::notes(&request.inputs, solution)).unwrap_or_default();
-    answer
-}
-
-fn stages_run(rungs: &[(Rung, Result<Solution, Refusal>)]) -> usize {
-    rungs.iter().filter_map(|(_, found)| found.as_ref().ok()).map(|solution| solution.ran.iter().count()).sum()
-}
-
-fn micros(begun: Instant) -> u64 {
-    u64::try_from(begun.elapsed().as_micros()).unwrap_or(u64::MAX)
 }
 
 fn attempt(

@@ -1,7 +1,8 @@
 //! The one table of what each value of a solve reads: fields, and other values.
 
 use crate::model::Stage::{
-    self, Band, Clearing, Compliance, Deviation, Dynamic, Friction, Geometry, Impact, Load, Mesh, Position, Static, Stations, Velocity,
+    self, Band, Clearing, Compliance, Deviation, Dynamic, Friction, Geometry, Impact, Load, Mesh, Position, Static, Stations,
+    Velocity,
 };
 use crate::model::compliance::model_of;
 use crate::model::inputs::{ContactCompliance, Drive, Inputs, Rung, ToothCompliance};
@@ -231,5 +232,6 @@ pub(super) static ROWS: &[Row] = &[
     row("clearing_relief", Clearing, always, &["total_deviation", "rung"]),
     row("clearing_relief", Clearing, paper, &["start_of_contact", "base_pitch"]),
     row("clearing_relief", Clearing, by_sharing, &["mesh"]),
+    row("clearing_relief", Clearing, tips_press, &["driver.tip_radius"]),
     row("clearing_relief", Clearing, with_inertia, &["motion"]),
 ];

@@ -208,6 +208,7 @@ fn the_table_says_what_a_change_changes_and_no_less() {
         "model.station_tolerance",
         "driven.tip_radius: dynamic_first_contact_angle",
         "driven.tip_radius: dynamic_impact_duration",
+        "driven.tip_radius: clearing",
     ];
     let mut idle = idle(&acting);
     idle.retain(|said| !seldom.iter().any(|start| said.starts_with(start)));

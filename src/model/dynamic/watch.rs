@@ -47,6 +47,11 @@ impl Watch {
         }
     }
 
+    /// Whether no pair at all touched at some moment since one base pitch before E.
+    pub(super) fn contact_lost(&self) -> bool {
+        self.contact_lost
+    }
+
     /// The incoming pair touches or leaves.
     pub(super) fn turn(&mut self, t: f64, touches: bool) {
         if touches { self.touches.push(t) } else { self.leaves.push(t) }

@@ -48,3 +48,9 @@ pub(super) fn inertia(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     };
     (part > inputs.within).then(|| Note::new("inertia", message()))
 }
+
+/// No relief was found that keeps the tooth from striking.
+pub(super) fn not_cleared(_: &Inputs, solution: &Solution) -> Option<Note> {
+    let refusal = solution.clearing?.withheld?;
+    Some(Note::new(refusal.code(), format!("no tip relief is known that stops it: {refusal}")))
+}

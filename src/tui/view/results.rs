@@ -10,7 +10,7 @@ use ratatui::widgets::Widget;
 
 use super::{text, titled};
 use crate::model::inputs::Rung;
-use crate::model::{Quantity, Solution};
+use crate::model::{Quantity, Solution, Stage};
 use crate::report::{self, Shown, digest};
 use crate::tui::app::App;
 use crate::tui::clean::symbol;
@@ -229,12 +229,15 @@ impl Gauge {
 fn gauges(app: &App, answer: &Answer) -> Vec<Gauge> {
     let Some(solution) = answer.of(answer.active) else { return Vec::new() };
     let ratios = (!solution.rung.shares_load()).then(|| ratios(answer, app.look.ascii)).flatten();
-    [relief(app, solution), band(app, solution), ratios].into_iter().flatten().collect()
+    [relief(app, answer, solution), band(app, solution), ratios].into_iter().flatten().collect()
 }
 
-// What stops it.
-fn relief(app: &App, solution: &Solution) -> Option<Gauge> {
-    digest::relief(solution, app.settings.units).map(|words| Gauge(words.into()))
+// What stops it; where that is yet to come, a place is kept for it.
+fn relief(app: &App, answer: &Answer, solution: &Solution) -> Option<Gauge> {
+    let is_to_come = answer.strikes() && answer.lacks(Stage::Clearing);
+    let to_come = || ["... tip relief of the driven gear stops it", "... tip relief stops it", "... relief stops it"];
+    let known = report::relief::relief(solution, app.settings.units);
+    known.or_else(|| is_to_come.then(|| to_come().map(str::to_owned))).map(|words| Gauge(words.into()))
 }
 
 // How far the force depends on the choice of stiffness model.

@@ -2,10 +2,10 @@
 
 use super::Explanation;
 use crate::model::inputs::Rung;
-use crate::report::explain::known::Formula::{By, Given, Made, Text};
+use crate::report::explain::known::Formula::{By, Found, Given, Made, Text, Words};
 use crate::report::explain::known::Known;
 use crate::report::explain::steps::contact::PAIRS_AHEAD;
-use crate::report::explain::valid::{impact, pair, stiffness};
+use crate::report::explain::valid::{impact, load, pair, stiffness};
 
 pub(super) static TABLE: &[Explanation] = &[
     Explanation {
@@ -53,6 +53,32 @@ pub(super) static TABLE: &[Explanation] = &[
         mended: &["Eq. 1"],
         assumes: "Deviations and deflection add up along the line of action.",
         valid: &[impact::pair_ahead],
+    },
+    Explanation {
+        key: "clearing_relief",
+        says: "How much more tip relief of the driven gear it takes, beyond what it has, so that the incoming tooth does not touch \
+            before E: by the rung itself, at rest or in motion.",
+        formula: By(|k| match k.solution.rung {
+            Rung::Exact | Rung::Auto => Text("Δ"),
+            Rung::Paper => Words("the root C of u(Δf - C/√2) = 0, u by Eqs. 11-20 as printed: no more than √2 Δ"),
+            Rung::Static => Found {
+                words: "the root C of: the most by which the other pairs let the driver run ahead of the incoming tooth's gap up to E = 0, \
+                    the gap with C more tip relief, x by Σ w_k F_k = F_0 with the same relief on every pair",
+                with: &["F_0", "k_m", "Δf", "Δ"],
+            },
+            Rung::Dynamic => Found {
+                words: "the root C of: the most by which the driver runs ahead of the incoming tooth's gap up to E = 0 in the motion \
+                    m_red x'' + c x' + Σ w_k F_k = F_0 with C more tip relief, in which the incoming tooth stands off",
+                with: &["m_red", "c", "f_n", "f_z", "Δf", "Δ"],
+            },
+        }),
+        source: "The condition of Zhou & Chen 2014, Δ <= 0 in Eq. 5; at rest and in motion the same condition on the displacement of \
+            every pair.",
+        mended: &["Eq. 1", "Eqs. 7-20"],
+        assumes: "The relief is added to the tip relief of every tooth of the driven gear, its length and shape as they are. In motion the \
+            tooth touches with a little less, and with none of the greater reliefs up to twice as much that were tried: 4 of them, \
+            50 where contact is lost.",
+        valid: &[load::kept],
     },
 ];
 

@@ -1,0 +1,117 @@
+//! What every rung says of a request: the closed forms at once, then the rung of the case, then the least relief.
+
+use std::time::Instant;
+
+use super::{Answer, Cost, PATIENCE, Request};
+use crate::case::Evaluator;
+use crate::model::inputs::Rung;
+use crate::model::{self, Refusal, Solution, Stage};
+
+/// Solve with the closed forms, which cost nothing, and the rung of the case: their difference is what the engineer came for.
+#[must_use]
+pub fn answer(request: &Request) -> Answer {
+    answer_while(request, &|| true)
+}
+
+/// The same for a first picture: where the rung of the case takes long, the closed forms alone, and where the least relief does,
+/// all but that.
+#[must_use]
+pub fn first_answer(request: &Request) -> Answer {
+    let begun = Instant::now();
+    answer_while(request, &|| begun.elapsed() < PATIENCE)
+}
+
+fn answer_while(request: &Request, go_on: &dyn Fn() -> bool) -> Answer {
+    let (begun, evaluator) = (Instant::now(), &mut Evaluator::default());
+    let Some(found) = solved(evaluator, request, begun, &|_, _| go_on()) else {
+        return at_once(evaluator, request, begun);
+    };
+    cleared(evaluator, request, found.clone(), begun, &|_| go_on()).unwrap_or(found)
+}
+
+/// The answers of the closed forms, of the rung of the case and of the load at rest below its inertia; of a rung that takes its
+/// time for it without the least relief. None where `go_on`, which may show what stands at once, says no.
+pub(super) fn solved(
+    evaluator: &mut Evaluator,
+    request: &Request,
+    begun: Instant,
+    go_on: &dyn Fn(f64, &dyn Fn() -> Answer) -> bool,
+) -> Option<Answer> {
+    let first = at_once(evaluator, request, begun);
+    let Some(rung) = first.pending else { return Some(first) };
+    let stages = request.stages.without(Stage::Clearing);
+    let found = evaluator.solve(&request.case, &request.inputs, rung, stages, &|part| go_on(part, &|| first.clone()));
+    if matches!(found, Err(Refusal::Stopped)) {
+        return None;
+    }
+    // Where the program chose, its choice stands for it.
+    let active = found.as_ref().map_or(rung, |solution| solution.rung);
+    let mut answer = Answer { active, pending: None, stages, ..first.clone() };
+    answer.rungs.retain(|(known, _)| *known != active);
+    if active == Rung::Dynamic {
+        let shared = evaluator.solve(&request.case, &request.inputs, Rung::Static, stages, &|_| true);
+        answer.rungs.push((Rung::Static, shared));
+    }
+    answer.rungs.push((active, found));
+    answer.cost = Cost { stages: stages_run(&answer.rungs), micros: micros(begun) };
+    answer.notes = answer.of(active).map(|solution| model::notes(&request.inputs, solution)).unwrap_or_default();
+    Some(answer)
+}
+
+/// The answer with the least relief, where that was asked for and is still to come; none where `go_on` says no.
+pub(super) fn cleared(
+    evaluator: &mut Evaluator,
+    request: &Request,
+    mut answer: Answer,
+    begun: Instant,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Option<Answer> {
+    if !answer.lacks(Stage::Clearing) {
+        return Some(answer);
+    }
+    if answer.refusal().is_some() {
+        return Some(Answer { stages: request.stages, ..answer });
+    }
+    let found = evaluator.solve(&request.case, &request.inputs, request.inputs.rung, request.stages, go_on);
+    if matches!(found, Err(Refusal::Stopped)) {
+        return None;
+    }
+    answer.stages = request.stages;
+    answer.cost.stages += found.as_ref().map_or(0, |solution| solution.ran.iter().count());
+    answer.cost.micros = micros(begun);
+    answer.rungs.retain(|(known, _)| *known != answer.active);
+    answer.rungs.push((answer.active, found));
+    answer.notes = answer.of(answer.active).map(|solution| model::notes(&request.inputs, solution)).unwrap_or_default();
+    Some(answer)
+}
+
+/// The closed forms' answer.
+fn at_once(evaluator: &mut Evaluator, request: &Request, begun: Instant) -> Answer {
+    let asked = request.inputs.rung;
+    let rungs: Vec<_> = Rung::CLOSED_FORM
+        .into_iter()
+        .map(|rung| (rung, evaluator.solve(&request.case, &request.inputs, rung, request.stages, &|_| true)))
+        .collect();
+    let pending = Some(asked).filter(|rung| !Rung::CLOSED_FORM.contains(rung));
+    let mut answer = Answer {
+        serial: request.serial,
+        stages: request.stages,
+        asked: request.stages,
+        inputs: request.inputs.clone(),
+        active: if pending.is_some() { Rung::Exact } else { asked },
+        pending,
+        cost: Cost { stages: stages_run(&rungs), micros: micros(begun) },
+        rungs,
+        notes: Vec::new(),
+    };
+    answer.notes = answer.of(answer.active).map(|solution| model::notes(&request.inputs, solution)).unwrap_or_default();
+    answer
+}
+
+fn stages_run(rungs: &[(Rung, Result<Solution, Refusal>)]) -> usize {
+    rungs.iter().filter_map(|(_, found)| found.as_ref().ok()).map(|solution| solution.ran.iter().count()).sum()
+}
+
+fn micros(begun: Instant) -> u64 {
+    u64::try_from(begun.elapsed().as_micros()).unwrap_or(u64::MAX)
+}
