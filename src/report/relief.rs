@@ -5,7 +5,7 @@ use crate::case::units::{self, System};
 use crate::model::{Quantity, Solution};
 
 /// No digit of a relief is told below this one behind the point, a nanometre or a quarter of a hundred of them.
-const LEAST_DIGIT: [(System, usize); 2] = [(System::Metric, 3), (System::Inch, 4)];
+const LEAST_DIGIT: [(System, i32); 2] = [(System::Metric, 3), (System::Inch, 4)];
 /// Significant digits of the relief that is to be added.
 const DIGITS: i32 = 3;
 
@@ -43,10 +43,11 @@ fn rounded_up(least: f64, given: f64, unit: &str, system: System) -> [String; 2]
     let factor = units::factor(unit).unwrap_or(1.0);
     let last = LEAST_DIGIT.iter().find(|(own, _)| *own == system).map_or(3, |&(_, last)| last);
     let before_point = (least / factor).log10().floor() as i32 + 1;
-    let digits = usize::try_from(DIGITS - before_point).unwrap_or(0).min(last);
-    let scale = 10f64.powi(digits as i32);
+    let digits = (DIGITS - before_point).clamp(0, last);
+    let scale = 10f64.powi(digits);
     let all = ((least + given) * ROUNDING / factor * scale).ceil();
     let more = (all - given / factor * scale - NONE).ceil();
+    let digits = usize::try_from(digits).unwrap_or(0);
     [more, all].map(|number| format!("{:.digits$}", number / scale))
 }
 
