@@ -30,6 +30,7 @@ fn pictures(criterion: &mut Criterion) {
             view: &view,
             look: Look::FULL,
             marker: Marker::Braille,
+            units: tipstrike::case::units::System::Metric,
             is_stale: false,
         };
         let area = Rect::new(0, 0, 200, 60);

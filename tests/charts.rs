@@ -13,6 +13,7 @@ use proptest::prelude::*;
 use ratatui::backend::{Backend, CrosstermBackend};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
+use tipstrike::case::units::System;
 use tipstrike::model::{Moment, Outcome};
 use tipstrike::report::graphs::GRAPHS;
 use tipstrike::tui::actions::Action;
@@ -238,7 +239,12 @@ fn the_readout_and_the_teeth_tell_the_same_numbers() {
             let answer = desk.app.answer.as_ref().expect("solved");
             let moment = Moment::at(&answer.inputs, answer.of(answer.active).expect("solved"), angle).expect("in sight");
             let said = chart::readout(&desk.app, angle);
-            let told = |symbol| readings(&moment).into_iter().find(|reading| reading.symbol == symbol).map(|one| one.to_string());
+            let told = |symbol| {
+                readings(&moment, answer.active, System::Metric)
+                    .into_iter()
+                    .find(|reading| reading.symbol == symbol && reading.number.is_some())
+                    .map(|one| one.to_string())
+            };
             for symbol in ["F_S", "F", "S", "ΔV_n", "ΔV_τ", "x", "F/ΣF", "q_s", "E_k"] {
                 if let Some(told) = told(symbol) {
                     let alone = format!(" {told}");
@@ -270,7 +276,7 @@ fn the_baseline_stands_behind_in_the_same_chart() {
     desk.keys(&["b", "1"]).fill("operation.power", "12 kW");
     desk.keys(&["Esc", "3"]);
     for _ in 0..3 {
-        assert!(desk.shows("• baseline"), "{}", desk.screen());
+        assert!(desk.shows("+ baseline"), "{}", desk.screen());
         desk.keys(&["j", "j"]);
     }
     desk.keys(&["jjj", "l", "L"]);

@@ -8,6 +8,7 @@ mod envelope;
 
 mod desk;
 
+use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -18,6 +19,7 @@ use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Rect, Size};
 use ratatui::symbols::Marker;
 use tipstrike::case::Document;
+use tipstrike::case::units::System;
 use tipstrike::model::inputs::Rung;
 use tipstrike::model::{self, Inputs, Moment, Solution, Stages, moment};
 use tipstrike::tui::actions::Action;
@@ -40,7 +42,7 @@ fn solved(case: &str) -> (Inputs, Solution) {
 
 fn picture<'a>((inputs, solution): &'a (Inputs, Solution), view: &'a TeethView, part: f64) -> Picture<'a> {
     let cursor = solution.position.map(|position| part * position.approach_angle_driver);
-    Picture { inputs, solution, cursor, view, look: Look::FULL, marker: Marker::Braille, is_stale: false }
+    Picture { inputs, solution, cursor, view, look: Look::FULL, marker: Marker::Braille, units: System::Metric, is_stale: false }
 }
 
 fn drawn(picture: &Picture, (width, height): (u16, u16)) -> Buffer {
@@ -119,7 +121,7 @@ fn the_cursor_turns_the_gears_and_its_values_are_the_solutions() {
     let without = Picture { cursor: None, ..picture(&table_1, &view, 1.0) };
     assert_eq!(screen(&without, (140, 30)), at_d, "without a cursor D is shown");
     let before = screen(&picture(&table_1, &view, 1.5), (140, 30));
-    assert!(!before.contains("F_S") && before.contains("open 58.13 um"), "{before}");
+    assert!(before.contains("F_S –") && before.contains("open 58.13 um"), "{before}");
     let rows_that_differ = at_d.lines().zip(before.lines()).filter(|(one, other)| one != other).count();
     assert!(rows_that_differ > 10, "the gears stand still");
 }
@@ -138,7 +140,11 @@ fn the_rungs_that_share_the_load_show_their_own_first_contact_and_force() {
         let exact = angle.to_degrees();
         assert!(at(1.0).contains(&format!("u {exact:.4}")), "{rung:?}: no {exact} in\n{}", at(1.0));
         for word in told {
-            assert!(at(0.5).contains(word) && !at(1.5).contains(&format!(" {word}")), "{rung:?}: {word}\n{}", at(1.5));
+            assert!(
+                at(0.5).contains(word) && at(1.5).contains(&format!("{word}–")) && !at(0.5).contains(&format!("{word}–")),
+                "{rung:?}: {word}\n{}",
+                at(1.5)
+            );
         }
         for part in [3.0, 1.5, 0.9, 0.0, -5.0, -13.0, -20.0] {
             assert!(!at(part).contains("n/a"), "{}", at(part));
@@ -280,7 +286,16 @@ fn no_pair_zoom_angle_or_size_troubles_the_picture() {
             let look = random.one_of(&[Look::FULL, Look::FULL, ASCII]);
             let marker = random.one_of(&[Marker::Braille, Marker::Braille, Marker::HalfBlock, Marker::Dot]);
             let is_stale = random.chance(0.2);
-            let picture = Picture { inputs: &inputs, solution: &solution, cursor, view: &view, look, marker, is_stale };
+            let picture = Picture {
+                inputs: &inputs,
+                solution: &solution,
+                cursor,
+                view: &view,
+                look,
+                marker,
+                units: random.one_of(&System::ALL),
+                is_stale,
+            };
             let size = (random.one_of(&WIDTHS), random.one_of(&HEIGHTS));
             let told = || format!("{view:?} {cursor:?} {size:?} {marker:?} {look:?} {inputs:?}");
             let screen = screen(&picture, size);
@@ -319,6 +334,44 @@ fn examine(picture: &Picture, size: Size, told: &dyn Fn() -> String) -> f64 {
     let share = scene.strokes.len() as f64 / most_strokes(size) as f64;
     assert!(share <= 1.0, "{} strokes: {}", scene.strokes.len(), told());
     share
+}
+
+/// Sizes of the picture alone on the usual terminals, and of the pane beside others.
+const PLOTS: [(u16, u16); 5] = [(60, 9), (80, 6), (56, 15), (80, 17), (238, 62)];
+
+#[test]
+fn no_word_lies_on_a_line_where_there_is_room() {
+    let (mut words_in_all, mut covering) = (0, Vec::new());
+    for case in fs::read_dir("cases").unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()) {
+        let solved = solved(&case);
+        for centre in [Centre::Strike, Centre::PitchPoint, Centre::Pair] {
+            for zoom in [-6, -3, -1, 0, 1, 2, 4, 8, 14] {
+                for ((width, height), look) in PLOTS.into_iter().flat_map(|size| [Look::FULL, ASCII].map(|look| (size, look))) {
+                    let view = TeethView { centre, zoom, ..TeethView::default() };
+                    let picture = Picture { look, ..picture(&solved, &view, 1.0) };
+                    let moment = Moment::at(picture.inputs, picture.solution, picture.angle());
+                    let area = Rect::new(0, 0, width, height);
+                    let scene = Scene::of(&picture, moment.as_ref(), area.as_size());
+                    let mut buffer = Buffer::empty(area);
+                    teeth::ink::draw(&scene, &picture, area, &mut buffer);
+                    let drawn = buffer.clone();
+                    let words = Labels::new(area).draw(&scene, &picture, &mut buffer);
+                    // The second one is the scale bar itself.
+                    for word in words.iter().enumerate().filter(|(at, _)| *at != 1).map(|(_, word)| word) {
+                        words_in_all += 1;
+                        if word.positions().any(|at| drawn[at].symbol() != " ") {
+                            covering.push(format!("{case} {centre:?} {zoom} {width}x{height} {word:?}"));
+                        }
+                    }
+                    let factor = scene.factor.map(|_| "gap x");
+                    let text = buffer.content.iter().map(Cell::symbol).collect::<String>();
+                    assert!(factor.is_none_or(|factor| text.contains(factor)), "{case} {centre:?} {zoom} {width}x{height}");
+                }
+            }
+        }
+    }
+    println!("{} of {words_in_all} words lie on a line: {covering:#?}", covering.len());
+    assert!(200 * covering.len() <= words_in_all, "{} of {words_in_all}: {covering:#?}", covering.len());
 }
 
 /// Wall time only tells; what gates is the number of strokes above.

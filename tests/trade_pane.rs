@@ -13,6 +13,7 @@ use tipstrike::study::trade::{Setting, Time};
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::actions::Effect;
 use tipstrike::tui::app::Progress;
+use tipstrike::tui::layout::plan;
 use tipstrike::tui::measurer::{End, Measured, Measuring};
 use tipstrike::tui::theme::{Look, MONO};
 use tipstrike::tui::update::update;
@@ -208,4 +209,29 @@ fn the_pane_as_it_looks() {
     assert_snapshot!("alone_ascii", desk.screen());
     desk.keys(&["z"]);
     assert_snapshot!("beside_the_others_ascii", desk.screen());
+}
+
+#[test]
+fn every_mark_stands_on_its_side_of_the_error_that_will_do() {
+    let sizes = [(60, 16), (80, 24), (80, 30), (140, 45), (240, 70)];
+    for (width, height) in sizes {
+        let mut desk = timed(SMALL);
+        desk.app.size = Size { width, height };
+        let area = plan(desk.app.size, desk.app.panes).trade;
+        let screen = desk.screen();
+        let rows: Vec<Vec<char>> = screen.lines().map(|line| line.chars().skip(area.x.into()).collect()).collect();
+        let pane = &rows[usize::from(area.y) + 1..usize::from(area.bottom())];
+        let level = pane.iter().position(|row| row.iter().filter(|&&cell| cell == '╌').count() > 9).expect("a line");
+        let line: String = pane[level].iter().collect();
+        assert!(line.contains("5.0 %┤") && !line.contains(char::is_alphabetic), "{width}x{height}: {line}");
+        let axis = pane.iter().position(|row| row.contains(&'└')).expect("an axis");
+        let letters = |rows: &[Vec<char>]| -> Vec<char> {
+            let plot = rows.iter().flat_map(|row| row.iter().skip_while(|cell| !"│┤".contains(**cell)).copied());
+            plot.filter(|cell| "pesdaPESDA".contains(*cell)).collect()
+        };
+        // On Table 1 the closed forms and the load at rest are farther off than 5 %.
+        let (above, below) = (letters(&pane[usize::from(level > 5)..level]), letters(&pane[level + 1..axis]));
+        assert!(above.iter().all(|letter| "pesPES".contains(*letter)) && !above.is_empty(), "{width}x{height}:\n{screen}");
+        assert!(below.iter().all(|letter| "daDA".contains(*letter)) && !below.is_empty(), "{width}x{height}:\n{screen}");
+    }
 }

@@ -278,10 +278,34 @@ fn the_baseline_holds_over_tabs_and_has_its_curve_even_if_no_chart_was_in_sight(
 }
 
 #[test]
+fn what_is_held_against_the_baseline_is_plain_at_every_size() {
+    for size in [Size { width: 60, height: 16 }, SMALL, LARGE] {
+        let mut desk = Desk::on(size, "case.toml", TABLE_1);
+        desk.keys(&["Esc", "b", "2"]);
+        assert!(desk.shows("to base") && !desk.shows("…  "), "{}", desk.screen());
+        desk.fill("speed", "3000 rpm");
+        desk.keys(&["Esc", "2"]);
+        assert!(desk.shows(" %") && desk.shows("; baseline: "), "{}", desk.screen());
+        desk.keys(&["Ctrl-T"]);
+        assert!(desk.shows("to base") && desk.shows("no base") && desk.shows("baseline (exact): none"), "{}", desk.screen());
+    }
+}
+
+#[test]
+fn a_verdict_is_a_word_where_there_is_room_and_its_limit_is_whole() {
+    for (size, words) in [(SMALL, "EXCEEDED 110 %"), (Size { width: 60, height: 16 }, "! 110 %"), (LARGE, "EXCEEDED 110 %")] {
+        let mut desk = Desk::on(size, "case.toml", &TABLE_1.replace("2500 N", "2000 N"));
+        desk.keys(&["Esc", "1", "G"]);
+        let line = desk.screen().lines().find(|line| line.contains("2000 N")).unwrap_or_default().to_owned();
+        assert!(line.contains(words), "{line}\n{}", desk.screen());
+    }
+}
+
+#[test]
 fn values_that_an_edit_changed_are_marked_until_the_next_visit() {
     let mut desk = Desk::new(LARGE);
     let marked = |desk: &Desk, symbol: &str| {
-        desk.screen().lines().find(|line| line.contains(symbol)).is_some_and(|line| line.contains('•'))
+        desk.screen().lines().find(|line| line.contains(symbol)).is_some_and(|line| line.contains('←'))
     };
     desk.fill("operation.speed", "1900 rpm");
     assert!(marked(&desk, "approach velocity") && !marked(&desk, "base pitch"));
@@ -364,7 +388,7 @@ fn what_is_too_long_for_a_clipboard_is_not_sent() {
 fn notes_are_never_off_the_screen() {
     for size in [TINY, SMALL, LARGE, HUGE] {
         let mut desk = Desk::new(size);
-        assert!(desk.shows("* "), "{size}");
+        assert!(desk.shows("ote (n): ") || desk.shows("Note: "), "{size}");
         desk.keys(&["Esc", "2", "G"]);
         assert!(desk.shows(": the im") || desk.shows("the impact"), "{}", desk.screen());
     }

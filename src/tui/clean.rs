@@ -48,12 +48,14 @@ const WRITTEN_OUT: [(&str, &str); 34] = [
 ];
 
 /// What one cell becomes on a terminal without Unicode.
-const ONE_CELL: [(&str, char); 24] = [
+const ONE_CELL: [(&str, char); 26] = [
     ("─━╌┄", '-'),
     ("═", '='),
     ("│┃║▏▕┊", '|'),
     ("┌┐└┘├┤┬┴┼╭╮╰╯╔╗╚╝", '+'),
-    ("•●·∙⠿", '*'),
+    ("•●∙⠿", '*'),
+    ("·", '.'),
+    ("∘", 'o'),
     ("█▓▐▌▀▄", '#'),
     ("░▒", ':'),
     ("▸▶→›", '>'),

@@ -1,5 +1,7 @@
 //! The chart's axes: round ends that stay until a curve leaves them, and ticks at multiples of 1, 2 or 5.
 
+use crate::case::units::System;
+use crate::model::inputs::Rung;
 use crate::report::graphs::GRAPHS;
 
 /// Ends of an axis that begins at 0, times a power of ten.
@@ -11,7 +13,7 @@ const STEPS: [f64; 4] = [1.0, 2.0, 5.0, 10.0];
 
 /// Below this part of the axis the curve is too small, and the axis shrinks. An end is at most 1.5 times the one before,
 /// so that a curve that has just left its axis fills two thirds of the next.
-const TOO_SMALL: f64 = 0.45;
+const TOO_SMALL: f64 = 0.5;
 
 /// Values whose least is above this part of the greatest are drawn without 0.
 const FAR_FROM_ZERO: f64 = 0.5;
@@ -115,6 +117,13 @@ impl Span {
         if serves && (self.from > 0.0) == (needed.from > 0.0) { self } else { rounded(needed) }
     }
 
+    /// An axis with a place for all of these values, whatever this one is; this one where there are none.
+    #[must_use]
+    pub fn anew(self, values: Span) -> Span {
+        let fitted = Span::default().fitted(values);
+        if fitted.is_empty() { self } else { fitted }
+    }
+
     /// The same, but never a shorter one.
     #[must_use]
     pub fn grown(self, values: Span) -> Span {
@@ -201,10 +210,30 @@ pub struct Occasion {
     pub answered: Option<(u64, bool)>,
     /// The request of the baseline.
     pub pinned: Option<u64>,
-    /// The chosen chart.
-    pub chosen: usize,
-    /// How many charts are in sight.
-    pub count: usize,
+    /// The chosen chart, how many are in sight, and the units in which they are read.
+    pub shown: (usize, usize, System),
+    /// The rung, and the first request after the last undo.
+    pub ground: (Option<Rung>, u64),
+}
+
+/// Which axes are made anew, whether they would serve or not.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Anew {
+    /// Those of the values: of other charts, in other units.
+    pub upright: bool,
+    /// All of them: of another rung, or after an undo.
+    pub all: bool,
+}
+
+impl Occasion {
+    /// What is made anew since an earlier one. What waits for a rung that is to come keeps its ground until then.
+    #[must_use]
+    pub fn since(&mut self, before: Occasion) -> Anew {
+        if self.answered.is_some_and(|(serial, is_pending)| is_pending || serial < self.ground.1) {
+            self.ground = before.ground;
+        }
+        Anew { upright: self.shown != before.shown, all: self.ground != before.ground }
+    }
 }
 
 #[cfg(test)]
@@ -219,12 +248,14 @@ mod tests {
     #[test]
     fn an_axis_stays_until_the_curve_leaves_it() {
         for (now, greatest, then) in
-            [(0.0, 2191.0, 3000.0), (3000.0, 2999.0, 3000.0), (3000.0, 1400.0, 3000.0), (3000.0, 1300.0, 1500.0)]
+            [(0.0, 2191.0, 3000.0), (3000.0, 2999.0, 3000.0), (3000.0, 1501.0, 3000.0), (3000.0, 1499.0, 1500.0)]
         {
             assert_eq!(to(now).fitted(to(greatest)), to(then));
         }
         assert_eq!(to(2000.0).fitted(to(2001.0)), to(3000.0));
         assert_eq!(to(3000.0).grown(to(100.0)), to(3000.0));
+        assert_eq!(to(3000.0).anew(to(1700.0)), to(2000.0));
+        assert_eq!(to(3000.0).anew(Span::NONE), to(3000.0));
     }
 
     #[test]

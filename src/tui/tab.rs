@@ -61,6 +61,8 @@ pub struct Tab {
     pub has_failed: bool,
     /// The axes of the charts.
     pub scale: Scale,
+    /// The first request after the last undo or redo: the axes are made anew by its answer.
+    pub undone: u64,
     /// What they were last fitted to.
     pub fitted: Occasion,
     /// The first line of the form that is shown.
@@ -125,6 +127,7 @@ impl Tab {
             refusal: None,
             has_failed: false,
             scale: Scale::default(),
+            undone: 0,
             fitted: Occasion::default(),
             form_top: 0,
             traded: None,

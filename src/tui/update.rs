@@ -235,6 +235,7 @@ fn travel(app: &mut App, command: Command) -> Vec<Effect> {
     tab.remember();
     let told = super::recovery::told(&changes::between(&tab.case, &case));
     let effects = solve(app.replace_case(case, focus));
+    app.tab.undone = app.tab.serial;
     app.say(format!("{verb}: {told}"));
     effects
 }

@@ -42,12 +42,23 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     cursor.filter(|&cursor| area.contains(cursor))
 }
 
+/// So many columns a title has for itself in a pane of that width.
+#[must_use]
+pub fn title_room(app: &App, pane: Pane, width: u16) -> usize {
+    let hidden = hidden(app, pane, width);
+    room_beside(&hidden, width).saturating_sub(4 + "0 ".len())
+}
+
+// The hidden ones are named at the right end, before one cell of the rule.
+fn room_beside(hidden: &str, width: u16) -> usize {
+    usize::from(width).saturating_sub(if hidden.is_empty() { 0 } else { hidden.width() + 1 })
+}
+
 /// The title line of a pane: its number, whether it has the focus, its title, and in one of the panes the names of those
 /// that are not in sight; what is below it.
 pub fn titled(app: &App, pane: Pane, title: &str, area: Rect, buffer: &mut Buffer) -> Rect {
     let hidden = hidden(app, pane, area.width);
-    // The hidden ones are named at the right end, before one cell of the rule.
-    let room = usize::from(area.width).saturating_sub(if hidden.is_empty() { 0 } else { hidden.width() + 1 });
+    let room = room_beside(&hidden, area.width);
     let has_focus = app.panes.focus == pane && app.prompts.is_empty();
     let title = text::cut(&format!("{} {title}", pane.number()), room.saturating_sub(4));
     let inner = text::titled(&title, area, app.look.theme, buffer);

@@ -137,7 +137,7 @@ pub static BINDINGS: &[Binding] = &[
     listed(Place::WORK, &[function(8), alt('m')], Do::CycleMarker, "marker", "Draw the chart in Braille, blocks or dots."),
     listed(Place::WORK, &[], Do::CycleTheme, "theme", "Change the colours: quiet, contrast, mono."),
     listed(Place::WORK, &[], Do::ToggleAscii, "ascii", "Draw with ASCII alone, or with the whole of Unicode."),
-    listed(Place::WORK, &[], Do::CycleUnits, "units", "Show results and hints in metric or in inch units."),
+    listed(Place::WORK, &[], Do::CycleUnits, "units", "Show results, hints, charts and teeth in metric or in inch units."),
     listed(Place::WORK, &[], Do::ToggleMouse, "mouse", "Take the mouse (a press marks, a second one does what Enter does; with Shift held most terminals still select text), or leave it to the terminal."),
     listed(Place::WORK, &[ctrl('l')], Do::Redraw, "redraw", "Draw the screen anew."),
     listed(Place::WORK, &[alt('z')], Do::Suspend, "suspend", "Suspend to the shell; fg comes back."),

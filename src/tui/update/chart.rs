@@ -49,9 +49,10 @@ pub(super) fn strike_or_whole(app: &mut App) {
 
 /// Fit the axes to the curves in sight.
 pub(super) fn fit(app: &mut App) {
-    let occasion = occasion(app);
+    let mut occasion = occasion(app);
+    let anew = occasion.since(app.tab.fitted);
     if app.tab.fitted != occasion {
-        app.tab.scale = fitted(app);
+        app.tab.scale = fitted(app, anew);
         app.tab.fitted = occasion;
     }
 }

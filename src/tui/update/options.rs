@@ -46,7 +46,7 @@ pub(super) fn toggle_ascii(app: &mut App) -> Vec<Effect> {
 /// Metric units for what is shown, or inch.
 pub(super) fn cycle_units(app: &mut App) -> Vec<Effect> {
     app.settings.units = app.settings.units.other();
-    app.say(format!("results and hints in {} units; the case stays as it is written", app.settings.units.name()));
+    app.say(format!("results, hints, charts and teeth in {} units; the case stays as it is written", app.settings.units.name()));
     keep(app)
 }
 

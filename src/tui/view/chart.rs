@@ -11,6 +11,7 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 
 use super::{text, titled};
+use crate::model::inputs::Rung;
 use crate::model::{Outcome, Solution};
 use crate::report::absence::without_contact;
 use crate::report::graphs::{GRAPHS, Graph};
@@ -18,7 +19,7 @@ use crate::tui::app::App;
 use crate::tui::clean::symbol;
 use crate::tui::layout::plan;
 use crate::tui::pane::Pane;
-use crate::tui::scale::{Occasion, Scale, Span};
+use crate::tui::scale::{Anew, Occasion, Scale, Span};
 
 use axes::{Axes, Ruler};
 use curves::{Curve, Whose, curves, way, way_of_active};
@@ -42,8 +43,8 @@ pub fn occasion(app: &App) -> Occasion {
     Occasion {
         answered: app.answer.as_ref().map(|answer| (answer.serial, answer.pending.is_some())),
         pinned: app.baseline.as_ref().map(|baseline| baseline.answer.serial),
-        chosen: app.graph,
-        count: count(plan(app.size, app.panes).chart),
+        shown: (app.graph, count(plan(app.size, app.panes).chart), app.settings.units),
+        ground: (app.answer.as_ref().map(|answer| answer.active), app.tab.undone),
     }
 }
 
@@ -81,23 +82,29 @@ pub fn angle_at(app: &App, area: Rect, at: Position) -> Option<f64> {
 
 /// The axes on which every curve in sight has its place, the present ones where they serve.
 #[must_use]
-pub fn fitted(app: &App) -> Scale {
+pub fn fitted(app: &App, anew: Anew) -> Scale {
     let mut scale = app.scale;
     let area = plan(app.size, app.panes).chart;
     let Some(answer) = app.answer.as_ref().filter(|_| !area.is_empty()) else { return scale };
     for graph in shown(app, area) {
         let curves = curves(app, &GRAPHS[graph]);
         let values = curves.iter().map(Curve::upright).fold(Span::NONE, Span::and);
-        scale.upright[graph] = scale.upright[graph].fitted(values);
+        let now = scale.upright[graph];
+        scale.upright[graph] = if anew.upright || anew.all { now.anew(values) } else { now.fitted(values) };
     }
     // While a rung is to come, its axis waits for it.
     let pinned = app.baseline.as_ref().map(|baseline| &baseline.answer);
     let way = pinned.map_or(Span::NONE, way_of_active).and(way(answer));
-    scale.across = if answer.pending.is_some() { scale.across.grown(way) } else { scale.across.fitted(way) };
+    scale.across = match (answer.pending, anew.all) {
+        (Some(_), _) => scale.across.grown(way),
+        (None, true) => scale.across.anew(way),
+        (None, false) => scale.across.fitted(way),
+    };
     let touches = [Some(answer), pinned].into_iter().flatten().filter_map(|answer| first_contact(answer.of(answer.active)?));
     let first = touches.fold(0.0, f64::max).to_degrees();
     if first > 0.0 {
-        scale.strike = scale.strike.fitted(Span::new(-first, AFTER_E * first));
+        let strike = Span::new(-first, AFTER_E * first);
+        scale.strike = if anew.all { scale.strike.anew(strike) } else { scale.strike.fitted(strike) };
     }
     scale
 }
@@ -166,7 +173,8 @@ fn title(app: &App, graph: &Graph, axes: &Axes) -> String {
     let rung = app.answer.as_ref().map(|answer| answer.active);
     let column = rung.and_then(|rung| graph.column(rung)).or_else(|| graph.all_columns().next());
     let name = column.map_or_else(String::new, |column| {
-        format!(" {}{}", symbol(column.symbol, app.look.ascii), unit(column.shown, axes.beside.power))
+        let shown = app.settings.units.unit(column.shown);
+        format!(" {}{}", symbol(column.symbol, app.look.ascii), unit(shown, axes.beside.power))
     });
     let ruler = axes.ruler;
     // Where E stands is marked on the axis as well.
@@ -195,7 +203,7 @@ fn lack(app: &App, graph: &Graph, curves: &[Curve]) -> Option<String> {
     let label = graph.label.to_lowercase();
     let active = answer.active;
     if graph.column(active).is_none() {
-        let rungs: Vec<_> = graph.rungs().map(crate::model::inputs::Rung::name).collect();
+        let rungs: Vec<_> = graph.rungs().map(Rung::name).collect();
         return Some(format!("The rung {} has no {label}: {} do.", active.name(), rungs.join(" and ")));
     }
     Some(answer.of(active).map_or_else(|| "No valid results of this rung.".to_owned(), |solution| nothing(solution, &label)))

@@ -23,6 +23,6 @@ pub fn lines(digest: &Digest, width: usize, theme: &Theme) -> Vec<(String, Style
     if digest.limits.is_empty() {
         lines.extend(said("No limits.", plain));
     }
-    lines.extend(digest.notes.iter().flat_map(|note| empty().chain(said(&format!("* {note}"), theme.note))));
+    lines.extend(digest.notes.iter().flat_map(|note| empty().chain(said(&format!("Note: {note}"), theme.note))));
     lines
 }

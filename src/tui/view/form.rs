@@ -174,7 +174,9 @@ fn draw_field(app: &App, inputs: &Inputs, index: usize, line: Rect, buffer: &mut
     let offset = if matches!(field.kind, Kind::Text) {
         draw_words(field.label, name, style, buffer)
     } else {
-        draw_name(&symbol(field.symbol, app.look.ascii), field.label, name, style, buffer)
+        let offset = draw_name(&symbol(field.symbol, app.look.ascii), field.label, name, style, buffer);
+        offset
+            - longer(app, index, line.width - offset).min(offset.saturating_sub(MARK + SYMBOL + field.label.width() as u16 + 1))
     };
     let value = Rect { x: line.x + offset, width: line.width.saturating_sub(offset), ..line };
     draw_value(app, index, value, style, buffer)
@@ -191,13 +193,16 @@ fn draw_limit(app: &App, index: usize, limit: &Limit, line: Rect, buffer: &mut B
     let name = Rect { x: line.x + MARK, width: line.width.saturating_sub(MARK), ..line };
     let symbol = Quantity::find(limit.quantity).map_or("", |quantity| quantity.symbol);
     let symbol = self::symbol(symbol, app.look.ascii);
-    let offset = draw_name(&symbol, rows::label(&app.case, index), name, style, buffer);
+    let label = rows::label(&app.case, index);
+    let offset = draw_name(&symbol, label, name, style, buffer);
+    let (words, of_word) = standing(app, limit);
+    let left = usize::from(line.width - offset).saturating_sub(limit.text.width() + 2);
+    // The label gives up what it does not need, so that the verdict stands in a word rather than a sign.
+    let spare = usize::from(offset - MARK - SYMBOL - 1).saturating_sub(label.width());
+    let in_words = words.iter().take(2).find(|word| word.width() <= left + spare);
+    let word = in_words.or_else(|| words.iter().find(|word| word.width() <= left)).cloned().unwrap_or_default();
+    let offset = offset - word.width().saturating_sub(left).min(spare) as u16;
     let room = line.width.saturating_sub(offset);
-    let (word, of_word) = standing(app, limit);
-    let left = usize::from(room).saturating_sub(limit.text.width() + 2).max(usize::from(room) / 2);
-    let alone = word.split(' ').next().unwrap_or_default();
-    let marked = if word.ends_with(ABOVE_BESIDE) { format!("{alone}{ABOVE_BESIDE}") } else { alone.to_owned() };
-    let word = if word.width() <= left { word } else { text::cut(&marked, left) };
     let width = word.width() as u16;
     buffer.set_string(line.right() - width, line.y, &word, of_word);
     let value = Rect { x: line.x + offset, width: room.saturating_sub(width + u16::from(width > 0)), ..line };
@@ -212,17 +217,19 @@ fn draw_limit(app: &App, index: usize, limit: &Limit, line: Rect, buffer: &mut B
     )
 }
 
-// How the last valid result stands to the limit, in a word and with its style.
-fn standing(app: &App, limit: &Limit) -> (String, Style) {
+// How the last valid result stands to the limit, in words, in fewer and by a sign alone, and their style.
+fn standing(app: &App, limit: &Limit) -> (Vec<String>, Style) {
     let theme = app.look.theme;
     let is_told = !app.is_stale() && !limit.text.is_empty();
     let solution = app.answer.as_ref().and_then(|answer| answer.of(answer.active)).filter(|_| is_told);
-    let Some(verdict) = solution.map(|solution| verdict(limit, solution)) else { return (String::new(), Style::new()) };
+    let Some(verdict) = solution.map(|solution| verdict(limit, solution)) else { return (Vec::new(), Style::new()) };
     let is_above_beside = verdict.is_exceeded_beside();
     let style = if verdict.standing.holds() && !is_above_beside { theme.note } else { theme.problem };
     let part = verdict.part().map_or_else(String::new, |part| format!(" {:.0} %", 100.0 * part));
     let beside = if is_above_beside { ABOVE_BESIDE } else { "" };
-    (format!("{}{part}{beside}", verdict.standing.word()), style)
+    let word = verdict.standing.word();
+    let sign = if verdict.standing.holds() { word } else { "!" };
+    (vec![format!("{word}{part}{beside}"), format!("{word}{beside}"), format!("{sign}{part}{beside}"), sign.to_owned()], style)
 }
 
 fn draw_mark(app: &App, index: usize, line: Rect, buffer: &mut Buffer) {
@@ -236,6 +243,13 @@ fn draw_mark(app: &App, index: usize, line: Rect, buffer: &mut Buffer) {
     } else if app.problems.iter().any(|(at, _)| *at == index) {
         buffer.set_stringn(line.x, line.y, "!", 1, theme.problem);
     }
+}
+
+// By how much a value that is not edited is wider than its room.
+fn longer(app: &App, index: usize, room: u16) -> u16 {
+    let shown = app.case.text(index).map_or_else(|| app::unwritten(&app.case, index), |text| clean::clean(text).into_owned());
+    let is_edited = app.focus == index && app.has_line() && app.case.text(index).is_some();
+    if is_edited { 0 } else { (shown.width() as u16).saturating_sub(room) }
 }
 
 // Words have no symbol, and need the room for themselves.

@@ -7,10 +7,11 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 use ratatui::text::Line;
 use ratatui::widgets::Widget;
+use unicode_width::UnicodeWidthStr;
 
-use super::{text, titled};
+use super::{text, title_room, titled};
 use crate::model::inputs::Rung;
-use crate::model::{Quantity, Solution, Stage};
+use crate::model::{Note, Quantity, Solution, Stage};
 use crate::report::{self, Shown, digest};
 use crate::tui::app::App;
 use crate::tui::clean::symbol;
@@ -22,6 +23,8 @@ use crate::tui::solver::Answer;
 const ENOUGH_ROWS: usize = 8;
 /// So many at least, whatever stands above them.
 const LEAST_ROWS: usize = 2;
+/// Stands before a note.
+const NOTE: &str = "Note: ";
 /// A pane with fewer lines and columns has room for the outcome in a few words only.
 const LOW: usize = 20;
 const NARROW: usize = 30;
@@ -42,7 +45,7 @@ struct Parts {
 /// Draw the results.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let parts = parts(app, area);
-    let inner = titled(app, Pane::Results, &title(app), area, buffer);
+    let inner = titled(app, Pane::Results, &title(app, title_room(app, Pane::Results, area.width)), area, buffer);
     let Some(answer) = &app.answer else {
         draw_lines(&parts.head, inner, buffer);
         return;
@@ -99,6 +102,12 @@ pub fn scrolled(app: &App, by: isize) -> usize {
     app.results_top.saturating_add_signed(by).min(line_count(app).saturating_sub(page(app)))
 }
 
+/// The value of the marked quantity beside that of the baseline, where one is pinned.
+#[must_use]
+pub fn compared(app: &App, quantity: &Quantity) -> Option<String> {
+    table::compared(app, app.answer.as_ref()?, quantity)
+}
+
 /// The place of the quantity on a cell, where there is one.
 #[must_use]
 pub fn row_at(app: &App, area: Rect, at: Position) -> Option<usize> {
@@ -134,7 +143,7 @@ pub fn told(app: &App) -> Vec<String> {
     let Some(answer) = &app.answer else { return Vec::new() };
     let outcome = answer.of(answer.active).map(|solution| sentence(app, solution));
     let gauges = gauges(app, answer).into_iter().map(Gauge::in_full);
-    let notes = answer.notes.iter().map(|note| format!("* {}.", note.message));
+    let notes = answer.notes.iter().map(|note| format!("{NOTE}{}.", note.message));
     let lines = outcome.into_iter().chain(gauges).chain(notes);
     lines.flat_map(|line| [line, String::new()]).collect()
 }
@@ -150,15 +159,26 @@ fn lines_before(app: &App, area: Rect) -> usize {
     parts(app, area).head.len() + 2
 }
 
-fn title(app: &App) -> String {
+// As much of it as has room, so that nothing is cut.
+fn title(app: &App, room: usize) -> String {
     let name = if app.is_stale() { "Results: LAST VALID" } else { "Results" };
-    let against = app.baseline.as_ref().map_or_else(String::new, |baseline| format!(", against {}", baseline.name));
+    let name_of_base = app.baseline.as_ref().map(|baseline| format!(", against {}", baseline.name));
+    let base = app.baseline.as_ref().map_or("", |_| ", against the baseline");
+    let against = name_of_base.as_deref().unwrap_or_default();
     let answer = app.answer.as_ref();
     let pending = answer.and_then(|answer| answer.pending).map_or_else(String::new, |rung| format!(", {} to come", rung.name()));
     let cost = answer
         .filter(|_| app.shows_cost)
         .map_or_else(String::new, |answer| format!(", {} stages in {} us", answer.cost.stages, answer.cost.micros));
-    format!("{name}{against}{pending}{cost}")
+    let short = if app.is_stale() { "LAST VALID" } else { name };
+    let titles = [
+        format!("{name}{against}{pending}{cost}"),
+        format!("{name}{against}{cost}"),
+        format!("{name}{base}{cost}"),
+        format!("{name}{cost}"),
+        name.to_owned(),
+    ];
+    titles.into_iter().find(|title| title.width() <= room).unwrap_or_else(|| short.to_owned())
 }
 
 // With room every gauge and note is told in full, else each in a line, and the notes in one.
@@ -170,14 +190,14 @@ fn parts(app: &App, area: Rect) -> Parts {
     if let Some(answer) = &app.answer {
         head.extend(outcome(app, answer, width, height < LOW));
         gauges = self::gauges(app, answer).iter().map(|gauge| gauge.fitting(width)).collect();
-        notes = answer.notes.iter().map(|note| format!("* {}", note.message)).collect();
+        notes = answer.notes.iter().map(|note| format!("{NOTE}{}", note.message)).collect();
     }
     let whole = |texts: &[String]| texts.iter().flat_map(|text| text::wrap(text, width)).collect::<Vec<_>>();
     let rows_beside = |gauges: &[String], notes: &[String]| height.saturating_sub(head.len() + gauges.len() + 1 + notes.len());
     let (mut gauge_lines, mut note_lines) = (whole(&gauges), whole(&notes));
     if rows_beside(&gauge_lines, &note_lines) < ENOUGH_ROWS {
         gauge_lines = gauges.iter().map(|gauge| text::cut(gauge, width)).collect();
-        note_lines = shortened(&answer_notes(app), width);
+        note_lines = app.answer.iter().filter_map(|answer| shortened(&answer.notes, width)).collect();
     }
     let room_for_head = height.saturating_sub(1 + LEAST_ROWS + note_lines.len());
     let faint = if app.is_stale() { app.look.theme.faint } else { Style::new() };
@@ -188,15 +208,19 @@ fn parts(app: &App, area: Rect) -> Parts {
     Parts { head, rows, notes: note_lines.into_iter().map(|note| Line::styled(note, style)).collect() }
 }
 
-fn answer_notes(app: &App) -> Vec<&str> {
-    app.answer.iter().flat_map(|answer| &answer.notes).map(|note| note.message.as_str()).collect()
-}
-
-// How many notes there are, and the first words.
-fn shortened(notes: &[&str], width: usize) -> Vec<String> {
-    let Some(first) = notes.first() else { return Vec::new() };
-    let count = if notes.len() == 1 { "1 note".to_owned() } else { format!("{} notes", notes.len()) };
-    vec![text::cut(&format!("* {count}, key n: {first}"), width)]
+// The only note in full, else as many as have room by their names, else how many there are.
+fn shortened(notes: &[Note], width: usize) -> Option<String> {
+    let count = notes.len();
+    let in_full = notes.first().filter(|_| count == 1).map(|note| format!("{NOTE}{}", note.message));
+    let names: Vec<String> = notes.iter().map(|note| note.code.replace('-', " ")).collect();
+    let noun = if count == 1 { "note" } else { "notes" };
+    let by_names = (1..=count).rev().map(|told| {
+        let others = if told < count { format!(", {} more", count - told) } else { String::new() };
+        format!("{noun} , key n: {}{others}", names[..told].join(", "))
+    });
+    let counted = format!("{count} {noun}: press n");
+    let mut sayings = in_full.into_iter().chain(by_names).chain([counted.clone()]);
+    (count > 0).then(|| sayings.find(|words| words.width() <= width).unwrap_or(counted))
 }
 
 fn banner(app: &App, width: usize) -> Vec<Line<'static>> {

@@ -6,7 +6,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
-use super::{chart, results, text};
+use super::{chart, results, text, trade};
 use crate::case::fields::{self, Absent, Field, Kind};
 use crate::case::units::System;
 use crate::case::{Acting, FIELDS, Limit, acts, acts_in_part, materials};
@@ -193,15 +193,17 @@ fn focused(app: &App) -> String {
         Pane::Results => results::marked(app).map_or_else(String::new, |quantity| {
             let rung = app.answer.as_ref().map_or(Rung::Exact, |answer| answer.active);
             let name = symbol(quantity.symbol_in(rung), app.look.ascii);
-            format!(
+            let about = format!(
                 "{name} {}, {} ({}).",
                 quantity.label_in(rung).trim(),
                 symbol(quantity.equation, app.look.ascii),
                 quantity.key
-            )
+            );
+            let compared = results::compared(app, quantity).map_or_else(String::new, |compared| format!("{compared} "));
+            compared + &about
         }),
         Pane::Chart | Pane::Teeth => at_cursor(app),
-        Pane::Trade => "Error of every rung against its time.".to_owned(),
+        Pane::Trade => trade::signs(app),
     }
 }
 
@@ -253,10 +255,12 @@ fn about_limit(app: &App, limit: &Limit) -> String {
 fn at_cursor(app: &App) -> String {
     const NONE: &str = "No cursor: h and l bring it, Space lets it run.";
     const MARKS: &str = "D first contact, E and B ends of the path of contact, L last contact, d another rung's D.";
+    const LINES: &str =
+        "Solid: flanks (incoming pair bold), path of contact; dashed: line of action; dots: base circles, tip's path.";
     match app.cursor {
         Some(cursor) => chart::readout(app, cursor),
         None if app.panes.focus == Pane::Chart => format!("{NONE} {MARKS}"),
-        None => NONE.to_owned(),
+        None => format!("{NONE} {LINES}"),
     }
 }
 

@@ -38,6 +38,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         view: &app.teeth,
         look: app.look,
         marker: app.settings.marker,
+        units: app.settings.units,
         is_stale: app.is_stale(),
     };
     picture::draw(&picture, inner, buffer);

@@ -38,7 +38,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     if plot.height >= 3 && plot.width >= 20 {
         draw_plot(app, traded, trade, plot, buffer);
     }
-    write(&told(app, traded, trade), words, buffer);
+    write(&fitting(&told(app, traded, trade), words), words, buffer);
 }
 
 /// The settings that have an error and a time, the quicker ones first.
@@ -63,20 +63,42 @@ fn split(inner: Rect) -> (Rect, Rect, Rect) {
     (Rect { height: legend, ..inner }, plot, Rect { y: plot.bottom(), height: words, ..inner })
 }
 
-/// The marked setting in words; else how far the measurement is.
-fn told(app: &App, traded: &Traded, trade: &Trade) -> String {
+/// The marked setting in words, what matters most first; else how far the measurement is.
+fn told(app: &App, traded: &Traded, trade: &Trade) -> Vec<String> {
     let marked = traded.marked.and_then(|marked| trade.settings.iter().find(|measured| measured.setting == marked));
     let refused = trade.settings.iter().filter(|measured| measured.found.is_err()).count();
-    let refused = if refused > 0 { format!("; {refused} settings refuse the case") } else { String::new() };
+    let refused = (refused > 0).then(|| format!("; {refused} settings refuse the case"));
     let Some(measured) = marked else {
-        return format!("{} of {} settings measured{refused}", trade.settings.len(), trade.planned);
+        let far = format!("{} of {} settings measured", trade.settings.len(), trade.planned);
+        return std::iter::once(far).chain(refused).collect();
     };
     let qualifies = if measured.qualifies { "within" } else { "not within" };
-    let own = if own(app) == Some(measured.setting) { "; it is the case's own" } else { "" };
-    let front = if measured.is_on_front { "; none is both nearer and quicker" } else { "" };
-    let parts = parts(trade, measured).map_or_else(String::new, |parts| format!("; {parts}"));
     let on_time = if trade.comes_in_on_time() { format!("{ON_TIME}: ") } else { String::new() };
-    format!("{on_time}[{}] {qualifies} {} %{parts}{front}{own}{refused}", summary(measured), percent(trade.within))
+    let qualifies = format!(" {qualifies} {} %", percent(trade.within));
+    let own = (own(app) == Some(measured.setting)).then(|| "; it is the case's own".to_owned());
+    let front = measured.is_on_front.then(|| "; none is both nearer and quicker".to_owned());
+    let parts = parts(trade, measured).map(|parts| format!("; {parts}"));
+    let first = format!("{on_time}[{}]", summary(measured));
+    [Some(first), Some(qualifies), own, parts, front, refused].into_iter().flatten().collect()
+}
+
+/// As much of it as has room in that many lines, so that nothing is cut.
+fn fitting(told: &[String], area: Rect) -> String {
+    let width = usize::from(area.width).saturating_sub(2);
+    let fits = |words: &String| text::wrap(words, width).len() <= area.height.into();
+    let joined = |count: usize| told[..count].concat();
+    (1..=told.len()).rev().map(joined).find(fits).unwrap_or_else(|| joined(told.len().min(1)))
+}
+
+/// What the signs in the pane mean.
+#[must_use]
+pub fn signs(app: &App) -> String {
+    let within = app.traded.as_ref().and_then(|traded| traded.trade.as_ref()).map(|trade| percent(trade.within));
+    let level = within.map_or_else(String::new, |within| format!("; {LEVEL} {within} % is near enough"));
+    format!(
+        "p paper, e exact, s static, d dynamic, a auto; CAPITAL, ·: none is nearer and quicker; (x) the case's own, \
+         [x] the marked one{level}."
+    )
 }
 
 fn own(app: &App) -> Option<Setting> {
@@ -125,13 +147,11 @@ fn draw_plot(app: &App, traded: &Traded, trade: &Trade, area: Rect, buffer: &mut
     let errors = found.iter().filter_map(|measured| measured.total()).chain([trade.within]).map(shown);
     let across = Axis::of(found.iter().map(|measured| measured.seconds()), f64::from(field.left()), f64::from(field.right() - 1));
     let up = Axis::of(errors, f64::from(field.bottom() - 1), f64::from(field.top()));
-    draw_axes(app, &across, &up, field, buffer);
-    let level = up.at(shown(trade.within)).round() as u16;
-    buffer.set_string(field.x, level, LEVEL.repeat(field.width.into()), app.look.theme.rule);
-    let place = |measured: &Measured| {
-        let error = measured.total()?;
-        Some((across.at(measured.seconds()).round() as u16, up.at(shown(error)).round() as u16))
-    };
+    let errors: Vec<f64> = found.iter().filter_map(|measured| measured.total()).collect();
+    let rows = Rows::of(up, trade.within, &errors, field);
+    draw_axes(app, &across, &rows, field, buffer);
+    buffer.set_string(field.x, rows.level, LEVEL.repeat(field.width.into()), app.look.theme.rule);
+    let place = |measured: &Measured| Some((across.at(measured.seconds()).round() as u16, rows.at(measured.total()?)));
     let front: Vec<(u16, u16)> = found.iter().filter(|measured| measured.is_on_front).filter_map(|one| place(one)).collect();
     draw_front(app, &front, field, buffer);
     let own = own(app);
@@ -143,6 +163,30 @@ fn draw_plot(app: &App, traded: &Traded, trade: &Trade, area: Rect, buffer: &mut
         if let Some(at) = place(measured) {
             draw_mark(app, measured, weight(measured), at, field, buffer);
         }
+    }
+}
+
+/// The rows of the field: one is that of the error that will do, and what is above or below it stands there.
+struct Rows {
+    up: Axis,
+    within: f64,
+    level: u16,
+    field: Rect,
+}
+
+impl Rows {
+    fn of(up: Axis, within: f64, errors: &[f64], field: Rect) -> Rows {
+        let above = u16::from(errors.iter().any(|error| *error > within));
+        let below = u16::from(errors.iter().any(|error| *error <= within));
+        let (first, last) = (field.top() + above, (field.bottom() - 1).saturating_sub(below));
+        let level = (up.at(shown(within)).round() as u16).max(first).min(last.max(first));
+        Rows { up, within, level, field }
+    }
+
+    fn at(&self, error: f64) -> u16 {
+        let row = self.up.at(shown(error)).round() as u16;
+        let row = if error > self.within { row.min(self.level.saturating_sub(1)) } else { row.max(self.level + 1) };
+        row.clamp(self.field.top(), self.field.bottom() - 1)
     }
 }
 
@@ -179,7 +223,7 @@ fn draw_mark(
     buffer.set_string(x, y, mark, style);
 }
 
-fn draw_axes(app: &App, across: &Axis, up: &Axis, field: Rect, buffer: &mut Buffer) {
+fn draw_axes(app: &App, across: &Axis, rows: &Rows, field: Rect, buffer: &mut Buffer) {
     let rule = app.look.theme.rule;
     let axis = field.bottom();
     for y in field.top()..axis {
@@ -187,14 +231,14 @@ fn draw_axes(app: &App, across: &Axis, up: &Axis, field: Rect, buffer: &mut Buff
     }
     buffer.set_string(field.x - 1, axis, "└", rule);
     buffer.set_string(field.x, axis, "─".repeat(field.width.into()), rule);
-    for decade in up.marks(usize::from(field.height)) {
-        let y = up.at(10f64.powi(decade)).round() as u16;
+    let mut label = |y: u16, number: &str| {
         buffer.set_string(field.x - 1, y, "┤", rule);
+        buffer.set_string(field.x - LABEL - 1, y, format!("{number:>0$} %", usize::from(LABEL) - 2), Style::new());
+    };
+    for decade in rows.up.marks(usize::from(field.height / 2)) {
+        label(rows.at(10f64.powi(decade)), &in_percent(decade));
     }
-    for decade in up.marks(usize::from(field.height / 2)) {
-        let y = up.at(10f64.powi(decade)).round() as u16;
-        buffer.set_string(field.x - LABEL - 1, y, format!("{:>1$} %", in_percent(decade), usize::from(LABEL) - 2), Style::new());
-    }
+    label(rows.level, &percent(rows.within));
     for decade in across.marks(usize::from(field.width / 9)) {
         let x = across.at(10f64.powi(decade)).round() as u16;
         let label = time(decade);

@@ -1,6 +1,6 @@
 //! What stands in a chart: the curve of every rung, of the pinned results, and what the values are held against.
 
-use crate::case::units;
+use crate::case::units::{self, System};
 use crate::model::inputs::Rung;
 use crate::model::spacing::Spacing;
 use crate::model::{Inputs, Solution, moment};
@@ -39,6 +39,8 @@ pub struct Curve {
     pub whose: Whose,
     /// The column that it is of.
     pub column: &'static Column,
+    /// The unit in which its values are read.
+    pub unit: &'static str,
     /// Its points, from D onwards.
     pub pieces: Vec<Vec<Point>>,
 }
@@ -47,24 +49,49 @@ pub struct Curve {
 #[must_use]
 pub fn curves(app: &App, graph: &Graph) -> Vec<Curve> {
     let Some(answer) = &app.answer else { return Vec::new() };
-    let pinned = app.baseline.as_ref().and_then(|baseline| active(&baseline.answer, graph, Whose::Pinned));
+    let drawn = Drawn { graph, system: app.settings.units };
+    let pinned = app.baseline.as_ref().and_then(|baseline| drawn.active(&baseline.answer, Whose::Pinned));
     let others = answer
         .rungs
         .iter()
         .filter(|(rung, _)| *rung != answer.active)
-        .filter_map(|(rung, found)| Curve::of(graph, &answer.inputs, found.as_ref().ok()?, Whose::Other(*rung)));
-    let own = active(answer, graph, Whose::Active(answer.active));
-    pinned.into_iter().chain(others).chain(bound(answer, graph)).chain(own).collect()
+        .filter_map(|(rung, found)| drawn.curve(&answer.inputs, found.as_ref().ok()?, Whose::Other(*rung)));
+    let own = drawn.active(answer, Whose::Active(answer.active));
+    pinned.into_iter().chain(others).chain(drawn.bound(answer)).chain(own).collect()
 }
 
-fn active(answer: &Answer, graph: &Graph, whose: Whose) -> Option<Curve> {
-    Curve::of(graph, &answer.inputs, answer.of(answer.active)?, whose)
+// A chart, and the units in which it is read.
+#[derive(Clone, Copy)]
+struct Drawn<'a> {
+    graph: &'a Graph,
+    system: System,
 }
 
-fn bound(answer: &Answer, graph: &Graph) -> Option<Curve> {
-    let (solution, bound) = (answer.of(answer.active)?, graph.bound?);
-    let symbol = bound.symbols[usize::from(solution.rung.shares_load())];
-    Curve::with(graph, &answer.inputs, solution, Whose::Bound(symbol), |row| (bound.value)(solution, row))
+impl Drawn<'_> {
+    fn active(self, answer: &Answer, whose: Whose) -> Option<Curve> {
+        self.curve(&answer.inputs, answer.of(answer.active)?, whose)
+    }
+
+    fn bound(self, answer: &Answer) -> Option<Curve> {
+        let (solution, bound) = (answer.of(answer.active)?, self.graph.bound?);
+        let symbol = bound.symbols[usize::from(solution.rung.shares_load())];
+        self.with(&answer.inputs, solution, Whose::Bound(symbol), |row| (bound.value)(solution, row))
+    }
+
+    // None where the rung has no such column, or no station.
+    fn curve(self, inputs: &Inputs, solution: &Solution, whose: Whose) -> Option<Curve> {
+        let column = self.graph.column(solution.rung)?;
+        self.with(inputs, solution, whose, |row| column.of(row))
+    }
+
+    fn with(self, inputs: &Inputs, solution: &Solution, whose: Whose, value: impl Fn(Row) -> Option<f64>) -> Option<Curve> {
+        let column = self.graph.column(solution.rung)?;
+        let unit = self.system.unit(column.shown);
+        let factor = units::factor(unit).unwrap_or(1.0);
+        let points = rows(solution).into_iter().map(|row| (angle(row), value(row).map(|value| value / factor)));
+        let pieces = pieces(points, longest_interval(inputs, solution));
+        (!pieces.is_empty()).then_some(Curve { whose, column, unit, pieces })
+    }
 }
 
 /// The curves without what lies on the active one, where nothing would be seen but specks of it.
@@ -92,26 +119,6 @@ impl Curve {
             runs.map(|run| run.iter().map(|&at| piece[at]).collect()).collect::<Vec<Vec<Point>>>()
         });
         Curve { pieces: pieces.collect(), ..self }
-    }
-
-    // None where the rung has no such column, or no station.
-    fn of(graph: &Graph, inputs: &Inputs, solution: &Solution, whose: Whose) -> Option<Curve> {
-        let column = graph.column(solution.rung)?;
-        Curve::with(graph, inputs, solution, whose, |row| column.of(row))
-    }
-
-    fn with(
-        graph: &Graph,
-        inputs: &Inputs,
-        solution: &Solution,
-        whose: Whose,
-        value: impl Fn(Row) -> Option<f64>,
-    ) -> Option<Curve> {
-        let column = graph.column(solution.rung)?;
-        let unit = units::factor(column.shown).unwrap_or(1.0);
-        let points = rows(solution).into_iter().map(|row| (angle(row), value(row).map(|value| value / unit)));
-        let pieces = pieces(points, longest_interval(inputs, solution));
-        (!pieces.is_empty()).then_some(Curve { whose, column, pieces })
     }
 
     /// The least and the greatest value.
@@ -231,7 +238,7 @@ mod tests {
         let column = &crate::report::stations::COLUMNS[6];
         let curve = |whose, points: &[f64]| {
             let points = points.iter().enumerate().map(|(at, y)| (at as f64, *y)).collect();
-            Curve { whose, column, pieces: vec![points] }
+            Curve { whose, column, unit: column.shown, pieces: vec![points] }
         };
         let own = curve(Whose::Active(Rung::Exact), &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
         let same = curve(Whose::Other(Rung::Static), &[0.0, 1.0, 2.0, 3.0, 4.0]);
@@ -245,7 +252,8 @@ mod tests {
     #[test]
     fn a_value_between_stations_is_on_the_line_and_beyond_them_there_is_none() {
         let column = &crate::report::stations::COLUMNS[6];
-        let curve = Curve { whose: Whose::Pinned, column, pieces: vec![vec![(-1.0, 4.0), (0.0, 2.0), (0.0, 8.0), (1.0, 0.0)]] };
+        let pieces = vec![vec![(-1.0, 4.0), (0.0, 2.0), (0.0, 8.0), (1.0, 0.0)]];
+        let curve = Curve { whose: Whose::Pinned, column, unit: column.shown, pieces };
         for (x, y) in [(-1.0, Some(4.0)), (-0.5, Some(3.0)), (0.0, Some(8.0)), (1.0, Some(0.0)), (1.1, None), (-1.1, None)] {
             assert_eq!(curve.at(x), y, "{x}");
         }

@@ -27,7 +27,7 @@ pub fn marker(app: &App, whose: Whose) -> Marker {
         Whose::Other(Rung::Paper) => Marker::Custom(if plain { '.' } else { '·' }),
         Whose::Other(Rung::Static) => Marker::Custom(if plain { 'x' } else { '×' }),
         Whose::Other(_) => Marker::Custom(if plain { 'o' } else { '∘' }),
-        Whose::Pinned => Marker::Custom(if plain { '+' } else { '•' }),
+        Whose::Pinned => Marker::Custom('+'),
         Whose::Bound(_) => Marker::Custom(if plain { '-' } else { '╌' }),
     }
 }

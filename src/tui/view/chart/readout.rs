@@ -77,10 +77,10 @@ fn value(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<(f64, u
 fn told(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<String> {
     let name = |text: &'static str| symbol(text, app.look.ascii).into_owned();
     let (value, digits) = value(app, graph, curve, cursor)?;
-    let in_unit = value / units::factor(curve.column.shown).unwrap_or(1.0);
+    let in_unit = value / units::factor(curve.unit).unwrap_or(1.0);
     let most = curve.pieces.iter().flatten().map(|(_, y)| y.abs()).fold(0.0, f64::max);
     let told = if in_unit.abs() < ROUNDING * most { 0.0 } else { value };
-    let (number, unit) = units::system::shown(told, curve.column.shown, digits, units::System::Metric);
+    let (number, unit) = units::system::shown(told, curve.column.shown, digits, app.settings.units);
     let number = format!("{number} {unit}").trim_end().to_owned();
     Some(match curve.whose {
         Whose::Active(_) => format!("{} {number}", name(curve.column.symbol)),

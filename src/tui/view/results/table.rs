@@ -56,6 +56,10 @@ const UNIT: usize = 7;
 const EQUATION: usize = 12;
 /// Labels are worth more than a further rung from so many on.
 const ENOUGH_RUNGS: usize = 2;
+/// Stands behind a value that the last edit changed.
+const CHANGED: &str = "←";
+/// The heading of the differences.
+const TO_BASE: &str = "to base";
 /// Below this part of the baseline a difference is none that a person reads.
 const NO_DIFFERENCE: f64 = 5e-6;
 
@@ -71,7 +75,9 @@ pub(super) struct Table {
 struct Columns {
     labels: bool,
     rungs: Vec<Rung>,
-    difference: bool,
+    unit: bool,
+    /// How wide the difference is, where there is a baseline.
+    difference: Option<usize>,
     equation: bool,
 }
 
@@ -127,13 +133,24 @@ pub(super) fn lines(app: &App, answer: &Answer, width: usize, hidden: (usize, us
 impl Columns {
     // The difference takes the place of the equation, and on a narrow screen that of the other rungs.
     fn of(app: &App, answer: &Answer, width: usize) -> Columns {
-        let difference = app.baseline.is_some();
-        let more = if difference { VALUE } else { 0 };
+        let has_base = app.baseline.is_some();
+        let more = if has_base { VALUE } else { 0 };
         let room_beside = |names: usize| width.saturating_sub(names + UNIT + more) / VALUE;
         let beside_labels = room_beside(LONG_SYMBOL + LABEL);
         let rungs = rungs(answer, if beside_labels >= ENOUGH_RUNGS { beside_labels } else { room_beside(SYMBOL) });
         let with_labels = LONG_SYMBOL + LABEL + rungs.len() * VALUE + UNIT + more;
-        Columns { labels: width >= with_labels, rungs, difference, equation: !difference && width >= with_labels + EQUATION }
+        let least = SYMBOL + VALUE + UNIT + VALUE;
+        // The unit is told of the marked quantity: beside it there is no room for both.
+        let unit = !has_base || width >= least;
+        let room = if unit { VALUE - 1 } else { width.saturating_sub(SYMBOL + VALUE).min(VALUE - 1) };
+        let labels = width >= with_labels;
+        Columns {
+            labels,
+            rungs,
+            unit,
+            difference: has_base.then_some(room),
+            equation: !has_base && width >= with_labels + EQUATION,
+        }
     }
 }
 
@@ -170,10 +187,12 @@ fn heading(app: &App, answer: &Answer, columns: &Columns, hidden: (usize, usize)
         let style = if is_active { app.look.theme.active } else { app.look.theme.other };
         spans.push(Span::styled(format!("{name:>0$} ", VALUE - 1), style));
     }
-    if columns.difference {
+    if let Some(room) = columns.difference {
         let base = app.baseline.as_ref().map(|baseline| base_rung(answer, &baseline.answer));
-        let other = base.filter(|&base| base != answer.active).map_or("base", Rung::name);
-        spans.push(Span::styled(format!("{:UNIT$}{:>2$}", "", format!("to {other}"), VALUE - 1), app.look.theme.baseline));
+        let other = base.filter(|&base| base != answer.active).map(|rung| format!("{TO_BASE}, {}", rung.name()));
+        let width = room + if columns.unit { UNIT } else { 0 };
+        let heading = other.filter(|heading| heading.len() <= width).unwrap_or_else(|| TO_BASE.to_owned());
+        spans.push(Span::styled(format!("{heading:>width$}"), app.look.theme.baseline));
     }
     Line::from(spans)
 }
@@ -197,10 +216,12 @@ fn row(app: &App, answer: &Answer, quantity: &Quantity, columns: &Columns) -> Li
         let mark = if is_active { mark(app, answer, quantity) } else { " " };
         spans.push(Span::styled(format!("{number:>0$}{mark}", VALUE - 1), style));
     }
-    spans.push(Span::raw(text::padded(unit, UNIT)));
-    if columns.difference {
+    if columns.unit {
+        spans.push(Span::raw(text::padded(unit, UNIT)));
+    }
+    if let Some(room) = columns.difference {
         let difference = difference(app, answer, quantity);
-        spans.push(Span::styled(format!("{difference:>0$}", VALUE - 1), app.look.theme.baseline));
+        spans.push(Span::styled(format!("{difference:>room$}"), app.look.theme.baseline));
     }
     if columns.equation {
         spans.push(Span::styled(format!(" {}", text::cut(quantity.equation, EQUATION - 1)), app.look.theme.faint));
@@ -216,7 +237,7 @@ fn mark(app: &App, answer: &Answer, quantity: &Quantity) -> &'static str {
         limit.zip(solution).is_some_and(|(limit, solution)| verdict(limit, solution).standing == Standing::Exceeded);
     match is_exceeded {
         true => "!",
-        false if is_changed(app, answer, quantity) => "•",
+        false if is_changed(app, answer, quantity) => CHANGED,
         false => " ",
     }
 }
@@ -233,14 +254,32 @@ fn is_changed(app: &App, answer: &Answer, quantity: &Quantity) -> bool {
 
 // The active rung's value against the same rung's of the baseline, in percent of it.
 fn difference(app: &App, answer: &Answer, quantity: &Quantity) -> String {
-    let value = |from: &Answer, rung| report::value_as_in(quantity, from.of(rung)?, answer.active);
-    let base = app.baseline.as_ref().and_then(|baseline| value(&baseline.answer, base_rung(answer, &baseline.answer)));
-    match (value(answer, answer.active), base) {
+    let now = value(answer, answer.active, quantity);
+    match (now, base(app, answer, quantity).and_then(|(_, base)| base)) {
         (Some(now), Some(base)) => against(now, base),
-        (Some(_), None) => "new".to_owned(),
-        (None, Some(_)) => "gone".to_owned(),
+        (Some(_), None) => "no base".to_owned(),
+        (None, Some(_)) => "in base".to_owned(),
         (None, None) => String::new(),
     }
+}
+
+/// The quantity's value and that of the baseline, with the rung of the latter where it is another.
+pub(super) fn compared(app: &App, answer: &Answer, quantity: &Quantity) -> Option<String> {
+    let (rung, base) = base(app, answer, quantity)?;
+    let told = |value: Option<f64>| value.map_or_else(|| "none".to_owned(), |value| shown_in(app, quantity, value).to_string());
+    let whose = if rung == answer.active { String::new() } else { format!(" ({})", rung.name()) };
+    Some(format!("{}; baseline{whose}: {}.", told(value(answer, answer.active, quantity)), told(base)))
+}
+
+// The rung and the value of the baseline.
+fn base(app: &App, answer: &Answer, quantity: &Quantity) -> Option<(Rung, Option<f64>)> {
+    let base = &app.baseline.as_ref()?.answer;
+    let rung = base_rung(answer, base);
+    Some((rung, report::value_as_in(quantity, base.of(rung)?, answer.active)))
+}
+
+fn value(answer: &Answer, rung: Rung, quantity: &Quantity) -> Option<f64> {
+    report::value_as_in(quantity, answer.of(rung)?, answer.active)
 }
 
 // The rung of the baseline that the active one is held against: the same one, where it was solved.

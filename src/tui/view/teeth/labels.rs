@@ -9,11 +9,13 @@ use unicode_width::UnicodeWidthStr;
 use super::ink::Ink;
 use super::picture::Picture;
 use super::scene::Scene;
+use super::window::unit_of_length;
+use crate::case::units::System;
 use crate::model::placing::{driven_tangent_point, driver_tangent_point};
 use crate::numeric::decimal::significant;
 
-/// Units of the scale bar, the longest first, in m.
-const UNITS: [(f64, &str); 4] = [(1.0, "m"), (1e-3, "mm"), (1e-6, "um"), (1e-9, "nm")];
+/// So many columns and rows from its point a name may stand.
+const NEAR: (i32, i32) = (8, 3);
 
 /// What stands on the picture, so that no word comes to lie over another.
 #[derive(Debug)]
@@ -33,7 +35,7 @@ impl Labels {
     /// Write the scale, the factor, and every name that has room; the cells that they take.
     pub fn draw(mut self, scene: &Scene, picture: &Picture, buffer: &mut Buffer) -> Vec<Rect> {
         let theme = picture.look.theme;
-        self.draw_scale(scene, Ink::Mark.style(theme), buffer);
+        self.draw_scale(scene, picture, buffer);
         self.draw_factor(scene, Ink::Mark.style(theme), buffer);
         let cells: Vec<_> = scene.points.iter().filter_map(|point| Some((point.name, self.cell(scene, point.at)?))).collect();
         self.marks.extend(cells.iter().map(|(_, at)| *at));
@@ -49,16 +51,17 @@ impl Labels {
         self.words
     }
 
-    /// The length of the bar beside it, in the lower left corner.
-    fn draw_scale(&mut self, scene: &Scene, style: Style, buffer: &mut Buffer) {
-        let Some(end) = self.cell(scene, scene.bar.1) else { return };
-        let text = length((scene.bar.1 - scene.bar.0).norm());
-        let line = Rect { y: self.area.bottom() - 1, height: 1, ..self.area };
+    /// The length of the bar beside it.
+    fn draw_scale(&mut self, scene: &Scene, picture: &Picture, buffer: &mut Buffer) {
+        let Some((start, end)) = self.cell(scene, scene.bar.0).zip(self.cell(scene, scene.bar.1)) else { return };
+        let text = length((scene.bar.1 - scene.bar.0).norm(), picture.units);
+        let style = Ink::Mark.style(picture.look.theme);
+        let line = Rect { y: end.y, height: 1, ..self.area };
         self.put(&text, Rect { x: end.x + 2, width: text.width() as u16, ..line }, style, buffer);
-        self.words.push(Rect { width: end.x + 1 - self.area.x, ..line });
+        self.words.push(Rect { x: start.x, width: end.x + 1 - start.x, ..line });
     }
 
-    /// How far the gap is exaggerated, in the first corner where nothing is drawn, else in the upper right one.
+    /// How far the gap is exaggerated, in the first corner where nothing is drawn, else where there is room.
     fn draw_factor(&mut self, scene: &Scene, style: Style, buffer: &mut Buffer) {
         let Some(factor) = scene.factor else { return };
         let text = format!("gap x{}", times(factor));
@@ -66,9 +69,11 @@ impl Labels {
         let (left, right) = (self.area.x + 1, self.area.right().saturating_sub(width + 1).max(self.area.x));
         let (top, bottom) = (self.area.y, self.area.bottom() - 1);
         let corners = [(right, top), (left, top), (right, bottom), (left, bottom.saturating_sub(1))];
-        let rooms = corners.map(|(x, y)| Rect { x, y, width, height: 1 });
-        let free = rooms.into_iter().find(|room| self.is_free(*room) && covered(*room, buffer) == 0);
-        self.put(&text, free.unwrap_or(rooms[0]), style, buffer);
+        let edges = [top, bottom].into_iter().flat_map(|y| (left..=right).rev().map(move |x| (x, y)));
+        let inside = (top..=bottom).flat_map(|y| (left..=right).rev().map(move |x| (x, y)));
+        let mut rooms = corners.into_iter().chain(edges).chain(inside).map(|(x, y)| Rect { x, y, width, height: 1 });
+        let free = rooms.find(|room| self.is_free(*room) && covered(*room, buffer) == 0);
+        self.put(&text, free.unwrap_or(Rect { x: right, y: top, width, height: 1 }), style, buffer);
     }
 
     /// Where the line of action leaves what is in sight, towards a point of tangency that is not.
@@ -88,16 +93,29 @@ impl Labels {
         Some(Position { x: self.area.x + x, y: self.area.y + y })
     }
 
-    /// Write a name where it covers least of the picture around its point, and no more cells than so many.
+    /// Write a name next to its point, where it covers nothing of the picture; else near it, and not nearer to another
+    /// point; else, where so many cells may be covered, where it covers least.
     fn put_beside(&mut self, name: &str, at: Position, most: usize, style: Style, buffer: &mut Buffer) {
         let width = i32::from(name.width() as u16);
         let places = [(1, 0), (2, -1), (2, 1), (-width, 0), (-width - 1, -1), (-width - 1, 1), (-width / 2, -1), (-width / 2, 1)];
-        let further = [(2, -2), (2, 2), (-width - 1, -2), (-width - 1, 2), (4, 0), (-width - 3, 0)];
+        let mut further: Vec<(i32, i32)> =
+            (-NEAR.1..=NEAR.1).flat_map(|down| (-NEAR.0 - width..=NEAR.0).map(move |right| (right, down))).collect();
+        further.sort_by_key(|&(right, down)| distance((right, down), width));
         let rooms = places.into_iter().chain(further).filter_map(|(right, down)| self.room(at, right, down, width));
-        let free = rooms.filter(|room| self.is_free(*room)).min_by_key(|room| covered(*room, buffer));
-        if let Some(room) = free.filter(|room| covered(*room, buffer) <= most) {
+        let free: Vec<Rect> = rooms.filter(|room| self.is_free(*room) && self.is_nearest(*room, at)).collect();
+        let best = free.into_iter().min_by_key(|room| covered(*room, buffer));
+        if let Some(room) = best.filter(|room| covered(*room, buffer) <= most) {
             self.put(name, room, style, buffer);
         }
+    }
+
+    /// Whether no other mark is nearer to a word.
+    fn is_nearest(&self, room: Rect, at: Position) -> bool {
+        let from = |mark: &Position| {
+            let off = (i32::from(room.x) - i32::from(mark.x), i32::from(room.y) - i32::from(mark.y));
+            distance(off, i32::from(room.width))
+        };
+        self.marks.iter().all(|mark| *mark == at || from(mark) > from(&at))
     }
 
     /// Write a name at the first of several places where it covers nothing of the picture.
@@ -131,15 +149,19 @@ impl Labels {
     }
 }
 
+/// How far from a point a word stands that begins so many columns and rows from it, in columns.
+fn distance((right, down): (i32, i32), width: i32) -> i32 {
+    right.max(1 - width - right).max(0) + 2 * down.abs()
+}
+
 /// How many cells of a room are drawn on.
 fn covered(room: Rect, buffer: &Buffer) -> usize {
     room.positions().filter(|position| buffer.cell(*position).is_some_and(|cell| !cell.symbol().trim().is_empty())).count()
 }
 
 /// A length in the unit in which it is a small number.
-fn length(length: f64) -> String {
-    let last = UNITS[UNITS.len() - 1];
-    let (unit, name) = UNITS.into_iter().find(|(unit, _)| length >= 0.999 * unit).unwrap_or(last);
+fn length(length: f64, system: System) -> String {
+    let (unit, name) = unit_of_length(length, system);
     format!("{} {name}", significant(length / unit, 1))
 }
 

@@ -7,12 +7,17 @@ use nalgebra::{Point2, Vector2};
 
 use super::ink::Ink;
 use super::trace::{Stretch, trace};
-use super::window::Window;
+use super::window::{Window, unit_of_length};
+use crate::case::units::System;
 use crate::model::placing::Placed;
 use crate::tui::zoom::round_down;
 
 /// Below this many dots from tooth to tooth the circles stand for them.
 const LEAST_PITCH: f64 = 5.0;
+/// So many places along an edge are looked at for the scale bar.
+const PLACES: u32 = 24;
+/// Columns that its label takes beside it.
+const BAR_LABEL: f64 = 9.0;
 /// Part of the width that the scale bar takes at the most.
 const BAR: f64 = 0.25;
 
@@ -146,16 +151,43 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// The scale bar, in the lower left corner.
-    pub fn bar(&mut self) -> (Point2<f64>, Point2<f64>) {
+    /// The scale bar, along the lower edge or the upper one, the lower left corner first.
+    pub fn bar(&mut self, system: System) -> (Point2<f64>, Point2<f64>) {
         let (dot, high) = (self.window.dot, self.window.dot_height());
-        let from = self.window.centre - self.window.half + Vector2::new(2.0 * dot, 0.25 * high);
-        let to = from + Vector2::new(round_down(BAR * 2.0 * self.window.half.x), 0.0);
+        let most = BAR * 2.0 * self.window.half.x;
+        let (unit, _) = unit_of_length(most, system);
+        let length = round_down(most / unit) * unit;
+        let room = Vector2::new(length + BAR_LABEL * self.window.column(), self.window.row());
+        let (low, top) = (self.window.centre - self.window.half, self.window.centre + self.window.half);
+        let margin = Vector2::new(2.0 * dot, 0.25 * high);
+        let left = low + margin;
+        let (right, up) = ((top.x - room.x - margin.x).max(left.x), (top.y - 1.5 * high).max(left.y));
+        let from = self.free_place(left, Point2::new(right, up), room);
+        let to = from + Vector2::new(length, 0.0);
         self.strokes.push(Stroke { from, to, ink: Ink::Mark });
         for end in [from, to] {
             self.strokes.push(Stroke { from: end, to: end + Vector2::new(0.0, high), ink: Ink::Mark });
         }
         (from, to)
+    }
+
+    /// Where along the lower edge and then the upper one fewest strokes are in a room, from the corners inwards.
+    fn free_place(&self, low: Point2<f64>, top: Point2<f64>, room: Vector2<f64>) -> Point2<f64> {
+        let part = |place: u32| f64::from(place) / f64::from(PLACES);
+        let mut parts: Vec<f64> = (0..=PLACES).map(part).collect();
+        parts.sort_by(|one, other| one.min(1.0 - one).total_cmp(&other.min(1.0 - other)));
+        let mut best = (usize::MAX, low);
+        for y in [low.y, top.y] {
+            let row = if y > low.y { self.window.centre.y + self.window.half.y - room.y } else { y };
+            let band = self.window.around(Point2::new(low.x, row), Vector2::new(top.x - low.x + room.x, room.y));
+            let near: Vec<&Stroke> = self.strokes.iter().filter(|stroke| band.clip(stroke.from, stroke.to).is_some()).collect();
+            for at in parts.iter().map(|part| Point2::new(low.x + part * (top.x - low.x), y)) {
+                let window = self.window.around(Point2::new(at.x, row), room);
+                let count = near.iter().filter(|stroke| window.clip(stroke.from, stroke.to).is_some()).count();
+                best = if count < best.0 { (count, at) } else { best };
+            }
+        }
+        best.1
     }
 
     /// A cross of five dots, or a dot where a dot is a cell.

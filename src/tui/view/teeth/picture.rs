@@ -4,10 +4,12 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::symbols::Marker;
+use unicode_width::UnicodeWidthStr;
 
 use super::labels::Labels;
 use super::scene::Scene;
 use super::{ink, readings};
+use crate::case::units::System;
 use crate::model::{Inputs, Moment, Solution, moment};
 use crate::tui::clean::symbol;
 use crate::tui::theme::Look;
@@ -15,10 +17,10 @@ use crate::tui::zoom::TeethView;
 
 /// Least width and height of the picture itself, in cells.
 const SMALLEST: (u16, u16) = (12, 4);
-/// From this width on the values have room in one line, whatever they are, and from this height on in two: the picture
-/// keeps its size when values come and go.
-const ONE_LINE_FROM: u16 = 130;
+/// The values have one line, and from these heights on two and three. They keep their places and the picture its size when
+/// one of them has no number.
 const TWO_LINES_FROM: u16 = 13;
+const THREE_LINES_FROM: u16 = 20;
 
 /// All that the picture shows.
 #[derive(Debug, Clone, Copy)]
@@ -35,6 +37,8 @@ pub struct Picture<'a> {
     pub look: Look,
     /// How a point is drawn.
     pub marker: Marker,
+    /// The units in which it is read.
+    pub units: System,
     /// Whether the results are not those of what the form says now.
     pub is_stale: bool,
 }
@@ -52,9 +56,10 @@ impl Picture<'_> {
 pub fn draw(picture: &Picture, area: Rect, buffer: &mut Buffer) {
     let area = area.intersection(buffer.area);
     let moment = Moment::at(picture.inputs, picture.solution, picture.angle());
-    let lines = if area.width < ONE_LINE_FROM && area.height >= TWO_LINES_FROM { 2 } else { 1 };
-    let plot = Rect { height: area.height.saturating_sub(lines), ..area };
     let values = values(picture, moment.as_ref(), area.width);
+    let most = 1 + u16::from(area.height >= TWO_LINES_FROM) + u16::from(area.height >= THREE_LINES_FROM);
+    let lines = most.min(values.len().max(1) as u16);
+    let plot = Rect { height: area.height.saturating_sub(lines), ..area };
     for (line, y) in values.iter().zip(plot.bottom()..area.bottom()) {
         buffer.set_stringn(area.x + 1, y, line, usize::from(area.width.saturating_sub(1)), Style::new());
     }
@@ -68,7 +73,11 @@ pub fn draw(picture: &Picture, area: Rect, buffer: &mut Buffer) {
 
 /// The values at the cursor, in lines.
 fn values(picture: &Picture, moment: Option<&Moment>, width: u16) -> Vec<String> {
-    let told = moment.map(readings::readings).unwrap_or_default();
-    let told = told.iter().map(|reading| symbol(&reading.to_string(), picture.look.ascii).into_owned());
+    let ascii = picture.look.ascii;
+    let told = moment.map(|moment| readings::readings(moment, picture.solution.rung, picture.units)).unwrap_or_default();
+    let told = told.iter().map(|reading| {
+        let cells = reading.width(symbol(reading.symbol, ascii).width());
+        (symbol(&reading.to_string(), ascii).into_owned(), cells)
+    });
     readings::lines(told, usize::from(width.saturating_sub(1)))
 }

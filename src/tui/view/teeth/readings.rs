@@ -4,51 +4,93 @@ use std::fmt;
 
 use unicode_width::UnicodeWidthStr;
 
-use crate::case::units::system::{self, System};
+use crate::case::units::System;
+use crate::case::units::system::shown;
 use crate::model::Moment;
-use crate::report;
+use crate::model::inputs::Rung;
 use crate::report::stations::{COLUMNS, Column, Row};
 
 /// Significant digits of the opening.
 const GAP_DIGITS: usize = 4;
-
-/// What the charts tell and no picture shows.
-const CHARTS_ALONE: [&str; 2] = ["pair_compliance", "impact_energy"];
+/// The opening, which no station tells.
+const OPEN: &str = "open";
+/// What is told where the rung has a value for it, or the involutes have: what matters first. The charts tell the rest.
+const ORDER: [&str; 12] = [
+    "roll_angle_driver",
+    "impact_force",
+    "force",
+    OPEN,
+    "gap",
+    "normal_velocity",
+    "sliding_velocity",
+    "load_share",
+    "transmission_error",
+    "radius_driver",
+    "time",
+    "roll_angle_driven",
+];
+/// Stands for a number that is not there.
+const NONE: &str = "–";
+/// Cells of a number.
+const NUMBER: usize = 7;
 
 /// A value at the cursor.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Reading {
     /// The symbol in the field's writing.
     pub symbol: &'static str,
-    /// The number.
-    pub number: String,
+    /// The number, where there is one.
+    pub number: Option<String>,
     /// The unit.
     pub unit: &'static str,
 }
 
-impl fmt::Display for Reading {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {}", self.symbol, self.number)?;
-        if self.unit.is_empty() { Ok(()) } else { write!(f, " {}", self.unit) }
+impl Reading {
+    /// So many cells it takes, whatever the number, after a symbol so wide.
+    #[must_use]
+    pub fn width(&self, symbol: usize) -> usize {
+        symbol + 1 + NUMBER + if self.unit.is_empty() { 0 } else { 1 + self.unit.len() }
     }
 }
 
-/// Every value that the moment has, as a station tells it, and the opening; the driven angle last, which is only the ratio off.
-#[must_use]
-pub fn readings(moment: &Moment) -> Vec<Reading> {
-    let (last, first): (Vec<_>, Vec<_>) = COLUMNS.iter().partition(|column| column.key == "roll_angle_driven");
-    let told = moment.told.as_ref().map(Row::from);
-    let reading = |column: &&Column| {
-        if CHARTS_ALONE.contains(&column.key) {
-            return None;
+impl fmt::Display for Reading {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.number {
+            None => write!(f, "{} {NONE}", self.symbol),
+            Some(number) if self.unit.is_empty() => write!(f, "{} {number}", self.symbol),
+            Some(number) => write!(f, "{} {number} {}", self.symbol, self.unit),
         }
-        let value = told.and_then(|row| column.of(row)).or_else(|| without_contact(moment, column.key))?;
-        let digits = moment.told.as_ref().map_or(column.digits, |told| column.digits_of(told));
-        let (number, unit) = system::shown(value, column.shown, digits, System::Metric);
-        Some(Reading { symbol: column.symbol, number, unit })
-    };
-    let open = Reading { symbol: "open", number: report::number(moment.opening, "um", GAP_DIGITS), unit: "um" };
-    first.iter().filter_map(reading).chain([open]).chain(last.iter().filter_map(reading)).collect()
+    }
+}
+
+/// Every value that the rung has at some place, and the opening, in an order that stays.
+#[must_use]
+pub fn readings(moment: &Moment, rung: Rung, system: System) -> Vec<Reading> {
+    ORDER
+        .into_iter()
+        .filter_map(|key| if key == OPEN { Some(open(moment, system)) } else { reading(moment, key, rung, system) })
+        .collect()
+}
+
+fn open(moment: &Moment, system: System) -> Reading {
+    let (number, unit) = shown(moment.opening, "um", GAP_DIGITS, system);
+    Reading { symbol: OPEN, number: Some(number), unit }
+}
+
+fn reading(moment: &Moment, key: &str, rung: Rung, system: System) -> Option<Reading> {
+    let column: &Column = COLUMNS.iter().find(|column| column.key == key)?;
+    let told = moment.told.as_ref().map(Row::from).and_then(|row| column.of(row));
+    let value = told.or_else(|| without_contact(moment, key));
+    if value.is_none() && !column.rungs.contains(&rung) {
+        return None;
+    }
+    let digits = moment.told.as_ref().map_or(column.digits, |told| column.digits_of(told));
+    let usual = if column.shown == "1" { "" } else { system.unit(column.shown) };
+    let (number, unit) = value.map_or((None, usual), |value| {
+        let (number, unit) = shown(value, column.shown, digits, system);
+        (Some(number), unit)
+    });
+    Some(Reading { symbol: column.symbol, number, unit })
 }
 
 /// What the involutes do where the rung tells nothing.
@@ -64,18 +106,37 @@ fn without_contact(moment: &Moment, key: &str) -> Option<f64> {
     }
 }
 
-/// The values in lines of at most a width, two spaces between them.
+/// The values in lines of at most a width, each with the cells that it takes whatever its number, two spaces between them.
 #[must_use]
-pub fn lines(values: impl Iterator<Item = String>, width: usize) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for value in values {
+pub fn lines(values: impl Iterator<Item = (String, usize)>, width: usize) -> Vec<String> {
+    let mut lines: Vec<(String, usize)> = Vec::new();
+    for (value, cells) in values {
         match lines.last_mut() {
-            Some(line) if line.width() + 2 + value.width() <= width => {
-                line.push_str("  ");
+            Some((line, end)) if *end + 2 + cells <= width => {
+                // A number that is longer takes of the space behind it.
+                let gap = (*end + 2).saturating_sub(line.width()).max(1);
+                line.push_str(&" ".repeat(gap));
                 line.push_str(&value);
+                *end += 2 + cells;
             }
-            _ => lines.push(value),
+            _ => lines.push((value, cells)),
         }
     }
-    lines
+    lines.into_iter().map(|(line, _)| line).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_value_stays_in_its_place_whatever_the_others_are() {
+        let line = |numbers: [Option<&str>; 2]| {
+            let readings = numbers.map(|number| Reading { symbol: "F_S", number: number.map(str::to_owned), unit: "N" });
+            lines(readings.iter().map(|reading| (reading.to_string(), reading.width(3))), 40)
+        };
+        assert_eq!(line([Some("2191.0"), Some("1")]), ["F_S 2191.0 N   F_S 1 N"]);
+        assert_eq!(line([None, Some("1")]), ["F_S –          F_S 1 N"]);
+        assert_eq!(line([Some("-0.12345"), Some("1")]), ["F_S -0.12345 N F_S 1 N"]);
+    }
 }

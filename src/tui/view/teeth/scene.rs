@@ -64,7 +64,7 @@ impl Scene {
         for (at, ink) in points.iter().map(|point| (point.at, Ink::Mark)).chain(contacts) {
             pen.cross(at, ink);
         }
-        let bar = pen.bar();
+        let bar = pen.bar(picture.units);
         Scene { strokes: pen.strokes, points, bodies: [bodies(&placing.driver), bodies(&placing.driven)], factor, bar, window }
     }
 }

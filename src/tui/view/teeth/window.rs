@@ -4,6 +4,7 @@ use nalgebra::{Point2, Vector2};
 use ratatui::layout::Size;
 use ratatui::symbols::Marker;
 
+use crate::case::units::System;
 use crate::model::moment::first_contact_point;
 use crate::model::placing::on_line_of_action;
 use crate::model::{Inputs, Solution};
@@ -14,6 +15,23 @@ use crate::tui::zoom::{Centre, TeethView, whole};
 const CELL_HEIGHT: f64 = 2.0;
 /// Bounds of the width of a cell, in m: beyond, differences of coordinates are lost or overflow.
 const CELL: (f64, f64) = (1e-12, 1e6);
+
+/// Units of a length, the longest first, each in m and with its name; in inch units the shortest length that is told in it.
+const METRIC: [(f64, &str); 4] = [(1.0, "m"), (1e-3, "mm"), (1e-6, "um"), (1e-9, "nm")];
+const INCH: [(f64, &str); 2] = [(25.4e-3, "in"), (25.4e-6, "thou")];
+/// A tenth of an inch is told in inches, what is shorter in thou.
+const LEAST_INCHES: f64 = 0.1;
+
+/// The unit in which a length in m is told: what one of it is in m, and its name.
+#[must_use]
+pub fn unit_of_length(length: f64, system: System) -> (f64, &'static str) {
+    let (units, least) = match system {
+        System::Metric => (&METRIC[..], 1.0),
+        System::Inch => (&INCH[..], LEAST_INCHES),
+    };
+    let fitting = units.iter().find(|(unit, _)| length >= 0.999 * least * unit);
+    fitting.or(units.last()).copied().unwrap_or((1.0, "m"))
+}
 
 /// The part of the plane in sight.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,6 +71,12 @@ impl Window {
         let at = anchor(view.centre, solution).unwrap_or(middle);
         let centre = Point2::new(held(at.x, middle.x, 0.5 * width - half.x), held(at.y, middle.y, 0.5 * height - half.y));
         Window { centre, half, dot: cell / f64::from(dots.0), size, dots }
+    }
+
+    /// The same for a room that begins at its lower left corner.
+    #[must_use]
+    pub fn around(&self, from: Point2<f64>, room: Vector2<f64>) -> Window {
+        Window { centre: from + 0.5 * room, half: 0.5 * room, ..*self }
     }
 
     /// Ends of the x axis.
@@ -120,10 +144,16 @@ impl Window {
         self.dot * f64::from(self.dots.0)
     }
 
+    /// Height of a row of the screen.
+    #[must_use]
+    pub fn row(&self) -> f64 {
+        self.column() * CELL_HEIGHT
+    }
+
     /// Height of a dot.
     #[must_use]
     pub fn dot_height(&self) -> f64 {
-        self.column() * CELL_HEIGHT / f64::from(self.dots.1)
+        self.row() / f64::from(self.dots.1)
     }
 }
 
