@@ -23,6 +23,8 @@ use crate::tui::solver::Answer;
 const ENOUGH_ROWS: usize = 8;
 /// So many at least, whatever stands above them.
 const LEAST_ROWS: usize = 2;
+/// So much of the baseline's name, and of the word before it, tells something.
+const LEAST_OF_BASE: usize = ", against name…".len();
 /// Stands before a note.
 const NOTE: &str = "Note: ";
 /// A pane with fewer lines and columns has room for the outcome in a few words only.
@@ -163,8 +165,9 @@ fn lines_before(app: &App, area: Rect) -> usize {
 fn title(app: &App, room: usize) -> String {
     let name = if app.is_stale() { "Results: LAST VALID" } else { "Results" };
     let name_of_base = app.baseline.as_ref().map(|baseline| format!(", against {}", baseline.name));
-    let base = app.baseline.as_ref().map_or("", |_| ", against the baseline");
     let against = name_of_base.as_deref().unwrap_or_default();
+    let begun = text::cut(against, room.saturating_sub(name.width()));
+    let base = if begun.width() >= LEAST_OF_BASE { begun.as_str() } else { "" };
     let answer = app.answer.as_ref();
     let pending = answer.and_then(|answer| answer.pending).map_or_else(String::new, |rung| format!(", {} to come", rung.name()));
     let cost = answer
@@ -174,7 +177,7 @@ fn title(app: &App, room: usize) -> String {
     let titles = [
         format!("{name}{against}{pending}{cost}"),
         format!("{name}{against}{cost}"),
-        format!("{name}{base}{cost}"),
+        format!("{name}{base}"),
         format!("{name}{cost}"),
         name.to_owned(),
     ];
@@ -216,7 +219,7 @@ fn shortened(notes: &[Note], width: usize) -> Option<String> {
     let noun = if count == 1 { "note" } else { "notes" };
     let by_names = (1..=count).rev().map(|told| {
         let others = if told < count { format!(", {} more", count - told) } else { String::new() };
-        format!("{noun} , key n: {}{others}", names[..told].join(", "))
+        format!("key n: {}{others}", names[..told].join(", "))
     });
     let counted = format!("{count} {noun}: press n");
     let mut sayings = in_full.into_iter().chain(by_names).chain([counted.clone()]);
