@@ -3,6 +3,7 @@
 //! Symbols follow Zhou & Chen 2014, "Modeling and Calculation of Impact Friction Caused by Corner Contact in
 //! Gear Transmission", Chin. J. Mech. Eng.; gear 1 is the driver, gear 2 the driven gear. SI units throughout.
 
+pub mod asked;
 pub mod auto;
 pub mod band;
 pub mod between;
@@ -34,6 +35,7 @@ pub mod stations;
 pub mod tip;
 pub mod velocity;
 
+pub use asked::Earlier;
 pub use auto::Choice;
 pub use band::Band;
 pub use between::Told;
@@ -53,7 +55,7 @@ pub use outline::Outline;
 pub use placing::Placing;
 pub use position::Position;
 pub use quantities::{QUANTITIES, Quantity};
-pub use solve::{Earlier, solve, solve_after, solve_while};
+pub use solve::{solve, solve_after, solve_while};
 pub use stage::{Stage, Stages};
 pub use static_load::StaticLoad;
 pub use stations::{MeshStation, Station};

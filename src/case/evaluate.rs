@@ -2,8 +2,9 @@
 
 use super::reach::stages_of;
 use super::{Case, FIELDS};
+use crate::model::asked::Earlier;
 use crate::model::inputs::Rung;
-use crate::model::solve::{Earlier, solve_after};
+use crate::model::solve::solve_after;
 use crate::model::{Inputs, Refusal, Solution, Stages};
 
 /// What was solved last with each rung.

@@ -3,10 +3,10 @@
 
 use std::sync::Arc;
 
+use super::asked::Asked;
 use super::dynamic::{Dynamic, Settings, dynamic};
 use super::inputs::Inputs;
 use super::mesh::Mesh;
-use super::solve::Solving;
 use super::spacing::Spacing;
 use super::stage::{Stage, Stages};
 use super::static_load::{StaticLoad, static_load};
@@ -24,7 +24,7 @@ struct Shared {
 ///
 /// # Errors
 /// Those of [`Mesh::new`], [`static_load`] and [`dynamic`].
-pub(super) fn share(solution: &mut Solution, asked: &Solving<'_>, go_on: &dyn Fn(f64) -> bool) -> Result<(), Refusal> {
+pub(super) fn share(solution: &mut Solution, asked: &Asked<'_>, go_on: &dyn Fn(f64) -> bool) -> Result<(), Refusal> {
     let shared = within_reach(solution, asked, go_on)?;
     let present = [Stage::Mesh, Stage::Static, Stage::Dynamic].into_iter().filter(|&stage| asked.wanted.has(stage));
     solution.stages = present.fold(solution.stages, Stages::with);
@@ -41,7 +41,7 @@ pub(super) fn share(solution: &mut Solution, asked: &Solving<'_>, go_on: &dyn Fn
 }
 
 /// The mesh is computed no further than the pairs yield: where that was not far enough, again and further.
-fn within_reach(solution: &Solution, asked: &Solving<'_>, go_on: &dyn Fn(f64) -> bool) -> Result<Shared, Refusal> {
+fn within_reach(solution: &Solution, asked: &Asked<'_>, go_on: &dyn Fn(f64) -> bool) -> Result<Shared, Refusal> {
     if let Some(mesh) = asked.kept(Stage::Mesh).and_then(|earlier| earlier.mesh.clone()) {
         match run(&mesh, solution.reduced_mass, asked, Stages::NONE, go_on) {
             Err(Refusal::BeyondReach) if !mesh.is_whole() => (),
@@ -78,13 +78,7 @@ pub(super) fn on_mesh<T>(
 }
 
 /// The wanted rungs on this mesh, as far as nothing earlier holds.
-fn run(
-    mesh: &Arc<Mesh>,
-    mass: f64,
-    asked: &Solving<'_>,
-    mut ran: Stages,
-    go_on: &dyn Fn(f64) -> bool,
-) -> Result<Shared, Refusal> {
+fn run(mesh: &Arc<Mesh>, mass: f64, asked: &Asked<'_>, mut ran: Stages, go_on: &dyn Fn(f64) -> bool) -> Result<Shared, Refusal> {
     let (inputs, wanted) = (asked.inputs, asked.wanted);
     let spacing = Spacing::of(inputs);
     let held = asked.kept(Stage::Static).and_then(|earlier| earlier.static_load.clone());

@@ -4,6 +4,7 @@ use std::cell::OnceCell;
 
 use twofloat::TwoFloat;
 
+use super::asked::{Asked, Earlier};
 use super::impact::Masses;
 use super::inputs::{Inputs, Rung};
 use super::stage::{Stage, Stages};
@@ -12,15 +13,6 @@ use super::{
     geometry, impact, load_sharing, position, stations, velocity,
 };
 use crate::numeric::Real;
-
-/// An earlier solve of the same rung, and the stages whose results no longer hold.
-#[derive(Debug, Clone, Copy)]
-pub struct Earlier<'a> {
-    /// What was found.
-    pub solution: &'a Solution,
-    /// What the edits since then reach.
-    pub stale: Stages,
-}
 
 /// Solve the pair, running only the wanted stages and what they need.
 ///
@@ -56,8 +48,8 @@ pub fn solve_after(
         return solve_by_choice(inputs, wanted, earlier, go_on);
     }
     let earlier = earlier.filter(|earlier| earlier.solution.rung == inputs.rung);
-    let solving = Solving { inputs, wanted: wanted.within(inputs.rung.stages()), earlier, precise: OnceCell::new() };
-    solving.run(go_on)
+    let asked = Asked { inputs, wanted: wanted.within(inputs.rung.stages()), earlier };
+    Solving { asked, precise: OnceCell::new() }.run(go_on)
 }
 
 /// Solve with the rung that the closed form calls for, or with the motion as a trial where it cannot tell; with the one taken
@@ -130,31 +122,28 @@ fn at_rest(wanted: Stages) -> Stages {
     if wanted.has(Stage::Dynamic) { wanted.and(Stages::of(Stage::Static)) } else { wanted }
 }
 
+/// The impact force alone, where there is one.
+fn force(inputs: &Inputs) -> Option<f64> {
+    Some(solve(inputs, Stages::of(Stage::Impact)).ok()?.impact?.force)
+}
+
 /// A solve on its way.
-pub(super) struct Solving<'a> {
-    pub(super) inputs: &'a Inputs,
-    pub(super) wanted: Stages,
-    earlier: Option<Earlier<'a>>,
+struct Solving<'a> {
+    asked: Asked<'a>,
     /// Geometry in double-double arithmetic, where it is called for.
     precise: OnceCell<Option<Geometry<TwoFloat>>>,
 }
 
-impl<'a> Solving<'a> {
-    /// The earlier solution, where this stage's result of it still holds.
-    pub(super) fn kept(&self, stage: Stage) -> Option<&'a Solution> {
-        let Earlier { solution, stale } = self.earlier?;
-        (solution.stages.has(stage) && !stale.has(stage)).then_some(solution)
-    }
-
+impl Solving<'_> {
     fn run(&self, go_on: &dyn Fn(f64) -> bool) -> Result<Solution, Refusal> {
         let mut solution = self.begun()?;
-        if self.wanted.has(Stage::Position) {
+        if self.asked.wanted.has(Stage::Position) {
             self.locate(&mut solution)?;
         }
-        if self.wanted.has(Stage::Mesh) {
-            load_sharing::share(&mut solution, self, go_on)?;
+        if self.asked.wanted.has(Stage::Mesh) {
+            load_sharing::share(&mut solution, &self.asked, go_on)?;
         }
-        if self.wanted.has(Stage::Clearing) {
+        if self.asked.wanted.has(Stage::Clearing) {
             self.clear(&mut solution, go_on)?;
         }
         Ok(solution)
@@ -162,31 +151,31 @@ impl<'a> Solving<'a> {
 
     /// The least relief, once the rung has told its outcome.
     fn clear(&self, solution: &mut Solution, go_on: &dyn Fn(f64) -> bool) -> Result<(), Refusal> {
-        let held = self.kept(Stage::Clearing).and_then(|earlier| earlier.clearing);
+        let held = self.asked.kept(Stage::Clearing).and_then(|earlier| earlier.clearing);
         if held.is_none() {
             solution.ran = solution.ran.with(Stage::Clearing);
         }
-        solution.clearing = Some(held.map_or_else(|| clearing::clearing(self.inputs, solution, go_on), Ok)?);
+        solution.clearing = Some(held.map_or_else(|| clearing::clearing(self.asked.inputs, solution, go_on), Ok)?);
         solution.stages = solution.stages.with(Stage::Clearing);
         Ok(())
     }
 
     /// Geometry, load and deviation.
     fn begun(&self) -> Result<Solution, Refusal> {
-        let inputs = self.inputs;
+        let inputs = self.asked.inputs;
         let mut ran = Stages::NONE;
-        let geometry = match self.kept(Stage::Geometry) {
+        let geometry = match self.asked.kept(Stage::Geometry) {
             Some(earlier) => earlier.geometry,
             None => self.geometry(&mut ran)?,
         };
-        let (masses, mesh_force) = if let Some(earlier) = self.kept(Stage::Load) {
+        let (masses, mesh_force) = if let Some(earlier) = self.asked.kept(Stage::Load) {
             (earlier.kept.masses, earlier.mesh_force)
         } else {
             ran = ran.with(Stage::Load);
             let masses = self.precise(&geometry)?.map_or_else(|| Masses::of(inputs, &geometry), |pair| Masses::of(inputs, &pair));
             (masses?, inputs.torque() / geometry.driver.base)
         };
-        let deviation = if let Some(earlier) = self.kept(Stage::Deviation) {
+        let deviation = if let Some(earlier) = self.asked.kept(Stage::Deviation) {
             earlier.kept.deviation
         } else {
             ran = ran.with(Stage::Deviation);
@@ -222,7 +211,7 @@ impl<'a> Solving<'a> {
 
     fn geometry(&self, ran: &mut Stages) -> Result<Geometry, Refusal> {
         *ran = ran.with(Stage::Geometry);
-        let plain = geometry::geometry::<f64>(self.inputs);
+        let plain = geometry::geometry::<f64>(self.asked.inputs);
         let precise = self.precise_of(plain.as_ref().ok())?;
         let _ = self.precise.set(precise);
         precise.map_or(plain, |precise| Ok(precise.rounded()))
@@ -237,18 +226,18 @@ impl<'a> Solving<'a> {
     }
 
     fn precise_of(&self, plain: Option<&Geometry>) -> Result<Option<Geometry<TwoFloat>>, Refusal> {
-        let close_call = plain.is_none_or(|geometry| geometry.is_close_call(self.inputs));
-        (self.inputs.accurate || close_call).then(|| geometry::geometry::<TwoFloat>(self.inputs)).transpose()
+        let close_call = plain.is_none_or(|geometry| geometry.is_close_call(self.asked.inputs));
+        (self.asked.inputs.accurate || close_call).then(|| geometry::geometry::<TwoFloat>(self.asked.inputs)).transpose()
     }
 
     /// D, and everything after it.
     fn locate(&self, solution: &mut Solution) -> Result<(), Refusal> {
-        let found = if let Some(earlier) = self.kept(Stage::Position) {
+        let found = if let Some(earlier) = self.asked.kept(Stage::Position) {
             Ok(earlier.position)
         } else {
             solution.ran = solution.ran.with(Stage::Position);
             let precise = self.precise(&solution.geometry)?;
-            position::position(self.inputs, &solution.geometry, precise.as_ref(), &solution.kept.deviation)
+            position::position(self.asked.inputs, &solution.geometry, precise.as_ref(), &solution.kept.deviation)
         };
         solution.stages = solution.stages.with(Stage::Position);
         match found {
@@ -258,7 +247,7 @@ impl<'a> Solving<'a> {
             }
             Ok(None) => solution.outcome = Outcome::NoCornerContact,
             // The rungs that share the load do not need it.
-            Err(refusal) if self.inputs.rung.shares_load() => {
+            Err(refusal) if self.asked.inputs.rung.shares_load() => {
                 solution.stages = solution.stages.without(Stage::Position);
                 solution.withheld = Some(refusal);
             }
@@ -269,7 +258,7 @@ impl<'a> Solving<'a> {
 
     /// The stages from the velocity on, as far as they are wanted and can be computed.
     fn strike(&self, solution: &mut Solution, position: &Position) -> Result<(), Refusal> {
-        let (inputs, geometry, tip) = (self.inputs, solution.geometry, &position.contact);
+        let (inputs, geometry, tip) = (self.asked.inputs, solution.geometry, &position.contact);
         let masses = solution.kept.masses;
         solution.velocity = self.stage(solution, Stage::Velocity, |s| s.velocity, || Ok(velocity::velocity(inputs, tip)))?;
         let place = || compliance::ContactPlace::at_tip(inputs, &geometry, tip);
@@ -281,7 +270,7 @@ impl<'a> Solving<'a> {
         solution.impact = Some(impact);
         let rubbed = || Ok(friction::friction(inputs, &geometry, tip, &velocity, &impact, masses.reduced()));
         solution.friction = self.stage(solution, Stage::Friction, |s| s.friction, rubbed)?;
-        solution.band = self.stage(solution, Stage::Band, |s| s.band, || Ok(band::band(inputs, impact.force)))?;
+        solution.band = self.stage(solution, Stage::Band, |s| s.band, || Ok(band::band(inputs, impact.force, force)))?;
         let stood = || Ok(stations::stations(inputs, &geometry, &masses, position, impact.force));
         let earlier = |s: &Solution| Some((s.stations.clone(), s.stations_withheld));
         if let Some((stations, withheld)) = self.stage(solution, Stage::Stations, earlier, stood)? {
@@ -298,10 +287,10 @@ impl<'a> Solving<'a> {
         earlier: impl Fn(&Solution) -> Option<T>,
         new: impl FnOnce() -> Result<T, Refusal>,
     ) -> Result<Option<T>, Refusal> {
-        if !self.wanted.has(stage) {
+        if !self.asked.wanted.has(stage) {
             return Ok(None);
         }
-        if let Some(held) = self.kept(stage).and_then(earlier) {
+        if let Some(held) = self.asked.kept(stage).and_then(earlier) {
             solution.stages = solution.stages.with(stage);
             return Ok(Some(held));
         }
