@@ -407,6 +407,25 @@ fn long_work_shows_how_far_it_is_and_esc_cancels_it() {
     assert!(!desk.shows("25 %"));
 }
 
+/// The least relief of a rung that shares the load comes after the rest: until then a place is kept for it, and no figure of
+/// another rung or of an earlier edit stands there.
+#[test]
+fn the_least_relief_has_a_place_until_it_is_there() {
+    let mut desk = Desk::new(LARGE);
+    assert!(desk.shows("47.4 um of tip relief of the driven gear stops it"), "{}", desk.screen());
+    let effects = update(&mut desk.app, Action::Do(Command::ToggleRung));
+    let Some(Effect::Solve(request)) = effects.into_iter().next() else { panic!("it asks for a solve") };
+    let whole = tipstrike::tui::solver::answer(&request);
+    let mut first = Answer { stages: whole.stages.without(Stage::Clearing), ..whole.clone() };
+    for solution in first.rungs.iter_mut().filter_map(|(rung, found)| found.as_mut().ok().filter(|_| *rung == Rung::Static)) {
+        solution.clearing = None;
+    }
+    desk.act(Action::Solved(Box::new(first)));
+    assert!(desk.shows("... tip relief of the driven gear stops it") && !desk.shows("47.4 um"), "{}", desk.screen());
+    desk.act(Action::Solved(Box::new(whole)));
+    assert!(desk.shows("40.1 um of tip relief of the driven gear stops it") && !desk.shows("..."), "{}", desk.screen());
+}
+
 #[test]
 fn a_slow_solve_shows_how_far_it_is_and_esc_stops_it() {
     let mut desk = three_cases(LARGE);

@@ -128,12 +128,17 @@ fn touching_beyond(tried: Try<'_>, clear: Tried) -> Result<Option<Tried>, Refusa
 fn crossing(tried: Try<'_>, mut touching: Tried, most: f64) -> Result<Tried, Refusal> {
     /// The lead mostly falls by as much as the relief grows; where it falls more slowly, so many times as far at most.
     const STRIDE: f64 = 4.0;
+    /// After three strides reliefs grow by this factor at least.
+    const GROWTH: f64 = 1.5;
     let mut stride = 1.0;
+    let mut strides = 0;
     while touching.lead > 0.0 {
         if touching.relief > most {
             return Err(Refusal::NoClearing { most });
         }
-        let aim = touching.relief + stride * touching.lead;
+        let least = if strides < 3 { 0.0 } else { GROWTH * touching.relief };
+        let aim = (touching.relief + stride * touching.lead).max(least);
+        strides += 1;
         let found = tried(aim + ASIDE * closeness(aim))?;
         if found.lead <= 0.0 {
             return closed_in(tried, touching, found);
@@ -171,5 +176,55 @@ fn closed_in(tried: Try<'_>, mut touching: Tried, mut clear: Tried) -> Result<Tr
         widths[PATIENCE - 1] = width;
         let found = tried(aim.clamp(touching.relief + 0.1 * near, clear.relief - 0.1 * near))?;
         if found.lead > 0.0 { touching = found } else { clear = found }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The least relief for a lead that is known, and how many tries it took.
+    fn found(lead: impl Fn(f64) -> f64, contact_lost: bool) -> (Result<f64, Refusal>, u32) {
+        let tries = Cell::new(0);
+        let tried = |relief: f64| {
+            tries.set(tries.get() + 1);
+            Ok(Tried { relief, lead: lead(relief), contact_lost })
+        };
+        (least(&tried, false, 1e-3), tries.get())
+    }
+
+    #[test]
+    fn a_lead_that_falls_is_followed_to_its_end_in_few_tries() {
+        let leads: [(&str, f64, Box<dyn Fn(f64) -> f64>); 5] = [
+            ("as the relief grows", 20e-6, Box::new(|relief| 20e-6 - relief)),
+            ("more slowly", 100e-6, Box::new(|relief| 0.2 * (100e-6 - relief))),
+            ("faster", 20e-6, Box::new(|relief| 3.0 * (20e-6 - relief))),
+            ("at last not at all", 20e-6, Box::new(|relief| (20e-6 - relief).max(-1e-9))),
+            ("in bends", 20e-6, Box::new(|relief| 20e-6 - relief + 4e-6 * (relief * 1e6 * std::f64::consts::PI / 20.0).sin())),
+        ];
+        for (name, end, lead) in leads {
+            let (relief, tries) = found(lead, false);
+            let relief = relief.unwrap();
+            assert!(relief >= end && relief - end <= closeness(end), "{name}: {relief:e}");
+            assert!(tries <= 20, "{name}: {tries}");
+        }
+    }
+
+    #[test]
+    fn a_touch_with_more_relief_is_not_overlooked_where_it_is_looked_for() {
+        let lead = |back: std::ops::Range<f64>| move |relief: f64| if back.contains(&relief) { 1e-6 } else { 20e-6 - relief };
+        let (relief, _) = found(lead(29e-6..31e-6), false);
+        assert!((relief.unwrap() - 31e-6).abs() < closeness(31e-6), "{relief:?}");
+        let narrow = || lead(33.0e-6..33.8e-6);
+        assert!(found(narrow(), false).0.unwrap() < 21e-6);
+        assert!((found(narrow(), true).0.unwrap() - 33.8e-6).abs() < closeness(34e-6));
+    }
+
+    #[test]
+    fn where_no_relief_stops_it_that_is_said() {
+        let (none, tries) = found(|_| 1e-6, false);
+        assert_eq!(none.unwrap_err().code(), "no-clearing-relief");
+        assert!(tries < 30, "{tries}");
+        assert!(found(|relief| 1e-6 + 0.1 * relief, false).0.is_err());
     }
 }

@@ -299,6 +299,31 @@ mod tests {
     }
 
     #[test]
+    fn the_least_relief_follows_an_answer_that_stands_already_and_then_nothing() {
+        let (sender, replies) = channel();
+        let solver = Solver::start(teller(sender)).expect("a thread");
+        for (serial, rung, expected) in
+            [(1, Rung::Exact, vec![true]), (2, Rung::Static, vec![false, true]), (3, Rung::Auto, vec![false, true])]
+        {
+            let mut asked = request(serial);
+            asked.inputs.rung = rung;
+            solver.ask(asked);
+            let mut told = Vec::new();
+            while told.last() != Some(&true) {
+                let Ok(Reply::Solved(answer)) = replies.recv() else { continue };
+                // An answer too many to the request before would stand here.
+                assert_eq!(answer.serial, serial);
+                let clearing = answer.of(answer.active).and_then(|solution| solution.clearing);
+                if answer.pending.is_none() {
+                    assert_eq!(clearing.is_none(), answer.lacks(Stage::Clearing));
+                    told.push(clearing.is_some_and(|clearing| clearing.relief.is_some()));
+                }
+            }
+            assert_eq!(told, expected, "{}", rung.name());
+        }
+    }
+
+    #[test]
     fn the_rung_of_the_case_stands_first_and_auto_is_told_by_its_choice() {
         for (rung, active) in [(Rung::Paper, Rung::Paper), (Rung::Static, Rung::Static), (Rung::Auto, Rung::Dynamic)] {
             let mut asked = request(1);
