@@ -260,7 +260,7 @@ fn escape_never_destroys() {
 fn a_paste_never_presses_a_button_and_brings_no_control_character() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.fill("operation.speed", "").act(Action::Paste("15\u{1b}[2J00\n rpm\u{202e}\r".to_owned()));
-    assert_eq!(desk.app.case.text(desk.app.focus), Some("15[2J00 rpm"));
+    assert_eq!(desk.app.case.text(desk.app.focus), Some("15[2J00 rpm"), "of its lines one is made");
     desk.keys(&["Ctrl-Q"]).act(Action::Paste("d".to_owned()));
     assert!(!desk.has_quit && desk.shows("has unsaved edits"));
 }
@@ -407,9 +407,22 @@ fn results_are_found_as_fields_are() {
 
 #[test]
 fn what_no_digit_mends_is_wrong_at_once() {
-    for (typed, told) in [("-48", "! -48 um is below"), ("48 mm", "! 48 mm is above"), ("48 um1", "! "), ("-", "Not yet: ")] {
+    for (typed, told) in [
+        ("-48", "! -48 um is below"),
+        ("48 mm", "! 48 mm is above"),
+        ("48 um1", "! 1 stands after the unit: write all digits before um"),
+        ("-", "Not yet: "),
+    ] {
         let mut desk = Desk::new(LARGE);
         desk.fill("driven.tip_relief", typed);
         assert!(desk.shows(told), "{typed}\n{}", desk.screen());
     }
+}
+
+#[test]
+fn a_text_as_long_as_may_be_gives_way_to_what_is_typed() {
+    let mut desk = Desk::new(SMALL);
+    desk.fill("title", "").act(Action::Paste("x".repeat(5000)));
+    desk.keys(&["Down", "Up", "short"]);
+    assert_eq!(desk.app.case.text(desk.app.focus), Some("short"));
 }

@@ -38,6 +38,14 @@ impl Line {
         self.selected.clone()
     }
 
+    /// How many bytes stay when something is typed.
+    #[must_use]
+    pub fn kept(&self) -> usize {
+        let is_selected = |at: &usize| self.selected.as_ref().is_some_and(|part| part.contains(at));
+        let letters = self.input.value().chars().enumerate();
+        letters.filter(|(at, _)| !is_selected(at)).map(|(_, letter)| letter.len_utf8()).sum()
+    }
+
     /// Select the text, the cursor at its end.
     pub fn select_all(&mut self) {
         let length = self.input.value().chars().count();
@@ -133,6 +141,7 @@ mod tests {
         for (path, selected) in [("case.toml", 0..4), ("a.b/pair.v2.toml", 4..11), ("/a/pair", 3..7), (".toml", 0..5)] {
             assert_eq!(Line::named(path).selected(), Some(selected), "{path}");
         }
+        assert_eq!((Line::named("μ/pair.toml").kept(), Line::from("μ").kept(), Line::whole("μ").kept()), (8, 2, 0));
         assert_eq!((Line::named("a/").selected(), Line::whole("").selected()), (None, None));
     }
 }

@@ -86,6 +86,8 @@ fn what_is_no_value_is_refused_with_its_mend() {
         ("16 mn", "unknown unit `mn`", "did you mean"),
         ("16 furlong", "unknown unit `furlong`", "use one of mm"),
         ("5 m m", "unknown unit `m m`", "did you mean mm"),
+        ("5 mm1", "1 stands after the unit", "write all digits before mm"),
+        ("5 mm 2.5", "2.5 stands after the unit", "write all digits before mm"),
         ("5 5 mm", "not one number", "20 mm"),
         ("5.5.5 mm", "not one number", "20 mm"),
         ("1_000 mm", "not one number", "20 mm"),

@@ -1,5 +1,7 @@
 //! Typing: every edit of a field goes into the case at once.
 
+use std::borrow::Cow;
+
 use tui_input::InputRequest;
 
 use super::solve;
@@ -27,7 +29,7 @@ pub(super) fn insert(app: &mut App, letter: char) -> Vec<Effect> {
     paste(app, letter.encode_utf8(&mut [0; 4]))
 }
 
-/// Text pasted: into a line of text and nowhere else, what controls a terminal left out.
+/// Text pasted: into a line of text and nowhere else, what controls a terminal left out. Of several lines one is made.
 pub(super) fn paste(app: &mut App, text: &str) -> Vec<Effect> {
     let editing_case = app.prompts.is_empty();
     let takes_text = app.has_line() && names(app).is_empty();
@@ -36,7 +38,8 @@ pub(super) fn paste(app: &mut App, text: &str) -> Vec<Effect> {
         None => Some(&mut app.tab.input).filter(|_| takes_text),
     };
     let Some(line) = line else { return Vec::new() };
-    let room = LONGEST.saturating_sub(line.value().len());
+    let room = LONGEST.saturating_sub(line.kept());
+    let text = in_a_line(text);
     let mut letters = text.chars().filter(|&letter| clean::is_safe(letter)).take(room).peekable();
     if letters.peek().is_none() {
         return Vec::new();
@@ -44,6 +47,14 @@ pub(super) fn paste(app: &mut App, text: &str) -> Vec<Effect> {
     let typed: String = letters.collect();
     line.insert(&typed);
     if editing_case { write(app) } else { line_changed(app) }
+}
+
+fn in_a_line(text: &str) -> Cow<'_, str> {
+    const BREAKS: [char; 3] = ['\n', '\r', '\t'];
+    if !text.contains(BREAKS) {
+        return text.into();
+    }
+    text.split(BREAKS).map(str::trim).filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ").into()
 }
 
 /// A key that moves in the line or deletes from it.

@@ -35,11 +35,13 @@ pub(super) fn cycle_theme(app: &mut App) -> Vec<Effect> {
     keep(app)
 }
 
+const UNICODE: &str = "drawn with the whole of Unicode; in this session alone where the locale has no UTF-8";
+
 /// ASCII alone, from now on; or, in this session whatever the environment says, the whole of Unicode.
 pub(super) fn toggle_ascii(app: &mut App) -> Vec<Effect> {
     app.look.ascii = !app.look.ascii;
     app.settings.ascii = app.look.ascii;
-    app.say(if app.look.ascii { "drawn in ASCII" } else { "drawn with the whole of Unicode" });
+    app.say(if app.look.ascii { "drawn in ASCII" } else { UNICODE });
     keep(app)
 }
 
