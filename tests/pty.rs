@@ -79,7 +79,7 @@ fn a_flood_of_keys_leaves_it_responsive() {
 fn a_paste_presses_nothing() {
     let mut tty = Tty::open();
     tty.wait_for("Corner contact");
-    tty.type_in("\x15\x1b[200~3 m\x03\x11\rm\x1b[201~");
+    tty.type_in("\x15\x1b[200~3\x03\x11\rmm\x1b[201~");
     tty.wait_for("3 mm");
     assert!(!tty.has_ended());
     tty.type_in("\x11");
