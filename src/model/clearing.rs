@@ -195,7 +195,8 @@ mod tests {
 
     #[test]
     fn a_lead_that_falls_is_followed_to_its_end_in_few_tries() {
-        let leads: [(&str, f64, Box<dyn Fn(f64) -> f64>); 5] = [
+        type Lead = Box<dyn Fn(f64) -> f64>;
+        let leads: [(&str, f64, Lead); 5] = [
             ("as the relief grows", 20e-6, Box::new(|relief| 20e-6 - relief)),
             ("more slowly", 100e-6, Box::new(|relief| 0.2 * (100e-6 - relief))),
             ("faster", 20e-6, Box::new(|relief| 3.0 * (20e-6 - relief))),
