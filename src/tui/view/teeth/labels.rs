@@ -98,13 +98,19 @@ impl Labels {
     fn put_beside(&mut self, name: &str, at: Position, most: usize, style: Style, buffer: &mut Buffer) {
         let width = i32::from(name.width() as u16);
         let places = [(1, 0), (2, -1), (2, 1), (-width, 0), (-width - 1, -1), (-width - 1, 1), (-width / 2, -1), (-width / 2, 1)];
-        let mut further: Vec<(i32, i32)> =
-            (-NEAR.1..=NEAR.1).flat_map(|down| (-NEAR.0 - width..=NEAR.0).map(move |right| (right, down))).collect();
-        further.sort_by_key(|&(right, down)| distance((right, down), width));
+        let further = std::iter::once_with(|| further(width)).flatten();
         let rooms = places.into_iter().chain(further).filter_map(|(right, down)| self.room(at, right, down, width));
-        let free: Vec<Rect> = rooms.filter(|room| self.is_free(*room) && self.is_nearest(*room, at)).collect();
-        let best = free.into_iter().min_by_key(|room| covered(*room, buffer));
-        if let Some(room) = best.filter(|room| covered(*room, buffer) <= most) {
+        let mut least: Option<(usize, Rect)> = None;
+        for room in rooms.filter(|room| self.is_free(*room) && self.is_nearest(*room, at)) {
+            let over = covered(room, buffer);
+            if least.is_none_or(|(least, _)| over < least) {
+                least = Some((over, room));
+            }
+            if over == 0 {
+                break;
+            }
+        }
+        if let Some((_, room)) = least.filter(|(over, _)| *over <= most) {
             self.put(name, room, style, buffer);
         }
     }
@@ -152,6 +158,14 @@ impl Labels {
 /// How far from a point a word stands that begins so many columns and rows from it, in columns.
 fn distance((right, down): (i32, i32), width: i32) -> i32 {
     right.max(1 - width - right).max(0) + 2 * down.abs()
+}
+
+/// Where a word may begin, in columns and rows from its point, the nearest places first.
+fn further(width: i32) -> Vec<(i32, i32)> {
+    let columns = |down: i32| (-NEAR.0 - width..=NEAR.0).map(move |right| (right, down));
+    let mut places: Vec<(i32, i32)> = (-NEAR.1..=NEAR.1).flat_map(columns).collect();
+    places.sort_by_key(|&place| distance(place, width));
+    places
 }
 
 /// How many cells of a room are drawn on.
