@@ -53,6 +53,11 @@ fn an_equivalent_error_without_the_reliefs_is_called_so() {
         let page = relieved(rung, &["solve", TABLE_1]);
         assert!(page.contains(row), "{rung}: {page}");
     }
+    let of = |rung| -> Value {
+        let line = told(&["solve", TABLE_1, "--rung", rung, "--only", "equivalent_error", "--format", "json"]);
+        serde_json::from_str::<Value>(&line).unwrap()["quantities"]["equivalent_error"]["of"].clone()
+    };
+    assert_eq!((of("exact"), of("static")), (Value::Null, "deviations-without-reliefs".into()));
     let page = relieved("static", &["explain", "equivalent_error"]);
     assert!(page.contains("Δf_0 = (2 f_pb - j_bn)/√2"), "{page}");
     assert!(page.contains("Rungs: ") == page.contains("paper 22.6"), "{page}");
@@ -221,7 +226,7 @@ fn a_field_that_moves_nothing_says_why() {
     }
     assert_eq!(silent, [""; 0], "these move nothing and do not say why");
     assert!(index_of("operation.power").is_some_and(|power| {
-        acts_in_part(power, &Case::table_1().inputs().unwrap()).is_some_and(|why| why.contains("the deflection is given"))
+        acts_in_part(power, &Case::table_1().inputs().unwrap()).is_some_and(|why| why.contains("with the deflection given"))
     }));
 }
 

@@ -91,7 +91,7 @@ const PARTS: &[Reason] = &[
     Reason {
         keys: &["operation.power", "operation.torque"],
         when: |inputs| inputs.rung != Rung::Auto && inputs.deflection_taken().is_some(),
-        why: "the deflection is given, and so the load changes F_0 alone, neither where nor how hard the tooth strikes",
+        why: "with the deflection given, the load changes F_0, not the impact",
     },
     Reason { keys: &["model.accurate"], when: always, why: "it changes the last digits alone, beyond those that are shown" },
     Reason {

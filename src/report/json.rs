@@ -55,8 +55,12 @@ struct Quantities<'a>(&'a Report);
 
 impl Serialize for Quantities<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let shares_load = self.0.solution.rung.shares_load();
-        let of = |quantity: &Quantity| (shares_load && quantity.is_of_free_impact()).then_some("free-impact");
+        let rung = self.0.solution.rung;
+        let of = |quantity: &Quantity| match quantity {
+            _ if rung.shares_load() && quantity.is_of_free_impact() => Some("free-impact"),
+            _ if quantity.symbol_in(rung) != quantity.symbol => Some("deviations-without-reliefs"),
+            _ => None,
+        };
         let measured =
             |quantity: &Quantity, value| Measured { value: Value::of(quantity, value), unit: quantity.unit, of: of(quantity) };
         serializer.collect_map(self.0.values().map(|(quantity, value)| (quantity.key, measured(quantity, value))))

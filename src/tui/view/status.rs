@@ -12,7 +12,7 @@ use crate::case::units::System;
 use crate::case::{Acting, FIELDS, Limit, acts, acts_in_part, materials};
 use crate::model::inputs::Rung;
 use crate::numeric::decimal::shortest;
-use crate::report::verdict::verdict;
+use crate::report::verdict::verdicts;
 use crate::tui::app::{App, Progress};
 use crate::tui::clean::symbol;
 use crate::tui::commands::{BINDINGS, Binding};
@@ -247,7 +247,8 @@ fn material(app: &App, field: &Field) -> Option<String> {
 
 fn about_limit(app: &App, limit: &Limit) -> String {
     let solution = app.answer.as_ref().and_then(|answer| answer.of(answer.active)).filter(|_| !app.is_stale());
-    let verdict = solution.filter(|_| !limit.text.is_empty()).map(|solution| verdict(limit, solution));
+    let of_case = |solution| verdicts(&app.case, solution).into_iter().find(|verdict| verdict.limit.quantity == limit.quantity);
+    let verdict = solution.filter(|_| !limit.text.is_empty()).and_then(of_case);
     let told = verdict.map(|verdict| format!("{} {}. ", verdict.standing.word(), verdict.told(app.settings.units)));
     format!("{}The greatest value that {} may take; empty: none.", told.unwrap_or_default(), rows::label(&app.case, app.focus))
 }
