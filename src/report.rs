@@ -126,7 +126,9 @@ impl Report {
 /// The stages that decide whether the tooth strikes, beyond those that every solve has.
 fn deciding(rung: Rung) -> Stages {
     match rung {
-        Rung::Paper | Rung::Exact => Stages::NONE,
+        Rung::Exact => Stages::NONE,
+        // The printed equations bring a tooth in on time whose deviation is above 0 yet.
+        Rung::Paper => Stages::of(Stage::Position),
         Rung::Static => Stages::of(Stage::Static),
         Rung::Dynamic | Rung::Auto => Stages::of(Stage::Dynamic),
     }

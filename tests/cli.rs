@@ -115,6 +115,16 @@ fn what_does_not_exist_is_absent_and_the_outcome_says_why() {
 }
 
 #[test]
+fn the_outcome_is_the_rungs_own_whatever_is_asked_for() {
+    // Between the relief that stops it by the printed equations, 61.8 um, and Δ = 0 by Eq. 1 as printed, 66.9 um.
+    let relieved = ["--set", "driven.tip_relief=64 um", "--rung", "paper", "--format", "json"];
+    for only in [&[][..], &["--only", "total_deviation"], &["--only", "base_pitch"]] {
+        let solved = json(&[&["solve", TABLE_1], &relieved[..], only].concat());
+        assert_eq!(solved["outcome"], "no-corner-contact", "{only:?}");
+    }
+}
+
+#[test]
 fn only_what_is_asked_for_is_computed_and_told() {
     let solved = json(&["solve", TABLE_1, "--only", "approach_angle_driven", "--format", "json"]);
     assert_eq!(solved["stages"], serde_json::json!(["geometry", "load", "deviation", "position"]));
