@@ -422,6 +422,10 @@ fn the_least_relief_has_a_place_until_it_is_there() {
     }
     desk.act(Action::Solved(Box::new(first)));
     assert!(desk.shows("... tip relief of the driven gear stops it") && !desk.shows("47.4 um"), "{}", desk.screen());
+    let mut stopped = desk.app.clone();
+    let effects = update(&mut stopped, Action::Do(Command::Leave));
+    assert!(matches!(effects[..], [Effect::CancelSolve]) && stopped.message.is_some());
+    assert!(stopped.answer.as_ref().is_some_and(|answer| !answer.lacks(Stage::Clearing)), "it is waited for no more");
     desk.act(Action::Solved(Box::new(whole)));
     assert!(desk.shows("40.1 um of tip relief of the driven gear stops it") && !desk.shows("..."), "{}", desk.screen());
 }

@@ -1,6 +1,7 @@
 //! What Esc and Ctrl-C end: what is topmost first.
 
 use super::{cursor, files, panes};
+use crate::model::Stage;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::pane::Pane;
@@ -63,5 +64,13 @@ fn stop(app: &mut App) -> Vec<Effect> {
         }
         Effect::CancelSolve
     });
-    measuring.into_iter().chain(solving).collect()
+    measuring.into_iter().chain(solving.or_else(|| stop_seeking(app))).collect()
+}
+
+// The least relief, which is sought once the rest is shown.
+fn stop_seeking(app: &mut App) -> Option<Effect> {
+    let answer = app.tab.answer.as_mut().filter(|answer| answer.strikes() && answer.lacks(Stage::Clearing))?;
+    answer.asked = answer.stages;
+    app.say("the relief that stops it is not sought further, until the next edit");
+    Some(Effect::CancelSolve)
 }
