@@ -25,7 +25,12 @@ fn a_value_steps_inside_a_field_and_outside() {
     assert_eq!(text(&desk, "deviations.base_pitch"), "17 um");
     desk.keys(&["Alt-Down"]);
     assert_eq!(text(&desk, "deviations.base_pitch"), "7 um");
-    desk.keys(&["Esc", "+", ">", "-"]);
+    desk.keys(&["Esc", "+", "=", "-", ">", "<"]);
+    assert_eq!(text(&desk, "deviations.base_pitch"), "7 um", "a letter that is typed unseen changes no value");
+    assert!(desk.shows("< is no command in Form"), "{}", desk.screen());
+    desk.keys(&["Alt-Up", "Shift-Down"]);
+    assert_eq!(text(&desk, "deviations.base_pitch"), "16 um");
+    desk.keys(&["Shift-Up"]);
     assert_eq!(text(&desk, "deviations.base_pitch"), "17 um");
     desk.keys(&["u"]);
     assert_ne!(text(&desk, "deviations.base_pitch"), "17 um");

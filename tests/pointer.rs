@@ -70,7 +70,7 @@ fn a_button_and_the_name_of_a_case_are_pressed() {
     }
     desk.keys(&["Ctrl-Q"]);
     desk.act(Action::Click(Position::new(1, 1)));
-    assert!(desk.shows("[> Save <]"), "a press beside the buttons presses none");
+    assert!(desk.shows("[> Cancel <]"), "a press beside the buttons presses none");
 }
 
 #[test]

@@ -489,8 +489,10 @@ fn recent_cases_are_a_key_away() {
 fn torque_takes_the_place_of_power_and_gives_it_back() {
     let mut desk = Desk::new(SMALL);
     desk.fill("operation.torque", "7");
-    assert!(desk.shows("power 15 kW is taken out"), "{}", desk.screen());
+    let told = "power 15 kW is given up: the torque stands in its place";
+    assert!(desk.shows(told), "{}", desk.screen());
     desk.keys(&["0 N m"]);
+    assert!(desk.shows(told), "as long as it is typed\n{}", desk.screen());
     assert!(!desk.shows("both given") && desk.app.problems.is_empty());
     desk.keys(&["Ctrl-U"]);
     assert!(desk.shows("power 15 kW is back") && desk.app.problems.is_empty());

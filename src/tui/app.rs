@@ -17,7 +17,7 @@ use super::tab::{Tab, Traded};
 use super::theme::Look;
 use super::window::ChartView;
 use super::zoom::TeethView;
-use crate::case::fields::Absent;
+use crate::case::fields::{Absent, Kind};
 use crate::case::{Case, Document, FIELDS, Problem, fields};
 use crate::model::{Stage, Stages};
 
@@ -173,6 +173,7 @@ impl App {
             Some(prompt) => prompt.place(),
             None if !self.has_line() => self.panes.focus.place(),
             None if !rows::names(&self.tab.case, self.tab.focus).is_empty() => Place::CHOICE,
+            None if self.is_fresh() => Place::TEXT.or(Place::FRESH),
             None => Place::TEXT,
         }
     }
@@ -181,6 +182,13 @@ impl App {
     #[must_use]
     pub fn has_line(&self) -> bool {
         self.panes.focus == Pane::Form && self.is_editing
+    }
+
+    /// Whether the focused row is one of a value, and what is typed would replace all of it.
+    fn is_fresh(&self) -> bool {
+        let Tab { case, focus, input, .. } = &self.tab;
+        let is_words = rows::field(case, *focus).is_some_and(|field| matches!(field.kind, Kind::Text));
+        !is_words && input.kept() == 0
     }
 
     /// What completes the text that is typed into the focused field: its unit, or the rest of it.

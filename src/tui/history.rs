@@ -7,7 +7,8 @@ use crate::case::{Case, FIELDS, Limit, Spread};
 pub struct History {
     past: States,
     future: States,
-    is_visiting: bool,
+    /// The row that is edited, until its visit ends.
+    visited: Option<usize>,
 }
 
 /// The last state in full, and each one before it by what it says otherwise than the one after it, so that a long session
@@ -27,12 +28,12 @@ struct Difference {
 }
 
 impl History {
-    /// Remember the state before the first edit of a visit; whether this is the first.
-    pub(super) fn before_edit(&mut self, case: &Case, focus: usize) -> bool {
-        let is_first = !self.is_visiting;
+    /// Remember the state before the first edit of a visit to a row; whether this is the first.
+    pub(super) fn before_edit(&mut self, case: &Case, focus: usize, row: usize) -> bool {
+        let is_first = self.visited != Some(row);
         if is_first {
             self.past.push(case, focus);
-            self.is_visiting = true;
+            self.visited = Some(row);
         }
         self.future = States::default();
         is_first
@@ -40,12 +41,12 @@ impl History {
 
     /// The case before the first edit of this visit.
     pub(super) fn before_visit(&self) -> Option<&Case> {
-        self.past.last.as_ref().filter(|_| self.is_visiting).map(|(case, _)| case)
+        self.past.last.as_ref().filter(|_| self.visited.is_some()).map(|(case, _)| case)
     }
 
     /// The next edit begins a state of its own.
     pub(super) fn end_visit(&mut self) {
-        self.is_visiting = false;
+        self.visited = None;
     }
 
     /// The state before, in exchange for the present one.
@@ -123,7 +124,7 @@ mod tests {
         let states = states();
         let (mut history, last) = (History::default(), states.len() - 1);
         for (focus, state) in states[..last].iter().enumerate() {
-            assert!(history.before_edit(state, focus));
+            assert!(history.before_edit(state, focus, focus));
             assert_eq!(history.before_visit(), Some(state));
             history.end_visit();
         }
@@ -144,7 +145,7 @@ mod tests {
         let mut history = History::default();
         let mut case = Case::table_1();
         for number in 0..1000 {
-            history.before_edit(&case, 0);
+            history.before_edit(&case, 0, 0);
             history.end_visit();
             case.write(0, &format!("title {number}"));
         }

@@ -43,12 +43,16 @@ impl Place {
     pub const TRADE: Place = Place(2048);
     /// The explanation of a result.
     pub const EXPLAIN: Place = Place(4096);
+    /// A field of a value, into which nothing is typed yet: what no value begins with is a command there.
+    pub const FRESH: Place = Place(8192);
     /// A field that takes text or a name.
     pub const FORM: Place = Place::TEXT.or(Place::CHOICE);
     /// The panes in which letters are commands.
     pub const OUTSIDE: Place = Place::FIELD.or(Place::RESULTS).or(Place::CURSOR).or(Place::TRADE);
     /// Everywhere but in a prompt.
     pub const WORK: Place = Place::FORM.or(Place::OUTSIDE);
+    /// Where `/` and `:` are commands.
+    pub const COMMANDED: Place = Place::OUTSIDE.or(Place::CHOICE).or(Place::FRESH);
     /// The panes that the roll angle's cursor shows in.
     pub const CURSOR: Place = Place::CHART.or(Place::TEETH);
     pub(in crate::tui) const PAGE: Place = Place::READ.or(Place::EXPLAIN);

@@ -114,7 +114,7 @@ impl Prompt {
 }
 
 impl Question {
-    /// Edits of one case would be lost.
+    /// Edits of one case would be lost. A stray Enter neither saves nor loses them.
     #[must_use]
     pub fn unsaved(name: &str, next: &Next) -> Question {
         Question {
@@ -126,7 +126,7 @@ impl Question {
                 ("Discard", Choice::Proceed(next.clone())),
                 ("Cancel", Choice::Cancel),
             ],
-            marked: 0,
+            marked: 2,
         }
     }
 
@@ -142,7 +142,7 @@ impl Question {
                 ("Discard all", Choice::Proceed(Next::Quit)),
                 ("Cancel", Choice::Cancel),
             ],
-            marked: 0,
+            marked: 2,
         }
     }
 

@@ -179,9 +179,9 @@ impl Tab {
         file.map_or_else(|| self.name(), |name| name.to_string_lossy().into_owned())
     }
 
-    /// Remember the state before an edit, and the results with it.
-    pub(super) fn before_edit(&mut self) {
-        if self.history.before_edit(&self.case, self.focus) {
+    /// Remember the state before an edit of a row, and the results with it.
+    pub(super) fn before_edit(&mut self, row: usize) {
+        if self.history.before_edit(&self.case, self.focus, row) {
             self.remember();
         }
     }

@@ -125,16 +125,10 @@ fn set(app: &mut App, field: usize, name: &str) -> Vec<Effect> {
     if chosen(app, field) == name {
         return Vec::new();
     }
-    let is_focused = field == app.focus;
-    if !is_focused {
-        app.tab.history.end_visit();
-    }
-    app.tab.before_edit();
+    app.tab.before_edit(field);
     app.tab.case.write(field, name);
-    if is_focused {
+    if field == app.focus {
         app.tab.input = name.into();
-    } else {
-        app.tab.history.end_visit();
     }
     checked(app)
 }
@@ -145,25 +139,25 @@ pub(super) fn replace(app: &mut App, case: Case) -> Vec<Effect> {
         return Vec::new();
     }
     app.tab.history.end_visit();
-    app.tab.before_edit();
     let focus = app.focus;
+    app.tab.before_edit(focus);
     solve(app.replace_case(case, focus))
 }
 
 fn write(app: &mut App) -> Vec<Effect> {
     let focus = app.focus;
     let text = completed(app);
-    if rows::text(&app.case, focus).unwrap_or_default() == text {
-        return Vec::new();
+    let is_other = rows::text(&app.case, focus).unwrap_or_default() != text;
+    if is_other {
+        app.tab.before_edit(focus);
+        rows::write(&mut app.tab.case, focus, &text);
     }
-    app.tab.before_edit();
-    rows::write(&mut app.tab.case, focus, &text);
     if let Some(Absent::Either(other)) = rows::field(&app.case, focus).map(|field| field.absent)
         && let Some(other) = index_of(other)
     {
         take_turns(app, focus, other);
     }
-    checked(app)
+    if is_other { checked(app) } else { Vec::new() }
 }
 
 // What is typed, a number with its unit; blanks around a number are none of it.
@@ -173,23 +167,17 @@ fn completed(app: &App) -> String {
     if is_words { text } else { text.trim().to_owned() }
 }
 
-// Of two fields that exclude each other the one that is typed stays; emptied again, it gives way to the other.
+// Of two fields that exclude each other the one that is typed stays; emptied again, it gives way to the other. That is told
+// for as long as it is typed.
 fn take_turns(app: &mut App, field: usize, other: usize) {
-    let case = &mut app.tab.case;
-    match (case.text(field), case.text(other)) {
-        (Some(_), Some(text)) => {
-            let words = format!("{} {text} is taken out: {} stands in its place", FIELDS[other].label, FIELDS[field].label);
-            case.write(other, "");
-            app.say(words);
-        }
-        (None, None) => {
-            let before = app.tab.history.before_visit().and_then(|before| before.text(other)).map(str::to_owned);
-            if let Some(text) = before {
-                app.tab.case.write(other, &text);
-                app.say(format!("{} {text} is back", FIELDS[other].label));
-            }
-        }
-        _ => (),
+    let Some(before) = app.tab.history.before_visit().and_then(|before| before.text(other)).map(str::to_owned) else { return };
+    let (this, that) = (FIELDS[field].label, FIELDS[other].label);
+    if app.case.text(field).is_some() {
+        app.tab.case.write(other, "");
+        app.say(format!("{that} {before} is given up: the {this} stands in its place"));
+    } else if app.case.text(other).is_none() {
+        app.tab.case.write(other, &before);
+        app.say(format!("{that} {before} is back"));
     }
 }
 

@@ -34,7 +34,7 @@ pub(super) fn recover(app: &mut App, offer: &Offer) -> Vec<Effect> {
     let mut case = app.case.clone();
     let refused: Vec<_> = offer.changes.iter().filter_map(|change| case.apply(&change.key, change.to.as_deref()).err()).collect();
     app.tab.history.end_visit();
-    app.tab.before_edit();
+    app.tab.before_edit(app.tab.focus);
     let mut effects = solve(app.replace_case(case, app.focus));
     if let Some(problem) = refused.first() {
         app.complain(format!("not all of it is back, and the journal stays: {problem}"));

@@ -3,9 +3,10 @@
 use crate::tui::commands::{BINDINGS, Binding};
 use crate::tui::keys::Place;
 
-const BEFORE: [&str; 4] = [
+const BEFORE: [&str; 5] = [
     "Every edit acts at once: results and chart follow each keystroke that leaves a valid value.",
     "A value stands with its unit: 5 mm, 16 um, 0.2 in, 15 kW, 20 hp, 2000 rpm, 20 deg; a number alone takes the unit of its field.",
+    "In a field of a value that is empty, or marked as a whole, / and : are the commands that they are outside a field; no value begins with them.",
     "An empty field shows in brackets what then holds.",
     "D is where the driven tip first touches, E where the normal path of contact begins. The rung paper keeps the printed Eqs. 7-20, exact finds D where the gap closes.",
 ];
