@@ -33,7 +33,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 2", "G", "", "(impulse_ratio)."),
     ("Esc 2 G", "g", "", "F_S impact force, Eq. 57"),
     // Error against time.
-    ("Esc 5", "Enter", "", "Within 5.0 %: dynamic with"),
+    ("Esc 5 m", "Enter", "", "; u undoes"),
     ("Esc 5", "m", "", "Within 5.0 %: dynamic with"),
     ("Esc 5 m h", "l", "", "] within 5.0 %"),
     ("Esc 5 m", "h", "", "] not within 5.0 %"),
@@ -86,6 +86,11 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("", "Ctrl-Q", "", "[quit]"),
     ("", "Esc", "", "Enter edit"),
     ("", "Ctrl-T", "", "rung static"),
+    ("", ":rung_paper", "", "rung paper"),
+    ("Ctrl-T", ":rung_exact", "", "rung exact"),
+    ("", ":rung_static", "", "rung static"),
+    ("", ":rung_dynamic", "", "rung dynamic"),
+    ("", ":rung_auto", "", "rung auto"),
     ("X", "Ctrl-Z", "", "module               5 mm "),
     ("", "F5", "", "Nothing is measured yet"),
     ("Esc 4", "F9", "", "⡄ 5 mm"),
@@ -175,7 +180,7 @@ fn bench() -> Desk {
 fn press(desk: &mut Desk, keys: &str) {
     for key in keys.split_whitespace() {
         match key.strip_prefix(':').filter(|name| !name.is_empty()) {
-            Some(name) => desk.keys(&["Esc", ":", name, "Enter"]),
+            Some(name) => desk.keys(&["Esc", ":", &name.replace('_', " "), "Enter"]),
             None if key == "RUNG" => desk.go_to("model.rung"),
             None => desk.keys(&[key]),
         };
@@ -199,7 +204,7 @@ fn out(desk: &Desk) -> String {
 /// The line of the table that a key calls there.
 fn called(desk: &Desk, key: &str) -> Option<usize> {
     if let Some(name) = key.strip_prefix(':').filter(|name| !name.is_empty()) {
-        return BINDINGS.iter().position(|binding| binding.name == name && binding.chords.is_empty());
+        return BINDINGS.iter().position(|binding| binding.name == name.replace('_', " ") && binding.chords.is_empty());
     }
     let key = if key == "BackTab" { "Shift-Tab" } else { key };
     let place = desk.app.place();

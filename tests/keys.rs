@@ -104,6 +104,19 @@ fn the_notes_are_told_from_every_pane() {
 }
 
 #[test]
+fn what_is_copied_of_chart_and_teeth_is_the_reading_at_the_cursor() {
+    for pane in ["3", "4"] {
+        let mut desk = Desk::new(LARGE);
+        desk.keys(&["Esc", pane, "y"]);
+        assert!(desk.shows("no reading to copy") && desk.copied.is_none(), "{}", desk.screen());
+        desk.keys(&["l", "y"]);
+        let copied = desk.copied.clone().unwrap_or_default();
+        assert!(copied.starts_with("1.3663 deg of the driver before E: ") && copied.contains("F_S 2191.0 N"), "{copied}");
+        assert!(desk.shows("copied 1.3663 deg of the driver before E"), "{}", desk.screen());
+    }
+}
+
+#[test]
 fn a_left_out_field_shows_what_holds() {
     let mut desk = Desk::new(SMALL);
     desk.fill("model.deflection", "");
@@ -424,6 +437,17 @@ fn the_baseline_is_called_as_the_file_that_it_was_saved_to() {
     let path = desk.path("whine.toml");
     desk.keys(&["F2", "Ctrl-U", name(&path), "Enter"]);
     assert!(desk.shows("against whine.toml"), "{}", desk.screen());
+    let path = desk.path("quiet.toml");
+    desk.fill("driven.tip_relief", "48").keys(&["F2", "Ctrl-U", name(&path), "Enter"]);
+    assert!(desk.app.short_name() == "quiet.toml" && desk.shows("against whine.toml"), "{}", desk.screen());
+}
+
+#[test]
+fn a_baseline_of_other_values_than_were_saved_keeps_its_name() {
+    let mut desk = Desk::new(LARGE);
+    let path = desk.path("quiet.toml");
+    desk.keys(&["Alt-B"]).fill("driven.tip_relief", "48").keys(&["F2", "Ctrl-U", name(&path), "Enter"]);
+    assert!(desk.app.short_name() == "quiet.toml" && desk.shows("against built-in"), "{}", desk.screen());
 }
 
 #[test]
@@ -432,7 +456,8 @@ fn results_are_found_as_fields_are() {
         (&["Esc", "/", "fs", "Enter"][..], "F_S impact force, Eq. 57"),
         (&["Esc", "2", "/", "friction", "Enter"], "f friction ratio"),
         (&["Esc", ":", "sliding_velocity", "Enter"], "sliding velocity"),
-        (&["Ctrl-P", "tip relief", "Enter"], "▸ Ca1   tip relief"),
+        (&["Ctrl-P", "tip relief", "Enter"], "▸ Ca2   tip relief"),
+        (&["/relief", "Enter", "48"], "▸*Ca2   tip relief"),
         (&["Ctrl-P", "driven tip relief", "Enter", "48"], "▸*Ca2   tip relief"),
     ] {
         let mut desk = Desk::new(LARGE);

@@ -20,7 +20,7 @@ use tipstrike::tui::update::update;
 
 fn measured(size: Size) -> Desk {
     let mut desk = Desk::on(size, "case.toml", TABLE_1);
-    desk.keys(&["Esc", "5", "z", "Enter"]);
+    desk.keys(&["Esc", "5", "z", "m"]);
     desk
 }
 
@@ -40,13 +40,14 @@ fn asked(desk: &mut Desk, key: &str) -> Vec<Effect> {
 fn nothing_is_measured_until_it_is_asked_for() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc", "5", "z"]);
-    assert!(desk.shows("Nothing is measured yet: Enter or m measures"), "{}", desk.screen());
-    desk.keys(&["Right"]);
+    assert!(desk.shows("Nothing is measured yet: m measures"), "{}", desk.screen());
+    desk.keys(&["Right", "Enter"]);
+    assert!(desk.shows("nothing is measured yet: m measures"), "{}", desk.screen());
     assert!(desk.app.traded.is_none());
 }
 
 #[test]
-fn enter_measures_and_the_cheapest_that_will_do_is_marked() {
+fn m_measures_and_the_cheapest_that_will_do_is_marked() {
     let desk = measured(LARGE);
     let traded = desk.app.traded.as_ref().expect("a measurement");
     assert_eq!(traded.marked.expect("a mark").rung, Rung::Dynamic);
@@ -83,6 +84,7 @@ fn enter_makes_the_marked_setting_the_cases_and_undo_takes_it_back() {
     desk.keys(&["Enter"]);
     assert_eq!(own(&desk), marked);
     assert_eq!(desk.app.answer.as_ref().unwrap().active, Rung::Dynamic);
+    assert!(desk.shows(&format!("rung {marked}; u undoes")), "{}", desk.screen());
     assert!(!desk.shows("AS IT WAS"), "a setting makes no other case");
     desk.keys(&["u"]);
     assert_eq!(own(&desk), before);
@@ -103,7 +105,7 @@ fn another_case_makes_the_measurement_one_of_before() {
 fn esc_stops_a_measurement_and_what_was_measured_stays() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc", "5", "z"]);
-    let effects = asked(&mut desk, "Enter");
+    let effects = asked(&mut desk, "m");
     let serial = match &effects[..] {
         [Effect::Measure(measuring)] => {
             let Measuring { serial, .. } = **measuring;

@@ -82,6 +82,8 @@ pub struct Baseline {
     pub tab: usize,
     /// The name of the case.
     pub name: String,
+    /// Whether that is the name of a file.
+    pub is_file: bool,
     /// The case.
     pub case: Case,
     /// Its results.

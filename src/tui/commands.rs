@@ -6,6 +6,7 @@ use tui_input::InputRequest;
 
 use super::keys::{self, Chord, Place};
 use super::pane::Pane;
+use crate::model::inputs::Rung;
 
 pub use table::BINDINGS;
 
@@ -28,6 +29,7 @@ pub enum Command {
     Tab(usize),
     CloseTab,
     ToggleRung,
+    Rung(Rung),
     Undo,
     Redo,
     Show(Pane),

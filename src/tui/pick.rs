@@ -1,5 +1,7 @@
 //! Lists that are filtered by what is typed: the palette of commands, the fields, materials, limits, examples.
 
+use std::cmp::Reverse;
+
 use super::clean::symbol;
 use super::commands::{self, Command};
 use super::line::Line;
@@ -15,6 +17,10 @@ const LIKENESS: f64 = 0.75;
 const TOLD: usize = 100;
 /// The least score for each word of a field or a result that is called so.
 const CALLED: u32 = 65;
+/// By so much a field that makes no difference fits less: behind its like, yet before others where its very symbol is typed.
+const IDLE: u32 = 9;
+/// Of fields that fit alike the one that is meant most often.
+const FOREMOST: &str = "driven.tip_relief";
 /// What is longer is like no name, and would take long to compare.
 const LONGEST_NAME: usize = 64;
 
@@ -29,6 +35,8 @@ pub struct Picker {
     pub marked: usize,
     /// The results that may be gone to, by their keys, and whether they come before the fields.
     pub results: (Vec<&'static str>, bool),
+    /// The fields that make no difference in the case.
+    pub idle: Vec<usize>,
 }
 
 /// What is listed.
@@ -80,13 +88,14 @@ impl Picker {
     /// The whole list.
     #[must_use]
     pub fn new(list: List) -> Picker {
-        Picker { list, input: Line::default(), marked: 0, results: (Vec::new(), false) }
+        Picker { list, input: Line::default(), marked: 0, results: (Vec::new(), false), idle: Vec::new() }
     }
 
-    /// The whole list, with these results, by their keys; and whether they come before the fields.
+    /// The whole list, with these results, by their keys, and whether they come before the fields; and the fields that make no
+    /// difference, which come after those that do.
     #[must_use]
-    pub fn over(list: List, results: Vec<&'static str>, are_first: bool) -> Picker {
-        Picker { results: (results, are_first), ..Picker::new(list) }
+    pub fn over(list: List, results: Vec<&'static str>, are_first: bool, idle: Vec<usize>) -> Picker {
+        Picker { results: (results, are_first), idle, ..Picker::new(list) }
     }
 
     /// In a few words.
@@ -133,11 +142,19 @@ impl Picker {
     fn places(&self) -> Vec<(u32, Item)> {
         let typed = self.input.value();
         let (known, are_first) = &self.results;
-        let fields: Vec<_> = search::search(typed).into_iter().map(|(at, score)| (score, field(at))).collect();
+        let mut fields = search::search(typed);
+        fields.sort_by_key(|&(at, score)| self.rank_of_field(at, score));
+        let fields: Vec<_> = fields.into_iter().map(|(at, score)| (score, field(at))).collect();
         let results = search::search_results(typed).into_iter().map(|(at, score)| (score, &QUANTITIES[at]));
         let results = results.filter(|(_, quantity)| known.contains(&quantity.key));
         let results = results.map(|(score, quantity)| (score, result(quantity))).collect();
         if *are_first { [results, fields].concat() } else { [fields, results].concat() }
+    }
+
+    // Of what fits alike that comes first which makes a difference in the case. Without a word the order of the form stays.
+    fn rank_of_field(&self, at: usize, score: u32) -> (Reverse<u32>, bool) {
+        let loss = if self.idle.contains(&at) { IDLE } else { 0 };
+        (Reverse(score.saturating_sub(loss)), score > 0 && FIELDS[at].key != FOREMOST)
     }
 
     /// Move the mark, as far as there are lines.
@@ -251,6 +268,19 @@ mod tests {
         {
             assert_eq!(first(List::Commands, typed).as_deref(), Some(name), "{typed}");
         }
+        for (typed, name) in [
+            ("tab", "next case"),
+            ("switch", "next case"),
+            ("compare", "baseline"),
+            ("static", "rung static"),
+            ("dynamic", "rung dynamic"),
+            ("rung", "rung"),
+        ] {
+            let results = QUANTITIES.iter().map(|quantity| quantity.key).collect();
+            let picker = Picker { input: typed.into(), ..Picker::over(List::Commands, results, true, Vec::new()) };
+            let found = picker.fitting().into_iter().take(3).map(|item| item.name).collect::<Vec<_>>();
+            assert!(found.contains(&name.to_owned()), "{typed}: {found:?}");
+        }
         assert_eq!(first(List::Commands, "xyzzy"), None);
     }
 
@@ -264,6 +294,20 @@ mod tests {
             ("ca1", "driver.tip_relief"),
         ] {
             assert_eq!(first(List::Places, typed).as_deref(), Some(key), "{typed}");
+        }
+    }
+
+    #[test]
+    fn what_acts_comes_before_what_does_not_but_a_symbol_is_what_it_says() {
+        let idle: Vec<_> = (0..FIELDS.len()).filter(|&at| FIELDS[at].key.starts_with("driver.tip_relief")).collect();
+        for (typed, key) in [
+            ("relief", "driven.tip_relief"),
+            ("tip relief", "driven.tip_relief"),
+            ("driver tip relief", "driver.tip_relief"),
+            ("ca1", "driver.tip_relief"),
+        ] {
+            let picker = Picker { input: typed.into(), ..Picker::over(List::Places, Vec::new(), false, idle.clone()) };
+            assert_eq!(picker.fitting()[0].name, key, "{typed}");
         }
     }
 

@@ -34,7 +34,7 @@ use super::prompt::{Next, Page, Prompt};
 use super::solver::Request;
 use super::theme::Look;
 use super::view;
-use crate::case::{Document, changes, fields};
+use crate::case::{Acting, Document, FIELDS, acts, changes, fields};
 use crate::model::inputs::Rung;
 
 /// Change the state by what happened, and say what is to be done about it.
@@ -135,7 +135,8 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::Accept => prompts::accept(app),
         Command::Complete => browse::complete(app),
         Command::Undo | Command::Redo => travel(app, command),
-        Command::ToggleRung => toggle_rung(app),
+        Command::ToggleRung => set_rung(app, None),
+        Command::Rung(rung) => set_rung(app, Some(rung)),
         Command::NextChoice => edit::cycle(app, 1),
         Command::PreviousChoice => edit::cycle(app, -1),
         Command::Redraw => vec![Effect::Redraw],
@@ -210,7 +211,9 @@ fn show(app: &mut App, command: Command) {
 fn find(app: &mut App, list: List) {
     let results = view::results::listed(app).map(|quantity| quantity.key).collect();
     let are_first = app.panes.focus == Pane::Results;
-    app.prompts.push(Prompt::Pick(Picker::over(list, results, are_first)));
+    let inputs = app.case.inputs_so_far();
+    let idle = (0..FIELDS.len()).filter(|&field| matches!(acts(field, &inputs), Acting::No(_))).collect();
+    app.prompts.push(Prompt::Pick(Picker::over(list, results, are_first, idle)));
 }
 
 fn solver_failed(app: &mut App, serial: u64) {
@@ -240,10 +243,14 @@ fn travel(app: &mut App, command: Command) -> Vec<Effect> {
     effects
 }
 
-fn toggle_rung(app: &mut App) -> Vec<Effect> {
+// That rung, else the next.
+fn set_rung(app: &mut App, rung: Option<Rung>) -> Vec<Effect> {
     let Some(field) = fields::index_of("model.rung") else { return Vec::new() };
     let names: Vec<_> = Rung::ALL.iter().map(|rung| rung.name()).collect();
-    let effects = edit::choose(app, field, &names, 1);
+    let effects = match rung {
+        Some(rung) => edit::set(app, field, rung.name()),
+        None => edit::choose(app, field, &names, 1),
+    };
     let waits = if app.is_stale() { ", solved when every field is right" } else { "" };
     app.say(format!("rung {}{waits}", edit::chosen(app, field)));
     effects

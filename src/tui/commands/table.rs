@@ -5,6 +5,7 @@ use tui_input::InputRequest as Line;
 
 use super::Command as Do;
 use super::{Binding, Command};
+use crate::model::inputs::Rung;
 use crate::tui::keys::{ALT, CTRL, Chord, Place, SHIFT, alt, ctrl, function, key, letter, with};
 use crate::tui::pane::Pane;
 
@@ -47,7 +48,7 @@ pub static BINDINGS: &[Binding] = &[
     // Outside a field, where letters are commands.
     shown(Place::FIELD, &[key(KeyCode::Enter), letter('i')], Do::StartEdit, "edit", "Type into the focused field; Esc leaves it."),
     shown(Place::RESULTS, &[key(KeyCode::Enter)], Do::Explain, "explain", "Where the marked result comes from."),
-    shown(Place::TRADE, &[key(KeyCode::Enter)], Do::TakeSetting, "take setting", "Make the marked setting the case's; where nothing is measured yet, measure."),
+    shown(Place::TRADE, &[key(KeyCode::Enter)], Do::TakeSetting, "take setting", "Make the marked setting the case's."),
     shown(Place::TRADE, &[letter('m')], Do::Measure, "measure", "Measure error and time of every rung and setting on this case."),
     told(Place::TRADE, &[letter('l'), letter('j'), key(KeyCode::Right), key(KeyCode::Down)], Do::Next, "The next slower setting."),
     told(Place::TRADE, &[letter('h'), letter('k'), key(KeyCode::Left), key(KeyCode::Up)], Do::Previous, "The next quicker setting."),
@@ -83,8 +84,8 @@ pub static BINDINGS: &[Binding] = &[
     shown(Place::OUTSIDE, &[key(KeyCode::Tab)], Do::NextPane, "next pane", "The next pane."),
     listed(Place::OUTSIDE, &[key(KeyCode::BackTab)], Do::PreviousPane, "previous pane", "The pane before."),
     shown(Place::OUTSIDE, &[letter('u')], Do::Undo, "undo", "Undo the edits of the last field."),
-    shown(Place::OUTSIDE, &[letter('b')], Do::PinBaseline, "baseline", "Pin the results as the baseline to hold others against, or unpin them."),
-    shown(Place::OUTSIDE, &[letter('y')], Do::CopyValue, "copy value", "Copy the focused value to the clipboard of your own terminal."),
+    shown(Place::OUTSIDE, &[letter('b')], Do::PinBaseline, "baseline", "Pin the results as the baseline to compare others with, or unpin them."),
+    shown(Place::OUTSIDE, &[letter('y')], Do::CopyValue, "copy value", "Copy the focused value, in chart and teeth the reading at the cursor, to the clipboard of your own terminal."),
     shown(Place::OUTSIDE, &[letter('Y')], Do::CopyResults, "copy results", "Copy all results to the clipboard of your own terminal."),
     shown(Place::OUTSIDE, &[letter('z')], Do::Zoom, "zoom", "Give the focused pane the screen, or take it back."),
     listed(Place::OUTSIDE, &[letter('1')], Do::Show(Pane::Form), "form", "Go to the form."),
@@ -106,6 +107,11 @@ pub static BINDINGS: &[Binding] = &[
     shown(Place::WORK, &[ctrl('q')], Do::Quit, "quit", "Quit; asks when something is unsaved."),
     shown(Place::FORM, &[key(KeyCode::Esc)], Do::Leave, "leave field", "Leave the field: letters are commands then."),
     shown(Place::WORK, &[ctrl('t'), function(6)], Do::ToggleRung, "rung", "Next rung: paper, exact, static, dynamic, auto."),
+    listed(Place::WORK, &[], Do::Rung(Rung::Paper), "rung paper", "Solve by the closed form as it is printed."),
+    listed(Place::WORK, &[], Do::Rung(Rung::Exact), "rung exact", "Solve by the closed form, from the first contact where the gap closes."),
+    listed(Place::WORK, &[], Do::Rung(Rung::Static), "rung static", "Solve for how the pairs in contact share the load at rest."),
+    listed(Place::WORK, &[], Do::Rung(Rung::Dynamic), "rung dynamic", "Solve for the pair in motion, with inertia."),
+    listed(Place::WORK, &[], Do::Rung(Rung::Auto), "rung auto", "Solve by the cheapest of exact, static and dynamic that is good enough."),
     shown(Place::WORK, &[ctrl('z')], Do::Undo, "undo", "Undo the edits of the last field."),
     shown(Place::WORK, &[function(5), alt('p')], Do::CycleLower, "switch", "Switch the lower area: chart, teeth, trade."),
     listed(Place::WORK, &[function(9)], Do::Zoom, "zoom", "Give the focused pane the screen, or take it back."),
@@ -115,9 +121,9 @@ pub static BINDINGS: &[Binding] = &[
     listed(Place::WORK, &[ctrl('n')], Do::New, "new", "A new case, beginning with the built-in Table 1."),
     listed(Place::WORK, &[alt('n')], Do::Example, "from example", "A new case, beginning with one of the examples."),
     listed(Place::WORK.or(Place::BROWSE), &[alt('r')], Do::Recent, "recent cases", "Open one of the cases that were open last."),
-    listed(Place::WORK, &[with(CTRL, KeyCode::PageDown)], Do::NextTab, "next case", "The next open case."),
-    listed(Place::WORK, &[with(CTRL, KeyCode::PageUp)], Do::PreviousTab, "previous case", "The open case before."),
-    listed(Place::WORK, &[alt('w')], Do::CloseTab, "close case", "Close the case; asks when it is unsaved."),
+    listed(Place::WORK, &[with(CTRL, KeyCode::PageDown)], Do::NextTab, "next case", "Switch to the next open case, in its tab."),
+    listed(Place::WORK, &[with(CTRL, KeyCode::PageUp)], Do::PreviousTab, "previous case", "Switch to the open case before, in its tab."),
+    listed(Place::WORK, &[alt('w')], Do::CloseTab, "close case", "Close the case and its tab; asks when it is unsaved."),
     told(Place::WORK, &[alt('1')], Do::Tab(0), "The first open case; the second and so on by Alt-2 to Alt-9."),
     told(Place::WORK, &[alt('2')], Do::Tab(1), ""),
     told(Place::WORK, &[alt('3')], Do::Tab(2), ""),
@@ -128,7 +134,7 @@ pub static BINDINGS: &[Binding] = &[
     told(Place::WORK, &[alt('8')], Do::Tab(7), ""),
     told(Place::WORK, &[alt('9')], Do::Tab(8), ""),
     listed(Place::WORK, &[ctrl('y'), ctrl('r')], Do::Redo, "redo", "Redo what was undone."),
-    listed(Place::WORK, &[alt('b')], Do::PinBaseline, "baseline", "Pin the results as the baseline to hold others against, or unpin them."),
+    listed(Place::WORK, &[alt('b')], Do::PinBaseline, "baseline", "Pin the results as the baseline to compare others with, or unpin them."),
     listed(Place::OUTSIDE, &[letter('%')], Do::ShowCost, "cost", "Tell beside the results which stages the last solve ran, and in how many microseconds."),
     listed(Place::WORK, &[function(8), alt('m')], Do::CycleMarker, "marker", "Draw the chart in Braille, blocks or dots."),
     listed(Place::WORK, &[], Do::CycleTheme, "theme", "Change the colours: quiet, contrast, mono."),

@@ -5,14 +5,15 @@ use crate::report;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::clean;
+use crate::tui::keys::Place;
 use crate::tui::pane::Pane;
 use crate::tui::rows::{self, Row};
-use crate::tui::view::results;
+use crate::tui::view::{chart, results};
 
 /// Terminals refuse more than this, or cut it.
 const MOST_BYTES: usize = 48 * 1024;
 
-/// The focused value: of the form its text, of the other panes the marked result.
+/// The focused value: of the form its text, of chart and teeth the reading at the cursor, else the marked result.
 pub(super) fn value(app: &mut App) -> Vec<Effect> {
     if app.panes.focus == Pane::Form {
         let text = match rows::row(&app.case, app.focus) {
@@ -21,6 +22,14 @@ pub(super) fn value(app: &mut App) -> Vec<Effect> {
         };
         let label = rows::label(&app.case, app.focus);
         return copy(app, text, label);
+    }
+    if Place::CURSOR.meets(app.panes.focus.place()) {
+        let Some(cursor) = app.cursor else {
+            app.complain("no cursor, so there is no reading to copy: h and l bring it");
+            return Vec::new();
+        };
+        let reading = chart::readout(app, cursor);
+        return copy(app, reading, "the reading at the cursor");
     }
     let Some(quantity) = results::marked(app) else {
         app.complain("there are no results to copy");

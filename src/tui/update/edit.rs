@@ -121,7 +121,8 @@ fn choose_by_letter(app: &mut App, letter: char) -> Vec<Effect> {
     name.map_or_else(Vec::new, |name| set(app, app.focus, name))
 }
 
-fn set(app: &mut App, field: usize, name: &str) -> Vec<Effect> {
+/// Take a name, in any field of names.
+pub(super) fn set(app: &mut App, field: usize, name: &str) -> Vec<Effect> {
     if chosen(app, field) == name {
         return Vec::new();
     }

@@ -19,17 +19,20 @@ pub(super) fn pin(app: &mut App) {
     let Some(answer) = app.answer.as_ref().filter(|answer| app.is_pinning && answer.stages == crate::model::Stages::EVERY) else {
         return;
     };
-    let baseline = Baseline { tab: app.tab.id, name: app.short_name(), case: app.case.clone(), answer: answer.clone() };
+    let (name, is_file) = (app.short_name(), app.path.is_some());
+    let baseline = Baseline { tab: app.tab.id, name, is_file, case: app.case.clone(), answer: answer.clone() };
     let words = format!("baseline: {} as it is now, for this session", baseline.name);
     app.is_pinning = false;
     app.baseline = Some(baseline);
     app.say(words);
 }
 
-/// The pinned case has another name now.
+/// A case that had no file when it was pinned is called as the file that these values were saved to.
 pub(super) fn rename(app: &mut App) {
     let (tab, name) = (app.tab.id, app.short_name());
-    if let Some(baseline) = app.baseline.as_mut().filter(|baseline| baseline.tab == tab) {
-        baseline.name = name;
+    let saved = &app.tab.saved;
+    let is_it = |baseline: &&mut Baseline| baseline.tab == tab && !baseline.is_file && baseline.case == *saved;
+    if let Some(baseline) = app.baseline.as_mut().filter(is_it) {
+        (baseline.name, baseline.is_file) = (name, true);
     }
 }

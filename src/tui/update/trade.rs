@@ -77,16 +77,20 @@ pub(super) fn step(app: &mut App, by: isize) {
     traded.marked = Some(settings[next]);
 }
 
-/// The marked setting becomes the case's; where nothing is measured yet, that comes first.
+/// The marked setting becomes the case's.
 pub(super) fn take(app: &mut App) -> Vec<Effect> {
-    let Some(traded) = &app.tab.traded else { return measure(app) };
-    let Some(setting) = traded.marked else {
-        app.say("no setting is marked: the arrow keys mark one");
+    let Some(setting) = app.tab.traded.as_ref().and_then(|traded| traded.marked) else {
+        app.say(if app.traded.is_some() {
+            "no setting is marked: the arrow keys mark one"
+        } else {
+            "nothing is measured yet: m measures"
+        });
         return Vec::new();
     };
     let mut case = app.case.clone();
     setting.apply(&mut case);
+    let is_other = case != app.case;
     let effects = edit::replace(app, case);
-    app.say(format!("the case is solved by {setting}"));
+    app.say(format!("rung {setting}{}", if is_other { "; u undoes" } else { ", as it was" }));
     effects
 }

@@ -19,8 +19,8 @@ const LABEL: u16 = 9;
 const TALL: u16 = 8;
 /// The line of the error that is good enough.
 const LEVEL: &str = "╌";
-const INVITATION: &str = "Nothing is measured yet: Enter or m measures every rung by its settings on this case, for a few seconds; \
-    Esc stops it, and what was measured stays.";
+const INVITATION: &str = "Nothing is measured yet: m measures every rung by its settings on this case, for a few seconds; \
+    Esc stops it, and what was measured stays. Enter then makes the marked setting the case's.";
 
 /// Draw the pane.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
