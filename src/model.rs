@@ -17,6 +17,7 @@ pub mod impact;
 pub mod inputs;
 pub mod limits;
 pub mod load_sharing;
+pub mod margin;
 pub mod mesh;
 pub mod moment;
 pub mod notes;

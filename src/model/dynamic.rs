@@ -34,6 +34,8 @@ pub struct Dynamic {
     pub peak_force: f64,
     /// From a first contact before E to the first least force after the first peak, or to the loss of contact, in s.
     pub impact_duration: Option<f64>,
+    /// The gap that is left between the incoming tooth and the flank before E, at the least, in m, where it does not touch.
+    pub least_gap: Option<f64>,
     /// Whether no pair at all is in contact at some moment from one base pitch before E until the incoming tooth leaves.
     pub contact_lost: bool,
     /// Work of friction on the incoming tooth, in J; where the case gives a friction coefficient.

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::case::units::{self, System};
 use crate::model::inputs::Rung;
 use crate::model::{Outcome, Quantity, Refusal, Solution, Stage};
 use crate::numeric::decimal::significant;
@@ -63,6 +64,28 @@ pub fn without_contact(solution: &Solution) -> &'static str {
     }
 }
 
+/// The same in full, with the deviation where that is the reason; where the load at rest would bring the tooth in early, by how
+/// much, and where it would not, how much is left.
+#[must_use]
+pub fn without_contact_in_full(solution: &Solution, system: System) -> String {
+    let (why, total) = (without_contact(solution), solution.deviation.total);
+    let told = |value: f64| {
+        let (number, unit) = units::system::shown(value, "um", 3, system);
+        format!("{number} {unit}")
+    };
+    match solution.rung {
+        _ if total <= 0.0 => why.to_owned(),
+        Rung::Paper => format!("{why}, though Δ is {}", told(total)),
+        Rung::Static => {
+            solution.margin().map_or_else(|| why.to_owned(), |gap| format!("at rest a gap of {} is left before E", told(gap)))
+        }
+        _ => match solution.lead_at_rest().filter(|&lead| lead > 0.0) {
+            Some(lead) => format!("{why}; at rest it would, by {}", told(lead)),
+            None => why.to_owned(),
+        },
+    }
+}
+
 /// Why no relief is known that stops it.
 fn cleared(solution: &Solution) -> Absence {
     solution.clearing.and_then(|clearing| clearing.withheld).map_or(Absence::NotReached, Absence::Withheld)
@@ -80,6 +103,8 @@ impl fmt::Display for Absence {
                 let rungs = rungs.collect::<Vec<_>>().join(", ");
                 write!(f, "the rung is {}, and this is of {rungs}", rung.name())
             }
+            // A deviation above 0 is of the load at rest, and no reason.
+            Absence::NoContact(why, total) if *total > 0.0 => write!(f, "no corner contact: {why}"),
             Absence::NoContact(why, total) => {
                 write!(f, "no corner contact: {why}, the total deviation is {} um", significant(total * 1e6, 5))
             }

@@ -1,7 +1,7 @@
 //! A case in a few lines: its title, the pair, what is asked of it, and its verdict - whether the tooth strikes and how
 //! its limits stand.
 
-use super::absence::without_contact;
+use super::absence::without_contact_in_full;
 use super::verdict::{self, Standing};
 use super::{shown_in, value};
 use crate::case::fields::index_of;
@@ -107,8 +107,9 @@ pub fn sentence(solution: &Solution, system: System) -> String {
             format!("Corner contact{}, {force}.", angle.unwrap_or_default())
         }
         Outcome::NoCornerContact => {
-            let total = told("total_deviation", solution, system).map(|total| format!("Δ = {total}, "));
-            format!("No corner contact: {}{}.", total.unwrap_or_default(), without_contact(solution))
+            let is_reason = solution.deviation.total <= 0.0;
+            let total = told("total_deviation", solution, system).filter(|_| is_reason).map(|total| format!("Δ = {total}, "));
+            format!("No corner contact: {}{}.", total.unwrap_or_default(), without_contact_in_full(solution, system))
         }
     }
 }
@@ -217,6 +218,20 @@ mod tests {
         let relieved = digest(&[("driven.tip_relief", "80 um"), ("limits.impact_force", "")]);
         assert_eq!(relieved.verdict(), "does not strike");
         assert!(relieved.outcome.starts_with("No corner contact: Δ = "));
+    }
+
+    #[test]
+    fn a_tooth_that_the_load_at_rest_alone_would_bring_in_early_is_told_without_contradiction() {
+        let in_motion = digest(&[("model.rung", "dynamic"), ("driven.tip_relief", "39 um")]);
+        assert!(
+            in_motion
+                .outcome
+                .starts_with("No corner contact: in motion the tooth does not touch before E; at rest it would, by 1."),
+            "{}",
+            in_motion.outcome
+        );
+        let at_rest = digest(&[("model.rung", "static"), ("driven.tip_relief", "39 um")]);
+        assert!(at_rest.outcome.starts_with("Corner contact"), "{}", at_rest.outcome);
     }
 
     #[test]

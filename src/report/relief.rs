@@ -21,14 +21,14 @@ pub fn relief(solution: &Solution, system: System) -> Option<[String; 3]> {
     Some(if given > 0.0 {
         [
             format!("{more} more tip relief of the driven gear ({all} in all) stops it"),
-            format!("+{more} tip relief ({all} in all) stops it"),
-            format!("+{more} relief stops it"),
+            format!("+{more} driven tip relief ({all} in all) stops it"),
+            format!("Ca2 {all} stops it"),
         ]
     } else {
         [
             format!("{all} of tip relief of the driven gear stops it"),
-            format!("{all} of tip relief stops it"),
-            format!("{all} relief stops it"),
+            format!("{all} driven tip relief stops it"),
+            format!("Ca2 {all} stops it"),
         ]
     })
 }

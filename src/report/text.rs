@@ -1,6 +1,6 @@
 //! A solve as a page of text for a person, 80 columns wide.
 
-use super::absence::without_contact;
+use super::absence::without_contact_in_full;
 use super::digest::{first_touch, force};
 use super::groups::{FREE_IMPACT, Group, groups};
 use super::layout::{WIDTH, flow, item, widest};
@@ -96,8 +96,10 @@ fn sentence(solution: &Solution) -> String {
             if solution.rung.shares_load() { String::new() } else { part(", approaching at ", "normal_velocity") },
         ),
         Outcome::NoCornerContact => {
-            let deviates = part(", the total deviation is ", "total_deviation");
-            format!("No corner contact: {}{deviates}.", without_contact(solution))
+            let is_reason = solution.deviation.total <= 0.0;
+            let deviates = if is_reason { part(", the total deviation is ", "total_deviation") } else { String::new() };
+            let why = without_contact_in_full(solution, System::Metric);
+            format!("No corner contact: {why}{deviates}.")
         }
     }
 }

@@ -84,6 +84,7 @@ impl Watch {
             peak_approach_force: swing::peak(&swings[..before]),
             peak_force,
             impact_duration: early.and_then(|first| swing::end_of_first_impact(&swings).map(|end| end - first)),
+            least_gap: early.is_none().then(|| -self.lead(motion)).filter(|gap| gap.is_finite()),
             contact_lost: self.contact_lost,
             friction_work: (mesh.friction() > 0.0).then(|| self.friction_work(motion)),
             stations: first
@@ -110,6 +111,17 @@ impl Watch {
         self.records.iter().filter_map(move |record| {
             let incoming = self.windows[record.window].incoming().filter(|&pair| record.touching.has(pair))?;
             Some((self.course(motion, record), incoming, &record.step))
+        })
+    }
+
+    /// The most by which the driver is further ahead before E than the gap of an incoming tooth that does not touch is wide,
+    /// in m.
+    fn lead(&self, motion: &Motion<'_>) -> f64 {
+        let before = self.records.iter().filter(|record| record.step.t < 0.0);
+        before.fold(f64::NEG_INFINITY, |lead, record| {
+            let Some(incoming) = self.windows[record.window].incoming() else { return lead };
+            let [_, gap] = self.course(motion, record).spring_along(incoming, &record.step);
+            record.step.most_beyond(&gap, lead)
         })
     }
 

@@ -11,7 +11,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::{text, title_room, titled};
 use crate::model::inputs::Rung;
-use crate::model::{Note, Quantity, Solution, Stage};
+use crate::model::{Note, Outcome, Quantity, Solution, Stage};
 use crate::report::{self, Shown, digest};
 use crate::tui::app::App;
 use crate::tui::clean::symbol;
@@ -262,13 +262,16 @@ fn gauges(app: &App, answer: &Answer) -> Vec<Gauge> {
 // What stops it; where that is yet to come, a place is kept for it.
 fn relief(app: &App, answer: &Answer, solution: &Solution) -> Option<Gauge> {
     let is_to_come = answer.strikes() && answer.lacks(Stage::Clearing);
-    let to_come = || ["... tip relief of the driven gear stops it", "... tip relief stops it", "... relief stops it"];
+    let to_come = || ["... tip relief of the driven gear stops it", "... driven tip relief stops it", "Ca2 ... stops it"];
     let known = report::relief::relief(solution, app.settings.units);
     known.or_else(|| is_to_come.then(|| to_come().map(str::to_owned))).map(|words| Gauge(words.into()))
 }
 
-// How far the force depends on the choice of stiffness model.
+// How far the force depends on the choice of stiffness model; where nothing strikes there is none to depend on it.
 fn band(app: &App, solution: &Solution) -> Option<Gauge> {
+    if solution.outcome == Outcome::NoCornerContact {
+        return None;
+    }
     let (band, force) = (solution.band?, solution.impact?.force);
     let percent = |end: f64| 100.0 * (end / force - 1.0) + 0.0;
     let quantity = Quantity::find("impact_force_low")?;
@@ -281,7 +284,7 @@ fn band(app: &App, solution: &Solution) -> Option<Gauge> {
         format!("the stiffness models in range give {whose}F_S {range}"),
         format!("by stiffness: {force} {range}"),
         format!("by stiffness: {force} {parts}"),
-        format!("stiffness {parts}"),
+        format!("{force} {parts}"),
     ]))
 }
 
