@@ -87,6 +87,18 @@ impl Case {
         Document::table_1().case
     }
 
+    /// The values of Table 1 to begin a case with: nothing that is said of that pair alone, and the load makes the deflection.
+    #[must_use]
+    pub fn fresh() -> Case {
+        let mut case = Case { limits: Vec::new(), ..Case::table_1() };
+        for (key, text) in [("title", "New case"), ("notes", ""), ("model.deflection", "")] {
+            if let Some(field) = fields::index_of(key) {
+                case.write(field, text);
+            }
+        }
+        case
+    }
+
     /// What stands in the field, as written; `None` where the case leaves it out.
     #[must_use]
     pub fn text(&self, field: usize) -> Option<&str> {

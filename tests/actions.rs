@@ -97,7 +97,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("", "F4", "", "μ_stick  stick limit"),
     ("F4", "F3", "", "u        driven angle b"),
     ("", "F2", "", "Save as"),
-    ("", "Ctrl-N", "", "a new case, beginning with Table 1"),
+    ("", "Ctrl-N", "", "a new case, beginning with the values of Table 1"),
     ("", "Alt-N", "", "New from an example"),
     ("", "Alt-R", "", "Recent cases"),
     ("Ctrl-N", "Ctrl-PageDown", "", "[1 case.toml]"),

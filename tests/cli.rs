@@ -441,7 +441,19 @@ fn a_new_case_solves() {
     assert_eq!(told(&["new"]), text);
     let output = run_with_input(&["solve", "-"], &text);
     assert_eq!((code(&output), err(&output).as_str()), (0, ""));
-    assert!(out(&output).contains("2191.0 N"));
+    let solved = out(&output);
+    assert!(solved.contains("New case") && solved.contains("Corner contact") && !solved.contains("Limits"), "{solved}");
+    let weaker = out(&run_with_input(&["solve", "-", "--set", "operation.power=5 kW", "--only", "impact_force"], &text));
+    let given = out(&run_with_input(&["solve", "-", "--only", "impact_force"], &text));
+    assert_ne!(weaker, given, "the load makes the deflection");
+    assert!(!text.contains("grade 7"), "{text}");
+}
+
+#[test]
+fn a_quantity_is_known_by_a_symbol_of_its_own() {
+    let of = |name: &str| told(&["explain", name]);
+    assert_eq!(of("F_S"), of("impact_force"));
+    assert_eq!(told(&["solve", TABLE_1, "--only", "F_S"]), told(&["solve", TABLE_1, "--only", "impact_force"]));
 }
 
 #[test]

@@ -131,8 +131,8 @@ fn a_hint_offers_the_usual_unit_and_names_the_command_line() {
 fn a_quantity_is_found_by_its_symbol_and_after_a_slip() {
     for command in [["solve", TABLE_1, "--only"], ["explain", "--rung", "exact"]] {
         let asked = |name| refused(&[&command[..], &[name]].concat());
-        let (code, line) = asked("F_S");
-        assert_eq!((code, line.ends_with("`F_S` is the symbol of impact_force: write impact_force")), (2, true), "{line}");
+        let (code, line) = asked("f_s");
+        assert_eq!((code, line.ends_with("`f_s` is the symbol of impact_force: write impact_force")), (2, true), "{line}");
         assert!(asked("impact_forces").1.ends_with("did you mean impact_force?"));
         assert!(asked("impact_force normal_velocity").1.ends_with("put commas between names"));
         assert!(asked("colour").1.ends_with("`tipstrike fields --results` lists every quantity"));

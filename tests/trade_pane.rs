@@ -57,6 +57,12 @@ fn m_measures_and_the_cheapest_that_will_do_is_marked() {
 }
 
 #[test]
+fn the_rung_that_the_others_are_held_against_has_no_error_of_its_own() {
+    let desk = measured(LARGE);
+    assert!(desk.shows("model: the reference") && !desk.shows("model 0 %"), "{}", desk.screen());
+}
+
+#[test]
 fn arrows_walk_from_the_quickest_to_the_slowest() {
     let mut desk = measured(LARGE);
     let seconds = |desk: &Desk| {

@@ -576,3 +576,22 @@ fn the_screens() {
     assert_snapshot!("opening_240x70", Desk::new(HUGE).screen());
     assert_snapshot!("opening_60x16", Desk::new(TINY).screen());
 }
+
+#[test]
+fn a_new_case_has_nothing_of_another_but_its_values() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.keys(&["Ctrl-N"]);
+    let text = desk.app.tab.document.render();
+    assert!(text.contains("title = \"New case\"") && !text.contains("grade 7"), "{text}");
+    assert!(desk.app.case.limits.is_empty() && desk.app.case.inputs().unwrap().deflection.is_none());
+    assert!(desk.shows("the load makes the deflection"), "{}", desk.screen());
+}
+
+#[test]
+fn no_range_is_told_of_a_strike_that_is_denied() {
+    let mut desk = Desk::on(SMALL, "case.toml", &TABLE_1.replace("tip_relief = \"0 um\"", "tip_relief = \"60 um\""));
+    for rung in ["static", "dynamic"] {
+        desk.keys(&["Ctrl-T"]);
+        assert!(desk.shows(rung) && desk.shows("No corner contact") && !desk.shows("stiffness"), "{rung}: {}", desk.screen());
+    }
+}

@@ -1,6 +1,6 @@
 //! What a form says about a field beside its text: its usual unit, its range, its value in other units.
 
-use super::fields::{Field, Kind};
+use super::fields::{Absent, Field, Kind};
 use super::units::{self, System};
 use crate::numeric::decimal::significant;
 
@@ -24,6 +24,24 @@ impl Field {
             Kind::Number(dimension, ..) => units::converted(typed, dimension, self.usual_unit(), system),
             Kind::Text | Kind::Count(..) | Kind::Choice(..) => None,
         }
+    }
+
+    /// What stands for a field that is left out, empty where nothing does; a measure in the units of the system.
+    #[must_use]
+    pub fn default_in(&self, system: System) -> String {
+        let Absent::Default(text) = self.absent else { return String::new() };
+        let unit = self.usual_unit();
+        let measured = match self.kind {
+            Kind::Number(dimension, ..) if system.unit(unit) != unit => units::parse(text, dimension, "").ok(),
+            _ => None,
+        };
+        measured.map_or_else(
+            || text.to_owned(),
+            |value| {
+                let (number, unit) = units::system::shown(value, unit, RANGE_DIGITS, system);
+                format!("{number} {unit}")
+            },
+        )
     }
 
     /// The least and the greatest value as [`Field::range_text`] tells them, in inch units rounded.
@@ -65,6 +83,8 @@ mod tests {
         assert_eq!(field("driver.teeth").converted("20", System::Metric), None);
         assert_eq!(field("pair.module").range_in(System::Metric), "0.05 to 50 mm");
         assert_eq!(field("pair.module").range_in(System::Inch), "about 0.00197 to 1.97 in");
+        assert_eq!(field("driven.tip_relief").default_in(System::Metric), "0 um");
+        assert_eq!(field("driven.tip_relief").default_in(System::Inch), "0 thou");
         assert_eq!(field("driver.teeth").range_in(System::Inch), "5 to 1000");
         assert_eq!(field("operation.speed").range_in(System::Inch), "0.001 to 1000000 rpm");
     }

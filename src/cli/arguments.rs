@@ -122,7 +122,7 @@ pub struct Check {
 /// What `explain` is asked.
 #[derive(Debug, Args)]
 pub struct Explain {
-    /// The quantity; `tipstrike fields --results` lists them
+    /// The quantity, by name or by a symbol of its own; `tipstrike fields --results` lists them
     #[arg(value_name = "QUANTITY", hide_possible_values = true, value_parser = Quantities)]
     pub quantity: &'static Quantity,
     /// The case file, - for standard input; else Table 1 of Zhou & Chen 2014
@@ -242,7 +242,7 @@ fn rungs() -> impl TypedValueParser<Value = Rung> {
         .try_map(|name| Rung::ALL.into_iter().find(|rung| rung.name() == name).ok_or("no such rung"))
 }
 
-/// Quantities by their names; a symbol or a slip is told the name that is meant.
+/// Quantities by their names, or by symbols that are of one alone; else a symbol or a slip is told the name that is meant.
 #[derive(Clone)]
 struct Quantities;
 
@@ -252,7 +252,7 @@ impl TypedValueParser for Quantities {
     fn parse_ref(&self, _: &clap::Command, argument: Option<&Arg>, value: &OsStr) -> Result<Self::Value, Error> {
         let text = value.to_string_lossy();
         let name = argument.and_then(Arg::get_long).map_or("QUANTITY".to_owned(), |long| format!("--{long}"));
-        Quantity::find(text.trim()).ok_or_else(|| {
+        Quantity::named(text.trim()).ok_or_else(|| {
             let Problem { cause, mend, .. } = unknown_quantity("", &text);
             misused(format!("{name}: {cause}: {mend}"))
         })

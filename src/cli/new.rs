@@ -11,7 +11,7 @@ pub(super) fn run(options: &New, streams: &mut Streams) -> io::Result<Exit> {
     if options.list {
         return list(streams.output.as_mut()).map(|()| Exit::Done);
     }
-    let text = options.from.map_or_else(|| Document::new(Case::table_1()).render(), |example| example.text.to_owned());
+    let text = options.from.map_or_else(|| Document::new(Case::fresh()).render(), |example| example.text.to_owned());
     match options.file.as_deref().filter(|file| file.as_os_str() != "-") {
         None => streams.output.write_all(text.as_bytes()).map(|()| Exit::Done),
         Some(path) => {

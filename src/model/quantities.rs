@@ -80,6 +80,13 @@ impl Quantity {
     pub fn find(key: &str) -> Option<&'static Quantity> {
         QUANTITIES.iter().find(|quantity| quantity.key == key)
     }
+
+    /// The quantity of that key, or of that symbol where no other has it.
+    #[must_use]
+    pub fn named(name: &str) -> Option<&'static Quantity> {
+        let mut of_symbol = QUANTITIES.iter().filter(|quantity| quantity.symbol == name && !name.is_empty());
+        Quantity::find(name).or_else(|| of_symbol.next().filter(|_| of_symbol.next().is_none()))
+    }
 }
 
 /// The stages of the free impact at D.

@@ -23,8 +23,10 @@ pub(super) fn explain(app: &mut App) -> Vec<Effect> {
     };
     let solution = app.answer.as_ref().and_then(|answer| answer.of(answer.active));
     let value = solution.and_then(|solution| report::value(quantity, solution));
-    let value = value.filter(|_| app.settings.units != System::Metric);
-    let value = value.map(|value| report::shown_in(quantity, value, app.settings.units));
+    let value = value.and_then(|value| {
+        let [own, metric] = [app.settings.units, System::Metric].map(|system| report::shown_in(quantity, value, system));
+        (own.unit != metric.unit).then_some(own)
+    });
     app.prompts.push(Prompt::Explain(Explanation::new(quantity, app.name(), value)));
     vec![Effect::Errand(Errand::Explain(Box::new(Asked { quantity, case: app.case.clone(), inputs })))]
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::case::{Document, Example};
+use crate::case::{Case, Document, Example};
 use crate::model::Stages;
 use crate::tui::app::App;
 use crate::tui::pane::Pane;
@@ -52,11 +52,11 @@ pub(super) fn show(app: &mut App, document: Document, path: PathBuf) -> Option<R
     request
 }
 
-/// Begin with the built-in case in a tab of its own.
+/// Begin with the values of the built-in case in a tab of its own.
 pub(super) fn fresh(app: &mut App) -> Option<Request> {
     let replaces = app.is_untouched();
-    let request = put(app, Tab::new(store::built_in(), None), replaces);
-    app.say("a new case, beginning with Table 1");
+    let request = put(app, Tab::new(Document::new(Case::fresh()), None), replaces);
+    app.say("a new case, beginning with the values of Table 1; the load makes the deflection");
     request
 }
 

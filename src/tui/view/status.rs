@@ -105,7 +105,7 @@ pub fn about(field: &Field, ascii: bool, units: System) -> String {
     };
     let absent = match field.absent {
         Absent::Default("") | Absent::Refused | Absent::Either(_) => String::new(),
-        Absent::Default(text) => format!(" (else {text})"),
+        Absent::Default(_) => format!(" (else {})", field.default_in(units)),
         Absent::Without(_) => " (may be empty)".to_owned(),
     };
     format!("{}{bounds}{absent}. {}", name.trim_start(), field.help)

@@ -4,6 +4,7 @@ use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
 use super::{shown_in, text};
+use crate::case::units::system::counted;
 use crate::model::inputs::Rung;
 use crate::model::{Outcome, QUANTITIES, Quantity, Solution, Stages};
 use crate::report;
@@ -220,7 +221,7 @@ fn row(app: &App, answer: &Answer, quantity: &Quantity, columns: &Columns) -> Li
         spans.push(Span::raw(text::padded(unit, UNIT)));
     }
     if let Some(room) = columns.difference {
-        let difference = difference(app, answer, quantity);
+        let difference = difference(app, answer, quantity, common, room);
         spans.push(Span::styled(format!("{difference:>room$}"), app.look.theme.baseline));
     }
     if columns.equation {
@@ -252,15 +253,21 @@ fn is_changed(app: &App, answer: &Answer, quantity: &Quantity) -> bool {
     told(before) != told(now)
 }
 
-// The active rung's value against the same rung's of the baseline, in percent of it.
-fn difference(app: &App, answer: &Answer, quantity: &Quantity) -> String {
+// The active rung's value against the same rung's of the baseline, in percent of it; where that says little, what it was.
+fn difference(app: &App, answer: &Answer, quantity: &Quantity, unit: &str, room: usize) -> String {
     let now = value(answer, answer.active, quantity);
     match (now, base(app, answer, quantity).and_then(|(_, base)| base)) {
-        (Some(now), Some(base)) => against(now, base),
-        (Some(_), None) => "no base".to_owned(),
-        (None, Some(_)) => "in base".to_owned(),
+        (Some(now), Some(base)) => against(now, base).unwrap_or_else(|| was(base, unit, room)),
+        (Some(_), None) => "was none".to_owned(),
+        (None, Some(base)) => was(base, unit, room),
         (None, None) => String::new(),
     }
+}
+
+// What the baseline's value was, in the unit of the line, with as many digits as have room.
+fn was(base: f64, unit: &str, room: usize) -> String {
+    let words = (1..=3).rev().map(|digits| format!("was {}", counted(base, unit, digits)));
+    words.into_iter().find(|words| words.len() <= room).unwrap_or_else(|| "was other".to_owned())
 }
 
 /// The quantity's value and that of the baseline, with the rung of the latter where it is another.
@@ -287,21 +294,22 @@ fn base_rung(answer: &Answer, base: &Answer) -> Rung {
     if base.of(answer.active).is_some() { answer.active } else { base.active }
 }
 
-fn against(now: f64, base: f64) -> String {
+// In percent, unless the value is more than so many times the baseline's.
+fn against(now: f64, base: f64) -> Option<String> {
+    const MOST_TIMES: f64 = 10.0;
     let part = (now - base) / base.abs();
     if now.to_bits() == base.to_bits() || part.abs() < NO_DIFFERENCE {
-        return "=".to_owned();
+        return Some("=".to_owned());
     }
-    if !part.is_finite() {
-        return "from 0".to_owned();
+    if !part.is_finite() || now.abs() > MOST_TIMES * base.abs() {
+        return None;
     }
     let percent = 100.0 * part;
-    match percent.abs() {
-        size if size >= 1e4 => format!("{percent:+.0e} %"),
+    Some(match percent.abs() {
         size if size >= 100.0 => format!("{percent:+.0} %"),
         size if size >= 1.0 => format!("{percent:+.1} %"),
         _ => format!("{percent:+.3} %"),
-    }
+    })
 }
 
 #[cfg(test)]
@@ -310,17 +318,21 @@ mod tests {
 
     #[test]
     fn a_difference_is_told_in_percent_of_the_baseline_and_has_room() {
-        for (now, base, told) in [
-            (110.0, 100.0, "+10.0 %"),
-            (99.99, 100.0, "-0.010 %"),
-            (-2.0, -1.0, "-100 %"),
-            (1e9, 1.0, "+1e11 %"),
-            (1.0, 1.0, "="),
-            (1.0, 0.0, "from 0"),
-            (0.0, 0.0, "="),
-        ] {
-            assert_eq!(against(now, base), told, "{now} {base}");
+        for (now, base, told) in
+            [(110.0, 100.0, "+10.0 %"), (99.99, 100.0, "-0.010 %"), (-2.0, -1.0, "-100 %"), (1.0, 1.0, "="), (0.0, 0.0, "=")]
+        {
+            assert_eq!(against(now, base).as_deref(), Some(told), "{now} {base}");
             assert!(told.len() < VALUE);
+        }
+    }
+
+    #[test]
+    fn a_value_many_times_the_baselines_is_told_beside_what_that_was() {
+        for (now, base, told) in
+            [(1.0, 0.0, "was 0"), (18.0, 0.0169, "was 0.017"), (1e9, 1.0, "was 1.00"), (500.0, 47.3, "was 47.3")]
+        {
+            assert_eq!(against(now, base), None, "{now} {base}");
+            assert_eq!(was(base, "1", VALUE - 1), told);
         }
     }
 }
