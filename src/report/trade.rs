@@ -99,7 +99,7 @@ pub fn parts(trade: &Trade, measured: &Measured) -> Option<String> {
     let model = greatest(&model_off(trade, figures.rung));
     let [numbers, curve, model] = [numbers, curve, model].map(|off| off.map_or_else(|| "-".to_owned(), percent));
     let is_reference = trade.reference.as_ref().is_ok_and(|reference| reference.setting.rung == figures.rung);
-    let model = if is_reference { "model: the reference of the others".to_owned() } else { format!("model {model} %") };
+    let model = if is_reference { "model: the reference".to_owned() } else { format!("model {model} %") };
     Some(format!("numbers {numbers} %, curve {curve} %, {model}"))
 }
 
