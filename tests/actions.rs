@@ -22,6 +22,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc", "h", "", "title. A name"),
     ("Esc", "g", "", "title. A name"),
     ("Esc", "G", "", "The greatest value that impact force may take"),
+    ("Ctrl-U 2 Space m m Down Down Down", "Alt-E", "", "rh1 bore radius,"),
     // In the results.
     ("Esc 2", "Enter", "", "impact force, F_S (Eq. 57)"),
     ("Esc 2", "n", "", "Outcome, gauges, notes"),

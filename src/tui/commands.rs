@@ -81,6 +81,7 @@ pub enum Command {
     First,
     Last,
     FirstField,
+    NextFault,
     LastField,
     Step(i32),
     Material,

@@ -132,6 +132,15 @@ pub fn label(case: &Case, at: usize) -> &'static str {
     }
 }
 
+/// The symbol in the field's writing; empty where there is none.
+#[must_use]
+pub fn symbol(case: &Case, at: usize) -> &'static str {
+    match row(case, at) {
+        Row::Field(field) => FIELDS[field].symbol,
+        Row::Limit(limit) => Quantity::find(limit.quantity).map_or("", |quantity| quantity.symbol),
+    }
+}
+
 /// Where groups begin.
 #[must_use]
 pub fn groups(case: &Case) -> Vec<usize> {

@@ -102,6 +102,12 @@ impl Answer {
         self.rungs.iter().find(|(own, _)| *own == rung).and_then(|(_, result)| result.as_ref().ok())
     }
 
+    /// The rung of this one that another's active rung is held against: the same one, where it was solved.
+    #[must_use]
+    pub fn beside(&self, active: Rung) -> Rung {
+        if self.of(active).is_some() { active } else { self.active }
+    }
+
     /// Whether the incoming tooth strikes, by the active rung.
     #[must_use]
     pub fn strikes(&self) -> bool {

@@ -73,6 +73,8 @@ pub struct Tab {
     pub row: usize,
     /// The first line of the quantities that is shown.
     pub results_top: usize,
+    /// The quantity that was marked and is none of the present results: the mark goes back to it.
+    pub lost: Option<&'static str>,
 }
 
 /// Error and time of every setting, on the case as it was then.
@@ -133,6 +135,7 @@ impl Tab {
             traded: None,
             row: 0,
             results_top: 0,
+            lost: None,
         }
     }
 

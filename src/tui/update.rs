@@ -7,6 +7,7 @@ mod copy;
 mod cursor;
 mod edit;
 pub(super) mod files;
+mod follow;
 mod hold;
 mod leave;
 mod options;
@@ -93,7 +94,7 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
             return vec![Effect::Redraw];
         }
         Action::Solved(answer) => {
-            app.take(*answer);
+            follow::take(app, *answer);
             hold::pin(app);
         }
         Action::Measured(measured) => trade::measured(app, *measured),

@@ -133,6 +133,7 @@ pub static BINDINGS: &[Binding] = &[
     told(Place::WORK, &[alt('7')], Do::Tab(6), ""),
     told(Place::WORK, &[alt('8')], Do::Tab(7), ""),
     told(Place::WORK, &[alt('9')], Do::Tab(8), ""),
+    listed(Place::WORK, &[alt('e')], Do::NextFault, "next fault", "The next field that is wrong."),
     listed(Place::WORK, &[ctrl('y'), ctrl('r')], Do::Redo, "redo", "Redo what was undone."),
     listed(Place::WORK, &[alt('b')], Do::PinBaseline, "baseline", "Pin the results as the baseline to compare others with, or unpin them."),
     listed(Place::OUTSIDE, &[letter('%')], Do::ShowCost, "cost", "Tell beside the results which stages the last solve ran, and in how many microseconds."),

@@ -20,6 +20,7 @@ pub(super) fn walk(app: &mut App, command: Command) {
         Command::Last if app.panes.focus == Pane::Results => mark(app, isize::MAX),
         Command::First | Command::FirstField => field(app, 0),
         Command::Last | Command::LastField => field(app, usize::MAX),
+        Command::NextFault => fault(app),
         Command::ResultsUp => turn(app, -page(app)),
         Command::ResultsDown => turn(app, page(app)),
         _ => (),
@@ -29,6 +30,15 @@ pub(super) fn walk(app: &mut App, command: Command) {
 fn field(app: &mut App, field: usize) {
     app.panes.focus = Pane::Form;
     app.focus_on(field);
+}
+
+// Round and round those that are wrong.
+fn fault(app: &mut App) {
+    let rows = || app.problems.iter().map(|(row, _)| *row);
+    match rows().filter(|&row| row > app.focus).min().or_else(|| rows().min()) {
+        Some(row) => field(app, row),
+        None => app.say("no field is wrong"),
+    }
 }
 
 fn step(app: &mut App, by: isize) {

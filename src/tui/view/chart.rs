@@ -22,7 +22,7 @@ use crate::tui::pane::Pane;
 use crate::tui::scale::{Anew, Occasion, Scale, Span};
 
 use axes::{Axes, Ruler};
-use curves::{Curve, Whose, curves, way, way_of_active};
+use curves::{Curve, Whose, curves, way, way_by};
 
 pub use curves::{first_contact, last_contact};
 pub use readout::readout;
@@ -93,14 +93,15 @@ pub fn fitted(app: &App, anew: Anew) -> Scale {
         scale.upright[graph] = if anew.upright || anew.all { now.anew(values) } else { now.fitted(values) };
     }
     // While a rung is to come, its axis waits for it.
-    let pinned = app.baseline.as_ref().map(|baseline| &baseline.answer);
-    let way = pinned.map_or(Span::NONE, way_of_active).and(way(answer));
+    let pinned = app.baseline.as_ref().map(|baseline| (&baseline.answer, baseline.answer.beside(answer.active)));
+    let way = pinned.map_or(Span::NONE, |(base, rung)| way_by(base, rung)).and(way(answer));
     scale.across = match (answer.pending, anew.all) {
         (Some(_), _) => scale.across.grown(way),
         (None, true) => scale.across.anew(way),
         (None, false) => scale.across.fitted(way),
     };
-    let touches = [Some(answer), pinned].into_iter().flatten().filter_map(|answer| first_contact(answer.of(answer.active)?));
+    let touches = [Some((answer, answer.active)), pinned];
+    let touches = touches.into_iter().flatten().filter_map(|(answer, rung)| first_contact(answer.of(rung)?));
     let first = touches.fold(0.0, f64::max).to_degrees();
     if first > 0.0 {
         let strike = Span::new(-first, AFTER_E * first);

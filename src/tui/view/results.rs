@@ -2,6 +2,8 @@
 
 mod table;
 
+use std::collections::BTreeSet;
+
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
@@ -15,9 +17,12 @@ use crate::model::{Note, Outcome, Quantity, Solution, Stage};
 use crate::report::{self, Shown, digest};
 use crate::tui::app::App;
 use crate::tui::clean::symbol;
+use crate::tui::commands::{Command, keys_of};
 use crate::tui::layout::plan;
 use crate::tui::pane::Pane;
+use crate::tui::rows;
 use crate::tui::solver::Answer;
+use crate::tui::tab::Tab;
 
 /// So many quantities are to be in sight before gauges and notes get more than a line each.
 const ENOUGH_ROWS: usize = 8;
@@ -87,6 +92,15 @@ pub fn page(app: &App) -> usize {
 #[must_use]
 pub fn marked(app: &App) -> Option<&'static Quantity> {
     table::order(app.answer.as_ref()?).nth(app.row)
+}
+
+/// The key, the place and the line of a quantity in a tab, by its key; else of the marked one.
+#[must_use]
+pub fn place_of(tab: &Tab, key: Option<&str>) -> Option<(&'static str, usize, usize)> {
+    let answer = tab.answer.as_ref()?;
+    let is_meant = |(row, quantity): &(usize, &Quantity)| key.map_or(*row == tab.row, |key| quantity.key == key);
+    let (row, quantity) = table::order(answer).enumerate().find(is_meant)?;
+    Some((quantity.key, row, table::line_of(answer, row)))
 }
 
 /// The first line to be shown, so that the marked quantity is in sight.
@@ -229,9 +243,23 @@ fn shortened(notes: &[Note], width: usize) -> Option<String> {
 fn banner(app: &App, width: usize) -> Vec<Line<'static>> {
     let theme = app.look.theme;
     let said = |text: String, style: Style| text::wrap(&text, width).into_iter().map(move |line| Line::styled(line, style));
-    let Some(refusal) = &app.refusal else { return Vec::new() };
+    let Some(refusal) = &app.refusal else {
+        return wrong(app).into_iter().flat_map(|wrong| said(wrong, theme.problem)).collect();
+    };
     let cause = said(format!("! Not solved: {refusal}."), theme.problem);
     cause.chain(said(format!("Mend: {}.", refusal.mend()), Style::new())).collect()
+}
+
+// The first field that is wrong, in the order of the form, why, how many more are, and the key that goes there.
+fn wrong(app: &App) -> Option<String> {
+    let (row, problem) = app.problems.iter().min_by_key(|(row, _)| *row)?;
+    let symbol = rows::symbol(&app.case, *row);
+    let name = format!("{} {}", self::symbol(symbol, app.look.ascii), rows::label(&app.case, *row));
+    let fields: BTreeSet<usize> = app.problems.iter().map(|(row, _)| *row).collect();
+    let more = if fields.len() > 1 { format!("; {} more", fields.len() - 1) } else { String::new() };
+    let key = keys_of(Command::NextFault);
+    let key = key.split(',').next().unwrap_or_default();
+    Some(format!("! {}: {}{more} ({key})", name.trim_start(), problem.cause))
 }
 
 fn outcome(app: &App, answer: &Answer, width: usize, is_low: bool) -> Vec<Line<'static>> {

@@ -23,8 +23,8 @@ pub enum Whose {
     Active(Rung),
     /// That of another rung.
     Other(Rung),
-    /// That of the pinned results.
-    Pinned,
+    /// That of the pinned results, by the rung in force where they have it.
+    Pinned(Rung),
     /// What the active rung's values are held against.
     Bound(&'static str),
 }
@@ -50,7 +50,7 @@ pub struct Curve {
 pub fn curves(app: &App, graph: &Graph) -> Vec<Curve> {
     let Some(answer) = &app.answer else { return Vec::new() };
     let drawn = Drawn { graph, system: app.settings.units };
-    let pinned = app.baseline.as_ref().and_then(|baseline| drawn.active(&baseline.answer, Whose::Pinned));
+    let pinned = app.baseline.as_ref().and_then(|baseline| drawn.pinned(&baseline.answer, answer.active));
     let others = answer
         .rungs
         .iter()
@@ -70,6 +70,11 @@ struct Drawn<'a> {
 impl Drawn<'_> {
     fn active(self, answer: &Answer, whose: Whose) -> Option<Curve> {
         self.curve(&answer.inputs, answer.of(answer.active)?, whose)
+    }
+
+    fn pinned(self, base: &Answer, active: Rung) -> Option<Curve> {
+        let rung = base.beside(active);
+        self.curve(&base.inputs, base.of(rung)?, Whose::Pinned(rung))
     }
 
     fn bound(self, answer: &Answer) -> Option<Curve> {
@@ -101,11 +106,11 @@ pub fn apart(curves: Vec<Curve>) -> Vec<Curve> {
     let alike = ALIKE * curves.iter().map(Curve::upright).fold(Span::NONE, Span::and).length();
     let lies_on = |(x, y): Point| own.at(x).is_some_and(|value| (value - y).abs() <= alike);
     let shown = curves.into_iter().map(|curve| match curve.whose {
-        Whose::Other(_) | Whose::Pinned => curve.without(lies_on),
+        Whose::Other(_) | Whose::Pinned(_) => curve.without(lies_on),
         Whose::Active(_) | Whose::Bound(_) => curve,
     });
     // Pinned results stand in the legend even where nothing of them differs.
-    shown.filter(|curve| curve.whose == Whose::Pinned || !curve.pieces.is_empty()).collect()
+    shown.filter(|curve| matches!(curve.whose, Whose::Pinned(_)) || !curve.pieces.is_empty()).collect()
 }
 
 impl Curve {
@@ -168,10 +173,10 @@ pub fn way(answer: &Answer) -> Span {
     answer.rungs.iter().filter_map(|(_, found)| found.as_ref().ok()).map(way_of).fold(Span::NONE, Span::and)
 }
 
-/// The same of the active rung alone, which of pinned results is what is drawn.
+/// The same of one rung alone, as of pinned results, of which one is drawn.
 #[must_use]
-pub fn way_of_active(answer: &Answer) -> Span {
-    answer.of(answer.active).map_or(Span::NONE, way_of)
+pub fn way_by(answer: &Answer, rung: Rung) -> Span {
+    answer.of(rung).map_or(Span::NONE, way_of)
 }
 
 fn way_of(solution: &Solution) -> Span {
@@ -253,7 +258,7 @@ mod tests {
     fn a_value_between_stations_is_on_the_line_and_beyond_them_there_is_none() {
         let column = &crate::report::stations::COLUMNS[6];
         let pieces = vec![vec![(-1.0, 4.0), (0.0, 2.0), (0.0, 8.0), (1.0, 0.0)]];
-        let curve = Curve { whose: Whose::Pinned, column, unit: column.shown, pieces };
+        let curve = Curve { whose: Whose::Pinned(Rung::Exact), column, unit: column.shown, pieces };
         for (x, y) in [(-1.0, Some(4.0)), (-0.5, Some(3.0)), (0.0, Some(8.0)), (1.0, Some(0.0)), (1.1, None), (-1.1, None)] {
             assert_eq!(curve.at(x), y, "{x}");
         }

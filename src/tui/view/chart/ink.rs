@@ -27,7 +27,7 @@ pub fn marker(app: &App, whose: Whose) -> Marker {
         Whose::Other(Rung::Paper) => Marker::Custom(if plain { '.' } else { '·' }),
         Whose::Other(Rung::Static) => Marker::Custom(if plain { 'x' } else { '×' }),
         Whose::Other(_) => Marker::Custom(if plain { 'o' } else { '∘' }),
-        Whose::Pinned => Marker::Custom('+'),
+        Whose::Pinned(_) => Marker::Custom('+'),
         Whose::Bound(_) => Marker::Custom(if plain { '-' } else { '╌' }),
     }
 }
@@ -39,7 +39,7 @@ pub fn style(app: &App, whose: Whose) -> Style {
     let style = match whose {
         Whose::Active(_) => theme.active,
         Whose::Other(_) => theme.other,
-        Whose::Pinned => theme.baseline,
+        Whose::Pinned(_) => theme.baseline,
         Whose::Bound(_) => theme.rule,
     };
     if app.is_stale() { style.patch(theme.faint) } else { style }

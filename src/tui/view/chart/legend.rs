@@ -9,6 +9,7 @@ use ratatui::widgets::Widget;
 
 use super::curves::{Curve, Whose};
 use super::ink;
+use super::readout::base_name;
 use crate::tui::app::App;
 use crate::tui::clean::symbol;
 use crate::tui::view::text;
@@ -28,7 +29,7 @@ pub fn draw(app: &App, curves: &[Curve], said: Option<String>, plot: Rect, buffe
 fn entry(app: &App, curve: &Curve) -> [Span<'static>; 2] {
     let name = match curve.whose {
         Whose::Active(rung) | Whose::Other(rung) => rung.name().to_owned(),
-        Whose::Pinned => "baseline".to_owned(),
+        Whose::Pinned(rung) => base_name(app, rung),
         Whose::Bound(name) => symbol(name, app.look.ascii).into_owned(),
     };
     let sample = match ink::marker(app, curve.whose) {

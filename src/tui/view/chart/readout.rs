@@ -5,6 +5,7 @@ use super::shown;
 use crate::case::units;
 use crate::model::Told;
 use crate::model::between::DIGITS_BETWEEN;
+use crate::model::inputs::Rung;
 use crate::numeric::decimal::significant;
 use crate::report::graphs::{GRAPHS, Graph};
 use crate::report::stations::Row;
@@ -61,8 +62,9 @@ fn own(app: &App, graph: &Graph, cursor: f64) -> Option<String> {
 
 // By the same evaluation as in the teeth, not off the line that is drawn; and how many digits of it are good.
 fn value(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<(f64, usize)> {
-    let answer = if curve.whose == Whose::Pinned { &app.baseline.as_ref()?.answer } else { app.answer.as_ref()? };
-    let rung = if let Whose::Other(rung) = curve.whose { rung } else { answer.active };
+    let is_pinned = matches!(curve.whose, Whose::Pinned(_));
+    let answer = if is_pinned { &app.baseline.as_ref()?.answer } else { app.answer.as_ref()? };
+    let rung = if let Whose::Other(rung) | Whose::Pinned(rung) = curve.whose { rung } else { answer.active };
     let solution = answer.of(rung)?;
     let told = Told::at(&answer.inputs, solution, cursor)?;
     match curve.whose {
@@ -72,6 +74,13 @@ fn value(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<(f64, u
         }
         _ => Some((curve.column.of(Row::from(&told))?, curve.column.digits_of(&told))),
     }
+}
+
+/// How the baseline's curve is called: with its rung where that is not the one in force.
+#[must_use]
+pub fn base_name(app: &App, rung: Rung) -> String {
+    let is_other = app.answer.as_ref().is_some_and(|answer| answer.active != rung);
+    if is_other { format!("baseline ({})", rung.name()) } else { "baseline".to_owned() }
 }
 
 fn told(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<String> {
@@ -85,7 +94,7 @@ fn told(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<String> 
     Some(match curve.whose {
         Whose::Active(_) => format!("{} {number}", name(curve.column.symbol)),
         Whose::Other(rung) => format!("{} {number}", rung.name()),
-        Whose::Pinned => format!("baseline {number}"),
+        Whose::Pinned(rung) => format!("{} {number}", base_name(app, rung)),
         Whose::Bound(bound) => format!("{} {number}", name(bound)),
     })
 }

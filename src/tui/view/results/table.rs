@@ -189,7 +189,7 @@ fn heading(app: &App, answer: &Answer, columns: &Columns, hidden: (usize, usize)
         spans.push(Span::styled(format!("{name:>0$} ", VALUE - 1), style));
     }
     if let Some(room) = columns.difference {
-        let base = app.baseline.as_ref().map(|baseline| base_rung(answer, &baseline.answer));
+        let base = app.baseline.as_ref().map(|baseline| baseline.answer.beside(answer.active));
         let other = base.filter(|&base| base != answer.active).map(|rung| format!("{TO_BASE}, {}", rung.name()));
         let width = room + if columns.unit { UNIT } else { 0 };
         let heading = other.filter(|heading| heading.len() <= width).unwrap_or_else(|| TO_BASE.to_owned());
@@ -281,17 +281,12 @@ pub(super) fn compared(app: &App, answer: &Answer, quantity: &Quantity) -> Optio
 // The rung and the value of the baseline.
 fn base(app: &App, answer: &Answer, quantity: &Quantity) -> Option<(Rung, Option<f64>)> {
     let base = &app.baseline.as_ref()?.answer;
-    let rung = base_rung(answer, base);
+    let rung = base.beside(answer.active);
     Some((rung, report::value_as_in(quantity, base.of(rung)?, answer.active)))
 }
 
 fn value(answer: &Answer, rung: Rung, quantity: &Quantity) -> Option<f64> {
     report::value_as_in(quantity, answer.of(rung)?, answer.active)
-}
-
-// The rung of the baseline that the active one is held against: the same one, where it was solved.
-fn base_rung(answer: &Answer, base: &Answer) -> Rung {
-    if base.of(answer.active).is_some() { answer.active } else { base.active }
 }
 
 // In percent, unless the value is more than so many times the baseline's.

@@ -1,0 +1,68 @@
+//! Keys in, screen out: what stands in results, chart and teeth while a case is worked on.
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+#![cfg(feature = "tui")]
+
+mod desk;
+
+use desk::{Desk, LARGE, SMALL};
+use ratatui::layout::Size;
+
+const TINY: Size = Size { width: 60, height: 16 };
+
+#[test]
+fn beside_last_valid_results_stands_why_they_are_and_a_key_that_goes_there() {
+    for size in [TINY, SMALL, LARGE] {
+        let mut desk = Desk::new(size);
+        desk.fill("pair.module", "2 mm").keys(&["Down", "Down"]);
+        let told = desk.screen().replace('\n', " ");
+        assert!(told.contains("! rh1 bore radius") && told.contains("1 more") && told.contains("Alt-E"), "{}", desk.screen());
+        desk.keys(&["Alt-E"]);
+        assert_eq!(desk.app.case.text(desk.app.focus), Some("20 mm"));
+        assert!(desk.shows("rh1 bore radius, "), "{}", desk.screen());
+        desk.keys(&["Alt-E"]);
+        assert!(desk.shows("rh2 bore radius, "), "{}", desk.screen());
+        desk.fill("pair.module", "5 mm").keys(&["Alt-E"]);
+        assert!(desk.shows("no field is wrong") && !desk.shows("! rh"), "{}", desk.screen());
+    }
+}
+
+#[test]
+fn the_mark_in_the_results_stays_with_its_quantity() {
+    let mut desk = Desk::new(SMALL);
+    let marked = |desk: &Desk| tipstrike::tui::view::results::marked(&desk.app).map(|quantity| quantity.key);
+    desk.keys(&["Esc", "2", "j", "j", "j", "j", "j", "j", "j"]);
+    assert_eq!(marked(&desk), Some("base_pitch"));
+    let is_in_sight = |desk: &Desk| desk.shows("▸p_b ");
+    desk.keys(&["j", "k", "Ctrl-T"]);
+    assert!(marked(&desk) == Some("base_pitch") && is_in_sight(&desk), "{}", desk.screen());
+    desk.keys(&["Ctrl-T", "Ctrl-T", "Ctrl-T", "Ctrl-T"]);
+    assert!(marked(&desk) == Some("base_pitch") && is_in_sight(&desk), "{}", desk.screen());
+    // What is gone comes back marked.
+    desk.keys(&["g", "j", "j"]);
+    assert_eq!(marked(&desk), Some("approach_angle_driven"));
+    desk.fill("driven.tip_relief", "80 um");
+    assert!(desk.app.row == 0 && desk.app.results_top == 0, "{}", desk.screen());
+    desk.fill("driven.tip_relief", "0 um");
+    assert_eq!(marked(&desk), Some("approach_angle_driven"));
+}
+
+#[test]
+fn the_top_of_the_results_is_shown_where_nothing_was_marked() {
+    let mut desk = Desk::new(SMALL);
+    for (relief, first) in [("80 um", "Δ  "), ("0 um", "F_S  ")] {
+        desk.fill("driven.tip_relief", relief);
+        let screen = desk.screen();
+        let below_heading = screen.lines().skip_while(|line| !line.contains("▸exact")).nth(1).expect("a first row");
+        assert!(below_heading.contains(first), "{screen}");
+    }
+}
+
+#[test]
+fn the_baseline_is_drawn_by_the_rung_in_force() {
+    let mut desk = Desk::new(LARGE);
+    desk.keys(&["Alt-B"]).fill("operation.speed", "1900 rpm").keys(&["Ctrl-T", "Ctrl-T", "Ctrl-T", "Ctrl-T", "Esc", "3", "Home"]);
+    let told = |desk: &Desk| desk.screen().lines().find(|line| line.contains("before E: F_S")).expect("a readout").to_owned();
+    assert!(told(&desk).contains("F_S 80.4") && told(&desk).contains("baseline 84.6"), "{}", told(&desk));
+    desk.keys(&["Ctrl-T", "Ctrl-T", "3", "Home"]);
+    assert!(desk.shows("baseline (exact)"), "{}", desk.screen());
+}
