@@ -94,13 +94,27 @@ pub fn marked(app: &App) -> Option<&'static Quantity> {
     table::order(app.answer.as_ref()?).nth(app.row)
 }
 
-/// The key, the place and the line of a quantity in a tab, by its key; else of the marked one.
+/// Where a quantity stands in the results of a tab.
+#[derive(Debug, Clone, Copy)]
+pub struct Listed {
+    /// Its key.
+    pub key: &'static str,
+    /// Its place among the quantities.
+    pub row: usize,
+    /// Its line.
+    pub line: usize,
+    /// Whether the active rung finds a value.
+    pub has_value: bool,
+}
+
+/// Where a quantity stands in the results of a tab, by its key; else the marked one.
 #[must_use]
-pub fn place_of(tab: &Tab, key: Option<&str>) -> Option<(&'static str, usize, usize)> {
+pub fn place_of(tab: &Tab, key: Option<&str>) -> Option<Listed> {
     let answer = tab.answer.as_ref()?;
     let is_meant = |(row, quantity): &(usize, &Quantity)| key.map_or(*row == tab.row, |key| quantity.key == key);
     let (row, quantity) = table::order(answer).enumerate().find(is_meant)?;
-    Some((quantity.key, row, table::line_of(answer, row)))
+    let has_value = answer.of(answer.active).and_then(quantity.value).is_some();
+    Some(Listed { key: quantity.key, row, line: table::line_of(answer, row), has_value })
 }
 
 /// The first line to be shown, so that the marked quantity is in sight.
