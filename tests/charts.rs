@@ -237,10 +237,11 @@ fn the_readout_and_the_teeth_tell_the_same_numbers() {
             desk.keys(&["l"]);
             let angle = desk.app.cursor.expect("a cursor");
             let answer = desk.app.answer.as_ref().expect("solved");
-            let moment = Moment::at(&answer.inputs, answer.of(answer.active).expect("solved"), angle).expect("in sight");
+            let solved = (&answer.inputs, answer.of(answer.active).expect("solved"));
+            let moment = Moment::at(solved.0, solved.1, angle).expect("in sight");
             let said = chart::readout(&desk.app, angle);
             let told = |symbol| {
-                readings(&moment, answer.active, System::Metric)
+                readings(&moment, solved, System::Metric)
                     .into_iter()
                     .find(|reading| reading.symbol == symbol && reading.number.is_some())
                     .map(|one| one.to_string())

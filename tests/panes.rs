@@ -4,7 +4,7 @@
 
 mod desk;
 
-use desk::{Desk, LARGE, SMALL};
+use desk::{Desk, LARGE, SMALL, TABLE_1};
 use ratatui::layout::Size;
 
 const TINY: Size = Size { width: 60, height: 16 };
@@ -65,4 +65,64 @@ fn the_baseline_is_drawn_by_the_rung_in_force() {
     assert!(told(&desk).contains("F_S 80.39") && told(&desk).contains("baseline 84.6"), "{}", told(&desk));
     desk.keys(&["Ctrl-T", "Ctrl-T", "3", "Home"]);
     assert!(desk.shows("baseline (exact)"), "{}", desk.screen());
+}
+
+#[test]
+fn the_mark_of_a_change_stands_apart_behind_the_unit() {
+    for size in [SMALL, LARGE] {
+        let mut desk = Desk::new(size);
+        desk.fill("operation.speed", "1900 rpm");
+        assert!(desk.shows("2081.0 N ←"), "{}", desk.screen());
+        desk.keys(&["Esc", ":", "ascii", "Enter"]);
+        assert!(desk.shows("2081.0 N <"), "{}", desk.screen());
+    }
+}
+
+#[test]
+fn values_have_their_units_beside_the_baseline_on_the_smallest_screen() {
+    let mut desk = Desk::new(TINY);
+    assert!(desk.shows("(no backlash)"), "the value has the room rather than the label: {}", desk.screen());
+    desk.keys(&["Alt-B"]).fill("operation.speed", "1900 rpm");
+    assert!(desk.shows("2081.0 N ←") && desk.shows("-5.0") && desk.shows("▸exact"), "{}", desk.screen());
+    desk.keys(&["Ctrl-T"]);
+    assert!(desk.shows("▸static    to base, exact") && desk.shows("F_s,max 1604.5 N"), "{}", desk.screen());
+}
+
+#[test]
+fn a_hint_beside_a_message_ends_with_a_sentence() {
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Down", "Ctrl-T"]);
+    let screen = desk.screen();
+    let hint = screen.lines().find(|line| line.contains("= 0.34907 rad.")).expect("a hint");
+    assert!(desk.shows("rung static") && hint.trim_end().ends_with("(else 20 deg)."), "{screen}");
+}
+
+#[test]
+fn a_limit_of_a_long_name_is_told_by_its_symbol() {
+    let text = TABLE_1.replace("impact_force = \"2500 N\"", "dynamic_peak_force = \"2500 N\"");
+    let mut desk = Desk::on(SMALL, "case.toml", &text.replace("rung = \"exact\"", "rung = \"dynamic\""));
+    desk.keys(&["Esc", "1", "G"]);
+    assert!(desk.shows("F_d,max <= 2500 N") && desk.shows(" 80 %"), "{}", desk.screen());
+}
+
+#[test]
+fn what_rounding_leaves_of_zero_is_zero_in_the_teeth() {
+    let mut desk = Desk::new(LARGE);
+    for _ in 0..3 {
+        desk.keys(&["Esc", "4", "End"]);
+        assert!(desk.shows("S 0 um") && desk.shows("ΔV_n 0 m/s") && !desk.shows("e-1"), "{}", desk.screen());
+        desk.keys(&["Ctrl-T"]);
+    }
+}
+
+#[test]
+fn an_axis_holds_what_is_in_sight_of_its_curves() {
+    let mut desk = Desk::new(LARGE);
+    desk.keys(&["Ctrl-T", "Esc", ":", "sliding velocity", "Enter"]);
+    let axis = |desk: &Desk| desk.app.scale.upright[desk.app.graph];
+    assert!(axis(&desk).from < 0.0 && axis(&desk).to > 0.0, "the whole contact has both signs: {:?}", axis(&desk));
+    desk.keys(&["3", "v"]);
+    assert!(axis(&desk).from >= 0.0, "around the strike it has one: {:?}", axis(&desk));
+    desk.keys(&["v"]);
+    assert!(axis(&desk).from < 0.0, "{:?}", axis(&desk));
 }

@@ -2,7 +2,7 @@
 
 use crate::model::between::DIGITS_BETWEEN;
 use crate::model::inputs::Rung;
-use crate::model::{MeshStation, Solution, Station, Told};
+use crate::model::{Inputs, MeshStation, Solution, Station, Told};
 
 /// A place of the incoming tooth.
 #[derive(Debug, Clone, Copy)]
@@ -103,7 +103,22 @@ impl<'a> Row<'a> {
     }
 }
 
+/// Below this part of the radii and speeds that they are differences of, lengths and speeds are what rounding leaves of 0.
+const RESOLUTION: f64 = 1e-12;
+
 impl Column {
+    /// The value in SI, 0 where it is below the resolution of what it is a difference of.
+    #[must_use]
+    pub fn resolved(&self, value: f64, inputs: &Inputs, solution: &Solution) -> f64 {
+        let radius = solution.geometry.driver.base;
+        let whole = match self.unit {
+            "m" => radius,
+            "m/s" => radius * inputs.speed,
+            _ => 0.0,
+        };
+        if value.abs() < RESOLUTION * whole { 0.0 } else { value }
+    }
+
     /// Significant digits that a person reads of it there: no more than are good.
     #[must_use]
     pub fn digits_of(&self, told: &Told) -> usize {

@@ -12,9 +12,11 @@ const LOWER_FROM: u16 = 20;
 const BESIDE_FROM: Size = Size { width: 120, height: 36 };
 /// From this size form, results and the lower panes stand side by side.
 const THREE_FROM: Size = Size { width: 200, height: 50 };
-/// Form and results grow no wider than they can use when there are three columns.
+/// The form grows no wider than it can use, nor do the results beside others.
 const WIDEST: u16 = 66;
-const WIDEST_RESULTS: u16 = 84;
+const WIDEST_RESULTS: u16 = 90;
+/// The form between the results and the edge of a wide screen.
+const FORM_OF_THREE: u16 = 56;
 
 /// Where everything stands. An area without room is empty.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -128,10 +130,10 @@ impl Plan {
     }
 
     fn three_columns(&mut self, body: Rect, panes: Panes) {
-        let results = (body.width / 3).min(WIDEST_RESULTS);
-        let right = WIDEST + results;
-        self.form = Rect { width: WIDEST, ..body };
-        self.results = Rect { x: WIDEST, width: results, ..body };
+        let results = (body.width * 2 / 5).min(WIDEST_RESULTS);
+        let right = FORM_OF_THREE + results;
+        self.form = Rect { width: FORM_OF_THREE, ..body };
+        self.results = Rect { x: FORM_OF_THREE, width: results, ..body };
         let area = Rect { x: right, width: body.width - right, ..body };
         let upper = area.height / 2;
         self.teeth = Rect { height: upper, ..area };

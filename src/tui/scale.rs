@@ -114,7 +114,9 @@ impl Span {
         }
         let needed = with_zero(values);
         let serves = self.covers(needed) && needed.length() >= TOO_SMALL * self.length() && !self.is_empty();
-        if serves && (self.from > 0.0) == (needed.from > 0.0) { self } else { rounded(needed) }
+        let is_alike = |side: fn(Span) -> bool| side(self) == side(needed);
+        let sides: [fn(Span) -> bool; 3] = [|span| span.from > 0.0, |span| span.from < 0.0, |span| span.to > 0.0];
+        if serves && sides.into_iter().all(is_alike) { self } else { rounded(needed) }
     }
 
     /// An axis with a place for all of these values, whatever this one is; this one where there are none.
@@ -212,6 +214,8 @@ pub struct Occasion {
     pub pinned: Option<u64>,
     /// The chosen chart, how many are in sight, and the units in which they are read.
     pub shown: (usize, usize, System),
+    /// Whether the strike alone is in sight, how close, and the bits of the angle in the middle.
+    pub sight: (bool, i32, Option<u64>),
     /// The rung, and the first request after the last undo.
     pub ground: (Option<Rung>, u64),
 }

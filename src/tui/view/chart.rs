@@ -20,6 +20,7 @@ use crate::tui::clean::symbol;
 use crate::tui::layout::plan;
 use crate::tui::pane::Pane;
 use crate::tui::scale::{Anew, Occasion, Scale, Span};
+use crate::tui::window::Frame;
 
 use axes::{Axes, Ruler};
 use curves::{Curve, Whose, curves, way, way_by};
@@ -44,6 +45,7 @@ pub fn occasion(app: &App) -> Occasion {
         answered: app.answer.as_ref().map(|answer| (answer.serial, answer.pending.is_some())),
         pinned: app.baseline.as_ref().map(|baseline| baseline.answer.serial),
         shown: (app.graph, count(plan(app.size, app.panes).chart), app.settings.units),
+        sight: (app.chart.frame == Frame::Strike, app.chart.zoom, app.chart.middle.map(f64::to_bits)),
         ground: (app.answer.as_ref().map(|answer| answer.active), app.tab.undone),
     }
 }
@@ -86,12 +88,6 @@ pub fn fitted(app: &App, anew: Anew) -> Scale {
     let mut scale = app.scale;
     let area = plan(app.size, app.panes).chart;
     let Some(answer) = app.answer.as_ref().filter(|_| !area.is_empty()) else { return scale };
-    for graph in shown(app, area) {
-        let curves = curves(app, &GRAPHS[graph]);
-        let values = curves.iter().map(Curve::upright).fold(Span::NONE, Span::and);
-        let now = scale.upright[graph];
-        scale.upright[graph] = if anew.upright || anew.all { now.anew(values) } else { now.fitted(values) };
-    }
     // While a rung is to come, its axis waits for it.
     let pinned = app.baseline.as_ref().map(|baseline| (&baseline.answer, baseline.answer.beside(answer.active)));
     let way = pinned.map_or(Span::NONE, |(base, rung)| way_by(base, rung)).and(way(answer));
@@ -106,6 +102,13 @@ pub fn fitted(app: &App, anew: Anew) -> Scale {
     if first > 0.0 {
         let strike = Span::new(-first, AFTER_E * first);
         scale.strike = if anew.all { scale.strike.anew(strike) } else { scale.strike.fitted(strike) };
+    }
+    let window = app.chart.window(&scale);
+    for graph in shown(app, area) {
+        let curves = curves(app, &GRAPHS[graph]);
+        let values = curves.iter().map(|curve| curve.upright_within(window)).fold(Span::NONE, Span::and);
+        let now = scale.upright[graph];
+        scale.upright[graph] = if anew.upright || anew.all { now.anew(values) } else { now.fitted(values) };
     }
     scale
 }

@@ -26,6 +26,10 @@ const LABEL: u16 = 20;
 const VALUE: u16 = 15;
 /// On a narrow screen the label gets some of the value's room.
 const NARROW_VALUE: u16 = 11;
+/// So much of a label stays where there is a symbol and the value needs the room.
+const LEAST_LABEL: u16 = 6;
+/// Stands before a limit whose quantity is told by its symbol alone.
+const AT_MOST: &str = " <= ";
 const WHOLE: u16 = MARK + SYMBOL + LABEL + 1 + VALUE;
 
 /// A line of the form.
@@ -174,9 +178,10 @@ fn draw_field(app: &App, inputs: &Inputs, index: usize, line: Rect, buffer: &mut
     let offset = if matches!(field.kind, Kind::Text) {
         draw_words(field.label, name, style, buffer)
     } else {
-        let offset = draw_name(&symbol(field.symbol, app.look.ascii), field.label, name, style, buffer);
-        offset
-            - longer(app, index, line.width - offset).min(offset.saturating_sub(MARK + SYMBOL + field.label.width() as u16 + 1))
+        let (usual, label) = (label_width(name), field.label.width() as u16);
+        let least = if field.symbol.is_empty() { label } else { label.min(LEAST_LABEL) };
+        let over = longer(app, index, line.width - (MARK + SYMBOL + usual + 1)).min(usual.saturating_sub(least));
+        draw_name(&symbol(field.symbol, app.look.ascii), field.label, name, usual - over, style, buffer)
     };
     let value = Rect { x: line.x + offset, width: line.width.saturating_sub(offset), ..line };
     draw_value(app, index, value, style, buffer)
@@ -194,11 +199,22 @@ fn draw_limit(app: &App, index: usize, limit: &Limit, line: Rect, buffer: &mut B
     let symbol = Quantity::find(limit.quantity).map_or("", |quantity| quantity.symbol);
     let symbol = self::symbol(symbol, app.look.ascii);
     let label = rows::label(&app.case, index);
-    let offset = draw_name(&symbol, label, name, style, buffer);
     let (words, of_word) = standing(app, limit);
+    let usual = label_width(name);
+    let needed = limit.text.width() + words.get(1).map_or(0, |word| word.width() + 2);
+    let is_whole = symbol.width() < SYMBOL.into()
+        && label.width() <= usual.into()
+        && usize::from(MARK + SYMBOL + 1) + label.width() + needed <= line.width.into();
+    let offset = if is_whole {
+        draw_name(&symbol, label, name, usual, style, buffer)
+    } else {
+        let brief = format!("{symbol}{AT_MOST}");
+        buffer.set_stringn(name.x, name.y, &brief, name.width.into(), style);
+        (MARK + brief.width() as u16).min(line.width)
+    };
     let left = usize::from(line.width - offset).saturating_sub(limit.text.width() + 2);
     // The label gives up what it does not need, so that the verdict stands in a word rather than a sign.
-    let spare = usize::from(offset - MARK - SYMBOL - 1).saturating_sub(label.width());
+    let spare = if is_whole { usize::from(usual).saturating_sub(label.width()) } else { 0 };
     let in_words = words.iter().take(2).find(|word| word.width() <= left + spare);
     let word = in_words.or_else(|| words.iter().find(|word| word.width() <= left)).cloned().unwrap_or_default();
     let offset = offset - word.width().saturating_sub(left).min(spare) as u16;
@@ -258,10 +274,14 @@ fn draw_words(label: &str, area: Rect, style: Style, buffer: &mut Buffer) -> u16
     MARK + SYMBOL
 }
 
-// Symbol and label; how far into the line they go.
-fn draw_name(symbol: &str, label: &str, area: Rect, style: Style, buffer: &mut Buffer) -> u16 {
+// So much room labels have beside values of the usual width.
+fn label_width(area: Rect) -> u16 {
     let value = if area.width + MARK < WHOLE { NARROW_VALUE } else { VALUE };
-    let width = LABEL.min(area.width.saturating_sub(SYMBOL + 1 + value));
+    LABEL.min(area.width.saturating_sub(SYMBOL + 1 + value))
+}
+
+// Symbol and label; how far into the line they go.
+fn draw_name(symbol: &str, label: &str, area: Rect, width: u16, style: Style, buffer: &mut Buffer) -> u16 {
     let name = text::cut(symbol, usize::from(SYMBOL) - 1);
     buffer.set_stringn(area.x, area.y, name, SYMBOL.into(), style);
     buffer.set_stringn(area.x + SYMBOL, area.y, text::cut(label, width.into()), width.into(), style);

@@ -15,7 +15,7 @@ const BEFORE: [&str; 5] = [
 const SIGNS: [&str; 6] = [
     "Before a field: * it is not as the file has it, - it makes no difference here, ! it is wrong, ▸ it is the marked one.",
     "Behind a limit: ok or EXCEEDED (! where there is no room) and how much of it is used; (!) the rung itself finds more than the limit on the free impact.",
-    "Behind a result: ← the last edit changed it, ! it is above its limit; – in its place: no value. ▸ above a column: the rung of the case.",
+    "Behind a result and its unit: ← the last edit changed it, ! it is above its limit; – in its place: no value. ▸ above a column: the rung of the case.",
     "To base: the difference to the baseline (b pins one), = none; no base: the baseline has no such value; in base: only the baseline has one.",
     "In a chart: dots or * the rung of the case, · paper, ∘ exact, × static, + the baseline, ╌ what the value is held against. On its axis: D first contact, E and B ends of the path of contact, L last contact, d another rung's D.",
     "In the teeth: solid the flanks, bold those of the incoming pair; solid from E to B the path of contact, dashed the line of action, dotted the base circles and, before E, the path of the driven tip; crosses the named points, bold dots where flanks touch.",

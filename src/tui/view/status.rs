@@ -45,20 +45,25 @@ pub fn header(app: &App, area: Rect, buffer: &mut Buffer) {
 pub fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.look.theme;
     let width = usize::from(area.width);
-    let mut lines = text::wrap(&focused(app), width).into_iter().map(Line::raw).collect::<Vec<_>>();
+    let (mut lines, mut is_long) = (Vec::new(), false);
     if let Some(progress) = app.progress.clone().or_else(|| solving(app)) {
-        lines.insert(0, Line::styled(text::cut(&bar(&progress), width), theme.note));
+        lines.push(Line::styled(text::cut(&bar(&progress), width), theme.note));
     }
     if let Some(message) = &app.message {
         let (mark, style) = if message.is_fault { ("! ", theme.problem) } else { ("", theme.note) };
         let told = text::wrap(&format!("{mark}{}", message.text), width);
         // A fault's mend stands at its end: a long message takes the place of what is focused.
-        if told.len() > 1 {
+        is_long = told.len() > 1;
+        if is_long {
             lines.clear();
         }
         lines.splice(0..0, told.into_iter().map(|line| Line::styled(line, style)));
     }
     let room = usize::from(area.height);
+    if !is_long {
+        let left = room.saturating_sub(lines.len());
+        lines.extend(text::sentences(&focused(app), width, left).into_iter().map(Line::raw));
+    }
     if let Some(at) = room.checked_sub(1).filter(|_| lines.len() > room) {
         lines[at] = Line::styled(text::cut(&format!("{} {}", lines[at], lines[room]), width), lines[at].style);
     }

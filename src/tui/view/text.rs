@@ -54,6 +54,24 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
+/// The text in so many lines at most: where it is longer, up to the end of a sentence, or of a part of one with a mark that
+/// it goes on, unless half of the room would stay empty.
+#[must_use]
+pub fn sentences(text: &str, width: usize, rows: usize) -> Vec<String> {
+    let fits = |text: &str| wrap(text, width).len() <= rows;
+    if fits(text) {
+        return wrap(text, width);
+    }
+    let least = width * rows / 2;
+    let ends = |mark: &'static str| text.match_indices(mark).map(|(at, _)| at).collect::<Vec<_>>().into_iter().rev();
+    let is_end = |at: &usize| !text[..*at].ends_with("Eq") && !text[..*at].ends_with("Eqs");
+    let whole = ends(". ").filter(is_end).map(|at| text[..=at].to_owned());
+    let parts = ends("; ").chain(ends(", ")).map(|at| format!("{}…", &text[..at]));
+    let words = ends(" ").map(|at| format!("{}…", &text[..at]));
+    let mut sayings = whole.chain(parts).filter(|told| told.width() >= least).chain(words);
+    sayings.find(|told| fits(told)).map_or_else(Vec::new, |told| wrap(&told, width))
+}
+
 /// A rule with a title, over the top line of an area; what is below it.
 pub fn titled(title: &str, area: Rect, theme: &Theme, buffer: &mut Buffer) -> Rect {
     if area.is_empty() {

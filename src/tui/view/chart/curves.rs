@@ -132,6 +132,14 @@ impl Curve {
         self.points().fold(Span::NONE, |span, (_, y)| span.with(y))
     }
 
+    /// The least and the greatest value within a stretch of the angle.
+    #[must_use]
+    pub fn upright_within(&self, window: Span) -> Span {
+        let ends = [window.from, window.to].into_iter().filter_map(|x| self.at(x));
+        let inside = self.points().filter(|(x, _)| (window.from..=window.to).contains(x)).map(|(_, y)| y);
+        ends.chain(inside).fold(Span::NONE, Span::with)
+    }
+
     /// Its value at an angle, between the stations on either side; after a jump, where there is one.
     #[must_use]
     pub fn at(&self, x: f64) -> Option<f64> {

@@ -67,12 +67,12 @@ fn value(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<(f64, u
     let rung = if let Whose::Other(rung) | Whose::Pinned(rung) = curve.whose { rung } else { answer.active };
     let solution = answer.of(rung)?;
     let told = Told::at(&answer.inputs, solution, cursor)?;
-    match curve.whose {
-        Whose::Bound(_) => {
-            let digits = if matches!(told, Told::Between(_)) { DIGITS_BETWEEN } else { curve.column.digits };
-            Some(((graph.bound?.value)(solution, Row::from(&told))?, digits))
-        }
-        _ => Some((curve.column.of(Row::from(&told))?, curve.column.digits_of(&told))),
+    if let Whose::Bound(_) = curve.whose {
+        let digits = if matches!(told, Told::Between(_)) { DIGITS_BETWEEN } else { curve.column.digits };
+        Some(((graph.bound?.value)(solution, Row::from(&told))?, digits))
+    } else {
+        let value = curve.column.of(Row::from(&told))?;
+        Some((curve.column.resolved(value, &answer.inputs, solution), curve.column.digits_of(&told)))
     }
 }
 

@@ -2,6 +2,7 @@
 
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
+use unicode_width::UnicodeWidthStr;
 
 use super::{shown_in, text};
 use crate::case::units::system::counted;
@@ -51,7 +52,7 @@ const SYMBOL: usize = 7;
 /// Beside labels there is room for the longest symbol.
 const LONG_SYMBOL: usize = 9;
 const LABEL: usize = 27;
-/// A number and the mark of a change behind it.
+/// A number and a blank behind it.
 const VALUE: usize = 10;
 const UNIT: usize = 7;
 const EQUATION: usize = 12;
@@ -76,7 +77,8 @@ pub(super) struct Table {
 struct Columns {
     labels: bool,
     rungs: Vec<Rung>,
-    unit: bool,
+    /// So many cells for value, unit and difference together, where each has none of its own.
+    shared: Option<usize>,
     /// How wide the difference is, where there is a baseline.
     difference: Option<usize>,
     equation: bool,
@@ -141,15 +143,12 @@ impl Columns {
         let rungs = rungs(answer, if beside_labels >= ENOUGH_RUNGS { beside_labels } else { room_beside(SYMBOL) });
         let with_labels = LONG_SYMBOL + LABEL + rungs.len() * VALUE + UNIT + more;
         let least = SYMBOL + VALUE + UNIT + VALUE;
-        // The unit is told of the marked quantity: beside it there is no room for both.
-        let unit = !has_base || width >= least;
-        let room = if unit { VALUE - 1 } else { width.saturating_sub(SYMBOL + VALUE).min(VALUE - 1) };
         let labels = width >= with_labels;
         Columns {
             labels,
             rungs,
-            unit,
-            difference: has_base.then_some(room),
+            shared: (has_base && width < least).then_some(width.saturating_sub(SYMBOL)),
+            difference: has_base.then_some(VALUE - 1),
             equation: !has_base && width >= with_labels + EQUATION,
         }
     }
@@ -191,11 +190,50 @@ fn heading(app: &App, answer: &Answer, columns: &Columns, hidden: (usize, usize)
     if let Some(room) = columns.difference {
         let base = app.baseline.as_ref().map(|baseline| baseline.answer.beside(answer.active));
         let other = base.filter(|&base| base != answer.active).map(|rung| format!("{TO_BASE}, {}", rung.name()));
-        let width = room + if columns.unit { UNIT } else { 0 };
+        if let Some(shared) = columns.shared {
+            return shared_heading(app, answer, &other.unwrap_or_else(|| TO_BASE.to_owned()), hidden, SYMBOL + shared);
+        }
+        let width = room + UNIT;
         let heading = other.filter(|heading| heading.len() <= width).unwrap_or_else(|| TO_BASE.to_owned());
         spans.push(Span::styled(format!("{heading:>width$}"), app.look.theme.baseline));
     }
     Line::from(spans)
+}
+
+// In one line without columns; how much is out of sight is left out where there is no room.
+fn shared_heading(app: &App, answer: &Answer, to_base: &str, hidden: (usize, usize), width: usize) -> Line<'static> {
+    let rung = format!("▸{}", answer.active.name());
+    let left = width.saturating_sub(rung.width() + to_base.width() + 2);
+    let more = if left > 0 { more(hidden, left) } else { String::new() };
+    let more = if more.width() <= left { more } else { String::new() };
+    let gap = width.saturating_sub(more.width() + usize::from(!more.is_empty()) + rung.width());
+    let more = if more.is_empty() { more } else { more + " " };
+    Line::from(vec![
+        Span::styled(more, app.look.theme.faint),
+        Span::styled(rung, app.look.theme.active),
+        Span::styled(format!("{to_base:>gap$}"), app.look.theme.baseline),
+    ])
+}
+
+// The value with its unit and the difference, which gives up its blank, and the mark, where there is no room.
+fn shared_row(number: &str, unit: &str, mark: &str, difference: &str, width: usize) -> [String; 2] {
+    let joined = |parts: &[&str]| parts.iter().filter(|part| !part.trim().is_empty()).copied().collect::<Vec<_>>().join(" ");
+    let (value, marked) = (joined(&[number, unit]), joined(&[number, unit, mark]));
+    let close = difference.replace(" %", "%");
+    let sayings = [(&marked, difference), (&value, difference), (&value, close.as_str())];
+    let fits = sayings.into_iter().find(|(value, difference)| value.width() + 1 + difference.width() <= width);
+    let (value, difference) = fits.unwrap_or((&value, close.as_str()));
+    let gap = width.saturating_sub(value.width());
+    let difference = text::cut(difference, gap.saturating_sub(1));
+    [value.clone(), format!("{difference:>gap$}")]
+}
+
+// The unit, and behind it the mark.
+fn unit_and_mark(unit: &str, mark: &'static str, style: Style) -> [Span<'static>; 2] {
+    let unit = if unit.is_empty() { String::new() } else { format!("{unit} ") };
+    let room = UNIT.saturating_sub(unit.width());
+    let style = if mark.trim().is_empty() { Style::new() } else { style };
+    [Span::raw(unit), Span::styled(format!("{mark:<room$}"), style)]
 }
 
 fn row(app: &App, answer: &Answer, quantity: &Quantity, columns: &Columns) -> Line<'static> {
@@ -207,19 +245,28 @@ fn row(app: &App, answer: &Answer, quantity: &Quantity, columns: &Columns) -> Li
     };
     let value = |rung: Rung| answer.of(rung).and_then(|solution| report::value_as_in(quantity, solution, answer.active));
     let common = report::unit_beside(quantity, columns.rungs.iter().filter_map(|&rung| value(rung)), app.settings.units);
-    let mut unit = "";
-    for &rung in &columns.rungs {
-        let shown = value(rung).map(|value| report::shown_with(quantity, value, common));
-        unit = shown.as_ref().map_or(unit, |shown| shown.unit);
+    let shown: Vec<(Rung, Option<report::Shown>)> =
+        columns.rungs.iter().map(|&rung| (rung, value(rung).map(|value| report::shown_with(quantity, value, common)))).collect();
+    let unit = shown.iter().rev().find_map(|(_, shown)| shown.as_ref()).map_or("", |shown| shown.unit);
+    let mark = mark(app, answer, quantity);
+    // Only the widest unit leaves no place for the mark behind it.
+    let is_behind = unit.width() + 1 < UNIT;
+    for (rung, shown) in shown {
         let number = shown.map_or_else(|| "–".to_owned(), |shown| shown.number);
         let is_active = rung == answer.active;
         let style = if is_active { app.look.theme.focus } else { Style::new() };
-        let mark = if is_active { mark(app, answer, quantity) } else { " " };
-        spans.push(Span::styled(format!("{number:>0$}{mark}", VALUE - 1), style));
+        if let Some(width) = columns.shared {
+            let gap = usize::from(symbol.width() >= SYMBOL);
+            spans.push(Span::raw(" ".repeat(gap)));
+            let width = width.saturating_sub(gap);
+            let [value, difference] = shared_row(&number, unit, mark, &difference(app, answer, quantity), width);
+            spans.extend([Span::styled(value, style), Span::styled(difference, app.look.theme.baseline)]);
+            return Line::from(spans);
+        }
+        let beside = if is_active && !is_behind { mark } else { " " };
+        spans.push(Span::styled(format!("{number:>0$}{beside}", VALUE - 1), style));
     }
-    if columns.unit {
-        spans.push(Span::raw(text::padded(unit, UNIT)));
-    }
+    spans.extend(unit_and_mark(unit, if is_behind { mark } else { " " }, app.look.theme.focus));
     if let Some(room) = columns.difference {
         let difference = difference(app, answer, quantity, common, room);
         spans.push(Span::styled(format!("{difference:>room$}"), app.look.theme.baseline));

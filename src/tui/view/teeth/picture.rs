@@ -74,7 +74,8 @@ pub fn draw(picture: &Picture, area: Rect, buffer: &mut Buffer) {
 /// The values at the cursor, in lines.
 fn values(picture: &Picture, moment: Option<&Moment>, width: u16) -> Vec<String> {
     let ascii = picture.look.ascii;
-    let told = moment.map(|moment| readings::readings(moment, picture.solution.rung, picture.units)).unwrap_or_default();
+    let told =
+        moment.map(|moment| readings::readings(moment, (picture.inputs, picture.solution), picture.units)).unwrap_or_default();
     let told = told.iter().map(|reading| {
         let cells = reading.width(symbol(reading.symbol, ascii).width());
         (symbol(&reading.to_string(), ascii).into_owned(), cells)

@@ -6,8 +6,7 @@ use unicode_width::UnicodeWidthStr;
 
 use crate::case::units::System;
 use crate::case::units::system::shown;
-use crate::model::Moment;
-use crate::model::inputs::Rung;
+use crate::model::{Inputs, Moment, Solution};
 use crate::report::stations::{COLUMNS, Column, Row};
 
 /// Significant digits of the opening.
@@ -65,10 +64,10 @@ impl fmt::Display for Reading {
 
 /// Every value that the rung has at some place, and the opening, in an order that stays.
 #[must_use]
-pub fn readings(moment: &Moment, rung: Rung, system: System) -> Vec<Reading> {
+pub fn readings(moment: &Moment, solved: (&Inputs, &Solution), system: System) -> Vec<Reading> {
     ORDER
         .into_iter()
-        .filter_map(|key| if key == OPEN { Some(open(moment, system)) } else { reading(moment, key, rung, system) })
+        .filter_map(|key| if key == OPEN { Some(open(moment, system)) } else { reading(moment, key, solved, system) })
         .collect()
 }
 
@@ -77,17 +76,17 @@ fn open(moment: &Moment, system: System) -> Reading {
     Reading { symbol: OPEN, number: Some(number), unit }
 }
 
-fn reading(moment: &Moment, key: &str, rung: Rung, system: System) -> Option<Reading> {
+fn reading(moment: &Moment, key: &str, (inputs, solution): (&Inputs, &Solution), system: System) -> Option<Reading> {
     let column: &Column = COLUMNS.iter().find(|column| column.key == key)?;
     let told = moment.told.as_ref().map(Row::from).and_then(|row| column.of(row));
     let value = told.or_else(|| without_contact(moment, key));
-    if value.is_none() && !column.rungs.contains(&rung) {
+    if value.is_none() && !column.rungs.contains(&solution.rung) {
         return None;
     }
     let digits = moment.told.as_ref().map_or(column.digits, |told| column.digits_of(told));
     let usual = if column.shown == "1" { "" } else { system.unit(column.shown) };
     let (number, unit) = value.map_or((None, usual), |value| {
-        let (number, unit) = shown(value, column.shown, digits, system);
+        let (number, unit) = shown(column.resolved(value, inputs, solution), column.shown, digits, system);
         (Some(number), unit)
     });
     Some(Reading { symbol: column.symbol, number, unit })
