@@ -259,7 +259,8 @@ fn row(app: &App, answer: &Answer, quantity: &Quantity, columns: &Columns) -> Li
             let gap = usize::from(symbol.width() >= SYMBOL);
             spans.push(Span::raw(" ".repeat(gap)));
             let width = width.saturating_sub(gap);
-            let [value, difference] = shared_row(&number, unit, mark, &difference(app, answer, quantity), width);
+            let room = width.saturating_sub(number.width() + 1);
+            let [value, difference] = shared_row(&number, unit, mark, &difference(app, answer, quantity, common, room), width);
             spans.extend([Span::styled(value, style), Span::styled(difference, app.look.theme.baseline)]);
             return Line::from(spans);
         }
