@@ -65,7 +65,7 @@ fn a_measurement_keeps_its_figures_and_no_curve() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc", "5", "z"]);
     let bytes = kept(1, |_| {
-        desk.keys(&["Enter"]);
+        desk.keys(&["m"]);
     });
     assert!(desk.app.traded.as_ref().is_some_and(|traded| traded.trade.is_some()));
     println!("a measurement: {:.1} kB", bytes / 1e3);

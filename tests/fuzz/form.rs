@@ -172,7 +172,7 @@ impl Bench {
         let look = Look { ascii, ..Look::FULL };
         let app = update::opened(read.unwrap_or_else(store::built_in), path, look, Size { width: 80, height: 24 });
         let first = app.case.clone();
-        let opened = vec![first, Case::table_1()];
+        let opened = vec![first, Case::table_1(), Case::fresh()];
         Bench { app, folder, waiting: None, on_disk: opened.clone(), opened, seen: BTreeSet::new() }
     }
 

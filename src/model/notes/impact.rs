@@ -164,7 +164,7 @@ mod tests {
         notes::notes(inputs, &solution).iter().any(|note| note.code == "barely-clear")
     }
 
-    /// The pair m 2, z 23/71 under that power, in W, with 15.8 um of tip relief.
+    /// The pair m 2, z 23/71 under that power, in W, with so much tip relief, in m.
     fn of_two_modules(rung: Rung, power: f64) -> Inputs {
         let mut inputs = standard_pair(23, 71, 2e-3);
         inputs.rung = rung;
