@@ -61,8 +61,8 @@ fn a_button_and_the_name_of_a_case_are_pressed() {
     desk.keys(&["Ctrl-N", "7"]);
     press(&mut desk, "1 case.toml");
     assert!(desk.shows("[1 case.toml]"), "{}", desk.screen());
-    press(&mut desk, "2 built-in");
-    assert!(desk.shows("[2 built-in Table 1*]"), "{}", desk.screen());
+    press(&mut desk, "2 new case");
+    assert!(desk.shows("[2 new case*]"), "{}", desk.screen());
     for (button, leaves) in [("Cancel", false), ("Discard", true)] {
         desk.keys(&["Ctrl-Q"]);
         press(&mut desk, button);

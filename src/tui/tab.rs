@@ -23,6 +23,8 @@ pub struct Tab {
     pub path: Option<PathBuf>,
     /// The example that it began with, where it did.
     pub example: Option<&'static str>,
+    /// Whether it was begun as a new case.
+    pub is_new: bool,
     /// The case in the form.
     pub case: Case,
     /// The case as the file has it.
@@ -116,6 +118,7 @@ impl Tab {
             document,
             path,
             example: None,
+            is_new: false,
             in_place_of: None,
             focus,
             history: History::default(),
@@ -171,6 +174,7 @@ impl Tab {
         match (&self.path, self.example) {
             (Some(path), _) => path.display().to_string(),
             (None, Some(example)) => format!("new case from {example}"),
+            (None, None) if self.is_new => "new case".to_owned(),
             (None, None) => "built-in Table 1".to_owned(),
         }
     }

@@ -55,7 +55,7 @@ pub(super) fn show(app: &mut App, document: Document, path: PathBuf) -> Option<R
 /// Begin with the values of the built-in case in a tab of its own.
 pub(super) fn fresh(app: &mut App) -> Option<Request> {
     let replaces = app.is_untouched();
-    let request = put(app, Tab::new(Document::new(Case::fresh()), None), replaces);
+    let request = put(app, Tab { is_new: true, ..Tab::new(Document::new(Case::fresh()), None) }, replaces);
     app.say("a new case, beginning with the values of Table 1; the load makes the deflection");
     request
 }
