@@ -97,7 +97,8 @@ pub static QUIET: Theme = Theme {
     active: Style::new().fg(Color::Green).add_modifier(Modifier::BOLD),
     other: Style::new().fg(Color::Magenta),
     key: Style::new().add_modifier(Modifier::REVERSED),
-    baseline: Style::new().fg(Color::Blue),
+    // The plain blue is hard to see on black.
+    baseline: Style::new().fg(Color::LightBlue),
     driver: Style::new().fg(Color::Cyan),
     driven: Style::new().fg(Color::Yellow),
     path: Style::new().fg(Color::Magenta),
