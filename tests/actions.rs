@@ -6,7 +6,7 @@ mod desk;
 
 use std::collections::BTreeSet;
 
-use desk::{Desk, LARGE, TABLE_1};
+use desk::{Desk, LARGE, TABLE_1, time_evenly};
 use tipstrike::tui::commands::BINDINGS;
 
 /// Keys before, the key, keys after, and what is then on the screen, or asked of the world, that is not without the key.
@@ -185,6 +185,9 @@ fn press(desk: &mut Desk, keys: &str) {
             None if key == "RUNG" => desk.go_to("model.rung"),
             None => desk.keys(&[key]),
         };
+        if key == "m" && desk.app.traded.as_ref().is_some_and(|traded| traded.trade.is_some()) {
+            time_evenly(desk);
+        }
     }
 }
 

@@ -5,11 +5,11 @@
 mod desk;
 
 use crossterm::event::KeyCode;
-use desk::{Desk, LARGE, SMALL, TABLE_1};
+use desk::{Desk, LARGE, SMALL, TABLE_1, time_evenly};
 use insta::assert_snapshot;
 use ratatui::layout::Size;
 use tipstrike::model::inputs::Rung;
-use tipstrike::study::trade::{Setting, Time};
+use tipstrike::study::trade::Setting;
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::actions::Effect;
 use tipstrike::tui::app::Progress;
@@ -189,18 +189,9 @@ fn it_is_drawn_at_every_size() {
     assert!(desk.shows("1 ms") || desk.shows("100 us"), "{}", desk.screen());
 }
 
-/// Times that are the same on every machine: each setting takes a tenth more than the one before.
 fn timed(size: Size) -> Desk {
     let mut desk = measured(size);
-    let traded = desk.app.tab.traded.as_mut().expect("a measurement");
-    let trade = traded.trade.as_mut().expect("it is whole");
-    for (number, one) in trade.settings.iter_mut().enumerate() {
-        let seconds = 4e-6 * 1.1f64.powi(i32::try_from(number).expect("few settings"));
-        let figures = one.found.as_mut().expect("every rung answers on Table 1");
-        figures.time = Time { seconds, ..figures.time };
-    }
-    trade.judge();
-    traded.marked = trade.recommended.map(|at| trade.settings[at].setting);
+    time_evenly(&mut desk);
     desk.app.message = None;
     desk
 }

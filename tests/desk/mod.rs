@@ -14,7 +14,7 @@ use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Size;
 use tempfile::TempDir;
 use tipstrike::case::Document;
-use tipstrike::study::trade::Patience;
+use tipstrike::study::trade::{Patience, Time};
 use tipstrike::tui::actions::Effect;
 use tipstrike::tui::actions::{self, Action};
 use tipstrike::tui::app::App;
@@ -188,6 +188,19 @@ impl Desk {
 }
 
 /// All that a measurement tells, the last first; each setting is run once.
+/// Times that are the same on every machine: each setting takes a tenth more than the one before.
+pub(crate) fn time_evenly(desk: &mut Desk) {
+    let traded = desk.app.tab.traded.as_mut().expect("a measurement");
+    let trade = traded.trade.as_mut().expect("it is whole");
+    for (number, one) in trade.settings.iter_mut().enumerate() {
+        let seconds = 4e-6 * 1.1f64.powi(i32::try_from(number).expect("few settings"));
+        let figures = one.found.as_mut().expect("every rung answers");
+        figures.time = Time { seconds, ..figures.time };
+    }
+    trade.judge();
+    traded.marked = trade.recommended.map(|at| trade.settings[at].setting);
+}
+
 fn measured(measuring: Measuring) -> Vec<Action> {
     let told = RefCell::new(Vec::new());
     measure(&Measuring { patience: Patience::ONCE, ..measuring }, &AtomicBool::new(false), &|measured| {
