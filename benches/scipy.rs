@@ -1,4 +1,4 @@
-//! The rung `dynamic` beside SciPy's integrators on the same pair: `cargo bench --bench scipy` prints how many times as
+//! The method `dynamic` beside SciPy's integrators on the same pair: `cargo bench --bench scipy` prints how many times as
 //! long SciPy takes for the same measured error, `-- CASE.toml` on another case of `tests/reference/mesh`.
 #![allow(clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "a bench says what it found")]
 
@@ -10,7 +10,7 @@ use std::time::Instant;
 use serde_json::Value;
 use tipstrike::case::file::Document;
 use tipstrike::model::dynamic::{Settings, dynamic};
-use tipstrike::model::inputs::Rung;
+use tipstrike::model::inputs::Method;
 use tipstrike::model::spacing::Spacing;
 use tipstrike::model::{Inputs, Quantity, Solution, Stage, Stages, solve};
 
@@ -100,7 +100,7 @@ fn our_own(case: &Path, reference: &Value, tolerance: f64) -> Ours {
     let document = Document::read(case).unwrap_or_else(|error| panic!("{error}"));
     let inputs = document.case.inputs().unwrap_or_else(|problems| panic!("{}", problems[0]));
     // The numbers that SciPy's run looks for need no stations.
-    let inputs = Inputs { rung: Rung::Dynamic, tolerance, stations: Some(1), ..inputs };
+    let inputs = Inputs { method: Method::Dynamic, tolerance, stations: Some(1), ..inputs };
     let wanted = Stages::of(Stage::Dynamic);
     let solved = || solve(black_box(&inputs), wanted).unwrap_or_else(|refusal| panic!("{refusal}"));
     let solution = solved();

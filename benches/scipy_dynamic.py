@@ -1,4 +1,4 @@
-"""The rung `dynamic` in SciPy: how long it takes, and how far it is off, by tolerance.
+"""The method `dynamic` in SciPy: how long it takes, and how far it is off, by tolerance.
 
     python3 benches/scipy_dynamic.py [CASE.toml] [REFERENCE.json] [--repeat N]
 

@@ -6,9 +6,9 @@
 mod table;
 
 use table::{Row, Table};
-use tipstrike::model::inputs::Rung;
+use tipstrike::model::inputs::Method;
 use tipstrike::report::trade::plot::{LOOKS, Plot, Point, Series, svg};
-use tipstrike::study::trade::{Patience, RUNGS, Setting, Subject, greatest};
+use tipstrike::study::trade::{METHODS, Patience, Setting, Subject, greatest};
 
 fn main() {
     // `cargo test --benches` and `cargo bench -- --test` ask whether it starts, not what it finds.
@@ -27,13 +27,13 @@ fn main() {
     }
 }
 
-/// What each rung leaves out, a line a case.
+/// What each method leaves out, a line a case.
 fn models(trades: &[(String, tipstrike::study::trade::Trade)]) -> String {
     let mut lines =
         vec!["| case | paper | exact | static | two ways to the reference |".to_owned(), "|---|---|---|---|---|".to_owned()];
     for (name, trade) in trades {
-        let percent = |rung: Rung| {
-            let off = trade.model(rung).map_or([None; Subject::ALL.len()], |model| model.off);
+        let percent = |method: Method| {
+            let off = trade.model(method).map_or([None; Subject::ALL.len()], |model| model.off);
             let needed =
                 Subject::NEEDED.map(|subject| off[subject as usize].map_or("-".to_owned(), |off| format!("{:.1}", 100.0 * off)));
             needed.join(" / ")
@@ -42,18 +42,18 @@ fn models(trades: &[(String, tipstrike::study::trade::Trade)]) -> String {
         let check = check.map_or("-".to_owned(), |off| format!("{off:.0e}"));
         lines.push(format!(
             "| `{name}` | {} | {} | {} | {check} |",
-            percent(Rung::Paper),
-            percent(Rung::Exact),
-            percent(Rung::Static)
+            percent(Method::Paper),
+            percent(Method::Exact),
+            percent(Method::Static)
         ));
     }
     lines.join("\n")
 }
 
-/// Numerical error against time: a line a rung over its stations, and one over the tolerances.
+/// Numerical error against time: a line a method over its stations, and one over the tolerances.
 fn picture(table: &Table) -> String {
-    let stations = RUNGS.map(|rung| (format!("{}: stations", rung.name()), Setting::usual(rung), 1));
-    let tolerances = ("dynamic: tolerance".to_owned(), Setting::usual(Rung::Dynamic), 0);
+    let stations = METHODS.map(|method| (format!("{}: stations", method.name()), Setting::usual(method), 1));
+    let tolerances = ("dynamic: tolerance".to_owned(), Setting::usual(Method::Dynamic), 0);
     let series: Vec<Series> = stations
         .into_iter()
         .chain([tolerances])
@@ -61,7 +61,7 @@ fn picture(table: &Table) -> String {
         .map(|((name, usual, error), look)| {
             let alike = |setting: &Setting| {
                 let same = if error == 1 { setting.tolerance == usual.tolerance } else { setting.stations == usual.stations };
-                setting.rung == usual.rung && setting.accurate == usual.accurate && setting.stations.is_some() && same
+                setting.method == usual.method && setting.accurate == usual.accurate && setting.stations.is_some() && same
             };
             let mut settings: Vec<Setting> = Setting::all().into_iter().filter(alike).collect();
             settings.sort_by(|one, other| other.tolerance.unwrap_or(0.0).total_cmp(&one.tolerance.unwrap_or(0.0)));

@@ -67,7 +67,7 @@ use std::sync::Arc;
 use twofloat::TwoFloat;
 
 use impact::Masses;
-use inputs::Rung;
+use inputs::Method;
 
 /// Parts of a solution in more digits than it tells.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,8 +100,8 @@ impl Outcome {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
     /// How much of the physics was taken in.
-    pub rung: Rung,
-    /// Why that much, where the rung `auto` chose.
+    pub method: Method,
+    /// Why that much, where the method `auto` chose.
     pub choice: Option<Choice>,
     /// Whether the incoming tooth strikes.
     pub outcome: Outcome,

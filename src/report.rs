@@ -18,7 +18,7 @@ pub mod verdict;
 use crate::case::fields::index_of;
 use crate::case::units::System;
 use crate::case::{Case, units};
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Note, QUANTITIES, Quantity, Refusal, Solution, Stage, Stages};
 use crate::numeric::decimal::significant;
 
@@ -88,12 +88,12 @@ pub struct Report {
 }
 
 impl Report {
-    /// Solve the case as far as the selection and the rung's outcome need it.
+    /// Solve the case as far as the selection and the method's outcome need it.
     ///
     /// # Errors
     /// The model's refusal.
     pub fn solve(name: String, case: Case, inputs: Inputs, selection: Selection) -> Result<Report, Refusal> {
-        let solution = model::solve(&inputs, selection.stages().and(deciding(inputs.rung)))?;
+        let solution = model::solve(&inputs, selection.stages().and(deciding(inputs.method)))?;
         Ok(Report::of(name, case, inputs, solution, selection))
     }
 
@@ -124,13 +124,13 @@ impl Report {
 }
 
 /// The stages that decide whether the tooth strikes, beyond those that every solve has.
-fn deciding(rung: Rung) -> Stages {
-    match rung {
-        Rung::Exact => Stages::NONE,
+fn deciding(method: Method) -> Stages {
+    match method {
+        Method::Exact => Stages::NONE,
         // The printed equations bring a tooth in on time whose deviation is above 0 yet.
-        Rung::Paper => Stages::of(Stage::Position),
-        Rung::Static => Stages::of(Stage::Static),
-        Rung::Dynamic | Rung::Auto => Stages::of(Stage::Dynamic),
+        Method::Paper => Stages::of(Stage::Position),
+        Method::Static => Stages::of(Stage::Static),
+        Method::Dynamic | Method::Auto => Stages::of(Stage::Dynamic),
     }
 }
 
@@ -172,11 +172,11 @@ pub fn value(quantity: &Quantity, solution: &Solution) -> Option<f64> {
     (quantity.value)(solution).filter(|value| value.is_finite()).map(|value| value + 0.0)
 }
 
-/// A quantity's value in SI as another rung defines the quantity, so that the two may be held against each other.
+/// A quantity's value in SI as another method defines the quantity, so that the two may be held against each other.
 #[must_use]
-pub fn value_as_in(quantity: &Quantity, solution: &Solution, other: Rung) -> Option<f64> {
+pub fn value_as_in(quantity: &Quantity, solution: &Solution, other: Method) -> Option<f64> {
     match quantity.key {
-        "equivalent_error" => Some(solution.deviation.equivalent_error_as_in(solution.rung, other) + 0.0),
+        "equivalent_error" => Some(solution.deviation.equivalent_error_as_in(solution.method, other) + 0.0),
         _ => value(quantity, solution),
     }
 }

@@ -49,9 +49,9 @@ fn others(field: &Field, index: usize, case: &Case) -> Vec<String> {
     }
 }
 
-/// As far as the rung goes, without the motion in time, which takes long.
+/// As far as the method goes, without the motion in time, which takes long.
 fn solve(case: &Case) -> Option<Solution> {
-    let shares = case.inputs().ok()?.rung.shares_load();
+    let shares = case.inputs().ok()?.method.shares_load();
     let wanted = if shares { Stages::of(Stage::Static).and(Stages::ALL) } else { Stages::ALL };
     model::solve(&case.inputs().ok()?, wanted).ok()
 }
@@ -62,12 +62,12 @@ fn told(solution: &Solution) -> (Vec<Option<u64>>, String) {
     (quantities, format!("{:?} {:?}", solution.outcome, solution.stations))
 }
 
-/// Hold every field of every sample, or but the idle ones, against the model in a rung; the fields that were said to act and those that did.
-fn hold(rung: &str, samples: &[Case], but_idle: bool) -> (BTreeSet<&'static str>, BTreeSet<&'static str>) {
+/// Hold every field of every sample, or but the idle ones, against the model in a method; the fields that were said to act and those that did.
+fn hold(method: &str, samples: &[Case], but_idle: bool) -> (BTreeSet<&'static str>, BTreeSet<&'static str>) {
     let (mut said, mut found) = (BTreeSet::new(), BTreeSet::new());
     for case in samples {
         let mut case = case.clone();
-        case.set("model.rung", rung).unwrap();
+        case.set("model.method", method).unwrap();
         let (Ok(inputs), Some(before)) = (case.inputs(), solve(&case)) else { continue };
         for (index, field) in FIELDS.iter().enumerate() {
             let acting = acts(index, &inputs);
@@ -86,7 +86,7 @@ fn hold(rung: &str, samples: &[Case], but_idle: bool) -> (BTreeSet<&'static str>
                 let given = case.text(index).is_some();
                 assert!(
                     acting == Acting::Yes || !given,
-                    "rung {rung}: {} is said to be {acting:?}; {text} changes something",
+                    "method {method}: {} is said to be {acting:?}; {text} changes something",
                     field.key
                 );
             }
@@ -97,12 +97,12 @@ fn hold(rung: &str, samples: &[Case], but_idle: bool) -> (BTreeSet<&'static str>
 
 #[test]
 fn what_acts_is_what_changes_a_result() {
-    for rung in ["paper", "exact"] {
-        let (said, found) = hold(rung, &samples(), false);
+    for method in ["paper", "exact"] {
+        let (said, found) = hold(method, &samples(), false);
         let idle: Vec<_> = said.difference(&found).collect();
-        assert!(idle.is_empty(), "rung {rung}: said to act, and no change of it changes anything: {idle:?}");
+        assert!(idle.is_empty(), "method {method}: said to act, and no change of it changes anything: {idle:?}");
         let more: Vec<_> = found.difference(&said).collect();
-        assert!(more.is_empty(), "rung {rung}: said not to act, and it does: {more:?}");
+        assert!(more.is_empty(), "method {method}: said not to act, and it does: {more:?}");
     }
 }
 
@@ -115,25 +115,25 @@ fn what_is_idle_where_the_load_is_shared_changes_nothing() {
 
 #[test]
 fn the_reason_is_a_short_sentence_and_not_a_makeshift() {
-    for rung in ["paper", "exact", "static", "dynamic", "auto"] {
+    for method in ["paper", "exact", "static", "dynamic", "auto"] {
         let mut case = Case::table_1();
-        case.set("model.rung", rung).unwrap();
+        case.set("model.method", method).unwrap();
         for (index, field) in FIELDS.iter().enumerate() {
             let (Acting::No(why) | Acting::Beside(why)) = acts(index, &case.inputs_so_far()) else { continue };
             assert!((10..=130).contains(&why.len()) && why.is_ascii() && !why.ends_with('.'), "{why}");
-            assert!(!why.starts_with("nothing that"), "{rung}: {} has no reason of its own", field.key);
+            assert!(!why.starts_with("nothing that"), "{method}: {} has no reason of its own", field.key);
         }
     }
 }
 
 #[test]
-fn each_rung_has_its_idle_fields() {
-    let idle = |rung: &str, key: &str| {
+fn each_method_has_its_idle_fields() {
+    let idle = |method: &str, key: &str| {
         let mut case = Case::table_1();
-        case.set("model.rung", rung).unwrap();
+        case.set("model.method", method).unwrap();
         acts(index_of(key).unwrap(), &case.inputs().unwrap()) != Acting::Yes
     };
-    for (key, rungs) in [
+    for (key, methods) in [
         ("driver.tip_relief", &["paper", "exact"][..]),
         ("driven.tip_relief", &[]),
         ("driver.tip_relief_length", &["paper", "exact"]),
@@ -144,8 +144,8 @@ fn each_rung_has_its_idle_fields() {
         ("driver.density", &[]),
     ] {
         let found: Vec<&str> =
-            ["paper", "exact", "static", "dynamic", "auto"].into_iter().filter(|rung| idle(rung, key)).collect();
-        assert_eq!(found, rungs, "{key}");
+            ["paper", "exact", "static", "dynamic", "auto"].into_iter().filter(|method| idle(method, key)).collect();
+        assert_eq!(found, methods, "{key}");
     }
 }
 

@@ -88,10 +88,10 @@ const ONE_BAD_LINE: &[OneLine] = &[
     (MODULE, "module = “5 mm”", 0, 10, "pair.module", "not the straight ones", "\"5 mm\""),
     (MODULE, "module: \"5 mm\"", 0, 7, "pair.module", "`:` stands where `=` is due", "module = \"5 mm\""),
     // words and choices
-    ("rung = \"exact\"", "rung = \"exat\"", 0, 8, "model.rung", "unknown choice `exat`", "did you mean exact?"),
-    ("rung = \"exact\"", "rung = \"dinamic\"", 0, 8, "model.rung", "unknown choice `dinamic`", "did you mean dynamic?"),
-    ("rung = \"exact\"", "rung = 2", 0, 8, "model.rung", "a number stands where a text in quotes", "\"exact\""),
-    ("rung = \"exact\"", "rung = exact", 0, 8, "model.rung", "not in quotes", "write \"exact\""),
+    ("method = \"exact\"", "method = \"exat\"", 0, 8, "model.method", "unknown choice `exat`", "did you mean exact?"),
+    ("method = \"exact\"", "method = \"dinamic\"", 0, 8, "model.method", "unknown choice `dinamic`", "did you mean dynamic?"),
+    ("method = \"exact\"", "method = 2", 0, 8, "model.method", "a number stands where a text in quotes", "\"exact\""),
+    ("method = \"exact\"", "method = exact", 0, 8, "model.method", "not in quotes", "write \"exact\""),
     ("title = \"Zhou & Chen 2014, Table 1\"", "title = [1]", 0, 9, "title", "an array", "title = "),
     // keys and tables
     (MODULE, "modul = \"5 mm\"\nmodule = \"5 mm\"", 0, 1, "pair.modul", "unknown key `modul`", "did you mean module?"),
@@ -187,7 +187,7 @@ fn all_faults_come_in_one_run_in_the_order_of_the_places() {
         .replacen("teeth = 20", "teeth = 20.5", 1)
         .replacen("poisson = 0.3", "poison = 0.3", 1)
         .replacen("speed = \"2000 rpm\"", "speed = \"2000", 1)
-        .replacen("rung = \"exact\"", "rung = \"papr\"", 1);
+        .replacen("method = \"exact\"", "method = \"papr\"", 1);
     expect(
         &text,
         &[
@@ -195,7 +195,7 @@ fn all_faults_come_in_one_run_in_the_order_of_the_places() {
             (15, 9, "driver.teeth", "not a whole number", "20"),
             (21, 1, "driver.poison", "unknown key", "did you mean poisson?"),
             (44, 14, "operation.speed", "invalid basic string", "close the string"),
-            (47, 8, "model.rung", "unknown choice", "did you mean paper?"),
+            (47, 8, "model.method", "unknown choice", "did you mean paper?"),
         ],
     );
 }

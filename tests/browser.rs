@@ -64,7 +64,7 @@ fn the_case_under_the_cursor_is_told_with_its_verdict() {
     desk.keys(&["Ctrl-O"]);
     assert_eq!(marked(&desk), "case.toml", "the present case, among the others");
     for (file, told) in [
-        ("a-str", &["Zhou & Chen 2014, Table 1", "z 20/20, m 5 mm, α 20 deg, b 8 mm", "15 kW at 2000 rpm", "rung exact"][..]),
+        ("a-str", &["Zhou & Chen 2014, Table 1", "z 20/20, m 5 mm, α 20 deg, b 8 mm", "15 kW at 2000 rpm", "method exact"][..]),
         ("a-str", &["Corner contact 1.36628 deg of the driver before E, with 2191.0 N.", "ok impact_force 2191.0 N <= 2500 N"]),
         ("b-exc", &["EXCEEDED impact_force 2191.0 N > 2000 N (110 %)"]),
         ("c-rel", &["No corner contact: Δ = ", "ok impact_force none, no corner contact"]),

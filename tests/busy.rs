@@ -20,7 +20,7 @@ const MOST_FOR_ESC: Duration = Duration::from_millis(600);
 /// cycle is run.
 fn slow_case() -> String {
     let slow = [
-        ("rung = \"exact\"", "rung = \"dynamic\"\ntolerance = 1e-12\nwarmup_cycles = 10000\ndamping_ratio = 0.0"),
+        ("method = \"exact\"", "method = \"dynamic\"\ntolerance = 1e-12\nwarmup_cycles = 10000\ndamping_ratio = 0.0"),
         ("speed = \"2000 rpm\"", "speed = \"200 rpm\""),
         ("power = \"15 kW\"", "power = \"1.5 kW\""),
     ];
@@ -86,7 +86,7 @@ fn a_solve_that_takes_long_shows_how_far_it_is_and_esc_ends_it() {
     tty.wait_for("solving dynamic; Esc cancels");
     let start = Instant::now();
     tty.type_in("\x1b");
-    tty.wait_for("rung dynamic is stopped: the closed form stands until the next edit");
+    tty.wait_for("method dynamic is stopped: the closed form stands until the next edit");
     println!("Esc ends the solve within {:.1?}, of which 50 ms are for what an escape sequence may take", start.elapsed());
     assert!(start.elapsed() <= MOST_FOR_ESC, "{:.1?}", start.elapsed());
     tty.settle(Duration::from_millis(100));

@@ -29,10 +29,10 @@ const HUGE: Size = Size { width: 240, height: 70 };
 const MIDDLE: Size = Size { width: 120, height: 40 };
 const TINY: Size = Size { width: 60, height: 16 };
 
-/// Table 1 at a rung, the chart focused.
-fn at_rung(size: Size, rung: &str) -> Desk {
-    let mut desk = Desk::on(size, "case.toml", &TABLE_1.replace("\"exact\"", &format!("\"{rung}\"")));
-    // The first picture may not wait for a slow rung.
+/// Table 1 at a method, the chart focused.
+fn at_method(size: Size, method: &str) -> Desk {
+    let mut desk = Desk::on(size, "case.toml", &TABLE_1.replace("\"exact\"", &format!("\"{method}\"")));
+    // The first picture may not wait for a slow method.
     desk.fill("title", "a");
     desk.keys(&["Esc", "3"]);
     desk
@@ -50,7 +50,7 @@ fn chart(desk: &Desk) -> Vec<String> {
     area.rows().map(|row| row.columns().map(|at| cell(at.x, at.y)).collect::<String>().trim_end().to_owned()).collect()
 }
 
-/// Every chart of the rung, one below the other.
+/// Every chart of the method, one below the other.
 fn album(desk: &mut Desk) -> String {
     let mut pages = Vec::new();
     for _ in 0..GRAPHS.len() {
@@ -70,20 +70,20 @@ fn a_chart_that_comes_in_sight_while_a_field_is_wrong_says_so() {
 
 #[test]
 fn every_chart() {
-    for rung in ["exact", "static", "dynamic"] {
-        assert_snapshot!(format!("{rung}_80x24"), album(&mut at_rung(SMALL, rung)));
+    for method in ["exact", "static", "dynamic"] {
+        assert_snapshot!(format!("{method}_80x24"), album(&mut at_method(SMALL, method)));
     }
-    assert_snapshot!("dynamic_140x45", album(&mut at_rung(LARGE, "dynamic")));
-    let mut desk = at_rung(SMALL, "dynamic");
+    assert_snapshot!("dynamic_140x45", album(&mut at_method(LARGE, "dynamic")));
+    let mut desk = at_method(SMALL, "dynamic");
     desk.app.look = Look { theme: &MONO, ascii: true };
     assert_snapshot!("dynamic_ascii", album(desk.keys(&["l"])));
-    let mut huge = at_rung(HUGE, "static");
+    let mut huge = at_method(HUGE, "static");
     assert_snapshot!("static_240x70", chart(huge.keys(&["b", "v", "l"])).join("\n"));
 }
 
 #[test]
 fn charts_are_walked_through_and_chosen_by_name_and_the_choice_is_kept() {
-    let mut desk = at_rung(SMALL, "static");
+    let mut desk = at_method(SMALL, "static");
     for graph in GRAPHS.iter().chain([&GRAPHS[0]]) {
         assert!(desk.shows(&format!("3 {} ", graph.label)), "{}\n{}", graph.label, desk.screen());
         desk.keys(&["j"]);
@@ -98,20 +98,20 @@ fn charts_are_walked_through_and_chosen_by_name_and_the_choice_is_kept() {
 }
 
 #[test]
-fn a_rung_without_the_curve_says_so() {
-    let mut desk = at_rung(SMALL, "exact");
+fn a_method_without_the_curve_says_so() {
+    let mut desk = at_method(SMALL, "exact");
     desk.keys(&[":", "chart: load", "Enter"]);
-    assert!(desk.shows("The rung exact has no load share: static and dynamic do."));
-    let mut desk = at_rung(SMALL, "static");
+    assert!(desk.shows("The method exact has no load share: static and dynamic do."));
+    let mut desk = at_method(SMALL, "static");
     desk.keys(&[":", "chart: impact", "Enter"]);
-    assert!(desk.shows("The rung static has no impact energy: paper and exact do."), "{}", desk.screen());
+    assert!(desk.shows("The method static has no impact energy: paper and exact do."), "{}", desk.screen());
     assert!(desk.shows("∘"), "those of the others are drawn");
 }
 
 #[test]
-fn the_axis_goes_on_to_the_last_contact_where_the_rung_does() {
-    for (rung, ends) in [("exact", false), ("static", true), ("dynamic", true)] {
-        let desk = at_rung(SMALL, rung);
+fn the_axis_goes_on_to_the_last_contact_where_the_method_does() {
+    for (method, ends) in [("exact", false), ("static", true), ("dynamic", true)] {
+        let desk = at_method(SMALL, method);
         let axis = chart(&desk).into_iter().find(|line| line.contains('└')).expect("an axis");
         assert!(axis.contains('D') && axis.contains('E'), "{axis}");
         assert_eq!((axis.contains('B'), axis.contains('L')), (ends, ends), "{axis}");
@@ -121,7 +121,7 @@ fn the_axis_goes_on_to_the_last_contact_where_the_rung_does() {
 
 #[test]
 fn the_cursor_walks_beyond_e_and_every_value_is_read_off() {
-    let mut desk = at_rung(SMALL, "dynamic");
+    let mut desk = at_method(SMALL, "dynamic");
     desk.keys(&["End", "L"]);
     let cursor = desk.app.cursor.expect("a cursor");
     assert!(cursor < 0.0 && desk.shows("deg of the driver after E: F "), "{}", desk.screen());
@@ -134,14 +134,14 @@ fn the_cursor_walks_beyond_e_and_every_value_is_read_off() {
     assert_eq!(desk.app.cursor, Some(end), "the axis has its end");
     desk.keys(&["4"]);
     assert!(desk.shows("after E"), "the teeth stand there as well");
-    let mut desk = at_rung(SMALL, "static");
+    let mut desk = at_method(SMALL, "static");
     desk.keys(&["v", "Home", "LL"]);
     assert!(desk.shows(" N, exact "), "every curve in sight is read off\n{}", desk.screen());
 }
 
 #[test]
 fn a_click_points_where_it_is_drawn() {
-    let mut desk = at_rung(SMALL, "static");
+    let mut desk = at_method(SMALL, "static");
     let area = chart_area(&desk);
     for x in [8, 9, 40, 78] {
         desk.act(Action::Click(Position::new(x, area.y + 2)));
@@ -152,7 +152,7 @@ fn a_click_points_where_it_is_drawn() {
 
 #[test]
 fn zoom_goes_to_the_strike_around_the_cursor_and_back_to_the_whole() {
-    let mut desk = at_rung(SMALL, "static");
+    let mut desk = at_method(SMALL, "static");
     let (whole, window) = (chart(&desk), |desk: &Desk| desk.app.chart.window(&desk.app.scale));
     let all = window(&desk);
     desk.keys(&["v"]);
@@ -175,7 +175,7 @@ fn zoom_goes_to_the_strike_around_the_cursor_and_back_to_the_whole() {
 
 #[test]
 fn what_is_in_sight_follows_the_cursor() {
-    let mut desk = at_rung(SMALL, "static");
+    let mut desk = at_method(SMALL, "static");
     desk.keys(&["v", "End"]);
     for _ in 0..12 {
         desk.keys(&["L"]);
@@ -188,7 +188,7 @@ fn what_is_in_sight_follows_the_cursor() {
 
 #[test]
 fn the_time_axis_tells_the_same_curve_in_time() {
-    let mut desk = at_rung(SMALL, "dynamic");
+    let mut desk = at_method(SMALL, "dynamic");
     let angle = chart(&desk);
     desk.keys(&["t"]);
     let time = chart(&desk);
@@ -203,9 +203,9 @@ fn the_time_axis_tells_the_same_curve_in_time() {
 
 #[test]
 fn pinned_results_and_the_present_ones_are_in_sight_from_end_to_end() {
-    for rung in ["paper", "exact", "static", "dynamic"] {
+    for method in ["paper", "exact", "static", "dynamic"] {
         for relief in ["46 um", "48 um", "80 um"] {
-            let mut desk = at_rung(SMALL, rung);
+            let mut desk = at_method(SMALL, method);
             desk.keys(&["b"]);
             let pinned = desk.app.scale;
             desk.fill("driven.tip_relief", relief);
@@ -215,14 +215,14 @@ fn pinned_results_and_the_present_ones_are_in_sight_from_end_to_end() {
                 let baseline = solution(&desk.app.baseline.as_ref().expect("pinned").answer);
                 let now = solution(desk.app.answer.as_ref().expect("solved"));
                 for first in [&baseline, &now].into_iter().filter_map(chart::first_contact) {
-                    assert!(window.from <= -first.to_degrees(), "{rung} {relief} {frame:?}: {window:?} {first}");
+                    assert!(window.from <= -first.to_degrees(), "{method} {relief} {frame:?}: {window:?} {first}");
                 }
                 desk.keys(&["Esc", "3", "v"]);
             }
-            // Of pinned results of the rung paper the other rung, which drew the axis, is not drawn.
+            // Of pinned results of the method paper the other method, which drew the axis, is not drawn.
             assert!(
-                rung == "paper" || desk.app.scale.across == pinned.across,
-                "{rung} {relief}: the axis stays as long as it serves"
+                method == "paper" || desk.app.scale.across == pinned.across,
+                "{method} {relief}: the axis stays as long as it serves"
             );
         }
     }
@@ -230,8 +230,8 @@ fn pinned_results_and_the_present_ones_are_in_sight_from_end_to_end() {
 
 #[test]
 fn the_readout_and_the_teeth_tell_the_same_numbers() {
-    for rung in ["paper", "exact", "static", "dynamic"] {
-        let mut desk = at_rung(LARGE, rung);
+    for method in ["paper", "exact", "static", "dynamic"] {
+        let mut desk = at_method(LARGE, method);
         desk.keys(&["Home", "lllll"]);
         for _ in 0..6 {
             desk.keys(&["l"]);
@@ -250,17 +250,17 @@ fn the_readout_and_the_teeth_tell_the_same_numbers() {
                 if let Some(told) = told(symbol) {
                     let alone = format!(" {told}");
                     let same = said.split([':', ',', ';']).any(|part| part.trim_end_matches('.') == alone);
-                    assert!(same, "{rung}: {told} in {said}");
+                    assert!(same, "{method}: {told} in {said}");
                 }
             }
-            assert!(told("S").is_some() && (told("F_S").is_some() || told("F").is_some()), "{rung}");
+            assert!(told("S").is_some() && (told("F_S").is_some() || told("F").is_some()), "{method}");
         }
     }
 }
 
 #[test]
 fn a_run_goes_on_to_the_last_contact() {
-    let mut desk = at_rung(SMALL, "static");
+    let mut desk = at_method(SMALL, "static");
     desk.keys(&["Space"]);
     let runs = (0..200).take_while(|_| {
         desk.act(Action::Tick);
@@ -273,7 +273,7 @@ fn a_run_goes_on_to_the_last_contact() {
 
 #[test]
 fn the_baseline_stands_behind_in_the_same_chart() {
-    let mut desk = at_rung(SMALL, "static");
+    let mut desk = at_method(SMALL, "static");
     desk.keys(&["b", "1"]).fill("operation.power", "12 kW");
     desk.keys(&["Esc", "3"]);
     for _ in 0..3 {
@@ -286,10 +286,10 @@ fn the_baseline_stands_behind_in_the_same_chart() {
 
 #[test]
 fn as_many_charts_as_have_room_stand_below_each_other() {
-    let desk = at_rung(HUGE, "static");
+    let desk = at_method(HUGE, "static");
     let lines = chart(&desk).join("\n");
     assert!(lines.contains("3 Force F in N over roll angle before E in deg") && lines.contains("─ Gap S in um"), "{lines}");
-    let mut desk = at_rung(LARGE, "exact");
+    let mut desk = at_method(LARGE, "exact");
     assert!(!desk.shows("─ Gap S in um"));
     desk.keys(&["z"]);
     assert!(desk.shows("─ Gap S in um"), "{}", desk.screen());
@@ -302,7 +302,7 @@ fn a_chart_out_of_sight_costs_nothing() {
     let fitted = desk.app.scale;
     desk.fill("operation.speed", "9000 rpm");
     assert_eq!(desk.app.scale, fitted, "no curve is looked at");
-    assert!(!desk.app.answer.as_ref().expect("results").rungs.iter().any(|(rung, _)| rung.shares_load()));
+    assert!(!desk.app.answer.as_ref().expect("results").methods.iter().any(|(method, _)| method.shares_load()));
     desk.keys(&["Esc", "3"]);
     assert_ne!(desk.app.scale, fitted);
 }
@@ -347,7 +347,7 @@ fn assert_charts(desk: &mut Desk) {
 }
 
 #[test]
-fn every_case_of_the_collection_is_drawn_at_every_rung() {
+fn every_case_of_the_collection_is_drawn_at_every_method() {
     for entry in fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/cases")).expect("the cases").flatten() {
         let path = entry.path();
         if path.extension().is_none_or(|ending| ending != "toml") {
@@ -358,9 +358,9 @@ fn every_case_of_the_collection_is_drawn_at_every_rung() {
             desk.keys(&["Ctrl-T"]);
             assert_charts(&mut desk);
             let solution = desk.app.answer.as_ref().and_then(|answer| answer.of(answer.active)).expect("results");
-            let (rung, strikes) = (solution.rung, solution.outcome == Outcome::CornerContact);
+            let (method, strikes) = (solution.method, solution.outcome == Outcome::CornerContact);
             let is_drawn = chart(desk.keys(&[":", "chart: force", "Enter", "0"])).iter().any(|line| line.contains('└'));
-            assert!(is_drawn || !strikes, "{} {:?}", path.display(), rung);
+            assert!(is_drawn || !strikes, "{} {:?}", path.display(), method);
         }
     }
 }
@@ -370,7 +370,7 @@ fn random_cases_are_drawn() {
     let sizes = (12..150u32, 12..150u32, -1.3..1.69f64, -9.0..-3.5f64);
     let loads = (0.0..6.0f64, 0.0..4.5f64, 0..3usize);
     let config = ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() };
-    proptest!(config, |((z1, z2, module, deviation) in sizes, (power, speed, rung) in loads)| {
+    proptest!(config, |((z1, z2, module, deviation) in sizes, (power, speed, method) in loads)| {
         let text = TABLE_1
             .replacen("teeth = 20", &format!("teeth = {z1}"), 1)
             .replacen("teeth = 20", &format!("teeth = {z2}"), 1)
@@ -380,7 +380,7 @@ fn random_cases_are_drawn() {
             .replace("deflection =", "# deflection =")
             .replace("\"15 kW\"", &format!("\"{:e} W\"", 10f64.powf(power)))
             .replace("\"2000 rpm\"", &format!("\"{:e} rpm\"", 10f64.powf(speed)))
-            .replace("rung = \"exact\"", &format!("rung = \"{}\"", ["paper", "exact", "static"][rung]));
+            .replace("method = \"exact\"", &format!("method = \"{}\"", ["paper", "exact", "static"][method]));
         assert_charts(&mut Desk::on(SMALL, "case.toml", &text));
     });
 }
@@ -404,10 +404,10 @@ fn cost(desk: &mut Desk, key: &str) -> usize {
 fn a_chart_costs_few_bytes_a_key() {
     for (size, most) in [(SMALL, 1400), (MIDDLE, 3000)] {
         let mut all = Vec::new();
-        for (rung, graph) in
-            ["exact", "static", "dynamic"].iter().flat_map(|rung| (0..GRAPHS.len()).map(move |graph| (rung, graph)))
+        for (method, graph) in
+            ["exact", "static", "dynamic"].iter().flat_map(|method| (0..GRAPHS.len()).map(move |graph| (method, graph)))
         {
-            let mut desk = at_rung(size, rung);
+            let mut desk = at_method(size, method);
             desk.app.graph = graph;
             for (field, unit, digits) in [
                 ("operation.speed", " rpm", "2123.4567"),

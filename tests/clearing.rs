@@ -1,4 +1,4 @@
-//! The least tip relief that stops the corner contact: with it the rung finds none, with a little less it does.
+//! The least tip relief that stops the corner contact: with it the method finds none, with a little less it does.
 //!
 //! `TIPSTRIKE_PAIRS=600 cargo test --test clearing -- --nocapture` looks at 600 pairs in place of 40.
 #![allow(
@@ -17,11 +17,11 @@ mod pairs;
 
 use tipstrike::case::EXAMPLES;
 use tipstrike::case::units::{Dimension, System, parse};
-use tipstrike::model::inputs::{Gear, ReliefShape, Rung};
+use tipstrike::model::inputs::{Gear, Method, ReliefShape};
 use tipstrike::model::{Inputs, Outcome, Solution, Stage, Stages, auto, solve};
 use tipstrike::report::relief::relief as told;
 
-const RUNGS: [Rung; 4] = [Rung::Paper, Rung::Exact, Rung::Static, Rung::Dynamic];
+const METHODS: [Method; 4] = [Method::Paper, Method::Exact, Method::Static, Method::Dynamic];
 
 fn examples() -> impl Iterator<Item = (&'static str, Inputs)> {
     EXAMPLES.iter().map(|example| (example.name, example.document().case.inputs().expect("a valid case")))
@@ -49,10 +49,10 @@ fn solved(inputs: &Inputs) -> Option<Solution> {
     solve(inputs, Stages::of(Stage::Clearing).with(Stage::Position)).ok()
 }
 
-/// What the rung itself says of the pair with another tip relief of the driven gear.
+/// What the method itself says of the pair with another tip relief of the driven gear.
 fn strikes(inputs: &Inputs, tip_relief: f64) -> bool {
     let relieved = Inputs { driven: Gear { tip_relief, ..inputs.driven.clone() }, ..inputs.clone() };
-    let stages = inputs.rung.stages().within(Stages::of(Stage::Dynamic).with(Stage::Position).and(Stages::of(Stage::Static)));
+    let stages = inputs.method.stages().within(Stages::of(Stage::Dynamic).with(Stage::Position).and(Stages::of(Stage::Static)));
     solve(&relieved, stages).expect("a solution").outcome == Outcome::CornerContact
 }
 
@@ -77,16 +77,16 @@ fn rattles(solution: &Solution) -> bool {
 
 #[test]
 fn the_least_relief_stops_it_and_less_does_not_whatever_its_shape_and_length() {
-    let mut striking = [0; RUNGS.len()];
+    let mut striking = [0; METHODS.len()];
     for (name, inputs) in examples() {
         let pitch = solve(&inputs, Stages::of(Stage::Geometry)).expect("a geometry").geometry.base_pitch;
         let lengths = [None, Some(0.3 * pitch), Some(1.3 * pitch)];
-        for (rung, striking) in RUNGS.into_iter().zip(&mut striking) {
+        for (method, striking) in METHODS.into_iter().zip(&mut striking) {
             for (shape, length) in ReliefShape::ALL.into_iter().flat_map(|shape| lengths.map(|length| (shape, length))) {
                 let driven = Gear { tip_relief_length: length, ..inputs.driven.clone() };
-                let inputs = Inputs { rung, relief_shape: shape, driven, ..inputs.clone() };
+                let inputs = Inputs { method, relief_shape: shape, driven, ..inputs.clone() };
                 let solution = solved(&inputs).expect("a solution");
-                assert_kept(&format!("{name}, {}, {shape:?} over {length:?}", rung.name()), &inputs, &solution);
+                assert_kept(&format!("{name}, {}, {shape:?} over {length:?}", method.name()), &inputs, &solution);
                 *striking += u32::from(solution.outcome == Outcome::CornerContact);
             }
         }
@@ -98,20 +98,20 @@ fn the_least_relief_stops_it_and_less_does_not_whatever_its_shape_and_length() {
 fn over_pairs_as_they_are_built_it_keeps_what_it_promises_and_greater_reliefs_stop_it_too() {
     let (mut runs, mut looked_at, mut returned) = (0, 0, 0);
     for number in 0..pairs_to_look_at() {
-        for rung in RUNGS {
-            let inputs = Inputs { rung, ..built(number) };
+        for method in METHODS {
+            let inputs = Inputs { method, ..built(number) };
             let Some(solution) = solved(&inputs) else { continue };
             if rattles(&solution) {
                 continue;
             }
-            let name = format!("pair {number}, {}", rung.name());
+            let name = format!("pair {number}, {}", method.name());
             assert_kept(&name, &inputs, &solution);
             let Some(relief) = solution.clearing.and_then(|clearing| clearing.relief) else { continue };
             let with = |part: f64| strikes(&inputs, inputs.driven.tip_relief + part * relief);
             assert!([1.05, 1.25, 1.5, 2.0].into_iter().all(|part| !with(part)), "{name}: more than {relief:e} does not");
             let between = (1..=8).any(|step| with(1.0 + 0.11 * f64::from(step)));
-            assert!(rung == Rung::Dynamic || !between, "{name}: more than {relief:e} does not");
-            if rung == Rung::Dynamic {
+            assert!(method == Method::Dynamic || !between, "{name}: more than {relief:e} does not");
+            if method == Method::Dynamic {
                 looked_at += 1;
                 returned += u32::from(between);
                 runs += solution.clearing.map_or(0, |clearing| clearing.runs);
@@ -128,7 +128,7 @@ fn over_pairs_as_they_are_built_it_keeps_what_it_promises_and_greater_reliefs_st
 fn where_contact_is_lost_the_relief_found_and_fifty_greater_ones_stop_it() {
     let mut looked_at = 0;
     for number in [9, 28, 88] {
-        let inputs = Inputs { rung: Rung::Dynamic, ..pairs::numbered(number) };
+        let inputs = Inputs { method: Method::Dynamic, ..pairs::numbered(number) };
         let solution = solved(&inputs).expect("a solution");
         assert!(rattles(&solution), "pair {number}");
         let Some(relief) = solution.clearing.and_then(|clearing| clearing.relief) else { continue };
@@ -143,9 +143,9 @@ fn where_contact_is_lost_the_relief_found_and_fifty_greater_ones_stop_it() {
 #[test]
 fn the_figure_that_is_told_stops_it_when_it_is_typed_in() {
     let mut looked_at = 0;
-    for (number, rung) in (0..pairs_to_look_at()).flat_map(|number| RUNGS.map(|rung| (number, rung))) {
+    for (number, method) in (0..pairs_to_look_at()).flat_map(|number| METHODS.map(|method| (number, method))) {
         for given in [0.0, 1e-6, 3.217e-6] {
-            let mut inputs = Inputs { rung, ..pairs::numbered(number) };
+            let mut inputs = Inputs { method, ..pairs::numbered(number) };
             inputs.driven.tip_relief = given;
             let Some(solution) = solved(&inputs).filter(|solution| !rattles(solution)) else { continue };
             for system in System::ALL {
@@ -155,7 +155,7 @@ fn the_figure_that_is_told_stops_it_when_it_is_typed_in() {
                 let in_all = words[0].split_once('(').map(|(_, all)| read(&figure(all)));
                 let sum = given + read(&figure(&words[0]));
                 for relief in in_all.into_iter().chain([sum]) {
-                    assert!(!strikes(&inputs, relief), "pair {number}, {}, from {given:e}: {words:?}", rung.name());
+                    assert!(!strikes(&inputs, relief), "pair {number}, {}, from {given:e}: {words:?}", method.name());
                     looked_at += 1;
                 }
             }
@@ -183,31 +183,31 @@ fn a_rest_that_decides_in_the_last_digits_is_told_as_it_is() {
 }
 
 #[test]
-fn auto_tells_the_relief_of_the_rung_that_it_took() {
+fn auto_tells_the_relief_of_the_method_that_it_took() {
     let mut taken = Vec::new();
     for (name, inputs) in examples() {
-        let chosen = solved(&Inputs { rung: Rung::Auto, ..inputs.clone() }).expect("a solution");
-        let own = solved(&auto::taken(&inputs, chosen.rung)).expect("a solution");
+        let chosen = solved(&Inputs { method: Method::Auto, ..inputs.clone() }).expect("a solution");
+        let own = solved(&auto::taken(&inputs, chosen.method)).expect("a solution");
         let relief = |solution: &Solution| solution.clearing.expect("the stage ran").relief;
         assert_eq!(relief(&chosen), relief(&own), "{name}");
         assert_eq!(chosen.outcome, own.outcome, "{name}");
-        taken.push(chosen.rung);
+        taken.push(chosen.method);
     }
-    assert!(taken.contains(&Rung::Dynamic), "{taken:?}");
+    assert!(taken.contains(&Method::Dynamic), "{taken:?}");
 }
 
 #[test]
 fn it_is_sought_where_it_is_asked_for_and_nowhere_else() {
     for (name, inputs) in examples() {
-        for rung in RUNGS {
-            let inputs = Inputs { rung, ..inputs.clone() };
+        for method in METHODS {
+            let inputs = Inputs { method, ..inputs.clone() };
             let without = solve(&inputs, Stages::EVERY.without(Stage::Clearing)).expect("a solution");
             assert!(without.clearing.is_none() && !without.ran.has(Stage::Clearing), "{name}");
             let alone = solve(&inputs, Stages::of(Stage::Clearing)).expect("a solution");
             assert!(!alone.ran.has(Stage::Friction) && !alone.ran.has(Stage::Stations), "{name}");
             let runs = alone.clearing.expect("the stage ran").runs;
-            let most = if rung == Rung::Dynamic { 16 } else { 6 };
-            assert!(runs == 0 || rung.shares_load() && runs <= most, "{name}, {}: {runs} tries", rung.name());
+            let most = if method == Method::Dynamic { 16 } else { 6 };
+            assert!(runs == 0 || method.shares_load() && runs <= most, "{name}, {}: {runs} tries", method.name());
         }
     }
 }

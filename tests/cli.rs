@@ -65,7 +65,7 @@ fn a_solve_is_told_for_a_person() {
     let page = told(&["solve", TABLE_1]);
     assert!(page.starts_with("Zhou & Chen 2014, Table 1\n"), "{page}");
     assert!(page.contains("strikes 1.36628 deg of the driver before E"), "{page}");
-    assert!(page.contains("rung paper: 0.0525747 deg"), "{page}");
+    assert!(page.contains("method paper: 0.0525747 deg"), "{page}");
     assert!(!page.contains("Stations"), "{page}");
     assert!(told(&["solve", TABLE_1, "--stations", "4"]).contains("Stations from D to E"));
 }
@@ -77,7 +77,7 @@ fn json_has_the_promised_shape() {
     assert_eq!(solved["title"], "Zhou & Chen 2014, Table 1");
     assert_eq!(solved["format"], 1);
     assert_eq!(solved["version"], env!("CARGO_PKG_VERSION"));
-    assert_eq!((&solved["rung"], &solved["outcome"]), (&"exact".into(), &"corner-contact".into()));
+    assert_eq!((&solved["method"], &solved["outcome"]), (&"exact".into(), &"corner-contact".into()));
     let force = &solved["quantities"]["impact_force"];
     assert!((force["value"].as_f64().unwrap() - 2191.016).abs() < 5e-4);
     assert_eq!(force["unit"], "N");
@@ -115,9 +115,9 @@ fn what_does_not_exist_is_absent_and_the_outcome_says_why() {
 }
 
 #[test]
-fn the_outcome_is_the_rungs_own_whatever_is_asked_for() {
+fn the_outcome_is_the_methods_own_whatever_is_asked_for() {
     // Between the relief that stops it by the printed equations, 61.8 um, and Δ = 0 by Eq. 1 as printed, 66.9 um.
-    let relieved = ["--set", "driven.tip_relief=64 um", "--rung", "paper", "--format", "json"];
+    let relieved = ["--set", "driven.tip_relief=64 um", "--method", "paper", "--format", "json"];
     for only in [&[][..], &["--only", "total_deviation"], &["--only", "base_pitch"]] {
         let solved = json(&[&["solve", TABLE_1], &relieved[..], only].concat());
         assert_eq!(solved["outcome"], "no-corner-contact", "{only:?}");
@@ -145,7 +145,7 @@ fn an_unknown_quantity_is_wrong_usage_and_the_right_name_is_near() {
 fn csv_has_a_row_a_case_with_units_in_the_header() {
     let table = told(&["solve", TABLE_1, TABLE_1, "--only", "impact_force,contact_ratio", "--format", "csv"]);
     let mut reader = csv::Reader::from_reader(table.as_bytes());
-    assert_eq!(reader.headers().unwrap(), &["case", "rung", "outcome", "impact_force [N]", "contact_ratio [1]"][..]);
+    assert_eq!(reader.headers().unwrap(), &["case", "method", "outcome", "impact_force [N]", "contact_ratio [1]"][..]);
     let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
     assert_eq!(rows.len(), 2);
     assert_eq!((&rows[0][0], &rows[0][1], &rows[0][2]), (TABLE_1, "exact", "corner-contact"));
@@ -162,13 +162,13 @@ fn csv_with_stations_has_a_row_a_station() {
 }
 
 #[test]
-fn settings_and_rung_change_the_case() {
+fn settings_and_method_change_the_case() {
     let value = |arguments: &[&str]| {
         let common = ["solve", TABLE_1, "--format", "json", "--only", "impact_force"];
         json(&[&common[..], arguments].concat())["quantities"]["impact_force"]["value"].as_f64().unwrap()
     };
-    assert!((value(&["--rung", "paper"]) - 84.649).abs() < 5e-4);
-    assert!((value(&["--set", "model.rung=paper"]) - 84.649).abs() < 5e-4);
+    assert!((value(&["--method", "paper"]) - 84.649).abs() < 5e-4);
+    assert!((value(&["--set", "model.method=paper"]) - 84.649).abs() < 5e-4);
     assert!(value(&["--set", "operation.speed=4000 rpm"]) > 4000.0);
 }
 
@@ -301,27 +301,27 @@ fn a_check_is_a_verdict_a_line() {
 
 #[test]
 fn json_says_which_quantities_are_of_the_free_impact() {
-    for (rung, of) in [("exact", Value::Null), ("static", "free-impact".into()), ("dynamic", "free-impact".into())] {
-        let quantities = &json(&["solve", TABLE_1, "--format", "json", "--rung", rung])["quantities"];
+    for (method, of) in [("exact", Value::Null), ("static", "free-impact".into()), ("dynamic", "free-impact".into())] {
+        let quantities = &json(&["solve", TABLE_1, "--format", "json", "--method", method])["quantities"];
         for key in ["impact_force", "impact_duration", "normal_velocity", "friction_ratio"] {
-            assert_eq!(quantities[key]["of"], of, "{rung} {key}");
+            assert_eq!(quantities[key]["of"], of, "{method} {key}");
         }
         for key in ["mesh_force", "total_deviation", "contact_ratio", "static_peak_force", "dynamic_peak_force"] {
-            assert_eq!(quantities[key]["of"], Value::Null, "{rung} {key}");
+            assert_eq!(quantities[key]["of"], Value::Null, "{method} {key}");
         }
     }
 }
 
 #[test]
-fn what_a_rung_resolves_itself_stands_before_the_free_impact() {
-    for (rung, first) in [("static", "static: force at E"), ("dynamic", "dynamic: peak before E")] {
-        let text = told(&["solve", TABLE_1, "--rung", rung]);
+fn what_a_method_resolves_itself_stands_before_the_free_impact() {
+    for (method, first) in [("static", "static: force at E"), ("dynamic", "dynamic: peak before E")] {
+        let text = told(&["solve", TABLE_1, "--method", method]);
         let (own, free) = text.split_once("Free impact at D, closed form: first contact D").unwrap();
         assert!(own.contains(first) && free.contains("F_S      impact force"), "{text}");
         assert!(free.contains("ok        impact_force 2011.2 N <= 2500 N (80 %): of the free impact"), "{text}");
-        let page = told(&["explain", "impact_force", TABLE_1, "--rung", rung]);
+        let page = told(&["explain", "impact_force", TABLE_1, "--method", method]);
         assert!(page.contains("This is of the free impact, in closed form"), "{page}");
-        assert!(!page.contains(&format!("{rung} 2011.2 N")) && page.contains("exact with the deflection that"), "{page}");
+        assert!(!page.contains(&format!("{method} 2011.2 N")) && page.contains("exact with the deflection that"), "{page}");
     }
     assert!(!told(&["solve", TABLE_1]).contains("Free impact"));
 }
@@ -329,14 +329,14 @@ fn what_a_rung_resolves_itself_stands_before_the_free_impact() {
 #[test]
 fn the_relief_that_is_told_stops_it_and_a_little_less_does_not() {
     const CASE: &str = "cases/nasa-lewis-28-28.toml";
-    for (rung, given) in ["paper", "exact", "static", "dynamic"].into_iter().flat_map(|rung| [(rung, 0.0), (rung, 3.7)]) {
+    for (method, given) in ["paper", "exact", "static", "dynamic"].into_iter().flat_map(|method| [(method, 0.0), (method, 3.7)]) {
         let with = |relief: f64, format: &'static str| {
             let set = format!("driven.tip_relief={relief:.6} um");
             vec![
                 "solve".to_owned(),
                 CASE.into(),
-                "--rung".into(),
-                rung.into(),
+                "--method".into(),
+                method.into(),
                 "--set".into(),
                 set,
                 "--format".into(),
@@ -346,39 +346,39 @@ fn the_relief_that_is_told_stops_it_and_a_little_less_does_not() {
         let run = |options: Vec<String>| told(&options.iter().map(String::as_str).collect::<Vec<_>>());
         let text = run(with(given, "text")).split_whitespace().collect::<Vec<_>>().join(" ");
         let sentence =
-            text.split(". ").find(|sentence| sentence.ends_with("stops it")).unwrap_or_else(|| panic!("{rung}: {text}"));
+            text.split(". ").find(|sentence| sentence.ends_with("stops it")).unwrap_or_else(|| panic!("{method}: {text}"));
         let told: f64 = sentence.split(' ').next().unwrap_or_default().parse().unwrap();
         for (part, outcome) in [(1.0, "no-corner-contact"), (0.99, "corner-contact")] {
             let solved: Value = serde_json::from_str(&run(with(given + told * part, "json"))).unwrap();
-            assert_eq!(solved["outcome"], outcome, "{rung} from {given}: {sentence}");
+            assert_eq!(solved["outcome"], outcome, "{method} from {given}: {sentence}");
         }
     }
 }
 
 #[test]
 fn the_page_of_a_result_by_auto_says_which_tolerance_was_taken() {
-    let page = told(&["explain", "dynamic_peak_force", TABLE_1, "--rung", "auto"]);
+    let page = told(&["explain", "dynamic_peak_force", TABLE_1, "--method", "auto"]);
     let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(page.contains("rung dynamic, taken by auto"), "{page}");
+    assert!(page.contains("method dynamic, taken by auto"), "{page}");
     assert!(
         page.contains("good to 1e-3, as auto takes it for model.within = 0.05; model.tolerance = 1e-6 is not used"),
         "{page}"
     );
     assert!(page.contains("model.within = ") && !page.contains("model.tolerance = 1e-6,"), "{page}");
-    let given = told(&["explain", "dynamic_peak_force", TABLE_1, "--rung", "dynamic"]);
+    let given = told(&["explain", "dynamic_peak_force", TABLE_1, "--method", "dynamic"]);
     assert!(given.contains("good to model.tolerance = 1e-6"), "{given}");
 }
 
 #[test]
-fn a_limit_is_tried_on_another_rung_and_on_a_changed_field() {
-    let dynamic = told(&["check", TABLE_1, "--rung", "dynamic"]);
+fn a_limit_is_tried_on_another_method_and_on_a_changed_field() {
+    let dynamic = told(&["check", TABLE_1, "--method", "dynamic"]);
     let beside = "of the free impact, in closed form; dynamic itself finds dynamic_peak_approach_force 1410.8 N";
     let held = format!("ok {TABLE_1}: impact_force 2011.2 N <= 2500 N (80 %): {beside}; a limit on that holds it\n");
     assert_eq!(dynamic, held);
-    let by_auto = told(&["check", TABLE_1, "--rung", "auto"]);
-    assert_eq!(by_auto, dynamic, "the name means the same whatever the rung");
+    let by_auto = told(&["check", TABLE_1, "--method", "auto"]);
+    assert_eq!(by_auto, dynamic, "the name means the same whatever the method");
     let (_folder, own) = changed("impact_force = \"2500 N\"", "dynamic_peak_approach_force = \"2500 N\"\ncontact_ratio = 1.7");
-    let own = told(&["check", &own, "--rung", "dynamic"]);
+    let own = told(&["check", &own, "--method", "dynamic"]);
     assert!(!own.contains("free impact") && own.contains("dynamic_peak_approach_force 1410.8 N <= 2500 N (56 %)\n"), "{own}");
     let relieved = told(&["check", TABLE_1, "--set", "driven.tip_relief=60 um"]);
     assert_eq!(relieved, format!("ok {TABLE_1}: impact_force none, no corner contact (limit 2500 N)\n"));
@@ -510,8 +510,8 @@ fn a_quantity_is_explained_for_people_and_for_scripts() {
         told(&["explain", "impact_force", TABLE_1]).lines().skip(3).collect::<Vec<_>>(),
         page.lines().skip(3).collect::<Vec<_>>()
     );
-    let paper = json(&["explain", "approach_angle_driver", TABLE_1, "--rung", "paper", "--format", "json"]);
-    assert_eq!((&paper["key"], &paper["rung"]), (&"approach_angle_driver".into(), &"paper".into()));
+    let paper = json(&["explain", "approach_angle_driver", TABLE_1, "--method", "paper", "--format", "json"]);
+    assert_eq!((&paper["key"], &paper["method"]), (&"approach_angle_driver".into(), &"paper".into()));
     assert_eq!(paper["work"][0]["formula"], "ε_e + ε_d");
     assert_eq!(paper["work"][0]["numbers"], "0.0272067 deg + 0.0253680 deg");
     assert_eq!((&paper["valid"][0]["holds"], &paper["mended"][0]["equation"]), (&false.into(), &"Eqs. 7-20".into()));
@@ -548,9 +548,9 @@ fn a_trade_names_the_cheapest_setting_that_will_do() {
     assert!(page.lines().last().unwrap().starts_with("Within 5.0 %: dynamic with"), "{page}");
     let traded = json(&["trade", TABLE_1, "--within", "40%", "--format", "json"]);
     assert_eq!((&traded["case"], &traded["within"]), (&TABLE_1.into(), &0.4.into()));
-    assert_eq!(traded["recommended"]["rung"], "static");
+    assert_eq!(traded["recommended"]["method"], "static");
     let own: Vec<&Value> = traded["settings"].as_array().unwrap().iter().filter(|one| one["current"] == true).collect();
-    assert_eq!((own.len(), &own[0]["rung"], &own[0]["stations"]), (1, &"exact".into(), &64.into()));
+    assert_eq!((own.len(), &own[0]["method"], &own[0]["stations"]), (1, &"exact".into(), &64.into()));
 }
 
 #[test]
@@ -584,7 +584,8 @@ fn help_and_version_are_results_and_wrong_usage_is_not() {
     assert!(told(&["--version"]).starts_with("tipstrike "));
     assert!(told(&["--help"]).contains("completions"));
     assert!(told(&["solve", "--help"]).contains("--only"));
-    for wrong in [&["solve"][..], &["solve", TABLE_1, "--stations", "0"], &["solve", TABLE_1, "--rung", "guess"], &["--wrong"]] {
+    for wrong in [&["solve"][..], &["solve", TABLE_1, "--stations", "0"], &["solve", TABLE_1, "--method", "guess"], &["--wrong"]]
+    {
         let output = run(wrong);
         assert_eq!((code(&output), out(&output).as_str()), (2, ""), "{wrong:?}");
         assert!(!err(&output).is_empty());

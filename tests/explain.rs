@@ -17,13 +17,13 @@ type Settings = &'static [(&'static str, &'static str)];
 /// Settings that turn a case into one with other formulas.
 const VARIANTS: [Settings; 8] = [
     &[],
-    &[("model.rung", "paper")],
+    &[("model.method", "paper")],
     &[("model.deflection", "")],
     &[("model.tooth_compliance", "beam"), ("model.contact_compliance", "weber"), ("model.deflection", "")],
     &[("model.contact_compliance", "constant"), ("driven.tip_radius", "0.3 mm"), ("model.accurate", "true")],
     &[("operation.torque", "40 lbf ft"), ("driven.tip_relief", "2 um"), ("deviations.backlash", "1 um")],
     &[("operation.speed", "1.5 rad/s"), ("operation.friction_coefficient", "0.07"), ("driven.tip_chamfer", "0.01 in")],
-    &[("deviations.base_pitch", "-0.3 um"), ("driver.profile_shift", "-0.02"), ("model.rung", "paper")],
+    &[("deviations.base_pitch", "-0.3 um"), ("driver.profile_shift", "-0.02"), ("model.method", "paper")],
 ];
 
 struct Told {
@@ -129,7 +129,7 @@ fn every_equation_that_is_cited_is_one() {
             equations(page.source).contains(&number)
         } else {
             let head = equation.split(' ').next().unwrap();
-            equation == "by the rung" || cited.iter().any(|part| part.contains(head))
+            equation == "by the method" || cited.iter().any(|part| part.contains(head))
         };
         assert!(named, "{}: {equation} in {}", page.quantity.key, page.source);
         for text in cited {
@@ -180,7 +180,7 @@ fn a_step_of_a_field_does_what_a_solve_says() {
     let share = 100.0 * (force / page.value.unwrap() - 1.0);
     assert_eq!(of("deviations.base_pitch").change, format!("+{share:.2} %"));
     assert_eq!(of("deviations.base_pitch").text, "16 um");
-    assert_eq!((of("model.rung").step.as_str(), of("model.rung").change.as_str()), ("", ""));
+    assert_eq!((of("model.method").step.as_str(), of("model.method").change.as_str()), ("", ""));
     assert!(page.effects.iter().all(|effect| !["title", "operation.torque", "driver.tip_relief"].contains(&effect.key)));
 }
 
@@ -197,10 +197,10 @@ fn pages_read_as_they_did() {
     let samples: [(&str, &str, Settings); 14] = [
         ("zhou", "impact_force", &[]),
         ("zhou", "approach_angle_driven", &[]),
-        ("zhou", "approach_angle_driver", &[("model.rung", "paper")]),
-        ("zhou", "friction_ratio", &[("model.rung", "paper")]),
+        ("zhou", "approach_angle_driver", &[("model.method", "paper")]),
+        ("zhou", "friction_ratio", &[("model.method", "paper")]),
         ("zhou", "impact_duration_printed", &[]),
-        ("zhou", "closed_gap", &[("model.rung", "paper")]),
+        ("zhou", "closed_gap", &[("model.method", "paper")]),
         ("fzg", "contact_ratio", &[]),
         ("fzg", "pair_compliance", &[]),
         ("fzg", "reduced_mass", &[]),
@@ -211,7 +211,7 @@ fn pages_read_as_they_did() {
         ("tip-relief", "normal_velocity", &[]),
     ];
     for (case, key, settings) in samples {
-        let rung = settings.first().map(|(_, rung)| format!("_{rung}")).unwrap_or_default();
-        insta::assert_snapshot!(format!("{case}_{key}{rung}"), render(&page(case, key, settings), case));
+        let method = settings.first().map(|(_, method)| format!("_{method}")).unwrap_or_default();
+        insta::assert_snapshot!(format!("{case}_{key}{method}"), render(&page(case, key, settings), case));
     }
 }

@@ -55,13 +55,13 @@ fn words(text: &str) -> Vec<&str> {
 
 #[test]
 fn the_page_of_every_result_is_that_of_the_command_and_can_be_read_through() {
-    for (rung, pages) in [("exact", 34), ("dynamic", 40)] {
-        let mut desk = Desk::on(SMALL, "case.toml", &TABLE_1.replace("rung = \"exact\"", &format!("rung = \"{rung}\"")));
+    for (method, pages) in [("exact", 34), ("dynamic", 40)] {
+        let mut desk = Desk::on(SMALL, "case.toml", &TABLE_1.replace("method = \"exact\"", &format!("method = \"{method}\"")));
         let path = desk.path("case.toml").display().to_string();
         let count = results::count(&desk.app);
-        assert!(count >= pages, "{rung}: {count}");
-        // Of the slow rung every sixth: the text is the same, and each takes a dozen solves.
-        for row in (0..count).step_by(if rung == "dynamic" { 6 } else { 1 }) {
+        assert!(count >= pages, "{method}: {count}");
+        // Of the slow method every sixth: the text is the same, and each takes a dozen solves.
+        for row in (0..count).step_by(if method == "dynamic" { 6 } else { 1 }) {
             desk.app.tab.row = row;
             desk.keys(&["Esc", "2", "Enter"]);
             let key = of(&desk).quantity.key;

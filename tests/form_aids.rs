@@ -57,7 +57,7 @@ fn a_value_in_another_unit_is_told_in_the_usual_one() {
 }
 
 #[test]
-fn what_the_rung_does_without_is_marked_and_says_why() {
+fn what_the_method_does_without_is_marked_and_says_why() {
     let mut desk = Desk::new(SMALL);
     desk.go_to("driver.root_relief");
     let idle = line(&desk, "Ca1");

@@ -46,7 +46,7 @@ fn folder() -> (TempDir, Vec<PathBuf>) {
     let good = hostile_case();
     let bad = [
         good.replacen("module = \"5 mm\"", &format!("module = \"5 {ESCAPED}\""), 1),
-        good.replacen("rung = \"exact\"", &format!("rung = \"{ESCAPED}\""), 1),
+        good.replacen("method = \"exact\"", &format!("method = \"{ESCAPED}\""), 1),
         good.replacen("[pair]", &format!("[pair]\n\"{ESCAPED}\" = 1"), 1),
         good.replacen("[pair]", &format!("[\"{ESCAPED}\"]\n[pair]"), 1),
         good.replacen("[pair]", &format!("{HOSTILE}\n[pair]"), 1),
@@ -78,7 +78,7 @@ fn no_command_says_a_control() {
             &["solve", "--set", &format!("title={HOSTILE}")],
             &["solve", "--set", &format!("{HOSTILE}=1")],
             &["solve", "--only", HOSTILE],
-            &["solve", "--rung", HOSTILE],
+            &["solve", "--method", HOSTILE],
             &["solve", "--format", HOSTILE],
             &[HOSTILE],
             &["new"],

@@ -39,10 +39,10 @@ fn an_invalid_value_keeps_the_last_valid_results_and_says_so() {
 }
 
 #[test]
-fn the_rung_is_a_field_and_a_key() {
+fn the_method_is_a_field_and_a_key() {
     let mut desk = Desk::new(SMALL);
     assert!(desk.shows("▸exact"));
-    desk.go_to("model.rung").keys(&["Left"]);
+    desk.go_to("model.method").keys(&["Left"]);
     assert!(desk.shows("▸paper"));
     assert!(desk.shows("‹ paper ›"));
     desk.keys(&["Space"]);
@@ -68,10 +68,10 @@ fn undo_goes_back_a_field_and_redo_forward() {
 }
 
 #[test]
-fn the_rung_that_is_switched_through_is_one_step_of_undo() {
+fn the_method_that_is_switched_through_is_one_step_of_undo() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["6", "Ctrl-T", "Ctrl-T", "Ctrl-T"]);
-    assert!(desk.shows("rung auto") && desk.shows("6 mm"), "{}", desk.screen());
+    assert!(desk.shows("method auto") && desk.shows("6 mm"), "{}", desk.screen());
     desk.keys(&["Ctrl-Z"]);
     assert!(desk.shows("▸exact") && desk.shows("6 mm") && desk.shows(": auto -> "), "{}", desk.screen());
     desk.keys(&["Ctrl-T", "7", "Ctrl-Z"]);
@@ -84,7 +84,7 @@ fn what_no_value_begins_with_is_a_command_in_a_field_of_a_value() {
     for (keys, told) in [
         (&["/power", "Enter", "16"][..], "16 kW"),
         (&["Ctrl-U", ":undo", "Enter"], "undo: power: (empty) -> 15 kW"),
-        (&["/rung", "Enter", ":theme", "Enter"], "theme contrast"),
+        (&["/method", "Enter", ":theme", "Enter"], "theme contrast"),
         (&["Alt-L", "impact_force", "Enter", "/"], "Go to a field or a result"),
     ] {
         assert!(desk.keys(keys).shows(told), "{keys:?}\n{}", desk.screen());
@@ -466,7 +466,7 @@ fn results_are_found_as_fields_are() {
     }
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "/", "dynamic_peak_force"]);
-    assert!(!desk.shows("dynamic_peak_force, "), "no result of another rung:\n{}", desk.screen());
+    assert!(!desk.shows("dynamic_peak_force, "), "no result of another method:\n{}", desk.screen());
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What a result, a verdict and a hint mean: one thing in a rung, and where a rung means another it says so.
+//! What a result, a verdict and a hint mean: one thing in a method, and where a method means another it says so.
 #![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use serde_json::Value;
@@ -9,7 +9,7 @@ use tipstrike::model::{self, Quantity, Solution};
 use tipstrike::report::{shown, value};
 
 const TABLE_1: &str = "cases/zhou-chen-2014.toml";
-const RUNGS: [&str; 5] = ["paper", "exact", "static", "dynamic", "auto"];
+const METHODS: [&str; 5] = ["paper", "exact", "static", "dynamic", "auto"];
 
 fn run(arguments: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_tipstrike"));
@@ -29,52 +29,52 @@ fn refused(arguments: &[&str]) -> (i32, String) {
 }
 
 /// The text of a solve of Table 1 with reliefs, without its line ends.
-fn relieved(rung: &str, command: &[&str]) -> String {
-    let reliefs = ["--rung", rung, "--set", "driven.tip_relief=10 um", "--set", "driver.root_relief=5 um"];
+fn relieved(method: &str, command: &[&str]) -> String {
+    let reliefs = ["--method", method, "--set", "driven.tip_relief=10 um", "--set", "driver.root_relief=5 um"];
     told(&[command, &reliefs].concat()).split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 #[test]
-fn the_modification_is_told_in_every_rung_and_means_the_same() {
-    for rung in RUNGS {
-        let page = relieved(rung, &["solve", TABLE_1]);
-        assert!(page.contains("e_m modification at run-in -15.000 um Eq. 1"), "{rung}: {page}");
+fn the_modification_is_told_in_every_method_and_means_the_same() {
+    for method in METHODS {
+        let page = relieved(method, &["solve", TABLE_1]);
+        assert!(page.contains("e_m modification at run-in -15.000 um Eq. 1"), "{method}: {page}");
     }
 }
 
 #[test]
 fn an_equivalent_error_without_the_reliefs_is_called_so() {
-    for (rung, row) in [
+    for (method, row) in [
         ("paper", "Δf equivalent error 12.021 um"),
         ("exact", "Δf equivalent error 7.6274 um"),
         ("static", "Δf_0 error without the reliefs 22.627 um"),
         ("dynamic", "Δf_0 error without the reliefs 22.627 um"),
     ] {
-        let page = relieved(rung, &["solve", TABLE_1]);
-        assert!(page.contains(row), "{rung}: {page}");
+        let page = relieved(method, &["solve", TABLE_1]);
+        assert!(page.contains(row), "{method}: {page}");
     }
-    let of = |rung| -> Value {
-        let line = told(&["solve", TABLE_1, "--rung", rung, "--only", "equivalent_error", "--format", "json"]);
+    let of = |method| -> Value {
+        let line = told(&["solve", TABLE_1, "--method", method, "--only", "equivalent_error", "--format", "json"]);
         serde_json::from_str::<Value>(&line).unwrap()["quantities"]["equivalent_error"]["of"].clone()
     };
     assert_eq!((of("exact"), of("static")), (Value::Null, "deviations-without-reliefs".into()));
     let page = relieved("static", &["explain", "equivalent_error"]);
     assert!(page.contains("Δf_0 = (2 f_pb - j_bn)/√2"), "{page}");
-    assert!(page.contains("Rungs: ") == page.contains("paper 22.6"), "{page}");
+    assert!(page.contains("Methods: ") == page.contains("paper 22.6"), "{page}");
     assert!(!page.contains("exact 7.6"), "two definitions stand side by side: {page}");
     let page = relieved("static", &["explain", "total_deviation"]);
     assert!(page.contains("Δ = Δf_0 + e_m + δ"), "{page}");
 }
 
 #[test]
-fn an_explanation_says_what_holds_in_its_rung() {
+fn an_explanation_says_what_holds_in_its_method() {
     let strikes = "Above 0 the tip strikes before E";
-    for (rung, holds) in [("paper", false), ("exact", true), ("static", false), ("dynamic", false), ("auto", false)] {
-        assert_eq!(relieved(rung, &["explain", "total_deviation"]).contains(strikes), holds, "{rung}");
+    for (method, holds) in [("paper", false), ("exact", true), ("static", false), ("dynamic", false), ("auto", false)] {
+        assert_eq!(relieved(method, &["explain", "total_deviation"]).contains(strikes), holds, "{method}");
     }
     let in_full = "Relief counts against it, in full";
-    for (rung, holds) in [("paper", false), ("exact", true), ("static", false)] {
-        assert_eq!(relieved(rung, &["explain", "equivalent_error"]).contains(in_full), holds, "{rung}");
+    for (method, holds) in [("paper", false), ("exact", true), ("static", false)] {
+        assert_eq!(relieved(method, &["explain", "equivalent_error"]).contains(in_full), holds, "{method}");
     }
     let deflects = "the load that deflects the teeth";
     assert!(!relieved("exact", &["explain", "mesh_force"]).contains(deflects), "the deflection is given");
@@ -87,7 +87,7 @@ fn a_limit_that_has_no_value_is_not_held_and_says_why() {
     let page = String::from_utf8(output.stdout).unwrap();
     assert_eq!(output.status.code(), Some(1));
     assert!(page.contains("unknown cases/zhou-chen-2014.toml: dynamic_peak_force has no value to hold against 2 kN: "), "{page}");
-    assert!(page.contains("the rung is exact, and this is of dynamic, auto"), "{page}");
+    assert!(page.contains("the method is exact, and this is of dynamic, auto"), "{page}");
     // Nothing strikes: a limit on the impact holds, one on the motion is not known.
     let relieved = ["check", TABLE_1, "--set", "driven.tip_relief=80 um"];
     assert_eq!(run(&relieved).status.code(), Some(0));
@@ -95,8 +95,8 @@ fn a_limit_that_has_no_value_is_not_held_and_says_why() {
 }
 
 #[test]
-fn a_verdict_names_what_to_limit_for_the_force_of_the_rung() {
-    let limit = ["check", TABLE_1, "--rung", "dynamic", "--set", "limits.impact_force=2.1 kN"];
+fn a_verdict_names_what_to_limit_for_the_force_of_the_method() {
+    let limit = ["check", TABLE_1, "--method", "dynamic", "--set", "limits.impact_force=2.1 kN"];
     let page = told(&limit);
     let own = "of the free impact, in closed form; dynamic itself finds dynamic_peak_approach_force 1410.8 N";
     assert!(page.contains(own) && page.trim_end().ends_with("; a limit on that holds it"), "{page}");
@@ -129,7 +129,7 @@ fn a_hint_offers_the_usual_unit_and_names_the_command_line() {
 
 #[test]
 fn a_quantity_is_found_by_its_symbol_and_after_a_slip() {
-    for command in [["solve", TABLE_1, "--only"], ["explain", "--rung", "exact"]] {
+    for command in [["solve", TABLE_1, "--only"], ["explain", "--method", "exact"]] {
         let asked = |name| refused(&[&command[..], &[name]].concat());
         let (code, line) = asked("f_s");
         assert_eq!((code, line.ends_with("`f_s` is the symbol of impact_force: write impact_force")), (2, true), "{line}");
@@ -174,19 +174,19 @@ fn the_printed_equations_say_what_they_miss() {
     let page = relieved("paper", &["solve", TABLE_1]);
     assert!(page.contains("the printed equations put D where the tip has closed 0.0"), "{page}");
     assert!(!relieved("exact", &["solve", TABLE_1]).contains("the printed equations put D"));
-    let page = told(&["solve", "cases/mill-coarse-slow.toml", "--rung", "paper"]);
+    let page = told(&["solve", "cases/mill-coarse-slow.toml", "--method", "paper"]);
     assert!(page.contains("Eq. 32 is of two spheres") && !page.contains("lacks Hertz"), "{page}");
-    let page = told(&["solve", "cases/turbo-fine-fast.toml", "--rung", "paper"]);
+    let page = told(&["solve", "cases/turbo-fine-fast.toml", "--method", "paper"]);
     assert!(page.contains("no friction ratio is given: the triangle of Eq. 34 does not close"), "{page}");
     // 60 um of relief count as 42 um as printed: the tooth strikes by the printed equations alone.
-    let page = told(&["solve", TABLE_1, "--rung", "paper", "--set", "driven.tip_relief=60 um"]);
+    let page = told(&["solve", TABLE_1, "--method", "paper", "--set", "driven.tip_relief=60 um"]);
     let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(page.contains("For comparison, rung exact: no corner contact, the total deviation is -12.673 um."), "{page}");
+    assert!(page.contains("For comparison, method exact: no corner contact, the total deviation is -12.673 um."), "{page}");
 }
 
-/// What a person looks at first, by rung.
+/// What a person looks at first, by method.
 fn headlines(solution: &Solution) -> Vec<String> {
-    let keys: &[&str] = match solution.rung.name() {
+    let keys: &[&str] = match solution.method.name() {
         "static" => &["static_force_at_start", "static_peak_force", "static_first_contact_angle", "static_transmission_error"],
         "dynamic" => &["dynamic_peak_approach_force", "dynamic_peak_force", "dynamic_first_contact_angle"],
         _ => &["impact_force", "impact_duration", "approach_angle_driven", "friction_ratio", "normal_velocity"],
@@ -198,15 +198,16 @@ fn headlines(solution: &Solution) -> Vec<String> {
     std::iter::once(solution.outcome.name().to_owned()).chain(keys.iter().map(told)).collect()
 }
 
-/// Every number of every case that changes none of the results that a person looks at says why, in each rung.
+/// Every number of every case that changes none of the results that a person looks at says why, in each method.
 #[test]
 fn a_field_that_moves_nothing_says_why() {
     let mut silent = Vec::new();
-    for (rung, example) in RUNGS[..4].iter().flat_map(|rung| EXAMPLES.iter().take(3).map(move |example| (rung, example))) {
+    for (method, example) in METHODS[..4].iter().flat_map(|method| EXAMPLES.iter().take(3).map(move |example| (method, example)))
+    {
         let mut case = example.document().case;
-        case.set("model.rung", rung).unwrap();
+        case.set("model.method", method).unwrap();
         let inputs = case.inputs().unwrap();
-        let solve = |case: &Case| model::solve(&case.inputs().ok()?, case.inputs().ok()?.rung.stages()).ok();
+        let solve = |case: &Case| model::solve(&case.inputs().ok()?, case.inputs().ok()?.method.stages()).ok();
         let Some(before) = solve(&case) else { continue };
         for (index, field) in FIELDS.iter().enumerate() {
             let Kind::Number(..) = field.kind else { continue };
@@ -220,7 +221,7 @@ fn a_field_that_moves_nothing_says_why() {
             let is_silent = changed.set(field.key, format!("{more} {unit}").trim()).is_ok()
                 && solve(&changed).is_some_and(|after| headlines(&after) == headlines(&before));
             if is_silent {
-                silent.push(format!("{} of {} at {rung}", field.key, example.name));
+                silent.push(format!("{} of {} at {method}", field.key, example.name));
             }
         }
     }
@@ -233,8 +234,8 @@ fn a_field_that_moves_nothing_says_why() {
 #[test]
 fn a_given_deflection_is_said_to_keep_the_load_out() {
     let note = "the deflection of 24.70 um is given: power and torque change F_0 alone";
-    for (rung, says) in [("paper", true), ("exact", true), ("static", false), ("dynamic", false)] {
-        assert_eq!(relieved(rung, &["solve", TABLE_1]).contains(note), says, "{rung}");
+    for (method, says) in [("paper", true), ("exact", true), ("static", false), ("dynamic", false)] {
+        assert_eq!(relieved(method, &["solve", TABLE_1]).contains(note), says, "{method}");
     }
     assert!(!relieved("exact", &["solve", TABLE_1, "--set", "model.deflection="]).contains("is given"));
 }

@@ -6,7 +6,7 @@
 mod desk;
 
 use desk::{Desk, LARGE, SMALL};
-use tipstrike::model::inputs::Rung;
+use tipstrike::model::inputs::Method;
 
 /// Bytes that are kept after this, once for each of so many times.
 fn kept(times: usize, mut run: impl FnMut(usize)) -> f64 {
@@ -36,16 +36,16 @@ fn an_edit_keeps_what_it_changed_and_undo_has_no_end() {
 fn an_open_case_keeps_little_and_a_closed_one_nothing() {
     const CASES: usize = 32;
     let mut desk = Desk::new(LARGE);
-    let mut tell = |rung: Rung, most: f64| {
+    let mut tell = |method: Method, most: f64| {
         let whole = allocation_counter::measure(|| {
             let bytes = kept(CASES, |_| {
                 desk.keys(&["Ctrl-N"]).fill("operation.speed", "1500 rpm");
-                while desk.app.answer.as_ref().is_none_or(|answer| answer.active != rung) {
+                while desk.app.answer.as_ref().is_none_or(|answer| answer.active != method) {
                     desk.keys(&["Ctrl-T"]);
                 }
             });
-            println!("an open case, rung {}: {:.1} kB", rung.name(), bytes / 1e3);
-            assert!(bytes < most, "{rung:?}: {bytes}");
+            println!("an open case, method {}: {:.1} kB", method.name(), bytes / 1e3);
+            assert!(bytes < most, "{method:?}: {bytes}");
             (0..CASES).for_each(|_| {
                 desk.keys(&["Alt-W", "d"]);
             });
@@ -55,9 +55,9 @@ fn an_open_case_keeps_little_and_a_closed_one_nothing() {
         println!("after closing them: {:.1} kB", whole.bytes_current as f64 / 1e3);
         assert!(whole.bytes_current < 400_000, "{}", whole.bytes_current);
     };
-    tell(Rung::Exact, 40e3);
-    tell(Rung::Static, 80e3);
-    tell(Rung::Dynamic, 140e3);
+    tell(Method::Exact, 40e3);
+    tell(Method::Static, 80e3);
+    tell(Method::Dynamic, 140e3);
 }
 
 #[test]

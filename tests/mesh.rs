@@ -1,4 +1,4 @@
-//! The rungs `static` and `dynamic`, held against an independent computation of the same pairs.
+//! The methods `static` and `dynamic`, held against an independent computation of the same pairs.
 #![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
 
 use std::fs;
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 use tipstrike::case::file::Document;
-use tipstrike::model::inputs::Rung;
+use tipstrike::model::inputs::Method;
 use tipstrike::model::mesh::Mesh;
 use tipstrike::model::static_load::balance;
 use tipstrike::model::{Inputs, MeshStation, Outcome, Quantity, Solution, Stages, solve};
@@ -40,11 +40,11 @@ impl Row {
     }
 
     fn solved(&self, tolerance: f64) -> Solution {
-        let inputs = Inputs { rung: Rung::Dynamic, tolerance, ..self.inputs.clone() };
+        let inputs = Inputs { method: Method::Dynamic, tolerance, ..self.inputs.clone() };
         solve(&inputs, Stages::EVERY).unwrap_or_else(|refusal| panic!("{}: {refusal}", self.name))
     }
 
-    /// The greatest relative error over the quantities of a rung.
+    /// The greatest relative error over the quantities of a method.
     fn worst(&self, solution: &Solution, keys: &[&str]) -> f64 {
         keys.iter().map(|key| self.off(solution, key)).fold(0.0, f64::max)
     }
@@ -91,7 +91,7 @@ fn static_quantities_and_curves_of_every_row() {
 #[test]
 fn dynamic_quantities_and_curves_of_every_row() {
     for row in rows() {
-        let inputs = Inputs { rung: Rung::Dynamic, tolerance: 1e-10, stations: Some(4000), ..row.inputs.clone() };
+        let inputs = Inputs { method: Method::Dynamic, tolerance: 1e-10, stations: Some(4000), ..row.inputs.clone() };
         let solution = solve(&inputs, Stages::EVERY).unwrap();
         let worst = row.worst(&solution, &DYNAMIC);
         assert!(worst < 1e-9, "{}: off by {worst:e}", row.name);
@@ -144,7 +144,7 @@ fn friction_work_of_a_vanishing_coefficient_is_the_integral_of_force_and_sliding
     const COEFFICIENT: f64 = 1e-9;
     for row in rows() {
         let inputs =
-            Inputs { friction_coefficient: Some(COEFFICIENT), rung: Rung::Dynamic, tolerance: 1e-9, ..row.inputs.clone() };
+            Inputs { friction_coefficient: Some(COEFFICIENT), method: Method::Dynamic, tolerance: 1e-9, ..row.inputs.clone() };
         let work = solve(&inputs, Stages::EVERY).unwrap().dynamic.unwrap().friction_work.unwrap();
         let expected = COEFFICIENT * row.answer("sliding_integral").unwrap();
         assert!((work - expected).abs() <= 1e-6 * expected, "{}: {work} and not {expected}", row.name);
@@ -152,7 +152,7 @@ fn friction_work_of_a_vanishing_coefficient_is_the_integral_of_force_and_sliding
 }
 
 #[test]
-fn whether_the_tooth_strikes_is_what_the_last_rung_says() {
+fn whether_the_tooth_strikes_is_what_the_last_method_says() {
     for row in rows() {
         let strikes = row.answer("dynamic_first_contact_angle").is_some();
         let solution = row.solved(1e-6);

@@ -1,8 +1,8 @@
-//! What the rung `dynamic` must do whatever the pair: rest, swing, keep its energy, and come to the static load.
+//! What the method `dynamic` must do whatever the pair: rest, swing, keep its energy, and come to the static load.
 #![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
 
 use tipstrike::case::Document;
-use tipstrike::model::inputs::{Drive, Rung};
+use tipstrike::model::inputs::{Drive, Method};
 use tipstrike::model::mesh::Mesh;
 use tipstrike::model::static_load::balance;
 use tipstrike::model::{Dynamic, Inputs, Solution, Stages, solve};
@@ -13,9 +13,9 @@ fn case(name: &str) -> Inputs {
 }
 
 fn dynamic(inputs: &Inputs) -> (Solution, Dynamic) {
-    let inputs = Inputs { rung: Rung::Dynamic, ..inputs.clone() };
+    let inputs = Inputs { method: Method::Dynamic, ..inputs.clone() };
     let solution = solve(&inputs, Stages::EVERY).unwrap_or_else(|refusal| panic!("{refusal}"));
-    let dynamic = solution.dynamic.clone().expect("the rung ran");
+    let dynamic = solution.dynamic.clone().expect("the method ran");
     (solution, dynamic)
 }
 
@@ -155,7 +155,7 @@ fn a_warm_up_that_repeats_itself_is_not_run_on_and_changes_nothing() {
 
 #[test]
 fn a_run_stops_when_it_is_told_to() {
-    let inputs = Inputs { rung: Rung::Dynamic, ..case("zhou-chen-2014") };
+    let inputs = Inputs { method: Method::Dynamic, ..case("zhou-chen-2014") };
     let refused = tipstrike::model::solve_while(&inputs, Stages::EVERY, &|part| part < 0.5);
     assert_eq!(refused.unwrap_err().code(), "stopped");
 }
@@ -163,15 +163,15 @@ fn a_run_stops_when_it_is_told_to() {
 #[test]
 fn what_is_too_slow_to_be_followed_is_refused_and_auto_takes_the_static_load() {
     let slow = Inputs { speed: 1e-4, drive: Drive::Torque(70.0), ..case("zhou-chen-2014") };
-    let refused = solve(&Inputs { rung: Rung::Dynamic, ..slow.clone() }, Stages::EVERY).unwrap_err();
+    let refused = solve(&Inputs { method: Method::Dynamic, ..slow.clone() }, Stages::EVERY).unwrap_err();
     assert_eq!(refused.code(), "too-slow");
-    assert_eq!(solve(&Inputs { rung: Rung::Auto, ..slow }, Stages::EVERY).unwrap().rung, Rung::Static);
+    assert_eq!(solve(&Inputs { method: Method::Auto, ..slow }, Stages::EVERY).unwrap().method, Method::Static);
 }
 
 #[test]
 fn friction_that_would_lock_the_gears_is_refused_and_less_makes_the_force_jump_at_the_pitch_point() {
     let with =
-        |coefficient: f64| Inputs { rung: Rung::Static, friction_coefficient: Some(coefficient), ..case("zhou-chen-2014") };
+        |coefficient: f64| Inputs { method: Method::Static, friction_coefficient: Some(coefficient), ..case("zhou-chen-2014") };
     assert_eq!(solve(&with(2.0), Stages::EVERY).unwrap_err().code(), "friction-locks");
     let solution = solve(&with(0.1), Stages::EVERY).unwrap();
     let jump = solution.static_load.unwrap().pitch_jump.expect("friction jumps");

@@ -58,7 +58,7 @@ fn the_top_of_the_results_is_shown_where_nothing_was_marked() {
 }
 
 #[test]
-fn the_baseline_is_drawn_by_the_rung_in_force() {
+fn the_baseline_is_drawn_by_the_method_in_force() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Alt-B"]).fill("operation.speed", "1900 rpm").keys(&["Ctrl-T", "Ctrl-T", "Ctrl-T", "Ctrl-T", "Esc", "3", "Home"]);
     let told = |desk: &Desk| desk.screen().lines().find(|line| line.contains("before E: F_S")).expect("a readout").to_owned();
@@ -94,13 +94,13 @@ fn a_hint_beside_a_message_ends_with_a_sentence() {
     desk.keys(&["Down", "Ctrl-T"]);
     let screen = desk.screen();
     let hint = screen.lines().find(|line| line.contains("= 0.34907 rad.")).expect("a hint");
-    assert!(desk.shows("rung static") && hint.trim_end().ends_with("(else 20 deg)."), "{screen}");
+    assert!(desk.shows("method static") && hint.trim_end().ends_with("(else 20 deg)."), "{screen}");
 }
 
 #[test]
 fn a_limit_of_a_long_name_is_told_by_its_symbol() {
     let text = TABLE_1.replace("impact_force = \"2500 N\"", "dynamic_peak_force = \"2500 N\"");
-    let mut desk = Desk::on(SMALL, "case.toml", &text.replace("rung = \"exact\"", "rung = \"dynamic\""));
+    let mut desk = Desk::on(SMALL, "case.toml", &text.replace("method = \"exact\"", "method = \"dynamic\""));
     desk.keys(&["Esc", "1", "G"]);
     assert!(desk.shows("F_d,max <= 2500 N") && desk.shows(" 80 %"), "{}", desk.screen());
 }

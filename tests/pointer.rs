@@ -84,5 +84,5 @@ fn a_press_goes_to_a_field_and_a_second_one_types_into_it() {
     press(&mut desk, "impact duration");
     assert!(desk.shows("▸T_S"), "{}", desk.screen());
     press(&mut desk, "impact duration");
-    assert!(desk.shows("impact duration, by the rung, T_S") || !desk.app.prompts.is_empty(), "{}", desk.screen());
+    assert!(desk.shows("impact duration, by the method, T_S") || !desk.app.prompts.is_empty(), "{}", desk.screen());
 }

@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 use std::thread;
 
 use envelope::{Corner, Random, pair};
-use tipstrike::model::inputs::{ContactCompliance, Drive, Gear, Rung, ToothCompliance};
+use tipstrike::model::inputs::{ContactCompliance, Drive, Gear, Method, ToothCompliance};
 use tipstrike::model::{Inputs, Outcome, QUANTITIES, Quantity, Refusal, Solution, Stage, Stages, geometry, notes, solve};
 
 fn pairs() -> u64 {
@@ -268,7 +268,7 @@ fn angle_velocity_and_force_rise_with_the_deviation() {
 fn gap_rises_with_the_angle() {
     use tipstrike::model::position::{gap_by_quadrature, tip_at};
     some(2_000, |inputs| {
-        let solution = solve(&Inputs { rung: Rung::Exact, ..inputs.clone() }, Stages::CLOSED_FORM).ok()?;
+        let solution = solve(&Inputs { method: Method::Exact, ..inputs.clone() }, Stages::CLOSED_FORM).ok()?;
         let angle = solution.position?.approach_angle_driven;
         let gap = |part: f64| gap_by_quadrature(&solution.geometry, &tip_at(&solution.geometry, part * angle));
         let gaps: Vec<f64> = (1..=16).map(|part| gap(f64::from(part) / 16.0)).collect();
@@ -280,7 +280,7 @@ fn gap_rises_with_the_angle() {
 #[test]
 fn vanishing_deviation_meets_no_corner_contact_without_a_jump() {
     some(1_000, |inputs| {
-        let exact = Inputs { rung: Rung::Exact, ..inputs };
+        let exact = Inputs { method: Method::Exact, ..inputs };
         let at = |total: f64| solve(&deviating(&exact, total), Stages::CLOSED_FORM);
         let solution = at(1e-18).ok()?;
         let (force, angle) = (value(&solution, "impact_force")?, value(&solution, "approach_angle_driven")?);

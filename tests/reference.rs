@@ -7,7 +7,7 @@ use serde_json::Value;
 use tipstrike::case::file::Document;
 use tipstrike::model::friction::friction;
 use tipstrike::model::geometry::geometry;
-use tipstrike::model::inputs::Rung;
+use tipstrike::model::inputs::Method;
 use tipstrike::model::{Inputs, Outcome, Quantity, Solution, Stages, solve};
 
 fn folder(name: &str) -> PathBuf {
@@ -39,9 +39,9 @@ fn rows() -> Vec<Value> {
 }
 
 /// Table 1 with a row's module, pressure angle and tooth numbers, and without bores.
-fn row_inputs(row: &Value, rung: Rung) -> Inputs {
+fn row_inputs(row: &Value, method: Method) -> Inputs {
     let table_1 = inputs_of("Table 1", include_str!("../cases/zhou-chen-2014.toml"));
-    let mut inputs = Inputs { rung, module: row["m"].as_f64().expect("module"), ..table_1 };
+    let mut inputs = Inputs { method, module: row["m"].as_f64().expect("module"), ..table_1 };
     inputs.pressure_angle = decimal(&row["alpha_rad_f64"]);
     for (gear, key) in [(&mut inputs.driver, "z1"), (&mut inputs.driven, "z2")] {
         gear.teeth = row[key].as_u64().and_then(|teeth| teeth.try_into().ok()).expect("teeth");
@@ -55,7 +55,7 @@ fn every_row_of_positions_within_1e_11() {
     let rows = rows();
     assert_eq!(rows.len(), 39);
     for row in &rows {
-        let mut inputs = row_inputs(row, Rung::Exact);
+        let mut inputs = row_inputs(row, Method::Exact);
         inputs.base_pitch_deviation = 0.0;
         inputs.deflection = row["delta"].as_f64();
         for accurate in [false, true] {
@@ -95,7 +95,7 @@ fn row_within(row: &Value, inputs: &Inputs, bound: f64) {
 fn printed_position_of_every_row() {
     let rows = rows();
     for row in &rows {
-        let mut inputs = row_inputs(row, Rung::Paper);
+        let mut inputs = row_inputs(row, Method::Paper);
         let half = row["delta"].as_f64().expect("delta") / 2.0;
         inputs.base_pitch_deviation = half * std::f64::consts::FRAC_1_SQRT_2;
         inputs.deflection = Some(half);
@@ -190,9 +190,9 @@ fn every_case_beyond_the_fit_within_1e_10() {
     }
 }
 
-/// Table 1 in one of the rungs, with ten stations.
-fn table_1(rung: Rung) -> Solution {
-    let inputs = Inputs { rung, stations: Some(10), ..inputs_of("Table 1", include_str!("../cases/zhou-chen-2014.toml")) };
+/// Table 1 in one of the methods, with ten stations.
+fn table_1(method: Method) -> Solution {
+    let inputs = Inputs { method, stations: Some(10), ..inputs_of("Table 1", include_str!("../cases/zhou-chen-2014.toml")) };
     solve(&inputs, Stages::ALL).expect("a solution")
 }
 
@@ -204,7 +204,7 @@ fn printed(solution: &Solution, key: &str, scale: f64, digits: usize, expected: 
 
 #[test]
 fn table_1_by_the_printed_equations() {
-    let solution = table_1(Rung::Paper);
+    let solution = table_1(Method::Paper);
     let degrees = 1f64.to_degrees();
     printed(&solution, "equivalent_error", 1e6, 3, "22.627");
     printed(&solution, "combined_deflection", 1e6, 1, "24.7");
@@ -227,7 +227,7 @@ fn table_1_by_the_printed_equations() {
 
 #[test]
 fn table_1_at_the_exact_position() {
-    let solution = table_1(Rung::Exact);
+    let solution = table_1(Method::Exact);
     let degrees = 1f64.to_degrees();
     assert_eq!(solution.outcome, Outcome::CornerContact);
     printed(&solution, "approach_angle_driven", degrees, 7, "1.3662807");
@@ -253,7 +253,7 @@ fn table_1_friction_ratio_by_the_printed_end() {
     let solution = solve(&inputs, Stages::CLOSED_FORM).expect("a solution");
     let (position, velocity, impact) =
         (solution.position.expect("a position"), solution.velocity.expect("velocities"), solution.impact.expect("an impact"));
-    let printed_end = Inputs { rung: Rung::Paper, ..inputs };
+    let printed_end = Inputs { method: Method::Paper, ..inputs };
     let mixed = friction(&printed_end, &solution.geometry, &position.contact, &velocity, &impact, solution.reduced_mass);
     assert_eq!(format!("{:.3}", mixed.ratio.expect("a ratio")), "0.367");
 }
@@ -269,7 +269,7 @@ fn angles(solution: &Solution, driver: &str, driven: &str, digits: usize) {
 #[test]
 fn table_1_force_over_roll_angle() {
     let forces: Vec<String> =
-        table_1(Rung::Exact).stations.iter().rev().map(|station| format!("{:.3}", station.impact_force)).collect();
+        table_1(Method::Exact).stations.iter().rev().map(|station| format!("{:.3}", station.impact_force)).collect();
     let expected = [
         "0.000", "219.977", "438.944", "657.011", "874.677", "1092.364", "1310.415", "1529.104", "1748.652", "1969.240",
         "2191.016",

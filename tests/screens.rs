@@ -29,7 +29,7 @@ fn an_invalid_value_shows_its_reason_under_the_field_and_the_last_valid_results(
 }
 
 #[test]
-fn the_rung_paper_beside_exact() {
+fn the_method_paper_beside_exact() {
     for (name, size) in [("paper_80x24", SMALL), ("paper_140x45", LARGE)] {
         let mut desk = Desk::new(size);
         desk.keys(&["Ctrl-T"]);
@@ -46,16 +46,16 @@ fn no_corner_contact_is_a_result() {
     }
 }
 
-/// Table 1 in motion, where the closed form stands beside what the rung resolves itself.
+/// Table 1 in motion, where the closed form stands beside what the method resolves itself.
 fn in_motion(size: Size) -> Desk {
     let mut desk = Desk::new(size);
-    desk.fill("model.rung", "dynamic");
+    desk.fill("model.method", "dynamic");
     desk.keys(&["Esc", "2"]);
     desk
 }
 
 #[test]
-fn what_the_rung_resolves_itself_stands_first() {
+fn what_the_method_resolves_itself_stands_first() {
     for (name, size) in [("in_motion_80x24", SMALL), ("in_motion_140x45", LARGE), ("in_motion_60x16", TINY)] {
         assert_snapshot!(name, in_motion(size).screen());
     }

@@ -42,7 +42,7 @@ const ACTIONS: [&[u8]; 77] = [
     // Going about in form and results.
     b"\t", b"\x1b[Z", b"\x1b[A", b"\x1b[B", b"\x1b[C", b"\x1b[D", b"\x1b[5~", b"\x1b[6~", b"\x1b[1;5H", b"\x1b[1;5F", b"j", b"k",
     b"/", b"\r", b"\x1bOS",
-    // Undo, redo, save, save elsewhere, rungs.
+    // Undo, redo, save, save elsewhere, methods.
     b"\x1a", b"\x1a\x1a", b"\x19", b"\x12", b"\x13", b"\x13", b"\x1bOQ\r", b"\x14",
     // Cases and tabs.
     b"\x0f", b"\x0fother\r", b"\x0fcase\r", b"\x0fcase\r", b"other\r", b"\x0e", b"\x1bw", b"\x1b1", b"\x1b2", b"\x1b[5;5~",

@@ -20,7 +20,7 @@ use ratatui::layout::{Rect, Size};
 use ratatui::symbols::Marker;
 use tipstrike::case::Document;
 use tipstrike::case::units::System;
-use tipstrike::model::inputs::Rung;
+use tipstrike::model::inputs::Method;
 use tipstrike::model::{self, Inputs, Moment, Solution, Stages, moment};
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::clean;
@@ -127,10 +127,10 @@ fn the_cursor_turns_the_gears_and_its_values_are_the_solutions() {
 }
 
 #[test]
-fn the_rungs_that_share_the_load_show_their_own_first_contact_and_force() {
-    for (rung, told) in [(Rung::Static, ["F ", "x "]), (Rung::Dynamic, ["t ", "F/ΣF "])] {
+fn the_methods_that_share_the_load_show_their_own_first_contact_and_force() {
+    for (method, told) in [(Method::Static, ["F ", "x "]), (Method::Dynamic, ["t ", "F/ΣF "])] {
         let (mut inputs, _) = solved("zhou-chen-2014.toml");
-        inputs.rung = rung;
+        inputs.method = method;
         let solution = model::solve(&inputs, Stages::EVERY).unwrap();
         let (angle, solved) = (moment::first_contact(&solution).unwrap(), (inputs, solution));
         let view = TeethView::default();
@@ -138,11 +138,11 @@ fn the_rungs_that_share_the_load_show_their_own_first_contact_and_force() {
             screen(&Picture { cursor: Some(part * angle * solved.0.ratio()), ..picture(&solved, &view, 1.0) }, (200, 40))
         };
         let exact = angle.to_degrees();
-        assert!(at(1.0).contains(&format!("u {exact:.4}")), "{rung:?}: no {exact} in\n{}", at(1.0));
+        assert!(at(1.0).contains(&format!("u {exact:.4}")), "{method:?}: no {exact} in\n{}", at(1.0));
         for word in told {
             assert!(
                 at(0.5).contains(word) && at(1.5).contains(&format!("{word}–")) && !at(0.5).contains(&format!("{word}–")),
-                "{rung:?}: {word}\n{}",
+                "{method:?}: {word}\n{}",
                 at(1.5)
             );
         }
@@ -241,9 +241,9 @@ fn some_pairs(count: u64) -> impl Iterator<Item = (Inputs, Solution, Random)> {
         let corner = Corner::ALL[(number % Corner::ALL.len() as u64) as usize];
         let mut inputs = pair(&mut random, corner);
         if number % 48 == 1 {
-            inputs.rung = Rung::Static;
+            inputs.method = Method::Static;
         }
-        let solution = model::solve(&inputs, Stages::CLOSED_FORM.and(inputs.rung.stages())).ok()?;
+        let solution = model::solve(&inputs, Stages::CLOSED_FORM.and(inputs.method.stages())).ok()?;
         Some((inputs, solution, random))
     })
 }

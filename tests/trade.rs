@@ -10,10 +10,10 @@ use std::cell::Cell;
 
 use serde_json::Value;
 use tipstrike::case::Case;
-use tipstrike::model::inputs::Rung;
+use tipstrike::model::inputs::Method;
 use tipstrike::model::{Inputs, Refusal, Stage, Stages, solve};
 use tipstrike::report::trade::{Told, write, write_json};
-use tipstrike::study::trade::{Measured, Patience, Question, RUNGS, STATIONS, Setting, Subject, Trade, greatest, trade};
+use tipstrike::study::trade::{METHODS, Measured, Patience, Question, STATIONS, Setting, Subject, Trade, greatest, trade};
 
 fn table_1() -> Inputs {
     Case::table_1().inputs().expect("the built-in case is valid")
@@ -46,13 +46,13 @@ fn text(trade: &Trade) -> String {
 }
 
 #[test]
-fn table_1_within_five_percent_needs_the_rung_dynamic() {
+fn table_1_within_five_percent_needs_the_method_dynamic() {
     let trade = traded(&table_1(), 0.05);
     let best = &trade.settings[trade.recommended.expect("one qualifies")];
-    assert_eq!(best.setting.rung, Rung::Dynamic, "{}", best.setting);
+    assert_eq!(best.setting.method, Method::Dynamic, "{}", best.setting);
     assert!(best.qualifies && best.total().unwrap() <= 0.05);
     for measured in &trade.settings {
-        let dynamic = measured.found.as_ref().is_ok_and(|figures| figures.rung == Rung::Dynamic);
+        let dynamic = measured.found.as_ref().is_ok_and(|figures| figures.method == Method::Dynamic);
         assert!(dynamic || !measured.qualifies, "{}", measured.setting);
     }
     assert!(text(&trade).lines().last().unwrap().starts_with("Within 5.0 %: dynamic with"), "{}", text(&trade));
@@ -92,15 +92,16 @@ fn no_setting_of_the_front_is_worse_than_another_in_both() {
 #[test]
 fn errors_fall_with_stations_and_tolerance() {
     let trade = traded(&table_1(), 0.05);
-    for rung in RUNGS {
-        let off = |stations| numerical(of(&trade, &Setting { stations: Some(stations), ..Setting::usual(rung) }), Subject::Curve);
+    for method in METHODS {
+        let off =
+            |stations| numerical(of(&trade, &Setting { stations: Some(stations), ..Setting::usual(method) }), Subject::Curve);
         for pair in STATIONS.windows(2) {
-            assert!(off(pair[1]) < off(pair[0]), "{rung:?} {pair:?}: {:e} {:e}", off(pair[0]), off(pair[1]));
+            assert!(off(pair[1]) < off(pair[0]), "{method:?} {pair:?}: {:e} {:e}", off(pair[0]), off(pair[1]));
         }
-        assert!(off(1024) < 0.02 * off(8), "{rung:?}");
+        assert!(off(1024) < 0.02 * off(8), "{method:?}");
     }
     let off = |tolerance| {
-        let setting = Setting { tolerance: Some(tolerance), ..Setting::usual(Rung::Dynamic) };
+        let setting = Setting { tolerance: Some(tolerance), ..Setting::usual(Method::Dynamic) };
         numerical(of(&trade, &setting), Subject::PeakApproachForce)
     };
     // A coarse one may by chance be as good as a finer one: its steps end at the same borders.
@@ -112,21 +113,21 @@ fn errors_fall_with_stations_and_tolerance() {
 }
 
 #[test]
-fn what_a_rung_has_not_does_not_count_and_what_it_needs_does() {
+fn what_a_method_has_not_does_not_count_and_what_it_needs_does() {
     let trade = traded(&table_1(), 0.05);
     for measured in &trade.settings {
         let figures = measured.found.as_ref().unwrap();
         let has_ratio = figures.numerical[Subject::FrictionRatio as usize].is_some();
-        assert_eq!(has_ratio, matches!(figures.rung, Rung::Paper | Rung::Exact), "{}", measured.setting);
+        assert_eq!(has_ratio, matches!(figures.method, Method::Paper | Method::Exact), "{}", measured.setting);
         assert_eq!(figures.total[Subject::FrictionRatio as usize], None);
-        assert_eq!(figures.total[Subject::Duration as usize].is_some(), figures.rung != Rung::Static);
+        assert_eq!(figures.total[Subject::Duration as usize].is_some(), figures.method != Method::Static);
         assert!(measured.total().is_some());
     }
 }
 
 #[test]
 fn the_cases_own_setting_is_there_and_marked() {
-    let inputs = Inputs { rung: Rung::Dynamic, stations: Some(77), tolerance: 3e-5, ..table_1() };
+    let inputs = Inputs { method: Method::Dynamic, stations: Some(77), tolerance: 3e-5, ..table_1() };
     let trade = traded(&inputs, 0.05);
     let own: Vec<&Measured> = trade.settings.iter().filter(|measured| measured.is_current).collect();
     assert_eq!(own.len(), 1);
@@ -138,30 +139,30 @@ fn the_cases_own_setting_is_there_and_marked() {
 fn no_corner_contact_by_both_is_agreement() {
     let inputs = table::inputs(&table::cases().into_iter().find(|path| path.ends_with("tip-relief-enough.toml")).unwrap());
     let trade = traded(&inputs, 0.05);
-    let exact = of(&trade, &Setting::usual(Rung::Exact));
+    let exact = of(&trade, &Setting::usual(Method::Exact));
     assert_eq!(exact.found.as_ref().unwrap().total[Subject::FirstContact as usize], Some(0.0));
     assert!(exact.qualifies, "{:?}", exact.total());
     let told = text(&trade).split_whitespace().collect::<Vec<_>>().join(" ");
-    let says = "No tooth strikes, by every rung: the cheapest that says so is ";
+    let says = "No tooth strikes, by every method: the cheapest that says so is ";
     let (_, cheapest) = told.split_once(says).unwrap_or_else(|| panic!("{told}"));
     let recommended = &json(&trade)["recommended"];
-    assert!(cheapest.starts_with(recommended["rung"].as_str().unwrap()), "{cheapest} {recommended}");
+    assert!(cheapest.starts_with(recommended["method"].as_str().unwrap()), "{cheapest} {recommended}");
     assert!(!text(&traded(&table_1(), 0.05)).contains("No tooth strikes"));
 }
 
 #[test]
-fn a_rung_that_refuses_is_listed_with_its_reason() {
+fn a_method_that_refuses_is_listed_with_its_reason() {
     let mut case = Case::table_1();
     for (key, value) in [("operation.power", "2 W"), ("operation.speed", "0.002 rpm"), ("model.deflection", "24.7 um")] {
         case.set(key, value).unwrap();
     }
     let trade = traded(&case.inputs().unwrap(), 0.05);
     assert!(matches!(trade.reference, Err(Refusal::TooSlow { .. })), "{:?}", trade.reference);
-    let dynamic = of(&trade, &Setting::usual(Rung::Dynamic));
+    let dynamic = of(&trade, &Setting::usual(Method::Dynamic));
     assert!(dynamic.found.is_err() && !dynamic.qualifies && !dynamic.is_on_front);
     assert_eq!(trade.recommended, None);
     let (text, json) = (text(&trade), json(&trade));
-    assert!(text.contains("No reference: the rung dynamic refuses the case"), "{text}");
+    assert!(text.contains("No reference: the method dynamic refuses the case"), "{text}");
     assert!(json["no_reference"].is_string() && json.get("reference").is_none());
     let refused: Vec<&Value> = json["settings"].as_array().unwrap().iter().filter(|one| one["refusal"].is_string()).collect();
     assert!(!refused.is_empty() && refused.iter().all(|one| one.get("seconds").is_none()));
@@ -196,15 +197,15 @@ fn json_has_every_setting_with_its_errors() {
     let settings = told["settings"].as_array().unwrap();
     assert_eq!(settings.len(), trade.settings.len());
     for setting in settings {
-        for key in ["rung", "stations", "accurate", "seconds", "spread", "errors", "total", "pareto", "qualifies"] {
+        for key in ["method", "stations", "accurate", "seconds", "spread", "errors", "total", "pareto", "qualifies"] {
             assert!(setting.get(key).is_some(), "{key}: {setting}");
         }
-        let dynamic = setting["rung"] == "dynamic";
+        let dynamic = setting["method"] == "dynamic";
         assert_eq!(setting.get("tolerance").is_some(), dynamic, "{setting}");
         let total = setting["errors"]["curve"]["total"].as_f64().unwrap();
         assert!(setting["errors"]["curve"]["model"].is_number() && total <= setting["total"].as_f64().unwrap());
     }
-    assert_eq!(told["recommended"]["rung"], "dynamic");
+    assert_eq!(told["recommended"]["method"], "dynamic");
     assert_eq!(told["recommended"]["qualifies"], true);
 }
 
@@ -221,9 +222,9 @@ fn the_page_is_eighty_columns_wide() {
 fn cost_grows_linearly_with_cycles_and_stations() {
     let evaluations = |damping_ratio, cycles, stations| {
         let inputs =
-            Inputs { rung: Rung::Dynamic, warmup_cycles: cycles, stations: Some(stations), deflection: None, ..table_1() };
+            Inputs { method: Method::Dynamic, warmup_cycles: cycles, stations: Some(stations), deflection: None, ..table_1() };
         let solution = solve(&Inputs { damping_ratio, ..inputs }, Stages::of(Stage::Dynamic)).expect("a solution");
-        solution.dynamic.expect("the rung").effort.evaluations as f64
+        solution.dynamic.expect("the method").effort.evaluations as f64
     };
     let slope = |from: f64, to: f64, steps: f64| (to - from) / steps;
     let (few, some, many) = (evaluations(0.0, 20, 64), evaluations(0.0, 40, 64), evaluations(0.0, 160, 64));

@@ -8,7 +8,7 @@ use crossterm::event::KeyCode;
 use desk::{Desk, LARGE, SMALL, TABLE_1, time_evenly};
 use insta::assert_snapshot;
 use ratatui::layout::Size;
-use tipstrike::model::inputs::Rung;
+use tipstrike::model::inputs::Method;
 use tipstrike::study::trade::Setting;
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::actions::Effect;
@@ -50,14 +50,14 @@ fn nothing_is_measured_until_it_is_asked_for() {
 fn m_measures_and_the_cheapest_that_will_do_is_marked() {
     let desk = measured(LARGE);
     let traded = desk.app.traded.as_ref().expect("a measurement");
-    assert_eq!(traded.marked.expect("a mark").rung, Rung::Dynamic);
+    assert_eq!(traded.marked.expect("a mark").method, Method::Dynamic);
     assert!(desk.shows("Within 5.0 %: dynamic with"), "{}", desk.screen());
     assert!(desk.shows("(e)") && (desk.shows("[D]") || desk.shows("[d]")), "{}", desk.screen());
     assert!(desk.shows("P") && desk.shows("1 ms") && desk.app.progress.is_none());
 }
 
 #[test]
-fn the_rung_that_the_others_are_held_against_has_no_error_of_its_own() {
+fn the_method_that_the_others_are_held_against_has_no_error_of_its_own() {
     let desk = measured(LARGE);
     assert!(desk.shows("model: the reference") && !desk.shows("model 0 %"), "{}", desk.screen());
 }
@@ -89,8 +89,8 @@ fn enter_makes_the_marked_setting_the_cases_and_undo_takes_it_back() {
     let marked = desk.app.traded.as_ref().unwrap().marked.unwrap();
     desk.keys(&["Enter"]);
     assert_eq!(own(&desk), marked);
-    assert_eq!(desk.app.answer.as_ref().unwrap().active, Rung::Dynamic);
-    assert!(desk.shows(&format!("rung {marked}; u undoes")), "{}", desk.screen());
+    assert_eq!(desk.app.answer.as_ref().unwrap().active, Method::Dynamic);
+    assert!(desk.shows(&format!("method {marked}; u undoes")), "{}", desk.screen());
     assert!(!desk.shows("AS IT WAS"), "a setting makes no other case");
     desk.keys(&["u"]);
     assert_eq!(own(&desk), before);

@@ -1,4 +1,4 @@
-//! Long work on a real terminal: the trade's progress and Ctrl-C; keys and Esc while a slow rung runs.
+//! Long work on a real terminal: the trade's progress and Ctrl-C; keys and Esc while a slow method runs.
 #![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
 #![allow(clippy::print_stdout, reason = "wall time only warns")]
 #![cfg(all(feature = "cli", feature = "tui"))]
@@ -10,10 +10,10 @@ use std::time::{Duration, Instant};
 
 use tty::{Launch, TABLE_1, Tty};
 
-/// Table 1 by a rung that takes seconds: nothing comes to rest.
+/// Table 1 by a method that takes seconds: nothing comes to rest.
 fn slow_case() -> String {
-    const SLOW: &str = "[model]\nrung = \"dynamic\"\ndamping_ratio = 0.0\nwarmup_cycles = 10000\ntolerance = 1e-11\n";
-    TABLE_1.replace("[model]\nrung = \"exact\"\n", SLOW)
+    const SLOW: &str = "[model]\nmethod = \"dynamic\"\ndamping_ratio = 0.0\nwarmup_cycles = 10000\ntolerance = 1e-11\n";
+    TABLE_1.replace("[model]\nmethod = \"exact\"\n", SLOW)
 }
 
 /// The workbench, or a command, on that case.
@@ -56,7 +56,7 @@ fn a_trade_shows_its_progress_and_ctrl_c_ends_it_without_a_trace() {
 }
 
 #[test]
-fn keys_are_answered_while_a_slow_rung_runs() {
+fn keys_are_answered_while_a_slow_method_runs() {
     let mut tty = launch(&[]).size(45, 140).start();
     tty.wait_for("dynamic to come");
     let mut times: Vec<Duration> = (1..=9)
@@ -69,7 +69,7 @@ fn keys_are_answered_while_a_slow_rung_runs() {
     // That of the last edit runs.
     tty.wait_for("dynamic to come");
     times.sort();
-    warn_beyond("key to echo while a slow rung runs, median", times[times.len() / 2], Duration::from_millis(5));
+    warn_beyond("key to echo while a slow method runs, median", times[times.len() / 2], Duration::from_millis(5));
     tty.send_signal("TERM");
     tty.wait_for_end();
 }

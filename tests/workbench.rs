@@ -13,7 +13,7 @@ use insta::assert_snapshot;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 use ratatui::symbols::Marker;
-use tipstrike::model::inputs::Rung;
+use tipstrike::model::inputs::Method;
 use tipstrike::model::{Stage, Stages};
 use tipstrike::tui::actions::Effect;
 use tipstrike::tui::actions::{self, Action};
@@ -123,10 +123,10 @@ fn what_is_not_in_sight_is_not_computed() {
 #[test]
 fn the_palette_finds_and_runs_every_command() {
     let mut desk = Desk::new(SMALL);
-    desk.keys(&["Ctrl-P", "rung"]);
-    assert!(desk.shows("▸ rung") && desk.shows("Ctrl-T, F6"));
+    desk.keys(&["Ctrl-P", "method"]);
+    assert!(desk.shows("▸ method") && desk.shows("Ctrl-T, F6"));
     desk.keys(&["Enter"]);
-    assert!(desk.shows("rung static") && desk.app.is_unsaved());
+    assert!(desk.shows("method static") && desk.app.is_unsaved());
     desk.keys(&["Esc", ":", "undo", "Enter"]);
     assert!(!desk.app.is_unsaved(), "a change by the palette is undone like any other");
     desk.keys(&[":", "xyzzy", "Enter"]);
@@ -244,7 +244,7 @@ fn an_answer_goes_to_the_case_that_asked_for_it() {
 fn a_request_that_another_case_put_aside_is_asked_for_again() {
     let mut desk = three_cases(LARGE);
     desk.keys(&["Alt-1"]).go_to("operation.speed");
-    update(&mut desk.app, Action::Do(Command::ToggleRung));
+    update(&mut desk.app, Action::Do(Command::ToggleMethod));
     desk.keys(&["Alt-2", "Alt-1"]);
     assert!(desk.shows("▸static") && desk.app.is_settled);
 }
@@ -260,7 +260,7 @@ fn the_baseline_is_pinned_and_the_difference_stands_beside_it() {
     assert!(desk.shows("against built-in Table 1") && line(&desk, "ΔV_n").contains("-5.0 %"), "{}", desk.screen());
     assert!(line(&desk, "p_b ").trim_end().ends_with('='), "{}", line(&desk, "p_b "));
     desk.act(Action::Resize(SMALL));
-    assert!(desk.shows("-5.0 %"), "where there is no room the other rung gives way");
+    assert!(desk.shows("-5.0 %"), "where there is no room the other method gives way");
     desk.keys(&["Alt-B"]);
     assert!(desk.app.baseline.is_none() && !desk.shows("-5.0 %"));
 }
@@ -409,17 +409,19 @@ fn long_work_shows_how_far_it_is_and_esc_cancels_it() {
     assert!(!desk.shows("25 %"));
 }
 
-/// The least relief of a rung that shares the load comes after the rest: until then a place is kept for it, and no figure of
-/// another rung or of an earlier edit stands there.
+/// The least relief of a method that shares the load comes after the rest: until then a place is kept for it, and no figure of
+/// another method or of an earlier edit stands there.
 #[test]
 fn the_least_relief_has_a_place_until_it_is_there() {
     let mut desk = Desk::new(LARGE);
     assert!(desk.shows("47.4 um of tip relief of the driven gear stops it"), "{}", desk.screen());
-    let effects = update(&mut desk.app, Action::Do(Command::ToggleRung));
+    let effects = update(&mut desk.app, Action::Do(Command::ToggleMethod));
     let Some(Effect::Solve(request)) = effects.into_iter().next() else { panic!("it asks for a solve") };
     let whole = tipstrike::tui::solver::answer(&request);
     let mut first = Answer { stages: whole.stages.without(Stage::Clearing), ..whole.clone() };
-    for solution in first.rungs.iter_mut().filter_map(|(rung, found)| found.as_mut().ok().filter(|_| *rung == Rung::Static)) {
+    for solution in
+        first.methods.iter_mut().filter_map(|(method, found)| found.as_mut().ok().filter(|_| *method == Method::Static))
+    {
         solution.clearing = None;
     }
     desk.act(Action::Solved(Box::new(first)));
@@ -435,15 +437,15 @@ fn the_least_relief_has_a_place_until_it_is_there() {
 #[test]
 fn a_slow_solve_shows_how_far_it_is_and_esc_stops_it() {
     let mut desk = three_cases(LARGE);
-    let effects = update(&mut desk.app, Action::Do(Command::ToggleRung));
+    let effects = update(&mut desk.app, Action::Do(Command::ToggleMethod));
     let Some(Effect::Solve(request)) = effects.into_iter().next() else { panic!("it asks for a solve") };
     let whole = tipstrike::tui::solver::answer(&request);
-    let half = Answer { active: Rung::Exact, pending: Some(Rung::Static), ..whole };
+    let half = Answer { active: Method::Exact, pending: Some(Method::Static), ..whole };
     desk.act(Action::Solved(Box::new(half)));
     desk.act(Action::Solving(request.serial, 0.25));
     assert!(desk.shows("25 % solving static; Esc cancels") && desk.shows("static to come"), "{}", desk.screen());
     desk.keys(&["Esc"]);
-    assert!(desk.has_cancelled && desk.shows("rung static is stopped") && !desk.shows("to come"), "{}", desk.screen());
+    assert!(desk.has_cancelled && desk.shows("method static is stopped") && !desk.shows("to come"), "{}", desk.screen());
     assert!(desk.app.has_line(), "the field keeps the keys");
     desk.act(Action::Solving(request.serial, 0.5));
     assert!(!desk.shows("solving"), "what is told late is not believed");
@@ -506,23 +508,23 @@ fn torque_takes_the_place_of_power_and_gives_it_back() {
 #[test]
 fn a_keystroke_to_its_frame() {
     const RUNS: usize = 5;
-    for rung in ["exact", "static", "dynamic"] {
-        let runs: Vec<Vec<f64>> = (0..RUNS).map(|_| keystrokes(rung)).collect();
+    for method in ["exact", "static", "dynamic"] {
+        let runs: Vec<Vec<f64>> = (0..RUNS).map(|_| keystrokes(method)).collect();
         let mut times: Vec<f64> =
             (0..runs[0].len()).map(|key| runs.iter().map(|run| run[key]).fold(f64::INFINITY, f64::min)).collect();
         times.sort_by(f64::total_cmp);
         let (median, late) = (times[times.len() / 2], times[times.len() * 99 / 100]);
-        println!("keystroke to frame at 200x60, rung {rung}: median {median:.2} ms, 99th percentile {late:.2} ms");
+        println!("keystroke to frame at 200x60, method {method}: median {median:.2} ms, 99th percentile {late:.2} ms");
         assert!(median > 0.0);
     }
 }
 
 /// How long each of many keys takes to its frame, and each answer, in ms: a letter is deleted and typed again; then the
 /// cursor walks through every chart, close up and from afar.
-fn keystrokes(rung: &str) -> Vec<f64> {
+fn keystrokes(method: &str) -> Vec<f64> {
     const KEYS: usize = 60;
     let size = Size { width: 200, height: 60 };
-    let mut desk = Desk::on(size, "case.toml", &TABLE_1.replace("\"exact\"", &format!("\"{rung}\"")));
+    let mut desk = Desk::on(size, "case.toml", &TABLE_1.replace("\"exact\"", &format!("\"{method}\"")));
     desk.fill("operation.speed", "2000 rpm");
     let mut times = Vec::new();
     for key in 0..KEYS {
@@ -592,8 +594,8 @@ fn a_new_case_has_nothing_of_another_but_its_values() {
 #[test]
 fn no_range_is_told_of_a_strike_that_is_denied() {
     let mut desk = Desk::on(SMALL, "case.toml", &TABLE_1.replace("tip_relief = \"0 um\"", "tip_relief = \"60 um\""));
-    for rung in ["static", "dynamic"] {
+    for method in ["static", "dynamic"] {
         desk.keys(&["Ctrl-T"]);
-        assert!(desk.shows(rung) && desk.shows("No corner contact") && !desk.shows("stiffness"), "{rung}: {}", desk.screen());
+        assert!(desk.shows(method) && desk.shows("No corner contact") && !desk.shows("stiffness"), "{method}: {}", desk.screen());
     }
 }

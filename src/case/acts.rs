@@ -5,7 +5,7 @@ use super::reach::is_read;
 use super::{Case, check};
 use crate::model::Inputs;
 use crate::model::compliance::model_of;
-use crate::model::inputs::{ContactCompliance, Drive, Rung, ToothCompliance};
+use crate::model::inputs::{ContactCompliance, Drive, Method, ToothCompliance};
 
 /// Whether what stands in a field makes a difference to the results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,7 +30,7 @@ const REASONS: &[Reason] = &[
     Reason {
         keys: &["driver.tip_relief", "driven.root_relief"],
         when: by_impact,
-        why: "at run-in the driven tip meets the driver's root: this relief acts at run-out, which this rung does not follow",
+        why: "at run-in the driven tip meets the driver's root: this relief acts at run-out, which this method does not follow",
     },
     Reason {
         keys: &[
@@ -41,12 +41,12 @@ const REASONS: &[Reason] = &[
             "model.relief_shape",
         ],
         when: by_impact,
-        why: "this rung takes the whole relief at the first contact, whatever its length and shape",
+        why: "this method takes the whole relief at the first contact, whatever its length and shape",
     },
     Reason {
         keys: &["driver.tip_radius"],
         when: by_impact,
-        why: "the driver's tip touches at run-out only, which this rung does not follow",
+        why: "the driver's tip touches at run-out only, which this method does not follow",
     },
     Reason {
         keys: &["driver.tip_radius", "driven.tip_radius"],
@@ -55,20 +55,20 @@ const REASONS: &[Reason] = &[
     },
     Reason {
         keys: &["model.deflection"],
-        when: |inputs| inputs.rung.shares_load(),
-        why: "this rung computes the deflection from the load",
+        when: |inputs| inputs.method.shares_load(),
+        why: "this method computes the deflection from the load",
     },
     Reason {
         keys: &["model.tolerance"],
-        when: |inputs| inputs.rung == Rung::Auto,
-        why: "the rung auto takes the tolerance from what is good enough, the field below",
+        when: |inputs| inputs.method == Method::Auto,
+        why: "the method auto takes the tolerance from what is good enough, the field below",
     },
     Reason {
         keys: &["model.damping_ratio", "model.warmup_cycles", "model.tolerance"],
         when: always,
-        why: "only the rung dynamic follows the motion in time",
+        why: "only the method dynamic follows the motion in time",
     },
-    Reason { keys: &["model.within"], when: always, why: "only the rung auto chooses by how much the answer may be off" },
+    Reason { keys: &["model.within"], when: always, why: "only the method auto chooses by how much the answer may be off" },
     Reason {
         keys: &["model.station_tolerance"],
         when: always,
@@ -83,14 +83,14 @@ const OTHERWISE: &str = "nothing that this case computes depends on it";
 const BESIDE: [(&str, &str); 3] = [
     ("title", "a name for people"),
     ("notes", "words for people"),
-    ("operation.friction_coefficient", "a note holds it against the stick limit; no quantity of this rung depends on it"),
+    ("operation.friction_coefficient", "a note holds it against the stick limit; no quantity of this method depends on it"),
 ];
 
 /// What some fields change, where it is less than one looks for.
 const PARTS: &[Reason] = &[
     Reason {
         keys: &["operation.power", "operation.torque"],
-        when: |inputs| inputs.rung != Rung::Auto && inputs.deflection_taken().is_some(),
+        when: |inputs| inputs.method != Method::Auto && inputs.deflection_taken().is_some(),
         why: "with the deflection given, the load changes F_0, not the impact",
     },
     Reason { keys: &["model.accurate"], when: always, why: "it changes the last digits alone, beyond those that are shown" },
@@ -102,17 +102,17 @@ const PARTS: &[Reason] = &[
     Reason { keys: &["model.tolerance"], when: always, why: "it changes results by no more than itself" },
     Reason {
         keys: &["driver.density", "driven.density", "driver.bore_radius", "driven.bore_radius"],
-        when: |inputs| inputs.rung == Rung::Static,
+        when: |inputs| inputs.method == Method::Static,
         why: "the load at rest knows no masses: the free impact changes, and with the beam the stiffness",
     },
     Reason {
         keys: &["driver.face_width"],
-        when: |inputs| inputs.rung == Rung::Static && inputs.driver.face_width >= inputs.driven.face_width,
+        when: |inputs| inputs.method == Method::Static && inputs.driver.face_width >= inputs.driven.face_width,
         why: WIDER,
     },
     Reason {
         keys: &["driven.face_width"],
-        when: |inputs| inputs.rung == Rung::Static && inputs.driven.face_width >= inputs.driver.face_width,
+        when: |inputs| inputs.method == Method::Static && inputs.driven.face_width >= inputs.driver.face_width,
         why: WIDER,
     },
     Reason {
@@ -127,7 +127,7 @@ const PARTS: &[Reason] = &[
     },
     Reason {
         keys: &["operation.speed"],
-        when: |inputs| inputs.rung == Rung::Static && matches!(inputs.drive, Drive::Torque(_)),
+        when: |inputs| inputs.method == Method::Static && matches!(inputs.drive, Drive::Torque(_)),
         why: "the load at rest knows no speed where the torque is given, and only the free impact changes",
     },
 ];
@@ -139,7 +139,7 @@ fn always(_: &Inputs) -> bool {
 }
 
 fn by_impact(inputs: &Inputs) -> bool {
-    !inputs.rung.shares_load()
+    !inputs.method.shares_load()
 }
 
 fn by_constant_contact(inputs: &Inputs) -> bool {
@@ -176,14 +176,14 @@ pub fn acts_in_part(field: usize, inputs: &Inputs) -> Option<&'static str> {
     (acts(field, inputs) == Acting::Yes).then_some(part.why)
 }
 
-/// Whether any stage reads the field; of the rung `auto`, any stage of the rungs that it chooses from.
+/// Whether any stage reads the field; of the method `auto`, any stage of the methods that it chooses from.
 fn reaches(field: usize, inputs: &Inputs) -> bool {
-    let by = |rung| is_read(field, &Inputs { rung, ..inputs.clone() });
-    match (FIELDS[field].key, inputs.rung) {
-        ("model.within", rung) => rung == Rung::Auto,
-        ("model.tolerance", Rung::Auto) => false,
+    let by = |method| is_read(field, &Inputs { method, ..inputs.clone() });
+    match (FIELDS[field].key, inputs.method) {
+        ("model.within", method) => method == Method::Auto,
+        ("model.tolerance", Method::Auto) => false,
         ("model.station_tolerance", _) => inputs.stations.is_none(),
-        (_, Rung::Auto) => [Rung::Exact, Rung::Static, Rung::Dynamic].into_iter().any(by),
+        (_, Method::Auto) => [Method::Exact, Method::Static, Method::Dynamic].into_iter().any(by),
         _ => is_read(field, inputs),
     }
 }

@@ -92,7 +92,7 @@ mod tests {
 
     fn varied() -> Case {
         let mut case = Case::table_1();
-        for (key, text) in [("pair.module", "1 in"), ("title", ""), ("driver.teeth", "twenty"), ("model.rung", "paper")] {
+        for (key, text) in [("pair.module", "1 in"), ("title", ""), ("driver.teeth", "twenty"), ("model.method", "paper")] {
             case.write(fields::index_of(key).expect("a field"), text);
         }
         case.limits = vec![Limit::new("dynamic_factor", "1.5").expect("a limit")];

@@ -3,11 +3,11 @@
 use super::reach::stages_of;
 use super::{Case, FIELDS};
 use crate::model::asked::Earlier;
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::model::solve::solve_after;
 use crate::model::{Inputs, Refusal, Solution, Stages};
 
-/// What was solved last with each rung.
+/// What was solved last with each method.
 #[derive(Debug, Clone, Default)]
 pub struct Evaluator {
     kept: Vec<Solved>,
@@ -15,15 +15,15 @@ pub struct Evaluator {
 
 #[derive(Debug, Clone)]
 struct Solved {
-    rung: Rung,
+    method: Method,
     case: Case,
     inputs: Inputs,
     solution: Solution,
 }
 
 impl Evaluator {
-    /// Solve a case with a rung, whichever the case itself asks for, running only the stages that are wanted and that the
-    /// edits since the last solve with this rung reach. [`Solution::ran`] tells which those were.
+    /// Solve a case with a method, whichever the case itself asks for, running only the stages that are wanted and that the
+    /// edits since the last solve with this method reach. [`Solution::ran`] tells which those were.
     ///
     /// # Errors
     /// Those of [`solve_after`]; what was kept then stays.
@@ -31,15 +31,15 @@ impl Evaluator {
         &mut self,
         case: &Case,
         inputs: &Inputs,
-        rung: Rung,
+        method: Method,
         wanted: Stages,
         go_on: &dyn Fn(f64) -> bool,
     ) -> Result<Solution, Refusal> {
-        let inputs = Inputs { rung, ..inputs.clone() };
-        let at = self.kept.iter().position(|solved| solved.rung == rung);
+        let inputs = Inputs { method, ..inputs.clone() };
+        let at = self.kept.iter().position(|solved| solved.method == method);
         let earlier = at.map(|at| self.kept[at].seen_from(case, &inputs));
         let solution = solve_after(&inputs, wanted, earlier, go_on)?;
-        let solved = Solved { rung, case: case.clone(), inputs, solution: solution.clone() };
+        let solved = Solved { method, case: case.clone(), inputs, solution: solution.clone() };
         match at {
             Some(at) => self.kept[at] = solved,
             None => self.kept.push(solved),
@@ -53,8 +53,8 @@ impl Solved {
     fn seen_from(&self, case: &Case, inputs: &Inputs) -> Earlier<'_> {
         let edited = (0..FIELDS.len()).filter(|&field| self.case.text(field) != case.text(field));
         let stale = edited.fold(Stages::NONE, |stale, field| {
-            // The rung is the same one, whatever the case says.
-            if FIELDS[field].key == "model.rung" {
+            // The method is the same one, whatever the case says.
+            if FIELDS[field].key == "model.method" {
                 return stale;
             }
             stale.and(stages_of(field, &self.inputs)).and(stages_of(field, inputs))
@@ -76,12 +76,12 @@ mod tests {
     }
 
     /// The stages that run when this field is edited after a whole solve of Table 1.
-    fn ran(rung: Rung, key: &str, text: &str) -> Stages {
+    fn ran(method: Method, key: &str, text: &str) -> Stages {
         let mut evaluator = Evaluator::default();
         let (before, after) = (Case::table_1(), edited(key, text));
-        let mut run = |case: &Case| evaluator.solve(case, &case.inputs().unwrap(), rung, Stages::EVERY, &|_| true).unwrap();
-        assert_eq!(run(&before).ran, run_fresh(rung, &before).ran);
-        let (kept, fresh) = (run(&after), run_fresh(rung, &after));
+        let mut run = |case: &Case| evaluator.solve(case, &case.inputs().unwrap(), method, Stages::EVERY, &|_| true).unwrap();
+        assert_eq!(run(&before).ran, run_fresh(method, &before).ran);
+        let (kept, fresh) = (run(&after), run_fresh(method, &after));
         assert_eq!(kept.stages, fresh.stages);
         for quantity in QUANTITIES {
             assert_eq!((quantity.value)(&kept), (quantity.value)(&fresh), "{} after {key} = {text}", quantity.key);
@@ -89,26 +89,26 @@ mod tests {
         kept.ran
     }
 
-    fn run_fresh(rung: Rung, case: &Case) -> Solution {
-        solve(&Inputs { rung, ..case.inputs().unwrap() }, Stages::EVERY).unwrap()
+    fn run_fresh(method: Method, case: &Case) -> Solution {
+        solve(&Inputs { method, ..case.inputs().unwrap() }, Stages::EVERY).unwrap()
     }
 
     #[test]
     fn an_edit_runs_only_the_stages_that_it_reaches() {
-        for rung in [Rung::Paper, Rung::Exact, Rung::Static, Rung::Dynamic] {
-            assert_eq!(ran(rung, "title", "another"), Stages::NONE);
-            let density = ran(rung, "driver.density", "7900 kg/m3");
+        for method in [Method::Paper, Method::Exact, Method::Static, Method::Dynamic] {
+            assert_eq!(ran(method, "title", "another"), Stages::NONE);
+            let density = ran(method, "driver.density", "7900 kg/m3");
             for stage in [Stage::Geometry, Stage::Position, Stage::Velocity, Stage::Mesh, Stage::Static] {
-                assert!(!density.has(stage), "{}: density runs {}", rung.name(), stage.name());
+                assert!(!density.has(stage), "{}: density runs {}", method.name(), stage.name());
             }
             assert!(density.has(Stage::Load) && density.has(Stage::Impact));
-            assert_eq!(density.has(Stage::Dynamic), rung == Rung::Dynamic);
-            assert!(!ran(rung, "operation.speed", "1900 rpm").has(Stage::Geometry));
-            assert!(ran(rung, "pair.module", "5.5 mm").has(Stage::Geometry));
+            assert_eq!(density.has(Stage::Dynamic), method == Method::Dynamic);
+            assert!(!ran(method, "operation.speed", "1900 rpm").has(Stage::Geometry));
+            assert!(ran(method, "pair.module", "5.5 mm").has(Stage::Geometry));
         }
-        let damping = ran(Rung::Dynamic, "model.damping_ratio", "0.1");
+        let damping = ran(Method::Dynamic, "model.damping_ratio", "0.1");
         assert_eq!(damping, Stages::NONE.with(Stage::Dynamic).with(Stage::Clearing));
-        let stations = ran(Rung::Exact, "model.stations", "32");
+        let stations = ran(Method::Exact, "model.stations", "32");
         assert_eq!(stations, Stages::NONE.with(Stage::Stations));
     }
 
@@ -116,7 +116,7 @@ mod tests {
     fn stages_that_were_not_wanted_before_are_all_that_run() {
         let (mut evaluator, case) = (Evaluator::default(), Case::table_1());
         let inputs = case.inputs().unwrap();
-        let mut ran = |wanted| evaluator.solve(&case, &inputs, Rung::Exact, wanted, &|_| true).unwrap().ran;
+        let mut ran = |wanted| evaluator.solve(&case, &inputs, Method::Exact, wanted, &|_| true).unwrap().ran;
         assert!(ran(Stages::of(Stage::Position)).has(Stage::Position));
         assert_eq!(ran(Stages::of(Stage::Velocity)), Stages::NONE.with(Stage::Velocity));
         assert_eq!(ran(Stages::of(Stage::Velocity)), Stages::NONE);

@@ -172,7 +172,7 @@ mod tests {
             ("center distance", "pair.centre_distance"),
             ("defl", "model.deflection"),
             ("presure", "pair.pressure_angle"),
-            ("rung", "model.rung"),
+            ("method", "model.method"),
             ("double", "model.accurate"),
             ("coulomb", "operation.friction_coefficient"),
             ("driven.teeth", "driven.teeth"),

@@ -159,7 +159,7 @@ mod tests {
             ("driver.profile_shift", "0.50", -1, "0.49"),
             ("driver.teeth", "20", 1, "21"),
             ("driver.teeth", "20", -10, "10"),
-            ("model.rung", "paper", 1, "exact"),
+            ("model.method", "paper", 1, "exact"),
             ("model.accurate", "true", -1, "false"),
         ] {
             steps(key, text, by, Some(to));
@@ -175,7 +175,7 @@ mod tests {
         steps("driver.tip_relief", "0 um", -1, None);
         steps("driver.teeth", "999", 10, Some("1000"));
         steps("driver.teeth", "5", -1, None);
-        steps("model.rung", "paper", -1, None);
+        steps("model.method", "paper", -1, None);
         steps("driver.poisson", "0.499", 1, None);
     }
 
@@ -188,7 +188,7 @@ mod tests {
             ("pair.module", "4,5 mm"),
             ("pair.module", "mm"),
             ("driver.teeth", "20.5"),
-            ("model.rung", "exat"),
+            ("model.method", "exat"),
             ("title", "Table 1"),
             ("operation.power", "1e400 W"),
             ("operation.power", "9999999999999999999999999999999999999999999999999 W"),

@@ -136,10 +136,10 @@ fn a_ratio_beyond_fifty_is_refused() {
 
 #[test]
 fn all_problems_come_at_once_in_the_order_of_the_fields() {
-    let case = with(&[("model.rung", "exat"), ("pair.module", "5"), ("driven.teeth", "20.5"), ("operation.speed", "")]);
+    let case = with(&[("model.method", "exat"), ("pair.module", "5"), ("driven.teeth", "20.5"), ("operation.speed", "")]);
     let problems = case.inputs().unwrap_err();
     let fields: Vec<&str> = problems.iter().map(|problem| problem.field.as_str()).collect();
-    assert_eq!(fields, ["pair.module", "driven.teeth", "operation.speed", "model.rung"]);
+    assert_eq!(fields, ["pair.module", "driven.teeth", "operation.speed", "model.method"]);
     assert_eq!(problems[3].mend, "did you mean exact?");
 }
 
@@ -148,7 +148,7 @@ fn set_takes_keys_as_the_command_line_gives_them() {
     let mut case = Case::table_1();
     case.set("pair.module", "4 mm").unwrap();
     case.set("driver.profile_shift", "0.3").unwrap();
-    case.set("model.rung", "\"paper\"").unwrap();
+    case.set("model.method", "\"paper\"").unwrap();
     case.set("limits.impact_force", "3 kN").unwrap();
     case.set("limits.dynamic_factor", "1.5").unwrap();
     case.set("operation.torque", "70 N m").unwrap();

@@ -89,7 +89,7 @@ mod tests {
             ("pair.module", "60 mm", "60 mm is above the limit of 50 mm: write a value from 0.05 to 50 mm"),
             ("operation.power", "", "neither power nor torque is given: write 15 kW, for example"),
             ("operation.torque", "70 N m", "power and torque are both given: take one of them out"),
-            ("model.rung", "exat", "unknown choice exat: did you mean exact?"),
+            ("model.method", "exat", "unknown choice exat: did you mean exact?"),
         ] {
             assert_eq!(said(key, text), sentence);
         }

@@ -3,7 +3,7 @@
 
 use super::Exit;
 use crate::case::{Case, EXAMPLES, Example, Problem, unknown_quantity};
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::model::{QUANTITIES, Quantity};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::{Error, ErrorKind};
@@ -15,13 +15,13 @@ use std::path::PathBuf;
 const CSV_SHAPE: &str = "CSV is in SI units: a row a case with a column a quantity, such as `impact_force [N]`; with --stations \
     instead a row a station. JSON is an object a case, one a line, in SI units; what does not exist is absent.";
 
-const CHECK_SHAPE: &str = "A limit keeps its meaning in every rung: one on impact_force is held against the free impact in closed \
+const CHECK_SHAPE: &str = "A limit keeps its meaning in every method: one on impact_force is held against the free impact in closed \
     form, and what static or dynamic itself finds stands beside it, with the quantity to limit for that. Where nothing strikes, a \
-    limit on the impact holds. Where its quantity has no value, as one of another rung, it does not, and the line says why. JSON \
+    limit on the impact holds. Where its quantity has no value, as one of another method, it does not, and the line says why. JSON \
     is an object a verdict, in SI units.";
 
-const TRADE_SHAPE: &str = "Each setting is timed here and now, and its first contact, forces and curve are held against the rung \
-    dynamic at its finest: the greatest relative difference is its total error, what the same rung at its finest leaves of it is \
+const TRADE_SHAPE: &str = "Each setting is timed here and now, and its first contact, forces and curve are held against the method \
+    dynamic at its finest: the greatest relative difference is its total error, what the same method at its finest leaves of it is \
     the model's, the rest numerical. JSON is one object in SI units; what does not exist is absent.";
 
 /// Corner contact in spur gear pairs: where, how hard and how long an incoming tooth strikes
@@ -45,7 +45,7 @@ pub enum Command {
     Check(Check),
     /// Explain a quantity of a case: formula, numbers, source, range, and what it depends on
     Explain(Explain),
-    /// Measure, here and now, speed against accuracy of every rung on a case
+    /// Measure, here and now, speed against accuracy of every method on a case
     Trade(Trading),
     /// List every field of a case with its unit, range, default and meaning
     Fields(Fields),
@@ -66,20 +66,20 @@ pub enum Command {
 /// What is asked of a case in place of what it says itself.
 #[derive(Debug, Args)]
 pub struct Changes {
-    /// Solve on this rung instead of the case's
-    #[arg(long, value_parser = rungs())]
-    rung: Option<Rung>,
+    /// Solve on this method instead of the case's
+    #[arg(long, value_parser = methods())]
+    method: Option<Method>,
     /// Change a field of the case, such as "operation.speed=3000 rpm"
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Settings)]
     settings: Vec<Setting>,
 }
 
 impl Changes {
-    /// The fields that change; the rung is one of them, and the last word on it.
+    /// The fields that change; the method is one of them, and the last word on it.
     #[must_use]
     pub fn settings(&self) -> Vec<Setting> {
-        let rung = self.rung.map(|rung| Setting::by("--rung", "model.rung", rung.name()));
-        self.settings.iter().cloned().chain(rung).collect()
+        let method = self.method.map(|method| Setting::by("--method", "model.method", method.name()));
+        self.settings.iter().cloned().chain(method).collect()
     }
 }
 
@@ -237,9 +237,9 @@ fn exit_codes() -> String {
     format!("Exit: {}.", codes.join("; "))
 }
 
-fn rungs() -> impl TypedValueParser<Value = Rung> {
-    PossibleValuesParser::new(Rung::ALL.map(Rung::name))
-        .try_map(|name| Rung::ALL.into_iter().find(|rung| rung.name() == name).ok_or("no such rung"))
+fn methods() -> impl TypedValueParser<Value = Method> {
+    PossibleValuesParser::new(Method::ALL.map(Method::name))
+        .try_map(|name| Method::ALL.into_iter().find(|method| method.name() == name).ok_or("no such method"))
 }
 
 /// Quantities by their names, or by symbols that are of one alone; else a symbol or a slip is told the name that is meant.

@@ -23,16 +23,16 @@ pub(super) fn run(options: &Check, streams: &mut Streams) -> io::Result<Exit> {
 
 fn check(opened: &Opened, format: Listing, streams: &mut Streams) -> io::Result<Exit> {
     let case = &opened.document.case;
-    let (verdicts, refusal, rung) = match solve(case, &opened.inputs) {
-        Ok(solution) => (verdicts(case, &solution), solution.withheld, solution.rung),
-        Err(refusal) => (refused(case, &refusal), Some(refusal), opened.inputs.rung),
+    let (verdicts, refusal, method) = match solve(case, &opened.inputs) {
+        Ok(solution) => (verdicts(case, &solution), solution.withheld, solution.method),
+        Err(refusal) => (refused(case, &refusal), Some(refusal), opened.inputs.method),
     };
     let is_settled = verdicts.iter().all(|verdict| verdict.standing != Standing::Unknown) && !verdicts.is_empty();
     let refusal = refusal.filter(|_| !is_settled);
     if refusal.is_none() || !verdicts.is_empty() {
         match format {
             Listing::Text => tell(&verdicts, &opened.name, &mut streams.output)?,
-            Listing::Json => write_json(&verdicts, &opened.name, rung, &mut streams.output)?,
+            Listing::Json => write_json(&verdicts, &opened.name, method, &mut streams.output)?,
         }
     }
     if let Some(refusal) = refusal {
@@ -50,10 +50,10 @@ fn tell(verdicts: &[Verdict], name: &str, out: &mut dyn Write) -> io::Result<()>
     verdicts.iter().try_for_each(|verdict| writeln!(out, "{} {name}: {verdict}", verdict.standing.word()))
 }
 
-/// As far as the limits need it, and what the rung itself finds beside them, where it does.
+/// As far as the limits need it, and what the method itself finds beside them, where it does.
 fn solve(case: &Case, inputs: &Inputs) -> Result<Solution, Refusal> {
     let needed = stages(case);
     let solution = model::solve(inputs, needed)?;
-    let whole = needed.and(stages_beside(case, solution.rung));
+    let whole = needed.and(stages_beside(case, solution.method));
     if needed.covers(whole) { Ok(solution) } else { model::solve(inputs, whole).or(Ok(solution)) }
 }

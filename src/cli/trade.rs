@@ -1,4 +1,4 @@
-//! Speed against accuracy of every rung on one case.
+//! Speed against accuracy of every method on one case.
 
 use super::cases::{self, Opened};
 use super::progress::{Bar, Interrupt};

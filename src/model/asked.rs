@@ -4,7 +4,7 @@ use super::Solution;
 use super::inputs::Inputs;
 use super::stage::{Stage, Stages};
 
-/// An earlier solve of the same rung, and the stages whose results no longer hold.
+/// An earlier solve of the same method, and the stages whose results no longer hold.
 #[derive(Debug, Clone, Copy)]
 pub struct Earlier<'a> {
     /// What was found.

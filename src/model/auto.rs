@@ -1,10 +1,10 @@
-//! The rung `auto`: the cheapest rung that is good enough, by what the closed form says of itself.
+//! The method `auto`: the cheapest method that is good enough, by what the closed form says of itself.
 
 use std::f64::consts::PI;
 use std::fmt;
 
 use super::dynamic::Dynamic;
-use super::inputs::{Inputs, Rung};
+use super::inputs::{Inputs, Method};
 use super::mesh::Mesh;
 use super::spacing::Spacing;
 use super::stage::{Stage, Stages};
@@ -13,14 +13,14 @@ use super::stations::MeshStation;
 use super::{Outcome, Refusal, Solution};
 use crate::numeric::decimal::significant;
 
-/// The rungs among which it chooses, cheapest first.
-pub const RUNGS: [Rung; 3] = [Rung::Exact, Rung::Static, Rung::Dynamic];
+/// The methods among which it chooses, cheapest first.
+pub const METHODS: [Method; 3] = [Method::Exact, Method::Static, Method::Dynamic];
 
-/// The rung that was taken, and why.
+/// The method that was taken, and why.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Choice {
     /// `exact`, `static` or `dynamic`.
-    pub rung: Rung,
+    pub method: Method,
     /// Why no cheaper one serves, or why the cheapest does.
     pub reason: Reason,
     /// What inertia adds to the shared load, where that decided.
@@ -40,7 +40,7 @@ pub enum Inertia {
     Tried(f64),
 }
 
-/// Why a rung was taken.
+/// Why a method was taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Reason {
     /// The gap left at E is greater than any swing of the mesh.
@@ -61,7 +61,7 @@ pub enum Reason {
     LoadShared(f64),
 }
 
-/// The rung that the pair needs, as far as the closed form can tell.
+/// The method that the pair needs, as far as the closed form can tell.
 ///
 /// # Formula
 /// ```text
@@ -76,7 +76,7 @@ pub enum Reason {
 #[must_use]
 pub fn choose(inputs: &Inputs, closed_form: &Result<Solution, Refusal>) -> Choice {
     let Ok(solution) = closed_form else {
-        return Choice { rung: Rung::Dynamic, reason: Reason::Refused, inertia: None };
+        return Choice { method: Method::Dynamic, reason: Reason::Refused, inertia: None };
     };
     match solution.outcome {
         Outcome::NoCornerContact => without_contact(inputs, solution),
@@ -87,20 +87,20 @@ pub fn choose(inputs: &Inputs, closed_form: &Result<Solution, Refusal>) -> Choic
 fn without_contact(inputs: &Inputs, solution: &Solution) -> Choice {
     let deviation = &solution.deviation;
     let Some(period) = period(solution) else {
-        return Choice { rung: Rung::Dynamic, reason: Reason::Refused, inertia: None };
+        return Choice { method: Method::Dynamic, reason: Reason::Refused, inertia: None };
     };
     let geometry = &solution.geometry;
     let shared = (geometry.contact_ratio - 1.0) * geometry.base_pitch / (inputs.speed * geometry.driver.base);
     let swing = swing(period, shared);
     if -deviation.total >= swing * deviation.combined_deflection {
-        return Choice { rung: Rung::Exact, reason: Reason::NoContact, inertia: None };
+        return Choice { method: Method::Exact, reason: Reason::NoContact, inertia: None };
     }
     sharing(inputs, Reason::BarelyOnTime, swing)
 }
 
 fn with_contact(inputs: &Inputs, solution: &Solution) -> Choice {
     let (Some(impact), Some(velocity)) = (&solution.impact, &solution.velocity) else {
-        return Choice { rung: Rung::Dynamic, reason: Reason::Refused, inertia: None };
+        return Choice { method: Method::Dynamic, reason: Reason::Refused, inertia: None };
     };
     let deviation = &solution.deviation;
     let load = solution.mesh_force / impact.force;
@@ -113,7 +113,7 @@ fn with_contact(inputs: &Inputs, solution: &Solution) -> Choice {
     } else if load > inputs.within {
         Reason::LoadShared(load)
     } else {
-        return Choice { rung: Rung::Exact, reason: Reason::FreeImpact, inertia: None };
+        return Choice { method: Method::Exact, reason: Reason::FreeImpact, inertia: None };
     };
     sharing(inputs, reason, swing(2.0 * impact.duration_spring, velocity.transit_time))
 }
@@ -126,8 +126,8 @@ fn sharing(inputs: &Inputs, reason: Reason, swing: f64) -> Choice {
         (least, _) if least > inputs.within => Inertia::AtLeast(least),
         (least, most) => Inertia::Between(least, most),
     };
-    let rung = if matches!(inertia, Inertia::AtMost(_)) { Rung::Static } else { Rung::Dynamic };
-    Choice { rung, reason, inertia: Some(inertia) }
+    let method = if matches!(inertia, Inertia::AtMost(_)) { Method::Static } else { Method::Dynamic };
+    Choice { method, reason, inertia: Some(inertia) }
 }
 
 impl Choice {
@@ -142,8 +142,8 @@ impl Choice {
     pub fn tried(self, inputs: &Inputs, adds: f64) -> Choice {
         /// The difference is looked at in places, and may be a little more between them.
         const SURE: f64 = 0.9;
-        let rung = if adds <= SURE * inputs.within { Rung::Static } else { Rung::Dynamic };
-        Choice { rung, inertia: Some(Inertia::Tried(adds)), ..self }
+        let method = if adds <= SURE * inputs.within { Method::Static } else { Method::Dynamic };
+        Choice { method, inertia: Some(Inertia::Tried(adds)), ..self }
     }
 }
 
@@ -175,15 +175,15 @@ fn period(solution: &Solution) -> Option<f64> {
 /// The stages of the closed form that the choice reads.
 pub(super) const READS: Stages = Stages::of(Stage::Impact);
 
-/// The inputs of the rung that was taken.
+/// The inputs of the method that was taken.
 #[must_use]
-pub fn taken(inputs: &Inputs, rung: Rung) -> Inputs {
+pub fn taken(inputs: &Inputs, method: Method) -> Inputs {
     /// The tolerance of the peak force is this part of what may be left in all.
     const NUMERICAL: f64 = 0.02;
     /// Where the stations are left to the curve, what may lie between them is this part of it, if the case allows no more.
     const READING: f64 = 0.1;
     Inputs {
-        rung,
+        method,
         tolerance: (NUMERICAL * inputs.within).max(1e-12),
         station_tolerance: inputs.station_tolerance.max(READING * inputs.within),
         ..inputs.clone()
@@ -218,7 +218,7 @@ fn difference(mesh: &Mesh, still: &StaticLoad, moved: &Dynamic) -> f64 {
 
 impl fmt::Display for Choice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "auto took {}: {}", self.rung.name(), self.reason)?;
+        write!(f, "auto took {}: {}", self.method.name(), self.reason)?;
         self.inertia.map_or(Ok(()), |inertia| write!(f, ", and inertia {inertia} of the shared load"))
     }
 }

@@ -1,4 +1,4 @@
-//! What a rung tells of the incoming tooth at any roll angle, between its stations as well as on them.
+//! What a method tells of the incoming tooth at any roll angle, between its stations as well as on them.
 
 use super::impact::Masses;
 use super::inputs::Inputs;
@@ -9,7 +9,7 @@ use super::{MeshStation, Solution, Station, stations};
 /// An angle beyond the first contact by less than this share of it is at the first contact.
 const ROUNDING: f64 = 1e-9;
 
-/// What a rung tells of the incoming tooth at a roll angle.
+/// What a method tells of the incoming tooth at a roll angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Told {
     /// From D to E, the impact as if it happened there.
@@ -24,7 +24,7 @@ pub enum Told {
 pub const DIGITS_BETWEEN: usize = 3;
 
 impl Told {
-    /// What the solution's rung tells where the driver stands `roll_angle` before E, in rad; `None` where the tooth is not in
+    /// What the solution's method tells where the driver stands `roll_angle` before E, in rad; `None` where the tooth is not in
     /// contact, or has no force.
     ///
     /// # Formula
@@ -106,23 +106,23 @@ fn cubic(from: &MeshStation, to: &MeshStation, part: f64) -> Option<(f64, f64)> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::inputs::Rung;
+    use crate::model::inputs::Method;
     use crate::model::sample::standard_pair;
     use crate::model::{Stages, solve};
 
-    fn solved(rung: Rung, stations: usize) -> (Inputs, Solution) {
+    fn solved(method: Method, stations: usize) -> (Inputs, Solution) {
         let mut inputs = standard_pair(20, 30, 5e-3);
-        (inputs.rung, inputs.base_pitch_deviation, inputs.stations) = (rung, 10e-6, Some(stations));
+        (inputs.method, inputs.base_pitch_deviation, inputs.stations) = (method, 10e-6, Some(stations));
         let solution = solve(&inputs, Stages::EVERY).unwrap();
         (inputs, solution)
     }
 
-    fn told(rung: Rung, stations: usize) -> (Inputs, Solution, Vec<(f64, f64)>) {
-        let (inputs, solution) = solved(rung, stations);
+    fn told(method: Method, stations: usize) -> (Inputs, Solution, Vec<(f64, f64)>) {
+        let (inputs, solution) = solved(method, stations);
         let of = |stations: &[MeshStation]| stations.iter().map(|one| (one.roll_angle_driver, one.force)).collect();
-        let curve = match rung {
-            Rung::Dynamic => of(&solution.dynamic.as_ref().unwrap().stations),
-            Rung::Static => of(&solution.static_load.as_ref().unwrap().stations),
+        let curve = match method {
+            Method::Dynamic => of(&solution.dynamic.as_ref().unwrap().stations),
+            Method::Static => of(&solution.static_load.as_ref().unwrap().stations),
             _ => solution.stations.iter().map(|one| (one.roll_angle_driver, one.impact_force)).collect(),
         };
         (inputs, solution, curve)
@@ -134,25 +134,25 @@ mod tests {
 
     #[test]
     fn between_the_stations_of_one_solve_stands_what_those_of_a_finer_one_say() {
-        for (rung, good_to) in [(Rung::Exact, 1e-12), (Rung::Static, 1e-9), (Rung::Dynamic, 5e-3)] {
-            let (inputs, coarse, _) = told(rung, 64);
-            let (_, _, fine) = told(rung, 2048);
+        for (method, good_to) in [(Method::Exact, 1e-12), (Method::Static, 1e-9), (Method::Dynamic, 5e-3)] {
+            let (inputs, coarse, _) = told(method, 64);
+            let (_, _, fine) = told(method, 2048);
             let peak = fine.iter().map(|(_, force)| *force).fold(0.0, f64::max);
             let off = |(angle, expected): &(f64, f64)| Some((force(Told::at(&inputs, &coarse, *angle)?) - expected).abs());
             let off: Vec<f64> = fine[1..fine.len() - 1].iter().filter_map(off).collect();
-            assert!(off.len() > 2000, "{rung:?} {}", off.len());
+            assert!(off.len() > 2000, "{method:?} {}", off.len());
             let most = off.into_iter().fold(0.0, f64::max);
-            assert!(most <= good_to * peak, "{rung:?} {:e}", most / peak);
+            assert!(most <= good_to * peak, "{method:?} {:e}", most / peak);
         }
     }
 
     #[test]
     fn out_of_contact_nothing_is_told() {
-        for rung in [Rung::Paper, Rung::Exact, Rung::Static, Rung::Dynamic] {
-            let (inputs, solution, curve) = told(rung, 64);
+        for method in [Method::Paper, Method::Exact, Method::Static, Method::Dynamic] {
+            let (inputs, solution, curve) = told(method, 64);
             let (first, last) = (curve[0].0, curve[curve.len() - 1].0);
             for angle in [first * 1.001, last - 1e-3, f64::NAN, f64::INFINITY] {
-                assert_eq!(Told::at(&inputs, &solution, angle), None, "{rung:?} {angle}");
+                assert_eq!(Told::at(&inputs, &solution, angle), None, "{method:?} {angle}");
             }
             assert!(Told::at(&inputs, &solution, first).is_some() && Told::at(&inputs, &solution, 0.5 * first).is_some());
         }

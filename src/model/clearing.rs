@@ -1,9 +1,9 @@
-//! The least tip relief of the driven gear with which the incoming tooth does not touch before E, by each rung itself.
+//! The least tip relief of the driven gear with which the incoming tooth does not touch before E, by each method itself.
 
 use std::cell::Cell;
 
 use super::dynamic::{Approach, Settings, approach};
-use super::inputs::{Gear, Inputs, Rung};
+use super::inputs::{Gear, Inputs, Method};
 use super::load_sharing::on_mesh;
 use super::position::printed_relief_to_clear;
 use super::static_load::lead_before_start;
@@ -30,7 +30,7 @@ pub struct Clearing {
     pub runs: u32,
 }
 
-/// The least tip relief of the driven gear, beyond what it has, with which the rung finds no contact before E.
+/// The least tip relief of the driven gear, beyond what it has, with which the method finds no contact before E.
 ///
 /// # Formula
 /// ```text
@@ -43,7 +43,7 @@ pub struct Clearing {
 /// incoming tooth in earlier, and each base pitch shakes the mesh another way.
 ///
 /// # Valid for
-/// With the relief rounded up the tooth comes in on time, in the rung's own solve, and with one less by no more than a
+/// With the relief rounded up the tooth comes in on time, in the method's own solve, and with one less by no more than a
 /// 20,000th of it (or 1 pm, where that is more) it touches. At rest nothing else can be, as long as the relief ends before F: more relief only delays the
 /// tooth. In motion a greater relief may bring it back: four up to twice as much were tried and did not, fifty where contact
 /// is lost; what may lie between them is not known.
@@ -52,19 +52,19 @@ pub struct Clearing {
 /// [`Refusal::Stopped`] where `go_on` says no.
 pub fn clearing(inputs: &Inputs, solution: &Solution, go_on: &dyn Fn(f64) -> bool) -> Result<Clearing, Refusal> {
     let runs = Cell::new(0);
-    let found = match (solution.outcome, inputs.rung) {
+    let found = match (solution.outcome, inputs.method) {
         (Outcome::NoCornerContact, _) => Ok(None),
-        (_, Rung::Paper) => printed_relief_to_clear(inputs, &solution.kept.deviation),
-        (_, Rung::Static | Rung::Dynamic) => {
+        (_, Method::Paper) => printed_relief_to_clear(inputs, &solution.kept.deviation),
+        (_, Method::Static | Method::Dynamic) => {
             let tried = |relief: f64| {
                 runs.set(runs.get() + 1);
                 relieved(relief, inputs, solution, go_on)
             };
             let deviation = &solution.deviation;
             let size = deviation.combined_deflection + deviation.equivalent_error.abs() + inputs.driven.tip_relief;
-            least(&tried, inputs.rung == Rung::Static, MOST * size).map(Some)
+            least(&tried, inputs.method == Method::Static, MOST * size).map(Some)
         }
-        (_, Rung::Exact | Rung::Auto) => Ok(Some(solution.deviation.total)),
+        (_, Method::Exact | Method::Auto) => Ok(Some(solution.deviation.total)),
     };
     let (relief, withheld) = match found {
         Ok(relief) => (relief, None),
@@ -79,8 +79,8 @@ fn relieved(relief: f64, inputs: &Inputs, solution: &Solution, go_on: &dyn Fn(f6
     let driven = Gear { tip_relief: inputs.driven.tip_relief + relief, ..inputs.driven.clone() };
     let relieved = Inputs { driven, ..inputs.clone() };
     let settings = Settings::of(inputs, solution.reduced_mass);
-    on_mesh(&relieved, solution, |mesh| match inputs.rung {
-        Rung::Dynamic => {
+    on_mesh(&relieved, solution, |mesh| match inputs.method {
+        Method::Dynamic => {
             let Approach { lead, contact_lost } = approach(mesh, &settings, go_on)?;
             Ok(Tried { relief, lead, contact_lost })
         }

@@ -5,19 +5,19 @@ use twofloat::TwoFloat;
 use super::Refusal;
 use super::compliance::{self, ContactPlace};
 use super::geometry::Geometry;
-use super::inputs::{Inputs, Rung};
+use super::inputs::{Inputs, Method};
 use crate::numeric::Real;
 
 /// Deviation along the line of action, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deviation<T = f64> {
-    /// Equivalent error Δf, Eqs. 1 and 2; in the rungs `static` and `dynamic` without the reliefs, which act on the flanks.
+    /// Equivalent error Δf, Eqs. 1 and 2; in the methods `static` and `dynamic` without the reliefs, which act on the flanks.
     pub equivalent_error: T,
     /// Modification e_m at the run-in contact, Eq. 1: below 0 where material is taken off.
     pub modification: T,
     /// Combined deflection δ of the pairs that carry the load, Eqs. 3 and 4.
     pub combined_deflection: T,
-    /// Δ = Δf + δ, Eq. 5, reliefs counted in every rung. Without Δ > 0 no tooth strikes.
+    /// Δ = Δf + δ, Eq. 5, reliefs counted in every method. Without Δ > 0 no tooth strikes.
     pub total: T,
 }
 
@@ -31,7 +31,7 @@ pub fn deviation(inputs: &Inputs, geometry: &Geometry, mesh_force: f64) -> Resul
         None => combined_deflection(inputs, geometry, mesh_force)?.into(),
     };
     let with_reliefs = equivalent_error(inputs);
-    let equivalent_error = if inputs.rung.shares_load() { random_error(inputs) } else { with_reliefs };
+    let equivalent_error = if inputs.method.shares_load() { random_error(inputs) } else { with_reliefs };
     let modification = modification(inputs);
     Ok(Deviation { equivalent_error, modification, combined_deflection, total: with_reliefs + combined_deflection })
 }
@@ -46,11 +46,11 @@ pub fn deviation(inputs: &Inputs, geometry: &Geometry, mesh_force: f64) -> Resul
 /// where 1/√2 stands for the sum of independent random errors.
 ///
 /// # Source
-/// Zhou & Chen 2014, Eqs. 1 and 2. The rung `paper` scales the modification e_m with the random errors, as printed;
+/// Zhou & Chen 2014, Eqs. 1 and 2. The method `paper` scales the modification e_m with the random errors, as printed;
 /// the others count it in full, since a relief that was ground is there in full.
 fn equivalent_error(inputs: &Inputs) -> TwoFloat {
-    match inputs.rung {
-        Rung::Paper => (random_deviation(inputs) + modification(inputs)) * twofloat::consts::FRAC_1_SQRT_2,
+    match inputs.method {
+        Method::Paper => (random_deviation(inputs) + modification(inputs)) * twofloat::consts::FRAC_1_SQRT_2,
         _ => random_error(inputs) + modification(inputs),
     }
 }
@@ -88,7 +88,7 @@ fn combined_deflection(inputs: &Inputs, geometry: &Geometry, mesh_force: f64) ->
     let mut stiffness = 0.0;
     let mut along = geometry.start + geometry.base_pitch;
     if along > geometry.end || along >= geometry.tangent_length {
-        let is_taken = !inputs.rung.shares_load();
+        let is_taken = !inputs.method.shares_load();
         return Err(Refusal::ContactRatioBelowOne { ratio: geometry.contact_ratio, is_deflection_taken: is_taken });
     }
     while along <= geometry.end && along < geometry.tangent_length {
@@ -100,13 +100,13 @@ fn combined_deflection(inputs: &Inputs, geometry: &Geometry, mesh_force: f64) ->
 }
 
 impl Deviation {
-    /// The equivalent error as another rung defines it, in m: `static` and `dynamic` without the reliefs, the others with
-    /// them. The difference of two rungs then says something.
+    /// The equivalent error as another method defines it, in m: `static` and `dynamic` without the reliefs, the others with
+    /// them. The difference of two methods then says something.
     #[must_use]
-    pub fn equivalent_error_as_in(&self, own: Rung, other: Rung) -> f64 {
+    pub fn equivalent_error_as_in(&self, own: Method, other: Method) -> f64 {
         match (own.shares_load(), other.shares_load()) {
             (true, false) => self.equivalent_error + self.modification,
-            (false, true) if own == Rung::Paper => self.equivalent_error - self.modification * std::f64::consts::FRAC_1_SQRT_2,
+            (false, true) if own == Method::Paper => self.equivalent_error - self.modification * std::f64::consts::FRAC_1_SQRT_2,
             (false, true) => self.equivalent_error - self.modification,
             _ => self.equivalent_error,
         }

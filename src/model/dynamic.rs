@@ -1,4 +1,4 @@
-//! The rung `dynamic`: the shared load with inertia and damping, integrated from contact event to contact event.
+//! The method `dynamic`: the shared load with inertia and damping, integrated from contact event to contact event.
 
 mod events;
 mod laps;

@@ -1,7 +1,7 @@
 //! The paper's friction coefficient: a ratio of velocity changes over the impact.
 
 use super::geometry::Geometry;
-use super::inputs::{Inputs, Rung};
+use super::inputs::{Inputs, Method};
 use super::tip::{TipContact, angle_by_growth, seen_from, tip_at};
 use super::{Impact, Velocity};
 
@@ -21,7 +21,7 @@ pub struct Friction {
 ///
 /// # Source
 /// Zhou & Chen 2014, Eqs. 29-45 and 64. Mended: m_red in kg in Eq. 31; Eq. 34 finds O₁D' with the chord for Eq. 36's
-/// arc; Eq. 42 is the law of cosines; Eqs. 44 and 45 are the changes between D and D'. In the rung `paper` D' is that
+/// arc; Eq. 42 is the law of cosines; Eqs. 44 and 45 are the changes between D and D'. In the method `paper` D' is that
 /// of Eq. 34, although the angle at O₁ in its triangle is not Δθ; in `exact` it is the driven tip at u − ω₂ T_S, not
 /// past E.
 ///
@@ -38,8 +38,8 @@ pub fn friction(
 ) -> Friction {
     let turn = inputs.driven_speed() * impact.duration_printed;
     let from_contact = seen_from(geometry, tip);
-    let end = match inputs.rung {
-        Rung::Paper => printed_end(inputs, &from_contact, tip, turn),
+    let end = match inputs.method {
+        Method::Paper => printed_end(inputs, &from_contact, tip, turn),
         _ => Some(tip_after(geometry, &from_contact, tip, turn)),
     };
     let gained = impact.force * impact.duration_printed / (reduced_mass * geometry.driven.tip);

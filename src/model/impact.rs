@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::compliance::ContactPlace;
 use super::compliance::contact::{plane_strain_compliance, spring};
 use super::geometry::{Circles, Geometry};
-use super::inputs::{Gear, Inputs, Rung};
+use super::inputs::{Gear, Inputs, Method};
 use super::tip::TipContact;
 use super::{Refusal, TeethCompliance, Velocity};
 use crate::numeric::Real;
@@ -25,7 +25,7 @@ pub struct Impact {
     pub energy: f64,
     /// Energy of the sliding W_f, whole width, in J.
     pub sliding_energy: f64,
-    /// Impact duration T_S of the rung, in s.
+    /// Impact duration T_S of the method, in s.
     pub duration: f64,
     /// Eq. 32 as printed, in s.
     pub duration_printed: f64,
@@ -121,8 +121,8 @@ pub fn impact(
     let duration_printed =
         printed_duration(masses.reduced(), velocity.normal, place.curvature_radius, plane_strain_compliance(inputs));
     let duration_spring = PI * (effective_mass * pair_compliance / width).sqrt();
-    let duration = match inputs.rung {
-        Rung::Paper => duration_printed,
+    let duration = match inputs.method {
+        Method::Paper => duration_printed,
         _ => duration_spring,
     };
     Ok(Impact {

@@ -72,7 +72,7 @@ pub enum Drive {
 
 /// How much of the physics is taken in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Rung {
+pub enum Method {
     /// Zhou & Chen 2014 as printed, typesetting mended.
     Paper,
     /// The exact contact position and the spring's own duration.
@@ -85,28 +85,28 @@ pub enum Rung {
     Auto,
 }
 
-impl Rung {
-    /// Every rung, cheapest first, and the choice among them.
-    pub const ALL: [Rung; 5] = [Rung::Paper, Rung::Exact, Rung::Static, Rung::Dynamic, Rung::Auto];
-    /// The rungs that answer in a microsecond.
-    pub const CLOSED_FORM: [Rung; 2] = [Rung::Paper, Rung::Exact];
+impl Method {
+    /// Every method, cheapest first, and the choice among them.
+    pub const ALL: [Method; 5] = [Method::Paper, Method::Exact, Method::Static, Method::Dynamic, Method::Auto];
+    /// The methods that answer in a microsecond.
+    pub const CLOSED_FORM: [Method; 2] = [Method::Paper, Method::Exact];
 
     /// Whether every pair in contact takes its share of the load, so that reliefs act along the flanks and a deflection
     /// that the case gives is not needed.
     #[must_use]
     pub fn shares_load(self) -> bool {
-        matches!(self, Rung::Static | Rung::Dynamic)
+        matches!(self, Method::Static | Method::Dynamic)
     }
 
-    /// The stages that the rung has.
+    /// The stages that the method has.
     #[must_use]
     pub fn stages(self) -> Stages {
         let impact = Stages::CLOSED_FORM.with(Stage::Band).with(Stage::Clearing);
         match self {
-            Rung::Paper | Rung::Exact => Stages::ALL.with(Stage::Clearing),
-            Rung::Static => impact.and(Stages::of(Stage::Static)),
-            Rung::Dynamic => impact.and(Stages::of(Stage::Static)).with(Stage::Dynamic),
-            Rung::Auto => Stages::EVERY,
+            Method::Paper | Method::Exact => Stages::ALL.with(Stage::Clearing),
+            Method::Static => impact.and(Stages::of(Stage::Static)),
+            Method::Dynamic => impact.and(Stages::of(Stage::Static)).with(Stage::Dynamic),
+            Method::Auto => Stages::EVERY,
         }
     }
 
@@ -114,11 +114,11 @@ impl Rung {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Rung::Paper => "paper",
-            Rung::Exact => "exact",
-            Rung::Static => "static",
-            Rung::Dynamic => "dynamic",
-            Rung::Auto => "auto",
+            Method::Paper => "paper",
+            Method::Exact => "exact",
+            Method::Static => "static",
+            Method::Dynamic => "dynamic",
+            Method::Auto => "auto",
         }
     }
 }
@@ -201,7 +201,7 @@ pub struct Inputs {
     /// Coulomb friction coefficient μ, to stand beside the kinematic ratio.
     pub friction_coefficient: Option<f64>,
     /// How much of the physics is taken in.
-    pub rung: Rung,
+    pub method: Method,
     /// Combined deflection δ, in m; without it computed from the load.
     pub deflection: Option<f64>,
     /// Compliance of the teeth; without it chosen by its range.
@@ -214,10 +214,10 @@ pub struct Inputs {
     pub damping_ratio: f64,
     /// Base pitches that pass before the incoming tooth reaches E.
     pub warmup_cycles: u32,
-    /// Relative error that the peak force of the rung `dynamic` may have. A promise where the motion is damped: without damping
+    /// Relative error that the peak force of the method `dynamic` may have. A promise where the motion is damped: without damping
     /// and with contact lost it is chaotic, and a small error grows with every base pitch.
     pub tolerance: f64,
-    /// Relative error against the rung `dynamic` that the rung `auto` may leave.
+    /// Relative error against the method `dynamic` that the method `auto` may leave.
     pub within: f64,
     /// Intervals between D and E; without a number as many as the curve needs.
     pub stations: Option<usize>,
@@ -242,7 +242,7 @@ impl Default for Inputs {
             drive: Drive::Power(0.0),
             speed: 0.0,
             friction_coefficient: None,
-            rung: Rung::Exact,
+            method: Method::Exact,
             deflection: None,
             tooth_compliance: None,
             contact_compliance: ContactCompliance::Logarithmic,
@@ -280,10 +280,10 @@ impl Inputs {
         }
     }
 
-    /// The deflection that the case gives, where the rung takes it, in m.
+    /// The deflection that the case gives, where the method takes it, in m.
     #[must_use]
     pub fn deflection_taken(&self) -> Option<f64> {
-        self.deflection.filter(|_| !self.rung.shares_load())
+        self.deflection.filter(|_| !self.method.shares_load())
     }
 
     /// Common face width b, the smaller of the two, in m.

@@ -61,7 +61,7 @@ pub enum Refusal {
     ContactRatioBelowOne {
         /// ε.
         ratio: f64,
-        /// Whether the rung takes a deflection that is given, in place of computing it.
+        /// Whether the method takes a deflection that is given, in place of computing it.
         is_deflection_taken: bool,
     },
     /// The bore leaves no gear body.
@@ -266,17 +266,17 @@ impl Refusal {
                 ("friction-locks", "operation.friction_coefficient", "give a smaller friction coefficient, or leave it out")
             }
             Refusal::TooSlow { .. } => {
-                ("too-slow", "model.rung", "set model.rung to static: so slowly the mesh follows the load at rest")
+                ("too-slow", "model.method", "set model.method to static: so slowly the mesh follows the load at rest")
             }
             Refusal::Unsettled => {
-                ("unsettled", "model.damping_ratio", "give a greater damping ratio, or set model.rung to static")
+                ("unsettled", "model.damping_ratio", "give a greater damping ratio, or set model.method to static")
             }
             Refusal::NoClearing { .. } => (
                 "no-clearing-relief",
                 "model.damping_ratio",
                 "give a greater damping ratio, a smaller deviation or another speed",
             ),
-            Refusal::Stopped => ("stopped", "model.rung", "ask again"),
+            Refusal::Stopped => ("stopped", "model.method", "ask again"),
             Refusal::HertzWidthTooLarge { .. } => {
                 ("hertz-width", "driver.face_width", "lower the load or the speed, or widen the gears")
             }

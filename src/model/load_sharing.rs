@@ -1,4 +1,4 @@
-//! The rungs in which every pair in contact takes its share of the load: as much of the mesh as they need, then `static`
+//! The methods in which every pair in contact takes its share of the load: as much of the mesh as they need, then `static`
 //! and `dynamic`.
 
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use super::stage::{Stage, Stages};
 use super::static_load::{StaticLoad, static_load};
 use super::{Outcome, Refusal, Solution};
 
-/// What the wanted rungs found.
+/// What the wanted methods found.
 struct Shared {
     mesh: Arc<Mesh>,
     static_load: Option<StaticLoad>,
@@ -77,7 +77,7 @@ pub(super) fn on_mesh<T>(
     }
 }
 
-/// The wanted rungs on this mesh, as far as nothing earlier holds.
+/// The wanted methods on this mesh, as far as nothing earlier holds.
 fn run(mesh: &Arc<Mesh>, mass: f64, asked: &Asked<'_>, mut ran: Stages, go_on: &dyn Fn(f64) -> bool) -> Result<Shared, Refusal> {
     let (inputs, wanted) = (asked.inputs, asked.wanted);
     let spacing = Spacing::of(inputs);

@@ -1,11 +1,11 @@
-//! By how much a tooth that comes in on time stays clear of the flank before E, by each rung itself.
+//! By how much a tooth that comes in on time stays clear of the flank before E, by each method itself.
 
-use super::inputs::Rung;
+use super::inputs::Method;
 use super::static_load::lead_before_start;
 use super::{Outcome, Solution};
 
 impl Solution {
-    /// The gap that is left before E where no tooth touches, in m; none where one does, or where the rung does not tell.
+    /// The gap that is left before E where no tooth touches, in m; none where one does, or where the method does not tell.
     ///
     /// # Formula
     /// ```text
@@ -13,15 +13,15 @@ impl Solution {
     /// static:        −max over s ≤ 0 of x(s) + e − S(s),  x the displacement by the other pairs at rest
     /// dynamic:       the same of the motion
     /// ```
-    /// The base pitch deviation moves the incoming tooth alone, so that √2 f_pb more of it closes the gap in every rung.
+    /// The base pitch deviation moves the incoming tooth alone, so that √2 f_pb more of it closes the gap in every method.
     #[must_use]
     pub fn margin(&self) -> Option<f64> {
         if self.outcome == Outcome::CornerContact {
             return None;
         }
-        let margin = match self.rung {
-            Rung::Dynamic => self.dynamic.as_ref()?.least_gap?,
-            Rung::Static => -self.lead_at_rest()?,
+        let margin = match self.method {
+            Method::Dynamic => self.dynamic.as_ref()?.least_gap?,
+            Method::Static => -self.lead_at_rest()?,
             _ => -self.deviation.total,
         };
         (margin >= 0.0).then_some(margin)

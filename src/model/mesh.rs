@@ -1,4 +1,4 @@
-//! Gap and stiffness of every tooth pair along the line of action: what the rungs `static` and `dynamic` share.
+//! Gap and stiffness of every tooth pair along the line of action: what the methods `static` and `dynamic` share.
 
 use super::Refusal;
 use super::compliance::ContactPlace;

@@ -40,7 +40,7 @@ pub struct Moment {
     pub normal_velocity: f64,
     /// Sliding velocity ΔV_τ, in m/s.
     pub sliding_velocity: f64,
-    /// What the rung tells of the tooth here, where it is in contact.
+    /// What the method tells of the tooth here, where it is in contact.
     pub told: Option<Told>,
 }
 
@@ -55,7 +55,7 @@ pub enum Phase {
     RunOut,
 }
 
-/// The driven gear's angle before E at the first contact, in rad, by the solution's rung; `None` where no tooth strikes.
+/// The driven gear's angle before E at the first contact, in rad, by the solution's method; `None` where no tooth strikes.
 #[must_use]
 pub fn first_contact(solution: &Solution) -> Option<f64> {
     let at_rest = solution.static_load.as_ref().map(|load| load.first_contact_angle);
@@ -84,11 +84,11 @@ impl Moment {
     /// ```text
     /// u = θ/i,   opening = max(0, S(u) − S₀),   S = 0 on the line of action
     /// ```
-    /// where S₀ is the gap that is closed at the first contact: Δ in the rungs `paper` and `exact`, S at the first contact in
+    /// where S₀ is the gap that is closed at the first contact: Δ in the methods `paper` and `exact`, S at the first contact in
     /// `static` and `dynamic`. After B the same is told of the driver's tip, by swapped gears, and S₀ is 0.
     ///
     /// # Source
-    /// Gap, velocities and force of the rung `exact` stand in `paper` too, so that what is seen is what the involutes do.
+    /// Gap, velocities and force of the method `exact` stand in `paper` too, so that what is seen is what the involutes do.
     #[must_use]
     pub fn at(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> Option<Moment> {
         let last = (solution.geometry.start - solution.geometry.end) / solution.geometry.driver.base;
@@ -210,7 +210,7 @@ fn opening(solution: &Solution, gap: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::inputs::Rung;
+    use crate::model::inputs::Method;
     use crate::model::sample::standard_pair;
     use crate::model::{Stages, solve};
 
@@ -272,12 +272,12 @@ mod tests {
         }
     }
 
-    /// The rungs that share the load, of an ordinary pair.
+    /// The methods that share the load, of an ordinary pair.
     fn shared() -> Vec<(Inputs, Solution)> {
-        [Rung::Static, Rung::Dynamic]
-            .map(|rung| {
+        [Method::Static, Method::Dynamic]
+            .map(|method| {
                 let mut inputs = standard_pair(20, 30, 5e-3);
-                (inputs.rung, inputs.base_pitch_deviation) = (rung, 10e-6);
+                (inputs.method, inputs.base_pitch_deviation) = (method, 10e-6);
                 let solution = solve(&inputs, Stages::EVERY).unwrap();
                 (inputs, solution)
             })
@@ -329,7 +329,7 @@ mod tests {
     #[test]
     fn angles_beyond_what_can_be_are_held_at_its_ends() {
         let (mut inputs, solution) = solved().remove(0);
-        inputs.rung = Rung::Paper;
+        inputs.method = Method::Paper;
         for angle in [1e300, -1e300, f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
             let moment = Moment::at(&inputs, &solution, angle).unwrap();
             assert!(moment.roll_angle_driver.is_finite(), "{angle}: {moment:?}");

@@ -33,7 +33,7 @@ type Look = fn(&Inputs, &Solution) -> Option<Note>;
 
 /// Every condition, in the order in which a reader meets them.
 const LOOKS: &[Look] = &[
-    load::rung_taken,
+    load::method_taken,
     load::deflection_ignored,
     load::lost_in_motion,
     load::not_cleared,

@@ -3,7 +3,7 @@
 use twofloat::TwoFloat;
 
 use super::geometry::{self, Geometry};
-use super::inputs::{Inputs, Rung};
+use super::inputs::{Inputs, Method};
 pub use super::tip::{TipContact, gap, gap_by_quadrature, tip_at};
 use super::tip::{angle_at_curvature, gap_without, largest_term};
 use super::{Deviation, Refusal};
@@ -29,7 +29,7 @@ pub struct Position {
     pub contact: TipContact,
     /// Reduced radius of curvature ρ_S at D, in m.
     pub curvature_radius: f64,
-    /// Gap that the tip has closed there, S(u), in m: Δ in the rung `exact`, far less in `paper`.
+    /// Gap that the tip has closed there, S(u), in m: Δ in the method `exact`, far less in `paper`.
     pub closed_gap: f64,
 }
 
@@ -139,7 +139,7 @@ pub fn reduced_curvature(inputs: &Inputs, geometry: &Geometry, tip: &TipContact)
     tip.curvature_driver * driven / (tip.curvature_driver + driven)
 }
 
-/// Where the tip first touches, by the rung; `None` where no tooth strikes. With `precise`, the same geometry in
+/// Where the tip first touches, by the method; `None` where no tooth strikes. With `precise`, the same geometry in
 /// double-double arithmetic, the exact position is good to the last digit.
 ///
 /// # Errors
@@ -154,18 +154,18 @@ pub fn position(
     if plain.total <= 0.0 {
         return Ok(None);
     }
-    let angle = match inputs.rung {
-        Rung::Paper => printed_contact(geometry, &plain),
+    let angle = match inputs.method {
+        Method::Paper => printed_contact(geometry, &plain),
         _ => first_contact(geometry, plain.total)?,
     };
     let contact = tip_at(geometry, angle);
-    let close_call = contact.is_close_call(geometry) || inputs.rung == Rung::Paper && plain.equivalent_error < 0.0;
+    let close_call = contact.is_close_call(geometry) || inputs.method == Method::Paper && plain.equivalent_error < 0.0;
     let (contact, printed_gap) = match precise {
         Some(precise) => precise_contact(inputs, precise, deviation, angle),
         None if close_call => precise_contact(inputs, &geometry::geometry(inputs)?, deviation, angle),
         None => (contact, gap_without(KEPT_DIGITS, geometry, &contact)),
     };
-    let closed_gap = if inputs.rung == Rung::Exact { plain.total } else { printed_gap };
+    let closed_gap = if inputs.method == Method::Exact { plain.total } else { printed_gap };
     checked(inputs, geometry, plain.total, contact, closed_gap)
 }
 
@@ -176,8 +176,8 @@ fn precise_contact(
     deviation: &Deviation<TwoFloat>,
     near: f64,
 ) -> (TipContact, f64) {
-    let angle = match inputs.rung {
-        Rung::Paper => printed_contact(geometry, deviation),
+    let angle = match inputs.method {
+        Method::Paper => printed_contact(geometry, deviation),
         _ => refine(geometry, near, deviation.total),
     };
     let tip = tip_at(geometry, angle);

@@ -1,6 +1,6 @@
 //! The one table of quantities, from which results pane, text, JSON, CSV, limits and `--only` are derived.
 
-use super::inputs::Rung;
+use super::inputs::Method;
 use super::{Solution, Stage};
 
 /// A result with a name.
@@ -39,37 +39,37 @@ impl Quantity {
         matches!(self.key, "pitch_contact_jump" | "dynamic_friction_work")
     }
 
-    /// The symbol in a rung: where the rung defines the quantity otherwise than the closed form does, another one.
+    /// The symbol in a method: where the method defines the quantity otherwise than the closed form does, another one.
     #[must_use]
-    pub fn symbol_in(&self, rung: Rung) -> &'static str {
-        if self.leaves_reliefs_out(rung) { "Δf_0" } else { self.symbol }
+    pub fn symbol_in(&self, method: Method) -> &'static str {
+        if self.leaves_reliefs_out(method) { "Δf_0" } else { self.symbol }
     }
 
-    /// A few words for a person, as the rung defines the quantity.
+    /// A few words for a person, as the method defines the quantity.
     #[must_use]
-    pub fn label_in(&self, rung: Rung) -> &'static str {
-        if self.leaves_reliefs_out(rung) { "error without the reliefs" } else { self.label }
+    pub fn label_in(&self, method: Method) -> &'static str {
+        if self.leaves_reliefs_out(method) { "error without the reliefs" } else { self.label }
     }
 
     // In `static` and `dynamic` the reliefs act on the flanks, and are no part of Δf.
-    fn leaves_reliefs_out(&self, rung: Rung) -> bool {
-        self.key == "equivalent_error" && rung.shares_load()
+    fn leaves_reliefs_out(&self, method: Method) -> bool {
+        self.key == "equivalent_error" && method.shares_load()
     }
 
-    /// Whether it is of the free impact at D: the closed form, which every rung has beside its own results.
+    /// Whether it is of the free impact at D: the closed form, which every method has beside its own results.
     #[must_use]
     pub fn is_of_free_impact(&self) -> bool {
         FREE_IMPACT.contains(&self.stage)
     }
 
-    /// What a rung itself finds in place of a quantity of the free impact; the quantity where the rung is the closed form.
+    /// What a method itself finds in place of a quantity of the free impact; the quantity where the method is the closed form.
     #[must_use]
-    pub fn by(&'static self, rung: Rung) -> Option<&'static Quantity> {
-        let at = match rung {
-            Rung::Paper | Rung::Exact => return Some(self),
-            Rung::Static => 1,
-            Rung::Dynamic => 2,
-            Rung::Auto => return None,
+    pub fn by(&'static self, method: Method) -> Option<&'static Quantity> {
+        let at = match method {
+            Method::Paper | Method::Exact => return Some(self),
+            Method::Static => 1,
+            Method::Dynamic => 2,
+            Method::Auto => return None,
         };
         let row = RESOLVED.iter().find(|[free, ..]| self.key == *free || self.key.starts_with(&format!("{free}_")))?;
         Quantity::find(row[at])
@@ -144,7 +144,7 @@ pub static QUANTITIES: &[Quantity] = &[
     quantity!("impact_force_low", "F_S,low", "  stiffness band from", "N", "N", 4, "models in range", Band, |s| Some(s.band?.low)),
     quantity!("impact_force_high", "F_S,high", "  stiffness band to", "N", "N", 4, "models in range", Band, |s| Some(s.band?.high)),
     quantity!("dynamic_factor", "F_S/F_0", "dynamic factor", "1", "1", 4, "F_S/F_0", Impact, |s| Some(s.impact?.force / s.mesh_force)),
-    quantity!("impact_duration", "T_S", "impact duration", "s", "us", 4, "by the rung", Impact, |s| Some(s.impact?.duration)),
+    quantity!("impact_duration", "T_S", "impact duration", "s", "us", 4, "by the method", Impact, |s| Some(s.impact?.duration)),
     quantity!("impact_duration_printed", "T_S,32", "  by Eq. 32 as printed", "s", "us", 4, "Eq. 32", Impact, |s| Some(s.impact?.duration_printed)),
     quantity!("impact_duration_hertz", "T_S,H", "  with Hertz's prefactor", "s", "us", 4, "Hertz 1882", Impact, |s| Some(s.impact?.duration_hertz)),
     quantity!("impact_duration_spring", "T_S,q", "  of the model's spring", "s", "us", 4, "π√(Mq/b)", Impact, |s| Some(s.impact?.duration_spring)),

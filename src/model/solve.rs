@@ -6,7 +6,7 @@ use twofloat::TwoFloat;
 
 use super::asked::{Asked, Earlier};
 use super::impact::Masses;
-use super::inputs::{Inputs, Rung};
+use super::inputs::{Inputs, Method};
 use super::stage::{Stage, Stages};
 use super::{
     Choice, Geometry, Kept, Outcome, Position, Refusal, Solution, auto, band, clearing, compliance, deviation, friction,
@@ -44,16 +44,16 @@ pub fn solve_after(
     earlier: Option<Earlier<'_>>,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Solution, Refusal> {
-    if inputs.rung == Rung::Auto {
+    if inputs.method == Method::Auto {
         return solve_by_choice(inputs, wanted, earlier, go_on);
     }
-    let earlier = earlier.filter(|earlier| earlier.solution.rung == inputs.rung);
-    let asked = Asked { inputs, wanted: wanted.within(inputs.rung.stages()), earlier };
+    let earlier = earlier.filter(|earlier| earlier.solution.method == inputs.method);
+    let asked = Asked { inputs, wanted: wanted.within(inputs.method.stages()), earlier };
     Solving { asked, precise: OnceCell::new() }.run(go_on)
 }
 
-/// Solve with the rung that the closed form calls for, or with the motion as a trial where it cannot tell; with the one taken
-/// before where nothing has changed since. The least relief is that of the rung that was taken.
+/// Solve with the method that the closed form calls for, or with the motion as a trial where it cannot tell; with the one taken
+/// before where nothing has changed since. The least relief is that of the method that was taken.
 fn solve_by_choice(
     inputs: &Inputs,
     wanted: Stages,
@@ -68,35 +68,35 @@ fn solve_by_choice(
     if before.is_none() && !wanted.has(Stage::Clearing) {
         return Ok(chosen);
     }
-    let taken = auto::taken(inputs, chosen.rung);
-    let wanted = if chosen.rung == Rung::Static { at_rest(wanted) } else { wanted };
+    let taken = auto::taken(inputs, chosen.method);
+    let wanted = if chosen.method == Method::Static { at_rest(wanted) } else { wanted };
     let earlier = Earlier { solution: &chosen, stale: Stages::NONE };
     let whole = solve_after(&taken, wanted, Some(earlier), go_on)?;
     Ok(Solution { ran: whole.ran.and(chosen.ran), choice: chosen.choice, ..whole })
 }
 
-/// The rung that is taken, solved. Where `static` is, it stands for `dynamic` where that is wanted. One that is too slow to be
+/// The method that is taken, solved. Where `static` is, it stands for `dynamic` where that is wanted. One that is too slow to be
 /// followed in time is at rest.
 fn chosen(inputs: &Inputs, wanted: Stages, go_on: &dyn Fn(f64) -> bool) -> Result<Solution, Refusal> {
     let read = wanted.within(Stages::CLOSED_FORM).and(auto::READS);
-    let closed_form = solve(&auto::taken(inputs, Rung::Exact), read);
+    let closed_form = solve(&auto::taken(inputs, Method::Exact), read);
     let choice = auto::choose(inputs, &closed_form);
-    let still = || solve_while(&auto::taken(inputs, Rung::Static), at_rest(wanted), go_on);
-    let (solved, choice) = match (choice.rung, &closed_form) {
-        (Rung::Exact, Ok(known)) => {
+    let still = || solve_while(&auto::taken(inputs, Method::Static), at_rest(wanted), go_on);
+    let (solved, choice) = match (choice.method, &closed_form) {
+        (Method::Exact, Ok(known)) => {
             let earlier = Earlier { solution: known, stale: Stages::NONE };
-            let found = solve_after(&auto::taken(inputs, Rung::Exact), wanted, Some(earlier), go_on)?;
+            let found = solve_after(&auto::taken(inputs, Method::Exact), wanted, Some(earlier), go_on)?;
             (Ok(Solution { ran: found.ran.and(known.ran), ..found }), choice)
         }
-        (Rung::Static, _) => (still(), choice),
-        _ => match solve_while(&auto::taken(inputs, Rung::Dynamic), wanted, go_on) {
+        (Method::Static, _) => (still(), choice),
+        _ => match solve_while(&auto::taken(inputs, Method::Dynamic), wanted, go_on) {
             Err(Refusal::TooSlow { .. }) => (still(), choice),
             Ok(moved) if choice.is_open() => decided(inputs, choice, moved, wanted, go_on),
             found => (found, choice),
         },
     };
     let solution = solved?;
-    Ok(Solution { choice: Some(Choice { rung: solution.rung, ..choice }), ..solution })
+    Ok(Solution { choice: Some(Choice { method: solution.method, ..choice }), ..solution })
 }
 
 /// The motion, or the load at rest on the same mesh where inertia turns out to add little.
@@ -108,12 +108,12 @@ fn decided(
     go_on: &dyn Fn(f64) -> bool,
 ) -> (Result<Solution, Refusal>, Choice) {
     let choice = auto::added_by_inertia(&moved).map_or(choice, |adds| choice.tried(inputs, adds));
-    if choice.rung == Rung::Dynamic {
+    if choice.method == Method::Dynamic {
         return (Ok(moved), choice);
     }
-    let known = Solution { rung: Rung::Static, ..moved };
+    let known = Solution { method: Method::Static, ..moved };
     let earlier = Earlier { solution: &known, stale: Stages::NONE };
-    let found = solve_after(&auto::taken(inputs, Rung::Static), at_rest(wanted), Some(earlier), go_on);
+    let found = solve_after(&auto::taken(inputs, Method::Static), at_rest(wanted), Some(earlier), go_on);
     (found.map(|found| Solution { ran: found.ran.and(known.ran), ..found }), choice)
 }
 
@@ -149,7 +149,7 @@ impl Solving<'_> {
         Ok(solution)
     }
 
-    /// The least relief, once the rung has told its outcome.
+    /// The least relief, once the method has told its outcome.
     fn clear(&self, solution: &mut Solution, go_on: &dyn Fn(f64) -> bool) -> Result<(), Refusal> {
         let held = self.asked.kept(Stage::Clearing).and_then(|earlier| earlier.clearing);
         if held.is_none() {
@@ -183,7 +183,7 @@ impl Solving<'_> {
         };
         let strikes = deviation.total.rounded() > 0.0;
         Ok(Solution {
-            rung: inputs.rung,
+            method: inputs.method,
             choice: None,
             outcome: if strikes { Outcome::CornerContact } else { Outcome::NoCornerContact },
             stages: Stages::of(Stage::Deviation),
@@ -246,8 +246,8 @@ impl Solving<'_> {
                 solution.withheld = self.strike(solution, &position).err();
             }
             Ok(None) => solution.outcome = Outcome::NoCornerContact,
-            // The rungs that share the load do not need it.
-            Err(refusal) if self.asked.inputs.rung.shares_load() => {
+            // The methods that share the load do not need it.
+            Err(refusal) if self.asked.inputs.method.shares_load() => {
                 solution.stages = solution.stages.without(Stage::Position);
                 solution.withheld = Some(refusal);
             }

@@ -82,7 +82,7 @@ impl Stage {
             Stage::Static | Stage::Dynamic => Stages::NONE.with(Stage::Mesh),
             Stage::Deviation | Stage::Mesh => Stages::NONE.with(Stage::Geometry).with(Stage::Load),
             Stage::Position => Stages::NONE.with(Stage::Deviation),
-            // What the rung does not have falls away.
+            // What the method does not have falls away.
             Stage::Clearing => Stages::NONE.with(Stage::Deviation).with(Stage::Static).with(Stage::Dynamic),
             Stage::Velocity | Stage::Compliance => Stages::NONE.with(Stage::Position),
             Stage::Impact => Stages::NONE.with(Stage::Velocity).with(Stage::Compliance),
@@ -100,9 +100,9 @@ impl Stages {
     pub const NONE: Stages = Stages(0);
     /// From geometry to friction: all that one impact model says of D.
     pub const CLOSED_FORM: Stages = Stages::of(Stage::Friction);
-    /// Every stage of the rungs `paper` and `exact`, but for the least relief.
+    /// Every stage of the methods `paper` and `exact`, but for the least relief.
     pub const ALL: Stages = Stages::CLOSED_FORM.with(Stage::Band).with(Stage::Stations);
-    /// The stages that give stations, each in its rungs.
+    /// The stages that give stations, each in its methods.
     pub const STATIONS: Stages = Stages::of(Stage::Stations).and(Stages::of(Stage::Static)).with(Stage::Dynamic);
     /// Every stage there is.
     pub const EVERY: Stages = Stages::ALL.and(Stages::of(Stage::Clearing));

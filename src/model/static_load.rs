@@ -1,4 +1,4 @@
-//! The rung `static`: the load shared by every pair in contact, without inertia.
+//! The method `static`: the load shared by every pair in contact, without inertia.
 
 use super::Refusal;
 use super::mesh::{Mesh, Pair};

@@ -57,9 +57,9 @@ pub struct MeshStation {
     pub gap: f64,
     /// Its compliance q_s at the force along the line of action, in m²/N.
     pub pair_compliance: f64,
-    /// Time since E, in s; in the rung `dynamic` alone.
+    /// Time since E, in s; in the method `dynamic` alone.
     pub time: Option<f64>,
-    /// How fast the displacement grows, in m/s; in the rung `dynamic` alone.
+    /// How fast the displacement grows, in m/s; in the method `dynamic` alone.
     pub rate: Option<f64>,
 }
 

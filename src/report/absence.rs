@@ -3,18 +3,18 @@
 use std::fmt;
 
 use crate::case::units::{self, System};
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::model::{Outcome, Quantity, Refusal, Solution, Stage};
 use crate::numeric::decimal::significant;
 
 /// Why a quantity has no value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Absence {
-    /// This rung has no such quantity; it is of one of the stages of another.
-    OtherRung(Rung, Stage),
+    /// This method has no such quantity; it is of one of the stages of another.
+    OtherMethod(Method, Stage),
     /// Nothing strikes: why, and the total deviation in m.
     NoContact(&'static str, f64),
-    /// The closed form finds no first contact, though the rung itself does.
+    /// The closed form finds no first contact, though the method itself does.
     NoFreeImpact,
     /// It is of friction, and the case gives none.
     NoFriction,
@@ -33,8 +33,8 @@ impl Absence {
         let is_without = solution.outcome == Outcome::NoCornerContact;
         let no_contact = Absence::NoContact(without_contact(solution), solution.deviation.total);
         match (quantity.stage, solution.withheld) {
-            (stage, _) if !solution.rung.stages().has(stage) => Absence::OtherRung(solution.rung, stage),
-            _ if is_without && !solution.rung.shares_load() => no_contact,
+            (stage, _) if !solution.method.stages().has(stage) => Absence::OtherMethod(solution.method, stage),
+            _ if is_without && !solution.method.shares_load() => no_contact,
             (Stage::Static | Stage::Dynamic, _) if quantity.needs_friction() && !has_friction(solution) => Absence::NoFriction,
             (Stage::Static | Stage::Dynamic, _) if is_without => no_contact,
             (Stage::Static | Stage::Dynamic, _) => Absence::NotReached,
@@ -56,10 +56,10 @@ impl Absence {
 /// Why the tooth does not strike: one that the load at rest, or the exact position, would bring in early may yet not.
 #[must_use]
 pub fn without_contact(solution: &Solution) -> &'static str {
-    match solution.rung {
+    match solution.method {
         _ if solution.deviation.total <= 0.0 => "the tooth comes in on time",
-        Rung::Paper => "the printed equations bring it in on time",
-        Rung::Static => "at rest the pairs in contact do not give way so far",
+        Method::Paper => "the printed equations bring it in on time",
+        Method::Static => "at rest the pairs in contact do not give way so far",
         _ => "in motion the tooth does not touch before E",
     }
 }
@@ -73,10 +73,10 @@ pub fn without_contact_in_full(solution: &Solution, system: System) -> String {
         let (number, unit) = units::system::shown(value, "um", 3, system);
         format!("{number} {unit}")
     };
-    match solution.rung {
+    match solution.method {
         _ if total <= 0.0 => why.to_owned(),
-        Rung::Paper => format!("{why}, though Δ is {}", told(total)),
-        Rung::Static => {
+        Method::Paper => format!("{why}, though Δ is {}", told(total)),
+        Method::Static => {
             solution.margin().map_or_else(|| why.to_owned(), |gap| format!("at rest a gap of {} is left before E", told(gap)))
         }
         _ => match solution.lead_at_rest().filter(|&lead| lead > 0.0) {
@@ -98,10 +98,10 @@ fn has_friction(solution: &Solution) -> bool {
 impl fmt::Display for Absence {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Absence::OtherRung(rung, stage) => {
-                let rungs = Rung::ALL.into_iter().filter(|rung| rung.stages().has(*stage)).map(Rung::name);
-                let rungs = rungs.collect::<Vec<_>>().join(", ");
-                write!(f, "the rung is {}, and this is of {rungs}", rung.name())
+            Absence::OtherMethod(method, stage) => {
+                let methods = Method::ALL.into_iter().filter(|method| method.stages().has(*stage)).map(Method::name);
+                let methods = methods.collect::<Vec<_>>().join(", ");
+                write!(f, "the method is {}, and this is of {methods}", method.name())
             }
             // A deviation above 0 is of the load at rest, and no reason.
             Absence::NoContact(why, total) if *total > 0.0 => write!(f, "no corner contact: {why}"),

@@ -28,21 +28,21 @@ fn io_error(error: csv::Error) -> io::Error {
 fn header(report: &Report) -> Vec<String> {
     let with_unit = |key: &str, unit: &str| format!("{key} [{unit}]");
     if report.selection.stations {
-        let columns = columns(report.solution.rung).map(|column| with_unit(column.key, column.unit));
+        let columns = columns(report.solution.method).map(|column| with_unit(column.key, column.unit));
         return std::iter::once("case".to_owned()).chain(columns).collect();
     }
     let columns = report.selection.quantities().map(|quantity| with_unit(quantity.key, quantity.unit));
-    ["case", "rung", "outcome"].map(str::to_owned).into_iter().chain(columns).collect()
+    ["case", "method", "outcome"].map(str::to_owned).into_iter().chain(columns).collect()
 }
 
 fn rows(report: &Report) -> Vec<Vec<String>> {
     let name = visible(&report.name);
     let solution = &report.solution;
     if report.selection.stations {
-        let cells = |row| columns(solution.rung).map(move |column| cell(column.of(row)));
+        let cells = |row| columns(solution.method).map(move |column| cell(column.of(row)));
         return stations(solution).into_iter().map(|row| std::iter::once(name.clone()).chain(cells(row)).collect()).collect();
     }
-    let head = [name, solution.rung.name().to_owned(), solution.outcome.name().to_owned()];
+    let head = [name, solution.method.name().to_owned(), solution.outcome.name().to_owned()];
     let cells = report.selection.quantities().map(|quantity| cell(value(quantity, solution)));
     vec![head.into_iter().chain(cells).collect()]
 }

@@ -8,7 +8,7 @@ use crate::case::fields::index_of;
 use crate::case::units::System;
 use crate::case::visible::visible;
 use crate::case::{Case, Evaluator};
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::model::moment::first_contact;
 use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Solution, Stage, Stages};
 
@@ -21,8 +21,8 @@ pub struct Digest {
     pub pair: String,
     /// Power or torque, and speed.
     pub load: String,
-    /// The rung, and the one that `auto` took.
-    pub rung: String,
+    /// The method, and the one that `auto` took.
+    pub method: String,
     /// Whether the tooth strikes, in a sentence; or why the model does not tell.
     pub outcome: String,
     /// The same in two or three words.
@@ -37,7 +37,7 @@ impl Digest {
     /// Solve a case as far as its digest needs it, unless `go_on` says no.
     #[must_use]
     pub fn solve(case: &Case, inputs: &Inputs, system: System, go_on: &dyn Fn(f64) -> bool) -> Option<Digest> {
-        let found = Evaluator::default().solve(case, inputs, inputs.rung, stages(case, inputs.rung), go_on);
+        let found = Evaluator::default().solve(case, inputs, inputs.method, stages(case, inputs.method), go_on);
         match found {
             Err(Refusal::Stopped) => None,
             found => Some(Digest::of(case, inputs, found.as_ref(), system)),
@@ -50,7 +50,7 @@ impl Digest {
         let written = Digest { title: text(case, "title"), pair: pair(case), load: load(case), ..Digest::default() };
         match found {
             Ok(solution) => Digest {
-                rung: rung(inputs.rung, solution),
+                method: method(inputs.method, solution),
                 outcome: sentence(solution, system),
                 short: short(solution, system),
                 limits: verdict::verdicts(case, solution)
@@ -61,7 +61,7 @@ impl Digest {
                 ..written
             },
             Err(refusal) => Digest {
-                rung: inputs.rung.name().to_owned(),
+                method: inputs.method.name().to_owned(),
                 outcome: format!("The model refuses it: {refusal}; {}.", refusal.mend()),
                 short: "refused".to_owned(),
                 limits: verdict::refused(case, refusal).iter().map(|verdict| (verdict.standing, verdict.told(system))).collect(),
@@ -102,7 +102,7 @@ pub fn sentence(solution: &Solution, system: System) -> String {
         Outcome::CornerContact => {
             let angle = first_touch(solution)
                 .map(|(quantity, angle)| format!(" {} of the driver before E", shown_in(quantity, angle, system)));
-            let force = force(solution.rung, |key| told(key, solution, system));
+            let force = force(solution.method, |key| told(key, solution, system));
             let force = force.unwrap_or_else(|| "no force is given".to_owned());
             format!("Corner contact{}, {force}.", angle.unwrap_or_default())
         }
@@ -117,7 +117,7 @@ pub fn sentence(solution: &Solution, system: System) -> String {
 /// The outcome in two or three words.
 #[must_use]
 pub fn short(solution: &Solution, system: System) -> String {
-    let force = Quantity::find("impact_force").and_then(|free| free.by(solution.rung));
+    let force = Quantity::find("impact_force").and_then(|free| free.by(solution.method));
     match (solution.outcome, force.and_then(|force| told(force.key, solution, system))) {
         (Outcome::NoCornerContact, _) => "does not strike".to_owned(),
         (Outcome::CornerContact, Some(force)) => format!("strikes with {force}"),
@@ -125,11 +125,11 @@ pub fn short(solution: &Solution, system: System) -> String {
     }
 }
 
-/// The driver's roll angle before E at which the tooth touches, in rad, and how it is shown; of the driver in every rung, so
+/// The driver's roll angle before E at which the tooth touches, in rad, and how it is shown; of the driver in every method, so
 /// that they can be held against each other.
 pub(super) fn first_touch(solution: &Solution) -> Option<(&'static Quantity, f64)> {
     let quantity = Quantity::find("approach_angle_driver")?;
-    let angle = if solution.rung.shares_load() {
+    let angle = if solution.method.shares_load() {
         let geometry = &solution.geometry;
         first_contact(solution)? * geometry.driven.base / geometry.driver.base
     } else {
@@ -140,14 +140,14 @@ pub(super) fn first_touch(solution: &Solution) -> Option<(&'static Quantity, f64
 
 /// The force of the incoming tooth in words: of the closed form its impact, of the load at rest what it carries at E, in
 /// motion its peaks.
-pub(super) fn force(rung: Rung, told: impl Fn(&str) -> Option<String>) -> Option<String> {
-    match rung {
-        Rung::Static => Some(format!("carrying {} at E", told("static_force_at_start")?)),
-        Rung::Dynamic => {
+pub(super) fn force(method: Method, told: impl Fn(&str) -> Option<String>) -> Option<String> {
+    match method {
+        Method::Static => Some(format!("carrying {} at E", told("static_force_at_start")?)),
+        Method::Dynamic => {
             let (before, most) = (told("dynamic_peak_approach_force")?, told("dynamic_peak_force")?);
             Some(format!("with up to {before} before E and {most} in all"))
         }
-        Rung::Paper | Rung::Exact | Rung::Auto => Some(format!("with {}", told("impact_force")?)),
+        Method::Paper | Method::Exact | Method::Auto => Some(format!("with {}", told("impact_force")?)),
     }
 }
 
@@ -157,17 +157,17 @@ fn told(key: &str, solution: &Solution, system: System) -> Option<String> {
 }
 
 /// The stages behind the outcome, the notes and the limits of a case.
-fn stages(case: &Case, rung: Rung) -> Stages {
-    let shared = match rung {
-        Rung::Static => Stages::of(Stage::Static),
-        Rung::Dynamic | Rung::Auto => Stages::of(Stage::Dynamic),
-        Rung::Paper | Rung::Exact => Stages::NONE,
+fn stages(case: &Case, method: Method) -> Stages {
+    let shared = match method {
+        Method::Static => Stages::of(Stage::Static),
+        Method::Dynamic | Method::Auto => Stages::of(Stage::Dynamic),
+        Method::Paper | Method::Exact => Stages::NONE,
     };
     verdict::stages(case).and(Stages::CLOSED_FORM).and(shared)
 }
 
-fn rung(asked: Rung, solution: &Solution) -> String {
-    if asked == solution.rung { asked.name().to_owned() } else { format!("{}, by {}", solution.rung.name(), asked.name()) }
+fn method(asked: Method, solution: &Solution) -> String {
+    if asked == solution.method { asked.name().to_owned() } else { format!("{}, by {}", solution.method.name(), asked.name()) }
 }
 
 fn pair(case: &Case) -> String {
@@ -208,7 +208,7 @@ mod tests {
         assert_eq!((told.pair.as_str(), told.load.as_str()), ("z 20/20, m 5 mm, α 20 deg, b 8 mm", "15 kW at 2000 rpm"));
         assert_eq!(told.outcome, "Corner contact 1.36628 deg of the driver before E, with 2191.0 N.");
         assert_eq!(told.verdict(), "strikes with 2191.0 N; limit held");
-        assert_eq!(told.rung, "exact");
+        assert_eq!(told.method, "exact");
         assert!(!told.notes.is_empty());
     }
 
@@ -222,7 +222,7 @@ mod tests {
 
     #[test]
     fn a_tooth_that_the_load_at_rest_alone_would_bring_in_early_is_told_without_contradiction() {
-        let in_motion = digest(&[("model.rung", "dynamic"), ("driven.tip_relief", "39 um")]);
+        let in_motion = digest(&[("model.method", "dynamic"), ("driven.tip_relief", "39 um")]);
         assert!(
             in_motion
                 .outcome
@@ -230,19 +230,19 @@ mod tests {
             "{}",
             in_motion.outcome
         );
-        let at_rest = digest(&[("model.rung", "static"), ("driven.tip_relief", "39 um")]);
+        let at_rest = digest(&[("model.method", "static"), ("driven.tip_relief", "39 um")]);
         assert!(at_rest.outcome.starts_with("Corner contact"), "{}", at_rest.outcome);
     }
 
     #[test]
-    fn each_rung_tells_its_own_force() {
-        let forces = ["static", "dynamic", "auto"].map(|rung| digest(&[("model.rung", rung)]));
+    fn each_method_tells_its_own_force() {
+        let forces = ["static", "dynamic", "auto"].map(|method| digest(&[("model.method", method)]));
         assert_eq!(forces[0].outcome, "Corner contact 1.25226 deg of the driver before E, carrying 1466.2 N at E.");
         let moving = "Corner contact 1.27924 deg of the driver before E, with up to 1410.8 N before E and 2003.0 N in all.";
         assert_eq!(forces[1].outcome, moving);
         let short = ["strikes with 1466.2 N", "strikes with 1410.8 N", "strikes with 1410.8 N"];
         assert_eq!(forces.each_ref().map(|told| told.short.as_str()), short);
-        assert_eq!(forces[2].rung, "dynamic, by auto");
+        assert_eq!(forces[2].method, "dynamic, by auto");
     }
 
     #[test]
@@ -267,7 +267,7 @@ mod tests {
             let inputs = case.inputs().unwrap();
             let told = Digest::solve(&case, &inputs, System::Metric, &|_| true).unwrap();
             assert!(told.short.contains("strike"), "{}: {told:?}", example.name);
-            let slow = Inputs { rung: Rung::Dynamic, ..inputs };
+            let slow = Inputs { method: Method::Dynamic, ..inputs };
             assert_eq!(Digest::solve(&case, &slow, System::Metric, &|_| false), None, "{}", example.name);
         }
     }

@@ -20,7 +20,7 @@ use super::verdict::Beside;
 use super::{Shown, shown, value};
 use crate::case::Case;
 use crate::case::units::System;
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::model::{Inputs, Quantity, Solution, auto};
 
 pub use effects::Effect;
@@ -36,13 +36,13 @@ pub use work::{How, Leaf, Work};
 pub struct Page {
     /// The quantity.
     pub quantity: &'static Quantity,
-    /// Its symbol in this rung.
+    /// Its symbol in this method.
     pub symbol: &'static str,
-    /// What it is in this rung, in a few words.
+    /// What it is in this method, in a few words.
     pub label: &'static str,
-    /// The rung of the solve.
-    pub rung: &'static str,
-    /// Whether the rung `auto` took it.
+    /// The method of the solve.
+    pub method: &'static str,
+    /// Whether the method `auto` took it.
     pub is_by_auto: bool,
     /// Its value in SI, where it has one.
     pub value: Option<f64>,
@@ -52,7 +52,7 @@ pub struct Page {
     pub missing: Option<String>,
     /// What it is and what it is good for.
     pub says: &'static str,
-    /// What the rung itself finds in its place, where it is of the free impact.
+    /// What the method itself finds in its place, where it is of the free impact.
     pub beside: Option<String>,
     /// How it is found, the quantity first and then each step on the way.
     pub work: Vec<Work>,
@@ -76,8 +76,8 @@ pub struct Page {
 /// explanation is written for.
 #[must_use]
 pub fn explain(quantity: &'static Quantity, case: &Case, inputs: &Inputs, solution: &Solution) -> Option<Page> {
-    // What the rung `auto` took is explained.
-    let taken = if inputs.rung == Rung::Auto { auto::taken(inputs, solution.rung) } else { inputs.clone() };
+    // What the method `auto` took is explained.
+    let taken = if inputs.method == Method::Auto { auto::taken(inputs, solution.method) } else { inputs.clone() };
     let known = Known { case, inputs: &taken, given: inputs, solution };
     let about = table::of(quantity)?;
     let otherwise = table::otherwise::of(quantity.key, &taken);
@@ -85,10 +85,10 @@ pub fn explain(quantity: &'static Quantity, case: &Case, inputs: &Inputs, soluti
     let (work, leaves) = work::of(quantity, about, &known);
     Some(Page {
         quantity,
-        symbol: quantity.symbol_in(solution.rung),
-        label: quantity.label_in(solution.rung).trim_start(),
-        rung: solution.rung.name(),
-        is_by_auto: inputs.rung == Rung::Auto,
+        symbol: quantity.symbol_in(solution.method),
+        label: quantity.label_in(solution.method).trim_start(),
+        method: solution.method.name(),
+        is_by_auto: inputs.method == Method::Auto,
         value,
         shown: value.map(|value| shown(quantity, value)),
         missing: value.is_none().then(|| format!("No value: {}", Absence::of(quantity, solution))),

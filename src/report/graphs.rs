@@ -2,16 +2,16 @@
 
 use super::stations::{self, COLUMNS, Column, Row};
 use crate::model::Solution;
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 
-/// A chart over the roll angle. Where rungs differ in how they call a value, all its columns are drawn in one.
+/// A chart over the roll angle. Where methods differ in how they call a value, all its columns are drawn in one.
 #[derive(Debug, Clone, Copy)]
 pub struct Graph {
     /// The name in settings and palette.
     pub key: &'static str,
     /// The name in words.
     pub label: &'static str,
-    /// Keys of the columns, of which each rung has one or none.
+    /// Keys of the columns, of which each method has one or none.
     pub columns: &'static [&'static str],
     /// What the value is held against, and its symbol.
     pub bound: Option<Bound>,
@@ -20,7 +20,7 @@ pub struct Graph {
 /// What a value is held against.
 #[derive(Debug, Clone, Copy)]
 pub struct Bound {
-    /// Its symbol in the rungs `paper` and `exact`, and in those that share the load.
+    /// Its symbol in the methods `paper` and `exact`, and in those that share the load.
     pub symbols: [&'static str; 2],
     /// Its value at a station, in SI.
     pub value: fn(&Solution, Row) -> Option<f64>,
@@ -56,10 +56,10 @@ pub static GRAPHS: [Graph; 9] = [
 ];
 
 impl Graph {
-    /// The column that a rung has.
+    /// The column that a method has.
     #[must_use]
-    pub fn column(&self, rung: Rung) -> Option<&'static Column> {
-        stations::columns(rung).find(|column| self.columns.contains(&column.key))
+    pub fn column(&self, method: Method) -> Option<&'static Column> {
+        stations::columns(method).find(|column| self.columns.contains(&column.key))
     }
 
     /// Its columns.
@@ -68,9 +68,9 @@ impl Graph {
         COLUMNS.iter().filter(move |column| keys.contains(&column.key))
     }
 
-    /// The rungs that have a curve.
-    pub fn rungs(&self) -> impl Iterator<Item = Rung> {
-        Rung::ALL.into_iter().filter(|&rung| rung != Rung::Auto && self.column(rung).is_some())
+    /// The methods that have a curve.
+    pub fn methods(&self) -> impl Iterator<Item = Method> {
+        Method::ALL.into_iter().filter(|&method| method != Method::Auto && self.column(method).is_some())
     }
 }
 
@@ -89,11 +89,11 @@ mod tests {
     }
 
     #[test]
-    fn a_rung_has_one_curve_in_a_chart_and_all_columns_one_unit() {
+    fn a_method_has_one_curve_in_a_chart_and_all_columns_one_unit() {
         for graph in &GRAPHS {
-            for rung in Rung::ALL {
-                let own = stations::columns(rung).filter(|column| graph.columns.contains(&column.key));
-                assert!(own.count() <= 1, "{} {rung:?}", graph.key);
+            for method in Method::ALL {
+                let own = stations::columns(method).filter(|column| graph.columns.contains(&column.key));
+                assert!(own.count() <= 1, "{} {method:?}", graph.key);
             }
             let units: Vec<_> = graph.all_columns().map(|column| column.shown).collect();
             assert!(units.windows(2).all(|pair| pair[0] == pair[1]), "{units:?}");

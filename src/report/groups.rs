@@ -1,9 +1,9 @@
-//! The quantities in groups under headings, in the order in which a rung tells them: what it resolves itself first.
+//! The quantities in groups under headings, in the order in which a method tells them: what it resolves itself first.
 
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::model::{QUANTITIES, Quantity, Stage};
 
-/// What stands above the quantities of the free impact where the rung resolves the impact itself.
+/// What stands above the quantities of the free impact where the method resolves the impact itself.
 pub const FREE_IMPACT: &str = "Free impact at D, closed form";
 
 /// Quantities that stand together.
@@ -15,7 +15,7 @@ pub struct Group {
     stages: &'static [Stage],
 }
 
-/// Every group, in the order of a rung in closed form.
+/// Every group, in the order of a method in closed form.
 static GROUPS: [Group; 12] = [
     Group { title: "Geometry", stages: &[Stage::Geometry] },
     Group { title: "Load", stages: &[Stage::Load] },
@@ -38,36 +38,36 @@ impl Group {
         QUANTITIES.iter().filter(move |quantity| stages.contains(&quantity.stage))
     }
 
-    /// Whether it is of the free impact, which the rung resolves itself.
+    /// Whether it is of the free impact, which the method resolves itself.
     #[must_use]
-    pub fn is_beside(&self, rung: Rung) -> bool {
-        rung.shares_load() && self.quantities().any(Quantity::is_of_free_impact)
+    pub fn is_beside(&self, method: Method) -> bool {
+        method.shares_load() && self.quantities().any(Quantity::is_of_free_impact)
     }
 
     // The last stages first, the closed form of what they resolve at the end.
-    fn rank(&self, rung: Rung) -> usize {
+    fn rank(&self, method: Method) -> usize {
         match self.stages {
-            _ if !rung.shares_load() => 0,
+            _ if !method.shares_load() => 0,
             [Stage::Dynamic] => 1,
             [Stage::Static] => 2,
             [Stage::Clearing | Stage::Mesh] => 3,
-            _ if self.is_beside(rung) => 5,
+            _ if self.is_beside(method) => 5,
             _ => 4,
         }
     }
 }
 
-/// The groups in the order in which a rung tells them.
+/// The groups in the order in which a method tells them.
 #[must_use]
-pub fn groups(rung: Rung) -> Vec<&'static Group> {
+pub fn groups(method: Method) -> Vec<&'static Group> {
     let mut groups: Vec<&Group> = GROUPS.iter().collect();
-    groups.sort_by_key(|group| group.rank(rung));
+    groups.sort_by_key(|group| group.rank(method));
     groups
 }
 
 /// Every quantity, in that order.
-pub fn quantities(rung: Rung) -> impl Iterator<Item = &'static Quantity> {
-    groups(rung).into_iter().flat_map(Group::quantities)
+pub fn quantities(method: Method) -> impl Iterator<Item = &'static Quantity> {
+    groups(method).into_iter().flat_map(Group::quantities)
 }
 
 #[cfg(test)]
@@ -76,8 +76,8 @@ mod tests {
 
     #[test]
     fn every_quantity_stands_in_one_group() {
-        for rung in Rung::ALL {
-            let mut keys: Vec<_> = quantities(rung).map(|quantity| quantity.key).collect();
+        for method in Method::ALL {
+            let mut keys: Vec<_> = quantities(method).map(|quantity| quantity.key).collect();
             keys.sort_unstable();
             let mut all: Vec<_> = QUANTITIES.iter().map(|quantity| quantity.key).collect();
             all.sort_unstable();
@@ -86,12 +86,14 @@ mod tests {
     }
 
     #[test]
-    fn a_rung_tells_its_own_first_and_the_closed_form_last() {
-        for (rung, first) in [(Rung::Exact, Stage::Geometry), (Rung::Static, Stage::Static), (Rung::Dynamic, Stage::Dynamic)] {
-            let own = quantities(rung).find(|quantity| quantity.stage == first || !rung.shares_load());
+    fn a_method_tells_its_own_first_and_the_closed_form_last() {
+        for (method, first) in
+            [(Method::Exact, Stage::Geometry), (Method::Static, Stage::Static), (Method::Dynamic, Stage::Dynamic)]
+        {
+            let own = quantities(method).find(|quantity| quantity.stage == first || !method.shares_load());
             assert_eq!(own.map(|own| own.stage), Some(first));
         }
-        let order: Vec<_> = quantities(Rung::Dynamic).collect();
+        let order: Vec<_> = quantities(Method::Dynamic).collect();
         assert_eq!(order[0].stage, Stage::Dynamic);
         assert!(order.is_sorted_by_key(|quantity| quantity.is_of_free_impact()));
     }

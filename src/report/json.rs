@@ -14,7 +14,7 @@ struct Line<'a> {
     title: &'a str,
     format: u32,
     version: &'static str,
-    rung: &'static str,
+    method: &'static str,
     outcome: &'static str,
     quantities: Quantities<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -27,7 +27,7 @@ struct Line<'a> {
 struct Measured {
     value: Value,
     unit: &'static str,
-    /// What it is of, where that is not what the rung resolves.
+    /// What it is of, where that is not what the method resolves.
     #[serde(skip_serializing_if = "Option::is_none")]
     of: Option<&'static str>,
 }
@@ -55,10 +55,10 @@ struct Quantities<'a>(&'a Report);
 
 impl Serialize for Quantities<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let rung = self.0.solution.rung;
+        let method = self.0.solution.method;
         let of = |quantity: &Quantity| match quantity {
-            _ if rung.shares_load() && quantity.is_of_free_impact() => Some("free-impact"),
-            _ if quantity.symbol_in(rung) != quantity.symbol => Some("deviations-without-reliefs"),
+            _ if method.shares_load() && quantity.is_of_free_impact() => Some("free-impact"),
+            _ if quantity.symbol_in(method) != quantity.symbol => Some("deviations-without-reliefs"),
             _ => None,
         };
         let measured =
@@ -86,7 +86,7 @@ pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         title: report.title(),
         format: FORMAT,
         version: env!("CARGO_PKG_VERSION"),
-        rung: solution.rung.name(),
+        method: solution.method.name(),
         outcome: solution.outcome.name(),
         quantities: Quantities(report),
         stations: report.selection.stations.then(|| stations::rows(solution).into_iter().map(Cells).collect()),

@@ -1,7 +1,7 @@
 //! The one table of what a station of the incoming tooth tells, for text, JSON, CSV and charts.
 
 use crate::model::between::DIGITS_BETWEEN;
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::model::{Inputs, MeshStation, Solution, Station, Told};
 
 /// A place of the incoming tooth.
@@ -13,7 +13,7 @@ pub enum Row<'a> {
     Load(&'a MeshStation),
 }
 
-/// A value that the stations of some rungs have.
+/// A value that the stations of some methods have.
 #[derive(Debug, Clone, Copy)]
 pub struct Column {
     /// The name in JSON and CSV.
@@ -26,20 +26,20 @@ pub struct Column {
     pub shown: &'static str,
     /// Significant digits that a person reads.
     pub digits: usize,
-    /// The rungs whose stations have it.
-    pub rungs: &'static [Rung],
+    /// The methods whose stations have it.
+    pub methods: &'static [Method],
     /// The value in SI.
     pub value: fn(Row) -> Option<f64>,
 }
 
-const CLOSED_FORM: &[Rung] = &Rung::CLOSED_FORM;
-const SHARING: &[Rung] = &[Rung::Static, Rung::Dynamic];
-const EVERY: &[Rung] = &Rung::ALL;
-const DYNAMIC: &[Rung] = &[Rung::Dynamic];
+const CLOSED_FORM: &[Method] = &Method::CLOSED_FORM;
+const SHARING: &[Method] = &[Method::Static, Method::Dynamic];
+const EVERY: &[Method] = &Method::ALL;
+const DYNAMIC: &[Method] = &[Method::Dynamic];
 
 macro_rules! column {
-    ($key:literal, $symbol:literal, $unit:literal, $shown:literal, $digits:literal, $rungs:expr, $value:expr) => {
-        Column { key: $key, symbol: $symbol, unit: $unit, shown: $shown, digits: $digits, rungs: $rungs, value: $value }
+    ($key:literal, $symbol:literal, $unit:literal, $shown:literal, $digits:literal, $methods:expr, $value:expr) => {
+        Column { key: $key, symbol: $symbol, unit: $unit, shown: $shown, digits: $digits, methods: $methods, value: $value }
     };
 }
 
@@ -61,18 +61,18 @@ pub static COLUMNS: [Column; 13] = [
     column!("impact_energy", "E_k", "J", "J", 5, CLOSED_FORM, |row| Some(row.impact()?.impact_energy)),
 ];
 
-/// The columns that the stations of a rung have.
-pub fn columns(rung: Rung) -> impl Iterator<Item = &'static Column> + Clone {
-    COLUMNS.iter().filter(move |column| column.rungs.contains(&rung))
+/// The columns that the stations of a method have.
+pub fn columns(method: Method) -> impl Iterator<Item = &'static Column> + Clone {
+    COLUMNS.iter().filter(move |column| column.methods.contains(&method))
 }
 
-/// The stations of the solution's rung.
+/// The stations of the solution's method.
 #[must_use]
 pub fn rows(solution: &Solution) -> Vec<Row<'_>> {
-    let loads = match solution.rung {
-        Rung::Paper | Rung::Exact | Rung::Auto => return solution.stations.iter().map(Row::Impact).collect(),
-        Rung::Static => solution.static_load.as_ref().map(|load| &load.stations),
-        Rung::Dynamic => solution.dynamic.as_ref().map(|dynamic| &dynamic.stations),
+    let loads = match solution.method {
+        Method::Paper | Method::Exact | Method::Auto => return solution.stations.iter().map(Row::Impact).collect(),
+        Method::Static => solution.static_load.as_ref().map(|load| &load.stations),
+        Method::Dynamic => solution.dynamic.as_ref().map(|dynamic| &dynamic.stations),
     };
     loads.into_iter().flatten().map(Row::Load).collect()
 }

@@ -12,7 +12,7 @@ use crate::case::FIELDS;
 use crate::case::fields::Absent;
 use crate::case::units::System;
 use crate::case::visible::visible;
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Outcome, Quantity, Solution, Stage, Stages};
 use std::io::{self, Write};
 
@@ -66,7 +66,7 @@ pub fn render(report: &Report) -> String {
 fn heading(report: &Report) -> Vec<String> {
     let title = if report.title().is_empty() { "Case without a title" } else { report.title() };
     let mut lines = flow(visible(title).split_whitespace(), WIDTH);
-    lines.extend(flow([visible(&report.name).as_str(), "·", "rung", report.solution.rung.name()], WIDTH));
+    lines.extend(flow([visible(&report.name).as_str(), "·", "method", report.solution.method.name()], WIDTH));
     lines
 }
 
@@ -74,8 +74,8 @@ fn outcome(report: &Report) -> Vec<String> {
     let mut sentences = vec![sentence(&report.solution)];
     if report.selection.is_whole() {
         sentences.extend(relief(&report.solution, System::Metric).map(|[words, ..]| format!("{words}.")));
-        let others = Rung::CLOSED_FORM.into_iter().filter(|&rung| rung != report.solution.rung);
-        sentences.extend(others.filter_map(|rung| other_rung(report, rung)));
+        let others = Method::CLOSED_FORM.into_iter().filter(|&method| method != report.solution.method);
+        sentences.extend(others.filter_map(|method| other_method(report, method)));
     }
     // A number stays on the line of its unit.
     let lines = sentences.iter().flat_map(|sentence| flow(sentence.split(' '), WIDTH));
@@ -85,15 +85,15 @@ fn outcome(report: &Report) -> Vec<String> {
 /// The outcome, as far as the stages that ran can tell it.
 fn sentence(solution: &Solution) -> String {
     let part = |before: &str, key| told(key, solution).map(|shown| format!("{before}{shown}")).unwrap_or_default();
-    let verb = if solution.rung.shares_load() { "touches" } else { "strikes" };
+    let verb = if solution.method.shares_load() { "touches" } else { "strikes" };
     match solution.outcome {
         Outcome::CornerContact => format!(
             "Corner contact: the tooth {verb}{}{}{}.",
             first_touch(solution)
                 .map(|(quantity, angle)| format!(" {} of the driver before E", glued(quantity, angle)))
                 .unwrap_or_default(),
-            force(solution.rung, |key| told(key, solution)).map(|force| format!(" {force}")).unwrap_or_default(),
-            if solution.rung.shares_load() { String::new() } else { part(", approaching at ", "normal_velocity") },
+            force(solution.method, |key| told(key, solution)).map(|force| format!(" {force}")).unwrap_or_default(),
+            if solution.method.shares_load() { String::new() } else { part(", approaching at ", "normal_velocity") },
         ),
         Outcome::NoCornerContact => {
             let is_reason = solution.deviation.total <= 0.0;
@@ -104,10 +104,13 @@ fn sentence(solution: &Solution) -> String {
     }
 }
 
-fn other_rung(report: &Report, rung: Rung) -> Option<String> {
-    let other = model::solve(&Inputs { rung, ..report.inputs.clone() }, Stages::of(Stage::Impact)).ok()?;
-    let with =
-        if report.solution.rung.shares_load() && report.inputs.deflection.is_some() { " with the given deflection" } else { "" };
+fn other_method(report: &Report, method: Method) -> Option<String> {
+    let other = model::solve(&Inputs { method, ..report.inputs.clone() }, Stages::of(Stage::Impact)).ok()?;
+    let with = if report.solution.method.shares_load() && report.inputs.deflection.is_some() {
+        " with the given deflection"
+    } else {
+        ""
+    };
     let found = match other.outcome {
         Outcome::NoCornerContact => {
             format!("no corner contact, the total deviation is {}", told("total_deviation", &other)?)
@@ -117,7 +120,7 @@ fn other_rung(report: &Report, rung: Rung) -> Option<String> {
             format!("{angle} of the driver before E with {force}")
         }
     };
-    Some(format!("For comparison, rung {}{with}: {found}.", rung.name()))
+    Some(format!("For comparison, method {}{with}: {found}.", method.name()))
 }
 
 /// A quantity's value, glued to its unit.
@@ -150,21 +153,22 @@ fn told_input(report: &Report, key: &str) -> Option<String> {
 }
 
 fn quantities(report: &Report) -> Vec<String> {
-    let rung = report.solution.rung;
-    let rows: Vec<Row> = report.values().map(|(quantity, value)| Row::new(quantity, value, rung)).collect();
+    let method = report.solution.method;
+    let rows: Vec<Row> = report.values().map(|(quantity, value)| Row::new(quantity, value, method)).collect();
     let columns = Columns::of(&rows);
     if !report.selection.is_whole() {
-        let is_beside = |row: &Row| rung.shares_load() && row.quantity.is_of_free_impact();
+        let is_beside = |row: &Row| method.shares_load() && row.quantity.is_of_free_impact();
         let line = |row: &Row| columns.line(row) + if is_beside(row) { ", free impact" } else { "" };
         return rows.iter().map(line).collect();
     }
     let group = |group: &'static Group| {
         let line = |quantity: &Quantity| rows.iter().find(|row| row.quantity.key == quantity.key).map(|row| columns.line(row));
         let lines: Vec<String> = group.quantities().filter_map(line).collect();
-        let title = if group.is_beside(rung) { format!("{FREE_IMPACT}: {}", lower(group.title)) } else { group.title.to_owned() };
+        let title =
+            if group.is_beside(method) { format!("{FREE_IMPACT}: {}", lower(group.title)) } else { group.title.to_owned() };
         titled(&title, lines)
     };
-    groups(rung).into_iter().flat_map(group).collect()
+    groups(method).into_iter().flat_map(group).collect()
 }
 
 // A heading within another.
@@ -182,8 +186,8 @@ struct Row {
 }
 
 impl Row {
-    fn new(quantity: &'static Quantity, value: f64, rung: Rung) -> Row {
-        Row { quantity, symbol: quantity.symbol_in(rung), label: quantity.label_in(rung), shown: shown(quantity, value) }
+    fn new(quantity: &'static Quantity, value: f64, method: Method) -> Row {
+        Row { quantity, symbol: quantity.symbol_in(method), label: quantity.label_in(method), shown: shown(quantity, value) }
     }
 }
 
@@ -233,7 +237,7 @@ fn station_table(report: &Report) -> Vec<String> {
         return Vec::new();
     }
     let rows = rows(&report.solution);
-    let columns: Vec<_> = columns(report.solution.rung).collect();
+    let columns: Vec<_> = columns(report.solution.method).collect();
     let (angle, values) = columns.split_at(1);
     let line = |row: Vec<String>| row.iter().map(|cell| format!("{cell:>CELL$}")).collect::<Vec<_>>().concat();
     let table = |values: &[&Column]| {
@@ -242,7 +246,7 @@ fn station_table(report: &Report) -> Vec<String> {
         let stations = rows.iter().map(|row| columns.iter().map(|column| column.told(*row)).collect());
         std::iter::once(head).chain(stations).map(line).collect::<Vec<_>>()
     };
-    let title = if report.solution.rung.shares_load() { "Stations from D to the last contact" } else { "Stations from D to E" };
+    let title = if report.solution.method.shares_load() { "Stations from D to the last contact" } else { "Stations from D to E" };
     titled(title, values.chunks(IN_A_LINE).flat_map(table))
 }
 

@@ -11,7 +11,7 @@ use super::json::write_line;
 use super::layout::{WIDTH, flow};
 use crate::case::fields::AUTO;
 use crate::case::visible::visible;
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::numeric::decimal::significant;
 use crate::study::trade::{Differences, Measured, Setting, Subject, Trade, greatest};
 
@@ -47,7 +47,7 @@ fn heading(told: &Told<'_>) -> Vec<String> {
 
 fn reference(trade: &Trade) -> Vec<String> {
     let sentence = match &trade.reference {
-        Err(refusal) => format!("No reference: the rung dynamic refuses the case: {refusal}."),
+        Err(refusal) => format!("No reference: the method dynamic refuses the case: {refusal}."),
         Ok(reference) => {
             let check = match &reference.disagreement {
                 Ok(off) => format!("a second way is within {:.0e} of it", greatest(off).unwrap_or(0.0)),
@@ -59,10 +59,10 @@ fn reference(trade: &Trade) -> Vec<String> {
     flow(sentence.split(' '), WIDTH)
 }
 
-/// What every rung says where no tooth strikes.
-pub const ON_TIME: &str = "No tooth strikes, by every rung";
+/// What every method says where no tooth strikes.
+pub const ON_TIME: &str = "No tooth strikes, by every method";
 
-/// What no rung in closed form says there.
+/// What no method in closed form says there.
 const CARRIED: &str = "What the teeth carry in the mesh, static and dynamic tell.";
 
 /// What to take, in a sentence.
@@ -96,9 +96,9 @@ pub fn summary(measured: &Measured) -> String {
 pub fn parts(trade: &Trade, measured: &Measured) -> Option<String> {
     let figures = measured.found.as_ref().ok()?;
     let (numbers, curve) = table::parts(&figures.numerical);
-    let model = greatest(&model_off(trade, figures.rung));
+    let model = greatest(&model_off(trade, figures.method));
     let [numbers, curve, model] = [numbers, curve, model].map(|off| off.map_or_else(|| "-".to_owned(), percent));
-    let is_reference = trade.reference.as_ref().is_ok_and(|reference| reference.setting.rung == figures.rung);
+    let is_reference = trade.reference.as_ref().is_ok_and(|reference| reference.setting.method == figures.method);
     let model = if is_reference { "model: the reference".to_owned() } else { format!("model {model} %") };
     Some(format!("numbers {numbers} %, curve {curve} %, {model}"))
 }
@@ -137,7 +137,7 @@ struct Line<'a> {
 
 #[derive(Serialize)]
 struct ReferenceLine {
-    rung: &'static str,
+    method: &'static str,
     #[serde(serialize_with = "count_or_auto")]
     stations: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -152,8 +152,8 @@ struct ReferenceLine {
 #[derive(Serialize)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a name that scripts read")]
 struct SettingLine {
-    rung: &'static str,
-    /// What the rung `auto` took.
+    method: &'static str,
+    /// What the method `auto` took.
     #[serde(skip_serializing_if = "Option::is_none")]
     took: Option<&'static str>,
     #[serde(serialize_with = "count_or_auto")]
@@ -209,13 +209,13 @@ pub fn write_json(told: &Told<'_>, out: &mut dyn Write) -> io::Result<()> {
 
 fn reference_line(trade: &Trade) -> Option<ReferenceLine> {
     let reference = trade.reference.as_ref().ok()?;
-    let Setting { rung, stations, tolerance, .. } = reference.setting;
+    let Setting { method, stations, tolerance, .. } = reference.setting;
     let quantities = Subject::ALL.into_iter().filter_map(|subject| {
-        let quantity = subject.quantity(rung)?;
+        let quantity = subject.quantity(method)?;
         Some((quantity.key.to_owned(), reference.values[subject as usize]?.into()))
     });
     Some(ReferenceLine {
-        rung: rung.name(),
+        method: method.name(),
         stations,
         tolerance,
         quantities: quantities.collect(),
@@ -225,11 +225,11 @@ fn reference_line(trade: &Trade) -> Option<ReferenceLine> {
 }
 
 fn setting_line(trade: &Trade, measured: &Measured) -> SettingLine {
-    let Setting { rung, stations, tolerance, accurate } = measured.setting;
+    let Setting { method, stations, tolerance, accurate } = measured.setting;
     let figures = measured.found.as_ref().ok();
     SettingLine {
-        rung: rung.name(),
-        took: figures.map(|figures| figures.rung).filter(|&took| took != rung).map(Rung::name),
+        method: method.name(),
+        took: figures.map(|figures| figures.method).filter(|&took| took != method).map(Method::name),
         stations,
         tolerance,
         accurate,
@@ -249,7 +249,7 @@ fn setting_line(trade: &Trade, measured: &Measured) -> SettingLine {
 /// The three errors of a subject, where there are any.
 fn errors(trade: &Trade, measured: &Measured, subject: Subject) -> Option<serde_json::Value> {
     let figures = measured.found.as_ref().ok()?;
-    let model = model_off(trade, figures.rung);
+    let model = model_off(trade, figures.method);
     let of = |differences: &Differences| differences[subject as usize];
     let parts = [("numerical", of(&figures.numerical)), ("model", of(&model)), ("total", of(&figures.total))];
     let known: serde_json::Map<_, _> =
@@ -261,9 +261,9 @@ fn by_subject(value: impl Fn(Subject) -> Option<serde_json::Value>) -> serde_jso
     Subject::ALL.into_iter().filter_map(|subject| Some((subject.key().to_owned(), value(subject)?))).collect()
 }
 
-/// What a rung's physics leaves out.
-fn model_off(trade: &Trade, rung: Rung) -> Differences {
-    trade.model(rung).map_or([None; Subject::ALL.len()], |model| model.off)
+/// What a method's physics leaves out.
+fn model_off(trade: &Trade, method: Method) -> Differences {
+    trade.model(method).map_or([None; Subject::ALL.len()], |model| model.off)
 }
 
 #[cfg(test)]

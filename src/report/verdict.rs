@@ -7,7 +7,7 @@ use super::{shown_in, value};
 use crate::case::units::System;
 use crate::case::visible::visible;
 use crate::case::{Case, Limit};
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::model::{Quantity, Refusal, Solution, Stage, Stages};
 pub use json::write as write_json;
 use std::fmt;
@@ -65,15 +65,15 @@ pub struct Verdict<'a> {
     pub standing: Standing,
     /// Why there is no value.
     pub absence: Option<Absence>,
-    /// What the rung itself finds in place of the limited quantity, where that is the closed form's.
+    /// What the method itself finds in place of the limited quantity, where that is the closed form's.
     pub beside: Option<Beside>,
 }
 
-/// What stands beside a quantity of the free impact in a rung that resolves the impact.
+/// What stands beside a quantity of the free impact in a method that resolves the impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Beside {
-    /// The rung.
-    pub rung: Rung,
+    /// The method.
+    pub method: Method,
     /// Its own quantity and the value in SI, where it has them.
     pub own: Option<(&'static str, Option<f64>)>,
     /// Whether the case holds that one to a limit of its own.
@@ -84,22 +84,22 @@ impl Beside {
     /// What stands beside that quantity of a solution.
     #[must_use]
     pub fn of(quantity: &'static Quantity, solution: &Solution) -> Option<Beside> {
-        let rung = solution.rung;
-        let own = || quantity.by(rung).map(|own| (own.key, value(own, solution)));
-        (rung.shares_load() && quantity.is_of_free_impact()).then(|| Beside { rung, own: own(), is_limited: false })
+        let method = solution.method;
+        let own = || quantity.by(method).map(|own| (own.key, value(own, solution)));
+        (method.shares_load() && quantity.is_of_free_impact()).then(|| Beside { method, own: own(), is_limited: false })
     }
 
     /// In words, the value in metric or inch units.
     #[must_use]
     pub fn told(&self, system: System) -> String {
         let own = self.own.and_then(|(key, value)| Some((Quantity::find(key)?, value)));
-        let rung = self.rung.name();
+        let method = self.method.name();
         match own {
             Some((own, Some(value))) => {
-                format!("of the free impact, in closed form; {rung} itself finds {} {}", own.key, shown_in(own, value, system))
+                format!("of the free impact, in closed form; {method} itself finds {} {}", own.key, shown_in(own, value, system))
             }
-            Some((own, None)) => format!("of the free impact, in closed form; {rung} itself tells {}", own.key),
-            None => format!("of the free impact, in closed form, and not of {rung}"),
+            Some((own, None)) => format!("of the free impact, in closed form; {method} itself tells {}", own.key),
+            None => format!("of the free impact, in closed form, and not of {method}"),
         }
     }
 }
@@ -121,10 +121,10 @@ pub fn stages(case: &Case) -> Stages {
     of_all(limited(case))
 }
 
-/// The stages of what a rung itself finds in place of the limited quantities.
+/// The stages of what a method itself finds in place of the limited quantities.
 #[must_use]
-pub fn stages_beside(case: &Case, rung: Rung) -> Stages {
-    of_all(limited(case).filter(|quantity| quantity.is_of_free_impact()).filter_map(|quantity| quantity.by(rung)))
+pub fn stages_beside(case: &Case, method: Method) -> Stages {
+    of_all(limited(case).filter(|quantity| quantity.is_of_free_impact()).filter_map(|quantity| quantity.by(method)))
 }
 
 fn limited(case: &Case) -> impl Iterator<Item = &'static Quantity> {
@@ -147,7 +147,7 @@ pub fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Verdict<'a> {
         (None, Some(absence)) if absence.is_for_want_of_contact() => Standing::NotApplicable,
         (None, _) => Standing::Unknown,
     };
-    // Where nothing strikes no rung tells another story.
+    // Where nothing strikes no method tells another story.
     let beside = quantity.filter(|_| value.is_some()).and_then(|quantity| Beside::of(quantity, solution));
     Verdict { limit, value, standing, absence, beside }
 }
@@ -176,13 +176,13 @@ impl Verdict<'_> {
         self.said(system) + &beside + above + self.to_hold_beside()
     }
 
-    // The limit keeps its meaning: how to hold what the rung finds, where the case does not.
+    // The limit keeps its meaning: how to hold what the method finds, where the case does not.
     fn to_hold_beside(&self) -> &'static str {
         let may_be_limited = self.beside.is_some_and(|beside| beside.own.is_some() && !beside.is_limited);
         if may_be_limited { "; a limit on that holds it" } else { "" }
     }
 
-    /// Whether what the rung itself finds is above the limit of what the closed form says.
+    /// Whether what the method itself finds is above the limit of what the closed form says.
     #[must_use]
     pub fn is_exceeded_beside(&self) -> bool {
         // An angle may be of the other gear.
@@ -229,10 +229,10 @@ mod tests {
     }
 
     #[test]
-    fn what_the_rung_itself_finds_stands_beside_the_free_impact_and_leaves_the_verdict() {
-        let verdicts = |rung, limit| {
+    fn what_the_method_itself_finds_stands_beside_the_free_impact_and_leaves_the_verdict() {
+        let verdicts = |method, limit| {
             let mut case = Case::table_1();
-            case.set("model.rung", rung).unwrap();
+            case.set("model.method", method).unwrap();
             case.set_limit("impact_force", limit).unwrap();
             let solution = crate::model::solve(&case.inputs().unwrap(), Stages::EVERY).unwrap();
             verdicts(&case, &solution).iter().map(|verdict| (verdict.standing, verdict.to_string())).collect::<Vec<_>>()
@@ -254,9 +254,9 @@ mod tests {
 
     #[test]
     fn a_limit_without_a_value_says_why_and_passes_only_where_nothing_strikes() {
-        let stands = |rung, relief, key, limit| {
+        let stands = |method, relief, key, limit| {
             let mut case = Case::table_1();
-            case.set("model.rung", rung).unwrap();
+            case.set("model.method", method).unwrap();
             case.set("driven.tip_relief", relief).unwrap();
             case.set("limits.impact_force", "").unwrap();
             case.set_limit(key, limit).unwrap();
@@ -266,7 +266,10 @@ mod tests {
         };
         let (standing, told) = stands("exact", "0 um", "dynamic_peak_force", "2 kN");
         assert_eq!(standing, Standing::Unknown);
-        assert_eq!(told, "dynamic_peak_force has no value to hold against 2 kN: the rung is exact, and this is of dynamic, auto");
+        assert_eq!(
+            told,
+            "dynamic_peak_force has no value to hold against 2 kN: the method is exact, and this is of dynamic, auto"
+        );
         // That nothing strikes in closed form says nothing of the motion.
         assert_eq!(stands("exact", "80 um", "dynamic_peak_force", "2 kN").0, Standing::Unknown);
         assert_eq!(stands("exact", "80 um", "impact_force", "2 kN").0, Standing::NotApplicable);
@@ -277,9 +280,9 @@ mod tests {
     }
 
     #[test]
-    fn who_limits_what_the_rung_finds_is_not_told_to() {
+    fn who_limits_what_the_method_finds_is_not_told_to() {
         let mut case = Case::table_1();
-        case.set("model.rung", "static").unwrap();
+        case.set("model.method", "static").unwrap();
         case.set_limit("static_force_at_start", "1 kN").unwrap();
         let solution = crate::model::solve(&case.inputs().unwrap(), Stages::EVERY).unwrap();
         let told = verdicts(&case, &solution)[0].to_string();

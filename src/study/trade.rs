@@ -1,4 +1,4 @@
-//! Speed against accuracy: every rung by several settings, each timed and held against one reference, here and now.
+//! Speed against accuracy: every method by several settings, each timed and held against one reference, here and now.
 
 mod answer;
 mod clock;
@@ -10,22 +10,22 @@ use std::sync::Arc;
 
 pub use answer::{Answer, Subject, stages};
 pub use clock::{Patience, Time};
-pub use setting::{RUNGS, STATIONS, Setting};
+pub use setting::{METHODS, STATIONS, Setting};
 
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::model::{Inputs, Outcome, Refusal, auto};
 use rounds::Rounds;
 
 /// What a trade is asked.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Question {
-    /// The error that a setting may have, relative to the reference; what the rung `auto` may leave as well.
+    /// The error that a setting may have, relative to the reference; what the method `auto` may leave as well.
     pub within: f64,
     /// How long each setting is timed.
     pub patience: Patience,
 }
 
-/// The rungs and their settings, measured on one case.
+/// The methods and their settings, measured on one case.
 #[derive(Debug, Clone)]
 pub struct Trade {
     /// The error that a setting may have.
@@ -38,7 +38,7 @@ pub struct Trade {
     pub part: f64,
     /// What they are held against, or why there is nothing.
     pub reference: Result<Reference, Refusal>,
-    /// Each rung's best setting against the reference: what its physics leaves out.
+    /// Each method's best setting against the reference: what its physics leaves out.
     pub models: Vec<Model>,
     /// The place of the cheapest setting that qualifies.
     pub recommended: Option<usize>,
@@ -63,15 +63,15 @@ const NO_DIFFERENCES: Differences = [None; Subject::ALL.len()];
 /// The answers that the others are held against, with their curves: they are needed while it is measured, and no longer.
 struct Standards {
     truth: Option<Arc<Answer>>,
-    /// Each rung's by its best setting, where there is one.
-    best: Vec<(Rung, Arc<Answer>)>,
+    /// Each method's by its best setting, where there is one.
+    best: Vec<(Method, Arc<Answer>)>,
 }
 
-/// What a rung's physics leaves out.
+/// What a method's physics leaves out.
 #[derive(Debug, Clone)]
 pub struct Model {
-    /// The rung.
-    pub rung: Rung,
+    /// The method.
+    pub method: Method,
     /// How far its best setting is from the reference.
     pub off: Differences,
     /// Whether the tooth strikes by its best setting, where that solves the case.
@@ -96,13 +96,13 @@ pub struct Measured {
 /// Time and errors.
 #[derive(Debug, Clone)]
 pub struct Figures {
-    /// The rung of the answer.
-    pub rung: Rung,
+    /// The method of the answer.
+    pub method: Method,
     /// Of a whole solve, as far as the answer needs it.
     pub time: Time,
-    /// What the motion took in the rung `dynamic`, see [`Effort`](crate::model::dynamic::Effort).
+    /// What the motion took in the method `dynamic`, see [`Effort`](crate::model::dynamic::Effort).
     pub evaluations: Option<u64>,
-    /// Against the same rung by its best setting.
+    /// Against the same method by its best setting.
     pub numerical: Differences,
     /// Against the reference.
     pub total: Differences,
@@ -118,7 +118,7 @@ pub fn greatest(differences: &Differences) -> Option<f64> {
 /// `told` sees what is known after each setting and each round.
 ///
 /// # Errors
-/// [`Refusal::Stopped`] where `go_on` says no; the model's refusal where no rung at all can be computed.
+/// [`Refusal::Stopped`] where `go_on` says no; the model's refusal where no method at all can be computed.
 pub fn trade(
     inputs: &Inputs,
     question: &Question,
@@ -164,7 +164,7 @@ fn settings(inputs: &Inputs) -> Vec<Setting> {
 }
 
 impl Standards {
-    /// The reference, its check, and the best of each rung.
+    /// The reference, its check, and the best of each method.
     fn find(
         inputs: &Inputs,
         question: &Question,
@@ -174,14 +174,14 @@ impl Standards {
         let (reference, truth) = stopped(Reference::of(inputs, go_on))?
             .map_or_else(|refusal| (Err(refusal), None), |(reference, truth)| (Ok(reference), Some(Arc::new(truth))));
         let (mut models, mut best) = (Vec::new(), Vec::new());
-        for rung in RUNGS {
+        for method in METHODS {
             let found = match (&reference, &truth) {
-                (Ok(reference), Some(truth)) if rung == reference.setting.rung => Some(Arc::clone(truth)),
-                _ => stopped(answer_of(inputs, Setting::best(rung), go_on))?.ok().map(Arc::new),
+                (Ok(reference), Some(truth)) if method == reference.setting.method => Some(Arc::clone(truth)),
+                _ => stopped(answer_of(inputs, Setting::best(method), go_on))?.ok().map(Arc::new),
             };
             let off = found.as_ref().zip(truth.as_ref()).map_or(NO_DIFFERENCES, |(found, truth)| differences(found, truth));
-            models.push(Model { rung, off, outcome: found.as_ref().map(|found| found.outcome) });
-            best.extend(found.map(|found| (rung, found)));
+            models.push(Model { method, off, outcome: found.as_ref().map(|found| found.outcome) });
+            best.extend(found.map(|found| (method, found)));
         }
         // A measurement is kept with its case: it has room for what it will hold, and no more.
         let settings = Vec::with_capacity(planned);
@@ -197,21 +197,21 @@ impl Standards {
     }
 
     fn figures(&self, answer: &Answer, time: Time) -> Figures {
-        let best = self.best.iter().find(|(rung, _)| *rung == answer.rung);
+        let best = self.best.iter().find(|(method, _)| *method == answer.method);
         let numerical = best.map_or(NO_DIFFERENCES, |(_, best)| differences(answer, best));
         let total = self.truth.as_ref().map_or(NO_DIFFERENCES, |truth| differences(answer, truth));
-        Figures { rung: answer.rung, time, evaluations: answer.evaluations, numerical, total }
+        Figures { method: answer.method, time, evaluations: answer.evaluations, numerical, total }
     }
 }
 
 impl Trade {
-    /// How far the rung's best answer is from the reference.
+    /// How far the method's best answer is from the reference.
     #[must_use]
-    pub fn model(&self, rung: Rung) -> Option<&Model> {
-        self.models.iter().find(|model| model.rung == rung)
+    pub fn model(&self, method: Method) -> Option<&Model> {
+        self.models.iter().find(|model| model.method == method)
     }
 
-    /// Whether no tooth strikes, by every rung that solves the case.
+    /// Whether no tooth strikes, by every method that solves the case.
     #[must_use]
     pub fn comes_in_on_time(&self) -> bool {
         let mut outcomes = self.models.iter().filter_map(|model| model.outcome).peekable();
@@ -228,11 +228,11 @@ impl Trade {
         self.recommended = self.cheapest();
     }
 
-    /// The cheapest setting that qualifies of the rungs among which `auto` chooses: what that takes is one of the others, and
+    /// The cheapest setting that qualifies of the methods among which `auto` chooses: what that takes is one of the others, and
     /// `paper` is the print, which says no more than `exact` even where nothing strikes. Of those whose times cannot be told
     /// apart from it, the most accurate.
     fn cheapest(&self) -> Option<usize> {
-        let is_candidate = |measured: &&Measured| measured.qualifies && auto::RUNGS.contains(&measured.setting.rung);
+        let is_candidate = |measured: &&Measured| measured.qualifies && auto::METHODS.contains(&measured.setting.method);
         let candidates = || self.settings.iter().filter(is_candidate);
         let quickest = candidates().min_by(|one, other| one.seconds().total_cmp(&other.seconds()))?;
         let tied = candidates().filter(|measured| measured.ties(quickest));
@@ -276,7 +276,7 @@ impl Measured {
 impl Reference {
     /// The reference and its whole answer.
     fn of(inputs: &Inputs, go_on: &dyn Fn() -> bool) -> Result<(Reference, Answer), Refusal> {
-        let setting = Setting::best(Rung::Dynamic);
+        let setting = Setting::best(Method::Dynamic);
         let inputs = setting.inputs(inputs);
         let solution = answer::solve(&inputs, go_on)?;
         let answer = Answer::of(&solution);

@@ -6,7 +6,7 @@ use tui_input::InputRequest;
 
 use super::keys::{self, Chord, Place};
 use super::pane::Pane;
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 
 pub use table::BINDINGS;
 
@@ -28,8 +28,8 @@ pub enum Command {
     PreviousTab,
     Tab(usize),
     CloseTab,
-    ToggleRung,
-    Rung(Rung),
+    ToggleMethod,
+    Method(Method),
     Undo,
     Redo,
     Show(Pane),

@@ -1,4 +1,4 @@
-//! The worker that measures error and time of every rung: one measurement at a time, which stops when told.
+//! The worker that measures error and time of every method: one measurement at a time, which stops when told.
 
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn a_case_that_no_rung_solves_says_why() {
+    fn a_case_that_no_method_solves_says_why() {
         let mut refused = measuring(2);
         refused.inputs.centre_distance = Some(0.01);
         let (sender, receiver) = channel();

@@ -14,7 +14,7 @@ pub enum Pane {
     Chart,
     /// The teeth as they touch.
     Teeth,
-    /// Error of every rung against its time.
+    /// Error of every method against its time.
     Trade,
 }
 
@@ -65,7 +65,7 @@ impl Pane {
         matches!(self, Pane::Chart | Pane::Teeth | Pane::Trade)
     }
 
-    /// The stages of a solve whose results it shows, as far as the rung has them.
+    /// The stages of a solve whose results it shows, as far as the method has them.
     #[must_use]
     pub const fn needs(self) -> Stages {
         match self {

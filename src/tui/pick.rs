@@ -272,9 +272,9 @@ mod tests {
             ("tab", "next case"),
             ("switch", "next case"),
             ("compare", "baseline"),
-            ("static", "rung static"),
-            ("dynamic", "rung dynamic"),
-            ("rung", "rung"),
+            ("static", "method static"),
+            ("dynamic", "method dynamic"),
+            ("method", "method"),
         ] {
             let results = QUANTITIES.iter().map(|quantity| quantity.key).collect();
             let picker = Picker { input: typed.into(), ..Picker::over(List::Commands, results, true, Vec::new()) };

@@ -1,7 +1,7 @@
 //! The chart's axes: round ends that stay until a curve leaves them, and ticks at multiples of 1, 2 or 5.
 
 use crate::case::units::System;
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::report::graphs::GRAPHS;
 
 /// Ends of an axis that begins at 0, times a power of ten.
@@ -216,8 +216,8 @@ pub struct Occasion {
     pub shown: (usize, usize, System),
     /// Whether the strike alone is in sight, how close, and the bits of the angle in the middle.
     pub sight: (bool, i32, Option<u64>),
-    /// The rung, and the first request after the last undo.
-    pub ground: (Option<Rung>, u64),
+    /// The method, and the first request after the last undo.
+    pub ground: (Option<Method>, u64),
 }
 
 /// Which axes are made anew, whether they would serve or not.
@@ -225,12 +225,12 @@ pub struct Occasion {
 pub struct Anew {
     /// Those of the values: of other charts, in other units.
     pub upright: bool,
-    /// All of them: of another rung, or after an undo.
+    /// All of them: of another method, or after an undo.
     pub all: bool,
 }
 
 impl Occasion {
-    /// What is made anew since an earlier one. What waits for a rung that is to come keeps its ground until then.
+    /// What is made anew since an earlier one. What waits for a method that is to come keeps its ground until then.
     #[must_use]
     pub fn since(&mut self, before: Occasion) -> Anew {
         if self.answered.is_some_and(|(serial, is_pending)| is_pending || serial < self.ground.1) {

@@ -1,7 +1,7 @@
-//! The one worker that solves: the latest request wins, a slow rung gives way to it, and a fault in it never takes the
+//! The one worker that solves: the latest request wins, a slow method gives way to it, and a fault in it never takes the
 //! screen down.
 
-mod rungs;
+mod methods;
 
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -9,16 +9,16 @@ use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
 
-pub use rungs::{answer, first_answer};
-use rungs::{cleared, solved};
+pub use methods::{answer, first_answer};
+use methods::{cleared, solved};
 
 use super::fault;
 use super::slot::Slot;
 use crate::case::{Case, Evaluator};
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::model::{Inputs, Note, Outcome, QUANTITIES, Refusal, Solution, Stage, Stages};
 
-/// So long a slow rung may take before the closed form's answer is shown in its place.
+/// So long a slow method may take before the closed form's answer is shown in its place.
 const PATIENCE: Duration = Duration::from_millis(30);
 
 /// What takes longer is told of, with how much of it is done,
@@ -42,26 +42,26 @@ pub struct Request {
     pub stages: Stages,
 }
 
-/// What the rungs say of a request.
+/// What the methods say of a request.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Answer {
     /// The request's.
     pub serial: u64,
-    /// The stages that it holds, as far as the rungs have them: those that were asked for, or all but the least relief while
+    /// The stages that it holds, as far as the methods have them: those that were asked for, or all but the least relief while
     /// that one is still being sought.
     pub stages: Stages,
     /// The stages that were asked for.
     pub asked: Stages,
     /// The pair, as it was solved.
     pub inputs: Inputs,
-    /// The rung whose results stand first: that of the case, or `exact` while that one is not done.
-    pub active: Rung,
-    /// The rung that is still being solved.
-    pub pending: Option<Rung>,
+    /// The method whose results stand first: that of the case, or `exact` while that one is not done.
+    pub active: Method,
+    /// The method that is still being solved.
+    pub pending: Option<Method>,
     /// What it took.
     pub cost: Cost,
-    /// Every rung, cheapest first.
-    pub rungs: Vec<(Rung, Result<Solution, Refusal>)>,
+    /// Every method, cheapest first.
+    pub methods: Vec<(Method, Result<Solution, Refusal>)>,
     /// What a reader must know beside the active result.
     pub notes: Vec<Note>,
 }
@@ -72,7 +72,7 @@ pub type Values = Box<[Option<f64>]>;
 /// What an answer took.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Cost {
-    /// Stages that ran, over all rungs; the others still held.
+    /// Stages that ran, over all methods; the others still held.
     pub stages: usize,
     /// Time, in us.
     pub micros: u64,
@@ -96,19 +96,19 @@ pub struct Solver {
 }
 
 impl Answer {
-    /// The solution of a rung, where there is one.
+    /// The solution of a method, where there is one.
     #[must_use]
-    pub fn of(&self, rung: Rung) -> Option<&Solution> {
-        self.rungs.iter().find(|(own, _)| *own == rung).and_then(|(_, result)| result.as_ref().ok())
+    pub fn of(&self, method: Method) -> Option<&Solution> {
+        self.methods.iter().find(|(own, _)| *own == method).and_then(|(_, result)| result.as_ref().ok())
     }
 
-    /// The rung of this one that another's active rung is held against: the same one, where it was solved.
+    /// The method of this one that another's active method is held against: the same one, where it was solved.
     #[must_use]
-    pub fn beside(&self, active: Rung) -> Rung {
+    pub fn beside(&self, active: Method) -> Method {
         if self.of(active).is_some() { active } else { self.active }
     }
 
-    /// Whether the incoming tooth strikes, by the active rung.
+    /// Whether the incoming tooth strikes, by the active method.
     #[must_use]
     pub fn strikes(&self) -> bool {
         self.of(self.active).is_some_and(|solution| solution.outcome == Outcome::CornerContact)
@@ -120,17 +120,17 @@ impl Answer {
         self.asked.has(stage) && !self.stages.has(stage)
     }
 
-    /// What the active rung finds of every quantity.
+    /// What the active method finds of every quantity.
     #[must_use]
     pub fn values(&self) -> Values {
         let solution = self.of(self.active);
         QUANTITIES.iter().map(|quantity| solution.and_then(quantity.value)).collect()
     }
 
-    /// The refusal of the active rung, where it refuses.
+    /// The refusal of the active method, where it refuses.
     #[must_use]
     pub fn refusal(&self) -> Option<&Refusal> {
-        self.rungs.iter().find(|(own, _)| *own == self.active).and_then(|(_, result)| result.as_ref().err())
+        self.methods.iter().find(|(own, _)| *own == self.active).and_then(|(_, result)| result.as_ref().err())
     }
 }
 
@@ -289,16 +289,18 @@ mod tests {
     }
 
     #[test]
-    fn a_slow_rung_gives_way_to_a_later_request_and_shows_the_closed_form_meanwhile() {
+    fn a_slow_method_gives_way_to_a_later_request_and_shows_the_closed_form_meanwhile() {
         let (sender, replies) = channel();
         let solver = Solver::start(teller(sender)).expect("a thread");
         let mut slow = request(1);
-        (slow.inputs.rung, slow.inputs.tolerance, slow.inputs.warmup_cycles) = (Rung::Dynamic, 1e-12, 10_000);
+        (slow.inputs.method, slow.inputs.tolerance, slow.inputs.warmup_cycles) = (Method::Dynamic, 1e-12, 10_000);
         // Nothing comes to rest.
         slow.inputs.damping_ratio = 0.0;
         solver.ask(slow);
         let first = replies.recv().expect("an answer");
-        assert!(matches!(&first, Reply::Solved(answer) if answer.pending == Some(Rung::Dynamic) && answer.active == Rung::Exact));
+        assert!(
+            matches!(&first, Reply::Solved(answer) if answer.pending == Some(Method::Dynamic) && answer.active == Method::Exact)
+        );
         solver.ask(request(2));
         let second = replies.recv().expect("an answer");
         assert!(matches!(&second, Reply::Solved(answer) if answer.serial == 2 && answer.pending.is_none()), "{second:?}");
@@ -308,11 +310,11 @@ mod tests {
     fn the_least_relief_follows_an_answer_that_stands_already_and_then_nothing() {
         let (sender, replies) = channel();
         let solver = Solver::start(teller(sender)).expect("a thread");
-        for (serial, rung, expected) in
-            [(1, Rung::Exact, vec![true]), (2, Rung::Static, vec![false, true]), (3, Rung::Auto, vec![false, true])]
+        for (serial, method, expected) in
+            [(1, Method::Exact, vec![true]), (2, Method::Static, vec![false, true]), (3, Method::Auto, vec![false, true])]
         {
             let mut asked = request(serial);
-            asked.inputs.rung = rung;
+            asked.inputs.method = method;
             solver.ask(asked);
             let mut told = Vec::new();
             while told.last() != Some(&true) {
@@ -325,18 +327,20 @@ mod tests {
                     told.push(clearing.is_some_and(|clearing| clearing.relief.is_some()));
                 }
             }
-            assert_eq!(told, expected, "{}", rung.name());
+            assert_eq!(told, expected, "{}", method.name());
         }
     }
 
     #[test]
-    fn the_rung_of_the_case_stands_first_and_auto_is_told_by_its_choice() {
-        for (rung, active) in [(Rung::Paper, Rung::Paper), (Rung::Static, Rung::Static), (Rung::Auto, Rung::Dynamic)] {
+    fn the_method_of_the_case_stands_first_and_auto_is_told_by_its_choice() {
+        for (method, active) in
+            [(Method::Paper, Method::Paper), (Method::Static, Method::Static), (Method::Auto, Method::Dynamic)]
+        {
             let mut asked = request(1);
-            asked.inputs.rung = rung;
+            asked.inputs.method = method;
             let found = answer(&asked);
             assert_eq!((found.active, found.pending), (active, None));
-            assert!(found.of(active).is_some() && found.of(Rung::Exact).is_some());
+            assert!(found.of(active).is_some() && found.of(Method::Exact).is_some());
         }
     }
 }

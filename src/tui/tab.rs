@@ -96,8 +96,8 @@ impl Traded {
     /// Whether the case is another one by now, but for the setting.
     #[must_use]
     pub fn is_stale(&self, inputs: &Inputs) -> bool {
-        let Inputs { rung, tolerance, within, stations, station_tolerance, accurate, .. } = inputs.clone();
-        Inputs { rung, tolerance, within, stations, station_tolerance, accurate, ..self.inputs.clone() } != *inputs
+        let Inputs { method, tolerance, within, stations, station_tolerance, accurate, .. } = inputs.clone();
+        Inputs { method, tolerance, within, stations, station_tolerance, accurate, ..self.inputs.clone() } != *inputs
     }
 }
 

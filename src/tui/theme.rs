@@ -19,9 +19,9 @@ pub struct Theme {
     pub problem: Style,
     /// Something to know.
     pub note: Style,
-    /// The rung that the case asks for, and its curve.
+    /// The method that the case asks for, and its curve.
     pub active: Style,
-    /// The other rung, and its curve.
+    /// The other method, and its curve.
     pub other: Style,
     /// The name of a key, and the title of the focused pane.
     pub key: Style,

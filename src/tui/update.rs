@@ -36,7 +36,7 @@ use super::solver::Request;
 use super::theme::Look;
 use super::view;
 use crate::case::{Acting, Document, FIELDS, acts, changes, fields};
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 
 /// Change the state by what happened, and say what is to be done about it.
 pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
@@ -136,8 +136,8 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::Accept => prompts::accept(app),
         Command::Complete => browse::complete(app),
         Command::Undo | Command::Redo => travel(app, command),
-        Command::ToggleRung => set_rung(app, None),
-        Command::Rung(rung) => set_rung(app, Some(rung)),
+        Command::ToggleMethod => set_method(app, None),
+        Command::Method(method) => set_method(app, Some(method)),
         Command::NextChoice => edit::cycle(app, 1),
         Command::PreviousChoice => edit::cycle(app, -1),
         Command::Redraw => vec![Effect::Redraw],
@@ -244,16 +244,16 @@ fn travel(app: &mut App, command: Command) -> Vec<Effect> {
     effects
 }
 
-// That rung, else the next.
-fn set_rung(app: &mut App, rung: Option<Rung>) -> Vec<Effect> {
-    let Some(field) = fields::index_of("model.rung") else { return Vec::new() };
-    let names: Vec<_> = Rung::ALL.iter().map(|rung| rung.name()).collect();
-    let effects = match rung {
-        Some(rung) => edit::set(app, field, rung.name()),
+// That method, else the next.
+fn set_method(app: &mut App, method: Option<Method>) -> Vec<Effect> {
+    let Some(field) = fields::index_of("model.method") else { return Vec::new() };
+    let names: Vec<_> = Method::ALL.iter().map(|method| method.name()).collect();
+    let effects = match method {
+        Some(method) => edit::set(app, field, method.name()),
         None => edit::choose(app, field, &names, 1),
     };
     let waits = if app.is_stale() { ", solved when every field is right" } else { "" };
-    app.say(format!("rung {}{waits}", edit::chosen(app, field)));
+    app.say(format!("method {}{waits}", edit::chosen(app, field)));
     effects
 }
 

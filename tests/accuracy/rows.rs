@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::thread;
 
 use serde_json::Value;
-use tipstrike::model::inputs::{ContactCompliance, Drive, Rung, ToothCompliance};
+use tipstrike::model::inputs::{ContactCompliance, Drive, Method, ToothCompliance};
 use tipstrike::model::{Inputs, QUANTITIES};
 
 use crate::envelope::{self, Corner, Random};
@@ -205,7 +205,7 @@ const FIELDS: [Field; 30] = [
 fn choices(inputs: &Inputs) -> String {
     let drive = if matches!(inputs.drive, Drive::Power(_)) { "power" } else { "torque" };
     let tooth = inputs.tooth_compliance.map_or("by-range", ToothCompliance::name);
-    format!("{} {drive} {tooth} {:?}", inputs.rung.name(), inputs.contact_compliance)
+    format!("{} {drive} {tooth} {:?}", inputs.method.name(), inputs.contact_compliance)
 }
 
 /// Inputs with these choices and no numbers yet.
@@ -214,7 +214,7 @@ fn chosen(choices: &str) -> Inputs {
     let named = |contact: &ContactCompliance| format!("{contact:?}") == words[3];
     Inputs {
         drive: if words[1] == "power" { Drive::Power(0.0) } else { Drive::Torque(0.0) },
-        rung: Rung::ALL.into_iter().find(|rung| rung.name() == words[0]).expect("a rung"),
+        method: Method::ALL.into_iter().find(|method| method.name() == words[0]).expect("a method"),
         tooth_compliance: ToothCompliance::ALL.into_iter().find(|tooth| tooth.name() == words[2]),
         contact_compliance: ContactCompliance::ALL.into_iter().find(named).expect("a contact compliance"),
         stations: Some(8),

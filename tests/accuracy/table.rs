@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use tipstrike::model::geometry::geometry;
-use tipstrike::model::inputs::Rung;
+use tipstrike::model::inputs::Method;
 use tipstrike::model::position::{gap_by_quadrature, tip_at};
 use tipstrike::model::{Quantity, Stages, solve};
 
@@ -65,7 +65,7 @@ impl Table {
     /// The table of the rows that lie anywhere in the envelope and in the fit, by the exact position.
     pub(crate) fn made(rows: &[Row]) -> Table {
         let mut errors = vec![vec![Vec::new(); DECADES.len()]; 2 * QUANTITIES.len()];
-        let plain = |row: &&Row| matches!(row.corner, Corner::Anywhere | Corner::Fit) && row.inputs.rung == Rung::Exact;
+        let plain = |row: &&Row| matches!(row.corner, Corner::Anywhere | Corner::Fit) && row.inputs.method == Method::Exact;
         for row in rows.iter().filter(plain) {
             let Some(column) = DECADES.iter().position(|&of| of == decade(row)) else { continue };
             for (line, error) in errors_of(row).into_iter().flatten().enumerate() {

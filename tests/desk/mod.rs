@@ -194,7 +194,7 @@ pub(crate) fn time_evenly(desk: &mut Desk) {
     let trade = traded.trade.as_mut().expect("it is whole");
     for (number, one) in trade.settings.iter_mut().enumerate() {
         let seconds = 4e-6 * 1.1f64.powi(i32::try_from(number).expect("few settings"));
-        let figures = one.found.as_mut().expect("every rung answers");
+        let figures = one.found.as_mut().expect("every method answers");
         figures.time = Time { seconds, ..figures.time };
     }
     trade.judge();

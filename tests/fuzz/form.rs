@@ -13,7 +13,7 @@ use ratatui::layout::{Rect, Size};
 use tempfile::TempDir;
 use tipstrike::case::fields::Kind;
 use tipstrike::case::{Case, Document};
-use tipstrike::model::inputs::Rung;
+use tipstrike::model::inputs::Method;
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::actions::Effect;
 use tipstrike::tui::app::App;
@@ -347,8 +347,8 @@ impl Bench {
         let inputs = app.case.inputs().ok();
         if let (Some(inputs), Some(answer), false) = (inputs, &app.answer, app.is_stale()) {
             assert_eq!(answer.serial, app.serial, "the results are those of the form");
-            let chosen = inputs.rung == Rung::Auto || answer.pending.is_some();
-            assert!(chosen || answer.active == inputs.rung, "the rung of the form stands first");
+            let chosen = inputs.method == Method::Auto || answer.pending.is_some();
+            assert!(chosen || answer.active == inputs.method, "the method of the form stands first");
         }
         self.draw(app.size);
         self.draw(Size { width: app.size.height, height: app.size.width.min(60) });

@@ -90,7 +90,7 @@ fn assert_finite(solution: &Solution) {
         assert!(value.is_none_or(f64::is_finite), "{} is {value:?}", quantity.key);
     }
     for row in report::stations::rows(solution) {
-        for column in report::stations::columns(solution.rung) {
+        for column in report::stations::columns(solution.method) {
             let value = (column.value)(row);
             assert!(value.map_or_else(|| has_none(column.key, row), f64::is_finite), "{} of {row:?}", column.key);
         }

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, SQRT_2};
 
 use tipstrike::model::Inputs;
-use tipstrike::model::inputs::{ContactCompliance, Drive, Gear, Rung, ToothCompliance};
+use tipstrike::model::inputs::{ContactCompliance, Drive, Gear, Method, ToothCompliance};
 
 /// A small generator with a named sequence (splitmix64, Steele, Lea & Flood 2014), the same on every machine.
 pub(crate) struct Random(u64);
@@ -120,7 +120,7 @@ fn anywhere(random: &mut Random, fit: bool) -> Inputs {
         driven,
         drive: if random.chance(0.5) { Drive::Torque(torque) } else { Drive::Power(torque * speed) },
         speed,
-        rung: random.one_of(&[Rung::Exact, Rung::Exact, Rung::Exact, Rung::Paper]),
+        method: random.one_of(&[Method::Exact, Method::Exact, Method::Exact, Method::Paper]),
         tooth_compliance: fit.then_some(ToothCompliance::KuangYang),
         contact_compliance: random.one_of(&ContactCompliance::ALL),
         stations: Some(8),
@@ -265,10 +265,10 @@ fn sliding_near_zero(random: &mut Random, inputs: &mut Inputs) {
 /// A relief that takes back all but a small rest of the deviation.
 fn cancelling(random: &mut Random, inputs: &mut Inputs) {
     let rest = inputs.deflection.unwrap_or(1e-9) + SQRT_2 * inputs.base_pitch_deviation;
-    let (length, rung) = (rest * random.decades(1e1, 1e6), inputs.rung);
+    let (length, method) = (rest * random.decades(1e1, 1e6), inputs.method);
     inputs.driven.tip_relief = length;
-    inputs.deflection = match rung {
-        Rung::Paper => Some(rest + length / SQRT_2),
+    inputs.deflection = match method {
+        Method::Paper => Some(rest + length / SQRT_2),
         _ => Some(rest + length),
     };
     inputs.base_pitch_deviation = 0.0;

@@ -1,6 +1,6 @@
 //! Load, stiffness, force, duration and friction, by their definitions.
 
-use tipstrike::model::inputs::{ContactCompliance, Rung, ToothCompliance};
+use tipstrike::model::inputs::{ContactCompliance, Method, ToothCompliance};
 
 use super::given::{Gear, Given};
 use super::number::{Big, decimal, logarithm, pi, root, rounded, sine, whole};
@@ -95,7 +95,7 @@ impl Load {
         if let Some(struck) = self.impact(given, pair, tip, &(&normal * root(&self.width * &mass))) {
             let printed = self.printed_duration(&normal, &curvature);
             let spring = pi() * root(&mass * &struck.compliance / &self.width);
-            let duration = if given.rung == Rung::Paper { &printed } else { &spring }.clone();
+            let duration = if given.method == Method::Paper { &printed } else { &spring }.clone();
             let ratio = self.friction(given, pair, tip, angle, &(&struck.force * &printed), &printed);
             found.extend(ratio.map(|ratio| ("friction_ratio", ratio)));
             found.extend([
@@ -175,8 +175,8 @@ impl Load {
     fn friction(&self, given: &Given, pair: &Pair, tip: &Tip, angle: &Big, impulse: &Big, duration: &Big) -> Option<Big> {
         let driver_turn = &self.driver_speed * duration;
         let driven_turn = &self.driven_speed * duration;
-        let end = match given.rung {
-            Rung::Paper => {
+        let end = match given.method {
+            Method::Paper => {
                 let chord = 2 * &pair.driven.tip * sine(driven_turn / 2);
                 let (sine, cosine) = driver_turn.sin_cos();
                 let square = &chord * &chord - &tip.radius * &tip.radius * &sine * &sine;

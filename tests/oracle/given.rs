@@ -1,7 +1,7 @@
 //! What a solve reads, in 90 digits.
 
 use tipstrike::model::Inputs;
-use tipstrike::model::inputs::{ContactCompliance, Drive, Rung, ToothCompliance};
+use tipstrike::model::inputs::{ContactCompliance, Drive, Method, ToothCompliance};
 
 use super::number::{Big, big, whole};
 
@@ -69,7 +69,7 @@ pub(crate) struct Given {
     drive_is_power: bool,
     pub(crate) speed: Big,
     pub(crate) deflection: Option<Big>,
-    pub(crate) rung: Rung,
+    pub(crate) method: Method,
     pub(crate) tooth_compliance: Option<ToothCompliance>,
     pub(crate) contact_compliance: ContactCompliance,
 }
@@ -92,7 +92,7 @@ impl Given {
             drive_is_power,
             speed: big(inputs.speed),
             deflection: inputs.deflection.map(big),
-            rung: inputs.rung,
+            method: inputs.method,
             tooth_compliance: inputs.tooth_compliance,
             contact_compliance: inputs.contact_compliance,
         }

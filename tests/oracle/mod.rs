@@ -10,7 +10,7 @@ pub(crate) mod number;
 use std::collections::BTreeMap;
 
 use tipstrike::model::Inputs;
-use tipstrike::model::inputs::Rung;
+use tipstrike::model::inputs::Method;
 
 use given::Gear;
 pub(crate) use given::Given;
@@ -97,8 +97,8 @@ fn of_given(given: &Given) -> Option<Answers> {
     if rounded(&total) <= 0.0 {
         return None;
     }
-    let angle = match given.rung {
-        Rung::Paper => printed_angle(given, &pair, &error, &deflection),
+    let angle = match given.method {
+        Method::Paper => printed_angle(given, &pair, &error, &deflection),
         _ => first_contact(&pair, &total)?,
     };
     let tip = tip_at(&pair, &angle)?;
@@ -123,12 +123,12 @@ fn of_given(given: &Given) -> Option<Answers> {
     Some(found)
 }
 
-/// Δf by Eqs. 1 and 2; outside of the rung `paper` the modification counts in full.
+/// Δf by Eqs. 1 and 2; outside of the method `paper` the modification counts in full.
 fn equivalent_error(given: &Given) -> Big {
     let modification = -(&given.driven.tip_relief + &given.driver.root_relief);
     let random = 2 * &given.base_pitch_deviation - &given.backlash;
-    match given.rung {
-        Rung::Paper => (random + modification) / whole(2).sqrt(),
+    match given.method {
+        Method::Paper => (random + modification) / whole(2).sqrt(),
         _ => random / whole(2).sqrt() + modification,
     }
 }

@@ -3,7 +3,7 @@
 use super::Absent::{self, Default, Either, Refused, Without};
 use super::{FLAG, Field, Kind, Range};
 use crate::case::units::Dimension;
-use crate::model::inputs::{ContactCompliance, Drive, ReliefShape, Rung, ToothCompliance};
+use crate::model::inputs::{ContactCompliance, Drive, Method, ReliefShape, ToothCompliance};
 
 const fn range(from: f64, to: f64, unit: &'static str) -> Range {
     Range { from, to, unit }
@@ -199,11 +199,11 @@ const TAIL: [Field; 18] = [
         "Coulomb friction coefficient: beside the kinematic ratio; in static and dynamic friction acts at the teeth."
     ),
     Field {
-        key: "model.rung",
+        key: "model.method",
         symbol: "",
-        label: "rung",
+        label: "method",
         help: "paper: as printed, typesetting mended. exact: exact position, free impact. static: load shared by all pairs. dynamic: with inertia. auto: the cheapest that will do.",
-        kind: Kind::Choice(&["paper", "exact", "static", "dynamic", "auto"], |inputs, value| inputs.rung = Rung::ALL[value]),
+        kind: Kind::Choice(&["paper", "exact", "static", "dynamic", "auto"], |inputs, value| inputs.method = Method::ALL[value]),
         absent: Default("exact"),
     },
     number!(
@@ -286,7 +286,7 @@ const TAIL: [Field; 18] = [
         "",
         Default("0.05"),
         |inputs, value| inputs.within = value,
-        "Relative error against the rung dynamic that the rung auto may leave."
+        "Relative error against the method dynamic that the method auto may leave."
     ),
     Field {
         key: "model.stations",

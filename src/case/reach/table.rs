@@ -5,7 +5,7 @@ use crate::model::Stage::{
     Velocity,
 };
 use crate::model::compliance::model_of;
-use crate::model::inputs::{ContactCompliance, Drive, Inputs, Rung, ToothCompliance};
+use crate::model::inputs::{ContactCompliance, Drive, Inputs, Method, ToothCompliance};
 
 /// What a value reads directly, in the cases that the condition names.
 pub(super) struct Row {
@@ -41,18 +41,18 @@ const fn always(_: &Inputs) -> bool {
     true
 }
 
-/// Whether the rung stands on one impact, and not on the load that every pair shares.
+/// Whether the method stands on one impact, and not on the load that every pair shares.
 fn by_impact(inputs: &Inputs) -> bool {
-    !inputs.rung.shares_load()
+    !inputs.method.shares_load()
 }
 
-/// Whether the load is shared, or may be where the rung is yet to be chosen.
+/// Whether the load is shared, or may be where the method is yet to be chosen.
 fn by_sharing(inputs: &Inputs) -> bool {
-    inputs.rung.shares_load() || by_choice(inputs)
+    inputs.method.shares_load() || by_choice(inputs)
 }
 
 fn by_choice(inputs: &Inputs) -> bool {
-    inputs.rung == Rung::Auto
+    inputs.method == Method::Auto
 }
 
 fn not_paper(inputs: &Inputs) -> bool {
@@ -60,7 +60,7 @@ fn not_paper(inputs: &Inputs) -> bool {
 }
 
 fn paper(inputs: &Inputs) -> bool {
-    inputs.rung == Rung::Paper
+    inputs.method == Method::Paper
 }
 
 fn as_needed(inputs: &Inputs) -> bool {
@@ -100,7 +100,7 @@ fn by_depth(inputs: &Inputs) -> bool {
 }
 
 fn with_inertia(inputs: &Inputs) -> bool {
-    inputs.rung == Rung::Dynamic || by_choice(inputs)
+    inputs.method == Method::Dynamic || by_choice(inputs)
 }
 
 /// Whether the pressing of a tip's edge counts off the line of action.
@@ -115,8 +115,8 @@ fn by_half_width(inputs: &Inputs) -> bool {
 /// Every value, in the order the data flows.
 #[rustfmt::skip]
 pub(super) static ROWS: &[Row] = &[
-    part("rung", always, &["model.rung"]),
-    part("rung", by_choice, &["model.within", "mesh_force", "total_deviation", "impact_force", "impact_duration_spring", "impulse_ratio", "transit_time", "reduced_mass", "contact_ratio"]),
+    part("method", always, &["model.method"]),
+    part("method", by_choice, &["model.within", "mesh_force", "total_deviation", "impact_force", "impact_duration_spring", "impulse_ratio", "transit_time", "reduced_mass", "contact_ratio"]),
     part("spacing", always, &["model.stations"]),
     part("spacing", as_needed, &["model.station_tolerance"]),
 
@@ -150,21 +150,21 @@ pub(super) static ROWS: &[Row] = &[
     part("contact_stiffness", by_half_width, &["*.face_width"]),
     part("contact_stiffness", by_logarithm, &["pair.module"]),
     part("contact_stiffness", by_depth, &["profile"]),
-    row("equivalent_error", Deviation, always, &["deviations.base_pitch", "deviations.backlash", "rung"]),
+    row("equivalent_error", Deviation, always, &["deviations.base_pitch", "deviations.backlash", "method"]),
     row("equivalent_error", Deviation, by_impact, &["driven.tip_relief", "driver.root_relief"]),
     row("modification", Deviation, always, &["driven.tip_relief", "driver.root_relief"]),
-    row("combined_deflection", Deviation, always, &["rung"]),
+    row("combined_deflection", Deviation, always, &["method"]),
     row("combined_deflection", Deviation, by_impact, &["model.deflection"]),
     row("combined_deflection", Deviation, deflection_free, &["mesh_force", "start_of_contact", "end_of_contact", "base_pitch", "tooth_stiffness", "contact_stiffness", "*.face_width"]),
     row("total_deviation", Deviation, always, &["equivalent_error", "combined_deflection", "driven.tip_relief", "driver.root_relief"]),
 
-    row("approach_angle_driven", Position, always, &["total_deviation", "start_of_contact", "rung"]),
+    row("approach_angle_driven", Position, always, &["total_deviation", "start_of_contact", "method"]),
     row("approach_angle_driven", Position, paper, &["base_pitch"]),
     row("approach_angle_driver", Position, always, &["approach_angle_driven"]),
     row("contact_radius_driver", Position, always, &["approach_angle_driven"]),
     row("contact_normal_radius_driven", Position, always, &["approach_angle_driven"]),
     row("curvature_radius", Position, always, &["approach_angle_driven", "driven.tip_radius"]),
-    row("closed_gap", Position, always, &["total_deviation", "rung"]),
+    row("closed_gap", Position, always, &["total_deviation", "method"]),
     row("closed_gap", Position, paper, &["approach_angle_driven"]),
     row("end_of_flank", Position, always, &["approach_angle_driven", "end_of_contact"]),
 
@@ -187,22 +187,22 @@ pub(super) static ROWS: &[Row] = &[
     row("impact_duration_printed", Impact, always, &["reduced_mass", "normal_velocity", "curvature_radius", "materials"]),
     row("impact_duration_hertz", Impact, always, &["impact_duration_printed"]),
     row("impact_duration_spring", Impact, always, &["effective_mass", "pair_compliance", "*.face_width"]),
-    row("impact_duration", Impact, always, &["rung"]),
+    row("impact_duration", Impact, always, &["method"]),
     row("impact_duration", Impact, paper, &["impact_duration_printed"]),
     row("impact_duration", Impact, not_paper, &["impact_duration_spring"]),
     row("impulse_ratio", Impact, always, &["impact_force", "impact_duration", "effective_mass", "normal_velocity"]),
 
-    row("friction_ratio", Friction, always, &["approach_angle_driven", "operation.speed", "impact_force", "impact_duration_printed", "reduced_mass", "rung"]),
+    row("friction_ratio", Friction, always, &["approach_angle_driven", "operation.speed", "impact_force", "impact_duration_printed", "reduced_mass", "method"]),
 
     part("every_model", always, &["materials", "pair.module", "profile", "*.bore_radius", "*.face_width", "*.addendum"]),
     row("impact_force_low", Band, always, &["impact_force", "every_model", "curvature_radius"]),
     row("impact_force_high", Band, always, &["impact_force", "every_model", "curvature_radius"]),
 
-    row("stations", Stations, always, &["rung"]),
+    row("stations", Stations, always, &["method"]),
     row("stations", Stations, by_impact, &["impact_force", "spacing"]),
 
     part("reliefs", always, &["*.tip_relief", "*.root_relief", "*.tip_relief_length", "*.root_relief_length", "start_of_contact", "end_of_contact", "contact_ratio"]),
-    row("mesh_stiffness", Mesh, always, &["rung"]),
+    row("mesh_stiffness", Mesh, always, &["method"]),
     row("mesh_stiffness", Mesh, by_sharing, &["mesh_force", "start_of_contact", "end_of_contact", "base_pitch", "tooth_stiffness", "contact_stiffness", "*.face_width", "reliefs"]),
     part("mesh", by_sharing, &["mesh_stiffness", "reliefs", "model.relief_shape", "equivalent_error", "combined_deflection", "operation.friction_coefficient"]),
     row("pairs_along_the_line", Mesh, by_sharing, &["mesh", "edges", "operation.speed"]),
@@ -215,7 +215,7 @@ pub(super) static ROWS: &[Row] = &[
     row("static_last_contact_angle", Static, tips_press, &["driven.tip_radius"]),
     row("static_transmission_error", Static, by_sharing, &["mesh", "edges"]),
     row("pitch_contact_jump", Static, by_sharing, &["mesh", "edges"]),
-    row("static_stations", Static, always, &["rung"]),
+    row("static_stations", Static, always, &["method"]),
     row("static_stations", Static, by_sharing, &["mesh", "edges", "spacing", "operation.speed"]),
 
     part("motion", with_inertia, &["mesh", "edges", "masses", "operation.speed", "model.damping_ratio", "model.warmup_cycles", "model.tolerance"]),
@@ -226,10 +226,10 @@ pub(super) static ROWS: &[Row] = &[
     row("dynamic_last_contact_angle", Dynamic, always, &["motion"]),
     row("dynamic_contact_lost", Dynamic, always, &["motion"]),
     row("dynamic_friction_work", Dynamic, always, &["motion"]),
-    row("dynamic_stations", Dynamic, always, &["rung"]),
+    row("dynamic_stations", Dynamic, always, &["method"]),
     row("dynamic_stations", Dynamic, with_inertia, &["motion", "spacing"]),
 
-    row("clearing_relief", Clearing, always, &["total_deviation", "rung"]),
+    row("clearing_relief", Clearing, always, &["total_deviation", "method"]),
     row("clearing_relief", Clearing, paper, &["start_of_contact", "base_pitch"]),
     row("clearing_relief", Clearing, by_sharing, &["mesh"]),
     row("clearing_relief", Clearing, tips_press, &["driver.tip_radius"]),

@@ -6,7 +6,7 @@ use super::table::ROWS;
 use super::{fields_of, first_stage, stages_of};
 use crate::case::fields::{Kind, index_of};
 use crate::case::{Case, EXAMPLES, FIELDS};
-use crate::model::inputs::{ContactCompliance, Rung, ToothCompliance};
+use crate::model::inputs::{ContactCompliance, Method, ToothCompliance};
 use crate::model::{self, Inputs, QUANTITIES, Quantity, Refusal, Solution, Stage, Stages};
 
 /// A case and what became of it.
@@ -23,18 +23,18 @@ type Change = fn(&mut Inputs);
 /// What turns a case into one that reads other fields.
 const VARIANTS: [(&str, Change); 16] = [
     ("as it is", |_| {}),
-    ("paper", |inputs| inputs.rung = Rung::Paper),
-    ("static", |inputs| inputs.rung = Rung::Static),
-    ("static, relieved, with friction", |inputs| relieved(inputs, Rung::Static)),
+    ("paper", |inputs| inputs.method = Method::Paper),
+    ("static", |inputs| inputs.method = Method::Static),
+    ("static, relieved, with friction", |inputs| relieved(inputs, Method::Static)),
     ("static, contact ratio 1.94", |inputs| nearly_double_contact(inputs, 1.15)),
     ("static, contact ratio 1.97", |inputs| nearly_double_contact(inputs, 1.17)),
     ("dynamic", |inputs| {
-        relieved(inputs, Rung::Dynamic);
+        relieved(inputs, Method::Dynamic);
         (inputs.warmup_cycles, inputs.tolerance) = (2, 1e-5);
     }),
     ("deflection computed", |inputs| inputs.deflection = None),
     ("stations as needed", |inputs| inputs.stations = None),
-    ("auto", |inputs| inputs.rung = Rung::Auto),
+    ("auto", |inputs| inputs.method = Method::Auto),
     ("beam, deflection given", |inputs| {
         inputs.tooth_compliance = Some(ToothCompliance::Beam);
         inputs.deflection = Some(21e-6);
@@ -53,11 +53,11 @@ const VARIANTS: [(&str, Change); 16] = [
     }),
 ];
 
-/// The variants in which other rungs are tried.
+/// The variants in which other methods are tried.
 const AS_IT_IS: [&str; 2] = ["as it is", "static, relieved, with friction"];
 
-fn relieved(inputs: &mut Inputs, rung: Rung) {
-    (inputs.rung, inputs.friction_coefficient, inputs.base_pitch_deviation) = (rung, Some(0.05), 0.0);
+fn relieved(inputs: &mut Inputs, method: Method) {
+    (inputs.method, inputs.friction_coefficient, inputs.base_pitch_deviation) = (method, Some(0.05), 0.0);
     for gear in [&mut inputs.driver, &mut inputs.driven] {
         (gear.tip_relief, gear.root_relief) = (3e-6, 2e-6);
     }
@@ -65,7 +65,7 @@ fn relieved(inputs: &mut Inputs, rung: Rung) {
 
 /// Where contact begins and ends, a pair two base pitches on stands just off the line of action.
 fn nearly_double_contact(inputs: &mut Inputs, addendum: f64) {
-    relieved(inputs, Rung::Static);
+    relieved(inputs, Method::Static);
     inputs.centre_distance = None;
     for gear in [&mut inputs.driver, &mut inputs.driven] {
         (gear.teeth, gear.profile_shift, gear.addendum) = (40, 0.0, addendum);
@@ -91,7 +91,7 @@ fn variants(case: &Case, name: &str) -> Vec<Solved> {
         let mut inputs = case.inputs().unwrap();
         (inputs.stations, inputs.warmup_cycles, inputs.tolerance) = (Some(1), 1, 1e-3);
         change(&mut inputs);
-        let costly = inputs.rung.shares_load() || variant != "as it is";
+        let costly = inputs.method.shares_load() || variant != "as it is";
         if costly && !shares {
             return None;
         }
@@ -110,8 +110,8 @@ fn changed(solved: &Solved, field: usize) -> Vec<Inputs> {
     };
     match FIELDS[field].kind {
         Kind::Text => Vec::new(),
-        // Another rung is another case.
-        Kind::Choice(..) if FIELDS[field].key == "model.rung" && !AS_IT_IS.contains(&solved.variant) => Vec::new(),
+        // Another method is another case.
+        Kind::Choice(..) if FIELDS[field].key == "model.method" && !AS_IT_IS.contains(&solved.variant) => Vec::new(),
         Kind::Choice(names, put) => (0..names.len()).map(|choice| with(&|inputs| put(inputs, choice))).collect(),
         Kind::Count(_, _, put) => {
             let now = solved.case.value(field).unwrap() as u32;
@@ -215,11 +215,11 @@ fn the_table_says_what_a_change_changes_and_no_less() {
     assert!(idle.is_empty(), "said to act, and never did: {idle:#?}");
 }
 
-/// What the table lists in some case and no change in any case has shown. Before the rung is chosen it lists what any rung
+/// What the table lists in some case and no change in any case has shown. Before the method is chosen it lists what any method
 /// would read.
 fn idle(acting: &BTreeSet<(&str, &str)>) -> BTreeSet<String> {
     let mut idle = BTreeSet::new();
-    for solved in solved_cases().into_iter().filter(|solved| solved.inputs.rung != Rung::Auto) {
+    for solved in solved_cases().into_iter().filter(|solved| solved.inputs.method != Method::Auto) {
         // What is yes or no seldom changes.
         for quantity in QUANTITIES.iter().filter(|quantity| !quantity.is_flag()) {
             let listed = fields_of(quantity, &solved.inputs).into_iter().map(|field| FIELDS[field].key);

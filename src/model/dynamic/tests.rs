@@ -4,7 +4,7 @@ use super::motion::{Motion, State};
 use super::step::{Course, Step};
 use super::watch::Watch;
 use super::*;
-use crate::model::inputs::{Inputs, Rung};
+use crate::model::inputs::{Inputs, Method};
 use crate::model::sample::standard_pair;
 use crate::model::{Stage, Stages, solve};
 use crate::numeric::polynomial::Polynomial;
@@ -14,7 +14,7 @@ use crate::numeric::quadrature;
 fn struck(adjust: impl FnOnce(&mut Inputs)) -> (Mesh, Settings) {
     let mut inputs = standard_pair(20, 30, 5e-3);
     inputs.base_pitch_deviation = 12e-6;
-    inputs.rung = Rung::Static;
+    inputs.method = Method::Static;
     adjust(&mut inputs);
     let solution = solve(&inputs, Stages::of(Stage::Static)).unwrap();
     let error = solution.deviation.equivalent_error;
@@ -155,7 +155,7 @@ impl Course<'_> {
 #[test]
 fn no_peak_falls_between_two_stations() {
     for stations in [Some(8), Some(64), None] {
-        let inputs = Inputs { stations, base_pitch_deviation: 30e-6, rung: Rung::Dynamic, ..standard_pair(20, 20, 5e-3) };
+        let inputs = Inputs { stations, base_pitch_deviation: 30e-6, method: Method::Dynamic, ..standard_pair(20, 20, 5e-3) };
         let dynamic = solve(&inputs, Stages::EVERY).unwrap().dynamic.unwrap();
         let highest = dynamic.stations.iter().map(|station| station.force).fold(0.0, f64::max);
         assert!((highest / dynamic.peak_force - 1.0).abs() < 2e-3, "{highest} {}", dynamic.peak_force);

@@ -3,7 +3,7 @@
 use std::f64::consts::SQRT_2;
 
 use super::{Note, four};
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::model::{Inputs, Solution};
 use crate::numeric::decimal::significant;
 
@@ -37,7 +37,7 @@ pub(super) fn barely_clear(inputs: &Inputs, solution: &Solution) -> Option<Note>
     let clear = solution.margin()?;
     let now = inputs.base_pitch_deviation;
     let enough = now + clear / SQRT_2;
-    let is_of_load = solution.rung.shares_load() || inputs.deflection.is_none();
+    let is_of_load = solution.method.shares_load() || inputs.deflection.is_none();
     let more_load = Some(clear / solution.deviation.combined_deflection).filter(|part| is_of_load && *part < CLOSE);
     let message = || {
         let (clear, now, enough) = (four(clear * MICRO), four(now * MICRO), four(enough * MICRO));
@@ -57,27 +57,27 @@ pub(super) fn gap_left_open(_: &Inputs, solution: &Solution) -> Option<Note> {
     let message = || {
         let (closed, total) = (four(closed * MICRO), four(total * MICRO));
         format!(
-            "the printed equations put D where the tip has closed {closed} um of the {total} um that it must: angle, velocity and force are too small for that; rung exact closes all of it"
+            "the printed equations put D where the tip has closed {closed} um of the {total} um that it must: angle, velocity and force are too small for that; method exact closes all of it"
         )
     };
-    (solution.rung == Rung::Paper && closed < (1.0 - CLOSED) * total).then(|| Note::new("gap-left-open", message()))
+    (solution.method == Method::Paper && closed < (1.0 - CLOSED) * total).then(|| Note::new("gap-left-open", message()))
 }
 
 /// There is no end of the impact, and so no friction ratio.
 pub(super) fn end_not_found(_: &Inputs, solution: &Solution) -> Option<Note> {
     let is_without = solution.friction?.ratio.is_none();
     let message = "no friction ratio is given: the triangle of Eq. 34 does not close, and the impact has no end D'".to_owned();
-    (solution.rung == Rung::Paper && is_without).then(|| Note::new("no-end-of-impact", message))
+    (solution.method == Method::Paper && is_without).then(|| Note::new("no-end-of-impact", message))
 }
 
 /// The impact is longer than the way from D to E.
 pub(super) fn outlasting(_: &Inputs, solution: &Solution) -> Option<Note> {
-    let duration = solution.impact.filter(|_| !solution.rung.shares_load())?.duration * MICRO;
+    let duration = solution.impact.filter(|_| !solution.method.shares_load())?.duration * MICRO;
     let transit = solution.velocity?.transit_time * MICRO;
     let message = || {
         let (lasts, way) = (four(duration), four(transit));
         format!(
-            "the impact lasts {lasts} us and D to E only {way} us: it runs on into the normal mesh, which this rung does not follow"
+            "the impact lasts {lasts} us and D to E only {way} us: it runs on into the normal mesh, which this method does not follow"
         )
     };
     (duration > transit).then(|| Note::new("impact-outlasts-approach", message()))
@@ -87,9 +87,9 @@ pub(super) fn outlasting(_: &Inputs, solution: &Solution) -> Option<Note> {
 pub(super) fn impulse(_: &Inputs, solution: &Solution) -> Option<Note> {
     const ROUNDING: f64 = 1e-9;
     let ratio = solution.impact?.impulse_ratio;
-    let cause = match solution.rung {
-        Rung::Paper if ratio < 1.0 => "Eq. 32 as printed lacks Hertz's prefactor",
-        Rung::Paper => "Eq. 32 is of two spheres, and the force of the teeth's spring",
+    let cause = match solution.method {
+        Method::Paper if ratio < 1.0 => "Eq. 32 as printed lacks Hertz's prefactor",
+        Method::Paper => "Eq. 32 is of two spheres, and the force of the teeth's spring",
         _ => "force and duration do not belong to one impact",
     };
     let possible = 1.0 - ROUNDING..=2.0 + ROUNDING;
@@ -99,7 +99,7 @@ pub(super) fn impulse(_: &Inputs, solution: &Solution) -> Option<Note> {
 
 /// The load cannot hold the pair ahead in contact while the incoming tooth carries its error.
 pub(super) fn contact_lost(_: &Inputs, solution: &Solution) -> Option<Note> {
-    if solution.rung.shares_load() {
+    if solution.method.shares_load() {
         return None;
     }
     let deviation = solution.deviation;
@@ -165,33 +165,33 @@ mod tests {
     }
 
     /// The pair m 2, z 23/71 under that power, in W, with so much tip relief, in m.
-    fn of_two_modules(rung: Rung, power: f64) -> Inputs {
+    fn of_two_modules(method: Method, power: f64) -> Inputs {
         let mut inputs = standard_pair(23, 71, 2e-3);
-        inputs.rung = rung;
+        inputs.method = method;
         (inputs.drive, inputs.speed) = (Drive::Power(power), 3000.0 * std::f64::consts::PI / 30.0);
         (inputs.base_pitch_deviation, inputs.deflection) = (9e-6, None);
         inputs
     }
 
     #[test]
-    fn every_rung_tells_how_barely_it_clears_and_what_closes_the_gap() {
-        for rung in [Rung::Exact, Rung::Static, Rung::Dynamic] {
-            let mut inputs = of_two_modules(rung, 4e3);
+    fn every_method_tells_how_barely_it_clears_and_what_closes_the_gap() {
+        for method in [Method::Exact, Method::Static, Method::Dynamic] {
+            let mut inputs = of_two_modules(method, 4e3);
             let least = solve(&inputs, Stages::EVERY).unwrap().clearing.unwrap().relief.unwrap();
             inputs.driven.tip_relief = 1.002 * least;
             let solution = solve(&inputs, Stages::EVERY).unwrap();
             let clear = solution.margin().unwrap();
-            assert!(clear > 0.0 && clear < 0.01 * least, "{rung:?}: {clear:e}");
+            assert!(clear > 0.0 && clear < 0.01 * least, "{method:?}: {clear:e}");
             let told = notes::notes(&inputs, &solution).into_iter().find(|note| note.code == "barely-clear").unwrap().message;
-            assert!(told.contains(" um only") && told.contains(" % more load"), "{rung:?}: {told}");
+            assert!(told.contains(" um only") && told.contains(" % more load"), "{method:?}: {told}");
             let outcome = |part: f64| {
                 let base_pitch_deviation = 9e-6 + part * clear / SQRT_2;
                 solve(&Inputs { base_pitch_deviation, ..inputs.clone() }, Stages::EVERY).unwrap().outcome
             };
-            assert_eq!(outcome(1.01), Outcome::CornerContact, "{rung:?}");
-            assert_eq!(outcome(0.99), Outcome::NoCornerContact, "{rung:?}");
+            assert_eq!(outcome(1.01), Outcome::CornerContact, "{method:?}");
+            assert_eq!(outcome(0.99), Outcome::NoCornerContact, "{method:?}");
             inputs.driven.tip_relief = 1.5 * least;
-            assert!(!clears_barely(&inputs), "{rung:?}: it clears by far");
+            assert!(!clears_barely(&inputs), "{method:?}: it clears by far");
         }
     }
 

@@ -1,26 +1,26 @@
-//! Notes on the rungs in which every pair takes its share of the load, and on the choice of the rung.
+//! Notes on the methods in which every pair takes its share of the load, and on the choice of the method.
 
 use super::{Note, four};
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::model::{Inputs, Solution};
 
-/// The rung that was taken, and why.
-pub(super) fn rung_taken(_: &Inputs, solution: &Solution) -> Option<Note> {
-    Some(Note::new("rung-taken", solution.choice?.to_string()))
+/// The method that was taken, and why.
+pub(super) fn method_taken(_: &Inputs, solution: &Solution) -> Option<Note> {
+    Some(Note::new("method-taken", solution.choice?.to_string()))
 }
 
-/// The case gives a deflection that this rung computes itself.
+/// The case gives a deflection that this method computes itself.
 pub(super) fn deflection_ignored(inputs: &Inputs, solution: &Solution) -> Option<Note> {
-    let given = inputs.deflection.filter(|_| solution.rung.shares_load())?;
+    let given = inputs.deflection.filter(|_| solution.method.shares_load())?;
     let (given, found) = (four(given * 1e6), four(solution.deviation.combined_deflection * 1e6));
-    let rung = solution.rung.name();
-    let message = format!("the deflection of {given} um is ignored: {rung} computes what the pairs yield, {found} um before E");
+    let method = solution.method.name();
+    let message = format!("the deflection of {given} um is ignored: {method} computes what the pairs yield, {found} um before E");
     Some(Note::new("deflection-ignored", message))
 }
 
 /// The case gives the deflection, so that the load moves nothing of the impact.
 pub(super) fn deflection_given(inputs: &Inputs, solution: &Solution) -> Option<Note> {
-    let given = four(inputs.deflection.filter(|_| !solution.rung.shares_load())? * 1e6);
+    let given = four(inputs.deflection.filter(|_| !solution.method.shares_load())? * 1e6);
     let message = format!("the deflection of {given} um is given: power and torque change F_0 alone, neither D nor the impact");
     Some(Note::new("deflection-given", message))
 }
@@ -33,7 +33,7 @@ pub(super) fn lost_in_motion(_: &Inputs, solution: &Solution) -> Option<Note> {
 
 /// The mesh has no time to follow the load at rest.
 pub(super) fn inertia(inputs: &Inputs, solution: &Solution) -> Option<Note> {
-    let (Rung::Static, Some(mesh), Some(load)) = (solution.rung, &solution.mesh, &solution.static_load) else {
+    let (Method::Static, Some(mesh), Some(load)) = (solution.method, &solution.mesh, &solution.static_load) else {
         return None;
     };
     let time = load.first_contact_angle? / inputs.driven_speed();
@@ -42,7 +42,7 @@ pub(super) fn inertia(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let message = || {
         let (period, time) = (four(period * 1e6), four(time * 1e6));
         format!(
-            "the mesh swings with a period of {period} us and the load is taken over in {time} us: inertia, which this rung leaves out, may change the force by {:.0} %",
+            "the mesh swings with a period of {period} us and the load is taken over in {time} us: inertia, which this method leaves out, may change the force by {:.0} %",
             100.0 * part.min(1.0)
         )
     };

@@ -8,7 +8,7 @@ use crate::case::reach::fields_of;
 use crate::case::units::Dimension;
 use crate::case::visible::visible;
 use crate::model::compliance::model_of;
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::model::{Inputs, Quantity, Stage};
 use crate::numeric::decimal::significant;
 use crate::report::{shown, value};
@@ -42,10 +42,10 @@ pub(super) fn of(quantity: &Quantity, known: &Known) -> Vec<Effect> {
     fields(quantity, known).into_iter().filter_map(|field| effect(quantity, field, known, &held, own)).collect()
 }
 
-/// The fields behind a quantity; the rung `auto` takes the tolerance from what it may leave in all.
+/// The fields behind a quantity; the method `auto` takes the tolerance from what it may leave in all.
 fn fields(quantity: &Quantity, known: &Known) -> Vec<usize> {
     let [given, taken] = ["model.within", "model.tolerance"].map(index_of);
-    let by_auto = |field: usize| if known.given.rung == Rung::Auto && Some(field) == taken { given } else { Some(field) };
+    let by_auto = |field: usize| if known.given.method == Method::Auto && Some(field) == taken { given } else { Some(field) };
     fields_of(quantity, known.inputs).into_iter().filter_map(by_auto).collect()
 }
 

@@ -10,7 +10,7 @@ use std::io::{self, Write};
 #[derive(Serialize)]
 struct Line<'a> {
     case: &'a str,
-    rung: &'static str,
+    method: &'static str,
     key: &'static str,
     symbol: &'static str,
     label: &'static str,
@@ -90,7 +90,7 @@ pub fn write(page: &Page, name: &str, out: &mut dyn Write) -> io::Result<()> {
     let quantity = page.quantity;
     let line = Line {
         case: name,
-        rung: page.rung,
+        method: page.method,
         key: quantity.key,
         symbol: page.symbol,
         label: page.label,

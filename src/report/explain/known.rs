@@ -16,7 +16,7 @@ pub const STEP_UNITS: [(&str, f64); 5] = [("kg m2", 1.0), ("N/(um mm)", 1e9), ("
 pub struct Known<'a> {
     /// As the user wrote it.
     pub case: &'a Case,
-    /// What the model read of it, with what the rung `auto` took.
+    /// What the model read of it, with what the method `auto` took.
     pub inputs: &'a Inputs,
     /// The same as the case gives it.
     pub given: &'a Inputs,
@@ -92,7 +92,7 @@ impl Known<'_> {
     pub(super) fn source(&self, symbol: &str) -> Option<Source> {
         let quantity = QUANTITIES
             .iter()
-            .find(|quantity| quantity.symbol_in(self.solution.rung) == symbol && !quantity.is_flag())
+            .find(|quantity| quantity.symbol_in(self.solution.method) == symbol && !quantity.is_flag())
             .map(Source::Quantity);
         let step = || steps().find(|step| step.symbol == symbol && self.has(step)).map(Source::Step);
         let field = || FIELDS.iter().position(|field| field.symbol == symbol).map(Source::Field);

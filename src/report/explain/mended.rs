@@ -19,9 +19,9 @@ const fn mend(equation: &'static str, wrong: &'static str, used: &'static str) -
 #[rustfmt::skip]
 pub static MENDS: &[Mend] = &[
     mend("Eq. 1", "scales the modification e_m by 1/√2 with the random pitch errors, as if a ground relief were random",
-        "rung paper keeps it; the others count e_m in full"),
+        "method paper keeps it; the others count e_m in full"),
     mend("Eqs. 7-20", "differences of arctangents, linear in Δ, which put D next to E: the tip has then closed almost nothing of Δ",
-        "rung paper keeps them; the others solve S(u) = Δ"),
+        "method paper keeps them; the others solve S(u) = Δ"),
     mend("Eq. 14", "arctan(r_b1/(N1E - Δf)) jumps by π where Δf > N1E", "the difference of Eq. 15 as one atan2, likewise Eqs. 17-19"),
     mend("Eqs. 16, 20", "reach N1E through a rounded contact ratio, 0.6 um off for Table 1", "N1E = a sin α_w - √(r_a2² - r_b2²)"),
     mend("Eq. 22", "labelled ΔV_Dr", "it is ΔV_Dτ"),
@@ -29,9 +29,9 @@ pub static MENDS: &[Mend] = &[
         "the law of cosines"),
     mend("Eq. 31", "adds an impulse along V_D2 and divides kg/m where kg is meant", "as printed, with m_red in kg"),
     mend("Eq. 32", "Hertz's prefactor 4.53398 is lost; m_red is per width", "as printed with m_red in kg, and beside it with the prefactor and \
-        by the model's own spring, which rung exact takes"),
+        by the model's own spring, which method exact takes"),
     mend("Eq. 33, Eq. 50", "two reduced masses, with r_b2 and with r_b2'", "T_S,32 has that of Eq. 33, F_S that of Eq. 50"),
-    mend("Eq. 34", "the angle at O1 in its triangle is not Δθ", "rung paper keeps it; exact takes the driven tip at u - ω_2 T_S,32, not past E"),
+    mend("Eq. 34", "the angle at O1 in its triangle is not Δθ", "method paper keeps it; exact takes the driven tip at u - ω_2 T_S,32, not past E"),
     mend("Eq. 36", "the arc stands for the chord", "the chord"),
     mend("Eqs. 44, 45", "V_D'n and V_Dn are not defined", "the changes of ΔV_n and ΔV_τ between D and D'"),
     mend("Eq. 46", "J/(b r_b²) is a mass per width", "J/r_b² in kg; energies are of the whole width"),

@@ -82,7 +82,7 @@ fn head(page: &Page, name: &str, width: usize) -> Vec<Line> {
     let symbol = if page.symbol.is_empty() { String::new() } else { format!(", {}", page.symbol) };
     let title = format!("{}{symbol} ({})", page.label, quantity.equation);
     let by = if page.is_by_auto { ", taken by auto" } else { "" };
-    let of = format!("{} · {} · rung {}{by}", quantity.key, visible(name), page.rung);
+    let of = format!("{} · {} · method {}{by}", quantity.key, visible(name), page.method);
     let mut lines = block(Kind::Title, &title, "", "", width);
     lines.extend(block(Kind::Title, &value, "", "  ", width));
     lines.extend(block(Kind::Text, &of, "", "", width));

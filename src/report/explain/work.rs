@@ -67,7 +67,7 @@ pub struct Leaf {
 pub(super) fn of(quantity: &'static Quantity, about: &Explanation, known: &Known) -> (Vec<Work>, Vec<Leaf>) {
     let target = Target::of(quantity, known);
     let mut work = worked(&target, about.formula, known);
-    let mut seen = vec![quantity.symbol_in(known.solution.rung)];
+    let mut seen = vec![quantity.symbol_in(known.solution.method)];
     let mut leaves = Vec::new();
     let mut symbols = symbols(about.formula, known);
     let mut next = 0;
@@ -100,7 +100,7 @@ impl Target {
     fn of(quantity: &'static Quantity, known: &Known) -> Target {
         let value = value(quantity, known.solution);
         let shown = value.map(|value| shown(quantity, value));
-        let symbol = quantity.symbol_in(known.solution.rung);
+        let symbol = quantity.symbol_in(known.solution.method);
         let symbol = if symbol.is_empty() { "value" } else { symbol };
         Target { symbol, meaning: "", value, unit: quantity.shown, digits: quantity.digits, shown }
     }
@@ -183,7 +183,7 @@ fn symbols(formula: Formula, known: &Known) -> Vec<String> {
 impl Source {
     fn symbol(self, known: &Known) -> &'static str {
         match self {
-            Source::Quantity(quantity) => quantity.symbol_in(known.solution.rung),
+            Source::Quantity(quantity) => quantity.symbol_in(known.solution.method),
             Source::Step(step) => step.symbol,
             Source::Field(field) => FIELDS[field].symbol,
         }
@@ -199,7 +199,7 @@ impl Source {
                 Leaf {
                     symbol,
                     shown,
-                    meaning: quantity.label_in(known.solution.rung).trim_start(),
+                    meaning: quantity.label_in(known.solution.method).trim_start(),
                     key: quantity.key,
                     is_quantity: true,
                 }

@@ -1,8 +1,8 @@
-//! What a figure is worth: the numerical error, the spread of the stiffness models, the rungs side by side.
+//! What a figure is worth: the numerical error, the spread of the stiffness models, the methods side by side.
 
 use super::known::Known;
 use super::models::models;
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Stage, Stages};
 use crate::report::{shown, value, value_as_in};
 
@@ -14,7 +14,7 @@ pub(super) fn noise(quantity: &Quantity, inputs: &Inputs) -> f64 {
     const CLOSENESS: f64 = 1e-4;
     match quantity.stage {
         Stage::Dynamic => STEPS * inputs.tolerance,
-        Stage::Clearing if inputs.rung.shares_load() => CLOSENESS,
+        Stage::Clearing if inputs.method.shares_load() => CLOSENESS,
         Stage::Mesh | Stage::Static => AT_REST,
         _ => ROUNDING,
     }
@@ -22,7 +22,7 @@ pub(super) fn noise(quantity: &Quantity, inputs: &Inputs) -> f64 {
 
 /// What there is to say of a quantity's worth.
 pub(super) fn of(quantity: &Quantity, known: &Known) -> Vec<String> {
-    let parts: [fn(&Quantity, &Known) -> Option<String>; 3] = [numerical, over_models, over_rungs];
+    let parts: [fn(&Quantity, &Known) -> Option<String>; 3] = [numerical, over_models, over_methods];
     let has_value = value(quantity, known.solution).is_some();
     parts.into_iter().filter(|_| has_value).filter_map(|part| part(quantity, known)).collect()
 }
@@ -34,7 +34,7 @@ fn numerical(quantity: &Quantity, known: &Known) -> Option<String> {
     Some(match quantity.stage {
         _ if quantity.is_flag() => return None,
         Stage::Dynamic => format!("Arithmetic: the peak force is good to {}; {digits}.", tolerance(known)),
-        Stage::Clearing if known.inputs.rung.shares_load() => {
+        Stage::Clearing if known.inputs.method.shares_load() => {
             format!("Arithmetic: with 1/20,000 less the tooth touches; {digits}.")
         }
         Stage::Static => format!("Arithmetic: good to 1e-11 of the value; {digits}."),
@@ -45,10 +45,10 @@ fn numerical(quantity: &Quantity, known: &Known) -> Option<String> {
 
 /// The tolerance of the motion, and whose it is.
 fn tolerance(known: &Known) -> String {
-    let Inputs { rung, tolerance, within, .. } = known.given;
+    let Inputs { method, tolerance, within, .. } = known.given;
     let taken = known.inputs.tolerance;
-    match rung {
-        Rung::Auto => {
+    match method {
+        Method::Auto => {
             format!("{taken:e}, as auto takes it for model.within = {within}; model.tolerance = {tolerance:e} is not used")
         }
         _ => format!("model.tolerance = {taken:e}"),
@@ -78,23 +78,23 @@ fn over_models(quantity: &Quantity, known: &Known) -> Option<String> {
     })
 }
 
-/// The rungs side by side, where they differ.
-fn over_rungs(quantity: &Quantity, known: &Known) -> Option<String> {
-    let by = |rung: Rung| {
-        let solution = model::solve(&Inputs { rung, ..known.inputs.clone() }, Stages::of(quantity.stage)).ok()?;
-        Some((rung, value_as_in(quantity, &solution, known.solution.rung)?))
+/// The methods side by side, where they differ.
+fn over_methods(quantity: &Quantity, known: &Known) -> Option<String> {
+    let by = |method: Method| {
+        let solution = model::solve(&Inputs { method, ..known.inputs.clone() }, Stages::of(quantity.stage)).ok()?;
+        Some((method, value_as_in(quantity, &solution, known.solution.method)?))
     };
-    let own = Some(known.inputs.rung).filter(|rung| !Rung::CLOSED_FORM.contains(rung));
-    let found: Vec<(Rung, f64)> = Rung::CLOSED_FORM.into_iter().chain(own).filter_map(by).collect();
+    let own = Some(known.inputs.method).filter(|method| !Method::CLOSED_FORM.contains(method));
+    let found: Vec<(Method, f64)> = Method::CLOSED_FORM.into_iter().chain(own).filter_map(by).collect();
     let (&(_, first), others) = found.split_first()?;
-    let apart = |(_, value): &(Rung, f64)| (value - first).abs() > noise(quantity, known.inputs) * first.abs();
+    let apart = |(_, value): &(Method, f64)| (value - first).abs() > noise(quantity, known.inputs) * first.abs();
     let told: Vec<String> =
-        found.iter().map(|&(rung, value)| format!("{} {}", name(quantity, rung), shown(quantity, value))).collect();
-    others.iter().any(apart).then(|| format!("Rungs: {}.", told.join(", ")))
+        found.iter().map(|&(method, value)| format!("{} {}", name(quantity, method), shown(quantity, value))).collect();
+    others.iter().any(apart).then(|| format!("Methods: {}.", told.join(", ")))
 }
 
-/// The rung; of the free impact, where the rung resolves the impact itself, what the closed form takes from it.
-fn name(quantity: &Quantity, rung: Rung) -> String {
-    let is_beside = rung.shares_load() && quantity.is_of_free_impact();
-    if is_beside { format!("exact with the deflection that {} computes", rung.name()) } else { rung.name().to_owned() }
+/// The method; of the free impact, where the method resolves the impact itself, what the closed form takes from it.
+fn name(quantity: &Quantity, method: Method) -> String {
+    let is_beside = method.shares_load() && quantity.is_of_free_impact();
+    if is_beside { format!("exact with the deflection that {} computes", method.name()) } else { method.name().to_owned() }
 }

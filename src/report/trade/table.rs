@@ -2,14 +2,14 @@
 
 use super::{duration, model_off, percent};
 use crate::report::layout::{WIDTH, flow, item};
-use crate::study::trade::{Differences, Measured, RUNGS, Subject, Trade, greatest};
+use crate::study::trade::{Differences, METHODS, Measured, Subject, Trade, greatest};
 
-/// What each rung leaves out, a line a subject.
+/// What each method leaves out, a line a subject.
 pub(super) fn models(trade: &Trade) -> Vec<String> {
-    let title = "What a rung leaves out: its best setting against the reference, in %";
-    let head = row("", RUNGS.map(|rung| rung.name().to_owned()));
+    let title = "What a method leaves out: its best setting against the reference, in %";
+    let head = row("", METHODS.map(|method| method.name().to_owned()));
     let lines = Subject::ALL.into_iter().filter_map(|subject| {
-        let cells = RUNGS.map(|rung| model_off(trade, rung)[subject as usize]);
+        let cells = METHODS.map(|method| model_off(trade, method)[subject as usize]);
         cells.iter().any(Option::is_some).then(|| row(subject.label(), cells.map(cell)))
     });
     [title.to_owned(), head].into_iter().chain(lines).collect()
@@ -22,11 +22,11 @@ fn row<const N: usize>(label: &str, cells: [String; N]) -> String {
 /// Every setting with time and errors; those that refuse the case with the reason.
 pub(super) fn settings(trade: &Trade) -> Vec<String> {
     let title = "Settings, with the greatest errors in %: of the numbers and of the curve, read linearly, against the \
-        rung's best setting; of the model, as above; in total against the reference. * none is both nearer and quicker, \
+        method's best setting; of the model, as above; in total against the reference. * none is both nearer and quicker, \
         > the case's own.";
     let head = format!(
         "  {:<16}{:>5}{:>7}{:>9}{:>7}{:>9}{:>9}{:>8}{:>8}",
-        "rung", "stat.", "tol.", "time", "spread", "numbers", "curve", "model", "total"
+        "method", "stat.", "tol.", "time", "spread", "numbers", "curve", "model", "total"
     );
     let lines = trade.settings.iter().flat_map(|measured| lines(trade, measured));
     flow(title.split(' '), WIDTH).into_iter().chain([head]).chain(lines).collect()
@@ -44,18 +44,19 @@ fn lines(trade: &Trade, measured: &Measured) -> Vec<String> {
             let time = &figures.time;
             let spread = format!("{:.0} %", 100.0 * time.spread / time.seconds);
             let (numbers, curve) = parts(&figures.numerical);
-            let model = greatest(&model_off(trade, figures.rung));
+            let model = greatest(&model_off(trade, figures.method));
             let [numbers, curve, model, total] = [numbers, curve, model, greatest(&figures.total)].map(cell);
             vec![format!("{before}{:>9}{spread:>7}{numbers:>9}{curve:>9}{model:>8}{total:>8}", duration(time.seconds))]
         }
     }
 }
 
-/// The rung, what it took where it chose, and whether it took care.
+/// The method, what it took where it chose, and whether it took care.
 fn name(measured: &Measured) -> String {
-    let (rung, took) = (measured.setting.rung, measured.found.as_ref().map_or(measured.setting.rung, |figures| figures.rung));
+    let (method, took) =
+        (measured.setting.method, measured.found.as_ref().map_or(measured.setting.method, |figures| figures.method));
     let accurate = if measured.setting.accurate { ", accurate" } else { "" };
-    if rung == took { format!("{}{accurate}", rung.name()) } else { format!("{}: {}{accurate}", rung.name(), took.name()) }
+    if method == took { format!("{}{accurate}", method.name()) } else { format!("{}: {}{accurate}", method.name(), took.name()) }
 }
 
 /// The greatest difference of the numbers, and that of the curve.

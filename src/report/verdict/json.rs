@@ -2,7 +2,7 @@
 
 use super::{Beside, Standing, Verdict};
 use crate::model::Quantity;
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::report::json::write_line;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -10,7 +10,7 @@ use std::io::{self, Write};
 #[derive(Serialize)]
 struct Line<'a> {
     case: &'a str,
-    rung: &'static str,
+    method: &'static str,
     standing: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     quantity: Option<&'static str>,
@@ -20,10 +20,10 @@ struct Line<'a> {
     limit: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     unit: Option<&'static str>,
-    /// What it is of, where that is not what the rung resolves.
+    /// What it is of, where that is not what the method resolves.
     #[serde(skip_serializing_if = "Option::is_none")]
     of: Option<&'static str>,
-    /// What the rung itself finds.
+    /// What the method itself finds.
     #[serde(skip_serializing_if = "Option::is_none")]
     own: Option<Own>,
     message: String,
@@ -49,17 +49,17 @@ impl Own {
 ///
 /// # Errors
 /// What the writer refuses.
-pub fn write(verdicts: &[Verdict], case: &str, rung: Rung, out: &mut dyn Write) -> io::Result<()> {
+pub fn write(verdicts: &[Verdict], case: &str, method: Method, out: &mut dyn Write) -> io::Result<()> {
     if verdicts.is_empty() {
         let message = "no limits".to_owned();
         let standing = Standing::Within.name();
-        let rung = rung.name();
+        let method = method.name();
         let (quantity, value, limit, unit, of, own) = (None, None, None, None, None, None);
-        return write_line(&Line { case, rung, standing, quantity, value, limit, unit, of, own, message }, out);
+        return write_line(&Line { case, method, standing, quantity, value, limit, unit, of, own, message }, out);
     }
     let line = |verdict: &Verdict| Line {
         case,
-        rung: rung.name(),
+        method: method.name(),
         standing: verdict.standing.name(),
         quantity: Some(verdict.limit.quantity),
         value: verdict.value,

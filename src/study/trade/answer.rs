@@ -1,9 +1,9 @@
-//! What an engineer asks of a solve, whatever the rung, and how far two answers lie apart.
+//! What an engineer asks of a solve, whatever the method, and how far two answers lie apart.
 
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Solution, Stage, Stages};
 
-/// A question that several rungs answer, each by a quantity of its own.
+/// A question that several methods answer, each by a quantity of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Subject {
     /// Driven gear's angle before E at the first contact.
@@ -59,9 +59,9 @@ impl Subject {
         }
     }
 
-    /// The quantity by which a rung answers; none for the curve, and where the rung has none.
+    /// The quantity by which a method answers; none for the curve, and where the method has none.
     #[must_use]
-    pub fn quantity(self, rung: Rung) -> Option<&'static Quantity> {
+    pub fn quantity(self, method: Method) -> Option<&'static Quantity> {
         let free = match self {
             Subject::FirstContact => "approach_angle_driven",
             Subject::PeakForce | Subject::PeakApproachForce => "impact_force",
@@ -69,44 +69,44 @@ impl Subject {
             Subject::FrictionRatio => "friction_ratio",
             Subject::Curve => return None,
         };
-        match (self, rung) {
-            (Subject::PeakForce, Rung::Static) => Quantity::find("static_peak_force"),
-            (Subject::PeakForce, Rung::Dynamic) => Quantity::find("dynamic_peak_force"),
-            _ => Quantity::find(free)?.by(rung),
+        match (self, method) {
+            (Subject::PeakForce, Method::Static) => Quantity::find("static_peak_force"),
+            (Subject::PeakForce, Method::Dynamic) => Quantity::find("dynamic_peak_force"),
+            _ => Quantity::find(free)?.by(method),
         }
     }
 
-    /// Whether the rung answers at all.
+    /// Whether the method answers at all.
     #[must_use]
-    pub fn is_of(self, rung: Rung) -> bool {
-        self == Subject::Curve || self.quantity(rung).is_some()
+    pub fn is_of(self, method: Method) -> bool {
+        self == Subject::Curve || self.quantity(method).is_some()
     }
 }
 
 /// What a solve answers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Answer {
-    /// By which rung, that which was taken where the choice was the program's.
-    pub rung: Rung,
+    /// By which method, that which was taken where the choice was the program's.
+    pub method: Method,
     /// Whether the tooth strikes.
     pub outcome: Outcome,
     /// Forces of [`Subject::quantity`], in SI, in the order of [`Subject::ALL`].
     values: [Option<f64>; Subject::ALL.len()],
     /// Driver's angle before E in rad and force in N, from the first contact to E.
     curve: Vec<(f64, f64)>,
-    /// What the motion took in the rung `dynamic`, see [`Effort`](crate::model::dynamic::Effort).
+    /// What the motion took in the method `dynamic`, see [`Effort`](crate::model::dynamic::Effort).
     pub evaluations: Option<u64>,
 }
 
-/// The stages that a rung's answer needs.
+/// The stages that a method's answer needs.
 #[must_use]
-pub fn stages(rung: Rung) -> Stages {
-    match rung {
-        Rung::Paper | Rung::Exact => Stages::CLOSED_FORM.with(Stage::Stations),
-        Rung::Static => Stages::of(Stage::Static),
-        Rung::Dynamic => Stages::of(Stage::Dynamic),
+pub fn stages(method: Method) -> Stages {
+    match method {
+        Method::Paper | Method::Exact => Stages::CLOSED_FORM.with(Stage::Stations),
+        Method::Static => Stages::of(Stage::Static),
+        Method::Dynamic => Stages::of(Stage::Dynamic),
         // Where `static` is taken, it stands for `dynamic`.
-        Rung::Auto => Stages::CLOSED_FORM.with(Stage::Stations).and(Stages::of(Stage::Dynamic)),
+        Method::Auto => Stages::CLOSED_FORM.with(Stage::Stations).and(Stages::of(Stage::Dynamic)),
     }
 }
 
@@ -115,7 +115,7 @@ pub fn stages(rung: Rung) -> Stages {
 /// # Errors
 /// Why there is none, or not all of it; [`Refusal::Stopped`] where `go_on` says no.
 pub(super) fn solve(inputs: &Inputs, go_on: &dyn Fn() -> bool) -> Result<Solution, Refusal> {
-    let solution = model::solve_while(inputs, stages(inputs.rung), &|_| go_on())?;
+    let solution = model::solve_while(inputs, stages(inputs.method), &|_| go_on())?;
     match solution.withheld.or(solution.stations_withheld) {
         Some(refusal) => Err(refusal),
         None => Ok(solution),
@@ -126,9 +126,9 @@ impl Answer {
     /// The answer of a solve.
     #[must_use]
     pub fn of(solution: &Solution) -> Answer {
-        let value = |subject: Subject| subject.quantity(solution.rung).and_then(|quantity| (quantity.value)(solution));
+        let value = |subject: Subject| subject.quantity(solution.method).and_then(|quantity| (quantity.value)(solution));
         Answer {
-            rung: solution.rung,
+            method: solution.method,
             outcome: solution.outcome,
             values: Subject::ALL.map(value),
             curve: curve(solution),
@@ -142,11 +142,11 @@ impl Answer {
         self.values[subject as usize]
     }
 
-    /// How far this answer is from the true one, relative to it: nothing where one of the rungs has no such quantity. That
+    /// How far this answer is from the true one, relative to it: nothing where one of the methods has no such quantity. That
     /// no tooth strikes by both is agreement, by one of them an error of 1.
     #[must_use]
     pub fn off(&self, truth: &Answer, subject: Subject) -> Option<f64> {
-        if !(subject.is_of(self.rung) && subject.is_of(truth.rung)) {
+        if !(subject.is_of(self.method) && subject.is_of(truth.method)) {
             return None;
         }
         if subject == Subject::Curve {
@@ -192,12 +192,12 @@ impl Answer {
 
 /// The force from the first contact to E.
 fn curve(solution: &Solution) -> Vec<(f64, f64)> {
-    let shared = match solution.rung {
-        Rung::Paper | Rung::Exact | Rung::Auto => {
+    let shared = match solution.method {
+        Method::Paper | Method::Exact | Method::Auto => {
             return solution.stations.iter().map(|station| (station.roll_angle_driver, station.impact_force)).collect();
         }
-        Rung::Static => solution.static_load.as_ref().map(|load| &load.stations),
-        Rung::Dynamic => solution.dynamic.as_ref().map(|dynamic| &dynamic.stations),
+        Method::Static => solution.static_load.as_ref().map(|load| &load.stations),
+        Method::Dynamic => solution.dynamic.as_ref().map(|dynamic| &dynamic.stations),
     };
     let before_end = shared.into_iter().flatten().filter(|station| station.roll_angle_driver >= 0.0);
     before_end.map(|station| (station.roll_angle_driver, station.force)).collect()
@@ -217,28 +217,28 @@ mod tests {
     use super::*;
     use crate::case::Case;
 
-    fn answer(rung: Rung, stations: usize) -> Answer {
-        let inputs = Inputs { rung, stations: Some(stations), ..Case::table_1().inputs().unwrap() };
+    fn answer(method: Method, stations: usize) -> Answer {
+        let inputs = Inputs { method, stations: Some(stations), ..Case::table_1().inputs().unwrap() };
         Answer::of(&solve(&inputs, &|| true).unwrap())
     }
 
     #[test]
     fn a_curve_is_read_linearly_and_is_nothing_before_the_first_contact() {
-        let shared = answer(Rung::Static, 4);
+        let shared = answer(Method::Static, 4);
         let (first, second) = (shared.curve[0], shared.curve[1]);
         assert_eq!((shared.curve.len(), shared.curve[4].0), (5, 0.0));
         assert!((shared.force_at(f64::midpoint(first.0, second.0)) - f64::midpoint(first.1, second.1)).abs() < 1e-9);
         assert!((shared.force_at(0.0) - shared.value(Subject::PeakApproachForce).unwrap()).abs() < 1e-9);
         assert!(shared.force_at(1.01 * first.0).abs() < f64::MIN_POSITIVE);
-        let impact = answer(Rung::Exact, 4);
+        let impact = answer(Method::Exact, 4);
         assert_eq!(Some(impact.force_at(impact.curve[0].0 * (1.0 + 1e-15))), impact.value(Subject::PeakForce));
     }
 
     #[test]
     fn an_answer_differs_from_others_and_not_from_itself() {
-        let (shared, impact) = (answer(Rung::Static, 16), answer(Rung::Exact, 16));
+        let (shared, impact) = (answer(Method::Static, 16), answer(Method::Exact, 16));
         for subject in Subject::ALL {
-            assert_eq!(shared.off(&shared, subject), subject.is_of(Rung::Static).then_some(0.0));
+            assert_eq!(shared.off(&shared, subject), subject.is_of(Method::Static).then_some(0.0));
         }
         assert_eq!(impact.off(&shared, Subject::Duration), None);
         assert!(impact.off(&shared, Subject::Curve).unwrap() > 0.5);

@@ -1,4 +1,4 @@
-//! A second way to the answers of the rung `dynamic`, sharing with the first no more than the mesh: even steps of the
+//! A second way to the answers of the method `dynamic`, sharing with the first no more than the mesh: even steps of the
 //! extrapolated midpoint rule, and contacts found by looking at each step.
 
 use std::f64::consts::TAU;

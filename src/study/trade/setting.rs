@@ -1,14 +1,14 @@
-//! The settings that a trade compares: a rung, and how finely it is computed.
+//! The settings that a trade compares: a method, and how finely it is computed.
 
 use std::fmt;
 
 use crate::case::Case;
 use crate::case::fields::{AUTO, index_of};
 use crate::model::Inputs;
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 
-/// The rungs that are compared, cheapest first.
-pub const RUNGS: [Rung; 4] = [Rung::Paper, Rung::Exact, Rung::Static, Rung::Dynamic];
+/// The methods that are compared, cheapest first.
+pub const METHODS: [Method; 4] = [Method::Paper, Method::Exact, Method::Static, Method::Dynamic];
 /// Intervals of the stations that are compared.
 pub const STATIONS: [usize; 8] = [8, 16, 32, 64, 128, 256, 512, 1024];
 /// Intervals of a case that leaves them out.
@@ -17,48 +17,48 @@ const USUAL_STATIONS: usize = 64;
 const USUAL_TOLERANCE: f64 = 1e-6;
 /// Tolerances that are compared: 1e-3, 1e-4 and so on.
 const TOLERANCE_EXPONENTS: std::ops::RangeInclusive<i32> = 3..=10;
-/// Intervals of the best setting of a rung.
+/// Intervals of the best setting of a method.
 const BEST_STATIONS: usize = 4096;
 /// Tolerance of the best setting.
 const BEST_TOLERANCE: f64 = 1e-12;
 
-/// A rung and how finely it is computed.
+/// A method and how finely it is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Setting {
     /// How much of the physics is taken in.
-    pub rung: Rung,
+    pub method: Method,
     /// Intervals between the first contact and E; without a number as many as the curve needs.
     pub stations: Option<usize>,
-    /// Relative error that the peak force may have; in the rung `dynamic` alone.
+    /// Relative error that the peak force may have; in the method `dynamic` alone.
     pub tolerance: Option<f64>,
     /// Geometry and position in double-double arithmetic.
     pub accurate: bool,
 }
 
 impl Setting {
-    /// Every setting that is compared, the cheaper rungs first, the program's own choice last.
+    /// Every setting that is compared, the cheaper methods first, the program's own choice last.
     #[must_use]
     pub fn all() -> Vec<Setting> {
-        let closed_form = Rung::CLOSED_FORM.into_iter().flat_map(|rung| {
-            let plain = Setting::usual(rung);
+        let closed_form = Method::CLOSED_FORM.into_iter().flat_map(|method| {
+            let plain = Setting::usual(method);
             [plain, Setting { accurate: true, ..plain }].into_iter().flat_map(Setting::with_stations)
         });
-        let shared = Setting::usual(Rung::Static).with_stations();
-        let inertia = Setting::usual(Rung::Dynamic);
+        let shared = Setting::usual(Method::Static).with_stations();
+        let inertia = Setting::usual(Method::Dynamic);
         let tolerances = TOLERANCE_EXPONENTS
             .map(move |exponent| Setting { tolerance: Some(power_of_ten(-exponent)), ..inertia })
             .filter(move |setting| *setting != inertia);
-        let choice = Setting { stations: None, ..Setting::usual(Rung::Auto) };
+        let choice = Setting { stations: None, ..Setting::usual(Method::Auto) };
         let coarse = Setting { tolerance: Some(power_of_ten(-TOLERANCE_EXPONENTS.start())), ..inertia };
         let corner = coarse.with_stations().filter(move |setting| *setting != coarse);
         closed_form.chain(shared).chain(tolerances).chain(inertia.with_stations()).chain(corner).chain([choice]).collect()
     }
 
-    /// The setting of a case that names the rung alone.
+    /// The setting of a case that names the method alone.
     #[must_use]
-    pub fn usual(rung: Rung) -> Setting {
-        let tolerance = (rung == Rung::Dynamic).then_some(USUAL_TOLERANCE);
-        Setting { rung, stations: Some(USUAL_STATIONS), tolerance, accurate: false }
+    pub fn usual(method: Method) -> Setting {
+        let tolerance = (method == Method::Dynamic).then_some(USUAL_TOLERANCE);
+        Setting { method, stations: Some(USUAL_STATIONS), tolerance, accurate: false }
     }
 
     /// This setting by every number of stations, and by as many as the curve needs.
@@ -66,14 +66,14 @@ impl Setting {
         STATIONS.into_iter().map(Some).chain([None]).map(move |stations| Setting { stations, ..self })
     }
 
-    /// The finest setting of a rung, against which its numerical error is measured.
+    /// The finest setting of a method, against which its numerical error is measured.
     #[must_use]
-    pub fn best(rung: Rung) -> Setting {
+    pub fn best(method: Method) -> Setting {
         Setting {
-            rung,
+            method,
             stations: Some(BEST_STATIONS),
-            tolerance: (rung == Rung::Dynamic).then_some(BEST_TOLERANCE),
-            accurate: !rung.shares_load(),
+            tolerance: (method == Method::Dynamic).then_some(BEST_TOLERANCE),
+            accurate: !method.shares_load(),
         }
     }
 
@@ -81,9 +81,9 @@ impl Setting {
     #[must_use]
     pub fn of(inputs: &Inputs) -> Setting {
         Setting {
-            rung: inputs.rung,
+            method: inputs.method,
             stations: inputs.stations,
-            tolerance: (inputs.rung == Rung::Dynamic).then_some(inputs.tolerance),
+            tolerance: (inputs.method == Method::Dynamic).then_some(inputs.tolerance),
             accurate: inputs.accurate,
         }
     }
@@ -92,7 +92,7 @@ impl Setting {
     #[must_use]
     pub fn inputs(&self, inputs: &Inputs) -> Inputs {
         Inputs {
-            rung: self.rung,
+            method: self.method,
             stations: self.stations,
             tolerance: self.tolerance.unwrap_or(inputs.tolerance),
             accurate: self.accurate,
@@ -113,7 +113,7 @@ impl Setting {
                 case.write(field, text);
             }
         };
-        write("model.rung", self.rung.name());
+        write("model.method", self.method.name());
         write("model.stations", &self.stations_text());
         write("model.accurate", if self.accurate { "true" } else { "false" });
         if let Some(tolerance) = self.tolerance {
@@ -124,7 +124,7 @@ impl Setting {
 
 impl fmt::Display for Setting {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} with {} stations", self.rung.name(), self.stations_text())?;
+        write!(f, "{} with {} stations", self.method.name(), self.stations_text())?;
         if let Some(tolerance) = self.tolerance {
             write!(f, " and tolerance {tolerance:e}")?;
         }
@@ -154,9 +154,9 @@ mod tests {
     }
 
     #[test]
-    fn the_usual_setting_is_that_of_a_case_that_names_the_rung_alone() {
+    fn the_usual_setting_is_that_of_a_case_that_names_the_method_alone() {
         let mut case = Case::table_1();
-        let usual = Setting::usual(Rung::Dynamic);
+        let usual = Setting::usual(Method::Dynamic);
         usual.apply(&mut case);
         for key in ["model.stations", "model.tolerance", "model.accurate"] {
             case.set(key, "").unwrap();
@@ -166,8 +166,8 @@ mod tests {
 
     #[test]
     fn a_setting_tells_what_it_is() {
-        assert_eq!(Setting::best(Rung::Dynamic).to_string(), "dynamic with 4096 stations and tolerance 1e-12");
+        assert_eq!(Setting::best(Method::Dynamic).to_string(), "dynamic with 4096 stations and tolerance 1e-12");
         assert_eq!(Setting::all().last().unwrap().to_string(), "auto with auto stations");
-        assert_eq!(Setting::best(Rung::Exact).to_string(), "exact with 4096 stations, accurate");
+        assert_eq!(Setting::best(Method::Exact).to_string(), "exact with 4096 stations, accurate");
     }
 }

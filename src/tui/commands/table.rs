@@ -5,7 +5,7 @@ use tui_input::InputRequest as Line;
 
 use super::Command as Do;
 use super::{Binding, Command};
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::tui::keys::{ALT, CTRL, Chord, Place, SHIFT, alt, ctrl, function, key, letter, with};
 use crate::tui::pane::Pane;
 
@@ -49,7 +49,7 @@ pub static BINDINGS: &[Binding] = &[
     shown(Place::FIELD, &[key(KeyCode::Enter), letter('i')], Do::StartEdit, "edit", "Type into the focused field; Esc leaves it."),
     shown(Place::RESULTS, &[key(KeyCode::Enter)], Do::Explain, "explain", "Where the marked result comes from."),
     shown(Place::TRADE, &[key(KeyCode::Enter)], Do::TakeSetting, "take setting", "Make the marked setting the case's."),
-    shown(Place::TRADE, &[letter('m')], Do::Measure, "measure", "Measure error and time of every rung and setting on this case."),
+    shown(Place::TRADE, &[letter('m')], Do::Measure, "measure", "Measure error and time of every method and setting on this case."),
     told(Place::TRADE, &[letter('l'), letter('j'), key(KeyCode::Right), key(KeyCode::Down)], Do::Next, "The next slower setting."),
     told(Place::TRADE, &[letter('h'), letter('k'), key(KeyCode::Left), key(KeyCode::Up)], Do::Previous, "The next quicker setting."),
     shown(Place::CURSOR, &[letter(' ')], Do::Play, "play", "Let the cursor run from D, in the teeth from before it, to E or in a chart that goes on to the last contact; or stop it."),
@@ -106,12 +106,12 @@ pub static BINDINGS: &[Binding] = &[
     shown(Place::WORK, &[ctrl('o')], Do::Open, "open", "Open another case, in a tab of its own."),
     shown(Place::WORK, &[ctrl('q')], Do::Quit, "quit", "Quit; asks when something is unsaved."),
     shown(Place::FORM, &[key(KeyCode::Esc)], Do::Leave, "leave field", "Leave the field: letters are commands then."),
-    shown(Place::WORK, &[ctrl('t'), function(6)], Do::ToggleRung, "rung", "Next rung: paper, exact, static, dynamic, auto."),
-    listed(Place::WORK, &[], Do::Rung(Rung::Paper), "rung paper", "Solve by the closed form as it is printed."),
-    listed(Place::WORK, &[], Do::Rung(Rung::Exact), "rung exact", "Solve by the closed form, from the first contact where the gap closes."),
-    listed(Place::WORK, &[], Do::Rung(Rung::Static), "rung static", "Solve for how the pairs in contact share the load at rest."),
-    listed(Place::WORK, &[], Do::Rung(Rung::Dynamic), "rung dynamic", "Solve for the pair in motion, with inertia."),
-    listed(Place::WORK, &[], Do::Rung(Rung::Auto), "rung auto", "Solve by the cheapest of exact, static and dynamic that is good enough."),
+    shown(Place::WORK, &[ctrl('t'), function(6)], Do::ToggleMethod, "method", "Next method: paper, exact, static, dynamic, auto."),
+    listed(Place::WORK, &[], Do::Method(Method::Paper), "method paper", "Solve by the closed form as it is printed."),
+    listed(Place::WORK, &[], Do::Method(Method::Exact), "method exact", "Solve by the closed form, from the first contact where the gap closes."),
+    listed(Place::WORK, &[], Do::Method(Method::Static), "method static", "Solve for how the pairs in contact share the load at rest."),
+    listed(Place::WORK, &[], Do::Method(Method::Dynamic), "method dynamic", "Solve for the pair in motion, with inertia."),
+    listed(Place::WORK, &[], Do::Method(Method::Auto), "method auto", "Solve by the cheapest of exact, static and dynamic that is good enough."),
     shown(Place::WORK, &[ctrl('z')], Do::Undo, "undo", "Undo the edits of the last field."),
     shown(Place::WORK, &[function(5), alt('p')], Do::CycleLower, "switch", "Switch the lower area: chart, teeth, trade."),
     listed(Place::WORK, &[function(9)], Do::Zoom, "zoom", "Give the focused pane the screen, or take it back."),

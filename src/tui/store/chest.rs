@@ -37,7 +37,7 @@ struct Page {
 }
 
 impl Chest {
-    /// A chest, and its thread, which tells when a journal cannot be written, and sleeps until it is rung for.
+    /// A chest, and its thread, which tells when a journal cannot be written, and sleeps until it is method for.
     ///
     /// # Errors
     /// When the system gives no thread.

@@ -86,7 +86,7 @@ pub(super) fn hold(app: &mut App, quantity: &'static Quantity) -> Vec<Effect> {
     }
     app.panes.focus = Pane::Form;
     app.is_editing = true;
-    let row = rows::of_limit(&app.case, quantity.key).or_else(|| index_of("model.rung"));
+    let row = rows::of_limit(&app.case, quantity.key).or_else(|| index_of("model.method"));
     app.focus_on(row.unwrap_or(app.focus));
     effects
 }

@@ -40,7 +40,7 @@ pub(super) fn value(app: &mut App) -> Vec<Effect> {
     copy(app, text, quantity.label.trim())
 }
 
-/// Every result of the active rung, a line each: key, value in SI, unit.
+/// Every result of the active method, a line each: key, value in SI, unit.
 pub(super) fn results(app: &mut App) -> Vec<Effect> {
     let solution = app.answer.as_ref().filter(|_| !app.is_stale()).and_then(|answer| answer.of(answer.active));
     let Some(solution) = solution else {

@@ -59,8 +59,8 @@ fn stop(app: &mut App) -> Vec<Effect> {
     let solving = app.tab.solving.take().map(|_| {
         app.tab.is_settled = true;
         app.is_pinning = false;
-        if let Some(rung) = app.tab.answer.as_mut().and_then(|answer| answer.pending.take()) {
-            app.say(format!("rung {} is stopped: the closed form stands until the next edit", rung.name()));
+        if let Some(method) = app.tab.answer.as_mut().and_then(|answer| answer.pending.take()) {
+            app.say(format!("method {} is stopped: the closed form stands until the next edit", method.name()));
         }
         Effect::CancelSolve
     });

@@ -14,7 +14,7 @@ use crate::tui::view::trade::ordered;
 /// The work that the progress tells of.
 const MEASURING: &str = "measuring";
 
-/// Measure every rung on the case in the form.
+/// Measure every method on the case in the form.
 pub(super) fn measure(app: &mut App) -> Vec<Effect> {
     let Ok(inputs) = app.case.inputs() else {
         app.complain("the form is not valid: nothing can be measured");
@@ -91,6 +91,6 @@ pub(super) fn take(app: &mut App) -> Vec<Effect> {
     setting.apply(&mut case);
     let is_other = case != app.case;
     let effects = edit::replace(app, case);
-    app.say(format!("rung {setting}{}", if is_other { "; u undoes" } else { ", as it was" }));
+    app.say(format!("method {setting}{}", if is_other { "; u undoes" } else { ", as it was" }));
     effects
 }

@@ -11,7 +11,7 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 
 use super::{text, titled};
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::model::{Outcome, Solution};
 use crate::report::absence::without_contact;
 use crate::report::graphs::{GRAPHS, Graph};
@@ -88,16 +88,16 @@ pub fn fitted(app: &App, anew: Anew) -> Scale {
     let mut scale = app.scale;
     let area = plan(app.size, app.panes).chart;
     let Some(answer) = app.answer.as_ref().filter(|_| !area.is_empty()) else { return scale };
-    // While a rung is to come, its axis waits for it.
+    // While a method is to come, its axis waits for it.
     let pinned = app.baseline.as_ref().map(|baseline| (&baseline.answer, baseline.answer.beside(answer.active)));
-    let way = pinned.map_or(Span::NONE, |(base, rung)| way_by(base, rung)).and(way(answer));
+    let way = pinned.map_or(Span::NONE, |(base, method)| way_by(base, method)).and(way(answer));
     scale.across = match (answer.pending, anew.all) {
         (Some(_), _) => scale.across.grown(way),
         (None, true) => scale.across.anew(way),
         (None, false) => scale.across.fitted(way),
     };
     let touches = [Some((answer, answer.active)), pinned];
-    let touches = touches.into_iter().flatten().filter_map(|(answer, rung)| first_contact(answer.of(rung)?));
+    let touches = touches.into_iter().flatten().filter_map(|(answer, method)| first_contact(answer.of(method)?));
     let first = touches.fold(0.0, f64::max).to_degrees();
     if first > 0.0 {
         let strike = Span::new(-first, AFTER_E * first);
@@ -113,13 +113,13 @@ pub fn fitted(app: &App, anew: Anew) -> Scale {
     scale
 }
 
-/// The charts in sight: the chosen one, and below it the next ones that the active rung has.
+/// The charts in sight: the chosen one, and below it the next ones that the active method has.
 #[must_use]
 pub fn shown(app: &App, area: Rect) -> Vec<usize> {
     let chosen = app.graph;
-    let rung = app.answer.as_ref().map(|answer| answer.active);
+    let method = app.answer.as_ref().map(|answer| answer.active);
     let others = (1..GRAPHS.len()).map(|by| (chosen + by) % GRAPHS.len());
-    let has_curve = |graph: &usize| rung.is_some_and(|rung| GRAPHS[*graph].column(rung).is_some());
+    let has_curve = |graph: &usize| method.is_some_and(|method| GRAPHS[*graph].column(method).is_some());
     std::iter::once(chosen).chain(others.filter(has_curve)).take(count(area)).collect()
 }
 
@@ -174,8 +174,8 @@ fn draw_panel(app: &App, graph: &Graph, axes: &Axes, window: Span, area: Rect, b
 
 // In words, with the symbol and the units.
 fn title(app: &App, graph: &Graph, axes: &Axes) -> String {
-    let rung = app.answer.as_ref().map(|answer| answer.active);
-    let column = rung.and_then(|rung| graph.column(rung)).or_else(|| graph.all_columns().next());
+    let method = app.answer.as_ref().map(|answer| answer.active);
+    let column = method.and_then(|method| graph.column(method)).or_else(|| graph.all_columns().next());
     let name = column.map_or_else(String::new, |column| {
         let shown = app.settings.units.unit(column.shown);
         format!(" {}{}", symbol(column.symbol, app.look.ascii), unit(shown, axes.beside.power))
@@ -195,9 +195,9 @@ fn unit(unit: &str, power: i32) -> String {
     }
 }
 
-// Why the active rung has no curve, where it has none.
+// Why the active method has no curve, where it has none.
 fn lack(app: &App, graph: &Graph, curves: &[Curve]) -> Option<String> {
-    let Some(answer) = &app.answer else { return Some("No valid results of this rung.".to_owned()) };
+    let Some(answer) = &app.answer else { return Some("No valid results of this method.".to_owned()) };
     if curves.iter().any(|curve| matches!(curve.whose, Whose::Active(_))) {
         return None;
     }
@@ -207,10 +207,10 @@ fn lack(app: &App, graph: &Graph, curves: &[Curve]) -> Option<String> {
     let label = graph.label.to_lowercase();
     let active = answer.active;
     if graph.column(active).is_none() {
-        let rungs: Vec<_> = graph.rungs().map(Rung::name).collect();
-        return Some(format!("The rung {} has no {label}: {} do.", active.name(), rungs.join(" and ")));
+        let methods: Vec<_> = graph.methods().map(Method::name).collect();
+        return Some(format!("The method {} has no {label}: {} do.", active.name(), methods.join(" and ")));
     }
-    Some(answer.of(active).map_or_else(|| "No valid results of this rung.".to_owned(), |solution| nothing(solution, &label)))
+    Some(answer.of(active).map_or_else(|| "No valid results of this method.".to_owned(), |solution| nothing(solution, &label)))
 }
 
 fn nothing(solution: &Solution, label: &str) -> String {

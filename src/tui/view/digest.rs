@@ -14,7 +14,9 @@ pub fn lines(digest: &Digest, width: usize, theme: &Theme) -> Vec<(String, Style
     let said = |text: &str, style: Style| text::wrap(text, width).into_iter().map(move |line| (line, style));
     let empty = || std::iter::once((String::new(), plain));
     let mut lines: Vec<_> = said(title, theme.title).collect();
-    lines.extend([&digest.pair, &digest.load, &format!("rung {}", digest.rung)].into_iter().flat_map(|text| said(text, plain)));
+    lines.extend(
+        [&digest.pair, &digest.load, &format!("method {}", digest.method)].into_iter().flat_map(|text| said(text, plain)),
+    );
     lines.extend(empty().chain(said(&digest.outcome, theme.focus)));
     for (standing, told) in &digest.limits {
         let style = if standing.holds() { plain } else { theme.problem };

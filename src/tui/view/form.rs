@@ -17,7 +17,7 @@ use crate::tui::pane::Pane;
 use crate::tui::rows;
 
 const MARK: u16 = 2;
-/// Stands before a field that the chosen rung does without.
+/// Stands before a field that the chosen method does without.
 const IDLE: &str = "-";
 /// Stands before a field that is not as the file has it.
 const EDITED: &str = "*";
@@ -187,7 +187,7 @@ fn draw_field(app: &App, inputs: &Inputs, index: usize, line: Rect, buffer: &mut
     draw_value(app, index, value, style, buffer)
 }
 
-/// Behind a verdict on the free impact: what the rung itself finds is above the limit.
+/// Behind a verdict on the free impact: what the method itself finds is above the limit.
 const ABOVE_BESIDE: &str = " (!)";
 
 // The limit as it is written, and how the result stands to it.

@@ -8,16 +8,16 @@ const BEFORE: [&str; 5] = [
     "A value stands with its unit: 5 mm, 16 um, 0.2 in, 15 kW, 20 hp, 2000 rpm, 20 deg; a number alone takes the unit of its field.",
     "In a field of a value that is empty, or marked as a whole, / and : are the commands that they are outside a field; no value begins with them.",
     "An empty field shows in brackets what then holds.",
-    "D is where the driven tip first touches, E where the normal path of contact begins. The rung paper keeps the printed Eqs. 7-20, exact finds D where the gap closes.",
+    "D is where the driven tip first touches, E where the normal path of contact begins. The method paper keeps the printed Eqs. 7-20, exact finds D where the gap closes.",
 ];
 
 /// What the signs mean, each by the place where it stands.
 const SIGNS: [&str; 6] = [
     "Before a field: * it is not as the file has it, - it makes no difference here, ! it is wrong, ▸ it is the marked one.",
-    "Behind a limit: ok or EXCEEDED (! where there is no room) and how much of it is used; (!) the rung itself finds more than the limit on the free impact.",
-    "Behind a result and its unit: ← the last edit changed it, ! it is above its limit; – in its place: no value. ▸ above a column: the rung of the case.",
+    "Behind a limit: ok or EXCEEDED (! where there is no room) and how much of it is used; (!) the method itself finds more than the limit on the free impact.",
+    "Behind a result and its unit: ← the last edit changed it, ! it is above its limit; – in its place: no value. ▸ above a column: the method of the case.",
     "To base: the difference to the baseline (b pins one), = none; no base: the baseline has no such value; in base: only the baseline has one.",
-    "In a chart: dots or * the rung of the case, · paper, ∘ exact, × static, + the baseline, ╌ what the value is held against. On its axis: D first contact, E and B ends of the path of contact, L last contact, d another rung's D.",
+    "In a chart: dots or * the method of the case, · paper, ∘ exact, × static, + the baseline, ╌ what the value is held against. On its axis: D first contact, E and B ends of the path of contact, L last contact, d another method's D.",
     "In the teeth: solid the flanks, bold those of the incoming pair; solid from E to B the path of contact, dashed the line of action, dotted the base circles and, before E, the path of the driven tip; crosses the named points, bold dots where flanks touch.",
 ];
 

@@ -25,7 +25,7 @@ pub struct Reach {
     pub start: f64,
     /// Where a run begins.
     pub run_from: f64,
-    /// Where it ends: at E, or at the last contact where the rung goes on to it.
+    /// Where it ends: at E, or at the last contact where the method goes on to it.
     pub run_to: f64,
     /// The leftmost angle.
     pub most: f64,
@@ -113,7 +113,7 @@ fn place(app: &App, solution: &Solution, name: &str) -> Option<Result<f64, Strin
     })
 }
 
-// Where the active rung's curve in the chosen chart is farthest from 0.
+// Where the active method's curve in the chosen chart is farthest from 0.
 fn peak(app: &App) -> Option<f64> {
     let curves = curves(app, &GRAPHS[app.graph]);
     let own = curves.iter().find(|curve| matches!(curve.whose, Whose::Active(_)))?;
@@ -160,7 +160,7 @@ pub fn reach(app: &App) -> Option<Reach> {
     Some(Reach { start, run_from: start, run_to: end, most: before, least, column: shown / columns })
 }
 
-/// The active rung's results.
+/// The active method's results.
 #[must_use]
 pub fn solution(app: &App) -> Option<&Solution> {
     app.answer.as_ref().and_then(|answer| answer.of(answer.active))

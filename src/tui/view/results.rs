@@ -1,4 +1,4 @@
-//! The results: the outcome in a sentence, the gauges, every quantity with the rungs side by side, what to know.
+//! The results: the outcome in a sentence, the gauges, every quantity with the methods side by side, what to know.
 
 mod table;
 
@@ -12,7 +12,7 @@ use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
 use super::{text, title_room, titled};
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::model::{Note, Outcome, Quantity, Solution, Stage};
 use crate::report::{self, Shown, digest};
 use crate::tui::app::App;
@@ -103,7 +103,7 @@ pub struct Listed {
     pub row: usize,
     /// Its line.
     pub line: usize,
-    /// Whether the active rung finds a value.
+    /// Whether the active method finds a value.
     pub has_value: bool,
 }
 
@@ -197,7 +197,8 @@ fn title(app: &App, room: usize) -> String {
     let begun = text::cut(against, room.saturating_sub(name.width()));
     let base = if begun.width() >= LEAST_OF_BASE { begun.as_str() } else { "" };
     let answer = app.answer.as_ref();
-    let pending = answer.and_then(|answer| answer.pending).map_or_else(String::new, |rung| format!(", {} to come", rung.name()));
+    let pending =
+        answer.and_then(|answer| answer.pending).map_or_else(String::new, |method| format!(", {} to come", method.name()));
     let cost = answer
         .filter(|_| app.shows_cost)
         .map_or_else(String::new, |answer| format!(", {} stages in {} us", answer.cost.stages, answer.cost.micros));
@@ -297,7 +298,7 @@ impl Gauge {
 
 fn gauges(app: &App, answer: &Answer) -> Vec<Gauge> {
     let Some(solution) = answer.of(answer.active) else { return Vec::new() };
-    let ratios = (!solution.rung.shares_load()).then(|| ratios(answer, app.look.ascii)).flatten();
+    let ratios = (!solution.method.shares_load()).then(|| ratios(answer, app.look.ascii)).flatten();
     [relief(app, answer, solution), band(app, solution), ratios].into_iter().flatten().collect()
 }
 
@@ -321,7 +322,7 @@ fn band(app: &App, solution: &Solution) -> Option<Gauge> {
     let (low, high) = (report::shown_with(quantity, band.low, unit).number, report::shown_with(quantity, band.high, unit));
     let parts = format!("{:+.1}..{:+.1} %", percent(band.low), percent(band.high));
     let range = format!("{low}..{high} ({parts})");
-    let (whose, force) = if solution.rung.shares_load() { ("the free impact's ", "free F_S") } else { ("", "F_S") };
+    let (whose, force) = if solution.method.shares_load() { ("the free impact's ", "free F_S") } else { ("", "F_S") };
     Some(Gauge(vec![
         format!("the stiffness models in range give {whose}F_S {range}"),
         format!("by stiffness: {force} {range}"),
@@ -330,9 +331,9 @@ fn band(app: &App, solution: &Solution) -> Option<Gauge> {
     ]))
 }
 
-// How far the printed position is off, where both rungs find one.
+// How far the printed position is off, where both methods find one.
 fn ratios(answer: &Answer, ascii: bool) -> Option<Gauge> {
-    let (paper, exact) = (answer.of(Rung::Paper)?, answer.of(Rung::Exact)?);
+    let (paper, exact) = (answer.of(Method::Paper)?, answer.of(Method::Exact)?);
     let ratio = |key| {
         let quantity = Quantity::find(key)?;
         let ratio = (quantity.value)(exact)? / (quantity.value)(paper)?;

@@ -10,7 +10,7 @@ use super::{chart, results, text, trade};
 use crate::case::fields::{self, Absent, Field, Kind};
 use crate::case::units::System;
 use crate::case::{Acting, FIELDS, Limit, acts, acts_in_part, materials};
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::numeric::decimal::shortest;
 use crate::report::verdict::verdicts;
 use crate::tui::app::{App, Progress};
@@ -196,11 +196,11 @@ fn focused(app: &App) -> String {
             typed(app).into_iter().chain([about]).collect::<Vec<_>>().join(" ")
         }
         Pane::Results => results::marked(app).map_or_else(String::new, |quantity| {
-            let rung = app.answer.as_ref().map_or(Rung::Exact, |answer| answer.active);
-            let name = symbol(quantity.symbol_in(rung), app.look.ascii);
+            let method = app.answer.as_ref().map_or(Method::Exact, |answer| answer.active);
+            let name = symbol(quantity.symbol_in(method), app.look.ascii);
             let about = format!(
                 "{name} {}, {} ({}).",
-                quantity.label_in(rung).trim(),
+                quantity.label_in(method).trim(),
                 symbol(quantity.equation, app.look.ascii),
                 quantity.key
             );
@@ -260,7 +260,7 @@ fn about_limit(app: &App, limit: &Limit) -> String {
 
 fn at_cursor(app: &App) -> String {
     const NONE: &str = "No cursor: h and l bring it, Space lets it run.";
-    const MARKS: &str = "D first contact, E and B ends of the path of contact, L last contact, d another rung's D.";
+    const MARKS: &str = "D first contact, E and B ends of the path of contact, L last contact, d another method's D.";
     const LINES: &str =
         "Solid: flanks (incoming pair bold), path of contact; dashed: line of action; dots: base circles, tip's path.";
     match app.cursor {
@@ -272,8 +272,8 @@ fn at_cursor(app: &App) -> String {
 
 // A solve that takes its time.
 fn solving(app: &App) -> Option<Progress> {
-    let rung = app.answer.as_ref().and_then(|answer| answer.pending).map_or("", Rung::name);
-    app.solving.map(|part| Progress { what: format!("solving {rung}"), part })
+    let method = app.answer.as_ref().and_then(|answer| answer.pending).map_or("", Method::name);
+    app.solving.map(|part| Progress { what: format!("solving {method}"), part })
 }
 
 fn bar(progress: &Progress) -> String {

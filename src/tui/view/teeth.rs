@@ -20,7 +20,7 @@ use crate::tui::pane::Pane;
 
 pub use picture::Picture;
 
-const NOTHING: &str = "  No valid results of this rung.";
+const NOTHING: &str = "  No valid results of this method.";
 
 /// Draw the pane.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
@@ -44,7 +44,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     picture::draw(&picture, inner, buffer);
 }
 
-/// The pair that the active rung has solved last, and what it found.
+/// The pair that the active method has solved last, and what it found.
 #[must_use]
 pub fn solved(app: &App) -> Option<(&Inputs, &Solution)> {
     let answer = app.answer.as_ref()?;

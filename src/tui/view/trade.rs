@@ -5,10 +5,10 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 
 use super::{text, titled};
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::report::trade::plot::{Axis, shown, time};
 use crate::report::trade::{ON_TIME, parts, percent, summary};
-use crate::study::trade::{Measured, RUNGS, Setting, Trade};
+use crate::study::trade::{METHODS, Measured, Setting, Trade};
 use crate::tui::app::App;
 use crate::tui::pane::Pane;
 use crate::tui::tab::Traded;
@@ -19,7 +19,7 @@ const LABEL: u16 = 9;
 const TALL: u16 = 8;
 /// The line of the error that is good enough.
 const LEVEL: &str = "╌";
-const INVITATION: &str = "Nothing is measured yet: m measures every rung by its settings on this case, for a few seconds; \
+const INVITATION: &str = "Nothing is measured yet: m measures every method by its settings on this case, for a few seconds; \
     Esc stops it, and what was measured stays. Enter then makes the marked setting the case's.";
 
 /// Draw the pane.
@@ -112,22 +112,22 @@ fn write(words: &str, area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// A rung's letter, with its colour.
-fn mark(app: &App, rung: Rung) -> (char, Style) {
+/// A method's letter, with its colour.
+fn mark(app: &App, method: Method) -> (char, Style) {
     let theme = app.look.theme;
-    match rung {
-        Rung::Paper => ('p', theme.faint),
-        Rung::Exact => ('e', theme.other),
-        Rung::Static => ('s', theme.path),
-        Rung::Dynamic => ('d', theme.active),
-        Rung::Auto => ('a', theme.note),
+    match method {
+        Method::Paper => ('p', theme.faint),
+        Method::Exact => ('e', theme.other),
+        Method::Static => ('s', theme.path),
+        Method::Dynamic => ('d', theme.active),
+        Method::Auto => ('a', theme.note),
     }
 }
 
 /// What the letters mean, a word each, and then their writing.
 fn draw_legend(app: &App, trade: &Trade, area: Rect, buffer: &mut Buffer) {
-    let rungs = RUNGS.into_iter().chain([Rung::Auto]);
-    let words = rungs.map(|rung| (rung.name().to_owned(), mark(app, rung).1));
+    let methods = METHODS.into_iter().chain([Method::Auto]);
+    let words = methods.map(|method| (method.name().to_owned(), mark(app, method).1));
     let within = format!("{LEVEL}{LEVEL} within {} %", percent(trade.within));
     let writing = ["CAPITAL on the front".to_owned(), "(own)".to_owned(), "[marked]".to_owned(), within];
     let mut x = area.x + 1;
@@ -202,7 +202,7 @@ fn draw_front(app: &App, front: &[(u16, u16)], field: Rect, buffer: &mut Buffer)
     }
 }
 
-/// The rung's letter, a capital on the front; in brackets where it is marked or the case's own.
+/// The method's letter, a capital on the front; in brackets where it is marked or the case's own.
 fn draw_mark(
     app: &App,
     measured: &Measured,
@@ -212,7 +212,7 @@ fn draw_mark(
     buffer: &mut Buffer,
 ) {
     let theme = app.look.theme;
-    let (letter, style) = mark(app, measured.setting.rung);
+    let (letter, style) = mark(app, measured.setting.method);
     let letter = if is_on_front { letter.to_ascii_uppercase() } else { letter };
     let (mark, style) = match (is_marked, is_own) {
         (true, _) => (format!("[{letter}]"), theme.key),

@@ -1,4 +1,4 @@
-"""Reference answers of the rungs `static` and `dynamic`: NAME.json for every NAME.toml beside this file (or those named).
+"""Reference answers of the methods `static` and `dynamic`: NAME.json for every NAME.toml beside this file (or those named).
 
     python3 generate.py [NAME ...]
 

@@ -1,4 +1,4 @@
-"""A gear pair as the rungs `static` and `dynamic` see it: gap and stiffness of one pair of teeth along the line of action.
+"""A gear pair as the methods `static` and `dynamic` see it: gap and stiffness of one pair of teeth along the line of action.
 
 Written from model.md (sections 1, 3, 5) apart from the project's own code. SI units. `maths` is Python's `math` or
 mpmath's `mp`, so that the same formulas serve in f64 and in 40 digits.

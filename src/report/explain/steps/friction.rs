@@ -1,7 +1,7 @@
 //! Steps of the friction ratio: the end of the impact D' and the velocities there.
 
 use super::told;
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::report::explain::known::Formula::{self, By, Text};
 use crate::report::explain::known::{Known, Step};
 
@@ -9,11 +9,11 @@ use crate::report::explain::known::{Known, Step};
 pub(super) static STEPS: &[Step] = &[
     told!("Δθ", "driver's turn over the impact, Eq. 35", "deg", Text("ω_1 T_S,32")),
     told!("DD'", "chord of the driven tip's way over the impact, Eqs. 36 and 37", "mm", Text("2 r_a2 sin(Δθ/(2 i))")),
-    told!("u'", "driven angle before E at D'", "deg", By(|k| by_rung(k, "η' - γ_2", "max(u - ω_2 T_S,32, 0)"))),
+    told!("u'", "driven angle before E at D'", "deg", By(|k| by_method(k, "η' - γ_2", "max(u - ω_2 T_S,32, 0)"))),
     told!("η'", "angle at O2 from the centre line to the tip at D'", "deg",
-        By(|k| by_rung(k, "acos((r_a2² + a² - O1D'²)/(2 a r_a2))", "γ_2 + u'"))),
+        By(|k| by_method(k, "acos((r_a2² + a² - O1D'²)/(2 a r_a2))", "γ_2 + u'"))),
     told!("O1D'", "driver radius at D'", "mm",
-        By(|k| by_rung(k, "O1D cos Δθ - √((O1D cos Δθ)² - O1D² + DD'²)", "√(r_a2² + a² - 2 a r_a2 cos η')"))),
+        By(|k| by_method(k, "O1D cos Δθ - √((O1D cos Δθ)² - O1D² + DD'²)", "√(r_a2² + a² - 2 a r_a2 cos η')"))),
     told!("ρ_1'", "driver's radius of curvature at D'", "mm", Text("√(O1D'² - r_b1²)")),
     told!("χ'", "angle of the contact normal at D'", "deg", Text("atan2(r_a2 sin η', a - r_a2 cos η') + atan2(ρ_1', r_b1)")),
     told!("r_b2''", "distance from O2 to the contact normal at D'", "mm", Text("a cos χ' - r_b1")),
@@ -23,6 +23,6 @@ pub(super) static STEPS: &[Step] = &[
     told!("ΔV_τ'", "sliding velocity at D', Eq. 30", "m/s", Text("ω_2' N2'D' - ω_1 ρ_1'")),
 ];
 
-fn by_rung(known: &Known, paper: &'static str, other: &'static str) -> Formula {
-    Text(if known.inputs.rung == Rung::Paper { paper } else { other })
+fn by_method(known: &Known, paper: &'static str, other: &'static str) -> Formula {
+    Text(if known.inputs.method == Method::Paper { paper } else { other })
 }

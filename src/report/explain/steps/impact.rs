@@ -30,9 +30,9 @@ pub(super) static STEPS: &[Step] = &[
     step!("d_2", "A_2 + A_3 x of the driven gear", "N/(um mm)",
         Text("(2.637 - 1.222 z2 + 0.02217 z2² - 0.0001179 z2³ + (-6.330 - 1.033 z2 + 0.02068 z2² - 0.0001130 z2³) x2) [N/(um mm)]"),
         |k| Some(fit(k.inputs.driven.teeth, k.inputs.driven.profile_shift).1)),
-    step!("q_1", "driver's tooth, loaded at O1D", "um mm/N", By(|k| by_method(k, "1/(c_1 + d_1 (O1D - r_1)/((1 + x1) m))")),
+    step!("q_1", "driver's tooth, loaded at O1D", "um mm/N", By(|k| by_tooth_model(k, "1/(c_1 + d_1 (O1D - r_1)/((1 + x1) m))")),
         |k| Some(k.solution.compliance?.driver)),
-    step!("q_2", "driven tooth, loaded at its tip", "um mm/N", By(|k| by_method(k, "1/(c_2 + d_2 (r_a2 - r_2)/((1 + x2) m))")),
+    step!("q_2", "driven tooth, loaded at its tip", "um mm/N", By(|k| by_tooth_model(k, "1/(c_2 + d_2 (r_a2 - r_2)/((1 + x2) m))")),
         |k| Some(k.solution.compliance?.driven)),
     step!("q_H", "contact at the impact force", "um mm/N", By(|k| Text(match k.inputs.contact_compliance {
         ContactCompliance::Logarithmic => "(1.27 + 0.781 ln(m/a_H))/(π E')",
@@ -58,7 +58,7 @@ fn fit(teeth: u32, shift: f64) -> (f64, f64) {
     (NEWTON_PER_MICRON_MILLIMETRE * (a0 + a1 * shift), NEWTON_PER_MICRON_MILLIMETRE * (a2 + a3 * shift))
 }
 
-fn by_method(known: &Known, fit: &'static str) -> Formula {
+fn by_tooth_model(known: &Known, fit: &'static str) -> Formula {
     match model::compliance::model_of(known.inputs) {
         ToothCompliance::KuangYang => Text(fit),
         ToothCompliance::Beam => BEAM,

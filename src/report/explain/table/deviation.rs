@@ -1,7 +1,7 @@
 //! Explanations of what brings the tooth in early.
 
 use super::Explanation;
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::report::explain::known::Formula::{By, Found, Given, Made, Text, Words};
 use crate::report::explain::known::Known;
 use crate::report::explain::steps::contact::PAIRS_AHEAD;
@@ -12,9 +12,9 @@ pub(super) static TABLE: &[Explanation] = &[
         key: "equivalent_error",
         says: "What the gears' own deviations bring the incoming tooth in early, along the line of action. Relief counts \
             against it, in full.",
-        formula: By(|k| match k.solution.rung {
-            Rung::Paper => Text("(2 f_pb + e_m - j_bn)/√2"),
-            rung if rung.shares_load() => Text("(2 f_pb - j_bn)/√2"),
+        formula: By(|k| match k.solution.method {
+            Method::Paper => Text("(2 f_pb + e_m - j_bn)/√2"),
+            method if method.shares_load() => Text("(2 f_pb - j_bn)/√2"),
             _ => Text("(2 f_pb - j_bn)/√2 + e_m"),
         }),
         source: "Zhou & Chen 2014, Eqs. 1 and 2.",
@@ -48,7 +48,7 @@ pub(super) static TABLE: &[Explanation] = &[
         key: "total_deviation",
         says: "What brings the tooth in early, in all. Above 0 the tip strikes before E; at 0 or below it comes in on time, and \
             there is no corner contact.",
-        formula: By(|k| Text(if k.inputs.rung.shares_load() { "Δf_0 + e_m + δ" } else { "Δf + δ" })),
+        formula: By(|k| Text(if k.inputs.method.shares_load() { "Δf_0 + e_m + δ" } else { "Δf + δ" })),
         source: "Zhou & Chen 2014, Eq. 5.",
         mended: &["Eq. 1"],
         assumes: "Deviations and deflection add up along the line of action.",
@@ -57,16 +57,16 @@ pub(super) static TABLE: &[Explanation] = &[
     Explanation {
         key: "clearing_relief",
         says: "How much more tip relief of the driven gear it takes, beyond what it has, so that the incoming tooth does not touch \
-            before E: by the rung itself, at rest or in motion.",
-        formula: By(|k| match k.solution.rung {
-            Rung::Exact | Rung::Auto => Text("Δ"),
-            Rung::Paper => Words("the root C of u(Δf - C/√2) = 0, u by Eqs. 11-20 as printed: no more than √2 Δ"),
-            Rung::Static => Found {
+            before E: by the method itself, at rest or in motion.",
+        formula: By(|k| match k.solution.method {
+            Method::Exact | Method::Auto => Text("Δ"),
+            Method::Paper => Words("the root C of u(Δf - C/√2) = 0, u by Eqs. 11-20 as printed: no more than √2 Δ"),
+            Method::Static => Found {
                 words: "the root C of: the most by which the other pairs let the driver run ahead of the incoming tooth's gap up to E = 0, \
                     the gap with C more tip relief, x by Σ w_k F_k = F_0 with the same relief on every pair",
                 with: &["F_0", "k_m", "Δf", "Δ"],
             },
-            Rung::Dynamic => Found {
+            Method::Dynamic => Found {
                 words: "the root C of: the most by which the driver runs ahead of the incoming tooth's gap up to E = 0 in the motion \
                     m_red x'' + c x' + Σ w_k F_k = F_0 with C more tip relief, in which the incoming tooth stands off",
                 with: &["m_red", "c", "f_n", "f_z", "Δf", "Δ"],

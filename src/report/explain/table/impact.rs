@@ -1,7 +1,7 @@
 //! Explanations of the impact: force, energy, duration, and what they rest on.
 
 use super::Explanation;
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::report::explain::known::Formula::{By, Made, Text};
 use crate::report::explain::known::Known;
 use crate::report::explain::models::models;
@@ -53,19 +53,19 @@ pub(super) static TABLE: &[Explanation] = &[
     },
     Explanation {
         key: "impact_duration",
-        says: "How long the impact lasts, as the rung has it.",
-        formula: By(|k| match k.inputs.rung {
-            Rung::Paper => Text("T_S,32"),
+        says: "How long the impact lasts, as the method has it.",
+        formula: By(|k| match k.inputs.method {
+            Method::Paper => Text("T_S,32"),
             _ => Text("T_S,q"),
         }),
-        source: "Rung paper: Zhou & Chen 2014, Eq. 32. Rung exact: half a period of the spring and mass that give F_S.",
+        source: "Method paper: Zhou & Chen 2014, Eq. 32. Method exact: half a period of the spring and mass that give F_S.",
         mended: &["Eq. 32"],
         assumes: SPRING,
         valid: &[impact::within_approach, impact::possible],
     },
     Explanation {
         key: "impact_duration_printed",
-        says: "The duration of Eq. 32 as it stands in print. Friction is worked out with it in both rungs, as published.",
+        says: "The duration of Eq. 32 as it stands in print. Friction is worked out with it in both methods, as published.",
         formula: Text("(m_red²/(π² ΔV_n ρ_S E'²))^(1/5)"),
         source: "Zhou & Chen 2014, Eq. 32, after Hertz 1882.",
         mended: &["Eq. 32", "Eq. 33, Eq. 50"],

@@ -1,4 +1,4 @@
-//! Explanations of the rungs in which every pair takes its share of the load.
+//! Explanations of the methods in which every pair takes its share of the load.
 
 use super::Explanation;
 use crate::report::explain::known::Formula::{self, Found, Solved, Text};

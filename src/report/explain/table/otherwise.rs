@@ -1,7 +1,7 @@
-//! What is said of a quantity, or taken for granted, otherwise in some rungs and cases.
+//! What is said of a quantity, or taken for granted, otherwise in some methods and cases.
 
 use crate::model::Inputs;
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 
 /// What takes the place of an explanation's words in the cases that the condition names.
 #[derive(Debug)]
@@ -27,7 +27,7 @@ pub(in crate::report::explain) static TABLE: &[Otherwise] = &[
         key: "equivalent_error",
         when: by_sharing,
         says: "What the gears' own deviations bring the incoming tooth in early, along the line of action, without the reliefs: \
-            in this rung they act on the flanks, as far as they reach. What rung exact calls Δf is this and e_m.",
+            in this method they act on the flanks, as far as they reach. What method exact calls Δf is this and e_m.",
         assumes: "f_pb of both gears and j_bn are independent random deviations, which add as squares: 1/√2 stands for that. \
             The reliefs are no part of it.",
     },
@@ -37,13 +37,13 @@ pub(in crate::report::explain) static TABLE: &[Otherwise] = &[
         says: "What the gears' own deviations bring the incoming tooth in early, along the line of action. Relief counts \
             against it by 1/√2, as printed.",
         assumes: "f_pb of both gears, j_bn and e_m are independent random deviations, which add as squares: 1/√2 stands for that. \
-            A relief that was ground is none: rung exact counts it in full.",
+            A relief that was ground is none: method exact counts it in full.",
     },
     Otherwise {
         key: "modification",
         when: by_sharing,
         says: "What the reliefs take off where tip and root meet: the driven gear's tip relief and the driver's root relief, \
-            below 0. It counts in Δ alone; the forces of this rung take the reliefs from the flanks, by length and shape.",
+            below 0. It counts in Δ alone; the forces of this method take the reliefs from the flanks, by length and shape.",
         assumes: "Both reliefs are there in full where the driven tip meets the driver's flank.",
     },
     Otherwise {
@@ -55,7 +55,7 @@ pub(in crate::report::explain) static TABLE: &[Otherwise] = &[
     },
     Otherwise {
         key: "combined_deflection",
-        when: |inputs| inputs.rung == Rung::Dynamic,
+        when: |inputs| inputs.method == Method::Dynamic,
         says: "How far the pairs that carry the load give way along the line of action at rest, while the incoming pair stands at \
             E; in motion the mesh swings about that. A deflection that the case gives is left aside.",
         assumes: "",
@@ -69,7 +69,7 @@ pub(in crate::report::explain) static TABLE: &[Otherwise] = &[
     },
     Otherwise {
         key: "total_deviation",
-        when: |inputs| inputs.rung == Rung::Dynamic,
+        when: |inputs| inputs.method == Method::Dynamic,
         says: "What would bring the tooth in early at rest, in all. Above 0 the load would press it on before E; in motion the mesh \
             swings, and it may touch or not, whatever the sign: dynamic_first_contact_angle tells.",
         assumes: "Deviations and deflection add up along the line of action, the gears at rest, the pairs ahead on flanks without \
@@ -145,11 +145,11 @@ pub(in crate::report::explain) fn of(key: &str, inputs: &Inputs) -> Option<&'sta
 }
 
 fn by_sharing(inputs: &Inputs) -> bool {
-    inputs.rung.shares_load()
+    inputs.method.shares_load()
 }
 
 fn by_print(inputs: &Inputs) -> bool {
-    inputs.rung == Rung::Paper
+    inputs.method == Method::Paper
 }
 
 #[cfg(test)]

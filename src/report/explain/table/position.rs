@@ -1,7 +1,7 @@
 //! Explanations of the first contact D and the velocities there.
 
 use super::Explanation;
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::report::explain::known::Formula::{By, Solved, Text};
 use crate::report::explain::valid::{impact, pair, position};
 
@@ -11,11 +11,11 @@ pub(super) static TABLE: &[Explanation] = &[
     Explanation {
         key: "approach_angle_driver",
         says: "How far the driver has still to turn from the first touch D to E, where contact should begin.",
-        formula: By(|k| match k.inputs.rung {
-            Rung::Paper => Text("ε_e + ε_d"),
+        formula: By(|k| match k.inputs.method {
+            Method::Paper => Text("ε_e + ε_d"),
             _ => Text("i u"),
         }),
-        source: "Zhou & Chen 2014, Eqs. 11-20. Rung exact: the contact condition S(u) = Δ of the two involutes (see \
+        source: "Zhou & Chen 2014, Eqs. 11-20. Method exact: the contact condition S(u) = Δ of the two involutes (see \
             approach_angle_driven), and Eq. 11.",
         mended: &["Eqs. 7-20", "Eq. 14", "Eqs. 16, 20"],
         assumes: TIP,
@@ -25,8 +25,8 @@ pub(super) static TABLE: &[Explanation] = &[
         key: "approach_angle_driven",
         says: "How far the driven gear has still to turn from the first touch D to E. S(u) is the gap between its tip and the \
             driver's flank, along the contact normal, that Δ has to close.",
-        formula: By(|k| match k.inputs.rung {
-            Rung::Paper => Text("θ_1/i"),
+        formula: By(|k| match k.inputs.method {
+            Method::Paper => Text("θ_1/i"),
             _ => Solved {
                 equation: "S(u) = Δ,  S(u) = Δρ_1 + r_b2 u - r_b1 Δχ",
                 left: "Δρ_1 + r_b2 u - r_b1 Δχ",
@@ -34,7 +34,7 @@ pub(super) static TABLE: &[Explanation] = &[
                 unit: "um",
             },
         }),
-        source: "Zhou & Chen 2014, Eq. 11. Rung exact: the contact condition of the tip's path and the driver's involute, solved \
+        source: "Zhou & Chen 2014, Eq. 11. Method exact: the contact condition of the tip's path and the driver's involute, solved \
             by Newton's method; dS/du = r_b2 - r_b2', so that u grows as √Δ.",
         mended: &["Eqs. 7-20", "Eq. 14", "Eqs. 16, 20"],
         assumes: TIP,

@@ -3,9 +3,9 @@
 use super::{Finding, finding, four, micro};
 use crate::report::explain::known::Known;
 
-/// The pair ahead stays in contact while the incoming tooth carries its error; a rung that follows every pair asks no such thing.
+/// The pair ahead stays in contact while the incoming tooth carries its error; a method that follows every pair asks no such thing.
 pub(in crate::report::explain) fn pair_ahead(known: &Known) -> Option<Finding> {
-    if known.solution.rung.shares_load() {
+    if known.solution.method.shares_load() {
         return None;
     }
     let deviation = known.solution.deviation;

@@ -1,4 +1,4 @@
-//! Ranges of the rungs in which every pair takes its share of the load.
+//! Ranges of the methods in which every pair takes its share of the load.
 
 use std::f64::consts::{PI, TAU};
 

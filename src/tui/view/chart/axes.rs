@@ -158,11 +158,12 @@ impl Axes {
         }
     }
 
-    /// The marks of the contact on the axis: where the other rungs strike, B and the last contact L, E and D.
+    /// The marks of the contact on the axis: where the other methods strike, B and the last contact L, E and D.
     pub fn draw_marks(&self, app: &App, buffer: &mut Buffer) {
         let Some(answer) = &app.answer else { return };
         let theme = app.look.theme;
-        let others = answer.rungs.iter().filter(|(rung, _)| *rung != answer.active).filter_map(|(_, found)| found.as_ref().ok());
+        let others =
+            answer.methods.iter().filter(|(method, _)| *method != answer.active).filter_map(|(_, found)| found.as_ref().ok());
         let struck = others.filter_map(first_contact).map(|angle| (0.0 - angle.to_degrees(), "d", theme.other));
         let own = answer.of(answer.active).map(marks).unwrap_or_default();
         for (x, name, style) in struck.chain(own.into_iter().map(|(x, name)| (x, name, theme.active))) {

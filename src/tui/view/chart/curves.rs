@@ -1,7 +1,7 @@
-//! What stands in a chart: the curve of every rung, of the pinned results, and what the values are held against.
+//! What stands in a chart: the curve of every method, of the pinned results, and what the values are held against.
 
 use crate::case::units::{self, System};
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::model::spacing::Spacing;
 use crate::model::{Inputs, Solution, moment};
 use crate::report::graphs::Graph;
@@ -19,13 +19,13 @@ const ALIKE: f64 = 2e-3;
 /// Whose curve it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Whose {
-    /// That of the rung in force.
-    Active(Rung),
-    /// That of another rung.
-    Other(Rung),
-    /// That of the pinned results, by the rung in force where they have it.
-    Pinned(Rung),
-    /// What the active rung's values are held against.
+    /// That of the method in force.
+    Active(Method),
+    /// That of another method.
+    Other(Method),
+    /// That of the pinned results, by the method in force where they have it.
+    Pinned(Method),
+    /// What the active method's values are held against.
     Bound(&'static str),
 }
 
@@ -52,10 +52,10 @@ pub fn curves(app: &App, graph: &Graph) -> Vec<Curve> {
     let drawn = Drawn { graph, system: app.settings.units };
     let pinned = app.baseline.as_ref().and_then(|baseline| drawn.pinned(&baseline.answer, answer.active));
     let others = answer
-        .rungs
+        .methods
         .iter()
-        .filter(|(rung, _)| *rung != answer.active)
-        .filter_map(|(rung, found)| drawn.curve(&answer.inputs, found.as_ref().ok()?, Whose::Other(*rung)));
+        .filter(|(method, _)| *method != answer.active)
+        .filter_map(|(method, found)| drawn.curve(&answer.inputs, found.as_ref().ok()?, Whose::Other(*method)));
     let own = drawn.active(answer, Whose::Active(answer.active));
     pinned.into_iter().chain(others).chain(drawn.bound(answer)).chain(own).collect()
 }
@@ -72,25 +72,25 @@ impl Drawn<'_> {
         self.curve(&answer.inputs, answer.of(answer.active)?, whose)
     }
 
-    fn pinned(self, base: &Answer, active: Rung) -> Option<Curve> {
-        let rung = base.beside(active);
-        self.curve(&base.inputs, base.of(rung)?, Whose::Pinned(rung))
+    fn pinned(self, base: &Answer, active: Method) -> Option<Curve> {
+        let method = base.beside(active);
+        self.curve(&base.inputs, base.of(method)?, Whose::Pinned(method))
     }
 
     fn bound(self, answer: &Answer) -> Option<Curve> {
         let (solution, bound) = (answer.of(answer.active)?, self.graph.bound?);
-        let symbol = bound.symbols[usize::from(solution.rung.shares_load())];
+        let symbol = bound.symbols[usize::from(solution.method.shares_load())];
         self.with(&answer.inputs, solution, Whose::Bound(symbol), |row| (bound.value)(solution, row))
     }
 
-    // None where the rung has no such column, or no station.
+    // None where the method has no such column, or no station.
     fn curve(self, inputs: &Inputs, solution: &Solution, whose: Whose) -> Option<Curve> {
-        let column = self.graph.column(solution.rung)?;
+        let column = self.graph.column(solution.method)?;
         self.with(inputs, solution, whose, |row| column.of(row))
     }
 
     fn with(self, inputs: &Inputs, solution: &Solution, whose: Whose, value: impl Fn(Row) -> Option<f64>) -> Option<Curve> {
-        let column = self.graph.column(solution.rung)?;
+        let column = self.graph.column(solution.method)?;
         let unit = self.system.unit(column.shown);
         let factor = units::factor(unit).unwrap_or(1.0);
         let points = rows(solution).into_iter().map(|row| (angle(row), value(row).map(|value| value / factor)));
@@ -159,14 +159,14 @@ impl Curve {
     }
 }
 
-/// The driver's angle before E at the first contact of the rung, in rad.
+/// The driver's angle before E at the first contact of the method, in rad.
 #[must_use]
 pub fn first_contact(solution: &Solution) -> Option<f64> {
     let ratio = solution.geometry.driven.base / solution.geometry.driver.base;
     moment::first_contact(solution).map(|angle| angle * ratio)
 }
 
-/// The driver's angle before E at the last contact, below 0 after E, in rad; in the rungs that go on after E.
+/// The driver's angle before E at the last contact, below 0 after E, in rad; in the methods that go on after E.
 #[must_use]
 pub fn last_contact(solution: &Solution) -> Option<f64> {
     match rows(solution).last() {
@@ -175,16 +175,16 @@ pub fn last_contact(solution: &Solution) -> Option<f64> {
     }
 }
 
-/// From the first station of any rung to the last, in deg after E.
+/// From the first station of any method to the last, in deg after E.
 #[must_use]
 pub fn way(answer: &Answer) -> Span {
-    answer.rungs.iter().filter_map(|(_, found)| found.as_ref().ok()).map(way_of).fold(Span::NONE, Span::and)
+    answer.methods.iter().filter_map(|(_, found)| found.as_ref().ok()).map(way_of).fold(Span::NONE, Span::and)
 }
 
-/// The same of one rung alone, as of pinned results, of which one is drawn.
+/// The same of one method alone, as of pinned results, of which one is drawn.
 #[must_use]
-pub fn way_by(answer: &Answer, rung: Rung) -> Span {
-    answer.of(rung).map_or(Span::NONE, way_of)
+pub fn way_by(answer: &Answer, method: Method) -> Span {
+    answer.of(method).map_or(Span::NONE, way_of)
 }
 
 fn way_of(solution: &Solution) -> Span {
@@ -253,9 +253,9 @@ mod tests {
             let points = points.iter().enumerate().map(|(at, y)| (at as f64, *y)).collect();
             Curve { whose, column, unit: column.shown, pieces: vec![points] }
         };
-        let own = curve(Whose::Active(Rung::Exact), &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
-        let same = curve(Whose::Other(Rung::Static), &[0.0, 1.0, 2.0, 3.0, 4.0]);
-        let other = curve(Whose::Other(Rung::Paper), &[9.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+        let own = curve(Whose::Active(Method::Exact), &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
+        let same = curve(Whose::Other(Method::Static), &[0.0, 1.0, 2.0, 3.0, 4.0]);
+        let other = curve(Whose::Other(Method::Paper), &[9.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
         let shown = apart(vec![same, other, own]);
         assert_eq!(shown.len(), 2);
         assert_eq!(shown[0].pieces, [vec![(0.0, 9.0), (1.0, 1.0)], vec![(5.0, 5.0), (6.0, 6.0), (7.0, 7.0)]]);
@@ -266,7 +266,7 @@ mod tests {
     fn a_value_between_stations_is_on_the_line_and_beyond_them_there_is_none() {
         let column = &crate::report::stations::COLUMNS[6];
         let pieces = vec![vec![(-1.0, 4.0), (0.0, 2.0), (0.0, 8.0), (1.0, 0.0)]];
-        let curve = Curve { whose: Whose::Pinned(Rung::Exact), column, unit: column.shown, pieces };
+        let curve = Curve { whose: Whose::Pinned(Method::Exact), column, unit: column.shown, pieces };
         for (x, y) in [(-1.0, Some(4.0)), (-0.5, Some(3.0)), (0.0, Some(8.0)), (1.0, Some(0.0)), (1.1, None), (-1.1, None)] {
             assert_eq!(curve.at(x), y, "{x}");
         }

@@ -8,7 +8,7 @@ use ratatui::widgets::Widget;
 use ratatui::widgets::canvas::{Canvas, Line, Points};
 
 use super::curves::{Curve, Point, Whose};
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::tui::app::App;
 use crate::tui::scale::{Span, bounds};
 
@@ -24,8 +24,8 @@ pub fn marker(app: &App, whose: Whose) -> Marker {
     match whose {
         Whose::Active(_) if plain => Marker::Custom('*'),
         Whose::Active(_) => app.settings.marker,
-        Whose::Other(Rung::Paper) => Marker::Custom(if plain { '.' } else { '·' }),
-        Whose::Other(Rung::Static) => Marker::Custom(if plain { 'x' } else { '×' }),
+        Whose::Other(Method::Paper) => Marker::Custom(if plain { '.' } else { '·' }),
+        Whose::Other(Method::Static) => Marker::Custom(if plain { 'x' } else { '×' }),
         Whose::Other(_) => Marker::Custom(if plain { 'o' } else { '∘' }),
         Whose::Pinned(_) => Marker::Custom('+'),
         Whose::Bound(_) => Marker::Custom(if plain { '-' } else { '╌' }),

@@ -14,7 +14,7 @@ use crate::tui::app::App;
 use crate::tui::clean::symbol;
 use crate::tui::view::text;
 
-/// Write the names, the active rung first, and what there is to say about it, where there is room.
+/// Write the names, the active method first, and what there is to say about it, where there is room.
 pub fn draw(app: &App, curves: &[Curve], said: Option<String>, plot: Rect, buffer: &mut Buffer) {
     let mut taken = None;
     if let Some(said) = said {
@@ -28,8 +28,8 @@ pub fn draw(app: &App, curves: &[Curve], said: Option<String>, plot: Rect, buffe
 
 fn entry(app: &App, curve: &Curve) -> [Span<'static>; 2] {
     let name = match curve.whose {
-        Whose::Active(rung) | Whose::Other(rung) => rung.name().to_owned(),
-        Whose::Pinned(rung) => base_name(app, rung),
+        Whose::Active(method) | Whose::Other(method) => method.name().to_owned(),
+        Whose::Pinned(method) => base_name(app, method),
         Whose::Bound(name) => symbol(name, app.look.ascii).into_owned(),
     };
     let sample = match ink::marker(app, curve.whose) {

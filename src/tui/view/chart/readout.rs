@@ -5,7 +5,7 @@ use super::shown;
 use crate::case::units;
 use crate::model::Told;
 use crate::model::between::DIGITS_BETWEEN;
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::numeric::decimal::significant;
 use crate::report::graphs::{GRAPHS, Graph};
 use crate::report::stations::Row;
@@ -19,7 +19,7 @@ const TIME_DIGITS: usize = 4;
 /// Below this part of the curve's greatest value a value is what rounding leaves of zero.
 const ROUNDING: f64 = 1e-9;
 
-/// The angle, the curves in sight there, and every other value of the active rung.
+/// The angle, the curves in sight there, and every other value of the active method.
 #[must_use]
 pub fn readout(app: &App, cursor: f64) -> String {
     let mut parts = vec![place(app, cursor)];
@@ -46,14 +46,14 @@ fn time(app: &App, cursor: f64) -> String {
     if app.by_time && micros.is_finite() { format!(", {} us", significant(micros, TIME_DIGITS)) } else { String::new() }
 }
 
-// Every curve of a chart, the active rung first.
+// Every curve of a chart, the active method first.
 fn all(app: &App, graph: &Graph, cursor: f64) -> Option<String> {
     let curves = curves(app, graph);
     let told: Vec<String> = curves.iter().rev().filter_map(|curve| told(app, graph, curve, cursor)).collect();
     (!told.is_empty()).then(|| told.join(", "))
 }
 
-// The active rung's value alone.
+// The active method's value alone.
 fn own(app: &App, graph: &Graph, cursor: f64) -> Option<String> {
     let curves = curves(app, graph);
     let own = curves.iter().find(|curve| matches!(curve.whose, Whose::Active(_)))?;
@@ -64,8 +64,8 @@ fn own(app: &App, graph: &Graph, cursor: f64) -> Option<String> {
 fn value(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<(f64, usize)> {
     let is_pinned = matches!(curve.whose, Whose::Pinned(_));
     let answer = if is_pinned { &app.baseline.as_ref()?.answer } else { app.answer.as_ref()? };
-    let rung = if let Whose::Other(rung) | Whose::Pinned(rung) = curve.whose { rung } else { answer.active };
-    let solution = answer.of(rung)?;
+    let method = if let Whose::Other(method) | Whose::Pinned(method) = curve.whose { method } else { answer.active };
+    let solution = answer.of(method)?;
     let told = Told::at(&answer.inputs, solution, cursor)?;
     if let Whose::Bound(_) = curve.whose {
         let digits = if matches!(told, Told::Between(_)) { DIGITS_BETWEEN } else { curve.column.digits };
@@ -76,11 +76,11 @@ fn value(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<(f64, u
     }
 }
 
-/// How the baseline's curve is called: with its rung where that is not the one in force.
+/// How the baseline's curve is called: with its method where that is not the one in force.
 #[must_use]
-pub fn base_name(app: &App, rung: Rung) -> String {
-    let is_other = app.answer.as_ref().is_some_and(|answer| answer.active != rung);
-    if is_other { format!("baseline ({})", rung.name()) } else { "baseline".to_owned() }
+pub fn base_name(app: &App, method: Method) -> String {
+    let is_other = app.answer.as_ref().is_some_and(|answer| answer.active != method);
+    if is_other { format!("baseline ({})", method.name()) } else { "baseline".to_owned() }
 }
 
 fn told(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<String> {
@@ -93,8 +93,8 @@ fn told(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<String> 
     let number = format!("{number} {unit}").trim_end().to_owned();
     Some(match curve.whose {
         Whose::Active(_) => format!("{} {number}", name(curve.column.symbol)),
-        Whose::Other(rung) => format!("{} {number}", rung.name()),
-        Whose::Pinned(rung) => format!("{} {number}", base_name(app, rung)),
+        Whose::Other(method) => format!("{} {number}", method.name()),
+        Whose::Pinned(method) => format!("{} {number}", base_name(app, method)),
         Whose::Bound(bound) => format!("{} {number}", name(bound)),
     })
 }

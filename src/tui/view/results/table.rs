@@ -1,4 +1,4 @@
-//! The table of quantities: a line each, the rungs side by side, what this edit changed, the difference to the baseline.
+//! The table of quantities: a line each, the methods side by side, what this edit changed, the difference to the baseline.
 
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
@@ -6,7 +6,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::{shown_in, text};
 use crate::case::units::system::counted;
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::model::{Outcome, QUANTITIES, Quantity, Solution, Stages};
 use crate::report;
 use crate::report::groups::{self, FREE_IMPACT};
@@ -56,8 +56,8 @@ const LABEL: usize = 27;
 const VALUE: usize = 10;
 const UNIT: usize = 7;
 const EQUATION: usize = 12;
-/// Labels are worth more than a further rung from so many on.
-const ENOUGH_RUNGS: usize = 2;
+/// Labels are worth more than a further method from so many on.
+const ENOUGH_METHODS: usize = 2;
 /// Stands behind a value that the last edit changed.
 const CHANGED: &str = "←";
 /// The heading of the differences.
@@ -76,7 +76,7 @@ pub(super) struct Table {
 /// What has room in a line.
 struct Columns {
     labels: bool,
-    rungs: Vec<Rung>,
+    methods: Vec<Method>,
     /// So many cells for value, unit and difference together, where each has none of its own.
     shared: Option<usize>,
     /// How wide the difference is, where there is a baseline.
@@ -84,24 +84,24 @@ struct Columns {
     equation: bool,
 }
 
-/// The quantities that some rung has, in the order in which a person reads them: what matters first, then the rung's own.
+/// The quantities that some method has, in the order in which a person reads them: what matters first, then the method's own.
 pub(super) fn order(answer: &Answer) -> impl Iterator<Item = &'static Quantity> {
     let strikes = |solution: &Solution| solution.outcome == Outcome::CornerContact;
     let strikes = answer.of(answer.active).is_none_or(strikes);
     let first = match answer.active {
         _ if !strikes => FIRST_WITHOUT_CONTACT,
-        Rung::Static => FIRST_OF_STATIC,
-        Rung::Dynamic => FIRST_OF_DYNAMIC,
-        Rung::Paper | Rung::Exact | Rung::Auto => FIRST,
+        Method::Static => FIRST_OF_STATIC,
+        Method::Dynamic => FIRST_OF_DYNAMIC,
+        Method::Paper | Method::Exact | Method::Auto => FIRST,
     };
-    let stages = answer.rungs.iter().fold(Stages::NONE, |stages, (rung, _)| stages.and(rung.stages()));
+    let stages = answer.methods.iter().fold(Stages::NONE, |stages, (method, _)| stages.and(method.stages()));
     let has_friction = answer.inputs.friction_coefficient.is_some();
     let is_told = move |quantity: &&Quantity| !first.contains(&quantity.key) && (has_friction || !quantity.needs_friction());
     let rest = groups::quantities(answer.active).filter(is_told);
     first.iter().filter_map(|key| Quantity::find(key)).chain(rest).filter(move |quantity| stages.has(quantity.stage))
 }
 
-/// How many quantities stand above the heading of those of the free impact, which the rung resolves itself.
+/// How many quantities stand above the heading of those of the free impact, which the method resolves itself.
 pub(super) fn above_heading(answer: &Answer) -> Option<usize> {
     let own = || order(answer).position(Quantity::is_of_free_impact);
     answer.active.shares_load().then(own).flatten()
@@ -134,19 +134,19 @@ pub(super) fn lines(app: &App, answer: &Answer, width: usize, hidden: (usize, us
 }
 
 impl Columns {
-    // The difference takes the place of the equation, and on a narrow screen that of the other rungs.
+    // The difference takes the place of the equation, and on a narrow screen that of the other methods.
     fn of(app: &App, answer: &Answer, width: usize) -> Columns {
         let has_base = app.baseline.is_some();
         let more = if has_base { VALUE } else { 0 };
         let room_beside = |names: usize| width.saturating_sub(names + UNIT + more) / VALUE;
         let beside_labels = room_beside(LONG_SYMBOL + LABEL);
-        let rungs = rungs(answer, if beside_labels >= ENOUGH_RUNGS { beside_labels } else { room_beside(SYMBOL) });
-        let with_labels = LONG_SYMBOL + LABEL + rungs.len() * VALUE + UNIT + more;
+        let methods = methods(answer, if beside_labels >= ENOUGH_METHODS { beside_labels } else { room_beside(SYMBOL) });
+        let with_labels = LONG_SYMBOL + LABEL + methods.len() * VALUE + UNIT + more;
         let least = SYMBOL + VALUE + UNIT + VALUE;
         let labels = width >= with_labels;
         Columns {
             labels,
-            rungs,
+            methods,
             shared: (has_base && width < least).then_some(width.saturating_sub(SYMBOL)),
             difference: has_base.then_some(VALUE - 1),
             equation: !has_base && width >= with_labels + EQUATION,
@@ -154,16 +154,16 @@ impl Columns {
     }
 }
 
-// The active rung, and of the others as many as have room: the nearest below it first. What `static` says stands among
+// The active method, and of the others as many as have room: the nearest below it first. What `static` says stands among
 // what `dynamic` says.
-fn rungs(answer: &Answer, room: usize) -> Vec<Rung> {
-    let said = |rung: Rung| rung == Rung::Static && answer.active == Rung::Dynamic;
-    let mut rungs: Vec<Rung> = answer.rungs.iter().map(|(rung, _)| *rung).filter(|&rung| !said(rung)).collect();
-    while rungs.len() > room.max(1) {
-        let first = rungs.iter().position(|rung| *rung != answer.active).unwrap_or(0);
-        rungs.remove(first);
+fn methods(answer: &Answer, room: usize) -> Vec<Method> {
+    let said = |method: Method| method == Method::Static && answer.active == Method::Dynamic;
+    let mut methods: Vec<Method> = answer.methods.iter().map(|(method, _)| *method).filter(|&method| !said(method)).collect();
+    while methods.len() > room.max(1) {
+        let first = methods.iter().position(|method| *method != answer.active).unwrap_or(0);
+        methods.remove(first);
     }
-    rungs
+    methods
 }
 
 // How much is out of sight, in as many words as have room.
@@ -181,15 +181,15 @@ fn more(hidden: (usize, usize), room: usize) -> String {
 fn heading(app: &App, answer: &Answer, columns: &Columns, hidden: (usize, usize)) -> Line<'static> {
     let indent = if columns.labels { LONG_SYMBOL + LABEL } else { SYMBOL };
     let mut spans = vec![Span::styled(format!("{:indent$}", more(hidden, indent)), app.look.theme.faint)];
-    for &rung in &columns.rungs {
-        let is_active = rung == answer.active;
-        let name = if is_active { format!("▸{}", rung.name()) } else { rung.name().to_owned() };
+    for &method in &columns.methods {
+        let is_active = method == answer.active;
+        let name = if is_active { format!("▸{}", method.name()) } else { method.name().to_owned() };
         let style = if is_active { app.look.theme.active } else { app.look.theme.other };
         spans.push(Span::styled(format!("{name:>0$} ", VALUE - 1), style));
     }
     if let Some(room) = columns.difference {
         let base = app.baseline.as_ref().map(|baseline| baseline.answer.beside(answer.active));
-        let other = base.filter(|&base| base != answer.active).map(|rung| format!("{TO_BASE}, {}", rung.name()));
+        let other = base.filter(|&base| base != answer.active).map(|method| format!("{TO_BASE}, {}", method.name()));
         if let Some(shared) = columns.shared {
             return shared_heading(app, answer, &other.unwrap_or_else(|| TO_BASE.to_owned()), hidden, SYMBOL + shared);
         }
@@ -202,15 +202,15 @@ fn heading(app: &App, answer: &Answer, columns: &Columns, hidden: (usize, usize)
 
 // In one line without columns; how much is out of sight is left out where there is no room.
 fn shared_heading(app: &App, answer: &Answer, to_base: &str, hidden: (usize, usize), width: usize) -> Line<'static> {
-    let rung = format!("▸{}", answer.active.name());
-    let left = width.saturating_sub(rung.width() + to_base.width() + 2);
+    let method = format!("▸{}", answer.active.name());
+    let left = width.saturating_sub(method.width() + to_base.width() + 2);
     let more = if left > 0 { more(hidden, left) } else { String::new() };
     let more = if more.width() <= left { more } else { String::new() };
-    let gap = width.saturating_sub(more.width() + usize::from(!more.is_empty()) + rung.width());
+    let gap = width.saturating_sub(more.width() + usize::from(!more.is_empty()) + method.width());
     let more = if more.is_empty() { more } else { more + " " };
     Line::from(vec![
         Span::styled(more, app.look.theme.faint),
-        Span::styled(rung, app.look.theme.active),
+        Span::styled(method, app.look.theme.active),
         Span::styled(format!("{to_base:>gap$}"), app.look.theme.baseline),
     ])
 }
@@ -243,17 +243,20 @@ fn row(app: &App, answer: &Answer, quantity: &Quantity, columns: &Columns) -> Li
     } else {
         vec![Span::raw(text::padded(&symbol, SYMBOL))]
     };
-    let value = |rung: Rung| answer.of(rung).and_then(|solution| report::value_as_in(quantity, solution, answer.active));
-    let common = report::unit_beside(quantity, columns.rungs.iter().filter_map(|&rung| value(rung)), app.settings.units);
-    let shown: Vec<(Rung, Option<report::Shown>)> =
-        columns.rungs.iter().map(|&rung| (rung, value(rung).map(|value| report::shown_with(quantity, value, common)))).collect();
+    let value = |method: Method| answer.of(method).and_then(|solution| report::value_as_in(quantity, solution, answer.active));
+    let common = report::unit_beside(quantity, columns.methods.iter().filter_map(|&method| value(method)), app.settings.units);
+    let shown: Vec<(Method, Option<report::Shown>)> = columns
+        .methods
+        .iter()
+        .map(|&method| (method, value(method).map(|value| report::shown_with(quantity, value, common))))
+        .collect();
     let unit = shown.iter().rev().find_map(|(_, shown)| shown.as_ref()).map_or("", |shown| shown.unit);
     let mark = mark(app, answer, quantity);
     // Only the widest unit leaves no place for the mark behind it.
     let is_behind = unit.width() + 1 < UNIT;
-    for (rung, shown) in shown {
+    for (method, shown) in shown {
         let number = shown.map_or_else(|| "–".to_owned(), |shown| shown.number);
-        let is_active = rung == answer.active;
+        let is_active = method == answer.active;
         let style = if is_active { app.look.theme.focus } else { Style::new() };
         if let Some(width) = columns.shared {
             let gap = usize::from(symbol.width() >= SYMBOL);
@@ -301,7 +304,7 @@ fn is_changed(app: &App, answer: &Answer, quantity: &Quantity) -> bool {
     told(before) != told(now)
 }
 
-// The active rung's value against the same rung's of the baseline, in percent of it; where that says little, what it was.
+// The active method's value against the same method's of the baseline, in percent of it; where that says little, what it was.
 fn difference(app: &App, answer: &Answer, quantity: &Quantity, unit: &str, room: usize) -> String {
     let now = value(answer, answer.active, quantity);
     match (now, base(app, answer, quantity).and_then(|(_, base)| base)) {
@@ -318,23 +321,23 @@ fn was(base: f64, unit: &str, room: usize) -> String {
     words.into_iter().find(|words| words.len() <= room).unwrap_or_else(|| "was other".to_owned())
 }
 
-/// The quantity's value and that of the baseline, with the rung of the latter where it is another.
+/// The quantity's value and that of the baseline, with the method of the latter where it is another.
 pub(super) fn compared(app: &App, answer: &Answer, quantity: &Quantity) -> Option<String> {
-    let (rung, base) = base(app, answer, quantity)?;
+    let (method, base) = base(app, answer, quantity)?;
     let told = |value: Option<f64>| value.map_or_else(|| "none".to_owned(), |value| shown_in(app, quantity, value).to_string());
-    let whose = if rung == answer.active { String::new() } else { format!(" ({})", rung.name()) };
+    let whose = if method == answer.active { String::new() } else { format!(" ({})", method.name()) };
     Some(format!("{}; baseline{whose}: {}.", told(value(answer, answer.active, quantity)), told(base)))
 }
 
-// The rung and the value of the baseline.
-fn base(app: &App, answer: &Answer, quantity: &Quantity) -> Option<(Rung, Option<f64>)> {
+// The method and the value of the baseline.
+fn base(app: &App, answer: &Answer, quantity: &Quantity) -> Option<(Method, Option<f64>)> {
     let base = &app.baseline.as_ref()?.answer;
-    let rung = base.beside(answer.active);
-    Some((rung, report::value_as_in(quantity, base.of(rung)?, answer.active)))
+    let method = base.beside(answer.active);
+    Some((method, report::value_as_in(quantity, base.of(method)?, answer.active)))
 }
 
-fn value(answer: &Answer, rung: Rung, quantity: &Quantity) -> Option<f64> {
-    report::value_as_in(quantity, answer.of(rung)?, answer.active)
+fn value(answer: &Answer, method: Method, quantity: &Quantity) -> Option<f64> {
+    report::value_as_in(quantity, answer.of(method)?, answer.active)
 }
 
 // In percent, unless the value is more than so many times the baseline's.

@@ -13,7 +13,7 @@ use crate::report::stations::{COLUMNS, Column, Row};
 const GAP_DIGITS: usize = 4;
 /// The opening, which no station tells.
 const OPEN: &str = "open";
-/// What is told where the rung has a value for it, or the involutes have: what matters first. The charts tell the rest.
+/// What is told where the method has a value for it, or the involutes have: what matters first. The charts tell the rest.
 const ORDER: [&str; 12] = [
     "roll_angle_driver",
     "impact_force",
@@ -62,7 +62,7 @@ impl fmt::Display for Reading {
     }
 }
 
-/// Every value that the rung has at some place, and the opening, in an order that stays.
+/// Every value that the method has at some place, and the opening, in an order that stays.
 #[must_use]
 pub fn readings(moment: &Moment, solved: (&Inputs, &Solution), system: System) -> Vec<Reading> {
     ORDER
@@ -80,7 +80,7 @@ fn reading(moment: &Moment, key: &str, (inputs, solution): (&Inputs, &Solution),
     let column: &Column = COLUMNS.iter().find(|column| column.key == key)?;
     let told = moment.told.as_ref().map(Row::from).and_then(|row| column.of(row));
     let value = told.or_else(|| without_contact(moment, key));
-    if value.is_none() && !column.rungs.contains(&solution.rung) {
+    if value.is_none() && !column.methods.contains(&solution.method) {
         return None;
     }
     let digits = moment.told.as_ref().map_or(column.digits, |told| column.digits_of(told));
@@ -92,7 +92,7 @@ fn reading(moment: &Moment, key: &str, (inputs, solution): (&Inputs, &Solution),
     Some(Reading { symbol: column.symbol, number, unit })
 }
 
-/// What the involutes do where the rung tells nothing.
+/// What the involutes do where the method tells nothing.
 fn without_contact(moment: &Moment, key: &str) -> Option<f64> {
     match key {
         "roll_angle_driver" => Some(moment.roll_angle_driver),

@@ -84,7 +84,7 @@ fn construction(pen: &mut Pen, picture: &Picture) {
 }
 
 /// D, E, D', the pitch point, the end of contact, the points of tangency and the centres. D' is the driven tip where the
-/// rung's impact duration ends, not past E; the rungs that share the load have
+/// method's impact duration ends, not past E; the methods that share the load have
 /// none.
 fn points(picture: &Picture) -> Vec<Named> {
     let Picture { inputs, solution, .. } = *picture;

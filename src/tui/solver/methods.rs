@@ -1,19 +1,19 @@
-//! What every rung says of a request: the closed forms at once, then the rung of the case, then the least relief.
+//! What every method says of a request: the closed forms at once, then the method of the case, then the least relief.
 
 use std::time::Instant;
 
 use super::{Answer, Cost, PATIENCE, Request};
 use crate::case::Evaluator;
-use crate::model::inputs::Rung;
+use crate::model::inputs::Method;
 use crate::model::{self, Refusal, Solution, Stage};
 
-/// Solve with the closed forms, which cost nothing, and the rung of the case: their difference is what the engineer came for.
+/// Solve with the closed forms, which cost nothing, and the method of the case: their difference is what the engineer came for.
 #[must_use]
 pub fn answer(request: &Request) -> Answer {
     answer_while(request, &|| true)
 }
 
-/// The same for a first picture: where the rung of the case takes long, the closed forms alone, and where the least relief does,
+/// The same for a first picture: where the method of the case takes long, the closed forms alone, and where the least relief does,
 /// all but that.
 #[must_use]
 pub fn first_answer(request: &Request) -> Answer {
@@ -29,7 +29,7 @@ fn answer_while(request: &Request, go_on: &dyn Fn() -> bool) -> Answer {
     cleared(evaluator, request, found.clone(), begun, &|_| go_on()).unwrap_or(found)
 }
 
-/// The answers of the closed forms, of the rung of the case and of the load at rest below its inertia; of a rung that takes its
+/// The answers of the closed forms, of the method of the case and of the load at rest below its inertia; of a method that takes its
 /// time for it without the least relief. None where `go_on`, which may show what stands at once, says no.
 pub(super) fn solved(
     evaluator: &mut Evaluator,
@@ -38,22 +38,22 @@ pub(super) fn solved(
     go_on: &dyn Fn(f64, &dyn Fn() -> Answer) -> bool,
 ) -> Option<Answer> {
     let first = at_once(evaluator, request, begun);
-    let Some(rung) = first.pending else { return Some(first) };
+    let Some(method) = first.pending else { return Some(first) };
     let stages = request.stages.without(Stage::Clearing);
-    let found = evaluator.solve(&request.case, &request.inputs, rung, stages, &|part| go_on(part, &|| first.clone()));
+    let found = evaluator.solve(&request.case, &request.inputs, method, stages, &|part| go_on(part, &|| first.clone()));
     if matches!(found, Err(Refusal::Stopped)) {
         return None;
     }
     // Where the program chose, its choice stands for it.
-    let active = found.as_ref().map_or(rung, |solution| solution.rung);
+    let active = found.as_ref().map_or(method, |solution| solution.method);
     let mut answer = Answer { active, pending: None, stages, ..first.clone() };
-    answer.rungs.retain(|(known, _)| *known != active);
-    if active == Rung::Dynamic {
-        let shared = evaluator.solve(&request.case, &request.inputs, Rung::Static, stages, &|_| true);
-        answer.rungs.push((Rung::Static, shared));
+    answer.methods.retain(|(known, _)| *known != active);
+    if active == Method::Dynamic {
+        let shared = evaluator.solve(&request.case, &request.inputs, Method::Static, stages, &|_| true);
+        answer.methods.push((Method::Static, shared));
     }
-    answer.rungs.push((active, found));
-    answer.cost = Cost { stages: stages_run(&answer.rungs), micros: micros(begun) };
+    answer.methods.push((active, found));
+    answer.cost = Cost { stages: stages_run(&answer.methods), micros: micros(begun) };
     answer.notes = answer.of(active).map(|solution| model::notes(&request.inputs, solution)).unwrap_or_default();
     Some(answer)
 }
@@ -72,44 +72,44 @@ pub(super) fn cleared(
     if answer.refusal().is_some() {
         return Some(Answer { stages: request.stages, ..answer });
     }
-    let found = evaluator.solve(&request.case, &request.inputs, request.inputs.rung, request.stages, go_on);
+    let found = evaluator.solve(&request.case, &request.inputs, request.inputs.method, request.stages, go_on);
     if matches!(found, Err(Refusal::Stopped)) {
         return None;
     }
     answer.stages = request.stages;
     answer.cost.stages += found.as_ref().map_or(0, |solution| solution.ran.iter().count());
     answer.cost.micros = micros(begun);
-    answer.rungs.retain(|(known, _)| *known != answer.active);
-    answer.rungs.push((answer.active, found));
+    answer.methods.retain(|(known, _)| *known != answer.active);
+    answer.methods.push((answer.active, found));
     answer.notes = answer.of(answer.active).map(|solution| model::notes(&request.inputs, solution)).unwrap_or_default();
     Some(answer)
 }
 
 /// The closed forms' answer.
 fn at_once(evaluator: &mut Evaluator, request: &Request, begun: Instant) -> Answer {
-    let asked = request.inputs.rung;
-    let rungs: Vec<_> = Rung::CLOSED_FORM
+    let asked = request.inputs.method;
+    let methods: Vec<_> = Method::CLOSED_FORM
         .into_iter()
-        .map(|rung| (rung, evaluator.solve(&request.case, &request.inputs, rung, request.stages, &|_| true)))
+        .map(|method| (method, evaluator.solve(&request.case, &request.inputs, method, request.stages, &|_| true)))
         .collect();
-    let pending = Some(asked).filter(|rung| !Rung::CLOSED_FORM.contains(rung));
+    let pending = Some(asked).filter(|method| !Method::CLOSED_FORM.contains(method));
     let mut answer = Answer {
         serial: request.serial,
         stages: request.stages,
         asked: request.stages,
         inputs: request.inputs.clone(),
-        active: if pending.is_some() { Rung::Exact } else { asked },
+        active: if pending.is_some() { Method::Exact } else { asked },
         pending,
-        cost: Cost { stages: stages_run(&rungs), micros: micros(begun) },
-        rungs,
+        cost: Cost { stages: stages_run(&methods), micros: micros(begun) },
+        methods,
         notes: Vec::new(),
     };
     answer.notes = answer.of(answer.active).map(|solution| model::notes(&request.inputs, solution)).unwrap_or_default();
     answer
 }
 
-fn stages_run(rungs: &[(Rung, Result<Solution, Refusal>)]) -> usize {
-    rungs.iter().filter_map(|(_, found)| found.as_ref().ok()).map(|solution| solution.ran.iter().count()).sum()
+fn stages_run(methods: &[(Method, Result<Solution, Refusal>)]) -> usize {
+    methods.iter().filter_map(|(_, found)| found.as_ref().ok()).map(|solution| solution.ran.iter().count()).sum()
 }
 
 fn micros(begun: Instant) -> u64 {
