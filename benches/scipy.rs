@@ -1,6 +1,12 @@
-//! The method `dynamic` beside SciPy's integrators on the same pair: `cargo bench --bench scipy` prints how many times as
-//! long SciPy takes for the same measured error, `-- CASE.toml` on another case of `tests/reference/mesh`.
-#![allow(clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "a bench says what it found")]
+//! The method `dynamic` beside SciPy's integrators on the same pair: `cargo bench --bench scipy`
+//! prints how many times as long SciPy takes for the same measured error, `-- CASE.toml` on another
+//! case of `tests/reference/mesh`.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "a bench says what it found"
+)]
 
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
@@ -21,7 +27,8 @@ const KEYS: [(&str, &str); 3] = [
     ("dynamic_first_contact_angle", "error_first"),
 ];
 
-/// A setting of ours: greatest error, time of a whole solve, and of the run alone on a mesh that is there.
+/// A setting of ours: greatest error, time of a whole solve, and of the run alone on a mesh that is
+/// there.
 struct Ours {
     tolerance: f64,
     error: f64,
@@ -39,12 +46,16 @@ struct Theirs {
 impl Ours {
     fn tell(&self) {
         let (whole, run) = (1e3 * self.whole, 1e3 * self.run);
-        println!("  tolerance {:.0e}: error {:.1e}, {whole:.3} ms whole, {run:.3} ms run", self.tolerance, self.error);
+        println!(
+            "  tolerance {:.0e}: error {:.1e}, {whole:.3} ms whole, {run:.3} ms run",
+            self.tolerance, self.error
+        );
     }
 }
 
 impl Theirs {
-    /// How many times as long as ours it takes, whole and run alone, against our quickest setting that is no worse.
+    /// How many times as long as ours it takes, whole and run alone, against our quickest setting
+    /// that is no worse.
     fn ratios(&self, setup: f64, ours: &[Ours]) -> Option<(f64, f64)> {
         let no_worse = ours.iter().filter(|own| own.error <= self.error);
         let own = no_worse.min_by(|one, other| one.whole.total_cmp(&other.whole))?;
@@ -53,12 +64,18 @@ impl Theirs {
 }
 
 fn main() {
-    let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
+    let arguments: Vec<String> = std::env::args()
+        .skip(1)
+        .filter(|argument| argument != "--bench")
+        .collect();
     if arguments.iter().any(|argument| argument == "--test") {
         return;
     }
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let case = arguments.first().map_or_else(|| root.join("tests/reference/mesh/table-1.toml"), PathBuf::from);
+    let case = arguments.first().map_or_else(
+        || root.join("tests/reference/mesh/table-1.toml"),
+        PathBuf::from,
+    );
     match scipy(root, &case) {
         Some((setup, theirs)) => compare(&case, setup, &theirs),
         None => println!("SKIPPED: python3 with scipy is not here, so nothing is compared"),
@@ -68,13 +85,23 @@ fn main() {
 fn compare(case: &Path, setup: f64, theirs: &[Theirs]) {
     let reference = std::fs::read_to_string(case.with_extension("json")).expect("a reference");
     let reference: Value = serde_json::from_str(&reference).expect("JSON");
-    let ours: Vec<Ours> = (3..=11).map(|exponent| our_own(case, &reference, 10f64.powi(-exponent))).collect();
+    let ours: Vec<Ours> = (3..=11)
+        .map(|exponent| our_own(case, &reference, 10f64.powi(-exponent)))
+        .collect();
     println!("{}: ours", case.display());
     ours.iter().for_each(Ours::tell);
-    println!("SciPy, set-up {:.1} ms; how many times as long as ours for no smaller an error:", 1e3 * setup);
+    println!(
+        "SciPy, set-up {:.1} ms; how many times as long as ours for no smaller an error:",
+        1e3 * setup
+    );
     let mut least = (f64::INFINITY, f64::INFINITY);
     for run in theirs {
-        let told = format!("  {}: error {:.1e}, {:.1} ms", run.name, run.error, 1e3 * run.run);
+        let told = format!(
+            "  {}: error {:.1e}, {:.1} ms",
+            run.name,
+            run.error,
+            1e3 * run.run
+        );
         match run.ratios(setup, &ours) {
             Some((whole, alone)) => {
                 println!("{told}: {whole:.0} times whole, {alone:.0} times the run alone");
@@ -83,24 +110,42 @@ fn compare(case: &Path, setup: f64, theirs: &[Theirs]) {
             None => println!("{told}: nearer than any of ours"),
         }
     }
-    println!("least: {:.0} times whole, {:.0} times the run alone", least.0, least.1);
+    println!(
+        "least: {:.0} times whole, {:.0} times the run alone",
+        least.0, least.1
+    );
 }
 
 /// Time of its set-up and every run; nothing where it is not here.
 fn scipy(root: &Path, case: &Path) -> Option<(f64, Vec<Theirs>)> {
-    let output = Command::new("python3").arg(root.join("benches/scipy_dynamic.py")).arg(case).args(["--repeat", "3"]).output();
+    let output = Command::new("python3")
+        .arg(root.join("benches/scipy_dynamic.py"))
+        .arg(case)
+        .args(["--repeat", "3"])
+        .output();
     let output = output.ok().filter(|output| output.status.success())?;
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
-    let lines: Vec<Value> = text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
+    let lines: Vec<Value> = text
+        .lines()
+        .filter_map(|line| serde_json::from_str(line).ok())
+        .collect();
     let setup = lines.first()?["setup_seconds"].as_f64()?;
     Some((setup, lines[1..].iter().map(their_own).collect()))
 }
 
 fn our_own(case: &Path, reference: &Value, tolerance: f64) -> Ours {
     let document = Document::read(case).unwrap_or_else(|error| panic!("{error}"));
-    let inputs = document.case.inputs().unwrap_or_else(|problems| panic!("{}", problems[0]));
+    let inputs = document
+        .case
+        .inputs()
+        .unwrap_or_else(|problems| panic!("{}", problems[0]));
     // The numbers that SciPy's run looks for need no stations.
-    let inputs = Inputs { method: Method::Dynamic, tolerance, stations: Some(1), ..inputs };
+    let inputs = Inputs {
+        method: Method::Dynamic,
+        tolerance,
+        stations: Some(1),
+        ..inputs
+    };
     let wanted = Stages::of(Stage::Dynamic);
     let solved = || solve(black_box(&inputs), wanted).unwrap_or_else(|refusal| panic!("{refusal}"));
     let solution = solved();
@@ -113,7 +158,12 @@ fn our_own(case: &Path, reference: &Value, tolerance: f64) -> Ours {
         spacing: Spacing::of(&inputs),
     };
     let run = || dynamic(black_box(&mesh), &settings, &|_| true).is_ok();
-    Ours { tolerance, error: error(&solution, reference), whole: least_time(|| solved().dynamic.is_some()), run: least_time(run) }
+    Ours {
+        tolerance,
+        error: error(&solution, reference),
+        whole: least_time(|| solved().dynamic.is_some()),
+        run: least_time(run),
+    }
 }
 
 /// The greatest relative error over the numbers that the reference has.
@@ -123,7 +173,9 @@ fn error(solution: &Solution, reference: &Value) -> f64 {
         let found = (Quantity::find(key)?.value)(solution)?;
         Some((found / expected - 1.0).abs())
     };
-    KEYS.iter().filter_map(|(key, _)| off(key)).fold(0.0, f64::max)
+    KEYS.iter()
+        .filter_map(|(key, _)| off(key))
+        .fold(0.0, f64::max)
 }
 
 /// The least of many, as SciPy's time is.
@@ -137,8 +189,23 @@ fn least_time(work: impl Fn() -> bool) -> f64 {
 }
 
 fn their_own(line: &Value) -> Theirs {
-    let error = KEYS.iter().filter_map(|(_, name)| line[name].as_f64()).fold(0.0, f64::max);
-    let split = if line["split"] == true { ", restarted at kinks" } else { "" };
-    let name = format!("{} at {}{split}", line["method"].as_str().unwrap_or_default(), line["rtol"]);
-    Theirs { name, error, run: line["seconds"].as_f64().expect("a time") }
+    let error = KEYS
+        .iter()
+        .filter_map(|(_, name)| line[name].as_f64())
+        .fold(0.0, f64::max);
+    let split = if line["split"] == true {
+        ", restarted at kinks"
+    } else {
+        ""
+    };
+    let name = format!(
+        "{} at {}{split}",
+        line["method"].as_str().unwrap_or_default(),
+        line["rtol"]
+    );
+    Theirs {
+        name,
+        error,
+        run: line["seconds"].as_f64().expect("a time"),
+    }
 }

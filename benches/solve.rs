@@ -10,40 +10,74 @@ use tipstrike::model::inputs::{ContactCompliance, Method, ToothCompliance};
 use tipstrike::model::{Inputs, Stage, Stages, solve};
 
 fn table_1(method: Method) -> Inputs {
-    let mut inputs = Case::table_1().inputs().unwrap_or_else(|_| unreachable!("the built-in case is valid"));
+    let mut inputs = Case::table_1()
+        .inputs()
+        .unwrap_or_else(|_| unreachable!("the built-in case is valid"));
     inputs.method = method;
     inputs
 }
 
 fn closed_form(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("closed form");
-    let accurate = Inputs { accurate: true, ..table_1(Method::Exact) };
-    for (name, inputs) in [("paper", table_1(Method::Paper)), ("exact", table_1(Method::Exact)), ("exact, accurate", accurate)] {
-        group.bench_function(name, |bencher| bencher.iter(|| solve(black_box(&inputs), Stages::CLOSED_FORM)));
+    let accurate = Inputs {
+        accurate: true,
+        ..table_1(Method::Exact)
+    };
+    for (name, inputs) in [
+        ("paper", table_1(Method::Paper)),
+        ("exact", table_1(Method::Exact)),
+        ("exact, accurate", accurate),
+    ] {
+        group.bench_function(name, |bencher| {
+            bencher.iter(|| solve(black_box(&inputs), Stages::CLOSED_FORM))
+        });
     }
     group.finish();
 }
 
 fn stations(criterion: &mut Criterion) {
-    let inputs = Inputs { stations: Some(256), ..table_1(Method::Exact) };
-    criterion.bench_function("exact with 256 stations", |bencher| bencher.iter(|| solve(black_box(&inputs), Stages::ALL)));
+    let inputs = Inputs {
+        stations: Some(256),
+        ..table_1(Method::Exact)
+    };
+    criterion.bench_function("exact with 256 stations", |bencher| {
+        bencher.iter(|| solve(black_box(&inputs), Stages::ALL))
+    });
 }
 
 /// Table 1 with the deflection that the load gives, as the methods that share the load take it.
 fn shared_load(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("shared load");
     for teeth in ToothCompliance::ALL {
-        let usual = Inputs { tooth_compliance: Some(teeth), deflection: None, ..table_1(Method::Static) };
-        let shared = Inputs { stations: Some(256), ..usual.clone() };
+        let usual = Inputs {
+            tooth_compliance: Some(teeth),
+            deflection: None,
+            ..table_1(Method::Static)
+        };
+        let shared = Inputs {
+            stations: Some(256),
+            ..usual.clone()
+        };
         let (method, inertia) = (Stages::of(Stage::Static), Stages::of(Stage::Dynamic));
-        group.bench_function(format!("static with 256 stations, {}", teeth.name()), |bencher| {
-            bencher.iter(|| solve(black_box(&shared), method));
-        });
+        group.bench_function(
+            format!("static with 256 stations, {}", teeth.name()),
+            |bencher| {
+                bencher.iter(|| solve(black_box(&shared), method));
+            },
+        );
         for cycles in [20, 40, 80] {
-            let inputs = Inputs { method: Method::Dynamic, warmup_cycles: cycles, tolerance: 1e-6, ..usual.clone() };
-            group.bench_function(format!("dynamic with {cycles} cycles at 1e-6, {}", teeth.name()), |bencher| {
-                bencher.iter(|| solve(black_box(&inputs), inertia));
-            });
+            let inputs = Inputs {
+                method: Method::Dynamic,
+                warmup_cycles: cycles,
+                tolerance: 1e-6,
+                ..usual.clone()
+            };
+            group.bench_function(
+                format!("dynamic with {cycles} cycles at 1e-6, {}", teeth.name()),
+                |bencher| {
+                    bencher.iter(|| solve(black_box(&inputs), inertia));
+                },
+            );
         }
     }
     group.finish();
@@ -53,8 +87,14 @@ fn compliance(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("pair compliance");
     for model in ToothCompliance::ALL {
         for contact in ContactCompliance::ALL {
-            let inputs = Inputs { tooth_compliance: Some(model), contact_compliance: contact, ..table_1(Method::Exact) };
-            let Ok(geometry) = geometry::<f64>(&inputs) else { continue };
+            let inputs = Inputs {
+                tooth_compliance: Some(model),
+                contact_compliance: contact,
+                ..table_1(Method::Exact)
+            };
+            let Ok(geometry) = geometry::<f64>(&inputs) else {
+                continue;
+            };
             let place = ContactPlace::on_line_of_action(&geometry, geometry.start);
             group.bench_function(format!("{}, {contact:?}", model.name()), |bencher| {
                 bencher.iter(|| pair_at_load(black_box(&inputs), &geometry, &place, 1500.0));

@@ -13,8 +13,11 @@ use tipstrike::tui::view::teeth::{self, Picture};
 use tipstrike::tui::zoom::{Centre, TeethView};
 
 fn pictures(criterion: &mut Criterion) {
-    let inputs = Case::table_1().inputs().unwrap_or_else(|_| unreachable!("the built-in case is valid"));
-    let solution = solve(&inputs, Stages::ALL).unwrap_or_else(|_| unreachable!("the built-in case is solved"));
+    let inputs = Case::table_1()
+        .inputs()
+        .unwrap_or_else(|_| unreachable!("the built-in case is valid"));
+    let solution =
+        solve(&inputs, Stages::ALL).unwrap_or_else(|_| unreachable!("the built-in case is solved"));
     let mut group = criterion.benchmark_group("teeth at 200x60");
     for (name, centre, zoom) in [
         ("strike", Centre::Strike, 0),
@@ -22,7 +25,11 @@ fn pictures(criterion: &mut Criterion) {
         ("path", Centre::PitchPoint, 0),
         ("pair", Centre::Pair, 0),
     ] {
-        let view = TeethView { centre, zoom, ..TeethView::default() };
+        let view = TeethView {
+            centre,
+            zoom,
+            ..TeethView::default()
+        };
         let picture = Picture {
             inputs: &inputs,
             solution: &solution,

@@ -1,6 +1,12 @@
-//! Speed against accuracy over the cases in `cases/`: `cargo bench --bench trade` prints the table and draws the picture;
-//! with `TIPSTRIKE_REGENERATE=1` both are kept, `tests/trade/table.md` and `assets/trade.svg`, and the README's lines.
-#![allow(clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "a bench says what it found")]
+//! Speed against accuracy over the cases in `cases/`: `cargo bench --bench trade` prints the table
+//! and draws the picture; with `TIPSTRIKE_REGENERATE=1` both are kept, `tests/trade/table.md` and
+//! `assets/trade.svg`, and the README's lines.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "a bench says what it found"
+)]
 
 #[path = "../tests/trade/table.rs"]
 mod table;
@@ -29,16 +35,25 @@ fn main() {
 
 /// What each method leaves out, a line a case.
 fn models(trades: &[(String, tipstrike::study::trade::Trade)]) -> String {
-    let mut lines =
-        vec!["| case | paper | exact | static | two ways to the reference |".to_owned(), "|---|---|---|---|---|".to_owned()];
+    let mut lines = vec![
+        "| case | paper | exact | static | two ways to the reference |".to_owned(),
+        "|---|---|---|---|---|".to_owned(),
+    ];
     for (name, trade) in trades {
         let percent = |method: Method| {
-            let off = trade.model(method).map_or([None; Subject::ALL.len()], |model| model.off);
-            let needed =
-                Subject::NEEDED.map(|subject| off[subject as usize].map_or("-".to_owned(), |off| format!("{:.1}", 100.0 * off)));
+            let off = trade
+                .model(method)
+                .map_or([None; Subject::ALL.len()], |model| model.off);
+            let needed = Subject::NEEDED.map(|subject| {
+                off[subject as usize].map_or("-".to_owned(), |off| format!("{:.1}", 100.0 * off))
+            });
             needed.join(" / ")
         };
-        let check = trade.reference.as_ref().ok().and_then(|reference| greatest(reference.disagreement.as_ref().ok()?));
+        let check = trade
+            .reference
+            .as_ref()
+            .ok()
+            .and_then(|reference| greatest(reference.disagreement.as_ref().ok()?));
         let check = check.map_or("-".to_owned(), |off| format!("{off:.0e}"));
         lines.push(format!(
             "| `{name}` | {} | {} | {} | {check} |",
@@ -52,21 +67,49 @@ fn models(trades: &[(String, tipstrike::study::trade::Trade)]) -> String {
 
 /// Numerical error against time: a line a method over its stations, and one over the tolerances.
 fn picture(table: &Table) -> String {
-    let stations = METHODS.map(|method| (format!("{}: stations", method.name()), Setting::usual(method), 1));
-    let tolerances = ("dynamic: tolerance".to_owned(), Setting::usual(Method::Dynamic), 0);
+    let stations = METHODS.map(|method| {
+        (
+            format!("{}: stations", method.name()),
+            Setting::usual(method),
+            1,
+        )
+    });
+    let tolerances = (
+        "dynamic: tolerance".to_owned(),
+        Setting::usual(Method::Dynamic),
+        0,
+    );
     let series: Vec<Series> = stations
         .into_iter()
         .chain([tolerances])
         .zip(LOOKS)
         .map(|((name, usual, error), look)| {
             let alike = |setting: &Setting| {
-                let same = if error == 1 { setting.tolerance == usual.tolerance } else { setting.stations == usual.stations };
-                setting.method == usual.method && setting.accurate == usual.accurate && setting.stations.is_some() && same
+                let same = if error == 1 {
+                    setting.tolerance == usual.tolerance
+                } else {
+                    setting.stations == usual.stations
+                };
+                setting.method == usual.method
+                    && setting.accurate == usual.accurate
+                    && setting.stations.is_some()
+                    && same
             };
             let mut settings: Vec<Setting> = Setting::all().into_iter().filter(alike).collect();
-            settings.sort_by(|one, other| other.tolerance.unwrap_or(0.0).total_cmp(&one.tolerance.unwrap_or(0.0)));
-            let points = settings.iter().filter_map(|setting| point(table, setting, *setting == usual, error));
-            Series { name, look, points: points.collect() }
+            settings.sort_by(|one, other| {
+                other
+                    .tolerance
+                    .unwrap_or(0.0)
+                    .total_cmp(&one.tolerance.unwrap_or(0.0))
+            });
+            let points = settings
+                .iter()
+                .filter_map(|setting| point(table, setting, *setting == usual, error));
+            Series {
+                name,
+                look,
+                points: points.collect(),
+            }
         })
         .collect();
     svg(&Plot {
@@ -78,6 +121,13 @@ fn picture(table: &Table) -> String {
 }
 
 fn point(table: &Table, setting: &Setting, is_usual: bool, error: usize) -> Option<Point> {
-    let row: &Row = table.0.iter().find(|row| row.setting == setting.to_string())?;
-    Some(Point { seconds: row.seconds?, error: row.errors[error]?.0, is_usual })
+    let row: &Row = table
+        .0
+        .iter()
+        .find(|row| row.setting == setting.to_string())?;
+    Some(Point {
+        seconds: row.seconds?,
+        error: row.errors[error]?.0,
+        is_usual,
+    })
 }

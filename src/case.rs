@@ -1,8 +1,8 @@
 //! The document: a case as the user wrote it, checked against the one table of fields.
 
-mod acts;
 pub mod changes;
 mod check;
+pub mod dependencies;
 pub mod evaluate;
 pub mod examples;
 pub mod fields;
@@ -10,32 +10,33 @@ pub mod file;
 mod hint;
 pub mod journal;
 pub mod materials;
-pub mod reach;
+mod relevance;
+pub mod sanitize;
 pub mod search;
 pub mod spread;
 pub mod step;
 pub(crate) mod suggest;
 mod typing;
 pub mod units;
-pub mod visible;
 pub mod words;
 
 use std::sync::Arc;
 
 use crate::model::{Inputs, QUANTITIES, Quantity};
-pub use acts::{Acting, acts, acts_in_part};
 pub use changes::Change;
 pub use check::{Problem, unknown_quantity};
 pub use evaluate::Evaluator;
 pub use examples::{EXAMPLES, Example};
 pub use fields::{FIELDS, Field};
 pub use file::Document;
+pub use relevance::{Acting, partial_relevance, relevance};
 pub use search::search;
 pub use spread::Spread;
 pub use step::step;
 pub use typing::Measure;
 
-/// A case: what the user wrote in each field, in the order of [`FIELDS`], and the limits it is held to.
+/// A case: what the user wrote in each field, in the order of [`FIELDS`], and the limits it is held
+/// to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Case {
     /// Shared by the states of a case until one of them is written to: many are kept.
@@ -69,8 +70,13 @@ impl Limit {
         };
         let dimension = units::Dimension::of_unit(known.unit).unwrap_or(units::Dimension::Number);
         let usual = if known.shown == "1" { "" } else { known.shown };
-        let value = units::parse(text, dimension, usual).map_err(|misread| Problem::of(&field, misread))?;
-        Ok(Limit { quantity: known.key, text: text.to_owned(), value })
+        let value =
+            units::parse(text, dimension, usual).map_err(|misread| Problem::of(&field, misread))?;
+        Ok(Limit {
+            quantity: known.key,
+            text: text.to_owned(),
+            value,
+        })
     }
 }
 
@@ -78,7 +84,11 @@ impl Case {
     /// A case in which nothing is written yet.
     #[must_use]
     pub fn empty() -> Case {
-        Case { texts: Arc::new(vec![None; FIELDS.len()]), limits: Vec::new(), spread: Vec::new() }
+        Case {
+            texts: Arc::new(vec![None; FIELDS.len()]),
+            limits: Vec::new(),
+            spread: Vec::new(),
+        }
     }
 
     /// Table 1 of Zhou & Chen 2014: the same text as `cases/zhou-chen-2014.toml`.
@@ -87,11 +97,19 @@ impl Case {
         Document::table_1().case
     }
 
-    /// The values of Table 1 to begin a case with: nothing that is said of that pair alone, and the load makes the deflection.
+    /// The values of Table 1 to begin a case with: nothing that is said of that pair alone, and the
+    /// load makes the deflection.
     #[must_use]
     pub fn fresh() -> Case {
-        let mut case = Case { limits: Vec::new(), ..Case::table_1() };
-        for (key, text) in [("title", "New case"), ("notes", ""), ("model.deflection", "")] {
+        let mut case = Case {
+            limits: Vec::new(),
+            ..Case::table_1()
+        };
+        for (key, text) in [
+            ("title", "New case"),
+            ("notes", ""),
+            ("model.deflection", ""),
+        ] {
             if let Some(field) = fields::index_of(key) {
                 case.write(field, text);
             }
@@ -122,23 +140,34 @@ impl Case {
         }
     }
 
-    /// The value in SI that holds in a field of numbers; `None` where the model does without or the text is no value.
+    /// The value in SI that holds in a field of numbers; `None` where the model does without or the
+    /// text is no value.
     #[must_use]
     pub fn value(&self, field: usize) -> Option<f64> {
         let text = self.effective(field)?;
         match FIELDS[field].kind {
-            fields::Kind::Number(dimension, range, _) => units::parse(text, dimension, range.unit).ok(),
+            fields::Kind::Number(dimension, range, _) => {
+                units::parse(text, dimension, range.unit).ok()
+            }
             fields::Kind::Count(..) => text.trim().parse::<u32>().ok().map(f64::from),
             fields::Kind::Text | fields::Kind::Choice(..) => None,
         }
     }
 
-    /// Write the limit of a quantity, whether or not the text is valid. An empty text leaves a limit that holds nothing, until
-    /// [`Case::drop_empty_limits`].
+    /// Write the limit of a quantity, whether or not the text is valid. An empty text leaves a
+    /// limit that holds nothing, until [`Case::drop_empty_limits`].
     pub fn write_limit(&mut self, quantity: &'static str, text: &str) {
-        let unread = Limit { quantity, text: text.to_owned(), value: f64::INFINITY };
+        let unread = Limit {
+            quantity,
+            text: text.to_owned(),
+            value: f64::INFINITY,
+        };
         let limit = Limit::new(quantity, text).unwrap_or(unread);
-        match self.limits.iter_mut().find(|held| held.quantity == quantity) {
+        match self
+            .limits
+            .iter_mut()
+            .find(|held| held.quantity == quantity)
+        {
             Some(held) => *held = limit,
             None => self.limits.push(limit),
         }
@@ -146,7 +175,8 @@ impl Case {
 
     /// Take out the limits that hold nothing, but that of the named quantity.
     pub fn drop_empty_limits(&mut self, but: Option<&str>) {
-        self.limits.retain(|limit| !limit.text.is_empty() || Some(limit.quantity) == but);
+        self.limits
+            .retain(|limit| !limit.text.is_empty() || Some(limit.quantity) == but);
     }
 
     /// What is wrong with the text of one field, on its own.
@@ -165,8 +195,9 @@ impl Case {
         check::inputs(self)
     }
 
-    /// Write a field or a limit by its key, as the command line's `--set KEY=VALUE` does; quotes around the value
-    /// may be left out, and an empty value takes the field out. Of two fields that exclude each other, the other goes.
+    /// Write a field or a limit by its key, as the command line's `--set KEY=VALUE` does; quotes
+    /// around the value may be left out, and an empty value takes the field out. Of two fields that
+    /// exclude each other, the other goes.
     ///
     /// # Errors
     /// Where no such key exists or the value does not fit; the case then stays as it was.
@@ -191,8 +222,9 @@ impl Case {
     /// Whether of two keys a case gives one alone.
     #[must_use]
     pub fn are_exclusive(key: &str, other: &str) -> bool {
-        fields::index_of(key)
-            .is_some_and(|field| check::partner(field).is_some() && check::partner(field) == fields::index_of(other))
+        fields::index_of(key).is_some_and(|field| {
+            check::partner(field).is_some() && check::partner(field) == fields::index_of(other)
+        })
     }
 
     /// Set the limit of a quantity; an empty text takes it out.
@@ -205,7 +237,11 @@ impl Case {
             return Ok(());
         }
         let limit = Limit::new(quantity, text)?;
-        match self.limits.iter_mut().find(|held| held.quantity == limit.quantity) {
+        match self
+            .limits
+            .iter_mut()
+            .find(|held| held.quantity == limit.quantity)
+        {
             Some(held) => *held = limit,
             None => self.limits.push(limit),
         }
@@ -214,7 +250,10 @@ impl Case {
 }
 
 fn unquoted(text: &str) -> &str {
-    ['"', '\''].iter().find_map(|&quote| text.strip_prefix(quote)?.strip_suffix(quote)).unwrap_or(text)
+    ['"', '\'']
+        .iter()
+        .find_map(|&quote| text.strip_prefix(quote)?.strip_suffix(quote))
+        .unwrap_or(text)
 }
 
 #[cfg(test)]

@@ -1,4 +1,5 @@
-//! The headless commands: results to the output, everything else to the errors, and an exit code that scripts hold on to.
+//! The headless commands: results to the output, everything else to the errors, and an exit code
+//! that scripts hold on to.
 
 mod arguments;
 mod cases;
@@ -10,11 +11,13 @@ mod shell;
 mod solve;
 mod trade;
 
+use crate::case::sanitize::sanitize;
 use crate::case::suggest;
-use crate::case::visible::visible;
 use crate::report::fields;
 
-pub use arguments::{Arguments, Check, Command, Explain, Fields, Format, Listing, New, Setting, Solve, Trading};
+pub use arguments::{
+    Arguments, Check, Command, Explain, Fields, Format, Listing, New, Setting, Solve, Trading,
+};
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches};
 use std::ffi::OsString;
@@ -44,7 +47,10 @@ impl Exit {
     /// Every way to end, and its meaning.
     const MEANINGS: [(Exit, &'static str); 6] = [
         (Exit::Done, "done"),
-        (Exit::Exceeded, "a limit is exceeded, or there is no value to hold against it"),
+        (
+            Exit::Exceeded,
+            "a limit is exceeded, or there is no value to hold against it",
+        ),
         (Exit::Usage, "wrong usage, or no terminal for the workbench"),
         (Exit::BadCase, "a bad case"),
         (Exit::NewerFormat, "a case of a newer format"),
@@ -70,14 +76,17 @@ impl Streams<'static> {
     /// The streams of the process.
     #[must_use]
     pub fn standard() -> Streams<'static> {
-        Streams { output: Box::new(BufWriter::new(io::stdout())), errors: Box::new(io::stderr()) }
+        Streams {
+            output: Box::new(BufWriter::new(io::stdout())),
+            errors: Box::new(io::stderr()),
+        }
     }
 }
 
 impl Streams<'_> {
     /// One line for a person. That nobody reads it is no reason to fail.
     fn say(&mut self, message: &str) {
-        let _ = writeln!(self.errors, "{}", visible(message));
+        let _ = writeln!(self.errors, "{}", sanitize(message));
     }
 }
 
@@ -85,35 +94,63 @@ impl Streams<'_> {
 ///
 /// # Errors
 /// Where there is nothing to run: help is told and all is done, or the usage is wrong.
-pub fn parse(arguments: impl IntoIterator<Item = OsString>, streams: &mut Streams) -> Result<Arguments, Exit> {
+pub fn parse(
+    arguments: impl IntoIterator<Item = OsString>,
+    streams: &mut Streams,
+) -> Result<Arguments, Exit> {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     let matches = Arguments::command().try_get_matches_from(&arguments);
-    if let Some(line) = matches.as_ref().err().and_then(|error| no_command(error, &arguments)) {
+    if let Some(line) = matches
+        .as_ref()
+        .err()
+        .and_then(|error| no_command(error, &arguments))
+    {
         streams.say(&line);
         return Err(Exit::Usage);
     }
-    matches.and_then(|matches| Arguments::from_arg_matches(&matches)).map_err(|error| {
-        let text: String = error.render().to_string().lines().map(|line| visible(line) + "\n").collect();
-        if error.use_stderr() {
-            let _ = streams.errors.write_all(text.as_bytes());
-            return Exit::Usage;
-        }
-        let told = streams.output.write_all(text.as_bytes()).map(|()| Exit::Done);
-        finish(told, streams)
-    })
+    matches
+        .and_then(|matches| Arguments::from_arg_matches(&matches))
+        .map_err(|error| {
+            let text: String = error
+                .render()
+                .to_string()
+                .lines()
+                .map(|line| sanitize(line) + "\n")
+                .collect();
+            if error.use_stderr() {
+                let _ = streams.errors.write_all(text.as_bytes());
+                return Exit::Usage;
+            }
+            let told = streams
+                .output
+                .write_all(text.as_bytes())
+                .map(|()| Exit::Done);
+            finish(told, streams)
+        })
 }
 
 /// Whether the first word was meant to be a command, and which.
 fn no_command(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
-    let first = arguments.get(1)?.to_str().filter(|first| !first.starts_with('-'))?;
+    let first = arguments
+        .get(1)?
+        .to_str()
+        .filter(|first| !first.starts_with('-'))?;
     let command = Arguments::command();
-    let is_command = command.get_subcommands().any(|known| known.get_name() == first) || first == "help";
+    let is_command = command
+        .get_subcommands()
+        .any(|known| known.get_name() == first)
+        || first == "help";
     let is_case = Path::new(first).extension().is_some() || Path::new(first).exists();
     if error.kind() != ErrorKind::ArgumentConflict || is_command || is_case {
         return None;
     }
-    let known = command.get_subcommands().map(|known| known.get_name().to_owned()).collect::<Vec<_>>();
-    let mend = suggest::mend(first, known.iter().map(String::as_str), || "`tipstrike help` lists the commands".to_owned());
+    let known = command
+        .get_subcommands()
+        .map(|known| known.get_name().to_owned())
+        .collect::<Vec<_>>();
+    let mend = suggest::mend(first, known.iter().map(String::as_str), || {
+        "`tipstrike help` lists the commands".to_owned()
+    });
     Some(format!("error: {first}: there is no such command: {mend}"))
 }
 
@@ -142,7 +179,8 @@ fn list_fields(options: &Fields, out: &mut dyn Write) -> io::Result<Exit> {
     .map(|()| Exit::Done)
 }
 
-/// A reader that went away (`| head -1`) ends a command quietly; an output that cannot be written does not.
+/// A reader that went away (`| head -1`) ends a command quietly; an output that cannot be written
+/// does not.
 fn finish(done: io::Result<Exit>, streams: &mut Streams) -> Exit {
     let written = done.and_then(|exit| streams.output.flush().map(|()| exit));
     written.unwrap_or_else(|error| {
@@ -161,7 +199,14 @@ mod tests {
     #[test]
     fn whatever_is_said_controls_no_terminal() {
         let mut said = Vec::new();
-        Streams { output: Box::new(io::sink()), errors: Box::new(&mut said) }.say("a\u{1b}[2J\u{9b}\nb\u{202e}");
-        assert_eq!(String::from_utf8_lossy(&said), "a\\u{1b}[2J\\u{9b}\\nb\\u{202e}\n");
+        Streams {
+            output: Box::new(io::sink()),
+            errors: Box::new(&mut said),
+        }
+        .say("a\u{1b}[2J\u{9b}\nb\u{202e}");
+        assert_eq!(
+            String::from_utf8_lossy(&said),
+            "a\\u{1b}[2J\\u{9b}\\nb\\u{202e}\n"
+        );
     }
 }

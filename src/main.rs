@@ -7,12 +7,16 @@ use signal_hook::consts::SIGXFSZ;
 use tipstrike::cli::{self, Arguments, Streams};
 
 fn main() -> ExitCode {
-    // A limit on the size of files then is an error of the write, which is told, and not the end of the program.
+    // A limit on the size of files then is an error of the write, which is told, and not the end of
+    // the program.
     drop(signal_hook::flag::register(SIGXFSZ, Arc::default()));
     let mut streams = Streams::standard();
     match cli::parse(std::env::args_os(), &mut streams) {
         Err(exit) => exit.into(),
-        Ok(Arguments { command: Some(command), .. }) => cli::run(&command, &mut streams).into(),
+        Ok(Arguments {
+            command: Some(command),
+            ..
+        }) => cli::run(&command, &mut streams).into(),
         Ok(Arguments { case, .. }) => tipstrike::tui::run(case),
     }
 }

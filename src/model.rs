@@ -1,31 +1,31 @@
 //! The computation core: from a gear pair to the corner contact, stage by stage.
 //!
-//! Symbols follow Zhou & Chen 2014, "Modeling and Calculation of Impact Friction Caused by Corner Contact in
-//! Gear Transmission", Chin. J. Mech. Eng.; gear 1 is the driver, gear 2 the driven gear. SI units throughout.
+//! Symbols follow Zhou & Chen 2014, "Modeling and Calculation of Impact Friction Caused by Corner
+//! Contact in Gear Transmission", Chin. J. Mech. Eng.; gear 1 is the driver, gear 2 the driven
+//! gear. SI units throughout.
 
-pub mod asked;
 pub mod auto;
-pub mod band;
-pub mod between;
+pub mod clearance;
 pub mod clearing;
 pub mod compliance;
+pub mod contact_state;
 pub mod deviation;
 pub mod dynamic;
 pub mod friction;
+pub mod gear_pose;
 pub mod geometry;
 pub mod impact;
 pub mod inputs;
+pub mod interpolate;
 pub mod limits;
 pub mod load_sharing;
-pub mod margin;
 pub mod mesh;
-pub mod moment;
 pub mod notes;
 pub mod outline;
-pub mod placing;
 pub mod position;
 pub mod quantities;
 pub mod relief;
+pub mod request;
 #[cfg(test)]
 pub(crate) mod sample;
 pub mod solve;
@@ -33,33 +33,34 @@ pub mod spacing;
 pub mod stage;
 pub mod static_load;
 pub mod stations;
-pub mod tip;
+pub mod stiffness_spread;
+pub mod tip_gap;
 pub mod velocity;
 
-pub use asked::Earlier;
 pub use auto::Choice;
-pub use band::Band;
-pub use between::Told;
 pub use clearing::Clearing;
 pub use compliance::TeethCompliance;
+pub use contact_state::ContactState;
 pub use deviation::Deviation;
 pub use dynamic::Dynamic;
 pub use friction::Friction;
+pub use gear_pose::GearPose;
 pub use geometry::Geometry;
 pub use impact::Impact;
 pub use inputs::Inputs;
+pub use interpolate::Told;
 pub use limits::Refusal;
 pub use mesh::Mesh;
-pub use moment::Moment;
 pub use notes::{Note, notes};
 pub use outline::Outline;
-pub use placing::Placing;
 pub use position::Position;
 pub use quantities::{QUANTITIES, Quantity};
+pub use request::Earlier;
 pub use solve::{solve, solve_after, solve_while};
 pub use stage::{Stage, Stages};
 pub use static_load::StaticLoad;
 pub use stations::{MeshStation, Station};
+pub use stiffness_spread::Band;
 pub use velocity::Velocity;
 
 use std::sync::Arc;
@@ -96,7 +97,8 @@ impl Outcome {
     }
 }
 
-/// What a solve found. A stage that did not run, or that has no answer because no tooth strikes, is absent.
+/// What a solve found. A stage that did not run, or that has no answer because no tooth strikes, is
+/// absent.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
     /// How much of the physics was taken in.
@@ -141,7 +143,8 @@ pub struct Solution {
     pub dynamic: Option<Dynamic>,
     /// The least tip relief with which the tooth comes in on time.
     pub clearing: Option<Clearing>,
-    /// Why the tooth strikes and yet compliance, force and what follows are absent, where that is so.
+    /// Why the tooth strikes and yet compliance, force and what follows are absent, where that is
+    /// so.
     pub withheld: Option<Refusal>,
     /// Why stations are missing between D and E, where some are.
     pub stations_withheld: Option<Refusal>,

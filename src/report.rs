@@ -65,8 +65,14 @@ impl Selection {
     /// The stages that have to run for it, and no others.
     #[must_use]
     pub fn stages(&self) -> Stages {
-        let stations = if self.stations { Stages::STATIONS } else { Stages::NONE };
-        self.quantities().fold(stations, |stages, quantity| stages.and(Stages::of(quantity.stage)))
+        let stations = if self.stations {
+            Stages::STATIONS
+        } else {
+            Stages::NONE
+        };
+        self.quantities().fold(stations, |stages, quantity| {
+            stages.and(Stages::of(quantity.stage))
+        })
     }
 }
 
@@ -92,17 +98,39 @@ impl Report {
     ///
     /// # Errors
     /// The model's refusal.
-    pub fn solve(name: String, case: Case, inputs: Inputs, selection: Selection) -> Result<Report, Refusal> {
+    pub fn solve(
+        name: String,
+        case: Case,
+        inputs: Inputs,
+        selection: Selection,
+    ) -> Result<Report, Refusal> {
         let solution = model::solve(&inputs, selection.stages().and(deciding(inputs.method)))?;
         Ok(Report::of(name, case, inputs, solution, selection))
     }
 
     /// A report of what the model found already.
     #[must_use]
-    pub fn of(name: String, case: Case, inputs: Inputs, solution: Solution, selection: Selection) -> Report {
+    pub fn of(
+        name: String,
+        case: Case,
+        inputs: Inputs,
+        solution: Solution,
+        selection: Selection,
+    ) -> Report {
         let mut notes = model::notes(&inputs, &solution);
-        notes.extend(selection.quantities().filter_map(|quantity| not_finite(quantity, &solution)));
-        Report { name, case, inputs, solution, notes, selection }
+        notes.extend(
+            selection
+                .quantities()
+                .filter_map(|quantity| not_finite(quantity, &solution)),
+        );
+        Report {
+            name,
+            case,
+            inputs,
+            solution,
+            notes,
+            selection,
+        }
     }
 
     /// The case's title, empty without one; not yet safe for a terminal.
@@ -114,12 +142,16 @@ impl Report {
     /// What the user wrote in a field, empty without it; not yet safe for a terminal.
     #[must_use]
     pub fn text(&self, key: &str) -> &str {
-        index_of(key).and_then(|field| self.case.text(field)).unwrap_or_default()
+        index_of(key)
+            .and_then(|field| self.case.text(field))
+            .unwrap_or_default()
     }
 
     /// The quantities asked for that have a value, in SI: finite, and zero without a sign.
     pub fn values(&self) -> impl Iterator<Item = (&'static Quantity, f64)> {
-        self.selection.quantities().filter_map(|quantity| Some((quantity, value(quantity, &self.solution)?)))
+        self.selection
+            .quantities()
+            .filter_map(|quantity| Some((quantity, value(quantity, &self.solution)?)))
     }
 }
 
@@ -144,16 +176,27 @@ pub fn shown(quantity: &Quantity, value: f64) -> Shown {
 #[must_use]
 pub fn shown_in(quantity: &Quantity, value: f64, system: System) -> Shown {
     if quantity.is_flag() {
-        return Shown { number: if value == 0.0 { "no" } else { "yes" }.to_owned(), unit: "" };
+        return Shown {
+            number: if value == 0.0 { "no" } else { "yes" }.to_owned(),
+            unit: "",
+        };
     }
     let (number, unit) = units::system::shown(value, quantity.shown, quantity.digits, system);
     Shown { number, unit }
 }
 
-/// The unit in which values of a quantity that stand side by side are shown, by the greatest of them.
+/// The unit in which values of a quantity that stand side by side are shown, by the greatest of
+/// them.
 #[must_use]
-pub fn unit_beside(quantity: &Quantity, values: impl Iterator<Item = f64>, system: System) -> &'static str {
-    let greatest = values.map(f64::abs).filter(|value| value.is_finite()).fold(0.0, f64::max);
+pub fn unit_beside(
+    quantity: &Quantity,
+    values: impl Iterator<Item = f64>,
+    system: System,
+) -> &'static str {
+    let greatest = values
+        .map(f64::abs)
+        .filter(|value| value.is_finite())
+        .fold(0.0, f64::max);
     units::system::unit_for(greatest, quantity.shown, quantity.digits, system)
 }
 
@@ -163,20 +206,31 @@ pub fn shown_with(quantity: &Quantity, value: f64, unit: &'static str) -> Shown 
     if quantity.is_flag() {
         return shown(quantity, value);
     }
-    Shown { number: units::system::counted(value, unit, quantity.digits), unit: units::system::named(unit) }
+    Shown {
+        number: units::system::counted(value, unit, quantity.digits),
+        unit: units::system::named(unit),
+    }
 }
 
 /// A quantity's value in SI where there is one: finite, and zero without a sign.
 #[must_use]
 pub fn value(quantity: &Quantity, solution: &Solution) -> Option<f64> {
-    (quantity.value)(solution).filter(|value| value.is_finite()).map(|value| value + 0.0)
+    (quantity.value)(solution)
+        .filter(|value| value.is_finite())
+        .map(|value| value + 0.0)
 }
 
-/// A quantity's value in SI as another method defines the quantity, so that the two may be held against each other.
+/// A quantity's value in SI as another method defines the quantity, so that the two may be held
+/// against each other.
 #[must_use]
 pub fn value_as_in(quantity: &Quantity, solution: &Solution, other: Method) -> Option<f64> {
     match quantity.key {
-        "equivalent_error" => Some(solution.deviation.equivalent_error_as_in(solution.method, other) + 0.0),
+        "equivalent_error" => Some(
+            solution
+                .deviation
+                .equivalent_error_as_in(solution.method, other)
+                + 0.0,
+        ),
         _ => value(quantity, solution),
     }
 }
@@ -190,7 +244,10 @@ pub fn number(value: f64, unit: &str, digits: usize) -> String {
 fn not_finite(quantity: &Quantity, solution: &Solution) -> Option<Note> {
     (quantity.value)(solution)
         .filter(|value| !value.is_finite())
-        .map(|_| Note { code: "not-finite", message: format!("{} left the range of numbers and is left out", quantity.key) })
+        .map(|_| Note {
+            code: "not-finite",
+            message: format!("{} left the range of numbers and is left out", quantity.key),
+        })
 }
 
 #[cfg(test)]
@@ -199,7 +256,11 @@ mod tests {
     use crate::model::Stage;
 
     fn told(value: f64, unit: &'static str, digits: usize) -> String {
-        let quantity = Quantity { shown: unit, digits, ..QUANTITIES[0] };
+        let quantity = Quantity {
+            shown: unit,
+            digits,
+            ..QUANTITIES[0]
+        };
         shown(&quantity, value).to_string()
     }
 
@@ -231,23 +292,46 @@ mod tests {
     #[test]
     fn every_quantity_is_shown_in_units_that_are_read_back_as_its_value() {
         let measured = QUANTITIES.iter().filter(|quantity| !quantity.is_flag());
-        for (quantity, system) in measured.flat_map(|quantity| System::ALL.map(|system| (quantity, system))) {
+        for (quantity, system) in
+            measured.flat_map(|quantity| System::ALL.map(|system| (quantity, system)))
+        {
             let dimension = units::Dimension::of_unit(quantity.unit).unwrap();
             let told = shown_in(quantity, 0.123_456_7, system).to_string();
             let read = units::parse(&told, dimension, "").unwrap();
-            assert!((read / 0.123_456_7 - 1.0).abs() < 6e-4, "{}: {told}", quantity.key);
+            assert!(
+                (read / 0.123_456_7 - 1.0).abs() < 6e-4,
+                "{}: {told}",
+                quantity.key
+            );
         }
     }
 
     #[test]
     fn a_selection_runs_the_stages_of_its_quantities_alone() {
-        let only =
-            |keys: &[&str]| Selection { only: keys.iter().filter_map(|key| Quantity::find(key)).collect(), stations: false };
-        assert_eq!(only(&["approach_angle_driven"]).stages(), Stages::of(Stage::Position));
+        let only = |keys: &[&str]| Selection {
+            only: keys.iter().filter_map(|key| Quantity::find(key)).collect(),
+            stations: false,
+        };
+        assert_eq!(
+            only(&["approach_angle_driven"]).stages(),
+            Stages::of(Stage::Position)
+        );
         let both = only(&["contact_ratio", "normal_velocity"]).stages();
-        assert!(both.has(Stage::Velocity) && !both.has(Stage::Compliance) && !both.has(Stage::Stations));
+        assert!(
+            both.has(Stage::Velocity) && !both.has(Stage::Compliance) && !both.has(Stage::Stations)
+        );
         let whole = Selection::default().stages();
-        assert!(QUANTITIES.iter().all(|quantity| whole.has(quantity.stage)) && !whole.has(Stage::Stations));
-        assert!(Selection { stations: true, ..only(&["contact_ratio"]) }.stages().has(Stage::Stations));
+        assert!(
+            QUANTITIES.iter().all(|quantity| whole.has(quantity.stage))
+                && !whole.has(Stage::Stations)
+        );
+        assert!(
+            Selection {
+                stations: true,
+                ..only(&["contact_ratio"])
+            }
+            .stages()
+            .has(Stage::Stations)
+        );
     }
 }

@@ -1,38 +1,39 @@
 //! The workbench: a form, its results and a chart, in the terminal.
 //!
-//! The state is plain data ([`app::App`]); [`update::update`] alone changes it and says what is to be done about it;
-//! [`view::draw`] makes a screen of it and nothing else. Keys, signals and the worker's answers come through one
-//! channel; the loop takes what has come, changes the state, draws once and sleeps.
+//! The state is plain data ([`app::App`]); [`update::update`] alone changes it and says what is to
+//! be done about it; [`view::draw`] makes a screen of it and nothing else. Keys, signals and the
+//! worker's answers come through one channel; the loop takes what has come, changes the state,
+//! draws once and sleeps.
 
 pub mod actions;
 pub mod app;
+pub mod ascii;
 pub mod browser;
-pub mod clean;
 pub mod commands;
+pub mod effects;
 mod ending;
-pub mod errands;
 pub mod events;
 pub mod explanation;
 mod fault;
 pub mod history;
+pub mod jobs;
 pub mod keys;
+pub mod latest_request;
 pub mod layout;
 pub mod line;
-pub mod measurer;
 pub mod pane;
-pub mod perform;
 pub mod pick;
 pub mod prompt;
 pub mod recovery;
 pub mod rows;
 pub mod scale;
 pub mod settings;
-pub mod slot;
 pub mod solver;
 pub mod store;
 pub mod tab;
 pub mod terminal;
 pub mod theme;
+pub mod trade_worker;
 pub mod update;
 pub mod view;
 pub mod window;
@@ -49,18 +50,18 @@ use signal_hook::consts::{SIGCONT, SIGTSTP};
 
 use actions::{Action, Effect};
 use app::App;
+use effects::{claimed, perform};
 use ending::TERMINAL_LOST;
-use errands::Errands;
 use events::{Event, Events};
-use measurer::Measurer;
-use perform::{claimed, perform};
+use jobs::Jobs;
 use settings::Settings;
 use solver::Solver;
-use store::chest::Chest;
-use store::keeper::Keeper;
+use store::autosave::Autosave;
+use store::journal_writer::JournalWriter;
 use store::{Opening, Trouble};
 use terminal::Screen;
 use theme::Look;
+use trade_worker::TradeWorker;
 use update::update;
 
 const NO_TERMINAL: u8 = 2;
@@ -74,9 +75,9 @@ struct Workbench {
     screen: Screen,
     events: Events,
     solver: Solver,
-    measurer: Measurer,
-    errands: Errands,
-    keeper: Keeper,
+    trade_worker: TradeWorker,
+    errands: Jobs,
+    autosave: Autosave,
     /// When the next picture of what plays is due.
     alarm: Option<Instant>,
     /// The settings that are to be kept once all that has come is done.
@@ -93,43 +94,75 @@ enum End {
     Signal(i32),
 }
 
-/// Open the workbench on a case, else on the last one, else on the built-in one, and stay until the user quits.
+/// Open the workbench on a case, else on the last one, else on the built-in one, and stay until the
+/// user quits.
 #[must_use]
 pub fn run(case: Option<PathBuf>) -> ExitCode {
     if let Some(reason) = terminal::missing(|name| std::env::var_os(name)) {
-        tell(&format!("no terminal for the workbench ({reason}); without one: tipstrike solve CASE"));
+        tell(&format!(
+            "no terminal for the workbench ({reason}); without one: tipstrike solve CASE"
+        ));
         return ExitCode::from(NO_TERMINAL);
     }
     terminal::hold_panics();
     let events = Events::new();
-    let chest = match Chest::open(events.warner()) {
-        Ok(chest) => chest,
-        Err(error) => return fail(TERMINAL_LOST, &format!("the system gives no thread: {error}")),
+    let journal_writer = match JournalWriter::open(events.warner()) {
+        Ok(journal_writer) => journal_writer,
+        Err(error) => {
+            return fail(
+                TERMINAL_LOST,
+                &format!("the system gives no thread: {error}"),
+            );
+        }
     };
-    let ended = catch_unwind(AssertUnwindSafe(|| session(case, events, &chest)));
+    let ended = catch_unwind(AssertUnwindSafe(|| session(case, events, &journal_writer)));
     if matches!(ended, Ok(Ok(End::Left))) {
         return ExitCode::SUCCESS;
     }
-    keep_what_is_left(&chest);
+    keep_what_is_left(&journal_writer);
     match ended {
-        Ok(Ok(End::Signal(signal))) => ExitCode::from(u8::try_from(ending::SIGNALLED + signal).unwrap_or(u8::MAX)),
+        Ok(Ok(End::Signal(signal))) => {
+            ExitCode::from(u8::try_from(ending::SIGNALLED + signal).unwrap_or(u8::MAX))
+        }
         Ok(Ok(End::Left | End::Lost)) => ExitCode::from(TERMINAL_LOST),
-        Ok(Err(error)) => fail(TERMINAL_LOST, &format!("the terminal does not answer: {error}")),
-        Err(_) => fail(PANICKED, &format!("a fault of the program: {}", terminal::last_panic().unwrap_or_default())),
+        Ok(Err(error)) => fail(
+            TERMINAL_LOST,
+            &format!("the terminal does not answer: {error}"),
+        ),
+        Err(_) => fail(
+            PANICKED,
+            &format!(
+                "a fault of the program: {}",
+                terminal::last_panic().unwrap_or_default()
+            ),
+        ),
     }
 }
 
-fn session(case: Option<PathBuf>, events: Events, chest: &Arc<Chest>) -> io::Result<End> {
-    let Opening { document, path, trouble } = store::opening(case);
+fn session(
+    case: Option<PathBuf>,
+    events: Events,
+    journal_writer: &Arc<JournalWriter>,
+) -> io::Result<End> {
+    let Opening {
+        document,
+        path,
+        trouble,
+    } = store::opening(case);
     // Before the terminal is taken: a signal must never leave it in our modes.
-    let last_words = Arc::clone(chest);
+    let last_words = Arc::clone(journal_writer);
     events.listen()?;
     ending::listen(events.sender(), move || drop(last_words.write(false)))?;
     let mut screen = Screen::open()?;
     let settings = Settings::read();
     let look = Look::of(|name| std::env::var_os(name));
-    let look = settings.look(look, |name| std::env::var_os(name).is_some_and(|value| !value.is_empty()));
-    let mut app = App { settings, ..App::new(document, path, look, screen.size()?) };
+    let look = settings.look(look, |name| {
+        std::env::var_os(name).is_some_and(|value| !value.is_empty())
+    });
+    let mut app = App {
+        settings,
+        ..App::new(document, path, look, screen.size()?)
+    };
     update::settle(&mut app);
     screen.take_mouse(settings.mouse)?;
     if let Some(trouble) = trouble {
@@ -140,10 +173,24 @@ fn session(case: Option<PathBuf>, events: Events, chest: &Arc<Chest>) -> io::Res
     if let Some(request) = app.unanswered() {
         solver.ask(request);
     }
-    let measurer = Measurer::new(events.meter());
-    let errands = Errands::new(events.messenger());
-    let keeper = Keeper::new(store::state::folder().as_deref(), Arc::clone(chest));
-    Workbench { app, screen, events, solver, measurer, errands, keeper, alarm: None, chosen: None }.stay()
+    let trade_worker = TradeWorker::new(events.meter());
+    let errands = Jobs::new(events.messenger());
+    let autosave = Autosave::new(
+        store::state::folder().as_deref(),
+        Arc::clone(journal_writer),
+    );
+    Workbench {
+        app,
+        screen,
+        events,
+        solver,
+        trade_worker,
+        errands,
+        autosave,
+        alarm: None,
+        chosen: None,
+    }
+    .stay()
 }
 
 fn report(app: &mut App, trouble: Trouble) {
@@ -164,11 +211,11 @@ impl Workbench {
             if let Some(end) = self.take(batch)? {
                 break end;
             }
-            batch = self.events.batch(self.alarm, self.keeper.deadline());
+            batch = self.events.batch(self.alarm, self.autosave.deadline());
         };
         self.keep_settings();
         if matches!(end, End::Left) {
-            self.keeper.end();
+            self.autosave.end();
         }
         Ok(end)
     }
@@ -189,7 +236,9 @@ impl Workbench {
             if matches!(event, Event::Tick) {
                 self.alarm = Some(Instant::now() + TICK);
             }
-            let Some(action) = events::take_action(&mut events, self.app.place()) else { continue };
+            let Some(action) = events::take_action(&mut events, self.app.place()) else {
+                continue;
+            };
             has_changed = true;
             if self.act(action)? {
                 return Ok(Some(End::Left));
@@ -200,7 +249,7 @@ impl Workbench {
         if self.keep() || has_changed {
             self.screen.draw(&self.app)?;
         }
-        self.keeper.keep_if_due(Instant::now());
+        self.autosave.keep_if_due(Instant::now());
         Ok(None)
     }
 
@@ -226,16 +275,16 @@ impl Workbench {
                     }
                     Effect::Suspend => self.suspend()?,
                     Effect::Solve(request) => self.solver.ask(*request),
-                    Effect::Measure(measuring) => self.measurer.begin(*measuring)?,
-                    Effect::CancelWork => self.measurer.stop(),
+                    Effect::Measure(measuring) => self.trade_worker.begin(*measuring)?,
+                    Effect::CancelWork => self.trade_worker.stop(),
                     Effect::CancelSolve => self.solver.stop(),
-                    Effect::Errand(errand) => self.errands.ask(errand)?,
+                    Effect::Job(errand) => self.errands.ask(errand)?,
                     Effect::Save(saving, next) => {
-                        let (path, result) = self.keeper.save(*saving);
+                        let (path, result) = self.autosave.save(*saving);
                         actions.push(Action::Saved(path, next, result));
                     }
                     Effect::Keep(settings) => self.chosen = Some(settings),
-                    Effect::Adopt(journal) => self.keeper.adopt(journal),
+                    Effect::Adopt(journal) => self.autosave.adopt(journal),
                     Effect::Copy(text) => self.screen.copy(&text)?,
                     Effect::Mouse(takes) => self.screen.take_mouse(takes)?,
                     Effect::Play(plays) => self.alarm = plays.then(|| Instant::now() + TICK),
@@ -248,7 +297,10 @@ impl Workbench {
 
     // A flood of choices is written once.
     fn keep_settings(&mut self) {
-        let kept = self.chosen.take().and_then(|settings| perform(Effect::Keep(settings)));
+        let kept = self
+            .chosen
+            .take()
+            .and_then(|settings| perform(Effect::Keep(settings)));
         if let Some(action) = kept {
             update(&mut self.app, action);
         }
@@ -256,7 +308,7 @@ impl Workbench {
 
     // Whether there was something to tell.
     fn keep(&mut self) -> bool {
-        let told = self.keeper.follow(&self.app.sheets(), Instant::now());
+        let told = self.autosave.follow(&self.app.sheets(), Instant::now());
         let has_changed = !told.is_empty();
         for claim in told {
             update(&mut self.app, claimed(claim));
@@ -267,15 +319,17 @@ impl Workbench {
     // Nobody knows for how long.
     fn suspend(&mut self) -> io::Result<()> {
         self.keep();
-        self.keeper.keep();
+        self.autosave.keep();
         self.screen.suspend()
     }
 }
 
 // The terminal is given back by now.
-fn keep_what_is_left(chest: &Chest) {
-    match chest.write(false) {
-        Ok(()) if chest.is_needed() => tell("unsaved edits are kept: open the case again to get them back"),
+fn keep_what_is_left(journal_writer: &JournalWriter) {
+    match journal_writer.write(false) {
+        Ok(()) if journal_writer.is_needed() => {
+            tell("unsaved edits are kept: open the case again to get them back")
+        }
         Ok(()) => {}
         Err(error) => tell(&format!("unsaved edits could not be kept: {error}")),
     }
@@ -288,5 +342,9 @@ fn fail(code: u8, words: &str) -> ExitCode {
 
 // A terminal or a pipe that is gone hears nothing more.
 fn tell(words: &str) {
-    drop(writeln!(io::stderr(), "tipstrike: {}", clean::clean(words)));
+    drop(writeln!(
+        io::stderr(),
+        "tipstrike: {}",
+        ascii::printable(words)
+    ));
 }

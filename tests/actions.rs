@@ -1,16 +1,21 @@
 //! Every line of the table of actions: keys in, screen out. A line without a test here fails.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that cannot go on says why"
+)]
 #![cfg(feature = "tui")]
 
-mod desk;
+mod harness;
 
 use std::collections::BTreeSet;
 
-use desk::{Desk, LARGE, TABLE_1, time_evenly};
+use harness::{Desk, LARGE, TABLE_1, time_evenly};
 use tipstrike::tui::commands::BINDINGS;
 
-/// Keys before, the key, keys after, and what is then on the screen, or asked of the world, that is not without the key.
-/// `:name` calls a command by the palette.
+/// Keys before, the key, keys after, and what is then on the screen, or asked of the world, that is
+/// not without the key. `:name` calls a command by the palette.
 #[rustfmt::skip]
 const ACTIONS: &[(&str, &str, &str, &str)] = &[
     // In the form, outside its fields.
@@ -185,7 +190,13 @@ fn press(desk: &mut Desk, keys: &str) {
             None if key == "METHOD" => desk.go_to("model.method"),
             None => desk.keys(&[key]),
         };
-        if key == "m" && desk.app.traded.as_ref().is_some_and(|traded| traded.trade.is_some()) {
+        if key == "m"
+            && desk
+                .app
+                .traded
+                .as_ref()
+                .is_some_and(|traded| traded.trade.is_some())
+        {
             time_evenly(desk);
         }
     }
@@ -200,19 +211,30 @@ fn out(desk: &Desk) -> String {
         (desk.has_redrawn, "[redrawn]"),
         (desk.is_suspended, "[suspended]"),
     ];
-    let flags = flags.into_iter().filter(|(is_set, _)| *is_set).map(|(_, name)| name);
-    let copied = desk.copied.as_ref().map(|text| format!("[copied {text}]")).unwrap_or_default();
+    let flags = flags
+        .into_iter()
+        .filter(|(is_set, _)| *is_set)
+        .map(|(_, name)| name);
+    let copied = desk
+        .copied
+        .as_ref()
+        .map(|text| format!("[copied {text}]"))
+        .unwrap_or_default();
     format!("{}\n{}{copied}", desk.screen(), flags.collect::<String>())
 }
 
 /// The line of the table that a key calls there.
 fn called(desk: &Desk, key: &str) -> Option<usize> {
     if let Some(name) = key.strip_prefix(':').filter(|name| !name.is_empty()) {
-        return BINDINGS.iter().position(|binding| binding.name == name.replace('_', " ") && binding.chords.is_empty());
+        return BINDINGS.iter().position(|binding| {
+            binding.name == name.replace('_', " ") && binding.chords.is_empty()
+        });
     }
     let key = if key == "BackTab" { "Shift-Tab" } else { key };
     let place = desk.app.place();
-    BINDINGS.iter().position(|binding| binding.places.meets(place) && binding.chords.iter().any(|chord| chord.name() == key))
+    BINDINGS.iter().position(|binding| {
+        binding.places.meets(place) && binding.chords.iter().any(|chord| chord.name() == key)
+    })
 }
 
 #[test]
@@ -221,34 +243,66 @@ fn every_key_does_what_its_line_says() {
     for (before, key, after, says) in ACTIONS {
         let (mut with, mut without) = (bench(), bench());
         press(&mut with, before);
-        covered.insert(called(&with, key).unwrap_or_else(|| panic!("{key} after {before:?} calls nothing")));
+        covered.insert(
+            called(&with, key).unwrap_or_else(|| panic!("{key} after {before:?} calls nothing")),
+        );
         press(&mut with, key);
         press(&mut with, after);
         press(&mut without, before);
         press(&mut without, after);
         let (with, without) = (out(&with), out(&without));
         if !with.contains(says) || without.contains(says) {
-            let new: Vec<&str> = with.lines().filter(|line| !without.contains(line)).collect();
+            let new: Vec<&str> = with
+                .lines()
+                .filter(|line| !without.contains(line))
+                .collect();
             let (first, last) = (new.iter().take(3), new.iter().rev().take(4));
-            let told: Vec<_> = first.chain(last).map(|line| line.chars().take(90).collect::<String>()).collect();
-            wrong.push(format!("{key} after {before:?} is to bring {says:?}; it brings:\n{}", told.join("\n")));
+            let told: Vec<_> = first
+                .chain(last)
+                .map(|line| line.chars().take(90).collect::<String>())
+                .collect();
+            wrong.push(format!(
+                "{key} after {before:?} is to bring {says:?}; it brings:\n{}",
+                told.join("\n")
+            ));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
     let missing: Vec<String> = (0..BINDINGS.len())
         .filter(|at| !covered.contains(at) && !BINDINGS[*at].sentence.is_empty())
-        .map(|at| format!("{} {}: {}", BINDINGS[at].keys(), BINDINGS[at].name, BINDINGS[at].sentence))
+        .map(|at| {
+            format!(
+                "{} {}: {}",
+                BINDINGS[at].keys(),
+                BINDINGS[at].name,
+                BINDINGS[at].sentence
+            )
+        })
         .collect();
-    assert!(missing.is_empty(), "no test has these lines of the table:\n{}", missing.join("\n"));
+    assert!(
+        missing.is_empty(),
+        "no test has these lines of the table:\n{}",
+        missing.join("\n")
+    );
 }
 
 #[test]
 fn the_help_has_every_key_with_its_sentence() {
     let lines = tipstrike::tui::view::help::lines();
-    for binding in BINDINGS.iter().filter(|binding| !binding.sentence.is_empty()) {
-        let keys = if binding.chords.is_empty() { format!(":{}", binding.name) } else { binding.keys() };
-        let stands =
-            |line: &String| line.trim_start().strip_prefix(&keys).is_some_and(|rest| rest.trim_start() == binding.sentence);
+    for binding in BINDINGS
+        .iter()
+        .filter(|binding| !binding.sentence.is_empty())
+    {
+        let keys = if binding.chords.is_empty() {
+            format!(":{}", binding.name)
+        } else {
+            binding.keys()
+        };
+        let stands = |line: &String| {
+            line.trim_start()
+                .strip_prefix(&keys)
+                .is_some_and(|rest| rest.trim_start() == binding.sentence)
+        };
         assert!(lines.iter().any(stands), "{keys}: {}", binding.sentence);
     }
 }
@@ -257,7 +311,8 @@ fn the_help_has_every_key_with_its_sentence() {
 fn the_cases_by_their_numbers() {
     let mut desk = bench();
     desk.keys(&[
-        "Ctrl-N", "X", "Ctrl-N", "X", "Ctrl-N", "X", "Ctrl-N", "X", "Ctrl-N", "X", "Ctrl-N", "X", "Ctrl-N", "X", "Ctrl-N", "X",
+        "Ctrl-N", "X", "Ctrl-N", "X", "Ctrl-N", "X", "Ctrl-N", "X", "Ctrl-N", "X", "Ctrl-N", "X",
+        "Ctrl-N", "X", "Ctrl-N", "X",
     ]);
     assert_eq!(desk.app.tabs().count(), 9);
     for number in 1..=9 {

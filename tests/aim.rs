@@ -1,10 +1,15 @@
 //! The cursor goes to an angle, a time or a place that is typed, in chart and teeth alike.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that cannot go on says why"
+)]
 #![cfg(feature = "tui")]
 
-mod desk;
+mod harness;
 
-use desk::{Desk, LARGE, SMALL, TABLE_1};
+use harness::{Desk, LARGE, SMALL, TABLE_1};
 use tipstrike::tui::prompt::Prompt;
 
 fn at(desk: &mut Desk, typed: &str) -> f64 {
@@ -17,13 +22,27 @@ fn at(desk: &mut Desk, typed: &str) -> f64 {
 fn an_angle_in_any_unit_and_a_time_lead_to_the_same_place() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc"]);
-    for typed in ["0.6 deg", "0.6", "10.471975511965976 mrad", "0.010471975511965976 rad", "-50 us", "-0.05 ms"] {
+    for typed in [
+        "0.6 deg",
+        "0.6",
+        "10.471975511965976 mrad",
+        "0.010471975511965976 rad",
+        "-50 us",
+        "-0.05 ms",
+    ] {
         let angle = at(&mut desk, typed).to_degrees();
         assert!((angle - 0.6).abs() < 1e-9, "{typed}: {angle}");
-        assert!(desk.shows("cursor at 0.6000 deg of the driver before E: F_S "), "{typed}\n{}", desk.screen());
+        assert!(
+            desk.shows("cursor at 0.6000 deg of the driver before E: F_S "),
+            "{typed}\n{}",
+            desk.screen()
+        );
     }
     desk.keys(&["3", "t"]);
-    assert!((at(&mut desk, "-50").to_degrees() - 0.6).abs() < 1e-9, "a bare number is what the axis has");
+    assert!(
+        (at(&mut desk, "-50").to_degrees() - 0.6).abs() < 1e-9,
+        "a bare number is what the axis has"
+    );
 }
 
 #[test]
@@ -32,7 +51,10 @@ fn places_have_names() {
     let mut desk = Desk::on(LARGE, "case.toml", &case);
     desk.keys(&["Esc"]);
     let [d, e, b, l, peak] = ["d", "E", "b", "L", "Peak"].map(|name| at(&mut desk, name));
-    assert!(d > peak && peak > b && e == 0.0 && l < 0.0, "{d} {e} {b} {l} {peak}");
+    assert!(
+        d > peak && peak > b && e == 0.0 && l < 0.0,
+        "{d} {e} {b} {l} {peak}"
+    );
     desk.keys(&["3", "End", "Home"]);
     assert_eq!(desk.app.cursor, Some(d), "D is where Home goes");
     let screen = desk.screen();
@@ -44,19 +66,33 @@ fn places_have_names() {
 fn what_cannot_be_is_said_and_the_line_stays() {
     let mut desk = Desk::new(SMALL);
     for (typed, said) in [
-        ("30 deg", "30.0000 deg (2500.0 us) before E is out of sight: the cursor goes from"),
+        (
+            "30 deg",
+            "30.0000 deg (2500.0 us) before E is out of sight: the cursor goes from",
+        ),
         ("there", "there is no angle, time or place"),
         ("5 mm", "5 mm is no angle, time or place"),
         ("1 m", "1 m is no angle, time or place"),
-        ("L", "the last contact L is known to static and dynamic alone"),
+        (
+            "L",
+            "the last contact L is known to static and dynamic alone",
+        ),
     ] {
         desk.keys(&["Esc", "Esc", "a", typed, "Enter"]);
         assert!(desk.shows(said), "{typed}\n{}", desk.screen());
         assert!(matches!(desk.app.prompts[..], [Prompt::Aim(_)]) && desk.app.cursor.is_none());
     }
-    let mut desk = Desk::on(SMALL, "case.toml", include_str!("../cases/tip-relief-enough.toml"));
+    let mut desk = Desk::on(
+        SMALL,
+        "case.toml",
+        include_str!("../cases/tip-relief-enough.toml"),
+    );
     desk.keys(&["Esc", "a", "D", "Enter"]);
-    assert!(desk.shows("no corner contact: there is no D"), "{}", desk.screen());
+    assert!(
+        desk.shows("no corner contact: there is no D"),
+        "{}",
+        desk.screen()
+    );
 }
 
 #[test]
@@ -65,5 +101,9 @@ fn a_chart_comes_into_sight_where_nothing_shows_the_cursor() {
     desk.keys(&["Esc", "5", "a", "0.6", "Enter"]);
     assert!(desk.shows("▸ 3 Force"), "{}", desk.screen());
     desk.keys(&["4", "1", "a", "0.6", "Enter"]);
-    assert!(desk.shows("▸ 1 Form") && desk.shows("─ 4 "), "{}", desk.screen());
+    assert!(
+        desk.shows("▸ 1 Form") && desk.shows("─ 4 "),
+        "{}",
+        desk.screen()
+    );
 }

@@ -1,5 +1,10 @@
 //! A closed-form solve takes no memory from the heap.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that cannot go on says why"
+)]
 
 use std::hint::black_box;
 
@@ -9,15 +14,25 @@ use tipstrike::model::{Inputs, Stages, solve};
 
 #[test]
 fn a_closed_form_solve_does_not_allocate() {
-    let table_1 = Case::table_1().inputs().expect("the built-in case is valid");
+    let table_1 = Case::table_1()
+        .inputs()
+        .expect("the built-in case is valid");
     for method in Method::CLOSED_FORM {
         for accurate in [false, true] {
             for deflection in [table_1.deflection, None] {
-                let inputs = Inputs { method, accurate, deflection, ..table_1.clone() };
+                let inputs = Inputs {
+                    method,
+                    accurate,
+                    deflection,
+                    ..table_1.clone()
+                };
                 let count = allocation_counter::measure(|| {
                     black_box(solve(black_box(&inputs), Stages::CLOSED_FORM).is_ok());
                 });
-                assert_eq!(count.count_total, 0, "{method:?}, accurate {accurate}, deflection {deflection:?}");
+                assert_eq!(
+                    count.count_total, 0,
+                    "{method:?}, accurate {accurate}, deflection {deflection:?}"
+                );
             }
         }
     }
@@ -25,7 +40,9 @@ fn a_closed_form_solve_does_not_allocate() {
 
 #[test]
 fn only_the_stations_allocate_and_once() {
-    let inputs = Case::table_1().inputs().expect("the built-in case is valid");
+    let inputs = Case::table_1()
+        .inputs()
+        .expect("the built-in case is valid");
     let count = allocation_counter::measure(|| {
         black_box(solve(black_box(&inputs), Stages::ALL).is_ok());
     });

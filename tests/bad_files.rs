@@ -1,5 +1,11 @@
-//! Every bad file is refused at the right place, with the cause and the mend, all faults in one run.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+//! Every bad file is refused at the right place, with the cause and the mend, all faults in one
+//! run.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that cannot go on says why"
+)]
 
 use tipstrike::case::Document;
 use tipstrike::case::file::{Fault, FaultKind, MOST_BYTES};
@@ -11,7 +17,11 @@ fn faults(text: &str) -> Vec<Fault> {
 }
 
 fn printed(faults: &[Fault]) -> String {
-    faults.iter().map(Fault::to_string).collect::<Vec<_>>().join("\n")
+    faults
+        .iter()
+        .map(Fault::to_string)
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 /// A fault as a row expects it: line, column, field, part of the cause, part of the mend.
@@ -23,7 +33,11 @@ fn expect(text: &str, rows: &[Row<'_>]) {
     assert_eq!(found.len(), rows.len(), "{text:?}\n{}", printed(&found));
     for (fault, &(line, column, field, cause, mend)) in found.iter().zip(rows) {
         let shown = printed(&found);
-        assert_eq!((fault.line, fault.column, fault.field.as_str()), (line, column, field), "{text:?}\n{shown}");
+        assert_eq!(
+            (fault.line, fault.column, fault.field.as_str()),
+            (line, column, field),
+            "{text:?}\n{shown}"
+        );
         assert!(fault.cause.contains(cause), "cause {cause:?} of {shown}");
         assert!(fault.mend.contains(mend), "mend {mend:?} of {shown}");
     }
@@ -31,9 +45,17 @@ fn expect(text: &str, rows: &[Row<'_>]) {
 
 const MODULE: &str = "module = \"5 mm\"";
 
-/// A line of the good case, what stands in its place, how many lines below and in which column the fault is, its field,
-/// a part of its cause and a part of its mend.
-type OneLine = (&'static str, &'static str, usize, usize, &'static str, &'static str, &'static str);
+/// A line of the good case, what stands in its place, how many lines below and in which column the
+/// fault is, its field, a part of its cause and a part of its mend.
+type OneLine = (
+    &'static str,
+    &'static str,
+    usize,
+    usize,
+    &'static str,
+    &'static str,
+    &'static str,
+);
 
 #[rustfmt::skip]
 const ONE_BAD_LINE: &[OneLine] = &[
@@ -133,9 +155,14 @@ const ONE_BAD_LINE: &[OneLine] = &[
 #[test]
 fn one_bad_line() {
     for &(line, bad, down, column, field, cause, mend) in ONE_BAD_LINE {
-        let at = GOOD.find(line).unwrap_or_else(|| panic!("the good case has no {line}"));
+        let at = GOOD
+            .find(line)
+            .unwrap_or_else(|| panic!("the good case has no {line}"));
         let number = GOOD[..at].matches('\n').count() + 1 + down;
-        expect(&GOOD.replacen(line, bad, 1), &[(number, column, field, cause, mend)]);
+        expect(
+            &GOOD.replacen(line, bad, 1),
+            &[(number, column, field, cause, mend)],
+        );
     }
 }
 
@@ -143,7 +170,11 @@ fn one_bad_line() {
 fn without(table: &str) -> String {
     let mut inside = false;
     let keep = |line: &&str| {
-        inside = if line.starts_with('[') { line.trim() == format!("[{table}]") } else { inside };
+        inside = if line.starts_with('[') {
+            line.trim() == format!("[{table}]")
+        } else {
+            inside
+        };
         !inside
     };
     GOOD.split_inclusive('\n').filter(keep).collect()
@@ -154,19 +185,43 @@ fn what_is_missing_is_told_at_its_table_or_at_the_end() {
     expect(
         &GOOD.replace("teeth = 20\n", ""),
         &[
-            (14, 1, "driver.teeth", "missing", "add teeth = 20 to [driver]"),
-            (25, 1, "driven.teeth", "missing", "add teeth = 20 to [driven]"),
+            (
+                14,
+                1,
+                "driver.teeth",
+                "missing",
+                "add teeth = 20 to [driver]",
+            ),
+            (
+                25,
+                1,
+                "driven.teeth",
+                "missing",
+                "add teeth = 20 to [driven]",
+            ),
         ],
     );
-    expect(&GOOD.replace("power = \"15 kW\"\n", ""), &[(42, 1, "operation.power", "neither", "power = \"15 kW\"")]);
+    expect(
+        &GOOD.replace("power = \"15 kW\"\n", ""),
+        &[(42, 1, "operation.power", "neither", "power = \"15 kW\"")],
+    );
     expect(
         &without("driven"),
         &[
             (43, 1, "driven.teeth", "missing", "to [driven]"),
-            (43, 1, "driven.face_width", "missing", "face_width = \"8 mm\" to [driven]"),
+            (
+                43,
+                1,
+                "driven.face_width",
+                "missing",
+                "face_width = \"8 mm\" to [driven]",
+            ),
         ],
     );
-    expect(&GOOD.replace("format = 1\n", ""), &[(1, 1, "format", "missing", "format = 1")]);
+    expect(
+        &GOOD.replace("format = 1\n", ""),
+        &[(1, 1, "format", "missing", "format = 1")],
+    );
 }
 
 #[test]
@@ -174,9 +229,20 @@ fn a_file_with_nothing_in_it_lacks_all_that_a_case_needs() {
     for text in ["", "\u{feff}", "\n\n", "# a comment"] {
         let found = faults(text);
         let fields: Vec<&str> = found.iter().map(|fault| fault.field.as_str()).collect();
-        let needed = ["format", "pair.module", "driver.teeth", "driver.face_width", "driven.teeth", "driven.face_width"];
+        let needed = [
+            "format",
+            "pair.module",
+            "driver.teeth",
+            "driver.face_width",
+            "driven.teeth",
+            "driven.face_width",
+        ];
         assert_eq!(fields[..6], needed, "{text:?}");
-        assert_eq!(fields[6..], ["operation.power", "operation.speed"], "{text:?}");
+        assert_eq!(
+            fields[6..],
+            ["operation.power", "operation.speed"],
+            "{text:?}"
+        );
     }
 }
 
@@ -193,36 +259,74 @@ fn all_faults_come_in_one_run_in_the_order_of_the_places() {
         &[
             (11, 10, "pair.module", "not in quotes", "write \"5 mm\""),
             (15, 9, "driver.teeth", "not a whole number", "20"),
-            (21, 1, "driver.poison", "unknown key", "did you mean poisson?"),
-            (44, 14, "operation.speed", "invalid basic string", "close the string"),
-            (47, 8, "model.method", "unknown choice", "did you mean paper?"),
+            (
+                21,
+                1,
+                "driver.poison",
+                "unknown key",
+                "did you mean poisson?",
+            ),
+            (
+                44,
+                14,
+                "operation.speed",
+                "invalid basic string",
+                "close the string",
+            ),
+            (
+                47,
+                8,
+                "model.method",
+                "unknown choice",
+                "did you mean paper?",
+            ),
         ],
     );
 }
 
 #[test]
 fn faults_of_one_field_do_not_hide_those_between_others() {
-    let text =
-        GOOD.replacen("young = \"205 GPa\"", "young = 205", 1).replacen("bore_radius = \"20 mm\"", "bore_radius = \"60 mm\"", 1);
+    let text = GOOD
+        .replacen("young = \"205 GPa\"", "young = 205", 1)
+        .replacen("bore_radius = \"20 mm\"", "bore_radius = \"60 mm\"", 1);
     expect(
         &text,
-        &[(19, 15, "driver.bore_radius", "root circle", "radius"), (20, 9, "driver.young", "bare number", "\"205 GPa\"")],
+        &[
+            (19, 15, "driver.bore_radius", "root circle", "radius"),
+            (20, 9, "driver.young", "bare number", "\"205 GPa\""),
+        ],
     );
 }
 
 #[test]
 fn columns_count_characters_and_lines_end_in_either_way() {
     let text = GOOD.replacen("base_pitch = \"16 um\"", "\"bäse·pitch\" = 1", 1);
-    expect(&text, &[(39, 1, "deviations.bäse·pitch", "unknown key", "")]);
+    expect(
+        &text,
+        &[(39, 1, "deviations.bäse·pitch", "unknown key", "")],
+    );
     let windows = GOOD.replace('\n', "\r\n").replacen(MODULE, "module = 5", 1);
-    expect(&windows, &[(11, 10, "pair.module", "bare number", "\"5 mm\"")]);
+    expect(
+        &windows,
+        &[(11, 10, "pair.module", "bare number", "\"5 mm\"")],
+    );
     let marked = format!("\u{feff}{}", GOOD.replacen("format = 1", "format = 0", 1));
-    expect(&marked, &[(6, 10, "format", "no known format", "format = 1")]);
-    let inline = "format = 1\npair = { modul = \"5 mm\" }\n".to_owned() + &without("pair").replace("format = 1\n", "");
+    expect(
+        &marked,
+        &[(6, 10, "format", "no known format", "format = 1")],
+    );
+    let inline = "format = 1\npair = { modul = \"5 mm\" }\n".to_owned()
+        + &without("pair").replace("format = 1\n", "");
     expect(
         &inline,
         &[
-            (2, 8, "pair.module", "missing", "module = \"5 mm\" to [pair]"),
+            (
+                2,
+                8,
+                "pair.module",
+                "missing",
+                "module = \"5 mm\" to [pair]",
+            ),
             (2, 10, "pair.modul", "unknown key", "did you mean module?"),
         ],
     );
@@ -230,18 +334,42 @@ fn columns_count_characters_and_lines_end_in_either_way() {
 
 #[test]
 fn tables_of_the_wrong_kind() {
-    expect(&GOOD.replace("[driver]", "[[driver]]"), &[(14, 1, "driver", "an array", "[driver]")]);
-    let text = GOOD.replacen("format = 1", "format = 1\npair = 5", 1).replace("[pair]", "[par]");
-    expect(&text, &[(7, 8, "pair", "a number", "[pair]"), (11, 2, "par", "unknown key or table", "did you mean pair?")]);
-    expect(&GOOD.replace("[pair]", "[pair"), &[(10, 6, "toml", "unclosed table", "]")]);
-    expect(&GOOD.replacen("format = 1", "format = 1\nteeth = 3", 1), &[(7, 1, "teeth", "unknown key", "put it under [driver]")]);
+    expect(
+        &GOOD.replace("[driver]", "[[driver]]"),
+        &[(14, 1, "driver", "an array", "[driver]")],
+    );
+    let text = GOOD
+        .replacen("format = 1", "format = 1\npair = 5", 1)
+        .replace("[pair]", "[par]");
+    expect(
+        &text,
+        &[
+            (7, 8, "pair", "a number", "[pair]"),
+            (11, 2, "par", "unknown key or table", "did you mean pair?"),
+        ],
+    );
+    expect(
+        &GOOD.replace("[pair]", "[pair"),
+        &[(10, 6, "toml", "unclosed table", "]")],
+    );
+    expect(
+        &GOOD.replacen("format = 1", "format = 1\nteeth = 3", 1),
+        &[(7, 1, "teeth", "unknown key", "put it under [driver]")],
+    );
 }
 
 #[test]
 fn a_newer_format_is_told_apart_and_alone() {
-    let found = faults(&GOOD.replacen("format = 1", "format = 2", 1).replacen(MODULE, "modulus = 5", 1));
+    let found = faults(&GOOD.replacen("format = 1", "format = 2", 1).replacen(
+        MODULE,
+        "modulus = 5",
+        1,
+    ));
     assert_eq!(found.len(), 1, "{}", printed(&found));
-    assert_eq!((found[0].kind, found[0].line, found[0].column), (FaultKind::NewerFormat, 6, 10));
+    assert_eq!(
+        (found[0].kind, found[0].line, found[0].column),
+        (FaultKind::NewerFormat, 6, 10)
+    );
     assert!(found[0].mend.contains("newer tipstrike"));
     let text = faults(&GOOD.replacen("format = 1", "format = \"1\"", 1));
     assert_eq!((text.len(), text[0].kind), (1, FaultKind::Bad));
@@ -250,11 +378,17 @@ fn a_newer_format_is_told_apart_and_alone() {
 #[test]
 fn no_depth_and_no_length_is_too_much() {
     let deep = GOOD.replacen(MODULE, &format!("module = {}", "[".repeat(5000)), 1);
-    assert_eq!((faults(&deep)[0].line, faults(&deep)[0].field.as_str()), (11, "pair.module"));
+    assert_eq!(
+        (faults(&deep)[0].line, faults(&deep)[0].field.as_str()),
+        (11, "pair.module")
+    );
     let keys = GOOD.replacen(MODULE, &format!("{}x = 1", "a.".repeat(5000)), 1);
     assert!(!faults(&keys).is_empty());
     let long = format!("{GOOD}#{}", "x".repeat(MOST_BYTES));
-    expect(&long, &[(1, 1, "toml", "longer than 1024 KiB", "case file")]);
+    expect(
+        &long,
+        &[(1, 1, "toml", "longer than 1024 KiB", "case file")],
+    );
     let most = format!("{GOOD}#{}", "x".repeat(MOST_BYTES - GOOD.len() - 1));
     assert!(faults(&most).is_empty());
 }
@@ -272,8 +406,16 @@ fn long_and_hostile_names_are_shown_short_and_visible() {
     let found = faults(&GOOD.replacen(MODULE, &format!("{key}\n{MODULE}"), 1));
     let shown = printed(&found);
     assert!(shown.len() < 400, "{shown}");
-    let named = Document::parse("\u{1b}]0;x\u{7}.toml", "").map(|_| ()).unwrap_err();
-    assert!(named.iter().all(|fault| !fault.to_string().contains(char::is_control)), "{}", printed(&named));
+    let named = Document::parse("\u{1b}]0;x\u{7}.toml", "")
+        .map(|_| ())
+        .unwrap_err();
+    assert!(
+        named
+            .iter()
+            .all(|fault| !fault.to_string().contains(char::is_control)),
+        "{}",
+        printed(&named)
+    );
 }
 
 #[test]
@@ -281,6 +423,11 @@ fn bytes_that_are_no_text_are_placed() {
     let mut bytes = GOOD.as_bytes().to_vec();
     let at = GOOD.find("5 mm\"").unwrap_or(0) + "5 ".len();
     bytes[at] = 0xff;
-    let found = Document::parse_bytes("bad.toml", &bytes).map(|_| ()).unwrap_err();
-    assert_eq!(found[0].to_string(), "bad.toml:11:13: toml: byte 0xff is not UTF-8 text: save the file as UTF-8");
+    let found = Document::parse_bytes("bad.toml", &bytes)
+        .map(|_| ())
+        .unwrap_err();
+    assert_eq!(
+        found[0].to_string(),
+        "bad.toml:11:13: toml: byte 0xff is not UTF-8 text: save the file as UTF-8"
+    );
 }

@@ -1,5 +1,10 @@
 //! While long work runs, a key is echoed as soon as ever, and Esc ends the work.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that cannot go on says why"
+)]
 #![allow(clippy::print_stdout, reason = "figures are told")]
 #![cfg(all(feature = "cli", feature = "tui"))]
 
@@ -12,27 +17,34 @@ use tty::{Launch, PATIENCE, TABLE_1, Tty, stat};
 
 const KEYS: usize = 40;
 const PART: Duration = Duration::from_millis(1);
-/// The promises are 5 ms for a key and 100 ms for Esc; a busy machine may take its time, but not that of the work.
+/// The promises are 5 ms for a key and 100 ms for Esc; a busy machine may take its time, but not
+/// that of the work.
 const MOST_FOR_A_KEY: Duration = Duration::from_millis(60);
 const MOST_FOR_ESC: Duration = Duration::from_millis(600);
 
-/// A case whose solve takes long: slow gears under the same load, without damping, so that nothing comes to rest and every
-/// cycle is run.
+/// A case whose solve takes long: slow gears under the same load, without damping, so that nothing
+/// comes to rest and every cycle is run.
 fn slow_case() -> String {
     let slow = [
-        ("method = \"exact\"", "method = \"dynamic\"\ntolerance = 1e-12\nwarmup_cycles = 10000\ndamping_ratio = 0.0"),
+        (
+            "method = \"exact\"",
+            "method = \"dynamic\"\ntolerance = 1e-12\nwarmup_cycles = 10000\ndamping_ratio = 0.0",
+        ),
         ("speed = \"2000 rpm\"", "speed = \"200 rpm\""),
         ("power = \"15 kW\"", "power = \"1.5 kW\""),
     ];
-    slow.into_iter().fold(TABLE_1.to_owned(), |text, (from, to)| {
-        assert!(text.contains(from), "{from}");
-        text.replacen(from, to, 1)
-    })
+    slow.into_iter()
+        .fold(TABLE_1.to_owned(), |text, (from, to)| {
+            assert!(text.contains(from), "{from}");
+            text.replacen(from, to, 1)
+        })
 }
 
 /// How long a key takes to its echo, of the slowest but a few.
 fn echo(tty: &mut Tty) -> Duration {
-    let mut times: Vec<_> = (0..KEYS).map(|at| echo_of(tty, ["a", "b", "c"][at % 3])).collect();
+    let mut times: Vec<_> = (0..KEYS)
+        .map(|at| echo_of(tty, ["a", "b", "c"][at % 3]))
+        .collect();
     times.sort();
     times[KEYS * 95 / 100]
 }
@@ -42,7 +54,11 @@ fn echo_of(tty: &mut Tty, key: &str) -> Duration {
     let start = Instant::now();
     tty.type_in(key);
     while tty.screen().cursor_position() == before {
-        assert!(start.elapsed() < PATIENCE, "no echo:\n{}", tty.screen().contents());
+        assert!(
+            start.elapsed() < PATIENCE,
+            "no echo:\n{}",
+            tty.screen().contents()
+        );
         tty.take_output(PART);
     }
     start.elapsed()
@@ -74,8 +90,13 @@ fn keys_are_echoed_while_a_solve_runs() {
     leave(idle);
     let mut busy = open(&slow_case());
     let solving = echo(&mut busy);
-    println!("a key is echoed within {quiet:.1?}, while a solve runs within {solving:.1?} (95 of 100)");
-    assert!(busy.shows("exact"), "the closed form stands for what is not solved yet");
+    println!(
+        "a key is echoed within {quiet:.1?}, while a solve runs within {solving:.1?} (95 of 100)"
+    );
+    assert!(
+        busy.shows("exact"),
+        "the closed form stands for what is not solved yet"
+    );
     assert!(solving <= MOST_FOR_A_KEY, "{solving:.1?}");
     leave(busy);
 }
@@ -87,7 +108,10 @@ fn a_solve_that_takes_long_shows_how_far_it_is_and_esc_ends_it() {
     let start = Instant::now();
     tty.type_in("\x1b");
     tty.wait_for("method dynamic is stopped: the closed form stands until the next edit");
-    println!("Esc ends the solve within {:.1?}, of which 50 ms are for what an escape sequence may take", start.elapsed());
+    println!(
+        "Esc ends the solve within {:.1?}, of which 50 ms are for what an escape sequence may take",
+        start.elapsed()
+    );
     assert!(start.elapsed() <= MOST_FOR_ESC, "{:.1?}", start.elapsed());
     tty.settle(Duration::from_millis(100));
     let ticks = || stat(tty.id()).map(|words| (words[11].clone(), words[12].clone()));
@@ -114,7 +138,9 @@ fn esc_ends_long_work_and_keys_are_echoed_meanwhile() {
         tty.wait_until("the work to end", |tty| !tty.shows("Esc cancels"));
         slowest = slowest.max(start.elapsed());
     }
-    println!("Esc ends the measurement within {slowest:.1?}, of which 50 ms are for what an escape sequence may take");
+    println!(
+        "Esc ends the measurement within {slowest:.1?}, of which 50 ms are for what an escape sequence may take"
+    );
     assert!(slowest <= MOST_FOR_ESC, "{slowest:.1?}");
     leave(tty);
 }

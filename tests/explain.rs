@@ -1,5 +1,10 @@
 //! Every quantity explains itself, and what the explanation prints is true.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that cannot go on says why"
+)]
 // A test may stop at what it did not expect.
 
 #[path = "explain/evaluate.rs"]
@@ -19,11 +24,31 @@ const VARIANTS: [Settings; 8] = [
     &[],
     &[("model.method", "paper")],
     &[("model.deflection", "")],
-    &[("model.tooth_compliance", "beam"), ("model.contact_compliance", "weber"), ("model.deflection", "")],
-    &[("model.contact_compliance", "constant"), ("driven.tip_radius", "0.3 mm"), ("model.accurate", "true")],
-    &[("operation.torque", "40 lbf ft"), ("driven.tip_relief", "2 um"), ("deviations.backlash", "1 um")],
-    &[("operation.speed", "1.5 rad/s"), ("operation.friction_coefficient", "0.07"), ("driven.tip_chamfer", "0.01 in")],
-    &[("deviations.base_pitch", "-0.3 um"), ("driver.profile_shift", "-0.02"), ("model.method", "paper")],
+    &[
+        ("model.tooth_compliance", "beam"),
+        ("model.contact_compliance", "weber"),
+        ("model.deflection", ""),
+    ],
+    &[
+        ("model.contact_compliance", "constant"),
+        ("driven.tip_radius", "0.3 mm"),
+        ("model.accurate", "true"),
+    ],
+    &[
+        ("operation.torque", "40 lbf ft"),
+        ("driven.tip_relief", "2 um"),
+        ("deviations.backlash", "1 um"),
+    ],
+    &[
+        ("operation.speed", "1.5 rad/s"),
+        ("operation.friction_coefficient", "0.07"),
+        ("driven.tip_chamfer", "0.01 in"),
+    ],
+    &[
+        ("deviations.base_pitch", "-0.3 um"),
+        ("driver.profile_shift", "-0.02"),
+        ("model.method", "paper"),
+    ],
 ];
 
 struct Told {
@@ -32,7 +57,15 @@ struct Told {
 }
 
 fn cases() -> Vec<(String, Case)> {
-    EXAMPLES.iter().map(|example| (format!("cases/{}.toml", example.name), example.document().case)).collect()
+    EXAMPLES
+        .iter()
+        .map(|example| {
+            (
+                format!("cases/{}.toml", example.name),
+                example.document().case,
+            )
+        })
+        .collect()
 }
 
 /// The pages of a case once the settings have changed it; none where the model refuses it.
@@ -43,31 +76,62 @@ fn told(name: &str, case: &Case, settings: &[(&str, &str)]) -> Option<Told> {
     }
     let inputs = case.inputs().unwrap();
     let solution = solve(&inputs, Stages::ALL.with(Stage::Clearing)).ok()?;
-    let pages = QUANTITIES.iter().map(|quantity| explain(quantity, &case, &inputs, &solution).expect(quantity.key)).collect();
-    Some(Told { name: format!("{name} {settings:?}"), pages })
+    let pages = QUANTITIES
+        .iter()
+        .map(|quantity| explain(quantity, &case, &inputs, &solution).expect(quantity.key))
+        .collect();
+    Some(Told {
+        name: format!("{name} {settings:?}"),
+        pages,
+    })
 }
 
 static TOLD: LazyLock<Vec<Told>> = LazyLock::new(|| {
     let cases = cases();
-    let variants = cases.iter().flat_map(|(name, case)| VARIANTS.iter().map(move |settings| (name, case, settings)));
-    variants.filter_map(|(name, case, settings)| told(name, case, settings)).collect()
+    let variants = cases
+        .iter()
+        .flat_map(|(name, case)| VARIANTS.iter().map(move |settings| (name, case, settings)));
+    variants
+        .filter_map(|(name, case, settings)| told(name, case, settings))
+        .collect()
 });
 
 fn every_page(mut look: impl FnMut(&str, &Page)) {
-    TOLD.iter().for_each(|told| told.pages.iter().for_each(|page| look(&told.name, page)));
+    TOLD.iter()
+        .for_each(|told| told.pages.iter().for_each(|page| look(&told.name, page)));
 }
 
 fn page(case: &str, key: &str, settings: &[(&str, &str)]) -> Page {
-    let (name, case) = cases().into_iter().find(|(name, _)| name.contains(case)).unwrap();
+    let (name, case) = cases()
+        .into_iter()
+        .find(|(name, _)| name.contains(case))
+        .unwrap();
     let told = told(&name, &case, settings).unwrap();
-    told.pages.into_iter().find(|page| page.quantity.key == key).unwrap()
+    told.pages
+        .into_iter()
+        .find(|page| page.quantity.key == key)
+        .unwrap()
 }
 
 /// A number rounded to the digits of a page, or to those of a longer whole number.
 fn rounded(value: f64, work: &Work) -> f64 {
-    let shown = work.shown.as_ref().unwrap().number.split('e').next().unwrap();
-    let written = shown.chars().filter(char::is_ascii_digit).collect::<String>().trim_start_matches('0').len();
-    format!("{value:.*e}", work.digits.max(written) - 1).parse().unwrap()
+    let shown = work
+        .shown
+        .as_ref()
+        .unwrap()
+        .number
+        .split('e')
+        .next()
+        .unwrap();
+    let written = shown
+        .chars()
+        .filter(char::is_ascii_digit)
+        .collect::<String>()
+        .trim_start_matches('0')
+        .len();
+    format!("{value:.*e}", work.digits.max(written) - 1)
+        .parse()
+        .unwrap()
 }
 
 /// What is printed behind the last equals sign, in its unit, and what the numbers before it make.
@@ -82,9 +146,15 @@ fn the_printed_numbers_make_the_printed_value() {
     let mut checked = 0;
     every_page(|name, page| {
         for work in &page.work {
-            let Some((shown, found)) = printed(work) else { continue };
+            let Some((shown, found)) = printed(work) else {
+                continue;
+            };
             let agree = (rounded(found, work) - shown).abs() <= 1e-12 * shown.abs();
-            assert!(agree, "{name}, {}: {} = {:?} makes {found}, not {shown}", page.quantity.key, work.symbol, work.numbers);
+            assert!(
+                agree,
+                "{name}, {}: {} = {:?} makes {found}, not {shown}",
+                page.quantity.key, work.symbol, work.numbers
+            );
             checked += 1;
         }
     });
@@ -94,11 +164,30 @@ fn the_printed_numbers_make_the_printed_value() {
 #[test]
 fn every_value_with_a_formula_is_shown_with_its_numbers() {
     every_page(|name, page| {
-        for work in page.work.iter().filter(|work| work.how == How::Equals && work.shown.is_some()) {
-            assert!(work.numbers.is_some(), "{name}, {}: {} = {}", page.quantity.key, work.symbol, work.formula);
+        for work in page
+            .work
+            .iter()
+            .filter(|work| work.how == How::Equals && work.shown.is_some())
+        {
+            assert!(
+                work.numbers.is_some(),
+                "{name}, {}: {} = {}",
+                page.quantity.key,
+                work.symbol,
+                work.formula
+            );
         }
-        for work in page.work.iter().filter(|work| work.how == How::Solves && work.shown.is_some()) {
-            assert_eq!(work.residual.as_deref(), Some("both sides meet within 1e-12 of either"), "{name}, {}", work.symbol);
+        for work in page
+            .work
+            .iter()
+            .filter(|work| work.how == How::Solves && work.shown.is_some())
+        {
+            assert_eq!(
+                work.residual.as_deref(),
+                Some("both sides meet within 1e-12 of either"),
+                "{name}, {}",
+                work.symbol
+            );
         }
     });
 }
@@ -107,13 +196,34 @@ fn every_value_with_a_formula_is_shown_with_its_numbers() {
 fn every_quantity_is_explained_in_all_its_parts() {
     every_page(|name, page| {
         let Quantity { key, symbol, .. } = page.quantity;
-        assert!([page.says, page.source, page.assumes].iter().all(|part| part.ends_with('.')), "{key}");
-        assert_eq!(page.work.first().map(|work| work.symbol), Some(*symbol), "{key}");
-        assert_eq!(page.value.is_some(), page.missing.is_none(), "{name}, {key}");
-        assert_eq!(page.value.is_some(), !page.worth.is_empty(), "{name}, {key}");
-        assert!(page.missing.is_some() || !page.effects.is_empty(), "{name}, {key}");
+        assert!(
+            [page.says, page.source, page.assumes]
+                .iter()
+                .all(|part| part.ends_with('.')),
+            "{key}"
+        );
+        assert_eq!(
+            page.work.first().map(|work| work.symbol),
+            Some(*symbol),
+            "{key}"
+        );
+        assert_eq!(
+            page.value.is_some(),
+            page.missing.is_none(),
+            "{name}, {key}"
+        );
+        assert_eq!(
+            page.value.is_some(),
+            !page.worth.is_empty(),
+            "{name}, {key}"
+        );
+        assert!(
+            page.missing.is_some() || !page.effects.is_empty(),
+            "{name}, {key}"
+        );
         let given = page.work[0].how == How::Told;
-        let sides = !page.work[0].formula.is_empty() && (given || page.work.len() + page.leaves.len() > 1);
+        let sides =
+            !page.work[0].formula.is_empty() && (given || page.work.len() + page.leaves.len() > 1);
         assert!(sides, "{name}, {key}");
     });
 }
@@ -131,24 +241,48 @@ fn every_equation_that_is_cited_is_one() {
             let head = equation.split(' ').next().unwrap();
             equation == "by the method" || cited.iter().any(|part| part.contains(head))
         };
-        assert!(named, "{}: {equation} in {}", page.quantity.key, page.source);
+        assert!(
+            named,
+            "{}: {equation} in {}",
+            page.quantity.key, page.source
+        );
         for text in cited {
-            assert!(equations(text).iter().all(|number| (1..=64).contains(number)), "{text}");
+            assert!(
+                equations(text)
+                    .iter()
+                    .all(|number| (1..=64).contains(number)),
+                "{text}"
+            );
         }
     });
     let table: BTreeSet<&str> = MENDS.iter().map(|mend| mend.equation).collect();
     assert_eq!(mended, table);
     for mend in MENDS {
-        let known = equations(mend.equation).iter().all(|number| (1..=64).contains(number));
-        assert!(known && !mend.wrong.is_empty() && !mend.used.is_empty(), "{}", mend.equation);
+        let known = equations(mend.equation)
+            .iter()
+            .all(|number| (1..=64).contains(number));
+        assert!(
+            known && !mend.wrong.is_empty() && !mend.used.is_empty(),
+            "{}",
+            mend.equation
+        );
     }
 }
 
 /// The numbers behind every "Eq." and "Eqs." of a text, ranges in full.
 fn equations(text: &str) -> Vec<u32> {
-    let lists = text.match_indices("Eq").filter_map(|(at, _)| text[at + 2..].trim_start_matches('s').strip_prefix(". "));
-    let end = |rest: &str| rest.find(|c: char| !c.is_ascii_digit() && !"-, and".contains(c)).unwrap_or(rest.len());
-    let words = lists.flat_map(|rest| rest[..end(rest)].split([',', ' ']).filter(|word| !word.is_empty()));
+    let lists = text
+        .match_indices("Eq")
+        .filter_map(|(at, _)| text[at + 2..].trim_start_matches('s').strip_prefix(". "));
+    let end = |rest: &str| {
+        rest.find(|c: char| !c.is_ascii_digit() && !"-, and".contains(c))
+            .unwrap_or(rest.len())
+    };
+    let words = lists.flat_map(|rest| {
+        rest[..end(rest)]
+            .split([',', ' '])
+            .filter(|word| !word.is_empty())
+    });
     words.filter_map(span).flatten().collect()
 }
 
@@ -174,22 +308,53 @@ fn no_line_is_wider_than_asked_for() {
 #[test]
 fn a_step_of_a_field_does_what_a_solve_says() {
     let page = page("zhou", "impact_force", &[]);
-    let of = |key: &str| page.effects.iter().find(|effect| effect.key == key).unwrap();
+    let of = |key: &str| {
+        page.effects
+            .iter()
+            .find(|effect| effect.key == key)
+            .unwrap()
+    };
     let more = told("", &Case::table_1(), &[("deviations.base_pitch", "17 um")]).unwrap();
-    let force = more.pages.iter().find(|page| page.quantity.key == "impact_force").unwrap().value.unwrap();
+    let force = more
+        .pages
+        .iter()
+        .find(|page| page.quantity.key == "impact_force")
+        .unwrap()
+        .value
+        .unwrap();
     let share = 100.0 * (force / page.value.unwrap() - 1.0);
     assert_eq!(of("deviations.base_pitch").change, format!("+{share:.2} %"));
     assert_eq!(of("deviations.base_pitch").text, "16 um");
-    assert_eq!((of("model.method").step.as_str(), of("model.method").change.as_str()), ("", ""));
+    assert_eq!(
+        (
+            of("model.method").step.as_str(),
+            of("model.method").change.as_str()
+        ),
+        ("", "")
+    );
     assert!(page.effects.iter().all(|effect| !["title", "operation.torque", "driver.tip_relief"].contains(&effect.key)));
 }
 
 #[test]
 fn a_quantity_without_a_value_says_why() {
     let relieved = page("tip-relief-enough", "impact_force", &[]);
-    assert!(relieved.missing.unwrap().starts_with("No value: no corner contact"));
-    let withheld = page("zhou", "impact_force", &[("driver.teeth", "120"), ("driven.teeth", "120")]);
-    assert!(withheld.missing.unwrap().contains("outside the Kuang-Yang fit"));
+    assert!(
+        relieved
+            .missing
+            .unwrap()
+            .starts_with("No value: no corner contact")
+    );
+    let withheld = page(
+        "zhou",
+        "impact_force",
+        &[("driver.teeth", "120"), ("driven.teeth", "120")],
+    );
+    assert!(
+        withheld
+            .missing
+            .unwrap()
+            .contains("outside the Kuang-Yang fit")
+    );
 }
 
 #[test]
@@ -197,7 +362,11 @@ fn pages_read_as_they_did() {
     let samples: [(&str, &str, Settings); 14] = [
         ("zhou", "impact_force", &[]),
         ("zhou", "approach_angle_driven", &[]),
-        ("zhou", "approach_angle_driver", &[("model.method", "paper")]),
+        (
+            "zhou",
+            "approach_angle_driver",
+            &[("model.method", "paper")],
+        ),
         ("zhou", "friction_ratio", &[("model.method", "paper")]),
         ("zhou", "impact_duration_printed", &[]),
         ("zhou", "closed_gap", &[("model.method", "paper")]),
@@ -211,7 +380,13 @@ fn pages_read_as_they_did() {
         ("tip-relief", "normal_velocity", &[]),
     ];
     for (case, key, settings) in samples {
-        let method = settings.first().map(|(_, method)| format!("_{method}")).unwrap_or_default();
-        insta::assert_snapshot!(format!("{case}_{key}{method}"), render(&page(case, key, settings), case));
+        let method = settings
+            .first()
+            .map(|(_, method)| format!("_{method}"))
+            .unwrap_or_default();
+        insta::assert_snapshot!(
+            format!("{case}_{key}{method}"),
+            render(&page(case, key, settings), case)
+        );
     }
 }

@@ -1,16 +1,22 @@
-//! Results that explain themselves: Enter shows the page of `tipstrike explain`, and from its fields one goes to the form.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+//! Results that explain themselves: Enter shows the page of `tipstrike explain`, and from its
+//! fields one goes to the form.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that cannot go on says why"
+)]
 #![cfg(all(feature = "cli", feature = "tui"))]
 
-mod desk;
+mod harness;
 
 use std::process::Command;
 
-use desk::{Desk, LARGE, SMALL, TABLE_1};
+use harness::{Desk, LARGE, SMALL, TABLE_1};
 use insta::assert_snapshot;
 use tipstrike::case::EXAMPLES;
 use tipstrike::tui::actions::Action;
-use tipstrike::tui::clean::written_out;
+use tipstrike::tui::ascii::written_out;
 use tipstrike::tui::explanation::Explanation;
 use tipstrike::tui::prompt::Prompt;
 use tipstrike::tui::theme::{Look, MONO};
@@ -19,8 +25,17 @@ use tipstrike::tui::view::{explain, results};
 /// The lines inside the box on the screen.
 fn in_box(desk: &Desk) -> Vec<String> {
     let screen = desk.screen();
-    let lines = screen.lines().filter(|line| line.ends_with(['█', '│']) || line.contains("│ ") || line.contains("█ "));
-    let inside = |line: &str| Some(line.split_once("│ ")?.1.trim_end_matches(['│', '█', ' ']).to_owned());
+    let lines = screen
+        .lines()
+        .filter(|line| line.ends_with(['█', '│']) || line.contains("│ ") || line.contains("█ "));
+    let inside = |line: &str| {
+        Some(
+            line.split_once("│ ")?
+                .1
+                .trim_end_matches(['│', '█', ' '])
+                .to_owned(),
+        )
+    };
     lines.filter_map(inside).collect()
 }
 
@@ -45,7 +60,10 @@ fn of(desk: &Desk) -> &Explanation {
 }
 
 fn told(arguments: &[&str]) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_tipstrike")).args(arguments).output().expect("it runs");
+    let output = Command::new(env!("CARGO_BIN_EXE_tipstrike"))
+        .args(arguments)
+        .output()
+        .expect("it runs");
     String::from_utf8(output.stdout).expect("text")
 }
 
@@ -56,7 +74,11 @@ fn words(text: &str) -> Vec<&str> {
 #[test]
 fn the_page_of_every_result_is_that_of_the_command_and_can_be_read_through() {
     for (method, pages) in [("exact", 34), ("dynamic", 40)] {
-        let mut desk = Desk::on(SMALL, "case.toml", &TABLE_1.replace("method = \"exact\"", &format!("method = \"{method}\"")));
+        let mut desk = Desk::on(
+            SMALL,
+            "case.toml",
+            &TABLE_1.replace("method = \"exact\"", &format!("method = \"{method}\"")),
+        );
         let path = desk.path("case.toml").display().to_string();
         let count = results::count(&desk.app);
         assert!(count >= pages, "{method}: {count}");
@@ -65,7 +87,9 @@ fn the_page_of_every_result_is_that_of_the_command_and_can_be_read_through() {
             desk.app.tab.row = row;
             desk.keys(&["Esc", "2", "Enter"]);
             let key = of(&desk).quantity.key;
-            let page = read_through(&mut desk).join("\n").replace("DIR", &desk.folder.path().display().to_string());
+            let page = read_through(&mut desk)
+                .join("\n")
+                .replace("DIR", &desk.folder.path().display().to_string());
             let command = told(&["explain", key, &path]);
             assert_eq!(words(&page), words(&command), "{key}");
             desk.keys(&["Esc"]);
@@ -81,7 +105,11 @@ fn from_the_fields_behind_a_result_one_goes_to_the_form() {
     assert!(fields.len() > 20 && fields[0] == "pair.module");
     for (at, key) in fields.iter().enumerate() {
         desk.keys(&["Tab"]);
-        assert!(desk.shows(&format!("▸{key}")), "{at} {key}\n{}", desk.screen());
+        assert!(
+            desk.shows(&format!("▸{key}")),
+            "{at} {key}\n{}",
+            desk.screen()
+        );
     }
     desk.keys(&["Tab"]);
     assert_eq!(of(&desk).field(), Some("pair.module"), "round and round");
@@ -91,23 +119,29 @@ fn from_the_fields_behind_a_result_one_goes_to_the_form() {
     assert!(desk.app.prompts.is_empty());
     assert_eq!(tipstrike::case::FIELDS[desk.app.focus].key, wanted);
     desk.keys(&["Esc", "2", "Enter", "Enter"]);
-    assert_eq!(of(&desk).field(), Some("pair.module"), "Enter marks the first one before it goes there");
+    assert_eq!(
+        of(&desk).field(),
+        Some("pair.module"),
+        "Enter marks the first one before it goes there"
+    );
 }
 
 #[test]
 fn a_page_that_is_being_written_says_so_and_a_late_one_is_dropped() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "2"]);
-    let event = desk::event("Enter");
+    let event = harness::event("Enter");
     let action = tipstrike::tui::actions::of_key(event, desk.app.place()).expect("a key");
     let effects = tipstrike::tui::update::update(&mut desk.app, action);
     assert!(desk.shows("being computed") && of(&desk).quantity.key == "impact_force");
     desk.keys(&["Esc", "j", "Enter"]);
     let before = desk.screen();
     for effect in effects {
-        let tipstrike::tui::actions::Effect::Errand(errand) = effect else { continue };
-        let late = tipstrike::tui::errands::perform(errand, &|_| true).expect("an answer");
-        desk.act(tipstrike::tui::perform::told(late));
+        let tipstrike::tui::actions::Effect::Job(errand) = effect else {
+            continue;
+        };
+        let late = tipstrike::tui::jobs::perform(errand, &|_| true).expect("an answer");
+        desk.act(tipstrike::tui::effects::told(late));
     }
     assert_eq!(desk.screen(), before);
 }
@@ -115,10 +149,21 @@ fn a_page_that_is_being_written_says_so_and_a_late_one_is_dropped() {
 #[test]
 fn what_the_model_refuses_and_what_is_invalid_is_told_in_words() {
     let mut desk = Desk::new(SMALL);
-    desk.fill("driven.addendum", "1.9").keys(&["Esc", "2", "Enter"]);
-    assert!(desk.shows("Not solved: ") && desk.shows("Mend: "), "{}", desk.screen());
-    desk.keys(&["Esc", "1"]).fill("driven.addendum", "x").keys(&["Esc", "2", "Enter"]);
-    assert!(desk.shows("these are the last valid results"), "{}", desk.screen());
+    desk.fill("driven.addendum", "1.9")
+        .keys(&["Esc", "2", "Enter"]);
+    assert!(
+        desk.shows("Not solved: ") && desk.shows("Correction: "),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Esc", "1"])
+        .fill("driven.addendum", "x")
+        .keys(&["Esc", "2", "Enter"]);
+    assert!(
+        desk.shows("these are the last valid results"),
+        "{}",
+        desk.screen()
+    );
 }
 
 #[test]
@@ -127,21 +172,42 @@ fn the_page_says_which_units_it_is_in() {
     desk.keys(&["Esc", "2", "Enter"]);
     assert!(!desk.shows("inch"));
     desk.keys(&["Esc", ":", "units", "Enter", "2", "Enter"]);
-    assert!(desk.shows("492.56 lbf in inch units; this page is in metric ones."), "{}", desk.screen());
+    assert!(
+        desk.shows("492.56 lbf in inch units; this page is in metric ones."),
+        "{}",
+        desk.screen()
+    );
 }
 
 #[test]
 fn every_letter_of_every_page_has_its_like_in_ascii() {
     for example in EXAMPLES {
         let mut desk = Desk::on(LARGE, "case.toml", example.text);
-        desk.app.look = Look { theme: &MONO, ascii: true };
+        desk.app.look = Look {
+            theme: &MONO,
+            ascii: true,
+        };
         for row in 0..results::count(&desk.app) {
             desk.app.tab.row = row;
             desk.keys(&["Esc", "2", "Enter"]);
-            let page = of(&desk).page.as_ref().expect("it is written").as_ref().expect("it is explained");
+            let page = of(&desk)
+                .page
+                .as_ref()
+                .expect("it is written")
+                .as_ref()
+                .expect("it is explained");
             let page = tipstrike::report::explain::render(page, "case");
-            let strange: Vec<_> = page.lines().map(written_out).filter(|line| !line.is_ascii()).collect();
-            assert!(strange.is_empty(), "{} of {}: {strange:?}", of(&desk).quantity.key, example.name);
+            let strange: Vec<_> = page
+                .lines()
+                .map(written_out)
+                .filter(|line| !line.is_ascii())
+                .collect();
+            assert!(
+                strange.is_empty(),
+                "{} of {}: {strange:?}",
+                of(&desk).quantity.key,
+                example.name
+            );
             desk.keys(&["Esc"]);
         }
     }
@@ -151,12 +217,22 @@ fn every_letter_of_every_page_has_its_like_in_ascii() {
 fn it_scrolls_no_farther_than_its_end_at_any_size() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "2", "Enter", "PageDown", "Tab"]);
-    for (width, height) in [(0, 0), (1, 1), (60, 16), (61, 17), (80, 24), (200, 60), (300, 100)] {
+    for (width, height) in [
+        (0, 0),
+        (1, 1),
+        (60, 16),
+        (61, 17),
+        (80, 24),
+        (200, 60),
+        (300, 100),
+    ] {
         desk.act(Action::Resize(ratatui::layout::Size { width, height }));
         desk.keys(&["PageDown", "PageDown", "Down", "Tab", "PageUp"]);
         desk.screen();
     }
-    let Some(Prompt::Explain(mut page)) = desk.app.prompts.last().cloned() else { panic!("it is open") };
+    let Some(Prompt::Explain(mut page)) = desk.app.prompts.last().cloned() else {
+        panic!("it is open")
+    };
     explain::scroll(&mut page, isize::MAX, SMALL, false);
     let end = page.top;
     explain::scroll(&mut page, 1, SMALL, false);
@@ -165,7 +241,17 @@ fn it_scrolls_no_farther_than_its_end_at_any_size() {
 
 #[test]
 fn the_screens() {
-    for (size, look) in [("80x24", Look::FULL), ("140x45", Look::FULL), ("ascii", Look { theme: &MONO, ascii: true })] {
+    for (size, look) in [
+        ("80x24", Look::FULL),
+        ("140x45", Look::FULL),
+        (
+            "ascii",
+            Look {
+                theme: &MONO,
+                ascii: true,
+            },
+        ),
+    ] {
         let mut desk = Desk::new(if size == "140x45" { LARGE } else { SMALL });
         desk.app.look = look;
         desk.keys(&["Esc", "2", "Enter"]);

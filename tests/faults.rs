@@ -1,5 +1,11 @@
-//! Saves under injected faults: at every step that can fail or be the last, the old file or the new one is there, whole.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+//! Saves under injected faults: at every step that can fail or be the last, the old file or the new
+//! one is there, whole.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that cannot go on says why"
+)]
 #![allow(clippy::print_stdout, reason = "what was tried is told")]
 #![cfg(all(feature = "cli", feature = "tui"))]
 
@@ -30,20 +36,33 @@ const MARK: &str = "user.tipstrike.test";
 const SAVED: i32 = 0;
 const REFUSED: i32 = 5;
 
-/// Not a test of its own: the process whose calls are made to fail. It edits the case, saves it, and says how that went.
+/// Not a test of its own: the process whose calls are made to fail. It edits the case, saves it,
+/// and says how that went.
 #[test]
 fn saver() {
-    let Some(path) = env::var_os(TARGET).map(std::path::PathBuf::from) else { return };
-    let Ok(mut document) = Document::read(&path) else { std::process::exit(REFUSED) };
-    document.case.write(fields::index_of("pair.module").expect("a field"), "6 mm");
+    let Some(path) = env::var_os(TARGET).map(std::path::PathBuf::from) else {
+        return;
+    };
+    let Ok(mut document) = Document::read(&path) else {
+        std::process::exit(REFUSED)
+    };
+    document
+        .case
+        .write(fields::index_of("pair.module").expect("a field"), "6 mm");
     let result = document.save(&path);
-    assert_eq!(document.is_changed(), result.is_err(), "the buffer is unsaved until the file is in place");
+    assert_eq!(
+        document.is_changed(),
+        result.is_err(),
+        "the buffer is unsaved until the file is in place"
+    );
     match result {
         Ok(()) => std::process::exit(SAVED),
         Err(error) => {
             assert!(!error.to_string().contains('\n'));
             // Past the harness, which would hold it back.
-            std::io::stderr().write_all(error.to_string().as_bytes()).expect("someone reads");
+            std::io::stderr()
+                .write_all(error.to_string().as_bytes())
+                .expect("someone reads");
             std::process::exit(REFUSED)
         }
     }
@@ -53,9 +72,18 @@ fn saver() {
 fn saver_command(wrapper: &[&str], target: &Path) -> Command {
     let own = env::current_exe().expect("a path");
     let own = own.to_str().expect("a name in UTF-8");
-    let words: Vec<&str> = wrapper.iter().copied().chain([own, "--exact", "saver", "--test-threads=1", "--quiet"]).collect();
+    let words: Vec<&str> = wrapper
+        .iter()
+        .copied()
+        .chain([own, "--exact", "saver", "--test-threads=1", "--quiet"])
+        .collect();
     let mut command = Command::new(words[0]);
-    command.args(&words[1..]).env(TARGET, target).env("RUST_BACKTRACE", "0").env_remove("LD_LIBRARY_PATH").stdin(Stdio::null());
+    command
+        .args(&words[1..])
+        .env(TARGET, target)
+        .env("RUST_BACKTRACE", "0")
+        .env_remove("LD_LIBRARY_PATH")
+        .stdin(Stdio::null());
     command
 }
 
@@ -84,13 +112,20 @@ fn new_text() -> String {
     TABLE_1.replace("\"5 mm\"", "\"6 mm\"")
 }
 
-/// The old file or the new one, whole, with its mode; which of them, where the saver said how it went.
+/// The old file or the new one, whole, with its mode; which of them, where the saver said how it
+/// went.
 #[track_caller]
 fn assert_old_or_new(path: &Path, code: Option<i32>, fault: &str) {
     let text = fs::read_to_string(path).expect("the file is there");
     let is_old = text == TABLE_1;
-    assert!(is_old || text == new_text(), "{fault}: half a file: {text:?}");
-    let mode = fs::metadata(path).expect("it is there").permissions().mode();
+    assert!(
+        is_old || text == new_text(),
+        "{fault}: half a file: {text:?}"
+    );
+    let mode = fs::metadata(path)
+        .expect("it is there")
+        .permissions()
+        .mode();
     assert_eq!(mode & 0o7777, 0o640, "{fault}");
     assert_eq!(mark(path), mark_of_a_case(), "{fault}");
     match code {
@@ -113,7 +148,10 @@ fn under_every_fault(fault: &str, run: impl Fn(&[&str]) -> Output) -> usize {
                 break;
             }
             hits += 1;
-            assert!(is_injected || output.status.signal().is_some(), "{fault}: it fails unhurt: {output:?}");
+            assert!(
+                is_injected || output.status.signal().is_some(),
+                "{fault}: it fails unhurt: {output:?}"
+            );
         }
     }
     hits
@@ -123,28 +161,64 @@ fn under_every_fault(fault: &str, run: impl Fn(&[&str]) -> Output) -> usize {
 fn made(run: &impl Fn(&[&str]) -> Output) -> Vec<&'static str> {
     let (output, log) = traced(&["-e", &format!("trace={CALLS}")], run);
     assert!(output.status.success(), "{output:?}");
-    assert!(["openat(", "write(", "fsync(", "rename"].iter().all(|call| log.contains(call)), "not the calls of a save: {log}");
-    // The bytes are on the disk before the name leads to them, and the name is before all is said to be done.
-    let calls: Vec<_> = log.lines().filter(|line| line.contains("fsync(") || line.contains("rename")).collect();
-    let at = calls.iter().position(|line| line.contains("rename")).expect("a name");
-    assert!(calls[..at].iter().any(|line| line.contains("fsync(")), "not on the disk before it is in place: {log}");
-    assert!(calls[at..].iter().any(|line| line.contains("fsync(")), "its name is not on the disk: {log}");
-    CALLS.split(',').filter(|call| log.contains(&format!(" {call}("))).collect()
+    assert!(
+        ["openat(", "write(", "fsync(", "rename"]
+            .iter()
+            .all(|call| log.contains(call)),
+        "not the calls of a save: {log}"
+    );
+    // The bytes are on the disk before the name leads to them, and the name is before all is said
+    // to be done.
+    let calls: Vec<_> = log
+        .lines()
+        .filter(|line| line.contains("fsync(") || line.contains("rename"))
+        .collect();
+    let at = calls
+        .iter()
+        .position(|line| line.contains("rename"))
+        .expect("a name");
+    assert!(
+        calls[..at].iter().any(|line| line.contains("fsync(")),
+        "not on the disk before it is in place: {log}"
+    );
+    assert!(
+        calls[at..].iter().any(|line| line.contains("fsync(")),
+        "its name is not on the disk: {log}"
+    );
+    CALLS
+        .split(',')
+        .filter(|call| log.contains(&format!(" {call}(")))
+        .collect()
 }
 
 fn traced(options: &[&str], run: &impl Fn(&[&str]) -> Output) -> (Output, String) {
     let folder = tempfile::tempdir().expect("a folder");
     let log = folder.path().join("log");
     let place = log.to_str().expect("a name in UTF-8");
-    let output = run(&[&["strace", "-f", "-qq", "--signal=none", "-o", place], options, &["--"]].concat());
-    (output, fs::read_to_string(&log).expect("strace tells what it does"))
+    let output = run(&[
+        &["strace", "-f", "-qq", "--signal=none", "-o", place],
+        options,
+        &["--"],
+    ]
+    .concat());
+    (
+        output,
+        fs::read_to_string(&log).expect("strace tells what it does"),
+    )
 }
 
 fn error_of(fault: &str) -> bool {
     fault.starts_with("error")
 }
 
-const FAULTS: [&str; 6] = ["error=ENOSPC", "error=EIO", "error=EDQUOT", "error=EROFS", "error=EINTR", "signal=KILL"];
+const FAULTS: [&str; 6] = [
+    "error=ENOSPC",
+    "error=EIO",
+    "error=EDQUOT",
+    "error=EROFS",
+    "error=EINTR",
+    "signal=KILL",
+];
 
 #[test]
 fn a_save_leaves_the_old_file_or_the_new_one_at_every_fault() {
@@ -154,8 +228,14 @@ fn a_save_leaves_the_old_file_or_the_new_one_at_every_fault() {
     for fault in FAULTS {
         let steps = under_every_fault(fault, |strace| {
             let (_folder, path) = folder_with_case();
-            let output = saver_command(strace, &path).output().expect("strace starts");
-            assert_old_or_new(&path, output.status.code().filter(|_| error_of(fault)), fault);
+            let output = saver_command(strace, &path)
+                .output()
+                .expect("strace starts");
+            assert_old_or_new(
+                &path,
+                output.status.code().filter(|_| error_of(fault)),
+                fault,
+            );
             output
         });
         println!("a save, {fault}: {steps} steps");
@@ -168,20 +248,34 @@ fn a_new_case_is_there_whole_or_not_at_all_at_every_fault() {
     if !is_there("strace") {
         return;
     }
-    let whole = Command::new(PROGRAM).arg("new").output().expect("the program starts").stdout;
+    let whole = Command::new(PROGRAM)
+        .arg("new")
+        .output()
+        .expect("the program starts")
+        .stdout;
     for fault in FAULTS {
         let steps = under_every_fault(fault, |strace| {
             let folder = tempfile::tempdir().expect("a folder");
             let path = folder.path().join("new.toml");
             let mut command = Command::new(strace[0]);
-            command.args(&strace[1..]).args([PROGRAM, "new"]).arg(&path).env_remove("LD_LIBRARY_PATH");
+            command
+                .args(&strace[1..])
+                .args([PROGRAM, "new"])
+                .arg(&path)
+                .env_remove("LD_LIBRARY_PATH");
             let output = command.output().expect("strace starts");
             match fs::read(&path) {
                 Ok(text) => assert_eq!(text, whole, "{fault}: half a file"),
-                Err(_) => assert!(!output.status.success(), "{fault}: said to be written, and is not there"),
+                Err(_) => assert!(
+                    !output.status.success(),
+                    "{fault}: said to be written, and is not there"
+                ),
             }
             let left = fs::read_dir(folder.path()).expect("a folder").count();
-            assert!(!error_of(fault) || left <= usize::from(path.exists()), "{fault}: a file is left over");
+            assert!(
+                !error_of(fault) || left <= usize::from(path.exists()),
+                "{fault}: a file is left over"
+            );
             output
         });
         println!("new, {fault}: {steps} steps");
@@ -195,21 +289,36 @@ fn a_limit_on_the_size_of_files_is_told_and_leaves_the_old_file() {
         return;
     }
     // With the signal of that limit ignored, as under many job systems, and with it.
-    for (ignored, shell) in [(true, r#"trap '' XFSZ; exec "$@""#), (false, r#"exec "$@""#)] {
+    for (ignored, shell) in [
+        (true, r#"trap '' XFSZ; exec "$@""#),
+        (false, r#"exec "$@""#),
+    ] {
         for most in [0, 1, 500] {
             let (folder, path) = folder_with_case();
             let limit = format!("--fsize={most}");
-            let output = saver_command(&["sh", "-c", shell, "sh", "prlimit", &limit], &path).output().expect("sh starts");
+            let output = saver_command(&["sh", "-c", shell, "sh", "prlimit", &limit], &path)
+                .output()
+                .expect("sh starts");
             let code = output.status.code();
             assert!(!ignored || code == Some(REFUSED), "{most}: {output:?}");
             assert_old_or_new(&path, code, "file size limit");
             assert_eq!(fs::read_to_string(&path).expect("it is there"), TABLE_1);
             let new = folder.path().join("new.toml");
-            let output = Command::new("sh").args(["-c", shell, "sh", "prlimit", &limit, PROGRAM, "new"]).arg(&new).output();
+            let output = Command::new("sh")
+                .args(["-c", shell, "sh", "prlimit", &limit, PROGRAM, "new"])
+                .arg(&new)
+                .output();
             let output = output.expect("sh starts");
-            assert_eq!(output.status.code(), Some(REFUSED), "the program ignores the signal itself: {output:?}");
+            assert_eq!(
+                output.status.code(),
+                Some(REFUSED),
+                "the program ignores the signal itself: {output:?}"
+            );
             let words = String::from_utf8_lossy(&output.stderr).into_owned();
-            assert!(words.contains("new.toml: cannot be written") && words.lines().count() == 1, "{words}");
+            assert!(
+                words.contains("new.toml: cannot be written") && words.lines().count() == 1,
+                "{words}"
+            );
             assert!(!new.exists());
         }
     }
@@ -222,7 +331,9 @@ fn a_full_disk_is_told_and_leaves_the_old_file() {
         "$2" --exact saver --test-threads=1 --quiet; saved=$?
         "$3" new "$0/new.toml"; made=$?
         cmp "$0/case.toml" "$1" && test ! -e "$0/new.toml" && echo same $saved $made"#;
-    let may = Command::new("unshare").args(["-rm", "mount", "-t", "tmpfs", "none", "/mnt"]).output();
+    let may = Command::new("unshare")
+        .args(["-rm", "mount", "-t", "tmpfs", "none", "/mnt"])
+        .output();
     if !may.as_ref().is_ok_and(|output| output.status.success()) {
         return skip("no mounts without privileges here (unshare -rm)");
     }
@@ -231,23 +342,49 @@ fn a_full_disk_is_told_and_leaves_the_old_file() {
     fs::create_dir(&disk).expect("a folder");
     let own = env::current_exe().expect("a path");
     let mut command = Command::new("unshare");
-    command.args(["-rm", "sh", "-c", script]).args([&disk, &path, &own]).arg(PROGRAM);
-    let output = command.env(TARGET, disk.join("case.toml")).env("RUST_BACKTRACE", "0").output().expect("unshare starts");
+    command
+        .args(["-rm", "sh", "-c", script])
+        .args([&disk, &path, &own])
+        .arg(PROGRAM);
+    let output = command
+        .env(TARGET, disk.join("case.toml"))
+        .env("RUST_BACKTRACE", "0")
+        .output()
+        .expect("unshare starts");
     let words = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(words.contains(&format!("same {REFUSED} 5")), "{output:?}");
-    assert!(String::from_utf8_lossy(&output.stderr).contains("make room on the disk"), "{output:?}");
+    assert!(
+        String::from_utf8_lossy(&output.stderr).contains("make room on the disk"),
+        "{output:?}"
+    );
 }
 
 #[test]
 fn a_folder_that_may_not_be_written_leaves_the_old_file() {
     let (folder, path) = folder_with_case();
     fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o555)).expect("our own folder");
-    // Who may write everywhere is made to be nobody; the folder and the file are nobody's too, then.
+    // Who may write everywhere is made to be nobody; the folder and the file are nobody's too,
+    // then.
     let is_root = fs::File::create(folder.path().join("probe")).is_ok();
-    let wrapper: &[&str] =
-        if is_root { &["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", "--inh-caps=-all", "--"] } else { &[] };
+    let wrapper: &[&str] = if is_root {
+        &[
+            "setpriv",
+            "--reuid=65534",
+            "--regid=65534",
+            "--clear-groups",
+            "--inh-caps=-all",
+            "--",
+        ]
+    } else {
+        &[]
+    };
     if is_root {
-        let status = Command::new("chown").arg("-R").arg("65534:65534").arg(folder.path()).status().expect("chown is there");
+        let status = Command::new("chown")
+            .arg("-R")
+            .arg("65534:65534")
+            .arg(folder.path())
+            .status()
+            .expect("chown is there");
         if !is_there("setpriv") || !status.success() {
             return;
         }
@@ -265,8 +402,19 @@ fn a_folder_that_may_not_be_written_leaves_the_old_file() {
 
 /// An access list as the system keeps it: version 2, then tag, permissions and who, 8 bytes each.
 fn access_list(entries: &[(u16, u16, u32)]) -> Vec<u8> {
-    let bytes = |&(tag, may, who): &(u16, u16, u32)| [&tag.to_le_bytes()[..], &may.to_le_bytes(), &who.to_le_bytes()].concat();
-    [2_u32.to_le_bytes().to_vec(), entries.iter().flat_map(bytes).collect()].concat()
+    let bytes = |&(tag, may, who): &(u16, u16, u32)| {
+        [
+            &tag.to_le_bytes()[..],
+            &may.to_le_bytes(),
+            &who.to_le_bytes(),
+        ]
+        .concat()
+    };
+    [
+        2_u32.to_le_bytes().to_vec(),
+        entries.iter().flat_map(bytes).collect(),
+    ]
+    .concat()
 }
 
 #[test]
@@ -276,7 +424,11 @@ fn access_lists_and_attributes_stay_and_none_comes_from_the_folder() {
     const NOBODY_IN_PARTICULAR: u32 = u32::MAX;
     let entries = |group: u16| {
         let own = [(1, 6, NOBODY_IN_PARTICULAR), (2, 4, 65534)];
-        let others = [(4, group, NOBODY_IN_PARTICULAR), (16, 4, NOBODY_IN_PARTICULAR), (32, 0, NOBODY_IN_PARTICULAR)];
+        let others = [
+            (4, group, NOBODY_IN_PARTICULAR),
+            (16, 4, NOBODY_IN_PARTICULAR),
+            (32, 0, NOBODY_IN_PARTICULAR),
+        ];
         access_list(&[&own[..], &others].concat())
     };
     let (folder, path) = folder_with_case();
@@ -290,9 +442,20 @@ fn access_lists_and_attributes_stay_and_none_comes_from_the_folder() {
     }
     let list = xattr::get(&path, LIST).expect("a list").expect("a list");
     save(&path);
-    assert_eq!(xattr::get(&path, LIST).expect("a list"), Some(list), "the group may not what only the mask allows");
+    assert_eq!(
+        xattr::get(&path, LIST).expect("a list"),
+        Some(list),
+        "the group may not what only the mask allows"
+    );
     assert_eq!(mark(&path), mark_of_a_case());
-    assert_eq!(fs::metadata(&path).expect("it is there").permissions().mode() & 0o7777, 0o640);
+    assert_eq!(
+        fs::metadata(&path)
+            .expect("it is there")
+            .permissions()
+            .mode()
+            & 0o7777,
+        0o640
+    );
     // A folder that opens its new files to others does not open an old one.
     let plain = folder.path().join("plain.toml");
     fs::write(&plain, TABLE_1).expect("room on the disk");
@@ -303,16 +466,30 @@ fn access_lists_and_attributes_stay_and_none_comes_from_the_folder() {
 
 #[test]
 fn a_file_of_someone_else_keeps_its_owner_or_is_left_alone() {
-    let nobody = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", "--inh-caps=-all", "--bounding-set=-all", "--"];
+    let nobody = [
+        "setpriv",
+        "--reuid=65534",
+        "--regid=65534",
+        "--clear-groups",
+        "--inh-caps=-all",
+        "--bounding-set=-all",
+        "--",
+    ];
     if !is_there("setpriv")
-        || !Command::new(nobody[0]).args(&nobody[1..]).arg("true").status().is_ok_and(|status| status.success())
+        || !Command::new(nobody[0])
+            .args(&nobody[1..])
+            .arg("true")
+            .status()
+            .is_ok_and(|status| status.success())
     {
         return skip("nobody cannot be made of us here");
     }
-    // Where all may write: in a folder that lets each rename all, and in one that lets each rename but his own.
+    // Where all may write: in a folder that lets each rename all, and in one that lets each rename
+    // but his own.
     for (folder_mode, told) in [(0o777, "belongs to user 0"), (0o1777, "belongs to user 0")] {
         let (folder, path) = folder_with_case();
-        fs::set_permissions(folder.path(), fs::Permissions::from_mode(folder_mode)).expect("our own folder");
+        fs::set_permissions(folder.path(), fs::Permissions::from_mode(folder_mode))
+            .expect("our own folder");
         fs::set_permissions(&path, fs::Permissions::from_mode(0o666)).expect("our own file");
         let output = saver_command(&nobody, &path).output().expect("it starts");
         let words = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -320,7 +497,10 @@ fn a_file_of_someone_else_keeps_its_owner_or_is_left_alone() {
             return skip(&format!("the test cannot be started as nobody: {output:?}"));
         }
         assert_eq!(output.status.code(), Some(REFUSED), "{words}");
-        assert!(words.contains(told) && words.contains("save under another name"), "{words}");
+        assert!(
+            words.contains(told) && words.contains("save under another name"),
+            "{words}"
+        );
         assert_eq!(fs::read_to_string(&path).expect("it is there"), TABLE_1);
         let left = fs::read_dir(folder.path()).expect("a folder").count();
         assert_eq!(left, 1, "nothing is left beside it");
@@ -328,9 +508,19 @@ fn a_file_of_someone_else_keeps_its_owner_or_is_left_alone() {
     // Who may give files away does.
     let (_folder, path) = folder_with_case();
     std::os::unix::fs::chown(&path, Some(65534), Some(65534)).expect("we may");
-    assert_eq!(saver_command(&[], &path).output().expect("it starts").status.code(), Some(SAVED));
+    assert_eq!(
+        saver_command(&[], &path)
+            .output()
+            .expect("it starts")
+            .status
+            .code(),
+        Some(SAVED)
+    );
     let about = fs::metadata(&path).expect("it is there");
-    assert_eq!((about.uid(), about.gid(), about.mode() & 0o7777), (65534, 65534, 0o640));
+    assert_eq!(
+        (about.uid(), about.gid(), about.mode() & 0o7777),
+        (65534, 65534, 0o640)
+    );
 }
 
 #[test]
@@ -342,37 +532,71 @@ fn a_save_of_the_workbench_that_fails_is_told_and_the_edits_stay() {
         for fault in ["error=ENOSPC", "error=EIO"] {
             let inject = format!("inject={call}:{fault}");
             let trace = format!("trace={call}");
-            let launch =
-                Launch::on_table_1().through(&["strace", "-f", "-qq", "-o", "/dev/null", "-e", &trace, "-e", &inject, "--"]);
+            let launch = Launch::on_table_1().through(&[
+                "strace",
+                "-f",
+                "-qq",
+                "-o",
+                "/dev/null",
+                "-e",
+                &trace,
+                "-e",
+                &inject,
+                "--",
+            ]);
             let mut tty = launch.start();
             tty.wait_for("Corner contact");
             tty.type_in("\x156 mm\x13");
             tty.wait_for("not saved: ");
             assert!(tty.shows("*unsaved*"), "{call} {fault}");
-            assert_eq!(fs::read_to_string(tty.case()).expect("it is there"), TABLE_1);
+            assert_eq!(
+                fs::read_to_string(tty.case()).expect("it is there"),
+                TABLE_1
+            );
             tty.type_in("\x11");
             tty.wait_for("has unsaved edits");
             tty.type_in("d");
             assert_eq!(tty.wait_for_end().exit_code(), 0);
-            let left: Vec<_> =
-                fs::read_dir(tty.folder.path()).expect("a folder").flatten().map(|entry| entry.file_name()).collect();
-            assert!(left.iter().all(|name| !name.to_string_lossy().starts_with(".tipstrike")), "{left:?}");
+            let left: Vec<_> = fs::read_dir(tty.folder.path())
+                .expect("a folder")
+                .flatten()
+                .map(|entry| entry.file_name())
+                .collect();
+            assert!(
+                left.iter()
+                    .all(|name| !name.to_string_lossy().starts_with(".tipstrike")),
+                "{left:?}"
+            );
         }
     }
 }
 
 #[test]
 fn an_output_that_is_full_is_told_and_one_that_is_closed_is_not() {
-    for command in ["new", "fields", "man", "completions bash", "solve case.toml", "solve --format json case.toml"] {
+    for command in [
+        "new",
+        "fields",
+        "man",
+        "completions bash",
+        "solve case.toml",
+        "solve --format json case.toml",
+    ] {
         let (folder, _) = folder_with_case();
         let run = |shell: &str| {
             let line = format!("{PROGRAM} {command} {shell}");
-            Command::new("bash").args(["-c", &line]).current_dir(folder.path()).output().expect("bash starts")
+            Command::new("bash")
+                .args(["-c", &line])
+                .current_dir(folder.path())
+                .output()
+                .expect("bash starts")
         };
         let full = run(">/dev/full");
         let words = String::from_utf8_lossy(&full.stderr).into_owned();
         assert_eq!(full.status.code(), Some(5), "{command}: {words}");
-        assert!(words.contains("standard output: cannot be written") && words.lines().count() == 1, "{command}: {words}");
+        assert!(
+            words.contains("standard output: cannot be written") && words.lines().count() == 1,
+            "{command}: {words}"
+        );
         for reader in ["head -c 1 >/dev/null", "true"] {
             let closed = run(&format!("| {reader}; exit ${{PIPESTATUS[0]}}"));
             assert_eq!(closed.status.code(), Some(0), "{command} | {reader}");

@@ -1,23 +1,33 @@
-//! Old cases open for ever and keep their bytes; newer ones are shown and never written; saves leave no litter.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+//! Old cases open for ever and keep their bytes; newer ones are shown and never written; saves
+//! leave no litter.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that cannot go on says why"
+)]
 #![cfg(all(feature = "cli", feature = "tui"))]
 
-mod desk;
+mod harness;
 
 use std::fs;
 use std::path::Path;
 use std::time::{Duration, SystemTime};
 
-use desk::{Desk, SMALL, TABLE_1};
+use harness::{Desk, SMALL, TABLE_1};
 use tipstrike::case::Document;
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::actions::Effect;
-use tipstrike::tui::perform::perform;
+use tipstrike::tui::effects::effects;
 
 #[test]
 fn every_frozen_case_opens_and_an_untouched_save_keeps_its_bytes() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/frozen");
-    let frozen: Vec<_> = fs::read_dir(folder).expect("a folder").flatten().map(|entry| entry.path()).collect();
+    let frozen: Vec<_> = fs::read_dir(folder)
+        .expect("a folder")
+        .flatten()
+        .map(|entry| entry.path())
+        .collect();
     assert!(frozen.len() >= 8);
     let own = tempfile::tempdir().expect("a folder");
     for path in frozen {
@@ -26,8 +36,14 @@ fn every_frozen_case_opens_and_an_untouched_save_keeps_its_bytes() {
         fs::write(&copy, &bytes).expect("room on the disk");
         let mut document = Document::read(&copy).unwrap_or_else(|fault| panic!("{fault}"));
         assert!(document.case.inputs().is_ok(), "{}", path.display());
-        document.save(&copy).unwrap_or_else(|fault| panic!("{fault}"));
-        assert!(fs::read(&copy).expect("it is there") == bytes, "{}", path.display());
+        document
+            .save(&copy)
+            .unwrap_or_else(|fault| panic!("{fault}"));
+        assert!(
+            fs::read(&copy).expect("it is there") == bytes,
+            "{}",
+            path.display()
+        );
     }
 }
 
@@ -38,17 +54,32 @@ fn a_newer_format_is_shown_and_never_written() {
     let path = desk.write("newer.toml", &newer);
     let loaded = perform(Effect::Load(path.clone()));
     desk.act(loaded.expect("an answer"));
-    assert!(desk.shows("*read-only*") && desk.shows("newer format"), "{}", desk.screen());
+    assert!(
+        desk.shows("*read-only*") && desk.shows("newer format"),
+        "{}",
+        desk.screen()
+    );
     assert!(desk.shows("5 mm"), "what this version knows is shown");
     desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
-    assert!(desk.shows("not saved: ") && desk.app.is_unsaved(), "{}", desk.screen());
+    assert!(
+        desk.shows("not saved: ") && desk.app.is_unsaved(),
+        "{}",
+        desk.screen()
+    );
     let other = desk.path("other.toml").display().to_string();
     desk.keys(&["F2", "Ctrl-U", &other, "Enter"]);
-    assert!(desk.shows("not saved: ") && !desk.path("other.toml").exists(), "{}", desk.screen());
+    assert!(
+        desk.shows("not saved: ") && !desk.path("other.toml").exists(),
+        "{}",
+        desk.screen()
+    );
     assert_eq!(desk.read("newer.toml"), newer);
     // Nor is a text without any sense a newer case.
     let path = desk.write("none.toml", "format = 2\n\u{1b}[2J");
-    assert!(matches!(perform(Effect::Load(path)), Some(Action::Loaded(..))));
+    assert!(matches!(
+        perform(Effect::Load(path)),
+        Some(Action::Loaded(..))
+    ));
 }
 
 #[test]
@@ -66,10 +97,17 @@ fn a_save_takes_away_what_a_killed_one_left_and_nothing_else() {
     for name in &names {
         let path = desk.write(name, "left");
         if !name.ends_with("new") {
-            fs::File::options().write(true).open(path).and_then(|file| file.set_modified(old)).expect("our own file");
+            fs::File::options()
+                .write(true)
+                .open(path)
+                .and_then(|file| file.set_modified(old))
+                .expect("our own file");
         }
     }
     desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
     assert!(desk.shows("saved "), "{}", desk.screen());
-    assert_eq!(names.map(|name| desk.path(&name).exists()), [false, true, true, true]);
+    assert_eq!(
+        names.map(|name| desk.path(&name).exists()),
+        [false, true, true, true]
+    );
 }

@@ -1,8 +1,14 @@
-//! No byte of a file, a name or an error controls a terminal, on any screen of any size, and in no command's words.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+//! No byte of a file, a name or an error controls a terminal, on any screen of any size, and in no
+//! command's words.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that cannot go on says why"
+)]
 #![cfg(all(feature = "cli", feature = "tui"))]
 
-mod desk;
+mod harness;
 mod tty;
 
 use std::ffi::OsStr;
@@ -11,13 +17,13 @@ use std::os::unix::ffi::OsStrExt;
 use std::path::PathBuf;
 use std::process::Command;
 
-use desk::{Desk, LARGE, SMALL, TABLE_1};
+use harness::{Desk, LARGE, SMALL, TABLE_1};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Rect, Size};
 use tempfile::TempDir;
 use tipstrike::case::Change;
 use tipstrike::case::Document;
-use tipstrike::case::visible::is_hidden;
+use tipstrike::case::sanitize::is_hidden;
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::prompt::Next;
 use tipstrike::tui::recovery::{Access, Claim, Offer};
@@ -28,7 +34,8 @@ use tty::{Launch, PROGRAM};
 
 /// Escape sequences, C1 controls, direction overrides, what has no width, ends of lines.
 const HOSTILE: &str = "\u{1b}[2J\u{1b}]0;x\u{7}\u{9b}31m\u{90}q\u{9c}\u{202e}\u{2066}\u{200b}\u{feff}\u{7f}\r\n\t\u{8}x";
-const ESCAPED: &str = r"\u001b[2J\u001b]0;x\u0007\u009b31m\u0090q\u009c\u202e\u2066\u200b\ufeff\u007f\r\n\t\bx";
+const ESCAPED: &str =
+    r"\u001b[2J\u001b]0;x\u0007\u009b31m\u0090q\u009c\u202e\u2066\u200b\ufeff\u007f\r\n\t\bx";
 
 fn hostile_case() -> String {
     let text = TABLE_1.replacen("title = \"", &format!("title = \"{ESCAPED}"), 1);
@@ -56,12 +63,20 @@ fn folder() -> (TempDir, Vec<PathBuf>) {
         HOSTILE.to_owned(),
     ];
     let named = |(number, text): (usize, String)| {
-        let name = [format!("{number}{}", HOSTILE.replace('/', "")).as_bytes(), b"\xff.toml"].concat();
+        let name = [
+            format!("{number}{}", HOSTILE.replace('/', "")).as_bytes(),
+            b"\xff.toml",
+        ]
+        .concat();
         let path = folder.path().join(OsStr::from_bytes(&name));
         fs::write(&path, text).expect("room on the disk");
         path
     };
-    let paths = std::iter::once(good.clone()).chain(bad).enumerate().map(named).collect();
+    let paths = std::iter::once(good.clone())
+        .chain(bad)
+        .enumerate()
+        .map(named)
+        .collect();
     (folder, paths)
 }
 
@@ -69,7 +84,11 @@ fn folder() -> (TempDir, Vec<PathBuf>) {
 fn no_command_says_a_control() {
     let (folder, paths) = folder();
     let mut runs = 0;
-    for path in paths.iter().map(|path| path.as_os_str()).chain([OsStr::new(HOSTILE), folder.path().as_os_str()]) {
+    for path in paths
+        .iter()
+        .map(|path| path.as_os_str())
+        .chain([OsStr::new(HOSTILE), folder.path().as_os_str()])
+    {
         for words in [
             &["solve"][..],
             &["solve", "--format", "csv"],
@@ -87,11 +106,17 @@ fn no_command_says_a_control() {
         ] {
             let mut command = Command::new(PROGRAM);
             // Some of them are names of files to be made.
-            command.args(words).arg(path).env("TERM", "xterm").current_dir(folder.path());
+            command
+                .args(words)
+                .arg(path)
+                .env("TERM", "xterm")
+                .current_dir(folder.path());
             let output = command.output().expect("it starts");
             for bytes in [&output.stdout, &output.stderr] {
                 let text = std::str::from_utf8(bytes).expect("words in UTF-8");
-                let raw = text.chars().find(|&letter| letter != '\n' && is_hidden(letter));
+                let raw = text
+                    .chars()
+                    .find(|&letter| letter != '\n' && is_hidden(letter));
                 assert_eq!(raw, None, "{words:?} {path:?}: {text:?}");
             }
             runs += 1;
@@ -118,25 +143,36 @@ fn on(text: &str, size: Size, look: Look) -> Desk {
 
 fn assert_harmless(buffer: &Buffer, what: &str) {
     for cell in &buffer.content {
-        assert!(!cell.symbol().chars().any(is_hidden), "{what}: {:?}", cell.symbol());
+        assert!(
+            !cell.symbol().chars().any(is_hidden),
+            "{what}: {:?}",
+            cell.symbol()
+        );
     }
 }
 
 #[test]
 fn no_screen_shows_a_control() {
     let (_folder, paths) = folder();
-    for (keys, size) in SCREENS.iter().flat_map(|keys| [SMALL, LARGE].map(|size| (keys, size))) {
+    for (keys, size) in SCREENS
+        .iter()
+        .flat_map(|keys| [SMALL, LARGE].map(|size| (keys, size)))
+    {
         let mut desk = on(&hostile_case(), size, Look::FULL);
         for name in [HOSTILE, "b\u{202e}.toml"] {
             desk.write(&name.replace('/', ""), TABLE_1);
         }
         desk.recents = paths.clone();
-        desk.fill("title", HOSTILE).act(Action::Paste(HOSTILE.to_owned()));
+        desk.fill("title", HOSTILE)
+            .act(Action::Paste(HOSTILE.to_owned()));
         desk.keys(keys);
         desk.act(Action::Paste(HOSTILE.to_owned()));
         assert_harmless(&desk.buffer(size), &format!("{keys:?}"));
         for path in &paths {
-            desk.act(Action::Loaded(path.clone(), Err(vec![format!("{HOSTILE}: {}", path.display())])));
+            desk.act(Action::Loaded(
+                path.clone(),
+                Err(vec![format!("{HOSTILE}: {}", path.display())]),
+            ));
             assert_harmless(&desk.buffer(size), &format!("{keys:?} {path:?}"));
             desk.keys(&["Esc"]);
         }
@@ -152,9 +188,23 @@ fn no_screen_shows_a_control() {
 fn told() -> Vec<Action> {
     let words = || HOSTILE.to_owned();
     let saved = |fault| Action::Saved(HOSTILE.into(), Next::Stay, Err(fault));
-    let change = Change { key: "title".to_owned(), from: Some(words()), to: Some(words()) };
-    let offer = Offer { journal: HOSTILE.into(), age: words(), changes: vec![change], is_file_changed: true };
-    let claim = Claim { id: 0, access: Access::Held(words()), offers: vec![offer], notices: vec![words()] };
+    let change = Change {
+        key: "title".to_owned(),
+        from: Some(words()),
+        to: Some(words()),
+    };
+    let offer = Offer {
+        journal: HOSTILE.into(),
+        age: words(),
+        changes: vec![change],
+        is_file_changed: true,
+    };
+    let claim = Claim {
+        id: 0,
+        access: Access::Held(words()),
+        offers: vec![offer],
+        notices: vec![words()],
+    };
     vec![
         Action::Failed(words()),
         saved(SaveFault::Exists(vec![words()])),
@@ -170,13 +220,19 @@ fn every_size_is_drawn_on_every_screen() {
     for keys in SCREENS {
         let mut desk = on(TABLE_1, SMALL, Look::FULL);
         desk.keys(keys);
-        for (width, height) in (0..=90u16).step_by(3).flat_map(|width| (0..=30u16).map(move |height| (width, height))) {
+        for (width, height) in (0..=90u16)
+            .step_by(3)
+            .flat_map(|width| (0..=30u16).map(move |height| (width, height)))
+        {
             let size = Size { width, height };
             desk.act(Action::Resize(size));
             let area = Rect::new(0, 0, width, height);
             let mut buffer = Buffer::empty(area);
             let cursor = view::draw(&desk.app, area, &mut buffer);
-            assert!(cursor.is_none_or(|cursor| area.contains(cursor)), "{keys:?} {size:?}");
+            assert!(
+                cursor.is_none_or(|cursor| area.contains(cursor)),
+                "{keys:?} {size:?}"
+            );
         }
         desk.act(Action::Resize(SMALL));
         assert_harmless(&desk.buffer(SMALL), "back at its size");
@@ -202,7 +258,8 @@ fn what_reaches_a_terminal_is_text_and_the_sequences_of_a_screen() {
     }
 }
 
-/// The first place that is neither text, nor an end of a line, nor CSI with plain parameters and one of our final letters.
+/// The first place that is neither text, nor an end of a line, nor CSI with plain parameters and
+/// one of our final letters.
 fn not_of_a_screen(bytes: &[u8]) -> Option<String> {
     let text = std::str::from_utf8(bytes).ok()?;
     let mut rest = text;

@@ -1,13 +1,18 @@
 //! Keys in, screen and files out: editing, saving, opening, leaving.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that cannot go on says why"
+)]
 #![cfg(feature = "tui")]
 
-mod desk;
+mod harness;
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 
-use desk::{Desk, LARGE, SMALL, TABLE_1, name};
+use harness::{Desk, LARGE, SMALL, TABLE_1, name};
 use tipstrike::model::Stages;
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::solver::Request;
@@ -16,7 +21,11 @@ use tipstrike::tui::solver::Request;
 fn every_keystroke_that_leaves_a_valid_value_changes_the_results() {
     let mut desk = Desk::new(SMALL);
     let force = |desk: &Desk| {
-        let line = desk.screen().lines().find(|line| line.contains("F_S   ")).map(str::to_owned);
+        let line = desk
+            .screen()
+            .lines()
+            .find(|line| line.contains("F_S   "))
+            .map(str::to_owned);
         line.expect("the impact force is in sight")
     };
     assert!(force(&desk).contains("2191"));
@@ -47,7 +56,8 @@ fn the_method_is_a_field_and_a_key() {
     assert!(desk.shows("‹ paper ›"));
     desk.keys(&["Space"]);
     assert!(desk.shows("▸exact"));
-    desk.go_to("pair.module").keys(&["Ctrl-T", "Ctrl-T", "Ctrl-T", "Ctrl-T"]);
+    desk.go_to("pair.module")
+        .keys(&["Ctrl-T", "Ctrl-T", "Ctrl-T", "Ctrl-T"]);
     assert!(desk.shows("▸paper"));
     assert!(desk.shows("5 mm"));
 }
@@ -55,11 +65,20 @@ fn the_method_is_a_field_and_a_key() {
 #[test]
 fn undo_goes_back_a_field_and_redo_forward() {
     let mut desk = Desk::new(SMALL);
-    desk.fill("operation.speed", "1500 rpm").keys(&["Tab", "0.1", "Ctrl-Z"]);
-    assert!(desk.shows("undo: friction coefficient: 0.1 -> (empty)"), "{}", desk.screen());
+    desk.fill("operation.speed", "1500 rpm")
+        .keys(&["Tab", "0.1", "Ctrl-Z"]);
+    assert!(
+        desk.shows("undo: friction coefficient: 0.1 -> (empty)"),
+        "{}",
+        desk.screen()
+    );
     assert!(desk.shows("1500 rpm"));
     desk.keys(&["Ctrl-Z"]);
-    assert!(desk.shows("2000 rpm") && desk.shows("undo: speed: 1500 rpm -> 2000 rpm"), "{}", desk.screen());
+    assert!(
+        desk.shows("2000 rpm") && desk.shows("undo: speed: 1500 rpm -> 2000 rpm"),
+        "{}",
+        desk.screen()
+    );
     assert!(!desk.app.is_unsaved());
     desk.keys(&["Ctrl-Y"]);
     assert!(desk.shows("1500 rpm"));
@@ -71,11 +90,23 @@ fn undo_goes_back_a_field_and_redo_forward() {
 fn the_method_that_is_switched_through_is_one_step_of_undo() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["6", "Ctrl-T", "Ctrl-T", "Ctrl-T"]);
-    assert!(desk.shows("method auto") && desk.shows("6 mm"), "{}", desk.screen());
+    assert!(
+        desk.shows("method auto") && desk.shows("6 mm"),
+        "{}",
+        desk.screen()
+    );
     desk.keys(&["Ctrl-Z"]);
-    assert!(desk.shows("▸exact") && desk.shows("6 mm") && desk.shows(": auto -> "), "{}", desk.screen());
+    assert!(
+        desk.shows("▸exact") && desk.shows("6 mm") && desk.shows(": auto -> "),
+        "{}",
+        desk.screen()
+    );
     desk.keys(&["Ctrl-T", "7", "Ctrl-Z"]);
-    assert!(desk.shows("▸static") && desk.shows("6 mm"), "what is typed after it is a step of its own\n{}", desk.screen());
+    assert!(
+        desk.shows("▸static") && desk.shows("6 mm"),
+        "what is typed after it is a step of its own\n{}",
+        desk.screen()
+    );
 }
 
 #[test]
@@ -83,23 +114,38 @@ fn what_no_value_begins_with_is_a_command_in_a_field_of_a_value() {
     let mut desk = Desk::new(LARGE);
     for (keys, told) in [
         (&["/power", "Enter", "16"][..], "16 kW"),
-        (&["Ctrl-U", ":undo", "Enter"], "undo: power: (empty) -> 15 kW"),
+        (
+            &["Ctrl-U", ":undo", "Enter"],
+            "undo: power: (empty) -> 15 kW",
+        ),
         (&["/method", "Enter", ":theme", "Enter"], "theme contrast"),
-        (&["Alt-L", "impact_force", "Enter", "/"], "Go to a field or a result"),
+        (
+            &["Alt-L", "impact_force", "Enter", "/"],
+            "Go to a field or a result",
+        ),
     ] {
         assert!(desk.keys(keys).shows(told), "{keys:?}\n{}", desk.screen());
     }
     desk.keys(&["Esc"]).go_to("pair.module").keys(&["End", "/"]);
     assert!(desk.shows("5 mm/") && desk.shows("! "), "{}", desk.screen());
     desk.keys(&["Ctrl-Z"]).go_to("title").keys(&["/:"]);
-    assert!(desk.shows("/:") && desk.app.prompts.is_empty(), "a title is of any letters\n{}", desk.screen());
+    assert!(
+        desk.shows("/:") && desk.app.prompts.is_empty(),
+        "a title is of any letters\n{}",
+        desk.screen()
+    );
 }
 
 #[test]
 fn the_notes_are_told_from_every_pane() {
     for pane in ["1", "2", "3", "4", "5"] {
         let mut desk = Desk::new(LARGE);
-        assert!(desk.keys(&["Esc", pane, "n"]).shows("Outcome, gauges, notes"), "{pane}\n{}", desk.screen());
+        assert!(
+            desk.keys(&["Esc", pane, "n"])
+                .shows("Outcome, gauges, notes"),
+            "{pane}\n{}",
+            desk.screen()
+        );
     }
 }
 
@@ -108,11 +154,23 @@ fn what_is_copied_of_chart_and_teeth_is_the_reading_at_the_cursor() {
     for pane in ["3", "4"] {
         let mut desk = Desk::new(LARGE);
         desk.keys(&["Esc", pane, "y"]);
-        assert!(desk.shows("no reading to copy") && desk.copied.is_none(), "{}", desk.screen());
+        assert!(
+            desk.shows("no reading to copy") && desk.copied.is_none(),
+            "{}",
+            desk.screen()
+        );
         desk.keys(&["l", "y"]);
         let copied = desk.copied.clone().unwrap_or_default();
-        assert!(copied.starts_with("1.3663 deg of the driver before E: ") && copied.contains("F_S 2191.0 N"), "{copied}");
-        assert!(desk.shows("copied 1.3663 deg of the driver before E"), "{}", desk.screen());
+        assert!(
+            copied.starts_with("1.3663 deg of the driver before E: ")
+                && copied.contains("F_S 2191.0 N"),
+            "{copied}"
+        );
+        assert!(
+            desk.shows("copied 1.3663 deg of the driver before E"),
+            "{}",
+            desk.screen()
+        );
     }
 }
 
@@ -133,7 +191,10 @@ fn a_save_keeps_comments_and_order_and_takes_the_mark_away() {
     desk.keys(&["Ctrl-S"]);
     assert!(!desk.shows("*unsaved*"));
     assert!(desk.shows("saved "));
-    assert_eq!(desk.read("case.toml"), TABLE_1.replace("2000 rpm", "1500 rpm"));
+    assert_eq!(
+        desk.read("case.toml"),
+        TABLE_1.replace("2000 rpm", "1500 rpm")
+    );
 }
 
 #[test]
@@ -154,30 +215,58 @@ fn the_built_in_case_asks_for_a_name_and_an_existing_file_for_leave() {
 #[test]
 fn a_faulty_form_is_not_saved() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
-    desk.fill("operation.speed", "fast").keys(&["Ctrl-Home", "Ctrl-S"]);
+    desk.fill("operation.speed", "fast")
+        .keys(&["Ctrl-Home", "Ctrl-S"]);
     assert!(desk.shows("not saved"));
     assert_eq!(desk.read("case.toml"), TABLE_1);
-    assert_eq!(desk.app.case.text(desk.app.focus), Some("fast"), "the focus is on what must be mended");
+    assert_eq!(
+        desk.app.case.text(desk.app.focus),
+        Some("fast"),
+        "the focus is on what must be mended"
+    );
 }
 
 #[test]
 fn a_faulty_form_is_not_taken_for_saved_by_any_way_to_save() {
-    for keys in [&["Ctrl-S"][..], &["F2"], &["Alt-S"], &["Ctrl-Q", "s"], &["Alt-W", "s"], &["Ctrl-P", "save as", "Enter"]] {
+    for keys in [
+        &["Ctrl-S"][..],
+        &["F2"],
+        &["Alt-S"],
+        &["Ctrl-Q", "s"],
+        &["Alt-W", "s"],
+        &["Ctrl-P", "save as", "Enter"],
+    ] {
         let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
         desk.fill("operation.speed", "fast").keys(keys);
-        assert!(desk.shows("not saved: mend") && desk.shows("*unsaved*"), "{keys:?}\n{}", desk.screen());
-        assert!(desk.app.is_unsaved() && desk.app.prompts.is_empty() && !desk.has_quit, "{keys:?}");
+        assert!(
+            desk.shows("not saved: mend") && desk.shows("*unsaved*"),
+            "{keys:?}\n{}",
+            desk.screen()
+        );
+        assert!(
+            desk.app.is_unsaved() && desk.app.prompts.is_empty() && !desk.has_quit,
+            "{keys:?}"
+        );
         assert_eq!(desk.app.case.text(desk.app.focus), Some("fast"), "{keys:?}");
         desk.keys(&["Ctrl-Q"]);
-        assert!(desk.shows("has unsaved edits") && !desk.has_quit, "{keys:?}");
+        assert!(
+            desk.shows("has unsaved edits") && !desk.has_quit,
+            "{keys:?}"
+        );
         assert_eq!(desk.read("case.toml"), TABLE_1, "{keys:?}");
     }
     // Of several cases, the faulty one stops the leaving; the others are saved.
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.fill("operation.speed", "1500 rpm");
     let other = desk.write("other.toml", TABLE_1);
-    desk.keys(&["Ctrl-O", "Ctrl-U", name(&other), "Enter"]).fill("operation.speed", "fast").keys(&["Ctrl-Q", "s"]);
-    assert!(!desk.has_quit && desk.shows("not saved: mend") && desk.shows("[2 other.toml*]"), "{}", desk.screen());
+    desk.keys(&["Ctrl-O", "Ctrl-U", name(&other), "Enter"])
+        .fill("operation.speed", "fast")
+        .keys(&["Ctrl-Q", "s"]);
+    assert!(
+        !desk.has_quit && desk.shows("not saved: mend") && desk.shows("[2 other.toml*]"),
+        "{}",
+        desk.screen()
+    );
     assert!(desk.read("case.toml").contains("1500 rpm") && desk.read("other.toml") == TABLE_1);
 }
 
@@ -208,7 +297,10 @@ fn a_file_that_someone_else_changed_is_not_overwritten_unasked() {
     desk.fill("operation.speed", "1200 rpm");
     desk.write("case.toml", TABLE_1);
     desk.keys(&["Ctrl-S", "o"]);
-    assert_eq!(desk.read("case.toml"), theirs.replace("2000 rpm", "1200 rpm"));
+    assert_eq!(
+        desk.read("case.toml"),
+        theirs.replace("2000 rpm", "1200 rpm")
+    );
 }
 
 #[test]
@@ -249,7 +341,12 @@ fn folders_are_walked_with_enter_and_tab_takes_a_name_over() {
 fn a_bad_file_shows_every_fault_at_its_place_and_loses_nothing() {
     let mut desk = Desk::on(LARGE, "good.toml", TABLE_1);
     desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
-    desk.write("bad.toml", &TABLE_1.replace("5 mm", "5 kg").replace("poisson = 0.3", "poison = 0.3"));
+    desk.write(
+        "bad.toml",
+        &TABLE_1
+            .replace("5 mm", "5 kg")
+            .replace("poisson = 0.3", "poison = 0.3"),
+    );
     desk.keys(&["Ctrl-O", "bad", "Enter"]);
     assert!(desk.shows("bad.toml cannot be opened"));
     assert!(desk.shows("pair.module") && desk.shows("poison"));
@@ -283,7 +380,10 @@ fn edits_are_not_lost_unasked() {
         desk.fill("operation.speed", "1500 rpm").keys(keys);
         assert_eq!(desk.has_quit, leaves, "{keys:?}");
         assert!(desk.read("case.toml").contains(on_disk), "{keys:?}");
-        assert!(leaves || keys.contains(&"Ctrl-N") || desk.shows("1500 rpm"), "{keys:?}");
+        assert!(
+            leaves || keys.contains(&"Ctrl-N") || desk.shows("1500 rpm"),
+            "{keys:?}"
+        );
     }
 }
 
@@ -291,7 +391,11 @@ fn edits_are_not_lost_unasked() {
 fn without_edits_ctrl_q_leaves_at_once_and_ctrl_c_the_second_time() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Ctrl-C"]);
-    assert!(!desk.has_quit && desk.app.prompts.is_empty() && desk.shows("Ctrl-C again quits"), "{}", desk.screen());
+    assert!(
+        !desk.has_quit && desk.app.prompts.is_empty() && desk.shows("Ctrl-C again quits"),
+        "{}",
+        desk.screen()
+    );
     desk.keys(&["Down", "Ctrl-C"]);
     assert!(!desk.has_quit, "another key between them");
     desk.keys(&["Ctrl-C"]);
@@ -304,15 +408,21 @@ fn without_edits_ctrl_q_leaves_at_once_and_ctrl_c_the_second_time() {
 #[test]
 fn escape_never_destroys() {
     let mut desk = Desk::new(SMALL);
-    desk.fill("operation.speed", "1500 rpm").keys(&["Esc", "Esc", "Esc"]);
+    desk.fill("operation.speed", "1500 rpm")
+        .keys(&["Esc", "Esc", "Esc"]);
     assert!(desk.shows("1500 rpm") && desk.app.is_unsaved() && !desk.has_quit);
 }
 
 #[test]
 fn a_paste_never_presses_a_button_and_brings_no_control_character() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
-    desk.fill("operation.speed", "").act(Action::Paste("15\u{1b}[2J00\n rpm\u{202e}\r".to_owned()));
-    assert_eq!(desk.app.case.text(desk.app.focus), Some("15[2J00 rpm"), "of its lines one is made");
+    desk.fill("operation.speed", "")
+        .act(Action::Paste("15\u{1b}[2J00\n rpm\u{202e}\r".to_owned()));
+    assert_eq!(
+        desk.app.case.text(desk.app.focus),
+        Some("15[2J00 rpm"),
+        "of its lines one is made"
+    );
     desk.keys(&["Ctrl-Q"]).act(Action::Paste("d".to_owned()));
     assert!(!desk.has_quit && desk.shows("has unsaved edits"));
 }
@@ -320,7 +430,8 @@ fn a_paste_never_presses_a_button_and_brings_no_control_character() {
 #[test]
 fn a_long_paste_is_cut_and_quick() {
     let mut desk = Desk::new(SMALL);
-    desk.fill("title", "").act(Action::Paste("x".repeat(1 << 20)));
+    desk.fill("title", "")
+        .act(Action::Paste("x".repeat(1 << 20)));
     assert_eq!(desk.app.input.value().len(), 4096);
     desk.screen();
 }
@@ -328,7 +439,8 @@ fn a_long_paste_is_cut_and_quick() {
 #[test]
 fn backspace_may_arrive_as_ctrl_h() {
     let mut desk = Desk::new(SMALL);
-    desk.go_to("operation.speed").keys(&["End", "Ctrl-H", "Ctrl-H", "Ctrl-H", "rpm"]);
+    desk.go_to("operation.speed")
+        .keys(&["End", "Ctrl-H", "Ctrl-H", "Ctrl-H", "rpm"]);
     assert!(!desk.app.is_unsaved());
 }
 
@@ -336,10 +448,17 @@ fn backspace_may_arrive_as_ctrl_h() {
 fn a_late_answer_is_dropped() {
     let mut desk = Desk::new(SMALL);
     let inputs = desk.app.case.inputs().expect("Table 1 is valid");
-    let late = Request { serial: desk.app.serial, case: desk.app.case.clone(), inputs, stages: Stages::EVERY };
+    let late = Request {
+        serial: desk.app.serial,
+        case: desk.app.case.clone(),
+        inputs,
+        stages: Stages::EVERY,
+    };
     desk.fill("operation.speed", "500 rpm");
     let screen = desk.screen();
-    desk.act(Action::Solved(Box::new(tipstrike::tui::solver::answer(&late))));
+    desk.act(Action::Solved(Box::new(tipstrike::tui::solver::answer(
+        &late,
+    ))));
     assert_eq!(desk.screen(), screen);
 }
 
@@ -370,9 +489,13 @@ fn every_field_can_be_reached_and_every_line_of_the_results() {
 #[test]
 fn a_saved_file_keeps_its_mode() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
-    fs::set_permissions(desk.path("case.toml"), fs::Permissions::from_mode(0o640)).expect("our own file");
+    fs::set_permissions(desk.path("case.toml"), fs::Permissions::from_mode(0o640))
+        .expect("our own file");
     desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
-    let mode = fs::metadata(desk.path("case.toml")).expect("it is there").permissions().mode();
+    let mode = fs::metadata(desk.path("case.toml"))
+        .expect("it is there")
+        .permissions()
+        .mode();
     assert_eq!(mode & 0o777, 0o640);
 }
 
@@ -399,16 +522,29 @@ fn what_is_typed_takes_the_place_of_the_value_and_a_move_keeps_it() {
         let mut desk = Desk::new(SMALL);
         desk.go_to("operation.speed").keys(keys);
         let speed = tipstrike::case::fields::index_of("operation.speed").expect("a field");
-        assert_eq!(desk.app.case.text(speed), Some(text), "{keys:?}\n{}", desk.screen());
+        assert_eq!(
+            desk.app.case.text(speed),
+            Some(text),
+            "{keys:?}\n{}",
+            desk.screen()
+        );
     }
 }
 
 #[test]
 fn a_letter_that_is_no_command_is_told_as_such() {
     for (pane, letter, told) in [
-        ("1", "7", "7 is no command in Form: Enter edits the field, ? lists the keys"),
+        (
+            "1",
+            "7",
+            "7 is no command in Form: Enter edits the field, ? lists the keys",
+        ),
         ("2", "x", "x is no command in Results: ? lists the keys"),
-        ("5", "Space", "Space is no command in Trade: ? lists the keys"),
+        (
+            "5",
+            "Space",
+            "Space is no command in Trade: ? lists the keys",
+        ),
     ] {
         let mut desk = Desk::new(SMALL);
         desk.keys(&["Esc", pane, letter]);
@@ -420,11 +556,23 @@ fn a_letter_that_is_no_command_is_told_as_such() {
 fn undo_tells_what_it_took_back() {
     let mut desk = Desk::new(SMALL);
     desk.go_to("driven.tip_relief").keys(&["48", "Esc", "u"]);
-    assert!(desk.shows("undo: driven tip relief: 48 um -> 0 um"), "{}", desk.screen());
+    assert!(
+        desk.shows("undo: driven tip relief: 48 um -> 0 um"),
+        "{}",
+        desk.screen()
+    );
     desk.keys(&["Ctrl-R"]);
-    assert!(desk.shows("redo: driven tip relief: 0 um -> 48 um"), "{}", desk.screen());
+    assert!(
+        desk.shows("redo: driven tip relief: 0 um -> 48 um"),
+        "{}",
+        desk.screen()
+    );
     desk.keys(&["Alt-G", "34crnimo", "Enter", "u"]);
-    assert!(desk.shows("undo: driven Young's modulus: ") && desk.shows("density: "), "{}", desk.screen());
+    assert!(
+        desk.shows("undo: driven Young's modulus: ") && desk.shows("density: "),
+        "{}",
+        desk.screen()
+    );
     desk.keys(&["Esc", "2", "Alt-L", "Esc", "u"]);
     assert!(desk.shows("undo: limits."), "{}", desk.screen());
 }
@@ -433,21 +581,36 @@ fn undo_tells_what_it_took_back() {
 fn the_baseline_is_called_as_the_file_that_it_was_saved_to() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Alt-B"]);
-    assert!(desk.shows("for this session") && desk.shows("against built-in"), "{}", desk.screen());
+    assert!(
+        desk.shows("for this session") && desk.shows("against built-in"),
+        "{}",
+        desk.screen()
+    );
     let path = desk.path("whine.toml");
     desk.keys(&["F2", "Ctrl-U", name(&path), "Enter"]);
     assert!(desk.shows("against whine.toml"), "{}", desk.screen());
     let path = desk.path("quiet.toml");
-    desk.fill("driven.tip_relief", "48").keys(&["F2", "Ctrl-U", name(&path), "Enter"]);
-    assert!(desk.app.short_name() == "quiet.toml" && desk.shows("against whine.toml"), "{}", desk.screen());
+    desk.fill("driven.tip_relief", "48")
+        .keys(&["F2", "Ctrl-U", name(&path), "Enter"]);
+    assert!(
+        desk.app.short_name() == "quiet.toml" && desk.shows("against whine.toml"),
+        "{}",
+        desk.screen()
+    );
 }
 
 #[test]
 fn a_baseline_of_other_values_than_were_saved_keeps_its_name() {
     let mut desk = Desk::new(LARGE);
     let path = desk.path("quiet.toml");
-    desk.keys(&["Alt-B"]).fill("driven.tip_relief", "48").keys(&["F2", "Ctrl-U", name(&path), "Enter"]);
-    assert!(desk.app.short_name() == "quiet.toml" && desk.shows("against built-in"), "{}", desk.screen());
+    desk.keys(&["Alt-B"])
+        .fill("driven.tip_relief", "48")
+        .keys(&["F2", "Ctrl-U", name(&path), "Enter"]);
+    assert!(
+        desk.app.short_name() == "quiet.toml" && desk.shows("against built-in"),
+        "{}",
+        desk.screen()
+    );
 }
 
 #[test]
@@ -455,18 +618,32 @@ fn results_are_found_as_fields_are() {
     for (keys, told) in [
         (&["Esc", "/", "fs", "Enter"][..], "F_S impact force, Eq. 57"),
         (&["Esc", "2", "/", "friction", "Enter"], "f friction ratio"),
-        (&["Esc", ":", "sliding_velocity", "Enter"], "sliding velocity"),
+        (
+            &["Esc", ":", "sliding_velocity", "Enter"],
+            "sliding velocity",
+        ),
         (&["Ctrl-P", "tip relief", "Enter"], "▸ Ca2   tip relief"),
         (&["/relief", "Enter", "48"], "▸*Ca2   tip relief"),
-        (&["Ctrl-P", "driven tip relief", "Enter", "48"], "▸*Ca2   tip relief"),
+        (
+            &["Ctrl-P", "driven tip relief", "Enter", "48"],
+            "▸*Ca2   tip relief",
+        ),
     ] {
         let mut desk = Desk::new(LARGE);
         desk.keys(keys);
-        assert!(desk.app.prompts.is_empty() && desk.shows(told), "{keys:?}\n{}", desk.screen());
+        assert!(
+            desk.app.prompts.is_empty() && desk.shows(told),
+            "{keys:?}\n{}",
+            desk.screen()
+        );
     }
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "/", "dynamic_peak_force"]);
-    assert!(!desk.shows("dynamic_peak_force, "), "no result of another method:\n{}", desk.screen());
+    assert!(
+        !desk.shows("dynamic_peak_force, "),
+        "no result of another method:\n{}",
+        desk.screen()
+    );
 }
 
 #[test]
@@ -474,7 +651,10 @@ fn what_no_digit_mends_is_wrong_at_once() {
     for (typed, told) in [
         ("-48", "! -48 um is below"),
         ("48 mm", "! 48 mm is above"),
-        ("48 um1", "! 1 stands after the unit: write all digits before um"),
+        (
+            "48 um1",
+            "! 1 stands after the unit: write all digits before um",
+        ),
         ("-", "Not yet: "),
     ] {
         let mut desk = Desk::new(LARGE);

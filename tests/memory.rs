@@ -1,11 +1,16 @@
 //! What an open case, an edit and a measurement keep: no more than they say.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that cannot go on says why"
+)]
 #![allow(clippy::print_stdout, reason = "figures are told")]
 #![cfg(feature = "tui")]
 
-mod desk;
+mod harness;
 
-use desk::{Desk, LARGE, SMALL};
+use harness::{Desk, LARGE, SMALL};
 use tipstrike::model::inputs::Method;
 
 /// Bytes that are kept after this, once for each of so many times.
@@ -22,7 +27,9 @@ fn an_edit_keeps_what_it_changed_and_undo_has_no_end() {
         desk.keys(&["Ctrl-U", text, "Down", "Up"]);
     };
     edit(&mut desk, "6 mm");
-    let bytes = kept(EDITS, |number| edit(&mut desk, if number % 2 == 0 { "5 mm" } else { "6 mm" }));
+    let bytes = kept(EDITS, |number| {
+        edit(&mut desk, if number % 2 == 0 { "5 mm" } else { "6 mm" })
+    });
     println!("an edit: {bytes:.0} bytes");
     assert!(bytes < 100.0, "{bytes}");
     (0..=EDITS).for_each(|_| {
@@ -40,11 +47,20 @@ fn an_open_case_keeps_little_and_a_closed_one_nothing() {
         let whole = allocation_counter::measure(|| {
             let bytes = kept(CASES, |_| {
                 desk.keys(&["Ctrl-N"]).fill("operation.speed", "1500 rpm");
-                while desk.app.answer.as_ref().is_none_or(|answer| answer.active != method) {
+                while desk
+                    .app
+                    .answer
+                    .as_ref()
+                    .is_none_or(|answer| answer.active != method)
+                {
                     desk.keys(&["Ctrl-T"]);
                 }
             });
-            println!("an open case, method {}: {:.1} kB", method.name(), bytes / 1e3);
+            println!(
+                "an open case, method {}: {:.1} kB",
+                method.name(),
+                bytes / 1e3
+            );
             assert!(bytes < most, "{method:?}: {bytes}");
             (0..CASES).for_each(|_| {
                 desk.keys(&["Alt-W", "d"]);
@@ -52,7 +68,10 @@ fn an_open_case_keeps_little_and_a_closed_one_nothing() {
         });
         assert_eq!(desk.app.tabs().count(), 1);
         // The list of cases has its room, and the first one its results.
-        println!("after closing them: {:.1} kB", whole.bytes_current as f64 / 1e3);
+        println!(
+            "after closing them: {:.1} kB",
+            whole.bytes_current as f64 / 1e3
+        );
         assert!(whole.bytes_current < 400_000, "{}", whole.bytes_current);
     };
     tell(Method::Exact, 40e3);
@@ -67,7 +86,12 @@ fn a_measurement_keeps_its_figures_and_no_curve() {
     let bytes = kept(1, |_| {
         desk.keys(&["m"]);
     });
-    assert!(desk.app.traded.as_ref().is_some_and(|traded| traded.trade.is_some()));
+    assert!(
+        desk.app
+            .traded
+            .as_ref()
+            .is_some_and(|traded| traded.trade.is_some())
+    );
     println!("a measurement: {:.1} kB", bytes / 1e3);
     assert!(bytes < 30e3, "{bytes}");
 }

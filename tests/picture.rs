@@ -1,12 +1,18 @@
-//! The README's pictures are what the workbench shows: `TIPSTRIKE_REGENERATE=1 cargo test --test picture` draws them anew.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+//! The README's pictures are what the workbench shows: `TIPSTRIKE_REGENERATE=1 cargo test --test
+//! picture` draws them anew.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that cannot go on says why"
+)]
 #![cfg(feature = "tui")]
 
-mod desk;
+mod harness;
 
 use std::fmt::Write;
 
-use desk::{Desk, LARGE};
+use harness::{Desk, LARGE};
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Modifier};
 use tipstrike::case::{Document, EXAMPLES};
@@ -18,7 +24,11 @@ const MARGIN: f64 = 12.0;
 /// The name of a picture, its title, and the keys to its screen.
 const PICTURES: [(&str, &str, &[&str]); 3] = [
     ("workbench", "The tipstrike workbench on Table 1", &[]),
-    ("explanation", "The impact force explained", &["Esc", "2", "Enter"]),
+    (
+        "explanation",
+        "The impact force explained",
+        &["Esc", "2", "Enter"],
+    ),
     ("browser", "Opening a case", &["Ctrl-O", "Up", "Up", "Up"]),
 ];
 
@@ -31,7 +41,10 @@ fn the_pictures_of_the_readme() {
             std::fs::write(&path, &picture).expect("the picture is written");
         }
         let kept = std::fs::read_to_string(&path).unwrap_or_default();
-        assert!(kept == picture, "assets/{name}.svg is not what the workbench shows: draw it anew with TIPSTRIKE_REGENERATE=1");
+        assert!(
+            kept == picture,
+            "assets/{name}.svg is not what the workbench shows: draw it anew with TIPSTRIKE_REGENERATE=1"
+        );
     }
 }
 
@@ -42,9 +55,17 @@ fn taken(title: &str, keys: &[&str]) -> String {
     for example in EXAMPLES {
         desk.write(&format!("gears/{}.toml", example.name), example.text);
     }
-    desk.recents = vec![desk.path("gears/zhou-chen-2014.toml"), desk.path("gears/gone.toml")];
+    desk.recents = vec![
+        desk.path("gears/zhou-chen-2014.toml"),
+        desk.path("gears/gone.toml"),
+    ];
     let path = desk.path("gears/zhou-chen-2014.toml");
-    desk.app = tipstrike::tui::update::opened(Document::read(&path).expect("a good case"), Some(path), Look::FULL, LARGE);
+    desk.app = tipstrike::tui::update::opened(
+        Document::read(&path).expect("a good case"),
+        Some(path),
+        Look::FULL,
+        LARGE,
+    );
     desk.keys(keys);
     // The folder of a test has another name each time.
     let folder = desk.folder.path().display().to_string();
@@ -55,7 +76,10 @@ fn taken(title: &str, keys: &[&str]) -> String {
 /// A screen as SVG: a text a row, cut where the style changes, each piece at its column.
 fn picture(title: &str, buffer: &Buffer) -> String {
     let (columns, rows) = (buffer.area.width, buffer.area.height);
-    let (width, height) = (f64::from(columns) * CELL.0 + 2.0 * MARGIN, f64::from(rows) * CELL.1 + 2.0 * MARGIN);
+    let (width, height) = (
+        f64::from(columns) * CELL.0 + 2.0 * MARGIN,
+        f64::from(rows) * CELL.1 + 2.0 * MARGIN,
+    );
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.1} {height:.1}\" font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\" font-size=\"14\">\n\
          <title>{title}</title>\n<rect width=\"100%\" height=\"100%\" rx=\"8\" fill=\"#1b1f24\"/>\n"
@@ -73,7 +97,10 @@ fn picture(title: &str, buffer: &Buffer) -> String {
 /// One piece of a row in one style.
 fn add(svg: &mut String, piece: &[Cell], column: usize, row: usize) {
     let text: String = piece.iter().map(Cell::symbol).collect();
-    let (x, y) = (MARGIN + column as f64 * CELL.0, MARGIN + row as f64 * CELL.1);
+    let (x, y) = (
+        MARGIN + column as f64 * CELL.0,
+        MARGIN + row as f64 * CELL.1,
+    );
     let (fill, bold, reversed) = look(&piece[0]);
     let length = piece.len() as f64 * CELL.0;
     if reversed {
@@ -84,13 +111,24 @@ fn add(svg: &mut String, piece: &[Cell], column: usize, row: usize) {
     let ink = if reversed { "#1b1f24" } else { fill };
     let weight = if bold { " font-weight=\"bold\"" } else { "" };
     let baseline = y + 0.75 * CELL.1;
-    let dots: String = text.chars().enumerate().flat_map(|(at, cell)| dots(cell, x + at as f64 * CELL.0, y)).collect();
+    let dots: String = text
+        .chars()
+        .enumerate()
+        .flat_map(|(at, cell)| dots(cell, x + at as f64 * CELL.0, y))
+        .collect();
     if !dots.is_empty() {
-        writeln!(svg, "<path d=\"{dots}\" stroke=\"{ink}\" stroke-width=\"2\" stroke-linecap=\"round\"/>").expect("room");
+        writeln!(
+            svg,
+            "<path d=\"{dots}\" stroke=\"{ink}\" stroke-width=\"2\" stroke-linecap=\"round\"/>"
+        )
+        .expect("room");
     }
     let text = text.replace(is_dotted, " ");
     for (start, words) in stretches(&text) {
-        let (x, length) = (x + start as f64 * CELL.0, words.chars().count() as f64 * CELL.0);
+        let (x, length) = (
+            x + start as f64 * CELL.0,
+            words.chars().count() as f64 * CELL.0,
+        );
         let words = words.replace('&', "&amp;").replace('<', "&lt;");
         writeln!(svg, "<text x=\"{x:.1}\" y=\"{baseline:.1}\" textLength=\"{length:.1}\" fill=\"{ink}\"{weight}>{words}</text>")
             .expect("room");
@@ -104,16 +142,36 @@ fn is_dotted(cell: char) -> bool {
 
 /// The dots of a cell of Braille at this place.
 fn dots(cell: char, x: f64, y: f64) -> Vec<String> {
-    const PLACES: [(u8, u8); 8] = [(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (0, 3), (1, 3)];
-    let set = if is_dotted(cell) { u32::from(cell) - 0x2800 } else { 0 };
+    const PLACES: [(u8, u8); 8] = [
+        (0, 0),
+        (0, 1),
+        (0, 2),
+        (1, 0),
+        (1, 1),
+        (1, 2),
+        (0, 3),
+        (1, 3),
+    ];
+    let set = if is_dotted(cell) {
+        u32::from(cell) - 0x2800
+    } else {
+        0
+    };
     let at = |(column, row): (u8, u8)| {
-        let (x, y) = (x + (0.25 + 0.5 * f64::from(column)) * CELL.0, y + (0.125 + 0.25 * f64::from(row)) * CELL.1);
+        let (x, y) = (
+            x + (0.25 + 0.5 * f64::from(column)) * CELL.0,
+            y + (0.125 + 0.25 * f64::from(row)) * CELL.1,
+        );
         format!("M{x:.1} {y:.1}h0")
     };
-    (0..8).filter(|bit| set >> bit & 1 == 1).map(|bit| at(PLACES[bit])).collect()
+    (0..8)
+        .filter(|bit| set >> bit & 1 == 1)
+        .map(|bit| at(PLACES[bit]))
+        .collect()
 }
 
-/// What stands between gaps of two blanks and more, each with its column, so that columns stay columns in any font.
+/// What stands between gaps of two blanks and more, each with its column, so that columns stay
+/// columns in any font.
 fn stretches(text: &str) -> Vec<(usize, &str)> {
     let mut column = 0;
     let mut found = Vec::new();
@@ -140,5 +198,9 @@ fn look(cell: &Cell) -> (&'static str, bool, bool) {
         _ if dim => "#7f8794",
         _ => "#d7dae0",
     };
-    (fill, cell.modifier.contains(Modifier::BOLD), cell.modifier.contains(Modifier::REVERSED))
+    (
+        fill,
+        cell.modifier.contains(Modifier::BOLD),
+        cell.modifier.contains(Modifier::REVERSED),
+    )
 }

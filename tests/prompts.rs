@@ -1,10 +1,16 @@
-//! What lies over the panes and stands around them, as a person sees it: at 80x24, at 140x45 and in ASCII.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+//! What lies over the panes and stands around them, as a person sees it: at 80x24, at 140x45 and in
+//! ASCII.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that cannot go on says why"
+)]
 #![cfg(feature = "tui")]
 
-mod desk;
+mod harness;
 
-use desk::{Desk, LARGE, SMALL, TABLE_1, without_folder};
+use harness::{Desk, LARGE, SMALL, TABLE_1, without_folder};
 use insta::assert_snapshot;
 use tipstrike::case::Change;
 use tipstrike::tui::actions::Action;
@@ -48,15 +54,25 @@ const SCREENS: &[(&str, Way)] = &[
     ("converted", |desk| {
         desk.fill("operation.power", "20 hp");
     }),
-    ("progress", |desk| desk.act(Action::Progress(Some(Progress { what: "trade".to_owned(), part: 0.37 })))),
+    ("progress", |desk| {
+        desk.act(Action::Progress(Some(Progress {
+            what: "trade".to_owned(),
+            part: 0.37,
+        })))
+    }),
     ("changed_on_disk", |desk| {
         desk.fill("operation.speed", "1500 rpm");
-        desk.write("case.toml", &TABLE_1.replace("2000 rpm", "2100 rpm").replace("\"5 mm\"", "\"6 mm\""));
+        desk.write(
+            "case.toml",
+            &TABLE_1
+                .replace("2000 rpm", "2100 rpm")
+                .replace("\"5 mm\"", "\"6 mm\""),
+        );
         desk.keys(&["Ctrl-S"]);
     }),
     ("exists", |desk| {
         let taken = desk.write("taken.toml", TABLE_1);
-        desk.keys(&["F2", "Ctrl-U", desk::name(&taken), "Enter"]);
+        desk.keys(&["F2", "Ctrl-U", harness::name(&taken), "Enter"]);
     }),
     ("save_as", |desk| {
         desk.keys(&["F2", "Home", "Ctrl-K", "~/mine.toml"]);
@@ -68,7 +84,11 @@ const SCREENS: &[(&str, Way)] = &[
     }),
     ("held", |desk| {
         let path = desk.path("case.toml");
-        desk.act(Action::Saved(path, Next::Stay, Err(SaveFault::Held(HOLDER.to_owned()))));
+        desk.act(Action::Saved(
+            path,
+            Next::Stay,
+            Err(SaveFault::Held(HOLDER.to_owned())),
+        ));
     }),
     ("recovery", |desk| {
         let change = |key: &str, from: &str, to: &str| Change {
@@ -76,9 +96,19 @@ const SCREENS: &[(&str, Way)] = &[
             from: Some(from.to_owned()),
             to: Some(to.to_owned()),
         };
-        let changes = vec![change("operation.speed", "2000 rpm", "1500 rpm"), change("driven.tip_relief", "0 um", "48 um")];
-        let offer = Offer { journal: desk.path("journal"), age: "3 min".to_owned(), changes, is_file_changed: true };
-        desk.app.prompts.push(Prompt::Ask(Question::recover("case.toml", offer)));
+        let changes = vec![
+            change("operation.speed", "2000 rpm", "1500 rpm"),
+            change("driven.tip_relief", "0 um", "48 um"),
+        ];
+        let offer = Offer {
+            journal: desk.path("journal"),
+            age: "3 min".to_owned(),
+            changes,
+            is_file_changed: true,
+        };
+        desk.app
+            .prompts
+            .push(Prompt::Ask(Question::recover("case.toml", offer)));
     }),
     ("quit", |desk| {
         desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-Q"]);
@@ -102,14 +132,30 @@ const SCREENS: &[(&str, Way)] = &[
     ("refused", |desk| {
         desk.fill("driven.addendum", "1.9");
     }),
-    ("in_place_of", |desk| desk.app.tab.in_place_of = Some("gone.toml".into())),
+    ("in_place_of", |desk| {
+        desk.app.tab.in_place_of = Some("gone.toml".into())
+    }),
 ];
 
 #[test]
 fn the_screens() {
     for (name, way) in SCREENS {
-        for (size, look) in [("80x24", Look::FULL), ("140x45", Look::FULL), ("ascii", Look { theme: &MONO, ascii: true })] {
-            let mut desk = Desk::on(if size == "140x45" { LARGE } else { SMALL }, "case.toml", TABLE_1);
+        for (size, look) in [
+            ("80x24", Look::FULL),
+            ("140x45", Look::FULL),
+            (
+                "ascii",
+                Look {
+                    theme: &MONO,
+                    ascii: true,
+                },
+            ),
+        ] {
+            let mut desk = Desk::on(
+                if size == "140x45" { LARGE } else { SMALL },
+                "case.toml",
+                TABLE_1,
+            );
             desk.app.look = look;
             way(&mut desk);
             let screen = without_folder(&desk);
@@ -130,7 +176,11 @@ fn a_name_that_is_typed_takes_the_place_of_the_one_that_is_offered() {
     ] {
         let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
         desk.keys(&["F2"]).keys(keys).keys(&["Enter"]);
-        assert!(desk.path(file).is_file() && desk.shows("saved "), "{keys:?} {file}\n{}", desk.screen());
+        assert!(
+            desk.path(file).is_file() && desk.shows("saved "),
+            "{keys:?} {file}\n{}",
+            desk.screen()
+        );
     }
 }
 
@@ -139,9 +189,22 @@ fn what_would_be_written_over_is_told() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.write("other.toml", &TABLE_1.replace("2000 rpm", "900 rpm"));
     desk.keys(&["F2", "other", "Enter"]);
-    assert!(desk.shows("speed: 900 rpm in the file, 2000 rpm here"), "{}", desk.screen());
-    desk.keys(&["Esc", "Ctrl-U", desk::name(&desk.path("case.toml")), "Enter"]);
-    assert!(desk.shows("saved "), "its own file is not asked about: {}", desk.screen());
+    assert!(
+        desk.shows("speed: 900 rpm in the file, 2000 rpm here"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&[
+        "Esc",
+        "Ctrl-U",
+        harness::name(&desk.path("case.toml")),
+        "Enter",
+    ]);
+    assert!(
+        desk.shows("saved "),
+        "its own file is not asked about: {}",
+        desk.screen()
+    );
 }
 
 #[test]
@@ -150,5 +213,9 @@ fn an_angle_that_is_refused_gives_way_to_what_is_typed_next() {
     desk.keys(&["Esc", "a", "0,5", "Enter"]);
     assert!(desk.shows("write 0.5, not 0,5"), "{}", desk.screen());
     desk.keys(&["0.5", "Enter"]);
-    assert!(desk.app.prompts.is_empty() && desk.shows("0.5000 deg of the driver before E"), "{}", desk.screen());
+    assert!(
+        desk.app.prompts.is_empty() && desk.shows("0.5000 deg of the driver before E"),
+        "{}",
+        desk.screen()
+    );
 }

@@ -1,5 +1,11 @@
-//! The built program on a real terminal: it types, saves, leaves, and gives the terminal back as it found it.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+//! The built program on a real terminal: it types, saves, leaves, and gives the terminal back as it
+//! found it.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that cannot go on says why"
+)]
 #![cfg(all(feature = "cli", feature = "tui"))]
 
 mod tty;
@@ -23,12 +29,23 @@ fn it_types_saves_quits_and_gives_the_terminal_back() {
     tty.type_in("\x11");
     assert_eq!(tty.wait_for_end().exit_code(), 0);
     tty.assert_restored();
-    assert_eq!(fs::read_to_string(tty.case()).expect("it is there"), TABLE_1.replace("\"5 mm\"", "\"1 in\""));
+    assert_eq!(
+        fs::read_to_string(tty.case()).expect("it is there"),
+        TABLE_1.replace("\"5 mm\"", "\"1 in\"")
+    );
 }
 
 #[test]
 fn a_signal_to_end_gives_the_terminal_back() {
-    for (signal, code) in [("TERM", 15), ("HUP", 1), ("INT", 2), ("QUIT", 3), ("USR1", 10), ("USR2", 12), ("XCPU", 24)] {
+    for (signal, code) in [
+        ("TERM", 15),
+        ("HUP", 1),
+        ("INT", 2),
+        ("QUIT", 3),
+        ("USR1", 10),
+        ("USR2", 12),
+        ("XCPU", 24),
+    ] {
         let mut tty = Tty::open();
         tty.wait_for("Corner contact");
         tty.send_signal(signal);
@@ -42,11 +59,15 @@ fn it_suspends_and_comes_back() {
     let mut tty = Tty::open();
     tty.wait_for("Corner contact");
     tty.send_signal("TSTP");
-    tty.wait_until("the alternate screen to be left", |tty| !tty.screen().alternate_screen());
+    tty.wait_until("the alternate screen to be left", |tty| {
+        !tty.screen().alternate_screen()
+    });
     tty.wait_until("it to stop", |tty| tty.state() == Some('T'));
     tty.assert_restored();
     tty.send_signal("CONT");
-    tty.wait_until("it to come back", |tty| tty.screen().alternate_screen() && tty.shows("Corner contact"));
+    tty.wait_until("it to come back", |tty| {
+        tty.screen().alternate_screen() && tty.shows("Corner contact")
+    });
     tty.type_in("\x11");
     assert_eq!(tty.wait_for_end().exit_code(), 0);
     tty.assert_restored();
@@ -70,7 +91,9 @@ fn a_flood_of_keys_leaves_it_responsive() {
     tty.wait_for("777777");
     tty.type_in("\x15");
     tty.type_in("5 mm");
-    tty.wait_until("the end of the flood", |tty| tty.shows("5 mm") && !tty.shows("*unsaved*"));
+    tty.wait_until("the end of the flood", |tty| {
+        tty.shows("5 mm") && !tty.shows("*unsaved*")
+    });
     tty.type_in("\x11");
     assert_eq!(tty.wait_for_end().exit_code(), 0);
 }
@@ -90,18 +113,27 @@ fn a_paste_presses_nothing() {
 
 #[test]
 fn a_terminal_without_unicode_gets_ascii_and_no_color_no_colour() {
-    let mut tty = Launch::on_table_1().variable("TERM", "linux").variable("NO_COLOR", "1").start();
+    let mut tty = Launch::on_table_1()
+        .variable("TERM", "linux")
+        .variable("NO_COLOR", "1")
+        .start();
     tty.wait_for("quit");
     let screen = tty.screen();
     assert!(screen.contents().is_ascii(), "{}", screen.contents());
     let cells = (0..24).flat_map(|row| (0..80).filter_map(move |column| screen.cell(row, column)));
     let (mut bold, mut inverse) = (0, 0);
     for cell in cells {
-        assert_eq!((cell.fgcolor(), cell.bgcolor()), (vt100::Color::Default, vt100::Color::Default));
+        assert_eq!(
+            (cell.fgcolor(), cell.bgcolor()),
+            (vt100::Color::Default, vt100::Color::Default)
+        );
         bold += usize::from(cell.bold());
         inverse += usize::from(cell.inverse());
     }
-    assert!(bold > 0 && inverse > 0, "without colours, bold and reverse remain");
+    assert!(
+        bold > 0 && inverse > 0,
+        "without colours, bold and reverse remain"
+    );
     tty.type_in("\x11");
     tty.wait_for_end();
 }
@@ -157,7 +189,10 @@ fn without_a_terminal_it_names_the_headless_command() {
         let words = String::from_utf8(output.stderr).expect("words");
         assert_eq!(output.status.code(), Some(2), "{term:?}");
         assert!(output.stdout.is_empty(), "{term:?}");
-        assert!(words.contains("tipstrike solve") && words.lines().count() == 1, "{term:?}: {words}");
+        assert!(
+            words.contains("tipstrike solve") && words.lines().count() == 1,
+            "{term:?}: {words}"
+        );
     }
 }
 

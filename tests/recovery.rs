@@ -1,5 +1,11 @@
-//! What is typed survives: kept in time, offered again, never trusted when damaged; and one session writes a case.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+//! What is typed survives: kept in time, offered again, never trusted when damaged; and one session
+//! writes a case.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that cannot go on says why"
+)]
 #![allow(clippy::print_stdout, reason = "times are told, not held")]
 #![cfg(all(feature = "cli", feature = "tui"))]
 
@@ -15,8 +21,8 @@ use ratatui::layout::Size;
 use tipstrike::case::journal::Journal;
 use tipstrike::case::{Document, fields};
 use tipstrike::tui::app::App;
-use tipstrike::tui::store::chest::Chest;
-use tipstrike::tui::store::keeper::Keeper;
+use tipstrike::tui::store::autosave::Autosave;
+use tipstrike::tui::store::journal_writer::JournalWriter;
 use tipstrike::tui::theme::Look;
 
 use tty::{Launch, PATIENCE, TABLE_1, Tty, has_faults_on_demand, is_there, journals, stat};
@@ -39,124 +45,160 @@ fn again(tty: &Tty) -> Tty {
 
 fn wait_for_journal(tty: &mut Tty, text: &str) {
     let state = tty.folder.path().to_owned();
-    let is_kept =
-        |state: &Path| journals(state).iter().any(|path| fs::read_to_string(path).is_ok_and(|kept| kept.contains(text)));
+    let is_kept = |state: &Path| {
+        journals(state)
+            .iter()
+            .any(|path| fs::read_to_string(path).is_ok_and(|kept| kept.contains(text)))
+    };
     tty.wait_until(&format!("a journal with {text:?}"), |_| is_kept(&state));
 }
 
 /// A case in memory, and what keeps it.
-fn bench(folder: &Path) -> (App, Keeper, Arc<Chest>) {
+fn bench(folder: &Path) -> (App, Autosave, Arc<JournalWriter>) {
     let path = folder.join("case.toml");
     fs::write(&path, TABLE_1).expect("room on the disk");
     let document = Document::read(&path).expect("a good case");
     let app = tipstrike::tui::update::opened(document, Some(path), Look::FULL, Size::new(80, 24));
-    let chest = Chest::open(|warning| panic!("{warning}")).expect("a thread");
-    let keeper = Keeper::new(Some(&folder.join("tipstrike")), Arc::clone(&chest));
-    (app, keeper, chest)
+    let journal_writer = JournalWriter::open(|warning| panic!("{warning}")).expect("a thread");
+    let autosave = Autosave::new(Some(&folder.join("tipstrike")), Arc::clone(&journal_writer));
+    (app, autosave, journal_writer)
 }
 
 fn write(app: &mut App, key: &str, text: &str) {
-    app.tab.case.write(fields::index_of(key).expect("a field"), text);
+    app.tab
+        .case
+        .write(fields::index_of(key).expect("a field"), text);
 }
 
 #[test]
 fn edits_are_kept_a_second_after_the_last_and_every_two_while_typing() {
     let folder = tempfile::tempdir().expect("a folder");
-    let (mut app, mut keeper, _chest) = bench(folder.path());
+    let (mut app, mut autosave, _chest) = bench(folder.path());
     let start = Instant::now();
-    assert!(keeper.follow(&app.sheets(), start).is_empty());
-    assert_eq!(keeper.deadline(), None, "nothing to keep wakes nobody");
+    assert!(autosave.follow(&app.sheets(), start).is_empty());
+    assert_eq!(autosave.deadline(), None, "nothing to keep wakes nobody");
     write(&mut app, "pair.module", "6 mm");
-    keeper.follow(&app.sheets(), start);
-    assert!(keeper.deadline().is_some_and(|deadline| deadline <= start + SECOND));
+    autosave.follow(&app.sheets(), start);
+    assert!(
+        autosave
+            .deadline()
+            .is_some_and(|deadline| deadline <= start + SECOND)
+    );
     for tenth in 1..40 {
         let now = start + SECOND / 10 * tenth;
         write(&mut app, "pair.module", &format!("6.{tenth} mm"));
-        keeper.follow(&app.sheets(), now);
-        let deadline = keeper.deadline().expect("there is something to keep");
-        assert!(deadline <= start + 2 * SECOND && deadline <= now + SECOND, "{tenth}");
+        autosave.follow(&app.sheets(), now);
+        let deadline = autosave.deadline().expect("there is something to keep");
+        assert!(
+            deadline <= start + 2 * SECOND && deadline <= now + SECOND,
+            "{tenth}"
+        );
     }
-    keeper.keep_if_due(start + 2 * SECOND);
-    assert_eq!(keeper.deadline(), None, "what is kept wakes nobody");
-    keeper.follow(&app.sheets(), start + 3 * SECOND);
-    assert_eq!(keeper.deadline(), None, "what is kept is not kept again");
-    keeper.end();
+    autosave.keep_if_due(start + 2 * SECOND);
+    assert_eq!(autosave.deadline(), None, "what is kept wakes nobody");
+    autosave.follow(&app.sheets(), start + 3 * SECOND);
+    assert_eq!(autosave.deadline(), None, "what is kept is not kept again");
+    autosave.end();
 }
 
 #[test]
 fn a_journal_is_there_as_long_as_there_are_unsaved_edits() {
     let folder = tempfile::tempdir().expect("a folder");
-    let (mut app, mut keeper, _chest) = bench(folder.path());
-    keeper.follow(&app.sheets(), Instant::now());
+    let (mut app, mut autosave, _chest) = bench(folder.path());
+    autosave.follow(&app.sheets(), Instant::now());
     write(&mut app, "pair.module", "no \u{1b}[2J number");
-    keeper.follow(&app.sheets(), Instant::now());
-    keeper.keep();
+    autosave.follow(&app.sheets(), Instant::now());
+    autosave.keep();
     let path = journals(folder.path()).pop().expect("a journal");
-    let journal = Journal::from_text(&fs::read_to_string(path).expect("it is there")).expect("whole");
-    assert_eq!(journal.case.as_deref(), Some(folder.path().join("case.toml").as_path()));
+    let journal =
+        Journal::from_text(&fs::read_to_string(path).expect("it is there")).expect("whole");
+    assert_eq!(
+        journal.case.as_deref(),
+        Some(folder.path().join("case.toml").as_path())
+    );
     assert_eq!(journal.changes.len(), 1);
-    assert_eq!(journal.changes[0].to.as_deref(), Some("no \u{1b}[2J number"));
+    assert_eq!(
+        journal.changes[0].to.as_deref(),
+        Some("no \u{1b}[2J number")
+    );
     app.tab.case = app.saved.clone();
-    keeper.follow(&app.sheets(), Instant::now());
-    keeper.keep();
+    autosave.follow(&app.sheets(), Instant::now());
+    autosave.keep();
     assert!(journals(folder.path()).is_empty());
     write(&mut app, "pair.module", "6 mm");
-    keeper.follow(&app.sheets(), Instant::now());
-    keeper.end();
-    assert!(journals(folder.path()).is_empty(), "who leaves on purpose leaves nothing");
-    assert_eq!(fs::read_dir(folder.path().join("tipstrike/sessions")).map(Iterator::count).ok(), Some(0));
+    autosave.follow(&app.sheets(), Instant::now());
+    autosave.end();
+    assert!(
+        journals(folder.path()).is_empty(),
+        "who leaves on purpose leaves nothing"
+    );
+    assert_eq!(
+        fs::read_dir(folder.path().join("tipstrike/sessions"))
+            .map(Iterator::count)
+            .ok(),
+        Some(0)
+    );
     assert!(!folder.path().join(".case.toml.tipstrike").exists());
 }
 
 #[test]
 fn a_journal_that_could_not_be_written_is_written_as_soon_as_it_can_be() {
     let folder = tempfile::tempdir().expect("a folder");
-    let (mut app, mut keeper, chest) = bench(folder.path());
-    keeper.follow(&app.sheets(), Instant::now());
+    let (mut app, mut autosave, journal_writer) = bench(folder.path());
+    autosave.follow(&app.sheets(), Instant::now());
     write(&mut app, "pair.module", "6 mm");
-    keeper.follow(&app.sheets(), Instant::now());
+    autosave.follow(&app.sheets(), Instant::now());
     let place = folder.path().join("tipstrike/journals");
     fs::remove_dir_all(&place).expect("our own folder");
-    assert!(chest.write(false).is_err() && chest.is_needed());
+    assert!(journal_writer.write(false).is_err() && journal_writer.is_needed());
     fs::create_dir(&place).expect("our own folder");
-    assert!(chest.write(false).is_ok());
+    assert!(journal_writer.write(false).is_ok());
     let kept = journals(folder.path()).pop().expect("a journal");
     assert!(fs::read_to_string(kept).is_ok_and(|text| text.contains("6 mm")));
-    keeper.end();
+    autosave.end();
 }
 
 #[test]
 fn a_journal_whose_edits_are_in_the_form_stays_until_they_are_kept_anew() {
     let folder = tempfile::tempdir().expect("a folder");
-    let (mut app, mut keeper, _chest) = bench(folder.path());
-    keeper.follow(&app.sheets(), Instant::now());
+    let (mut app, mut autosave, _chest) = bench(folder.path());
+    autosave.follow(&app.sheets(), Instant::now());
     write(&mut app, "pair.module", "6 mm");
-    keeper.follow(&app.sheets(), Instant::now());
-    let (place, old) = (folder.path().join("tipstrike/journals"), folder.path().join("old.toml"));
+    autosave.follow(&app.sheets(), Instant::now());
+    let (place, old) = (
+        folder.path().join("tipstrike/journals"),
+        folder.path().join("old.toml"),
+    );
     fs::remove_dir_all(&place).expect("our own folder");
     fs::write(&old, "the edits of an earlier session").expect("room on the disk");
-    keeper.adopt(old.clone());
-    keeper.follow(&app.sheets(), Instant::now());
+    autosave.adopt(old.clone());
+    autosave.follow(&app.sheets(), Instant::now());
     assert!(old.exists(), "nothing else holds them");
     fs::create_dir(&place).expect("our own folder");
-    keeper.follow(&app.sheets(), Instant::now());
+    autosave.follow(&app.sheets(), Instant::now());
     assert!(!old.exists() && journals(folder.path()).len() == 1);
-    keeper.end();
+    autosave.end();
 }
 
 #[test]
 fn edits_that_cannot_be_kept_are_told() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("tipstrike"), "no folder").expect("room on the disk");
-    let (mut app, mut keeper, _chest) = bench(folder.path());
-    keeper.follow(&app.sheets(), Instant::now());
+    let (mut app, mut autosave, _chest) = bench(folder.path());
+    autosave.follow(&app.sheets(), Instant::now());
     write(&mut app, "pair.module", "6 mm");
-    let told = keeper.follow(&app.sheets(), Instant::now());
-    assert!(matches!(&told[..], [Err(text)] if text.contains("save soon")), "{told:?}");
-    drop(keeper);
-    let mut homeless = Keeper::new(None, Arc::new(Chest::default()));
+    let told = autosave.follow(&app.sheets(), Instant::now());
+    assert!(
+        matches!(&told[..], [Err(text)] if text.contains("save soon")),
+        "{told:?}"
+    );
+    drop(autosave);
+    let mut homeless = Autosave::new(None, Arc::new(JournalWriter::default()));
     let told = homeless.follow(&app.sheets(), Instant::now());
-    assert!(matches!(&told[..], [Ok(claim)] if claim.notices[0].contains("HOME")), "{told:?}");
+    assert!(
+        matches!(&told[..], [Ok(claim)] if claim.notices[0].contains("HOME")),
+        "{told:?}"
+    );
 }
 
 #[test]
@@ -190,7 +232,11 @@ fn kill_9_after_two_seconds_loses_nothing() {
     tty.wait_for_end();
     let mut next = again(&tty);
     next.wait_for(OFFER);
-    assert!(next.shows("module: 5 mm -> 1.25 in"), "{}", next.screen().contents());
+    assert!(
+        next.shows("module: 5 mm -> 1.25 in"),
+        "{}",
+        next.screen().contents()
+    );
     assert!(!next.shows("*unsaved*"), "nothing is taken over unasked");
     next.type_in("\r");
     next.wait_for("*unsaved*");
@@ -200,7 +246,10 @@ fn kill_9_after_two_seconds_loses_nothing() {
     next.type_in("\x19\x13");
     next.wait_for("saved ");
     next.quit();
-    assert_eq!(fs::read_to_string(next.case()).expect("it is there"), TABLE_1.replace("\"5 mm\"", "\"1.25 in\""));
+    assert_eq!(
+        fs::read_to_string(next.case()).expect("it is there"),
+        TABLE_1.replace("\"5 mm\"", "\"1.25 in\"")
+    );
     assert!(journals(next.folder.path()).is_empty());
 }
 
@@ -212,16 +261,26 @@ fn a_signal_keeps_what_was_typed_just_before_it() {
         tty.wait_for("1.25 in");
         tty.send_signal(signal);
         tty.wait_for_end();
-        assert!(tty.shows("unsaved edits are kept"), "{signal}:\n{}", tty.screen().contents());
+        assert!(
+            tty.shows("unsaved edits are kept"),
+            "{signal}:\n{}",
+            tty.screen().contents()
+        );
         tty.assert_restored();
         let mut next = again(&tty);
         next.wait_for(OFFER);
-        assert!(next.shows("5 mm ->  1.25 in") || next.shows("1.25 in"), "{signal}");
+        assert!(
+            next.shows("5 mm ->  1.25 in") || next.shows("1.25 in"),
+            "{signal}"
+        );
         // Refused, they are gone for good.
         next.type_in("d\x11");
         assert_eq!(next.wait_for_end().exit_code(), 0, "{signal}");
         assert!(journals(next.folder.path()).is_empty(), "{signal}");
-        assert_eq!(fs::read_to_string(next.case()).expect("it is there"), TABLE_1);
+        assert_eq!(
+            fs::read_to_string(next.case()).expect("it is there"),
+            TABLE_1
+        );
     }
 }
 
@@ -239,7 +298,9 @@ fn a_workbench_that_is_stuck_is_ended_by_a_hang_up_without_loss_and_without_work
     if !has_faults_on_demand() {
         return;
     }
-    let mut tty = Launch::on_table_1().variable("TIPSTRIKE_FAULT", "stuck screen").start();
+    let mut tty = Launch::on_table_1()
+        .variable("TIPSTRIKE_FAULT", "stuck screen")
+        .start();
     tty.wait_for("Corner contact");
     tty.type_in("\x151.25 in");
     tty.wait_for("1.25 in");
@@ -258,16 +319,24 @@ fn a_terminal_that_goes_without_a_signal_is_noticed() {
         return;
     }
     for fault in ["", "stuck screen"] {
-        // In a session of its own the terminal is not its terminal, whose end then is told to nobody.
-        let launch = Launch::on_table_1().through(&["setsid", "--wait"]).variable("TIPSTRIKE_FAULT", fault);
+        // In a session of its own the terminal is not its terminal, whose end then is told to
+        // nobody.
+        let launch = Launch::on_table_1()
+            .through(&["setsid", "--wait"])
+            .variable("TIPSTRIKE_FAULT", fault);
         let mut tty = launch.start();
         tty.wait_for("Corner contact");
         tty.type_in("\x151.25 in");
         tty.wait_for("1.25 in");
         tty.type_in("\x0c");
         tty.settle(Duration::from_millis(100));
-        let children = fs::read_to_string(format!("/proc/{0}/task/{0}/children", tty.id())).expect("it runs");
-        let child = children.split_whitespace().next().and_then(|child| child.parse().ok()).expect("a child");
+        let children =
+            fs::read_to_string(format!("/proc/{0}/task/{0}/children", tty.id())).expect("it runs");
+        let child = children
+            .split_whitespace()
+            .next()
+            .and_then(|child| child.parse().ok())
+            .expect("a child");
         let kept = hang_up_of(&mut tty, child);
         assert!(kept.contains("1.25 in"), "{fault}: {kept}");
     }
@@ -280,9 +349,16 @@ fn hang_up(tty: &mut Tty) -> String {
 }
 
 fn hang_up_of(tty: &mut Tty, id: u32) -> String {
-    let ticks = |id| stat(id).map_or(0, |words| words[11].parse::<u64>().unwrap_or(0) + words[12].parse::<u64>().unwrap_or(0));
+    let ticks = |id| {
+        stat(id).map_or(0, |words| {
+            words[11].parse::<u64>().unwrap_or(0) + words[12].parse::<u64>().unwrap_or(0)
+        })
+    };
     let before = ticks(id);
-    assert!(journals(tty.folder.path()).is_empty(), "nothing is kept yet");
+    assert!(
+        journals(tty.folder.path()).is_empty(),
+        "nothing is kept yet"
+    );
     let broken = Instant::now();
     tty.hang_up();
     let (mut kept, mut burnt) = (None, before);
@@ -294,12 +370,26 @@ fn hang_up_of(tty: &mut Tty, id: u32) -> String {
         std::thread::sleep(Duration::from_millis(2));
     }
     let gone = broken.elapsed();
-    println!("kept after {:.1?}, gone after {gone:.1?}, {} ticks of 10 ms", kept.unwrap_or(gone), burnt - before);
+    println!(
+        "kept after {:.1?}, gone after {gone:.1?}, {} ticks of 10 ms",
+        kept.unwrap_or(gone),
+        burnt - before
+    );
     // The promise is 0.2 s and 1 s; a machine that is busy may take a while to wake it.
-    assert!(kept.unwrap_or(gone) < SECOND / 2, "its edits are kept after {kept:?}");
+    assert!(
+        kept.unwrap_or(gone) < SECOND / 2,
+        "its edits are kept after {kept:?}"
+    );
     assert!(gone < 5 * SECOND, "it stays for {gone:.1?}");
-    assert!(burnt - before <= 8, "it burns {} ticks on its way out", burnt - before);
-    journals(tty.folder.path()).first().and_then(|path| fs::read_to_string(path).ok()).unwrap_or_default()
+    assert!(
+        burnt - before <= 8,
+        "it burns {} ticks on its way out",
+        burnt - before
+    );
+    journals(tty.folder.path())
+        .first()
+        .and_then(|path| fs::read_to_string(path).ok())
+        .unwrap_or_default()
 }
 
 #[test]
@@ -344,7 +434,11 @@ fn a_file_that_was_changed_since_shows_what_would_change_now() {
     let mut next = again(&tty);
     next.wait_for(OFFER);
     next.wait_for("changed since");
-    assert!(next.shows("module: 7 mm -> 6 mm"), "{}", next.screen().contents());
+    assert!(
+        next.shows("module: 7 mm -> 6 mm"),
+        "{}",
+        next.screen().contents()
+    );
     next.type_in("l");
     next.quit();
     // What the file says by now is nothing to offer.
@@ -382,9 +476,16 @@ fn a_damaged_journal_is_set_aside_told_and_never_trusted_nor_deleted() {
         assert!(!next.shows(OFFER) && !next.shows("9 mm"));
         next.quit();
         assert!(!path.exists());
-        let aside: Vec<_> = fs::read_dir(path.parent().expect("a folder")).expect("a folder").flatten().collect();
+        let aside: Vec<_> = fs::read_dir(path.parent().expect("a folder"))
+            .expect("a folder")
+            .flatten()
+            .collect();
         assert_eq!(aside.len(), count + 1, "none is deleted");
-        assert!(aside.iter().any(|entry| fs::read(entry.path()).is_ok_and(|bytes| bytes == text.as_bytes())));
+        assert!(
+            aside
+                .iter()
+                .any(|entry| fs::read(entry.path()).is_ok_and(|bytes| bytes == text.as_bytes()))
+        );
     }
     // Bytes that are no text, and what is no file.
     fs::write(&path, b"\xff\xfe").expect("room on the disk");
@@ -404,7 +505,11 @@ fn a_second_session_reads_names_the_first_and_may_save_elsewhere() {
     second.wait_for("*read-only*");
     second.wait_for(&format!("process {}", first.id()));
     let host = fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
-    assert!(second.shows(&format!("on {} for ", host.trim())), "{}", second.screen().contents());
+    assert!(
+        second.shows(&format!("on {} for ", host.trim())),
+        "{}",
+        second.screen().contents()
+    );
     second.type_in("\x156 mm");
     wait_for_journal(&mut second, "6 mm");
     assert!(second.shows("*unsaved*"), "{}", second.screen().contents());
@@ -423,15 +528,26 @@ fn a_second_session_reads_names_the_first_and_may_save_elsewhere() {
     second.type_in(format!("\x1bs\x15{}\r", first.case().display()));
     second.wait_for("Open elsewhere");
     second.type_in("c\x1b");
-    second.wait_until("the questions to go", |tty| !tty.shows("Open elsewhere") && !tty.shows("Save as"));
+    second.wait_until("the questions to go", |tty| {
+        !tty.shows("Open elsewhere") && !tty.shows("Save as")
+    });
     first.type_in("\x157 mm\x13");
     first.wait_for("saved ");
     second.quit();
     first.quit();
-    let read = |name: &str| fs::read_to_string(first.folder.path().join(name)).expect("it is there");
+    let read =
+        |name: &str| fs::read_to_string(first.folder.path().join(name)).expect("it is there");
     assert!(read("case.toml").contains("7 mm") && read("other.toml").contains("6 mm"));
-    let left: Vec<_> = fs::read_dir(first.folder.path()).expect("a folder").flatten().map(|entry| entry.file_name()).collect();
-    assert!(left.iter().all(|name| !name.to_string_lossy().ends_with(".tipstrike")), "{left:?}");
+    let left: Vec<_> = fs::read_dir(first.folder.path())
+        .expect("a folder")
+        .flatten()
+        .map(|entry| entry.file_name())
+        .collect();
+    assert!(
+        left.iter()
+            .all(|name| !name.to_string_lossy().ends_with(".tipstrike")),
+        "{left:?}"
+    );
 }
 
 #[test]
@@ -440,7 +556,9 @@ fn when_the_first_session_has_ended_the_second_may_save() {
     let link = first.folder.path().join("link.toml");
     symlink("case.toml", &link).expect("a link");
     // By whatever name.
-    let mut second = Launch::of(Arc::clone(&first.folder)).argument(&link).start();
+    let mut second = Launch::of(Arc::clone(&first.folder))
+        .argument(&link)
+        .start();
     second.wait_for("*read-only*");
     first.send_signal("KILL");
     first.wait_for_end();
@@ -458,7 +576,11 @@ fn a_stale_lock_never_blocks() {
     let ours = std::process::id();
     let begun = stat(ours).map_or(0, |words| words[19].parse::<u64>().unwrap_or(0));
     let lock = |process: u32, started: u64, boot: &str| {
-        format!("host = {:?}\nprocess = {process}\nstarted = {started}\nboot = {:?}\nsince = 0\n", host.trim(), boot.trim())
+        format!(
+            "host = {:?}\nprocess = {process}\nstarted = {started}\nboot = {:?}\nsince = 0\n",
+            host.trim(),
+            boot.trim()
+        )
     };
     let stale = [
         lock(4_000_000, begun, &boot),
@@ -470,7 +592,8 @@ fn a_stale_lock_never_blocks() {
     ];
     for text in stale {
         let launch = Launch::on_table_1();
-        fs::write(launch.folder.path().join(".case.toml.tipstrike"), text).expect("room on the disk");
+        fs::write(launch.folder.path().join(".case.toml.tipstrike"), text)
+            .expect("room on the disk");
         let mut tty = launch.start();
         tty.wait_for("Corner contact");
         tty.type_in("\x156 mm\x13");

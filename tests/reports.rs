@@ -1,5 +1,10 @@
 //! Every case of the collection solves, and its report reads as it did.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that cannot go on says why"
+)]
 // A test may stop at what it did not expect.
 
 use serde_json::Value;
@@ -10,7 +15,10 @@ use tipstrike::report::{Report, Selection, json, text};
 
 fn toml_files(folder: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
-    let mut paths: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let mut paths: Vec<PathBuf> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .collect();
     paths.retain(|path| path.extension().is_some_and(|ending| ending == "toml"));
     paths.sort();
     assert!(!paths.is_empty());
@@ -28,14 +36,23 @@ fn report(path: &Path, selection: Selection) -> Report {
 fn every_case_reads_as_it_did() {
     for path in toml_files("cases") {
         let stem = path.file_stem().unwrap().to_string_lossy().into_owned();
-        insta::assert_snapshot!(format!("report_{stem}"), text::render(&report(&path, Selection::default())));
+        insta::assert_snapshot!(
+            format!("report_{stem}"),
+            text::render(&report(&path, Selection::default()))
+        );
     }
 }
 
 #[test]
 fn no_line_is_wider_than_80_columns() {
     for path in toml_files("cases") {
-        let page = text::render(&report(&path, Selection { stations: true, ..Selection::default() }));
+        let page = text::render(&report(
+            &path,
+            Selection {
+                stations: true,
+                ..Selection::default()
+            },
+        ));
         let wide = page.lines().find(|line| line.chars().count() > 80);
         assert_eq!(wide, None, "{}", path.display());
     }
@@ -50,11 +67,25 @@ fn json_tells_the_reference_answers() {
         let mut line = Vec::new();
         json::write(&report(&path, Selection::default()), &mut line).unwrap();
         let told: Value = serde_json::from_slice(&line).unwrap();
-        let answers: Value = serde_json::from_str(&fs::read_to_string(path.with_extension("json")).unwrap()).unwrap();
+        let answers: Value =
+            serde_json::from_str(&fs::read_to_string(path.with_extension("json")).unwrap())
+                .unwrap();
         assert_eq!(told["outcome"], answers["outcome"], "{}", path.display());
-        for (key, answer) in answers.as_object().unwrap().iter().filter(|(_, answer)| answer.is_number()) {
-            let (value, answer) = (told["quantities"][key]["value"].as_f64().unwrap(), answer.as_f64().unwrap());
-            assert!((value - answer).abs() <= CLOSE * answer.abs(), "{}: {key} is {value}, not {answer}", path.display());
+        for (key, answer) in answers
+            .as_object()
+            .unwrap()
+            .iter()
+            .filter(|(_, answer)| answer.is_number())
+        {
+            let (value, answer) = (
+                told["quantities"][key]["value"].as_f64().unwrap(),
+                answer.as_f64().unwrap(),
+            );
+            assert!(
+                (value - answer).abs() <= CLOSE * answer.abs(),
+                "{}: {key} is {value}, not {answer}",
+                path.display()
+            );
         }
     }
 }

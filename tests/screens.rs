@@ -1,17 +1,25 @@
 //! The screens, as a person sees them: at 80x24, with room at 140x45, and at every size.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that cannot go on says why"
+)]
 #![cfg(feature = "tui")]
 
-mod desk;
+mod harness;
 
-use desk::{Desk, LARGE, SMALL, TABLE_1, without_folder};
+use harness::{Desk, LARGE, SMALL, TABLE_1, without_folder};
 use insta::assert_snapshot;
 use ratatui::layout::Size;
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::theme::{Look, MONO};
 use tipstrike::tui::view::results;
 
-const TINY: Size = Size { width: 60, height: 16 };
+const TINY: Size = Size {
+    width: 60,
+    height: 16,
+};
 
 #[test]
 fn the_opening_screen() {
@@ -39,7 +47,10 @@ fn the_method_paper_beside_exact() {
 
 #[test]
 fn no_corner_contact_is_a_result() {
-    for (name, size) in [("no_corner_contact_80x24", SMALL), ("no_corner_contact_140x45", LARGE)] {
+    for (name, size) in [
+        ("no_corner_contact_80x24", SMALL),
+        ("no_corner_contact_140x45", LARGE),
+    ] {
         let mut desk = Desk::new(size);
         desk.fill("driven.tip_relief", "80 um");
         assert_snapshot!(name, desk.screen());
@@ -56,11 +67,18 @@ fn in_motion(size: Size) -> Desk {
 
 #[test]
 fn what_the_method_resolves_itself_stands_first() {
-    for (name, size) in [("in_motion_80x24", SMALL), ("in_motion_140x45", LARGE), ("in_motion_60x16", TINY)] {
+    for (name, size) in [
+        ("in_motion_80x24", SMALL),
+        ("in_motion_140x45", LARGE),
+        ("in_motion_60x16", TINY),
+    ] {
         assert_snapshot!(name, in_motion(size).screen());
     }
     let mut desk = in_motion(SMALL);
-    desk.app.look = Look { theme: &MONO, ascii: true };
+    desk.app.look = Look {
+        theme: &MONO,
+        ascii: true,
+    };
     assert_snapshot!("in_motion_ascii", desk.screen());
 }
 
@@ -80,10 +98,24 @@ fn every_quantity_comes_in_sight_and_the_mark_says_how_many_are_below() {
         }
         rows.dedup();
         assert_eq!(rows.len(), count, "{size}");
-        let hidden = |desk: &Desk| format!("{} more", count + 1 - results::page(&desk.app) - desk.app.results_top);
-        assert!(!desk.shows(&hidden(&desk)), "{size}: nothing is below the last\n{}", desk.screen());
+        let hidden = |desk: &Desk| {
+            format!(
+                "{} more",
+                count + 1 - results::page(&desk.app) - desk.app.results_top
+            )
+        };
+        assert!(
+            !desk.shows(&hidden(&desk)),
+            "{size}: nothing is below the last\n{}",
+            desk.screen()
+        );
         desk.keys(&["g"]);
-        assert!(desk.shows(&hidden(&desk)), "{size}: {}\n{}", hidden(&desk), desk.screen());
+        assert!(
+            desk.shows(&hidden(&desk)),
+            "{size}: {}\n{}",
+            hidden(&desk),
+            desk.screen()
+        );
     }
 }
 
@@ -107,7 +139,12 @@ fn the_help() {
 fn the_open_prompt_and_a_bad_file() {
     let mut desk = Desk::on(SMALL, "table-1.toml", TABLE_1);
     desk.write("another.toml", TABLE_1);
-    desk.write("bad.toml", &TABLE_1.replace("5 mm", "5 kg").replace("teeth = 20\n", "teth = 20\n"));
+    desk.write(
+        "bad.toml",
+        &TABLE_1
+            .replace("5 mm", "5 kg")
+            .replace("teeth = 20\n", "teth = 20\n"),
+    );
     desk.keys(&["Ctrl-O"]);
     assert_snapshot!("open_80x24", without_folder(&desk));
     desk.keys(&["bad", "Enter"]);
@@ -125,7 +162,10 @@ fn the_questions() {
 fn plain_ascii_where_the_terminal_has_nothing_else() {
     for (name, size) in [("ascii_80x24", SMALL), ("ascii_140x45", LARGE)] {
         let mut desk = Desk::new(size);
-        desk.app.look = Look { theme: &MONO, ascii: true };
+        desk.app.look = Look {
+            theme: &MONO,
+            ascii: true,
+        };
         let screen = desk.screen();
         assert!(screen.is_ascii());
         assert_snapshot!(name, screen);
@@ -139,7 +179,16 @@ fn a_terminal_too_small_says_so_and_keeps_the_state() {
     let before = desk.screen();
     desk.act(Action::Resize(Size::new(40, 10)));
     assert_snapshot!("too_small_40x10", desk.screen());
-    for (width, height) in [(59, 16), (60, 15), (20, 5), (10, 3), (5, 1), (4, 4), (1, 1), (0, 0)] {
+    for (width, height) in [
+        (59, 16),
+        (60, 15),
+        (20, 5),
+        (10, 3),
+        (5, 1),
+        (4, 4),
+        (1, 1),
+        (0, 0),
+    ] {
         desk.act(Action::Resize(Size::new(width, height)));
         assert_snapshot!(format!("too_small_{width}x{height}"), desk.screen());
     }
@@ -188,11 +237,22 @@ fn no_size_is_a_trouble() {
 #[test]
 fn no_hostile_character_of_a_file_reaches_the_screen() {
     let hostile = "\\u001B[2J\\u009B31m\\u202Edesrever\\u200B\\nnewline";
-    let text = TABLE_1.replace("Zhou & Chen 2014, Table 1", hostile).replace("face width reconstructed", hostile);
+    let text = TABLE_1
+        .replace("Zhou & Chen 2014, Table 1", hostile)
+        .replace("face width reconstructed", hostile);
     let mut desk = Desk::on(LARGE, "hos\u{202e}tile\u{1b}[31m.toml", &text);
-    for keys in [&[][..], &["Ctrl-Home"], &["Down"], &["Ctrl-O"], &["Esc", "F2"], &["Esc", "x", "Ctrl-Q"]] {
+    for keys in [
+        &[][..],
+        &["Ctrl-Home"],
+        &["Down"],
+        &["Ctrl-O"],
+        &["Esc", "F2"],
+        &["Esc", "x", "Ctrl-Q"],
+    ] {
         let screen = desk.keys(keys).screen();
-        let bad = screen.chars().find(|letter| *letter != '\n' && !tipstrike::tui::clean::is_safe(*letter));
+        let bad = screen
+            .chars()
+            .find(|letter| *letter != '\n' && !tipstrike::tui::ascii::is_safe(*letter));
         assert_eq!(bad, None, "after {keys:?}");
     }
     assert!(desk.keys(&["Esc", "Ctrl-Home"]).shows("desrever"));
@@ -201,5 +261,9 @@ fn no_hostile_character_of_a_file_reaches_the_screen() {
 fn sizes() -> impl Iterator<Item = Size> {
     let widths = [0, 1, 2, 3, 7, 20, 40, 59, 60, 61, 75, 80, 100, 200];
     let heights = [0, 1, 2, 3, 5, 10, 15, 16, 17, 20, 24, 35, 80];
-    widths.into_iter().flat_map(move |width| heights.into_iter().map(move |height| Size { width, height }))
+    widths.into_iter().flat_map(move |width| {
+        heights
+            .into_iter()
+            .map(move |height| Size { width, height })
+    })
 }

@@ -1,6 +1,11 @@
-//! A long session of random actions on a real terminal: no fault, flat memory, every file a case at every moment, and the
-//! form the same as the file when it is saved.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+//! A long session of random actions on a real terminal: no fault, flat memory, every file a case at
+//! every moment, and the form the same as the file when it is saved.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that cannot go on says why"
+)]
 #![allow(clippy::print_stdout, reason = "figures are told")]
 #![cfg(all(feature = "cli", feature = "tui"))]
 
@@ -30,10 +35,22 @@ const QUIET: Duration = Duration::from_millis(60);
 const LOOK: usize = 100;
 const COMPARE: usize = 500;
 /// Values that mend one field or another of what a random session has left behind.
-const MENDS: [&[u8]; 10] = [b"", b"5 mm", b"20 deg", b"22", b"0.25", b"200 GPa", b"7800 kg/m3", b"15 kW", b"2000 rpm", b"exact"];
+const MENDS: [&[u8]; 10] = [
+    b"",
+    b"5 mm",
+    b"20 deg",
+    b"22",
+    b"0.25",
+    b"200 GPa",
+    b"7800 kg/m3",
+    b"15 kW",
+    b"2000 rpm",
+    b"exact",
+];
 const MOST_MENDS: usize = 60;
 
-/// What a session is made of. None leaves the folder, and none quits but where the question to quit is refused.
+/// What a session is made of. None leaves the folder, and none quits but where the question to quit
+/// is refused.
 #[rustfmt::skip]
 const ACTIONS: [&[u8]; 77] = [
     // Edits.
@@ -123,7 +140,8 @@ impl Soak {
 
     fn suspend(&mut self) {
         self.tty.send_signal("TSTP");
-        self.tty.wait_until("it to stop", |tty| tty.state() == Some('T'));
+        self.tty
+            .wait_until("it to stop", |tty| tty.state() == Some('T'));
         // Nobody knows for how long: every edit is kept by now.
         for path in journals(self.tty.folder.path()) {
             let text = fs::read_to_string(&path).expect("it is there");
@@ -136,16 +154,25 @@ impl Soak {
 
     fn look(&mut self, step: usize) -> u64 {
         self.tty.settle(QUIET);
-        assert!(!self.tty.has_ended(), "it ended at {step}:\n{}", self.tty.screen().contents());
+        assert!(
+            !self.tty.has_ended(),
+            "it ended at {step}:\n{}",
+            self.tty.screen().contents()
+        );
         for path in files(self.tty.folder.path()) {
             let text = fs::read_to_string(&path).expect("it is there");
-            assert!(Document::parse("case", &text).is_ok(), "{} at {step}: {text}", path.display());
+            assert!(
+                Document::parse("case", &text).is_ok(),
+                "{} at {step}: {text}",
+                path.display()
+            );
             self.looks += 1;
         }
         resident(&self.tty)
     }
 
-    /// Save what the form says, copy every value of it to the clipboard, and hold them against those of the file.
+    /// Save what the form says, copy every value of it to the clipboard, and hold them against
+    /// those of the file.
     fn compare(&mut self) {
         self.tty.resize(24, 80);
         let Some(path) = self.saved() else {
@@ -154,7 +181,13 @@ impl Soak {
         };
         let form: Vec<_> = self.values_of_form();
         let file = values_of_file(&path);
-        assert_eq!(form, file, "form and file of {}:\n{}", path.display(), self.tty.screen().contents());
+        assert_eq!(
+            form,
+            file,
+            "form and file of {}:\n{}",
+            path.display(),
+            self.tty.screen().contents()
+        );
         self.comparisons += 1;
         self.values += form.len();
         // An edit, and no to the question whether to lose it.
@@ -171,7 +204,10 @@ impl Soak {
     fn count_tabs(&mut self) -> usize {
         self.press(b"\x1b1\x1b[5;5~");
         let screen = self.tty.screen().contents();
-        let current = screen.lines().next().and_then(|head| head.split_once('[')?.1.split(' ').next()?.parse().ok());
+        let current = screen
+            .lines()
+            .next()
+            .and_then(|head| head.split_once('[')?.1.split(' ').next()?.parse().ok());
         current.unwrap_or(1)
     }
 
@@ -184,7 +220,15 @@ impl Soak {
             let (name, is_unsaved) = self.case()?;
             if name.starts_with("built-in") {
                 // The built-in case has no file.
-                for keys in [&b"\x1b"[..], b"\x1b", b"\x1b", b"\x0f", b"\x15case.toml", b"\r", b"\x13"] {
+                for keys in [
+                    &b"\x1b"[..],
+                    b"\x1b",
+                    b"\x1b",
+                    b"\x0f",
+                    b"\x15case.toml",
+                    b"\r",
+                    b"\x13",
+                ] {
                     self.press(keys);
                 }
             } else if self.tty.shows("Reload") {
@@ -196,7 +240,10 @@ impl Soak {
                 self.press(&[b"1i\x15", *mend, b"\x13"].concat());
             } else {
                 // Names may end in what no screen shows.
-                let is_it = |path: &PathBuf| path.file_name().is_some_and(|own| own.to_string_lossy().trim() == name);
+                let is_it = |path: &PathBuf| {
+                    path.file_name()
+                        .is_some_and(|own| own.to_string_lossy().trim() == name)
+                };
                 return files(self.tty.folder.path()).into_iter().find(is_it);
             }
         }
@@ -207,13 +254,26 @@ impl Soak {
     fn case(&self) -> Option<(String, bool)> {
         let screen = self.tty.screen().contents();
         let head = screen.lines().next()?;
-        let own = head.split_once('[').and_then(|(_, rest)| Some(rest.split_once(']')?.0.split_once(' ')?.1));
+        let own = head
+            .split_once('[')
+            .and_then(|(_, rest)| Some(rest.split_once(']')?.0.split_once(' ')?.1));
         let (name, is_unsaved) = match own {
             Some(own) => (own.trim_end_matches('*'), own.ends_with('*')),
-            None => (head.strip_prefix("tipstrike")?.trim_start().split("  ").next()?, head.contains("*unsaved*")),
+            None => (
+                head.strip_prefix("tipstrike")?
+                    .trim_start()
+                    .split("  ")
+                    .next()?,
+                head.contains("*unsaved*"),
+            ),
         };
         let name = name.trim_end_matches("*unsaved*").trim();
-        Some((name.rsplit_once('/').map_or(name, |(_, name)| name).to_owned(), is_unsaved))
+        Some((
+            name.rsplit_once('/')
+                .map_or(name, |(_, name)| name)
+                .to_owned(),
+            is_unsaved,
+        ))
     }
 
     /// Every value of the form by way of the clipboard.
@@ -227,8 +287,11 @@ impl Soak {
         let written = self.tty.written.take().unwrap_or_default();
         let text = String::from_utf8_lossy(&written);
         // The last line is copied again and again: nothing comes after it.
-        let mut values: Vec<_> =
-            text.split("\x1b]52;c;").skip(1).map(|rest| decoded(rest.split(['\x1b', '\x07']).next())).collect();
+        let mut values: Vec<_> = text
+            .split("\x1b]52;c;")
+            .skip(1)
+            .map(|rest| decoded(rest.split(['\x1b', '\x07']).next()))
+            .collect();
         let last = values.last().cloned();
         while values.len() > 1 && values.get(values.len() - 2) == last.as_ref() {
             values.pop();
@@ -240,8 +303,12 @@ impl Soak {
 /// The files of cases in the folder, whatever a session has called them.
 fn files(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).expect("a folder").flatten();
-    let is_case =
-        |path: &PathBuf| path.is_file() && !path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
+    let is_case = |path: &PathBuf| {
+        path.is_file()
+            && !path
+                .file_name()
+                .is_some_and(|name| name.to_string_lossy().starts_with('.'))
+    };
     let mut paths: Vec<_> = entries.map(|entry| entry.path()).filter(is_case).collect();
     paths.sort();
     paths
@@ -250,12 +317,23 @@ fn files(folder: &Path) -> Vec<PathBuf> {
 /// What the clipboard gets of each line of the form on a file.
 fn values_of_file(path: &Path) -> Vec<String> {
     let document = Document::read(path).unwrap_or_else(|error| panic!("{error}"));
-    let mut app = opened(document, Some(path.to_owned()), Look::FULL, Size::new(80, 24));
+    let mut app = opened(
+        document,
+        Some(path.to_owned()),
+        Look::FULL,
+        Size::new(80, 24),
+    );
     let lines = 0..rows::count(&app.case);
     let copied = lines.filter_map(|line| {
         app.tab.focus = line;
         let effects = update(&mut app, Action::Do(Command::CopyValue));
-        effects.into_iter().find_map(|effect| if let Effect::Copy(text) = effect { Some(text) } else { None })
+        effects.into_iter().find_map(|effect| {
+            if let Effect::Copy(text) = effect {
+                Some(text)
+            } else {
+                None
+            }
+        })
     });
     copied.collect()
 }
@@ -265,7 +343,9 @@ fn decoded(text: Option<&str>) -> String {
     const LETTERS: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let (mut bits, mut count, mut bytes) = (0_u32, 0, Vec::new());
     for letter in text.unwrap_or_default().bytes() {
-        let Some(value) = LETTERS.iter().position(|&known| known == letter) else { continue };
+        let Some(value) = LETTERS.iter().position(|&known| known == letter) else {
+            continue;
+        };
         (bits, count) = ((bits << 6 | value as u32) & 0xffff, count + 6);
         if count >= 8 {
             count -= 8;
@@ -278,18 +358,34 @@ fn decoded(text: Option<&str>) -> String {
 fn resident(tty: &Tty) -> u64 {
     let text = fs::read_to_string(format!("/proc/{}/status", tty.id())).expect("it runs");
     let rest = text.split_once("VmRSS:").map_or("", |(_, rest)| rest);
-    rest.split_whitespace().next().and_then(|number| number.parse().ok()).unwrap_or(0)
+    rest.split_whitespace()
+        .next()
+        .and_then(|number| number.parse().ok())
+        .unwrap_or(0)
 }
 
 #[test]
 fn a_long_session_loses_nothing_and_does_not_grow() {
-    let count = std::env::var("TIPSTRIKE_SOAK").ok().and_then(|count| count.parse().ok()).unwrap_or(FEW);
+    let count = std::env::var("TIPSTRIKE_SOAK")
+        .ok()
+        .and_then(|count| count.parse().ok())
+        .unwrap_or(FEW);
     let launch = Launch::on_table_1();
     fs::write(launch.folder.path().join("other.toml"), TABLE_1).expect("room on the disk");
     let mut tty = launch.start();
     tty.wait_for("quit");
     let random = 0x9e37_79b9_7f4a_7c15;
-    let mut soak = Soak { tty, random, looks: 0, comparisons: 0, suspensions: 0, values: 0, saves: 0, tabs: 1, most_tabs: 1 };
+    let mut soak = Soak {
+        tty,
+        random,
+        looks: 0,
+        comparisons: 0,
+        suspensions: 0,
+        values: 0,
+        saves: 0,
+        tabs: 1,
+        most_tabs: 1,
+    };
     let (begun, start) = (Instant::now(), resident(&soak.tty));
     let (mut early, mut most, mut end) = (0, 0, start);
     for step in 1..=count {
@@ -301,20 +397,40 @@ fn a_long_session_loses_nothing_and_does_not_grow() {
                 early = most;
             }
             if step % (count / 4).max(LOOK) == 0 {
-                println!("{step}: {end} KiB, {} cases open, {:.0} s", soak.tabs, begun.elapsed().as_secs_f64());
+                println!(
+                    "{step}: {end} KiB, {} cases open, {:.0} s",
+                    soak.tabs,
+                    begun.elapsed().as_secs_f64()
+                );
             }
         }
         if step % COMPARE == 0 {
             soak.compare();
         }
     }
-    let Soak { looks, comparisons, suspensions, values, saves, most_tabs, .. } = soak;
+    let Soak {
+        looks,
+        comparisons,
+        suspensions,
+        values,
+        saves,
+        most_tabs,
+        ..
+    } = soak;
     let rate = count as f64 / begun.elapsed().as_secs_f64();
     println!(
         "{count} actions, {rate:.0}/s: {start} KiB at first, {early} in the first quarter, {most} at most, {end} at the end"
     );
-    println!("{looks} files parsed, {saves} saves asked for, {suspensions} suspensions, {most_tabs} cases open at most");
+    println!(
+        "{looks} files parsed, {saves} saves asked for, {suspensions} suspensions, {most_tabs} cases open at most"
+    );
     println!("{comparisons} comparisons of form and file, {values} values");
-    assert!(comparisons * COMPARE * 2 >= count, "too few comparisons: {comparisons}");
-    assert!(most <= early + MOST_GROWTH && most <= 30 << 10, "{early} KiB, then {most} KiB");
+    assert!(
+        comparisons * COMPARE * 2 >= count,
+        "too few comparisons: {comparisons}"
+    );
+    assert!(
+        most <= early + MOST_GROWTH && most <= 30 << 10,
+        "{early} KiB, then {most} KiB"
+    );
 }

@@ -1,19 +1,26 @@
-//! The picture of the teeth: as a person sees it, and sound for every pair, zoom, angle, size and terminal.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, clippy::print_stdout, reason = "a test says what it found")]
+//! The picture of the teeth: as a person sees it, and sound for every pair, zoom, angle, size and
+//! terminal.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test says what it found"
+)]
 #![cfg(feature = "tui")]
 
 #[allow(dead_code, reason = "each test file uses its own part")]
 #[path = "oracle/envelope.rs"]
 mod envelope;
 
-mod desk;
+mod harness;
 
 use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use desk::{Desk, LARGE, SMALL};
 use envelope::{Corner, Random, pair};
+use harness::{Desk, LARGE, SMALL};
 use insta::assert_snapshot;
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Rect, Size};
@@ -21,9 +28,9 @@ use ratatui::symbols::Marker;
 use tipstrike::case::Document;
 use tipstrike::case::units::System;
 use tipstrike::model::inputs::Method;
-use tipstrike::model::{self, Inputs, Moment, Solution, Stages, moment};
+use tipstrike::model::{self, ContactState, Inputs, Solution, Stages, contact_state};
 use tipstrike::tui::actions::Action;
-use tipstrike::tui::clean;
+use tipstrike::tui::ascii;
 use tipstrike::tui::theme::{Look, MONO};
 use tipstrike::tui::view::teeth::labels::Labels;
 use tipstrike::tui::view::teeth::scene::Scene;
@@ -31,32 +38,60 @@ use tipstrike::tui::view::teeth::{self, Picture};
 use tipstrike::tui::zoom::{Centre, Exaggeration, TeethView};
 
 const SIZES: [(u16, u16); 3] = [(80, 18), (140, 30), (200, 60)];
-const ASCII: Look = Look { theme: &MONO, ascii: true };
+const ASCII: Look = Look {
+    theme: &MONO,
+    ascii: true,
+};
 
 fn solved(case: &str) -> (Inputs, Solution) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(case);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("cases")
+        .join(case);
     let inputs = Document::read(&path).unwrap().case.inputs().unwrap();
     let solution = model::solve(&inputs, Stages::ALL).unwrap();
     (inputs, solution)
 }
 
-fn picture<'a>((inputs, solution): &'a (Inputs, Solution), view: &'a TeethView, part: f64) -> Picture<'a> {
-    let cursor = solution.position.map(|position| part * position.approach_angle_driver);
-    Picture { inputs, solution, cursor, view, look: Look::FULL, marker: Marker::Braille, units: System::Metric, is_stale: false }
+fn picture<'a>(
+    (inputs, solution): &'a (Inputs, Solution),
+    view: &'a TeethView,
+    part: f64,
+) -> Picture<'a> {
+    let cursor = solution
+        .position
+        .map(|position| part * position.approach_angle_driver);
+    Picture {
+        inputs,
+        solution,
+        cursor,
+        view,
+        look: Look::FULL,
+        marker: Marker::Braille,
+        units: System::Metric,
+        is_stale: false,
+    }
 }
 
 fn drawn(picture: &Picture, (width, height): (u16, u16)) -> Buffer {
     let area = Rect::new(0, 0, width, height);
     let mut buffer = Buffer::empty(area);
     teeth::picture::draw(picture, area, &mut buffer);
-    clean::finish(&mut buffer, picture.look.ascii);
+    ascii::finish(&mut buffer, picture.look.ascii);
     buffer
 }
 
 fn screen(picture: &Picture, size: (u16, u16)) -> String {
     let buffer = drawn(picture, size);
     let rows = buffer.content.chunks(size.0.max(1).into());
-    rows.map(|row| row.iter().map(Cell::symbol).collect::<String>().trim_end().to_owned()).collect::<Vec<_>>().join("\n")
+    rows.map(|row| {
+        row.iter()
+            .map(Cell::symbol)
+            .collect::<String>()
+            .trim_end()
+            .to_owned()
+    })
+    .collect::<Vec<_>>()
+    .join("\n")
 }
 
 #[test]
@@ -64,35 +99,63 @@ fn the_strike_at_every_size() {
     let table_1 = solved("zhou-chen-2014.toml");
     for size in SIZES {
         let view = TeethView::default();
-        assert_snapshot!(format!("strike_{}x{}", size.0, size.1), screen(&picture(&table_1, &view, 1.0), size));
+        assert_snapshot!(
+            format!("strike_{}x{}", size.0, size.1),
+            screen(&picture(&table_1, &view, 1.0), size)
+        );
     }
-    assert_snapshot!("strike_60x8", screen(&picture(&table_1, &TeethView::default(), 1.0), (60, 8)));
+    assert_snapshot!(
+        "strike_60x8",
+        screen(&picture(&table_1, &TeethView::default(), 1.0), (60, 8))
+    );
 }
 
 #[test]
 fn the_approach_from_before_d_to_after_e() {
     let table_1 = solved("zhou-chen-2014.toml");
-    for (name, part) in [("before_d", 1.5), ("between_d_and_e", 0.5), ("after_e", -2.0)] {
-        assert_snapshot!(name, screen(&picture(&table_1, &TeethView::default(), part), (100, 30)));
+    for (name, part) in [
+        ("before_d", 1.5),
+        ("between_d_and_e", 0.5),
+        ("after_e", -2.0),
+    ] {
+        assert_snapshot!(
+            name,
+            screen(&picture(&table_1, &TeethView::default(), part), (100, 30))
+        );
     }
 }
 
 #[test]
 fn the_path_of_contact_and_the_whole_pair() {
     let table_1 = solved("zhou-chen-2014.toml");
-    for (name, centre) in [("path_of_contact", Centre::PitchPoint), ("whole_pair", Centre::Pair)] {
-        let view = TeethView { centre, ..TeethView::default() };
+    for (name, centre) in [
+        ("path_of_contact", Centre::PitchPoint),
+        ("whole_pair", Centre::Pair),
+    ] {
+        let view = TeethView {
+            centre,
+            ..TeethView::default()
+        };
         assert_snapshot!(name, screen(&picture(&table_1, &view, 1.0), (120, 36)));
     }
     let turbo = solved("turbo-fine-fast.toml");
-    let view = TeethView { centre: Centre::Pair, ..TeethView::default() };
-    assert_snapshot!("whole_pair_of_fine_teeth", screen(&picture(&turbo, &view, 1.0), (100, 30)));
+    let view = TeethView {
+        centre: Centre::Pair,
+        ..TeethView::default()
+    };
+    assert_snapshot!(
+        "whole_pair_of_fine_teeth",
+        screen(&picture(&turbo, &view, 1.0), (100, 30))
+    );
 }
 
 #[test]
 fn no_corner_contact_shows_the_flanks_apart() {
     let relieved = solved("tip-relief-enough.toml");
-    assert_snapshot!("no_corner_contact", screen(&picture(&relieved, &TeethView::default(), 1.0), (100, 30)));
+    assert_snapshot!(
+        "no_corner_contact",
+        screen(&picture(&relieved, &TeethView::default(), 1.0), (100, 30))
+    );
 }
 
 #[test]
@@ -100,7 +163,13 @@ fn coarser_but_right_without_braille_and_without_unicode() {
     let table_1 = solved("zhou-chen-2014.toml");
     let view = TeethView::default();
     let plain = picture(&table_1, &view, 1.5);
-    let ascii = screen(&Picture { look: ASCII, ..plain }, (80, 24));
+    let ascii = screen(
+        &Picture {
+            look: ASCII,
+            ..plain
+        },
+        (80, 24),
+    );
     assert!(ascii.is_ascii());
     assert_snapshot!("ascii", ascii);
     for (name, marker) in [("half_block", Marker::HalfBlock), ("dot", Marker::Dot)] {
@@ -113,35 +182,73 @@ fn the_cursor_turns_the_gears_and_its_values_are_the_solutions() {
     let table_1 = solved("zhou-chen-2014.toml");
     let view = TeethView::default();
     let at_d = screen(&picture(&table_1, &view, 1.0), (140, 30));
-    for value in
-        ["1.3663 deg", "O1J 47.8915 mm", "ΔV_n 0.82106 m/s", "ΔV_τ 5.2227 m/s", "F_S 2191.0 N", "S 47.327 um", "open 0 um"]
-    {
+    for value in [
+        "1.3663 deg",
+        "O1J 47.8915 mm",
+        "ΔV_n 0.82106 m/s",
+        "ΔV_τ 5.2227 m/s",
+        "F_S 2191.0 N",
+        "S 47.327 um",
+        "open 0 um",
+    ] {
         assert!(at_d.contains(value), "no {value} in\n{at_d}");
     }
-    let without = Picture { cursor: None, ..picture(&table_1, &view, 1.0) };
-    assert_eq!(screen(&without, (140, 30)), at_d, "without a cursor D is shown");
+    let without = Picture {
+        cursor: None,
+        ..picture(&table_1, &view, 1.0)
+    };
+    assert_eq!(
+        screen(&without, (140, 30)),
+        at_d,
+        "without a cursor D is shown"
+    );
     let before = screen(&picture(&table_1, &view, 1.5), (140, 30));
-    assert!(before.contains("F_S –") && before.contains("open 58.13 um"), "{before}");
-    let rows_that_differ = at_d.lines().zip(before.lines()).filter(|(one, other)| one != other).count();
+    assert!(
+        before.contains("F_S –") && before.contains("open 58.13 um"),
+        "{before}"
+    );
+    let rows_that_differ = at_d
+        .lines()
+        .zip(before.lines())
+        .filter(|(one, other)| one != other)
+        .count();
     assert!(rows_that_differ > 10, "the gears stand still");
 }
 
 #[test]
 fn the_methods_that_share_the_load_show_their_own_first_contact_and_force() {
-    for (method, told) in [(Method::Static, ["F ", "x "]), (Method::Dynamic, ["t ", "F/ΣF "])] {
+    for (method, told) in [
+        (Method::Static, ["F ", "x "]),
+        (Method::Dynamic, ["t ", "F/ΣF "]),
+    ] {
         let (mut inputs, _) = solved("zhou-chen-2014.toml");
         inputs.method = method;
         let solution = model::solve(&inputs, Stages::EVERY).unwrap();
-        let (angle, solved) = (moment::first_contact(&solution).unwrap(), (inputs, solution));
+        let (angle, solved) = (
+            contact_state::first_contact(&solution).unwrap(),
+            (inputs, solution),
+        );
         let view = TeethView::default();
         let at = |part: f64| {
-            screen(&Picture { cursor: Some(part * angle * solved.0.ratio()), ..picture(&solved, &view, 1.0) }, (200, 40))
+            screen(
+                &Picture {
+                    cursor: Some(part * angle * solved.0.ratio()),
+                    ..picture(&solved, &view, 1.0)
+                },
+                (200, 40),
+            )
         };
         let exact = angle.to_degrees();
-        assert!(at(1.0).contains(&format!("u {exact:.4}")), "{method:?}: no {exact} in\n{}", at(1.0));
+        assert!(
+            at(1.0).contains(&format!("u {exact:.4}")),
+            "{method:?}: no {exact} in\n{}",
+            at(1.0)
+        );
         for word in told {
             assert!(
-                at(0.5).contains(word) && at(1.5).contains(&format!("{word}–")) && !at(0.5).contains(&format!("{word}–")),
+                at(0.5).contains(word)
+                    && at(1.5).contains(&format!("{word}–"))
+                    && !at(0.5).contains(&format!("{word}–")),
                 "{method:?}: {word}\n{}",
                 at(1.5)
             );
@@ -158,25 +265,53 @@ fn the_factor_is_told_and_falls_to_one() {
     let shown = |view: TeethView| screen(&picture(&table_1, &view, 1.2), (100, 30));
     assert!(shown(TeethView::default()).contains("gap x20"));
     assert!(shown(TeethView::default().exaggerated_or_not()).contains("gap x1"));
-    assert!(shown(TeethView { zoom: 10, ..TeethView::default() }).contains("gap x1"), "close up the gap is seen as it is");
+    assert!(
+        shown(TeethView {
+            zoom: 10,
+            ..TeethView::default()
+        })
+        .contains("gap x1"),
+        "close up the gap is seen as it is"
+    );
     let far = screen(&picture(&table_1, &TeethView::default(), 3.0), (100, 30));
-    let factor: f64 = far.split("gap x").nth(1).and_then(|rest| rest.split_whitespace().next()).unwrap().parse().unwrap();
-    let opening: f64 = far.split("open ").nth(1).and_then(|rest| rest.split_whitespace().next()).unwrap().parse().unwrap();
-    assert!((factor * opening / 1500.0 - 1.0).abs() < 0.02, "{factor} x {opening} um is not 0.3 modules");
+    let factor: f64 = far
+        .split("gap x")
+        .nth(1)
+        .and_then(|rest| rest.split_whitespace().next())
+        .unwrap()
+        .parse()
+        .unwrap();
+    let opening: f64 = far
+        .split("open ")
+        .nth(1)
+        .and_then(|rest| rest.split_whitespace().next())
+        .unwrap()
+        .parse()
+        .unwrap();
+    assert!(
+        (factor * opening / 1500.0 - 1.0).abs() < 0.02,
+        "{factor} x {opening} um is not 0.3 modules"
+    );
 }
 
 #[test]
 fn zoom_ends_at_the_whole_pair_and_at_the_micrometre() {
     let (inputs, solution) = solved("zhou-chen-2014.toml");
     for centre in [Centre::Strike, Centre::PitchPoint, Centre::Pair] {
-        let view = TeethView { centre, ..TeethView::default() };
+        let view = TeethView {
+            centre,
+            ..TeethView::default()
+        };
         let out = view.zoomed(-1000, &inputs, &solution);
         assert_eq!(out.zoomed(-1, &inputs, &solution), out);
         let extent = out.extent(&inputs, &solution);
         assert!((0.2..0.4).contains(&extent), "{centre:?}: {extent} m");
         let closest = view.zoomed(i32::MAX, &inputs, &solution);
         assert!(closest.extent(&inputs, &solution) < 1e-3, "{centre:?}");
-        assert_eq!(closest.zoomed(-1, &inputs, &solution).zoom, closest.zoom - 1);
+        assert_eq!(
+            closest.zoomed(-1, &inputs, &solution).zoom,
+            closest.zoom - 1
+        );
     }
 }
 
@@ -195,14 +330,26 @@ fn keys_change_what_is_in_sight_and_zero_brings_it_back() {
     ] {
         let before = desk.screen();
         desk.keys(keys);
-        assert!(desk.shows(told) && desk.screen() != before, "{keys:?}\n{}", desk.screen());
+        assert!(
+            desk.shows(told) && desk.screen() != before,
+            "{keys:?}\n{}",
+            desk.screen()
+        );
     }
     desk.keys(&["0"]);
     assert_eq!(desk.screen(), at_first);
     desk.keys(&["-"; 12]);
-    assert!(desk.shows("this is all of it") && desk.shows("O1"), "{}", desk.screen());
+    assert!(
+        desk.shows("this is all of it") && desk.shows("O1"),
+        "{}",
+        desk.screen()
+    );
     desk.keys(&["+"; 40]);
-    assert!(desk.shows("this is the closest") && desk.shows("um "), "{}", desk.screen());
+    assert!(
+        desk.shows("this is the closest") && desk.shows("um "),
+        "{}",
+        desk.screen()
+    );
 }
 
 #[test]
@@ -215,10 +362,24 @@ fn the_approach_plays_from_before_d_until_the_tip_touches_and_on_to_e() {
         desk.act(Action::Tick);
         screens.push(desk.screen());
     }
-    let closed = screens.iter().position(|screen| screen.contains("open 0 um")).expect("it closes");
-    assert!((10..30).contains(&closed), "closed after {closed} of {} pictures", screens.len());
-    assert!(screens[closed..].iter().all(|screen| screen.contains("open 0 um")));
-    assert!(screens.windows(2).all(|pair| pair[0] != pair[1]), "a picture stands still");
+    let closed = screens
+        .iter()
+        .position(|screen| screen.contains("open 0 um"))
+        .expect("it closes");
+    assert!(
+        (10..30).contains(&closed),
+        "closed after {closed} of {} pictures",
+        screens.len()
+    );
+    assert!(
+        screens[closed..]
+            .iter()
+            .all(|screen| screen.contains("open 0 um"))
+    );
+    assert!(
+        screens.windows(2).all(|pair| pair[0] != pair[1]),
+        "a picture stands still"
+    );
     assert!(desk.app.cursor == Some(0.0) && desk.shows("θ_1 0 deg"));
 }
 
@@ -243,19 +404,51 @@ fn some_pairs(count: u64) -> impl Iterator<Item = (Inputs, Solution, Random)> {
         if number % 48 == 1 {
             inputs.method = Method::Static;
         }
-        let solution = model::solve(&inputs, Stages::CLOSED_FORM.and(inputs.method.stages())).ok()?;
+        let solution =
+            model::solve(&inputs, Stages::CLOSED_FORM.and(inputs.method.stages())).ok()?;
         Some((inputs, solution, random))
     })
 }
 
 fn any_view(random: &mut Random) -> TeethView {
-    let centre = random.one_of(&[Centre::Strike, Centre::Strike, Centre::PitchPoint, Centre::Pair]);
-    let exaggeration = random.one_of(&[Exaggeration::Fitted, Exaggeration::Fitted, Exaggeration::True]);
-    TeethView { centre, zoom: random.one_of(&[0, 0, 0, -1, -3, -8, -40, 2, 5, 9, 14, 20, 60, i32::MIN, i32::MAX]), exaggeration }
+    let centre = random.one_of(&[
+        Centre::Strike,
+        Centre::Strike,
+        Centre::PitchPoint,
+        Centre::Pair,
+    ]);
+    let exaggeration = random.one_of(&[
+        Exaggeration::Fitted,
+        Exaggeration::Fitted,
+        Exaggeration::True,
+    ]);
+    TeethView {
+        centre,
+        zoom: random.one_of(&[
+            0,
+            0,
+            0,
+            -1,
+            -3,
+            -8,
+            -40,
+            2,
+            5,
+            9,
+            14,
+            20,
+            60,
+            i32::MIN,
+            i32::MAX,
+        ]),
+        exaggeration,
+    }
 }
 
 fn any_cursor(solution: &Solution, random: &mut Random) -> Option<f64> {
-    let contact = solution.position.map_or(0.01, |position| position.approach_angle_driver);
+    let contact = solution
+        .position
+        .map_or(0.01, |position| position.approach_angle_driver);
     let part = random.even(-3.0, 4.0);
     random.one_of(&[
         None,
@@ -269,7 +462,8 @@ fn any_cursor(solution: &Solution, random: &mut Random) -> Option<f64> {
     ])
 }
 
-/// Strokes that a picture of that size may cost: what its edges and area have dots for, and not what the gears have teeth.
+/// Strokes that a picture of that size may cost: what its edges and area have dots for, and not
+/// what the gears have teeth.
 fn most_strokes(size: Size) -> usize {
     300 + 16 * usize::from(size.width + 2 * size.height)
 }
@@ -284,7 +478,12 @@ fn no_pair_zoom_angle_or_size_troubles_the_picture() {
             let view = any_view(&mut random);
             let cursor = any_cursor(&solution, &mut random);
             let look = random.one_of(&[Look::FULL, Look::FULL, ASCII]);
-            let marker = random.one_of(&[Marker::Braille, Marker::Braille, Marker::HalfBlock, Marker::Dot]);
+            let marker = random.one_of(&[
+                Marker::Braille,
+                Marker::Braille,
+                Marker::HalfBlock,
+                Marker::Dot,
+            ]);
             let is_stale = random.chance(0.2);
             let picture = Picture {
                 inputs: &inputs,
@@ -299,7 +498,11 @@ fn no_pair_zoom_angle_or_size_troubles_the_picture() {
             let size = (random.one_of(&WIDTHS), random.one_of(&HEIGHTS));
             let told = || format!("{view:?} {cursor:?} {size:?} {marker:?} {look:?} {inputs:?}");
             let screen = screen(&picture, size);
-            assert!(!["NaN", "inf", "n/a"].iter().any(|bad| screen.contains(bad)), "{screen}\n{}", told());
+            assert!(
+                !["NaN", "inf", "n/a"].iter().any(|bad| screen.contains(bad)),
+                "{screen}\n{}",
+                told()
+            );
             assert!(!look.ascii || screen.is_ascii(), "{screen}\n{}", told());
             let share = examine(&picture, Size::new(size.0.max(12), size.1.max(4)), &told);
             if share > most.0 {
@@ -308,28 +511,44 @@ fn no_pair_zoom_angle_or_size_troubles_the_picture() {
         }
         drawn_pairs += 1;
     }
-    println!("{drawn_pairs} pairs; most strokes {:.2} of what is allowed: {}", most.0, most.1);
+    println!(
+        "{drawn_pairs} pairs; most strokes {:.2} of what is allowed: {}",
+        most.0, most.1
+    );
     assert!(drawn_pairs > 4_000, "only {drawn_pairs}");
 }
 
-/// Every stroke is a number and in sight, and no word lies over another; the share of the allowed strokes.
+/// Every stroke is a number and in sight, and no word lies over another; the share of the allowed
+/// strokes.
 fn examine(picture: &Picture, size: Size, told: &dyn Fn() -> String) -> f64 {
-    let moment = Moment::at(picture.inputs, picture.solution, picture.angle());
+    let moment = ContactState::at(picture.inputs, picture.solution, picture.angle());
     let scene = Scene::of(picture, moment.as_ref(), size);
     let ([left, right], [low, high]) = (scene.window.across(), scene.window.upright());
-    assert!(left < right && low < high && (right - left).is_finite() && (high - low).is_finite(), "{}", told());
+    assert!(
+        left < right && low < high && (right - left).is_finite() && (high - low).is_finite(),
+        "{}",
+        told()
+    );
     let margin = 1e-6 * (right - left) + scene.window.dot + scene.window.dot_height();
     for stroke in &scene.strokes {
         for point in [stroke.from, stroke.to] {
-            let in_sight =
-                (left - margin..=right + margin).contains(&point.x) && (low - margin..=high + margin).contains(&point.y);
-            assert!(in_sight, "{stroke:?} out of {left}..{right}, {low}..{high}: {}", told());
+            let in_sight = (left - margin..=right + margin).contains(&point.x)
+                && (low - margin..=high + margin).contains(&point.y);
+            assert!(
+                in_sight,
+                "{stroke:?} out of {left}..{right}, {low}..{high}: {}",
+                told()
+            );
         }
     }
     let area = Rect::new(0, 0, size.width, size.height);
     let words = Labels::new(area).draw(&scene, picture, &mut Buffer::empty(area));
     for (number, word) in words.iter().enumerate() {
-        assert!(words[..number].iter().all(|other| !other.intersects(*word)), "{words:?}: {}", told());
+        assert!(
+            words[..number].iter().all(|other| !other.intersects(*word)),
+            "{words:?}: {}",
+            told()
+        );
     }
     let share = scene.strokes.len() as f64 / most_strokes(size) as f64;
     assert!(share <= 1.0, "{} strokes: {}", scene.strokes.len(), told());
@@ -342,14 +561,28 @@ const PLOTS: [(u16, u16); 5] = [(60, 9), (80, 6), (56, 15), (80, 17), (238, 62)]
 #[test]
 fn no_word_lies_on_a_line_where_there_is_room() {
     let (mut words_in_all, mut covering) = (0, Vec::new());
-    for case in fs::read_dir("cases").unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()) {
+    for case in fs::read_dir("cases")
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+    {
         let solved = solved(&case);
         for centre in [Centre::Strike, Centre::PitchPoint, Centre::Pair] {
             for zoom in [-6, -3, -1, 0, 1, 2, 4, 8, 14] {
-                for ((width, height), look) in PLOTS.into_iter().flat_map(|size| [Look::FULL, ASCII].map(|look| (size, look))) {
-                    let view = TeethView { centre, zoom, ..TeethView::default() };
-                    let picture = Picture { look, ..picture(&solved, &view, 1.0) };
-                    let moment = Moment::at(picture.inputs, picture.solution, picture.angle());
+                for ((width, height), look) in PLOTS
+                    .into_iter()
+                    .flat_map(|size| [Look::FULL, ASCII].map(|look| (size, look)))
+                {
+                    let view = TeethView {
+                        centre,
+                        zoom,
+                        ..TeethView::default()
+                    };
+                    let picture = Picture {
+                        look,
+                        ..picture(&solved, &view, 1.0)
+                    };
+                    let moment =
+                        ContactState::at(picture.inputs, picture.solution, picture.angle());
                     let area = Rect::new(0, 0, width, height);
                     let scene = Scene::of(&picture, moment.as_ref(), area.as_size());
                     let mut buffer = Buffer::empty(area);
@@ -357,31 +590,53 @@ fn no_word_lies_on_a_line_where_there_is_room() {
                     let drawn = buffer.clone();
                     let words = Labels::new(area).draw(&scene, &picture, &mut buffer);
                     // The second one is the scale bar itself.
-                    for word in words.iter().enumerate().filter(|(at, _)| *at != 1).map(|(_, word)| word) {
+                    for word in words
+                        .iter()
+                        .enumerate()
+                        .filter(|(at, _)| *at != 1)
+                        .map(|(_, word)| word)
+                    {
                         words_in_all += 1;
                         if word.positions().any(|at| drawn[at].symbol() != " ") {
-                            covering.push(format!("{case} {centre:?} {zoom} {width}x{height} {word:?}"));
+                            covering.push(format!(
+                                "{case} {centre:?} {zoom} {width}x{height} {word:?}"
+                            ));
                         }
                     }
                     let factor = scene.factor.map(|_| "gap x");
                     let text = buffer.content.iter().map(Cell::symbol).collect::<String>();
-                    assert!(factor.is_none_or(|factor| text.contains(factor)), "{case} {centre:?} {zoom} {width}x{height}");
+                    assert!(
+                        factor.is_none_or(|factor| text.contains(factor)),
+                        "{case} {centre:?} {zoom} {width}x{height}"
+                    );
                 }
             }
         }
     }
-    println!("{} of {words_in_all} words lie on a line: {covering:#?}", covering.len());
-    assert!(200 * covering.len() <= words_in_all, "{} of {words_in_all}: {covering:#?}", covering.len());
+    println!(
+        "{} of {words_in_all} words lie on a line: {covering:#?}",
+        covering.len()
+    );
+    assert!(
+        200 * covering.len() <= words_in_all,
+        "{} of {words_in_all}: {covering:#?}",
+        covering.len()
+    );
 }
 
 /// Wall time only tells; what gates is the number of strokes above.
 #[test]
 fn the_cost_of_a_picture() {
-    for (case, centre) in
-        [("zhou-chen-2014.toml", Centre::Strike), ("zhou-chen-2014.toml", Centre::Pair), ("turbo-fine-fast.toml", Centre::Pair)]
-    {
+    for (case, centre) in [
+        ("zhou-chen-2014.toml", Centre::Strike),
+        ("zhou-chen-2014.toml", Centre::Pair),
+        ("turbo-fine-fast.toml", Centre::Pair),
+    ] {
         let solved = solved(case);
-        let view = TeethView { centre, ..TeethView::default() };
+        let view = TeethView {
+            centre,
+            ..TeethView::default()
+        };
         let mut times: Vec<Duration> = (0..101)
             .map(|step| {
                 let picture = picture(&solved, &view, 2.0 - f64::from(step) / 50.0);

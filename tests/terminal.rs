@@ -1,5 +1,11 @@
-//! What the workbench writes, keeps awake and leaves behind on a real terminal: every way out, every kind, counted bytes.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+//! What the workbench writes, keeps awake and leaves behind on a real terminal: every way out,
+//! every kind, counted bytes.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that cannot go on says why"
+)]
 #![allow(clippy::print_stdout, reason = "figures are told")]
 #![cfg(all(feature = "cli", feature = "tui"))]
 
@@ -31,8 +37,15 @@ fn a_panic_of_the_screen_gives_the_terminal_back_and_keeps_what_was_typed() {
     tty.type_in("\x0c");
     assert_eq!(tty.wait_for_end().exit_code(), 101);
     tty.assert_restored();
-    assert!(tty.shows("a fault of the program") && tty.shows("unsaved edits are kept"), "{}", tty.screen().contents());
-    assert!(fs::read_to_string(&journals(tty.folder.path())[0]).is_ok_and(|kept| kept.contains("1.25 in")));
+    assert!(
+        tty.shows("a fault of the program") && tty.shows("unsaved edits are kept"),
+        "{}",
+        tty.screen().contents()
+    );
+    assert!(
+        fs::read_to_string(&journals(tty.folder.path())[0])
+            .is_ok_and(|kept| kept.contains("1.25 in"))
+    );
 }
 
 #[test]
@@ -46,7 +59,9 @@ fn a_panic_of_the_worker_is_told_and_the_workbench_lives_on() {
     assert!(tty.screen().alternate_screen(), "the screen is still ours");
     tty.type_in("\x157 mm\x13");
     let case = tty.case();
-    tty.wait_until("the save", |_| fs::read_to_string(&case).is_ok_and(|text| text.contains("\"7 mm\"")));
+    tty.wait_until("the save", |_| {
+        fs::read_to_string(&case).is_ok_and(|text| text.contains("\"7 mm\""))
+    });
     tty.wait_until("the mark to go", |tty| !tty.shows("*unsaved*"));
     tty.quit();
     tty.assert_restored();
@@ -59,13 +74,19 @@ fn a_shell_stops_it_and_brings_it_back() {
     }
     let launch = Launch::on_table_1().variable("PS1", "ready> ");
     let case = launch.case();
-    let mut tty =
-        Launch::of(launch.folder.clone()).variable("PS1", "ready> ").instead("bash").argument("--norc").argument("-i").start();
+    let mut tty = Launch::of(launch.folder.clone())
+        .variable("PS1", "ready> ")
+        .instead("bash")
+        .argument("--norc")
+        .argument("-i")
+        .start();
     tty.wait_for("ready>");
     let ours = tty.modes();
     for _ in 0..2 {
         tty.type_in(format!("{} {}\r", tty::PROGRAM, case.display()));
-        tty.wait_until("the workbench", |tty| tty.screen().alternate_screen() && tty.shows("quit"));
+        tty.wait_until("the workbench", |tty| {
+            tty.screen().alternate_screen() && tty.shows("quit")
+        });
         let taken = tty.modes();
         for by_key in [false, true] {
             if by_key {
@@ -73,12 +94,16 @@ fn a_shell_stops_it_and_brings_it_back() {
             } else {
                 tty.send_to_program("TSTP");
             }
-            tty.wait_until("the shell", |tty| !tty.screen().alternate_screen() && tty.shows("Stopped"));
+            tty.wait_until("the shell", |tty| {
+                !tty.screen().alternate_screen() && tty.shows("Stopped")
+            });
             tty.settle(QUIET);
             assert_eq!(tty.modes(), ours, "the shell has its modes");
             assert!(!tty.screen().hide_cursor() && !tty.screen().application_cursor());
             tty.type_in("fg\r");
-            tty.wait_until("the workbench", |tty| tty.screen().alternate_screen() && tty.shows("quit"));
+            tty.wait_until("the workbench", |tty| {
+                tty.screen().alternate_screen() && tty.shows("quit")
+            });
             tty.settle(QUIET);
             assert_eq!(tty.modes(), taken, "the workbench has its modes");
         }
@@ -87,7 +112,9 @@ fn a_shell_stops_it_and_brings_it_back() {
         tty.wait_for("Stopped");
         tty.settle(QUIET);
         tty.type_in("fg\r");
-        tty.wait_until("a new picture", |tty| tty.screen().alternate_screen() && tty.shows("quit") && !tty.shows("Stopped"));
+        tty.wait_until("a new picture", |tty| {
+            tty.screen().alternate_screen() && tty.shows("quit") && !tty.shows("Stopped")
+        });
         tty.settle(QUIET);
         assert_eq!(tty.modes(), taken, "the workbench has its modes");
         tty.type_in("\x11");
@@ -109,12 +136,18 @@ fn a_terminal_that_takes_nothing_more_does_not_hold_it() {
     tty.send_signal("TERM");
     let start = Instant::now();
     while !tty.has_ended() {
-        assert!(start.elapsed() < PATIENCE, "it waits for a terminal that takes nothing more");
+        assert!(
+            start.elapsed() < PATIENCE,
+            "it waits for a terminal that takes nothing more"
+        );
         std::thread::sleep(Duration::from_millis(5));
     }
     println!("gone after {:.1?}", start.elapsed());
     let kept = journals(tty.folder.path());
-    assert!(fs::read_to_string(&kept[0]).is_ok_and(|text| text.contains("1.25 in")), "{kept:?}");
+    assert!(
+        fs::read_to_string(&kept[0]).is_ok_and(|text| text.contains("1.25 in")),
+        "{kept:?}"
+    );
 }
 
 #[test]
@@ -142,8 +175,11 @@ fn a_slow_line_is_not_flooded_and_the_way_out_stays_open() {
     tty.set_pace(0);
     assert_eq!(tty.wait_for_end().exit_code(), 0);
     let written = tty.written.as_ref().map_or(0, Vec::len);
-    println!("{KEYS} keys at {PACE} bytes/s: {written} bytes, {grown} KiB more, gone {left:.1?} after the last key");
-    // A picture a key would be 9 MB; 64 KiB wait in the system, and one more picture and the line's own share are on their way.
+    println!(
+        "{KEYS} keys at {PACE} bytes/s: {written} bytes, {grown} KiB more, gone {left:.1?} after the last key"
+    );
+    // A picture a key would be 9 MB; 64 KiB wait in the system, and one more picture and the line's
+    // own share are on their way.
     assert!(written <= 200 << 10, "{written} bytes");
     assert!(grown <= 2 << 10, "{grown} KiB");
     tty.assert_restored();
@@ -152,12 +188,21 @@ fn a_slow_line_is_not_flooded_and_the_way_out_stays_open() {
 #[test]
 fn a_storm_of_sizes_ends_in_the_right_picture() {
     let mut tty = opened(Launch::on_table_1());
-    let sizes: Vec<_> = (0..400u16).map(|at| (at * 7 % 61, at * 13 % 201)).chain([(24, 80)]).collect();
+    let sizes: Vec<_> = (0..400u16)
+        .map(|at| (at * 7 % 61, at * 13 % 201))
+        .chain([(24, 80)])
+        .collect();
     tty.pour(vec![b"\t".repeat(200)], &sizes);
     tty.settle(QUIET);
     tty.wait_for("Corner contact");
     let plain = opened(Launch::on_table_1());
-    let line = |tty: &Tty| tty.screen().contents().lines().next().map(|line| line.split_whitespace().count());
+    let line = |tty: &Tty| {
+        tty.screen()
+            .contents()
+            .lines()
+            .next()
+            .map(|line| line.split_whitespace().count())
+    };
     assert_eq!(line(&tty), line(&plain));
     tty.quit();
     tty.assert_restored();
@@ -165,19 +210,40 @@ fn a_storm_of_sizes_ends_in_the_right_picture() {
 
 #[test]
 fn every_kind_of_terminal_gets_what_it_can_show() {
-    for term in ["xterm", "xterm-256color", "screen", "tmux-256color", "vt100", "linux"] {
+    for term in [
+        "xterm",
+        "xterm-256color",
+        "screen",
+        "tmux-256color",
+        "vt100",
+        "linux",
+    ] {
         for locale in ["C.UTF-8", "C", "POSIX", "de_DE.ISO-8859-1"] {
             for colour in ["", "1"] {
-                let launch = Launch::on_table_1().variable("TERM", term).variable("LC_ALL", locale).variable("NO_COLOR", colour);
+                let launch = Launch::on_table_1()
+                    .variable("TERM", term)
+                    .variable("LC_ALL", locale)
+                    .variable("NO_COLOR", colour);
                 let mut tty = launch.start();
                 tty.wait_for("quit");
                 let screen = tty.screen();
                 let is_ascii = screen.contents().is_ascii();
-                assert_eq!(is_ascii, ["linux", "vt100"].contains(&term) || locale != "C.UTF-8", "{term} {locale}");
-                let cells = (0..24).flat_map(|row| (0..80).filter_map(move |column| screen.cell(row, column)));
+                assert_eq!(
+                    is_ascii,
+                    ["linux", "vt100"].contains(&term) || locale != "C.UTF-8",
+                    "{term} {locale}"
+                );
+                let cells = (0..24)
+                    .flat_map(|row| (0..80).filter_map(move |column| screen.cell(row, column)));
                 let plain = vt100::Color::Default;
-                let coloured = cells.filter(|cell| (cell.fgcolor(), cell.bgcolor()) != (plain, plain)).count();
-                assert_eq!(coloured == 0, !colour.is_empty(), "{term} {locale} NO_COLOR={colour:?}: {coloured}");
+                let coloured = cells
+                    .filter(|cell| (cell.fgcolor(), cell.bgcolor()) != (plain, plain))
+                    .count();
+                assert_eq!(
+                    coloured == 0,
+                    !colour.is_empty(),
+                    "{term} {locale} NO_COLOR={colour:?}: {coloured}"
+                );
                 tty.quit();
             }
         }
@@ -199,17 +265,34 @@ fn a_flood_and_a_long_paste_cost_little_and_press_nothing() {
     tty.pour(vec![b"7".repeat(100_000)], &[]);
     tty.settle(QUIET);
     let written = tty.written.as_ref().map_or(0, Vec::len);
-    println!("100,000 keys: {written} bytes out, {:.0?} with {QUIET:?} of quiet", start.elapsed());
+    println!(
+        "100,000 keys: {written} bytes out, {:.0?} with {QUIET:?} of quiet",
+        start.elapsed()
+    );
     assert!(written <= 64 << 10, "{written} bytes");
     // Into a question, a megabyte of every button's letter.
     tty.type_in("\x11");
     tty.wait_for("Discard");
-    tty.pour(vec![b"\x1b[200~".to_vec(), b"dscyn\r \x11\x03".repeat(1 << 17), b"\x1b[201~".to_vec()], &[]);
+    tty.pour(
+        vec![
+            b"\x1b[200~".to_vec(),
+            b"dscyn\r \x11\x03".repeat(1 << 17),
+            b"\x1b[201~".to_vec(),
+        ],
+        &[],
+    );
     tty.settle(QUIET);
-    assert!(!tty.has_ended() && tty.shows("Discard"), "a paste presses no button:\n{}", tty.screen().contents());
+    assert!(
+        !tty.has_ended() && tty.shows("Discard"),
+        "a paste presses no button:\n{}",
+        tty.screen().contents()
+    );
     tty.type_in("d");
     assert_eq!(tty.wait_for_end().exit_code(), 0);
-    assert_eq!(fs::read_to_string(tty.case()).expect("it is there"), TABLE_1);
+    assert_eq!(
+        fs::read_to_string(tty.case()).expect("it is there"),
+        TABLE_1
+    );
 }
 
 #[test]
@@ -229,19 +312,32 @@ fn nothing_wakes_an_idle_workbench_and_it_is_small() {
 
 /// How often all its threads were put on a processor.
 fn wake_ups(process: u32) -> u64 {
-    let tasks = fs::read_dir(format!("/proc/{process}/task")).expect("it runs").flatten();
-    let switches =
-        |text: String| number_after(&text, "\nvoluntary_ctxt_switches:") + number_after(&text, "nonvoluntary_ctxt_switches:");
-    tasks.filter_map(|task| fs::read_to_string(task.path().join("status")).ok()).map(switches).sum()
+    let tasks = fs::read_dir(format!("/proc/{process}/task"))
+        .expect("it runs")
+        .flatten();
+    let switches = |text: String| {
+        number_after(&text, "\nvoluntary_ctxt_switches:")
+            + number_after(&text, "nonvoluntary_ctxt_switches:")
+    };
+    tasks
+        .filter_map(|task| fs::read_to_string(task.path().join("status")).ok())
+        .map(switches)
+        .sum()
 }
 
 fn resident(process: u32) -> u64 {
-    number_after(&fs::read_to_string(format!("/proc/{process}/status")).expect("it runs"), "VmRSS:")
+    number_after(
+        &fs::read_to_string(format!("/proc/{process}/status")).expect("it runs"),
+        "VmRSS:",
+    )
 }
 
 fn number_after(text: &str, name: &str) -> u64 {
     let rest = text.split_once(name).map_or("", |(_, rest)| rest);
-    rest.split_whitespace().next().and_then(|number| number.parse().ok()).unwrap_or(0)
+    rest.split_whitespace()
+        .next()
+        .and_then(|number| number.parse().ok())
+        .unwrap_or(0)
 }
 
 #[test]
@@ -257,9 +353,17 @@ fn a_typed_digit_costs_few_bytes() {
         tty.type_in("\x1b[1;5H\x1b[B\x1b[B\x155.");
         tty.settle(QUIET);
         let whole = largest(each_key(&mut tty, "00123456789123456789"));
-        println!("{columns}x{rows}: {alone} bytes for a field alone ({first} with the mark), {whole} with results and chart");
-        assert!(alone <= 120, "{columns}x{rows}: {alone} bytes for a field alone");
-        assert!(first <= 600 && whole <= 600, "{columns}x{rows}: {whole} bytes with results and chart");
+        println!(
+            "{columns}x{rows}: {alone} bytes for a field alone ({first} with the mark), {whole} with results and chart"
+        );
+        assert!(
+            alone <= 120,
+            "{columns}x{rows}: {alone} bytes for a field alone"
+        );
+        assert!(
+            first <= 600 && whole <= 600,
+            "{columns}x{rows}: {whole} bytes with results and chart"
+        );
         tty.type_in("\x11");
         tty.wait_for("Discard");
         tty.type_in("d");

@@ -1,11 +1,16 @@
 //! The pane of error against time: measuring, stopping, walking along the settings, taking one.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that cannot go on says why"
+)]
 #![cfg(feature = "tui")]
 
-mod desk;
+mod harness;
 
 use crossterm::event::KeyCode;
-use desk::{Desk, LARGE, SMALL, TABLE_1, time_evenly};
+use harness::{Desk, LARGE, SMALL, TABLE_1, time_evenly};
 use insta::assert_snapshot;
 use ratatui::layout::Size;
 use tipstrike::model::inputs::Method;
@@ -14,8 +19,8 @@ use tipstrike::tui::actions::Action;
 use tipstrike::tui::actions::Effect;
 use tipstrike::tui::app::Progress;
 use tipstrike::tui::layout::plan;
-use tipstrike::tui::measurer::{End, Measured, Measuring};
 use tipstrike::tui::theme::{Look, MONO};
+use tipstrike::tui::trade_worker::{End, Measured, Measuring};
 use tipstrike::tui::update::update;
 
 fn measured(size: Size) -> Desk {
@@ -31,7 +36,7 @@ fn own(desk: &Desk) -> Setting {
 /// The effects of a key, not performed.
 fn asked(desk: &mut Desk, key: &str) -> Vec<Effect> {
     let letter = || KeyCode::Char(key.chars().next().expect("a key")).into();
-    let event = desk::named(key).unwrap_or_else(letter);
+    let event = harness::named(key).unwrap_or_else(letter);
     let action = tipstrike::tui::actions::of_key(event, desk.app.place()).expect("an action");
     update(&mut desk.app, action)
 }
@@ -40,9 +45,17 @@ fn asked(desk: &mut Desk, key: &str) -> Vec<Effect> {
 fn nothing_is_measured_until_it_is_asked_for() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc", "5", "z"]);
-    assert!(desk.shows("Nothing is measured yet: m measures"), "{}", desk.screen());
+    assert!(
+        desk.shows("Nothing is measured yet: m measures"),
+        "{}",
+        desk.screen()
+    );
     desk.keys(&["Right", "Enter"]);
-    assert!(desk.shows("nothing is measured yet: m measures"), "{}", desk.screen());
+    assert!(
+        desk.shows("nothing is measured yet: m measures"),
+        "{}",
+        desk.screen()
+    );
     assert!(desk.app.traded.is_none());
 }
 
@@ -51,15 +64,27 @@ fn m_measures_and_the_cheapest_that_will_do_is_marked() {
     let desk = measured(LARGE);
     let traded = desk.app.traded.as_ref().expect("a measurement");
     assert_eq!(traded.marked.expect("a mark").method, Method::Dynamic);
-    assert!(desk.shows("Within 5.0 %: dynamic with"), "{}", desk.screen());
-    assert!(desk.shows("(e)") && (desk.shows("[D]") || desk.shows("[d]")), "{}", desk.screen());
+    assert!(
+        desk.shows("Within 5.0 %: dynamic with"),
+        "{}",
+        desk.screen()
+    );
+    assert!(
+        desk.shows("(e)") && (desk.shows("[D]") || desk.shows("[d]")),
+        "{}",
+        desk.screen()
+    );
     assert!(desk.shows("P") && desk.shows("1 ms") && desk.app.progress.is_none());
 }
 
 #[test]
 fn the_method_that_the_others_are_held_against_has_no_error_of_its_own() {
     let desk = measured(LARGE);
-    assert!(desk.shows("model: the reference") && !desk.shows("model 0 %"), "{}", desk.screen());
+    assert!(
+        desk.shows("model: the reference") && !desk.shows("model 0 %"),
+        "{}",
+        desk.screen()
+    );
 }
 
 #[test]
@@ -68,7 +93,15 @@ fn arrows_walk_from_the_quickest_to_the_slowest() {
     let seconds = |desk: &Desk| {
         let traded = desk.app.traded.as_ref().unwrap();
         let marked = traded.marked.unwrap();
-        traded.trade.as_ref().unwrap().settings.iter().find(|one| one.setting == marked).unwrap().seconds()
+        traded
+            .trade
+            .as_ref()
+            .unwrap()
+            .settings
+            .iter()
+            .find(|one| one.setting == marked)
+            .unwrap()
+            .seconds()
     };
     for _ in 0..100 {
         desk.keys(&["Left"]);
@@ -90,7 +123,11 @@ fn enter_makes_the_marked_setting_the_cases_and_undo_takes_it_back() {
     desk.keys(&["Enter"]);
     assert_eq!(own(&desk), marked);
     assert_eq!(desk.app.answer.as_ref().unwrap().active, Method::Dynamic);
-    assert!(desk.shows(&format!("method {marked}; u undoes")), "{}", desk.screen());
+    assert!(
+        desk.shows(&format!("method {marked}; u undoes")),
+        "{}",
+        desk.screen()
+    );
     assert!(!desk.shows("AS IT WAS"), "a setting makes no other case");
     desk.keys(&["u"]);
     assert_eq!(own(&desk), before);
@@ -102,7 +139,11 @@ fn another_case_makes_the_measurement_one_of_before() {
     desk.keys(&["z"]);
     desk.fill("operation.speed", "1500 rpm");
     desk.keys(&["Esc", "5", "z"]);
-    assert!(desk.shows("AS IT WAS, m measures anew"), "{}", desk.screen());
+    assert!(
+        desk.shows("AS IT WAS, m measures anew"),
+        "{}",
+        desk.screen()
+    );
     desk.keys(&["m"]);
     assert!(!desk.shows("AS IT WAS"), "{}", desk.screen());
 }
@@ -119,9 +160,22 @@ fn esc_stops_a_measurement_and_what_was_measured_stays() {
         }
         other => panic!("{other:?}"),
     };
-    assert_eq!(desk.app.progress, Some(Progress { what: "measuring".to_owned(), part: 0.0 }));
+    assert_eq!(
+        desk.app.progress,
+        Some(Progress {
+            what: "measuring".to_owned(),
+            part: 0.0
+        })
+    );
     assert!(matches!(asked(&mut desk, "Esc")[..], [Effect::CancelWork]));
-    update(&mut desk.app, Action::Measured(Box::new(Measured { serial, trade: None, end: Some(End::Stopped) })));
+    update(
+        &mut desk.app,
+        Action::Measured(Box::new(Measured {
+            serial,
+            trade: None,
+            end: Some(End::Stopped),
+        })),
+    );
     assert!(desk.app.progress.is_none() && desk.shows("the measurement is stopped"));
 }
 
@@ -130,8 +184,16 @@ fn a_measurement_out_of_sight_stops() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "5"]);
     assert!(matches!(asked(&mut desk, "m")[..], [Effect::Measure(_)]));
-    assert!(asked(&mut desk, "2").iter().all(|effect| !matches!(effect, Effect::CancelWork)), "it is in sight");
-    assert!(matches!(asked(&mut desk, "3")[..], [Effect::CancelWork]), "the chart takes its place");
+    assert!(
+        asked(&mut desk, "2")
+            .iter()
+            .all(|effect| !matches!(effect, Effect::CancelWork)),
+        "it is in sight"
+    );
+    assert!(
+        matches!(asked(&mut desk, "3")[..], [Effect::CancelWork]),
+        "the chart takes its place"
+    );
 }
 
 #[test]
@@ -145,10 +207,18 @@ fn what_a_later_measurement_overtook_changes_nothing() {
         other => panic!("{other:?}"),
     });
     assert!(serials[0] < serials[1]);
-    let late = Measured { serial: serials[0], trade: None, end: Some(End::Stopped) };
+    let late = Measured {
+        serial: serials[0],
+        trade: None,
+        end: Some(End::Stopped),
+    };
     update(&mut desk.app, Action::Measured(Box::new(late)));
     assert!(desk.app.progress.is_some(), "the second goes on");
-    let failed = Measured { serial: serials[1], trade: None, end: Some(End::Failed("no mesh".to_owned())) };
+    let failed = Measured {
+        serial: serials[1],
+        trade: None,
+        end: Some(End::Failed("no mesh".to_owned())),
+    };
     update(&mut desk.app, Action::Measured(Box::new(failed)));
     assert!(desk.app.progress.is_none() && desk.shows("nothing is measured: no mesh"));
 }
@@ -162,9 +232,24 @@ fn a_measurement_ends_although_its_case_was_closed() {
         other => panic!("{other:?}"),
     };
     desk.keys(&["Alt-W"]);
-    assert!(desk.app.progress.is_some() && desk.has_cancelled, "{}", desk.screen());
-    update(&mut desk.app, Action::Measured(Box::new(Measured { serial, trade: None, end: Some(End::Stopped) })));
-    assert!(desk.app.progress.is_none() && desk.app.measuring.is_none(), "{}", desk.screen());
+    assert!(
+        desk.app.progress.is_some() && desk.has_cancelled,
+        "{}",
+        desk.screen()
+    );
+    update(
+        &mut desk.app,
+        Action::Measured(Box::new(Measured {
+            serial,
+            trade: None,
+            end: Some(End::Stopped),
+        })),
+    );
+    assert!(
+        desk.app.progress.is_none() && desk.app.measuring.is_none(),
+        "{}",
+        desk.screen()
+    );
 }
 
 #[test]
@@ -182,11 +267,18 @@ fn it_is_drawn_at_every_size() {
     for width in (0..=150).step_by(7) {
         for height in 0..=50 {
             let screen = desk.screen_at(Size { width, height });
-            assert!(!screen.contains("NaN") && !screen.contains("inf"), "{screen}");
+            assert!(
+                !screen.contains("NaN") && !screen.contains("inf"),
+                "{screen}"
+            );
         }
     }
     desk.keys(&["Tab", "BackTab", "Right", "Left"]);
-    assert!(desk.shows("1 ms") || desk.shows("100 us"), "{}", desk.screen());
+    assert!(
+        desk.shows("1 ms") || desk.shows("100 us"),
+        "{}",
+        desk.screen()
+    );
 }
 
 fn timed(size: Size) -> Desk {
@@ -203,7 +295,10 @@ fn the_pane_as_it_looks() {
         assert_snapshot!(format!("alone_{name}"), desk.screen());
     }
     let mut desk = timed(SMALL);
-    desk.app.look = Look { theme: &MONO, ascii: true };
+    desk.app.look = Look {
+        theme: &MONO,
+        ascii: true,
+    };
     assert!(desk.screen().is_ascii());
     assert_snapshot!("alone_ascii", desk.screen());
     desk.keys(&["z"]);
@@ -218,19 +313,44 @@ fn every_mark_stands_on_its_side_of_the_error_that_will_do() {
         desk.app.size = Size { width, height };
         let area = plan(desk.app.size, desk.app.panes).trade;
         let screen = desk.screen();
-        let rows: Vec<Vec<char>> = screen.lines().map(|line| line.chars().skip(area.x.into()).collect()).collect();
+        let rows: Vec<Vec<char>> = screen
+            .lines()
+            .map(|line| line.chars().skip(area.x.into()).collect())
+            .collect();
         let pane = &rows[usize::from(area.y) + 1..usize::from(area.bottom())];
-        let level = pane.iter().position(|row| row.iter().filter(|&&cell| cell == '╌').count() > 9).expect("a line");
+        let level = pane
+            .iter()
+            .position(|row| row.iter().filter(|&&cell| cell == '╌').count() > 9)
+            .expect("a line");
         let line: String = pane[level].iter().collect();
-        assert!(line.contains("5.0 %┤") && !line.contains(char::is_alphabetic), "{width}x{height}: {line}");
-        let axis = pane.iter().position(|row| row.contains(&'└')).expect("an axis");
+        assert!(
+            line.contains("5.0 %┤") && !line.contains(char::is_alphabetic),
+            "{width}x{height}: {line}"
+        );
+        let axis = pane
+            .iter()
+            .position(|row| row.contains(&'└'))
+            .expect("an axis");
         let letters = |rows: &[Vec<char>]| -> Vec<char> {
-            let plot = rows.iter().flat_map(|row| row.iter().skip_while(|cell| !"│┤".contains(**cell)).copied());
+            let plot = rows.iter().flat_map(|row| {
+                row.iter()
+                    .skip_while(|cell| !"│┤".contains(**cell))
+                    .copied()
+            });
             plot.filter(|cell| "pesdaPESDA".contains(*cell)).collect()
         };
         // On Table 1 the closed forms and the load at rest are farther off than 5 %.
-        let (above, below) = (letters(&pane[usize::from(level > 5)..level]), letters(&pane[level + 1..axis]));
-        assert!(above.iter().all(|letter| "pesPES".contains(*letter)) && !above.is_empty(), "{width}x{height}:\n{screen}");
-        assert!(below.iter().all(|letter| "daDA".contains(*letter)) && !below.is_empty(), "{width}x{height}:\n{screen}");
+        let (above, below) = (
+            letters(&pane[usize::from(level > 5)..level]),
+            letters(&pane[level + 1..axis]),
+        );
+        assert!(
+            above.iter().all(|letter| "pesPES".contains(*letter)) && !above.is_empty(),
+            "{width}x{height}:\n{screen}"
+        );
+        assert!(
+            below.iter().all(|letter| "daDA".contains(*letter)) && !below.is_empty(),
+            "{width}x{height}:\n{screen}"
+        );
     }
 }

@@ -1,5 +1,11 @@
-//! Long work on a real terminal: the trade's progress and Ctrl-C; keys and Esc while a slow method runs.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says why")]
+//! Long work on a real terminal: the trade's progress and Ctrl-C; keys and Esc while a slow method
+//! runs.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that cannot go on says why"
+)]
 #![allow(clippy::print_stdout, reason = "wall time only warns")]
 #![cfg(all(feature = "cli", feature = "tui"))]
 
@@ -23,7 +29,10 @@ fn launch(command: &[&str]) -> Launch {
     let case = launch.case();
     match command {
         [] => launch,
-        words => words.iter().fold(Launch::of(launch.folder), Launch::argument).argument(case),
+        words => words
+            .iter()
+            .fold(Launch::of(launch.folder), Launch::argument)
+            .argument(case),
     }
 }
 
@@ -49,10 +58,18 @@ fn a_trade_shows_its_progress_and_ctrl_c_ends_it_without_a_trace() {
     let begun = Instant::now();
     tty.wait_until("no bar", |tty| !tty.shows("settings"));
     let status = tty.wait_for_end();
-    warn_beyond("Ctrl-C to the end", begun.elapsed(), Duration::from_millis(100));
+    warn_beyond(
+        "Ctrl-C to the end",
+        begun.elapsed(),
+        Duration::from_millis(100),
+    );
     assert!(!status.success());
     tty.assert_restored();
-    assert_eq!(tty.screen().contents().trim(), "", "no bar and no word are left");
+    assert_eq!(
+        tty.screen().contents().trim(),
+        "",
+        "no bar and no word are left"
+    );
 }
 
 #[test]
@@ -69,7 +86,11 @@ fn keys_are_answered_while_a_slow_method_runs() {
     // That of the last edit runs.
     tty.wait_for("dynamic to come");
     times.sort();
-    warn_beyond("key to echo while a slow method runs, median", times[times.len() / 2], Duration::from_millis(5));
+    warn_beyond(
+        "key to echo while a slow method runs, median",
+        times[times.len() / 2],
+        Duration::from_millis(5),
+    );
     tty.send_signal("TERM");
     tty.wait_for_end();
 }
@@ -85,7 +106,11 @@ fn esc_ends_a_measurement_at_once() {
     tty.type_in("\x1b");
     let time = time_until(&mut tty, "the measurement is stopped");
     // A lone Esc is told from the start of an arrow key by 50 ms of silence.
-    warn_beyond("Esc to the end of a measurement", time, Duration::from_millis(150));
+    warn_beyond(
+        "Esc to the end of a measurement",
+        time,
+        Duration::from_millis(150),
+    );
     tty.type_in("\x11");
     assert_eq!(tty.wait_for_end().exit_code(), 0);
 }

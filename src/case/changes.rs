@@ -18,37 +18,71 @@ pub struct Change {
 #[must_use]
 pub fn between(from: &Case, to: &Case) -> Vec<Change> {
     let (old, new) = (texts(from), texts(to));
-    let find = |texts: &[(String, String)], key: &str| texts.iter().find(|(own, _)| own == key).map(|(_, text)| text.clone());
-    let mut keys: Vec<&String> =
-        FIELDS.iter().filter_map(|field| old.iter().chain(&new).map(|(key, _)| key).find(|key| *key == field.key)).collect();
+    let find = |texts: &[(String, String)], key: &str| {
+        texts
+            .iter()
+            .find(|(own, _)| own == key)
+            .map(|(_, text)| text.clone())
+    };
+    let mut keys: Vec<&String> = FIELDS
+        .iter()
+        .filter_map(|field| {
+            old.iter()
+                .chain(&new)
+                .map(|(key, _)| key)
+                .find(|key| *key == field.key)
+        })
+        .collect();
     for (key, _) in old.iter().chain(&new) {
         if !keys.contains(&key) {
             keys.push(key);
         }
     }
-    let change = |key: &String| Change { key: key.clone(), from: find(&old, key), to: find(&new, key) };
-    keys.into_iter().map(change).filter(|change| change.from != change.to).collect()
+    let change = |key: &String| Change {
+        key: key.clone(),
+        from: find(&old, key),
+        to: find(&new, key),
+    };
+    keys.into_iter()
+        .map(change)
+        .filter(|change| change.from != change.to)
+        .collect()
 }
 
 /// The text that a case has under a key, `None` where it leaves it out.
 #[must_use]
 pub fn text_of(case: &Case, key: &str) -> Option<String> {
-    texts(case).into_iter().find(|(own, _)| own == key).map(|(_, text)| text)
+    texts(case)
+        .into_iter()
+        .find(|(own, _)| own == key)
+        .map(|(_, text)| text)
 }
 
-/// A key as a person reads it: the label of the field, and its table where other tables have a field of that name.
+/// A key as a person reads it: the label of the field, and its table where other tables have a
+/// field of that name.
 #[must_use]
 pub fn label(key: &str) -> String {
-    let Some(field) = fields::index_of(key).map(|index| &FIELDS[index]) else { return key.to_owned() };
-    let is_alone = FIELDS.iter().filter(|other| other.label == field.label).count() == 1;
-    if is_alone { field.label.to_owned() } else { format!("{} {}", field.table(), field.label) }
+    let Some(field) = fields::index_of(key).map(|index| &FIELDS[index]) else {
+        return key.to_owned();
+    };
+    let is_alone = FIELDS
+        .iter()
+        .filter(|other| other.label == field.label)
+        .count()
+        == 1;
+    if is_alone {
+        field.label.to_owned()
+    } else {
+        format!("{} {}", field.table(), field.label)
+    }
 }
 
 impl Case {
     /// Write the text that a change leads to, valid or not; `None` takes it out.
     ///
     /// # Errors
-    /// Where there is no such key, or a limit or a distribution is no valid one; the case then stays as it was.
+    /// Where there is no such key, or a limit or a distribution is no valid one; the case then
+    /// stays as it was.
     pub fn apply(&mut self, key: &str, text: Option<&str>) -> Result<(), Problem> {
         let text = text.unwrap_or_default();
         if let Some(quantity) = key.strip_prefix("limits.") {
@@ -78,10 +112,20 @@ impl Case {
 }
 
 fn texts(case: &Case) -> Vec<(String, String)> {
-    let fields =
-        FIELDS.iter().enumerate().filter_map(|(index, field)| Some((field.key.to_owned(), case.text(index)?.to_owned())));
-    let limits = case.limits.iter().map(|limit| (format!("limits.{}", limit.quantity), limit.text.clone()));
-    let spreads = case.spread.iter().map(|held| (spread::place(held.field), format!("{} {}", held.shape.name(), held.text)));
+    let fields = FIELDS
+        .iter()
+        .enumerate()
+        .filter_map(|(index, field)| Some((field.key.to_owned(), case.text(index)?.to_owned())));
+    let limits = case
+        .limits
+        .iter()
+        .map(|limit| (format!("limits.{}", limit.quantity), limit.text.clone()));
+    let spreads = case.spread.iter().map(|held| {
+        (
+            spread::place(held.field),
+            format!("{} {}", held.shape.name(), held.text),
+        )
+    });
     fields.chain(limits).chain(spreads).collect()
 }
 
@@ -92,25 +136,36 @@ mod tests {
 
     fn varied() -> Case {
         let mut case = Case::table_1();
-        for (key, text) in [("pair.module", "1 in"), ("title", ""), ("driver.teeth", "twenty"), ("model.method", "paper")] {
+        for (key, text) in [
+            ("pair.module", "1 in"),
+            ("title", ""),
+            ("driver.teeth", "twenty"),
+            ("model.method", "paper"),
+        ] {
             case.write(fields::index_of(key).expect("a field"), text);
         }
         case.limits = vec![Limit::new("dynamic_factor", "1.5").expect("a limit")];
-        case.spread.push(Spread::new("pair.module", "normal", "4 um").expect("a distribution"));
+        case.spread
+            .push(Spread::new("pair.module", "normal", "4 um").expect("a distribution"));
         case
     }
 
     #[test]
     fn the_changes_between_two_cases_turn_the_one_into_the_other() {
-        let pairs =
-            [(Case::table_1(), varied()), (varied(), Case::table_1()), (Case::empty(), varied()), (varied(), Case::empty())];
+        let pairs = [
+            (Case::table_1(), varied()),
+            (varied(), Case::table_1()),
+            (Case::empty(), varied()),
+            (varied(), Case::empty()),
+        ];
         for (from, to) in pairs {
             let mut case = from.clone();
             let changes = between(&from, &to);
             assert!(!changes.is_empty());
             for change in &changes {
                 assert_eq!(text_of(&case, &change.key), change.from);
-                case.apply(&change.key, change.to.as_deref()).expect("the text of a case");
+                case.apply(&change.key, change.to.as_deref())
+                    .expect("the text of a case");
             }
             assert_eq!(between(&case, &to), []);
             assert_eq!(case, to);
@@ -121,9 +176,12 @@ mod tests {
     #[test]
     fn keys_without_a_field_are_refused_and_change_nothing() {
         let mut case = Case::table_1();
-        for (key, text) in
-            [("pair.modul", "5 mm"), ("limits.force", "5 N"), ("spread.\"title\"", "normal 1"), ("limits.impact_force", "x")]
-        {
+        for (key, text) in [
+            ("pair.modul", "5 mm"),
+            ("limits.force", "5 N"),
+            ("spread.\"title\"", "normal 1"),
+            ("limits.impact_force", "x"),
+        ] {
             assert!(case.apply(key, Some(text)).is_err(), "{key}");
         }
         assert_eq!(case, Case::table_1());
@@ -131,7 +189,10 @@ mod tests {
 
     #[test]
     fn a_label_tells_the_gear() {
-        assert_eq!(label("pair.module"), FIELDS[fields::index_of("pair.module").expect("a field")].label);
+        assert_eq!(
+            label("pair.module"),
+            FIELDS[fields::index_of("pair.module").expect("a field")].label
+        );
         assert_ne!(label("driver.teeth"), label("driven.teeth"));
         assert_eq!(label("limits.impact_force"), "limits.impact_force");
     }

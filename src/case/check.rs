@@ -3,8 +3,8 @@
 use std::sync::LazyLock;
 
 use super::fields::{AUTO, Absent, FIELDS, Field, Kind, Range, index_of};
-use super::units::{self, Dimension, Misread};
-use super::visible::{quoted, visible};
+use super::sanitize::{quoted, sanitize};
+use super::units::{self, Dimension, ParseError};
 use super::{Case, Limit, suggest};
 use crate::model::inputs::Gear;
 use crate::model::{Inputs, QUANTITIES, Quantity};
@@ -24,11 +24,15 @@ pub struct Problem {
 impl Problem {
     /// A problem of a field.
     pub(super) fn new(field: &str, cause: impl Into<String>, mend: impl Into<String>) -> Problem {
-        Problem { field: field.to_owned(), cause: cause.into(), mend: mend.into() }
+        Problem {
+            field: field.to_owned(),
+            cause: cause.into(),
+            mend: mend.into(),
+        }
     }
 
     /// A misread value, as a problem of its field.
-    pub(super) fn of(field: &str, misread: Misread) -> Problem {
+    pub(super) fn of(field: &str, misread: ParseError) -> Problem {
         Problem::new(field, misread.cause, misread.mend)
     }
 }
@@ -36,7 +40,13 @@ impl Problem {
 /// One line: `field: cause: mend`.
 impl std::fmt::Display for Problem {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}: {}: {}", visible(&self.field), visible(&self.cause), visible(&self.mend))
+        write!(
+            f,
+            "{}: {}: {}",
+            sanitize(&self.field),
+            sanitize(&self.cause),
+            sanitize(&self.mend)
+        )
     }
 }
 
@@ -48,11 +58,15 @@ const MOST_RATIO: f64 = 50.0;
 /// What every field puts into the model's inputs, or everything that is wrong with the case.
 pub(super) fn inputs(case: &Case) -> Result<Inputs, Vec<Problem>> {
     let (inputs, problems) = read(case, &[]);
-    if problems.is_empty() { Ok(inputs) } else { Err(problems) }
+    if problems.is_empty() {
+        Ok(inputs)
+    } else {
+        Err(problems)
+    }
 }
 
-/// The inputs as far as they can be read, and everything that is wrong with the case, passing over the fields that are
-/// known to be wrong.
+/// The inputs as far as they can be read, and everything that is wrong with the case, passing over
+/// the fields that are known to be wrong.
 pub(super) fn read(case: &Case, wrong: &[usize]) -> (Inputs, Vec<Problem>) {
     let mut inputs = Inputs::default();
     let mut problems: Vec<Problem> = Vec::new();
@@ -63,7 +77,10 @@ pub(super) fn read(case: &Case, wrong: &[usize]) -> (Inputs, Vec<Problem>) {
         }
     }
     let sound = |keys: &[&str]| {
-        let named = |key: &&str| wrong.iter().any(|&field| FIELDS[field].key == *key) || problems.iter().any(|p| p.field == *key);
+        let named = |key: &&str| {
+            wrong.iter().any(|&field| FIELDS[field].key == *key)
+                || problems.iter().any(|p| p.field == *key)
+        };
         !keys.iter().any(named)
     };
     let together = together(&inputs, sound);
@@ -75,7 +92,10 @@ pub(super) fn read(case: &Case, wrong: &[usize]) -> (Inputs, Vec<Problem>) {
 
 /// What is wrong with the limits that hold something; those that could be read are not read again.
 fn limits(case: &Case) -> impl Iterator<Item = Problem> {
-    let unread = case.limits.iter().filter(|limit| !limit.text.is_empty() && limit.value.is_infinite());
+    let unread = case
+        .limits
+        .iter()
+        .filter(|limit| !limit.text.is_empty() && limit.value.is_infinite());
     unread.filter_map(|limit| Limit::new(limit.quantity, &limit.text).err())
 }
 
@@ -84,7 +104,11 @@ pub(super) fn put(case: &Case, field: usize, inputs: &mut Inputs) -> Result<(), 
     let known = &FIELDS[field];
     match (case.text(field), known.absent) {
         (Some(text), _) | (None, Absent::Default(text)) => put_text(known, field, text, inputs),
-        (None, Absent::Refused) => Err(Problem::new(known.key, "this field is missing", format!("add {}", addition(known)))),
+        (None, Absent::Refused) => Err(Problem::new(
+            known.key,
+            "this field is missing",
+            format!("add {}", addition(known)),
+        )),
         (None, Absent::Without(_) | Absent::Either(_)) => Ok(()),
     }
 }
@@ -92,7 +116,11 @@ pub(super) fn put(case: &Case, field: usize, inputs: &mut Inputs) -> Result<(), 
 /// How the field stands in a file, by example.
 pub(super) fn assignment(field: &Field) -> String {
     let example = field.example();
-    let value = if field.is_bare() { example.to_owned() } else { format!("\"{example}\"") };
+    let value = if field.is_bare() {
+        example.to_owned()
+    } else {
+        format!("\"{example}\"")
+    };
     format!("{} = {value}", field.name())
 }
 
@@ -112,14 +140,19 @@ pub(super) fn partner(field: usize) -> Option<usize> {
     }
 }
 
-/// Exactly one of two fields is given: said once, at the first when neither is and at the second when both are.
+/// Exactly one of two fields is given: said once, at the first when neither is and at the second
+/// when both are.
 fn misfit(case: &Case, field: usize) -> Option<Problem> {
     let other = partner(field)?;
     let (known, named) = (&FIELDS[field], &FIELDS[other]);
     match (case.text(field), case.text(other)) {
         (None, None) if field < other => {
             let cause = format!("neither {} nor {} is given", known.key, named.key);
-            Some(Problem::new(known.key, cause, format!("add {}", addition(known))))
+            Some(Problem::new(
+                known.key,
+                cause,
+                format!("add {}", addition(known)),
+            ))
         }
         (Some(_), Some(_)) if field > other => {
             let cause = format!("{} and {} are both given", named.key, known.key);
@@ -132,7 +165,9 @@ fn misfit(case: &Case, field: usize) -> Option<Problem> {
 fn put_text(known: &Field, field: usize, text: &str, inputs: &mut Inputs) -> Result<(), Problem> {
     match known.kind {
         Kind::Text => {}
-        Kind::Number(dimension, range, put) => put(inputs, number(known, field, text, dimension, range)?),
+        Kind::Number(dimension, range, put) => {
+            put(inputs, number(known, field, text, dimension, range)?)
+        }
         Kind::Count(from, to, put) => put(inputs, count(known, text, from, to)?),
         Kind::Choice(names, put) => put(inputs, choice(known, text, names)?),
     }
@@ -141,17 +176,28 @@ fn put_text(known: &Field, field: usize, text: &str, inputs: &mut Inputs) -> Res
 
 /// The ends of every range in SI, read like a value so that the ends themselves are inside.
 static ENDS: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
-    let end = |value: f64, dimension, unit| units::parse(&format!("{value} {unit}"), dimension, unit).unwrap_or(f64::NAN);
+    let end = |value: f64, dimension, unit| {
+        units::parse(&format!("{value} {unit}"), dimension, unit).unwrap_or(f64::NAN)
+    };
     FIELDS
         .iter()
         .map(|field| match field.kind {
-            Kind::Number(dimension, range, _) => (end(range.from, dimension, range.unit), end(range.to, dimension, range.unit)),
+            Kind::Number(dimension, range, _) => (
+                end(range.from, dimension, range.unit),
+                end(range.to, dimension, range.unit),
+            ),
             _ => (0.0, 0.0),
         })
         .collect()
 });
 
-fn number(known: &Field, field: usize, text: &str, dimension: Dimension, range: Range) -> Result<f64, Problem> {
+fn number(
+    known: &Field,
+    field: usize,
+    text: &str,
+    dimension: Dimension,
+    range: Range,
+) -> Result<f64, Problem> {
     let (from, to) = ENDS[field];
     let likely = || likely_unit(text, known, dimension, (from, to));
     let value = units::parse(text, dimension, known.usual_unit())
@@ -160,27 +206,58 @@ fn number(known: &Field, field: usize, text: &str, dimension: Dimension, range: 
     // The same end may be written in another unit, and be off by its rounding there.
     let slack = 4.0 * f64::EPSILON;
     if value < from - slack * from.abs() {
-        return Err(outside(known, text, "below", shortest(range.from), range.unit));
+        return Err(outside(
+            known,
+            text,
+            "below",
+            shortest(range.from),
+            range.unit,
+        ));
     }
     if value > to + slack * to.abs() {
-        return Err(outside(known, text, "above", shortest(range.to), range.unit));
+        return Err(outside(
+            known,
+            text,
+            "above",
+            shortest(range.to),
+            range.unit,
+        ));
     }
     Ok(value)
 }
 
-/// The unit that is most likely meant behind a bare number: the usual one, or where that is out of range another that is not.
-fn likely_unit(text: &str, known: &Field, dimension: Dimension, (from, to): (f64, f64)) -> &'static str {
+/// The unit that is most likely meant behind a bare number: the usual one, or where that is out of
+/// range another that is not.
+fn likely_unit(
+    text: &str,
+    known: &Field,
+    dimension: Dimension,
+    (from, to): (f64, f64),
+) -> &'static str {
     let fits = |unit: &&str| {
         let value = units::parse(&format!("{} {unit}", text.trim()), dimension, unit);
         value.is_ok_and(|value| (from..=to).contains(&value))
     };
-    std::iter::once(known.usual_unit()).chain(dimension.symbols()).find(fits).unwrap_or(known.usual_unit())
+    std::iter::once(known.usual_unit())
+        .chain(dimension.symbols())
+        .find(fits)
+        .unwrap_or(known.usual_unit())
 }
 
-fn outside(known: &Field, text: &str, side: &str, end: impl std::fmt::Display, unit: &str) -> Problem {
+fn outside(
+    known: &Field,
+    text: &str,
+    side: &str,
+    end: impl std::fmt::Display,
+    unit: &str,
+) -> Problem {
     let end = format!("{end} {unit}");
     let cause = format!("{} is {side} the limit of {}", quoted(text), end.trim_end());
-    Problem::new(known.key, cause, format!("write a value from {}", known.range_text()))
+    Problem::new(
+        known.key,
+        cause,
+        format!("write a value from {}", known.range_text()),
+    )
 }
 
 fn count(known: &Field, text: &str, from: u32, to: u32) -> Result<u32, Problem> {
@@ -192,16 +269,32 @@ fn count(known: &Field, text: &str, from: u32, to: u32) -> Result<u32, Problem> 
     match digits.parse::<u32>() {
         Ok(value) if value < from => Err(outside(known, text, "below", from, "")),
         Ok(value) if value <= to => Ok(value),
-        _ if !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit()) => Err(outside(known, text, "above", to, "")),
+        _ if !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit()) => {
+            Err(outside(known, text, "above", to, ""))
+        }
         _ => Err(not_whole(known, text)),
     }
 }
 
 fn not_whole(known: &Field, text: &str) -> Problem {
-    let example = format!("write a whole number from {}, such as {}", known.range_text(), known.example());
+    let example = format!(
+        "write a whole number from {}, such as {}",
+        known.range_text(),
+        known.example()
+    );
     match units::parse(text, Dimension::Number, "") {
-        Ok(value) if value < 0.0 => outside(known, text, "below", known.range_text().split(' ').next().unwrap_or("0"), ""),
-        Ok(_) => Problem::new(known.key, format!("{} is not a whole number", quoted(text)), example),
+        Ok(value) if value < 0.0 => outside(
+            known,
+            text,
+            "below",
+            known.range_text().split(' ').next().unwrap_or("0"),
+            "",
+        ),
+        Ok(_) => Problem::new(
+            known.key,
+            format!("{} is not a whole number", quoted(text)),
+            example,
+        ),
         Err(misread) if misread.cause.starts_with("unit") => Problem::of(known.key, misread),
         Err(misread) => Problem::new(known.key, misread.cause, example),
     }
@@ -212,18 +305,43 @@ fn choice(known: &Field, text: &str, names: &'static [&'static str]) -> Result<u
     if let Some(index) = names.iter().position(|&known| known == name) {
         return Ok(index);
     }
-    let mend = suggest::mend(name, names.iter().copied(), || format!("use one of {}", names.join(", ")));
-    Err(Problem::new(known.key, format!("unknown choice {}", quoted(name)), mend))
+    let mend = suggest::mend(name, names.iter().copied(), || {
+        format!("use one of {}", names.join(", "))
+    });
+    Err(Problem::new(
+        known.key,
+        format!("unknown choice {}", quoted(name)),
+        mend,
+    ))
 }
 
-/// What one field alone cannot show. A rule is left out while a field that it reads is itself not sound.
+/// What one field alone cannot show. A rule is left out while a field that it reads is itself not
+/// sound.
 fn together(inputs: &Inputs, sound: impl Fn(&[&str]) -> bool) -> Vec<Problem> {
     let mut found = Vec::new();
-    if sound(&["pair.module", "driver.teeth", "driver.profile_shift", "driver.bore_radius"]) {
-        found.extend(bore_through_root("driver.bore_radius", &inputs.driver, inputs.module));
+    if sound(&[
+        "pair.module",
+        "driver.teeth",
+        "driver.profile_shift",
+        "driver.bore_radius",
+    ]) {
+        found.extend(bore_through_root(
+            "driver.bore_radius",
+            &inputs.driver,
+            inputs.module,
+        ));
     }
-    if sound(&["pair.module", "driven.teeth", "driven.profile_shift", "driven.bore_radius"]) {
-        found.extend(bore_through_root("driven.bore_radius", &inputs.driven, inputs.module));
+    if sound(&[
+        "pair.module",
+        "driven.teeth",
+        "driven.profile_shift",
+        "driven.bore_radius",
+    ]) {
+        found.extend(bore_through_root(
+            "driven.bore_radius",
+            &inputs.driven,
+            inputs.module,
+        ));
     }
     if sound(&["driver.teeth", "driven.teeth"]) {
         found.extend(ratio_beyond(inputs));
@@ -235,8 +353,14 @@ fn bore_through_root(field: &str, gear: &Gear, module: f64) -> Option<Problem> {
     let root = module * (f64::from(gear.teeth) / 2.0 - gear.dedendum + gear.profile_shift);
     (gear.bore_radius >= root).then(|| {
         let (bore, root) = (rounded(gear.bore_radius), rounded(root));
-        let cause = format!("the bore radius {bore} mm is not below the root circle's {root} mm = m (z/2 - hf* + x)");
-        Problem::new(field, cause, format!("write a radius (not a diameter) below {root} mm"))
+        let cause = format!(
+            "the bore radius {bore} mm is not below the root circle's {root} mm = m (z/2 - hf* + x)"
+        );
+        Problem::new(
+            field,
+            cause,
+            format!("write a radius (not a diameter) below {root} mm"),
+        )
     })
 }
 
@@ -249,8 +373,15 @@ fn ratio_beyond(inputs: &Inputs) -> Option<Problem> {
     let ratio = inputs.ratio();
     let inside = (1.0 / MOST_RATIO..=MOST_RATIO).contains(&ratio);
     (!inside).then(|| {
-        let cause = format!("the ratio of tooth numbers {}/{} is {ratio:.4}", inputs.driven.teeth, inputs.driver.teeth);
-        Problem::new("driven.teeth", cause, format!("keep it within 1/{MOST_RATIO} to {MOST_RATIO}"))
+        let cause = format!(
+            "the ratio of tooth numbers {}/{} is {ratio:.4}",
+            inputs.driven.teeth, inputs.driver.teeth
+        );
+        Problem::new(
+            "driven.teeth",
+            cause,
+            format!("keep it within 1/{MOST_RATIO} to {MOST_RATIO}"),
+        )
     })
 }
 
@@ -258,27 +389,46 @@ fn ratio_beyond(inputs: &Inputs) -> Option<Problem> {
 pub(super) fn unknown_key(key: &str) -> Problem {
     let known = FIELDS.iter().map(|field| field.key);
     let name = key.rsplit('.').next().unwrap_or(key);
-    let same_name = FIELDS.iter().find(|field| field.name() == name).map(|field| format!("did you mean {}?", field.key));
-    let mend = same_name.unwrap_or_else(|| suggest::mend(key, known, || "`tipstrike fields` lists every key".to_owned()));
+    let same_name = FIELDS
+        .iter()
+        .find(|field| field.name() == name)
+        .map(|field| format!("did you mean {}?", field.key));
+    let mend = same_name.unwrap_or_else(|| {
+        suggest::mend(key, known, || {
+            "`tipstrike fields` lists every key".to_owned()
+        })
+    });
     Problem::new(key, format!("unknown key {}", quoted(key)), mend)
 }
 
 /// The refusal of a limit on a quantity that does not exist.
 #[must_use]
 pub fn unknown_quantity(field: &str, quantity: &str) -> Problem {
-    let is_symbol = |known: &&Quantity| !known.symbol.is_empty() && known.symbol.eq_ignore_ascii_case(quantity.trim());
+    let is_symbol = |known: &&Quantity| {
+        !known.symbol.is_empty() && known.symbol.eq_ignore_ascii_case(quantity.trim())
+    };
     if let Some(known) = QUANTITIES.iter().find(is_symbol) {
         let cause = format!("{} is the symbol of {}", quoted(quantity), known.key);
         return Problem::new(field, cause, format!("write {}", known.key));
     }
     if quantity.trim().is_empty() {
-        return Problem::new(field, "no quantity is named", "name one, such as impact_force; commas stand between names alone");
+        return Problem::new(
+            field,
+            "no quantity is named",
+            "name one, such as impact_force; commas stand between names alone",
+        );
     }
     if quantity.trim().contains(' ') {
         let cause = format!("unknown quantity {}", quoted(quantity));
         return Problem::new(field, cause, "put commas between names");
     }
     let known = QUANTITIES.iter().map(|quantity| quantity.key);
-    let mend = suggest::mend(quantity, known, || "`tipstrike fields --results` lists every quantity".to_owned());
-    Problem::new(field, format!("unknown quantity {}", quoted(quantity)), mend)
+    let mend = suggest::mend(quantity, known, || {
+        "`tipstrike fields --results` lists every quantity".to_owned()
+    });
+    Problem::new(
+        field,
+        format!("unknown quantity {}", quoted(quantity)),
+        mend,
+    )
 }

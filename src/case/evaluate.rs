@@ -1,9 +1,9 @@
 //! Cases solved one after the other, each from what the one before it has in common with it.
 
-use super::reach::stages_of;
+use super::dependencies::stages_of;
 use super::{Case, FIELDS};
-use crate::model::asked::Earlier;
 use crate::model::inputs::Method;
+use crate::model::request::Earlier;
 use crate::model::solve::solve_after;
 use crate::model::{Inputs, Refusal, Solution, Stages};
 
@@ -22,8 +22,9 @@ struct Solved {
 }
 
 impl Evaluator {
-    /// Solve a case with a method, whichever the case itself asks for, running only the stages that are wanted and that the
-    /// edits since the last solve with this method reach. [`Solution::ran`] tells which those were.
+    /// Solve a case with a method, whichever the case itself asks for, running only the stages that
+    /// are wanted and that the edits since the last solve with this method reach. [`Solution::ran`]
+    /// tells which those were.
     ///
     /// # Errors
     /// Those of [`solve_after`]; what was kept then stays.
@@ -35,11 +36,19 @@ impl Evaluator {
         wanted: Stages,
         go_on: &dyn Fn(f64) -> bool,
     ) -> Result<Solution, Refusal> {
-        let inputs = Inputs { method, ..inputs.clone() };
+        let inputs = Inputs {
+            method,
+            ..inputs.clone()
+        };
         let at = self.kept.iter().position(|solved| solved.method == method);
         let earlier = at.map(|at| self.kept[at].seen_from(case, &inputs));
         let solution = solve_after(&inputs, wanted, earlier, go_on)?;
-        let solved = Solved { method, case: case.clone(), inputs, solution: solution.clone() };
+        let solved = Solved {
+            method,
+            case: case.clone(),
+            inputs,
+            solution: solution.clone(),
+        };
         match at {
             Some(at) => self.kept[at] = solved,
             None => self.kept.push(solved),
@@ -57,9 +66,14 @@ impl Solved {
             if FIELDS[field].key == "model.method" {
                 return stale;
             }
-            stale.and(stages_of(field, &self.inputs)).and(stages_of(field, inputs))
+            stale
+                .and(stages_of(field, &self.inputs))
+                .and(stages_of(field, inputs))
         });
-        Earlier { solution: &self.solution, stale }
+        Earlier {
+            solution: &self.solution,
+            stale,
+        }
     }
 }
 
@@ -79,27 +93,65 @@ mod tests {
     fn ran(method: Method, key: &str, text: &str) -> Stages {
         let mut evaluator = Evaluator::default();
         let (before, after) = (Case::table_1(), edited(key, text));
-        let mut run = |case: &Case| evaluator.solve(case, &case.inputs().unwrap(), method, Stages::EVERY, &|_| true).unwrap();
+        let mut run = |case: &Case| {
+            evaluator
+                .solve(
+                    case,
+                    &case.inputs().unwrap(),
+                    method,
+                    Stages::EVERY,
+                    &|_| true,
+                )
+                .unwrap()
+        };
         assert_eq!(run(&before).ran, run_fresh(method, &before).ran);
         let (kept, fresh) = (run(&after), run_fresh(method, &after));
         assert_eq!(kept.stages, fresh.stages);
         for quantity in QUANTITIES {
-            assert_eq!((quantity.value)(&kept), (quantity.value)(&fresh), "{} after {key} = {text}", quantity.key);
+            assert_eq!(
+                (quantity.value)(&kept),
+                (quantity.value)(&fresh),
+                "{} after {key} = {text}",
+                quantity.key
+            );
         }
         kept.ran
     }
 
     fn run_fresh(method: Method, case: &Case) -> Solution {
-        solve(&Inputs { method, ..case.inputs().unwrap() }, Stages::EVERY).unwrap()
+        solve(
+            &Inputs {
+                method,
+                ..case.inputs().unwrap()
+            },
+            Stages::EVERY,
+        )
+        .unwrap()
     }
 
     #[test]
     fn an_edit_runs_only_the_stages_that_it_reaches() {
-        for method in [Method::Paper, Method::Exact, Method::Static, Method::Dynamic] {
+        for method in [
+            Method::Paper,
+            Method::Exact,
+            Method::Static,
+            Method::Dynamic,
+        ] {
             assert_eq!(ran(method, "title", "another"), Stages::NONE);
             let density = ran(method, "driver.density", "7900 kg/m3");
-            for stage in [Stage::Geometry, Stage::Position, Stage::Velocity, Stage::Mesh, Stage::Static] {
-                assert!(!density.has(stage), "{}: density runs {}", method.name(), stage.name());
+            for stage in [
+                Stage::Geometry,
+                Stage::Position,
+                Stage::Velocity,
+                Stage::Mesh,
+                Stage::Static,
+            ] {
+                assert!(
+                    !density.has(stage),
+                    "{}: density runs {}",
+                    method.name(),
+                    stage.name()
+                );
             }
             assert!(density.has(Stage::Load) && density.has(Stage::Impact));
             assert_eq!(density.has(Stage::Dynamic), method == Method::Dynamic);
@@ -107,7 +159,10 @@ mod tests {
             assert!(ran(method, "pair.module", "5.5 mm").has(Stage::Geometry));
         }
         let damping = ran(Method::Dynamic, "model.damping_ratio", "0.1");
-        assert_eq!(damping, Stages::NONE.with(Stage::Dynamic).with(Stage::Clearing));
+        assert_eq!(
+            damping,
+            Stages::NONE.with(Stage::Dynamic).with(Stage::Clearing)
+        );
         let stations = ran(Method::Exact, "model.stations", "32");
         assert_eq!(stations, Stages::NONE.with(Stage::Stations));
     }
@@ -116,9 +171,17 @@ mod tests {
     fn stages_that_were_not_wanted_before_are_all_that_run() {
         let (mut evaluator, case) = (Evaluator::default(), Case::table_1());
         let inputs = case.inputs().unwrap();
-        let mut ran = |wanted| evaluator.solve(&case, &inputs, Method::Exact, wanted, &|_| true).unwrap().ran;
+        let mut ran = |wanted| {
+            evaluator
+                .solve(&case, &inputs, Method::Exact, wanted, &|_| true)
+                .unwrap()
+                .ran
+        };
         assert!(ran(Stages::of(Stage::Position)).has(Stage::Position));
-        assert_eq!(ran(Stages::of(Stage::Velocity)), Stages::NONE.with(Stage::Velocity));
+        assert_eq!(
+            ran(Stages::of(Stage::Velocity)),
+            Stages::NONE.with(Stage::Velocity)
+        );
         assert_eq!(ran(Stages::of(Stage::Velocity)), Stages::NONE);
     }
 }

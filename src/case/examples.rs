@@ -38,7 +38,11 @@ impl Example {
     pub fn find(name: &str) -> Result<&'static Example, String> {
         let name = name.strip_suffix(".toml").unwrap_or(name);
         let found = EXAMPLES.iter().find(|example| example.name == name);
-        found.ok_or_else(|| mend(name, EXAMPLES.iter().map(|example| example.name), || "take one of the list".to_owned()))
+        found.ok_or_else(|| {
+            mend(name, EXAMPLES.iter().map(|example| example.name), || {
+                "take one of the list".to_owned()
+            })
+        })
     }
 
     /// The example as a document without a file.
@@ -57,19 +61,33 @@ mod tests {
     #[test]
     fn every_case_of_the_folder_is_an_example_and_opens() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
-        let names = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let names = std::fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap());
         // A workbench that has one open keeps its lock beside it.
         let kept: BTreeSet<String> = names.filter(|name| !name.starts_with('.')).collect();
-        let known: BTreeSet<String> = EXAMPLES.iter().map(|example| format!("{}.toml", example.name)).collect();
+        let known: BTreeSet<String> = EXAMPLES
+            .iter()
+            .map(|example| format!("{}.toml", example.name))
+            .collect();
         assert_eq!(kept, known, "list it in src/case/examples.rs");
         for example in EXAMPLES {
-            assert!(Document::parse(example.name, example.text).is_ok_and(|document| document.case.inputs().is_ok()));
+            assert!(
+                Document::parse(example.name, example.text)
+                    .is_ok_and(|document| document.case.inputs().is_ok())
+            );
         }
     }
 
     #[test]
     fn a_slip_in_a_name_finds_it() {
-        assert_eq!(Example::find("fzg-type-c.toml").map(|example| example.name), Ok("fzg-type-c"));
-        assert_eq!(Example::find("fzg-type"), Err("did you mean fzg-type-c?".to_owned()));
+        assert_eq!(
+            Example::find("fzg-type-c.toml").map(|example| example.name),
+            Ok("fzg-type-c")
+        );
+        assert_eq!(
+            Example::find("fzg-type"),
+            Err("did you mean fzg-type-c?".to_owned())
+        );
     }
 }

@@ -98,7 +98,11 @@ impl Field {
     /// Whether its value stands in a file without quotes.
     #[must_use]
     pub fn is_bare(&self) -> bool {
-        self.is_flag() || matches!(self.kind, Kind::Count(..) | Kind::Number(Dimension::Number, ..))
+        self.is_flag()
+            || matches!(
+                self.kind,
+                Kind::Count(..) | Kind::Number(Dimension::Number, ..)
+            )
     }
 
     /// A text that the field takes, to show how one is written.
@@ -107,7 +111,10 @@ impl Field {
         match (self.absent, self.kind) {
             (Absent::Default(text), _) if !text.is_empty() => text,
             (_, Kind::Choice(names, _)) => names.first().copied().unwrap_or_default(),
-            _ => EXAMPLES.iter().find(|(name, _)| *name == self.name()).map_or("a few words", |(_, text)| text),
+            _ => EXAMPLES
+                .iter()
+                .find(|(name, _)| *name == self.name())
+                .map_or("a few words", |(_, text)| text),
         }
     }
 
@@ -120,14 +127,20 @@ impl Field {
             Kind::Number(_, range, _) if range.unit.is_empty() => {
                 format!("{} to {}", shortest(range.from), shortest(range.to))
             }
-            Kind::Number(_, range, _) => format!("{} to {} {}", shortest(range.from), shortest(range.to), range.unit),
+            Kind::Number(_, range, _) => format!(
+                "{} to {} {}",
+                shortest(range.from),
+                shortest(range.to),
+                range.unit
+            ),
             Kind::Text => String::new(),
             Kind::Choice(names, _) => names.join(", "),
         }
     }
 }
 
-/// Values of fields that have no default, by the name within the table: Table 1 of the paper where it has one.
+/// Values of fields that have no default, by the name within the table: Table 1 of the paper where
+/// it has one.
 const EXAMPLES: [(&str, &str); 12] = [
     ("module", "5 mm"),
     ("centre_distance", "100 mm"),

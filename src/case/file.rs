@@ -91,9 +91,22 @@ impl Document {
     fn parse_newer(name: &str, text: &str) -> Document {
         let unmarked = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
         let reading = tree::read_newer(unmarked);
-        let (loaded, name, marked) = (reading.case.clone(), name.to_owned(), unmarked.len() < text.len());
+        let (loaded, name, marked) = (
+            reading.case.clone(),
+            name.to_owned(),
+            unmarked.len() < text.len(),
+        );
         let (case, places) = (reading.case, reading.places);
-        Document { case, name, text: unmarked.to_owned(), marked, loaded, places, is_newer: true, origin: None }
+        Document {
+            case,
+            name,
+            text: unmarked.to_owned(),
+            marked,
+            loaded,
+            places,
+            is_newer: true,
+            origin: None,
+        }
     }
 
     /// Whether the text is of a newer format, of which this version may not understand everything.
@@ -108,13 +121,23 @@ impl Document {
         let text = template::text(&case);
         let places = tree::read(&text).places;
         let (loaded, name) = (case.clone(), "new case".to_owned());
-        Document { loaded, case, name, text, marked: false, places, is_newer: false, origin: None }
+        Document {
+            loaded,
+            case,
+            name,
+            text,
+            marked: false,
+            places,
+            is_newer: false,
+            origin: None,
+        }
     }
 
     /// Table 1 of the paper, as its file in `cases/` says it.
     #[must_use]
     pub fn table_1() -> Document {
-        Document::parse("zhou-chen-2014.toml", TABLE_1).unwrap_or_else(|_| Document::new(Case::empty()))
+        Document::parse("zhou-chen-2014.toml", TABLE_1)
+            .unwrap_or_else(|_| Document::new(Case::empty()))
     }
 
     /// The name under which it was read.
@@ -132,11 +155,20 @@ impl Document {
     /// The text to save: what was read, with only the changed values changed.
     #[must_use]
     pub fn render(&self) -> String {
-        let text = if self.is_changed() { edit::render(self) } else { self.text.clone() };
-        if self.marked { format!("{BYTE_ORDER_MARK}{text}") } else { text }
+        let text = if self.is_changed() {
+            edit::render(self)
+        } else {
+            self.text.clone()
+        };
+        if self.marked {
+            format!("{BYTE_ORDER_MARK}{text}")
+        } else {
+            text
+        }
     }
 
-    /// Line and column, from 1, of a field's value; of its table, or of the end, where the text leaves it out.
+    /// Line and column, from 1, of a field's value; of its table, or of the end, where the text
+    /// leaves it out.
     #[must_use]
     pub fn place(&self, key: &str) -> (usize, usize) {
         Lines::of(&self.text).place(self.places.offset(key))
@@ -148,10 +180,12 @@ impl Document {
         Fault::new(&self.name, self.place(&problem.field), problem)
     }
 
-    /// Take the text that was saved for the one that was read, and the case as it says it: a number may have been typed
-    /// with spaces around it, which no file keeps.
+    /// Take the text that was saved for the one that was read, and the case as it says it: a number
+    /// may have been typed with spaces around it, which no file keeps.
     fn settle(&mut self, text: &str, name: String, origin: PathBuf) {
-        text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text).clone_into(&mut self.text);
+        text.strip_prefix(BYTE_ORDER_MARK)
+            .unwrap_or(text)
+            .clone_into(&mut self.text);
         let reading = tree::read(&self.text);
         if reading.faults.is_empty() {
             self.case = reading.case;

@@ -1,4 +1,5 @@
-//! What a form says about a field beside its text: its usual unit, its range, its value in other units.
+//! What a form says about a field beside its text: its usual unit, its range, its value in other
+//! units.
 
 use super::fields::{Absent, Field, Kind};
 use super::units::{self, System};
@@ -8,7 +9,8 @@ use crate::numeric::decimal::significant;
 const RANGE_DIGITS: usize = 3;
 
 impl Field {
-    /// The unit in which values of the field are mostly written; empty for a number, a count, a choice and words.
+    /// The unit in which values of the field are mostly written; empty for a number, a count, a
+    /// choice and words.
     #[must_use]
     pub fn usual_unit(&self) -> &'static str {
         match self.kind {
@@ -21,18 +23,25 @@ impl Field {
     #[must_use]
     pub fn converted(&self, typed: &str, system: System) -> Option<String> {
         match self.kind {
-            Kind::Number(dimension, ..) => units::converted(typed, dimension, self.usual_unit(), system),
+            Kind::Number(dimension, ..) => {
+                units::converted(typed, dimension, self.usual_unit(), system)
+            }
             Kind::Text | Kind::Count(..) | Kind::Choice(..) => None,
         }
     }
 
-    /// What stands for a field that is left out, empty where nothing does; a measure in the units of the system.
+    /// What stands for a field that is left out, empty where nothing does; a measure in the units
+    /// of the system.
     #[must_use]
     pub fn default_in(&self, system: System) -> String {
-        let Absent::Default(text) = self.absent else { return String::new() };
+        let Absent::Default(text) = self.absent else {
+            return String::new();
+        };
         let unit = self.usual_unit();
         let measured = match self.kind {
-            Kind::Number(dimension, ..) if system.unit(unit) != unit => units::parse(text, dimension, "").ok(),
+            Kind::Number(dimension, ..) if system.unit(unit) != unit => {
+                units::parse(text, dimension, "").ok()
+            }
             _ => None,
         };
         measured.map_or_else(
@@ -47,13 +56,20 @@ impl Field {
     /// The least and the greatest value as [`Field::range_text`] tells them, in inch units rounded.
     #[must_use]
     pub fn range_in(&self, system: System) -> String {
-        let Kind::Number(_, range, _) = self.kind else { return self.range_text() };
+        let Kind::Number(_, range, _) = self.kind else {
+            return self.range_text();
+        };
         let unit = system.unit(range.unit);
         if unit == range.unit {
             return self.range_text();
         }
         let factor = units::factor(range.unit).unwrap_or(1.0);
-        let end = |value: f64| significant(value * factor / units::factor(unit).unwrap_or(1.0), RANGE_DIGITS);
+        let end = |value: f64| {
+            significant(
+                value * factor / units::factor(unit).unwrap_or(1.0),
+                RANGE_DIGITS,
+            )
+        };
         format!("about {} to {} {unit}", end(range.from), end(range.to))
     }
 }
@@ -70,22 +86,49 @@ mod tests {
     #[test]
     fn every_measure_has_a_usual_unit_of_its_dimension() {
         for field in &FIELDS {
-            let Kind::Number(dimension, range, _) = field.kind else { continue };
+            let Kind::Number(dimension, range, _) = field.kind else {
+                continue;
+            };
             let unit = field.usual_unit();
             assert_eq!(unit.is_empty(), range.unit.is_empty(), "{}", field.key);
-            assert_eq!(units::Dimension::of_unit(unit), Some(dimension), "{}", field.key);
+            assert_eq!(
+                units::Dimension::of_unit(unit),
+                Some(dimension),
+                "{}",
+                field.key
+            );
         }
     }
 
     #[test]
     fn a_hint_tells_the_value_in_the_usual_unit_and_the_range_in_either_system() {
-        assert_eq!(field("operation.power").converted("20 hp", System::Metric).as_deref(), Some("= 14.914 kW"));
+        assert_eq!(
+            field("operation.power")
+                .converted("20 hp", System::Metric)
+                .as_deref(),
+            Some("= 14.914 kW")
+        );
         assert_eq!(field("driver.teeth").converted("20", System::Metric), None);
-        assert_eq!(field("pair.module").range_in(System::Metric), "0.05 to 50 mm");
-        assert_eq!(field("pair.module").range_in(System::Inch), "about 0.00197 to 1.97 in");
-        assert_eq!(field("driven.tip_relief").default_in(System::Metric), "0 um");
-        assert_eq!(field("driven.tip_relief").default_in(System::Inch), "0 thou");
+        assert_eq!(
+            field("pair.module").range_in(System::Metric),
+            "0.05 to 50 mm"
+        );
+        assert_eq!(
+            field("pair.module").range_in(System::Inch),
+            "about 0.00197 to 1.97 in"
+        );
+        assert_eq!(
+            field("driven.tip_relief").default_in(System::Metric),
+            "0 um"
+        );
+        assert_eq!(
+            field("driven.tip_relief").default_in(System::Inch),
+            "0 thou"
+        );
         assert_eq!(field("driver.teeth").range_in(System::Inch), "5 to 1000");
-        assert_eq!(field("operation.speed").range_in(System::Inch), "0.001 to 1000000 rpm");
+        assert_eq!(
+            field("operation.speed").range_in(System::Inch),
+            "0.001 to 1000000 rpm"
+        );
     }
 }

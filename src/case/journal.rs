@@ -17,7 +17,8 @@ pub const FORMAT: i64 = 1;
 /// The longest journal that is read, in bytes: longer than the changes of any case.
 pub const MOST_BYTES: usize = 4 << 20;
 
-const OPENING: &str = "# Edits that were not saved. tipstrike offers them when the case is opened again.\n";
+const OPENING: &str =
+    "# Edits that were not saved. tipstrike offers them when the case is opened again.\n";
 const FORMAT_KEY: &str = "format = ";
 const CHECKSUM_KEY: &str = "checksum = ";
 
@@ -66,7 +67,10 @@ impl Stamp {
     /// The stamp of a text.
     #[must_use]
     pub fn of(bytes: &[u8]) -> Stamp {
-        Stamp { length: bytes.len() as u64, hash: hash(bytes) }
+        Stamp {
+            length: bytes.len() as u64,
+            hash: hash(bytes),
+        }
     }
 }
 
@@ -75,7 +79,10 @@ impl Journal {
     #[must_use]
     pub fn to_text(&self) -> String {
         let body = self.body();
-        format!("{OPENING}{FORMAT_KEY}{FORMAT}\n{CHECKSUM_KEY}\"{:016x}\"\n{body}", hash(body.as_bytes()))
+        format!(
+            "{OPENING}{FORMAT_KEY}{FORMAT}\n{CHECKSUM_KEY}\"{:016x}\"\n{body}",
+            hash(body.as_bytes())
+        )
     }
 
     /// Read the text of a journal's file.
@@ -142,20 +149,35 @@ fn table_of(change: &Change) -> Table {
 }
 
 fn read(toml: &Table) -> Result<Journal, &'static str> {
-    let number = |key| toml.get(key).and_then(Item::as_integer).and_then(|number| u64::try_from(number).ok()).ok_or(key);
-    let hash = text_in(toml, "hash").and_then(|text| u64::from_str_radix(text, 16).ok()).ok_or("hash")?;
+    let number = |key| {
+        toml.get(key)
+            .and_then(Item::as_integer)
+            .and_then(|number| u64::try_from(number).ok())
+            .ok_or(key)
+    };
+    let hash = text_in(toml, "hash")
+        .and_then(|text| u64::from_str_radix(text, 16).ok())
+        .ok_or("hash")?;
     let case = match (text_in(toml, "case"), text_in(toml, "case_bytes")) {
         (Some(path), _) => Some(PathBuf::from(path)),
         (None, Some(bytes)) => Some(from_hex(bytes).ok_or("case_bytes")?),
         (None, None) => None,
     };
     let changes = match toml.get("change") {
-        Some(changes) => changes.as_array_of_tables().ok_or("change")?.iter().map(change_of).collect::<Result<_, _>>()?,
+        Some(changes) => changes
+            .as_array_of_tables()
+            .ok_or("change")?
+            .iter()
+            .map(change_of)
+            .collect::<Result<_, _>>()?,
         None => Vec::new(),
     };
     Ok(Journal {
         case,
-        stands_on: Stamp { length: number("length")?, hash },
+        stands_on: Stamp {
+            length: number("length")?,
+            hash,
+        },
         written: number("written")?,
         session: text_in(toml, "session").ok_or("session")?.to_owned(),
         changes,
@@ -164,7 +186,11 @@ fn read(toml: &Table) -> Result<Journal, &'static str> {
 
 fn change_of(table: &Table) -> Result<Change, &'static str> {
     let text = |key| text_in(table, key).map(str::to_owned);
-    Ok(Change { key: text("key").ok_or("key")?, from: text("from"), to: text("to") })
+    Ok(Change {
+        key: text("key").ok_or("key")?,
+        from: text("from"),
+        to: text("to"),
+    })
 }
 
 fn text_in<'t>(table: &'t Table, key: &str) -> Option<&'t str> {
@@ -173,12 +199,17 @@ fn text_in<'t>(table: &'t Table, key: &str) -> Option<&'t str> {
 
 // A path need not be text.
 fn hex(path: &Path) -> String {
-    path.as_os_str().as_bytes().iter().fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
+    path.as_os_str()
+        .as_bytes()
+        .iter()
+        .fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
 }
 
 fn from_hex(text: &str) -> Option<PathBuf> {
     let pairs = text.as_bytes().chunks(2);
-    let bytes = pairs.map(|pair| u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok()).collect::<Option<Vec<u8>>>()?;
+    let bytes = pairs
+        .map(|pair| u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok())
+        .collect::<Option<Vec<u8>>>()?;
     Some(OsString::from_vec(bytes).into())
 }
 
@@ -199,7 +230,11 @@ mod tests {
             session: "abc123".to_owned(),
             changes: vec![
                 change("pair.module", Some("5 mm"), Some("1 in")),
-                change("title", Some("'''\"\"\"\\"), Some("\u{0}\u{7f}\u{9b}\r\n\u{202e}")),
+                change(
+                    "title",
+                    Some("'''\"\"\"\\"),
+                    Some("\u{0}\u{7f}\u{9b}\r\n\u{202e}"),
+                ),
                 change("driver.tip_radius", None, Some("0.2 mm")),
                 change("notes", Some("x"), None),
             ],
@@ -208,8 +243,15 @@ mod tests {
 
     #[test]
     fn a_journal_is_read_as_it_was_written() {
-        let other = Journal { case: Some(OsString::from_vec(vec![b'/', 0xff, b'a']).into()), ..journal() };
-        let fresh = Journal { case: None, changes: Vec::new(), ..journal() };
+        let other = Journal {
+            case: Some(OsString::from_vec(vec![b'/', 0xff, b'a']).into()),
+            ..journal()
+        };
+        let fresh = Journal {
+            case: None,
+            changes: Vec::new(),
+            ..journal()
+        };
         for journal in [journal(), other, fresh] {
             assert_eq!(Journal::from_text(&journal.to_text()), Ok(journal));
         }
@@ -220,8 +262,14 @@ mod tests {
         let text = journal().to_text();
         for (at, _) in text.char_indices() {
             assert!(Journal::from_text(&text[..at]).is_err(), "cut at {at}");
-            let changed: String = text.char_indices().map(|(own, letter)| if own == at { '~' } else { letter }).collect();
-            assert!(Journal::from_text(&changed).is_err() || changed == text, "changed at {at}");
+            let changed: String = text
+                .char_indices()
+                .map(|(own, letter)| if own == at { '~' } else { letter })
+                .collect();
+            assert!(
+                Journal::from_text(&changed).is_err() || changed == text,
+                "changed at {at}"
+            );
         }
         assert!(Journal::from_text(&(text.clone() + "\n")).is_err());
         assert!(Journal::from_text(&text.replace('\n', "\r\n")).is_err());
@@ -230,8 +278,14 @@ mod tests {
     #[test]
     fn a_newer_journal_is_told_apart() {
         let newer = journal().to_text().replace("format = 1", "format = 2");
-        assert_eq!(Journal::from_text(&newer), Err(JournalFault::NewerFormat(2)));
-        assert_eq!(Journal::from_text("format = 1\n"), Err(JournalFault::NotOne));
+        assert_eq!(
+            Journal::from_text(&newer),
+            Err(JournalFault::NewerFormat(2))
+        );
+        assert_eq!(
+            Journal::from_text("format = 1\n"),
+            Err(JournalFault::NotOne)
+        );
     }
 
     #[test]

@@ -1,4 +1,5 @@
-//! Materials of gears: what they are made of fills three fields at once, and the three fields tell what it is.
+//! Materials of gears: what they are made of fills three fields at once, and the three fields tell
+//! what it is.
 
 use std::sync::LazyLock;
 
@@ -35,14 +36,19 @@ struct Catalogue {
 
 const TEXT: &str = include_str!("../../assets/materials.toml");
 
-static ALL: LazyLock<Vec<Material>> =
-    LazyLock::new(|| toml::from_str::<Catalogue>(TEXT).map(|catalogue| catalogue.material).unwrap_or_default());
+static ALL: LazyLock<Vec<Material>> = LazyLock::new(|| {
+    toml::from_str::<Catalogue>(TEXT)
+        .map(|catalogue| catalogue.material)
+        .unwrap_or_default()
+});
 
 /// The three values of each in SI.
 static CONSTANTS: LazyLock<Vec<Option<[f64; 3]>>> = LazyLock::new(|| {
     let of = |material| {
         let mut made = Case::empty();
-        apply(&mut made, "driver", material).ok().and_then(|()| constants(&made, "driver"))
+        apply(&mut made, "driver", material)
+            .ok()
+            .and_then(|()| constants(&made, "driver"))
     };
     all().iter().map(of).collect()
 });
@@ -59,14 +65,20 @@ pub fn all() -> &'static [Material] {
 /// The material of that name, in small or capital letters.
 #[must_use]
 pub fn find(name: &str) -> Option<&'static Material> {
-    all().iter().find(|material| material.name.eq_ignore_ascii_case(name.trim()))
+    all()
+        .iter()
+        .find(|material| material.name.eq_ignore_ascii_case(name.trim()))
 }
 
 impl Material {
     /// The gear's fields that it fills, and with what.
     #[must_use]
     pub fn texts(&self) -> [(&'static str, &str); 3] {
-        [("young", &self.young), ("poisson", &self.poisson), ("density", &self.density)]
+        [
+            ("young", &self.young),
+            ("poisson", &self.poisson),
+            ("density", &self.density),
+        ]
     }
 }
 
@@ -83,23 +95,40 @@ pub fn apply(case: &mut Case, gear: &str, material: &Material) -> Result<(), Pro
     Ok(())
 }
 
-/// The materials whose three values the gear has; several where they have the same ones, none where it is no known one.
+/// The materials whose three values the gear has; several where they have the same ones, none where
+/// it is no known one.
 #[must_use]
 pub fn of_gear(case: &Case, gear: &str) -> Vec<&'static Material> {
-    let Some(own) = constants(case, gear) else { return Vec::new() };
+    let Some(own) = constants(case, gear) else {
+        return Vec::new();
+    };
     let same = |a: f64, b: f64| (a - b).abs() <= SAME * b.abs();
-    let fits = |known: &Option<[f64; 3]>| known.is_some_and(|known| known.into_iter().zip(own).all(|(a, b)| same(a, b)));
-    all().iter().zip(CONSTANTS.iter()).filter(|(_, known)| fits(known)).map(|(material, _)| material).collect()
+    let fits = |known: &Option<[f64; 3]>| {
+        known.is_some_and(|known| known.into_iter().zip(own).all(|(a, b)| same(a, b)))
+    };
+    all()
+        .iter()
+        .zip(CONSTANTS.iter())
+        .filter(|(_, known)| fits(known))
+        .map(|(material, _)| material)
+        .collect()
 }
 
-/// What the gear is made of, as it stands beside its fields: `42CrMo4`, or `Steel, 18CrNiMo7-6 or 20CrMnTi` where the values
-/// are those of several.
+/// What the gear is made of, as it stands beside its fields: `42CrMo4`, or `Steel, 18CrNiMo7-6 or
+/// 20CrMnTi` where the values are those of several.
 #[must_use]
 pub fn name_of_gear(case: &Case, gear: &str) -> Option<String> {
     let found = of_gear(case, gear);
     let (last, others) = found.split_last()?;
-    let others: Vec<&str> = others.iter().map(|material| material.name.as_str()).collect();
-    Some(if others.is_empty() { last.name.clone() } else { format!("{} or {}", others.join(", "), last.name) })
+    let others: Vec<&str> = others
+        .iter()
+        .map(|material| material.name.as_str())
+        .collect();
+    Some(if others.is_empty() {
+        last.name.clone()
+    } else {
+        format!("{} or {}", others.join(", "), last.name)
+    })
 }
 
 /// Young's modulus, Poisson's ratio and density of a gear in SI, where all three can be read.
@@ -108,7 +137,16 @@ fn constants(case: &Case, gear: &str) -> Option<[f64; 3]> {
     for name in ["young", "poisson", "density"] {
         check::put(case, index_of(&format!("{gear}.{name}"))?, &mut inputs).ok()?;
     }
-    let Gear { young, poisson, density, .. } = if gear == "driver" { inputs.driver } else { inputs.driven };
+    let Gear {
+        young,
+        poisson,
+        density,
+        ..
+    } = if gear == "driver" {
+        inputs.driver
+    } else {
+        inputs.driven
+    };
     Some([young, poisson, density])
 }
 
@@ -123,22 +161,50 @@ mod tests {
         for material in all() {
             for gear in ["driver", "driven"] {
                 let mut case = Case::table_1();
-                assert_eq!(apply(&mut case, gear, material), Ok(()), "{}", material.name);
+                assert_eq!(
+                    apply(&mut case, gear, material),
+                    Ok(()),
+                    "{}",
+                    material.name
+                );
                 assert!(case.inputs().is_ok(), "{}", material.name);
             }
-            let told = [&material.name, &material.group, &material.source, &material.note];
-            assert!(told.iter().all(|text| !text.trim().is_empty() && text.is_ascii()), "{material:?}");
-            assert!(material.source.len() > 15 && material.source.chars().any(|c| c.is_ascii_digit()), "{}", material.source);
+            let told = [
+                &material.name,
+                &material.group,
+                &material.source,
+                &material.note,
+            ];
+            assert!(
+                told.iter()
+                    .all(|text| !text.trim().is_empty() && text.is_ascii()),
+                "{material:?}"
+            );
+            assert!(
+                material.source.len() > 15 && material.source.chars().any(|c| c.is_ascii_digit()),
+                "{}",
+                material.source
+            );
         }
     }
 
     #[test]
     fn names_are_unique_and_groups_stand_together() {
-        let names: BTreeSet<String> = all().iter().map(|material| material.name.to_lowercase()).collect();
+        let names: BTreeSet<String> = all()
+            .iter()
+            .map(|material| material.name.to_lowercase())
+            .collect();
         assert_eq!(names.len(), all().len());
-        let mut groups: Vec<&str> = all().iter().map(|material| material.group.as_str()).collect();
+        let mut groups: Vec<&str> = all()
+            .iter()
+            .map(|material| material.group.as_str())
+            .collect();
         groups.dedup();
-        assert_eq!(groups.iter().collect::<BTreeSet<_>>().len(), groups.len(), "{groups:?}");
+        assert_eq!(
+            groups.iter().collect::<BTreeSet<_>>().len(),
+            groups.len(),
+            "{groups:?}"
+        );
     }
 
     #[test]
@@ -155,7 +221,10 @@ mod tests {
                 "plastic" => (1e9..5e9, 1000.0..1500.0),
                 other => panic!("{other} is a new group"),
             };
-            assert!(moduli.contains(&young) && densities.contains(&density), "{material:?}");
+            assert!(
+                moduli.contains(&young) && densities.contains(&density),
+                "{material:?}"
+            );
             assert!((0.25..=0.4).contains(&poisson), "{material:?}");
         }
     }
@@ -166,7 +235,10 @@ mod tests {
         assert_eq!(name_of_gear(&case, "driver"), None);
         apply(&mut case, "driver", find("42crmo4").unwrap()).unwrap();
         let text = |key: &str| case.text(index_of(key).unwrap());
-        assert_eq!((text("driver.young"), text("driver.density")), (Some("210 GPa"), Some("7720 kg/m3")));
+        assert_eq!(
+            (text("driver.young"), text("driver.density")),
+            (Some("210 GPa"), Some("7720 kg/m3"))
+        );
         assert_eq!(text("driven.young"), Some("205 GPa"));
         assert_eq!(name_of_gear(&case, "driver").as_deref(), Some("42CrMo4"));
         case.set("driver.young", "210000 N/mm2").unwrap();
@@ -181,7 +253,10 @@ mod tests {
     fn materials_of_the_same_values_are_all_named() {
         let mut case = Case::table_1();
         apply(&mut case, "driven", find("Steel").unwrap()).unwrap();
-        assert_eq!(name_of_gear(&case, "driven").as_deref(), Some("Steel, 18CrNiMo7-6 or 20CrMnTi"));
+        assert_eq!(
+            name_of_gear(&case, "driven").as_deref(),
+            Some("Steel, 18CrNiMo7-6 or 20CrMnTi")
+        );
     }
 
     #[test]

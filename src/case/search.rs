@@ -1,4 +1,5 @@
-//! Finding a field or a result by whatever of it comes to mind: symbol, label, key, a word of the help, a Greek letter by name.
+//! Finding a field or a result by whatever of it comes to mind: symbol, label, key, a word of the
+//! help, a Greek letter by name.
 
 use std::sync::LazyLock;
 
@@ -34,52 +35,88 @@ struct Entry {
     words: [(u32, Vec<String>); 4],
 }
 
-static ENTRIES: LazyLock<Vec<Entry>> = LazyLock::new(|| FIELDS.iter().map(Entry::of_field).collect());
-static RESULTS: LazyLock<Vec<Entry>> = LazyLock::new(|| QUANTITIES.iter().map(Entry::of_result).collect());
+static ENTRIES: LazyLock<Vec<Entry>> =
+    LazyLock::new(|| FIELDS.iter().map(Entry::of_field).collect());
+static RESULTS: LazyLock<Vec<Entry>> =
+    LazyLock::new(|| QUANTITIES.iter().map(Entry::of_result).collect());
 
-/// Fields that fit every word of the query, the best first, each with its score; of equal ones in the order of the form.
-/// Case is ignored, Greek letters may be spelled out, underscores left out, words shortened or slightly mistyped. An empty
-/// query fits all fields alike.
+/// Fields that fit every word of the query, the best first, each with its score; of equal ones in
+/// the order of the form. Case is ignored, Greek letters may be spelled out, underscores left out,
+/// words shortened or slightly mistyped. An empty query fits all fields alike.
 #[must_use]
 pub fn search(query: &str) -> Vec<(usize, u32)> {
     search_in(&ENTRIES, query)
 }
 
-/// Results that fit every word of the query, by their places in the table of quantities, as [`search`] finds fields.
+/// Results that fit every word of the query, by their places in the table of quantities, as
+/// [`search`] finds fields.
 #[must_use]
 pub fn search_results(query: &str) -> Vec<(usize, u32)> {
     search_in(&RESULTS, query)
 }
 
 fn search_in(entries: &[Entry], query: &str) -> Vec<(usize, u32)> {
-    let sought: Vec<String> =
-        query.split(|c: char| c.is_whitespace() || c == '.').map(plain).filter(|word| !word.is_empty()).collect();
-    let score = |entry: &Entry| sought.iter().map(|word| entry.score(word)).sum::<Option<u32>>();
-    let mut found: Vec<(usize, u32)> = entries.iter().enumerate().filter_map(|(at, entry)| Some((at, score(entry)?))).collect();
+    let sought: Vec<String> = query
+        .split(|c: char| c.is_whitespace() || c == '.')
+        .map(plain)
+        .filter(|word| !word.is_empty())
+        .collect();
+    let score = |entry: &Entry| {
+        sought
+            .iter()
+            .map(|word| entry.score(word))
+            .sum::<Option<u32>>()
+    };
+    let mut found: Vec<(usize, u32)> = entries
+        .iter()
+        .enumerate()
+        .filter_map(|(at, entry)| Some((at, score(entry)?)))
+        .collect();
     found.sort_by_key(|&(at, score)| (std::cmp::Reverse(score), at));
     found
 }
 
 impl Entry {
     fn of_field(field: &Field) -> Entry {
-        let group = GROUPS.iter().find(|(table, _)| *table == field.table()).map_or("", |(_, title)| title);
+        let group = GROUPS
+            .iter()
+            .find(|(table, _)| *table == field.table())
+            .map_or("", |(_, title)| title);
         Entry::new(field.symbol, field.label, field.name(), group, field.help)
     }
 
     fn of_result(quantity: &Quantity) -> Entry {
-        Entry::new(quantity.symbol, quantity.label, quantity.key, "result", quantity.equation)
+        Entry::new(
+            quantity.symbol,
+            quantity.label,
+            quantity.key,
+            "result",
+            quantity.equation,
+        )
     }
 
     fn new(symbol: &str, label: &str, name: &str, group: &str, help: &str) -> Entry {
         let symbol = plain(symbol);
         let stem = symbol.trim_end_matches(['1', '2']).to_owned();
         let name = words(name).into_iter().chain([plain(name)]).collect();
-        Entry { symbols: [symbol, stem], words: [(40, words(label)), (30, name), (20, words(group)), (10, words(help))] }
+        Entry {
+            symbols: [symbol, stem],
+            words: [
+                (40, words(label)),
+                (30, name),
+                (20, words(group)),
+                (10, words(help)),
+            ],
+        }
     }
 
     /// How well the entry fits one word of the query; `None` where it does not.
     fn score(&self, sought: &str) -> Option<u32> {
-        let symbol = self.symbols.iter().any(|symbol| symbol == sought).then_some(100);
+        let symbol = self
+            .symbols
+            .iter()
+            .any(|symbol| symbol == sought)
+            .then_some(100);
         let begun = self.symbols[0].starts_with(sought).then_some(60);
         let word = self.words.iter().filter_map(|(weight, words)| {
             let best = words.iter().filter_map(|word| fit(sought, word)).max()?;
@@ -110,7 +147,10 @@ fn fit(sought: &str, word: &str) -> Option<u32> {
 /// Whether the word becomes what is sought when letters after the first are left out.
 fn is_shortened(sought: &str, word: &str) -> bool {
     let mut rest = word.chars();
-    word.chars().next() == sought.chars().next() && sought.chars().all(|letter| rest.any(|other| other == letter))
+    word.chars().next() == sought.chars().next()
+        && sought
+            .chars()
+            .all(|letter| rest.any(|other| other == letter))
 }
 
 /// The words of a text, plain.
@@ -119,10 +159,15 @@ fn words(text: &str) -> Vec<String> {
     split.map(plain).filter(|word| !word.is_empty()).collect()
 }
 
-/// Letters and digits in small letters of the keyboard: `α_w` is alphaw, `f_pb` is fpb, `ha*1` is ha1.
+/// Letters and digits in small letters of the keyboard: `α_w` is alphaw, `f_pb` is fpb, `ha*1` is
+/// ha1.
 fn plain(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
-    for letter in text.chars().flat_map(char::to_lowercase).filter(|letter| letter.is_alphanumeric()) {
+    for letter in text
+        .chars()
+        .flat_map(char::to_lowercase)
+        .filter(|letter| letter.is_alphanumeric())
+    {
         let letter = if letter == 'µ' { 'μ' } else { letter };
         match GREEK.iter().find(|(greek, _)| *greek == letter) {
             Some((_, name)) => plain.push_str(name),
@@ -138,7 +183,10 @@ mod tests {
     use proptest::prelude::*;
 
     fn keys(query: &str) -> Vec<&'static str> {
-        search(query).into_iter().map(|(field, _)| FIELDS[field].key).collect()
+        search(query)
+            .into_iter()
+            .map(|(field, _)| FIELDS[field].key)
+            .collect()
     }
 
     #[test]
@@ -179,7 +227,12 @@ mod tests {
             ("base_pitch", "deviations.base_pitch"),
             ("driven.tip_radius", "driven.tip_radius"),
         ] {
-            assert_eq!(keys(query).first(), Some(&key), "{query}: {:?}", keys(query));
+            assert_eq!(
+                keys(query).first(),
+                Some(&key),
+                "{query}: {:?}",
+                keys(query)
+            );
         }
     }
 
@@ -194,7 +247,9 @@ mod tests {
             ("contact ratio", "contact_ratio"),
             ("epsilon", "contact_ratio"),
         ] {
-            let found = search_results(query).first().map(|&(at, _)| QUANTITIES[at].key);
+            let found = search_results(query)
+                .first()
+                .map(|&(at, _)| QUANTITIES[at].key);
             assert_eq!(found, Some(key), "{query}");
         }
         assert!(search_results("xyzzy").is_empty());
@@ -216,9 +271,21 @@ mod tests {
     #[test]
     fn every_field_is_found_first_by_its_key_and_by_label_and_gear() {
         for field in &FIELDS {
-            assert_eq!(keys(&field.key.replace(['.', '_'], " ")).first(), Some(&field.key));
-            let gear = if matches!(field.table(), "driver" | "driven") { field.table() } else { "" };
-            assert_eq!(keys(&format!("{gear} {}", field.label)).first(), Some(&field.key), "{}", field.label);
+            assert_eq!(
+                keys(&field.key.replace(['.', '_'], " ")).first(),
+                Some(&field.key)
+            );
+            let gear = if matches!(field.table(), "driver" | "driven") {
+                field.table()
+            } else {
+                ""
+            };
+            assert_eq!(
+                keys(&format!("{gear} {}", field.label)).first(),
+                Some(&field.key),
+                "{}",
+                field.label
+            );
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::Problem;
 use super::fields::{FIELDS, Kind, index_of};
-use super::visible::quoted;
+use super::sanitize::quoted;
 use super::{check, suggest, units};
 
 /// The shape of a distribution.
@@ -45,21 +45,39 @@ impl Spread {
     /// A distribution from the field's key, the shape's name and the width as written.
     ///
     /// # Errors
-    /// Where the field cannot be spread, the shape is unknown or the width is no value of the field's dimension.
+    /// Where the field cannot be spread, the shape is unknown or the width is no value of the
+    /// field's dimension.
     pub fn new(key: &str, shape: &str, text: &str) -> Result<Spread, Problem> {
         let place = place(key);
         let Some(field) = index_of(key).map(|index| &FIELDS[index]) else {
-            return Err(Problem { field: place, ..check::unknown_key(key) });
+            return Err(Problem {
+                field: place,
+                ..check::unknown_key(key)
+            });
         };
         let Kind::Number(dimension, ..) = field.kind else {
-            return Err(Problem::new(&place, format!("{key} cannot be spread"), "spread a field that is a measure"));
+            return Err(Problem::new(
+                &place,
+                format!("{key} cannot be spread"),
+                "spread a field that is a measure",
+            ));
         };
         let shape = named(&place, shape)?;
-        let width = units::parse(text, dimension, field.usual_unit()).map_err(|misread| Problem::of(&place, misread))?;
+        let width = units::parse(text, dimension, field.usual_unit())
+            .map_err(|misread| Problem::of(&place, misread))?;
         if width < 0.0 {
-            return Err(Problem::new(&place, format!("the width {} is below 0", quoted(text)), "write a width of 0 or more"));
+            return Err(Problem::new(
+                &place,
+                format!("the width {} is below 0", quoted(text)),
+                "write a width of 0 or more",
+            ));
         }
-        Ok(Spread { field: field.key, shape, text: text.to_owned(), width })
+        Ok(Spread {
+            field: field.key,
+            shape,
+            text: text.to_owned(),
+            width,
+        })
     }
 }
 
@@ -69,9 +87,16 @@ pub(super) fn place(key: &str) -> String {
 }
 
 fn named(place: &str, name: &str) -> Result<Shape, Problem> {
-    Shape::ALL.into_iter().find(|shape| shape.name() == name).ok_or_else(|| {
-        let known = Shape::ALL.into_iter().map(Shape::name);
-        let mend = suggest::mend(name, known, || "use normal or uniform".to_owned());
-        Problem::new(place, format!("unknown distribution {}", quoted(name)), mend)
-    })
+    Shape::ALL
+        .into_iter()
+        .find(|shape| shape.name() == name)
+        .ok_or_else(|| {
+            let known = Shape::ALL.into_iter().map(Shape::name);
+            let mend = suggest::mend(name, known, || "use normal or uniform".to_owned());
+            Problem::new(
+                place,
+                format!("unknown distribution {}", quoted(name)),
+                mend,
+            )
+        })
 }

@@ -3,9 +3,10 @@
 use super::fields::{Absent, FIELDS, Kind};
 use super::{Case, Limit};
 
-/// The text of a field moved by that many units of its last digit, and kept within the field's range: "16 um" becomes "17 um",
-/// "0.50" becomes "0.51", "1e3 um" becomes "2e3 um". A count moves by whole numbers, a choice to the names beside it.
-/// `None` where there is nothing to move, the text is no value of the field, or the range ends here.
+/// The text of a field moved by that many units of its last digit, and kept within the field's
+/// range: "16 um" becomes "17 um", "0.50" becomes "0.51", "1e3 um" becomes "2e3 um". A count moves
+/// by whole numbers, a choice to the names beside it. `None` where there is nothing to move, the
+/// text is no value of the field, or the range ends here.
 #[must_use]
 pub fn step(text: &str, field: usize, by: i32) -> Option<String> {
     match FIELDS[field].kind {
@@ -18,14 +19,20 @@ pub fn step(text: &str, field: usize, by: i32) -> Option<String> {
 /// The text of a limit moved likewise, not below zero.
 #[must_use]
 pub fn step_limit(text: &str, quantity: &str, by: i32) -> Option<String> {
-    moved(text, by, |text| Limit::new(quantity, text).is_ok_and(|limit| limit.value >= 0.0))
+    moved(text, by, |text| {
+        Limit::new(quantity, text).is_ok_and(|limit| limit.value >= 0.0)
+    })
 }
 
 impl Case {
     /// What [`step`] makes of a field as it stands: of its text, else of its default.
     #[must_use]
     pub fn stepped(&self, field: usize, by: i32) -> Option<String> {
-        let default = if let Absent::Default(text) = FIELDS[field].absent { Some(text) } else { None };
+        let default = if let Absent::Default(text) = FIELDS[field].absent {
+            Some(text)
+        } else {
+            None
+        };
         step(self.text(field).or(default)?, field, by)
     }
 }
@@ -40,7 +47,9 @@ fn is_taken(field: usize, text: &str) -> bool {
 /// The name so many places further in the list, or the last one there.
 fn named(text: &str, names: &[&str], by: i32) -> Option<String> {
     let at = names.iter().position(|name| *name == text.trim())?;
-    let to = at.saturating_add_signed(isize::try_from(by).ok()?).min(names.len().saturating_sub(1));
+    let to = at
+        .saturating_add_signed(isize::try_from(by).ok()?)
+        .min(names.len().saturating_sub(1));
     (to != at).then(|| names[to].to_owned())
 }
 
@@ -54,7 +63,9 @@ fn moved(text: &str, by: i32, is_taken: impl Fn(&str) -> bool) -> Option<String>
     let (mut within, mut beyond) = (0, by.unsigned_abs() + 1);
     while beyond - within > 1 {
         let middle = within + (beyond - within) / 2;
-        let is_within = number.moved(middle, by < 0).is_some_and(|text| is_taken(&text));
+        let is_within = number
+            .moved(middle, by < 0)
+            .is_some_and(|text| is_taken(&text));
         *(if is_within { &mut within } else { &mut beyond }) = middle;
     }
     (within > 0).then(|| number.moved(within, by < 0)).flatten()
@@ -89,7 +100,11 @@ impl<'t> Decimal<'t> {
         Some(Decimal {
             lead: &text[..text.len() - number.len()],
             is_marked: number.starts_with('+'),
-            digits: if number.starts_with('-') { -digits } else { digits },
+            digits: if number.starts_with('-') {
+                -digits
+            } else {
+                digits
+            },
             whole: whole.len(),
             fraction: fraction.len(),
             has_point: after.starts_with('.'),
@@ -101,18 +116,34 @@ impl<'t> Decimal<'t> {
     fn moved(&self, by: u32, down: bool) -> Option<String> {
         let by = i128::from(by);
         let digits = self.digits.checked_add(if down { -by } else { by })?;
-        let sign = if digits < 0 { "-" } else { ["", "+"][usize::from(self.is_marked)] };
+        let sign = if digits < 0 {
+            "-"
+        } else {
+            ["", "+"][usize::from(self.is_marked)]
+        };
         let width = self.fraction + self.least_whole();
         let plain = format!("{:0width$}", digits.unsigned_abs());
         let (whole, fraction) = plain.split_at(plain.len() - self.fraction);
         let point = if self.has_point { "." } else { "" };
-        Some(format!("{}{sign}{whole}{point}{fraction}{}", self.lead, self.rest))
+        Some(format!(
+            "{}{sign}{whole}{point}{fraction}{}",
+            self.lead, self.rest
+        ))
     }
 
     /// Digits that stand before the point whatever the value: those of "007", none of ".5".
     fn least_whole(&self) -> usize {
-        let digits = self.digits.unsigned_abs().to_string().len().saturating_sub(self.fraction);
-        if self.whole > digits { self.whole } else { self.whole.min(1) }
+        let digits = self
+            .digits
+            .unsigned_abs()
+            .to_string()
+            .len()
+            .saturating_sub(self.fraction);
+        if self.whole > digits {
+            self.whole
+        } else {
+            self.whole.min(1)
+        }
     }
 }
 
@@ -135,7 +166,11 @@ mod tests {
 
     #[track_caller]
     fn steps(key: &str, text: &str, by: i32, to: Option<&str>) {
-        assert_eq!(step(text, field(key), by).as_deref(), to, "{key} = {text} by {by}");
+        assert_eq!(
+            step(text, field(key), by).as_deref(),
+            to,
+            "{key} = {text} by {by}"
+        );
     }
 
     #[test]
@@ -191,7 +226,10 @@ mod tests {
             ("model.method", "exat"),
             ("title", "Table 1"),
             ("operation.power", "1e400 W"),
-            ("operation.power", "9999999999999999999999999999999999999999999999999 W"),
+            (
+                "operation.power",
+                "9999999999999999999999999999999999999999999999999 W",
+            ),
         ] {
             steps(key, text, 1, None);
         }
@@ -200,38 +238,66 @@ mod tests {
     #[test]
     fn a_field_left_out_steps_from_its_default() {
         let case = Case::empty();
-        assert_eq!(case.stepped(field("driver.young"), 1).as_deref(), Some("207 GPa"));
-        assert_eq!(case.stepped(field("driver.tip_relief"), 10).as_deref(), Some("10 um"));
+        assert_eq!(
+            case.stepped(field("driver.young"), 1).as_deref(),
+            Some("207 GPa")
+        );
+        assert_eq!(
+            case.stepped(field("driver.tip_relief"), 10).as_deref(),
+            Some("10 um")
+        );
         assert_eq!(case.stepped(field("model.deflection"), 1), None);
         assert_eq!(case.stepped(field("pair.module"), 1), None);
     }
 
     #[test]
     fn a_limit_steps_and_stays_above_zero() {
-        assert_eq!(step_limit("2500 N", "impact_force", 10).as_deref(), Some("2510 N"));
-        assert_eq!(step_limit("2.5 kN", "impact_force", -1).as_deref(), Some("2.4 kN"));
-        assert_eq!(step_limit("0.01", "dynamic_factor", -10).as_deref(), Some("0.00"));
+        assert_eq!(
+            step_limit("2500 N", "impact_force", 10).as_deref(),
+            Some("2510 N")
+        );
+        assert_eq!(
+            step_limit("2.5 kN", "impact_force", -1).as_deref(),
+            Some("2.4 kN")
+        );
+        assert_eq!(
+            step_limit("0.01", "dynamic_factor", -10).as_deref(),
+            Some("0.00")
+        );
         assert_eq!(step_limit("2500", "impact_force", 1), None);
     }
 
     /// A number as people type it, and a unit of the field's.
     fn typed() -> impl Strategy<Value = (usize, String)> {
-        let measures: Vec<usize> =
-            (0..FIELDS.len()).filter(|&field| matches!(FIELDS[field].kind, Kind::Number(..) | Kind::Count(..))).collect();
+        let measures: Vec<usize> = (0..FIELDS.len())
+            .filter(|&field| matches!(FIELDS[field].kind, Kind::Number(..) | Kind::Count(..)))
+            .collect();
         let exponent = prop_oneof![6 => Just(String::new()), 1 => (-3..4).prop_map(|power| format!("e{power}"))];
-        (select(measures), -10_000..10_000i32, 0..5u32, exponent, any::<prop::sample::Index>()).prop_map(
-            |(field, digits, decimals, exponent, unit)| {
-                let number = format!("{:.*}", decimals as usize, f64::from(digits) / 10f64.powi(decimals.cast_signed()));
+        (
+            select(measures),
+            -10_000..10_000i32,
+            0..5u32,
+            exponent,
+            any::<prop::sample::Index>(),
+        )
+            .prop_map(|(field, digits, decimals, exponent, unit)| {
+                let number = format!(
+                    "{:.*}",
+                    decimals as usize,
+                    f64::from(digits) / 10f64.powi(decimals.cast_signed())
+                );
                 let unit = match FIELDS[field].kind {
                     Kind::Number(dimension, ..) => {
                         let symbols: Vec<&str> = dimension.symbols().collect();
-                        symbols.get(unit.index(symbols.len().max(1))).map(|unit| format!(" {unit}")).unwrap_or_default()
+                        symbols
+                            .get(unit.index(symbols.len().max(1)))
+                            .map(|unit| format!(" {unit}"))
+                            .unwrap_or_default()
                     }
                     _ => String::new(),
                 };
                 (field, format!("{number}{exponent}{unit}"))
-            },
-        )
+            })
     }
 
     proptest! {
@@ -243,7 +309,8 @@ mod tests {
             prop_assert!(is_taken(field, &next), "{}: {text} became {next}", FIELDS[field].key);
             let decimals = |text: &str| text.split_once('.').map(|(_, rest)| leading_digits(rest).0.len());
             prop_assert_eq!(decimals(&text), decimals(&next));
-            // Away from the ends of the range the whole step was made, and the step back leads where it began.
+            // Away from the ends of the range the whole step was made, and the step back leads
+            // where it began.
             let further = moved(&next, by, |text| is_taken(field, text));
             if further.is_some() && !text.starts_with("-0") {
                 let back = step(&next, field, -by);

@@ -12,11 +12,16 @@ pub(crate) fn nearest<'n>(typed: &str, known: impl Iterator<Item = &'n str>) -> 
     let limit = if short { 0.4 } else { 0.65 };
     let likeness = |name: &str| {
         let same_letters = typed.eq_ignore_ascii_case(name);
-        if same_letters { 1.0 } else { strsim::normalized_damerau_levenshtein(&typed.to_lowercase(), &name.to_lowercase()) }
+        if same_letters {
+            1.0
+        } else {
+            strsim::normalized_damerau_levenshtein(&typed.to_lowercase(), &name.to_lowercase())
+        }
     };
     let letters = sorted(typed);
     // Of two that are as near, the one with the same letters: "mu" is a turned "um" and no "m".
-    let is_nearer = |a: (f64, &str), b: (f64, &str)| a.0 > b.0 || a.0 >= b.0 && sorted(a.1) == letters;
+    let is_nearer =
+        |a: (f64, &str), b: (f64, &str)| a.0 > b.0 || a.0 >= b.0 && sorted(a.1) == letters;
     known
         .map(|name| (likeness(name), name))
         .filter(|&(likeness, _)| likeness >= limit)
@@ -31,7 +36,11 @@ fn sorted(name: &str) -> Vec<char> {
 }
 
 /// "did you mean X?" in front of what fits, or what fits alone.
-pub(crate) fn mend<'n>(typed: &str, known: impl Iterator<Item = &'n str>, otherwise: impl FnOnce() -> String) -> String {
+pub(crate) fn mend<'n>(
+    typed: &str,
+    known: impl Iterator<Item = &'n str>,
+    otherwise: impl FnOnce() -> String,
+) -> String {
     nearest(typed, known).map_or_else(otherwise, |name| format!("did you mean {name}?"))
 }
 
@@ -43,7 +52,10 @@ mod tests {
     fn a_slip_finds_its_name_and_another_word_finds_none() {
         let known = ["module", "pressure_angle", "centre_distance"];
         assert_eq!(nearest("modul", known.into_iter()), Some("module"));
-        assert_eq!(nearest("center_distance", known.into_iter()), Some("centre_distance"));
+        assert_eq!(
+            nearest("center_distance", known.into_iter()),
+            Some("centre_distance")
+        );
         assert_eq!(nearest("colour", known.into_iter()), None);
         assert_eq!(nearest("mu", ["mm", "um", "m"].into_iter()), Some("um"));
     }

@@ -1,4 +1,5 @@
-//! What a form makes of a text while it is typed: the unit that completes it, and whether it is wrong or merely unfinished.
+//! What a form makes of a text while it is typed: the unit that completes it, and whether it is
+//! wrong or merely unfinished.
 
 use super::fields::{AUTO, Field, Kind};
 use super::units::{self, Dimension, Open, System};
@@ -22,19 +23,29 @@ impl Field {
     pub fn measure(&self, system: System) -> Option<Measure> {
         let least = |from: f64, unit: &str| from * units::factor(unit).unwrap_or(1.0);
         match self.kind {
-            Kind::Number(dimension, range, _) => {
-                Some(Measure { dimension, unit: system.unit(self.usual_unit()), least: least(range.from, range.unit) })
-            }
-            Kind::Count(from, ..) => Some(Measure { dimension: Dimension::Number, unit: "", least: f64::from(from) }),
+            Kind::Number(dimension, range, _) => Some(Measure {
+                dimension,
+                unit: system.unit(self.usual_unit()),
+                least: least(range.from, range.unit),
+            }),
+            Kind::Count(from, ..) => Some(Measure {
+                dimension: Dimension::Number,
+                unit: "",
+                least: f64::from(from),
+            }),
             Kind::Text | Kind::Choice(..) => None,
         }
     }
 
-    /// Whether a text that the field does not take is merely unfinished: it may become a value by typing on.
+    /// Whether a text that the field does not take is merely unfinished: it may become a value by
+    /// typing on.
     #[must_use]
     pub fn is_unfinished(&self, typed: &str) -> bool {
         let is_auto_begun = self.takes_auto() && AUTO.starts_with(typed.trim());
-        is_auto_begun || self.measure(System::Metric).is_some_and(|measure| measure.is_unfinished(typed))
+        is_auto_begun
+            || self
+                .measure(System::Metric)
+                .is_some_and(|measure| measure.is_unfinished(typed))
     }
 }
 
@@ -43,25 +54,41 @@ impl Limit {
     #[must_use]
     pub fn measure(&self, system: System) -> Option<Measure> {
         let quantity = Quantity::find(self.quantity)?;
-        let unit = if quantity.shown == "1" { "" } else { system.unit(quantity.shown) };
-        Some(Measure { dimension: Dimension::of_unit(quantity.unit)?, unit, least: f64::NEG_INFINITY })
+        let unit = if quantity.shown == "1" {
+            ""
+        } else {
+            system.unit(quantity.shown)
+        };
+        Some(Measure {
+            dimension: Dimension::of_unit(quantity.unit)?,
+            unit,
+            least: f64::NEG_INFINITY,
+        })
     }
 
     /// What is wrong with the text.
     #[must_use]
     pub fn problem(&self) -> Option<Problem> {
-        Limit::new(self.quantity, &self.text).err().filter(|_| !self.text.is_empty())
+        Limit::new(self.quantity, &self.text)
+            .err()
+            .filter(|_| !self.text.is_empty())
     }
 }
 
 impl Measure {
-    /// Whether a text that is not taken may become a value by typing on: by a unit, or by digits where it is too small.
+    /// Whether a text that is not taken may become a value by typing on: by a unit, or by digits
+    /// where it is too small.
     #[must_use]
     pub fn is_unfinished(&self, typed: &str) -> bool {
-        let is_too_small = || units::parse(typed, self.dimension, "").map_or(true, |value| value < self.least);
+        let is_too_small =
+            || units::parse(typed, self.dimension, "").map_or(true, |value| value < self.least);
         // No digit and no unit makes more of a negative number than 0.
-        let is_negative =
-            || typed.trim().strip_prefix('-').is_some_and(|digits| digits.contains(|c: char| matches!(c, '1'..='9')));
+        let is_negative = || {
+            typed
+                .trim()
+                .strip_prefix('-')
+                .is_some_and(|digits| digits.contains(|c: char| matches!(c, '1'..='9')))
+        };
         match units::open(typed, self.dimension) {
             Some(_) if self.least >= 0.0 && is_negative() => false,
             Some(Open::Unit) => true,

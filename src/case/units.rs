@@ -6,8 +6,8 @@ pub mod system;
 mod table;
 mod typing;
 
+use super::sanitize::{cut, quoted};
 use super::suggest;
-use super::visible::{cut, quoted};
 pub use converted::converted;
 pub use system::System;
 use table::{FAMILIES, Scale, Unit, name_of, units_of};
@@ -55,7 +55,10 @@ impl Dimension {
         if matches!(unit, "" | "1") {
             return Some(Dimension::Number);
         }
-        FAMILIES.iter().find(|family| find(unit, family.units).is_some()).map(|family| family.dimension)
+        FAMILIES
+            .iter()
+            .find(|family| find(unit, family.units).is_some())
+            .map(|family| family.dimension)
     }
 
     /// What a person calls a value of it, such as "a length".
@@ -72,16 +75,19 @@ impl Dimension {
 
 /// Why a text is no value of the wanted dimension: the cause and the mend.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Misread {
+pub struct ParseError {
     /// What is wrong.
     pub cause: String,
     /// How to mend it.
     pub mend: String,
 }
 
-impl Misread {
-    pub(super) fn new(cause: impl Into<String>, mend: impl Into<String>) -> Misread {
-        Misread { cause: cause.into(), mend: mend.into() }
+impl ParseError {
+    pub(super) fn new(cause: impl Into<String>, mend: impl Into<String>) -> ParseError {
+        ParseError {
+            cause: cause.into(),
+            mend: mend.into(),
+        }
     }
 }
 
@@ -91,7 +97,9 @@ pub fn factor(unit: &str) -> Option<f64> {
     if matches!(unit, "" | "1") {
         return Some(1.0);
     }
-    let unit = FAMILIES.iter().find_map(|family| find(unit, family.units))?;
+    let unit = FAMILIES
+        .iter()
+        .find_map(|family| find(unit, family.units))?;
     Some(match unit.scale {
         Scale::Ten(exponent) if exponent < 0 => 1.0 / 10f64.powi(-exponent),
         Scale::Ten(exponent) => 10f64.powi(exponent),
@@ -99,20 +107,24 @@ pub fn factor(unit: &str) -> Option<f64> {
     })
 }
 
-/// A value in SI from a text such as "16 um": the f64 nearest to what is written where the unit is a power of ten
-/// of SI, within one unit in the last place otherwise.
+/// A value in SI from a text such as "16 um": the f64 nearest to what is written where the unit is
+/// a power of ten of SI, within one unit in the last place otherwise.
 ///
 /// `usual` is the unit in which an example is shown.
 ///
 /// # Errors
 /// Where the text is not one finite number with a unit of the dimension.
-pub fn parse(text: &str, dimension: Dimension, usual: &str) -> Result<f64, Misread> {
+pub fn parse(text: &str, dimension: Dimension, usual: &str) -> Result<f64, ParseError> {
     let (number, unit) = number::split(text.trim(), usual)?;
     let scale = match (dimension, unit) {
         (Dimension::Number, "") => Scale::Ten(0),
         (Dimension::Number, _) => return Err(unit_unwanted(number, unit)),
         (_, "") => return Err(unit_missing(number, dimension, usual)),
-        _ => find(unit, units_of(dimension)).ok_or_else(|| unit_wrong(unit, dimension))?.scale,
+        _ => {
+            find(unit, units_of(dimension))
+                .ok_or_else(|| unit_wrong(unit, dimension))?
+                .scale
+        }
     };
     let value = match scale {
         Scale::Ten(exponent) => number::shifted(number, exponent),
@@ -121,21 +133,32 @@ pub fn parse(text: &str, dimension: Dimension, usual: &str) -> Result<f64, Misre
     number::held(number, value)
 }
 
-/// The shortest text in that unit which [`parse`] reads back as the same value, or as near as the unit allows.
+/// The shortest text in that unit which [`parse`] reads back as the same value, or as near as the
+/// unit allows.
 #[must_use]
 pub fn text(value: f64, unit: &str) -> String {
-    let number = match FAMILIES.iter().find_map(|family| find(unit, family.units)).map(|unit| unit.scale) {
+    let number = match FAMILIES
+        .iter()
+        .find_map(|family| find(unit, family.units))
+        .map(|unit| unit.scale)
+    {
         None => number::plain(value, 0),
         Some(Scale::Ten(exponent)) => number::plain(value, -exponent),
         Some(Scale::Times(factor, rest)) => {
             let near = number::plain(value / factor, 0);
             (12..17)
                 .map(|digits| format!("{:.digits$e}", value / factor))
-                .find(|short| times(number::shifted(short, 0), factor, rest).to_bits() == value.to_bits())
+                .find(|short| {
+                    times(number::shifted(short, 0), factor, rest).to_bits() == value.to_bits()
+                })
                 .map_or(near, |short| number::plain(number::shifted(&short, 0), 0))
         }
     };
-    if matches!(unit, "" | "1") { number } else { format!("{number} {unit}") }
+    if matches!(unit, "" | "1") {
+        number
+    } else {
+        format!("{number} {unit}")
+    }
 }
 
 /// The product with a factor held in two parts, rounded once.
@@ -152,7 +175,11 @@ fn find(unit: &str, units: &'static [Unit]) -> Option<&'static Unit> {
     if unit.len() > LONGEST {
         return None;
     }
-    let spelled = |text: &str| units.iter().find(|unit| unit.symbol == text || unit.aliases.contains(&text));
+    let spelled = |text: &str| {
+        units
+            .iter()
+            .find(|unit| unit.symbol == text || unit.aliases.contains(&text))
+    };
     spelled(unit).or_else(|| spelled(&plain_spelling(unit)))
 }
 
@@ -180,34 +207,56 @@ fn plain_spelling(unit: &str) -> String {
     plain
 }
 
-fn unit_unwanted(number: &str, unit: &str) -> Misread {
-    Misread::new(format!("unit {} where a bare number is due", quoted(unit)), format!("write {}", cut(number)))
+fn unit_unwanted(number: &str, unit: &str) -> ParseError {
+    ParseError::new(
+        format!("unit {} where a bare number is due", quoted(unit)),
+        format!("write {}", cut(number)),
+    )
 }
 
-fn unit_missing(number: &str, dimension: Dimension, usual: &str) -> Misread {
+fn unit_missing(number: &str, dimension: Dimension, usual: &str) -> ParseError {
     let number = cut(number);
-    Misread::new(
-        format!("{number} is a bare number where {} with its unit is due", dimension.name()),
+    ParseError::new(
+        format!(
+            "{number} is a bare number where {} with its unit is due",
+            dimension.name()
+        ),
         format!("write \"{number} {usual}\""),
     )
 }
 
-fn unit_wrong(unit: &str, dimension: Dimension) -> Misread {
+fn unit_wrong(unit: &str, dimension: Dimension) -> ParseError {
     let fitting = dimension.symbols().collect::<Vec<_>>().join(", ");
     if let Some(other) = Dimension::of_unit(unit) {
-        let cause = format!("{} is a unit of {}, not of {}", quoted(unit), bare(other), bare(dimension));
-        return Misread::new(cause, format!("use one of {fitting}"));
+        let cause = format!(
+            "{} is a unit of {}, not of {}",
+            quoted(unit),
+            bare(other),
+            bare(dimension)
+        );
+        return ParseError::new(cause, format!("use one of {fitting}"));
     }
-    let (known, after) = unit.split_at(unit.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.').len());
+    let (known, after) = unit.split_at(
+        unit.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.')
+            .len(),
+    );
     if !after.is_empty() && find(known.trim_end(), units_of(dimension)).is_some() {
-        return Misread::new(format!("{after} stands after the unit"), format!("write all digits before {}", known.trim_end()));
+        return ParseError::new(
+            format!("{after} stands after the unit"),
+            format!("write all digits before {}", known.trim_end()),
+        );
     }
-    let spellings = units_of(dimension).iter().flat_map(|unit| std::iter::once(&unit.symbol).chain(unit.aliases)).copied();
-    let near = suggest::nearest(&plain_spelling(unit), spellings).and_then(|near| find(near, units_of(dimension)));
-    let mend = near
-        .map(|near| near.symbol)
-        .map_or_else(|| format!("use one of {fitting}"), |near| format!("did you mean {near}? Units here: {fitting}"));
-    Misread::new(format!("unknown unit {}", quoted(unit)), mend)
+    let spellings = units_of(dimension)
+        .iter()
+        .flat_map(|unit| std::iter::once(&unit.symbol).chain(unit.aliases))
+        .copied();
+    let near = suggest::nearest(&plain_spelling(unit), spellings)
+        .and_then(|near| find(near, units_of(dimension)));
+    let mend = near.map(|near| near.symbol).map_or_else(
+        || format!("use one of {fitting}"),
+        |near| format!("did you mean {near}? Units here: {fitting}"),
+    );
+    ParseError::new(format!("unknown unit {}", quoted(unit)), mend)
 }
 
 fn bare(dimension: Dimension) -> &'static str {

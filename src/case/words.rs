@@ -1,4 +1,5 @@
-//! Problems in the words of a form: labels in place of keys, values without quotes, no file to add a line to.
+//! Problems in the words of a form: labels in place of keys, values without quotes, no file to add
+//! a line to.
 
 use std::sync::LazyLock;
 
@@ -12,19 +13,28 @@ const LIMITS: &str = "limits.";
 /// Marks that a file needs around a value, and a message around what was typed.
 const MARKS: [char; 2] = ['"', '`'];
 
-/// Every key that stands in a table, the longest first, so that none is taken for the start of another.
+/// Every key that stands in a table, the longest first, so that none is taken for the start of
+/// another.
 static KEYS: LazyLock<Vec<&'static str>> = LazyLock::new(|| {
-    let mut keys: Vec<&'static str> = FIELDS.iter().map(|field| field.key).filter(|key| key.contains('.')).collect();
+    let mut keys: Vec<&'static str> = FIELDS
+        .iter()
+        .map(|field| field.key)
+        .filter(|key| key.contains('.'))
+        .collect();
     keys.sort_by_key(|key| std::cmp::Reverse(key.len()));
     keys
 });
 
 impl Problem {
-    /// The same problem as a form says it, where the field and its text are in sight: `write 5 mm` for `write "5 mm"`, a
-    /// label for a key. For a file it stays as it is.
+    /// The same problem as a form says it, where the field and its text are in sight: `write 5 mm`
+    /// for `write "5 mm"`, a label for a key. For a file it stays as it is.
     #[must_use]
     pub fn for_form(&self) -> Problem {
-        Problem { field: called(&self.field), cause: for_form(&self.cause), mend: for_form(&self.mend) }
+        Problem {
+            field: called(&self.field),
+            cause: for_form(&self.cause),
+            mend: for_form(&self.mend),
+        }
     }
 }
 
@@ -32,19 +42,28 @@ impl Problem {
 #[must_use]
 pub fn for_form(sentence: &str) -> String {
     let sentence = written(sentence).unwrap_or_else(|| sentence.to_owned());
-    let labelled = if sentence.contains('.') { with_labels(sentence) } else { sentence };
+    let labelled = if sentence.contains('.') {
+        with_labels(sentence)
+    } else {
+        sentence
+    };
     labelled.replace(MARKS, "")
 }
 
-/// What a person calls the field of a key: `module`, `the driver's tip relief`, `limit of impact force`; the key itself where
-/// no field has it.
+/// What a person calls the field of a key: `module`, `the driver's tip relief`, `limit of impact
+/// force`; the key itself where no field has it.
 #[must_use]
 pub fn called(key: &str) -> String {
     if let Some(field) = index_of(key) {
         return name(&FIELDS[field]);
     }
-    let quantity = key.strip_prefix(LIMITS).and_then(|key| QUANTITIES.iter().find(|quantity| quantity.key == key));
-    quantity.map_or_else(|| key.to_owned(), |quantity| format!("limit of {}", quantity.label.trim_start()))
+    let quantity = key
+        .strip_prefix(LIMITS)
+        .and_then(|key| QUANTITIES.iter().find(|quantity| quantity.key == key));
+    quantity.map_or_else(
+        || key.to_owned(),
+        |quantity| format!("limit of {}", quantity.label.trim_start()),
+    )
 }
 
 fn name(field: &Field) -> String {
@@ -56,7 +75,13 @@ fn name(field: &Field) -> String {
 }
 
 fn with_labels(sentence: String) -> String {
-    KEYS.iter().fold(sentence, |text, key| if text.contains(key) { text.replace(key, &called(key)) } else { text })
+    KEYS.iter().fold(sentence, |text, key| {
+        if text.contains(key) {
+            text.replace(key, &called(key))
+        } else {
+            text
+        }
+    })
 }
 
 /// The advice to add a line to a file as the advice to write the value.
@@ -76,20 +101,54 @@ mod tests {
         let mut case = Case::table_1();
         let field = index_of(key).unwrap();
         case.write(field, text);
-        let problem = case.inputs().unwrap_err().into_iter().find(|problem| problem.field == key).unwrap().for_form();
+        let problem = case
+            .inputs()
+            .unwrap_err()
+            .into_iter()
+            .find(|problem| problem.field == key)
+            .unwrap()
+            .for_form();
         format!("{}: {}", problem.cause, problem.mend)
     }
 
     #[test]
     fn a_form_speaks_of_what_is_in_sight() {
         for (key, text, sentence) in [
-            ("pair.module", "", "this field is missing: write 5 mm, for example"),
-            ("driver.teeth", "", "this field is missing: write 20, for example"),
-            ("pair.module", "5", "5 is a bare number where a length with its unit is due: write 5 mm"),
-            ("pair.module", "60 mm", "60 mm is above the limit of 50 mm: write a value from 0.05 to 50 mm"),
-            ("operation.power", "", "neither power nor torque is given: write 15 kW, for example"),
-            ("operation.torque", "70 N m", "power and torque are both given: take one of them out"),
-            ("model.method", "exat", "unknown choice exat: did you mean exact?"),
+            (
+                "pair.module",
+                "",
+                "this field is missing: write 5 mm, for example",
+            ),
+            (
+                "driver.teeth",
+                "",
+                "this field is missing: write 20, for example",
+            ),
+            (
+                "pair.module",
+                "5",
+                "5 is a bare number where a length with its unit is due: write 5 mm",
+            ),
+            (
+                "pair.module",
+                "60 mm",
+                "60 mm is above the limit of 50 mm: write a value from 0.05 to 50 mm",
+            ),
+            (
+                "operation.power",
+                "",
+                "neither power nor torque is given: write 15 kW, for example",
+            ),
+            (
+                "operation.torque",
+                "70 N m",
+                "power and torque are both given: take one of them out",
+            ),
+            (
+                "model.method",
+                "exat",
+                "unknown choice exat: did you mean exact?",
+            ),
         ] {
             assert_eq!(said(key, text), sentence);
         }
@@ -98,7 +157,10 @@ mod tests {
     #[test]
     fn a_field_is_called_by_its_label_and_its_gear() {
         assert_eq!(called("pair.module"), "module");
-        assert_eq!(called("driven.tip_relief_length"), "the driven gear's tip relief length");
+        assert_eq!(
+            called("driven.tip_relief_length"),
+            "the driven gear's tip relief length"
+        );
         assert_eq!(called("limits.impact_force"), "limit of impact force");
         assert_eq!(called("pair.modul"), "pair.modul");
         assert_eq!(
@@ -109,14 +171,39 @@ mod tests {
 
     #[test]
     fn no_message_of_a_form_speaks_the_language_of_files() {
-        let wrong = ["", "5", "x", "1e999 mm", "5 kg", "4,5 mm", "-1", "5 mm 5", "99999999 GPa", "nan", "−5 mm", "5 mmm"];
-        for (index, field) in FIELDS.iter().enumerate().filter(|(_, field)| !matches!(field.kind, Kind::Text)) {
+        let wrong = [
+            "",
+            "5",
+            "x",
+            "1e999 mm",
+            "5 kg",
+            "4,5 mm",
+            "-1",
+            "5 mm 5",
+            "99999999 GPa",
+            "nan",
+            "−5 mm",
+            "5 mmm",
+        ];
+        for (index, field) in FIELDS
+            .iter()
+            .enumerate()
+            .filter(|(_, field)| !matches!(field.kind, Kind::Text))
+        {
             for text in wrong {
                 let mut case = Case::table_1();
                 case.write(index, text);
-                for problem in case.inputs().err().into_iter().flatten().map(|problem| problem.for_form()) {
+                for problem in case
+                    .inputs()
+                    .err()
+                    .into_iter()
+                    .flatten()
+                    .map(|problem| problem.for_form())
+                {
                     let said = problem.to_string();
-                    let key = FIELDS.iter().find(|field| field.key.contains('.') && said.contains(field.key));
+                    let key = FIELDS
+                        .iter()
+                        .find(|field| field.key.contains('.') && said.contains(field.key));
                     assert!(
                         key.is_none() && !said.contains(['"', '`', '[']) && !said.contains("add "),
                         "{} = {text}: {said}",
@@ -132,6 +219,9 @@ mod tests {
         let mut case = Case::table_1();
         case.write(index_of("pair.module").unwrap(), "5");
         let problem = case.inputs().unwrap_err().remove(0);
-        assert_eq!((problem.field.as_str(), problem.mend.as_str()), ("pair.module", "write \"5 mm\""));
+        assert_eq!(
+            (problem.field.as_str(), problem.mend.as_str()),
+            ("pair.module", "write \"5 mm\"")
+        );
     }
 }

@@ -1,5 +1,8 @@
 //! The command line's shape, from which help, completions and manual are derived.
-#![allow(rustdoc::broken_intra_doc_links, reason = "the help names tables of the case file, such as [limits]")]
+#![allow(
+    rustdoc::broken_intra_doc_links,
+    reason = "the help names tables of the case file, such as [limits]"
+)]
 
 use super::Exit;
 use crate::case::{Case, EXAMPLES, Example, Problem, unknown_quantity};
@@ -78,7 +81,9 @@ impl Changes {
     /// The fields that change; the method is one of them, and the last word on it.
     #[must_use]
     pub fn settings(&self) -> Vec<Setting> {
-        let method = self.method.map(|method| Setting::by("--method", "model.method", method.name()));
+        let method = self
+            .method
+            .map(|method| Setting::by("--method", "model.method", method.name()));
         self.settings.iter().cloned().chain(method).collect()
     }
 }
@@ -93,7 +98,8 @@ pub struct Solve {
     /// What differs from the case
     #[command(flatten)]
     pub changes: Changes,
-    /// Tell these quantities alone, and run no more than they need; `tipstrike fields --results` lists them
+    /// Tell these quantities alone, and run no more than they need; `tipstrike fields --results`
+    /// lists them
     #[arg(long, value_name = "QUANTITY,...", value_delimiter = ',', hide_possible_values = true, value_parser = Quantities)]
     pub only: Vec<&'static Quantity>,
     /// Tell the stations as well, in this many intervals between D and E, or auto
@@ -146,7 +152,8 @@ pub struct Trading {
     /// Change a field of the case, such as "operation.speed=3000 rpm"
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Settings)]
     pub settings: Vec<Setting>,
-    /// Name the cheapest setting whose error is no greater, such as 5% or 0.05; else that of the case's model.within
+    /// Name the cheapest setting whose error is no greater, such as 5% or 0.05; else that of the
+    /// case's model.within
     #[arg(long, value_name = "ERROR", allow_negative_numbers = true, value_parser = part)]
     pub within: Option<f64>,
     /// How to tell it
@@ -216,7 +223,11 @@ impl Setting {
     /// What an option puts into a field.
     #[must_use]
     pub fn by(option: &'static str, key: &str, value: &str) -> Setting {
-        Setting { key: key.to_owned(), value: value.to_owned(), option }
+        Setting {
+            key: key.to_owned(),
+            value: value.to_owned(),
+            option,
+        }
     }
 
     /// As it stands on the command line.
@@ -238,20 +249,32 @@ fn exit_codes() -> String {
 }
 
 fn methods() -> impl TypedValueParser<Value = Method> {
-    PossibleValuesParser::new(Method::ALL.map(Method::name))
-        .try_map(|name| Method::ALL.into_iter().find(|method| method.name() == name).ok_or("no such method"))
+    PossibleValuesParser::new(Method::ALL.map(Method::name)).try_map(|name| {
+        Method::ALL
+            .into_iter()
+            .find(|method| method.name() == name)
+            .ok_or("no such method")
+    })
 }
 
-/// Quantities by their names, or by symbols that are of one alone; else a symbol or a slip is told the name that is meant.
+/// Quantities by their names, or by symbols that are of one alone; else a symbol or a slip is told
+/// the name that is meant.
 #[derive(Clone)]
 struct Quantities;
 
 impl TypedValueParser for Quantities {
     type Value = &'static Quantity;
 
-    fn parse_ref(&self, _: &clap::Command, argument: Option<&Arg>, value: &OsStr) -> Result<Self::Value, Error> {
+    fn parse_ref(
+        &self,
+        _: &clap::Command,
+        argument: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<Self::Value, Error> {
         let text = value.to_string_lossy();
-        let name = argument.and_then(Arg::get_long).map_or("QUANTITY".to_owned(), |long| format!("--{long}"));
+        let name = argument
+            .and_then(Arg::get_long)
+            .map_or("QUANTITY".to_owned(), |long| format!("--{long}"));
         Quantity::named(text.trim()).ok_or_else(|| {
             let Problem { cause, mend, .. } = unknown_quantity("", &text);
             misused(format!("{name}: {cause}: {mend}"))
@@ -259,7 +282,11 @@ impl TypedValueParser for Quantities {
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        Some(Box::new(QUANTITIES.iter().map(|quantity| PossibleValue::new(quantity.key))))
+        Some(Box::new(
+            QUANTITIES
+                .iter()
+                .map(|quantity| PossibleValue::new(quantity.key)),
+        ))
     }
 }
 
@@ -270,7 +297,12 @@ struct Settings;
 impl TypedValueParser for Settings {
     type Value = Setting;
 
-    fn parse_ref(&self, _: &clap::Command, _: Option<&Arg>, value: &OsStr) -> Result<Setting, Error> {
+    fn parse_ref(
+        &self,
+        _: &clap::Command,
+        _: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<Setting, Error> {
         let text = value.to_string_lossy();
         setting(&text).map_err(|told| misused(format!("{SET} {text}: {told}")))
     }
@@ -282,7 +314,8 @@ fn misused(told: String) -> Error {
 }
 
 fn examples() -> impl TypedValueParser<Value = &'static Example> {
-    PossibleValuesParser::new(EXAMPLES.iter().map(|example| example.name)).try_map(|name| Example::find(&name))
+    PossibleValuesParser::new(EXAMPLES.iter().map(|example| example.name))
+        .try_map(|name| Example::find(&name))
 }
 
 /// A number of stations that fits its field.
@@ -292,15 +325,26 @@ fn station_count(text: &str) -> Result<String, String> {
 
 /// A setting whose value fits its field, whatever the case.
 fn setting(text: &str) -> Result<Setting, String> {
-    let (key, value) = text.split_once('=').ok_or("no value is given: write KEY=VALUE, such as \"operation.speed=3000 rpm\"")?;
-    Case::empty().set(key.trim(), value).map_err(|problem| format!("{}: {}", problem.cause, problem.mend))?;
+    let (key, value) = text
+        .split_once('=')
+        .ok_or("no value is given: write KEY=VALUE, such as \"operation.speed=3000 rpm\"")?;
+    Case::empty()
+        .set(key.trim(), value)
+        .map_err(|problem| format!("{}: {}", problem.cause, problem.mend))?;
     Ok(Setting::by(SET, key.trim(), value))
 }
 
 /// A part of a whole: "5%" or 0.05.
 fn part(text: &str) -> Result<f64, String> {
-    let (number, whole) = text.trim().strip_suffix('%').map_or((text.trim(), 1.0), |number| (number.trim(), 100.0));
-    let value = number.parse::<f64>().ok().map(|number| number / whole).filter(|part| part.is_finite() && *part > 0.0);
+    let (number, whole) = text
+        .trim()
+        .strip_suffix('%')
+        .map_or((text.trim(), 1.0), |number| (number.trim(), 100.0));
+    let value = number
+        .parse::<f64>()
+        .ok()
+        .map(|number| number / whole)
+        .filter(|part| part.is_finite() && *part > 0.0);
     value.ok_or_else(|| "write a part above 0, such as 5% or 0.05".to_owned())
 }
 
@@ -316,14 +360,25 @@ mod tests {
 
     #[test]
     fn a_part_is_written_with_or_without_its_sign() {
-        assert_eq!((part("5%"), part("0.05"), part(" 0.5 % ")), (Ok(0.05), Ok(0.05), Ok(0.005)));
-        assert!(["", "%", "five", "-1%", "0", "nan", "inf%"].iter().all(|text| part(text).is_err()));
+        assert_eq!(
+            (part("5%"), part("0.05"), part(" 0.5 % ")),
+            (Ok(0.05), Ok(0.05), Ok(0.005))
+        );
+        assert!(
+            ["", "%", "five", "-1%", "0", "nan", "inf%"]
+                .iter()
+                .all(|text| part(text).is_err())
+        );
     }
 
     #[test]
     fn a_setting_names_a_field_and_keeps_what_follows_the_first_equals_sign() {
         assert_eq!(setting("title=a=b"), Ok(Setting::by(SET, "title", "a=b")));
-        assert!(setting("pair.modul=5 mm").unwrap_err().contains("did you mean pair.module?"));
+        assert!(
+            setting("pair.modul=5 mm")
+                .unwrap_err()
+                .contains("did you mean pair.module?")
+        );
         assert!(setting("pair.module").unwrap_err().contains("KEY=VALUE"));
     }
 }

@@ -19,33 +19,65 @@ pub(super) struct Opened {
 impl Opened {
     /// Say why the model refuses the case, at the field where the mend begins.
     pub(super) fn refused(&self, refusal: &Refusal, streams: &mut Streams) -> Exit {
-        let (field, cause, mend) = (refusal.field().to_owned(), refusal.to_string(), refusal.mend().to_owned());
-        streams.say(&placed(&self.document, Problem { field, cause, mend }, &self.settings));
+        let (field, cause, mend) = (
+            refusal.field().to_owned(),
+            refusal.to_string(),
+            refusal.mend().to_owned(),
+        );
+        streams.say(&placed(
+            &self.document,
+            Problem { field, cause, mend },
+            &self.settings,
+        ));
         Exit::BadCase
     }
 }
 
 /// Read a case and change what the settings name.
-pub(super) fn open(path: &Path, settings: &[Setting], streams: &mut Streams) -> Result<Opened, Exit> {
+pub(super) fn open(
+    path: &Path,
+    settings: &[Setting],
+    streams: &mut Streams,
+) -> Result<Opened, Exit> {
     let document = Document::read(path).map_err(|error| unread(&error, streams))?;
     changed(path.display().to_string(), document, settings, streams)
 }
 
 /// A document as it is once the settings have changed what they name.
-pub(super) fn changed(name: String, mut document: Document, settings: &[Setting], streams: &mut Streams) -> Result<Opened, Exit> {
+pub(super) fn changed(
+    name: String,
+    mut document: Document,
+    settings: &[Setting],
+    streams: &mut Streams,
+) -> Result<Opened, Exit> {
     for (index, setting) in settings.iter().enumerate() {
-        if let Some(other) = settings[..index].iter().find(|other| Case::are_exclusive(&other.key, &setting.key)) {
-            streams.say(&format!("{}: {} is set as well: leave one of them out", setting.written(), other.key));
+        if let Some(other) = settings[..index]
+            .iter()
+            .find(|other| Case::are_exclusive(&other.key, &setting.key))
+        {
+            streams.say(&format!(
+                "{}: {} is set as well: leave one of them out",
+                setting.written(),
+                other.key
+            ));
             return Err(Exit::Usage);
         }
-        document.case.set(&setting.key, &setting.value).map_err(|problem| {
-            streams.say(&on_command_line(setting, &problem));
-            Exit::Usage
-        })?;
+        document
+            .case
+            .set(&setting.key, &setting.value)
+            .map_err(|problem| {
+                streams.say(&on_command_line(setting, &problem));
+                Exit::Usage
+            })?;
     }
     match document.case.inputs() {
         // Nothing waits for a report, so it is given the digits.
-        Ok(inputs) => Ok(Opened { name, document, inputs, settings: settings.to_vec() }),
+        Ok(inputs) => Ok(Opened {
+            name,
+            document,
+            inputs,
+            settings: settings.to_vec(),
+        }),
         Err(problems) => Err(unfit(&document, problems, settings, streams)),
     }
 }
@@ -70,18 +102,31 @@ fn unread(error: &ReadError, streams: &mut Streams) -> Exit {
 }
 
 /// What the settings put out of order.
-fn unfit(document: &Document, problems: Vec<Problem>, settings: &[Setting], streams: &mut Streams) -> Exit {
+fn unfit(
+    document: &Document,
+    problems: Vec<Problem>,
+    settings: &[Setting],
+    streams: &mut Streams,
+) -> Exit {
     for problem in problems {
         streams.say(&placed(document, problem, settings));
     }
     Exit::BadCase
 }
 
-/// A problem at its place: a field that was set is wrong on the command line and not in the file; another may be wrong beside
-/// what was set.
+/// A problem at its place: a field that was set is wrong on the command line and not in the file;
+/// another may be wrong beside what was set.
 fn placed(document: &Document, problem: Problem, settings: &[Setting]) -> String {
-    match settings.iter().rev().find(|setting| setting.key == problem.field) {
-        Some(setting) => format!("{}, {}", document.name(), on_command_line(setting, &problem)),
+    match settings
+        .iter()
+        .rev()
+        .find(|setting| setting.key == problem.field)
+    {
+        Some(setting) => format!(
+            "{}, {}",
+            document.name(),
+            on_command_line(setting, &problem)
+        ),
         None if settings.is_empty() => document.fault(problem).to_string(),
         None => {
             let written: Vec<String> = settings.iter().map(Setting::written).collect();

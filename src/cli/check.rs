@@ -3,9 +3,11 @@
 use super::cases::{self, Opened};
 use super::{Check, Exit, Listing, Streams};
 use crate::case::Case;
-use crate::case::visible::visible;
+use crate::case::sanitize::sanitize;
 use crate::model::{self, Inputs, Refusal, Solution};
-use crate::report::verdict::{Standing, Verdict, refused, stages, stages_beside, verdicts, write_json};
+use crate::report::verdict::{
+    Standing, Verdict, refused, stages, stages_beside, verdicts, write_json,
+};
 use std::io::{self, Write};
 
 pub(super) fn run(options: &Check, streams: &mut Streams) -> io::Result<Exit> {
@@ -24,10 +26,17 @@ pub(super) fn run(options: &Check, streams: &mut Streams) -> io::Result<Exit> {
 fn check(opened: &Opened, format: Listing, streams: &mut Streams) -> io::Result<Exit> {
     let case = &opened.document.case;
     let (verdicts, refusal, method) = match solve(case, &opened.inputs) {
-        Ok(solution) => (verdicts(case, &solution), solution.withheld, solution.method),
+        Ok(solution) => (
+            verdicts(case, &solution),
+            solution.withheld,
+            solution.method,
+        ),
         Err(refusal) => (refused(case, &refusal), Some(refusal), opened.inputs.method),
     };
-    let is_settled = verdicts.iter().all(|verdict| verdict.standing != Standing::Unknown) && !verdicts.is_empty();
+    let is_settled = verdicts
+        .iter()
+        .all(|verdict| verdict.standing != Standing::Unknown)
+        && !verdicts.is_empty();
     let refusal = refusal.filter(|_| !is_settled);
     if refusal.is_none() || !verdicts.is_empty() {
         match format {
@@ -43,11 +52,13 @@ fn check(opened: &Opened, format: Listing, streams: &mut Streams) -> io::Result<
 }
 
 fn tell(verdicts: &[Verdict], name: &str, out: &mut dyn Write) -> io::Result<()> {
-    let name = visible(name);
+    let name = sanitize(name);
     if verdicts.is_empty() {
         return writeln!(out, "ok {name}: no limits");
     }
-    verdicts.iter().try_for_each(|verdict| writeln!(out, "{} {name}: {verdict}", verdict.standing.word()))
+    verdicts
+        .iter()
+        .try_for_each(|verdict| writeln!(out, "{} {name}: {verdict}", verdict.standing.word()))
 }
 
 /// As far as the limits need it, and what the method itself finds beside them, where it does.
@@ -55,5 +66,9 @@ fn solve(case: &Case, inputs: &Inputs) -> Result<Solution, Refusal> {
     let needed = stages(case);
     let solution = model::solve(inputs, needed)?;
     let whole = needed.and(stages_beside(case, solution.method));
-    if needed.covers(whole) { Ok(solution) } else { model::solve(inputs, whole).or(Ok(solution)) }
+    if needed.covers(whole) {
+        Ok(solution)
+    } else {
+        model::solve(inputs, whole).or(Ok(solution))
+    }
 }

@@ -23,13 +23,21 @@ pub(super) fn run(options: &Explain, streams: &mut Streams) -> io::Result<Exit> 
 }
 
 fn tell(options: &Explain, opened: &Opened, streams: &mut Streams) -> io::Result<Exit> {
-    let Opened { name, document, inputs, .. } = opened;
+    let Opened {
+        name,
+        document,
+        inputs,
+        ..
+    } = opened;
     let solution = match model::solve(inputs, Stages::of(options.quantity.stage)) {
         Ok(solution) => solution,
         Err(refusal) => return Ok(opened.refused(&refusal, streams)),
     };
     let Some(page) = explain(options.quantity, &document.case, inputs, &solution) else {
-        streams.say(&format!("explain: {}: no explanation is written for this quantity", options.quantity.key));
+        streams.say(&format!(
+            "explain: {}: no explanation is written for this quantity",
+            options.quantity.key
+        ));
         return Ok(Exit::Usage);
     };
     match options.format {

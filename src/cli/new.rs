@@ -11,18 +11,31 @@ pub(super) fn run(options: &New, streams: &mut Streams) -> io::Result<Exit> {
     if options.list {
         return list(streams.output.as_mut()).map(|()| Exit::Done);
     }
-    let text = options.from.map_or_else(|| Document::new(Case::fresh()).render(), |example| example.text.to_owned());
-    match options.file.as_deref().filter(|file| file.as_os_str() != "-") {
-        None => streams.output.write_all(text.as_bytes()).map(|()| Exit::Done),
-        Some(path) => {
-            Ok(file::write(path, text.as_bytes(), false).map_or_else(|error| refused(&error, streams), |()| Exit::Done))
-        }
+    let text = options.from.map_or_else(
+        || Document::new(Case::fresh()).render(),
+        |example| example.text.to_owned(),
+    );
+    match options
+        .file
+        .as_deref()
+        .filter(|file| file.as_os_str() != "-")
+    {
+        None => streams
+            .output
+            .write_all(text.as_bytes())
+            .map(|()| Exit::Done),
+        Some(path) => Ok(file::write(path, text.as_bytes(), false)
+            .map_or_else(|error| refused(&error, streams), |()| Exit::Done)),
     }
 }
 
 /// The examples, each with its title, its pair and its verdict.
 fn list(out: &mut dyn Write) -> io::Result<()> {
-    let width = EXAMPLES.iter().map(|example| example.name.len()).max().unwrap_or(0);
+    let width = EXAMPLES
+        .iter()
+        .map(|example| example.name.len())
+        .max()
+        .unwrap_or(0);
     for example in EXAMPLES {
         let digest = digest(example);
         writeln!(out, "{:width$}  {}", example.name, digest.title)?;
@@ -35,12 +48,16 @@ fn list(out: &mut dyn Write) -> io::Result<()> {
 fn digest(example: &Example) -> Digest {
     let case = example.document().case;
     let inputs = case.inputs().ok();
-    inputs.and_then(|inputs| Digest::solve(&case, &inputs, System::Metric, &|_| true)).unwrap_or_default()
+    inputs
+        .and_then(|inputs| Digest::solve(&case, &inputs, System::Metric, &|_| true))
+        .unwrap_or_default()
 }
 
 fn refused(error: &SaveError, streams: &mut Streams) -> Exit {
     match error {
-        SaveError::AlreadyThere(name) => streams.say(&format!("{name}: it exists already: give a name that is free")),
+        SaveError::AlreadyThere(name) => streams.say(&format!(
+            "{name}: it exists already: give a name that is free"
+        )),
         other => streams.say(&other.to_string()),
     }
     Exit::Unreadable

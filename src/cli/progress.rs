@@ -1,4 +1,5 @@
-//! What goes on while a command takes long: a progress bar on the error stream, where that is a terminal, and Ctrl-C.
+//! What goes on while a command takes long: a progress bar on the error stream, where that is a
+//! terminal, and Ctrl-C.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use signal_hook::consts::SIGINT;
@@ -26,7 +27,11 @@ impl Bar {
             shown.set_style(style.progress_chars("=> "));
         }
         shown.set_message(what);
-        Bar { begun: Instant::now(), shown, is_up: Cell::new(false) }
+        Bar {
+            begun: Instant::now(),
+            shown,
+            is_up: Cell::new(false),
+        }
     }
 
     /// So many are done of so many.
@@ -47,7 +52,8 @@ impl Bar {
         self.shown.finish_and_clear();
     }
 
-    /// The same after Ctrl-C: the terminal has written `^C` behind the bar, which fills its line, and so on the next one.
+    /// The same after Ctrl-C: the terminal has written `^C` behind the bar, which fills its line,
+    /// and so on the next one.
     pub(super) fn clear_after_interrupt(&self) {
         const LINE_ABOVE: &[u8] = b"\x1b[A\x1b[2K";
         self.clear();

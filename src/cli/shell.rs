@@ -16,7 +16,10 @@ pub(super) fn completions(shell: Shell, out: &mut dyn Write) -> io::Result<Exit>
 
 pub(super) fn man(name: Option<&str>, streams: &mut Streams) -> io::Result<Exit> {
     let Some(page) = page(name) else {
-        streams.say(&format!("man: there is no command {}: `tipstrike help` lists them", name.unwrap_or_default()));
+        streams.say(&format!(
+            "man: there is no command {}: `tipstrike help` lists them",
+            name.unwrap_or_default()
+        ));
         return Ok(Exit::Usage);
     };
     let source = format!("tipstrike {}", env!("CARGO_PKG_VERSION"));
@@ -26,7 +29,9 @@ pub(super) fn man(name: Option<&str>, streams: &mut Streams) -> io::Result<Exit>
 
 fn exit_status(out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, ".SH \"EXIT STATUS\"")?;
-    Exit::MEANINGS.iter().try_for_each(|&(exit, meaning)| writeln!(out, ".TP\n\\fB{}\\fR\n{meaning}", exit as u8))
+    Exit::MEANINGS
+        .iter()
+        .try_for_each(|&(exit, meaning)| writeln!(out, ".TP\n\\fB{}\\fR\n{meaning}", exit as u8))
 }
 
 fn page(name: Option<&str>) -> Option<Command> {

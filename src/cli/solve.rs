@@ -11,7 +11,8 @@ pub(super) fn run(options: &Solve, streams: &mut Streams) -> io::Result<Exit> {
     let selection = selection(options);
     let (mut first, mut worst) = (true, Exit::Done);
     for path in &options.cases {
-        let report = cases::open(path, &settings, streams).and_then(|opened| solve(&opened, &selection, streams));
+        let report = cases::open(path, &settings, streams)
+            .and_then(|opened| solve(&opened, &selection, streams));
         match report {
             Ok(report) => {
                 tell(&report, options.format, first, streams.output.as_mut())?;
@@ -25,8 +26,16 @@ pub(super) fn run(options: &Solve, streams: &mut Streams) -> io::Result<Exit> {
 
 /// `--stations` is a field as well.
 fn settings(options: &Solve) -> Vec<Setting> {
-    let stations = options.stations.clone().map(|value| Setting::by("--stations", "model.stations", &value));
-    options.changes.settings().into_iter().chain(stations).collect()
+    let stations = options
+        .stations
+        .clone()
+        .map(|value| Setting::by("--stations", "model.stations", &value));
+    options
+        .changes
+        .settings()
+        .into_iter()
+        .chain(stations)
+        .collect()
 }
 
 fn selection(options: &Solve) -> Selection {
@@ -37,12 +46,25 @@ fn selection(options: &Solve) -> Selection {
         }
     }
     let whole_json = options.format == Format::Json && only.is_empty();
-    Selection { only, stations: options.stations.is_some() || whole_json }
+    Selection {
+        only,
+        stations: options.stations.is_some() || whole_json,
+    }
 }
 
 fn solve(opened: &Opened, selection: &Selection, streams: &mut Streams) -> Result<Report, Exit> {
-    let Opened { name, document, inputs, .. } = opened;
-    let solved = Report::solve(name.clone(), document.case.clone(), inputs.clone(), selection.clone());
+    let Opened {
+        name,
+        document,
+        inputs,
+        ..
+    } = opened;
+    let solved = Report::solve(
+        name.clone(),
+        document.case.clone(),
+        inputs.clone(),
+        selection.clone(),
+    );
     match solved.and_then(in_full) {
         Ok(report) => Ok(report),
         Err(refusal) => Err(opened.refused(&refusal, streams)),

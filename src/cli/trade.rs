@@ -14,7 +14,10 @@ pub(super) fn run(options: &Trading, streams: &mut Streams) -> io::Result<Exit> 
         Ok(opened) => opened,
         Err(exit) => return Ok(exit),
     };
-    let question = Question { within: options.within.unwrap_or(opened.inputs.within), patience: Patience::STEADY };
+    let question = Question {
+        within: options.within.unwrap_or(opened.inputs.within),
+        patience: Patience::STEADY,
+    };
     let (bar, interrupt) = (Bar::new("settings"), Interrupt::heeded());
     let (done, planned) = (Cell::new(0), Cell::new(1));
     let go_on = || {
@@ -32,11 +35,17 @@ pub(super) fn run(options: &Trading, streams: &mut Streams) -> io::Result<Exit> 
     }
     bar.clear();
     let Opened { name, document, .. } = &opened;
-    let title = crate::case::fields::index_of("title").and_then(|field| document.case.text(field)).unwrap_or_default();
+    let title = crate::case::fields::index_of("title")
+        .and_then(|field| document.case.text(field))
+        .unwrap_or_default();
     match found {
         Err(refusal) => Ok(opened.refused(&refusal, streams)),
         Ok(trade) => {
-            let told = Told { name, title, trade: &trade };
+            let told = Told {
+                name,
+                title,
+                trade: &trade,
+            };
             match options.format {
                 Listing::Text => write(&told, streams.output.as_mut())?,
                 Listing::Json => write_json(&told, streams.output.as_mut())?,

@@ -1,4 +1,5 @@
-//! The method `auto`: the cheapest method that is good enough, by what the closed form says of itself.
+//! The method `auto`: the cheapest method that is good enough, by what the closed form says of
+//! itself.
 
 use std::f64::consts::PI;
 use std::fmt;
@@ -69,14 +70,19 @@ pub enum Reason {
 /// static:   otherwise, while  most · T_n/(π t) <= within,  T_n = 2 π √(M q/b),  t = t_DE
 /// dynamic:  otherwise, where  least · T_n/(π t) >  within
 /// ```
-/// A load that is taken over within a time t leaves a mesh of the period T_n swinging by at most T_n/(π t) of it: the
-/// response of an oscillator to a ramp. What of it `static` leaves out depends on much else, and was measured over 300 pairs,
-/// see `Reason::part_felt`; between least and most the motion itself is the trial. Without contact `exact` stays where the
-/// gap left is greater than that part of the deflection, t being the time in which two pairs share the load.
+/// A load that is taken over within a time t leaves a mesh of the period T_n swinging by at most
+/// T_n/(π t) of it: the response of an oscillator to a ramp. What of it `static` leaves out depends
+/// on much else, and was measured over 300 pairs, see `Reason::part_felt`; between least and most
+/// the motion itself is the trial. Without contact `exact` stays where the gap left is greater than
+/// that part of the deflection, t being the time in which two pairs share the load.
 #[must_use]
 pub fn choose(inputs: &Inputs, closed_form: &Result<Solution, Refusal>) -> Choice {
     let Ok(solution) = closed_form else {
-        return Choice { method: Method::Dynamic, reason: Reason::Refused, inertia: None };
+        return Choice {
+            method: Method::Dynamic,
+            reason: Reason::Refused,
+            inertia: None,
+        };
     };
     match solution.outcome {
         Outcome::NoCornerContact => without_contact(inputs, solution),
@@ -87,20 +93,33 @@ pub fn choose(inputs: &Inputs, closed_form: &Result<Solution, Refusal>) -> Choic
 fn without_contact(inputs: &Inputs, solution: &Solution) -> Choice {
     let deviation = &solution.deviation;
     let Some(period) = period(solution) else {
-        return Choice { method: Method::Dynamic, reason: Reason::Refused, inertia: None };
+        return Choice {
+            method: Method::Dynamic,
+            reason: Reason::Refused,
+            inertia: None,
+        };
     };
     let geometry = &solution.geometry;
-    let shared = (geometry.contact_ratio - 1.0) * geometry.base_pitch / (inputs.speed * geometry.driver.base);
+    let shared = (geometry.contact_ratio - 1.0) * geometry.base_pitch
+        / (inputs.speed * geometry.driver.base);
     let swing = swing(period, shared);
     if -deviation.total >= swing * deviation.combined_deflection {
-        return Choice { method: Method::Exact, reason: Reason::NoContact, inertia: None };
+        return Choice {
+            method: Method::Exact,
+            reason: Reason::NoContact,
+            inertia: None,
+        };
     }
     sharing(inputs, Reason::BarelyOnTime, swing)
 }
 
 fn with_contact(inputs: &Inputs, solution: &Solution) -> Choice {
     let (Some(impact), Some(velocity)) = (&solution.impact, &solution.velocity) else {
-        return Choice { method: Method::Dynamic, reason: Reason::Refused, inertia: None };
+        return Choice {
+            method: Method::Dynamic,
+            reason: Reason::Refused,
+            inertia: None,
+        };
     };
     let deviation = &solution.deviation;
     let load = solution.mesh_force / impact.force;
@@ -113,9 +132,17 @@ fn with_contact(inputs: &Inputs, solution: &Solution) -> Choice {
     } else if load > inputs.within {
         Reason::LoadShared(load)
     } else {
-        return Choice { method: Method::Exact, reason: Reason::FreeImpact, inertia: None };
+        return Choice {
+            method: Method::Exact,
+            reason: Reason::FreeImpact,
+            inertia: None,
+        };
     };
-    sharing(inputs, reason, swing(2.0 * impact.duration_spring, velocity.transit_time))
+    sharing(
+        inputs,
+        reason,
+        swing(2.0 * impact.duration_spring, velocity.transit_time),
+    )
 }
 
 /// `static` where inertia adds little, else `dynamic`; where that is not sure yet, as well.
@@ -126,8 +153,16 @@ fn sharing(inputs: &Inputs, reason: Reason, swing: f64) -> Choice {
         (least, _) if least > inputs.within => Inertia::AtLeast(least),
         (least, most) => Inertia::Between(least, most),
     };
-    let method = if matches!(inertia, Inertia::AtMost(_)) { Method::Static } else { Method::Dynamic };
-    Choice { method, reason, inertia: Some(inertia) }
+    let method = if matches!(inertia, Inertia::AtMost(_)) {
+        Method::Static
+    } else {
+        Method::Dynamic
+    };
+    Choice {
+        method,
+        reason,
+        inertia: Some(inertia),
+    }
 }
 
 impl Choice {
@@ -142,14 +177,23 @@ impl Choice {
     pub fn tried(self, inputs: &Inputs, adds: f64) -> Choice {
         /// The difference is looked at in places, and may be a little more between them.
         const SURE: f64 = 0.9;
-        let method = if adds <= SURE * inputs.within { Method::Static } else { Method::Dynamic };
-        Choice { method, inertia: Some(Inertia::Tried(adds)), ..self }
+        let method = if adds <= SURE * inputs.within {
+            Method::Static
+        } else {
+            Method::Dynamic
+        };
+        Choice {
+            method,
+            inertia: Some(Inertia::Tried(adds)),
+            ..self
+        }
     }
 }
 
 impl Reason {
-    /// How much of a swing the numbers of a pair feel at least and at most: over 300 pairs built at random `static` was off
-    /// by 0.04 to 3.3 times the swing where the pair ahead stays in contact, and by 0.48 to 23.5 times where it does not.
+    /// How much of a swing the numbers of a pair feel at least and at most: over 300 pairs built at
+    /// random `static` was off by 0.04 to 3.3 times the swing where the pair ahead stays in
+    /// contact, and by 0.48 to 23.5 times where it does not.
     fn part_felt(&self) -> (f64, f64) {
         match self {
             Reason::ContactLost => (0.4, 24.0),
@@ -180,7 +224,8 @@ pub(super) const READS: Stages = Stages::of(Stage::Impact);
 pub fn taken(inputs: &Inputs, method: Method) -> Inputs {
     /// The tolerance of the peak force is this part of what may be left in all.
     const NUMERICAL: f64 = 0.02;
-    /// Where the stations are left to the curve, what may lie between them is this part of it, if the case allows no more.
+    /// Where the stations are left to the curve, what may lie between them is this part of it, if
+    /// the case allows no more.
     const READING: f64 = 0.1;
     Inputs {
         method,
@@ -190,8 +235,9 @@ pub fn taken(inputs: &Inputs, method: Method) -> Inputs {
     }
 }
 
-/// What inertia adds to the shared load, by the motion: the greatest difference of first contact, peaks and force from the
-/// first contact to E, relative to the motion's. Nothing where one of the two is not there.
+/// What inertia adds to the shared load, by the motion: the greatest difference of first contact,
+/// peaks and force from the first contact to E, relative to the motion's. Nothing where one of the
+/// two is not there.
 pub(super) fn added_by_inertia(moved: &Solution) -> Option<f64> {
     let (mesh, motion) = (moved.mesh.as_deref()?, moved.dynamic.as_ref()?);
     // Its numbers need no stations.
@@ -205,21 +251,45 @@ fn difference(mesh: &Mesh, still: &StaticLoad, moved: &Dynamic) -> f64 {
         (None, None) => 0.0,
         _ => 1.0,
     };
-    let over = |difference: f64, force: f64| if difference == 0.0 { 0.0 } else { (difference / force).abs() };
+    let over = |difference: f64, force: f64| {
+        if difference == 0.0 {
+            0.0
+        } else {
+            (difference / force).abs()
+        }
+    };
     let peaks = over(still.peak_force - moved.peak_force, moved.peak_force);
-    let approach = over(still.force_at_start - moved.peak_approach_force, moved.peak_approach_force);
+    let approach = over(
+        still.force_at_start - moved.peak_approach_force,
+        moved.peak_approach_force,
+    );
     let off = |station: &MeshStation| {
         let place = -station.roll_angle_driver * mesh.base_radii.0;
-        over(station.force - balance(mesh, place, place).force, moved.peak_force)
+        over(
+            station.force - balance(mesh, place, place).force,
+            moved.peak_force,
+        )
     };
-    let before = moved.stations.iter().filter(|station| station.roll_angle_driver >= 0.0);
-    before.map(off).fold(angles.max(peaks), f64::max).max(if moved.first_contact_angle.is_some() { approach } else { 0.0 })
+    let before = moved
+        .stations
+        .iter()
+        .filter(|station| station.roll_angle_driver >= 0.0);
+    before
+        .map(off)
+        .fold(angles.max(peaks), f64::max)
+        .max(if moved.first_contact_angle.is_some() {
+            approach
+        } else {
+            0.0
+        })
 }
 
 impl fmt::Display for Choice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "auto took {}: {}", self.method.name(), self.reason)?;
-        self.inertia.map_or(Ok(()), |inertia| write!(f, ", and inertia {inertia} of the shared load"))
+        self.inertia.map_or(Ok(()), |inertia| {
+            write!(f, ", and inertia {inertia} of the shared load")
+        })
     }
 }
 
@@ -239,16 +309,31 @@ impl fmt::Display for Reason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let micro = |time: f64| significant(time * 1e6, 4);
         match self {
-            Reason::NoContact => f.write_str("the tooth comes in on time, by more than the mesh swings"),
-            Reason::BarelyOnTime => f.write_str("the tooth comes in on time, but by less than the mesh swings"),
-            Reason::FreeImpact => f.write_str("the impact is over before E, and the load adds little to it"),
+            Reason::NoContact => {
+                f.write_str("the tooth comes in on time, by more than the mesh swings")
+            }
+            Reason::BarelyOnTime => {
+                f.write_str("the tooth comes in on time, but by less than the mesh swings")
+            }
+            Reason::FreeImpact => {
+                f.write_str("the impact is over before E, and the load adds little to it")
+            }
             Reason::Refused => f.write_str("the closed form has no answer"),
             Reason::ContactLost => f.write_str("the pair ahead loses contact"),
             Reason::Outlasts(lasts, way) => {
-                write!(f, "the impact lasts {} us and D to E only {} us", micro(*lasts), micro(*way))
+                write!(
+                    f,
+                    "the impact lasts {} us and D to E only {} us",
+                    micro(*lasts),
+                    micro(*way)
+                )
             }
             Reason::Impulse(ratio) => write!(f, "the impulse ratio is {}", significant(*ratio, 4)),
-            Reason::LoadShared(part) => write!(f, "the load shared is {} of the impact force", significant(*part, 3)),
+            Reason::LoadShared(part) => write!(
+                f,
+                "the load shared is {} of the impact force",
+                significant(*part, 3)
+            ),
         }
     }
 }

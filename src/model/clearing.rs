@@ -1,4 +1,5 @@
-//! The least tip relief of the driven gear with which the incoming tooth does not touch before E, by each method itself.
+//! The least tip relief of the driven gear with which the incoming tooth does not touch before E,
+//! by each method itself.
 
 use std::cell::Cell;
 
@@ -9,12 +10,14 @@ use super::position::printed_relief_to_clear;
 use super::static_load::lead_before_start;
 use super::{Outcome, Refusal, Solution};
 
-/// No relief is sought beyond so many times what the pairs yield, the gears deviate and the flank lacks already.
+/// No relief is sought beyond so many times what the pairs yield, the gears deviate and the flank
+/// lacks already.
 const MOST: f64 = 8.0;
 
 /// Greater reliefs, over the one that was found, with which the tooth must not touch either;
 const BEYOND: [f64; 4] = [1.05, 1.25, 1.5, 2.0];
-/// and so many evenly up to the last of these where contact is lost, since small causes then have large effects.
+/// and so many evenly up to the last of these where contact is lost, since small causes then have
+/// large effects.
 const BEYOND_RATTLE: u32 = 50;
 
 /// What was found of the least relief.
@@ -22,7 +25,8 @@ const BEYOND_RATTLE: u32 = 50;
 pub struct Clearing {
     /// Tip relief that the driven gear has, in m.
     pub given: f64,
-    /// How much more it takes, in m; none where the tooth comes in on time anyhow, or where `withheld` says why.
+    /// How much more it takes, in m; none where the tooth comes in on time anyhow, or where
+    /// `withheld` says why.
     pub relief: Option<f64>,
     /// Why none is known for a tooth that touches.
     pub withheld: Option<Refusal>,
@@ -30,7 +34,8 @@ pub struct Clearing {
     pub runs: u32,
 }
 
-/// The least tip relief of the driven gear, beyond what it has, with which the method finds no contact before E.
+/// The least tip relief of the driven gear, beyond what it has, with which the method finds no
+/// contact before E.
 ///
 /// # Formula
 /// ```text
@@ -39,18 +44,23 @@ pub struct Clearing {
 /// static:   C with max over s ≤ 0 of x(s) + e − S(s) = 0,  x the displacement by the other pairs at rest
 /// dynamic:  C with max over t ≤ 0 of x(t) + e − S(t) = 0,  x that of the motion in which the incoming tooth stands off
 /// ```
-/// where S has the reliefs of both flanks, C among them along its whole length: what the pair ahead lacks at F lets the
-/// incoming tooth in earlier, and each base pitch shakes the mesh another way.
+/// where S has the reliefs of both flanks, C among them along its whole length: what the pair ahead
+/// lacks at F lets the incoming tooth in earlier, and each base pitch shakes the mesh another way.
 ///
 /// # Valid for
-/// With the relief rounded up the tooth comes in on time, in the method's own solve, and with one less by no more than a
-/// 20,000th of it (or 1 pm, where that is more) it touches. At rest nothing else can be, as long as the relief ends before F: more relief only delays the
-/// tooth. In motion a greater relief may bring it back: four up to twice as much were tried and did not, fifty where contact
-/// is lost; what may lie between them is not known.
+/// With the relief rounded up the tooth comes in on time, in the method's own solve, and with one
+/// less by no more than a 20,000th of it (or 1 pm, where that is more) it touches. At rest nothing
+/// else can be, as long as the relief ends before F: more relief only delays the tooth. In motion a
+/// greater relief may bring it back: four up to twice as much were tried and did not, fifty where
+/// contact is lost; what may lie between them is not known.
 ///
 /// # Errors
 /// [`Refusal::Stopped`] where `go_on` says no.
-pub fn clearing(inputs: &Inputs, solution: &Solution, go_on: &dyn Fn(f64) -> bool) -> Result<Clearing, Refusal> {
+pub fn clearing(
+    inputs: &Inputs,
+    solution: &Solution,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Clearing, Refusal> {
     let runs = Cell::new(0);
     let found = match (solution.outcome, inputs.method) {
         (Outcome::NoCornerContact, _) => Ok(None),
@@ -61,7 +71,9 @@ pub fn clearing(inputs: &Inputs, solution: &Solution, go_on: &dyn Fn(f64) -> boo
                 relieved(relief, inputs, solution, go_on)
             };
             let deviation = &solution.deviation;
-            let size = deviation.combined_deflection + deviation.equivalent_error.abs() + inputs.driven.tip_relief;
+            let size = deviation.combined_deflection
+                + deviation.equivalent_error.abs()
+                + inputs.driven.tip_relief;
             least(&tried, inputs.method == Method::Static, MOST * size).map(Some)
         }
         (_, Method::Exact | Method::Auto) => Ok(Some(solution.deviation.total)),
@@ -71,20 +83,44 @@ pub fn clearing(inputs: &Inputs, solution: &Solution, go_on: &dyn Fn(f64) -> boo
         Err(Refusal::Stopped) => return Err(Refusal::Stopped),
         Err(refusal) => (None, Some(refusal)),
     };
-    Ok(Clearing { given: inputs.driven.tip_relief, relief, withheld, runs: runs.get() })
+    Ok(Clearing {
+        given: inputs.driven.tip_relief,
+        relief,
+        withheld,
+        runs: runs.get(),
+    })
 }
 
 /// The incoming tooth of the pair with so much more tip relief, in m, at rest or in motion.
-fn relieved(relief: f64, inputs: &Inputs, solution: &Solution, go_on: &dyn Fn(f64) -> bool) -> Result<Tried, Refusal> {
-    let driven = Gear { tip_relief: inputs.driven.tip_relief + relief, ..inputs.driven.clone() };
-    let relieved = Inputs { driven, ..inputs.clone() };
+fn relieved(
+    relief: f64,
+    inputs: &Inputs,
+    solution: &Solution,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Tried, Refusal> {
+    let driven = Gear {
+        tip_relief: inputs.driven.tip_relief + relief,
+        ..inputs.driven.clone()
+    };
+    let relieved = Inputs {
+        driven,
+        ..inputs.clone()
+    };
     let settings = Settings::of(inputs, solution.reduced_mass);
     on_mesh(&relieved, solution, |mesh| match inputs.method {
         Method::Dynamic => {
             let Approach { lead, contact_lost } = approach(mesh, &settings, go_on)?;
-            Ok(Tried { relief, lead, contact_lost })
+            Ok(Tried {
+                relief,
+                lead,
+                contact_lost,
+            })
         }
-        _ => Ok(Tried { relief, lead: lead_before_start(mesh)?, contact_lost: false }),
+        _ => Ok(Tried {
+            relief,
+            lead: lead_before_start(mesh)?,
+            contact_lost: false,
+        }),
     })
 }
 
@@ -113,8 +149,13 @@ fn least(tried: Try<'_>, is_monotonic: bool, most: f64) -> Result<f64, Refusal> 
 /// The greatest of some greater reliefs with which the tooth touches, where there is one.
 fn touching_beyond(tried: Try<'_>, clear: Tried) -> Result<Option<Tried>, Refusal> {
     let [.., last] = BEYOND;
-    let even = (1..=BEYOND_RATTLE).map(|step| 1.0 + (last - 1.0) * f64::from(step) / f64::from(BEYOND_RATTLE));
-    let beyond: Vec<f64> = if clear.contact_lost { even.collect() } else { BEYOND.to_vec() };
+    let even = (1..=BEYOND_RATTLE)
+        .map(|step| 1.0 + (last - 1.0) * f64::from(step) / f64::from(BEYOND_RATTLE));
+    let beyond: Vec<f64> = if clear.contact_lost {
+        even.collect()
+    } else {
+        BEYOND.to_vec()
+    };
     for part in beyond.into_iter().rev() {
         let found = tried(part * clear.relief)?;
         if found.lead > 0.0 {
@@ -126,7 +167,8 @@ fn touching_beyond(tried: Try<'_>, clear: Tried) -> Result<Option<Tried>, Refusa
 
 /// The first relief found beyond one that touches with which the tooth does not.
 fn crossing(tried: Try<'_>, mut touching: Tried, most: f64) -> Result<Tried, Refusal> {
-    /// The lead mostly falls by as much as the relief grows; where it falls more slowly, so many times as far at most.
+    /// The lead mostly falls by as much as the relief grows; where it falls more slowly, so many
+    /// times as far at most.
     const STRIDE: f64 = 4.0;
     /// After three strides reliefs grow by this factor at least.
     const GROWTH: f64 = 1.5;
@@ -136,7 +178,11 @@ fn crossing(tried: Try<'_>, mut touching: Tried, most: f64) -> Result<Tried, Ref
         if touching.relief > most {
             return Err(Refusal::NoClearing { most });
         }
-        let least = if strides < 3 { 0.0 } else { GROWTH * touching.relief };
+        let least = if strides < 3 {
+            0.0
+        } else {
+            GROWTH * touching.relief
+        };
         let aim = (touching.relief + stride * touching.lead).max(least);
         strides += 1;
         let found = tried(aim + ASIDE * closeness(aim))?;
@@ -144,7 +190,11 @@ fn crossing(tried: Try<'_>, mut touching: Tried, most: f64) -> Result<Tried, Ref
             return closed_in(tried, touching, found);
         }
         let fall = (touching.lead - found.lead) / (found.relief - touching.relief);
-        stride = if fall > 0.0 { (1.0 / fall).clamp(1.0, STRIDE) } else { STRIDE };
+        stride = if fall > 0.0 {
+            (1.0 / fall).clamp(1.0, STRIDE)
+        } else {
+            STRIDE
+        };
         touching = found;
     }
     Ok(touching)
@@ -155,11 +205,13 @@ fn closeness(relief: f64) -> f64 {
     (5e-5 * relief).max(1e-12)
 }
 
-/// A try is made so much of the closeness beyond the crossing, so that the last two stand on both its sides.
+/// A try is made so much of the closeness beyond the crossing, so that the last two stand on both
+/// its sides.
 const ASIDE: f64 = 0.4;
 
-/// The clear one of two reliefs, one that touches and one that does not, as near to each other as is near enough: by secants,
-/// aiming a little to that side of the crossing on which the further one is, and by halves where these do not close in.
+/// The clear one of two reliefs, one that touches and one that does not, as near to each other as
+/// is near enough: by secants, aiming a little to that side of the crossing on which the further
+/// one is, and by halves where these do not close in.
 fn closed_in(tried: Try<'_>, mut touching: Tried, mut clear: Tried) -> Result<Tried, Refusal> {
     const PATIENCE: usize = 3;
     let mut widths = [f64::INFINITY; PATIENCE];
@@ -171,11 +223,20 @@ fn closed_in(tried: Try<'_>, mut touching: Tried, mut clear: Tried) -> Result<Tr
         let before = touching.lead / (touching.lead - clear.lead);
         let aside = ASIDE * near * if before < 0.5 { 1.0 } else { -1.0 };
         let is_slow = width > 0.5 * widths[0];
-        let aim = touching.relief + if is_slow { 0.5 * width } else { before * width + aside };
+        let aim = touching.relief
+            + if is_slow {
+                0.5 * width
+            } else {
+                before * width + aside
+            };
         widths.rotate_left(1);
         widths[PATIENCE - 1] = width;
         let found = tried(aim.clamp(touching.relief + 0.1 * near, clear.relief - 0.1 * near))?;
-        if found.lead > 0.0 { touching = found } else { clear = found }
+        if found.lead > 0.0 {
+            touching = found
+        } else {
+            clear = found
+        }
     }
 }
 
@@ -188,7 +249,11 @@ mod tests {
         let tries = Cell::new(0);
         let tried = |relief: f64| {
             tries.set(tries.get() + 1);
-            Ok(Tried { relief, lead: lead(relief), contact_lost })
+            Ok(Tried {
+                relief,
+                lead: lead(relief),
+                contact_lost,
+            })
         };
         (least(&tried, false, 1e-3), tries.get())
     }
@@ -197,25 +262,57 @@ mod tests {
     fn a_lead_that_falls_is_followed_to_its_end_in_few_tries() {
         type Lead = Box<dyn Fn(f64) -> f64>;
         let leads: [(&str, f64, Lead); 5] = [
-            ("as the relief grows", 20e-6, Box::new(|relief| 20e-6 - relief)),
-            ("more slowly", 100e-6, Box::new(|relief| 0.2 * (100e-6 - relief))),
+            (
+                "as the relief grows",
+                20e-6,
+                Box::new(|relief| 20e-6 - relief),
+            ),
+            (
+                "more slowly",
+                100e-6,
+                Box::new(|relief| 0.2 * (100e-6 - relief)),
+            ),
             ("faster", 20e-6, Box::new(|relief| 3.0 * (20e-6 - relief))),
-            ("at last not at all", 20e-6, Box::new(|relief| (20e-6 - relief).max(-1e-9))),
-            ("in bends", 20e-6, Box::new(|relief| 20e-6 - relief + 4e-6 * (relief * 1e6 * std::f64::consts::PI / 20.0).sin())),
+            (
+                "at last not at all",
+                20e-6,
+                Box::new(|relief| (20e-6 - relief).max(-1e-9)),
+            ),
+            (
+                "in bends",
+                20e-6,
+                Box::new(|relief| {
+                    20e-6 - relief + 4e-6 * (relief * 1e6 * std::f64::consts::PI / 20.0).sin()
+                }),
+            ),
         ];
         for (name, end, lead) in leads {
             let (relief, tries) = found(lead, false);
             let relief = relief.unwrap();
-            assert!(relief >= end && relief - end <= closeness(end), "{name}: {relief:e}");
+            assert!(
+                relief >= end && relief - end <= closeness(end),
+                "{name}: {relief:e}"
+            );
             assert!(tries <= 20, "{name}: {tries}");
         }
     }
 
     #[test]
     fn a_touch_with_more_relief_is_not_overlooked_where_it_is_looked_for() {
-        let lead = |back: std::ops::Range<f64>| move |relief: f64| if back.contains(&relief) { 1e-6 } else { 20e-6 - relief };
+        let lead = |back: std::ops::Range<f64>| {
+            move |relief: f64| {
+                if back.contains(&relief) {
+                    1e-6
+                } else {
+                    20e-6 - relief
+                }
+            }
+        };
         let (relief, _) = found(lead(29e-6..31e-6), false);
-        assert!((relief.unwrap() - 31e-6).abs() < closeness(31e-6), "{relief:?}");
+        assert!(
+            (relief.unwrap() - 31e-6).abs() < closeness(31e-6),
+            "{relief:?}"
+        );
         let narrow = || lead(33.0e-6..33.8e-6);
         assert!(found(narrow(), false).0.unwrap() < 21e-6);
         assert!((found(narrow(), true).0.unwrap() - 33.8e-6).abs() < closeness(34e-6));

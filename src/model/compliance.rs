@@ -9,7 +9,7 @@ pub mod profile;
 use super::Refusal;
 use super::geometry::{Circles, Geometry};
 use super::inputs::{Gear, Inputs, ToothCompliance};
-use super::tip::TipContact;
+use super::tip_gap::TipContact;
 
 /// Compliance of the two teeth at D, contact excluded, per unit width, in m²/N.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,11 +68,25 @@ impl ContactPlace {
 ///
 /// # Errors
 /// A [`Refusal`] outside the range of the fit.
-pub fn teeth(inputs: &Inputs, geometry: &Geometry, place: &ContactPlace) -> Result<TeethCompliance, Refusal> {
+pub fn teeth(
+    inputs: &Inputs,
+    geometry: &Geometry,
+    place: &ContactPlace,
+) -> Result<TeethCompliance, Refusal> {
     Ok(TeethCompliance {
         model: model_of(inputs),
-        driver: tooth(inputs, &inputs.driver, &geometry.driver, place.radius_driver)?,
-        driven: tooth(inputs, &inputs.driven, &geometry.driven, place.radius_driven)?,
+        driver: tooth(
+            inputs,
+            &inputs.driver,
+            &geometry.driver,
+            place.radius_driver,
+        )?,
+        driven: tooth(
+            inputs,
+            &inputs.driven,
+            &geometry.driven,
+            place.radius_driven,
+        )?,
     })
 }
 
@@ -84,10 +98,15 @@ fn tooth(inputs: &Inputs, gear: &Gear, circles: &Circles, radius: f64) -> Result
     }
 }
 
-/// The tooth compliance that serves the pair: the case's own choice, else Kuang and Yang's inside its range.
+/// The tooth compliance that serves the pair: the case's own choice, else Kuang and Yang's inside
+/// its range.
 #[must_use]
 pub fn model_of(inputs: &Inputs) -> ToothCompliance {
-    let chosen = if kuang_yang::covers(inputs) { ToothCompliance::KuangYang } else { ToothCompliance::Beam };
+    let chosen = if kuang_yang::covers(inputs) {
+        ToothCompliance::KuangYang
+    } else {
+        ToothCompliance::Beam
+    };
     inputs.tooth_compliance.unwrap_or(chosen)
 }
 
@@ -95,7 +114,12 @@ pub fn model_of(inputs: &Inputs) -> ToothCompliance {
 ///
 /// # Errors
 /// A [`Refusal`] outside the range of the fit.
-pub fn pair_at_load(inputs: &Inputs, geometry: &Geometry, place: &ContactPlace, force: f64) -> Result<f64, Refusal> {
+pub fn pair_at_load(
+    inputs: &Inputs,
+    geometry: &Geometry,
+    place: &ContactPlace,
+    force: f64,
+) -> Result<f64, Refusal> {
     let contact = contact::spring(inputs, geometry, place)?.compliance(force)?;
     Ok(teeth(inputs, geometry, place)?.sum() + contact)
 }

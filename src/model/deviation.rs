@@ -11,7 +11,8 @@ use crate::numeric::Real;
 /// Deviation along the line of action, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deviation<T = f64> {
-    /// Equivalent error Δf, Eqs. 1 and 2; in the methods `static` and `dynamic` without the reliefs, which act on the flanks.
+    /// Equivalent error Δf, Eqs. 1 and 2; in the methods `static` and `dynamic` without the
+    /// reliefs, which act on the flanks.
     pub equivalent_error: T,
     /// Modification e_m at the run-in contact, Eq. 1: below 0 where material is taken off.
     pub modification: T,
@@ -21,19 +22,33 @@ pub struct Deviation<T = f64> {
     pub total: T,
 }
 
-/// What brings the incoming tooth in early, in double-double arithmetic: a relief may take back all but a small rest.
+/// What brings the incoming tooth in early, in double-double arithmetic: a relief may take back all
+/// but a small rest.
 ///
 /// # Errors
 /// A [`Refusal`] where the deflection has to be computed and cannot be.
-pub fn deviation(inputs: &Inputs, geometry: &Geometry, mesh_force: f64) -> Result<Deviation<TwoFloat>, Refusal> {
+pub fn deviation(
+    inputs: &Inputs,
+    geometry: &Geometry,
+    mesh_force: f64,
+) -> Result<Deviation<TwoFloat>, Refusal> {
     let combined_deflection = match inputs.deflection_taken() {
         Some(given) => given.into(),
         None => combined_deflection(inputs, geometry, mesh_force)?.into(),
     };
     let with_reliefs = equivalent_error(inputs);
-    let equivalent_error = if inputs.method.shares_load() { random_error(inputs) } else { with_reliefs };
+    let equivalent_error = if inputs.method.shares_load() {
+        random_error(inputs)
+    } else {
+        with_reliefs
+    };
     let modification = modification(inputs);
-    Ok(Deviation { equivalent_error, modification, combined_deflection, total: with_reliefs + combined_deflection })
+    Ok(Deviation {
+        equivalent_error,
+        modification,
+        combined_deflection,
+        total: with_reliefs + combined_deflection,
+    })
 }
 
 /// Equivalent error Δf, in m.
@@ -46,11 +61,14 @@ pub fn deviation(inputs: &Inputs, geometry: &Geometry, mesh_force: f64) -> Resul
 /// where 1/√2 stands for the sum of independent random errors.
 ///
 /// # Source
-/// Zhou & Chen 2014, Eqs. 1 and 2. The method `paper` scales the modification e_m with the random errors, as printed;
-/// the others count it in full, since a relief that was ground is there in full.
+/// Zhou & Chen 2014, Eqs. 1 and 2. The method `paper` scales the modification e_m with the random
+/// errors, as printed; the others count it in full, since a relief that was ground is there in
+/// full.
 fn equivalent_error(inputs: &Inputs) -> TwoFloat {
     match inputs.method {
-        Method::Paper => (random_deviation(inputs) + modification(inputs)) * twofloat::consts::FRAC_1_SQRT_2,
+        Method::Paper => {
+            (random_deviation(inputs) + modification(inputs)) * twofloat::consts::FRAC_1_SQRT_2
+        }
         _ => random_error(inputs) + modification(inputs),
     }
 }
@@ -76,20 +94,28 @@ fn random_deviation(inputs: &Inputs) -> TwoFloat {
 /// ```text
 /// δ = F0/(b Σ 1/q_k),   q_k = q1 + q2 + qH  of the pair at  N1E + k pb,  k = 1, 2, .. while it lies before B
 /// ```
-/// With a contact ratio below 2 only the pair at F, one base pitch after E, carries the load. With more, the pairs
-/// share it as parallel springs.
+/// With a contact ratio below 2 only the pair at F, one base pitch after E, carries the load. With
+/// more, the pairs share it as parallel springs.
 ///
 /// # Source
-/// Zhou & Chen 2014, Eqs. 3 and 4, with the compliances of Eqs. 54-56 in place of the curve in its Fig. 3.
+/// Zhou & Chen 2014, Eqs. 3 and 4, with the compliances of Eqs. 54-56 in place of the curve in its
+/// Fig. 3.
 ///
 /// # Errors
 /// [`Refusal::ContactRatioBelowOne`] where no pair is in contact at F, or the compliance's own.
-fn combined_deflection(inputs: &Inputs, geometry: &Geometry, mesh_force: f64) -> Result<f64, Refusal> {
+fn combined_deflection(
+    inputs: &Inputs,
+    geometry: &Geometry,
+    mesh_force: f64,
+) -> Result<f64, Refusal> {
     let mut stiffness = 0.0;
     let mut along = geometry.start + geometry.base_pitch;
     if along > geometry.end || along >= geometry.tangent_length {
         let is_taken = !inputs.method.shares_load();
-        return Err(Refusal::ContactRatioBelowOne { ratio: geometry.contact_ratio, is_deflection_taken: is_taken });
+        return Err(Refusal::ContactRatioBelowOne {
+            ratio: geometry.contact_ratio,
+            is_deflection_taken: is_taken,
+        });
     }
     while along <= geometry.end && along < geometry.tangent_length {
         let place = ContactPlace::on_line_of_action(geometry, along);
@@ -100,13 +126,15 @@ fn combined_deflection(inputs: &Inputs, geometry: &Geometry, mesh_force: f64) ->
 }
 
 impl Deviation {
-    /// The equivalent error as another method defines it, in m: `static` and `dynamic` without the reliefs, the others with
-    /// them. The difference of two methods then says something.
+    /// The equivalent error as another method defines it, in m: `static` and `dynamic` without the
+    /// reliefs, the others with them. The difference of two methods then says something.
     #[must_use]
     pub fn equivalent_error_as_in(&self, own: Method, other: Method) -> f64 {
         match (own.shares_load(), other.shares_load()) {
             (true, false) => self.equivalent_error + self.modification,
-            (false, true) if own == Method::Paper => self.equivalent_error - self.modification * std::f64::consts::FRAC_1_SQRT_2,
+            (false, true) if own == Method::Paper => {
+                self.equivalent_error - self.modification * std::f64::consts::FRAC_1_SQRT_2
+            }
             (false, true) => self.equivalent_error - self.modification,
             _ => self.equivalent_error,
         }

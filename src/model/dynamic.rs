@@ -1,4 +1,5 @@
-//! The method `dynamic`: the shared load with inertia and damping, integrated from contact event to contact event.
+//! The method `dynamic`: the shared load with inertia and damping, integrated from contact event to
+//! contact event.
 
 mod events;
 mod laps;
@@ -32,11 +33,14 @@ pub struct Dynamic {
     pub peak_approach_force: f64,
     /// Its greatest force anywhere, in N.
     pub peak_force: f64,
-    /// From a first contact before E to the first least force after the first peak, or to the loss of contact, in s.
+    /// From a first contact before E to the first least force after the first peak, or to the loss
+    /// of contact, in s.
     pub impact_duration: Option<f64>,
-    /// The gap that is left between the incoming tooth and the flank before E, at the least, in m, where it does not touch.
+    /// The gap that is left between the incoming tooth and the flank before E, at the least, in m,
+    /// where it does not touch.
     pub least_gap: Option<f64>,
-    /// Whether no pair at all is in contact at some moment from one base pitch before E until the incoming tooth leaves.
+    /// Whether no pair at all is in contact at some moment from one base pitch before E until the
+    /// incoming tooth leaves.
     pub contact_lost: bool,
     /// Work of friction on the incoming tooth, in J; where the case gives a friction coefficient.
     pub friction_work: Option<f64>,
@@ -93,18 +97,25 @@ impl Settings {
 /// me x'' + c x' + Σ w_k F_k(x, s) = F0,   s' = ω1 rb1,   1/me = rb1²/J1 + rb2²/J2
 /// c = 2 ζ √(k me) while a pair is in contact, else 0;   k the mean stiffness of the mesh
 /// ```
-/// from the static balance `warmup_cycles` base pitches before E, where no pair deviates, until the incoming tooth has
-/// left. Within a step the pairs in contact stay the same ones, so that the equation is linear, its coefficients are
-/// polynomials and every step is a power series, see [`taylor`](crate::numeric::taylor); it ends where a pair touches or
-/// leaves, or passes from one zone of the mesh into the next.
+/// from the static balance `warmup_cycles` base pitches before E, where no pair deviates, until the
+/// incoming tooth has left. Within a step the pairs in contact stay the same ones, so that the
+/// equation is linear, its coefficients are polynomials and every step is a power series, see
+/// [`taylor`](crate::numeric::taylor); it ends where a pair touches or leaves, or passes from one
+/// zone of the mesh into the next.
 ///
 /// # Source
-/// The oscillator of gear dynamics with backlash, Özgüven & Houser 1988, with corner contact by the gap S(u).
+/// The oscillator of gear dynamics with backlash, Özgüven & Houser 1988, with corner contact by the
+/// gap S(u).
 ///
 /// # Errors
-/// [`Refusal::BeyondReach`] where the gears move apart further than the mesh is known, [`Refusal::TooSlow`] where the mesh
-/// swings too often on the way, [`Refusal::Stopped`] where `go_on` says no.
-pub fn dynamic(mesh: &Mesh, settings: &Settings, go_on: &dyn Fn(f64) -> bool) -> Result<Dynamic, Refusal> {
+/// [`Refusal::BeyondReach`] where the gears move apart further than the mesh is known,
+/// [`Refusal::TooSlow`] where the mesh swings too often on the way, [`Refusal::Stopped`] where
+/// `go_on` says no.
+pub fn dynamic(
+    mesh: &Mesh,
+    settings: &Settings,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Dynamic, Refusal> {
     let motion = Motion::new(mesh, settings);
     let mut run = Run::begin(&motion, settings.tolerance)?;
     while !run.is_over() {
@@ -120,31 +131,49 @@ pub fn dynamic(mesh: &Mesh, settings: &Settings, go_on: &dyn Fn(f64) -> bool) ->
 /// How near the incoming tooth comes to a touch before E.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Approach {
-    /// The most by which the driver is further ahead than the tooth's gap is wide, in m: above 0 the tooth touches, below it is
-    /// the gap that is left.
+    /// The most by which the driver is further ahead than the tooth's gap is wide, in m: above 0
+    /// the tooth touches, below it is the gap that is left.
     pub lead: f64,
     /// Whether no pair at all is in contact at some moment from one base pitch before E to E.
     pub contact_lost: bool,
 }
 
-/// The approach of the incoming tooth to E: the run of [`dynamic`] so far, step by step the same until the tooth touches, but
-/// that the tooth stands off. So the lead grows and falls smoothly with what the flanks lack, through 0 as well.
+/// The approach of the incoming tooth to E: the run of [`dynamic`] so far, step by step the same
+/// until the tooth touches, but that the tooth stands off. So the lead grows and falls smoothly
+/// with what the flanks lack, through 0 as well.
 ///
 /// # Errors
 /// Those of [`dynamic`].
-pub fn approach(mesh: &Mesh, settings: &Settings, go_on: &dyn Fn(f64) -> bool) -> Result<Approach, Refusal> {
+pub fn approach(
+    mesh: &Mesh,
+    settings: &Settings,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Approach, Refusal> {
     let motion = Motion::new(mesh, settings);
-    let mut run = Run { lead: Some(f64::NEG_INFINITY), ..Run::begin(&motion, settings.tolerance)? };
+    let mut run = Run {
+        lead: Some(f64::NEG_INFINITY),
+        ..Run::begin(&motion, settings.tolerance)?
+    };
     run.ahead.retain(|&ahead| ahead != 0);
-    while run.borders.get(run.next).is_some_and(|&border| border <= 0.0) {
+    while run
+        .borders
+        .get(run.next)
+        .is_some_and(|&border| border <= 0.0)
+    {
         if !go_on(run.part_done()) {
             return Err(Refusal::Stopped);
         }
         run.cross_window()?;
         run.skip_what_repeats();
     }
-    let lead = run.lead.filter(|lead| lead.is_finite()).ok_or(Refusal::BeyondReach)?;
-    Ok(Approach { lead, contact_lost: run.watch.contact_lost() })
+    let lead = run
+        .lead
+        .filter(|lead| lead.is_finite())
+        .ok_or(Refusal::BeyondReach)?;
+    Ok(Approach {
+        lead,
+        contact_lost: run.watch.contact_lost(),
+    })
 }
 
 /// A run on its way.
@@ -164,13 +193,15 @@ struct Run<'a> {
     laps: Laps,
     watch: Watch,
     effort: Effort,
-    /// Where the incoming tooth stands off, the most by which the driver was further ahead than its gap is wide, in m.
+    /// Where the incoming tooth stands off, the most by which the driver was further ahead than its
+    /// gap is wide, in m.
     lead: Option<f64>,
 }
 
 impl<'a> Run<'a> {
     fn begin(motion: &'a Motion<'a>, tolerance: f64) -> Result<Run<'a>, Refusal> {
-        /// Measured over the reference pairs, the peak force then keeps the tolerance with room to spare.
+        /// Measured over the reference pairs, the peak force then keeps the tolerance with room to
+        /// spare.
         const SHARE_OF_A_STEP: f64 = 0.3;
         let mesh = motion.mesh;
         let (start, (_, end)) = (motion.start(), mesh.ends());
@@ -181,7 +212,9 @@ impl<'a> Run<'a> {
         if !displacement.is_finite() {
             return Err(Refusal::BeyondReach);
         }
-        let touching = mesh.pairs(start, inside).filter(|pair| displacement > pair.place.gap);
+        let touching = mesh
+            .pairs(start, inside)
+            .filter(|pair| displacement > pair.place.gap);
         Ok(Run {
             motion,
             next: 1,
@@ -224,7 +257,8 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Once a base pitch of the warm-up is as the one before, the others are too: go on where the last of them ends.
+    /// Once a base pitch of the warm-up is as the one before, the others are too: go on where the
+    /// last of them ends.
     fn skip_what_repeats(&mut self) {
         let (mesh, s) = (self.motion.mesh, self.borders[self.next - 1]);
         if !self.laps.repeats(self.motion, s, &self.y, &self.ahead) {
@@ -232,15 +266,27 @@ impl<'a> Run<'a> {
         }
         let pitches = ((mesh.ends().0 - s) / mesh.base_pitch).floor();
         let to = s + pitches * mesh.base_pitch;
-        let border = self.borders.iter().position(|border| (border - to).abs() <= laps::ALIKE * mesh.base_pitch);
-        let Some(border) = border.filter(|_| pitches >= 1.0) else { return };
+        let border = self
+            .borders
+            .iter()
+            .position(|border| (border - to).abs() <= laps::ALIKE * mesh.base_pitch);
+        let Some(border) = border.filter(|_| pitches >= 1.0) else {
+            return;
+        };
         self.next = border + 1;
         self.t = self.motion.time(self.borders[border]);
-        self.ahead.iter_mut().for_each(|ahead| *ahead -= pitches as i32);
+        self.ahead
+            .iter_mut()
+            .for_each(|ahead| *ahead -= pitches as i32);
     }
 
     /// One step, to `end` at most; the pairs that touch after it.
-    fn advance(&mut self, window: &Window, touching: Touching, end: f64) -> Result<Touching, Refusal> {
+    fn advance(
+        &mut self,
+        window: &Window,
+        touching: Touching,
+        end: f64,
+    ) -> Result<Touching, Refusal> {
         const MOST_STEPS: u64 = 100_000_000;
         let course = Course::new(self.motion, window, touching);
         let (step, gaps) = course.step(self.t, &self.y, end, self.allowed)?;
@@ -255,7 +301,11 @@ impl<'a> Run<'a> {
         let part = event.map_or(1.0, |event| event.part);
         let step = event.map_or(step, |event| step.cut(event.part));
         // A step to a border ends on it, whatever the rounding of the sum.
-        self.t = if event.is_none() && step.length >= end - self.t { end } else { step.end() };
+        self.t = if event.is_none() && step.length >= end - self.t {
+            end
+        } else {
+            step.end()
+        };
         if step.length > 0.0 {
             self.y = step.state(1.0);
             self.turned = Touching::NONE;

@@ -2,7 +2,7 @@
 
 use super::geometry::Geometry;
 use super::inputs::{Inputs, Method};
-use super::tip::{TipContact, angle_by_growth, seen_from, tip_at};
+use super::tip_gap::{TipContact, angle_by_growth, seen_from, tip_at};
 use super::{Impact, Velocity};
 
 /// Change of the velocities between D and D'.
@@ -20,10 +20,10 @@ pub struct Friction {
 /// ```
 ///
 /// # Source
-/// Zhou & Chen 2014, Eqs. 29-45 and 64. Mended: m_red in kg in Eq. 31; Eq. 34 finds O₁D' with the chord for Eq. 36's
-/// arc; Eq. 42 is the law of cosines; Eqs. 44 and 45 are the changes between D and D'. In the method `paper` D' is that
-/// of Eq. 34, although the angle at O₁ in its triangle is not Δθ; in `exact` it is the driven tip at u − ω₂ T_S, not
-/// past E.
+/// Zhou & Chen 2014, Eqs. 29-45 and 64. Mended: m_red in kg in Eq. 31; Eq. 34 finds O₁D' with the
+/// chord for Eq. 36's arc; Eq. 42 is the law of cosines; Eqs. 44 and 45 are the changes between D
+/// and D'. In the method `paper` D' is that of Eq. 34, although the angle at O₁ in its triangle is
+/// not Δθ; in `exact` it is the driven tip at u − ω₂ T_S, not past E.
 ///
 /// # Valid for
 /// A kinematic ratio: it is not bounded by Coulomb's coefficient.
@@ -43,7 +43,9 @@ pub fn friction(
         _ => Some(tip_after(geometry, &from_contact, tip, turn)),
     };
     let gained = impact.force * impact.duration_printed / (reduced_mass * geometry.driven.tip);
-    let ratio = end.map(|end| changes_ratio(inputs, &end, gained)).filter(|ratio| ratio.is_finite() && velocity.normal > 0.0);
+    let ratio = end
+        .map(|end| changes_ratio(inputs, &end, gained))
+        .filter(|ratio| ratio.is_finite() && velocity.normal > 0.0);
     Friction { ratio }
 }
 
@@ -51,14 +53,19 @@ pub fn friction(
 fn changes_ratio(inputs: &Inputs, end: &TipContact, gained: f64) -> f64 {
     let driven_speed = inputs.driven_speed();
     let normal = driven_speed * end.normal_radius_drop - gained * end.normal_radius_driven;
-    let sliding =
-        driven_speed * end.normal_length_growth - inputs.speed * end.curvature_growth + gained * end.normal_length_driven;
+    let sliding = driven_speed * end.normal_length_growth - inputs.speed * end.curvature_growth
+        + gained * end.normal_length_driven;
     (sliding / normal).abs()
 }
 
-/// D' where the tip has turned by `turn` from D, but not past E; its changes are those since D. They are taken from D on a
-/// short way, and between two increments from E on a long one.
-fn tip_after(geometry: &Geometry, from_contact: &Geometry, tip: &TipContact, turn: f64) -> TipContact {
+/// D' where the tip has turned by `turn` from D, but not past E; its changes are those since D.
+/// They are taken from D on a short way, and between two increments from E on a long one.
+fn tip_after(
+    geometry: &Geometry,
+    from_contact: &Geometry,
+    tip: &TipContact,
+    turn: f64,
+) -> TipContact {
     let rest = tip.angle - turn;
     if rest > 0.5 * tip.angle {
         return tip_at(from_contact, -turn);
@@ -72,25 +79,36 @@ fn tip_after(geometry: &Geometry, from_contact: &Geometry, tip: &TipContact, tur
     }
 }
 
-/// D' by Eq. 34, the pair seen from D: the driven tip where O₁D' closes the triangle O₁DD' with the angle Δθ = i `turn`
-/// at O₁ and the chord of `turn` as DD'. `None` where the triangle does not close.
+/// D' by Eq. 34, the pair seen from D: the driven tip where O₁D' closes the triangle O₁DD' with the
+/// angle Δθ = i `turn` at O₁ and the chord of `turn` as DD'. `None` where the triangle does not
+/// close.
 ///
-/// Close to the pitch point r_a2 is next to i O₁D, and the chord next to what the triangle needs across O₁D: their
-/// difference is taken from small terms.
-fn printed_end(inputs: &Inputs, from_contact: &Geometry, tip: &TipContact, turn: f64) -> Option<TipContact> {
+/// Close to the pitch point r_a2 is next to i O₁D, and the chord next to what the triangle needs
+/// across O₁D: their difference is taken from small terms.
+fn printed_end(
+    inputs: &Inputs,
+    from_contact: &Geometry,
+    tip: &TipContact,
+    turn: f64,
+) -> Option<TipContact> {
     let at_driver = turn * inputs.ratio();
     let chord = 2.0 * from_contact.driven.tip * (turn / 2.0).sin();
     let lateral = tip.radius_driver * at_driver.sin();
-    let rest = tip_excess(from_contact, tip) * turn - 2.0 * from_contact.driven.tip * below_angle(turn / 2.0)
+    let rest = tip_excess(from_contact, tip) * turn
+        - 2.0 * from_contact.driven.tip * below_angle(turn / 2.0)
         + tip.radius_driver * below_angle(at_driver);
     let closing = rest * (chord + lateral);
     let shortened = -2.0 * tip.radius_driver * (at_driver / 2.0).sin().powi(2) - closing.sqrt();
     let end_radius = tip.radius_driver + shortened;
-    let end = tip_at(from_contact, angle_by_growth(from_contact, shortened * (tip.radius_driver + end_radius)));
+    let end = tip_at(
+        from_contact,
+        angle_by_growth(from_contact, shortened * (tip.radius_driver + end_radius)),
+    );
     (end_radius > 0.0 && end.radius_driver.is_finite()).then_some(end)
 }
 
-/// r_a2 − i O₁D, in m, from the arms of the velocities: `r_a2² − i² O₁D² = (N2'D² − i² ρ1²) − (r_b2² − r_b2'²)`.
+/// r_a2 − i O₁D, in m, from the arms of the velocities: `r_a2² − i² O₁D² = (N2'D² − i² ρ1²) −
+/// (r_b2² − r_b2'²)`.
 fn tip_excess(from_contact: &Geometry, tip: &TipContact) -> f64 {
     let (ratio, base) = (from_contact.ratio, from_contact.driver.base);
     let along = tip.sliding_arm * (tip.normal_length_driven + ratio * tip.curvature_driver);

@@ -6,7 +6,8 @@ use super::Refusal;
 use super::inputs::{Gear, Inputs};
 use crate::numeric::Real;
 
-/// A difference below this share of its terms is taken in double-double arithmetic: f64 would lose two digits and more.
+/// A difference below this share of its terms is taken in double-double arithmetic: f64 would lose
+/// two digits and more.
 pub(super) const LEAST_REST: f64 = 1.0 / 64.0;
 
 /// Circles of one gear, in m.
@@ -64,15 +65,16 @@ pub struct Geometry<T = f64> {
 /// N1E = N1N2 − √(ra2² − rb2²),  N1B = √(ra1² − rb1²),  ε = (N1B − N1E)/pb
 /// γ2 = ∠(O2O1, O2E)
 /// ```
-/// where inv t = tan t − t. Squares are never subtracted: r_a − r_b = 2 r sin²(α/2) + m (h_a* + x), and
-/// N₁N₂ = (r_b1 + r_b2) tan α_w.
+/// where inv t = tan t − t. Squares are never subtracted: r_a − r_b = 2 r sin²(α/2) + m (h_a* + x),
+/// and N₁N₂ = (r_b1 + r_b2) tan α_w.
 ///
 /// # Source
-/// ISO 21771:2007; Zhou & Chen 2014, Eqs. 8, 9 (γ₂), 16 and 20 (N₁E, here without the rounded contact ratio).
+/// ISO 21771:2007; Zhou & Chen 2014, Eqs. 8, 9 (γ₂), 16 and 20 (N₁E, here without the rounded
+/// contact ratio).
 ///
 /// # Errors
-/// A [`Refusal`] where the pair has no line of action, a tip lies inside its base circle, or the driven tip would
-/// touch the driver below its base circle.
+/// A [`Refusal`] where the pair has no line of action, a tip lies inside its base circle, or the
+/// driven tip would touch the driver below its base circle.
 pub fn geometry<T: Real>(inputs: &Inputs) -> Result<Geometry<T>, Refusal> {
     let alpha: T = inputs.pressure_angle.into();
     let driver = circles(inputs, &inputs.driver, alpha)?;
@@ -82,7 +84,9 @@ pub fn geometry<T: Real>(inputs: &Inputs) -> Result<Geometry<T>, Refusal> {
     let tangent_length = base_sum * tangent;
     let start = tangent_length - driven.tip_curvature;
     if start <= T::zero() {
-        return Err(Refusal::Interference { start: start.rounded() });
+        return Err(Refusal::Interference {
+            start: start.rounded(),
+        });
     }
     let base_pitch = T::PI * inputs.module.into() * alpha.sine_cosine().1;
     let approach_length = driven.tip_curvature - driven.base * tangent;
@@ -118,7 +122,8 @@ fn tangent_of<T: Real>(angle: T) -> T {
     sine.over(cosine)
 }
 
-/// The point of a flank with the radius of curvature `curvature` on a contact normal at `angle`, seen from O₁.
+/// The point of a flank with the radius of curvature `curvature` on a contact normal at `angle`,
+/// seen from O₁.
 pub(super) fn foot<T: Real>(base: T, curvature: T, angle: T) -> Vector2<T> {
     turned(angle) * Vector2::new(base, -curvature)
 }
@@ -140,15 +145,27 @@ fn circles<T: Real>(inputs: &Inputs, gear: &Gear, alpha: T) -> Result<Circles<T>
     let half_sine = (alpha * half).sine_cosine().0;
     let most_dedendum = std::f64::consts::FRAC_PI_4 / inputs.pressure_angle.tan();
     if gear.dedendum >= most_dedendum {
-        return Err(Refusal::PointedRack { dedendum: gear.dedendum, limit: most_dedendum });
+        return Err(Refusal::PointedRack {
+            dedendum: gear.dedendum,
+            limit: most_dedendum,
+        });
     }
     let over_base = two * reference * half_sine * half_sine + height;
     if over_base <= T::zero() {
-        return Err(Refusal::TipInsideBase { tip: (reference + height).rounded(), base: base.rounded() });
+        return Err(Refusal::TipInsideBase {
+            tip: (reference + height).rounded(),
+            base: base.rounded(),
+        });
     }
     let tip = reference + height;
     let tip_curvature = (over_base * (tip + base)).root();
-    Ok(Circles { reference, base, tip, tip_curvature, root: reference + module * (shift - gear.dedendum.into()) })
+    Ok(Circles {
+        reference,
+        base,
+        tip,
+        tip_curvature,
+        root: reference + module * (shift - gear.dedendum.into()),
+    })
 }
 
 /// Centre distance and tan α_w.
@@ -156,9 +173,17 @@ fn working_tangent<T: Real>(inputs: &Inputs, alpha: T, base_sum: T) -> Result<(T
     if let Some(given) = inputs.centre_distance {
         let distance: T = given.into();
         if distance <= base_sum {
-            return Err(Refusal::CentreDistanceJams { distance: given, least: base_sum.rounded() });
+            return Err(Refusal::CentreDistanceJams {
+                distance: given,
+                least: base_sum.rounded(),
+            });
         }
-        return Ok((distance, ((distance - base_sum) * (distance + base_sum)).root().over(base_sum)));
+        return Ok((
+            distance,
+            ((distance - base_sum) * (distance + base_sum))
+                .root()
+                .over(base_sum),
+        ));
     }
     let angle = alpha + working_angle_rise(inputs, alpha)?;
     let (sine, cosine) = angle.sine_cosine();
@@ -177,14 +202,21 @@ fn working_angle_rise<T: Real>(inputs: &Inputs, alpha: T) -> Result<T, Refusal> 
     let shifts = <T as From<f64>>::from(driver.profile_shift) + driven.profile_shift.into();
     let rise = (two * shifts * tangent).over(T::count(driver.teeth + driven.teeth));
     if tangent - alpha + rise <= T::zero() {
-        return Err(Refusal::ShiftsLeaveNoMesh { sum: shifts.rounded() });
+        return Err(Refusal::ShiftsLeaveNoMesh {
+            sum: shifts.rounded(),
+        });
     }
     let largest = <T as From<f64>>::from(LARGEST_ANGLE) - alpha;
     let parabola = rise.over(tangent * tangent);
-    let mut angle = if parabola < largest { parabola } else { largest };
+    let mut angle = if parabola < largest {
+        parabola
+    } else {
+        largest
+    };
     for _ in 0..STEPS {
         let step_tangent = tangent_of(angle);
-        let opened = (step_tangent * (T::one() + tangent * tangent)).over(T::one() - tangent * step_tangent);
+        let opened =
+            (step_tangent * (T::one() + tangent * tangent)).over(T::one() - tangent * step_tangent);
         let slope = (tangent + opened) * (tangent + opened);
         let step = (opened - angle - rise).over(slope);
         angle -= step;
@@ -209,14 +241,17 @@ impl<T: Real> Circles<T> {
 }
 
 impl Geometry {
-    /// Whether the differences that the pair stands on are so small that f64 loses digits in them: N₁E, the path of
-    /// contact, EP, r_a − r_b, a − (r_b1 + r_b2) and the wall between bore and base circle.
+    /// Whether the differences that the pair stands on are so small that f64 loses digits in them:
+    /// N₁E, the path of contact, EP, r_a − r_b, a − (r_b1 + r_b2) and the wall between bore and
+    /// base circle.
     #[must_use]
     pub fn is_close_call(&self, inputs: &Inputs) -> bool {
         const FLAT: f64 = 0.125;
         const SHORT: f64 = 1.0 / 32.0;
         let short_tip = |circles: &Circles| circles.tip_curvature < SHORT * circles.base;
-        let thin_wall = |gear: &Gear, circles: &Circles| circles.base - gear.bore_radius < LEAST_REST * circles.base;
+        let thin_wall = |gear: &Gear, circles: &Circles| {
+            circles.base - gear.bore_radius < LEAST_REST * circles.base
+        };
         self.start < LEAST_REST * self.tangent_length
             || self.approach_length.abs() < LEAST_REST * self.driven.tip_curvature
             || self.end - self.start < LEAST_REST * self.end
@@ -227,15 +262,18 @@ impl Geometry {
             || thin_wall(&inputs.driven, &self.driven)
     }
 
-    /// Normal backlash that the centre distance leaves, 2 (r_b1 + r_b2) (inv α_w − inv α_w0), in m, where α_w0 is the
-    /// working pressure angle without backlash; below 0 the teeth jam (ISO 21771).
+    /// Normal backlash that the centre distance leaves, 2 (r_b1 + r_b2) (inv α_w − inv α_w0), in m,
+    /// where α_w0 is the working pressure angle without backlash; below 0 the teeth jam (ISO
+    /// 21771).
     #[must_use]
     pub fn backlash(&self, inputs: &Inputs) -> f64 {
         let involute = |angle: f64| angle.tan() - angle;
         let alpha = inputs.pressure_angle;
         let shifts = inputs.driver.profile_shift + inputs.driven.profile_shift;
-        let without = involute(alpha) + 2.0 * shifts * alpha.tan() / f64::from(inputs.driver.teeth + inputs.driven.teeth);
-        2.0 * (self.driver.base + self.driven.base) * (involute(self.working_pressure_angle) - without)
+        let without = involute(alpha)
+            + 2.0 * shifts * alpha.tan() / f64::from(inputs.driver.teeth + inputs.driven.teeth);
+        2.0 * (self.driver.base + self.driven.base)
+            * (involute(self.working_pressure_angle) - without)
     }
 }
 

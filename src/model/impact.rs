@@ -6,7 +6,7 @@ use super::compliance::ContactPlace;
 use super::compliance::contact::{plane_strain_compliance, spring};
 use super::geometry::{Circles, Geometry};
 use super::inputs::{Gear, Inputs, Method};
-use super::tip::TipContact;
+use super::tip_gap::TipContact;
 use super::{Refusal, TeethCompliance, Velocity};
 use crate::numeric::Real;
 
@@ -53,8 +53,8 @@ impl Masses {
     /// ```
     ///
     /// # Source
-    /// Zhou & Chen 2014, Eqs. 46 and 47. Mended: Eq. 46 divides by the width and so gives kg/m where a mass is meant;
-    /// Eq. 47 carries a spurious g.
+    /// Zhou & Chen 2014, Eqs. 46 and 47. Mended: Eq. 46 divides by the width and so gives kg/m
+    /// where a mass is meant; Eq. 47 carries a spurious g.
     ///
     /// # Errors
     /// [`Refusal::BoreTooLarge`] where the bore reaches the base circle or the root circle.
@@ -70,8 +70,8 @@ impl Masses {
         self.driver * self.driven / (self.driver + self.driven)
     }
 
-    /// Effective mass of Eq. 50, M = J₁ J₂/(J₁ r_b2'² + J₂ r_b1²), in kg: the reduced mass with the driven gear's arm
-    /// at D in place of its base radius.
+    /// Effective mass of Eq. 50, M = J₁ J₂/(J₁ r_b2'² + J₂ r_b1²), in kg: the reduced mass with the
+    /// driven gear's arm at D in place of its base radius.
     #[must_use]
     pub fn effective(&self, geometry: &Geometry, tip: &TipContact) -> f64 {
         let arm = tip.normal_radius_driven / geometry.driven.base;
@@ -82,9 +82,17 @@ impl Masses {
 /// Mass of one gear at its base circle, in kg.
 fn mass<T: Real>(field: &'static str, gear: &Gear, circles: &Circles<T>) -> Result<f64, Refusal> {
     let (base, bore): (T, T) = (circles.base, gear.bore_radius.into());
-    let limit = if base < circles.root { base } else { circles.root };
+    let limit = if base < circles.root {
+        base
+    } else {
+        circles.root
+    };
     if bore >= limit {
-        return Err(Refusal::BoreTooLarge { field, bore: gear.bore_radius, limit: limit.rounded() });
+        return Err(Refusal::BoreTooLarge {
+            field,
+            bore: gear.bore_radius,
+            limit: limit.rounded(),
+        });
     }
     let (wall, base, bore) = ((base - bore).rounded(), base.rounded(), gear.bore_radius);
     let fourth_powers = wall * (base + bore) * (base * base + bore * bore);
@@ -100,8 +108,9 @@ fn mass<T: Real>(field: &'static str, gear: &Gear, circles: &Circles<T>) -> Resu
 /// with the Hertz half-width in q_H solved together with F_S.
 ///
 /// # Source
-/// Zhou & Chen 2014, Eqs. 50-57. Mended: Eq. 53 is inverted (δ_s = F_S q_s/b, then Eq. 57 holds); the pair of Eq. 54
-/// is the one in contact at D, whose driven tooth is loaded at its tip. The energies are of the whole width.
+/// Zhou & Chen 2014, Eqs. 50-57. Mended: Eq. 53 is inverted (δ_s = F_S q_s/b, then Eq. 57 holds);
+/// the pair of Eq. 54 is the one in contact at D, whose driven tooth is loaded at its tip. The
+/// energies are of the whole width.
 ///
 /// # Errors
 /// [`Refusal::HertzWidthTooLarge`] where Eq. 55 has no answer.
@@ -117,9 +126,16 @@ pub fn impact(
     let spring = spring(inputs, geometry, &place)?;
     let width = inputs.common_width();
     let effective_mass = masses.effective(geometry, tip);
-    let (force, pair_compliance) = spring.impact(teeth.sum(), velocity.normal * (width * effective_mass).sqrt())?;
-    let duration_printed =
-        printed_duration(masses.reduced(), velocity.normal, place.curvature_radius, plane_strain_compliance(inputs));
+    let (force, pair_compliance) = spring.impact(
+        teeth.sum(),
+        velocity.normal * (width * effective_mass).sqrt(),
+    )?;
+    let duration_printed = printed_duration(
+        masses.reduced(),
+        velocity.normal,
+        place.curvature_radius,
+        plane_strain_compliance(inputs),
+    );
     let duration_spring = PI * (effective_mass * pair_compliance / width).sqrt();
     let duration = match inputs.method {
         Method::Paper => duration_printed,
@@ -152,8 +168,8 @@ pub const HERTZ_PREFACTOR: f64 = 4.533_977_164_008_488;
 /// ```
 ///
 /// # Source
-/// Zhou & Chen 2014, Eq. 32, the reduced mass of Eq. 33 in kg. Hertz's duration for two spheres is 4.53398 times as
-/// long; the prefactor is lost in print.
+/// Zhou & Chen 2014, Eq. 32, the reduced mass of Eq. 33 in kg. Hertz's duration for two spheres is
+/// 4.53398 times as long; the prefactor is lost in print.
 fn printed_duration(reduced_mass: f64, approach: f64, curvature_radius: f64, give: f64) -> f64 {
     let ratio = reduced_mass * give / PI;
     (ratio * ratio / (approach * curvature_radius)).powf(0.2)

@@ -37,8 +37,8 @@ pub struct Gear {
     pub tip_radius: Option<f64>,
 }
 
-/// A full-depth gear without shift, relief and bore, of which nothing else is given yet: teeth, width and material are zero,
-/// which no check lets through.
+/// A full-depth gear without shift, relief and bore, of which nothing else is given yet: teeth,
+/// width and material are zero, which no check lets through.
 impl Default for Gear {
     fn default() -> Gear {
         Gear {
@@ -87,12 +87,18 @@ pub enum Method {
 
 impl Method {
     /// Every method, cheapest first, and the choice among them.
-    pub const ALL: [Method; 5] = [Method::Paper, Method::Exact, Method::Static, Method::Dynamic, Method::Auto];
+    pub const ALL: [Method; 5] = [
+        Method::Paper,
+        Method::Exact,
+        Method::Static,
+        Method::Dynamic,
+        Method::Auto,
+    ];
     /// The methods that answer in a microsecond.
     pub const CLOSED_FORM: [Method; 2] = [Method::Paper, Method::Exact];
 
-    /// Whether every pair in contact takes its share of the load, so that reliefs act along the flanks and a deflection
-    /// that the case gives is not needed.
+    /// Whether every pair in contact takes its share of the load, so that reliefs act along the
+    /// flanks and a deflection that the case gives is not needed.
     #[must_use]
     pub fn shares_load(self) -> bool {
         matches!(self, Method::Static | Method::Dynamic)
@@ -159,8 +165,11 @@ pub enum ContactCompliance {
 
 impl ContactCompliance {
     /// Every formula.
-    pub const ALL: [ContactCompliance; 3] =
-        [ContactCompliance::Logarithmic, ContactCompliance::Constant, ContactCompliance::Weber];
+    pub const ALL: [ContactCompliance; 3] = [
+        ContactCompliance::Logarithmic,
+        ContactCompliance::Constant,
+        ContactCompliance::Weber,
+    ];
 }
 
 /// How a relief grows from its start to its full amount.
@@ -214,21 +223,23 @@ pub struct Inputs {
     pub damping_ratio: f64,
     /// Base pitches that pass before the incoming tooth reaches E.
     pub warmup_cycles: u32,
-    /// Relative error that the peak force of the method `dynamic` may have. A promise where the motion is damped: without damping
-    /// and with contact lost it is chaotic, and a small error grows with every base pitch.
+    /// Relative error that the peak force of the method `dynamic` may have. A promise where the
+    /// motion is damped: without damping and with contact lost it is chaotic, and a small error
+    /// grows with every base pitch.
     pub tolerance: f64,
     /// Relative error against the method `dynamic` that the method `auto` may leave.
     pub within: f64,
     /// Intervals between D and E; without a number as many as the curve needs.
     pub stations: Option<usize>,
-    /// What the curve may lie off the straight lines between its stations, over its peak, where their number is not given.
+    /// What the curve may lie off the straight lines between its stations, over its peak, where
+    /// their number is not given.
     pub station_tolerance: f64,
     /// Geometry and position in double-double arithmetic.
     pub accurate: bool,
 }
 
-/// What a case stands for that says nothing: no size, no gears, no load, which no check lets through, and the model's usual
-/// settings.
+/// What a case stands for that says nothing: no size, no gears, no load, which no check lets
+/// through, and the model's usual settings.
 impl Default for Inputs {
     fn default() -> Inputs {
         Inputs {

@@ -35,7 +35,9 @@ pub enum Refusal {
         base: f64,
     },
     /// The cutting rack's flanks meet above its tip.
-    #[error("the cutting rack is pointed: the dedendum is {dedendum} and must be below {limit:.4} for this pressure angle")]
+    #[error(
+        "the cutting rack is pointed: the dedendum is {dedendum} and must be below {limit:.4} for this pressure angle"
+    )]
     PointedRack {
         /// h_fP*.
         dedendum: f64,
@@ -51,7 +53,9 @@ pub enum Refusal {
         least: f64,
     },
     /// No centre distance without backlash exists.
-    #[error("no mesh without backlash exists: x1 + x2 is {sum:.4}, too far below 0 for these tooth numbers")]
+    #[error(
+        "no mesh without backlash exists: x1 + x2 is {sum:.4}, too far below 0 for these tooth numbers"
+    )]
     ShiftsLeaveNoMesh {
         /// x₁ + x₂.
         sum: f64,
@@ -95,7 +99,10 @@ pub enum Refusal {
         teeth: u32,
     },
     /// Eq. 56 does not cover the profile shift.
-    #[error("profile shift outside the Kuang-Yang fit: x is {shift} and must be -{0}..{0}", kuang_yang::SHIFT)]
+    #[error(
+        "profile shift outside the Kuang-Yang fit: x is {shift} and must be -{0}..{0}",
+        kuang_yang::SHIFT
+    )]
     ShiftOutsideFit {
         /// x.
         shift: f64,
@@ -115,7 +122,9 @@ pub enum Refusal {
         thickness: f64,
     },
     /// The undercut leaves no neck below the tooth.
-    #[error("the undercut cuts the tooth through: its profile shift is {shift} and must be greater for so few teeth")]
+    #[error(
+        "the undercut cuts the tooth through: its profile shift is {shift} and must be greater for so few teeth"
+    )]
     CutThrough {
         /// x.
         shift: f64,
@@ -148,7 +157,9 @@ pub enum Refusal {
         limit: f64,
     },
     /// The mesh swings too often while a tooth passes.
-    #[error("too slow to be followed: the mesh swings {swings:.2e} times on the way, and the limit is {limit:.0e}")]
+    #[error(
+        "too slow to be followed: the mesh swings {swings:.2e} times on the way, and the limit is {limit:.0e}"
+    )]
     TooSlow {
         /// Swings of the mesh on the way.
         swings: f64,
@@ -210,19 +221,43 @@ impl Refusal {
                 "driven.addendum",
                 "shorten the driven addendum, or give the driver more teeth or more profile shift",
             ),
-            Refusal::NoPath { is_distance_given: true, .. } => {
-                ("no-path", "pair.centre_distance", "give a smaller centre distance, or leave it out")
-            }
-            Refusal::NoPath { .. } => ("no-path", "driven.tip_chamfer", "take less off the tips, or bring the gears closer"),
-            Refusal::TipInsideBase { .. } => {
-                ("tip-inside-base", "driven.addendum", "give a higher addendum or a smaller tip chamfer")
-            }
-            Refusal::PointedRack { .. } => ("pointed-rack", "driver.dedendum", "give a smaller dedendum or pressure angle"),
-            Refusal::CentreDistanceJams { .. } => {
-                ("centre-distance-jams", "pair.centre_distance", "give a greater centre distance, or leave it out")
-            }
-            Refusal::ShiftsLeaveNoMesh { .. } => ("no-mesh", "driver.profile_shift", "give a greater sum of profile shifts"),
-            Refusal::ContactRatioBelowOne { is_deflection_taken, .. } => (
+            Refusal::NoPath {
+                is_distance_given: true,
+                ..
+            } => (
+                "no-path",
+                "pair.centre_distance",
+                "give a smaller centre distance, or leave it out",
+            ),
+            Refusal::NoPath { .. } => (
+                "no-path",
+                "driven.tip_chamfer",
+                "take less off the tips, or bring the gears closer",
+            ),
+            Refusal::TipInsideBase { .. } => (
+                "tip-inside-base",
+                "driven.addendum",
+                "give a higher addendum or a smaller tip chamfer",
+            ),
+            Refusal::PointedRack { .. } => (
+                "pointed-rack",
+                "driver.dedendum",
+                "give a smaller dedendum or pressure angle",
+            ),
+            Refusal::CentreDistanceJams { .. } => (
+                "centre-distance-jams",
+                "pair.centre_distance",
+                "give a greater centre distance, or leave it out",
+            ),
+            Refusal::ShiftsLeaveNoMesh { .. } => (
+                "no-mesh",
+                "driver.profile_shift",
+                "give a greater sum of profile shifts",
+            ),
+            Refusal::ContactRatioBelowOne {
+                is_deflection_taken,
+                ..
+            } => (
                 "contact-ratio-below-1",
                 "driven.addendum",
                 if *is_deflection_taken {
@@ -231,55 +266,85 @@ impl Refusal {
                     "lengthen the addenda or bring the gears closer; a deflection that is given counts in paper and exact alone"
                 },
             ),
-            Refusal::BoreTooLarge { field, .. } => ("bore-too-large", *field, "give a smaller bore radius"),
-            Refusal::NoFirstContact { .. } => {
-                ("no-first-contact", "deviations.base_pitch", "give a smaller deviation or deflection")
+            Refusal::BoreTooLarge { field, .. } => {
+                ("bore-too-large", *field, "give a smaller bore radius")
             }
-            Refusal::BeyondDriverTip { .. } => {
-                ("beyond-driver-tip", "deviations.base_pitch", "give a smaller deviation or deflection")
-            }
-            Refusal::TeethOutsideFit { .. } => {
-                ("teeth-outside-fit", "model.tooth_compliance", "set model.tooth_compliance to beam, or leave it out")
-            }
-            Refusal::ShiftOutsideFit { .. } => {
-                ("shift-outside-fit", "model.tooth_compliance", "set model.tooth_compliance to beam, or leave it out")
-            }
-            Refusal::HeightOutsideFit { .. } => {
-                ("height-outside-fit", "model.tooth_compliance", "choose another tooth compliance, or a shorter addendum")
-            }
-            Refusal::PointedTip { .. } => {
-                ("pointed-tip", "driven.addendum", "give a shorter addendum, less profile shift or more teeth")
-            }
-            Refusal::CutThrough { .. } => ("cut-through", "driver.profile_shift", "give more profile shift or more teeth"),
-            Refusal::BelowFormCircle { .. } => {
-                ("below-form-circle", "driven.addendum", "shorten the driven addendum, or give the driver more profile shift")
-            }
+            Refusal::NoFirstContact { .. } => (
+                "no-first-contact",
+                "deviations.base_pitch",
+                "give a smaller deviation or deflection",
+            ),
+            Refusal::BeyondDriverTip { .. } => (
+                "beyond-driver-tip",
+                "deviations.base_pitch",
+                "give a smaller deviation or deflection",
+            ),
+            Refusal::TeethOutsideFit { .. } => (
+                "teeth-outside-fit",
+                "model.tooth_compliance",
+                "set model.tooth_compliance to beam, or leave it out",
+            ),
+            Refusal::ShiftOutsideFit { .. } => (
+                "shift-outside-fit",
+                "model.tooth_compliance",
+                "set model.tooth_compliance to beam, or leave it out",
+            ),
+            Refusal::HeightOutsideFit { .. } => (
+                "height-outside-fit",
+                "model.tooth_compliance",
+                "choose another tooth compliance, or a shorter addendum",
+            ),
+            Refusal::PointedTip { .. } => (
+                "pointed-tip",
+                "driven.addendum",
+                "give a shorter addendum, less profile shift or more teeth",
+            ),
+            Refusal::CutThrough { .. } => (
+                "cut-through",
+                "driver.profile_shift",
+                "give more profile shift or more teeth",
+            ),
+            Refusal::BelowFormCircle { .. } => (
+                "below-form-circle",
+                "driven.addendum",
+                "shorten the driven addendum, or give the driver more profile shift",
+            ),
             Refusal::InterferenceAtEnd { .. } => (
                 "interference-at-end",
                 "driver.addendum",
                 "shorten the driver's addendum, or give the driven gear more teeth or more profile shift",
             ),
-            Refusal::BeyondReach => {
-                ("beyond-reach", "operation.power", "lower the load, widen the gears or give a smaller deviation")
-            }
-            Refusal::FrictionLocks { .. } => {
-                ("friction-locks", "operation.friction_coefficient", "give a smaller friction coefficient, or leave it out")
-            }
-            Refusal::TooSlow { .. } => {
-                ("too-slow", "model.method", "set model.method to static: so slowly the mesh follows the load at rest")
-            }
-            Refusal::Unsettled => {
-                ("unsettled", "model.damping_ratio", "give a greater damping ratio, or set model.method to static")
-            }
+            Refusal::BeyondReach => (
+                "beyond-reach",
+                "operation.power",
+                "lower the load, widen the gears or give a smaller deviation",
+            ),
+            Refusal::FrictionLocks { .. } => (
+                "friction-locks",
+                "operation.friction_coefficient",
+                "give a smaller friction coefficient, or leave it out",
+            ),
+            Refusal::TooSlow { .. } => (
+                "too-slow",
+                "model.method",
+                "set model.method to static: so slowly the mesh follows the load at rest",
+            ),
+            Refusal::Unsettled => (
+                "unsettled",
+                "model.damping_ratio",
+                "give a greater damping ratio, or set model.method to static",
+            ),
             Refusal::NoClearing { .. } => (
                 "no-clearing-relief",
                 "model.damping_ratio",
                 "give a greater damping ratio, a smaller deviation or another speed",
             ),
             Refusal::Stopped => ("stopped", "model.method", "ask again"),
-            Refusal::HertzWidthTooLarge { .. } => {
-                ("hertz-width", "driver.face_width", "lower the load or the speed, or widen the gears")
-            }
+            Refusal::HertzWidthTooLarge { .. } => (
+                "hertz-width",
+                "driver.face_width",
+                "lower the load or the speed, or widen the gears",
+            ),
         };
         Remedy { code, field, mend }
     }

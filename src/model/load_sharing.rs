@@ -1,12 +1,12 @@
-//! The methods in which every pair in contact takes its share of the load: as much of the mesh as they need, then `static`
-//! and `dynamic`.
+//! The methods in which every pair in contact takes its share of the load: as much of the mesh as
+//! they need, then `static` and `dynamic`.
 
 use std::sync::Arc;
 
-use super::asked::Asked;
 use super::dynamic::{Dynamic, Settings, dynamic};
 use super::inputs::Inputs;
 use super::mesh::Mesh;
+use super::request::Request;
 use super::spacing::Spacing;
 use super::stage::{Stage, Stages};
 use super::static_load::{StaticLoad, static_load};
@@ -20,19 +20,36 @@ struct Shared {
     ran: Stages,
 }
 
-/// Add to the solution what the wanted stages find. Whether the tooth strikes is then what the last of them says.
+/// Add to the solution what the wanted stages find. Whether the tooth strikes is then what the last
+/// of them says.
 ///
 /// # Errors
 /// Those of [`Mesh::new`], [`static_load`] and [`dynamic`].
-pub(super) fn share(solution: &mut Solution, asked: &Asked<'_>, go_on: &dyn Fn(f64) -> bool) -> Result<(), Refusal> {
+pub(super) fn share(
+    solution: &mut Solution,
+    asked: &Request<'_>,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<(), Refusal> {
     let shared = within_reach(solution, asked, go_on)?;
-    let present = [Stage::Mesh, Stage::Static, Stage::Dynamic].into_iter().filter(|&stage| asked.wanted.has(stage));
+    let present = [Stage::Mesh, Stage::Static, Stage::Dynamic]
+        .into_iter()
+        .filter(|&stage| asked.wanted.has(stage));
     solution.stages = present.fold(solution.stages, Stages::with);
     solution.ran = solution.ran.and(shared.ran);
-    let static_angle = shared.static_load.as_ref().map(|load| load.first_contact_angle);
-    let dynamic_angle = shared.dynamic.as_ref().map(|dynamic| dynamic.first_contact_angle);
+    let static_angle = shared
+        .static_load
+        .as_ref()
+        .map(|load| load.first_contact_angle);
+    let dynamic_angle = shared
+        .dynamic
+        .as_ref()
+        .map(|dynamic| dynamic.first_contact_angle);
     if let Some(angle) = dynamic_angle.or(static_angle) {
-        solution.outcome = if angle.is_some() { Outcome::CornerContact } else { Outcome::NoCornerContact };
+        solution.outcome = if angle.is_some() {
+            Outcome::CornerContact
+        } else {
+            Outcome::NoCornerContact
+        };
     }
     solution.mesh = Some(shared.mesh);
     solution.static_load = shared.static_load;
@@ -40,19 +57,35 @@ pub(super) fn share(solution: &mut Solution, asked: &Asked<'_>, go_on: &dyn Fn(f
     Ok(())
 }
 
-/// The mesh is computed no further than the pairs yield: where that was not far enough, again and further.
-fn within_reach(solution: &Solution, asked: &Asked<'_>, go_on: &dyn Fn(f64) -> bool) -> Result<Shared, Refusal> {
-    if let Some(mesh) = asked.kept(Stage::Mesh).and_then(|earlier| earlier.mesh.clone()) {
+/// The mesh is computed no further than the pairs yield: where that was not far enough, again and
+/// further.
+fn within_reach(
+    solution: &Solution,
+    asked: &Request<'_>,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Shared, Refusal> {
+    if let Some(mesh) = asked
+        .kept(Stage::Mesh)
+        .and_then(|earlier| earlier.mesh.clone())
+    {
         match run(&mesh, solution.reduced_mass, asked, Stages::NONE, go_on) {
             Err(Refusal::BeyondReach) if !mesh.is_whole() => (),
             found => return found,
         }
     }
-    on_mesh(asked.inputs, solution, |mesh| run(mesh, solution.reduced_mass, asked, Stages::NONE.with(Stage::Mesh), go_on))
+    on_mesh(asked.inputs, solution, |mesh| {
+        run(
+            mesh,
+            solution.reduced_mass,
+            asked,
+            Stages::NONE.with(Stage::Mesh),
+            go_on,
+        )
+    })
 }
 
-/// What `find` finds on the mesh of a pair with the geometry, the load and the deviation of the solution, of which the pair
-/// may differ in its reliefs.
+/// What `find` finds on the mesh of a pair with the geometry, the load and the deviation of the
+/// solution, of which the pair may differ in its reliefs.
 ///
 /// # Errors
 /// Those of [`Mesh::new`] and of `find`.
@@ -65,10 +98,18 @@ pub(super) fn on_mesh<T>(
     const FURTHER: f64 = 16.0;
     let reliefs = [&inputs.driver, &inputs.driven].map(|gear| gear.tip_relief + gear.root_relief);
     let deviation = &solution.deviation;
-    let yields = deviation.combined_deflection + deviation.equivalent_error.abs() + reliefs.iter().sum::<f64>();
+    let yields = deviation.combined_deflection
+        + deviation.equivalent_error.abs()
+        + reliefs.iter().sum::<f64>();
     let mut reach = AT_FIRST * yields;
     loop {
-        let mesh = Mesh::new(inputs, &solution.geometry, solution.mesh_force, deviation.equivalent_error, reach)?;
+        let mesh = Mesh::new(
+            inputs,
+            &solution.geometry,
+            solution.mesh_force,
+            deviation.equivalent_error,
+            reach,
+        )?;
         let mesh = Arc::new(mesh);
         match find(&mesh) {
             Err(Refusal::BeyondReach) if !mesh.is_whole() => reach *= FURTHER,
@@ -78,22 +119,37 @@ pub(super) fn on_mesh<T>(
 }
 
 /// The wanted methods on this mesh, as far as nothing earlier holds.
-fn run(mesh: &Arc<Mesh>, mass: f64, asked: &Asked<'_>, mut ran: Stages, go_on: &dyn Fn(f64) -> bool) -> Result<Shared, Refusal> {
+fn run(
+    mesh: &Arc<Mesh>,
+    mass: f64,
+    asked: &Request<'_>,
+    mut ran: Stages,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Shared, Refusal> {
     let (inputs, wanted) = (asked.inputs, asked.wanted);
     let spacing = Spacing::of(inputs);
-    let held = asked.kept(Stage::Static).and_then(|earlier| earlier.static_load.clone());
+    let held = asked
+        .kept(Stage::Static)
+        .and_then(|earlier| earlier.static_load.clone());
     let static_load = if !wanted.has(Stage::Static) || held.is_some() {
         held.filter(|_| wanted.has(Stage::Static))
     } else {
         ran = ran.with(Stage::Static);
         Some(static_load(mesh, spacing)?)
     };
-    let held = asked.kept(Stage::Dynamic).and_then(|earlier| earlier.dynamic.clone());
+    let held = asked
+        .kept(Stage::Dynamic)
+        .and_then(|earlier| earlier.dynamic.clone());
     let dynamic = if !wanted.has(Stage::Dynamic) || held.is_some() {
         held.filter(|_| wanted.has(Stage::Dynamic))
     } else {
         ran = ran.with(Stage::Dynamic);
         Some(dynamic(mesh, &Settings::of(inputs, mass), go_on)?)
     };
-    Ok(Shared { mesh: Arc::clone(mesh), static_load, dynamic, ran })
+    Ok(Shared {
+        mesh: Arc::clone(mesh),
+        static_load,
+        dynamic,
+        ran,
+    })
 }

@@ -1,4 +1,5 @@
-//! Gap and stiffness of every tooth pair along the line of action: what the methods `static` and `dynamic` share.
+//! Gap and stiffness of every tooth pair along the line of action: what the methods `static` and
+//! `dynamic` share.
 
 use super::Refusal;
 use super::compliance::ContactPlace;
@@ -7,7 +8,7 @@ use super::geometry::{Geometry, geometry};
 use super::inputs::Inputs;
 use super::position::first_contact;
 use super::relief::Relief;
-use super::tip::{TipContact, angle_at_curvature, gap, tip_at};
+use super::tip_gap::{TipContact, angle_at_curvature, gap, tip_at};
 use crate::numeric::chebyshev::{Series, TERMS};
 use crate::numeric::polynomial::Polynomial;
 use crate::numeric::root;
@@ -39,7 +40,8 @@ pub struct Pair {
     pub weight: f64,
 }
 
-/// The mesh as a function of s, the way of the incoming pair along the line of action since E, in m.
+/// The mesh as a function of s, the way of the incoming pair along the line of action since E, in
+/// m.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
     /// p_b, in m.
@@ -73,7 +75,8 @@ struct Zone {
     series: Series<4>,
 }
 
-/// The pair as seen from one end of its path of contact: the run-in, or by swapped gears the run-out.
+/// The pair as seen from one end of its path of contact: the run-in, or by swapped gears the
+/// run-out.
 struct End {
     inputs: Inputs,
     geometry: Geometry,
@@ -83,23 +86,36 @@ struct End {
 }
 
 impl Mesh {
-    /// The mesh as far on both sides of the path of contact as gaps of up to `reach` stand there, in m.
+    /// The mesh as far on both sides of the path of contact as gaps of up to `reach` stand there,
+    /// in m.
     ///
     /// # Formula
     /// ```text
     /// F_k = b/q(s_k) max(0, x + e_k − S(s_k)),   s_k = s + k pb,   q = q1(r1) + q2(r2) + qH(F0)
     /// ```
-    /// where S is the normal gap with the reliefs of both flanks, x the displacement of the driver ahead along the line of
-    /// action, and e_k the equivalent error, Δf without reliefs for the incoming pair and 0 for every other. On the line of
-    /// action both flanks are met where the line crosses them; before E the driven tip is the load point, after B the
-    /// driver's. A tip keeps its flank's own radius of curvature, or that of its edge where the case gives one.
+    /// where S is the normal gap with the reliefs of both flanks, x the displacement of the driver
+    /// ahead along the line of action, and e_k the equivalent error, Δf without reliefs for the
+    /// incoming pair and 0 for every other. On the line of action both flanks are met where the
+    /// line crosses them; before E the driven tip is the load point, after B the driver's. A tip
+    /// keeps its flank's own radius of curvature, or that of its edge where the case gives one.
     ///
     /// # Errors
     /// A [`Refusal`] where no compliance can be computed, or the run-out interferes.
-    pub fn new(inputs: &Inputs, geometry: &Geometry, force: f64, error: f64, reach: f64) -> Result<Mesh, Refusal> {
+    pub fn new(
+        inputs: &Inputs,
+        geometry: &Geometry,
+        force: f64,
+        error: f64,
+        reach: f64,
+    ) -> Result<Mesh, Refusal> {
         let relief = Relief::of(inputs, geometry);
         let flanks = Flanks::new(inputs, geometry)?;
-        let run_in = End { inputs: inputs.clone(), geometry: *geometry, flanks: flanks.clone(), side: -1.0 };
+        let run_in = End {
+            inputs: inputs.clone(),
+            geometry: *geometry,
+            flanks: flanks.clone(),
+            side: -1.0,
+        };
         let run_out = run_in.swapped()?;
         let length = geometry.end - geometry.start;
         let (before, is_whole_before) = run_in.angle_of_reach(reach);
@@ -109,14 +125,20 @@ impl Mesh {
         line_zones(inputs, geometry, (&flanks, &relief), force, &mut zones)?;
         run_out.zones(&relief, force, after, length, &mut zones)?;
         zones.sort_by(|one, other| one.from.total_cmp(&other.from));
-        let levers = zones.iter().flat_map(|zone| [zone.from, zone.to].map(|s| zone.series.one(LEVER, s)));
+        let levers = zones
+            .iter()
+            .flat_map(|zone| [zone.from, zone.to].map(|s| zone.series.one(LEVER, s)));
         let friction = inputs.friction_coefficient.unwrap_or(0.0);
         let limit = 1.0 / levers.fold(0.0, f64::max);
         if friction >= limit {
             return Err(Refusal::FrictionLocks { friction, limit });
         }
         let on_line = |zone: &&Zone| zone.from >= 0.0 && zone.to <= length;
-        let stiffness: f64 = zones.iter().filter(on_line).map(|zone| zone.series.integral(STIFFNESS)).sum();
+        let stiffness: f64 = zones
+            .iter()
+            .filter(on_line)
+            .map(|zone| zone.series.integral(STIFFNESS))
+            .sum();
         Ok(Mesh {
             base_pitch: geometry.base_pitch,
             length,
@@ -158,9 +180,11 @@ impl Mesh {
         Some(self.pitch_point).filter(|&point| point > 0.0 && point < self.length)
     }
 
-    /// The pairs that may touch while the incoming one stands at `s`; on a border, those of the side where `inside` lies.
+    /// The pairs that may touch while the incoming one stands at `s`; on a border, those of the
+    /// side where `inside` lies.
     pub fn pairs(&self, s: f64, inside: f64) -> impl Iterator<Item = Pair> {
-        self.standing(inside).map(move |(ahead, zone)| self.pair(ahead, zone, s, inside))
+        self.standing(inside)
+            .map(move |(ahead, zone)| self.pair(ahead, zone, s, inside))
     }
 
     /// Which pairs stand in which zone.
@@ -176,9 +200,22 @@ impl Mesh {
         let way = f64::from(ahead) * self.base_pitch;
         let series = &self.zones[zone].series;
         let [stiffness, gap, lever, sliding] = series.at(s + way);
-        let place = Place { stiffness, gap: gap - self.error_of(ahead), lever, sliding };
-        let direction = if self.friction > 0.0 { series.one(SLIDING, inside + way).signum() } else { 0.0 };
-        Pair { ahead, place, weight: 1.0 - self.friction * direction * lever }
+        let place = Place {
+            stiffness,
+            gap: gap - self.error_of(ahead),
+            lever,
+            sliding,
+        };
+        let direction = if self.friction > 0.0 {
+            series.one(SLIDING, inside + way).signum()
+        } else {
+            0.0
+        };
+        Pair {
+            ahead,
+            place,
+            weight: 1.0 - self.friction * direction * lever,
+        }
     }
 
     /// Stiffness and gap of a pair, its error counted.
@@ -188,16 +225,35 @@ impl Mesh {
         (stiffness, gap - self.error_of(ahead))
     }
 
-    /// Stiffness and gap of a pair over the way from `s` up by `length`, its error counted, as polynomials of the part of it.
-    pub(super) fn spring_along(&self, ahead: i32, zone: usize, s: f64, length: f64) -> [Polynomial<TERMS>; 2] {
-        let [stiffness, mut gap] = self.zones[zone].series.local(STIFFNESS, self.above(ahead, s), length);
+    /// Stiffness and gap of a pair over the way from `s` up by `length`, its error counted, as
+    /// polynomials of the part of it.
+    pub(super) fn spring_along(
+        &self,
+        ahead: i32,
+        zone: usize,
+        s: f64,
+        length: f64,
+    ) -> [Polynomial<TERMS>; 2] {
+        let [stiffness, mut gap] =
+            self.zones[zone]
+                .series
+                .local(STIFFNESS, self.above(ahead, s), length);
         gap.0[0] -= self.error_of(ahead);
         [stiffness, gap]
     }
 
-    /// Arm of the friction force over the driver's base radius, and sliding velocity, over the same way.
-    pub(super) fn slide_along(&self, ahead: i32, zone: usize, s: f64, length: f64) -> [Polynomial<TERMS>; 2] {
-        self.zones[zone].series.local(LEVER, self.above(ahead, s), length)
+    /// Arm of the friction force over the driver's base radius, and sliding velocity, over the same
+    /// way.
+    pub(super) fn slide_along(
+        &self,
+        ahead: i32,
+        zone: usize,
+        s: f64,
+        length: f64,
+    ) -> [Polynomial<TERMS>; 2] {
+        self.zones[zone]
+            .series
+            .local(LEVER, self.above(ahead, s), length)
     }
 
     /// How far up from `s` those polynomials serve, within the zone.
@@ -208,7 +264,10 @@ impl Mesh {
 
     /// Where a pair stands, and how near its place cannot be told from another.
     fn above(&self, ahead: i32, s: f64) -> (f64, f64) {
-        (s + f64::from(ahead) * self.base_pitch, 16.0 * f64::EPSILON * s.abs())
+        (
+            s + f64::from(ahead) * self.base_pitch,
+            16.0 * f64::EPSILON * s.abs(),
+        )
     }
 
     /// The incoming pair at `s`, without its error, and how its gap grows with s.
@@ -216,7 +275,15 @@ impl Mesh {
     pub fn incoming(&self, s: f64) -> (Place, f64) {
         let series = &self.zones[self.zone(s)].series;
         let [stiffness, gap, lever, sliding] = series.at(s);
-        (Place { stiffness, gap, lever, sliding }, series.slope(GAP, s))
+        (
+            Place {
+                stiffness,
+                gap,
+                lever,
+                sliding,
+            },
+            series.slope(GAP, s),
+        )
     }
 
     /// Arm of the friction force over the driver's base radius, and sliding velocity in m/s.
@@ -231,14 +298,20 @@ impl Mesh {
     }
 
     fn zone(&self, at: f64) -> usize {
-        self.zones.partition_point(|zone| zone.to < at).min(self.zones.len() - 1)
+        self.zones
+            .partition_point(|zone| zone.to < at)
+            .min(self.zones.len() - 1)
     }
 
-    /// The places of the incoming pair from `from` to `to` at which some pair passes from one zone into the next: between
-    /// two of them all that is known of the mesh is smooth.
+    /// The places of the incoming pair from `from` to `to` at which some pair passes from one zone
+    /// into the next: between two of them all that is known of the mesh is smooth.
     #[must_use]
     pub fn borders(&self, from: f64, to: f64) -> Vec<f64> {
-        let edges = self.zones.iter().map(|zone| zone.from).chain(self.zones.last().map(|zone| zone.to));
+        let edges = self
+            .zones
+            .iter()
+            .map(|zone| zone.from)
+            .chain(self.zones.last().map(|zone| zone.to));
         let mut found: Vec<f64> = edges
             .flat_map(|edge| {
                 let first = ((from - edge) / self.base_pitch).ceil() as i64;
@@ -258,8 +331,8 @@ const GAP: usize = 1;
 const LEVER: usize = 2;
 const SLIDING: usize = 3;
 
-/// Zones from one border to the next, over which the four functions of `f` are smooth, to thirteen digits of their sizes;
-/// a gap grows from `edge`, with as many digits as the way from there has.
+/// Zones from one border to the next, over which the four functions of `f` are smooth, to thirteen
+/// digits of their sizes; a gap grows from `edge`, with as many digits as the way from there has.
 fn push_zones(
     borders: &mut Vec<f64>,
     (size, edge): ([f64; 4], f64),
@@ -277,7 +350,11 @@ fn push_zones(
     borders.dedup_by(|one, other| *one - *other <= 1e-9 * whole);
     for ends in borders.windows(2) {
         let (from, to) = (ends[0], ends[1]);
-        zones.push(Zone { from, to, series: Series::of(from, to, &rest, f)? });
+        zones.push(Zone {
+            from,
+            to,
+            series: Series::of(from, to, &rest, f)?,
+        });
     }
     Ok(())
 }
@@ -305,13 +382,20 @@ fn line_zones(
         ])
     };
     let pitch_point = [geometry.approach_length];
-    let driver_ends = relief.ends_on_driver().map(|curvature| curvature - geometry.start);
+    let driver_ends = relief
+        .ends_on_driver()
+        .map(|curvature| curvature - geometry.start);
     let driven_ends = relief.ends_on_driven().map(|curvature| rest - curvature);
     let mut borders: Vec<f64> = driver_ends.chain(driven_ends).chain(pitch_point).collect();
     borders.retain(|&border| border > 0.0 && border < length);
     borders.extend([0.0, length]);
     let stiffness = at(0.5 * length)?[STIFFNESS];
-    push_zones(&mut borders, ([stiffness, relief.most(), 1.0, speeds * length], 0.0), &at, zones)
+    push_zones(
+        &mut borders,
+        ([stiffness, relief.most(), 1.0, speeds * length], 0.0),
+        &at,
+        zones,
+    )
 }
 
 impl End {
@@ -327,13 +411,22 @@ impl End {
             Refusal::Interference { start } => Refusal::InterferenceAtEnd { start },
             other => other,
         })?;
-        Ok(End { inputs, geometry, flanks: self.flanks.swapped(), side: 1.0 })
+        Ok(End {
+            inputs,
+            geometry,
+            flanks: self.flanks.swapped(),
+            side: 1.0,
+        })
     }
 
     /// The angle up to which gaps below `reach` stand, and whether the tip's circle ends there.
     fn angle_of_reach(&self, reach: f64) -> (f64, bool) {
         let circle = angle_at_curvature(&self.geometry, self.geometry.end);
-        let whole = if circle.is_finite() { circle.min(LARGEST_ANGLE) } else { LARGEST_ANGLE };
+        let whole = if circle.is_finite() {
+            circle.min(LARGEST_ANGLE)
+        } else {
+            LARGEST_ANGLE
+        };
         match first_contact(&self.geometry, reach) {
             Ok(angle) if angle < whole => (angle, false),
             _ => (whole, true),
@@ -341,19 +434,35 @@ impl End {
     }
 
     /// The zones from the end of the path of contact at `edge` to the angle `reach`.
-    fn zones(&self, relief: &Relief, force: f64, reach: f64, edge: f64, zones: &mut Vec<Zone>) -> Result<(), Refusal> {
+    fn zones(
+        &self,
+        relief: &Relief,
+        force: f64,
+        reach: f64,
+        edge: f64,
+        zones: &mut Vec<Zone>,
+    ) -> Result<(), Refusal> {
         let base = self.geometry.driven.base;
         let angle_of = |s: f64| (self.side * (s - edge) / base).max(0.0);
         let at = |s: f64| self.at(relief, force, angle_of(s));
-        let turns = self.angles_of_relief_ends(relief).chain(self.angle_of_rolling(reach));
-        let mut borders: Vec<f64> = turns.filter(|&angle| angle > 0.0 && angle < reach).collect();
+        let turns = self
+            .angles_of_relief_ends(relief)
+            .chain(self.angle_of_rolling(reach));
+        let mut borders: Vec<f64> = turns
+            .filter(|&angle| angle > 0.0 && angle < reach)
+            .collect();
         borders.extend([0.0, reach]);
         for border in &mut borders {
             *border = edge + self.side * base * *border;
         }
         let (start, end) = (at(edge)?, at(edge + self.side * base * reach)?);
         let size = |function: usize| start[function].abs().max(end[function].abs());
-        push_zones(&mut borders, ([start[STIFFNESS], 0.0, size(LEVER), size(SLIDING)], edge), &at, zones)
+        push_zones(
+            &mut borders,
+            ([start[STIFFNESS], 0.0, size(LEVER), size(SLIDING)], edge),
+            &at,
+            zones,
+        )
     }
 
     /// The four values at an angle from the end of the path of contact.
@@ -361,7 +470,9 @@ impl End {
         let tip = tip_at(&self.geometry, angle);
         let place = ContactPlace::at_tip(&self.inputs, &self.geometry, &tip);
         let arms = (tip.curvature_driver, self.geometry.driven.tip_curvature);
-        let compliance = self.flanks.pair_at_load(&self.inputs, &self.geometry, &place, arms, force)?;
+        let compliance =
+            self.flanks
+                .pair_at_load(&self.inputs, &self.geometry, &place, arms, force)?;
         let sliding = self.inputs.driven_speed() * tip.sliding_arm;
         let (relief, lever) = if self.side < 0.0 {
             (
@@ -369,9 +480,17 @@ impl End {
                 tip.curvature_driver / self.geometry.driver.base,
             )
         } else {
-            (relief.at(self.geometry.driven.tip_curvature, tip.curvature_driver), self.lever_of_tip(&tip))
+            (
+                relief.at(self.geometry.driven.tip_curvature, tip.curvature_driver),
+                self.lever_of_tip(&tip),
+            )
         };
-        Ok([self.inputs.common_width() / compliance, gap(&self.geometry, &tip) + relief, lever, -self.side * sliding])
+        Ok([
+            self.inputs.common_width() / compliance,
+            gap(&self.geometry, &tip) + relief,
+            lever,
+            -self.side * sliding,
+        ])
     }
 
     /// After B the driver's own arm is that of its tip.
@@ -380,9 +499,15 @@ impl End {
     }
 
     fn angles_of_relief_ends(&self, relief: &Relief) -> impl Iterator<Item = f64> {
-        let ends: Vec<f64> = if self.side < 0.0 { relief.ends_on_driver().collect() } else { relief.ends_on_driven().collect() };
+        let ends: Vec<f64> = if self.side < 0.0 {
+            relief.ends_on_driver().collect()
+        } else {
+            relief.ends_on_driven().collect()
+        };
         let geometry = self.geometry;
-        ends.into_iter().filter(move |&end| end > geometry.start).map(move |end| angle_at_curvature(&geometry, end))
+        ends.into_iter()
+            .filter(move |&end| end > geometry.start)
+            .map(move |end| angle_at_curvature(&geometry, end))
     }
 
     /// Where the tip all but rolls: there friction turns round.

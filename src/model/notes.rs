@@ -68,5 +68,8 @@ const LOOKS: &[Look] = &[
 /// What a reader must know beside the result.
 #[must_use]
 pub fn notes(inputs: &Inputs, solution: &Solution) -> Vec<Note> {
-    LOOKS.iter().filter_map(|look| look(inputs, solution)).collect()
+    LOOKS
+        .iter()
+        .filter_map(|look| look(inputs, solution))
+        .collect()
 }

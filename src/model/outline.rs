@@ -8,16 +8,19 @@ use super::compliance::profile::{Profile, Section};
 use super::geometry::Circles;
 use super::inputs::{Gear, Inputs};
 
-/// The outline of a tooth in a frame whose x axis is the tooth's centre line, from the gear's centre.
+/// The outline of a tooth in a frame whose x axis is the tooth's centre line, from the gear's
+/// centre.
 ///
-/// The tooth is symmetric: the half with y above 0 is told. The chamfer is taken off, so that the tooth ends on its active
-/// tip circle; the bevel beyond is left out, since no case gives its angle. Reliefs, some micrometres, are not on it.
+/// The tooth is symmetric: the half with y above 0 is told. The chamfer is taken off, so that the
+/// tooth ends on its active tip circle; the bevel beyond is left out, since no case gives its
+/// angle. Reliefs, some micrometres, are not on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outline {
     profile: Profile,
     /// Angle of the rack's normal at which the fillet ends, in rad.
     fillet_end: f64,
-    /// Roll angle at which the involute ends, in rad; none is left where it is not above the junction's.
+    /// Roll angle at which the involute ends, in rad; none is left where it is not above the
+    /// junction's.
     flank_end: f64,
     edge: Option<Edge>,
     /// Radius at which the tooth ends, in m.
@@ -56,15 +59,20 @@ impl Piece {
 impl Outline {
     /// The outline of the gear's teeth.
     ///
-    /// A pointed tooth ends where its flanks meet. A rounding of the edge for which the tip has no room is made as large as
-    /// there is room for.
+    /// A pointed tooth ends where its flanks meet. A rounding of the edge for which the tip has no
+    /// room is made as large as there is room for.
     #[must_use]
     pub fn of(inputs: &Inputs, gear: &Gear, circles: &Circles) -> Outline {
         let profile = Profile::of(inputs, gear, circles);
         let (fillet_end, flank_end) = (fillet_end(&profile), flank_end(&profile));
-        let edge = gear.tip_radius.and_then(|radius| widest_edge(&profile, flank_end, radius));
-        let sharp =
-            if flank_end > profile.junction.roll { profile.involute_at(flank_end) } else { profile.fillet_at(fillet_end) };
+        let edge = gear
+            .tip_radius
+            .and_then(|radius| widest_edge(&profile, flank_end, radius));
+        let sharp = if flank_end > profile.junction.roll {
+            profile.involute_at(flank_end)
+        } else {
+            profile.fillet_at(fillet_end)
+        };
         let end = edge.map_or(point(sharp), |edge| edge.centre);
         let pointed = edge.is_none() && flank_end < tip_roll(&profile);
         Outline {
@@ -72,7 +80,11 @@ impl Outline {
             fillet_end,
             flank_end: edge.map_or(flank_end, |edge| edge.roll),
             edge,
-            tip_radius: if pointed { end.coords.norm() } else { circles.tip },
+            tip_radius: if pointed {
+                end.coords.norm()
+            } else {
+                circles.tip
+            },
             tip_half_angle: end.y.atan2(end.x),
         }
     }
@@ -83,7 +95,8 @@ impl Outline {
         &self.profile
     }
 
-    /// Radius at which the tooth ends, in m: that of the active tip circle, or less where the tooth is pointed.
+    /// Radius at which the tooth ends, in m: that of the active tip circle, or less where the tooth
+    /// is pointed.
     #[must_use]
     pub fn tip_radius(&self) -> f64 {
         self.tip_radius
@@ -91,7 +104,10 @@ impl Outline {
 
     /// The pieces that the tooth has, from the root to the tip.
     pub fn pieces(&self) -> impl Iterator<Item = Piece> + use<> {
-        let (has_flank, has_edge) = (self.flank_end > self.profile.junction.roll, self.edge.is_some());
+        let (has_flank, has_edge) = (
+            self.flank_end > self.profile.junction.roll,
+            self.edge.is_some(),
+        );
         Piece::ALL.into_iter().filter(move |piece| match piece {
             Piece::Fillet | Piece::Tip => true,
             Piece::Flank => has_flank,
@@ -99,31 +115,44 @@ impl Outline {
         })
     }
 
-    /// A point of a piece, `part` of the way of its parameter from its root end (0) to its tip end (1).
+    /// A point of a piece, `part` of the way of its parameter from its root end (0) to its tip end
+    /// (1).
     #[must_use]
     pub fn at(&self, piece: Piece, part: f64) -> Point2<f64> {
         let between = |from: f64, to: f64| from + part * (to - from);
         match (piece, self.edge) {
-            (Piece::Fillet, _) => point(self.profile.fillet_at(between(FRAC_PI_2, self.fillet_end))),
+            (Piece::Fillet, _) => {
+                point(self.profile.fillet_at(between(FRAC_PI_2, self.fillet_end)))
+            }
             (Piece::Edge, Some(edge)) => {
                 let string = FRAC_PI_2 - self.profile.load_angle(edge.roll);
                 edge.centre + along(between(string, self.tip_half_angle)) * edge.radius
             }
-            (Piece::Flank | Piece::Edge, _) => {
-                point(self.profile.involute_at(between(self.profile.junction.roll, self.flank_end)))
+            (Piece::Flank | Piece::Edge, _) => point(
+                self.profile
+                    .involute_at(between(self.profile.junction.roll, self.flank_end)),
+            ),
+            (Piece::Tip, _) => {
+                Point2::from(along(between(self.tip_half_angle, 0.0)) * self.tip_radius)
             }
-            (Piece::Tip, _) => Point2::from(along(between(self.tip_half_angle, 0.0)) * self.tip_radius),
         }
     }
 
-    /// The whole tooth as points, from the middle of one space to the middle of the next, the root circle and each piece
-    /// in `steps` equal steps of the parameter.
+    /// The whole tooth as points, from the middle of one space to the middle of the next, the root
+    /// circle and each piece in `steps` equal steps of the parameter.
     #[must_use]
     pub fn tooth(&self, steps: usize) -> Vec<Point2<f64>> {
         let part = move |step: usize| step as f64 / steps.max(1) as f64;
-        let (space, root, radius) = (self.profile.half_pitch(), self.profile.root_half_angle(), self.profile.circles().root);
-        let land = (0..=steps).map(|step| Point2::from(along(space + part(step) * (root - space)) * radius));
-        let rise = self.pieces().flat_map(|piece| (0..=steps).map(move |step| self.at(piece, part(step))));
+        let (space, root, radius) = (
+            self.profile.half_pitch(),
+            self.profile.root_half_angle(),
+            self.profile.circles().root,
+        );
+        let land = (0..=steps)
+            .map(|step| Point2::from(along(space + part(step) * (root - space)) * radius));
+        let rise = self
+            .pieces()
+            .flat_map(|piece| (0..=steps).map(move |step| self.at(piece, part(step))));
         let half: Vec<_> = land.chain(rise).collect();
         let lower = half.iter().map(|point| Point2::new(point.x, -point.y));
         lower.chain(half.iter().rev().copied()).collect()
@@ -135,30 +164,44 @@ fn tip_roll(profile: &Profile) -> f64 {
     profile.circles().tip_curvature / profile.circles().base
 }
 
-/// Roll angle at which the involute ends, in rad: on the tip circle, or before where the flanks meet.
+/// Roll angle at which the involute ends, in rad: on the tip circle, or before where the flanks
+/// meet.
 fn flank_end(profile: &Profile) -> f64 {
     let (start, tip) = (profile.junction.roll, tip_roll(profile));
-    last_where(start.min(tip), tip, |roll| profile.involute_at(roll).half_thickness >= 0.0)
+    last_where(start.min(tip), tip, |roll| {
+        profile.involute_at(roll).half_thickness >= 0.0
+    })
 }
 
-/// Angle of the rack's normal at which the fillet ends, in rad: at the junction, or before on the tip circle.
+/// Angle of the rack's normal at which the fillet ends, in rad: at the junction, or before on the
+/// tip circle.
 fn fillet_end(profile: &Profile) -> f64 {
     let tip = profile.circles().tip;
-    -last_where(-FRAC_PI_2, -profile.junction.normal, |normal| point(profile.fillet_at(-normal)).coords.norm() <= tip)
+    -last_where(-FRAC_PI_2, -profile.junction.normal, |normal| {
+        point(profile.fillet_at(-normal)).coords.norm() <= tip
+    })
 }
 
 /// The rounding of that radius, or of the greatest that the tip has room for.
 fn widest_edge(profile: &Profile, flank_end: f64, radius: f64) -> Option<Edge> {
-    edge(profile, flank_end, last_where(0.0, radius, |radius| edge(profile, flank_end, radius).is_some()))
+    edge(
+        profile,
+        flank_end,
+        last_where(0.0, radius, |radius| {
+            edge(profile, flank_end, radius).is_some()
+        }),
+    )
 }
 
-/// The rounding of a radius that touches the involute and the tip circle from within, where the tip has room for it.
+/// The rounding of a radius that touches the involute and the tip circle from within, where the tip
+/// has room for it.
 ///
 /// # Formula
 /// ```text
 /// (rb φ − re)² + rb² = (ra − re)²
 /// ```
-/// since the curve at the distance r_e inside of an involute is an involute of the same base circle, its string shorter by r_e.
+/// since the curve at the distance r_e inside of an involute is an involute of the same base
+/// circle, its string shorter by r_e.
 fn edge(profile: &Profile, flank_end: f64, radius: f64) -> Option<Edge> {
     let circles = profile.circles();
     let over_base = circles.tip - radius - circles.base;
@@ -168,10 +211,15 @@ fn edge(profile: &Profile, flank_end: f64, radius: f64) -> Option<Edge> {
     let roll = (radius + (over_base * (circles.tip - radius + circles.base)).sqrt()) / circles.base;
     let angle = profile.load_angle(roll);
     let centre = point(profile.involute_at(roll)) - Vector2::new(angle.sin(), angle.cos()) * radius;
-    (centre.y >= 0.0 && roll >= profile.junction.roll && roll <= flank_end).then_some(Edge { centre, radius, roll })
+    (centre.y >= 0.0 && roll >= profile.junction.roll && roll <= flank_end).then_some(Edge {
+        centre,
+        radius,
+        roll,
+    })
 }
 
-/// The greatest value at which a condition holds that holds at `from` and ends to hold once at the most, by bisection.
+/// The greatest value at which a condition holds that holds at `from` and ends to hold once at the
+/// most, by bisection.
 fn last_where(from: f64, to: f64, holds: impl Fn(f64) -> bool) -> f64 {
     const HALVINGS: usize = 54;
     if holds(to) {
@@ -205,7 +253,8 @@ mod tests {
     use crate::model::sample::standard_pair;
     use std::f64::consts::PI;
 
-    /// Outlines of ordinary, shifted, undercut and rounded teeth, with their gear and its reference circle.
+    /// Outlines of ordinary, shifted, undercut and rounded teeth, with their gear and its reference
+    /// circle.
     fn outlines() -> Vec<(String, Outline, Inputs)> {
         let kinds: [(u32, f64, Option<f64>); 7] = [
             (20, 0.0, None),
@@ -221,7 +270,11 @@ mod tests {
             inputs.driven.addendum = 0.3;
             (inputs.driver.profile_shift, inputs.driver.tip_radius) = (shift, tip_radius);
             let circles = geometry::<f64>(&inputs).unwrap().driver;
-            (format!("z {teeth} x {shift} re {tip_radius:?}"), Outline::of(&inputs, &inputs.driver, &circles), inputs)
+            (
+                format!("z {teeth} x {shift} re {tip_radius:?}"),
+                Outline::of(&inputs, &inputs.driver, &circles),
+                inputs,
+            )
         };
         kinds.map(outline).into()
     }
@@ -230,7 +283,8 @@ mod tests {
     fn involute_angle(inputs: &Inputs, radius: f64) -> f64 {
         let (gear, alpha) = (&inputs.driver, inputs.pressure_angle);
         let involute = |angle: f64| angle.tan() - angle;
-        let at_reference = (PI / 2.0 + 2.0 * gear.profile_shift * alpha.tan()) / f64::from(gear.teeth);
+        let at_reference =
+            (PI / 2.0 + 2.0 * gear.profile_shift * alpha.tan()) / f64::from(gear.teeth);
         let base = inputs.module * f64::from(gear.teeth) / 2.0 * alpha.cos();
         at_reference + involute(alpha) - involute((base / radius).min(1.0).acos())
     }
@@ -242,9 +296,17 @@ mod tests {
                 let point = outline.at(Piece::Flank, f64::from(step) / 40.0);
                 let radius = point.coords.norm();
                 let off = radius * (point.y.atan2(point.x) - involute_angle(&inputs, radius));
-                // Next to the base circle acos turns an error of 1e-16 in the radius into 1e-8 of the angle.
-                let tolerance = if radius < 1.0001 * outline.profile().circles().base { 1e-9 } else { 1e-12 };
-                assert!(off.abs() < tolerance * inputs.module, "{name}: {off:e} m off at {radius}");
+                // Next to the base circle acos turns an error of 1e-16 in the radius into 1e-8 of
+                // the angle.
+                let tolerance = if radius < 1.0001 * outline.profile().circles().base {
+                    1e-9
+                } else {
+                    1e-12
+                };
+                assert!(
+                    off.abs() < tolerance * inputs.module,
+                    "{name}: {off:e} m off at {radius}"
+                );
             }
         }
     }
@@ -255,12 +317,21 @@ mod tests {
             let pieces: Vec<_> = outline.pieces().collect();
             for pair in pieces.windows(2) {
                 let gap = (outline.at(pair[0], 1.0) - outline.at(pair[1], 0.0)).norm();
-                assert!(gap < 1e-9 * inputs.module, "{name}: {gap:e} m between {pair:?}");
+                assert!(
+                    gap < 1e-9 * inputs.module,
+                    "{name}: {gap:e} m between {pair:?}"
+                );
             }
             let root = outline.at(Piece::Fillet, 0.0).coords.norm();
-            assert!((root - outline.profile().circles().root).abs() < 1e-12 * inputs.module, "{name}");
+            assert!(
+                (root - outline.profile().circles().root).abs() < 1e-12 * inputs.module,
+                "{name}"
+            );
             let tip = outline.at(Piece::Tip, 1.0);
-            assert!(tip.y.abs() < 1e-15 && (tip.x - outline.tip_radius()).abs() < 1e-15, "{name}");
+            assert!(
+                tip.y.abs() < 1e-15 && (tip.x - outline.tip_radius()).abs() < 1e-15,
+                "{name}"
+            );
         }
     }
 
@@ -272,12 +343,17 @@ mod tests {
             let on_circle = outline.tooth(steps).windows(2).find_map(|pair| {
                 let (inner, outer) = (pair[0].coords.norm(), pair[1].coords.norm());
                 let part = (reference - inner) / (outer - inner);
-                (inner <= reference && reference < outer).then(|| pair[0] + (pair[1] - pair[0]) * part)
+                (inner <= reference && reference < outer)
+                    .then(|| pair[0] + (pair[1] - pair[0]) * part)
             });
             let point = on_circle.unwrap();
             let thickness = 2.0 * reference * (-point.y).atan2(point.x);
-            let expected = inputs.module * (PI / 2.0 + 2.0 * inputs.driver.profile_shift * inputs.pressure_angle.tan());
-            assert!((thickness - expected).abs() < 1e-8 * inputs.module, "{name}: {thickness} m for {expected}");
+            let expected = inputs.module
+                * (PI / 2.0 + 2.0 * inputs.driver.profile_shift * inputs.pressure_angle.tan());
+            assert!(
+                (thickness - expected).abs() < 1e-8 * inputs.module,
+                "{name}: {thickness} m for {expected}"
+            );
         }
     }
 
@@ -287,26 +363,43 @@ mod tests {
         const STEP: f64 = 1e-5;
         for (name, outline, _) in outlines() {
             let Some(edge) = outline.edge else { continue };
-            let turn = |from: Vector2<f64>, to: Vector2<f64>| from.normalize().perp(&to.normalize()).abs();
+            let turn =
+                |from: Vector2<f64>, to: Vector2<f64>| from.normalize().perp(&to.normalize()).abs();
             let into = outline.at(Piece::Edge, STEP) - outline.at(Piece::Edge, 0.0);
             let out = outline.at(Piece::Edge, 1.0) - outline.at(Piece::Edge, 1.0 - STEP);
             let flank = outline.at(Piece::Flank, 1.0) - outline.at(Piece::Flank, 1.0 - STEP);
-            assert!(turn(flank, into) < 1e-3, "{name}: kink of {} at the flank, {edge:?}", turn(flank, into));
+            assert!(
+                turn(flank, into) < 1e-3,
+                "{name}: kink of {} at the flank, {edge:?}",
+                turn(flank, into)
+            );
             let tip = outline.at(Piece::Edge, 1.0).coords;
             let across = tip.normalize().dot(&out.normalize());
-            assert!(across.abs() < 1e-3, "{name}: kink of {across} at the tip, {edge:?}");
+            assert!(
+                across.abs() < 1e-3,
+                "{name}: kink of {across} at the tip, {edge:?}"
+            );
         }
     }
 
     #[test]
     fn teeth_end_where_their_flanks_meet() {
         let mut inputs = standard_pair(12, 60, 5e-3);
-        (inputs.driver.addendum, inputs.driver.profile_shift, inputs.driven.addendum) = (1.4, 0.6, 0.3);
+        (
+            inputs.driver.addendum,
+            inputs.driver.profile_shift,
+            inputs.driven.addendum,
+        ) = (1.4, 0.6, 0.3);
         let circles = geometry::<f64>(&inputs).unwrap().driver;
         let outline = Outline::of(&inputs, &inputs.driver, &circles);
         assert!(outline.profile().tip_thickness() < 0.0);
         assert!(outline.tip_radius() < circles.tip);
         assert!(outline.at(Piece::Flank, 1.0).y.abs() < 1e-15);
-        assert!(outline.tooth(50).iter().all(|point| point.coords.norm() <= outline.tip_radius() * (1.0 + 1e-12)));
+        assert!(
+            outline
+                .tooth(50)
+                .iter()
+                .all(|point| point.coords.norm() <= outline.tip_radius() * (1.0 + 1e-12))
+        );
     }
 }

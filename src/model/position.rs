@@ -4,8 +4,8 @@ use twofloat::TwoFloat;
 
 use super::geometry::{self, Geometry};
 use super::inputs::{Inputs, Method};
-pub use super::tip::{TipContact, gap, gap_by_quadrature, tip_at};
-use super::tip::{angle_at_curvature, gap_without, largest_term};
+pub use super::tip_gap::{TipContact, gap, gap_by_quadrature, tip_at};
+use super::tip_gap::{angle_at_curvature, gap_without, largest_term};
 use super::{Deviation, Refusal};
 use crate::numeric::{Real, root};
 
@@ -15,7 +15,8 @@ const LARGEST_ANGLE: f64 = 1.5;
 /// In double-double arithmetic the gap in closed form may lose this factor of its digits.
 const LOST: f64 = 1e14;
 
-/// The gap in closed form may lose this factor of its digits, 5e-14 of u, before the quadrature, ten times as costly, serves.
+/// The gap in closed form may lose this factor of its digits, 5e-14 of u, before the quadrature,
+/// ten times as costly, serves.
 const KEPT_DIGITS: f64 = 512.0;
 
 /// The first contact D.
@@ -35,17 +36,20 @@ pub struct Position {
 
 /// The angle u at which the tip has closed the gap Δ: `S(u) = Δ`.
 ///
-/// Newton's method on ln S against ln u from the parabola at E, or from the driver's tip where the parabola is beyond it,
-/// until a last step with all digits of the gap.
+/// Newton's method on ln S against ln u from the parabola at E, or from the driver's tip where the
+/// parabola is beyond it, until a last step with all digits of the gap.
 ///
 /// # Errors
-/// [`Refusal::NoFirstContact`] where the steps do not settle: no turn of the gear would bridge such a deviation.
+/// [`Refusal::NoFirstContact`] where the steps do not settle: no turn of the gear would bridge such
+/// a deviation.
 pub(super) fn first_contact(geometry: &Geometry, deviation: f64) -> Result<f64, Refusal> {
     const STEPS: usize = 60;
     const SETTLED: f64 = 1e-4;
     const ON_THE_WAY: f64 = 1e8;
     let parabola = (2.0 * deviation / gap_curvature_at_start(geometry)).sqrt();
-    let mut angle = parabola.min(angle_at_curvature(geometry, geometry.end)).min(LARGEST_ANGLE);
+    let mut angle = parabola
+        .min(angle_at_curvature(geometry, geometry.end))
+        .min(LARGEST_ANGLE);
     for _ in 0..STEPS {
         let step = logarithmic_step(geometry, angle, deviation, ON_THE_WAY);
         if !step.is_finite() || angle > LARGEST_ANGLE {
@@ -59,16 +63,17 @@ pub(super) fn first_contact(geometry: &Geometry, deviation: f64) -> Result<f64, 
     Err(Refusal::NoFirstContact { deviation })
 }
 
-/// Newton's step of ln u towards `S = deviation`, with the gap by quadrature where the terms of its closed form outgrow
-/// their sum by more than the factor `loss`.
+/// Newton's step of ln u towards `S = deviation`, with the gap by quadrature where the terms of its
+/// closed form outgrow their sum by more than the factor `loss`.
 fn logarithmic_step(geometry: &Geometry, angle: f64, deviation: f64, loss: f64) -> f64 {
     let tip = tip_at(geometry, angle);
     let closed = gap_without(loss, geometry, &tip);
     (deviation / closed).ln() * closed / (tip.angle * tip.normal_radius_drop)
 }
 
-/// The angle u improved by Newton steps in double-double arithmetic, in which the closed form of the gap keeps its digits
-/// down to deviations of 1e-14 of its terms; below, the angle stays as it is.
+/// The angle u improved by Newton steps in double-double arithmetic, in which the closed form of
+/// the gap keeps its digits down to deviations of 1e-14 of its terms; below, the angle stays as it
+/// is.
 fn refine(geometry: &Geometry<TwoFloat>, angle: f64, deviation: TwoFloat) -> TwoFloat {
     const STEPS: usize = 3;
     let mut refined: TwoFloat = angle.into();
@@ -98,9 +103,9 @@ fn gap_curvature_at_start(geometry: &Geometry) -> f64 {
 /// ```
 ///
 /// # Source
-/// Zhou & Chen 2014, Eqs. 11-20. Mended: the differences of arctangents (Eqs. 14, 17-19), which jump by π where
-/// Δf > N₁E, are taken as one; Eqs. 16 and 20 without the rounded contact ratio. Kept as printed: the result is linear
-/// in Δ, where the tip's gap grows as u².
+/// Zhou & Chen 2014, Eqs. 11-20. Mended: the differences of arctangents (Eqs. 14, 17-19), which
+/// jump by π where Δf > N₁E, are taken as one; Eqs. 16 and 20 without the rounded contact ratio.
+/// Kept as printed: the result is linear in Δ, where the tip's gap grows as u².
 fn printed_contact<T: Real>(geometry: &Geometry<T>, deviation: &Deviation<T>) -> T {
     let base = geometry.driver.base;
     let turn = |from: T, by: T| (base * by).angle_to(base * base + from * (from - by));
@@ -109,8 +114,8 @@ fn printed_contact<T: Real>(geometry: &Geometry<T>, deviation: &Deviation<T>) ->
     (turn(geometry.start, error) + turn(ahead, deviation.combined_deflection)).over(geometry.ratio)
 }
 
-/// Least tip relief of the driven gear, beyond what it has, with which the printed equations bring the tooth in on time, in
-/// m; `None` where they do so anyhow.
+/// Least tip relief of the driven gear, beyond what it has, with which the printed equations bring
+/// the tooth in on time, in m; `None` where they do so anyhow.
 ///
 /// # Formula
 /// ```text
@@ -120,27 +125,42 @@ fn printed_contact<T: Real>(geometry: &Geometry<T>, deviation: &Deviation<T>) ->
 ///
 /// # Errors
 /// Those of [`geometry`](geometry::geometry).
-pub(super) fn printed_relief_to_clear(inputs: &Inputs, deviation: &Deviation<TwoFloat>) -> Result<Option<f64>, Refusal> {
+pub(super) fn printed_relief_to_clear(
+    inputs: &Inputs,
+    deviation: &Deviation<TwoFloat>,
+) -> Result<Option<f64>, Refusal> {
     const UP: f64 = 1.0 + 1e-14;
     let geometry = geometry::geometry::<TwoFloat>(inputs)?;
     let left = |relief: f64| {
-        let equivalent_error = deviation.equivalent_error - twofloat::consts::FRAC_1_SQRT_2 * TwoFloat::from(relief);
-        printed_contact(&geometry, &Deviation { equivalent_error, ..*deviation }).rounded()
+        let equivalent_error =
+            deviation.equivalent_error - twofloat::consts::FRAC_1_SQRT_2 * TwoFloat::from(relief);
+        printed_contact(
+            &geometry,
+            &Deviation {
+                equivalent_error,
+                ..*deviation
+            },
+        )
+        .rounded()
     };
     let all = std::f64::consts::SQRT_2 * deviation.total.rounded();
     Ok((left(0.0) > 0.0).then(|| UP * root::between(0.0, all, left)))
 }
 
-/// Reduced radius of curvature at the tip's contact ρ_S = ρ1 ρ2/(ρ1 + ρ2), in m; ρ2 is the driven flank's own at its
-/// tip, or the radius of the tip's edge where the case gives one (Zhou & Chen 2014, below Eq. 32).
+/// Reduced radius of curvature at the tip's contact ρ_S = ρ1 ρ2/(ρ1 + ρ2), in m; ρ2 is the driven
+/// flank's own at its tip, or the radius of the tip's edge where the case gives one (Zhou & Chen
+/// 2014, below Eq. 32).
 #[must_use]
 pub fn reduced_curvature(inputs: &Inputs, geometry: &Geometry, tip: &TipContact) -> f64 {
-    let driven = inputs.driven.tip_radius.unwrap_or(geometry.driven.tip_curvature);
+    let driven = inputs
+        .driven
+        .tip_radius
+        .unwrap_or(geometry.driven.tip_curvature);
     tip.curvature_driver * driven / (tip.curvature_driver + driven)
 }
 
-/// Where the tip first touches, by the method; `None` where no tooth strikes. With `precise`, the same geometry in
-/// double-double arithmetic, the exact position is good to the last digit.
+/// Where the tip first touches, by the method; `None` where no tooth strikes. With `precise`, the
+/// same geometry in double-double arithmetic, the exact position is good to the last digit.
 ///
 /// # Errors
 /// A [`Refusal`] where D does not exist or lies beyond the driver's tip.
@@ -159,17 +179,25 @@ pub fn position(
         _ => first_contact(geometry, plain.total)?,
     };
     let contact = tip_at(geometry, angle);
-    let close_call = contact.is_close_call(geometry) || inputs.method == Method::Paper && plain.equivalent_error < 0.0;
+    let close_call = contact.is_close_call(geometry)
+        || inputs.method == Method::Paper && plain.equivalent_error < 0.0;
     let (contact, printed_gap) = match precise {
         Some(precise) => precise_contact(inputs, precise, deviation, angle),
-        None if close_call => precise_contact(inputs, &geometry::geometry(inputs)?, deviation, angle),
+        None if close_call => {
+            precise_contact(inputs, &geometry::geometry(inputs)?, deviation, angle)
+        }
         None => (contact, gap_without(KEPT_DIGITS, geometry, &contact)),
     };
-    let closed_gap = if inputs.method == Method::Exact { plain.total } else { printed_gap };
+    let closed_gap = if inputs.method == Method::Exact {
+        plain.total
+    } else {
+        printed_gap
+    };
     checked(inputs, geometry, plain.total, contact, closed_gap)
 }
 
-/// The contact in double-double arithmetic, near the angle that f64 has found, and the gap closed there.
+/// The contact in double-double arithmetic, near the angle that f64 has found, and the gap closed
+/// there.
 fn precise_contact(
     inputs: &Inputs,
     geometry: &Geometry<TwoFloat>,
@@ -184,11 +212,18 @@ fn precise_contact(
     let contact = tip.rounded();
     let closed = gap(geometry, &tip).rounded();
     let lost = largest_term(&geometry.rounded(), &contact) > LOST * closed;
-    (contact, if lost { gap_by_quadrature(&geometry.rounded(), &contact) } else { closed })
+    (
+        contact,
+        if lost {
+            gap_by_quadrature(&geometry.rounded(), &contact)
+        } else {
+            closed
+        },
+    )
 }
 
-/// The contact as a position, where there is one on the driver's flank: ρ₁ has not grown by more than the path of contact,
-/// which tells more sharply than O₁D against r_a1.
+/// The contact as a position, where there is one on the driver's flank: ρ₁ has not grown by more
+/// than the path of contact, which tells more sharply than O₁D against r_a1.
 fn checked(
     inputs: &Inputs,
     geometry: &Geometry,
@@ -203,7 +238,10 @@ fn checked(
         return Err(Refusal::NoFirstContact { deviation });
     }
     if contact.curvature_growth > geometry.contact_ratio * geometry.base_pitch {
-        return Err(Refusal::BeyondDriverTip { radius: contact.radius_driver, tip: geometry.driver.tip });
+        return Err(Refusal::BeyondDriverTip {
+            radius: contact.radius_driver,
+            tip: geometry.driver.tip,
+        });
     }
     Ok(Some(Position {
         approach_angle_driver: contact.angle * inputs.ratio(),
@@ -220,7 +258,8 @@ mod tests {
     use crate::model::sample::standard_pair;
     use crate::model::{Stage, Stages, solve};
 
-    /// A pair whose line of action is all but along the centre line's normal: the parabola at E is far beyond D.
+    /// A pair whose line of action is all but along the centre line's normal: the parabola at E is
+    /// far beyond D.
     #[test]
     fn contact_is_found_where_the_parabola_is_far_beyond_it() {
         let mut inputs = standard_pair(40, 40, 5e-3);
@@ -233,7 +272,10 @@ mod tests {
             inputs.deflection = Some(deviation);
             let solution = solve(&inputs, Stages::of(Stage::Position)).unwrap();
             let closed = gap(&solution.geometry, &solution.position.unwrap().contact);
-            assert!((closed / deviation - 1.0).abs() < 1e-9, "{closed:e} closed of {deviation:e}");
+            assert!(
+                (closed / deviation - 1.0).abs() < 1e-9,
+                "{closed:e} closed of {deviation:e}"
+            );
         }
     }
 }

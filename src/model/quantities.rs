@@ -1,4 +1,5 @@
-//! The one table of quantities, from which results pane, text, JSON, CSV, limits and `--only` are derived.
+//! The one table of quantities, from which results pane, text, JSON, CSV, limits and `--only` are
+//! derived.
 
 use super::inputs::Method;
 use super::{Solution, Stage};
@@ -39,16 +40,25 @@ impl Quantity {
         matches!(self.key, "pitch_contact_jump" | "dynamic_friction_work")
     }
 
-    /// The symbol in a method: where the method defines the quantity otherwise than the closed form does, another one.
+    /// The symbol in a method: where the method defines the quantity otherwise than the closed form
+    /// does, another one.
     #[must_use]
     pub fn symbol_in(&self, method: Method) -> &'static str {
-        if self.leaves_reliefs_out(method) { "Δf_0" } else { self.symbol }
+        if self.leaves_reliefs_out(method) {
+            "Δf_0"
+        } else {
+            self.symbol
+        }
     }
 
     /// A few words for a person, as the method defines the quantity.
     #[must_use]
     pub fn label_in(&self, method: Method) -> &'static str {
-        if self.leaves_reliefs_out(method) { "error without the reliefs" } else { self.label }
+        if self.leaves_reliefs_out(method) {
+            "error without the reliefs"
+        } else {
+            self.label
+        }
     }
 
     // In `static` and `dynamic` the reliefs act on the flanks, and are no part of Δf.
@@ -56,13 +66,15 @@ impl Quantity {
         self.key == "equivalent_error" && method.shares_load()
     }
 
-    /// Whether it is of the free impact at D: the closed form, which every method has beside its own results.
+    /// Whether it is of the free impact at D: the closed form, which every method has beside its
+    /// own results.
     #[must_use]
     pub fn is_of_free_impact(&self) -> bool {
         FREE_IMPACT.contains(&self.stage)
     }
 
-    /// What a method itself finds in place of a quantity of the free impact; the quantity where the method is the closed form.
+    /// What a method itself finds in place of a quantity of the free impact; the quantity where the
+    /// method is the closed form.
     #[must_use]
     pub fn by(&'static self, method: Method) -> Option<&'static Quantity> {
         let at = match method {
@@ -71,7 +83,9 @@ impl Quantity {
             Method::Dynamic => 2,
             Method::Auto => return None,
         };
-        let row = RESOLVED.iter().find(|[free, ..]| self.key == *free || self.key.starts_with(&format!("{free}_")))?;
+        let row = RESOLVED
+            .iter()
+            .find(|[free, ..]| self.key == *free || self.key.starts_with(&format!("{free}_")))?;
         Quantity::find(row[at])
     }
 
@@ -84,21 +98,43 @@ impl Quantity {
     /// The quantity of that key, or of that symbol where no other has it.
     #[must_use]
     pub fn named(name: &str) -> Option<&'static Quantity> {
-        let mut of_symbol = QUANTITIES.iter().filter(|quantity| quantity.symbol == name && !name.is_empty());
+        let mut of_symbol = QUANTITIES
+            .iter()
+            .filter(|quantity| quantity.symbol == name && !name.is_empty());
         Quantity::find(name).or_else(|| of_symbol.next().filter(|_| of_symbol.next().is_none()))
     }
 }
 
 /// The stages of the free impact at D.
-const FREE_IMPACT: [Stage; 7] =
-    [Stage::Position, Stage::Velocity, Stage::Compliance, Stage::Impact, Stage::Friction, Stage::Band, Stage::Stations];
+const FREE_IMPACT: [Stage; 7] = [
+    Stage::Position,
+    Stage::Velocity,
+    Stage::Compliance,
+    Stage::Impact,
+    Stage::Friction,
+    Stage::Band,
+    Stage::Stations,
+];
 
-/// What the closed form tells of the free impact, and what `static` and `dynamic` find in its place; empty where they do not.
-/// What a name goes on with, as in `impact_force_low`, is another reading of the same.
+/// What the closed form tells of the free impact, and what `static` and `dynamic` find in its
+/// place; empty where they do not. What a name goes on with, as in `impact_force_low`, is another
+/// reading of the same.
 const RESOLVED: [[&str; 3]; 4] = [
-    ["approach_angle_driven", "static_first_contact_angle", "dynamic_first_contact_angle"],
-    ["approach_angle_driver", "static_first_contact_angle", "dynamic_first_contact_angle"],
-    ["impact_force", "static_force_at_start", "dynamic_peak_approach_force"],
+    [
+        "approach_angle_driven",
+        "static_first_contact_angle",
+        "dynamic_first_contact_angle",
+    ],
+    [
+        "approach_angle_driver",
+        "static_first_contact_angle",
+        "dynamic_first_contact_angle",
+    ],
+    [
+        "impact_force",
+        "static_force_at_start",
+        "dynamic_peak_approach_force",
+    ],
     ["impact_duration", "", "dynamic_impact_duration"],
 ];
 

@@ -22,17 +22,27 @@ struct Ramp {
 impl Relief {
     /// The reliefs of the pair.
     ///
-    /// A relief whose length is not given reaches over the part of the path on which one pair more is in contact,
-    /// (ε − ⌈ε⌉ + 1) p_b: for 1 < ε < 2 to the start of single contact, the long relief.
+    /// A relief whose length is not given reaches over the part of the path on which one pair more
+    /// is in contact, (ε − ⌈ε⌉ + 1) p_b: for 1 < ε < 2 to the start of single contact, the long
+    /// relief.
     #[must_use]
     pub fn of(inputs: &Inputs, geometry: &Geometry) -> Relief {
-        let usual = (geometry.contact_ratio - geometry.contact_ratio.ceil() + 1.0) * geometry.base_pitch;
+        let usual =
+            (geometry.contact_ratio - geometry.contact_ratio.ceil() + 1.0) * geometry.base_pitch;
         let ramps = |gear: &Gear, tip: f64, root: f64| {
             let tip_length = gear.tip_relief_length.unwrap_or(usual);
             let root_length = gear.root_relief_length.unwrap_or(usual);
             [
-                Ramp { amount: gear.tip_relief, full: tip, none: tip - tip_length },
-                Ramp { amount: gear.root_relief, full: root, none: root + root_length },
+                Ramp {
+                    amount: gear.tip_relief,
+                    full: tip,
+                    none: tip - tip_length,
+                },
+                Ramp {
+                    amount: gear.root_relief,
+                    full: root,
+                    none: root + root_length,
+                },
             ]
         };
         let (start, end, length) = (geometry.start, geometry.end, geometry.tangent_length);
@@ -50,11 +60,16 @@ impl Relief {
     /// C1a h((N1B − ρ1)/L1a) + C1f h((ρ1 − N1E)/L1f) + C2a h((N2E − ρ2)/L2a) + C2f h((ρ2 − N2B)/L2f)
     /// h(t) = 1 − t  linear,  (1 − t)²  parabolic;  1 where t < 0,  0 where t > 1
     /// ```
-    /// Before E the driven tip touches the driver above the point of E, so that the driver's root relief fades there while
-    /// the tip's own is there in full.
+    /// Before E the driven tip touches the driver above the point of E, so that the driver's root
+    /// relief fades there while the tip's own is there in full.
     #[must_use]
     pub fn at(&self, driver: f64, driven: f64) -> f64 {
-        let sum = |ramps: &[Ramp; 2], curvature: f64| -> f64 { ramps.iter().map(|ramp| ramp.at(curvature, self.shape)).sum() };
+        let sum = |ramps: &[Ramp; 2], curvature: f64| -> f64 {
+            ramps
+                .iter()
+                .map(|ramp| ramp.at(curvature, self.shape))
+                .sum()
+        };
         sum(&self.driver, driver) + sum(&self.driven, driven)
     }
 
@@ -71,12 +86,19 @@ impl Relief {
     /// The most that both flanks may lack together, in m.
     #[must_use]
     pub fn most(&self) -> f64 {
-        self.driver.iter().chain(&self.driven).map(|ramp| ramp.amount).sum()
+        self.driver
+            .iter()
+            .chain(&self.driven)
+            .map(|ramp| ramp.amount)
+            .sum()
     }
 }
 
 fn ends(ramps: &[Ramp; 2]) -> impl Iterator<Item = f64> {
-    ramps.iter().filter(|ramp| ramp.amount > 0.0).flat_map(|ramp| [ramp.none, ramp.full])
+    ramps
+        .iter()
+        .filter(|ramp| ramp.amount > 0.0)
+        .flat_map(|ramp| [ramp.none, ramp.full])
 }
 
 impl Ramp {

@@ -4,7 +4,14 @@ use super::inputs::{Drive, Gear, Inputs};
 
 /// A standard steel pair without deviation, 10 mm wide, 100 N m at 1000 rpm.
 pub(crate) fn standard_pair(driver_teeth: u32, driven_teeth: u32, module: f64) -> Inputs {
-    let gear = |teeth| Gear { teeth, face_width: 10e-3, young: 206e9, poisson: 0.3, density: 7800.0, ..Gear::default() };
+    let gear = |teeth| Gear {
+        teeth,
+        face_width: 10e-3,
+        young: 206e9,
+        poisson: 0.3,
+        density: 7800.0,
+        ..Gear::default()
+    };
     Inputs {
         module,
         pressure_angle: 20f64.to_radians(),

@@ -1,27 +1,29 @@
-//! A solve: the stages in their order, each run only where it is wanted and nothing earlier still holds.
+//! A solve: the stages in their order, each run only where it is wanted and nothing earlier still
+//! holds.
 
 use std::cell::OnceCell;
 
 use twofloat::TwoFloat;
 
-use super::asked::{Asked, Earlier};
 use super::impact::Masses;
 use super::inputs::{Inputs, Method};
+use super::request::{Earlier, Request};
 use super::stage::{Stage, Stages};
 use super::{
-    Choice, Geometry, Kept, Outcome, Position, Refusal, Solution, auto, band, clearing, compliance, deviation, friction,
-    geometry, impact, load_sharing, position, stations, velocity,
+    Choice, Geometry, Kept, Outcome, Position, Refusal, Solution, auto, clearing, compliance,
+    deviation, friction, geometry, impact, load_sharing, position, stations, stiffness_spread,
+    velocity,
 };
 use crate::numeric::Real;
 
 /// Solve the pair, running only the wanted stages and what they need.
 ///
-/// Geometry, load and deviation always run, since they tell the outcome. Where a small difference decides, geometry and
-/// position are computed in double-double arithmetic, asked for or not.
+/// Geometry, load and deviation always run, since they tell the outcome. Where a small difference
+/// decides, geometry and position are computed in double-double arithmetic, asked for or not.
 ///
 /// # Errors
-/// A [`Refusal`] where the pair cannot mesh, or D does not exist. Where only the force cannot be computed, the rest is
-/// given and [`Solution::withheld`] says why.
+/// A [`Refusal`] where the pair cannot mesh, or D does not exist. Where only the force cannot be
+/// computed, the rest is given and [`Solution::withheld`] says why.
 pub fn solve(inputs: &Inputs, wanted: Stages) -> Result<Solution, Refusal> {
     solve_while(inputs, wanted, &|_| true)
 }
@@ -30,11 +32,16 @@ pub fn solve(inputs: &Inputs, wanted: Stages) -> Result<Solution, Refusal> {
 ///
 /// # Errors
 /// Those of [`solve`], and [`Refusal::Stopped`] where `go_on` says no.
-pub fn solve_while(inputs: &Inputs, wanted: Stages, go_on: &dyn Fn(f64) -> bool) -> Result<Solution, Refusal> {
+pub fn solve_while(
+    inputs: &Inputs,
+    wanted: Stages,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Solution, Refusal> {
     solve_after(inputs, wanted, None, go_on)
 }
 
-/// The same after an earlier solve: what still holds of it is kept, and [`Solution::ran`] tells what was not.
+/// The same after an earlier solve: what still holds of it is kept, and [`Solution::ran`] tells
+/// what was not.
 ///
 /// # Errors
 /// Those of [`solve_while`].
@@ -48,45 +55,87 @@ pub fn solve_after(
         return solve_by_choice(inputs, wanted, earlier, go_on);
     }
     let earlier = earlier.filter(|earlier| earlier.solution.method == inputs.method);
-    let asked = Asked { inputs, wanted: wanted.within(inputs.method.stages()), earlier };
-    Solving { asked, precise: OnceCell::new() }.run(go_on)
+    let asked = Request {
+        inputs,
+        wanted: wanted.within(inputs.method.stages()),
+        earlier,
+    };
+    Solving {
+        asked,
+        precise: OnceCell::new(),
+    }
+    .run(go_on)
 }
 
-/// Solve with the method that the closed form calls for, or with the motion as a trial where it cannot tell; with the one taken
-/// before where nothing has changed since. The least relief is that of the method that was taken.
+/// Solve with the method that the closed form calls for, or with the motion as a trial where it
+/// cannot tell; with the one taken before where nothing has changed since. The least relief is that
+/// of the method that was taken.
 fn solve_by_choice(
     inputs: &Inputs,
     wanted: Stages,
     earlier: Option<Earlier<'_>>,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Solution, Refusal> {
-    let before = earlier.filter(|earlier| earlier.stale == Stages::NONE && earlier.solution.choice.is_some());
+    let before = earlier
+        .filter(|earlier| earlier.stale == Stages::NONE && earlier.solution.choice.is_some());
     let chosen = match before {
-        Some(earlier) => Solution { ran: Stages::NONE, ..earlier.solution.clone() },
+        Some(earlier) => Solution {
+            ran: Stages::NONE,
+            ..earlier.solution.clone()
+        },
         None => chosen(inputs, wanted.without(Stage::Clearing), go_on)?,
     };
     if before.is_none() && !wanted.has(Stage::Clearing) {
         return Ok(chosen);
     }
     let taken = auto::taken(inputs, chosen.method);
-    let wanted = if chosen.method == Method::Static { at_rest(wanted) } else { wanted };
-    let earlier = Earlier { solution: &chosen, stale: Stages::NONE };
+    let wanted = if chosen.method == Method::Static {
+        at_rest(wanted)
+    } else {
+        wanted
+    };
+    let earlier = Earlier {
+        solution: &chosen,
+        stale: Stages::NONE,
+    };
     let whole = solve_after(&taken, wanted, Some(earlier), go_on)?;
-    Ok(Solution { ran: whole.ran.and(chosen.ran), choice: chosen.choice, ..whole })
+    Ok(Solution {
+        ran: whole.ran.and(chosen.ran),
+        choice: chosen.choice,
+        ..whole
+    })
 }
 
-/// The method that is taken, solved. Where `static` is, it stands for `dynamic` where that is wanted. One that is too slow to be
-/// followed in time is at rest.
-fn chosen(inputs: &Inputs, wanted: Stages, go_on: &dyn Fn(f64) -> bool) -> Result<Solution, Refusal> {
+/// The method that is taken, solved. Where `static` is, it stands for `dynamic` where that is
+/// wanted. One that is too slow to be followed in time is at rest.
+fn chosen(
+    inputs: &Inputs,
+    wanted: Stages,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Solution, Refusal> {
     let read = wanted.within(Stages::CLOSED_FORM).and(auto::READS);
     let closed_form = solve(&auto::taken(inputs, Method::Exact), read);
     let choice = auto::choose(inputs, &closed_form);
     let still = || solve_while(&auto::taken(inputs, Method::Static), at_rest(wanted), go_on);
     let (solved, choice) = match (choice.method, &closed_form) {
         (Method::Exact, Ok(known)) => {
-            let earlier = Earlier { solution: known, stale: Stages::NONE };
-            let found = solve_after(&auto::taken(inputs, Method::Exact), wanted, Some(earlier), go_on)?;
-            (Ok(Solution { ran: found.ran.and(known.ran), ..found }), choice)
+            let earlier = Earlier {
+                solution: known,
+                stale: Stages::NONE,
+            };
+            let found = solve_after(
+                &auto::taken(inputs, Method::Exact),
+                wanted,
+                Some(earlier),
+                go_on,
+            )?;
+            (
+                Ok(Solution {
+                    ran: found.ran.and(known.ran),
+                    ..found
+                }),
+                choice,
+            )
         }
         (Method::Static, _) => (still(), choice),
         _ => match solve_while(&auto::taken(inputs, Method::Dynamic), wanted, go_on) {
@@ -96,7 +145,13 @@ fn chosen(inputs: &Inputs, wanted: Stages, go_on: &dyn Fn(f64) -> bool) -> Resul
         },
     };
     let solution = solved?;
-    Ok(Solution { choice: Some(Choice { method: solution.method, ..choice }), ..solution })
+    Ok(Solution {
+        choice: Some(Choice {
+            method: solution.method,
+            ..choice
+        }),
+        ..solution
+    })
 }
 
 /// The motion, or the load at rest on the same mesh where inertia turns out to add little.
@@ -111,15 +166,36 @@ fn decided(
     if choice.method == Method::Dynamic {
         return (Ok(moved), choice);
     }
-    let known = Solution { method: Method::Static, ..moved };
-    let earlier = Earlier { solution: &known, stale: Stages::NONE };
-    let found = solve_after(&auto::taken(inputs, Method::Static), at_rest(wanted), Some(earlier), go_on);
-    (found.map(|found| Solution { ran: found.ran.and(known.ran), ..found }), choice)
+    let known = Solution {
+        method: Method::Static,
+        ..moved
+    };
+    let earlier = Earlier {
+        solution: &known,
+        stale: Stages::NONE,
+    };
+    let found = solve_after(
+        &auto::taken(inputs, Method::Static),
+        at_rest(wanted),
+        Some(earlier),
+        go_on,
+    );
+    (
+        found.map(|found| Solution {
+            ran: found.ran.and(known.ran),
+            ..found
+        }),
+        choice,
+    )
 }
 
 /// What is wanted of the load at rest, which stands for the motion.
 fn at_rest(wanted: Stages) -> Stages {
-    if wanted.has(Stage::Dynamic) { wanted.and(Stages::of(Stage::Static)) } else { wanted }
+    if wanted.has(Stage::Dynamic) {
+        wanted.and(Stages::of(Stage::Static))
+    } else {
+        wanted
+    }
 }
 
 /// The impact force alone, where there is one.
@@ -129,7 +205,7 @@ fn force(inputs: &Inputs) -> Option<f64> {
 
 /// A solve on its way.
 struct Solving<'a> {
-    asked: Asked<'a>,
+    asked: Request<'a>,
     /// Geometry in double-double arithmetic, where it is called for.
     precise: OnceCell<Option<Geometry<TwoFloat>>>,
 }
@@ -151,11 +227,17 @@ impl Solving<'_> {
 
     /// The least relief, once the method has told its outcome.
     fn clear(&self, solution: &mut Solution, go_on: &dyn Fn(f64) -> bool) -> Result<(), Refusal> {
-        let held = self.asked.kept(Stage::Clearing).and_then(|earlier| earlier.clearing);
+        let held = self
+            .asked
+            .kept(Stage::Clearing)
+            .and_then(|earlier| earlier.clearing);
         if held.is_none() {
             solution.ran = solution.ran.with(Stage::Clearing);
         }
-        solution.clearing = Some(held.map_or_else(|| clearing::clearing(self.asked.inputs, solution, go_on), Ok)?);
+        solution.clearing = Some(held.map_or_else(
+            || clearing::clearing(self.asked.inputs, solution, go_on),
+            Ok,
+        )?);
         solution.stages = solution.stages.with(Stage::Clearing);
         Ok(())
     }
@@ -172,7 +254,10 @@ impl Solving<'_> {
             (earlier.kept.masses, earlier.mesh_force)
         } else {
             ran = ran.with(Stage::Load);
-            let masses = self.precise(&geometry)?.map_or_else(|| Masses::of(inputs, &geometry), |pair| Masses::of(inputs, &pair));
+            let masses = self.precise(&geometry)?.map_or_else(
+                || Masses::of(inputs, &geometry),
+                |pair| Masses::of(inputs, &pair),
+            );
             (masses?, inputs.torque() / geometry.driver.base)
         };
         let deviation = if let Some(earlier) = self.asked.kept(Stage::Deviation) {
@@ -185,7 +270,11 @@ impl Solving<'_> {
         Ok(Solution {
             method: inputs.method,
             choice: None,
-            outcome: if strikes { Outcome::CornerContact } else { Outcome::NoCornerContact },
+            outcome: if strikes {
+                Outcome::CornerContact
+            } else {
+                Outcome::NoCornerContact
+            },
             stages: Stages::of(Stage::Deviation),
             ran,
             geometry,
@@ -217,7 +306,8 @@ impl Solving<'_> {
         precise.map_or(plain, |precise| Ok(precise.rounded()))
     }
 
-    /// Geometry in double-double arithmetic, where it is asked for or small differences call for it.
+    /// Geometry in double-double arithmetic, where it is asked for or small differences call for
+    /// it.
     fn precise(&self, plain: &Geometry) -> Result<Option<Geometry<TwoFloat>>, Refusal> {
         match self.precise.get() {
             Some(&known) => Ok(known),
@@ -227,7 +317,9 @@ impl Solving<'_> {
 
     fn precise_of(&self, plain: Option<&Geometry>) -> Result<Option<Geometry<TwoFloat>>, Refusal> {
         let close_call = plain.is_none_or(|geometry| geometry.is_close_call(self.asked.inputs));
-        (self.asked.inputs.accurate || close_call).then(|| geometry::geometry::<TwoFloat>(self.asked.inputs)).transpose()
+        (self.asked.inputs.accurate || close_call)
+            .then(|| geometry::geometry::<TwoFloat>(self.asked.inputs))
+            .transpose()
     }
 
     /// D, and everything after it.
@@ -237,7 +329,12 @@ impl Solving<'_> {
         } else {
             solution.ran = solution.ran.with(Stage::Position);
             let precise = self.precise(&solution.geometry)?;
-            position::position(self.asked.inputs, &solution.geometry, precise.as_ref(), &solution.kept.deviation)
+            position::position(
+                self.asked.inputs,
+                &solution.geometry,
+                precise.as_ref(),
+                &solution.kept.deviation,
+            )
         };
         solution.stages = solution.stages.with(Stage::Position);
         match found {
@@ -260,18 +357,49 @@ impl Solving<'_> {
     fn strike(&self, solution: &mut Solution, position: &Position) -> Result<(), Refusal> {
         let (inputs, geometry, tip) = (self.asked.inputs, solution.geometry, &position.contact);
         let masses = solution.kept.masses;
-        solution.velocity = self.stage(solution, Stage::Velocity, |s| s.velocity, || Ok(velocity::velocity(inputs, tip)))?;
+        solution.velocity = self.stage(
+            solution,
+            Stage::Velocity,
+            |s| s.velocity,
+            || Ok(velocity::velocity(inputs, tip)),
+        )?;
         let place = || compliance::ContactPlace::at_tip(inputs, &geometry, tip);
         let borne = || compliance::teeth(inputs, &geometry, &place());
         solution.compliance = self.stage(solution, Stage::Compliance, |s| s.compliance, borne)?;
-        let (Some(velocity), Some(teeth)) = (solution.velocity, solution.compliance) else { return Ok(()) };
+        let (Some(velocity), Some(teeth)) = (solution.velocity, solution.compliance) else {
+            return Ok(());
+        };
         let struck = || impact::impact(inputs, &geometry, &masses, tip, &teeth, &velocity);
-        let Some(impact) = self.stage(solution, Stage::Impact, |s| s.impact, struck)? else { return Ok(()) };
+        let Some(impact) = self.stage(solution, Stage::Impact, |s| s.impact, struck)? else {
+            return Ok(());
+        };
         solution.impact = Some(impact);
-        let rubbed = || Ok(friction::friction(inputs, &geometry, tip, &velocity, &impact, masses.reduced()));
+        let rubbed = || {
+            Ok(friction::friction(
+                inputs,
+                &geometry,
+                tip,
+                &velocity,
+                &impact,
+                masses.reduced(),
+            ))
+        };
         solution.friction = self.stage(solution, Stage::Friction, |s| s.friction, rubbed)?;
-        solution.band = self.stage(solution, Stage::Band, |s| s.band, || Ok(band::band(inputs, impact.force, force)))?;
-        let stood = || Ok(stations::stations(inputs, &geometry, &masses, position, impact.force));
+        solution.band = self.stage(
+            solution,
+            Stage::Band,
+            |s| s.band,
+            || Ok(stiffness_spread::band(inputs, impact.force, force)),
+        )?;
+        let stood = || {
+            Ok(stations::stations(
+                inputs,
+                &geometry,
+                &masses,
+                position,
+                impact.force,
+            ))
+        };
         let earlier = |s: &Solution| Some((s.stations.clone(), s.stations_withheld));
         if let Some((stations, withheld)) = self.stage(solution, Stage::Stations, earlier, stood)? {
             (solution.stations, solution.stations_withheld) = (stations, withheld);

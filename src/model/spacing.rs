@@ -1,16 +1,17 @@
 //! Where stations stand on a curve: evenly, or as closely as the curve needs.
 
-mod look;
+mod refine;
 
 use super::inputs::Inputs;
-use look::Look;
+use refine::Look;
 
 /// How stations are placed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Spacing {
     /// This many equal intervals.
     Even(usize),
-    /// So that the curve lies off the straight lines between them by no more than this part of its peak.
+    /// So that the curve lies off the straight lines between them by no more than this part of its
+    /// peak.
     AsNeeded(f64),
 }
 
@@ -21,12 +22,14 @@ impl Spacing {
     /// As the case asks for it.
     #[must_use]
     pub fn of(inputs: &Inputs) -> Spacing {
-        inputs.stations.map_or(Spacing::AsNeeded(inputs.station_tolerance), Spacing::Even)
+        inputs
+            .stations
+            .map_or(Spacing::AsNeeded(inputs.station_tolerance), Spacing::Even)
     }
 
-    /// What `at` gives at the stations from the first of `ends` to the last, both among them. `at` gives the height of the
-    /// curve as well. Between two of the ends it should turn once at most: those in between are looked at, and are stations
-    /// only where the curve needs them.
+    /// What `at` gives at the stations from the first of `ends` to the last, both among them. `at`
+    /// gives the height of the curve as well. Between two of the ends it should turn once at most:
+    /// those in between are looked at, and are stations only where the curve needs them.
     pub fn stations<T>(self, ends: &[f64], peak: f64, at: impl FnMut(f64) -> (f64, T)) -> Vec<T> {
         let mut found = Vec::with_capacity(self.count().map_or(0, |count| count + 1));
         self.walk(ends, peak, at, |value| found.push(value));
@@ -43,13 +46,27 @@ impl Spacing {
     }
 
     /// The same, each given to `keep` in its turn.
-    pub fn walk<T>(self, ends: &[f64], peak: f64, mut at: impl FnMut(f64) -> (f64, T), keep: impl FnMut(T)) {
-        let (Some(&from), Some(&to)) = (ends.first(), ends.last()) else { return };
+    pub fn walk<T>(
+        self,
+        ends: &[f64],
+        peak: f64,
+        mut at: impl FnMut(f64) -> (f64, T),
+        keep: impl FnMut(T),
+    ) {
+        let (Some(&from), Some(&to)) = (ends.first(), ends.last()) else {
+            return;
+        };
         match self {
             Spacing::AsNeeded(part) => Look::along(ends, part * peak, at).needed().for_each(keep),
             Spacing::Even(count) => {
                 let count = count.max(1);
-                let place = |step| if step == count { to } else { from + (to - from) * step as f64 / count as f64 };
+                let place = |step| {
+                    if step == count {
+                        to
+                    } else {
+                        from + (to - from) * step as f64 / count as f64
+                    }
+                };
                 (0..=count).map(|step| at(place(step)).1).for_each(keep);
             }
         }
@@ -73,17 +90,26 @@ mod tests {
             (line - f(ends[0] * (1.0 - part) + ends[1] * part)).abs()
         };
         let parts = (0..=64).map(|step| f64::from(step) / 64.0);
-        places.windows(2).flat_map(|ends| parts.clone().map(move |part| off(ends, part))).fold(0.0, f64::max)
+        places
+            .windows(2)
+            .flat_map(|ends| parts.clone().map(move |part| off(ends, part)))
+            .fold(0.0, f64::max)
     }
 
     #[test]
     fn even_places_have_both_ends() {
-        assert_eq!(places(Spacing::Even(4), &[0.0, 1.2, 2.0], |_| 0.0), [0.0, 0.5, 1.0, 1.5, 2.0]);
+        assert_eq!(
+            places(Spacing::Even(4), &[0.0, 1.2, 2.0], |_| 0.0),
+            [0.0, 0.5, 1.0, 1.5, 2.0]
+        );
     }
 
     #[test]
     fn a_straight_curve_takes_its_ends_alone() {
-        assert_eq!(places(Spacing::AsNeeded(1e-3), &[2.0, 0.0], |x| 3.0 * x), [2.0, 0.0]);
+        assert_eq!(
+            places(Spacing::AsNeeded(1e-3), &[2.0, 0.0], |x| 3.0 * x),
+            [2.0, 0.0]
+        );
     }
 
     #[test]
@@ -91,10 +117,18 @@ mod tests {
         let curves: [(&str, Curve); 6] = [
             ("an arch", |x| x * (2.0 - x)),
             ("a swing", |x| (3.0 * x).sin()),
-            ("a bend just after the beginning", |x| if x < 0.04 { 10.0 * x } else { 0.4 + 0.1 * (x - 0.04) }),
+            ("a bend just after the beginning", |x| {
+                if x < 0.04 {
+                    10.0 * x
+                } else {
+                    0.4 + 0.1 * (x - 0.04)
+                }
+            }),
             ("a bend", |x| (x - 1.23).abs()),
             ("a steep beginning", |x: f64| (0.5 * x).powf(0.75)),
-            ("a swing that dies away", |x| (40.0 * x).sin() * (-3.0 * x).exp()),
+            ("a swing that dies away", |x| {
+                (40.0 * x).sin() * (-3.0 * x).exp()
+            }),
         ];
         for (name, curve) in curves {
             for tolerance in [1e-1, 1e-2, 1e-3, 1e-4] {
@@ -102,7 +136,11 @@ mod tests {
                 let off = worst(&found, curve);
                 assert!(off <= tolerance, "{name}: {off:e} for {tolerance:e}");
                 let fewest = fewest(curve, tolerance);
-                assert!(2 * (found.len() - 1) <= 3 * fewest + 3, "{name}, {tolerance:e}: {} for {fewest}", found.len() - 1);
+                assert!(
+                    2 * (found.len() - 1) <= 3 * fewest + 3,
+                    "{name}, {tolerance:e}: {} for {fewest}",
+                    found.len() - 1
+                );
             }
         }
     }
@@ -114,7 +152,10 @@ mod tests {
         let (mut from, mut count) = (0, 0);
         while from < LOOKS {
             let serves = |&to: &usize| worst(&[at(from), at(to)], curve) <= tolerance;
-            from = (from + 1..=LOOKS).take_while(|to| serves(to) || *to == from + 1).last().unwrap_or(LOOKS);
+            from = (from + 1..=LOOKS)
+                .take_while(|to| serves(to) || *to == from + 1)
+                .last()
+                .unwrap_or(LOOKS);
             count += 1;
         }
         count
@@ -122,7 +163,9 @@ mod tests {
 
     #[test]
     fn the_highest_place_is_a_station() {
-        let found = places(Spacing::AsNeeded(0.1), &[0.0, 0.3, 2.0], |x| 1.0 - (x - 0.3).powi(2));
+        let found = places(Spacing::AsNeeded(0.1), &[0.0, 0.3, 2.0], |x| {
+            1.0 - (x - 0.3).powi(2)
+        });
         assert!(found.contains(&0.3), "{found:?}");
     }
 

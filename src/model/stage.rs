@@ -83,7 +83,10 @@ impl Stage {
             Stage::Deviation | Stage::Mesh => Stages::NONE.with(Stage::Geometry).with(Stage::Load),
             Stage::Position => Stages::NONE.with(Stage::Deviation),
             // What the method does not have falls away.
-            Stage::Clearing => Stages::NONE.with(Stage::Deviation).with(Stage::Static).with(Stage::Dynamic),
+            Stage::Clearing => Stages::NONE
+                .with(Stage::Deviation)
+                .with(Stage::Static)
+                .with(Stage::Dynamic),
             Stage::Velocity | Stage::Compliance => Stages::NONE.with(Stage::Position),
             Stage::Impact => Stages::NONE.with(Stage::Velocity).with(Stage::Compliance),
             Stage::Friction | Stage::Band | Stage::Stations => Stages::NONE.with(Stage::Impact),
@@ -103,7 +106,9 @@ impl Stages {
     /// Every stage of the methods `paper` and `exact`, but for the least relief.
     pub const ALL: Stages = Stages::CLOSED_FORM.with(Stage::Band).with(Stage::Stations);
     /// The stages that give stations, each in its methods.
-    pub const STATIONS: Stages = Stages::of(Stage::Stations).and(Stages::of(Stage::Static)).with(Stage::Dynamic);
+    pub const STATIONS: Stages = Stages::of(Stage::Stations)
+        .and(Stages::of(Stage::Static))
+        .with(Stage::Dynamic);
     /// Every stage there is.
     pub const EVERY: Stages = Stages::ALL.and(Stages::of(Stage::Clearing));
 

@@ -22,8 +22,8 @@ pub struct StaticLoad {
     pub peak_force: f64,
     /// Greatest less least displacement of the driver ahead while the incoming tooth carries, in m.
     pub transmission_error: f64,
-    /// By how much the forces of all pairs together change where the incoming tooth passes the pitch point, in N; with
-    /// friction alone.
+    /// By how much the forces of all pairs together change where the incoming tooth passes the
+    /// pitch point, in N; with friction alone.
     pub pitch_jump: Option<f64>,
     /// From the first contact through E to the last.
     pub stations: Vec<MeshStation>,
@@ -53,12 +53,14 @@ struct Contact {
 /// ```text
 /// Σ w_k F_k(x) = F0,   F_k = b/q(s_k) max(0, x + e_k − S(s_k)),   w_k = 1 − μ sgn(ΔVτ) ρ1/rb1
 /// ```
-/// The weights are those of the driver's own balance: on the way to the pitch point the friction of a pair turns the driver
-/// on, after it back, so that the forces jump there. Without friction they are 1.
+/// The weights are those of the driver's own balance: on the way to the pitch point the friction of
+/// a pair turns the driver on, after it back, so that the forces jump there. Without friction they
+/// are 1.
 ///
 /// # Source
-/// Compliances of Zhou & Chen 2014, Eqs. 53-56; the third kind of impact friction in its introduction is the jump at the
-/// pitch point. Balance of parallel springs with gaps: for example Seireg & Houser 1970.
+/// Compliances of Zhou & Chen 2014, Eqs. 53-56; the third kind of impact friction in its
+/// introduction is the jump at the pitch point. Balance of parallel springs with gaps: for example
+/// Seireg & Houser 1970.
 ///
 /// # Valid for
 /// A speed so low that no pair swings; any contact ratio.
@@ -71,12 +73,19 @@ pub fn static_load(mesh: &Mesh, spacing: Spacing) -> Result<StaticLoad, Refusal>
     let Some(contact) = contact(mesh, &grid)? else {
         return Ok(StaticLoad::none());
     };
-    let on_the_way: Vec<f64> = grid.into_iter().filter(|&s| s > contact.first && s < contact.last).collect();
-    let balances: Vec<(f64, Balance)> = on_the_way.iter().map(|&s| (s, balance(mesh, s, s))).collect();
+    let on_the_way: Vec<f64> = grid
+        .into_iter()
+        .filter(|&s| s > contact.first && s < contact.last)
+        .collect();
+    let balances: Vec<(f64, Balance)> = on_the_way
+        .iter()
+        .map(|&s| (s, balance(mesh, s, s)))
+        .collect();
     let peak_force = peak(mesh, &balances, |balance| balance.force);
     Ok(StaticLoad {
         first_contact_angle: (contact.first < 0.0).then(|| -contact.first / mesh.base_radii.1),
-        last_contact_angle: (contact.last > mesh.length).then(|| (contact.last - mesh.length) / mesh.base_radii.0),
+        last_contact_angle: (contact.last > mesh.length)
+            .then(|| (contact.last - mesh.length) / mesh.base_radii.0),
         force_at_start: balance(mesh, 0.0, 0.0).force,
         peak_force,
         transmission_error: peak(mesh, &balances, |balance| balance.displacement)
@@ -107,8 +116,8 @@ pub fn balance(mesh: &Mesh, s: f64, inside: f64) -> Balance {
     shared(mesh.pairs(s, inside), mesh.force)
 }
 
-/// The displacement at which the springs together balance the force, found by taking in one pair after the other, the
-/// smallest gap first.
+/// The displacement at which the springs together balance the force, found by taking in one pair
+/// after the other, the smallest gap first.
 fn shared(pairs: impl Iterator<Item = Pair>, force: f64) -> Balance {
     let mut pairs: Vec<Pair> = pairs.collect();
     pairs.sort_by(|one, other| one.place.gap.total_cmp(&other.place.gap));
@@ -123,7 +132,11 @@ fn shared(pairs: impl Iterator<Item = Pair>, force: f64) -> Balance {
     }
     let force = |pair: &Pair| carried(pair, displacement);
     let incoming = pairs.iter().find(|pair| pair.ahead == 0);
-    Balance { displacement, force: incoming.map_or(0.0, force), total: pairs.iter().map(force).sum() }
+    Balance {
+        displacement,
+        force: incoming.map_or(0.0, force),
+        total: pairs.iter().map(force).sum(),
+    }
 }
 
 /// The force of a pair at that displacement of the driver ahead, in N.
@@ -133,7 +146,10 @@ pub(super) fn carried(pair: &Pair, displacement: f64) -> f64 {
 
 /// By how much the others' displacement is beyond the incoming pair's gap: above 0 it carries.
 fn lead(mesh: &Mesh, s: f64) -> f64 {
-    let gap = mesh.pairs(s, s).find(|pair| pair.ahead == 0).map_or(f64::INFINITY, |pair| pair.place.gap);
+    let gap = mesh
+        .pairs(s, s)
+        .find(|pair| pair.ahead == 0)
+        .map_or(f64::INFINITY, |pair| pair.place.gap);
     let others = shared(mesh.pairs(s, s).filter(|pair| pair.ahead != 0), mesh.force);
     (others.displacement - gap).clamp(-mesh.length, mesh.length)
 }
@@ -148,15 +164,19 @@ fn grid(mesh: &Mesh, from: f64, to: f64) -> Vec<f64> {
     borders.windows(2).flat_map(between).chain([to]).collect()
 }
 
-/// By how much the other pairs' displacement is beyond the incoming pair's gap before E, at most, in m: above 0 it touches
-/// before E, below it is the gap that is left.
+/// By how much the other pairs' displacement is beyond the incoming pair's gap before E, at most,
+/// in m: above 0 it touches before E, below it is the gap that is left.
 ///
 /// # Errors
 /// [`Refusal::BeyondReach`] where the pairs yield further than the mesh is known.
 pub fn lead_before_start(mesh: &Mesh) -> Result<f64, Refusal> {
     let leads = leads(mesh, &grid(mesh, mesh.ends().0, 0.0));
     let has_end = leads.first().is_some_and(|&(_, lead)| lead <= 0.0);
-    if has_end { Ok(foremost(mesh, &leads).1) } else { Err(Refusal::BeyondReach) }
+    if has_end {
+        Ok(foremost(mesh, &leads).1)
+    } else {
+        Err(Refusal::BeyondReach)
+    }
 }
 
 fn leads(mesh: &Mesh, places: &[f64]) -> Vec<(f64, f64)> {
@@ -180,20 +200,34 @@ fn contact(mesh: &Mesh, grid: &[f64]) -> Result<Option<Contact>, Refusal> {
         leads.insert(at, foremost);
     }
     let carries = |index: &usize| leads[*index].1 > 0.0;
-    let (Some(first), Some(last)) = ((0..leads.len()).find(carries), (0..leads.len()).rfind(carries)) else {
+    let (Some(first), Some(last)) = (
+        (0..leads.len()).find(carries),
+        (0..leads.len()).rfind(carries),
+    ) else {
         return Ok(None);
     };
     if first == 0 || last + 1 == leads.len() {
         return Err(Refusal::BeyondReach);
     }
-    let touch = |from: usize, to: usize| root::between(leads[from].0, leads[to].0, |s| lead(mesh, s));
-    Ok(Some(Contact { first: touch(first - 1, first), last: touch(last, last + 1) }))
+    let touch =
+        |from: usize, to: usize| root::between(leads[from].0, leads[to].0, |s| lead(mesh, s));
+    Ok(Some(Contact {
+        first: touch(first - 1, first),
+        last: touch(last, last + 1),
+    }))
 }
 
 /// The greatest value over the contact.
 fn peak(mesh: &Mesh, balances: &[(f64, Balance)], value: impl Fn(&Balance) -> f64) -> f64 {
-    let known: Vec<(f64, f64)> = balances.iter().map(|(s, balance)| (*s, value(balance))).collect();
-    if known.is_empty() { 0.0 } else { greatest(&known, |s| value(&balance(mesh, s, s))).1 }
+    let known: Vec<(f64, f64)> = balances
+        .iter()
+        .map(|(s, balance)| (*s, value(balance)))
+        .collect();
+    if known.is_empty() {
+        0.0
+    } else {
+        greatest(&known, |s| value(&balance(mesh, s, s))).1
+    }
 }
 
 /// The greatest value and its place: the best of the known places, improved between its neighbours.
@@ -201,15 +235,23 @@ fn greatest(known: &[(f64, f64)], at: impl Fn(f64) -> f64) -> (f64, f64) {
     const STEPS: usize = 60;
     const GOLDEN: f64 = 0.618_033_988_749_894_8;
     let best = (0..known.len()).max_by(|&one, &other| known[one].1.total_cmp(&known[other].1));
-    let Some(best) = best else { return (0.0, f64::NEG_INFINITY) };
-    let (mut from, mut to) = (known[best.saturating_sub(1)].0, known[(best + 1).min(known.len() - 1)].0);
+    let Some(best) = best else {
+        return (0.0, f64::NEG_INFINITY);
+    };
+    let (mut from, mut to) = (
+        known[best.saturating_sub(1)].0,
+        known[(best + 1).min(known.len() - 1)].0,
+    );
     let mut highest = known[best];
     let (mut left, mut right) = (to - GOLDEN * (to - from), from + GOLDEN * (to - from));
     let (mut at_left, mut at_right) = (at(left), at(right));
     for _ in 0..STEPS {
         highest = [(left, at_left), (right, at_right)]
             .into_iter()
-            .fold(highest, |one, other| if other.1 > one.1 { other } else { one });
+            .fold(
+                highest,
+                |one, other| if other.1 > one.1 { other } else { one },
+            );
         if at_left > at_right {
             (to, right, at_right) = (right, left, at_left);
             left = to - GOLDEN * (to - from);
@@ -223,7 +265,8 @@ fn greatest(known: &[(f64, f64)], at: impl Fn(f64) -> f64) -> (f64, f64) {
     highest
 }
 
-/// What all pairs carry just after the incoming one passes the pitch point, less what they carried just before.
+/// What all pairs carry just after the incoming one passes the pitch point, less what they carried
+/// just before.
 fn pitch_jump(mesh: &Mesh) -> Option<f64> {
     let pitch_point = mesh.pitch_point()?;
     let aside = 1e-9 * mesh.base_pitch;
@@ -236,7 +279,17 @@ fn stations(mesh: &Mesh, contact: Contact, peak: f64, spacing: Spacing) -> Vec<M
     MeshStation::through_start(contact.first, contact.last, |from, to| {
         spacing.stations(&[from, to], peak, |s| {
             let balance = balance(mesh, s, s);
-            (balance.force, MeshStation::at(mesh, s, balance.force, balance.total, balance.displacement, None))
+            (
+                balance.force,
+                MeshStation::at(
+                    mesh,
+                    s,
+                    balance.force,
+                    balance.total,
+                    balance.displacement,
+                    None,
+                ),
+            )
         })
     })
 }

@@ -7,7 +7,7 @@ use super::inputs::Inputs;
 use super::mesh::Mesh;
 use super::position::Position;
 use super::spacing::Spacing;
-use super::tip::{gap_without, tip_at};
+use super::tip_gap::{gap_without, tip_at};
 use super::{Refusal, velocity};
 
 /// The gap in closed form may lose this factor of its digits before the quadrature serves.
@@ -49,7 +49,8 @@ pub struct MeshStation {
     pub load_share: f64,
     /// Displacement of the driver ahead along the line of action, in m.
     pub transmission_error: f64,
-    /// Approach velocity of the incoming pair without load, −dS/dt, in m/s; below 0 where tip and flank part.
+    /// Approach velocity of the incoming pair without load, −dS/dt, in m/s; below 0 where tip and
+    /// flank part.
     pub normal_velocity: f64,
     /// Its sliding velocity, in m/s.
     pub sliding_velocity: f64,
@@ -64,7 +65,8 @@ pub struct MeshStation {
 }
 
 impl MeshStation {
-    /// Stations from `first` to E, which is at 0, and from there to `last`; where the first is not before E, from it.
+    /// Stations from `first` to E, which is at 0, and from there to `last`; where the first is not
+    /// before E, from it.
     pub(super) fn through_start(
         first: f64,
         last: f64,
@@ -79,7 +81,14 @@ impl MeshStation {
     }
 
     /// The station at which the incoming pair stands `s` after E.
-    pub(super) fn at(mesh: &Mesh, s: f64, force: f64, total: f64, displacement: f64, time: Option<f64>) -> MeshStation {
+    pub(super) fn at(
+        mesh: &Mesh,
+        s: f64,
+        force: f64,
+        total: f64,
+        displacement: f64,
+        time: Option<f64>,
+    ) -> MeshStation {
         let (own, slope) = mesh.incoming(s);
         MeshStation {
             roll_angle_driver: 0.0 - s / mesh.base_radii.0,
@@ -98,10 +107,12 @@ impl MeshStation {
 }
 
 /// The impact at stations over the driven gear's angle, from D (first) to E (last, force 0). A
-/// station whose force cannot be computed is left out, and the first refusal stands beside the rest.
+/// station whose force cannot be computed is left out, and the first refusal stands beside the
+/// rest.
 ///
 /// # Source
-/// Zhou & Chen 2014, Eqs. 58-60; Eq. 60 mended to the law of cosines: as printed, O₁J would lie inside the base circle.
+/// Zhou & Chen 2014, Eqs. 58-60; Eq. 60 mended to the law of cosines: as printed, O₁J would lie
+/// inside the base circle.
 #[must_use]
 pub fn stations(
     inputs: &Inputs,
@@ -114,12 +125,22 @@ pub fn stations(
     let mut found = Vec::with_capacity(spacing.count().map_or(0, |count| count + 1));
     let at = |angle: f64| {
         let station = station(inputs, geometry, masses, angle);
-        (station.as_ref().map_or(f64::NAN, |station| station.impact_force), station)
+        (
+            station
+                .as_ref()
+                .map_or(f64::NAN, |station| station.impact_force),
+            station,
+        )
     };
-    spacing.walk(&[position.approach_angle_driven, 0.0], peak, at, |station| match station {
-        Ok(station) => found.push(station),
-        Err(refusal) => refused = refused.or(Some(refusal)),
-    });
+    spacing.walk(
+        &[position.approach_angle_driven, 0.0],
+        peak,
+        at,
+        |station| match station {
+            Ok(station) => found.push(station),
+            Err(refusal) => refused = refused.or(Some(refusal)),
+        },
+    );
     (found, refused)
 }
 
@@ -127,11 +148,20 @@ pub fn stations(
 ///
 /// # Errors
 /// The [`Refusal`] of the stage that has no force there.
-pub fn station(inputs: &Inputs, geometry: &Geometry, masses: &Masses, angle: f64) -> Result<Station, Refusal> {
+pub fn station(
+    inputs: &Inputs,
+    geometry: &Geometry,
+    masses: &Masses,
+    angle: f64,
+) -> Result<Station, Refusal> {
     let tip = tip_at(geometry, angle);
     let velocity = velocity::velocity(inputs, &tip);
     let struck = if angle > 0.0 {
-        let teeth = compliance::teeth(inputs, geometry, &ContactPlace::at_tip(inputs, geometry, &tip))?;
+        let teeth = compliance::teeth(
+            inputs,
+            geometry,
+            &ContactPlace::at_tip(inputs, geometry, &tip),
+        )?;
         Some(impact(inputs, geometry, masses, &tip, &teeth, &velocity)?)
     } else {
         None

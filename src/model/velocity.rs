@@ -1,7 +1,7 @@
 //! How fast the tip approaches the flank and slides on it.
 
 use super::inputs::Inputs;
-use super::tip::TipContact;
+use super::tip_gap::TipContact;
 
 /// Velocities at D.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,16 +23,21 @@ pub struct Velocity {
 /// ΔVn = ω1 rb1 − ω2 rb2' = ω2 (rb2 − rb2')
 /// ΔVτ = ω2 N2'D − ω1 N1'D = ω2 (N2'D − i ρ1)
 /// ```
-/// where both arms come from [`tip_at`](super::tip::tip_at) as increments; as differences of finished products
-/// both velocities would lose their digits close to E and to the pitch point.
+/// where both arms come from [`tip_at`](super::tip_gap::tip_at) as increments; as differences of
+/// finished products both velocities would lose their digits close to E and to the pitch point.
 ///
 /// # Source
-/// Zhou & Chen 2014, Eqs. 21-28. Eq. 27 is mended to the law of cosines: as printed, ΔV_n at E would be 1.32 m/s for
-/// its Table 1 where it must be 0. Eq. 22 is ΔV_Dτ, whatever its label.
+/// Zhou & Chen 2014, Eqs. 21-28. Eq. 27 is mended to the law of cosines: as printed, ΔV_n at E
+/// would be 1.32 m/s for its Table 1 where it must be 0. Eq. 22 is ΔV_Dτ, whatever its label.
 #[must_use]
 pub fn velocity(inputs: &Inputs, tip: &TipContact) -> Velocity {
     let driven_speed = inputs.driven_speed();
     let normal = driven_speed * tip.normal_radius_drop;
     let sliding = driven_speed * tip.sliding_arm;
-    Velocity { normal, sliding, transit_time: tip.angle / driven_speed, stick_limit: sliding / (2.0 * normal) }
+    Velocity {
+        normal,
+        sliding,
+        transit_time: tip.angle / driven_speed,
+        stick_limit: sliding / (2.0 * normal),
+    }
 }

@@ -1,4 +1,5 @@
-//! Where a polynomial changes its sign between 0 and 1, none missed: by Bernstein's form, whose coefficients bound it.
+//! Where a polynomial changes its sign between 0 and 1, none missed: by Bernstein's form, whose
+//! coefficients bound it.
 
 use super::polynomial::Polynomial;
 use super::root;
@@ -8,7 +9,8 @@ const SIDE_BY_SIDE: usize = 4;
 /// A part of the way is halved no further: two changes that are nearer to each other are none.
 const MOST_HALVINGS: u32 = 30;
 
-/// Σ b_i C(N−1, i) t^i (1−t)^(N−1−i): on the way from 0 to 1 it lies between the least and the greatest b.
+/// Σ b_i C(N−1, i) t^i (1−t)^(N−1−i): on the way from 0 to 1 it lies between the least and the
+/// greatest b.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bernstein<const N: usize>([f64; N]);
 
@@ -19,16 +21,27 @@ impl<const N: usize> Bernstein<N> {
     /// The form of a polynomial.
     ///
     /// # Source
-    /// Farouki & Rajan 1987, "On the numerical condition of polynomials in Bernstein form", Computer Aided Geometric
-    /// Design 4, Eq. 6.
+    /// Farouki & Rajan 1987, "On the numerical condition of polynomials in Bernstein form",
+    /// Computer Aided Geometric Design 4, Eq. 6.
     #[must_use]
     pub fn of(polynomial: &Polynomial<N>) -> Bernstein<N> {
         const { assert!(N.is_multiple_of(SIDE_BY_SIDE), "coefficients go by fours") };
         let (terms, mut form) = (polynomial.terms(), [0.0; N]);
-        for (part, sums) in form.as_chunks_mut::<SIDE_BY_SIDE>().0.iter_mut().enumerate() {
-            for (coefficient, weights) in terms.iter().zip(Self::WEIGHTS).take(SIDE_BY_SIDE * (part + 1)) {
+        for (part, sums) in form
+            .as_chunks_mut::<SIDE_BY_SIDE>()
+            .0
+            .iter_mut()
+            .enumerate()
+        {
+            for (coefficient, weights) in terms
+                .iter()
+                .zip(Self::WEIGHTS)
+                .take(SIDE_BY_SIDE * (part + 1))
+            {
                 let weights = &weights.as_chunks::<SIDE_BY_SIDE>().0[part];
-                sums.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += coefficient * weight);
+                sums.iter_mut()
+                    .zip(weights)
+                    .for_each(|(sum, weight)| *sum += coefficient * weight);
             }
         }
         Bernstein(form)
@@ -37,7 +50,11 @@ impl<const N: usize> Bernstein<N> {
     /// No value is below the first and none above the second.
     #[must_use]
     pub fn bounds(&self) -> (f64, f64) {
-        self.0.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| (low.min(value), high.max(value)))
+        self.0
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| {
+                (low.min(value), high.max(value))
+            })
     }
 
     /// The form on the first and on the second half of the way, by de Casteljau's means.
@@ -70,12 +87,13 @@ const fn weights<const N: usize>() -> [[f64; N]; N] {
     weights
 }
 
-/// Where a polynomial that is not below 0 at 0 first falls below it, where it does by 1; at once where it is below 0 at 0.
+/// Where a polynomial that is not below 0 at 0 first falls below it, where it does by 1; at once
+/// where it is below 0 at 0.
 ///
 /// # Source
-/// Descartes' rule on Bernstein's form: as many changes of sign as the coefficients have, or fewer by an even number, so
-/// that none and one are certain; more of them are looked at by halves. Lane & Riesenfeld 1981, "Bounds on a polynomial",
-/// BIT 21.
+/// Descartes' rule on Bernstein's form: as many changes of sign as the coefficients have, or fewer
+/// by an even number, so that none and one are certain; more of them are looked at by halves. Lane
+/// & Riesenfeld 1981, "Bounds on a polynomial", BIT 21.
 #[must_use]
 pub fn first_fall<const N: usize>(polynomial: &Polynomial<N>) -> Option<f64> {
     let form = Bernstein::of(polynomial);
@@ -83,12 +101,18 @@ pub fn first_fall<const N: usize>(polynomial: &Polynomial<N>) -> Option<f64> {
         return None;
     }
     let (mut first, mut sign) = (None, 1);
-    let mut search = Search { polynomial, floor: 0.0, sign: &mut sign, found: &mut |at| first.replace(at).is_some() };
+    let mut search = Search {
+        polynomial,
+        floor: 0.0,
+        sign: &mut sign,
+        found: &mut |at| first.replace(at).is_some(),
+    };
     search.within(&form, 0.0, 1.0, MOST_HALVINGS);
     first
 }
 
-/// Every place between 0 and 1 where it changes its sign, in order; what is no more than rounding has none.
+/// Every place between 0 and 1 where it changes its sign, in order; what is no more than rounding
+/// has none.
 #[must_use]
 pub fn sign_changes<const N: usize>(polynomial: &Polynomial<N>) -> Vec<f64> {
     const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -100,7 +124,12 @@ pub fn sign_changes<const N: usize>(polynomial: &Polynomial<N>) -> Vec<f64> {
             all.push(at);
             true
         };
-        let mut search = Search { polynomial, floor: ROUNDING * high.max(-low), sign: &mut sign, found: &mut keep };
+        let mut search = Search {
+            polynomial,
+            floor: ROUNDING * high.max(-low),
+            sign: &mut sign,
+            found: &mut keep,
+        };
         search.within(&form, 0.0, 1.0, MOST_HALVINGS);
     }
     all
@@ -129,19 +158,28 @@ impl<const N: usize> Search<'_, N> {
             _ => {
                 let (left, right) = form.halves();
                 let middle = f64::midpoint(from, to);
-                return self.within(&left, from, middle, halvings - 1) && self.within(&right, middle, to, halvings - 1);
+                return self.within(&left, from, middle, halvings - 1)
+                    && self.within(&right, middle, to, halvings - 1);
             }
         };
         *self.sign = last;
         go_on
     }
 
-    /// Whether the first coefficient with a sign has another than the last one seen, how often it changes from there on, and
-    /// the last one then.
+    /// Whether the first coefficient with a sign has another than the last one seen, how often it
+    /// changes from there on, and the last one then.
     fn changes(&self, form: &Bernstein<N>) -> (bool, usize, i8) {
-        let mut signs = form.0.iter().filter(|value| value.abs() > self.floor).map(|&value| if value > 0.0 { 1 } else { -1 });
-        let Some(first) = signs.next() else { return (false, 0, *self.sign) };
-        let (inside, last) = signs.fold((0, first), |(inside, last), sign| (inside + usize::from(sign != last), sign));
+        let mut signs = form
+            .0
+            .iter()
+            .filter(|value| value.abs() > self.floor)
+            .map(|&value| if value > 0.0 { 1 } else { -1 });
+        let Some(first) = signs.next() else {
+            return (false, 0, *self.sign);
+        };
+        let (inside, last) = signs.fold((0, first), |(inside, last), sign| {
+            (inside + usize::from(sign != last), sign)
+        });
         (*self.sign == -first, inside, last)
     }
 }
@@ -154,7 +192,9 @@ mod tests {
     fn with_roots<const N: usize>(factor: f64, roots: &[f64]) -> Polynomial<N> {
         let mut product = Polynomial::ZERO;
         product.0[0] = factor;
-        roots.iter().fold(product, |product, root| product.times(&Polynomial([-root, 1.0])))
+        roots.iter().fold(product, |product, root| {
+            product.times(&Polynomial([-root, 1.0]))
+        })
     }
 
     #[test]
@@ -162,7 +202,10 @@ mod tests {
         let cases: [(&[f64], &[f64]); 6] = [
             (&[-0.3, 1.2, 5.0], &[]),
             (&[0.25], &[0.25]),
-            (&[0.5, 0.5 + 1e-5, 0.75, -2.0, 1.001], &[0.5, 0.5 + 1e-5, 0.75]),
+            (
+                &[0.5, 0.5 + 1e-5, 0.75, -2.0, 1.001],
+                &[0.5, 0.5 + 1e-5, 0.75],
+            ),
             (&[0.1, 0.3, 0.3, 0.9, 0.95, 0.97], &[0.1, 0.9, 0.95, 0.97]),
             (&[0.5, 0.5, 0.5], &[0.5]),
             (&[0.4, 0.6, 0.4 + 1e-12], &[0.6]),
@@ -172,7 +215,10 @@ mod tests {
                 let found = sign_changes(&with_roots::<12>(factor, roots));
                 assert_eq!(found.len(), expected.len(), "{roots:?}: {found:?}");
                 for (found, expected) in found.iter().zip(expected) {
-                    assert!((found - expected).abs() < 1e-9, "{roots:?}: {found} and not {expected}");
+                    assert!(
+                        (found - expected).abs() < 1e-9,
+                        "{roots:?}: {found} and not {expected}"
+                    );
                 }
             }
         }
@@ -184,7 +230,10 @@ mod tests {
         assert!((first_fall(&dip).unwrap() - 0.3).abs() < 1e-10);
         let touches = with_roots::<12>(1.0, &[0.4, 0.4]).plus(1e-9, &Polynomial([1.0]));
         assert_eq!(first_fall(&touches), None);
-        assert_eq!(first_fall(&with_roots::<12>(1.0, &[0.25, 2.0]).scaled(-1.0)), Some(0.0));
+        assert_eq!(
+            first_fall(&with_roots::<12>(1.0, &[0.25, 2.0]).scaled(-1.0)),
+            Some(0.0)
+        );
         assert_eq!(first_fall(&with_roots::<12>(1.0, &[-1.0, -0.1])), None);
         let late = first_fall(&with_roots::<12>(1.0, &[0.999, 1.5])).unwrap();
         assert!((late - 0.999).abs() < 1e-12, "{late}");
@@ -196,7 +245,10 @@ mod tests {
         let (low, high) = Bernstein::of(&polynomial).bounds();
         for step in 0..=100 {
             let value = polynomial.at(0.01 * f64::from(step));
-            assert!(value >= low && value <= high, "{value} beyond {low} and {high}");
+            assert!(
+                value >= low && value <= high,
+                "{value} beyond {low} and {high}"
+            );
         }
     }
 }

@@ -1,5 +1,5 @@
-//! Functions of one variable as polynomials on pieces, found as Chebyshev series, cheap to evaluate and as exact as the
-//! digits allow.
+//! Functions of one variable as polynomials on pieces, found as Chebyshev series, cheap to evaluate
+//! and as exact as the digits allow.
 
 use std::array::from_fn;
 use std::f64::consts::PI;
@@ -26,8 +26,8 @@ pub struct Series<const N: usize> {
 struct Piece<const N: usize> {
     from: f64,
     to: f64,
-    /// Coefficients of the powers of the place on the piece from −1 to 1. The terms of a series that has settled fall so
-    /// fast that the powers keep its digits.
+    /// Coefficients of the powers of the place on the piece from −1 to 1. The terms of a series
+    /// that has settled fall so fast that the powers keep its digits.
     powers: Terms<N>,
 }
 
@@ -35,11 +35,12 @@ struct Piece<const N: usize> {
 type Terms<const N: usize> = [[f64; N]; TERMS];
 
 /// cos(k π/(2 TERMS)) over a whole turn.
-static COSINES: LazyLock<[f64; 4 * TERMS]> = LazyLock::new(|| from_fn(|k| (k as f64 * PI / (2 * TERMS) as f64).cos()));
+static COSINES: LazyLock<[f64; 4 * TERMS]> =
+    LazyLock::new(|| from_fn(|k| (k as f64 * PI / (2 * TERMS) as f64).cos()));
 
 impl<const N: usize> Series<N> {
-    /// The functions `f` from `from` to `to`, halved until the last terms of each series are below what `rest` allows on
-    /// the piece from one end to the other.
+    /// The functions `f` from `from` to `to`, halved until the last terms of each series are below
+    /// what `rest` allows on the piece from one end to the other.
     ///
     /// # Source
     /// Trefethen 2013, "Approximation Theory and Approximation Practice", chapters 3 and 4.
@@ -60,13 +61,17 @@ impl<const N: usize> Series<N> {
     /// The values of the first `M` functions at `x`; outside the interval its end pieces go on.
     #[must_use]
     pub fn at<const M: usize>(&self, x: f64) -> [f64; M] {
-        self.piece(x).map_or([f64::NAN; M], |piece| values(&piece.powers, 0, piece.inner(x)))
+        self.piece(x).map_or([f64::NAN; M], |piece| {
+            values(&piece.powers, 0, piece.inner(x))
+        })
     }
 
     /// The value of one function at `x`.
     #[must_use]
     pub fn one(&self, function: usize, x: f64) -> f64 {
-        let [value] = self.piece(x).map_or([f64::NAN], |piece| values(&piece.powers, function, piece.inner(x)));
+        let [value] = self.piece(x).map_or([f64::NAN], |piece| {
+            values(&piece.powers, function, piece.inner(x))
+        });
         value
     }
 
@@ -76,31 +81,48 @@ impl<const N: usize> Series<N> {
         self.piece(x).map_or(f64::NAN, |piece| {
             let t = piece.inner(x);
             let terms = piece.powers.iter().enumerate().skip(1).rev();
-            terms.fold(0.0, |sum, (power, terms)| sum * t + power as f64 * terms[function]) * 2.0 / (piece.to - piece.from)
+            terms.fold(0.0, |sum, (power, terms)| {
+                sum * t + power as f64 * terms[function]
+            }) * 2.0
+                / (piece.to - piece.from)
         })
     }
 
-    /// `M` functions, from `first` on, over the way from `x` up by `length`, as polynomials of the part of it: those of the
-    /// piece that serves there by [`Series::serves_until`], about another place.
+    /// `M` functions, from `first` on, over the way from `x` up by `length`, as polynomials of the
+    /// part of it: those of the piece that serves there by [`Series::serves_until`], about another
+    /// place.
     #[must_use]
-    pub fn local<const M: usize>(&self, first: usize, (x, least): (f64, f64), length: f64) -> [Polynomial<TERMS>; M] {
-        self.piece_above(x, least).map_or([Polynomial([f64::NAN; TERMS]); M], |piece| {
-            let scale = 2.0 * length / (piece.to - piece.from);
-            about::<N, M>(&piece.powers, first, piece.inner(x)).map(|powers| Polynomial(powers).stretched(scale))
-        })
+    pub fn local<const M: usize>(
+        &self,
+        first: usize,
+        (x, least): (f64, f64),
+        length: f64,
+    ) -> [Polynomial<TERMS>; M] {
+        self.piece_above(x, least)
+            .map_or([Polynomial([f64::NAN; TERMS]); M], |piece| {
+                let scale = 2.0 * length / (piece.to - piece.from);
+                about::<N, M>(&piece.powers, first, piece.inner(x))
+                    .map(|powers| Polynomial(powers).stretched(scale))
+            })
     }
 
-    /// Where the piece ends that serves from `x` up, of which more than `least` is left; infinite for the last.
+    /// Where the piece ends that serves from `x` up, of which more than `least` is left; infinite
+    /// for the last.
     #[must_use]
     pub fn serves_until(&self, x: f64, least: f64) -> f64 {
         let last = self.pieces.last().map_or(f64::NAN, |piece| piece.from);
-        self.piece_above(x, least).filter(|piece| piece.from < last).map_or(f64::INFINITY, |piece| piece.to)
+        self.piece_above(x, least)
+            .filter(|piece| piece.from < last)
+            .map_or(f64::INFINITY, |piece| piece.to)
     }
 
     /// The integral of one function over the whole interval.
     #[must_use]
     pub fn integral(&self, function: usize) -> f64 {
-        self.pieces.iter().map(|piece| 0.5 * (piece.to - piece.from) * integral(&piece.powers, function)).sum()
+        self.pieces
+            .iter()
+            .map(|piece| 0.5 * (piece.to - piece.from) * integral(&piece.powers, function))
+            .sum()
     }
 
     fn piece(&self, x: f64) -> Option<&Piece<N>> {
@@ -117,7 +139,8 @@ impl<const N: usize> Series<N> {
         if let [only] = self.pieces.as_slice() {
             return Some(only);
         }
-        let is_done = |piece: &Piece<N>| piece.to - x <= least.max(NOTHING * (piece.to - piece.from));
+        let is_done =
+            |piece: &Piece<N>| piece.to - x <= least.max(NOTHING * (piece.to - piece.from));
         let after = self.pieces.partition_point(is_done);
         self.pieces.get(after).or_else(|| self.pieces.last())
     }
@@ -141,15 +164,24 @@ fn halve<const N: usize, E>(
     let terms = interpolate(from, to, f)?;
     let middle = f64::midpoint(from, to);
     if halvings == 0 || pieces.len() >= MOST_PIECES || has_settled(&terms, &rest(from, to)) {
-        pieces.push(Piece { from, to, powers: powers(&terms) });
+        pieces.push(Piece {
+            from,
+            to,
+            powers: powers(&terms),
+        });
         return Ok(());
     }
     halve(from, middle, rest, halvings - 1, f, pieces)?;
     halve(middle, to, rest, halvings - 1, f, pieces)
 }
 
-/// The terms of the polynomials through the function's values at the Chebyshev points of the first kind.
-fn interpolate<const N: usize, E>(from: f64, to: f64, f: &impl Fn(f64) -> Result<[f64; N], E>) -> Result<Terms<N>, E> {
+/// The terms of the polynomials through the function's values at the Chebyshev points of the first
+/// kind.
+fn interpolate<const N: usize, E>(
+    from: f64,
+    to: f64,
+    f: &impl Fn(f64) -> Result<[f64; N], E>,
+) -> Result<Terms<N>, E> {
     let cosines = &*COSINES;
     let mut terms = [[0.0; N]; TERMS];
     for point in 0..TERMS {
@@ -157,7 +189,9 @@ fn interpolate<const N: usize, E>(from: f64, to: f64, f: &impl Fn(f64) -> Result
         let found = f(x)?;
         for (order, sums) in terms.iter_mut().enumerate() {
             let weight = cosines[order * (2 * point + 1) % cosines.len()];
-            sums.iter_mut().zip(found).for_each(|(sum, value)| *sum += value * weight);
+            sums.iter_mut()
+                .zip(found)
+                .for_each(|(sum, value)| *sum += value * weight);
         }
     }
     for (order, sums) in terms.iter_mut().enumerate() {
@@ -169,10 +203,13 @@ fn interpolate<const N: usize, E>(from: f64, to: f64, f: &impl Fn(f64) -> Result
     Ok(terms)
 }
 
-/// Whether the last terms of each function are small enough, or so large that no halving would help.
+/// Whether the last terms of each function are small enough, or so large that no halving would
+/// help.
 fn has_settled<const N: usize>(terms: &Terms<N>, rest: &[f64; N]) -> bool {
     let tail = &terms[TERMS - TAIL..];
-    tail.iter().flat_map(|terms| terms.iter().zip(rest)).all(|(term, rest)| !term.is_finite() || term.abs() <= *rest)
+    tail.iter()
+        .flat_map(|terms| terms.iter().zip(rest))
+        .all(|(term, rest)| !term.is_finite() || term.abs() <= *rest)
 }
 
 /// The coefficients of the powers: Σ c_n T_n(t) = Σ a_k t^k.
@@ -182,18 +219,25 @@ fn powers<const N: usize>(terms: &Terms<N>) -> Terms<N> {
     polynomial[0] = 1.0;
     for (order, terms) in terms.iter().enumerate() {
         for (sums, coefficient) in powers.iter_mut().zip(polynomial) {
-            sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += coefficient * term);
+            sums.iter_mut()
+                .zip(terms)
+                .for_each(|(sum, term)| *sum += coefficient * term);
         }
         // T_1 = t, T_(n+1) = 2 t T_n − T_(n−1).
         let scale = if order == 0 { 1.0 } else { 2.0 };
-        let next = from_fn(|power: usize| power.checked_sub(1).map_or(0.0, |lower| scale * polynomial[lower]) - before[power]);
+        let next = from_fn(|power: usize| {
+            power
+                .checked_sub(1)
+                .map_or(0.0, |lower| scale * polynomial[lower])
+                - before[power]
+        });
         (before, polynomial) = (polynomial, next);
     }
     powers
 }
 
-/// Σ a_k t^k of `M` functions, from `first` on, by Estrin's scheme: pairs, pairs of pairs and so on, which do not wait for
-/// each other.
+/// Σ a_k t^k of `M` functions, from `first` on, by Estrin's scheme: pairs, pairs of pairs and so
+/// on, which do not wait for each other.
 #[inline]
 fn values<const N: usize, const M: usize>(powers: &Terms<N>, first: usize, t: f64) -> [f64; M] {
     let (square, fourth) = (t * t, (t * t) * (t * t));
@@ -204,9 +248,15 @@ fn values<const N: usize, const M: usize>(powers: &Terms<N>, first: usize, t: f6
 }
 
 /// The coefficients of the powers of t − `at`, by Horner's rule once for each of them.
-fn about<const N: usize, const M: usize>(powers: &Terms<N>, first: usize, at: f64) -> [[f64; TERMS]; M] {
+fn about<const N: usize, const M: usize>(
+    powers: &Terms<N>,
+    first: usize,
+    at: f64,
+) -> [[f64; TERMS]; M] {
     let mut rest = [[0.0; M]; TERMS];
-    rest.iter_mut().zip(powers).for_each(|(rest, powers)| rest.copy_from_slice(&powers[first..first + M]));
+    rest.iter_mut()
+        .zip(powers)
+        .for_each(|(rest, powers)| rest.copy_from_slice(&powers[first..first + M]));
     for lowest in 0..TERMS - 1 {
         let mut sums = rest[TERMS - 1];
         for others in rest[lowest..TERMS - 1].iter_mut().rev() {
@@ -218,7 +268,9 @@ fn about<const N: usize, const M: usize>(powers: &Terms<N>, first: usize, at: f6
     }
     let mut all = [[0.0; TERMS]; M];
     for (power, values) in rest.iter().enumerate() {
-        all.iter_mut().zip(values).for_each(|(function, value)| function[power] = *value);
+        all.iter_mut()
+            .zip(values)
+            .for_each(|(function, value)| function[power] = *value);
     }
     all
 }
@@ -226,7 +278,8 @@ fn about<const N: usize, const M: usize>(powers: &Terms<N>, first: usize, at: f6
 /// ∫ of a function from −1 to 1.
 fn integral<const N: usize>(powers: &Terms<N>, function: usize) -> f64 {
     let even = powers.iter().enumerate().step_by(2);
-    even.map(|(order, powers)| 2.0 * powers[function] / (order + 1) as f64).sum()
+    even.map(|(order, powers)| 2.0 * powers[function] / (order + 1) as f64)
+        .sum()
 }
 
 #[cfg(test)]
@@ -244,7 +297,10 @@ mod tests {
             let x = -2.0 + 0.01 * f64::from(step);
             let [sine, growth] = found.at(x);
             let slope = found.slope(0, x);
-            assert!((sine - x.sin()).abs() < 2e-14 && (growth / (0.3 * x).exp() - 1.0).abs() < 2e-14, "{x}");
+            assert!(
+                (sine - x.sin()).abs() < 2e-14 && (growth / (0.3 * x).exp() - 1.0).abs() < 2e-14,
+                "{x}"
+            );
             assert!((slope - x.cos()).abs() < 1e-11, "{x}: {slope}");
             assert!((found.one(1, x) - growth).abs() == 0.0);
         }
@@ -271,7 +327,10 @@ mod tests {
             let [growth, distance] = found.local(1, (x, 1e-12), length);
             for part in [0.0, 0.3, 1.0] {
                 let at = x + part * length;
-                assert!((growth.at(part) / (0.3 * at).exp() - 1.0).abs() < 1e-13, "{at}");
+                assert!(
+                    (growth.at(part) / (0.3 * at).exp() - 1.0).abs() < 1e-13,
+                    "{at}"
+                );
                 assert!((distance.at(part) - at.abs()).abs() < 1e-6, "{at}");
             }
             x += length;
@@ -280,7 +339,9 @@ mod tests {
 
     #[test]
     fn what_the_function_refuses_is_passed_on() {
-        let refused = Series::of(0.0, 1.0, &|_, _| [1e-14], &|x| if x > 0.5 { Err("beyond") } else { Ok([x]) });
+        let refused = Series::of(0.0, 1.0, &|_, _| [1e-14], &|x| {
+            if x > 0.5 { Err("beyond") } else { Ok([x]) }
+        });
         assert_eq!(refused, Err("beyond"));
     }
 }

@@ -1,13 +1,19 @@
 //! Numbers as a person reads them.
 
-/// A number in as few digits as tell it from every other: plain from 1e-4 to 1e7, else with an exponent.
+/// A number in as few digits as tell it from every other: plain from 1e-4 to 1e7, else with an
+/// exponent.
 #[must_use]
 pub fn shortest(value: f64) -> String {
     let is_plain = value == 0.0 || (1e-4..1e7).contains(&value.abs());
-    if is_plain { format!("{value}") } else { format!("{value:e}") }
+    if is_plain {
+        format!("{value}")
+    } else {
+        format!("{value:e}")
+    }
 }
 
-/// A number with this many significant digits: plain from 1e-3 to 1e6, else with an exponent; never NaN or minus zero.
+/// A number with this many significant digits: plain from 1e-3 to 1e6, else with an exponent; never
+/// NaN or minus zero.
 #[must_use]
 pub fn significant(value: f64, digits: usize) -> String {
     if !value.is_finite() {
@@ -17,8 +23,14 @@ pub fn significant(value: f64, digits: usize) -> String {
         return "0".to_owned();
     }
     let rounded = format!("{value:.*e}", digits.saturating_sub(1));
-    match rounded.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok()) {
-        Some(exponent @ -3..6) => format!("{value:.*}", (digits + 2).saturating_sub(exponent.abs_diff(-3) as usize)),
+    match rounded
+        .split_once('e')
+        .and_then(|(_, exponent)| exponent.parse::<i32>().ok())
+    {
+        Some(exponent @ -3..6) => format!(
+            "{value:.*}",
+            (digits + 2).saturating_sub(exponent.abs_diff(-3) as usize)
+        ),
         _ => rounded,
     }
 }

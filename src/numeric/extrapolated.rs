@@ -1,4 +1,5 @@
-//! Steps of a differential equation by the extrapolated midpoint rule: a way of its own beside [`super::taylor`], to check it.
+//! Steps of a differential equation by the extrapolated midpoint rule: a way of its own beside
+//! [`super::taylor`], to check it.
 
 use nalgebra::SVector;
 
@@ -20,10 +21,15 @@ const COLUMNS: usize = 6;
 /// ```
 ///
 /// # Source
-/// Gragg's rule without smoothing, extrapolated by Aitken and Neville: Hairer, Norsett & Wanner 1993, "Solving Ordinary
-/// Differential Equations I", section II.9.
+/// Gragg's rule without smoothing, extrapolated by Aitken and Neville: Hairer, Norsett & Wanner
+/// 1993, "Solving Ordinary Differential Equations I", section II.9.
 #[must_use]
-pub fn step<const N: usize>(equation: &impl Equation<N>, t: f64, y: &SVector<f64, N>, length: f64) -> SVector<f64, N> {
+pub fn step<const N: usize>(
+    equation: &impl Equation<N>,
+    t: f64,
+    y: &SVector<f64, N>,
+    length: f64,
+) -> SVector<f64, N> {
     let slope = equation.slope(t, y);
     let mut row_before = [*y; COLUMNS];
     let mut best = *y;
@@ -75,7 +81,9 @@ mod tests {
     fn error_after(steps: u32) -> f64 {
         let length = 6.0 / f64::from(steps);
         let start = Vector2::new(1.0, 0.1);
-        let end = (0..steps).fold(start, |y, number| step(&Oscillator, f64::from(number) * length, &y, length));
+        let end = (0..steps).fold(start, |y, number| {
+            step(&Oscillator, f64::from(number) * length, &y, length)
+        });
         (end[0] - 6f64.cos() - 0.6).abs()
     }
 

@@ -1,4 +1,5 @@
-//! Polynomials by the coefficients of their powers, mostly of a part of a way that goes from 0 to 1.
+//! Polynomials by the coefficients of their powers, mostly of a part of a way that goes from 0 to
+//! 1.
 
 /// Σ a_k t^k of `N` terms.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,7 +12,11 @@ impl<const N: usize> Polynomial<N> {
     /// The coefficients up to the last that is not 0.
     #[must_use]
     pub fn terms(&self) -> &[f64] {
-        let count = self.0.iter().rposition(|&coefficient| coefficient != 0.0).map_or(0, |last| last + 1);
+        let count = self
+            .0
+            .iter()
+            .rposition(|&coefficient| coefficient != 0.0)
+            .map_or(0, |last| last + 1);
         &self.0[..count]
     }
 
@@ -40,7 +45,11 @@ impl<const N: usize> Polynomial<N> {
     /// Its integral from 0 to 1.
     #[must_use]
     pub fn integral(&self) -> f64 {
-        self.0.iter().enumerate().map(|(power, coefficient)| coefficient / (power + 1) as f64).sum()
+        self.0
+            .iter()
+            .enumerate()
+            .map(|(power, coefficient)| coefficient / (power + 1) as f64)
+            .sum()
     }
 
     /// The same over another measure of the way: a(`by` t).
@@ -57,14 +66,19 @@ impl<const N: usize> Polynomial<N> {
     /// Every coefficient times `factor`.
     #[must_use]
     pub fn scaled(mut self, factor: f64) -> Polynomial<N> {
-        self.0.iter_mut().for_each(|coefficient| *coefficient *= factor);
+        self.0
+            .iter_mut()
+            .for_each(|coefficient| *coefficient *= factor);
         self
     }
 
     /// This and `factor` times another of no more terms.
     #[must_use]
     pub fn plus<const M: usize>(mut self, factor: f64, other: &Polynomial<M>) -> Polynomial<N> {
-        self.0.iter_mut().zip(other.0).for_each(|(sum, coefficient)| *sum += factor * coefficient);
+        self.0
+            .iter_mut()
+            .zip(other.0)
+            .for_each(|(sum, coefficient)| *sum += factor * coefficient);
         self
     }
 
@@ -73,8 +87,12 @@ impl<const N: usize> Polynomial<N> {
     pub fn times<const M: usize, const P: usize>(&self, other: &Polynomial<M>) -> Polynomial<P> {
         let mut product = [0.0; P];
         let (one, other) = (self.terms(), other.terms());
-        let known = product.iter_mut().take((one.len() + other.len()).saturating_sub(1));
-        known.enumerate().for_each(|(power, term)| *term = term_of_product(one, other, power));
+        let known = product
+            .iter_mut()
+            .take((one.len() + other.len()).saturating_sub(1));
+        known
+            .enumerate()
+            .for_each(|(power, term)| *term = term_of_product(one, other, power));
         Polynomial(product)
     }
 
@@ -91,7 +109,9 @@ impl<const N: usize> Polynomial<N> {
 fn horner(powers: &[f64], t: f64) -> f64 {
     let (fours, rest) = powers.as_chunks::<4>();
     let (square, mut sums) = (t * t, [0.0; 4]);
-    rest.iter().zip(&mut sums).for_each(|(coefficient, sum)| *sum = *coefficient);
+    rest.iter()
+        .zip(&mut sums)
+        .for_each(|(coefficient, sum)| *sum = *coefficient);
     for four in fours.iter().rev() {
         for lane in 0..4 {
             sums[lane] = sums[lane] * (square * square) + four[lane];
@@ -104,7 +124,10 @@ fn horner(powers: &[f64], t: f64) -> f64 {
 #[inline]
 #[must_use]
 pub fn term_of_product(one: &[f64], other: &[f64], power: usize) -> f64 {
-    let (first, end) = ((power + 1).saturating_sub(other.len()), one.len().min(power + 1));
+    let (first, end) = (
+        (power + 1).saturating_sub(other.len()),
+        one.len().min(power + 1),
+    );
     if first >= end {
         return 0.0;
     }
@@ -117,7 +140,11 @@ pub fn term_of_product(one: &[f64], other: &[f64], power: usize) -> f64 {
             sums[lane] += up[lane] * down[3 - lane];
         }
     }
-    let tail: f64 = rest.iter().zip(rest_down.iter().rev()).map(|(up, down)| up * down).sum();
+    let tail: f64 = rest
+        .iter()
+        .zip(rest_down.iter().rev())
+        .map(|(up, down)| up * down)
+        .sum();
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + tail
 }
 
@@ -140,7 +167,9 @@ mod tests {
             let product: Polynomial<5> = CUBIC.times(&LINE);
             assert!((product.at(t) - CUBIC.at(t) * LINE.at(t)).abs() < 1e-12);
             assert!((CUBIC.plus(-2.0, &LINE).at(t) - CUBIC.at(t) + 2.0 * LINE.at(t)).abs() < 1e-13);
-            assert!((Polynomial([0.0, 1.0, -2.0]).over_argument().at(t) - LINE.at(t)).abs() < 1e-13);
+            assert!(
+                (Polynomial([0.0, 1.0, -2.0]).over_argument().at(t) - LINE.at(t)).abs() < 1e-13
+            );
         }
         assert!((CUBIC.integral() - (6.0 + 2.5 - 2.0 / 3.0 - 0.25)).abs() < 1e-14);
     }

@@ -1,6 +1,7 @@
 //! Gauss-Legendre quadrature on a fixed number of nodes.
 
-/// Nodes and weights of the 12-point rule on (-1, 1); the rule is symmetric, so half of it stands here.
+/// Nodes and weights of the 12-point rule on (-1, 1); the rule is symmetric, so half of it stands
+/// here.
 const TWELVE: [(f64, f64); 6] = [
     (0.125_233_408_511_468_9, 0.249_147_045_813_402_8),
     (0.367_831_498_998_180_2, 0.233_492_536_538_354_8),
@@ -12,11 +13,15 @@ const TWELVE: [(f64, f64); 6] = [
 
 /// ∫ of `f` from 0 to 1 by the 12-point Gauss-Legendre rule.
 pub fn unit_interval(f: impl Fn(f64) -> f64) -> f64 {
-    TWELVE.iter().map(|&(node, weight)| weight * (f(0.5 - 0.5 * node) + f(0.5 + 0.5 * node))).sum::<f64>() * 0.5
+    TWELVE
+        .iter()
+        .map(|&(node, weight)| weight * (f(0.5 - 0.5 * node) + f(0.5 + 0.5 * node)))
+        .sum::<f64>()
+        * 0.5
 }
 
-/// ∫ of `f` from `from` to `to` by the same rule on halves of halves, until both halves of a part together give what the
-/// part gave, within `tolerance` of the first estimate of the whole.
+/// ∫ of `f` from `from` to `to` by the same rule on halves of halves, until both halves of a part
+/// together give what the part gave, within `tolerance` of the first estimate of the whole.
 pub fn adaptive(from: f64, to: f64, tolerance: f64, f: impl Fn(f64) -> f64) -> f64 {
     const MOST_HALVINGS: u32 = 40;
     let whole = over(from, to, &f);
@@ -27,14 +32,22 @@ fn over(from: f64, to: f64, f: &impl Fn(f64) -> f64) -> f64 {
     (to - from) * unit_interval(|part| f(from + part * (to - from)))
 }
 
-fn halved(from: f64, to: f64, whole: f64, tolerance: f64, halvings: u32, f: &impl Fn(f64) -> f64) -> f64 {
+fn halved(
+    from: f64,
+    to: f64,
+    whole: f64,
+    tolerance: f64,
+    halvings: u32,
+    f: &impl Fn(f64) -> f64,
+) -> f64 {
     let middle = f64::midpoint(from, to);
     let (left, right) = (over(from, middle, f), over(middle, to, f));
     let sum = left + right;
     if halvings == 0 || !sum.is_finite() || (sum - whole).abs() <= tolerance {
         return sum;
     }
-    halved(from, middle, left, tolerance, halvings - 1, f) + halved(middle, to, right, tolerance, halvings - 1, f)
+    halved(from, middle, left, tolerance, halvings - 1, f)
+        + halved(middle, to, right, tolerance, halvings - 1, f)
 }
 
 #[cfg(test)]
@@ -45,7 +58,10 @@ mod tests {
     fn exact_for_polynomials_up_to_degree_23() {
         for degree in 0..24 {
             let found = unit_interval(|x| x.powi(degree));
-            assert!((found * f64::from(degree + 1) - 1.0).abs() < 1e-14, "x^{degree}: {found}");
+            assert!(
+                (found * f64::from(degree + 1) - 1.0).abs() < 1e-14,
+                "x^{degree}: {found}"
+            );
         }
     }
 

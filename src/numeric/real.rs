@@ -1,4 +1,5 @@
-//! The numbers that the model computes with: f64, and double-double where the last digit is asked for.
+//! The numbers that the model computes with: f64, and double-double where the last digit is asked
+//! for.
 
 use std::f64::consts;
 use std::ops::Neg;
@@ -76,8 +77,9 @@ impl Real for f64 {
     }
 }
 
-/// Of the crate only sums, products and roots keep their 31 digits. Its quotient of two double-doubles keeps 17, its
-/// sine, cosine and arctangent 17 to 21, so that they are mended or built here.
+/// Of the crate only sums, products and roots keep their 31 digits. Its quotient of two
+/// double-doubles keeps 17, its sine, cosine and arctangent 17 to 21, so that they are mended or
+/// built here.
 impl Real for TwoFloat {
     const EPSILON: f64 = 1e-30;
     const PI: TwoFloat = twofloat::consts::PI;
@@ -91,8 +93,8 @@ impl Real for TwoFloat {
         self.sqrt()
     }
 
-    /// Taylor's series of a sixteenth of the angle, doubled four times; 1 − cos is carried, so that small angles lose
-    /// nothing.
+    /// Taylor's series of a sixteenth of the angle, doubled four times; 1 − cos is carried, so that
+    /// small angles lose nothing.
     fn sine_cosine(self) -> (TwoFloat, TwoFloat) {
         const HALVINGS: i32 = 4;
         const LAST_ORDER: u32 = 22;
@@ -135,12 +137,21 @@ mod tests {
     fn double_double_functions_keep_thirty_digits() {
         let (sine, cosine) = TwoFloat::from(0.7).sine_cosine();
         let identity = sine * sine + cosine * cosine - 1.0;
-        assert!(identity.hi().abs() < 1e-30, "sin² + cos² − 1 = {identity:e}");
+        assert!(
+            identity.hi().abs() < 1e-30,
+            "sin² + cos² − 1 = {identity:e}"
+        );
         for angle in [1e-9f64, 1e-3, 0.1, 0.35, 0.7, 1.2, 1.5] {
             let (sine, cosine) = TwoFloat::from(angle).sine_cosine();
-            assert!(((sine.hi() - angle.sin()) / angle).abs() < 1e-15, "sin {angle}");
+            assert!(
+                ((sine.hi() - angle.sin()) / angle).abs() < 1e-15,
+                "sin {angle}"
+            );
             let back = sine.angle_to(cosine) - angle;
-            assert!((back.hi() / angle).abs() < 1e-29, "angle of {angle} comes back off by {back:e}");
+            assert!(
+                (back.hi() / angle).abs() < 1e-29,
+                "angle of {angle} comes back off by {back:e}"
+            );
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The root of a function in a bracket.
 
-/// The root of `f` between `from` and `to`, where it changes its sign, by Brent's method, to the last digits.
+/// The root of `f` between `from` and `to`, where it changes its sign, by Brent's method, to the
+/// last digits.
 ///
 /// # Source
 /// Brent 1973, "Algorithms for Minimization without Derivatives", chapter 4.
@@ -29,10 +30,16 @@ pub fn between(from: f64, to: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
         }
         let bold = (before.abs() >= least && at_other.abs() > at_best.abs())
             .then(|| bold_step((best, at_best), (other, at_other), (opposite, at_opposite)))
-            .filter(|bold| 2.0 * bold.abs() < (3.0 * half.abs() - least).min(before.abs()) && bold * half > 0.0);
+            .filter(|bold| {
+                2.0 * bold.abs() < (3.0 * half.abs() - least).min(before.abs()) && bold * half > 0.0
+            });
         (before, step) = bold.map_or((half, half), |bold| (step, bold));
         (other, at_other) = (best, at_best);
-        best += if step.abs() > least { step } else { least.copysign(half) };
+        best += if step.abs() > least {
+            step
+        } else {
+            least.copysign(half)
+        };
         at_best = f(best);
     }
     best
@@ -62,7 +69,18 @@ mod tests {
             (-1.0, 4.0, |x| x.tanh(), 0.0),
             (0.0, 3.0, |x| x.cos(), std::f64::consts::FRAC_PI_2),
             (1e-12, 1.0, |x| x.ln() + 20.0, (-20f64).exp()),
-            (0.0, 1.0, |x| if x < 0.3 { -1.0 } else { 1e-3 * (x - 0.3) + 1e-9 }, 0.3),
+            (
+                0.0,
+                1.0,
+                |x| {
+                    if x < 0.3 {
+                        -1.0
+                    } else {
+                        1e-3 * (x - 0.3) + 1e-9
+                    }
+                },
+                0.3,
+            ),
         ];
         for (from, to, f, root) in cases {
             let mut calls = 0;
@@ -70,7 +88,10 @@ mod tests {
                 calls += 1;
                 f(x)
             });
-            assert!((found - root).abs() <= 4e-15 * root.abs(), "{found} for {root}");
+            assert!(
+                (found - root).abs() <= 4e-15 * root.abs(),
+                "{found} for {root}"
+            );
             assert!(calls < 90, "{calls} for {root}");
         }
     }

@@ -22,9 +22,9 @@ impl<const N: usize> Oscillator<N> {
     /// ```
     ///
     /// # Source
-    /// Taylor's method with recurrences for the coefficients: Corliss & Chang 1982, "Solving ordinary differential equations
-    /// using Taylor series", ACM TOMS 8; Barrio 2005, "Performance of the Taylor series method for ODEs/DAEs", Applied
-    /// Mathematics and Computation 163.
+    /// Taylor's method with recurrences for the coefficients: Corliss & Chang 1982, "Solving
+    /// ordinary differential equations using Taylor series", ACM TOMS 8; Barrio 2005, "Performance
+    /// of the Taylor series method for ODEs/DAEs", Applied Mathematics and Computation 163.
     #[must_use]
     pub fn series(&self, x: f64, v: f64) -> Polynomial<N> {
         let mut series = [0.0; N];
@@ -40,21 +40,28 @@ impl<const N: usize> Oscillator<N> {
     }
 }
 
-/// The part of a step after which the last terms of a series are no greater than `allowed`: 1 where they are so over the
-/// whole of it.
+/// The part of a step after which the last terms of a series are no greater than `allowed`: 1 where
+/// they are so over the whole of it.
 ///
 /// # Source
-/// Jorba & Zou 2005, "A software package for the numerical integration of ODEs by means of high-order Taylor methods",
-/// Experimental Mathematics 14, section 3: the step is known before it is taken, so that none is rejected.
+/// Jorba & Zou 2005, "A software package for the numerical integration of ODEs by means of
+/// high-order Taylor methods", Experimental Mathematics 14, section 3: the step is known before it
+/// is taken, so that none is rejected.
 #[must_use]
 pub fn convergent_part<const N: usize>(series: &Polynomial<N>, allowed: f64) -> f64 {
     const LAST: usize = 3;
     let part = |order: usize| {
         let size = series.0[order].abs() / allowed;
-        if size <= 1.0 { 1.0 } else { size.powf(-1.0 / order as f64) }
+        if size <= 1.0 {
+            1.0
+        } else {
+            size.powf(-1.0 / order as f64)
+        }
     };
     // A term that is no number leaves nothing of the step.
-    (N - LAST..N).map(part).fold(1.0, |least, part| if part >= least { least } else { part })
+    (N - LAST..N)
+        .map(part)
+        .fold(1.0, |least, part| if part >= least { least } else { part })
 }
 
 #[cfg(test)]
@@ -66,10 +73,17 @@ mod tests {
     fn oscillator<const N: usize>(stiffness: &[f64], load: &[f64], damping: f64) -> Oscillator<N> {
         let padded = |given: &[f64]| {
             let mut all = Polynomial::ZERO;
-            all.0.iter_mut().zip(given).for_each(|(coefficient, given)| *coefficient = *given);
+            all.0
+                .iter_mut()
+                .zip(given)
+                .for_each(|(coefficient, given)| *coefficient = *given);
             all
         };
-        Oscillator { stiffness: padded(stiffness), load: padded(load), damping }
+        Oscillator {
+            stiffness: padded(stiffness),
+            load: padded(load),
+            damping,
+        }
     }
 
     #[test]
@@ -79,7 +93,8 @@ mod tests {
         let frequency = 3.91f64.sqrt();
         for step in 0..=10 {
             let t = 0.1 * f64::from(step);
-            let swing = (-0.3 * t).exp() * ((frequency * t).cos() + 0.3 / frequency * (frequency * t).sin());
+            let swing = (-0.3 * t).exp()
+                * ((frequency * t).cos() + 0.3 / frequency * (frequency * t).sin());
             assert!((series.at(t) - 2.0 - swing).abs() < 1e-13, "{t}");
         }
     }
@@ -91,7 +106,10 @@ mod tests {
         let series = oscillator::<TERMS>(&[0.0, -1.0], &[], 0.0).series(value, slope);
         for order in 0..TERMS - 3 {
             let expected = series.0[order] / ((order + 2) * (order + 3)) as f64;
-            assert!((series.0[order + 3] - expected).abs() <= 1e-15 * expected.abs(), "{order}");
+            assert!(
+                (series.0[order + 3] - expected).abs() <= 1e-15 * expected.abs(),
+                "{order}"
+            );
         }
         assert!((series.at(1.0) - 0.135_292_416_312_881_4).abs() < 1e-15);
     }
@@ -102,7 +120,12 @@ mod tests {
         let load: Vec<f64> = (0..TERMS)
             .map(|order| {
                 let factorial: f64 = (1..=order).map(|factor| factor as f64).product();
-                2.5 / factorial + if order > 0 { order as f64 / factorial } else { 0.0 }
+                2.5 / factorial
+                    + if order > 0 {
+                        order as f64 / factorial
+                    } else {
+                        0.0
+                    }
             })
             .collect();
         let series = oscillator::<TERMS>(&[1.0, 1.0], &load, 0.5).series(1.0, 1.0);
@@ -116,7 +139,11 @@ mod tests {
 
     #[test]
     fn one_term_more_is_one_order_more() {
-        for (terms, off) in [(8.0, off_with::<8> as fn(f64) -> f64), (10.0, off_with::<10>), (12.0, off_with::<12>)] {
+        for (terms, off) in [
+            (8.0, off_with::<8> as fn(f64) -> f64),
+            (10.0, off_with::<10>),
+            (12.0, off_with::<12>),
+        ] {
             let order = (off(2.0) / off(1.0)).log2();
             assert!((order - terms).abs() < 0.5, "{terms} terms: {order}");
         }

@@ -33,9 +33,15 @@ impl Absence {
         let is_without = solution.outcome == Outcome::NoCornerContact;
         let no_contact = Absence::NoContact(without_contact(solution), solution.deviation.total);
         match (quantity.stage, solution.withheld) {
-            (stage, _) if !solution.method.stages().has(stage) => Absence::OtherMethod(solution.method, stage),
+            (stage, _) if !solution.method.stages().has(stage) => {
+                Absence::OtherMethod(solution.method, stage)
+            }
             _ if is_without && !solution.method.shares_load() => no_contact,
-            (Stage::Static | Stage::Dynamic, _) if quantity.needs_friction() && !has_friction(solution) => Absence::NoFriction,
+            (Stage::Static | Stage::Dynamic, _)
+                if quantity.needs_friction() && !has_friction(solution) =>
+            {
+                Absence::NoFriction
+            }
             (Stage::Static | Stage::Dynamic, _) if is_without => no_contact,
             (Stage::Static | Stage::Dynamic, _) => Absence::NotReached,
             (Stage::Clearing, _) if !is_without => cleared(solution),
@@ -53,7 +59,8 @@ impl Absence {
     }
 }
 
-/// Why the tooth does not strike: one that the load at rest, or the exact position, would bring in early may yet not.
+/// Why the tooth does not strike: one that the load at rest, or the exact position, would bring in
+/// early may yet not.
 #[must_use]
 pub fn without_contact(solution: &Solution) -> &'static str {
     match solution.method {
@@ -64,8 +71,8 @@ pub fn without_contact(solution: &Solution) -> &'static str {
     }
 }
 
-/// The same in full, with the deviation where that is the reason; where the load at rest would bring the tooth in early, by how
-/// much, and where it would not, how much is left.
+/// The same in full, with the deviation where that is the reason; where the load at rest would
+/// bring the tooth in early, by how much, and where it would not, how much is left.
 #[must_use]
 pub fn without_contact_in_full(solution: &Solution, system: System) -> String {
     let (why, total) = (without_contact(solution), solution.deviation.total);
@@ -76,9 +83,10 @@ pub fn without_contact_in_full(solution: &Solution, system: System) -> String {
     match solution.method {
         _ if total <= 0.0 => why.to_owned(),
         Method::Paper => format!("{why}, though Δ is {}", told(total)),
-        Method::Static => {
-            solution.margin().map_or_else(|| why.to_owned(), |gap| format!("at rest a gap of {} is left before E", told(gap)))
-        }
+        Method::Static => solution.margin().map_or_else(
+            || why.to_owned(),
+            |gap| format!("at rest a gap of {} is left before E", told(gap)),
+        ),
         _ => match solution.lead_at_rest().filter(|&lead| lead > 0.0) {
             Some(lead) => format!("{why}; at rest it would, by {}", told(lead)),
             None => why.to_owned(),
@@ -88,11 +96,17 @@ pub fn without_contact_in_full(solution: &Solution, system: System) -> String {
 
 /// Why no relief is known that stops it.
 fn cleared(solution: &Solution) -> Absence {
-    solution.clearing.and_then(|clearing| clearing.withheld).map_or(Absence::NotReached, Absence::Withheld)
+    solution
+        .clearing
+        .and_then(|clearing| clearing.withheld)
+        .map_or(Absence::NotReached, Absence::Withheld)
 }
 
 fn has_friction(solution: &Solution) -> bool {
-    solution.mesh.as_ref().is_some_and(|mesh| mesh.friction() > 0.0)
+    solution
+        .mesh
+        .as_ref()
+        .is_some_and(|mesh| mesh.friction() > 0.0)
 }
 
 impl fmt::Display for Absence {

@@ -2,18 +2,23 @@
 
 use super::stations::{columns, rows as stations};
 use super::{Report, value};
-use crate::case::visible::visible;
+use crate::case::sanitize::sanitize;
 use csv::{ErrorKind, Writer};
 use std::io::{self, Write};
 
-/// Write what a case found of the quantities asked for, or of the stations where those are asked for.
+/// Write what a case found of the quantities asked for, or of the stations where those are asked
+/// for.
 ///
 /// # Errors
 /// What the writer refuses.
 pub fn write(report: &Report, with_header: bool, out: &mut dyn Write) -> io::Result<()> {
     let header = with_header.then(|| header(report));
     let mut writer = Writer::from_writer(out);
-    header.into_iter().chain(rows(report)).try_for_each(|row| writer.write_record(row)).map_err(io_error)?;
+    header
+        .into_iter()
+        .chain(rows(report))
+        .try_for_each(|row| writer.write_record(row))
+        .map_err(io_error)?;
     writer.flush()
 }
 
@@ -28,22 +33,40 @@ fn io_error(error: csv::Error) -> io::Error {
 fn header(report: &Report) -> Vec<String> {
     let with_unit = |key: &str, unit: &str| format!("{key} [{unit}]");
     if report.selection.stations {
-        let columns = columns(report.solution.method).map(|column| with_unit(column.key, column.unit));
+        let columns =
+            columns(report.solution.method).map(|column| with_unit(column.key, column.unit));
         return std::iter::once("case".to_owned()).chain(columns).collect();
     }
-    let columns = report.selection.quantities().map(|quantity| with_unit(quantity.key, quantity.unit));
-    ["case", "method", "outcome"].map(str::to_owned).into_iter().chain(columns).collect()
+    let columns = report
+        .selection
+        .quantities()
+        .map(|quantity| with_unit(quantity.key, quantity.unit));
+    ["case", "method", "outcome"]
+        .map(str::to_owned)
+        .into_iter()
+        .chain(columns)
+        .collect()
 }
 
 fn rows(report: &Report) -> Vec<Vec<String>> {
-    let name = visible(&report.name);
+    let name = sanitize(&report.name);
     let solution = &report.solution;
     if report.selection.stations {
         let cells = |row| columns(solution.method).map(move |column| cell(column.of(row)));
-        return stations(solution).into_iter().map(|row| std::iter::once(name.clone()).chain(cells(row)).collect()).collect();
+        return stations(solution)
+            .into_iter()
+            .map(|row| std::iter::once(name.clone()).chain(cells(row)).collect())
+            .collect();
     }
-    let head = [name, solution.method.name().to_owned(), solution.outcome.name().to_owned()];
-    let cells = report.selection.quantities().map(|quantity| cell(value(quantity, solution)));
+    let head = [
+        name,
+        solution.method.name().to_owned(),
+        solution.outcome.name().to_owned(),
+    ];
+    let cells = report
+        .selection
+        .quantities()
+        .map(|quantity| cell(value(quantity, solution)));
     vec![head.into_iter().chain(cells).collect()]
 }
 

@@ -1,15 +1,15 @@
-//! A case in a few lines: its title, the pair, what is asked of it, and its verdict - whether the tooth strikes and how
-//! its limits stand.
+//! A case in a few lines: its title, the pair, what is asked of it, and its verdict - whether the
+//! tooth strikes and how its limits stand.
 
 use super::absence::without_contact_in_full;
 use super::verdict::{self, Standing};
 use super::{shown_in, value};
 use crate::case::fields::index_of;
+use crate::case::sanitize::sanitize;
 use crate::case::units::System;
-use crate::case::visible::visible;
 use crate::case::{Case, Evaluator};
+use crate::model::contact_state::first_contact;
 use crate::model::inputs::Method;
-use crate::model::moment::first_contact;
 use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Solution, Stage, Stages};
 
 /// A case in a few lines, safe for a terminal.
@@ -36,8 +36,19 @@ pub struct Digest {
 impl Digest {
     /// Solve a case as far as its digest needs it, unless `go_on` says no.
     #[must_use]
-    pub fn solve(case: &Case, inputs: &Inputs, system: System, go_on: &dyn Fn(f64) -> bool) -> Option<Digest> {
-        let found = Evaluator::default().solve(case, inputs, inputs.method, stages(case, inputs.method), go_on);
+    pub fn solve(
+        case: &Case,
+        inputs: &Inputs,
+        system: System,
+        go_on: &dyn Fn(f64) -> bool,
+    ) -> Option<Digest> {
+        let found = Evaluator::default().solve(
+            case,
+            inputs,
+            inputs.method,
+            stages(case, inputs.method),
+            go_on,
+        );
         match found {
             Err(Refusal::Stopped) => None,
             found => Some(Digest::of(case, inputs, found.as_ref(), system)),
@@ -46,8 +57,18 @@ impl Digest {
 
     /// The digest of a case and of what the model says of it.
     #[must_use]
-    pub fn of(case: &Case, inputs: &Inputs, found: Result<&Solution, &Refusal>, system: System) -> Digest {
-        let written = Digest { title: text(case, "title"), pair: pair(case), load: load(case), ..Digest::default() };
+    pub fn of(
+        case: &Case,
+        inputs: &Inputs,
+        found: Result<&Solution, &Refusal>,
+        system: System,
+    ) -> Digest {
+        let written = Digest {
+            title: text(case, "title"),
+            pair: pair(case),
+            load: load(case),
+            ..Digest::default()
+        };
         match found {
             Ok(solution) => Digest {
                 method: method(inputs.method, solution),
@@ -57,14 +78,20 @@ impl Digest {
                     .iter()
                     .map(|verdict| (verdict.standing, verdict.told(system)))
                     .collect(),
-                notes: model::notes(inputs, solution).into_iter().map(|note| note.message).collect(),
+                notes: model::notes(inputs, solution)
+                    .into_iter()
+                    .map(|note| note.message)
+                    .collect(),
                 ..written
             },
             Err(refusal) => Digest {
                 method: inputs.method.name().to_owned(),
                 outcome: format!("The model refuses it: {refusal}; {}.", refusal.mend()),
                 short: "refused".to_owned(),
-                limits: verdict::refused(case, refusal).iter().map(|verdict| (verdict.standing, verdict.told(system))).collect(),
+                limits: verdict::refused(case, refusal)
+                    .iter()
+                    .map(|verdict| (verdict.standing, verdict.told(system)))
+                    .collect(),
                 ..written
             },
         }
@@ -83,8 +110,17 @@ impl Digest {
     #[must_use]
     pub fn of_limits(&self) -> String {
         let count = self.limits.len();
-        let limits = if count == 1 { "1 limit".to_owned() } else { format!("{count} limits") };
-        let missed = |standing| self.limits.iter().filter(|(own, _)| *own == standing).count();
+        let limits = if count == 1 {
+            "1 limit".to_owned()
+        } else {
+            format!("{count} limits")
+        };
+        let missed = |standing| {
+            self.limits
+                .iter()
+                .filter(|(own, _)| *own == standing)
+                .count()
+        };
         match (missed(Standing::Exceeded), missed(Standing::Unknown)) {
             _ if count == 0 => "no limits".to_owned(),
             (0, 0) if count == 1 => "limit held".to_owned(),
@@ -100,16 +136,26 @@ impl Digest {
 pub fn sentence(solution: &Solution, system: System) -> String {
     match solution.outcome {
         Outcome::CornerContact => {
-            let angle = first_touch(solution)
-                .map(|(quantity, angle)| format!(" {} of the driver before E", shown_in(quantity, angle, system)));
+            let angle = first_touch(solution).map(|(quantity, angle)| {
+                format!(
+                    " {} of the driver before E",
+                    shown_in(quantity, angle, system)
+                )
+            });
             let force = force(solution.method, |key| told(key, solution, system));
             let force = force.unwrap_or_else(|| "no force is given".to_owned());
             format!("Corner contact{}, {force}.", angle.unwrap_or_default())
         }
         Outcome::NoCornerContact => {
             let is_reason = solution.deviation.total <= 0.0;
-            let total = told("total_deviation", solution, system).filter(|_| is_reason).map(|total| format!("Δ = {total}, "));
-            format!("No corner contact: {}{}.", total.unwrap_or_default(), without_contact_in_full(solution, system))
+            let total = told("total_deviation", solution, system)
+                .filter(|_| is_reason)
+                .map(|total| format!("Δ = {total}, "));
+            format!(
+                "No corner contact: {}{}.",
+                total.unwrap_or_default(),
+                without_contact_in_full(solution, system)
+            )
         }
     }
 }
@@ -118,15 +164,18 @@ pub fn sentence(solution: &Solution, system: System) -> String {
 #[must_use]
 pub fn short(solution: &Solution, system: System) -> String {
     let force = Quantity::find("impact_force").and_then(|free| free.by(solution.method));
-    match (solution.outcome, force.and_then(|force| told(force.key, solution, system))) {
+    match (
+        solution.outcome,
+        force.and_then(|force| told(force.key, solution, system)),
+    ) {
         (Outcome::NoCornerContact, _) => "does not strike".to_owned(),
         (Outcome::CornerContact, Some(force)) => format!("strikes with {force}"),
         (Outcome::CornerContact, None) => "strikes".to_owned(),
     }
 }
 
-/// The driver's roll angle before E at which the tooth touches, in rad, and how it is shown; of the driver in every method, so
-/// that they can be held against each other.
+/// The driver's roll angle before E at which the tooth touches, in rad, and how it is shown; of the
+/// driver in every method, so that they can be held against each other.
 pub(super) fn first_touch(solution: &Solution) -> Option<(&'static Quantity, f64)> {
     let quantity = Quantity::find("approach_angle_driver")?;
     let angle = if solution.method.shares_load() {
@@ -138,16 +187,21 @@ pub(super) fn first_touch(solution: &Solution) -> Option<(&'static Quantity, f64
     Some((quantity, angle))
 }
 
-/// The force of the incoming tooth in words: of the closed form its impact, of the load at rest what it carries at E, in
-/// motion its peaks.
+/// The force of the incoming tooth in words: of the closed form its impact, of the load at rest
+/// what it carries at E, in motion its peaks.
 pub(super) fn force(method: Method, told: impl Fn(&str) -> Option<String>) -> Option<String> {
     match method {
         Method::Static => Some(format!("carrying {} at E", told("static_force_at_start")?)),
         Method::Dynamic => {
-            let (before, most) = (told("dynamic_peak_approach_force")?, told("dynamic_peak_force")?);
+            let (before, most) = (
+                told("dynamic_peak_approach_force")?,
+                told("dynamic_peak_force")?,
+            );
             Some(format!("with up to {before} before E and {most} in all"))
         }
-        Method::Paper | Method::Exact | Method::Auto => Some(format!("with {}", told("impact_force")?)),
+        Method::Paper | Method::Exact | Method::Auto => {
+            Some(format!("with {}", told("impact_force")?))
+        }
     }
 }
 
@@ -167,26 +221,47 @@ fn stages(case: &Case, method: Method) -> Stages {
 }
 
 fn method(asked: Method, solution: &Solution) -> String {
-    if asked == solution.method { asked.name().to_owned() } else { format!("{}, by {}", solution.method.name(), asked.name()) }
+    if asked == solution.method {
+        asked.name().to_owned()
+    } else {
+        format!("{}, by {}", solution.method.name(), asked.name())
+    }
 }
 
 fn pair(case: &Case) -> String {
-    let teeth = format!("z {}/{}", text(case, "driver.teeth"), text(case, "driven.teeth"));
-    let width = match (text(case, "driver.face_width"), text(case, "driven.face_width")) {
+    let teeth = format!(
+        "z {}/{}",
+        text(case, "driver.teeth"),
+        text(case, "driven.teeth")
+    );
+    let width = match (
+        text(case, "driver.face_width"),
+        text(case, "driven.face_width"),
+    ) {
         (one, other) if one == other => one,
         (one, other) => format!("{one}/{other}"),
     };
-    format!("{teeth}, m {}, α {}, b {width}", text(case, "pair.module"), text(case, "pair.pressure_angle"))
+    format!(
+        "{teeth}, m {}, α {}, b {width}",
+        text(case, "pair.module"),
+        text(case, "pair.pressure_angle")
+    )
 }
 
 fn load(case: &Case) -> String {
     let load = ["operation.power", "operation.torque"].map(|key| text(case, key));
-    let load = load.into_iter().find(|text| !text.is_empty()).unwrap_or_default();
+    let load = load
+        .into_iter()
+        .find(|text| !text.is_empty())
+        .unwrap_or_default();
     format!("{load} at {}", text(case, "operation.speed"))
 }
 
 fn text(case: &Case, key: &str) -> String {
-    index_of(key).and_then(|field| case.effective(field)).map(visible).unwrap_or_default()
+    index_of(key)
+        .and_then(|field| case.effective(field))
+        .map(sanitize)
+        .unwrap_or_default()
 }
 
 #[cfg(test)]
@@ -205,8 +280,14 @@ mod tests {
     #[test]
     fn a_case_is_told_in_a_few_lines() {
         let told = digest(&[]);
-        assert_eq!((told.pair.as_str(), told.load.as_str()), ("z 20/20, m 5 mm, α 20 deg, b 8 mm", "15 kW at 2000 rpm"));
-        assert_eq!(told.outcome, "Corner contact 1.36628 deg of the driver before E, with 2191.0 N.");
+        assert_eq!(
+            (told.pair.as_str(), told.load.as_str()),
+            ("z 20/20, m 5 mm, α 20 deg, b 8 mm", "15 kW at 2000 rpm")
+        );
+        assert_eq!(
+            told.outcome,
+            "Corner contact 1.36628 deg of the driver before E, with 2191.0 N."
+        );
         assert_eq!(told.verdict(), "strikes with 2191.0 N; limit held");
         assert_eq!(told.method, "exact");
         assert!(!told.notes.is_empty());
@@ -214,7 +295,10 @@ mod tests {
 
     #[test]
     fn a_limit_that_is_exceeded_and_a_tooth_that_does_not_strike_are_said() {
-        assert_eq!(digest(&[("limits.impact_force", "2 kN")]).verdict(), "strikes with 2191.0 N; 1 of 1 limit EXCEEDED");
+        assert_eq!(
+            digest(&[("limits.impact_force", "2 kN")]).verdict(),
+            "strikes with 2191.0 N; 1 of 1 limit EXCEEDED"
+        );
         let relieved = digest(&[("driven.tip_relief", "80 um"), ("limits.impact_force", "")]);
         assert_eq!(relieved.verdict(), "does not strike");
         assert!(relieved.outcome.starts_with("No corner contact: Δ = "));
@@ -231,16 +315,28 @@ mod tests {
             in_motion.outcome
         );
         let at_rest = digest(&[("model.method", "static"), ("driven.tip_relief", "39 um")]);
-        assert!(at_rest.outcome.starts_with("Corner contact"), "{}", at_rest.outcome);
+        assert!(
+            at_rest.outcome.starts_with("Corner contact"),
+            "{}",
+            at_rest.outcome
+        );
     }
 
     #[test]
     fn each_method_tells_its_own_force() {
-        let forces = ["static", "dynamic", "auto"].map(|method| digest(&[("model.method", method)]));
-        assert_eq!(forces[0].outcome, "Corner contact 1.25226 deg of the driver before E, carrying 1466.2 N at E.");
+        let forces =
+            ["static", "dynamic", "auto"].map(|method| digest(&[("model.method", method)]));
+        assert_eq!(
+            forces[0].outcome,
+            "Corner contact 1.25226 deg of the driver before E, carrying 1466.2 N at E."
+        );
         let moving = "Corner contact 1.27924 deg of the driver before E, with up to 1410.8 N before E and 2003.0 N in all.";
         assert_eq!(forces[1].outcome, moving);
-        let short = ["strikes with 1466.2 N", "strikes with 1410.8 N", "strikes with 1410.8 N"];
+        let short = [
+            "strikes with 1466.2 N",
+            "strikes with 1410.8 N",
+            "strikes with 1410.8 N",
+        ];
         assert_eq!(forces.each_ref().map(|told| told.short.as_str()), short);
         assert_eq!(forces[2].method, "dynamic, by auto");
     }
@@ -249,7 +345,8 @@ mod tests {
     fn a_refusal_is_the_verdict() {
         let told = digest(&[("driven.addendum", "1.9")]);
         assert!(
-            told.outcome.starts_with("The model refuses it: ") && told.verdict() == "refused; 1 of 1 limit unknown",
+            told.outcome.starts_with("The model refuses it: ")
+                && told.verdict() == "refused; 1 of 1 limit unknown",
             "{told:?}"
         );
     }
@@ -267,8 +364,16 @@ mod tests {
             let inputs = case.inputs().unwrap();
             let told = Digest::solve(&case, &inputs, System::Metric, &|_| true).unwrap();
             assert!(told.short.contains("strike"), "{}: {told:?}", example.name);
-            let slow = Inputs { method: Method::Dynamic, ..inputs };
-            assert_eq!(Digest::solve(&case, &slow, System::Metric, &|_| false), None, "{}", example.name);
+            let slow = Inputs {
+                method: Method::Dynamic,
+                ..inputs
+            };
+            assert_eq!(
+                Digest::solve(&case, &slow, System::Metric, &|_| false),
+                None,
+                "{}",
+                example.name
+            );
         }
     }
 }

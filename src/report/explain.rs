@@ -1,19 +1,20 @@
-//! Results that explain themselves: for a quantity of a case the formula, the same with the case's numbers in it, its source,
-//! what was mended, where it holds, what it is worth and what it depends on.
+//! Results that explain themselves: for a quantity of a case the formula, the same with the case's
+//! numbers in it, its source, what was mended, where it holds, what it is worth and what it depends
+//! on.
 
+mod context;
+mod corrections;
+mod derivation;
 mod effects;
 mod formula;
 mod json;
-mod known;
-mod mended;
 mod models;
 mod numbers;
 mod page;
 mod steps;
 mod table;
+mod uncertainty;
 mod valid;
-mod work;
-mod worth;
 
 use super::absence::Absence;
 use super::verdict::Beside;
@@ -23,13 +24,13 @@ use crate::case::units::System;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Quantity, Solution, auto};
 
+pub use context::{Known, STEP_UNITS};
+pub use corrections::{Correction, MENDS};
+pub use derivation::{How, Leaf, Work};
 pub use effects::Effect;
 pub use json::write as write_json;
-pub use known::{Known, STEP_UNITS};
-pub use mended::{MENDS, Mend};
 pub use page::{Kind, Line, lines, render};
 pub use valid::Finding;
-pub use work::{How, Leaf, Work};
 
 /// All that there is to say of a quantity in a case.
 #[derive(Debug, Clone)]
@@ -61,7 +62,7 @@ pub struct Page {
     /// Author, year, equation.
     pub source: &'static str,
     /// What was mended in print.
-    pub mended: Vec<&'static Mend>,
+    pub mended: Vec<&'static Correction>,
     /// What is taken for granted.
     pub assumes: &'static str,
     /// Where it holds, and how the case stands there.
@@ -72,17 +73,31 @@ pub struct Page {
     pub effects: Vec<Effect>,
 }
 
-/// Explain a quantity of a solved case. The solution must hold the quantity's stage; `None` for a quantity that no
-/// explanation is written for.
+/// Explain a quantity of a solved case. The solution must hold the quantity's stage; `None` for a
+/// quantity that no explanation is written for.
 #[must_use]
-pub fn explain(quantity: &'static Quantity, case: &Case, inputs: &Inputs, solution: &Solution) -> Option<Page> {
+pub fn explain(
+    quantity: &'static Quantity,
+    case: &Case,
+    inputs: &Inputs,
+    solution: &Solution,
+) -> Option<Page> {
     // What the method `auto` took is explained.
-    let taken = if inputs.method == Method::Auto { auto::taken(inputs, solution.method) } else { inputs.clone() };
-    let known = Known { case, inputs: &taken, given: inputs, solution };
+    let taken = if inputs.method == Method::Auto {
+        auto::taken(inputs, solution.method)
+    } else {
+        inputs.clone()
+    };
+    let known = Known {
+        case,
+        inputs: &taken,
+        given: inputs,
+        solution,
+    };
     let about = table::of(quantity)?;
-    let otherwise = table::otherwise::of(quantity.key, &taken);
+    let otherwise = table::method_variants::of(quantity.key, &taken);
     let value = value(quantity, solution);
-    let (work, leaves) = work::of(quantity, about, &known);
+    let (work, leaves) = derivation::of(quantity, about, &known);
     Some(Page {
         quantity,
         symbol: quantity.symbol_in(solution.method),
@@ -91,16 +106,26 @@ pub fn explain(quantity: &'static Quantity, case: &Case, inputs: &Inputs, soluti
         is_by_auto: inputs.method == Method::Auto,
         value,
         shown: value.map(|value| shown(quantity, value)),
-        missing: value.is_none().then(|| format!("No value: {}", Absence::of(quantity, solution))),
+        missing: value
+            .is_none()
+            .then(|| format!("No value: {}", Absence::of(quantity, solution))),
         says: otherwise.map_or(about.says, |otherwise| otherwise.says),
-        beside: Beside::of(quantity, solution).map(|beside| format!("This is {}.", beside.told(System::Metric))),
+        beside: Beside::of(quantity, solution)
+            .map(|beside| format!("This is {}.", beside.told(System::Metric))),
         work,
         leaves,
         source: about.source,
-        mended: about.mended.iter().filter_map(|equation| mended::find(equation)).collect(),
-        assumes: otherwise.map(|otherwise| otherwise.assumes).filter(|assumes| !assumes.is_empty()).unwrap_or(about.assumes),
+        mended: about
+            .mended
+            .iter()
+            .filter_map(|equation| corrections::find(equation))
+            .collect(),
+        assumes: otherwise
+            .map(|otherwise| otherwise.assumes)
+            .filter(|assumes| !assumes.is_empty())
+            .unwrap_or(about.assumes),
         valid: about.valid.iter().filter_map(|look| look(&known)).collect(),
-        worth: worth::of(quantity, &known),
+        worth: uncertainty::of(quantity, &known),
         effects: effects::of(quantity, &known),
     })
 }

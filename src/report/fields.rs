@@ -12,7 +12,8 @@ use std::io::{self, Write};
 const WIDTH: usize = 100;
 
 /// What follows the quantities.
-const TO_EXPLAIN: &str = "`tipstrike explain KEY [CASE]` shows how one is found, with the numbers of a case.";
+const TO_EXPLAIN: &str =
+    "`tipstrike explain KEY [CASE]` shows how one is found, with the numbers of a case.";
 
 const FIELD_HEAD: [&str; 6] = ["key", "symbol", "unit", "range", "default", "meaning"];
 const QUANTITY_HEAD: [&str; 5] = ["key", "symbol", "unit", "equation", "meaning"];
@@ -23,7 +24,15 @@ const QUANTITY_HEAD: [&str; 5] = ["key", "symbol", "unit", "equation", "meaning"
 /// What the writer refuses.
 pub fn write_fields(out: &mut dyn Write) -> io::Result<()> {
     let rows = FIELDS.iter().map(|field| {
-        [field.key, field.symbol, unit(field), &range_text(field), default(field), &meaning(field)].map(str::to_owned)
+        [
+            field.key,
+            field.symbol,
+            unit(field),
+            &range_text(field),
+            default(field),
+            &meaning(field),
+        ]
+        .map(str::to_owned)
     });
     write_table(FIELD_HEAD, rows.collect(), out)
 }
@@ -34,7 +43,14 @@ pub fn write_fields(out: &mut dyn Write) -> io::Result<()> {
 /// What the writer refuses.
 pub fn write_quantities(out: &mut dyn Write) -> io::Result<()> {
     let rows = QUANTITIES.iter().map(|quantity| {
-        [quantity.key, quantity.symbol, quantity.unit, quantity.equation, quantity.label.trim_start()].map(str::to_owned)
+        [
+            quantity.key,
+            quantity.symbol,
+            quantity.unit,
+            quantity.equation,
+            quantity.label.trim_start(),
+        ]
+        .map(str::to_owned)
     });
     write_table(QUANTITY_HEAD, rows.collect(), out)?;
     writeln!(out, "\n{TO_EXPLAIN}")
@@ -45,7 +61,9 @@ pub fn write_quantities(out: &mut dyn Write) -> io::Result<()> {
 /// # Errors
 /// What the writer refuses.
 pub fn write_fields_json(out: &mut dyn Write) -> io::Result<()> {
-    FIELDS.iter().try_for_each(|field| write_line(&FieldLine::new(field), out))
+    FIELDS
+        .iter()
+        .try_for_each(|field| write_line(&FieldLine::new(field), out))
 }
 
 /// Write every quantity as JSON, an object a line.
@@ -96,7 +114,11 @@ impl FieldLine {
             to,
             choices: choices(field),
             required: field.absent == Absent::Refused,
-            default: if let Absent::Default(text) = field.absent { Some(text) } else { None },
+            default: if let Absent::Default(text) = field.absent {
+                Some(text)
+            } else {
+                None
+            },
             help: field.help,
         }
     }
@@ -113,7 +135,11 @@ struct QuantityLine {
 }
 
 fn unit(field: &Field) -> &'static str {
-    if let Kind::Number(_, range, _) = field.kind { range.unit } else { "" }
+    if let Kind::Number(_, range, _) = field.kind {
+        range.unit
+    } else {
+        ""
+    }
 }
 
 fn range(field: &Field) -> Option<(f64, f64)> {
@@ -125,11 +151,17 @@ fn range(field: &Field) -> Option<(f64, f64)> {
 }
 
 fn choices(field: &Field) -> &'static [&'static str] {
-    if let Kind::Choice(names, _) = field.kind { names } else { &[] }
+    if let Kind::Choice(names, _) = field.kind {
+        names
+    } else {
+        &[]
+    }
 }
 
 fn range_text(field: &Field) -> String {
-    range(field).map(|(from, to)| format!("{}..{}", end(from), end(to))).unwrap_or_default()
+    range(field)
+        .map(|(from, to)| format!("{}..{}", end(from), end(to)))
+        .unwrap_or_default()
 }
 
 fn meaning(field: &Field) -> String {
@@ -140,7 +172,11 @@ fn meaning(field: &Field) -> String {
 }
 
 fn end(value: f64) -> String {
-    if value == 0.0 || (1e-4..1e6).contains(&value.abs()) { value.to_string() } else { format!("{value:e}") }
+    if value == 0.0 || (1e-4..1e6).contains(&value.abs()) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
 }
 
 fn default(field: &Field) -> &'static str {
@@ -152,12 +188,26 @@ fn default(field: &Field) -> &'static str {
 }
 
 /// A table of which the last column flows over as many lines as it needs.
-fn write_table<const N: usize>(head: [&str; N], rows: Vec<[String; N]>, out: &mut dyn Write) -> io::Result<()> {
-    let rows: Vec<[String; N]> = std::iter::once(head.map(str::to_owned)).chain(rows).collect();
-    let widths: [usize; N] = std::array::from_fn(|column| widest(rows.iter().map(|row| row[column].as_str())));
+fn write_table<const N: usize>(
+    head: [&str; N],
+    rows: Vec<[String; N]>,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let rows: Vec<[String; N]> = std::iter::once(head.map(str::to_owned))
+        .chain(rows)
+        .collect();
+    let widths: [usize; N] =
+        std::array::from_fn(|column| widest(rows.iter().map(|row| row[column].as_str())));
     for row in &rows {
-        let Some((last, cells)) = row.split_last() else { continue };
-        let mut lead = cells.iter().zip(widths).map(|(cell, width)| format!("{cell:width$} ")).collect::<Vec<_>>().concat();
+        let Some((last, cells)) = row.split_last() else {
+            continue;
+        };
+        let mut lead = cells
+            .iter()
+            .zip(widths)
+            .map(|(cell, width)| format!("{cell:width$} "))
+            .collect::<Vec<_>>()
+            .concat();
         let indent = count(&lead);
         for line in flow(last.split(' '), WIDTH.saturating_sub(indent).max(20)) {
             writeln!(out, "{}", (lead + &line).trim_end())?;
@@ -176,7 +226,11 @@ mod tests {
         let mut out = Vec::new();
         write_fields(&mut out).unwrap();
         let table = String::from_utf8(out).unwrap();
-        assert!(FIELDS.iter().all(|field| table.lines().any(|line| line.split(' ').next() == Some(field.key))));
+        assert!(FIELDS.iter().all(|field| {
+            table
+                .lines()
+                .any(|line| line.split(' ').next() == Some(field.key))
+        }));
         assert_eq!(table.lines().find(|line| count(line) > WIDTH), None);
     }
 }

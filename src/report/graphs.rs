@@ -4,7 +4,8 @@ use super::stations::{self, COLUMNS, Column, Row};
 use crate::model::Solution;
 use crate::model::inputs::Method;
 
-/// A chart over the roll angle. Where methods differ in how they call a value, all its columns are drawn in one.
+/// A chart over the roll angle. Where methods differ in how they call a value, all its columns are
+/// drawn in one.
 #[derive(Debug, Clone, Copy)]
 pub struct Graph {
     /// The name in settings and palette.
@@ -28,7 +29,12 @@ pub struct Bound {
 
 macro_rules! graph {
     ($key:literal, $label:literal, $columns:expr, $bound:expr) => {
-        Graph { key: $key, label: $label, columns: &$columns, bound: $bound }
+        Graph {
+            key: $key,
+            label: $label,
+            columns: &$columns,
+            bound: $bound,
+        }
     };
 }
 
@@ -65,12 +71,16 @@ impl Graph {
     /// Its columns.
     pub fn all_columns(&self) -> impl Iterator<Item = &'static Column> {
         let keys = self.columns;
-        COLUMNS.iter().filter(move |column| keys.contains(&column.key))
+        COLUMNS
+            .iter()
+            .filter(move |column| keys.contains(&column.key))
     }
 
     /// The methods that have a curve.
     pub fn methods(&self) -> impl Iterator<Item = Method> {
-        Method::ALL.into_iter().filter(|&method| method != Method::Auto && self.column(method).is_some())
+        Method::ALL
+            .into_iter()
+            .filter(|&method| method != Method::Auto && self.column(method).is_some())
     }
 }
 
@@ -80,11 +90,27 @@ mod tests {
 
     #[test]
     fn every_value_of_a_station_is_in_one_chart() {
-        for column in COLUMNS.iter().filter(|column| !["rad", "s"].contains(&column.unit)) {
-            assert_eq!(GRAPHS.iter().filter(|graph| graph.columns.contains(&column.key)).count(), 1, "{}", column.key);
+        for column in COLUMNS
+            .iter()
+            .filter(|column| !["rad", "s"].contains(&column.unit))
+        {
+            assert_eq!(
+                GRAPHS
+                    .iter()
+                    .filter(|graph| graph.columns.contains(&column.key))
+                    .count(),
+                1,
+                "{}",
+                column.key
+            );
         }
         for graph in &GRAPHS {
-            assert_eq!(graph.all_columns().count(), graph.columns.len(), "{}", graph.key);
+            assert_eq!(
+                graph.all_columns().count(),
+                graph.columns.len(),
+                "{}",
+                graph.key
+            );
         }
     }
 
@@ -92,7 +118,8 @@ mod tests {
     fn a_method_has_one_curve_in_a_chart_and_all_columns_one_unit() {
         for graph in &GRAPHS {
             for method in Method::ALL {
-                let own = stations::columns(method).filter(|column| graph.columns.contains(&column.key));
+                let own =
+                    stations::columns(method).filter(|column| graph.columns.contains(&column.key));
                 assert!(own.count() <= 1, "{} {method:?}", graph.key);
             }
             let units: Vec<_> = graph.all_columns().map(|column| column.shown).collect();

@@ -1,4 +1,5 @@
-//! The quantities in groups under headings, in the order in which a method tells them: what it resolves itself first.
+//! The quantities in groups under headings, in the order in which a method tells them: what it
+//! resolves itself first.
 
 use crate::model::inputs::Method;
 use crate::model::{QUANTITIES, Quantity, Stage};
@@ -17,25 +18,63 @@ pub struct Group {
 
 /// Every group, in the order of a method in closed form.
 static GROUPS: [Group; 12] = [
-    Group { title: "Geometry", stages: &[Stage::Geometry] },
-    Group { title: "Load", stages: &[Stage::Load] },
-    Group { title: "Deviation", stages: &[Stage::Deviation] },
-    Group { title: "Tip relief", stages: &[Stage::Clearing] },
-    Group { title: "First contact D", stages: &[Stage::Position] },
-    Group { title: "Velocity at D", stages: &[Stage::Velocity] },
-    Group { title: "Impact", stages: &[Stage::Compliance, Stage::Impact, Stage::Band] },
-    Group { title: "Friction", stages: &[Stage::Friction] },
-    Group { title: "From D to E", stages: &[Stage::Stations] },
-    Group { title: "Mesh", stages: &[Stage::Mesh] },
-    Group { title: "Load shared by every pair", stages: &[Stage::Static] },
-    Group { title: "Load shared, with inertia", stages: &[Stage::Dynamic] },
+    Group {
+        title: "Geometry",
+        stages: &[Stage::Geometry],
+    },
+    Group {
+        title: "Load",
+        stages: &[Stage::Load],
+    },
+    Group {
+        title: "Deviation",
+        stages: &[Stage::Deviation],
+    },
+    Group {
+        title: "Tip relief",
+        stages: &[Stage::Clearing],
+    },
+    Group {
+        title: "First contact D",
+        stages: &[Stage::Position],
+    },
+    Group {
+        title: "Velocity at D",
+        stages: &[Stage::Velocity],
+    },
+    Group {
+        title: "Impact",
+        stages: &[Stage::Compliance, Stage::Impact, Stage::Band],
+    },
+    Group {
+        title: "Friction",
+        stages: &[Stage::Friction],
+    },
+    Group {
+        title: "From D to E",
+        stages: &[Stage::Stations],
+    },
+    Group {
+        title: "Mesh",
+        stages: &[Stage::Mesh],
+    },
+    Group {
+        title: "Load shared by every pair",
+        stages: &[Stage::Static],
+    },
+    Group {
+        title: "Load shared, with inertia",
+        stages: &[Stage::Dynamic],
+    },
 ];
 
 impl Group {
     /// Its quantities, in the table's order.
     pub fn quantities(&self) -> impl Iterator<Item = &'static Quantity> {
         let stages = self.stages;
-        QUANTITIES.iter().filter(move |quantity| stages.contains(&quantity.stage))
+        QUANTITIES
+            .iter()
+            .filter(move |quantity| stages.contains(&quantity.stage))
     }
 
     /// Whether it is of the free impact, which the method resolves itself.
@@ -87,10 +126,13 @@ mod tests {
 
     #[test]
     fn a_method_tells_its_own_first_and_the_closed_form_last() {
-        for (method, first) in
-            [(Method::Exact, Stage::Geometry), (Method::Static, Stage::Static), (Method::Dynamic, Stage::Dynamic)]
-        {
-            let own = quantities(method).find(|quantity| quantity.stage == first || !method.shares_load());
+        for (method, first) in [
+            (Method::Exact, Stage::Geometry),
+            (Method::Static, Stage::Static),
+            (Method::Dynamic, Stage::Dynamic),
+        ] {
+            let own = quantities(method)
+                .find(|quantity| quantity.stage == first || !method.shares_load());
             assert_eq!(own.map(|own| own.stage), Some(first));
         }
         let order: Vec<_> = quantities(Method::Dynamic).collect();

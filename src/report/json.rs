@@ -2,7 +2,7 @@
 
 use super::{Report, stations};
 use crate::case::file::FORMAT;
-use crate::case::visible::is_hidden;
+use crate::case::sanitize::is_hidden;
 use crate::model::{Quantity, Stage};
 use serde::{Serialize, Serializer};
 use serde_json::ser::Formatter;
@@ -41,7 +41,11 @@ enum Value {
 
 impl Value {
     fn of(quantity: &Quantity, value: f64) -> Value {
-        if quantity.is_flag() { Value::Flag(value != 0.0) } else { Value::Number(value) }
+        if quantity.is_flag() {
+            Value::Flag(value != 0.0)
+        } else {
+            Value::Number(value)
+        }
     }
 }
 
@@ -58,12 +62,21 @@ impl Serialize for Quantities<'_> {
         let method = self.0.solution.method;
         let of = |quantity: &Quantity| match quantity {
             _ if method.shares_load() && quantity.is_of_free_impact() => Some("free-impact"),
-            _ if quantity.symbol_in(method) != quantity.symbol => Some("deviations-without-reliefs"),
+            _ if quantity.symbol_in(method) != quantity.symbol => {
+                Some("deviations-without-reliefs")
+            }
             _ => None,
         };
-        let measured =
-            |quantity: &Quantity, value| Measured { value: Value::of(quantity, value), unit: quantity.unit, of: of(quantity) };
-        serializer.collect_map(self.0.values().map(|(quantity, value)| (quantity.key, measured(quantity, value))))
+        let measured = |quantity: &Quantity, value| Measured {
+            value: Value::of(quantity, value),
+            unit: quantity.unit,
+            of: of(quantity),
+        };
+        serializer.collect_map(
+            self.0
+                .values()
+                .map(|(quantity, value)| (quantity.key, measured(quantity, value))),
+        )
     }
 }
 
@@ -71,7 +84,11 @@ struct Cells<'a>(stations::Row<'a>);
 
 impl Serialize for Cells<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(stations::COLUMNS.iter().filter_map(|column| Some((column.key, column.of(self.0)?))))
+        serializer.collect_map(
+            stations::COLUMNS
+                .iter()
+                .filter_map(|column| Some((column.key, column.of(self.0)?))),
+        )
     }
 }
 
@@ -89,9 +106,19 @@ pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         method: solution.method.name(),
         outcome: solution.outcome.name(),
         quantities: Quantities(report),
-        stations: report.selection.stations.then(|| stations::rows(solution).into_iter().map(Cells).collect()),
+        stations: report
+            .selection
+            .stations
+            .then(|| stations::rows(solution).into_iter().map(Cells).collect()),
         stages: solution.stages.iter().map(Stage::name).collect(),
-        notes: report.notes.iter().map(|note| Remark { code: note.code, message: &note.message }).collect(),
+        notes: report
+            .notes
+            .iter()
+            .map(|note| Remark {
+                code: note.code,
+                message: &note.message,
+            })
+            .collect(),
     };
     write_line(&line, out)
 }
@@ -109,11 +136,17 @@ pub fn write_line(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()>
 struct Safe;
 
 impl Formatter for Safe {
-    fn write_string_fragment<W: ?Sized + Write>(&mut self, writer: &mut W, fragment: &str) -> io::Result<()> {
+    fn write_string_fragment<W: ?Sized + Write>(
+        &mut self,
+        writer: &mut W,
+        fragment: &str,
+    ) -> io::Result<()> {
         let mut written = 0;
         for (at, hidden) in fragment.match_indices(is_hidden) {
             writer.write_all(&fragment.as_bytes()[written..at])?;
-            hidden.encode_utf16().try_for_each(|unit| write!(writer, "\\u{unit:04x}"))?;
+            hidden
+                .encode_utf16()
+                .try_for_each(|unit| write!(writer, "\\u{unit:04x}"))?;
             written = at + hidden.len();
         }
         writer.write_all(&fragment.as_bytes()[written..])
@@ -134,14 +167,23 @@ mod tests {
         let mut solution = solve(&inputs, Stages::ALL).unwrap();
         solution.mesh_force = f64::NAN;
         solution.stations[0].impact_force = f64::INFINITY;
-        let selection = Selection { stations: true, ..Selection::default() };
+        let selection = Selection {
+            stations: true,
+            ..Selection::default()
+        };
         let mut out = Vec::new();
-        write(&Report::of("case".to_owned(), case, inputs, solution, selection), &mut out).unwrap();
+        write(
+            &Report::of("case".to_owned(), case, inputs, solution, selection),
+            &mut out,
+        )
+        .unwrap();
         let line: serde_json::Value = serde_json::from_slice(&out).unwrap();
         assert_eq!(line["quantities"].get("mesh_force"), None);
         assert_eq!(line["quantities"].get("dynamic_factor"), None);
         assert_eq!(line["stations"][0].get("impact_force"), None);
-        let told = |note: &serde_json::Value| note["code"] == "not-finite" && note["message"].to_string().contains("mesh_force");
+        let told = |note: &serde_json::Value| {
+            note["code"] == "not-finite" && note["message"].to_string().contains("mesh_force")
+        };
         assert!(line["notes"].as_array().unwrap().iter().any(told));
         assert!(!String::from_utf8(out).unwrap().contains("null"));
     }
@@ -152,7 +194,10 @@ mod tests {
         let mut out = Vec::new();
         write_line(&text, &mut out).unwrap();
         let line = String::from_utf8(out).unwrap();
-        assert_eq!(line, "\"a\\u001b[2J\\u007f\\u009b\\u202e\\udb40\\udc41\\\"\\\\\\n é\"\n");
+        assert_eq!(
+            line,
+            "\"a\\u001b[2J\\u007f\\u009b\\u202e\\udb40\\udc41\\\"\\\\\\n é\"\n"
+        );
         assert_eq!(serde_json::from_str::<String>(&line).unwrap(), text);
     }
 }

@@ -22,9 +22,22 @@ pub(super) fn flow<'a>(words: impl IntoIterator<Item = &'a str>, width: usize) -
 pub(super) fn item(mark: &str, sentence: &str) -> Vec<String> {
     let indent = count(mark);
     let words = with_units(sentence);
-    let lines = flow(words.iter().map(String::as_str), WIDTH.saturating_sub(indent));
-    let lead = |index| if index == 0 { mark.to_owned() } else { " ".repeat(indent) };
-    lines.iter().enumerate().map(|(index, line)| lead(index) + line).collect()
+    let lines = flow(
+        words.iter().map(String::as_str),
+        WIDTH.saturating_sub(indent),
+    );
+    let lead = |index| {
+        if index == 0 {
+            mark.to_owned()
+        } else {
+            " ".repeat(indent)
+        }
+    };
+    lines
+        .iter()
+        .enumerate()
+        .map(|(index, line)| lead(index) + line)
+        .collect()
 }
 
 /// The words of a sentence, a number with what it is of: no line ends between the two.
@@ -54,7 +67,10 @@ pub(super) fn count(text: &str) -> usize {
 fn pieces(word: &str, width: usize) -> impl Iterator<Item = &str> {
     let mut rest = word;
     std::iter::from_fn(move || {
-        let cut = rest.char_indices().nth(width.max(1)).map_or(rest.len(), |(at, _)| at);
+        let cut = rest
+            .char_indices()
+            .nth(width.max(1))
+            .map_or(rest.len(), |(at, _)| at);
         let (piece, after) = rest.split_at(cut);
         rest = after;
         (!piece.is_empty()).then_some(piece)
@@ -76,7 +92,10 @@ mod tests {
     fn no_line_ends_between_a_number_and_its_unit() {
         for words in 1..40 {
             let lines = item("  - ", &("ab ".repeat(words) + "12.5 um, and 3 mm/N 7"));
-            assert!(lines.iter().any(|line| line.contains("12.5 um,")) && lines.iter().any(|line| line.contains("3 mm/N")));
+            assert!(
+                lines.iter().any(|line| line.contains("12.5 um,"))
+                    && lines.iter().any(|line| line.contains("3 mm/N"))
+            );
         }
     }
 

@@ -1,7 +1,7 @@
 //! The one table of what a station of the incoming tooth tells, for text, JSON, CSV and charts.
 
-use crate::model::between::DIGITS_BETWEEN;
 use crate::model::inputs::Method;
+use crate::model::interpolate::DIGITS_BETWEEN;
 use crate::model::{Inputs, MeshStation, Solution, Station, Told};
 
 /// A place of the incoming tooth.
@@ -39,7 +39,15 @@ const DYNAMIC: &[Method] = &[Method::Dynamic];
 
 macro_rules! column {
     ($key:literal, $symbol:literal, $unit:literal, $shown:literal, $digits:literal, $methods:expr, $value:expr) => {
-        Column { key: $key, symbol: $symbol, unit: $unit, shown: $shown, digits: $digits, methods: $methods, value: $value }
+        Column {
+            key: $key,
+            symbol: $symbol,
+            unit: $unit,
+            shown: $shown,
+            digits: $digits,
+            methods: $methods,
+            value: $value,
+        }
     };
 }
 
@@ -63,14 +71,18 @@ pub static COLUMNS: [Column; 13] = [
 
 /// The columns that the stations of a method have.
 pub fn columns(method: Method) -> impl Iterator<Item = &'static Column> + Clone {
-    COLUMNS.iter().filter(move |column| column.methods.contains(&method))
+    COLUMNS
+        .iter()
+        .filter(move |column| column.methods.contains(&method))
 }
 
 /// The stations of the solution's method.
 #[must_use]
 pub fn rows(solution: &Solution) -> Vec<Row<'_>> {
     let loads = match solution.method {
-        Method::Paper | Method::Exact | Method::Auto => return solution.stations.iter().map(Row::Impact).collect(),
+        Method::Paper | Method::Exact | Method::Auto => {
+            return solution.stations.iter().map(Row::Impact).collect();
+        }
         Method::Static => solution.static_load.as_ref().map(|load| &load.stations),
         Method::Dynamic => solution.dynamic.as_ref().map(|dynamic| &dynamic.stations),
     };
@@ -95,15 +107,24 @@ impl<'a> Row<'a> {
     }
 
     fn impact(self) -> Option<&'a Station> {
-        if let Row::Impact(station) = self { Some(station) } else { None }
+        if let Row::Impact(station) = self {
+            Some(station)
+        } else {
+            None
+        }
     }
 
     fn load(self) -> Option<&'a MeshStation> {
-        if let Row::Load(station) = self { Some(station) } else { None }
+        if let Row::Load(station) = self {
+            Some(station)
+        } else {
+            None
+        }
     }
 }
 
-/// Below this part of the radii and speeds that they are differences of, lengths and speeds are what rounding leaves of 0.
+/// Below this part of the radii and speeds that they are differences of, lengths and speeds are
+/// what rounding leaves of 0.
 const RESOLUTION: f64 = 1e-12;
 
 impl Column {
@@ -116,7 +137,11 @@ impl Column {
             "m/s" => radius * inputs.speed,
             _ => 0.0,
         };
-        if value.abs() < RESOLUTION * whole { 0.0 } else { value }
+        if value.abs() < RESOLUTION * whole {
+            0.0
+        } else {
+            value
+        }
     }
 
     /// Significant digits that a person reads of it there: no more than are good.
@@ -124,18 +149,27 @@ impl Column {
     pub fn digits_of(&self, told: &Told) -> usize {
         let is_of_motion = ["force", "load_share", "transmission_error"].contains(&self.key);
         let is_between = matches!(told, Told::Between(_)) && is_of_motion;
-        if is_between { self.digits.min(DIGITS_BETWEEN) } else { self.digits }
+        if is_between {
+            self.digits.min(DIGITS_BETWEEN)
+        } else {
+            self.digits
+        }
     }
 
     /// The station's value in SI where it is a number, zero without a sign.
     #[must_use]
     pub fn of(&self, row: Row<'_>) -> Option<f64> {
-        (self.value)(row).filter(|value| value.is_finite()).map(|value| value + 0.0)
+        (self.value)(row)
+            .filter(|value| value.is_finite())
+            .map(|value| value + 0.0)
     }
 
     /// The station's value as a person reads it, without the unit; a dash where it has none.
     #[must_use]
     pub fn told(&self, row: Row<'_>) -> String {
-        (self.value)(row).map_or_else(|| "-".to_owned(), |value| super::number(value, self.shown, self.digits))
+        (self.value)(row).map_or_else(
+            || "-".to_owned(),
+            |value| super::number(value, self.shown, self.digits),
+        )
     }
 }

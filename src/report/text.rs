@@ -10,14 +10,22 @@ use super::verdict::{Verdict, verdicts};
 use super::{Report, Shown, shown, value};
 use crate::case::FIELDS;
 use crate::case::fields::Absent;
+use crate::case::sanitize::sanitize;
 use crate::case::units::System;
-use crate::case::visible::visible;
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Outcome, Quantity, Solution, Stage, Stages};
 use std::io::{self, Write};
 
 /// The parts of a page, in order; an empty one leaves no trace.
-const SECTIONS: [fn(&Report) -> Vec<String>; 7] = [heading, outcome, inputs, quantities, notes, limits, station_table];
+const SECTIONS: [fn(&Report) -> Vec<String>; 7] = [
+    heading,
+    outcome,
+    inputs,
+    quantities,
+    notes,
+    limits,
+    station_table,
+];
 
 /// The inputs that say which pair this is; one that is not given, zero or as usual goes unsaid.
 const TOLD_INPUTS: &[&str] = &[
@@ -59,45 +67,90 @@ pub fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
 /// The page.
 #[must_use]
 pub fn render(report: &Report) -> String {
-    let sections = SECTIONS.iter().map(|section| section(report)).filter(|lines| !lines.is_empty());
-    sections.map(|lines| lines.join("\n") + "\n").collect::<Vec<_>>().join("\n")
+    let sections = SECTIONS
+        .iter()
+        .map(|section| section(report))
+        .filter(|lines| !lines.is_empty());
+    sections
+        .map(|lines| lines.join("\n") + "\n")
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 fn heading(report: &Report) -> Vec<String> {
-    let title = if report.title().is_empty() { "Case without a title" } else { report.title() };
-    let mut lines = flow(visible(title).split_whitespace(), WIDTH);
-    lines.extend(flow([visible(&report.name).as_str(), "·", "method", report.solution.method.name()], WIDTH));
+    let title = if report.title().is_empty() {
+        "Case without a title"
+    } else {
+        report.title()
+    };
+    let mut lines = flow(sanitize(title).split_whitespace(), WIDTH);
+    lines.extend(flow(
+        [
+            sanitize(&report.name).as_str(),
+            "·",
+            "method",
+            report.solution.method.name(),
+        ],
+        WIDTH,
+    ));
     lines
 }
 
 fn outcome(report: &Report) -> Vec<String> {
     let mut sentences = vec![sentence(&report.solution)];
     if report.selection.is_whole() {
-        sentences.extend(relief(&report.solution, System::Metric).map(|[words, ..]| format!("{words}.")));
-        let others = Method::CLOSED_FORM.into_iter().filter(|&method| method != report.solution.method);
+        sentences.extend(
+            relief(&report.solution, System::Metric).map(|[words, ..]| format!("{words}.")),
+        );
+        let others = Method::CLOSED_FORM
+            .into_iter()
+            .filter(|&method| method != report.solution.method);
         sentences.extend(others.filter_map(|method| other_method(report, method)));
     }
     // A number stays on the line of its unit.
-    let lines = sentences.iter().flat_map(|sentence| flow(sentence.split(' '), WIDTH));
+    let lines = sentences
+        .iter()
+        .flat_map(|sentence| flow(sentence.split(' '), WIDTH));
     lines.map(|line| line.replace(GLUE, " ")).collect()
 }
 
 /// The outcome, as far as the stages that ran can tell it.
 fn sentence(solution: &Solution) -> String {
-    let part = |before: &str, key| told(key, solution).map(|shown| format!("{before}{shown}")).unwrap_or_default();
-    let verb = if solution.method.shares_load() { "touches" } else { "strikes" };
+    let part = |before: &str, key| {
+        told(key, solution)
+            .map(|shown| format!("{before}{shown}"))
+            .unwrap_or_default()
+    };
+    let verb = if solution.method.shares_load() {
+        "touches"
+    } else {
+        "strikes"
+    };
     match solution.outcome {
         Outcome::CornerContact => format!(
             "Corner contact: the tooth {verb}{}{}{}.",
             first_touch(solution)
-                .map(|(quantity, angle)| format!(" {} of the driver before E", glued(quantity, angle)))
+                .map(|(quantity, angle)| format!(
+                    " {} of the driver before E",
+                    glued(quantity, angle)
+                ))
                 .unwrap_or_default(),
-            force(solution.method, |key| told(key, solution)).map(|force| format!(" {force}")).unwrap_or_default(),
-            if solution.method.shares_load() { String::new() } else { part(", approaching at ", "normal_velocity") },
+            force(solution.method, |key| told(key, solution))
+                .map(|force| format!(" {force}"))
+                .unwrap_or_default(),
+            if solution.method.shares_load() {
+                String::new()
+            } else {
+                part(", approaching at ", "normal_velocity")
+            },
         ),
         Outcome::NoCornerContact => {
             let is_reason = solution.deviation.total <= 0.0;
-            let deviates = if is_reason { part(", the total deviation is ", "total_deviation") } else { String::new() };
+            let deviates = if is_reason {
+                part(", the total deviation is ", "total_deviation")
+            } else {
+                String::new()
+            };
             let why = without_contact_in_full(solution, System::Metric);
             format!("No corner contact: {why}{deviates}.")
         }
@@ -105,7 +158,14 @@ fn sentence(solution: &Solution) -> String {
 }
 
 fn other_method(report: &Report, method: Method) -> Option<String> {
-    let other = model::solve(&Inputs { method, ..report.inputs.clone() }, Stages::of(Stage::Impact)).ok()?;
+    let other = model::solve(
+        &Inputs {
+            method,
+            ..report.inputs.clone()
+        },
+        Stages::of(Stage::Impact),
+    )
+    .ok()?;
     let with = if report.solution.method.shares_load() && report.inputs.deflection.is_some() {
         " with the given deflection"
     } else {
@@ -113,14 +173,23 @@ fn other_method(report: &Report, method: Method) -> Option<String> {
     };
     let found = match other.outcome {
         Outcome::NoCornerContact => {
-            format!("no corner contact, the total deviation is {}", told("total_deviation", &other)?)
+            format!(
+                "no corner contact, the total deviation is {}",
+                told("total_deviation", &other)?
+            )
         }
         Outcome::CornerContact => {
-            let (angle, force) = (told("approach_angle_driver", &other)?, told("impact_force", &other)?);
+            let (angle, force) = (
+                told("approach_angle_driver", &other)?,
+                told("impact_force", &other)?,
+            );
             format!("{angle} of the driver before E with {force}")
         }
     };
-    Some(format!("For comparison, method {}{with}: {found}.", method.name()))
+    Some(format!(
+        "For comparison, method {}{with}: {found}.",
+        method.name()
+    ))
 }
 
 /// A quantity's value, glued to its unit.
@@ -137,35 +206,56 @@ fn inputs(report: &Report) -> Vec<String> {
     if !report.selection.is_whole() {
         return Vec::new();
     }
-    let told: Vec<String> = TOLD_INPUTS.iter().filter_map(|key| told_input(report, key)).collect();
+    let told: Vec<String> = TOLD_INPUTS
+        .iter()
+        .filter_map(|key| told_input(report, key))
+        .collect();
     // Each input stays on one line with its unit.
     let lines = flow(told.join(",\n").split('\n'), WIDTH);
-    lines.into_iter().chain(item("Notes of the case: ", &visible(report.text("notes")))).collect()
+    lines
+        .into_iter()
+        .chain(item("Notes of the case: ", &sanitize(report.text("notes"))))
+        .collect()
 }
 
 fn told_input(report: &Report, key: &str) -> Option<String> {
     let field = FIELDS.iter().find(|field| field.key == key)?;
     let text = report.text(key);
     let number = text.split_whitespace().next()?.parse::<f64>().ok();
-    let default = if let Absent::Default(text) = field.absent { text.parse::<f64>().ok() } else { None };
+    let default = if let Absent::Default(text) = field.absent {
+        text.parse::<f64>().ok()
+    } else {
+        None
+    };
     let usual = number.is_some_and(|number| number == 0.0 || Some(number) == default);
-    (!usual).then(|| format!("{} = {}", field.symbol, visible(text)))
+    (!usual).then(|| format!("{} = {}", field.symbol, sanitize(text)))
 }
 
 fn quantities(report: &Report) -> Vec<String> {
     let method = report.solution.method;
-    let rows: Vec<Row> = report.values().map(|(quantity, value)| Row::new(quantity, value, method)).collect();
+    let rows: Vec<Row> = report
+        .values()
+        .map(|(quantity, value)| Row::new(quantity, value, method))
+        .collect();
     let columns = Columns::of(&rows);
     if !report.selection.is_whole() {
         let is_beside = |row: &Row| method.shares_load() && row.quantity.is_of_free_impact();
-        let line = |row: &Row| columns.line(row) + if is_beside(row) { ", free impact" } else { "" };
+        let line =
+            |row: &Row| columns.line(row) + if is_beside(row) { ", free impact" } else { "" };
         return rows.iter().map(line).collect();
     }
     let group = |group: &'static Group| {
-        let line = |quantity: &Quantity| rows.iter().find(|row| row.quantity.key == quantity.key).map(|row| columns.line(row));
+        let line = |quantity: &Quantity| {
+            rows.iter()
+                .find(|row| row.quantity.key == quantity.key)
+                .map(|row| columns.line(row))
+        };
         let lines: Vec<String> = group.quantities().filter_map(line).collect();
-        let title =
-            if group.is_beside(method) { format!("{FREE_IMPACT}: {}", lower(group.title)) } else { group.title.to_owned() };
+        let title = if group.is_beside(method) {
+            format!("{FREE_IMPACT}: {}", lower(group.title))
+        } else {
+            group.title.to_owned()
+        };
         titled(&title, lines)
     };
     groups(method).into_iter().flat_map(group).collect()
@@ -174,7 +264,10 @@ fn quantities(report: &Report) -> Vec<String> {
 // A heading within another.
 fn lower(title: &str) -> String {
     let mut letters = title.chars();
-    letters.next().map(|first| first.to_lowercase().chain(letters).collect()).unwrap_or_default()
+    letters
+        .next()
+        .map(|first| first.to_lowercase().chain(letters).collect())
+        .unwrap_or_default()
 }
 
 /// A quantity and its value as it is shown.
@@ -187,7 +280,12 @@ struct Row {
 
 impl Row {
     fn new(quantity: &'static Quantity, value: f64, method: Method) -> Row {
-        Row { quantity, symbol: quantity.symbol_in(method), label: quantity.label_in(method), shown: shown(quantity, value) }
+        Row {
+            quantity,
+            symbol: quantity.symbol_in(method),
+            label: quantity.label_in(method),
+            shown: shown(quantity, value),
+        }
     }
 }
 
@@ -210,14 +308,31 @@ impl Columns {
     }
 
     fn line(&self, row: &Row) -> String {
-        let Row { quantity, symbol, label, shown } = row;
-        let value = format!("{:>2$} {:3$}", shown.number, shown.unit, self.number, self.unit);
-        format!("  {:3$} {:4$} {value}  {}", symbol, label, quantity.equation, self.symbol, self.label)
+        let Row {
+            quantity,
+            symbol,
+            label,
+            shown,
+        } = row;
+        let value = format!(
+            "{:>2$} {:3$}",
+            shown.number, shown.unit, self.number, self.unit
+        );
+        format!(
+            "  {:3$} {:4$} {value}  {}",
+            symbol, label, quantity.equation, self.symbol, self.label
+        )
     }
 }
 
 fn notes(report: &Report) -> Vec<String> {
-    titled("Notes", report.notes.iter().flat_map(|note| item("  - ", &visible(&note.message))))
+    titled(
+        "Notes",
+        report
+            .notes
+            .iter()
+            .flat_map(|note| item("  - ", &sanitize(&note.message))),
+    )
 }
 
 fn limits(report: &Report) -> Vec<String> {
@@ -226,7 +341,12 @@ fn limits(report: &Report) -> Vec<String> {
     }
     let mark = |verdict: &Verdict| format!("  {:10}", verdict.standing.word());
     let verdicts = verdicts(&report.case, &report.solution);
-    titled("Limits", verdicts.iter().flat_map(|verdict| item(&mark(verdict), &verdict.to_string())))
+    titled(
+        "Limits",
+        verdicts
+            .iter()
+            .flat_map(|verdict| item(&mark(verdict), &verdict.to_string())),
+    )
 }
 
 // As many tables beside the angle as a line has no room for the columns of one.
@@ -239,14 +359,31 @@ fn station_table(report: &Report) -> Vec<String> {
     let rows = rows(&report.solution);
     let columns: Vec<_> = columns(report.solution.method).collect();
     let (angle, values) = columns.split_at(1);
-    let line = |row: Vec<String>| row.iter().map(|cell| format!("{cell:>CELL$}")).collect::<Vec<_>>().concat();
+    let line = |row: Vec<String>| {
+        row.iter()
+            .map(|cell| format!("{cell:>CELL$}"))
+            .collect::<Vec<_>>()
+            .concat()
+    };
     let table = |values: &[&Column]| {
         let columns: Vec<_> = angle.iter().chain(values).copied().collect();
-        let head = columns.iter().map(|column| format!("{} {}", column.symbol, column.shown)).collect();
-        let stations = rows.iter().map(|row| columns.iter().map(|column| column.told(*row)).collect());
-        std::iter::once(head).chain(stations).map(line).collect::<Vec<_>>()
+        let head = columns
+            .iter()
+            .map(|column| format!("{} {}", column.symbol, column.shown))
+            .collect();
+        let stations = rows
+            .iter()
+            .map(|row| columns.iter().map(|column| column.told(*row)).collect());
+        std::iter::once(head)
+            .chain(stations)
+            .map(line)
+            .collect::<Vec<_>>()
     };
-    let title = if report.solution.method.shares_load() { "Stations from D to the last contact" } else { "Stations from D to E" };
+    let title = if report.solution.method.shares_load() {
+        "Stations from D to the last contact"
+    } else {
+        "Stations from D to E"
+    };
     titled(title, values.chunks(IN_A_LINE).flat_map(table))
 }
 

@@ -10,7 +10,7 @@ use serde::{Serialize, Serializer};
 use super::json::write_line;
 use super::layout::{WIDTH, flow};
 use crate::case::fields::AUTO;
-use crate::case::visible::visible;
+use crate::case::sanitize::sanitize;
 use crate::model::inputs::Method;
 use crate::numeric::decimal::significant;
 use crate::study::trade::{Differences, Measured, Setting, Subject, Trade, greatest};
@@ -31,17 +31,35 @@ pub struct Told<'a> {
 /// # Errors
 /// What the writer refuses.
 pub fn write(told: &Told<'_>, out: &mut dyn Write) -> io::Result<()> {
-    let sections = [heading(told), reference(told.trade), table::models(told.trade), table::settings(told.trade)];
+    let sections = [
+        heading(told),
+        reference(told.trade),
+        table::models(told.trade),
+        table::settings(told.trade),
+    ];
     for section in sections {
         writeln!(out, "{}\n", section.join("\n"))?;
     }
-    flow(conclusion(told.trade).split(' '), WIDTH).iter().try_for_each(|line| writeln!(out, "{line}"))
+    flow(conclusion(told.trade).split(' '), WIDTH)
+        .iter()
+        .try_for_each(|line| writeln!(out, "{line}"))
 }
 
 fn heading(told: &Told<'_>) -> Vec<String> {
-    let title = if told.title.is_empty() { "Case without a title" } else { told.title };
-    let mut lines = flow(visible(title).split_whitespace(), WIDTH);
-    lines.extend(flow([visible(told.name).as_str(), "·", "speed against accuracy, measured here and now"], WIDTH));
+    let title = if told.title.is_empty() {
+        "Case without a title"
+    } else {
+        told.title
+    };
+    let mut lines = flow(sanitize(title).split_whitespace(), WIDTH);
+    lines.extend(flow(
+        [
+            sanitize(told.name).as_str(),
+            "·",
+            "speed against accuracy, measured here and now",
+        ],
+        WIDTH,
+    ));
     lines
 }
 
@@ -50,7 +68,10 @@ fn reference(trade: &Trade) -> Vec<String> {
         Err(refusal) => format!("No reference: the method dynamic refuses the case: {refusal}."),
         Ok(reference) => {
             let check = match &reference.disagreement {
-                Ok(off) => format!("a second way is within {:.0e} of it", greatest(off).unwrap_or(0.0)),
+                Ok(off) => format!(
+                    "a second way is within {:.0e} of it",
+                    greatest(off).unwrap_or(0.0)
+                ),
                 Err(refusal) => format!("it could not be checked by a second way: {refusal}"),
             };
             format!("Reference: {}; {check}.", reference.setting)
@@ -72,7 +93,10 @@ pub fn conclusion(trade: &Trade) -> String {
     match trade.recommended.and_then(|at| trade.settings.get(at)) {
         Some(measured) if trade.comes_in_on_time() => {
             let Measured { setting, .. } = measured;
-            format!("{ON_TIME}: the cheapest that says so is {setting}, {}. {CARRIED}", duration(measured.seconds()))
+            format!(
+                "{ON_TIME}: the cheapest that says so is {setting}, {}. {CARRIED}",
+                duration(measured.seconds())
+            )
         }
         Some(measured) => format!("Within {within} %: {}", summary(measured)),
         None => format!("Within {within} %: none"),
@@ -86,7 +110,12 @@ pub fn summary(measured: &Measured) -> String {
         (_, Err(refusal)) => format!("{}: {refusal}", measured.setting),
         (None, Ok(figures)) => format!("{}, {}", measured.setting, duration(figures.time.seconds)),
         (Some(total), Ok(figures)) => {
-            format!("{}, {} % in {}", measured.setting, percent(total), duration(figures.time.seconds))
+            format!(
+                "{}, {} % in {}",
+                measured.setting,
+                percent(total),
+                duration(figures.time.seconds)
+            )
         }
     }
 }
@@ -97,9 +126,17 @@ pub fn parts(trade: &Trade, measured: &Measured) -> Option<String> {
     let figures = measured.found.as_ref().ok()?;
     let (numbers, curve) = table::parts(&figures.numerical);
     let model = greatest(&model_off(trade, figures.method));
-    let [numbers, curve, model] = [numbers, curve, model].map(|off| off.map_or_else(|| "-".to_owned(), percent));
-    let is_reference = trade.reference.as_ref().is_ok_and(|reference| reference.setting.method == figures.method);
-    let model = if is_reference { "model: the reference".to_owned() } else { format!("model {model} %") };
+    let [numbers, curve, model] =
+        [numbers, curve, model].map(|off| off.map_or_else(|| "-".to_owned(), percent));
+    let is_reference = trade
+        .reference
+        .as_ref()
+        .is_ok_and(|reference| reference.setting.method == figures.method);
+    let model = if is_reference {
+        "model: the reference".to_owned()
+    } else {
+        format!("model {model} %")
+    };
     Some(format!("numbers {numbers} %, curve {curve} %, {model}"))
 }
 
@@ -150,7 +187,10 @@ struct ReferenceLine {
 }
 
 #[derive(Serialize)]
-#[expect(clippy::struct_excessive_bools, reason = "each is a name that scripts read")]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is a name that scripts read"
+)]
 struct SettingLine {
     method: &'static str,
     /// What the method `auto` took.
@@ -201,35 +241,66 @@ pub fn write_json(told: &Told<'_>, out: &mut dyn Write) -> io::Result<()> {
         within: trade.within,
         reference: reference_line(trade),
         no_reference: trade.reference.as_ref().err().map(ToString::to_string),
-        settings: trade.settings.iter().map(|measured| setting_line(trade, measured)).collect(),
-        recommended: trade.recommended.and_then(|at| trade.settings.get(at)).map(|measured| setting_line(trade, measured)),
+        settings: trade
+            .settings
+            .iter()
+            .map(|measured| setting_line(trade, measured))
+            .collect(),
+        recommended: trade
+            .recommended
+            .and_then(|at| trade.settings.get(at))
+            .map(|measured| setting_line(trade, measured)),
     };
     write_line(&line, out)
 }
 
 fn reference_line(trade: &Trade) -> Option<ReferenceLine> {
     let reference = trade.reference.as_ref().ok()?;
-    let Setting { method, stations, tolerance, .. } = reference.setting;
+    let Setting {
+        method,
+        stations,
+        tolerance,
+        ..
+    } = reference.setting;
     let quantities = Subject::ALL.into_iter().filter_map(|subject| {
         let quantity = subject.quantity(method)?;
-        Some((quantity.key.to_owned(), reference.values[subject as usize]?.into()))
+        Some((
+            quantity.key.to_owned(),
+            reference.values[subject as usize]?.into(),
+        ))
     });
     Some(ReferenceLine {
         method: method.name(),
         stations,
         tolerance,
         quantities: quantities.collect(),
-        disagreement: reference.disagreement.as_ref().ok().map(|off| by_subject(|subject| off[subject as usize].map(Into::into))),
-        unchecked: reference.disagreement.as_ref().err().map(ToString::to_string),
+        disagreement: reference
+            .disagreement
+            .as_ref()
+            .ok()
+            .map(|off| by_subject(|subject| off[subject as usize].map(Into::into))),
+        unchecked: reference
+            .disagreement
+            .as_ref()
+            .err()
+            .map(ToString::to_string),
     })
 }
 
 fn setting_line(trade: &Trade, measured: &Measured) -> SettingLine {
-    let Setting { method, stations, tolerance, accurate } = measured.setting;
+    let Setting {
+        method,
+        stations,
+        tolerance,
+        accurate,
+    } = measured.setting;
     let figures = measured.found.as_ref().ok();
     SettingLine {
         method: method.name(),
-        took: figures.map(|figures| figures.method).filter(|&took| took != method).map(Method::name),
+        took: figures
+            .map(|figures| figures.method)
+            .filter(|&took| took != method)
+            .map(Method::name),
         stations,
         tolerance,
         accurate,
@@ -238,7 +309,9 @@ fn setting_line(trade: &Trade, measured: &Measured) -> SettingLine {
         spread: figures.map(|figures| figures.time.spread),
         runs: figures.map(|figures| figures.time.runs),
         evaluations: figures.and_then(|figures| figures.evaluations),
-        errors: figures.map_or_else(serde_json::Map::new, |_| by_subject(|subject| errors(trade, measured, subject))),
+        errors: figures.map_or_else(serde_json::Map::new, |_| {
+            by_subject(|subject| errors(trade, measured, subject))
+        }),
         total: measured.total(),
         pareto: measured.is_on_front,
         qualifies: measured.qualifies,
@@ -251,19 +324,32 @@ fn errors(trade: &Trade, measured: &Measured, subject: Subject) -> Option<serde_
     let figures = measured.found.as_ref().ok()?;
     let model = model_off(trade, figures.method);
     let of = |differences: &Differences| differences[subject as usize];
-    let parts = [("numerical", of(&figures.numerical)), ("model", of(&model)), ("total", of(&figures.total))];
-    let known: serde_json::Map<_, _> =
-        parts.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?.into()))).collect();
+    let parts = [
+        ("numerical", of(&figures.numerical)),
+        ("model", of(&model)),
+        ("total", of(&figures.total)),
+    ];
+    let known: serde_json::Map<_, _> = parts
+        .into_iter()
+        .filter_map(|(name, value)| Some((name.to_owned(), value?.into())))
+        .collect();
     (!known.is_empty()).then(|| known.into())
 }
 
-fn by_subject(value: impl Fn(Subject) -> Option<serde_json::Value>) -> serde_json::Map<String, serde_json::Value> {
-    Subject::ALL.into_iter().filter_map(|subject| Some((subject.key().to_owned(), value(subject)?))).collect()
+fn by_subject(
+    value: impl Fn(Subject) -> Option<serde_json::Value>,
+) -> serde_json::Map<String, serde_json::Value> {
+    Subject::ALL
+        .into_iter()
+        .filter_map(|subject| Some((subject.key().to_owned(), value(subject)?)))
+        .collect()
 }
 
 /// What a method's physics leaves out.
 fn model_off(trade: &Trade, method: Method) -> Differences {
-    trade.model(method).map_or([None; Subject::ALL.len()], |model| model.off)
+    trade
+        .model(method)
+        .map_or([None; Subject::ALL.len()], |model| model.off)
 }
 
 #[cfg(test)]
@@ -272,7 +358,13 @@ mod tests {
 
     #[test]
     fn times_and_errors_have_three_digits_at_most() {
-        assert_eq!([duration(1.234e-6), duration(0.0123), duration(61.0)], ["1.23 us", "12.3 ms", "61.0 s"]);
-        assert_eq!([percent(0.05), percent(0.55), percent(1.2e-9), percent(0.0)], ["5.0", "55.0", "1.2e-7", "0"]);
+        assert_eq!(
+            [duration(1.234e-6), duration(0.0123), duration(61.0)],
+            ["1.23 us", "12.3 ms", "61.0 s"]
+        );
+        assert_eq!(
+            [percent(0.05), percent(0.55), percent(1.2e-9), percent(0.0)],
+            ["5.0", "55.0", "1.2e-7", "0"]
+        );
     }
 }

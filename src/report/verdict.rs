@@ -4,8 +4,8 @@ mod json;
 
 use super::absence::Absence;
 use super::{shown_in, value};
+use crate::case::sanitize::sanitize;
 use crate::case::units::System;
-use crate::case::visible::visible;
 use crate::case::{Case, Limit};
 use crate::model::inputs::Method;
 use crate::model::{Quantity, Refusal, Solution, Stage, Stages};
@@ -65,7 +65,8 @@ pub struct Verdict<'a> {
     pub standing: Standing,
     /// Why there is no value.
     pub absence: Option<Absence>,
-    /// What the method itself finds in place of the limited quantity, where that is the closed form's.
+    /// What the method itself finds in place of the limited quantity, where that is the closed
+    /// form's.
     pub beside: Option<Beside>,
 }
 
@@ -85,20 +86,37 @@ impl Beside {
     #[must_use]
     pub fn of(quantity: &'static Quantity, solution: &Solution) -> Option<Beside> {
         let method = solution.method;
-        let own = || quantity.by(method).map(|own| (own.key, value(own, solution)));
-        (method.shares_load() && quantity.is_of_free_impact()).then(|| Beside { method, own: own(), is_limited: false })
+        let own = || {
+            quantity
+                .by(method)
+                .map(|own| (own.key, value(own, solution)))
+        };
+        (method.shares_load() && quantity.is_of_free_impact()).then(|| Beside {
+            method,
+            own: own(),
+            is_limited: false,
+        })
     }
 
     /// In words, the value in metric or inch units.
     #[must_use]
     pub fn told(&self, system: System) -> String {
-        let own = self.own.and_then(|(key, value)| Some((Quantity::find(key)?, value)));
+        let own = self
+            .own
+            .and_then(|(key, value)| Some((Quantity::find(key)?, value)));
         let method = self.method.name();
         match own {
             Some((own, Some(value))) => {
-                format!("of the free impact, in closed form; {method} itself finds {} {}", own.key, shown_in(own, value, system))
+                format!(
+                    "of the free impact, in closed form; {method} itself finds {} {}",
+                    own.key,
+                    shown_in(own, value, system)
+                )
             }
-            Some((own, None)) => format!("of the free impact, in closed form; {method} itself tells {}", own.key),
+            Some((own, None)) => format!(
+                "of the free impact, in closed form; {method} itself tells {}",
+                own.key
+            ),
             None => format!("of the free impact, in closed form, and not of {method}"),
         }
     }
@@ -107,12 +125,22 @@ impl Beside {
 /// Every limit of the case held against the solution, in the case's order.
 #[must_use]
 pub fn verdicts<'a>(case: &'a Case, solution: &Solution) -> Vec<Verdict<'a>> {
-    let is_limited = |beside: &Beside| case.limits.iter().any(|limit| beside.own.is_some_and(|(own, _)| own == limit.quantity));
+    let is_limited = |beside: &Beside| {
+        case.limits
+            .iter()
+            .any(|limit| beside.own.is_some_and(|(own, _)| own == limit.quantity))
+    };
     let of_case = |verdict: Verdict<'a>| Verdict {
-        beside: verdict.beside.map(|beside| Beside { is_limited: is_limited(&beside), ..beside }),
+        beside: verdict.beside.map(|beside| Beside {
+            is_limited: is_limited(&beside),
+            ..beside
+        }),
         ..verdict
     };
-    case.limits.iter().map(|limit| of_case(verdict(limit, solution))).collect()
+    case.limits
+        .iter()
+        .map(|limit| of_case(verdict(limit, solution)))
+        .collect()
 }
 
 /// The stages that every limit of a case needs.
@@ -124,15 +152,23 @@ pub fn stages(case: &Case) -> Stages {
 /// The stages of what a method itself finds in place of the limited quantities.
 #[must_use]
 pub fn stages_beside(case: &Case, method: Method) -> Stages {
-    of_all(limited(case).filter(|quantity| quantity.is_of_free_impact()).filter_map(|quantity| quantity.by(method)))
+    of_all(
+        limited(case)
+            .filter(|quantity| quantity.is_of_free_impact())
+            .filter_map(|quantity| quantity.by(method)),
+    )
 }
 
 fn limited(case: &Case) -> impl Iterator<Item = &'static Quantity> {
-    case.limits.iter().filter_map(|limit| Quantity::find(limit.quantity))
+    case.limits
+        .iter()
+        .filter_map(|limit| Quantity::find(limit.quantity))
 }
 
 fn of_all(quantities: impl Iterator<Item = &'static Quantity>) -> Stages {
-    quantities.fold(Stages::of(Stage::Geometry), |stages, quantity| stages.and(Stages::of(quantity.stage)))
+    quantities.fold(Stages::of(Stage::Geometry), |stages, quantity| {
+        stages.and(Stages::of(quantity.stage))
+    })
 }
 
 /// The verdict on one limit.
@@ -140,7 +176,9 @@ fn of_all(quantities: impl Iterator<Item = &'static Quantity>) -> Stages {
 pub fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Verdict<'a> {
     let quantity = Quantity::find(limit.quantity);
     let value = quantity.and_then(|quantity| value(quantity, solution));
-    let absence = quantity.filter(|_| value.is_none()).map(|quantity| Absence::of(quantity, solution));
+    let absence = quantity
+        .filter(|_| value.is_none())
+        .map(|quantity| Absence::of(quantity, solution));
     let standing = match (value, absence) {
         (Some(value), _) if value <= limit.value => Standing::Within,
         (Some(_), _) => Standing::Exceeded,
@@ -148,15 +186,29 @@ pub fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Verdict<'a> {
         (None, _) => Standing::Unknown,
     };
     // Where nothing strikes no method tells another story.
-    let beside = quantity.filter(|_| value.is_some()).and_then(|quantity| Beside::of(quantity, solution));
-    Verdict { limit, value, standing, absence, beside }
+    let beside = quantity
+        .filter(|_| value.is_some())
+        .and_then(|quantity| Beside::of(quantity, solution));
+    Verdict {
+        limit,
+        value,
+        standing,
+        absence,
+        beside,
+    }
 }
 
 /// Every limit of a case that the model refuses: none can be held against anything.
 #[must_use]
 pub fn refused<'a>(case: &'a Case, refusal: &Refusal) -> Vec<Verdict<'a>> {
     let absence = Some(Absence::Withheld(*refusal));
-    let verdict = |limit| Verdict { limit, value: None, standing: Standing::Unknown, absence, beside: None };
+    let verdict = |limit| Verdict {
+        limit,
+        value: None,
+        standing: Standing::Unknown,
+        absence,
+        beside: None,
+    };
     case.limits.iter().map(verdict).collect()
 }
 
@@ -164,22 +216,36 @@ impl Verdict<'_> {
     /// The value as a part of the limit, where that says something.
     #[must_use]
     pub fn part(&self) -> Option<f64> {
-        let value = self.value.filter(|&value| self.limit.value > 0.0 && self.limit.value.is_finite() && value >= 0.0)?;
+        let value = self.value.filter(|&value| {
+            self.limit.value > 0.0 && self.limit.value.is_finite() && value >= 0.0
+        })?;
         Some(value / self.limit.value)
     }
 
     /// The verdict in a line, the value in metric or inch units; the limit as it was written.
     #[must_use]
     pub fn told(&self, system: System) -> String {
-        let beside = self.beside.map_or_else(String::new, |beside| format!(": {}", beside.told(system)));
-        let above = if self.is_exceeded_beside() { ", above the limit" } else { "" };
+        let beside = self
+            .beside
+            .map_or_else(String::new, |beside| format!(": {}", beside.told(system)));
+        let above = if self.is_exceeded_beside() {
+            ", above the limit"
+        } else {
+            ""
+        };
         self.said(system) + &beside + above + self.to_hold_beside()
     }
 
     // The limit keeps its meaning: how to hold what the method finds, where the case does not.
     fn to_hold_beside(&self) -> &'static str {
-        let may_be_limited = self.beside.is_some_and(|beside| beside.own.is_some() && !beside.is_limited);
-        if may_be_limited { "; a limit on that holds it" } else { "" }
+        let may_be_limited = self
+            .beside
+            .is_some_and(|beside| beside.own.is_some() && !beside.is_limited);
+        if may_be_limited {
+            "; a limit on that holds it"
+        } else {
+            ""
+        }
     }
 
     /// Whether what the method itself finds is above the limit of what the closed form says.
@@ -187,24 +253,38 @@ impl Verdict<'_> {
     pub fn is_exceeded_beside(&self) -> bool {
         // An angle may be of the other gear.
         let is_held = |key: &str| Quantity::find(key).is_some_and(|own| own.unit != "rad");
-        let own = self.beside.and_then(|beside| beside.own).filter(|(key, _)| is_held(key)).and_then(|(_, own)| own);
+        let own = self
+            .beside
+            .and_then(|beside| beside.own)
+            .filter(|(key, _)| is_held(key))
+            .and_then(|(_, own)| own);
         own.is_some_and(|own| own > self.limit.value)
     }
 
     fn said(&self, system: System) -> String {
-        let (key, limit) = (self.limit.quantity, visible(&self.limit.text));
+        let (key, limit) = (self.limit.quantity, sanitize(&self.limit.text));
         let (Some(value), Some(quantity)) = (self.value, Quantity::find(key)) else {
             return match self.absence {
-                Some(Absence::Withheld(refusal)) => format!("{key} cannot be computed: {refusal} (limit {limit})"),
+                Some(Absence::Withheld(refusal)) => {
+                    format!("{key} cannot be computed: {refusal} (limit {limit})")
+                }
                 Some(absence) if self.standing == Standing::Unknown => {
                     format!("{key} has no value to hold against {limit}: {absence}")
                 }
                 _ => format!("{key} none, no corner contact (limit {limit})"),
             };
         };
-        let sign = if self.standing == Standing::Exceeded { ">" } else { "<=" };
+        let sign = if self.standing == Standing::Exceeded {
+            ">"
+        } else {
+            "<="
+        };
         let part = self.part().map(|part| format!(" ({:.0} %)", 100.0 * part));
-        format!("{key} {} {sign} {limit}{}", shown_in(quantity, value, system), part.unwrap_or_default())
+        format!(
+            "{key} {} {sign} {limit}{}",
+            shown_in(quantity, value, system),
+            part.unwrap_or_default()
+        )
     }
 }
 
@@ -225,7 +305,10 @@ mod tests {
             case.set_limit(quantity, text).unwrap();
         }
         let solution = crate::model::solve(&case.inputs().unwrap(), Stages::ALL).unwrap();
-        verdicts(&case, &solution).iter().map(|verdict| format!("{} {}", verdict.standing.word(), verdict.told(system))).collect()
+        verdicts(&case, &solution)
+            .iter()
+            .map(|verdict| format!("{} {}", verdict.standing.word(), verdict.told(system)))
+            .collect()
     }
 
     #[test]
@@ -235,16 +318,29 @@ mod tests {
             case.set("model.method", method).unwrap();
             case.set_limit("impact_force", limit).unwrap();
             let solution = crate::model::solve(&case.inputs().unwrap(), Stages::EVERY).unwrap();
-            verdicts(&case, &solution).iter().map(|verdict| (verdict.standing, verdict.to_string())).collect::<Vec<_>>()
+            verdicts(&case, &solution)
+                .iter()
+                .map(|verdict| (verdict.standing, verdict.to_string()))
+                .collect::<Vec<_>>()
         };
-        assert_eq!(verdicts("exact", "2500 N"), [(Standing::Within, "impact_force 2191.0 N <= 2500 N (88 %)".to_owned())]);
-        let [(standing, told)] = &verdicts("dynamic", "2100 N")[..] else { panic!("one limit") };
+        assert_eq!(
+            verdicts("exact", "2500 N"),
+            [(
+                Standing::Within,
+                "impact_force 2191.0 N <= 2500 N (88 %)".to_owned()
+            )]
+        );
+        let [(standing, told)] = &verdicts("dynamic", "2100 N")[..] else {
+            panic!("one limit")
+        };
         assert_eq!(*standing, Standing::Within);
         assert!(
             told.ends_with("; dynamic itself finds dynamic_peak_approach_force 1410.8 N; a limit on that holds it"),
             "{told}"
         );
-        let [(standing, told)] = &verdicts("static", "1 kN")[..] else { panic!("one limit") };
+        let [(standing, told)] = &verdicts("static", "1 kN")[..] else {
+            panic!("one limit")
+        };
         assert_eq!(*standing, Standing::Exceeded);
         assert!(
             told.ends_with("; static itself finds static_force_at_start 1466.2 N, above the limit; a limit on that holds it"),
@@ -271,12 +367,26 @@ mod tests {
             "dynamic_peak_force has no value to hold against 2 kN: the method is exact, and this is of dynamic, auto"
         );
         // That nothing strikes in closed form says nothing of the motion.
-        assert_eq!(stands("exact", "80 um", "dynamic_peak_force", "2 kN").0, Standing::Unknown);
-        assert_eq!(stands("exact", "80 um", "impact_force", "2 kN").0, Standing::NotApplicable);
+        assert_eq!(
+            stands("exact", "80 um", "dynamic_peak_force", "2 kN").0,
+            Standing::Unknown
+        );
+        assert_eq!(
+            stands("exact", "80 um", "impact_force", "2 kN").0,
+            Standing::NotApplicable
+        );
         let (standing, told) = stands("static", "80 um", "pitch_contact_jump", "2 kN");
         assert_eq!(standing, Standing::Unknown);
-        assert!(told.ends_with("the case gives no friction coefficient, operation.friction_coefficient"), "{told}");
-        assert_eq!(stands("static", "80 um", "static_first_contact_angle", "1 deg").0, Standing::NotApplicable);
+        assert!(
+            told.ends_with(
+                "the case gives no friction coefficient, operation.friction_coefficient"
+            ),
+            "{told}"
+        );
+        assert_eq!(
+            stands("static", "80 um", "static_first_contact_angle", "1 deg").0,
+            Standing::NotApplicable
+        );
     }
 
     #[test]
@@ -286,7 +396,10 @@ mod tests {
         case.set_limit("static_force_at_start", "1 kN").unwrap();
         let solution = crate::model::solve(&case.inputs().unwrap(), Stages::EVERY).unwrap();
         let told = verdicts(&case, &solution)[0].to_string();
-        assert!(told.ends_with("static itself finds static_force_at_start 1466.2 N"), "{told}");
+        assert!(
+            told.ends_with("static itself finds static_force_at_start 1466.2 N"),
+            "{told}"
+        );
     }
 
     #[test]
@@ -294,16 +407,32 @@ mod tests {
         let limits = [("impact_force", "500 lbf"), ("contact_ratio", "1.5")];
         assert_eq!(
             told(&limits, System::Metric),
-            ["ok impact_force 2191.0 N <= 500 lbf (99 %)", "EXCEEDED contact_ratio 1.5568 > 1.5 (104 %)"]
+            [
+                "ok impact_force 2191.0 N <= 500 lbf (99 %)",
+                "EXCEEDED contact_ratio 1.5568 > 1.5 (104 %)"
+            ]
         );
-        assert_eq!(told(&limits, System::Inch)[0], "ok impact_force 492.56 lbf <= 500 lbf (99 %)");
+        assert_eq!(
+            told(&limits, System::Inch)[0],
+            "ok impact_force 492.56 lbf <= 500 lbf (99 %)"
+        );
     }
 
     #[test]
     fn a_refused_case_gives_the_reason_for_every_limit() {
         let case = Case::table_1();
-        let verdicts = refused(&case, &Refusal::ContactRatioBelowOne { ratio: 0.9, is_deflection_taken: true });
+        let verdicts = refused(
+            &case,
+            &Refusal::ContactRatioBelowOne {
+                ratio: 0.9,
+                is_deflection_taken: true,
+            },
+        );
         assert!(!verdicts[0].standing.holds());
-        assert!(verdicts[0].to_string().starts_with("impact_force cannot be computed: the contact ratio is 0.9000"));
+        assert!(
+            verdicts[0]
+                .to_string()
+                .starts_with("impact_force cannot be computed: the contact ratio is 0.9000")
+        );
     }
 }

@@ -1,4 +1,5 @@
-//! Speed against accuracy: every method by several settings, each timed and held against one reference, here and now.
+//! Speed against accuracy: every method by several settings, each timed and held against one
+//! reference, here and now.
 
 mod answer;
 mod clock;
@@ -19,7 +20,8 @@ use rounds::Rounds;
 /// What a trade is asked.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Question {
-    /// The error that a setting may have, relative to the reference; what the method `auto` may leave as well.
+    /// The error that a setting may have, relative to the reference; what the method `auto` may
+    /// leave as well.
     pub within: f64,
     /// How long each setting is timed.
     pub patience: Patience,
@@ -51,7 +53,8 @@ pub struct Reference {
     pub setting: Setting,
     /// What it finds, in SI, in the order of [`Subject::ALL`].
     pub values: [Option<f64>; Subject::ALL.len()],
-    /// How far a second way, that shares the mesh alone, is from it, in the order of [`Subject::ALL`]; or why it is not known.
+    /// How far a second way, that shares the mesh alone, is from it, in the order of
+    /// [`Subject::ALL`]; or why it is not known.
     pub disagreement: Result<Differences, Refusal>,
 }
 
@@ -60,7 +63,8 @@ pub type Differences = [Option<f64>; Subject::ALL.len()];
 
 const NO_DIFFERENCES: Differences = [None; Subject::ALL.len()];
 
-/// The answers that the others are held against, with their curves: they are needed while it is measured, and no longer.
+/// The answers that the others are held against, with their curves: they are needed while it is
+/// measured, and no longer.
 struct Standards {
     truth: Option<Arc<Answer>>,
     /// Each method's by its best setting, where there is one.
@@ -114,18 +118,22 @@ pub fn greatest(differences: &Differences) -> Option<f64> {
     differences.iter().flatten().copied().reduce(f64::max)
 }
 
-/// Measure every setting on the case: first its errors, then all their times in rounds, until the median of each is steady.
-/// `told` sees what is known after each setting and each round.
+/// Measure every setting on the case: first its errors, then all their times in rounds, until the
+/// median of each is steady. `told` sees what is known after each setting and each round.
 ///
 /// # Errors
-/// [`Refusal::Stopped`] where `go_on` says no; the model's refusal where no method at all can be computed.
+/// [`Refusal::Stopped`] where `go_on` says no; the model's refusal where no method at all can be
+/// computed.
 pub fn trade(
     inputs: &Inputs,
     question: &Question,
     go_on: &dyn Fn() -> bool,
     told: &mut dyn FnMut(&Trade),
 ) -> Result<Trade, Refusal> {
-    let inputs = &Inputs { within: question.within, ..inputs.clone() };
+    let inputs = &Inputs {
+        within: question.within,
+        ..inputs.clone()
+    };
     let settings = settings(inputs);
     let (mut trade, standards) = Standards::find(inputs, question, settings.len(), go_on)?;
     told(&trade);
@@ -147,7 +155,10 @@ pub fn trade(
         trade.part = rounds.part(trade.planned);
         told(&trade);
     }
-    let refusals = trade.settings.iter().map(|measured| measured.found.as_ref().err());
+    let refusals = trade
+        .settings
+        .iter()
+        .map(|measured| measured.found.as_ref().err());
     match refusals.collect::<Option<Vec<_>>>() {
         Some(refusals) if !refusals.is_empty() => Err(*refusals[0]),
         _ => Ok(trade),
@@ -171,36 +182,82 @@ impl Standards {
         planned: usize,
         go_on: &dyn Fn() -> bool,
     ) -> Result<(Trade, Standards), Refusal> {
-        let (reference, truth) = stopped(Reference::of(inputs, go_on))?
-            .map_or_else(|refusal| (Err(refusal), None), |(reference, truth)| (Ok(reference), Some(Arc::new(truth))));
+        let (reference, truth) = stopped(Reference::of(inputs, go_on))?.map_or_else(
+            |refusal| (Err(refusal), None),
+            |(reference, truth)| (Ok(reference), Some(Arc::new(truth))),
+        );
         let (mut models, mut best) = (Vec::new(), Vec::new());
         for method in METHODS {
             let found = match (&reference, &truth) {
-                (Ok(reference), Some(truth)) if method == reference.setting.method => Some(Arc::clone(truth)),
-                _ => stopped(answer_of(inputs, Setting::best(method), go_on))?.ok().map(Arc::new),
+                (Ok(reference), Some(truth)) if method == reference.setting.method => {
+                    Some(Arc::clone(truth))
+                }
+                _ => stopped(answer_of(inputs, Setting::best(method), go_on))?
+                    .ok()
+                    .map(Arc::new),
             };
-            let off = found.as_ref().zip(truth.as_ref()).map_or(NO_DIFFERENCES, |(found, truth)| differences(found, truth));
-            models.push(Model { method, off, outcome: found.as_ref().map(|found| found.outcome) });
+            let off = found
+                .as_ref()
+                .zip(truth.as_ref())
+                .map_or(NO_DIFFERENCES, |(found, truth)| differences(found, truth));
+            models.push(Model {
+                method,
+                off,
+                outcome: found.as_ref().map(|found| found.outcome),
+            });
             best.extend(found.map(|found| (method, found)));
         }
         // A measurement is kept with its case: it has room for what it will hold, and no more.
         let settings = Vec::with_capacity(planned);
-        let trade = Trade { within: question.within, planned, settings, part: 0.0, reference, models, recommended: None };
+        let trade = Trade {
+            within: question.within,
+            planned,
+            settings,
+            part: 0.0,
+            reference,
+            models,
+            recommended: None,
+        };
         Ok((trade, Standards { truth, best }))
     }
 
     /// Errors of a setting, and a first look at its time.
-    fn measure(&self, inputs: &Inputs, setting: Setting, rounds: &mut Rounds<'_>) -> Result<Measured, Refusal> {
-        let found = rounds.first(setting)?.map(|(answer, time)| self.figures(&answer, time));
+    fn measure(
+        &self,
+        inputs: &Inputs,
+        setting: Setting,
+        rounds: &mut Rounds<'_>,
+    ) -> Result<Measured, Refusal> {
+        let found = rounds
+            .first(setting)?
+            .map(|(answer, time)| self.figures(&answer, time));
         let is_current = setting == Setting::of(inputs);
-        Ok(Measured { setting, is_current, found, is_on_front: false, qualifies: false })
+        Ok(Measured {
+            setting,
+            is_current,
+            found,
+            is_on_front: false,
+            qualifies: false,
+        })
     }
 
     fn figures(&self, answer: &Answer, time: Time) -> Figures {
-        let best = self.best.iter().find(|(method, _)| *method == answer.method);
+        let best = self
+            .best
+            .iter()
+            .find(|(method, _)| *method == answer.method);
         let numerical = best.map_or(NO_DIFFERENCES, |(_, best)| differences(answer, best));
-        let total = self.truth.as_ref().map_or(NO_DIFFERENCES, |truth| differences(answer, truth));
-        Figures { method: answer.method, time, evaluations: answer.evaluations, numerical, total }
+        let total = self
+            .truth
+            .as_ref()
+            .map_or(NO_DIFFERENCES, |truth| differences(answer, truth));
+        Figures {
+            method: answer.method,
+            time,
+            evaluations: answer.evaluations,
+            numerical,
+            total,
+        }
     }
 }
 
@@ -214,31 +271,46 @@ impl Trade {
     /// Whether no tooth strikes, by every method that solves the case.
     #[must_use]
     pub fn comes_in_on_time(&self) -> bool {
-        let mut outcomes = self.models.iter().filter_map(|model| model.outcome).peekable();
+        let mut outcomes = self
+            .models
+            .iter()
+            .filter_map(|model| model.outcome)
+            .peekable();
         outcomes.peek().is_some() && outcomes.all(|outcome| outcome == Outcome::NoCornerContact)
     }
 
-    /// Mark who qualifies, who stands on the front, and who is the cheapest, by the times and errors that stand there.
+    /// Mark who qualifies, who stands on the front, and who is the cheapest, by the times and
+    /// errors that stand there.
     pub fn judge(&mut self) {
         let points: Vec<Option<(f64, f64)>> = self.settings.iter().map(Measured::point).collect();
         for (measured, point) in self.settings.iter_mut().zip(&points) {
             measured.qualifies = measured.is_within(self.within);
-            measured.is_on_front = point.is_some_and(|point| !points.iter().flatten().any(|other| dominates(other, &point)));
+            measured.is_on_front = point.is_some_and(|point| {
+                !points
+                    .iter()
+                    .flatten()
+                    .any(|other| dominates(other, &point))
+            });
         }
         self.recommended = self.cheapest();
     }
 
-    /// The cheapest setting that qualifies of the methods among which `auto` chooses: what that takes is one of the others, and
-    /// `paper` is the print, which says no more than `exact` even where nothing strikes. Of those whose times cannot be told
-    /// apart from it, the most accurate.
+    /// The cheapest setting that qualifies of the methods among which `auto` chooses: what that
+    /// takes is one of the others, and `paper` is the print, which says no more than `exact` even
+    /// where nothing strikes. Of those whose times cannot be told apart from it, the most accurate.
     fn cheapest(&self) -> Option<usize> {
-        let is_candidate = |measured: &&Measured| measured.qualifies && auto::METHODS.contains(&measured.setting.method);
+        let is_candidate = |measured: &&Measured| {
+            measured.qualifies && auto::METHODS.contains(&measured.setting.method)
+        };
         let candidates = || self.settings.iter().filter(is_candidate);
-        let quickest = candidates().min_by(|one, other| one.seconds().total_cmp(&other.seconds()))?;
+        let quickest =
+            candidates().min_by(|one, other| one.seconds().total_cmp(&other.seconds()))?;
         let tied = candidates().filter(|measured| measured.ties(quickest));
         let error = |measured: &Measured| measured.total().unwrap_or(f64::INFINITY);
         let best = tied.min_by(|one, other| error(one).total_cmp(&error(other)))?;
-        self.settings.iter().position(|measured| std::ptr::eq(measured, best))
+        self.settings
+            .iter()
+            .position(|measured| std::ptr::eq(measured, best))
     }
 }
 
@@ -246,21 +318,27 @@ impl Measured {
     /// Time of a solve in s; infinite where there is none.
     #[must_use]
     pub fn seconds(&self) -> f64 {
-        self.found.as_ref().map_or(f64::INFINITY, |figures| figures.time.seconds)
+        self.found
+            .as_ref()
+            .map_or(f64::INFINITY, |figures| figures.time.seconds)
     }
 
     /// The greatest total error, where the setting answers all that is needed.
     #[must_use]
     pub fn total(&self) -> Option<f64> {
         let figures = self.found.as_ref().ok()?;
-        let answers = Subject::NEEDED.iter().all(|&subject| figures.total[subject as usize].is_some());
+        let answers = Subject::NEEDED
+            .iter()
+            .all(|&subject| figures.total[subject as usize].is_some());
         greatest(&figures.total).filter(|_| answers)
     }
 
     /// Whether it cannot be told which of the two is the quicker.
     fn ties(&self, other: &Measured) -> bool {
         let time = |measured: &Measured| measured.found.as_ref().ok().map(|figures| figures.time);
-        time(self).zip(time(other)).is_some_and(|(one, other)| one.ties(&other))
+        time(self)
+            .zip(time(other))
+            .is_some_and(|(one, other)| one.ties(&other))
     }
 
     /// Error and time.
@@ -281,9 +359,18 @@ impl Reference {
         let solution = answer::solve(&inputs, go_on)?;
         let answer = Answer::of(&solution);
         let second = stopped(second::second_way(&inputs, &solution, go_on))?;
-        let off = |second: second::Second| Subject::ALL.map(|subject| apart(second.value(subject), answer.value(subject)));
+        let off = |second: second::Second| {
+            Subject::ALL.map(|subject| apart(second.value(subject), answer.value(subject)))
+        };
         let disagreement = second.map(off);
-        Ok((Reference { setting, values: Subject::ALL.map(|subject| answer.value(subject)), disagreement }, answer))
+        Ok((
+            Reference {
+                setting,
+                values: Subject::ALL.map(|subject| answer.value(subject)),
+                disagreement,
+            },
+            answer,
+        ))
     }
 }
 
@@ -305,7 +392,11 @@ fn differences(answer: &Answer, truth: &Answer) -> Differences {
     Subject::ALL.map(|subject| answer.off(truth, subject))
 }
 
-fn answer_of(inputs: &Inputs, setting: Setting, go_on: &dyn Fn() -> bool) -> Result<Answer, Refusal> {
+fn answer_of(
+    inputs: &Inputs,
+    setting: Setting,
+    go_on: &dyn Fn() -> bool,
+) -> Result<Answer, Refusal> {
     answer::solve(&setting.inputs(inputs), go_on).map(|solution| Answer::of(&solution))
 }
 

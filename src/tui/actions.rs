@@ -7,22 +7,23 @@ use ratatui::layout::{Position, Size};
 
 use super::app::Progress;
 use super::commands::{self, Command};
-use super::errands::{Errand, Explained};
+use super::jobs::{Explained, Job};
 use super::keys::{Chord, Place};
-use super::measurer::{Measured, Measuring};
 use super::prompt::Next;
 use super::recovery::Claim;
 use super::settings::Settings;
 use super::solver::{Answer, Request};
-use super::store::below::Below;
+use super::store::case_search::Below;
 use super::store::folder::Listing;
-use super::store::preview::{Preview, Sight};
+use super::store::preview::{Preview, Viewport};
 use super::store::recents::Recent;
 use super::store::{SaveFault, Saving};
+use super::trade_worker::{Measured, Measuring};
 use crate::case::Document;
 use crate::report::digest::Digest;
 
-/// Something that happened: from a key, the mouse, the clock, the worker, or an effect that is done.
+/// Something that happened: from a key, the mouse, the clock, the worker, or an effect that is
+/// done.
 #[derive(Debug, Clone)]
 pub enum Action {
     /// A command of the table.
@@ -60,7 +61,7 @@ pub enum Action {
     /// Which cases stand below a folder.
     Found(Box<Below>),
     /// What a file or a folder holds.
-    Previewed(Sight, Box<Preview>),
+    Previewed(Viewport, Box<Preview>),
     /// What was found out about a case that was opened.
     Claimed(Box<Claim>),
     /// The cases that were open last, the latest first.
@@ -83,7 +84,7 @@ pub enum Effect {
     /// Write a case, and tell it with what comes next as [`Action::Saved`].
     Save(Box<Saving>, Next),
     /// Look into something, without keeping the screen waiting.
-    Errand(Errand),
+    Job(Job),
     /// Open this case when the workbench starts the next time.
     Remember(PathBuf),
     /// The edits of this journal are in the form now.
@@ -119,13 +120,19 @@ pub fn of_key(event: KeyEvent, place: Place) -> Option<Action> {
         return None;
     }
     let chord = Chord::of(event);
-    commands::called(chord, place).map(Action::Do).or_else(|| typed(chord, place))
+    commands::called(chord, place)
+        .map(Action::Do)
+        .or_else(|| typed(chord, place))
 }
 
 fn typed(chord: Chord, place: Place) -> Option<Action> {
     match chord {
-        Chord(KeyCode::Char(letter), KeyModifiers::NONE) if place.meets(Place::TYPED) => Some(Action::Insert(letter)),
-        Chord(KeyCode::Char(letter), KeyModifiers::NONE) if place.meets(Place::OUTSIDE) => Some(Action::Stray(letter)),
+        Chord(KeyCode::Char(letter), KeyModifiers::NONE) if place.meets(Place::TYPED) => {
+            Some(Action::Insert(letter))
+        }
+        Chord(KeyCode::Char(letter), KeyModifiers::NONE) if place.meets(Place::OUTSIDE) => {
+            Some(Action::Stray(letter))
+        }
         _ => None,
     }
 }
@@ -142,16 +149,29 @@ mod tests {
     fn letters_type_in_a_text_and_command_nowhere_there() {
         for letter in ('a'..='z').chain(['?', ' ', 'Q', ':', '/', '1']) {
             for place in [Place::TEXT, Place::PATH, Place::PICK] {
-                assert!(matches!(of_key(plain(letter), place), Some(Action::Insert(typed)) if typed == letter), "{letter}");
+                assert!(
+                    matches!(of_key(plain(letter), place), Some(Action::Insert(typed)) if typed == letter),
+                    "{letter}"
+                );
             }
         }
     }
 
     #[test]
     fn outside_a_field_no_letter_is_text() {
-        for place in [Place::FIELD, Place::RESULTS, Place::CHART, Place::TEETH, Place::TRADE, Place::READ] {
+        for place in [
+            Place::FIELD,
+            Place::RESULTS,
+            Place::CHART,
+            Place::TEETH,
+            Place::TRADE,
+            Place::READ,
+        ] {
             for letter in '!'..='~' {
-                assert!(!matches!(of_key(plain(letter), place), Some(Action::Insert(_))), "{letter}");
+                assert!(
+                    !matches!(of_key(plain(letter), place), Some(Action::Insert(_))),
+                    "{letter}"
+                );
             }
         }
     }

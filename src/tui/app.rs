@@ -9,7 +9,7 @@ use super::keys::Place;
 use super::layout::plan;
 use super::pane::{Pane, Panes};
 use super::prompt::Prompt;
-use super::recovery::{Access, NEWER, Sheet};
+use super::recovery::{Access, NEWER, OpenCase};
 use super::rows;
 use super::settings::Settings;
 use super::solver::{self, Answer, Request};
@@ -53,7 +53,8 @@ pub struct App {
     pub chart: ChartView,
     /// The chart, by its place in the table; until the workbench is left.
     pub graph: usize,
-    /// Whether the charts tell the time after E in place of the roll angle before it; until the workbench is left.
+    /// Whether the charts tell the time after E in place of the roll angle before it; until the
+    /// workbench is left.
     pub by_time: bool,
     /// Whether the cursor runs by itself.
     pub is_playing: bool,
@@ -64,7 +65,7 @@ pub struct App {
     /// What lies over the panes, the topmost last.
     pub prompts: Vec<Prompt>,
     /// Whether what is focused may be out of sight in form or results.
-    pub is_astray: bool,
+    pub needs_scroll: bool,
     /// Said once, until the next key.
     pub message: Option<Message>,
     /// The size of the terminal.
@@ -140,7 +141,7 @@ impl App {
             progress: None,
             measuring: None,
             prompts: Vec::new(),
-            is_astray: false,
+            needs_scroll: false,
             message: None,
             size,
             settings: Settings::default(),
@@ -158,13 +159,15 @@ impl App {
 
     /// The open cases in their order, the current one among them.
     pub fn tabs(&self) -> impl Iterator<Item = &Tab> {
-        let (before, after) = self.others.split_at(self.place_of_tab.min(self.others.len()));
+        let (before, after) = self
+            .others
+            .split_at(self.place_of_tab.min(self.others.len()));
         before.iter().chain(std::iter::once(&self.tab)).chain(after)
     }
 
     /// What every open case makes of its file.
     #[must_use]
-    pub fn sheets(&self) -> Vec<Sheet<'_>> {
+    pub fn sheets(&self) -> Vec<OpenCase<'_>> {
         self.tabs().map(Tab::sheet).collect()
     }
 
@@ -188,8 +191,11 @@ impl App {
 
     /// Whether the focused row is one of a value, and what is typed would replace all of it.
     fn is_fresh(&self) -> bool {
-        let Tab { case, focus, input, .. } = &self.tab;
-        let is_words = rows::field(case, *focus).is_some_and(|field| matches!(field.kind, Kind::Text));
+        let Tab {
+            case, focus, input, ..
+        } = &self.tab;
+        let is_words =
+            rows::field(case, *focus).is_some_and(|field| matches!(field.kind, Kind::Text));
         !is_words && input.kept() == 0
     }
 
@@ -197,7 +203,15 @@ impl App {
     #[must_use]
     pub fn ending(&self) -> Option<String> {
         let (tab, system) = (&self.tab, self.settings.units);
-        let typed = || rows::ending(&tab.case, tab.focus, tab.input.value(), tab.written_unit.as_deref(), system);
+        let typed = || {
+            rows::ending(
+                &tab.case,
+                tab.focus,
+                tab.input.value(),
+                tab.written_unit.as_deref(),
+                system,
+            )
+        };
         if self.has_line() { typed() } else { None }
     }
 
@@ -215,21 +229,32 @@ impl App {
             return Stages::EVERY;
         }
         let plan = plan(self.size, self.panes);
-        let seen = Pane::ALL.into_iter().filter(|&pane| !plan.area(pane).is_empty());
-        // The verdict, with the outcome and its notes, stands there even where only the chart is in sight: all but the band and
-        // what stops it.
-        let verdict = Pane::Results.needs().without(Stage::Band).without(Stage::Clearing);
+        let seen = Pane::ALL
+            .into_iter()
+            .filter(|&pane| !plan.area(pane).is_empty());
+        // The verdict, with the outcome and its notes, stands there even where only the chart is in
+        // sight: all but the band and what stops it.
+        let verdict = Pane::Results
+            .needs()
+            .without(Stage::Band)
+            .without(Stage::Clearing);
         seen.fold(verdict, |stages, pane| stages.and(pane.needs()))
     }
 
     /// Say something until the next key.
     pub(super) fn say(&mut self, text: impl Into<String>) {
-        self.message = Some(Message { text: text.into(), is_fault: false });
+        self.message = Some(Message {
+            text: text.into(),
+            is_fault: false,
+        });
     }
 
     /// Say what went wrong, until the next key.
     pub(super) fn complain(&mut self, text: impl Into<String>) {
-        self.message = Some(Message { text: text.into(), is_fault: true });
+        self.message = Some(Message {
+            text: text.into(),
+            is_fault: true,
+        });
     }
 
     /// Move to a field, the cursor at the end of its text.
@@ -240,7 +265,7 @@ impl App {
 
     /// Form and results are to scroll until what is focused is in sight with what is wrong with it.
     pub(super) fn follow(&mut self) {
-        self.is_astray = true;
+        self.needs_scroll = true;
     }
 
     /// Put another case into the form, and ask for its results.
@@ -258,15 +283,25 @@ impl App {
             Ok(inputs) => {
                 self.last_serial += 1;
                 let tab = &mut self.tab;
-                (tab.serial, tab.asked, tab.is_settled, tab.solving) = (self.last_serial, stages, false, None);
+                (tab.serial, tab.asked, tab.is_settled, tab.solving) =
+                    (self.last_serial, stages, false, None);
                 tab.problems.clear();
-                Some(Request { serial: tab.serial, case: tab.case.clone(), inputs, stages })
+                Some(Request {
+                    serial: tab.serial,
+                    case: tab.case.clone(),
+                    inputs,
+                    stages,
+                })
             }
             Err(problems) => {
                 self.tab.refusal = None;
                 let (case, focus) = (&self.tab.case, self.tab.focus);
-                let place_of = |problem: &Problem| rows::of_key(case, &problem.field).unwrap_or(focus);
-                self.tab.problems = problems.into_iter().map(|problem| (place_of(&problem), problem.for_form())).collect();
+                let place_of =
+                    |problem: &Problem| rows::of_key(case, &problem.field).unwrap_or(focus);
+                self.tab.problems = problems
+                    .into_iter()
+                    .map(|problem| (place_of(&problem), problem.for_form()))
+                    .collect();
                 None
             }
         }
@@ -275,14 +310,22 @@ impl App {
     /// What the worker shall solve because the first picture could not wait for it.
     pub(super) fn unanswered(&mut self) -> Option<Request> {
         let asked = self.tab.asked;
-        let waits = self.tab.answer.as_ref().is_some_and(|answer| answer.pending.is_some() || answer.stages != asked);
+        let waits = self
+            .tab
+            .answer
+            .as_ref()
+            .is_some_and(|answer| answer.pending.is_some() || answer.stages != asked);
         if waits { self.request() } else { None }
     }
 
     /// What the worker shall solve anew because something came in sight that was not asked for.
     pub(super) fn catch_up(&mut self) -> Option<Request> {
         let lacks = !self.wanted().iter().all(|stage| self.tab.asked.has(stage));
-        if lacks && self.tab.problems.is_empty() { self.request() } else { None }
+        if lacks && self.tab.problems.is_empty() {
+            self.request()
+        } else {
+            None
+        }
     }
 
     /// Show an answer in its tab, unless a later one is on its way.
@@ -296,12 +339,15 @@ impl App {
     /// The measurement of that serial.
     pub(super) fn traded_of(&mut self, serial: u64) -> Option<&mut Traded> {
         let all = std::iter::once(&mut self.tab).chain(&mut self.others);
-        all.filter_map(|tab| tab.traded.as_mut()).find(|traded| traded.serial == serial)
+        all.filter_map(|tab| tab.traded.as_mut())
+            .find(|traded| traded.serial == serial)
     }
 
     /// The tab that waits for the answer of that serial.
     pub(super) fn tab_of(&mut self, serial: u64) -> Option<&mut Tab> {
-        std::iter::once(&mut self.tab).chain(&mut self.others).find(|tab| tab.serial == serial)
+        std::iter::once(&mut self.tab)
+            .chain(&mut self.others)
+            .find(|tab| tab.serial == serial)
     }
 }
 
@@ -314,7 +360,10 @@ pub fn unwritten(case: &Case, field: usize) -> String {
         Absent::Refused => "(needed)".to_owned(),
         Absent::Either(other) => {
             let other = fields::index_of(other).filter(|&other| case.text(other).is_some());
-            other.map_or_else(|| "(needed)".to_owned(), |other| format!("(by {})", FIELDS[other].label))
+            other.map_or_else(
+                || "(needed)".to_owned(),
+                |other| format!("(by {})", FIELDS[other].label),
+            )
         }
     }
 }

@@ -1,13 +1,13 @@
-//! The browser of files: a folder and the cases that were open last, both filtered by what is typed, and what the marked
-//! one holds.
+//! The browser of files: a folder and the cases that were open last, both filtered by what is
+//! typed, and what the marked one holds.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use super::line::Line as Text;
-use super::store::below::{self, Below};
+use super::store::case_search::{self, Below};
 use super::store::folder::{Entry, Listing, beneath};
-use super::store::preview::{Preview, Sight};
+use super::store::preview::{Preview, Viewport};
 use super::store::recents::Recent;
 use crate::case::{EXAMPLES, Example};
 
@@ -23,7 +23,7 @@ pub struct Browser {
     /// The marked one of those that fit: first the folder's, then the recent ones.
     pub marked: usize,
     /// What the marked one holds, as far as it is known.
-    pub preview: Option<(Sight, Preview)>,
+    pub preview: Option<(Viewport, Preview)>,
     /// The folder that it began in or went to, as it is called from here.
     base: PathBuf,
     /// The folders of the path that is typed, of which the listing is.
@@ -45,7 +45,7 @@ pub struct Browser {
     /// The entry to be marked: the present case, or the folder that it came up from.
     came_from: Option<OsString>,
     /// What a preview was asked of.
-    looked_at: Option<Sight>,
+    looked_at: Option<Viewport>,
 }
 
 /// A line that may be marked.
@@ -56,7 +56,7 @@ pub enum Line<'b> {
     /// An entry of the folder.
     Entry(&'b Entry),
     /// A case in a folder below.
-    Below(&'b below::Case),
+    Below(&'b case_search::Case),
     /// An example to begin with.
     Example(&'static Example),
     /// A case that was open last.
@@ -67,9 +67,17 @@ impl Browser {
     /// Begin in the folder of the present case, in its recent cases where they are preferred.
     #[must_use]
     pub fn beside(path: Option<&Path>, prefers_recents: bool) -> Browser {
-        let base = path.and_then(Path::parent).map(Path::to_owned).unwrap_or_default();
+        let base = path
+            .and_then(Path::parent)
+            .map(Path::to_owned)
+            .unwrap_or_default();
         let came_from = path.and_then(Path::file_name).map(ToOwned::to_owned);
-        Browser { base, prefers_recents, came_from, ..Browser::default() }
+        Browser {
+            base,
+            prefers_recents,
+            came_from,
+            ..Browser::default()
+        }
     }
 
     /// What the listing is asked of.
@@ -82,7 +90,11 @@ impl Browser {
     #[must_use]
     pub fn split(&self) -> (&str, &str) {
         let typed = self.input.value();
-        if typed == "~" { (typed, "") } else { typed.split_at(typed.rfind('/').map_or(0, |slash| slash + 1)) }
+        if typed == "~" {
+            (typed, "")
+        } else {
+            typed.split_at(typed.rfind('/').map_or(0, |slash| slash + 1))
+        }
     }
 
     /// Follow what was typed; whether it leads to another folder.
@@ -104,7 +116,10 @@ impl Browser {
             self.refit();
             let came_from = self.came_from.take();
             let is_it = |entry: &Entry| Some(&entry.file) == came_from.as_ref();
-            let at = self.entries().position(is_it).map(|at| at + usize::from(self.has_up()));
+            let at = self
+                .entries()
+                .position(is_it)
+                .map(|at| at + usize::from(self.has_up()));
             self.marked = at.filter(|_| !self.prefers_recents).unwrap_or(self.marked);
         }
     }
@@ -154,14 +169,20 @@ impl Browser {
 
     /// The entries of the folder that fit.
     pub fn entries(&self) -> impl Iterator<Item = &Entry> {
-        let entries = self.listing.as_ref().and_then(|listing| listing.entries.as_ref().ok());
+        let entries = self
+            .listing
+            .as_ref()
+            .and_then(|listing| listing.entries.as_ref().ok());
         self.fitting.iter().filter_map(move |&at| entries?.get(at))
     }
 
     /// How many lines of the folder there are.
     #[must_use]
     pub fn count_of_folder(&self) -> usize {
-        self.fitting.len() + self.fitting_below.len() + self.fitting_examples.len() + usize::from(self.has_up())
+        self.fitting.len()
+            + self.fitting_below.len()
+            + self.fitting_examples.len()
+            + usize::from(self.has_up())
     }
 
     /// How many recent cases fit.
@@ -184,7 +205,14 @@ impl Browser {
         }
         let in_folder = at - usize::from(self.has_up());
         if let Some(&entry) = self.fitting.get(in_folder) {
-            return self.listing.as_ref()?.entries.as_ref().ok()?.get(entry).map(Line::Entry);
+            return self
+                .listing
+                .as_ref()?
+                .entries
+                .as_ref()
+                .ok()?
+                .get(entry)
+                .map(Line::Entry);
         }
         let beyond = in_folder - self.fitting.len();
         if let Some(&case) = self.fitting_below.get(beyond) {
@@ -194,28 +222,38 @@ impl Browser {
         if let Some(&example) = self.fitting_examples.get(beyond) {
             return EXAMPLES.get(example).map(Line::Example);
         }
-        let recent = *self.fitting_recents.get(beyond - self.fitting_examples.len())?;
+        let recent = *self
+            .fitting_recents
+            .get(beyond - self.fitting_examples.len())?;
         self.recents.get(recent).map(Line::Recent)
     }
 
     /// The file or the folder of a line.
     #[must_use]
-    pub fn sight(&self, line: Line<'_>) -> Sight {
+    pub fn sight(&self, line: Line<'_>) -> Viewport {
         match line {
-            Line::Up => Sight::Folder(self.above()),
-            Line::Recent(recent) => Sight::File(recent.path.clone()),
-            Line::Example(example) => Sight::Example(example),
-            Line::Below(case) => Sight::File(self.below.as_ref().map_or_else(|| case.way.clone(), |below| below.path(case))),
+            Line::Up => Viewport::Folder(self.above()),
+            Line::Recent(recent) => Viewport::File(recent.path.clone()),
+            Line::Example(example) => Viewport::Example(example),
+            Line::Below(case) => Viewport::File(
+                self.below
+                    .as_ref()
+                    .map_or_else(|| case.way.clone(), |below| below.path(case)),
+            ),
             Line::Entry(entry) => {
                 let path = beneath(&self.base, &self.typed_folder).join(&entry.file);
-                if entry.is_folder { Sight::Folder(path) } else { Sight::File(path) }
+                if entry.is_folder {
+                    Viewport::Folder(path)
+                } else {
+                    Viewport::File(path)
+                }
             }
         }
     }
 
     /// What the marked line is of.
     #[must_use]
-    pub fn marked_sight(&self) -> Option<Sight> {
+    pub fn marked_sight(&self) -> Option<Viewport> {
         self.line(self.marked).map(|line| self.sight(line))
     }
 
@@ -233,8 +271,15 @@ impl Browser {
 
     /// Go into a folder.
     pub fn enter(&mut self, folder: PathBuf) {
-        self.came_from =
-            (folder == self.above()).then(|| self.listing.as_ref()?.folder.file_name().map(ToOwned::to_owned)).flatten();
+        self.came_from = (folder == self.above())
+            .then(|| {
+                self.listing
+                    .as_ref()?
+                    .folder
+                    .file_name()
+                    .map(ToOwned::to_owned)
+            })
+            .flatten();
         self.base = folder;
         (self.input, self.typed_folder, self.listing) = (Text::default(), String::new(), None);
         self.prefers_recents = false;
@@ -244,12 +289,18 @@ impl Browser {
     /// The folder above, in full where that is known.
     #[must_use]
     pub fn above(&self) -> PathBuf {
-        let known = self.listing.as_ref().map(|listing| listing.folder.parent().unwrap_or(&listing.folder).to_owned());
+        let known = self.listing.as_ref().map(|listing| {
+            listing
+                .folder
+                .parent()
+                .unwrap_or(&listing.folder)
+                .to_owned()
+        });
         known.unwrap_or_else(|| beneath(&self.base, &self.typed_folder).join(".."))
     }
 
     /// What a preview is to be asked of, once.
-    pub fn look(&mut self) -> Option<Sight> {
+    pub fn look(&mut self) -> Option<Viewport> {
         let sight = self.marked_sight();
         if sight == self.looked_at {
             return None;
@@ -259,7 +310,7 @@ impl Browser {
     }
 
     /// Take what something holds, if it is what was asked of last.
-    pub fn show(&mut self, sight: Sight, preview: Preview) {
+    pub fn show(&mut self, sight: Viewport, preview: Preview) {
         if self.looked_at.as_ref() == Some(&sight) {
             self.preview = Some((sight, preview));
         }
@@ -268,19 +319,40 @@ impl Browser {
     // Hidden entries are offered where their dot is typed.
     fn refit(&mut self) {
         let wanted = self.split().1.to_lowercase();
-        let fits = |entry: &Entry| (wanted.starts_with('.') || !entry.name.starts_with('.')) && entry.folded.contains(&wanted);
-        let entries = self.listing.as_ref().and_then(|listing| listing.entries.as_ref().ok()).map(Vec::as_slice);
-        let places =
-            |fits: &mut dyn Iterator<Item = bool>| fits.enumerate().filter_map(|(at, fits)| fits.then_some(at)).collect();
+        let fits = |entry: &Entry| {
+            (wanted.starts_with('.') || !entry.name.starts_with('.'))
+                && entry.folded.contains(&wanted)
+        };
+        let entries = self
+            .listing
+            .as_ref()
+            .and_then(|listing| listing.entries.as_ref().ok())
+            .map(Vec::as_slice);
+        let places = |fits: &mut dyn Iterator<Item = bool>| {
+            fits.enumerate()
+                .filter_map(|(at, fits)| fits.then_some(at))
+                .collect()
+        };
         let fitting = places(&mut entries.unwrap_or_default().iter().map(fits));
         let typed = self.input.value().to_lowercase();
-        let fitting_recents = places(&mut self.recents.iter().map(|recent| recent.folded.contains(&typed)));
+        let fitting_recents = places(
+            &mut self
+                .recents
+                .iter()
+                .map(|recent| recent.folded.contains(&typed)),
+        );
         let (fitting_below, fitting_examples) = match self.wanted() {
             None => (Vec::new(), Vec::new()),
             Some(wanted) => {
-                let cases = self.own_below().map(|below| below.cases.as_slice()).unwrap_or_default();
+                let cases = self
+                    .own_below()
+                    .map(|below| below.cases.as_slice())
+                    .unwrap_or_default();
                 let below = places(&mut cases.iter().map(|case| case.folded.contains(&wanted)));
-                (below, places(&mut EXAMPLES.iter().map(|example| example.name.contains(&typed))))
+                (
+                    below,
+                    places(&mut EXAMPLES.iter().map(|example| example.name.contains(&typed))),
+                )
             }
         };
         (self.fitting, self.fitting_recents) = (fitting, fitting_recents);
@@ -288,21 +360,28 @@ impl Browser {
         self.mark_first();
     }
 
-    // The part of a name that is looked for below and among the examples; hidden names are looked for here alone.
+    // The part of a name that is looked for below and among the examples; hidden names are looked
+    // for here alone.
     fn wanted(&self) -> Option<String> {
         let wanted = self.split().1;
         (!wanted.is_empty() && !wanted.starts_with(['.', '~'])).then(|| wanted.to_lowercase())
     }
 
     fn own_below(&self) -> Option<&Below> {
-        self.below.as_ref().filter(|below| below.asked == self.asks())
+        self.below
+            .as_ref()
+            .filter(|below| below.asked == self.asks())
     }
 
     // The first that a person looks for: no way up, where there is anything else.
     fn mark_first(&mut self) {
         let folder = self.count_of_folder();
         let is_recent = self.count_of_recents() > 0 && (self.prefers_recents || folder == 0);
-        self.marked = if is_recent { folder } else { usize::from(self.has_up() && !self.fitting.is_empty()) + self.best() };
+        self.marked = if is_recent {
+            folder
+        } else {
+            usize::from(self.has_up() && !self.fitting.is_empty()) + self.best()
+        };
     }
 
     // The entry that is called what is typed, else one that begins with it.
@@ -310,6 +389,12 @@ impl Browser {
         let wanted = self.split().1.to_lowercase();
         let at = |is_it: &dyn Fn(&Entry) -> bool| self.entries().position(is_it);
         let begins = || at(&|entry| entry.folded.starts_with(&wanted));
-        if wanted.is_empty() { 0 } else { at(&|entry| entry.folded == wanted).or_else(begins).unwrap_or(0) }
+        if wanted.is_empty() {
+            0
+        } else {
+            at(&|entry| entry.folded == wanted)
+                .or_else(begins)
+                .unwrap_or(0)
+        }
     }
 }

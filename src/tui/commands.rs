@@ -12,7 +12,10 @@ pub use table::BINDINGS;
 
 /// A command of the table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[expect(missing_docs, reason = "each has its sentence in the table of bindings")]
+#[expect(
+    missing_docs,
+    reason = "each has its sentence in the table of bindings"
+)]
 pub enum Command {
     Help,
     Palette,
@@ -115,34 +118,57 @@ pub struct Binding {
 /// The command that a key calls in a place.
 #[must_use]
 pub fn called(chord: Chord, place: Place) -> Option<Command> {
-    let bound = BINDINGS.iter().find(|binding| binding.places.meets(place) && binding.chords.contains(&chord));
+    let bound = BINDINGS
+        .iter()
+        .find(|binding| binding.places.meets(place) && binding.chords.contains(&chord));
     bound.map(|binding| binding.command)
 }
 
-/// The commands of the palette: the first binding of each that has a name and does not belong to a prompt.
+/// The commands of the palette: the first binding of each that has a name and does not belong to a
+/// prompt.
 pub fn commands() -> impl Iterator<Item = &'static Binding> {
-    let is_first =
-        |at: usize, command: Command| !BINDINGS[..at].iter().any(|binding| is_listed(binding) && binding.command == command);
-    let listed = BINDINGS.iter().enumerate().filter(|(_, binding)| is_listed(binding));
-    listed.filter(move |(at, binding)| is_first(*at, binding.command)).map(|(_, binding)| binding)
+    let is_first = |at: usize, command: Command| {
+        !BINDINGS[..at]
+            .iter()
+            .any(|binding| is_listed(binding) && binding.command == command)
+    };
+    let listed = BINDINGS
+        .iter()
+        .enumerate()
+        .filter(|(_, binding)| is_listed(binding));
+    listed
+        .filter(move |(at, binding)| is_first(*at, binding.command))
+        .map(|(_, binding)| binding)
 }
 
 /// Every key that calls the command outside prompts, as a person reads it.
 #[must_use]
 pub fn keys_of(command: Command) -> String {
-    let bound = BINDINGS.iter().filter(|binding| binding.command == command && binding.places.meets(Place::WORK));
-    bound.map(Binding::keys).filter(|keys| !keys.is_empty()).collect::<Vec<_>>().join(", ")
+    let bound = BINDINGS
+        .iter()
+        .filter(|binding| binding.command == command && binding.places.meets(Place::WORK));
+    bound
+        .map(Binding::keys)
+        .filter(|keys| !keys.is_empty())
+        .collect::<Vec<_>>()
+        .join(", ")
 }
 
 fn is_listed(binding: &Binding) -> bool {
-    !binding.name.is_empty() && binding.places.meets(Place::WORK) && binding.command != Command::Leave
+    !binding.name.is_empty()
+        && binding.places.meets(Place::WORK)
+        && binding.command != Command::Leave
 }
 
 impl Binding {
     /// The keys as a person reads them, Ctrl-H left out.
     #[must_use]
     pub fn keys(&self) -> String {
-        let names = self.chords.iter().filter(|chord| **chord != keys::ctrl('h')).map(Chord::name);
+        let names = self
+            .chords
+            .iter()
+            .filter(|chord| **chord != keys::ctrl('h'))
+            .map(Chord::name);
         names.collect::<Vec<_>>().join(", ")
     }
 }
@@ -156,20 +182,30 @@ mod tests {
     fn no_key_has_two_meanings_in_a_place() {
         for (index, binding) in BINDINGS.iter().enumerate() {
             for other in &BINDINGS[index + 1..] {
-                let shared = binding.chords.iter().find(|chord| other.chords.contains(chord));
-                assert!(!binding.places.meets(other.places) || shared.is_none(), "{shared:?}: {}", binding.sentence);
+                let shared = binding
+                    .chords
+                    .iter()
+                    .find(|chord| other.chords.contains(chord));
+                assert!(
+                    !binding.places.meets(other.places) || shared.is_none(),
+                    "{shared:?}: {}",
+                    binding.sentence
+                );
             }
         }
     }
 
-    /// Letters that mean the like in several panes: a move, more or less, from the start, another view.
+    /// Letters that mean the like in several panes: a move, more or less, from the start, another
+    /// view.
     const ALIKE: &str = "hjklgG+=-0v";
 
     #[test]
     fn a_letter_has_one_meaning_in_all_panes() {
         for letter in ('!'..='~').filter(|letter| !ALIKE.contains(*letter)) {
             let chord = keys::letter(letter);
-            let bound = BINDINGS.iter().filter(|one| one.places.meets(Place::OUTSIDE) && one.chords.contains(&chord));
+            let bound = BINDINGS
+                .iter()
+                .filter(|one| one.places.meets(Place::OUTSIDE) && one.chords.contains(&chord));
             let mut commands: Vec<_> = bound.map(|one| one.command).collect();
             commands.dedup();
             assert!(commands.len() <= 1, "{letter}: {commands:?}");
@@ -178,11 +214,26 @@ mod tests {
 
     #[test]
     fn the_letters_that_move_do_so_in_every_pane() {
-        for place in [Place::FIELD, Place::RESULTS, Place::CHART, Place::TEETH, Place::TRADE] {
-            for (letter, arrow) in [('h', KeyCode::Left), ('j', KeyCode::Down), ('k', KeyCode::Up), ('l', KeyCode::Right)] {
+        for place in [
+            Place::FIELD,
+            Place::RESULTS,
+            Place::CHART,
+            Place::TEETH,
+            Place::TRADE,
+        ] {
+            for (letter, arrow) in [
+                ('h', KeyCode::Left),
+                ('j', KeyCode::Down),
+                ('k', KeyCode::Up),
+                ('l', KeyCode::Right),
+            ] {
                 let moved = called(keys::letter(letter), place);
                 assert!(moved.is_some(), "{letter} in {place:?}");
-                assert_eq!(moved, called(keys::key(arrow), place), "{letter} in {place:?}");
+                assert_eq!(
+                    moved,
+                    called(keys::key(arrow), place),
+                    "{letter} in {place:?}"
+                );
             }
         }
     }
@@ -192,8 +243,18 @@ mod tests {
         for binding in BINDINGS.iter().filter(|binding| is_listed(binding)) {
             for other in BINDINGS.iter().filter(|other| is_listed(other)) {
                 let same = binding.command == other.command;
-                assert_eq!(same, binding.name == other.name, "{} {}", binding.name, other.name);
-                assert!(!same || binding.sentence == other.sentence, "{}", binding.name);
+                assert_eq!(
+                    same,
+                    binding.name == other.name,
+                    "{} {}",
+                    binding.name,
+                    other.name
+                );
+                assert!(
+                    !same || binding.sentence == other.sentence,
+                    "{}",
+                    binding.name
+                );
             }
         }
     }

@@ -6,15 +6,17 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crossterm::event::{self, Event as Input, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
+use crossterm::event::{
+    self, Event as Input, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
+};
 use ratatui::layout::{Position, Size};
 
 use super::actions::{self, Action};
-use super::errands::Finding;
+use super::effects::told;
+use super::jobs::Finding;
 use super::keys::Place;
-use super::measurer::Measured;
-use super::perform::told;
 use super::solver::Reply;
+use super::trade_worker::Measured;
 
 /// Something from outside.
 #[derive(Debug, Clone)]
@@ -25,9 +27,9 @@ pub enum Event {
     Signal(i32),
     /// From the worker.
     Reply(Reply),
-    /// From the measurer.
+    /// From the trade_worker.
     Measured(Box<Measured>),
-    /// From the keeper of unsaved edits, which cannot keep them.
+    /// From the autosave of unsaved edits, which cannot keep them.
     Warned(String),
     /// From an errand.
     Found(Box<Finding>),
@@ -98,7 +100,9 @@ impl Events {
         // Makes the handler of new sizes now: one that comes before the thread runs would be lost.
         event::poll(Duration::ZERO)?;
         let keys = self.sender.clone();
-        thread::Builder::new().name("keys".to_owned()).spawn(move || read_terminal(&keys))?;
+        thread::Builder::new()
+            .name("keys".to_owned())
+            .spawn(move || read_terminal(&keys))?;
         Ok(())
     }
 
@@ -108,7 +112,7 @@ impl Events {
         self.sender.clone()
     }
 
-    /// A way for the keeper to tell what goes wrong.
+    /// A way for the autosave to tell what goes wrong.
     pub fn warner(&self) -> impl Fn(String) + Send + 'static {
         let sender = self.sender.clone();
         move |text| drop(sender.send(Event::Warned(text)))
@@ -126,21 +130,27 @@ impl Events {
         move |reply| sender.send(Event::Reply(reply)).is_ok()
     }
 
-    /// A way for the measurer to tell what is known.
+    /// A way for the trade_worker to tell what is known.
     pub fn meter(&self) -> impl Fn(Measured) -> bool + Send + Sync + 'static {
         let sender = self.sender.clone();
         move |measured| sender.send(Event::Measured(Box::new(measured))).is_ok()
     }
 
-    /// Wait for something, and take all that has come with it: a tick when nothing came before the alarm, nothing when
-    /// nothing came before the deadline.
+    /// Wait for something, and take all that has come with it: a tick when nothing came before the
+    /// alarm, nothing when nothing came before the deadline.
     #[must_use]
     pub fn batch(&self, alarm: Option<Instant>, deadline: Option<Instant>) -> Vec<Event> {
-        let Some(first) = self.first(alarm, deadline) else { return Vec::new() };
+        let Some(first) = self.first(alarm, deadline) else {
+            return Vec::new();
+        };
         let mut batch = vec![first];
         let end = Instant::now() + BATCH;
         while Instant::now() < end {
-            let patience = if is_open(&batch) { ESCAPE } else { Duration::ZERO };
+            let patience = if is_open(&batch) {
+                ESCAPE
+            } else {
+                Duration::ZERO
+            };
             match self.receiver.recv_timeout(patience) {
                 Ok(event) => batch.push(event),
                 Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => break,
@@ -153,7 +163,10 @@ impl Events {
         let Some(until) = alarm.into_iter().chain(deadline).min() else {
             return Some(self.receiver.recv().unwrap_or(Event::Lost));
         };
-        match self.receiver.recv_timeout(until.saturating_duration_since(Instant::now())) {
+        match self
+            .receiver
+            .recv_timeout(until.saturating_duration_since(Instant::now()))
+        {
             Ok(event) => Some(event),
             Err(RecvTimeoutError::Timeout) => (alarm == Some(until)).then_some(Event::Tick),
             Err(RecvTimeoutError::Disconnected) => Some(Event::Lost),
@@ -162,7 +175,10 @@ impl Events {
 }
 
 /// What an input means in a place; a run of letters typed in a line is taken as one.
-pub fn take_action(inputs: &mut std::iter::Peekable<impl Iterator<Item = Event>>, place: Place) -> Option<Action> {
+pub fn take_action(
+    inputs: &mut std::iter::Peekable<impl Iterator<Item = Event>>,
+    place: Place,
+) -> Option<Action> {
     match inputs.next()? {
         Event::Input(Input::Key(key)) => match actions::of_key(key, place)? {
             Action::Insert(letter) if place.is_line() => Some(typed(letter, inputs, place)),
@@ -192,17 +208,27 @@ fn of_mouse(mouse: MouseEvent) -> Option<Action> {
     }
 }
 
-fn typed(letter: char, inputs: &mut std::iter::Peekable<impl Iterator<Item = Event>>, place: Place) -> Action {
+fn typed(
+    letter: char,
+    inputs: &mut std::iter::Peekable<impl Iterator<Item = Event>>,
+    place: Place,
+) -> Action {
     let mut run = String::from(letter);
     while let Some(letter) = inputs.peek().and_then(|next| letter_of(next, place)) {
         run.push(letter);
         inputs.next();
     }
-    if run.len() == letter.len_utf8() { Action::Insert(letter) } else { Action::Paste(run) }
+    if run.len() == letter.len_utf8() {
+        Action::Insert(letter)
+    } else {
+        Action::Paste(run)
+    }
 }
 
 fn letter_of(event: &Event, place: Place) -> Option<char> {
-    let Event::Input(Input::Key(key)) = event else { return None };
+    let Event::Input(Input::Key(key)) = event else {
+        return None;
+    };
     match actions::of_key(*key, place)? {
         Action::Insert(letter) => Some(letter),
         _ => None,
@@ -217,8 +243,8 @@ fn read_terminal(sender: &SyncSender<Event>) {
             }
         }
     };
-    // Whatever ends the reading, a workbench that no longer hears its keys must not stay. Nobody listens only when it
-    // is on its way out already.
+    // Whatever ends the reading, a workbench that no longer hears its keys must not stay. Nobody
+    // listens only when it is on its way out already.
     drop(catch_unwind(AssertUnwindSafe(read)));
     drop(sender.send(Event::Lost));
 }
@@ -228,11 +254,16 @@ fn join(batch: Vec<Event>) -> Vec<Event> {
     let mut joined: Vec<Event> = Vec::with_capacity(batch.len());
     for event in batch {
         joined.push(event);
-        let Some(start) = escape_at(&joined) else { continue };
+        let Some(start) = escape_at(&joined) else {
+            continue;
+        };
         let tail = tail(&joined[start + 1..]);
         if let Some(&(_, code)) = SEQUENCES.iter().find(|(sequence, _)| *sequence == tail) {
             joined.truncate(start);
-            joined.push(Event::Input(Input::Key(KeyEvent::new(code, KeyModifiers::NONE))));
+            joined.push(Event::Input(Input::Key(KeyEvent::new(
+                code,
+                KeyModifiers::NONE,
+            ))));
         }
     }
     joined
@@ -241,24 +272,37 @@ fn join(batch: Vec<Event>) -> Vec<Event> {
 fn is_open(batch: &[Event]) -> bool {
     escape_at(batch).is_some_and(|start| {
         let tail = tail(&batch[start + 1..]);
-        SEQUENCES.iter().any(|(sequence, _)| sequence.starts_with(&tail))
+        SEQUENCES
+            .iter()
+            .any(|(sequence, _)| sequence.starts_with(&tail))
     })
 }
 
 // The last Esc, when it stands at most three keys before the end.
 fn escape_at(batch: &[Event]) -> Option<usize> {
     let from = batch.len().saturating_sub(4);
-    batch[from..].iter().rposition(|event| plain(event) == Some(KeyCode::Esc)).map(|at| from + at)
+    batch[from..]
+        .iter()
+        .rposition(|event| plain(event) == Some(KeyCode::Esc))
+        .map(|at| from + at)
 }
 
 fn tail(events: &[Event]) -> String {
-    let letter = |event| if let Some(KeyCode::Char(letter)) = plain(event) { letter } else { '\0' };
+    let letter = |event| {
+        if let Some(KeyCode::Char(letter)) = plain(event) {
+            letter
+        } else {
+            '\0'
+        }
+    };
     events.iter().map(letter).collect()
 }
 
 fn plain(event: &Event) -> Option<KeyCode> {
     match event {
-        Event::Input(Input::Key(key)) if (key.modifiers - KeyModifiers::SHIFT).is_empty() => Some(key.code),
+        Event::Input(Input::Key(key)) if (key.modifiers - KeyModifiers::SHIFT).is_empty() => {
+            Some(key.code)
+        }
         _ => None,
     }
 }
@@ -268,7 +312,10 @@ mod tests {
     use super::*;
 
     fn keys(codes: &[KeyCode]) -> Vec<Event> {
-        codes.iter().map(|&code| Event::Input(Input::Key(KeyEvent::new(code, KeyModifiers::NONE)))).collect()
+        codes
+            .iter()
+            .map(|&code| Event::Input(Input::Key(KeyEvent::new(code, KeyModifiers::NONE))))
+            .collect()
     }
 
     fn codes(events: &[Event]) -> Vec<KeyCode> {
@@ -280,10 +327,20 @@ mod tests {
         use KeyCode::{Char, Delete, Esc, Up};
         assert_eq!(codes(&join(keys(&[Esc, Char('['), Char('A')]))), [Up]);
         assert_eq!(
-            codes(&join(keys(&[Char('x'), Esc, Char('['), Char('3'), Char('~'), Char('y')]))),
+            codes(&join(keys(&[
+                Char('x'),
+                Esc,
+                Char('['),
+                Char('3'),
+                Char('~'),
+                Char('y')
+            ]))),
             [Char('x'), Delete, Char('y')]
         );
-        assert_eq!(codes(&join(keys(&[Esc, Esc, Char('['), Char('A')]))), [Esc, Up]);
+        assert_eq!(
+            codes(&join(keys(&[Esc, Esc, Char('['), Char('A')]))),
+            [Esc, Up]
+        );
         assert_eq!(codes(&join(keys(&[Esc, Char('x')]))), [Esc, Char('x')]);
     }
 
@@ -298,10 +355,17 @@ mod tests {
 
     #[test]
     fn a_run_of_letters_is_taken_as_one() {
-        let mut inputs = keys(&"16 um".chars().map(KeyCode::Char).collect::<Vec<_>>()).into_iter().peekable();
+        let mut inputs = keys(&"16 um".chars().map(KeyCode::Char).collect::<Vec<_>>())
+            .into_iter()
+            .peekable();
         let action = take_action(&mut inputs, Place::TEXT);
         assert!(matches!(action, Some(Action::Paste(text)) if text == "16 um"));
-        let mut inputs = keys(&[KeyCode::Char('s'), KeyCode::Char('d')]).into_iter().peekable();
-        assert!(matches!(take_action(&mut inputs, Place::ASK), Some(Action::Insert('s'))));
+        let mut inputs = keys(&[KeyCode::Char('s'), KeyCode::Char('d')])
+            .into_iter()
+            .peekable();
+        assert!(matches!(
+            take_action(&mut inputs, Place::ASK),
+            Some(Action::Insert('s'))
+        ));
     }
 }

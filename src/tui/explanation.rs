@@ -1,6 +1,7 @@
-//! Where a result comes from, as it is read: the page, the line on top, and the marked one of the fields behind it.
+//! Where a result comes from, as it is read: the page, the line on top, and the marked one of the
+//! fields behind it.
 
-use super::errands::Explained;
+use super::jobs::Explained;
 use crate::model::Quantity;
 use crate::report::Shown;
 use crate::report::explain::Page;
@@ -26,7 +27,14 @@ impl Explanation {
     /// An explanation that is being written.
     #[must_use]
     pub fn new(quantity: &'static Quantity, case: String, value: Option<Shown>) -> Explanation {
-        Explanation { quantity, case, value, page: None, top: 0, marked: None }
+        Explanation {
+            quantity,
+            case,
+            value,
+            page: None,
+            top: 0,
+            marked: None,
+        }
     }
 
     /// Take the page, if it is the one that is waited for.
@@ -36,12 +44,22 @@ impl Explanation {
         }
     }
 
-    /// The fields that the result depends on, by their keys, in the order in which they stand on the page.
+    /// The fields that the result depends on, by their keys, in the order in which they stand on
+    /// the page.
     #[must_use]
     pub fn fields(&self) -> Vec<&'static str> {
-        let Some(Ok(page)) = &self.page else { return Vec::new() };
-        let (acting, idle): (Vec<_>, Vec<_>) = page.effects.iter().partition(|effect| !effect.change.is_empty());
-        acting.into_iter().chain(idle).map(|effect| effect.key).collect()
+        let Some(Ok(page)) = &self.page else {
+            return Vec::new();
+        };
+        let (acting, idle): (Vec<_>, Vec<_>) = page
+            .effects
+            .iter()
+            .partition(|effect| !effect.change.is_empty());
+        acting
+            .into_iter()
+            .chain(idle)
+            .map(|effect| effect.key)
+            .collect()
     }
 
     /// The marked field.
@@ -53,7 +71,11 @@ impl Explanation {
     /// Mark the next field or the one before, round and round.
     pub fn mark(&mut self, by: isize) {
         let count = self.fields().len();
-        let from = self.marked.map_or(if by > 0 { count.saturating_sub(1) } else { 0 }, |marked| marked);
+        let from = self
+            .marked
+            .map_or(if by > 0 { count.saturating_sub(1) } else { 0 }, |marked| {
+                marked
+            });
         self.marked = (count > 0).then(|| (from + count).saturating_add_signed(by) % count);
     }
 }

@@ -11,8 +11,8 @@ pub struct History {
     visited: Option<usize>,
 }
 
-/// The last state in full, and each one before it by what it says otherwise than the one after it, so that a long session
-/// stays small.
+/// The last state in full, and each one before it by what it says otherwise than the one after it,
+/// so that a long session stays small.
 #[derive(Debug, Clone, Default)]
 struct States {
     last: Option<(Case, usize)>,
@@ -41,7 +41,11 @@ impl History {
 
     /// The case before the first edit of this visit.
     pub(super) fn before_visit(&self) -> Option<&Case> {
-        self.past.last.as_ref().filter(|_| self.visited.is_some()).map(|(case, _)| case)
+        self.past
+            .last
+            .as_ref()
+            .filter(|_| self.visited.is_some())
+            .map(|(case, _)| case)
     }
 
     /// The next edit begins a state of its own.
@@ -73,7 +77,10 @@ impl States {
 
     fn pop(&mut self) -> Option<(Case, usize)> {
         let state = self.last.take()?;
-        self.last = self.before.pop().map(|(difference, at)| (difference.put_into(state.0.clone()), at));
+        self.last = self
+            .before
+            .pop()
+            .map(|(difference, at)| (difference.put_into(state.0.clone()), at));
         Some(state)
     }
 }
@@ -84,7 +91,9 @@ impl Difference {
         let texts = (0..FIELDS.len()).filter(|&field| case.text(field) != other.text(field));
         let differ = (&case.limits, &case.spread) != (&other.limits, &other.spread);
         Difference {
-            texts: texts.map(|field| (field, case.text(field).unwrap_or_default().into())).collect(),
+            texts: texts
+                .map(|field| (field, case.text(field).unwrap_or_default().into()))
+                .collect(),
             others: differ.then(|| Box::new((case.limits.clone(), case.spread.clone()))),
         }
     }
@@ -114,8 +123,13 @@ mod tests {
         let first = Case::table_1();
         let second = edited(&first, &|case| case.write(3, "6 mm"));
         let third = edited(&second, &|case| case.write_limit("friction_ratio", "0.5"));
-        let fourth = edited(&third, &|case| case.spread.push(Spread::new("pair.module", "normal", "4 um").unwrap()));
-        let fifth = edited(&fourth, &|case| (0..9).for_each(|field| case.write(field, "")));
+        let fourth = edited(&third, &|case| {
+            case.spread
+                .push(Spread::new("pair.module", "normal", "4 um").unwrap())
+        });
+        let fifth = edited(&fourth, &|case| {
+            (0..9).for_each(|field| case.write(field, ""))
+        });
         vec![first, second, third, fourth, fifth]
     }
 
@@ -130,11 +144,17 @@ mod tests {
         }
         for _ in 0..2 {
             for at in (0..last).rev() {
-                assert_eq!(history.undo(&states[at + 1], at + 1), Some((states[at].clone(), at)));
+                assert_eq!(
+                    history.undo(&states[at + 1], at + 1),
+                    Some((states[at].clone(), at))
+                );
             }
             assert_eq!(history.undo(&states[0], 0), None);
             for at in 1..=last {
-                assert_eq!(history.redo(&states[at - 1], at - 1), Some((states[at].clone(), at)));
+                assert_eq!(
+                    history.redo(&states[at - 1], at - 1),
+                    Some((states[at].clone(), at))
+                );
             }
             assert_eq!(history.redo(&states[last], last), None);
         }
@@ -149,6 +169,12 @@ mod tests {
             history.end_visit();
             case.write(0, &format!("title {number}"));
         }
-        assert!(history.past.before.iter().all(|(difference, _)| difference.texts.len() == 1));
+        assert!(
+            history
+                .past
+                .before
+                .iter()
+                .all(|(difference, _)| difference.texts.len() == 1)
+        );
     }
 }

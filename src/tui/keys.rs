@@ -43,12 +43,16 @@ impl Place {
     pub const TRADE: Place = Place(2048);
     /// The explanation of a result.
     pub const EXPLAIN: Place = Place(4096);
-    /// A field of a value, into which nothing is typed yet: what no value begins with is a command there.
+    /// A field of a value, into which nothing is typed yet: what no value begins with is a command
+    /// there.
     pub const FRESH: Place = Place(8192);
     /// A field that takes text or a name.
     pub const FORM: Place = Place::TEXT.or(Place::CHOICE);
     /// The panes in which letters are commands.
-    pub const OUTSIDE: Place = Place::FIELD.or(Place::RESULTS).or(Place::CURSOR).or(Place::TRADE);
+    pub const OUTSIDE: Place = Place::FIELD
+        .or(Place::RESULTS)
+        .or(Place::CURSOR)
+        .or(Place::TRADE);
     /// Everywhere but in a prompt.
     pub const WORK: Place = Place::FORM.or(Place::OUTSIDE);
     /// Where `/` and `:` are commands.
@@ -58,7 +62,8 @@ impl Place {
     pub(in crate::tui) const PAGE: Place = Place::READ.or(Place::EXPLAIN);
     pub(in crate::tui) const LIST: Place = Place::BROWSE.or(Place::PICK);
     pub(in crate::tui) const LINE: Place = Place::TEXT.or(Place::LIST).or(Place::PATH);
-    pub(in crate::tui) const PROMPT: Place = Place::LIST.or(Place::PATH).or(Place::ASK).or(Place::PAGE);
+    pub(in crate::tui) const PROMPT: Place =
+        Place::LIST.or(Place::PATH).or(Place::ASK).or(Place::PAGE);
     pub(in crate::tui) const ALL: Place = Place::WORK.or(Place::PROMPT);
     /// Where letters are more than commands of the table.
     pub(in crate::tui) const TYPED: Place = Place::LINE.or(Place::CHOICE).or(Place::ASK);
@@ -111,13 +116,15 @@ pub(in crate::tui) const fn with(modifiers: KeyModifiers, code: KeyCode) -> Chor
 }
 
 impl Chord {
-    // Shift is part of the letter and of BackTab, and terminals differ in whether they say so. Ctrl-4 and Ctrl-\ are one
-    // byte, which the reader takes for the former.
+    // Shift is part of the letter and of BackTab, and terminals differ in whether they say so.
+    // Ctrl-4 and Ctrl-\ are one byte, which the reader takes for the former.
     pub(in crate::tui) fn of(event: KeyEvent) -> Chord {
         let held = event.modifiers & (CTRL | ALT | SHIFT);
         match event.code {
             KeyCode::Char('4') if held == CTRL => Chord(KeyCode::Char('\\'), CTRL),
-            KeyCode::Char(letter) if held.contains(CTRL) => Chord(KeyCode::Char(letter.to_ascii_lowercase()), held - SHIFT),
+            KeyCode::Char(letter) if held.contains(CTRL) => {
+                Chord(KeyCode::Char(letter.to_ascii_lowercase()), held - SHIFT)
+            }
             KeyCode::Char(_) | KeyCode::BackTab => Chord(event.code, held - SHIFT),
             code => Chord(code, held),
         }
@@ -134,13 +141,17 @@ impl Chord {
             KeyCode::BackTab => "Shift-Tab".to_owned(),
             code => format!("{code:?}"),
         };
-        let held = [(CTRL, "Ctrl-"), (ALT, "Alt-"), (SHIFT, "Shift-")].into_iter().filter(|(one, _)| self.1.contains(*one));
+        let held = [(CTRL, "Ctrl-"), (ALT, "Alt-"), (SHIFT, "Shift-")]
+            .into_iter()
+            .filter(|(one, _)| self.1.contains(*one));
         held.map(|(_, prefix)| prefix).collect::<String>() + &name
     }
 
     /// The key in as few letters as can be read.
     #[must_use]
     pub fn short_name(&self) -> String {
-        self.name().replace("Ctrl-", "^").replace("Shift-Tab", "S-Tab")
+        self.name()
+            .replace("Ctrl-", "^")
+            .replace("Shift-Tab", "S-Tab")
     }
 }

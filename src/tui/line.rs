@@ -1,4 +1,5 @@
-//! A line of text that is edited, of which a part may be selected: what is typed then stands in its place.
+//! A line of text that is edited, of which a part may be selected: what is typed then stands in its
+//! place.
 
 use std::ops::{Deref, Range};
 
@@ -26,10 +27,16 @@ impl Line {
     pub fn named(path: impl Into<String>) -> Line {
         let path = path.into();
         let name = path.rfind('/').map_or(0, |slash| slash + 1);
-        let end = path.rfind('.').filter(|&dot| dot > name).unwrap_or(path.len());
+        let end = path
+            .rfind('.')
+            .filter(|&dot| dot > name)
+            .unwrap_or(path.len());
         let place = |at: usize| path[..at].chars().count();
         let selected = place(name)..place(end);
-        Line { input: Input::new(path).with_cursor(selected.end), selected: Some(selected).filter(|part| !part.is_empty()) }
+        Line {
+            input: Input::new(path).with_cursor(selected.end),
+            selected: Some(selected).filter(|part| !part.is_empty()),
+        }
     }
 
     /// What is selected, in characters.
@@ -43,7 +50,10 @@ impl Line {
     pub fn kept(&self) -> usize {
         let is_selected = |at: &usize| self.selected.as_ref().is_some_and(|part| part.contains(at));
         let letters = self.input.value().chars().enumerate();
-        letters.filter(|(at, _)| !is_selected(at)).map(|(_, letter)| letter.len_utf8()).sum()
+        letters
+            .filter(|(at, _)| !is_selected(at))
+            .map(|(_, letter)| letter.len_utf8())
+            .sum()
     }
 
     /// Select the text, the cursor at its end.
@@ -53,14 +63,20 @@ impl Line {
         self.selected = (length > 0).then_some(0..length);
     }
 
-    /// A key that moves in the line or deletes from it: the selected part goes as one, and a move lets go of it.
+    /// A key that moves in the line or deletes from it: the selected part goes as one, and a move
+    /// lets go of it.
     pub fn handle(&mut self, request: InputRequest) -> Option<StateChanged> {
         use InputRequest::{DeleteNextChar, DeletePrevChar, GoToNextChar, GoToPrevChar};
-        let Some(part) = self.selected.take() else { return self.input.handle(request) };
+        let Some(part) = self.selected.take() else {
+            return self.input.handle(request);
+        };
         match request {
             DeletePrevChar | DeleteNextChar => {
                 self.put(part, "");
-                Some(StateChanged { value: true, cursor: true })
+                Some(StateChanged {
+                    value: true,
+                    cursor: true,
+                })
             }
             GoToPrevChar => self.input.handle(InputRequest::SetCursor(part.start)),
             GoToNextChar => self.input.handle(InputRequest::SetCursor(part.end)),
@@ -78,8 +94,18 @@ impl Line {
     // One splice, where a character at a time would cost the square of a long paste.
     fn put(&mut self, part: Range<usize>, typed: &str) {
         let value = self.input.value();
-        let place = |at: usize| value.char_indices().nth(at).map_or(value.len(), |(place, _)| place);
-        let text = [&value[..place(part.start)], typed, &value[place(part.end)..]].concat();
+        let place = |at: usize| {
+            value
+                .char_indices()
+                .nth(at)
+                .map_or(value.len(), |(place, _)| place)
+        };
+        let text = [
+            &value[..place(part.start)],
+            typed,
+            &value[place(part.end)..],
+        ]
+        .concat();
         self.input = Input::new(text).with_cursor(part.start + typed.chars().count());
     }
 }
@@ -94,7 +120,10 @@ impl Deref for Line {
 
 impl From<String> for Line {
     fn from(text: String) -> Line {
-        Line { input: Input::new(text), selected: None }
+        Line {
+            input: Input::new(text),
+            selected: None,
+        }
     }
 }
 
@@ -107,7 +136,10 @@ impl From<&str> for Line {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use InputRequest::{DeleteNextChar, DeletePrevChar, DeletePrevWord, GoToEnd, GoToNextChar, GoToPrevChar, GoToStart};
+    use InputRequest::{
+        DeleteNextChar, DeletePrevChar, DeletePrevWord, GoToEnd, GoToNextChar, GoToPrevChar,
+        GoToStart,
+    };
 
     fn typed(mut line: Line, requests: &[InputRequest]) -> String {
         for request in requests {
@@ -129,7 +161,11 @@ mod tests {
             (&[GoToStart], "xμ/case.toml"),
             (&[GoToEnd], "μ/case.tomlx"),
         ] {
-            assert_eq!(typed(Line::named("μ/case.toml"), requests), text, "{requests:?}");
+            assert_eq!(
+                typed(Line::named("μ/case.toml"), requests),
+                text,
+                "{requests:?}"
+            );
         }
         assert_eq!(typed(Line::whole("5 mm"), &[]), "x");
         assert_eq!(typed(Line::whole("5 mm"), &[DeletePrevWord]), "5 x");
@@ -138,10 +174,25 @@ mod tests {
 
     #[test]
     fn a_name_is_selected_without_folder_and_ending() {
-        for (path, selected) in [("case.toml", 0..4), ("a.b/pair.v2.toml", 4..11), ("/a/pair", 3..7), (".toml", 0..5)] {
+        for (path, selected) in [
+            ("case.toml", 0..4),
+            ("a.b/pair.v2.toml", 4..11),
+            ("/a/pair", 3..7),
+            (".toml", 0..5),
+        ] {
             assert_eq!(Line::named(path).selected(), Some(selected), "{path}");
         }
-        assert_eq!((Line::named("μ/pair.toml").kept(), Line::from("μ").kept(), Line::whole("μ").kept()), (8, 2, 0));
-        assert_eq!((Line::named("a/").selected(), Line::whole("").selected()), (None, None));
+        assert_eq!(
+            (
+                Line::named("μ/pair.toml").kept(),
+                Line::from("μ").kept(),
+                Line::whole("μ").kept()
+            ),
+            (8, 2, 0)
+        );
+        assert_eq!(
+            (Line::named("a/").selected(), Line::whole("").selected()),
+            (None, None)
+        );
     }
 }

@@ -1,4 +1,5 @@
-//! The panes of the workbench: which one has the focus, which ones the screen has, and what each needs of the model.
+//! The panes of the workbench: which one has the focus, which ones the screen has, and what each
+//! needs of the model.
 
 use super::keys::Place;
 use crate::model::{Stage, Stages};
@@ -25,19 +26,30 @@ pub struct Panes {
     pub focus: Pane,
     /// The one of the lower area that is shown where not all of them have room.
     pub lower: Pane,
-    /// Whether the focused one has the screen: of form and results both, of the lower area it alone.
+    /// Whether the focused one has the screen: of form and results both, of the lower area it
+    /// alone.
     pub is_zoomed: bool,
 }
 
 impl Default for Panes {
     fn default() -> Panes {
-        Panes { focus: Pane::Form, lower: Pane::Chart, is_zoomed: false }
+        Panes {
+            focus: Pane::Form,
+            lower: Pane::Chart,
+            is_zoomed: false,
+        }
     }
 }
 
 impl Pane {
     /// Every pane, by its number.
-    pub const ALL: [Pane; 5] = [Pane::Form, Pane::Results, Pane::Chart, Pane::Teeth, Pane::Trade];
+    pub const ALL: [Pane; 5] = [
+        Pane::Form,
+        Pane::Results,
+        Pane::Chart,
+        Pane::Teeth,
+        Pane::Trade,
+    ];
     /// Those that share the lower area.
     pub const LOWER: [Pane; 3] = [Pane::Chart, Pane::Teeth, Pane::Trade];
 
@@ -70,9 +82,13 @@ impl Pane {
     pub const fn needs(self) -> Stages {
         match self {
             Pane::Form | Pane::Trade => Stages::NONE,
-            Pane::Results => Stages::CLOSED_FORM.with(Stage::Band).and(Stages::of(Stage::Clearing)),
+            Pane::Results => Stages::CLOSED_FORM
+                .with(Stage::Band)
+                .and(Stages::of(Stage::Clearing)),
             Pane::Chart => Stages::STATIONS,
-            Pane::Teeth => Stages::of(Stage::Impact).and(Stages::of(Stage::Static)).with(Stage::Dynamic),
+            Pane::Teeth => Stages::of(Stage::Impact)
+                .and(Stages::of(Stage::Static))
+                .with(Stage::Dynamic),
         }
     }
 

@@ -135,7 +135,11 @@ impl Question {
     pub fn all_unsaved(names: &[String]) -> Question {
         Question {
             title: "Unsaved edits",
-            text: format!("{} cases have unsaved edits: {}.", names.len(), names.join(", ")),
+            text: format!(
+                "{} cases have unsaved edits: {}.",
+                names.len(),
+                names.join(", ")
+            ),
             details: Vec::new(),
             buttons: vec![
                 ("Save all", Choice::Proceed(Next::SaveRest)),
@@ -151,10 +155,16 @@ impl Question {
     pub fn exists(path: &Path, details: Vec<String>, next: &Next) -> Question {
         Question {
             title: "The file exists",
-            text: format!("{} is there already. Overwrite puts the form in its place.", path.display()),
+            text: format!(
+                "{} is there already. Overwrite puts the form in its place.",
+                path.display()
+            ),
             details,
             buttons: vec![
-                ("Overwrite", Choice::Overwrite(path.to_owned(), next.clone())),
+                (
+                    "Overwrite",
+                    Choice::Overwrite(path.to_owned(), next.clone()),
+                ),
                 ("Save as", Choice::SaveAs(next.clone())),
                 ("Cancel", Choice::Cancel),
             ],
@@ -167,12 +177,18 @@ impl Question {
     pub fn changed(path: &Path, details: Vec<String>, next: &Next) -> Question {
         Question {
             title: "The file has changed on disk",
-            text: format!("{} is not what was opened here. Reload loses the edits of the form.", path.display()),
+            text: format!(
+                "{} is not what was opened here. Reload loses the edits of the form.",
+                path.display()
+            ),
             details,
             buttons: vec![
                 ("Reload", Choice::Proceed(Next::Load(path.to_owned()))),
                 ("Save as", Choice::SaveAs(next.clone())),
-                ("Overwrite", Choice::Overwrite(path.to_owned(), next.clone())),
+                (
+                    "Overwrite",
+                    Choice::Overwrite(path.to_owned(), next.clone()),
+                ),
                 ("Cancel", Choice::Cancel),
             ],
             marked: 3,
@@ -184,9 +200,15 @@ impl Question {
     pub fn held(path: &Path, holder: &str, next: &Next) -> Question {
         Question {
             title: "Open elsewhere",
-            text: format!("{} is not saved, since another session has it open: {holder}.", path.display()),
+            text: format!(
+                "{} is not saved, since another session has it open: {holder}.",
+                path.display()
+            ),
             details: Vec::new(),
-            buttons: vec![("Save as", Choice::SaveAs(next.clone())), ("Cancel", Choice::Cancel)],
+            buttons: vec![
+                ("Save as", Choice::SaveAs(next.clone())),
+                ("Cancel", Choice::Cancel),
+            ],
             marked: 0,
         }
     }
@@ -194,10 +216,17 @@ impl Question {
     /// Edits were kept that an earlier session could not save.
     #[must_use]
     pub fn recover(name: &str, offer: Offer) -> Question {
-        let changed = if offer.is_file_changed { " The file has been changed since." } else { "" };
+        let changed = if offer.is_file_changed {
+            " The file has been changed since."
+        } else {
+            ""
+        };
         Question {
             title: "Unsaved edits were kept",
-            text: format!("Edits of {name} that were not saved, kept {} ago.{changed} In the file now -> as typed:", offer.age),
+            text: format!(
+                "Edits of {name} that were not saved, kept {} ago.{changed} In the file now -> as typed:",
+                offer.age
+            ),
             details: offer.changes.iter().map(recovery::line).collect(),
             buttons: vec![
                 ("Discard", Choice::Forget(offer.journal.clone())),
@@ -217,8 +246,15 @@ impl Question {
     /// The answer whose name begins with the letter.
     #[must_use]
     pub fn by_letter(&self, letter: char) -> Option<Choice> {
-        let fits = |name: &str| name.chars().next().is_some_and(|first| first.eq_ignore_ascii_case(&letter));
-        self.buttons.iter().find(|(name, _)| fits(name)).map(|(_, choice)| choice.clone())
+        let fits = |name: &str| {
+            name.chars()
+                .next()
+                .is_some_and(|first| first.eq_ignore_ascii_case(&letter))
+        };
+        self.buttons
+            .iter()
+            .find(|(name, _)| fits(name))
+            .map(|(_, choice)| choice.clone())
     }
 }
 
@@ -226,6 +262,10 @@ impl Page {
     /// A page from its first line.
     #[must_use]
     pub fn new(title: impl Into<String>, lines: Vec<String>) -> Page {
-        Page { title: title.into(), lines, top: 0 }
+        Page {
+            title: title.into(),
+            lines,
+            top: 0,
+        }
     }
 }

@@ -1,4 +1,5 @@
-//! What keeps typed values safe, as the state sees it: who else has the case open, and edits that were kept for it.
+//! What keeps typed values safe, as the state sees it: who else has the case open, and edits that
+//! were kept for it.
 
 use std::path::{Path, PathBuf};
 
@@ -22,7 +23,7 @@ pub enum Access {
 
 /// A case that is open, and what the form makes of it.
 #[derive(Debug, Clone, Copy)]
-pub struct Sheet<'a> {
+pub struct OpenCase<'a> {
     /// Tells it from other open ones.
     pub id: usize,
     /// Its file.
@@ -65,7 +66,12 @@ impl Claim {
     /// A claim with nothing to tell but the access.
     #[must_use]
     pub fn of(id: usize, access: Access) -> Claim {
-        Claim { id, access, offers: Vec::new(), notices: Vec::new() }
+        Claim {
+            id,
+            access,
+            offers: Vec::new(),
+            notices: Vec::new(),
+        }
     }
 
     /// Whether there is nothing in it to tell.
@@ -79,7 +85,11 @@ impl Access {
     /// How a document is open at first.
     #[must_use]
     pub fn of(document: &Document) -> Access {
-        if document.is_newer() { Access::Newer } else { Access::Own }
+        if document.is_newer() {
+            Access::Newer
+        } else {
+            Access::Own
+        }
     }
 
     /// The mark beside the name of the case.
@@ -95,7 +105,12 @@ impl Access {
 /// A change in a line: what stands there now, and what would.
 #[must_use]
 pub fn line(change: &Change) -> String {
-    format!("{}: {} -> {}", changes::label(&change.key), shown(change.from.as_deref()), shown(change.to.as_deref()))
+    format!(
+        "{}: {} -> {}",
+        changes::label(&change.key),
+        shown(change.from.as_deref()),
+        shown(change.to.as_deref())
+    )
 }
 
 /// Changes in a sentence: the first ones, and how many more there are.
@@ -104,8 +119,16 @@ pub fn told(changes: &[Change]) -> String {
     const MOST: usize = 3;
     let first: Vec<_> = changes.iter().take(MOST).map(line).collect();
     let more = changes.len().saturating_sub(MOST);
-    let more = if more > 0 { format!("; and {more} more") } else { String::new() };
-    if first.is_empty() { "nothing that is written".to_owned() } else { first.join("; ") + &more }
+    let more = if more > 0 {
+        format!("; and {more} more")
+    } else {
+        String::new()
+    };
+    if first.is_empty() {
+        "nothing that is written".to_owned()
+    } else {
+        first.join("; ") + &more
+    }
 }
 
 /// A text in a line, short, and the words for none.
@@ -114,7 +137,9 @@ pub fn shown(text: Option<&str>) -> String {
     const MOST: usize = 40;
     match text {
         None => "(empty)".to_owned(),
-        Some(text) if text.chars().count() > MOST => text.chars().take(MOST - 1).chain(['…']).collect(),
+        Some(text) if text.chars().count() > MOST => {
+            text.chars().take(MOST - 1).chain(['…']).collect()
+        }
         Some(text) => text.to_owned(),
     }
 }

@@ -23,7 +23,9 @@ pub fn count(case: &Case) -> usize {
 /// What stands in a row; beyond the last one, the last field.
 #[must_use]
 pub fn row(case: &Case, at: usize) -> Row<'_> {
-    let limit = at.checked_sub(FIELDS.len()).and_then(|at| case.limits.get(at));
+    let limit = at
+        .checked_sub(FIELDS.len())
+        .and_then(|at| case.limits.get(at));
     limit.map_or(Row::Field(at.min(FIELDS.len() - 1)), Row::Limit)
 }
 
@@ -36,7 +38,10 @@ pub fn of_key(case: &Case, key: &str) -> Option<usize> {
 /// The row of the limit of a quantity.
 #[must_use]
 pub fn of_limit(case: &Case, quantity: &str) -> Option<usize> {
-    case.limits.iter().position(|limit| limit.quantity == quantity).map(|at| FIELDS.len() + at)
+    case.limits
+        .iter()
+        .position(|limit| limit.quantity == quantity)
+        .map(|at| FIELDS.len() + at)
 }
 
 /// What is written in a row.
@@ -80,9 +85,16 @@ pub fn written_unit(case: &Case, at: usize) -> Option<String> {
     units::written_unit(text(case, at)?, measure.dimension).map(str::to_owned)
 }
 
-/// What completes a text that is typed into a row: the unit in which its value was written, else the one in which it is shown.
+/// What completes a text that is typed into a row: the unit in which its value was written, else
+/// the one in which it is shown.
 #[must_use]
-pub fn ending(case: &Case, at: usize, typed: &str, written: Option<&str>, system: System) -> Option<String> {
+pub fn ending(
+    case: &Case,
+    at: usize,
+    typed: &str,
+    written: Option<&str>,
+    system: System,
+) -> Option<String> {
     let measure = measure(case, at, system)?;
     units::ending(typed, measure.dimension, written.unwrap_or(measure.unit))
 }
@@ -92,7 +104,9 @@ pub fn ending(case: &Case, at: usize, typed: &str, written: Option<&str>, system
 pub fn is_unfinished(case: &Case, at: usize, typed: &str) -> bool {
     match row(case, at) {
         Row::Field(field) => FIELDS[field].is_unfinished(typed),
-        Row::Limit(limit) => limit.measure(System::Metric).is_some_and(|measure| measure.is_unfinished(typed)),
+        Row::Limit(limit) => limit
+            .measure(System::Metric)
+            .is_some_and(|measure| measure.is_unfinished(typed)),
     }
 }
 
@@ -128,7 +142,8 @@ pub fn field(case: &Case, at: usize) -> Option<&'static Field> {
 pub fn label(case: &Case, at: usize) -> &'static str {
     match row(case, at) {
         Row::Field(field) => FIELDS[field].label,
-        Row::Limit(limit) => Quantity::find(limit.quantity).map_or(limit.quantity, |quantity| quantity.label.trim_start()),
+        Row::Limit(limit) => Quantity::find(limit.quantity)
+            .map_or(limit.quantity, |quantity| quantity.label.trim_start()),
     }
 }
 

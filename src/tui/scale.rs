@@ -1,4 +1,5 @@
-//! The chart's axes: round ends that stay until a curve leaves them, and ticks at multiples of 1, 2 or 5.
+//! The chart's axes: round ends that stay until a curve leaves them, and ticks at multiples of 1, 2
+//! or 5.
 
 use crate::case::units::System;
 use crate::model::inputs::Method;
@@ -11,8 +12,8 @@ const CLOSER: u16 = 4;
 /// Steps from tick to tick, times a power of ten.
 const STEPS: [f64; 4] = [1.0, 2.0, 5.0, 10.0];
 
-/// Below this part of the axis the curve is too small, and the axis shrinks. An end is at most 1.5 times the one before,
-/// so that a curve that has just left its axis fills two thirds of the next.
+/// Below this part of the axis the curve is too small, and the axis shrinks. An end is at most 1.5
+/// times the one before, so that a curve that has just left its axis fills two thirds of the next.
 const TOO_SMALL: f64 = 0.5;
 
 /// Values whose least is above this part of the greatest are drawn without 0.
@@ -21,7 +22,8 @@ const FAR_FROM_ZERO: f64 = 0.5;
 /// What is less than this part of the rest is 0 but for rounding.
 const NOTHING: f64 = 1e-9;
 
-/// Values that differ by less than this part of themselves are drawn with 0: no label could tell them apart.
+/// Values that differ by less than this part of themselves are drawn with 0: no label could tell
+/// them apart.
 const ALIKE: f64 = 1e-3;
 
 /// A stretch of an axis.
@@ -55,7 +57,10 @@ pub struct Ticks {
 
 impl Span {
     /// A stretch that holds nothing.
-    pub const NONE: Span = Span { from: f64::INFINITY, to: f64::NEG_INFINITY };
+    pub const NONE: Span = Span {
+        from: f64::INFINITY,
+        to: f64::NEG_INFINITY,
+    };
 
     /// From where to where.
     #[must_use]
@@ -78,13 +83,19 @@ impl Span {
     /// The stretch and one point more.
     #[must_use]
     pub fn with(self, value: f64) -> Span {
-        Span { from: self.from.min(value), to: self.to.max(value) }
+        Span {
+            from: self.from.min(value),
+            to: self.to.max(value),
+        }
     }
 
     /// The stretch that holds both.
     #[must_use]
     pub fn and(self, other: Span) -> Span {
-        Span { from: self.from.min(other.from), to: self.to.max(other.to) }
+        Span {
+            from: self.from.min(other.from),
+            to: self.to.max(other.to),
+        }
     }
 
     /// Whether the other lies within.
@@ -96,14 +107,21 @@ impl Span {
     /// How far along a value stands, 0 at the beginning and 1 at the end.
     #[must_use]
     pub fn part(self, value: f64) -> f64 {
-        if self.is_empty() { 0.0 } else { (value - self.from) / self.length() }
+        if self.is_empty() {
+            0.0
+        } else {
+            (value - self.from) / self.length()
+        }
     }
 
     /// The stretch moved as little as brings it into the other, which is longer.
     #[must_use]
     pub fn within(self, other: Span) -> Span {
         let from = self.from.min(other.to - self.length()).max(other.from);
-        Span { from, to: (from + self.length()).min(other.to) }
+        Span {
+            from,
+            to: (from + self.length()).min(other.to),
+        }
     }
 
     /// An axis with a place for all of these values: this one as long as it serves.
@@ -113,13 +131,23 @@ impl Span {
             return self;
         }
         let needed = with_zero(values);
-        let serves = self.covers(needed) && needed.length() >= TOO_SMALL * self.length() && !self.is_empty();
+        let serves =
+            self.covers(needed) && needed.length() >= TOO_SMALL * self.length() && !self.is_empty();
         let is_alike = |side: fn(Span) -> bool| side(self) == side(needed);
-        let sides: [fn(Span) -> bool; 3] = [|span| span.from > 0.0, |span| span.from < 0.0, |span| span.to > 0.0];
-        if serves && sides.into_iter().all(is_alike) { self } else { rounded(needed) }
+        let sides: [fn(Span) -> bool; 3] = [
+            |span| span.from > 0.0,
+            |span| span.from < 0.0,
+            |span| span.to > 0.0,
+        ];
+        if serves && sides.into_iter().all(is_alike) {
+            self
+        } else {
+            rounded(needed)
+        }
     }
 
-    /// An axis with a place for all of these values, whatever this one is; this one where there are none.
+    /// An axis with a place for all of these values, whatever this one is; this one where there are
+    /// none.
     #[must_use]
     pub fn anew(self, values: Span) -> Span {
         let fitted = Span::default().fitted(values);
@@ -129,18 +157,26 @@ impl Span {
     /// The same, but never a shorter one.
     #[must_use]
     pub fn grown(self, values: Span) -> Span {
-        if self.covers(values) && !self.is_empty() { self } else { self.fitted(values) }
+        if self.covers(values) && !self.is_empty() {
+            self
+        } else {
+            self.fitted(values)
+        }
     }
 
-    /// Ticks at multiples of the least step of 1, 2 or 5 that gives no more intervals than this; but never less than two
-    /// ticks, without which an axis has no scale.
+    /// Ticks at multiples of the least step of 1, 2 or 5 that gives no more intervals than this;
+    /// but never less than two ticks, without which an axis has no scale.
     #[must_use]
     pub fn ticks(self, most: u16) -> Ticks {
         let greatest = self.from.abs().max(self.to.abs());
-        let intervals = (most.max(1)..=most.max(1) + CLOSER).map(|most| self.length() / f64::from(most));
+        let intervals =
+            (most.max(1)..=most.max(1) + CLOSER).map(|most| self.length() / f64::from(most));
         let mut steps = intervals.map(|step| round_up(step, &STEPS));
-        let step = steps.find(|step| (self.to / step + 1e-6).floor() - (self.from / step - 1e-6).ceil() >= 1.0);
-        let Some(step) = step.filter(|step| (1e-250..1e250).contains(&greatest) && *step > 1e-12 * greatest) else {
+        let step = steps
+            .find(|step| (self.to / step + 1e-6).floor() - (self.from / step - 1e-6).ceil() >= 1.0);
+        let Some(step) =
+            step.filter(|step| (1e-250..1e250).contains(&greatest) && *step > 1e-12 * greatest)
+        else {
             return Ticks::default();
         };
         let power = power(greatest);
@@ -150,16 +186,32 @@ impl Span {
         let last = (self.to / step + 1e-6).floor() as i64;
         let tick = |count: i64| {
             let value = count as f64 * step;
-            (value, if count == 0 { "0".to_owned() } else { format!("{:.decimals$}", value / unit) })
+            (
+                value,
+                if count == 0 {
+                    "0".to_owned()
+                } else {
+                    format!("{:.decimals$}", value / unit)
+                },
+            )
         };
-        Ticks { labelled: (first..=last).map(tick).collect(), power }
+        Ticks {
+            labelled: (first..=last).map(tick).collect(),
+            power,
+        }
     }
 }
 
 /// Bounds that a chart can bear: finite, the lesser first, never equal.
 #[must_use]
 pub fn bounds(from: f64, to: f64) -> [f64; 2] {
-    let sound = |value: f64| if value.is_finite() { value.clamp(-1e100, 1e100) } else { 0.0 };
+    let sound = |value: f64| {
+        if value.is_finite() {
+            value.clamp(-1e100, 1e100)
+        } else {
+            0.0
+        }
+    };
     let (from, to) = (sound(from).min(sound(to)), sound(from).max(sound(to)));
     let pad = if from < to { 0.0 } else { 1f64.max(from.abs()) };
     [from - pad, to + pad]
@@ -169,7 +221,13 @@ pub fn bounds(from: f64, to: f64) -> [f64; 2] {
 fn with_zero(values: Span) -> Span {
     let least = values.from.abs().min(values.to.abs());
     let greatest = values.from.abs().max(values.to.abs());
-    let sound = |value: f64| if value.abs() <= NOTHING * greatest { 0.0 } else { value };
+    let sound = |value: f64| {
+        if value.abs() <= NOTHING * greatest {
+            0.0
+        } else {
+            value
+        }
+    };
     let values = Span::new(sound(values.from), sound(values.to));
     let one_side = values.from.signum() == values.to.signum();
     let apart = one_side && least > FAR_FROM_ZERO * greatest && values.length() > ALIKE * greatest;
@@ -184,25 +242,36 @@ fn rounded(values: Span) -> Span {
         (from, 0.0) => Span::new(-end(-from), 0.0),
         (from, to) => {
             let step = round_up((to - from) / 16.0, &STEPS);
-            Span::new((from / step - 1e-9).floor() * step, (to / step + 1e-9).ceil() * step)
+            Span::new(
+                (from / step - 1e-9).floor() * step,
+                (to / step + 1e-9).ceil() * step,
+            )
         }
     }
 }
 
-// The least of the round numbers that is not below the value; the smallest that is drawn where the value is less.
+// The least of the round numbers that is not below the value; the smallest that is drawn where the
+// value is less.
 fn round_up(value: f64, round: &[f64]) -> f64 {
     const LEAST: f64 = 1e-30;
     if !value.is_normal() || value < LEAST {
         return LEAST;
     }
     let power = 10f64.powi(value.log10().floor() as i32);
-    let step = round.iter().find(|&&step| step * power >= value * (1.0 - 1e-12));
+    let step = round
+        .iter()
+        .find(|&&step| step * power >= value * (1.0 - 1e-12));
     step.unwrap_or(&10.0) * power
 }
 
-// Labels of up to five digits before the point stand as they are, others in thousands or thousandths and so on.
+// Labels of up to five digits before the point stand as they are, others in thousands or
+// thousandths and so on.
 fn power(greatest: f64) -> i32 {
-    if (0.01..1e5).contains(&greatest) { 0 } else { 3 * (greatest.log10() / 3.0).floor() as i32 }
+    if (0.01..1e5).contains(&greatest) {
+        0
+    } else {
+        3 * (greatest.log10() / 3.0).floor() as i32
+    }
 }
 
 /// What the axes were fitted to: they are fitted again only when it is something else.
@@ -230,13 +299,20 @@ pub struct Anew {
 }
 
 impl Occasion {
-    /// What is made anew since an earlier one. What waits for a method that is to come keeps its ground until then.
+    /// What is made anew since an earlier one. What waits for a method that is to come keeps its
+    /// ground until then.
     #[must_use]
     pub fn since(&mut self, before: Occasion) -> Anew {
-        if self.answered.is_some_and(|(serial, is_pending)| is_pending || serial < self.ground.1) {
+        if self
+            .answered
+            .is_some_and(|(serial, is_pending)| is_pending || serial < self.ground.1)
+        {
             self.ground = before.ground;
         }
-        Anew { upright: self.shown != before.shown, all: self.ground != before.ground }
+        Anew {
+            upright: self.shown != before.shown,
+            all: self.ground != before.ground,
+        }
     }
 }
 
@@ -251,9 +327,12 @@ mod tests {
 
     #[test]
     fn an_axis_stays_until_the_curve_leaves_it() {
-        for (now, greatest, then) in
-            [(0.0, 2191.0, 3000.0), (3000.0, 2999.0, 3000.0), (3000.0, 1501.0, 3000.0), (3000.0, 1499.0, 1500.0)]
-        {
+        for (now, greatest, then) in [
+            (0.0, 2191.0, 3000.0),
+            (3000.0, 2999.0, 3000.0),
+            (3000.0, 1501.0, 3000.0),
+            (3000.0, 1499.0, 1500.0),
+        ] {
             assert_eq!(to(now).fitted(to(greatest)), to(then));
         }
         assert_eq!(to(2000.0).fitted(to(2001.0)), to(3000.0));
@@ -264,18 +343,39 @@ mod tests {
 
     #[test]
     fn a_curve_that_changes_its_sign_has_both_sides_and_one_far_from_zero_stands_for_itself() {
-        assert_eq!(Span::default().fitted(Span::new(-1.366, 24.6)), Span::new(-2.0, 26.0));
-        assert_eq!(Span::default().fitted(Span::new(-1.366, 0.0)), Span::new(-1.5, 0.0));
+        assert_eq!(
+            Span::default().fitted(Span::new(-1.366, 24.6)),
+            Span::new(-2.0, 26.0)
+        );
+        assert_eq!(
+            Span::default().fitted(Span::new(-1.366, 0.0)),
+            Span::new(-1.5, 0.0)
+        );
         let fitted = Span::default().fitted(Span::new(47.34, 47.89));
-        assert!((fitted.from - 47.3).abs() < 1e-9 && (fitted.to - 47.9).abs() < 1e-9, "{fitted:?}");
+        assert!(
+            (fitted.from - 47.3).abs() < 1e-9 && (fitted.to - 47.9).abs() < 1e-9,
+            "{fitted:?}"
+        );
         assert_eq!(Span::default().fitted(Span::new(1.0, 1.0)), to(1.0));
-        assert_eq!(Span::new(-5.0, 25.0).fitted(Span::new(-1.0, 20.0)), Span::new(-5.0, 25.0));
+        assert_eq!(
+            Span::new(-5.0, 25.0).fitted(Span::new(-1.0, 20.0)),
+            Span::new(-5.0, 25.0)
+        );
         assert_eq!(to(3.0).fitted(Span::NONE), to(3.0));
     }
 
     #[test]
     fn bounds_are_always_bearable() {
-        let hostile = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX, f64::MIN, 0.0, -1.0, 5e-324];
+        let hostile = [
+            f64::NAN,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+            f64::MAX,
+            f64::MIN,
+            0.0,
+            -1.0,
+            5e-324,
+        ];
         for from in hostile {
             for to in hostile {
                 let [low, high] = bounds(from, to);
@@ -288,13 +388,27 @@ mod tests {
     fn labels_are_short_and_large_numbers_have_a_power() {
         let labels = |from, to, most| {
             let ticks = Span::new(from, to).ticks(most);
-            (ticks.labelled.into_iter().map(|(_, label)| label).collect::<Vec<_>>().join(" "), ticks.power)
+            (
+                ticks
+                    .labelled
+                    .into_iter()
+                    .map(|(_, label)| label)
+                    .collect::<Vec<_>>()
+                    .join(" "),
+                ticks.power,
+            )
         };
         assert_eq!(labels(0.0, 3000.0, 2), ("0 2000".into(), 0));
-        assert_eq!(labels(-1.5, 0.0, 8), ("-1.4 -1.2 -1.0 -0.8 -0.6 -0.4 -0.2 0".into(), 0));
+        assert_eq!(
+            labels(-1.5, 0.0, 8),
+            ("-1.4 -1.2 -1.0 -0.8 -0.6 -0.4 -0.2 0".into(), 0)
+        );
         assert_eq!(labels(0.0, 3e5, 3), ("0 100 200 300".into(), 3));
         assert_eq!(labels(0.0, 2e-6, 4), ("0 0.5 1.0 1.5 2.0".into(), -6));
-        assert_eq!(labels(47.3, 47.9, 6), ("47.3 47.4 47.5 47.6 47.7 47.8 47.9".into(), 0));
+        assert_eq!(
+            labels(47.3, 47.9, 6),
+            ("47.3 47.4 47.5 47.6 47.7 47.8 47.9".into(), 0)
+        );
     }
 
     proptest! {

@@ -1,4 +1,5 @@
-//! What the user chose for every case: marker, mouse, theme, units, ASCII; kept in a file of its own.
+//! What the user chose for every case: marker, mouse, theme, units, ASCII; kept in a file of its
+//! own.
 
 use std::env;
 use std::fs;
@@ -14,7 +15,11 @@ use super::theme::{Look, ThemeName};
 use crate::case::units::System;
 
 /// Markers by their names in the file.
-const MARKERS: [(&str, Marker); 3] = [("braille", Marker::Braille), ("halfblock", Marker::HalfBlock), ("dot", Marker::Dot)];
+const MARKERS: [(&str, Marker); 3] = [
+    ("braille", Marker::Braille),
+    ("halfblock", Marker::HalfBlock),
+    ("dot", Marker::Dot),
+];
 
 /// A longer file is none of ours.
 const MOST_BYTES: u64 = 64 * 1024;
@@ -36,22 +41,35 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Settings {
-        Settings { marker: Marker::Braille, mouse: false, theme: None, units: System::Metric, ascii: false }
+        Settings {
+            marker: Marker::Braille,
+            mouse: false,
+            theme: None,
+            units: System::Metric,
+            ascii: false,
+        }
     }
 }
 
 impl Settings {
-    /// The settings of a file's text. What it does not say, or says in words that are not known here, is as usual.
+    /// The settings of a file's text. What it does not say, or says in words that are not known
+    /// here, is as usual.
     #[must_use]
     pub fn parse(text: &str) -> Settings {
         let usual = Settings::default();
-        let Ok(file) = text.parse::<DocumentMut>() else { return usual };
+        let Ok(file) = text.parse::<DocumentMut>() else {
+            return usual;
+        };
         let word = |key| file.get(key).and_then(|item| item.as_str());
         let flag = |key| file.get(key).and_then(Item::as_bool);
         Settings {
             marker: word("marker").and_then(marker_of).unwrap_or(usual.marker),
             mouse: flag("mouse").unwrap_or(usual.mouse),
-            theme: word("theme").and_then(|name| ThemeName::ALL.into_iter().find(|theme| theme.name() == name)),
+            theme: word("theme").and_then(|name| {
+                ThemeName::ALL
+                    .into_iter()
+                    .find(|theme| theme.name() == name)
+            }),
             units: word("units").and_then(System::find).unwrap_or(usual.units),
             ascii: flag("ascii").unwrap_or(usual.ascii),
         }
@@ -62,8 +80,13 @@ impl Settings {
     /// # Errors
     /// Where the old text is no TOML: then it is the user's to mend.
     pub fn render(&self, old: &str) -> Result<String, String> {
-        let mut file: DocumentMut = old.parse().map_err(|_| "the settings are no TOML: mend or delete the file".to_owned())?;
-        let mut set = |key: &str, new: Option<Value>| match (new, file.get_mut(key).and_then(Item::as_value_mut)) {
+        let mut file: DocumentMut = old
+            .parse()
+            .map_err(|_| "the settings are no TOML: mend or delete the file".to_owned())?;
+        let mut set = |key: &str, new: Option<Value>| match (
+            new,
+            file.get_mut(key).and_then(Item::as_value_mut),
+        ) {
             (Some(mut new), Some(old)) => {
                 *new.decor_mut() = old.decor().clone();
                 *old = new;
@@ -82,7 +105,9 @@ impl Settings {
     /// What the user kept, as usual where there is nothing to be read.
     #[must_use]
     pub fn read() -> Settings {
-        file().and_then(|file| old_text(&file).ok()).map_or_else(Settings::default, |text| Settings::parse(&text))
+        file()
+            .and_then(|file| old_text(&file).ok())
+            .map_or_else(Settings::default, |text| Settings::parse(&text))
     }
 
     /// Keep them: the old file or the new one, never half of one.
@@ -92,9 +117,13 @@ impl Settings {
     pub fn keep(&self) -> Result<(), String> {
         let file = file().ok_or("the system names no folder for settings")?;
         let told = |error: io::Error| format!("{}: {error}", file.display());
-        let folder = file.parent().ok_or("the system names no folder for settings")?;
+        let folder = file
+            .parent()
+            .ok_or("the system names no folder for settings")?;
         fs::create_dir_all(folder).map_err(told)?;
-        let text = self.render(&old_text(&file).map_err(told)?).map_err(|reason| format!("{}: {reason}", file.display()))?;
+        let text = self
+            .render(&old_text(&file).map_err(told)?)
+            .map_err(|reason| format!("{}: {reason}", file.display()))?;
         let write = || {
             let mut new = NamedTempFile::new_in(folder)?;
             new.write_all(text.as_bytes())?;
@@ -104,38 +133,60 @@ impl Settings {
         write().map_err(told)
     }
 
-    /// What the terminal is able to show, as far as the user does not want it otherwise. No setting brings colours or
-    /// letters back that the environment takes away.
+    /// What the terminal is able to show, as far as the user does not want it otherwise. No setting
+    /// brings colours or letters back that the environment takes away.
     #[must_use]
     pub fn look(&self, able: Look, variable: impl Fn(&str) -> bool) -> Look {
-        let theme = self.theme.filter(|_| !variable("NO_COLOR")).map_or(able.theme, ThemeName::theme);
-        Look { theme, ascii: self.ascii || able.ascii }
+        let theme = self
+            .theme
+            .filter(|_| !variable("NO_COLOR"))
+            .map_or(able.theme, ThemeName::theme);
+        Look {
+            theme,
+            ascii: self.ascii || able.ascii,
+        }
     }
 }
 
 /// The name of a marker in the file.
 #[must_use]
 pub fn marker_name(marker: Marker) -> &'static str {
-    MARKERS.iter().find(|(_, known)| *known == marker).map_or("braille", |(name, _)| name)
+    MARKERS
+        .iter()
+        .find(|(_, known)| *known == marker)
+        .map_or("braille", |(name, _)| name)
 }
 
 fn marker_of(name: &str) -> Option<Marker> {
-    MARKERS.iter().find(|(known, _)| *known == name).map(|&(_, marker)| marker)
+    MARKERS
+        .iter()
+        .find(|(known, _)| *known == name)
+        .map(|&(_, marker)| marker)
 }
 
 fn old_text(file: &PathBuf) -> io::Result<String> {
     match fs::metadata(file) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(String::new()),
         Err(error) => Err(error),
-        Ok(about) if !about.is_file() || about.len() > MOST_BYTES => Err(io::Error::other("this is no file of settings")),
+        Ok(about) if !about.is_file() || about.len() > MOST_BYTES => {
+            Err(io::Error::other("this is no file of settings"))
+        }
         Ok(_) => fs::read_to_string(file),
     }
 }
 
 fn file() -> Option<PathBuf> {
-    let own = env::var_os("XDG_CONFIG_HOME").map(PathBuf::from).filter(|path| path.is_absolute());
+    let own = env::var_os("XDG_CONFIG_HOME")
+        .map(PathBuf::from)
+        .filter(|path| path.is_absolute());
     let folder = own.map(|path| path.join("tipstrike"));
-    let folder = folder.or_else(|| Some(ProjectDirs::from("", "", "tipstrike")?.config_dir().to_owned()));
+    let folder = folder.or_else(|| {
+        Some(
+            ProjectDirs::from("", "", "tipstrike")?
+                .config_dir()
+                .to_owned(),
+        )
+    });
     folder.map(|folder| folder.join("settings.toml"))
 }
 
@@ -146,11 +197,21 @@ mod tests {
 
     #[test]
     fn what_is_not_known_here_stays_in_the_file() {
-        let old = "# mine\nlater = 3\nmarker = \"dot\" # small\nmouse = false\n\n[future]\nkey = 1\n";
-        let settings = Settings { mouse: true, ..Settings::parse(old) };
+        let old =
+            "# mine\nlater = 3\nmarker = \"dot\" # small\nmouse = false\n\n[future]\nkey = 1\n";
+        let settings = Settings {
+            mouse: true,
+            ..Settings::parse(old)
+        };
         let new = settings.render(old).expect("it is TOML");
         assert_eq!(Settings::parse(&new), settings);
-        for kept in ["# mine", "later = 3", "[future]\nkey = 1", "marker = \"dot\" # small", "mouse = true"] {
+        for kept in [
+            "# mine",
+            "later = 3",
+            "[future]\nkey = 1",
+            "marker = \"dot\" # small",
+            "mouse = true",
+        ] {
             assert!(new.contains(kept), "{new}");
         }
     }
@@ -158,9 +219,22 @@ mod tests {
     #[test]
     fn every_setting_comes_back() {
         for theme in ThemeName::ALL.map(Some).into_iter().chain([None]) {
-            for (units, ascii) in [(System::Metric, false), (System::Inch, true), (System::Inch, false)] {
-                let settings = Settings { marker: Marker::Dot, mouse: true, theme, units, ascii };
-                assert_eq!(Settings::parse(&settings.render("").expect("nothing is TOML")), settings);
+            for (units, ascii) in [
+                (System::Metric, false),
+                (System::Inch, true),
+                (System::Inch, false),
+            ] {
+                let settings = Settings {
+                    marker: Marker::Dot,
+                    mouse: true,
+                    theme,
+                    units,
+                    ascii,
+                };
+                assert_eq!(
+                    Settings::parse(&settings.render("").expect("nothing is TOML")),
+                    settings
+                );
             }
         }
     }
@@ -173,8 +247,33 @@ mod tests {
 
     #[test]
     fn a_theme_of_the_settings_gives_way_to_no_color() {
-        let settings = Settings { theme: Some(ThemeName::Quiet), ..Settings::default() };
-        assert_eq!(settings.look(Look { theme: &MONO, ascii: false }, |_| true).theme, &MONO);
-        assert_eq!(settings.look(Look { theme: &MONO, ascii: false }, |_| false).theme, &QUIET);
+        let settings = Settings {
+            theme: Some(ThemeName::Quiet),
+            ..Settings::default()
+        };
+        assert_eq!(
+            settings
+                .look(
+                    Look {
+                        theme: &MONO,
+                        ascii: false
+                    },
+                    |_| true
+                )
+                .theme,
+            &MONO
+        );
+        assert_eq!(
+            settings
+                .look(
+                    Look {
+                        theme: &MONO,
+                        ascii: false
+                    },
+                    |_| false
+                )
+                .theme,
+            &QUIET
+        );
     }
 }

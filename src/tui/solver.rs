@@ -1,5 +1,5 @@
-//! The one worker that solves: the latest request wins, a slow method gives way to it, and a fault in it never takes the
-//! screen down.
+//! The one worker that solves: the latest request wins, a slow method gives way to it, and a fault
+//! in it never takes the screen down.
 
 mod methods;
 
@@ -13,7 +13,7 @@ pub use methods::{answer, first_answer};
 use methods::{cleared, solved};
 
 use super::fault;
-use super::slot::Slot;
+use super::latest_request::LatestRequest;
 use crate::case::{Case, Evaluator};
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Note, Outcome, QUANTITIES, Refusal, Solution, Stage, Stages};
@@ -47,14 +47,15 @@ pub struct Request {
 pub struct Answer {
     /// The request's.
     pub serial: u64,
-    /// The stages that it holds, as far as the methods have them: those that were asked for, or all but the least relief while
-    /// that one is still being sought.
+    /// The stages that it holds, as far as the methods have them: those that were asked for, or all
+    /// but the least relief while that one is still being sought.
     pub stages: Stages,
     /// The stages that were asked for.
     pub asked: Stages,
     /// The pair, as it was solved.
     pub inputs: Inputs,
-    /// The method whose results stand first: that of the case, or `exact` while that one is not done.
+    /// The method whose results stand first: that of the case, or `exact` while that one is not
+    /// done.
     pub active: Method,
     /// The method that is still being solved.
     pub pending: Option<Method>,
@@ -92,26 +93,35 @@ pub enum Reply {
 /// The worker's thread. It ends when this is dropped.
 #[derive(Debug)]
 pub struct Solver {
-    slot: Arc<Slot<Request>>,
+    slot: Arc<LatestRequest<Request>>,
 }
 
 impl Answer {
     /// The solution of a method, where there is one.
     #[must_use]
     pub fn of(&self, method: Method) -> Option<&Solution> {
-        self.methods.iter().find(|(own, _)| *own == method).and_then(|(_, result)| result.as_ref().ok())
+        self.methods
+            .iter()
+            .find(|(own, _)| *own == method)
+            .and_then(|(_, result)| result.as_ref().ok())
     }
 
-    /// The method of this one that another's active method is held against: the same one, where it was solved.
+    /// The method of this one that another's active method is held against: the same one, where it
+    /// was solved.
     #[must_use]
     pub fn beside(&self, active: Method) -> Method {
-        if self.of(active).is_some() { active } else { self.active }
+        if self.of(active).is_some() {
+            active
+        } else {
+            self.active
+        }
     }
 
     /// Whether the incoming tooth strikes, by the active method.
     #[must_use]
     pub fn strikes(&self) -> bool {
-        self.of(self.active).is_some_and(|solution| solution.outcome == Outcome::CornerContact)
+        self.of(self.active)
+            .is_some_and(|solution| solution.outcome == Outcome::CornerContact)
     }
 
     /// Whether a stage that was asked for is still to come.
@@ -124,13 +134,19 @@ impl Answer {
     #[must_use]
     pub fn values(&self) -> Values {
         let solution = self.of(self.active);
-        QUANTITIES.iter().map(|quantity| solution.and_then(quantity.value)).collect()
+        QUANTITIES
+            .iter()
+            .map(|quantity| solution.and_then(quantity.value))
+            .collect()
     }
 
     /// The refusal of the active method, where it refuses.
     #[must_use]
     pub fn refusal(&self) -> Option<&Refusal> {
-        self.methods.iter().find(|(own, _)| *own == self.active).and_then(|(_, result)| result.as_ref().err())
+        self.methods
+            .iter()
+            .find(|(own, _)| *own == self.active)
+            .and_then(|(_, result)| result.as_ref().err())
     }
 }
 
@@ -159,13 +175,15 @@ impl Solver {
             if answer.lacks(Stage::Clearing) && answer.strikes() {
                 wanted.tell(Reply::Solved(Box::new(answer.clone())));
             }
-            cleared(&mut evaluator, request, answer, begun, &|_| wanted.is_wanted())
+            cleared(&mut evaluator, request, answer, begun, &|_| {
+                wanted.is_wanted()
+            })
         };
         Solver::start_with(solve, tell)
     }
 
-    /// Start the worker with another way to solve, which may tell an answer before its last one, and is told when it is
-    /// wanted no more.
+    /// Start the worker with another way to solve, which may tell an answer before its last one,
+    /// and is told when it is wanted no more.
     ///
     /// # Errors
     /// When the system gives no thread.
@@ -173,17 +191,22 @@ impl Solver {
         mut solve: impl FnMut(&Request, Wanted<'_>) -> Option<Answer> + Send + 'static,
         tell: impl Fn(Reply) -> bool + Send + 'static,
     ) -> std::io::Result<Solver> {
-        let slot = Arc::new(Slot::default());
-        let theirs: Arc<Slot<Request>> = Arc::clone(&slot);
-        thread::Builder::new().name(THREAD.to_owned()).spawn(move || {
-            while let Some(request) = theirs.take() {
-                let wanted = Wanted { slot: &theirs, tell: &tell };
-                let reply = attempt(&mut solve, &request, wanted);
-                if reply.is_some_and(|reply| !tell(reply)) {
-                    return;
+        let slot = Arc::new(LatestRequest::default());
+        let theirs: Arc<LatestRequest<Request>> = Arc::clone(&slot);
+        thread::Builder::new()
+            .name(THREAD.to_owned())
+            .spawn(move || {
+                while let Some(request) = theirs.take() {
+                    let wanted = Wanted {
+                        slot: &theirs,
+                        tell: &tell,
+                    };
+                    let reply = attempt(&mut solve, &request, wanted);
+                    if reply.is_some_and(|reply| !tell(reply)) {
+                        return;
+                    }
                 }
-            }
-        })?;
+            })?;
         Ok(Solver { slot })
     }
 
@@ -207,7 +230,7 @@ impl Drop for Solver {
 /// Whether an answer is still wanted, and whom to tell one that is not the last.
 #[derive(Clone, Copy)]
 pub struct Wanted<'a> {
-    slot: &'a Slot<Request>,
+    slot: &'a LatestRequest<Request>,
     tell: &'a dyn Fn(Reply) -> bool,
 }
 
@@ -247,7 +270,12 @@ mod tests {
 
     fn request(serial: u64) -> Request {
         let case = Case::table_1();
-        Request { serial, inputs: case.inputs().expect("Table 1 is valid"), case, stages: Stages::EVERY }
+        Request {
+            serial,
+            inputs: case.inputs().expect("Table 1 is valid"),
+            case,
+            stages: Stages::EVERY,
+        }
     }
 
     fn teller(sender: Sender<Reply>) -> impl Fn(Reply) -> bool + Send + 'static {
@@ -282,9 +310,20 @@ mod tests {
         solver.ask(request(1));
         assert_eq!(has_begun.recv(), Ok(1));
         (2..=9).for_each(|serial| solver.ask(request(serial)));
-        go.send(()).and_then(|()| go.send(())).expect("the worker listens");
-        let serials: Vec<_> =
-            replies.iter().take(2).map(|reply| if let Reply::Solved(answer) = reply { answer.serial } else { 0 }).collect();
+        go.send(())
+            .and_then(|()| go.send(()))
+            .expect("the worker listens");
+        let serials: Vec<_> = replies
+            .iter()
+            .take(2)
+            .map(|reply| {
+                if let Reply::Solved(answer) = reply {
+                    answer.serial
+                } else {
+                    0
+                }
+            })
+            .collect();
         assert_eq!(serials, [1, 9]);
     }
 
@@ -293,7 +332,11 @@ mod tests {
         let (sender, replies) = channel();
         let solver = Solver::start(teller(sender)).expect("a thread");
         let mut slow = request(1);
-        (slow.inputs.method, slow.inputs.tolerance, slow.inputs.warmup_cycles) = (Method::Dynamic, 1e-12, 10_000);
+        (
+            slow.inputs.method,
+            slow.inputs.tolerance,
+            slow.inputs.warmup_cycles,
+        ) = (Method::Dynamic, 1e-12, 10_000);
         // Nothing comes to rest.
         slow.inputs.damping_ratio = 0.0;
         solver.ask(slow);
@@ -303,25 +346,34 @@ mod tests {
         );
         solver.ask(request(2));
         let second = replies.recv().expect("an answer");
-        assert!(matches!(&second, Reply::Solved(answer) if answer.serial == 2 && answer.pending.is_none()), "{second:?}");
+        assert!(
+            matches!(&second, Reply::Solved(answer) if answer.serial == 2 && answer.pending.is_none()),
+            "{second:?}"
+        );
     }
 
     #[test]
     fn the_least_relief_follows_an_answer_that_stands_already_and_then_nothing() {
         let (sender, replies) = channel();
         let solver = Solver::start(teller(sender)).expect("a thread");
-        for (serial, method, expected) in
-            [(1, Method::Exact, vec![true]), (2, Method::Static, vec![false, true]), (3, Method::Auto, vec![false, true])]
-        {
+        for (serial, method, expected) in [
+            (1, Method::Exact, vec![true]),
+            (2, Method::Static, vec![false, true]),
+            (3, Method::Auto, vec![false, true]),
+        ] {
             let mut asked = request(serial);
             asked.inputs.method = method;
             solver.ask(asked);
             let mut told = Vec::new();
             while told.last() != Some(&true) {
-                let Ok(Reply::Solved(answer)) = replies.recv() else { continue };
+                let Ok(Reply::Solved(answer)) = replies.recv() else {
+                    continue;
+                };
                 // An answer too many to the request before would stand here.
                 assert_eq!(answer.serial, serial);
-                let clearing = answer.of(answer.active).and_then(|solution| solution.clearing);
+                let clearing = answer
+                    .of(answer.active)
+                    .and_then(|solution| solution.clearing);
                 if answer.pending.is_none() {
                     assert_eq!(clearing.is_none(), answer.lacks(Stage::Clearing));
                     told.push(clearing.is_some_and(|clearing| clearing.relief.is_some()));
@@ -333,9 +385,11 @@ mod tests {
 
     #[test]
     fn the_method_of_the_case_stands_first_and_auto_is_told_by_its_choice() {
-        for (method, active) in
-            [(Method::Paper, Method::Paper), (Method::Static, Method::Static), (Method::Auto, Method::Dynamic)]
-        {
+        for (method, active) in [
+            (Method::Paper, Method::Paper),
+            (Method::Static, Method::Static),
+            (Method::Auto, Method::Dynamic),
+        ] {
             let mut asked = request(1);
             asked.inputs.method = method;
             let found = answer(&asked);

@@ -1,10 +1,11 @@
-//! An open case: its document, what is in its form, what the model says of it, and what of that is in sight.
+//! An open case: its document, what is in its form, what the model says of it, and what of that is
+//! in sight.
 
 use std::path::PathBuf;
 
 use super::history::History;
 use super::line::Line;
-use super::recovery::{Access, Sheet};
+use super::recovery::{Access, OpenCase};
 use super::rows::{self, Row};
 use super::scale::{Occasion, Scale};
 use super::solver::{Answer, Values};
@@ -37,7 +38,8 @@ pub struct Tab {
     pub in_place_of: Option<PathBuf>,
     /// The focused field.
     pub focus: usize,
-    /// The text that is typed into the focused field, and the cursor in it; the case has it with its unit.
+    /// The text that is typed into the focused field, and the cursor in it; the case has it with
+    /// its unit.
     pub input: Line,
     /// The unit in which the focused field was written when it got the focus.
     pub written_unit: Option<String>,
@@ -96,8 +98,24 @@ impl Traded {
     /// Whether the case is another one by now, but for the setting.
     #[must_use]
     pub fn is_stale(&self, inputs: &Inputs) -> bool {
-        let Inputs { method, tolerance, within, stations, station_tolerance, accurate, .. } = inputs.clone();
-        Inputs { method, tolerance, within, stations, station_tolerance, accurate, ..self.inputs.clone() } != *inputs
+        let Inputs {
+            method,
+            tolerance,
+            within,
+            stations,
+            station_tolerance,
+            accurate,
+            ..
+        } = inputs.clone();
+        Inputs {
+            method,
+            tolerance,
+            within,
+            stations,
+            station_tolerance,
+            accurate,
+            ..self.inputs.clone()
+        } != *inputs
     }
 }
 
@@ -162,10 +180,20 @@ impl Tab {
 
     /// What the form makes of its file.
     #[must_use]
-    pub fn sheet(&self) -> Sheet<'_> {
-        let path = self.document.path().or(self.path.as_deref()).filter(|_| self.path.is_some());
+    pub fn sheet(&self) -> OpenCase<'_> {
+        let path = self
+            .document
+            .path()
+            .or(self.path.as_deref())
+            .filter(|_| self.path.is_some());
         let is_held = matches!(self.access, Access::Held(_));
-        Sheet { id: self.id, path, document: &self.document, case: &self.case, is_held }
+        OpenCase {
+            id: self.id,
+            path,
+            document: &self.document,
+            case: &self.case,
+            is_held,
+        }
     }
 
     /// The name of the case in the title and in questions.
@@ -198,12 +226,19 @@ impl Tab {
         self.earlier = self.answer.as_ref().map(Answer::values);
     }
 
-    /// Move to a row of the form, the cursor at the end of its text. A limit that holds nothing is left behind for good.
+    /// Move to a row of the form, the cursor at the end of its text. A limit that holds nothing is
+    /// left behind for good.
     pub(super) fn focus_on(&mut self, at: usize) {
         let at = at.min(rows::count(&self.case) - 1);
-        let limit = if let Row::Limit(limit) = rows::row(&self.case, at) { Some(limit.quantity) } else { None };
+        let limit = if let Row::Limit(limit) = rows::row(&self.case, at) {
+            Some(limit.quantity)
+        } else {
+            None
+        };
         self.case.drop_empty_limits(limit);
-        self.focus = limit.and_then(|quantity| rows::of_limit(&self.case, quantity)).unwrap_or(at);
+        self.focus = limit
+            .and_then(|quantity| rows::of_limit(&self.case, quantity))
+            .unwrap_or(at);
         self.input = Line::whole(rows::text(&self.case, self.focus).unwrap_or_default());
         self.written_unit = rows::written_unit(&self.case, self.focus);
         self.history.end_visit();

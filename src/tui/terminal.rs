@@ -7,10 +7,14 @@ use std::sync::{Mutex, PoisonError};
 
 use crossterm::clipboard::CopyToClipboard;
 use crossterm::cursor::{Hide, Show};
-use crossterm::event::{DisableBracketedPaste, DisableMouseCapture, EnableBracketedPaste, EnableMouseCapture};
+use crossterm::event::{
+    DisableBracketedPaste, DisableMouseCapture, EnableBracketedPaste, EnableMouseCapture,
+};
 use crossterm::execute;
 use crossterm::style::force_color_output;
-use crossterm::terminal::{EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode};
+use crossterm::terminal::{
+    EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
+};
 use ratatui::Terminal;
 use ratatui::backend::CrosstermBackend;
 use ratatui::layout::Size;
@@ -46,7 +50,8 @@ pub fn missing(variable: impl Fn(&str) -> Option<OsString>) -> Option<&'static s
     (!is_terminal).then_some("standard input and output are not a terminal")
 }
 
-/// Keep the words of a panic until the terminal is given back. A panic of the worker is told on the screen.
+/// Keep the words of a panic until the terminal is given back. A panic of the worker is told on the
+/// screen.
 pub fn hold_panics() {
     panic::set_hook(Box::new(|panic: &PanicHookInfo<'_>| {
         *LAST_PANIC.lock().unwrap_or_else(PoisonError::into_inner) = Some(panic.to_string());
@@ -56,7 +61,10 @@ pub fn hold_panics() {
 /// The words of the last panic.
 #[must_use]
 pub fn last_panic() -> Option<String> {
-    LAST_PANIC.lock().unwrap_or_else(PoisonError::into_inner).take()
+    LAST_PANIC
+        .lock()
+        .unwrap_or_else(PoisonError::into_inner)
+        .take()
 }
 
 impl Screen {
@@ -68,7 +76,11 @@ impl Screen {
         // Else NO_COLOR takes bold and reverse away too; our own theme has no colour then.
         force_color_output(true);
         let backend = CrosstermBackend::new(BufWriter::with_capacity(FRAME, io::stdout()));
-        let mut screen = Screen { terminal: Terminal::new(backend)?, is_back: false, has_mouse: false };
+        let mut screen = Screen {
+            terminal: Terminal::new(backend)?,
+            is_back: false,
+            has_mouse: false,
+        };
         screen.enter()?;
         Ok(screen)
     }
@@ -121,7 +133,8 @@ impl Screen {
     /// # Errors
     /// When the terminal is gone.
     pub fn resume(&mut self) -> io::Result<()> {
-        // For a moment the terminal is in the shell's modes, in which it would eat a Ctrl-Q: only where it must be.
+        // For a moment the terminal is in the shell's modes, in which it would eat a Ctrl-Q: only
+        // where it must be.
         if std::mem::take(&mut self.is_back) {
             return Ok(());
         }
@@ -140,28 +153,50 @@ impl Screen {
         }
         self.has_mouse = takes;
         let backend = self.terminal.backend_mut();
-        if takes { execute!(backend, EnableMouseCapture) } else { execute!(backend, DisableMouseCapture) }
+        if takes {
+            execute!(backend, EnableMouseCapture)
+        } else {
+            execute!(backend, DisableMouseCapture)
+        }
     }
 
-    /// Hand a text to the clipboard of the user's own terminal (OSC 52). In base64 nothing of it controls a terminal.
+    /// Hand a text to the clipboard of the user's own terminal (OSC 52). In base64 nothing of it
+    /// controls a terminal.
     ///
     /// # Errors
     /// When the terminal is gone.
     pub fn copy(&mut self, text: &str) -> io::Result<()> {
-        execute!(self.terminal.backend_mut(), CopyToClipboard::to_clipboard_from(text))
+        execute!(
+            self.terminal.backend_mut(),
+            CopyToClipboard::to_clipboard_from(text)
+        )
     }
 
     fn enter(&mut self) -> io::Result<()> {
         enable_raw_mode()?;
-        execute!(self.terminal.backend_mut(), EnterAlternateScreen, EnableBracketedPaste, Hide)?;
-        if self.has_mouse { execute!(self.terminal.backend_mut(), EnableMouseCapture) } else { Ok(()) }
+        execute!(
+            self.terminal.backend_mut(),
+            EnterAlternateScreen,
+            EnableBracketedPaste,
+            Hide
+        )?;
+        if self.has_mouse {
+            execute!(self.terminal.backend_mut(), EnableMouseCapture)
+        } else {
+            Ok(())
+        }
     }
 
     fn leave(&mut self) -> io::Result<()> {
         if self.has_mouse {
             execute!(self.terminal.backend_mut(), DisableMouseCapture)?;
         }
-        let written = execute!(self.terminal.backend_mut(), DisableBracketedPaste, Show, LeaveAlternateScreen);
+        let written = execute!(
+            self.terminal.backend_mut(),
+            DisableBracketedPaste,
+            Show,
+            LeaveAlternateScreen
+        );
         disable_raw_mode().and(written)
     }
 }

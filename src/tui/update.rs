@@ -1,25 +1,26 @@
-//! The only place where the state changes: no files, no clock, no threads; those are asked for as effects.
+//! The only place where the state changes: no files, no clock, no threads; those are asked for as
+//! effects.
 
+mod baseline;
 mod browse;
+mod cancel;
 mod catalogue;
 mod chart;
 mod copy;
 mod cursor;
 mod edit;
 pub(super) mod files;
-mod follow;
-mod hold;
-mod leave;
+mod navigation;
 mod options;
 mod page;
 mod panes;
 mod pointer;
 mod prompts;
 mod recovery;
+mod selection;
 mod tabs;
 mod teeth;
 mod trade;
-mod walk;
 
 use std::mem;
 use std::path::PathBuf;
@@ -35,14 +36,20 @@ use super::prompt::{Next, Page, Prompt};
 use super::solver::Request;
 use super::theme::Look;
 use super::view;
-use crate::case::{Acting, Document, FIELDS, acts, changes, fields};
+use crate::case::{Acting, Document, FIELDS, changes, fields, relevance};
 use crate::model::inputs::Method;
 
 /// Change the state by what happened, and say what is to be done about it.
 pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
-    if matches!(action, Action::Do(_) | Action::Insert(_) | Action::Stray(_) | Action::Paste(_) | Action::Click(_)) {
-        let is_again =
-            matches!(action, Action::Do(Command::Cancel)) && app.message.take().is_some_and(|said| said.text == leave::LEAVING);
+    if matches!(
+        action,
+        Action::Do(_) | Action::Insert(_) | Action::Stray(_) | Action::Paste(_) | Action::Click(_)
+    ) {
+        let is_again = matches!(action, Action::Do(Command::Cancel))
+            && app
+                .message
+                .take()
+                .is_some_and(|said| said.text == cancel::LEAVING);
         if is_again {
             return files::quit(app);
         }
@@ -61,9 +68,10 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     effects
 }
 
-/// What follows from the rest of the state: how far form and results are scrolled, and the axes of the charts.
+/// What follows from the rest of the state: how far form and results are scrolled, and the axes of
+/// the charts.
 pub fn settle(app: &mut App) {
-    if mem::take(&mut app.is_astray) {
+    if mem::take(&mut app.needs_scroll) {
         app.tab.form_top = view::form::top_for(app);
         app.tab.results_top = view::results::top_for(app);
     }
@@ -90,12 +98,13 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
         Action::Resize(size) => {
             app.size = size;
             app.follow();
-            // Terminals cut what they show when they shrink, even if they are back at the old size by now.
+            // Terminals cut what they show when they shrink, even if they are back at the old size
+            // by now.
             return vec![Effect::Redraw];
         }
         Action::Solved(answer) => {
-            follow::take(app, *answer);
-            hold::pin(app);
+            selection::take(app, *answer);
+            baseline::pin(app);
         }
         Action::Measured(measured) => trade::measured(app, *measured),
         Action::SolverFailed(serial) => solver_failed(app, serial),
@@ -132,7 +141,7 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::New => solve(tabs::fresh(app)),
         Command::CloseTab => files::close(app),
         Command::Quit => files::quit(app),
-        Command::Cancel => leave::cancel(app),
+        Command::Cancel => cancel::cancel(app),
         Command::Accept => prompts::accept(app),
         Command::Complete => browse::complete(app),
         Command::Undo | Command::Redo => travel(app, command),
@@ -142,7 +151,7 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::PreviousChoice => edit::cycle(app, -1),
         Command::Redraw => vec![Effect::Redraw],
         Command::Suspend => vec![Effect::Suspend],
-        Command::Leave => leave::leave(app),
+        Command::Leave => cancel::leave(app),
         Command::CopyValue => copy::value(app),
         Command::CopyResults => copy::results(app),
         Command::Measure => trade::measure(app),
@@ -176,7 +185,9 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
 // Commands that change only what is in sight.
 fn show(app: &mut App, command: Command) {
     match command {
-        Command::Help => app.prompts.push(Prompt::Read(Page::new("Help", view::help::lines()))),
+        Command::Help => app
+            .prompts
+            .push(Prompt::Read(Page::new("Help", view::help::lines()))),
         Command::Palette => find(app, List::Commands),
         Command::SearchField => find(app, List::Places),
         Command::Material => catalogue::materials(app),
@@ -184,7 +195,7 @@ fn show(app: &mut App, command: Command) {
         Command::CursorTo => cursor::ask(app),
         Command::NextReason => page::step(app, 1),
         Command::PreviousReason => page::step(app, -1),
-        Command::PinBaseline => hold::toggle(app),
+        Command::PinBaseline => baseline::toggle(app),
         Command::NextTab => tabs::step(app, 1),
         Command::PreviousTab => tabs::step(app, -1),
         Command::Tab(at) => tabs::go_to(app, at),
@@ -204,25 +215,34 @@ fn show(app: &mut App, command: Command) {
         Command::TeethAnew => teeth::anew(app),
         Command::TeethCentre(by) => teeth::centre_step(app, by),
         Command::TeethGap => teeth::exaggerate_or_not(app),
-        other => walk::walk(app, other),
+        other => navigation::walk(app, other),
     }
 }
 
 // A list in which the results that there are can be found.
 fn find(app: &mut App, list: List) {
-    let results = view::results::listed(app).map(|quantity| quantity.key).collect();
+    let results = view::results::listed(app)
+        .map(|quantity| quantity.key)
+        .collect();
     let are_first = app.panes.focus == Pane::Results;
     let inputs = app.case.inputs_so_far();
-    let idle = (0..FIELDS.len()).filter(|&field| matches!(acts(field, &inputs), Acting::No(_))).collect();
-    app.prompts.push(Prompt::Pick(Picker::over(list, results, are_first, idle)));
+    let idle = (0..FIELDS.len())
+        .filter(|&field| matches!(relevance(field, &inputs), Acting::No(_)))
+        .collect();
+    app.prompts
+        .push(Prompt::Pick(Picker::over(list, results, are_first, idle)));
 }
 
 fn solver_failed(app: &mut App, serial: u64) {
-    let Some(tab) = app.tab_of(serial) else { return };
+    let Some(tab) = app.tab_of(serial) else {
+        return;
+    };
     (tab.has_failed, tab.is_settled, tab.solving) = (true, true, None);
     if app.serial == serial {
         app.is_pinning = false;
-        app.complain("a fault of the program: the solver failed on this; undo or change the last edit");
+        app.complain(
+            "a fault of the program: the solver failed on this; undo or change the last edit",
+        );
     }
 }
 
@@ -246,17 +266,26 @@ fn travel(app: &mut App, command: Command) -> Vec<Effect> {
 
 // That method, else the next.
 fn set_method(app: &mut App, method: Option<Method>) -> Vec<Effect> {
-    let Some(field) = fields::index_of("model.method") else { return Vec::new() };
+    let Some(field) = fields::index_of("model.method") else {
+        return Vec::new();
+    };
     let names: Vec<_> = Method::ALL.iter().map(|method| method.name()).collect();
     let effects = match method {
         Some(method) => edit::set(app, field, method.name()),
         None => edit::choose(app, field, &names, 1),
     };
-    let waits = if app.is_stale() { ", solved when every field is right" } else { "" };
+    let waits = if app.is_stale() {
+        ", solved when every field is right"
+    } else {
+        ""
+    };
     app.say(format!("method {}{waits}", edit::chosen(app, field)));
     effects
 }
 
 fn solve(request: Option<Request>) -> Vec<Effect> {
-    request.map(|request| Effect::Solve(Box::new(request))).into_iter().collect()
+    request
+        .map(|request| Effect::Solve(Box::new(request)))
+        .into_iter()
+        .collect()
 }

@@ -1,16 +1,16 @@
 //! The screen, drawn from the state alone.
 
-pub mod aim;
 pub mod boxes;
 pub mod browser;
 pub mod chart;
+pub mod cursor_prompt;
+pub mod cursor_range;
 pub mod digest;
 pub mod explain;
 pub mod form;
 pub mod help;
 pub mod picker;
 pub mod popup;
-pub mod reach;
 pub mod results;
 pub mod status;
 pub mod teeth;
@@ -23,7 +23,7 @@ use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
 use super::app::App;
-use super::clean;
+use super::ascii;
 use super::layout::{self, SMALLEST, plan};
 use super::pane::Pane;
 
@@ -38,7 +38,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     } else {
         draw_panes(app, area, buffer)
     };
-    clean::finish(buffer, app.look.ascii);
+    ascii::finish(buffer, app.look.ascii);
     cursor.filter(|&cursor| area.contains(cursor))
 }
 
@@ -51,20 +51,33 @@ pub fn title_room(app: &App, pane: Pane, width: u16) -> usize {
 
 // The hidden ones are named at the right end, before one cell of the rule.
 fn room_beside(hidden: &str, width: u16) -> usize {
-    usize::from(width).saturating_sub(if hidden.is_empty() { 0 } else { hidden.width() + 1 })
+    usize::from(width).saturating_sub(if hidden.is_empty() {
+        0
+    } else {
+        hidden.width() + 1
+    })
 }
 
-/// The title line of a pane: its number, whether it has the focus, its title, and in one of the panes the names of those
-/// that are not in sight; what is below it.
+/// The title line of a pane: its number, whether it has the focus, its title, and in one of the
+/// panes the names of those that are not in sight; what is below it.
 pub fn titled(app: &App, pane: Pane, title: &str, area: Rect, buffer: &mut Buffer) -> Rect {
     let hidden = hidden(app, pane, area.width);
     let room = room_beside(&hidden, area.width);
     let has_focus = app.panes.focus == pane && app.prompts.is_empty();
-    let title = text::cut(&format!("{} {title}", pane.number()), room.saturating_sub(4));
+    let title = text::cut(
+        &format!("{} {title}", pane.number()),
+        room.saturating_sub(4),
+    );
     let inner = text::titled(&title, area, app.look.theme, buffer);
     if has_focus && area.width > 4 {
         buffer.set_string(area.x, area.y, "▸", app.look.theme.title);
-        buffer.set_stringn(area.x + 1, area.y, format!(" {title} "), usize::from(area.width) - 1, app.look.theme.key);
+        buffer.set_stringn(
+            area.x + 1,
+            area.y,
+            format!(" {title} "),
+            usize::from(area.width) - 1,
+            app.look.theme.key,
+        );
     }
     if !hidden.is_empty() && room > LEAST_TITLE {
         buffer.set_string(area.x + room as u16, area.y, &hidden, Style::new());
@@ -81,8 +94,15 @@ pub fn named_at(app: &App, at: Position) -> Option<Pane> {
     let names = hidden(app, owner, area.width);
     let from = area.right().checked_sub(names.width() as u16 + 1)?;
     let column = usize::from(at.x.checked_sub(from)?);
-    let begins = |pane: &Pane| names.find(&format!(" {}", pane.number())).is_some_and(|start| start <= column);
-    plan.hidden().filter(begins).last().filter(|_| at.y == area.y && column < names.width())
+    let begins = |pane: &Pane| {
+        names
+            .find(&format!(" {}", pane.number()))
+            .is_some_and(|start| start <= column)
+    };
+    plan.hidden()
+        .filter(begins)
+        .last()
+        .filter(|_| at.y == area.y && column < names.width())
 }
 
 // The keys and names of the panes that are not in sight; their keys alone where names have no room.
@@ -91,12 +111,18 @@ fn hidden(app: &App, pane: Pane, width: u16) -> String {
     if plan.names_hidden() != Some(pane) {
         return String::new();
     }
-    let named: Vec<_> = plan.hidden().map(|pane| format!(" {} {} ", pane.number(), pane.name())).collect();
+    let named: Vec<_> = plan
+        .hidden()
+        .map(|pane| format!(" {} {} ", pane.number(), pane.name()))
+        .collect();
     let named = named.concat();
     if named.width() + LEAST_TITLE <= width.into() {
         return named;
     }
-    plan.hidden().map(|pane| format!(" {}", pane.number())).chain([" ".to_owned()]).collect()
+    plan.hidden()
+        .map(|pane| format!(" {}", pane.number()))
+        .chain([" ".to_owned()])
+        .collect()
 }
 
 // The most that fits whole.
@@ -105,11 +131,31 @@ fn too_small(area: Rect, buffer: &mut Buffer) {
     let needs = format!("tipstrike needs {needed};");
     let this = format!("this is {}x{}.", area.width, area.height);
     let width = usize::from(area.width);
-    let sayings = [vec![needs, this, "Nothing is lost.".to_owned()], vec![format!("needs {needed}")], vec![needed]];
-    let wrapped = |lines: &Vec<String>| lines.iter().flat_map(|line| text::wrap(line, width)).collect::<Vec<_>>();
-    let is_whole = |lines: &Vec<String>| lines.iter().flat_map(|line| line.split(' ')).all(|word| word.len() <= width);
-    let fits = |lines: &&Vec<String>| is_whole(lines) && wrapped(lines).len() <= usize::from(area.height);
-    let lines = sayings.iter().find(fits).or(sayings.last()).map(wrapped).unwrap_or_default();
+    let sayings = [
+        vec![needs, this, "Nothing is lost.".to_owned()],
+        vec![format!("needs {needed}")],
+        vec![needed],
+    ];
+    let wrapped = |lines: &Vec<String>| {
+        lines
+            .iter()
+            .flat_map(|line| text::wrap(line, width))
+            .collect::<Vec<_>>()
+    };
+    let is_whole = |lines: &Vec<String>| {
+        lines
+            .iter()
+            .flat_map(|line| line.split(' '))
+            .all(|word| word.len() <= width)
+    };
+    let fits =
+        |lines: &&Vec<String>| is_whole(lines) && wrapped(lines).len() <= usize::from(area.height);
+    let lines = sayings
+        .iter()
+        .find(fits)
+        .or(sayings.last())
+        .map(wrapped)
+        .unwrap_or_default();
     for (line, y) in lines.iter().zip(area.top()..area.bottom()) {
         buffer.set_stringn(area.x, y, line, area.width.into(), Style::new());
     }
@@ -136,5 +182,9 @@ fn draw_panes(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
 type Draw = fn(&App, Rect, &mut Buffer);
 
 /// The panes beside the form.
-const PANES: [(Pane, Draw); 4] =
-    [(Pane::Results, results::draw), (Pane::Chart, chart::draw), (Pane::Teeth, teeth::draw), (Pane::Trade, trade::draw)];
+const PANES: [(Pane, Draw); 4] = [
+    (Pane::Results, results::draw),
+    (Pane::Chart, chart::draw),
+    (Pane::Teeth, teeth::draw),
+    (Pane::Trade, trade::draw),
+];

@@ -1,12 +1,14 @@
 //! What of the plane is in sight, and how far the gap is exaggerated: the state of the picture.
 
-use crate::model::moment::{Phase, first_contact_point};
-use crate::model::placing::on_line_of_action;
-use crate::model::{Geometry, Inputs, Moment, Solution};
+use crate::model::contact_state::{Phase, first_contact_point};
+use crate::model::gear_pose::on_line_of_action;
+use crate::model::{ContactState, Geometry, Inputs, Solution};
 
-/// Before any zoom the picture around the strike is this many modules high, and this many times the way from D to E.
+/// Before any zoom the picture around the strike is this many modules high, and this many times the
+/// way from D to E.
 const STRIKE: (f64, f64) = (3.4, 4.0);
-/// The picture around the pitch point is this many times the way from there to the further end of the path of contact.
+/// The picture around the pitch point is this many times the way from there to the further end of
+/// the path of contact.
 const PATH: f64 = 2.4;
 /// Each step of the zoom is √2. The last step in shows some micrometres of an ordinary gear.
 const LAST_STEP_IN: i32 = 20;
@@ -75,20 +77,29 @@ impl Centre {
 }
 
 impl TeethView {
-    /// The view some steps closer, or farther below 0; not beyond the whole pair, nor so close that nothing is left to see.
+    /// The view some steps closer, or farther below 0; not beyond the whole pair, nor so close that
+    /// nothing is left to see.
     #[must_use]
     pub fn zoomed(self, steps: i32, inputs: &Inputs, solution: &Solution) -> TeethView {
         let unzoomed = TeethView { zoom: 0, ..self }.extent(inputs, solution);
         let beyond = 2.0 * (whole(&solution.geometry).1 / unzoomed).log2().ceil();
         let last_out = if beyond > 0.0 { -beyond as i32 } else { 0 };
-        let zoom = self.zoom.saturating_add(steps).max(last_out.max(LAST_STEP_OUT)).min(LAST_STEP_IN);
+        let zoom = self
+            .zoom
+            .saturating_add(steps)
+            .max(last_out.max(LAST_STEP_OUT))
+            .min(LAST_STEP_IN);
         TeethView { zoom, ..self }
     }
 
     /// The view around another centre, not zoomed.
     #[must_use]
     pub fn centred_beside(self, by: isize) -> TeethView {
-        TeethView { centre: self.centre.beside(by), zoom: 0, ..self }
+        TeethView {
+            centre: self.centre.beside(by),
+            zoom: 0,
+            ..self
+        }
     }
 
     /// The view with the gap exaggerated, or no longer.
@@ -98,7 +109,10 @@ impl TeethView {
             Exaggeration::Fitted => Exaggeration::True,
             Exaggeration::True => Exaggeration::Fitted,
         };
-        TeethView { exaggeration, ..self }
+        TeethView {
+            exaggeration,
+            ..self
+        }
     }
 
     /// Length that the lesser side of the picture spans, in m.
@@ -114,7 +128,10 @@ impl TeethView {
         let unzoomed = match self.centre {
             Centre::Strike => (STRIKE.0 * inputs.module).max(STRIKE.1 * way(geometry.start)),
             Centre::PitchPoint => {
-                PATH * way(pitch_point).max(geometry.end - pitch_point).max(geometry.approach_length).max(inputs.module)
+                PATH * way(pitch_point)
+                    .max(geometry.end - pitch_point)
+                    .max(geometry.approach_length)
+                    .max(inputs.module)
             }
             Centre::Pair => whole(geometry).1,
         };
@@ -124,16 +141,19 @@ impl TeethView {
 
     /// How many times as wide as it is the opening is drawn. 1 where that is to be seen anyhow.
     ///
-    /// The factor is a round number that makes the deviation up to 10 % of the picture's height. Far from the flank it falls,
-    /// so that the struck tooth keeps to its place. After B nothing is exaggerated.
+    /// The factor is a round number that makes the deviation up to 10 % of the picture's height.
+    /// Far from the flank it falls, so that the struck tooth keeps to its place. After B nothing is
+    /// exaggerated.
     #[must_use]
-    pub fn factor(&self, inputs: &Inputs, solution: &Solution, moment: &Moment) -> f64 {
+    pub fn factor(&self, inputs: &Inputs, solution: &Solution, moment: &ContactState) -> f64 {
         if self.exaggeration == Exaggeration::True || moment.phase == Phase::RunOut {
             return 1.0;
         }
         let room = (SHARE * self.extent(inputs, solution)).min(MOST_DEVIATION * inputs.module);
         let fitted = round_down(room / solution.deviation.total.abs()).min(MOST_FACTOR);
-        fitted.min(MOST_OPENING * inputs.module / moment.opening).max(1.0)
+        fitted
+            .min(MOST_OPENING * inputs.module / moment.opening)
+            .max(1.0)
     }
 }
 
@@ -142,10 +162,14 @@ impl TeethView {
 pub fn whole(geometry: &Geometry) -> (f64, f64) {
     const MARGIN: f64 = 1.04;
     let (driver, driven) = (geometry.driver.tip, geometry.driven.tip);
-    (MARGIN * 2.0 * driver.max(driven), MARGIN * (geometry.centre_distance + driver + driven))
+    (
+        MARGIN * 2.0 * driver.max(driven),
+        MARGIN * (geometry.centre_distance + driver + driven),
+    )
 }
 
-/// The greatest of 1, 2, 5, 10, 20 .. that is not above the value, for any power of ten; 1 where there is none.
+/// The greatest of 1, 2, 5, 10, 20 .. that is not above the value, for any power of ten; 1 where
+/// there is none.
 #[must_use]
 pub fn round_down(value: f64) -> f64 {
     if !(value.is_finite() && value > 0.0) {
@@ -153,7 +177,10 @@ pub fn round_down(value: f64) -> f64 {
     }
     let power = 10f64.powf(value.log10().floor());
     let steps = [10.0, 5.0, 2.0, 1.0].map(|step| step * power);
-    steps.into_iter().find(|step| *step <= value * (1.0 + 1e-12)).unwrap_or(power)
+    steps
+        .into_iter()
+        .find(|step| *step <= value * (1.0 + 1e-12))
+        .unwrap_or(power)
 }
 
 #[cfg(test)]
@@ -163,8 +190,15 @@ mod tests {
 
     #[test]
     fn factors_and_bars_are_round() {
-        for (value, round) in [(1.0, 1.0), (1.99, 1.0), (2.0, 2.0), (49.0, 20.0), (50.0, 50.0), (999.0, 500.0), (1000.0, 1000.0)]
-        {
+        for (value, round) in [
+            (1.0, 1.0),
+            (1.99, 1.0),
+            (2.0, 2.0),
+            (49.0, 20.0),
+            (50.0, 50.0),
+            (999.0, 500.0),
+            (1000.0, 1000.0),
+        ] {
             assert_eq!(round_down(value), round);
         }
         assert!((round_down(0.0034) / 0.002 - 1.0).abs() < 1e-12);

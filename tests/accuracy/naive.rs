@@ -28,9 +28,11 @@ struct Tip {
 impl<'a> Naive<'a> {
     pub(crate) fn of(inputs: &'a Inputs) -> Naive<'a> {
         let reference = |gear: &Gear| inputs.module * f64::from(gear.teeth) / 2.0;
-        let base = [&inputs.driver, &inputs.driven].map(|gear| reference(gear) * inputs.pressure_angle.cos());
+        let base = [&inputs.driver, &inputs.driven]
+            .map(|gear| reference(gear) * inputs.pressure_angle.cos());
         let driven = &inputs.driven;
-        let tip = reference(driven) + inputs.module * (driven.addendum + driven.profile_shift) - driven.tip_chamfer;
+        let tip = reference(driven) + inputs.module * (driven.addendum + driven.profile_shift)
+            - driven.tip_chamfer;
         let sum = base[0] + base[1];
         let given = |distance: f64| (distance, (sum / distance).acos());
         let (distance, working) = inputs.centre_distance.map_or_else(
@@ -41,7 +43,15 @@ impl<'a> Naive<'a> {
             given,
         );
         let start = distance * working.sin() - (tip * tip - base[1] * base[1]).sqrt();
-        Naive { inputs, base, tip, distance, working, start, start_angle: (base[1] / tip).acos() - working }
+        Naive {
+            inputs,
+            base,
+            tip,
+            distance,
+            working,
+            start,
+            start_angle: (base[1] / tip).acos() - working,
+        }
     }
 
     /// Eqs. 7, 24-28 and 49 with arc tangents and the law of cosines.
@@ -52,13 +62,20 @@ impl<'a> Naive<'a> {
         let curvature = (radius * radius - base * base).sqrt();
         let normal = (tip * sine).atan2(distance - tip * cosine) + curvature.atan2(base);
         let normal_length = distance * normal.sin() - curvature;
-        Tip { radius, curvature, normal, normal_radius: distance * normal.cos() - base, normal_length }
+        Tip {
+            radius,
+            curvature,
+            normal,
+            normal_radius: distance * normal.cos() - base,
+            normal_length,
+        }
     }
 
     /// S(u) as it is written.
     pub(crate) fn gap(&self, angle: f64) -> f64 {
         let tip = self.tip_at(angle);
-        (tip.curvature - self.start) + self.base[1] * angle - self.base[0] * (tip.normal - self.working)
+        (tip.curvature - self.start) + self.base[1] * angle
+            - self.base[0] * (tip.normal - self.working)
     }
 
     /// u from S(u) = Δ by Newton's method.
@@ -77,7 +94,12 @@ impl<'a> Naive<'a> {
         let tip = self.tip_at(angle);
         let (driver, driven) = (self.inputs.speed, self.inputs.driven_speed());
         let normal = driver * self.base[0] - driven * tip.normal_radius;
-        [tip.radius, tip.normal_radius, normal, driven * tip.normal_length - driver * tip.curvature]
+        [
+            tip.radius,
+            tip.normal_radius,
+            normal,
+            driven * tip.normal_length - driver * tip.curvature,
+        ]
     }
 
     /// F_S by Eq. 57 with Eq. 55 or a constant, where Eq. 56 serves.
@@ -88,13 +110,24 @@ impl<'a> Naive<'a> {
             return None;
         }
         let (tip, [.., normal, _]) = (self.tip_at(angle), self.at(angle));
-        let give: f64 = [&inputs.driver, &inputs.driven].map(|gear| (1.0 - gear.poisson.powi(2)) / gear.young).iter().sum();
-        let flank = inputs.driven.tip_radius.unwrap_or((self.tip * self.tip - self.base[1] * self.base[1]).sqrt());
+        let give: f64 = [&inputs.driver, &inputs.driven]
+            .map(|gear| (1.0 - gear.poisson.powi(2)) / gear.young)
+            .iter()
+            .sum();
+        let flank = inputs
+            .driven
+            .tip_radius
+            .unwrap_or((self.tip * self.tip - self.base[1] * self.base[1]).sqrt());
         let curvature = tip.curvature * flank / (tip.curvature + flank);
-        let inertia =
-            |gear: &Gear, base: f64| PI * gear.density * gear.face_width / 2.0 * (base.powi(4) - gear.bore_radius.powi(4));
-        let (first, second) = (inertia(&inputs.driver, self.base[0]), inertia(&inputs.driven, self.base[1]));
-        let mass = first * second / (first * tip.normal_radius.powi(2) + second * self.base[0].powi(2));
+        let inertia = |gear: &Gear, base: f64| {
+            PI * gear.density * gear.face_width / 2.0 * (base.powi(4) - gear.bore_radius.powi(4))
+        };
+        let (first, second) = (
+            inertia(&inputs.driver, self.base[0]),
+            inertia(&inputs.driven, self.base[1]),
+        );
+        let mass =
+            first * second / (first * tip.normal_radius.powi(2) + second * self.base[0].powi(2));
         let teeth = self.tooth(&inputs.driver, tip.radius) + self.tooth(&inputs.driven, self.tip);
         let width = inputs.common_width();
         let mut force = normal * (width * mass / teeth).sqrt();

@@ -1,4 +1,5 @@
-//! The measured answer to "how stable is it": per quantity and decade of the deviation, printed formulas beside ours.
+//! The measured answer to "how stable is it": per quantity and decade of the deviation, printed
+//! formulas beside ours.
 
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -49,7 +50,10 @@ pub(crate) struct Table(Vec<Line>);
 
 /// The decade of a row's Δ.
 pub(crate) fn decade(row: &Row) -> i32 {
-    row.answer("total_deviation").expect("a deviation").log10().floor() as i32
+    row.answer("total_deviation")
+        .expect("a deviation")
+        .log10()
+        .floor() as i32
 }
 
 fn path() -> PathBuf {
@@ -62,12 +66,18 @@ pub(crate) fn freeze() {
 }
 
 impl Table {
-    /// The table of the rows that lie anywhere in the envelope and in the fit, by the exact position.
+    /// The table of the rows that lie anywhere in the envelope and in the fit, by the exact
+    /// position.
     pub(crate) fn made(rows: &[Row]) -> Table {
         let mut errors = vec![vec![Vec::new(); DECADES.len()]; 2 * QUANTITIES.len()];
-        let plain = |row: &&Row| matches!(row.corner, Corner::Anywhere | Corner::Fit) && row.inputs.method == Method::Exact;
+        let plain = |row: &&Row| {
+            matches!(row.corner, Corner::Anywhere | Corner::Fit)
+                && row.inputs.method == Method::Exact
+        };
         for row in rows.iter().filter(plain) {
-            let Some(column) = DECADES.iter().position(|&of| of == decade(row)) else { continue };
+            let Some(column) = DECADES.iter().position(|&of| of == decade(row)) else {
+                continue;
+            };
             for (line, error) in errors_of(row).into_iter().flatten().enumerate() {
                 errors[line][column].extend(error);
             }
@@ -76,9 +86,19 @@ impl Table {
         let mut line = |quantity: &str, formula: &str| Line {
             quantity: quantity.to_owned(),
             formula: formula.to_owned(),
-            cells: errors.next().expect("a line").into_iter().map(cell).collect(),
+            cells: errors
+                .next()
+                .expect("a line")
+                .into_iter()
+                .map(cell)
+                .collect(),
         };
-        Table(QUANTITIES.iter().flat_map(|(symbol, _)| [line(symbol, "naive"), line(symbol, "ours")]).collect())
+        Table(
+            QUANTITIES
+                .iter()
+                .flat_map(|(symbol, _)| [line(symbol, "naive"), line(symbol, "ours")])
+                .collect(),
+        )
     }
 
     /// The table as it is kept.
@@ -98,7 +118,9 @@ impl Table {
         for line in &self.0 {
             write!(text, "\n| {} | {} |", line.quantity, line.formula).expect("a string");
             for cell in &line.cells {
-                let shown = cell.map_or("-".to_owned(), |cell| format!("{} / {}", short(cell.median), short(cell.greatest)));
+                let shown = cell.map_or("-".to_owned(), |cell| {
+                    format!("{} / {}", short(cell.median), short(cell.greatest))
+                });
                 write!(text, " {shown} |").expect("a string");
             }
         }
@@ -107,9 +129,16 @@ impl Table {
 
     /// Median errors of the naive formula and of ours.
     pub(crate) fn median_at(&self, quantity: &str, decade: i32) -> (f64, f64) {
-        let column = DECADES.iter().position(|&of| of == decade).expect("a decade");
+        let column = DECADES
+            .iter()
+            .position(|&of| of == decade)
+            .expect("a decade");
         let of = |formula: &str| {
-            let line = self.0.iter().find(|line| line.quantity == quantity && line.formula == formula).expect("a line");
+            let line = self
+                .0
+                .iter()
+                .find(|line| line.quantity == quantity && line.formula == formula)
+                .expect("a line");
             line.cells[column].expect("rows").median.max(ROUNDING)
         };
         (of("naive"), of("ours"))
@@ -123,10 +152,18 @@ impl Table {
             assert_eq!(stored.quantity, made.quantity);
             for (stored, made) in stored.cells.iter().zip(&made.cells) {
                 assert_eq!(stored.is_some(), made.is_some(), "{name}");
-                let (Some(stored), Some(made)) = (stored, made) else { continue };
-                for (stored, made) in [(stored.median, made.median), (stored.greatest, made.greatest)] {
+                let (Some(stored), Some(made)) = (stored, made) else {
+                    continue;
+                };
+                for (stored, made) in [
+                    (stored.median, made.median),
+                    (stored.greatest, made.greatest),
+                ] {
                     let ratio = stored.max(ROUNDING) / made.clamp(ROUNDING, 1.0);
-                    assert!((0.1..=10.0).contains(&ratio), "{name}: {made:e} where {stored:e} is stored");
+                    assert!(
+                        (0.1..=10.0).contains(&ratio),
+                        "{name}: {made:e} where {stored:e} is stored"
+                    );
                 }
             }
         }
@@ -145,15 +182,27 @@ fn errors_of(row: &Row) -> [[Option<f64>; 2]; 7] {
     let deviation = row.answer("total_deviation").expect("a deviation");
     let naive_angle = naive.angle(deviation);
     let [radius, normal_radius, normal, sliding] = naive.at(naive_angle);
-    let found =
-        [None, Some(naive_angle), Some(radius), Some(normal_radius), Some(normal), Some(sliding), naive.force(naive_angle)];
+    let found = [
+        None,
+        Some(naive_angle),
+        Some(radius),
+        Some(normal_radius),
+        Some(normal),
+        Some(sliding),
+        naive.force(naive_angle),
+    ];
     let mut errors = [[None; 2]; 7];
     for ((errors, (_, key)), found) in errors.iter_mut().zip(QUANTITIES).zip(found).skip(1) {
-        let (Some(found), true) = (found, row.answers.contains_key(key)) else { continue };
+        let (Some(found), true) = (found, row.answers.contains_key(key)) else {
+            continue;
+        };
         let ours = (Quantity::find(key).expect("a quantity").value)(&solution).expect("a value");
         *errors = [Some(row.off(key, found)), Some(row.off(key, ours))];
     }
-    errors[0] = [Some(rows::off(naive.gap(angle), &exact_gap)), Some(rows::off(gap, &exact_gap))];
+    errors[0] = [
+        Some(rows::off(naive.gap(angle), &exact_gap)),
+        Some(rows::off(gap, &exact_gap)),
+    ];
     errors
 }
 
@@ -163,18 +212,32 @@ fn cell(mut errors: Vec<f64>) -> Option<Cell> {
         *error = error.min(1.0);
     }
     errors.sort_by(f64::total_cmp);
-    Some(Cell { median: *errors.get(errors.len() / 2)?, greatest: *errors.last()? })
+    Some(Cell {
+        median: *errors.get(errors.len() / 2)?,
+        greatest: *errors.last()?,
+    })
 }
 
 fn short(error: f64) -> String {
-    if error == 0.0 { "0".to_owned() } else { format!("{error:.0e}") }
+    if error == 0.0 {
+        "0".to_owned()
+    } else {
+        format!("{error:.0e}")
+    }
 }
 
 fn read_line(line: &str) -> Line {
     let words: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
     let number = |text: &str| text.parse::<f64>().expect("a number");
     let cell = |text: &&str| {
-        text.split_once(" / ").map(|(median, greatest)| Cell { median: number(median), greatest: number(greatest) })
+        text.split_once(" / ").map(|(median, greatest)| Cell {
+            median: number(median),
+            greatest: number(greatest),
+        })
     };
-    Line { quantity: words[0].to_owned(), formula: words[1].to_owned(), cells: words[2..].iter().map(cell).collect() }
+    Line {
+        quantity: words[0].to_owned(),
+        formula: words[1].to_owned(),
+        cells: words[2..].iter().map(cell).collect(),
+    }
 }

@@ -1,4 +1,5 @@
-//! Works out what a page prints: numbers with units, and nothing that the program knows of its own formulas.
+//! Works out what a page prints: numbers with units, and nothing that the program knows of its own
+//! formulas.
 
 use tipstrike::case::units;
 use tipstrike::report::explain::STEP_UNITS;
@@ -10,13 +11,22 @@ const GLUE: char = '\u{a0}';
 pub(crate) fn evaluate(text: &str) -> f64 {
     let mut reader = Reader { rest: text };
     let value = reader.sum();
-    assert!(reader.rest.trim().is_empty(), "{text}: what is {:?}?", reader.rest);
+    assert!(
+        reader.rest.trim().is_empty(),
+        "{text}: what is {:?}?",
+        reader.rest
+    );
     value
 }
 
 /// What one of a unit is in SI.
 pub(crate) fn factor(unit: &str) -> Option<f64> {
-    units::factor(unit).or_else(|| STEP_UNITS.iter().find(|(name, _)| *name == unit).map(|&(_, factor)| factor))
+    units::factor(unit).or_else(|| {
+        STEP_UNITS
+            .iter()
+            .find(|(name, _)| *name == unit)
+            .map(|&(_, factor)| factor)
+    })
 }
 
 struct Reader<'a> {
@@ -32,7 +42,11 @@ impl Reader<'_> {
     }
 
     fn must(&mut self, mark: &str) {
-        assert!(self.took(mark), "{mark:?} is missing before {:?}", self.rest);
+        assert!(
+            self.took(mark),
+            "{mark:?} is missing before {:?}",
+            self.rest
+        );
     }
 
     fn sum(&mut self) -> f64 {
@@ -62,7 +76,11 @@ impl Reader<'_> {
     }
 
     fn signed(&mut self) -> f64 {
-        if self.took("-") { -self.power() } else { self.power() }
+        if self.took("-") {
+            -self.power()
+        } else {
+            self.power()
+        }
     }
 
     fn power(&mut self) -> f64 {
@@ -91,16 +109,24 @@ impl Reader<'_> {
                 return of(&arguments);
             }
         }
-        if self.took("π") { std::f64::consts::PI } else { self.number() }
+        if self.took("π") {
+            std::f64::consts::PI
+        } else {
+            self.number()
+        }
     }
 
     fn number(&mut self) -> f64 {
         let digits = |c: char| c.is_ascii_digit() || c == '.';
         let mut end = self.rest.find(|c| !digits(c)).unwrap_or(self.rest.len());
         if self.rest[end..].starts_with("e-") {
-            end += 2 + self.rest[end + 2..].find(|c| !digits(c)).unwrap_or(self.rest.len() - end - 2);
+            end += 2 + self.rest[end + 2..]
+                .find(|c| !digits(c))
+                .unwrap_or(self.rest.len() - end - 2);
         }
-        let number: f64 = self.rest[..end].parse().unwrap_or_else(|_| panic!("{:?} is no number", self.rest));
+        let number: f64 = self.rest[..end]
+            .parse()
+            .unwrap_or_else(|_| panic!("{:?} is no number", self.rest));
         self.rest = &self.rest[end..];
         match self.rest.strip_prefix(GLUE) {
             Some(after) => number * self.unit(after),
@@ -113,9 +139,14 @@ impl Reader<'_> {
         let plain = text.replace(GLUE, " ");
         let ends = plain.char_indices().map(|(at, c)| at + c.len_utf8());
         let mut known = ends.filter_map(|end| Some((end, factor(&plain[..end])?)));
-        let (end, factor) = known.next_back().unwrap_or_else(|| panic!("{text:?} starts with no unit"));
+        let (end, factor) = known
+            .next_back()
+            .unwrap_or_else(|| panic!("{text:?} starts with no unit"));
         let length = plain[..end].chars().count();
-        let skip = text.char_indices().nth(length).map_or(text.len(), |(at, _)| at);
+        let skip = text
+            .char_indices()
+            .nth(length)
+            .map_or(text.len(), |(at, _)| at);
         let at = self.rest.len() - text.len() + skip;
         self.rest = &self.rest[at..];
         factor

@@ -14,7 +14,7 @@ use tipstrike::model::QUANTITIES;
 
 use crate::properties::{Fate, assert_placed, assert_same, read_and_solve};
 use crate::values::{HOSTILE, field_and_text};
-use crate::{assert_safe, hold, texts};
+use crate::{assert_safe, baseline, texts};
 
 /// An edit of a document in the form or by `--set`.
 #[derive(Debug, Clone)]
@@ -26,7 +26,9 @@ enum Edit {
 
 #[test]
 fn what_was_found_once_holds() {
-    for entry in fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/kept")).expect("a folder") {
+    for entry in fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/kept"))
+        .expect("a folder")
+    {
         let path = entry.expect("an entry").path();
         let bytes = fs::read(&path).expect("a file");
         match String::from_utf8(bytes) {
@@ -52,24 +54,33 @@ fn a_text_is_solved_or_refused_or_its_faults_are_told_in_their_places() {
     });
     let part = |counter: &Cell<u32>| f64::from(counter.get()) / f64::from(all.get());
     let shares = (part(&toml), part(&cases), part(&solved));
-    assert!(shares.0 > 0.5 && shares.1 > 0.2 && shares.2 > 0.1, "the texts get too seldom past the parser: {shares:?}");
+    assert!(
+        shares.0 > 0.5 && shares.1 > 0.2 && shares.2 > 0.1,
+        "the texts get too seldom past the parser: {shares:?}"
+    );
 }
 
 #[test]
 fn bytes_that_may_be_no_text_are_told_in_their_places() {
     let spoilt = prop::collection::vec((any::<Index>(), any::<u8>()), 0..4);
-    hold(500, &(texts::mutated(), spoilt, any::<Index>()), |(text, spoilt, end)| {
-        let mut bytes = text.into_bytes();
-        bytes.truncate(end.index(bytes.len() + 1).max(bytes.len() / 2));
-        for (at, byte) in spoilt {
-            if !bytes.is_empty() {
-                let at = at.index(bytes.len());
-                bytes[at] = byte;
+    hold(
+        500,
+        &(texts::mutated(), spoilt, any::<Index>()),
+        |(text, spoilt, end)| {
+            let mut bytes = text.into_bytes();
+            bytes.truncate(end.index(bytes.len() + 1).max(bytes.len() / 2));
+            for (at, byte) in spoilt {
+                if !bytes.is_empty() {
+                    let at = at.index(bytes.len());
+                    bytes[at] = byte;
+                }
             }
-        }
-        assert_bytes(&bytes);
+            assert_bytes(&bytes);
+        },
+    );
+    hold(300, &prop::collection::vec(any::<u8>(), 0..300), |bytes| {
+        assert_bytes(&bytes)
     });
-    hold(300, &prop::collection::vec(any::<u8>(), 0..300), |bytes| assert_bytes(&bytes));
     hold(300, &".{0,200}", |text| {
         read_and_solve(&text);
     });
@@ -80,43 +91,79 @@ fn edits_are_kept_and_so_are_comments() {
     let comments = prop::collection::vec((any::<Index>(), any::<bool>()), 0..4);
     let edited = Cell::new(0u32);
     let texts = prop_oneof![texts::written(), texts::mutated()];
-    hold(1500, &(texts, comments, edits()), |(text, comments, edits)| {
-        let Ok(plain) = Document::parse("case", &text) else { return };
-        let commented = with_comments(&text, &comments);
-        let Ok(mut document) = Document::parse("case", &commented) else { return };
-        let is_same = document.case == plain.case;
-        for edit in &edits {
-            edit.apply(&mut document.case);
-        }
-        let rendered = document.render();
-        if document.case.inputs().is_err() {
-            return;
-        }
-        edited.set(edited.get() + 1);
-        let again = Document::parse("case", &rendered).unwrap_or_else(|faults| panic!("{}\n{rendered}", faults[0]));
-        assert_same(&document, &again);
-        assert_eq!(again.render(), rendered);
-        // A comment that landed inside a text of many lines is none.
-        let lost = (0..comments.len()).filter(|index| !rendered.contains(&format!("# kept {index}"))).count();
-        assert!(!is_same || lost == 0, "a comment is lost:\n{commented}\nbecame\n{rendered}");
-    });
-    assert!(edited.get() > 300, "only {} edits left a valid case", edited.get());
+    hold(
+        1500,
+        &(texts, comments, edits()),
+        |(text, comments, edits)| {
+            let Ok(plain) = Document::parse("case", &text) else {
+                return;
+            };
+            let commented = with_comments(&text, &comments);
+            let Ok(mut document) = Document::parse("case", &commented) else {
+                return;
+            };
+            let is_same = document.case == plain.case;
+            for edit in &edits {
+                edit.apply(&mut document.case);
+            }
+            let rendered = document.render();
+            if document.case.inputs().is_err() {
+                return;
+            }
+            edited.set(edited.get() + 1);
+            let again = Document::parse("case", &rendered)
+                .unwrap_or_else(|faults| panic!("{}\n{rendered}", faults[0]));
+            assert_same(&document, &again);
+            assert_eq!(again.render(), rendered);
+            // A comment that landed inside a text of many lines is none.
+            let lost = (0..comments.len())
+                .filter(|index| !rendered.contains(&format!("# kept {index}")))
+                .count();
+            assert!(
+                !is_same || lost == 0,
+                "a comment is lost:\n{commented}\nbecame\n{rendered}"
+            );
+        },
+    );
+    assert!(
+        edited.get() > 300,
+        "only {} edits left a valid case",
+        edited.get()
+    );
 }
 
 #[test]
 fn an_inline_table_of_many_lines_keeps_its_comments() {
     let text = include_str!("kept/inline-table-of-many-lines.toml");
     for (key, value, comments) in [
-        ("pair.module", "4 mm", ["# both", "# normal, of both", "# usual"].as_slice()),
-        ("pair.pressure_angle", "22 deg", &["# both", "# normal, of both", "# usual"]),
-        ("pair.centre_distance", "101 mm", &["# both", "# normal, of both", "# usual"]),
+        (
+            "pair.module",
+            "4 mm",
+            ["# both", "# normal, of both", "# usual"].as_slice(),
+        ),
+        (
+            "pair.pressure_angle",
+            "22 deg",
+            &["# both", "# normal, of both", "# usual"],
+        ),
+        (
+            "pair.centre_distance",
+            "101 mm",
+            &["# both", "# normal, of both", "# usual"],
+        ),
         ("pair.pressure_angle", "", &["# both", "# normal, of both"]),
     ] {
         let mut document = Document::parse("case", text).expect("a case");
         document.case.write(index_of(key).expect("a field"), value);
         let rendered = document.render();
-        assert!(comments.iter().all(|comment| rendered.contains(comment)), "{key} = {value}:\n{rendered}");
-        assert_same(&document, &Document::parse("case", &rendered).expect("a case"));
+        assert!(
+            comments.iter().all(|comment| rendered.contains(comment)),
+            "{key} = {value}:\n{rendered}"
+        );
+        assert_same(
+            &document,
+            &Document::parse("case", &rendered).expect("a case"),
+        );
     }
 }
 
@@ -126,7 +173,9 @@ fn what_is_saved_is_what_is_read() {
     let path = folder.path().join("case.toml");
     hold(60, &(texts::written(), edits()), |(text, edits)| {
         fs::write(&path, &text).expect("room on the disk");
-        let Ok(mut document) = Document::read(&path) else { return };
+        let Ok(mut document) = Document::read(&path) else {
+            return;
+        };
         for edit in &edits {
             edit.apply(&mut document.case);
         }
@@ -144,7 +193,11 @@ fn what_is_saved_is_what_is_read() {
 
 #[test]
 fn a_setting_is_taken_or_leaves_the_case_as_it_was() {
-    let keys = prop_oneof![(0..FIELDS.len()).prop_map(|field| FIELDS[field].key.to_owned()), "limits\\.[a-z_]{0,20}", ".{0,20}"];
+    let keys = prop_oneof![
+        (0..FIELDS.len()).prop_map(|field| FIELDS[field].key.to_owned()),
+        "limits\\.[a-z_]{0,20}",
+        ".{0,20}"
+    ];
     let value = prop_oneof![field_and_text().prop_map(|(_, text)| text), ".{0,20}"];
     hold(1500, &(keys, value), |(key, value)| {
         let mut case = Case::table_1();
@@ -185,7 +238,9 @@ impl Edit {
         match self {
             Edit::Field(field, text) => case.write(*field, text),
             // What is no limit leaves the case as it was.
-            Edit::Limit(at, text) => drop(case.set_limit(QUANTITIES[at.index(QUANTITIES.len())].key, text)),
+            Edit::Limit(at, text) => {
+                drop(case.set_limit(QUANTITIES[at.index(QUANTITIES.len())].key, text))
+            }
             Edit::Unspread => case.spread.clear(),
         }
     }
@@ -197,7 +252,10 @@ fn with_comments(text: &str, comments: &[(Index, bool)]) -> String {
     for (index, (at, at_header)) in comments.iter().enumerate() {
         let comment = format!("# kept {index}");
         let at = at.index(lines.len());
-        match lines[at..].iter().position(|line| line.starts_with('[') && !line.contains('#')) {
+        match lines[at..]
+            .iter()
+            .position(|line| line.starts_with('[') && !line.contains('#'))
+        {
             Some(below) if *at_header => lines[at + below].extend([" ", &comment]),
             _ => lines.insert(at, comment),
         }
@@ -219,19 +277,37 @@ fn assert_safe_headless(text: &str) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("case \u{1b}[2J\u{202e}.toml");
     fs::write(&path, text).expect("room on the disk");
-    for words in [&["solve"][..], &["solve", "--format", "json"], &["solve", "--format", "csv", "--stations", "3"], &["check"]] {
+    for words in [
+        &["solve"][..],
+        &["solve", "--format", "json"],
+        &["solve", "--format", "csv", "--stations", "3"],
+        &["check"],
+    ] {
         let (exit, output, errors) = run(words, path.as_os_str().to_owned());
         assert_safe(&output);
         assert_safe(&errors);
-        assert!(exit != Exit::Usage && exit != Exit::Unreadable, "{exit:?}: {errors}");
-        assert!((exit == Exit::Done) == errors.is_empty() || exit == Exit::Exceeded, "{exit:?}: {errors}");
+        assert!(
+            exit != Exit::Usage && exit != Exit::Unreadable,
+            "{exit:?}: {errors}"
+        );
+        assert!(
+            (exit == Exit::Done) == errors.is_empty() || exit == Exit::Exceeded,
+            "{exit:?}: {errors}"
+        );
     }
 }
 
 fn run(words: &[&str], case: OsString) -> (Exit, String, String) {
     let (mut output, mut errors) = (Vec::new(), Vec::new());
-    let mut streams = Streams { output: Box::new(&mut output), errors: Box::new(&mut errors) };
-    let line = ["tipstrike"].iter().chain(words).map(OsString::from).chain([case]);
+    let mut streams = Streams {
+        output: Box::new(&mut output),
+        errors: Box::new(&mut errors),
+    };
+    let line = ["tipstrike"]
+        .iter()
+        .chain(words)
+        .map(OsString::from)
+        .chain([case]);
     let exit = cli::parse(line, &mut streams)
         .and_then(|arguments| arguments.command.ok_or(Exit::Usage))
         .map_or_else(|exit| exit, |command| cli::run(&command, &mut streams));

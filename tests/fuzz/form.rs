@@ -1,4 +1,5 @@
-//! Keys, pastes and sizes into the workbench without a terminal: the state stays sound, the screen safe, nothing is lost.
+//! Keys, pastes and sizes into the workbench without a terminal: the state stays sound, the screen
+//! safe, nothing is lost.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -17,19 +18,19 @@ use tipstrike::model::inputs::Method;
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::actions::Effect;
 use tipstrike::tui::app::App;
-use tipstrike::tui::errands::{self, Errand};
 use tipstrike::tui::events::{Event, take_action};
+use tipstrike::tui::jobs::{self, Job};
 use tipstrike::tui::prompt::Prompt;
 use tipstrike::tui::solver::{self, Request};
-use tipstrike::tui::store::preview::Sight;
+use tipstrike::tui::store::preview::Viewport;
 use tipstrike::tui::store::recents;
-use tipstrike::tui::store::{self, below, folder};
+use tipstrike::tui::store::{self, case_search, folder};
 use tipstrike::tui::theme::Look;
 use tipstrike::tui::update::update;
-use tipstrike::tui::{perform, rows, update, view};
+use tipstrike::tui::{effects, rows, update, view};
 
 use crate::values::{HOSTILE, field_and_text};
-use crate::{hold, is_hostile, texts};
+use crate::{baseline, is_hostile, texts};
 
 /// Something that happens to the workbench.
 #[derive(Debug, Clone)]
@@ -68,19 +69,35 @@ struct Bench {
 fn whatever_is_typed_the_form_stays_sound_and_the_screen_safe() {
     let text = prop_oneof![texts::written(), texts::mutated(), Just(String::new())];
     let seen = RefCell::new(BTreeSet::new());
-    hold(400, &(text, any::<bool>(), happenings()), |(text, ascii, happenings)| {
-        let mut bench = Bench::on(&text, ascii);
-        bench.assert_sound();
-        for happening in happenings {
-            bench.take(happening);
-        }
-        bench.assert_undone();
-        seen.borrow_mut().append(&mut bench.seen);
-    });
+    hold(
+        400,
+        &(text, any::<bool>(), happenings()),
+        |(text, ascii, happenings)| {
+            let mut bench = Bench::on(&text, ascii);
+            bench.assert_sound();
+            for happening in happenings {
+                bench.take(happening);
+            }
+            bench.assert_undone();
+            seen.borrow_mut().append(&mut bench.seen);
+        },
+    );
     let prompts = ["browse", "save as", "ask", "page", "pick", "aim"];
-    let ends = ["loaded", "not loaded", "saved", "not saved", "quit", "invalid", "refused"];
+    let ends = [
+        "loaded",
+        "not loaded",
+        "saved",
+        "not saved",
+        "quit",
+        "invalid",
+        "refused",
+    ];
     let all: BTreeSet<_> = prompts.into_iter().chain(ends).collect();
-    assert_eq!(*seen.borrow(), all, "the keys get too seldom to all that the workbench does");
+    assert_eq!(
+        *seen.borrow(),
+        all,
+        "the keys get too seldom to all that the workbench does"
+    );
 }
 
 #[test]
@@ -89,17 +106,34 @@ fn a_name_that_hides_or_controls_is_shown_as_one_that_does() {
     for title in HOSTILE {
         bench.take(Happening::Paste(title.to_owned()));
         bench.app.tab.case.write(0, title);
-        bench.draw(Size { width: 80, height: 24 });
+        bench.draw(Size {
+            width: 80,
+            height: 24,
+        });
     }
 }
 
 #[test]
 fn every_prompt_and_page_is_drawn_at_every_size() {
-    let openers = [&[][..], &[key(KeyCode::F(1))], &[ctrl('o')], &[key(KeyCode::F(2))], &[ctrl('c')], &[ctrl('u'), ctrl('q')]];
-    for (ascii, keys) in openers.into_iter().enumerate().map(|(index, keys)| (index % 2 == 1, keys)) {
+    let openers = [
+        &[][..],
+        &[key(KeyCode::F(1))],
+        &[ctrl('o')],
+        &[key(KeyCode::F(2))],
+        &[ctrl('c')],
+        &[ctrl('u'), ctrl('q')],
+    ];
+    for (ascii, keys) in openers
+        .into_iter()
+        .enumerate()
+        .map(|(index, keys)| (index % 2 == 1, keys))
+    {
         let mut bench = Bench::on(&texts::bases()[0], ascii);
         bench.feed(keys.iter().map(|key| Event::Input(Input::Key(*key))));
-        for (width, height) in (0..=200).step_by(7).flat_map(|width| (0..=60).step_by(3).map(move |height| (width, height))) {
+        for (width, height) in (0..=200)
+            .step_by(7)
+            .flat_map(|width| (0..=60).step_by(3).map(move |height| (width, height)))
+        {
             bench.draw(Size { width, height });
             bench.take(Happening::Resize(width, height));
         }
@@ -107,9 +141,17 @@ fn every_prompt_and_page_is_drawn_at_every_size() {
 }
 
 fn happenings() -> impl Strategy<Value = Vec<Happening>> {
-    let size = prop_oneof![(0..=200u16, 0..=60u16), (60..=100u16, 16..=30u16), (0..=4u16, 0..=4u16)];
-    let letters =
-        prop_oneof![select(&HOSTILE[..]).prop_map(str::to_owned), ".{0,8}", "[a-z0-9/.]{1,6}", "[0-9.e+-]{1,8} ?[a-z]{0,3}"];
+    let size = prop_oneof![
+        (0..=200u16, 0..=60u16),
+        (60..=100u16, 16..=30u16),
+        (0..=4u16, 0..=4u16)
+    ];
+    let letters = prop_oneof![
+        select(&HOSTILE[..]).prop_map(str::to_owned),
+        ".{0,8}",
+        "[a-z0-9/.]{1,6}",
+        "[0-9.e+-]{1,8} ?[a-z]{0,3}"
+    ];
     let half = (field_and_text(), 0.0..1.5f64).prop_map(|((field, text), part)| {
         let letters = (text.chars().count() as f64 * part) as usize;
         Happening::Fill(field, text.chars().take(letters).collect())
@@ -129,10 +171,13 @@ fn happenings() -> impl Strategy<Value = Vec<Happening>> {
 /// Every key that a terminal sends, those of the table of bindings more often.
 fn keys() -> impl Strategy<Value = KeyEvent> {
     use KeyCode::{
-        BackTab, Backspace, CapsLock, Delete, Down, End, Enter, Esc, Home, Insert, Left, Null, PageDown, PageUp, Right, Tab, Up,
+        BackTab, Backspace, CapsLock, Delete, Down, End, Enter, Esc, Home, Insert, Left, Null,
+        PageDown, PageUp, Right, Tab, Up,
     };
-    let named =
-        [Backspace, Enter, Left, Right, Up, Down, Home, End, PageUp, PageDown, Tab, BackTab, Delete, Insert, Null, Esc, CapsLock];
+    let named = [
+        Backspace, Enter, Left, Right, Up, Down, Home, End, PageUp, PageDown, Tab, BackTab, Delete,
+        Insert, Null, Esc, CapsLock,
+    ];
     let code = prop_oneof![
         6 => select(named.to_vec()),
         2 => (0..=12u8).prop_map(KeyCode::F),
@@ -157,8 +202,8 @@ fn ctrl(letter: char) -> KeyEvent {
     KeyEvent::new(KeyCode::Char(letter), KeyModifiers::CONTROL)
 }
 
-fn done(errand: Errand) -> Option<Action> {
-    errands::perform(errand, &|_| true).map(perform::told)
+fn done(errand: Job) -> Option<Action> {
+    jobs::perform(errand, &|_| true).map(effects::told)
 }
 
 impl Bench {
@@ -169,24 +214,50 @@ impl Bench {
         fs::write(&path, text).expect("room on the disk");
         let read = Document::read(&path).ok();
         let path = read.is_some().then_some(path);
-        let look = Look { ascii, ..Look::FULL };
-        let app = update::opened(read.unwrap_or_else(store::built_in), path, look, Size { width: 80, height: 24 });
+        let look = Look {
+            ascii,
+            ..Look::FULL
+        };
+        let app = update::opened(
+            read.unwrap_or_else(store::built_in),
+            path,
+            look,
+            Size {
+                width: 80,
+                height: 24,
+            },
+        );
         let first = app.case.clone();
         let opened = vec![first, Case::table_1(), Case::fresh()];
-        Bench { app, folder, waiting: None, on_disk: opened.clone(), opened, seen: BTreeSet::new() }
+        Bench {
+            app,
+            folder,
+            waiting: None,
+            on_disk: opened.clone(),
+            opened,
+            seen: BTreeSet::new(),
+        }
     }
 
     fn take(&mut self, happening: Happening) {
-        let letters =
-            |text: String| text.chars().map(|letter| Event::Input(Input::Key(key(KeyCode::Char(letter))))).collect::<Vec<_>>();
+        let letters = |text: String| {
+            text.chars()
+                .map(|letter| Event::Input(Input::Key(key(KeyCode::Char(letter)))))
+                .collect::<Vec<_>>()
+        };
         match happening {
             Happening::Key(key, times) => self.feed(vec![Event::Input(Input::Key(key)); times]),
             Happening::Type(text) => self.feed(letters(text)),
             Happening::Paste(text) => self.feed([Event::Input(Input::Paste(text))]),
-            Happening::Resize(width, height) => self.feed([Event::Input(Input::Resize(width, height))]),
+            Happening::Resize(width, height) => {
+                self.feed([Event::Input(Input::Resize(width, height))])
+            }
             Happening::Fill(field, text) => {
                 let steps = vec![Event::Input(Input::Key(key(KeyCode::Down))); field];
-                self.feed([Event::Input(Input::Key(KeyEvent::new(KeyCode::Home, KeyModifiers::CONTROL)))]);
+                self.feed([Event::Input(Input::Key(KeyEvent::new(
+                    KeyCode::Home,
+                    KeyModifiers::CONTROL,
+                )))]);
                 self.feed(steps);
                 self.feed([Event::Input(Input::Key(ctrl('u')))]);
                 self.feed(letters(text));
@@ -217,7 +288,8 @@ impl Bench {
         });
         let invalid = (!self.app.problems.is_empty()).then_some("invalid");
         let refused = self.app.refusal.is_some().then_some("refused");
-        self.seen.extend([prompt, invalid, refused].into_iter().flatten());
+        self.seen
+            .extend([prompt, invalid, refused].into_iter().flatten());
     }
 
     /// A batch of events, as the workbench takes it.
@@ -265,40 +337,54 @@ impl Bench {
     fn perform(&mut self, effect: Effect, was_asked: bool) -> Option<Action> {
         match effect {
             Effect::Solve(request) => {
-                assert_eq!(self.app.case.inputs().as_ref(), Ok(&request.inputs), "only what is valid reaches the model");
+                assert_eq!(
+                    self.app.case.inputs().as_ref(),
+                    Ok(&request.inputs),
+                    "only what is valid reaches the model"
+                );
                 self.waiting = Some(*request);
                 None
             }
             Effect::Quit => {
                 let is_unsaved = self.app.tabs().any(tipstrike::tui::tab::Tab::is_unsaved);
-                assert!(was_asked || !is_unsaved, "edits are not lost without a question");
+                assert!(
+                    was_asked || !is_unsaved,
+                    "edits are not lost without a question"
+                );
                 self.seen.insert("quit");
                 None
             }
-            Effect::Load(path) => perform::perform(Effect::Load(self.within(&path))),
+            Effect::Load(path) => effects::perform(Effect::Load(self.within(&path))),
             Effect::Save(mut saving, next) => {
                 saving.path = self.within(&saving.path);
-                perform::perform(Effect::Save(saving, next))
+                effects::perform(Effect::Save(saving, next))
             }
-            Effect::Errand(Errand::Folder(base, typed)) => {
-                let mut listing = folder::list(self.within(&folder::beneath(&base, &typed)), String::new());
+            Effect::Job(Job::Folder(base, typed)) => {
+                let mut listing =
+                    folder::list(self.within(&folder::beneath(&base, &typed)), String::new());
                 listing.asked = (base, typed);
                 Some(Action::Listed(Box::new(listing)))
             }
-            Effect::Errand(Errand::Recents) => {
-                Some(Action::Recents(recents::looked_at(vec![self.folder.path().join("case.toml")])))
-            }
-            Effect::Errand(Errand::Preview(sight, units)) => match sight {
-                Sight::File(path) => done(Errand::Preview(Sight::File(self.within(&path)), units)),
-                Sight::Example(_) => done(Errand::Preview(sight, units)),
-                Sight::Folder(_) => None,
+            Effect::Job(Job::Recents) => Some(Action::Recents(recents::looked_at(vec![
+                self.folder.path().join("case.toml"),
+            ]))),
+            Effect::Job(Job::Preview(sight, units)) => match sight {
+                Viewport::File(path) => {
+                    done(Job::Preview(Viewport::File(self.within(&path)), units))
+                }
+                Viewport::Example(_) => done(Job::Preview(sight, units)),
+                Viewport::Folder(_) => None,
             },
-            Effect::Errand(Errand::Below(base, typed)) => {
-                let mut below = below::find(self.within(&folder::beneath(&base, &typed)), String::new(), &|_| true)?;
+            Effect::Job(Job::Below(base, typed)) => {
+                let mut below = case_search::find(
+                    self.within(&folder::beneath(&base, &typed)),
+                    String::new(),
+                    &|_| true,
+                )?;
                 below.asked = (base, typed);
                 Some(Action::Found(Box::new(below)))
             }
-            Effect::Errand(errand) => done(errand),
+            Effect::Job(errand) => done(errand),
             Effect::Play(plays) => {
                 assert_eq!(plays, self.app.is_playing, "it ticks while something plays");
                 None
@@ -323,7 +409,9 @@ impl Bench {
     /// A path that stays in the folder, whatever was typed.
     fn within(&self, path: &Path) -> PathBuf {
         let inside = path.strip_prefix(self.folder.path()).unwrap_or(path);
-        let names = inside.components().filter(|part| matches!(part, std::path::Component::Normal(_)));
+        let names = inside
+            .components()
+            .filter(|part| matches!(part, std::path::Component::Normal(_)));
         self.folder.path().join(names.collect::<PathBuf>())
     }
 
@@ -337,45 +425,88 @@ impl Bench {
         let app = &self.app;
         if rows::names(&app.case, app.focus).is_empty() {
             let line = [app.input.value(), &app.ending().unwrap_or_default()].concat();
-            let is_words = rows::field(&app.case, app.focus).is_some_and(|field| matches!(field.kind, Kind::Text));
+            let is_words = rows::field(&app.case, app.focus)
+                .is_some_and(|field| matches!(field.kind, Kind::Text));
             // While a number is typed, its unit may be the field's, and blanks may stand around it.
-            let said = if is_words || !app.has_line() { line.as_str() } else { line.trim() };
-            assert_eq!(said, rows::text(&app.case, app.focus).unwrap_or_default(), "the line is the row's");
+            let said = if is_words || !app.has_line() {
+                line.as_str()
+            } else {
+                line.trim()
+            };
+            assert_eq!(
+                said,
+                rows::text(&app.case, app.focus).unwrap_or_default(),
+                "the line is the row's"
+            );
         }
         assert_eq!(app.problems.is_empty(), app.case.inputs().is_ok());
-        assert!(app.tabs().all(|tab| self.on_disk.contains(&tab.saved)), "the mark tells whether the file differs");
+        assert!(
+            app.tabs().all(|tab| self.on_disk.contains(&tab.saved)),
+            "the mark tells whether the file differs"
+        );
         let inputs = app.case.inputs().ok();
         if let (Some(inputs), Some(answer), false) = (inputs, &app.answer, app.is_stale()) {
-            assert_eq!(answer.serial, app.serial, "the results are those of the form");
+            assert_eq!(
+                answer.serial, app.serial,
+                "the results are those of the form"
+            );
             let chosen = inputs.method == Method::Auto || answer.pending.is_some();
-            assert!(chosen || answer.active == inputs.method, "the method of the form stands first");
+            assert!(
+                chosen || answer.active == inputs.method,
+                "the method of the form stands first"
+            );
         }
         self.draw(app.size);
-        self.draw(Size { width: app.size.height, height: app.size.width.min(60) });
+        self.draw(Size {
+            width: app.size.height,
+            height: app.size.width.min(60),
+        });
     }
 
     fn draw(&self, size: Size) {
         let area = Rect::new(0, 0, size.width, size.height);
         let mut buffer = Buffer::empty(area);
         let cursor = view::draw(&self.app, area, &mut buffer);
-        assert!(cursor.is_none_or(|cursor| area.contains(cursor)), "{cursor:?} in {size:?}");
+        assert!(
+            cursor.is_none_or(|cursor| area.contains(cursor)),
+            "{cursor:?} in {size:?}"
+        );
         for cell in &buffer.content {
             let is_wrong = |letter| is_hostile(letter) || self.app.look.ascii && !letter.is_ascii();
-            assert!(!cell.symbol().contains(is_wrong), "{:?} on the screen", cell.symbol());
+            assert!(
+                !cell.symbol().contains(is_wrong),
+                "{:?} on the screen",
+                cell.symbol()
+            );
         }
-        let is_marked = buffer.content.iter().map(ratatui::buffer::Cell::symbol).collect::<String>().contains("*unsaved*");
-        if size.width >= 80 && size.height >= 24 && self.app.prompts.is_empty() && self.app.others.is_empty() {
+        let is_marked = buffer
+            .content
+            .iter()
+            .map(ratatui::buffer::Cell::symbol)
+            .collect::<String>()
+            .contains("*unsaved*");
+        if size.width >= 80
+            && size.height >= 24
+            && self.app.prompts.is_empty()
+            && self.app.others.is_empty()
+        {
             assert_eq!(is_marked, self.app.is_unsaved());
         }
     }
 
     /// Undo everything, and see the first case; redo it, and see the last one.
     fn assert_undone(&mut self) {
-        self.feed(vec![Event::Input(Input::Key(key(KeyCode::Esc))); self.app.prompts.len()]);
+        self.feed(vec![
+            Event::Input(Input::Key(key(KeyCode::Esc)));
+            self.app.prompts.len()
+        ]);
         self.repeat(ctrl('y'), "nothing to redo");
         let last = self.app.case.clone();
         self.repeat(ctrl('z'), "nothing to undo");
-        assert!(self.opened.contains(&self.app.case), "undoing everything leads back");
+        assert!(
+            self.opened.contains(&self.app.case),
+            "undoing everything leads back"
+        );
         self.assert_sound();
         self.repeat(ctrl('y'), "nothing to redo");
         assert_eq!(self.app.case, last, "redoing everything leads forward");
@@ -385,7 +516,12 @@ impl Bench {
         for _ in 0..1000 {
             self.feed([Event::Input(Input::Key(key))]);
             self.answer();
-            if self.app.message.as_ref().is_some_and(|message| message.text == end) {
+            if self
+                .app
+                .message
+                .as_ref()
+                .is_some_and(|message| message.text == end)
+            {
                 return;
             }
         }

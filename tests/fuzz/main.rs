@@ -1,10 +1,15 @@
-//! Hostile texts, edits, keys and bytes: whatever comes in, nothing falls over, nothing is lost, nothing acts on the terminal.
+//! Hostile texts, edits, keys and bytes: whatever comes in, nothing falls over, nothing is lost,
+//! nothing acts on the terminal.
 //!
-//! A run is the same every time. `TIPSTRIKE_FUZZ=N cargo test --test fuzz` runs N times as many cases, others each time.
-//! What was found once stands under `kept` and is tried first, each time.
+//! A run is the same every time. `TIPSTRIKE_FUZZ=N cargo test --test fuzz` runs N times as many
+//! cases, others each time. What was found once stands under `kept` and is tried first, each time.
 
 #![cfg(all(feature = "cli", feature = "tui"))]
-#![allow(clippy::expect_used, clippy::panic, reason = "a test may stop at what it did not expect")]
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test may stop at what it did not expect"
+)]
 
 mod documents;
 mod form;
@@ -25,7 +30,9 @@ const SHRINKING: u32 = 30_000;
 
 /// How many times as many cases are asked for, where it is asked for.
 fn times() -> Option<u32> {
-    env::var("TIPSTRIKE_FUZZ").ok().map(|times| times.parse().expect("TIPSTRIKE_FUZZ is a number"))
+    env::var("TIPSTRIKE_FUZZ")
+        .ok()
+        .map(|times| times.parse().expect("TIPSTRIKE_FUZZ is a number"))
 }
 
 /// Hold a property, which asserts, against this many cases.
@@ -36,7 +43,11 @@ fn hold<S: Strategy>(cases: u32, strategy: &S, property: impl Fn(S::Value)) {
         cases: cases * asked.unwrap_or(1),
         failure_persistence: None,
         max_shrink_time: SHRINKING,
-        rng_seed: if asked.is_some() { RngSeed::Random } else { RngSeed::Fixed(1) },
+        rng_seed: if asked.is_some() {
+            RngSeed::Random
+        } else {
+            RngSeed::Fixed(1)
+        },
         ..Config::default()
     };
     let result = TestRunner::new(config).run(strategy, |value| {
@@ -46,7 +57,8 @@ fn hold<S: Strategy>(cases: u32, strategy: &S, property: impl Fn(S::Value)) {
     result.unwrap_or_else(|failure| panic!("{failure}"));
 }
 
-/// Whether a character acts on a terminal or is none to the eye: controls, directions, and what Unicode calls ignorable.
+/// Whether a character acts on a terminal or is none to the eye: controls, directions, and what
+/// Unicode calls ignorable.
 fn is_hostile(character: char) -> bool {
     const IGNORABLE: [(char, char); 19] = [
         ('\u{ad}', '\u{ad}'),
@@ -69,12 +81,17 @@ fn is_hostile(character: char) -> bool {
         ('\u{1d173}', '\u{1d17a}'),
         ('\u{e0000}', '\u{e0fff}'),
     ];
-    character.is_control() || IGNORABLE.iter().any(|&(from, to)| (from..=to).contains(&character))
+    character.is_control()
+        || IGNORABLE
+            .iter()
+            .any(|&(from, to)| (from..=to).contains(&character))
 }
 
 /// Lines that a terminal may be shown.
 #[track_caller]
 fn assert_safe(text: &str) {
-    let hostile = text.chars().find(|&character| character != '\n' && is_hostile(character));
+    let hostile = text
+        .chars()
+        .find(|&character| character != '\n' && is_hostile(character));
     assert_eq!(hostile, None, "in {text:?}");
 }

@@ -20,11 +20,16 @@ pub(crate) enum Fate {
     Solved,
 }
 
-/// A text is a case, or everything that is wrong with it is told in its place; a case is solved, or refused by name.
+/// A text is a case, or everything that is wrong with it is told in its place; a case is solved, or
+/// refused by name.
 pub(crate) fn read_and_solve(text: &str) -> Fate {
     match Document::parse("a case.toml", text) {
         Ok(document) => {
-            assert_eq!(document.render(), text, "untouched, it is written as it was read");
+            assert_eq!(
+                document.render(),
+                text,
+                "untouched, it is written as it was read"
+            );
             solve(&document)
         }
         Err(faults) => {
@@ -37,25 +42,49 @@ pub(crate) fn read_and_solve(text: &str) -> Fate {
 /// Faults have a place inside the text, and are told on one line that a terminal may be shown.
 pub(crate) fn assert_placed(faults: &[Fault], text: &str) {
     assert!(!faults.is_empty(), "a refusal has a reason");
-    let lines: Vec<&str> = text.strip_prefix('\u{feff}').unwrap_or(text).split('\n').collect();
+    let lines: Vec<&str> = text
+        .strip_prefix('\u{feff}')
+        .unwrap_or(text)
+        .split('\n')
+        .collect();
     for fault in faults {
         let line = fault.line.checked_sub(1).and_then(|line| lines.get(line));
         let columns = line.map_or(0, |line| line.chars().count() + 1);
-        assert!((1..=columns).contains(&fault.column), "{fault} is not in {text:?}");
+        assert!(
+            (1..=columns).contains(&fault.column),
+            "{fault} is not in {text:?}"
+        );
         let told = fault.to_string();
-        assert!(!told.contains('\n') && told.chars().count() < 1000, "{told}");
+        assert!(
+            !told.contains('\n') && told.chars().count() < 1000,
+            "{told}"
+        );
         assert!(!fault.cause.is_empty() && !fault.mend.is_empty(), "{told}");
         assert_safe(&told);
     }
     let ordered = faults.is_sorted_by_key(|fault| (fault.line, fault.column));
     assert!(ordered, "in the order of the places: {faults:?}");
-    assert!(faults.len() == 1 || faults.iter().all(|fault| fault.kind == FaultKind::Bad), "{faults:?}");
+    assert!(
+        faults.len() == 1 || faults.iter().all(|fault| fault.kind == FaultKind::Bad),
+        "{faults:?}"
+    );
 }
 
 fn solve(document: &Document) -> Fate {
-    let inputs = document.case.inputs().expect("a case without faults has inputs");
-    let selection = Selection { stations: true, ..Selection::default() };
-    match Report::solve("a case.toml".to_owned(), document.case.clone(), inputs, selection) {
+    let inputs = document
+        .case
+        .inputs()
+        .expect("a case without faults has inputs");
+    let selection = Selection {
+        stations: true,
+        ..Selection::default()
+    };
+    match Report::solve(
+        "a case.toml".to_owned(),
+        document.case.clone(),
+        inputs,
+        selection,
+    ) {
         Ok(report) => {
             assert_sound(&report);
             Fate::Solved
@@ -70,7 +99,10 @@ fn solve(document: &Document) -> Fate {
 /// A refusal has a name, a field and a mend, and its numbers are numbers.
 pub(crate) fn assert_named(refusal: &Refusal) {
     let told = refusal.to_string();
-    assert!(!refusal.code().is_empty() && !refusal.mend().is_empty() && !told.contains('\n'), "{refusal:?}");
+    assert!(
+        !refusal.code().is_empty() && !refusal.mend().is_empty() && !told.contains('\n'),
+        "{refusal:?}"
+    );
     assert!(index_of(refusal.field()).is_some(), "{refusal:?}");
     assert_numbers(&told);
 }
@@ -78,7 +110,10 @@ pub(crate) fn assert_named(refusal: &Refusal) {
 /// No number of a report is none, in whatever form it is told.
 pub(crate) fn assert_sound(report: &Report) {
     assert_finite(&report.solution);
-    report.notes.iter().for_each(|note| assert_numbers(&note.message));
+    report
+        .notes
+        .iter()
+        .for_each(|note| assert_numbers(&note.message));
     assert_json(report);
     assert_csv(report);
     assert_page(report);
@@ -87,12 +122,20 @@ pub(crate) fn assert_sound(report: &Report) {
 fn assert_finite(solution: &Solution) {
     for quantity in tipstrike::model::QUANTITIES {
         let value = (quantity.value)(solution);
-        assert!(value.is_none_or(f64::is_finite), "{} is {value:?}", quantity.key);
+        assert!(
+            value.is_none_or(f64::is_finite),
+            "{} is {value:?}",
+            quantity.key
+        );
     }
     for row in report::stations::rows(solution) {
         for column in report::stations::columns(solution.method) {
             let value = (column.value)(row);
-            assert!(value.map_or_else(|| has_none(column.key, row), f64::is_finite), "{} of {row:?}", column.key);
+            assert!(
+                value.map_or_else(|| has_none(column.key, row), f64::is_finite),
+                "{} of {row:?}",
+                column.key
+            );
         }
     }
 }
@@ -105,7 +148,9 @@ fn has_none(key: &str, row: report::stations::Row) -> bool {
 /// Words without a NaN, an infinity or a number that could not be told.
 fn assert_numbers(words: &str) {
     let no_number = |word: &str| ["NaN", "inf", "-inf", "n/a"].contains(&word);
-    let found = words.split(|c: char| c.is_whitespace() || "(),;:=<>".contains(c)).find(|word| no_number(word));
+    let found = words
+        .split(|c: char| c.is_whitespace() || "(),;:=<>".contains(c))
+        .find(|word| no_number(word));
     assert_eq!(found, None, "in {words}");
 }
 
@@ -120,35 +165,83 @@ fn assert_json(report: &Report) {
     assert_eq!(told.len(), report.values().count());
     for (quantity, value) in report.values() {
         let start = format!("\"{}\":{{\"value\":", quantity.key);
-        let number = line.split_once(&start).and_then(|(_, rest)| rest.split_once(',')).map(|(number, _)| number);
-        let back =
-            number.map(|number| if quantity.is_flag() { f64::from(u8::from(number == "true")).to_bits() } else { bits(number) });
-        assert_eq!(back, Some(value.to_bits()), "{} comes back as it was", quantity.key);
+        let number = line
+            .split_once(&start)
+            .and_then(|(_, rest)| rest.split_once(','))
+            .map(|(number, _)| number);
+        let back = number.map(|number| {
+            if quantity.is_flag() {
+                f64::from(u8::from(number == "true")).to_bits()
+            } else {
+                bits(number)
+            }
+        });
+        assert_eq!(
+            back,
+            Some(value.to_bits()),
+            "{} comes back as it was",
+            quantity.key
+        );
     }
-    assert_eq!(value["stations"].as_array().map(Vec::len), Some(report::stations::rows(&report.solution).len()));
+    assert_eq!(
+        value["stations"].as_array().map(Vec::len),
+        Some(report::stations::rows(&report.solution).len())
+    );
 }
 
 fn assert_csv(report: &Report) {
-    let whole = Report { selection: Selection::default(), ..report.clone() };
+    let whole = Report {
+        selection: Selection::default(),
+        ..report.clone()
+    };
     let rows = rows(&written(|out| report::csv::write(&whole, true, out)));
     assert_eq!(rows.len(), 2);
     assert_eq!(rows[0].len(), rows[1].len());
-    let found: Vec<u64> = rows[1].iter().skip(3).filter(|cell| !cell.is_empty()).map(bits).collect();
-    assert_eq!(found, whole.values().map(|(_, value)| value.to_bits()).collect::<Vec<_>>());
+    let found: Vec<u64> = rows[1]
+        .iter()
+        .skip(3)
+        .filter(|cell| !cell.is_empty())
+        .map(bits)
+        .collect();
+    assert_eq!(
+        found,
+        whole
+            .values()
+            .map(|(_, value)| value.to_bits())
+            .collect::<Vec<_>>()
+    );
     let stations = self::rows(&written(|out| report::csv::write(report, true, out)));
-    assert_eq!(stations.len(), report::stations::rows(&report.solution).len() + 1);
-    let empty = stations[1..].iter().enumerate().flat_map(|(at, row)| row.iter().map(move |cell| (at, cell)));
-    let empty: Vec<usize> = empty.filter(|(_, cell)| cell.is_empty()).map(|(at, _)| at).collect();
-    assert!(empty.len() <= 1 && empty.iter().all(|&at| at + 2 == stations.len()), "{empty:?}");
-    let numbers =
-        |row: &csv::StringRecord| row.iter().skip(1).all(|cell| cell.is_empty() || cell.parse::<f64>().is_ok_and(f64::is_finite));
+    assert_eq!(
+        stations.len(),
+        report::stations::rows(&report.solution).len() + 1
+    );
+    let empty = stations[1..]
+        .iter()
+        .enumerate()
+        .flat_map(|(at, row)| row.iter().map(move |cell| (at, cell)));
+    let empty: Vec<usize> = empty
+        .filter(|(_, cell)| cell.is_empty())
+        .map(|(at, _)| at)
+        .collect();
+    assert!(
+        empty.len() <= 1 && empty.iter().all(|&at| at + 2 == stations.len()),
+        "{empty:?}"
+    );
+    let numbers = |row: &csv::StringRecord| {
+        row.iter()
+            .skip(1)
+            .all(|cell| cell.is_empty() || cell.parse::<f64>().is_ok_and(f64::is_finite))
+    };
     assert!(stations[1..].iter().all(numbers));
 }
 
 fn assert_page(report: &Report) {
     assert_safe(&report::text::render(report));
     let mut unnamed = report.clone();
-    ["title", "notes"].iter().filter_map(|key| index_of(key)).for_each(|field| unnamed.case.write(field, ""));
+    ["title", "notes"]
+        .iter()
+        .filter_map(|key| index_of(key))
+        .for_each(|field| unnamed.case.write(field, ""));
     unnamed.notes.clear();
     assert_numbers(&report::text::render(&unnamed));
 }
@@ -160,8 +253,13 @@ fn written(write: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>) -
 }
 
 fn rows(text: &str) -> Vec<csv::StringRecord> {
-    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(text.as_bytes());
-    reader.records().map(|row| row.expect("CSV reads again")).collect()
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .from_reader(text.as_bytes());
+    reader
+        .records()
+        .map(|row| row.expect("CSV reads again"))
+        .collect()
 }
 
 fn bits(number: &str) -> u64 {
@@ -172,11 +270,28 @@ fn bits(number: &str) -> u64 {
 pub(crate) fn assert_same(one: &Document, other: &Document) {
     let inputs = |document: &Document| -> Inputs { document.case.inputs().expect("a valid case") };
     assert_eq!(inputs(one), inputs(other));
-    for (index, field) in FIELDS.iter().enumerate().filter(|(_, field)| !field.is_bare()) {
-        assert_eq!(one.case.text(index), other.case.text(index), "{}", field.key);
+    for (index, field) in FIELDS
+        .iter()
+        .enumerate()
+        .filter(|(_, field)| !field.is_bare())
+    {
+        assert_eq!(
+            one.case.text(index),
+            other.case.text(index),
+            "{}",
+            field.key
+        );
     }
     let limits = |document: &Document| {
-        document.case.limits.iter().map(|limit| (limit.quantity, limit.value.to_bits())).collect::<Vec<_>>()
+        document
+            .case
+            .limits
+            .iter()
+            .map(|limit| (limit.quantity, limit.value.to_bits()))
+            .collect::<Vec<_>>()
     };
-    assert_eq!((limits(one), &one.case.spread), (limits(other), &other.case.spread));
+    assert_eq!(
+        (limits(one), &one.case.spread),
+        (limits(other), &other.case.spread)
+    );
 }

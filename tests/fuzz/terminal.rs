@@ -1,4 +1,5 @@
-//! Bytes into the built program on a real terminal: it stays, it leaves when told to, and gives the terminal back.
+//! Bytes into the built program on a real terminal: it stays, it leaves when told to, and gives the
+//! terminal back.
 
 use std::fs;
 use std::process::Command;
@@ -10,10 +11,11 @@ use proptest::sample::{Index, select};
 use tipstrike::case::Document;
 use tipstrike::case::journal::Journal;
 
-use crate::hold;
+use crate::baseline;
 use crate::tty::{PATIENCE, Tty, journals};
 
-/// The program has taken what came when it writes nothing for so long. Longer than it waits for the rest of a sequence.
+/// The program has taken what came when it writes nothing for so long. Longer than it waits for the
+/// rest of a sequence.
 const QUIET: Duration = Duration::from_millis(90);
 
 /// What terminals send, whole, in part, and what none should.
@@ -28,11 +30,13 @@ const SEQUENCES: [&[u8]; 60] = [
     b"\t", b"5 mm",
 ];
 
-/// What an impatient user tries, key after key: to end a paste; to end a mouse report or an answer of the terminal, which
-/// swallow every key up to their last letter; to close a prompt; to quit; to discard.
+/// What an impatient user tries, key after key: to end a paste; to end a mouse report or an answer
+/// of the terminal, which swallow every key up to their last letter; to close a prompt; to quit; to
+/// discard.
 const WAYS_OUT: [&[u8]; 5] = [b"\x1b[201~", b"mu", b"\x1b", b"\x11", b"d"];
 
-/// It leaves by itself, or by Ctrl-C or Ctrl-\ on a terminal that is the shell's while it is suspended.
+/// It leaves by itself, or by Ctrl-C or Ctrl-\ on a terminal that is the shell's while it is
+/// suspended.
 const ENDS: [u32; 3] = [0, 128 + 2, 128 + 3];
 
 #[test]
@@ -44,16 +48,27 @@ fn whatever_bytes_come_it_leaves_when_told_to_and_gives_the_terminal_back() {
     ];
     let sizes = prop::collection::vec((0..=60u16, 0..=200u16), 0..4);
     let cuts = prop::collection::vec(any::<Index>(), 0..30);
-    hold(14, &(prop::collection::vec(piece, 1..400), cuts, sizes), |(pieces, cuts, sizes)| {
-        survive(&cut(&harmless(pieces.concat()), &cuts), &sizes);
-    });
+    hold(
+        14,
+        &(prop::collection::vec(piece, 1..400), cuts, sizes),
+        |(pieces, cuts, sizes)| {
+            survive(&cut(&harmless(pieces.concat()), &cuts), &sizes);
+        },
+    );
 }
 
 #[test]
 fn reports_that_nobody_asked_for_are_survived() {
-    for report in
-        [&b"\x1b[M5\x1b["[..], b"\x1b[M   ", b"\x1b[<0;0;0M", b"\x1b[0;0R", b"\x1b[32;0;0M", b"\x1b[<", b"\x1b[?", b"\x1b[200~"]
-    {
+    for report in [
+        &b"\x1b[M5\x1b["[..],
+        b"\x1b[M   ",
+        b"\x1b[<0;0;0M",
+        b"\x1b[0;0R",
+        b"\x1b[32;0;0M",
+        b"\x1b[<",
+        b"\x1b[?",
+        b"\x1b[200~",
+    ] {
         survive(&[report.to_vec()], &[]);
     }
 }
@@ -64,7 +79,13 @@ fn floods_are_survived() {
     let flood = keys.repeat(100_000 / 6);
     let paste = |end: &[u8]| [b"\x1b[200~", "5 mm\r\n歯".repeat(1 << 17).as_bytes(), end].concat();
     let broken = b"\xff\xc3\x28\xf0\x9f\x1b[\xe2\x82".repeat(5000);
-    for bytes in [flood, paste(b"\x1b[201~"), paste(b""), broken, b"\x1b".repeat(20_000)] {
+    for bytes in [
+        flood,
+        paste(b"\x1b[201~"),
+        paste(b""),
+        broken,
+        b"\x1b".repeat(20_000),
+    ] {
         survive(&[bytes], &[(10, 30), (0, 0), (24, 80)]);
     }
 }
@@ -76,9 +97,16 @@ fn harmless(mut bytes: Vec<u8>) -> Vec<u8> {
 }
 
 fn cut(bytes: &[u8], cuts: &[Index]) -> Vec<Vec<u8>> {
-    let mut places: Vec<usize> = cuts.iter().map(|cut| cut.index(bytes.len() + 1)).chain([0, bytes.len()]).collect();
+    let mut places: Vec<usize> = cuts
+        .iter()
+        .map(|cut| cut.index(bytes.len() + 1))
+        .chain([0, bytes.len()])
+        .collect();
     places.sort_unstable();
-    places.windows(2).map(|pair| bytes[pair[0]..pair[1]].to_vec()).collect()
+    places
+        .windows(2)
+        .map(|pair| bytes[pair[0]..pair[1]].to_vec())
+        .collect()
 }
 
 fn survive(pieces: &[Vec<u8>], sizes: &[(u16, u16)]) {
@@ -114,15 +142,32 @@ fn words(tty: &Tty) -> String {
     String::from_utf8_lossy(tty.written.as_deref().unwrap_or_default()).into_owned()
 }
 
-/// No process on the terminal, a case that opens again, and whole journals of what was not thrown away.
+/// No process on the terminal, a case that opens again, and whole journals of what was not thrown
+/// away.
 fn assert_nothing_left(tty: &Tty, code: u32) {
-    let left = Command::new("ps").args(["-o", "pid=", "-s", &tty.id().to_string()]).output().expect("ps is there");
-    assert_eq!(String::from_utf8_lossy(&left.stdout).trim(), "", "a process is left");
+    let left = Command::new("ps")
+        .args(["-o", "pid=", "-s", &tty.id().to_string()])
+        .output()
+        .expect("ps is there");
+    assert_eq!(
+        String::from_utf8_lossy(&left.stdout).trim(),
+        "",
+        "a process is left"
+    );
     let kept = journals(tty.folder.path());
-    assert!(kept.is_empty() || code != 0, "edits that were thrown away are kept");
-    for text in kept.iter().map(|path| fs::read_to_string(path).expect("it is there")) {
+    assert!(
+        kept.is_empty() || code != 0,
+        "edits that were thrown away are kept"
+    );
+    for text in kept
+        .iter()
+        .map(|path| fs::read_to_string(path).expect("it is there"))
+    {
         assert!(Journal::from_text(&text).is_ok(), "{text}");
     }
     let case = fs::read_to_string(tty.case()).expect("the case is there");
-    assert!(Document::parse("case.toml", &case).is_ok(), "what is saved opens again: {case}");
+    assert!(
+        Document::parse("case.toml", &case).is_ok(),
+        "what is saved opens again: {case}"
+    );
 }

@@ -101,25 +101,46 @@ enum Style {
 
 /// Texts of cases, from untouched ones to ruins.
 pub(crate) fn mutated() -> impl Strategy<Value = String> {
-    (select(bases()), prop::collection::vec(mutation(), 0..7))
-        .prop_map(|(text, mutations)| mutations.iter().fold(text, |text, mutation| mutation.apply(&text)))
+    (select(bases()), prop::collection::vec(mutation(), 0..7)).prop_map(|(text, mutations)| {
+        mutations
+            .iter()
+            .fold(text, |text, mutation| mutation.apply(&text))
+    })
 }
 
 /// Texts of cases in which only fields have other values.
 pub(crate) fn written() -> impl Strategy<Value = String> {
-    (select(bases()), prop::collection::vec(field_and_text(), 0..5))
-        .prop_map(|(text, fields)| fields.iter().fold(text, |text, (field, value)| with_field(&text, *field, value)))
+    (
+        select(bases()),
+        prop::collection::vec(field_and_text(), 0..5),
+    )
+        .prop_map(|(text, fields)| {
+            fields.iter().fold(text, |text, (field, value)| {
+                with_field(&text, *field, value)
+            })
+        })
 }
 
 /// Good cases in every layout.
 pub(crate) fn bases() -> Vec<String> {
     let template = Document::new(Document::table_1().case).render();
-    [TABLE_1, SPEED_UP, FINE, COMPACT].map(str::to_owned).into_iter().chain([template]).collect()
+    [TABLE_1, SPEED_UP, FINE, COMPACT]
+        .map(str::to_owned)
+        .into_iter()
+        .chain([template])
+        .collect()
 }
 
 fn mutation() -> impl Strategy<Value = Mutation> {
     let index = any::<Index>;
-    let styles = [Style::Quoted, Style::Indented, Style::Commented, Style::Remarked, Style::MultiLine, Style::Array];
+    let styles = [
+        Style::Quoted,
+        Style::Indented,
+        Style::Commented,
+        Style::Remarked,
+        Style::MultiLine,
+        Style::Array,
+    ];
     prop_oneof![
         16 => field_and_text().prop_map(|(field, text)| Mutation::Write(field, text)),
         2 => (index(), index()).prop_map(|(one, other)| Mutation::Swap(one, other)),
@@ -144,19 +165,25 @@ impl Mutation {
                 let (one, other) = (one.index(lines.len()), other.index(lines.len()));
                 lines.swap(one, other);
             }),
-            Mutation::Delete(at) => with_lines(text, |lines| drop(lines.remove(at.index(lines.len())))),
+            Mutation::Delete(at) => {
+                with_lines(text, |lines| drop(lines.remove(at.index(lines.len()))))
+            }
             Mutation::Double(from, to) => with_lines(text, |lines| {
                 let line = lines[from.index(lines.len())].clone();
                 lines.insert(to.index(lines.len()), line);
             }),
-            Mutation::Value(at, value) => with_side(text, *at, |name, _| format!("{name}= {value}")),
+            Mutation::Value(at, value) => {
+                with_side(text, *at, |name, _| format!("{name}= {value}"))
+            }
             Mutation::Name(at, name) => with_side(text, *at, |_, value| format!("{name} ={value}")),
             Mutation::Restyle(at, style) => restyled(text, *at, *style),
             Mutation::Insert(at, piece) => {
                 let (before, after) = text.split_at(character_at(text, *at));
                 [before, piece, after].concat()
             }
-            Mutation::Nest(at, depth) => with_side(text, *at, |name, _| format!("{name}= {}", "[".repeat(*depth))),
+            Mutation::Nest(at, depth) => with_side(text, *at, |name, _| {
+                format!("{name}= {}", "[".repeat(*depth))
+            }),
             Mutation::Cut(at) => text[..character_at(text, *at)].to_owned(),
             Mutation::Crlf => text.replace('\n', "\r\n"),
             Mutation::Mark => format!("\u{feff}{text}"),
@@ -167,16 +194,30 @@ impl Mutation {
 /// A field written into its line, or into a new one below its table's header.
 fn with_field(text: &str, field: usize, value: &str) -> String {
     let known = &FIELDS[field];
-    let quoted = if known.is_bare() { value.to_owned() } else { toml_edit::Value::from(value).to_string() };
+    let quoted = if known.is_bare() {
+        value.to_owned()
+    } else {
+        toml_edit::Value::from(value).to_string()
+    };
     let line = format!("{} = {quoted}", known.name());
     with_lines(text, |lines| {
         let header = format!("[{}]", known.table());
-        let Some(start) = (if known.table().is_empty() { Some(0) } else { lines.iter().position(|line| *line == header) }) else {
+        let Some(start) = (if known.table().is_empty() {
+            Some(0)
+        } else {
+            lines.iter().position(|line| *line == header)
+        }) else {
             return;
         };
-        let own = lines[start + 1..].iter().take_while(|line| !line.starts_with('[')).position(|other| {
-            other.trim_start_matches(['#', ' ']).strip_prefix(known.name()).is_some_and(|rest| rest.trim_start().starts_with('='))
-        });
+        let own = lines[start + 1..]
+            .iter()
+            .take_while(|line| !line.starts_with('['))
+            .position(|other| {
+                other
+                    .trim_start_matches(['#', ' '])
+                    .strip_prefix(known.name())
+                    .is_some_and(|rest| rest.trim_start().starts_with('='))
+            });
         match own {
             Some(at) if value.is_empty() => drop(lines.remove(start + 1 + at)),
             Some(at) => lines[start + 1 + at] = line,
@@ -187,10 +228,14 @@ fn with_field(text: &str, field: usize, value: &str) -> String {
 
 fn restyled(text: &str, at: Index, style: Style) -> String {
     match style {
-        Style::Quoted => with_side(text, at, |name, value| format!("\"{}\" ={value}", name.trim())),
+        Style::Quoted => with_side(text, at, |name, value| {
+            format!("\"{}\" ={value}", name.trim())
+        }),
         Style::Indented => with_side(text, at, |name, value| format!(" \t{name}= \t{value}")),
         Style::Remarked => with_side(text, at, |name, value| format!("{name}={value} # remark")),
-        Style::MultiLine => with_side(text, at, |name, value| format!("{name}= \"\"{}\"\"", value.trim())),
+        Style::MultiLine => with_side(text, at, |name, value| {
+            format!("{name}= \"\"{}\"\"", value.trim())
+        }),
         Style::Array => with_lines(text, |lines| {
             let at = at.index(lines.len());
             if lines[at].starts_with('[') {
@@ -213,7 +258,8 @@ fn with_lines(text: &str, change: impl FnOnce(&mut Vec<String>)) -> String {
 /// One of the lines with an equals sign, its two sides written anew.
 fn with_side(text: &str, at: Index, side: impl FnOnce(&str, &str) -> String) -> String {
     with_lines(text, |lines| {
-        let mut sides: Vec<&mut String> = lines.iter_mut().filter(|line| line.contains('=')).collect();
+        let mut sides: Vec<&mut String> =
+            lines.iter_mut().filter(|line| line.contains('=')).collect();
         if sides.is_empty() {
             return;
         }
@@ -227,5 +273,7 @@ fn with_side(text: &str, at: Index, side: impl FnOnce(&str, &str) -> String) -> 
 /// A place between two characters.
 fn character_at(text: &str, at: Index) -> usize {
     let count = text.chars().count();
-    text.char_indices().nth(at.index(count + 1)).map_or(text.len(), |(at, _)| at)
+    text.char_indices()
+        .nth(at.index(count + 1))
+        .map_or(text.len(), |(at, _)| at)
 }

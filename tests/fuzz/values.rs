@@ -14,7 +14,8 @@ pub(crate) const HOSTILE: [&str; 42] = [
     "\"\"\"", "# no", "\\u001b", "歯車 🦷", "e\u{301}\u{34f}", "\u{ffa0}a", "\u{180b}\u{1d173}\u{e0041}b", "👩\u{200d}🔧", "static",
 ];
 
-/// A field and a text for it: mostly a value that it takes, near its usual one or anywhere in its range.
+/// A field and a text for it: mostly a value that it takes, near its usual one or anywhere in its
+/// range.
 pub(crate) fn field_and_text() -> impl Strategy<Value = (usize, String)> {
     any::<Index>().prop_flat_map(|at| {
         let field = at.index(FIELDS.len());
@@ -36,18 +37,32 @@ fn sound(field: usize) -> BoxedStrategy<String> {
         Kind::Count(from, to, _) => {
             let usual: u32 = known.example().parse().unwrap_or(from);
             let near = (usual / 2).max(from)..=(usual * 2).min(to);
-            prop_oneof![6 => near, 1 => from..=to, 1 => select(vec![from, to])].prop_map(|count| count.to_string()).boxed()
+            prop_oneof![6 => near, 1 => from..=to, 1 => select(vec![from, to])]
+                .prop_map(|count| count.to_string())
+                .boxed()
         }
         Kind::Number(dimension, range, _) => measure(dimension, range, known.example()),
     }
 }
 
 fn measure(dimension: Dimension, range: Range, example: &'static str) -> BoxedStrategy<String> {
-    let usual = units::parse(example, dimension, range.unit).unwrap_or(0.0) / units::factor(range.unit).unwrap_or(1.0);
+    let usual = units::parse(example, dimension, range.unit).unwrap_or(0.0)
+        / units::factor(range.unit).unwrap_or(1.0);
     let span = (range.to - range.from) / 1e3;
-    let near = (0.7..1.4).prop_map(move |times: f64| if usual == 0.0 { times * span.min(20.0) } else { usual * times });
-    let anywhere = (0.0..1.0).prop_map(move |part: f64| range.from + (range.to - range.from) * part.powi(8));
+    let near = (0.7..1.4).prop_map(move |times: f64| {
+        if usual == 0.0 {
+            times * span.min(20.0)
+        } else {
+            usual * times
+        }
+    });
+    let anywhere =
+        (0.0..1.0).prop_map(move |part: f64| range.from + (range.to - range.from) * part.powi(8));
     prop_oneof![8 => near, 1 => anywhere, 1 => select(vec![range.from, range.to])]
-        .prop_map(move |value| format!("{} {}", value.clamp(range.from, range.to), range.unit).trim_end().to_owned())
+        .prop_map(move |value| {
+            format!("{} {}", value.clamp(range.from, range.to), range.unit)
+                .trim_end()
+                .to_owned()
+        })
         .boxed()
 }

@@ -38,10 +38,14 @@ impl Load {
     pub(crate) fn of(given: &Given, pair: &Pair) -> Load {
         let inertia = |gear: &Gear, circles: &Circles| {
             let power = |radius: &Big| radius * radius * radius * radius;
-            pi() * &gear.density * &gear.face_width / 2 * (power(&circles.base) - power(&gear.bore_radius))
+            pi() * &gear.density * &gear.face_width / 2
+                * (power(&circles.base) - power(&gear.bore_radius))
         };
         let give = |gear: &Gear| (1 - &gear.poisson * &gear.poisson) / &gear.young;
-        let inertia = [inertia(&given.driver, &pair.driver), inertia(&given.driven, &pair.driven)];
+        let inertia = [
+            inertia(&given.driver, &pair.driver),
+            inertia(&given.driven, &pair.driven),
+        ];
         let first = &inertia[0] / (&pair.driver.base * &pair.driver.base);
         let second = &inertia[1] / (&pair.driven.base * &pair.driven.base);
         Load {
@@ -63,7 +67,10 @@ impl Load {
         while along <= pair.end && along < tangent {
             let rest = &tangent - &along;
             let radius = |base: &Big, length: &Big| root(base * base + length * length);
-            let radii = [radius(&pair.driver.base, &along), radius(&pair.driven.base, &rest)];
+            let radii = [
+                radius(&pair.driver.base, &along),
+                radius(&pair.driven.base, &rest),
+            ];
             let curvature = &along * &rest / (&along + &rest);
             let half_width = self.half_width(&self.mesh_force, &curvature);
             let depths = depths(given, pair, &radii)?;
@@ -78,8 +85,16 @@ impl Load {
     }
 
     /// Everything from the velocity on, as far as it exists.
-    pub(crate) fn strike(&self, given: &Given, pair: &Pair, tip: &Tip, angle: &Big, found: &mut Answers) {
-        let normal = &self.driver_speed * &pair.driver.base - &self.driven_speed * &tip.normal_radius;
+    pub(crate) fn strike(
+        &self,
+        given: &Given,
+        pair: &Pair,
+        tip: &Tip,
+        angle: &Big,
+        found: &mut Answers,
+    ) {
+        let normal =
+            &self.driver_speed * &pair.driver.base - &self.driven_speed * &tip.normal_radius;
         let sliding = &self.driven_speed * &tip.normal_length - &self.driver_speed * &tip.curvature;
         let curvature = reduced_curvature(given, pair, tip);
         let (base, arm) = (&pair.driver.base, &tip.normal_radius);
@@ -92,15 +107,31 @@ impl Load {
             ("stick_limit", &sliding / (2 * &normal)),
             ("curvature_radius", curvature.clone()),
         ]);
-        if let Some(struck) = self.impact(given, pair, tip, &(&normal * root(&self.width * &mass))) {
+        if let Some(struck) = self.impact(given, pair, tip, &(&normal * root(&self.width * &mass)))
+        {
             let printed = self.printed_duration(&normal, &curvature);
             let spring = pi() * root(&mass * &struck.compliance / &self.width);
-            let duration = if given.method == Method::Paper { &printed } else { &spring }.clone();
-            let ratio = self.friction(given, pair, tip, angle, &(&struck.force * &printed), &printed);
+            let duration = if given.method == Method::Paper {
+                &printed
+            } else {
+                &spring
+            }
+            .clone();
+            let ratio = self.friction(
+                given,
+                pair,
+                tip,
+                angle,
+                &(&struck.force * &printed),
+                &printed,
+            );
             found.extend(ratio.map(|ratio| ("friction_ratio", ratio)));
             found.extend([
                 ("dynamic_factor", &struck.force / &self.mesh_force),
-                ("impulse_ratio", 2 / pi() * &struck.force * &duration / (&mass * &normal)),
+                (
+                    "impulse_ratio",
+                    2 / pi() * &struck.force * &duration / (&mass * &normal),
+                ),
                 ("impact_energy", &mass * &normal * &normal / 2),
                 ("sliding_energy", &mass * &sliding * &sliding / 2),
                 ("impact_duration_hertz", decimal(HERTZ_PREFACTOR) * &printed),
@@ -120,11 +151,13 @@ impl Load {
     fn printed_duration(&self, normal: &Big, curvature: &Big) -> Big {
         let modulus = 1 / (&self.give[0] + &self.give[1]);
         let mass = &self.reduced_mass;
-        let fifth: Big = logarithm(mass * mass / (pi() * pi() * normal * curvature * &modulus * &modulus)) / 5;
+        let fifth: Big =
+            logarithm(mass * mass / (pi() * pi() * normal * curvature * &modulus * &modulus)) / 5;
         fifth.exp()
     }
 
-    /// Eq. 57 with the half-width of its own force, by fixed point. `None` where no fit gives a compliance.
+    /// Eq. 57 with the half-width of its own force, by fixed point. `None` where no fit gives a
+    /// compliance.
     fn impact(&self, given: &Given, pair: &Pair, tip: &Tip, momentum: &Big) -> Option<Struck> {
         const STEPS: usize = 400;
         const FORCE_SETTLED: f64 = 1e-32;
@@ -142,7 +175,11 @@ impl Load {
             let change = rounded(&(&next / &force - 1)).abs();
             force = next;
             if change <= FORCE_SETTLED {
-                return (compliance > teeth).then_some(Struck { force, compliance, half_width });
+                return (compliance > teeth).then_some(Struck {
+                    force,
+                    compliance,
+                    half_width,
+                });
             }
         }
         None
@@ -164,7 +201,9 @@ impl Load {
             }
             ContactCompliance::Weber => {
                 let of = |gear: &Gear, give: &Big, depth: &Big| {
-                    give / pi() * (2 * logarithm(2 * depth / half_width) - &gear.poisson / (1 - &gear.poisson))
+                    give / pi()
+                        * (2 * logarithm(2 * depth / half_width)
+                            - &gear.poisson / (1 - &gear.poisson))
                 };
                 of(&given.driver, first, &depths[0]) + of(&given.driven, second, &depths[1])
             }
@@ -172,7 +211,15 @@ impl Load {
     }
 
     /// Eqs. 29-45 and 64. `None` where D' does not exist.
-    fn friction(&self, given: &Given, pair: &Pair, tip: &Tip, angle: &Big, impulse: &Big, duration: &Big) -> Option<Big> {
+    fn friction(
+        &self,
+        given: &Given,
+        pair: &Pair,
+        tip: &Tip,
+        angle: &Big,
+        impulse: &Big,
+        duration: &Big,
+    ) -> Option<Big> {
         let driver_turn = &self.driver_speed * duration;
         let driven_turn = &self.driven_speed * duration;
         let end = match given.method {
@@ -217,7 +264,9 @@ fn reduced_curvature(given: &Given, pair: &Pair, tip: &Tip) -> Big {
 
 /// q₁ + q₂ by Eq. 56; `None` where the case asks for a method that is no closed form.
 fn teeth(given: &Given, pair: &Pair, radii: &[Big; 2]) -> Option<Big> {
-    let fit = [&given.driver, &given.driven].iter().all(|gear| (12..=100).contains(&gear.teeth));
+    let fit = [&given.driver, &given.driven]
+        .iter()
+        .all(|gear| (12..=100).contains(&gear.teeth));
     if given.tooth_compliance != Some(ToothCompliance::KuangYang) || !fit {
         return None;
     }
@@ -229,7 +278,12 @@ fn teeth(given: &Given, pair: &Pair, radii: &[Big; 2]) -> Option<Big> {
 /// One tooth by Eq. 56.
 fn tooth(given: &Given, gear: &Gear, circles: &Circles, radius: &Big) -> Big {
     let cubic = |coefficients: [&str; 4]| {
-        coefficients.iter().rev().fold(whole(0), |sum, coefficient| sum * gear.teeth + decimal(coefficient))
+        coefficients
+            .iter()
+            .rev()
+            .fold(whole(0), |sum, coefficient| {
+                sum * gear.teeth + decimal(coefficient)
+            })
     };
     let a0 = cubic(["3.867", "1.612", "-0.02916", "0.0001553"]);
     let a1 = cubic(["17.060", "0.7289", "-0.01728", "0.0000999"]);
@@ -240,20 +294,26 @@ fn tooth(given: &Given, gear: &Gear, circles: &Circles, radius: &Big) -> Big {
     1 / (decimal("1e9") * (a0 + a1 * shift + (a2 + a3 * shift) * height))
 }
 
-/// Depths from the flanks to the teeth's centre lines along the line of force, which Weber's formula alone reads.
-/// `None` where no tooth is left.
+/// Depths from the flanks to the teeth's centre lines along the line of force, which Weber's
+/// formula alone reads. `None` where no tooth is left.
 fn depths(given: &Given, pair: &Pair, radii: &[Big; 2]) -> Option<[Big; 2]> {
     if given.contact_compliance != ContactCompliance::Weber {
         return Some([whole(0), whole(0)]);
     }
-    Some([depth(given, &given.driver, &pair.driver, &radii[0])?, depth(given, &given.driven, &pair.driven, &radii[1])?])
+    Some([
+        depth(given, &given.driver, &pair.driver, &radii[0])?,
+        depth(given, &given.driven, &pair.driven, &radii[1])?,
+    ])
 }
 
-/// Depth from the flank to the tooth's centre line along the line of force. `None` where no tooth is left.
+/// Depth from the flank to the tooth's centre line along the line of force. `None` where no tooth
+/// is left.
 fn depth(given: &Given, gear: &Gear, circles: &Circles, radius: &Big) -> Option<Big> {
     let involute = |angle: &Big| angle.tan() - angle;
     let alpha = &given.pressure_angle;
-    let at_base = pi() / (2 * whole(gear.teeth)) + 2 * &gear.profile_shift * alpha.tan() / gear.teeth + involute(alpha);
+    let at_base = pi() / (2 * whole(gear.teeth))
+        + 2 * &gear.profile_shift * alpha.tan() / gear.teeth
+        + involute(alpha);
     let pressure = (&circles.base / radius).acos();
     let half_thickness = radius * sine(&at_base - involute(&pressure));
     let force_angle: Big = pressure.tan() - at_base;

@@ -1,7 +1,9 @@
-//! Every closed-form quantity a second time, in 90 digits, by its definition and not by the form that is stable in 16.
+//! Every closed-form quantity a second time, in 90 digits, by its definition and not by the form
+//! that is stable in 16.
 //!
-//! Symbols and equations are those of Zhou & Chen 2014 and of the model's own documentation. Squares are subtracted,
-//! angles come from arc cosines, and the gap S(u) is the difference of its three terms: with 90 digits that costs nothing.
+//! Symbols and equations are those of Zhou & Chen 2014 and of the model's own documentation.
+//! Squares are subtracted, angles come from arc cosines, and the gap S(u) is the difference of its
+//! three terms: with 90 digits that costs nothing.
 
 mod force;
 mod given;
@@ -61,8 +63,11 @@ struct Tip {
     normal_length: Big,
 }
 
-/// The quantities and, for each, how much a relative change of the inputs moves it relatively: the sum over all inputs.
-pub(crate) fn answers_with_conditions(inputs: &Inputs) -> Option<(Answers, BTreeMap<&'static str, f64>)> {
+/// The quantities and, for each, how much a relative change of the inputs moves it relatively: the
+/// sum over all inputs.
+pub(crate) fn answers_with_conditions(
+    inputs: &Inputs,
+) -> Option<(Answers, BTreeMap<&'static str, f64>)> {
     let step = 1 / (whole(10).powi(24.into()));
     let plain = of_given(&Given::of(inputs))?;
     let mut conditions: BTreeMap<_, _> = plain.keys().map(|&key| (key, 0.0)).collect();
@@ -73,9 +78,13 @@ pub(crate) fn answers_with_conditions(inputs: &Inputs) -> Option<(Answers, BTree
             continue;
         }
         *field = &*field * (1 + &step);
-        let Some(moved) = of_given(&moved) else { continue };
+        let Some(moved) = of_given(&moved) else {
+            continue;
+        };
         for (key, condition) in &mut conditions {
-            let Some(value) = moved.get(key) else { continue };
+            let Some(value) = moved.get(key) else {
+                continue;
+            };
             if rounded(&plain[key]) != 0.0 {
                 *condition += rounded(&((value / &plain[key] - 1) / &step)).abs();
             }
@@ -84,7 +93,8 @@ pub(crate) fn answers_with_conditions(inputs: &Inputs) -> Option<(Answers, BTree
     Some((plain, conditions))
 }
 
-/// All that is defined for the pair. `None` where no mesh, or no corner contact on the driver's flank, exists.
+/// All that is defined for the pair. `None` where no mesh, or no corner contact on the driver's
+/// flank, exists.
 fn of_given(given: &Given) -> Option<Answers> {
     let pair = pair(given)?;
     let load = force::Load::of(given, &pair);
@@ -107,7 +117,10 @@ fn of_given(given: &Given) -> Option<Answers> {
     }
     let mut found = Answers::from([
         ("closed_gap", gap(&pair, &angle, &tip)),
-        ("contact_ratio", (&pair.end - &pair.start) / &pair.base_pitch),
+        (
+            "contact_ratio",
+            (&pair.end - &pair.start) / &pair.base_pitch,
+        ),
         ("base_pitch", pair.base_pitch.clone()),
         ("centre_distance", pair.distance.clone()),
         ("working_pressure_angle", pair.working.clone()),
@@ -136,8 +149,13 @@ fn equivalent_error(given: &Given) -> Big {
 fn circles(given: &Given, gear: &Gear) -> Circles {
     let reference = &given.module * gear.teeth / 2;
     let base = &reference * given.pressure_angle.cos();
-    let tip = &reference + &given.module * (&gear.addendum + &gear.profile_shift) - &gear.tip_chamfer;
-    Circles { reference, base, tip }
+    let tip =
+        &reference + &given.module * (&gear.addendum + &gear.profile_shift) - &gear.tip_chamfer;
+    Circles {
+        reference,
+        base,
+        tip,
+    }
 }
 
 fn pair(given: &Given) -> Option<Pair> {
@@ -161,7 +179,16 @@ fn pair(given: &Given) -> Option<Pair> {
     }
     let start_angle = (&driven.base / &driven.tip).acos() - &working;
     let base_pitch = pi() * &given.module * given.pressure_angle.cos();
-    Some(Pair { driver, driven, distance, working, base_pitch, start, end, start_angle })
+    Some(Pair {
+        driver,
+        driven,
+        distance,
+        working,
+        base_pitch,
+        start,
+        end,
+        start_angle,
+    })
 }
 
 /// √(hypotenuse² − leg²).
@@ -170,12 +197,14 @@ fn leg(hypotenuse: &Big, leg: &Big) -> Option<Big> {
     (rounded(&square) > 0.0).then(|| square.sqrt())
 }
 
-/// α_w from inv α_w = inv α + 2 (x1 + x2) tan α/(z1 + z2), by Newton's method from the right of the root.
+/// α_w from inv α_w = inv α + 2 (x1 + x2) tan α/(z1 + z2), by Newton's method from the right of the
+/// root.
 fn working_angle(given: &Given) -> Option<Big> {
     const STEPS: usize = 200;
     let alpha = &given.pressure_angle;
     let shifts = &given.driver.profile_shift + &given.driven.profile_shift;
-    let involute = alpha.tan() - alpha + 2 * shifts * alpha.tan() / (given.driver.teeth + given.driven.teeth);
+    let involute =
+        alpha.tan() - alpha + 2 * shifts * alpha.tan() / (given.driver.teeth + given.driven.teeth);
     let near = rounded(&involute);
     if near <= 0.0 {
         return None;
@@ -211,7 +240,8 @@ fn tip_at(pair: &Pair, angle: &Big) -> Option<Tip> {
 
 /// S(u) = (ρ1 − N1E) + rb2 u − rb1 (χ − αw).
 fn gap(pair: &Pair, angle: &Big, tip: &Tip) -> Big {
-    (&tip.curvature - &pair.start) + &pair.driven.base * angle - &pair.driver.base * (&tip.normal - &pair.working)
+    (&tip.curvature - &pair.start) + &pair.driven.base * angle
+        - &pair.driver.base * (&tip.normal - &pair.working)
 }
 
 /// S(u) at an angle given in double precision.
@@ -220,15 +250,20 @@ pub(crate) fn gap_at(inputs: &Inputs, angle: f64) -> Option<Big> {
     Some(gap(&pair, &angle, &tip_at(&pair, &angle)?))
 }
 
-/// S(u) = Δ, by Newton's method on √S from the parabola at E, or from the driver's tip if that is nearer; dS/du = rb2 − rb2'.
+/// S(u) = Δ, by Newton's method on √S from the parabola at E, or from the driver's tip if that is
+/// nearer; dS/du = rb2 − rb2'.
 fn first_contact(pair: &Pair, deviation: &Big) -> Option<Big> {
     const STEPS: usize = 200;
     let driven = leg(&pair.driven.tip, &pair.driven.base)?;
     let curvature = (&pair.start + &driven) * &driven / &pair.start;
     let wanted = deviation.sqrt();
-    let at_driver_tip = force::polar_angle(pair, &pair.driver.tip).map(|polar| polar - &pair.start_angle);
+    let at_driver_tip =
+        force::polar_angle(pair, &pair.driver.tip).map(|polar| polar - &pair.start_angle);
     let parabola = root(2 * deviation / curvature);
-    let mut angle = at_driver_tip.into_iter().fold(parabola, Big::min).min(number::big(LARGEST_ANGLE));
+    let mut angle = at_driver_tip
+        .into_iter()
+        .fold(parabola, Big::min)
+        .min(number::big(LARGEST_ANGLE));
     for _ in 0..STEPS {
         let tip = tip_at(pair, &angle)?;
         let closed = gap(pair, &angle, &tip);

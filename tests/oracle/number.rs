@@ -1,5 +1,8 @@
 //! Numbers of 90 digits.
-#![allow(clippy::needless_pass_by_value, reason = "sums are made where they are used")]
+#![allow(
+    clippy::needless_pass_by_value,
+    reason = "sums are made where they are used"
+)]
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -7,8 +10,8 @@ use std::rc::Rc;
 use dashu_float::round::mode::HalfEven;
 use dashu_float::{CachedFBig, ConstCache, FBig};
 
-/// Binary digits that every value carries. The definitions cancel up to 40 decimal digits in the corners of the
-/// envelope, and fifty must be left.
+/// Binary digits that every value carries. The definitions cancel up to 40 decimal digits in the
+/// corners of the envelope, and fifty must be left.
 const PRECISION: usize = 300;
 
 /// A number of 90 digits.
@@ -32,14 +35,17 @@ pub(crate) fn whole(value: i64) -> Big {
 
 /// A decimal as it is printed, such as `3.867`.
 pub(crate) fn decimal(printed: &str) -> Big {
-    let (sign, digits) = printed.strip_prefix('-').map_or((1, printed), |rest| (-1, rest));
+    let (sign, digits) = printed
+        .strip_prefix('-')
+        .map_or((1, printed), |rest| (-1, rest));
     let (mantissa, exponent) = digits.split_once('e').unwrap_or((digits, "0"));
     let (before, after) = mantissa.split_once('.').unwrap_or((mantissa, ""));
     let mut value = whole(0);
     for digit in before.chars().chain(after.chars()) {
         value = value * 10 + whole(digit.to_digit(10).expect("a digit").into());
     }
-    let places = exponent.parse::<i32>().expect("an exponent") - i32::try_from(after.len()).expect("a short decimal");
+    let places = exponent.parse::<i32>().expect("an exponent")
+        - i32::try_from(after.len()).expect("a short decimal");
     sign * value * power_of_ten(places)
 }
 
@@ -84,10 +90,20 @@ pub(crate) fn printed(value: &Big) -> String {
     let sign = if near < 0.0 { "-" } else { "" };
     let positive = if near < 0.0 { -value } else { value.clone() };
     let mut exponent = near.abs().log10().floor() as i32;
-    let digits_at = |exponent: i32| (&positive * power_of_ten(DIGITS - exponent)).round().to_int().value().to_string();
+    let digits_at = |exponent: i32| {
+        (&positive * power_of_ten(DIGITS - exponent))
+            .round()
+            .to_int()
+            .value()
+            .to_string()
+    };
     let mut digits = digits_at(exponent);
     if digits.len() != DIGITS as usize + 1 {
-        exponent += if digits.len() > DIGITS as usize + 1 { 1 } else { -1 };
+        exponent += if digits.len() > DIGITS as usize + 1 {
+            1
+        } else {
+            -1
+        };
         digits = digits_at(exponent);
     }
     let rest = digits[1..].trim_end_matches('0');

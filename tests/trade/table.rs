@@ -7,7 +7,9 @@ use std::path::{Path, PathBuf};
 use tipstrike::case::file::Document;
 use tipstrike::model::Inputs;
 use tipstrike::report::trade::duration;
-use tipstrike::study::trade::{Differences, Patience, Question, Setting, Subject, Trade, greatest, trade};
+use tipstrike::study::trade::{
+    Differences, Patience, Question, Setting, Subject, Trade, greatest, trade,
+};
 
 /// Below this an error is rounding, and one machine may differ from another.
 const ROUNDING: f64 = 1e-11;
@@ -15,15 +17,22 @@ const ROUNDING: f64 = 1e-11;
 /// The cases, by name.
 pub(crate) fn cases() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
-    let files = std::fs::read_dir(folder).expect("the cases").map(|entry| entry.expect("an entry").path());
-    let mut cases: Vec<PathBuf> = files.filter(|path| path.extension().is_some_and(|ending| ending == "toml")).collect();
+    let files = std::fs::read_dir(folder)
+        .expect("the cases")
+        .map(|entry| entry.expect("an entry").path());
+    let mut cases: Vec<PathBuf> = files
+        .filter(|path| path.extension().is_some_and(|ending| ending == "toml"))
+        .collect();
     cases.sort();
     cases
 }
 
 pub(crate) fn inputs(path: &Path) -> Inputs {
     let document = Document::read(path).unwrap_or_else(|error| panic!("{error}"));
-    document.case.inputs().unwrap_or_else(|problems| panic!("{}: {}", path.display(), problems[0]))
+    document
+        .case
+        .inputs()
+        .unwrap_or_else(|problems| panic!("{}: {}", path.display(), problems[0]))
 }
 
 /// A power of ten as it is read from a file.
@@ -53,11 +62,21 @@ fn path() -> PathBuf {
 
 /// The settings of every case that are the same in all of them.
 pub(crate) fn trades(patience: &Patience) -> Vec<(String, Trade)> {
-    let question = Question { within: 0.05, patience: *patience };
+    let question = Question {
+        within: 0.05,
+        patience: *patience,
+    };
     let made = |path: PathBuf| {
         let found = trade(&inputs(&path), &question, &|| true, &mut |_| ());
-        let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
-        (name, found.unwrap_or_else(|refusal| panic!("{}: {refusal}", path.display())))
+        let name = path
+            .file_stem()
+            .expect("a name")
+            .to_string_lossy()
+            .into_owned();
+        (
+            name,
+            found.unwrap_or_else(|refusal| panic!("{}: {refusal}", path.display())),
+        )
     };
     cases().into_iter().map(made).collect()
 }
@@ -68,7 +87,12 @@ impl Table {
     }
 
     pub(crate) fn of(trades: &[(String, Trade)]) -> Table {
-        Table(Setting::all().iter().map(|setting| row(setting, trades)).collect())
+        Table(
+            Setting::all()
+                .iter()
+                .map(|setting| row(setting, trades))
+                .collect(),
+        )
     }
 
     pub(crate) fn stored() -> Table {
@@ -85,11 +109,22 @@ impl Table {
         let mut text = "| setting | time | evaluations | numbers | curve | total |\n|---|---|---|---|---|---|\n".to_owned();
         for row in &self.0 {
             let time = row.seconds.map_or_else(|| "-".to_owned(), duration);
-            let evaluations = row.evaluations.map_or_else(|| "-".to_owned(), |count| format!("{count:.0}"));
-            let errors = row
-                .errors
-                .map(|error| error.map_or_else(|| "-".to_owned(), |(median, most)| format!("{median:.1e} / {most:.1e}")));
-            writeln!(text, "| {} | {time} | {evaluations} | {} |", row.setting, errors.join(" | ")).expect("a string");
+            let evaluations = row
+                .evaluations
+                .map_or_else(|| "-".to_owned(), |count| format!("{count:.0}"));
+            let errors = row.errors.map(|error| {
+                error.map_or_else(
+                    || "-".to_owned(),
+                    |(median, most)| format!("{median:.1e} / {most:.1e}"),
+                )
+            });
+            writeln!(
+                text,
+                "| {} | {time} | {evaluations} | {} |",
+                row.setting,
+                errors.join(" | ")
+            )
+            .expect("a string");
         }
         text
     }
@@ -97,27 +132,46 @@ impl Table {
     /// The lines of the README: a few of the stored ones, as they stand.
     pub(crate) fn of_readme() -> Vec<String> {
         let text = std::fs::read_to_string(path()).expect("the stored table");
-        let names: Vec<String> =
-            Setting::all().iter().filter(|setting| is_told(setting)).map(|setting| format!("| {setting} |")).collect();
+        let names: Vec<String> = Setting::all()
+            .iter()
+            .filter(|setting| is_told(setting))
+            .map(|setting| format!("| {setting} |"))
+            .collect();
         let lines = text.lines().enumerate();
-        let told = lines.filter(|(at, line)| *at < 2 || names.iter().any(|name| line.starts_with(name)));
+        let told =
+            lines.filter(|(at, line)| *at < 2 || names.iter().any(|name| line.starts_with(name)));
         told.map(|(_, line)| line.to_owned()).collect()
     }
 
     /// No error of the other table is more than twice the one of this; times may differ.
     pub(crate) fn holds(&self, made: &Table) {
-        let names = |table: &Table| table.0.iter().map(|row| row.setting.clone()).collect::<Vec<_>>();
-        assert_eq!(names(self), names(made), "the stored table has other settings");
+        let names = |table: &Table| {
+            table
+                .0
+                .iter()
+                .map(|row| row.setting.clone())
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(
+            names(self),
+            names(made),
+            "the stored table has other settings"
+        );
         for (stored, made) in self.0.iter().zip(&made.0) {
             for (stored_error, error) in stored.errors.iter().zip(&made.errors) {
                 let held = match (stored_error, error) {
                     (Some(stored), Some(made)) => {
-                        made.0 <= 2.0 * stored.0.max(ROUNDING) && made.1 <= 2.0 * stored.1.max(ROUNDING)
+                        made.0 <= 2.0 * stored.0.max(ROUNDING)
+                            && made.1 <= 2.0 * stored.1.max(ROUNDING)
                     }
                     (None, None) => true,
                     _ => false,
                 };
-                assert!(held, "{}: {stored_error:?} is stored and {error:?} is made", made.setting);
+                assert!(
+                    held,
+                    "{}: {stored_error:?} is stored and {error:?} is made",
+                    made.setting
+                );
             }
         }
     }
@@ -125,34 +179,63 @@ impl Table {
 
 /// Write the lines of the README between its marks.
 pub(crate) fn tell_readme() {
-    const MARKS: [&str; 2] = ["<!-- speed against accuracy -->\n", "<!-- /speed against accuracy -->"];
+    const MARKS: [&str; 2] = [
+        "<!-- speed against accuracy -->\n",
+        "<!-- /speed against accuracy -->",
+    ];
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("README.md");
     let text = std::fs::read_to_string(&path).expect("the README");
     let (before, rest) = text.split_once(MARKS[0]).expect("the first mark");
     let (_, after) = rest.split_once(MARKS[1]).expect("the second mark");
     let lines = Table::of_readme().join("\n");
-    std::fs::write(&path, format!("{before}{}{lines}\n{}{after}", MARKS[0], MARKS[1])).expect("the README is written");
+    std::fs::write(
+        &path,
+        format!("{before}{}{lines}\n{}{after}", MARKS[0], MARKS[1]),
+    )
+    .expect("the README is written");
 }
 
 /// Whether it stands in the README.
 fn is_told(setting: &Setting) -> bool {
-    let few = setting.stations.is_none_or(|stations| [8, 64, 1024].contains(&stations));
+    let few = setting
+        .stations
+        .is_none_or(|stations| [8, 64, 1024].contains(&stations));
     // At the coarsest tolerance and at the usual one; each other tolerance once.
     few && !setting.accurate
 }
 
 fn row(setting: &Setting, trades: &[(String, Trade)]) -> Row {
-    let found: Vec<_> =
-        trades.iter().flat_map(|(_, trade)| &trade.settings).filter(|measured| measured.setting == *setting).collect();
-    let figures = || found.iter().filter_map(|measured| measured.found.as_ref().ok());
-    let numbers = figures().filter_map(|figures| greatest(&without_curve(&figures.numerical))).collect();
-    let curve = figures().filter_map(|figures| figures.numerical[Subject::Curve as usize]).collect();
-    let total = found.iter().filter_map(|measured| measured.total()).collect();
+    let found: Vec<_> = trades
+        .iter()
+        .flat_map(|(_, trade)| &trade.settings)
+        .filter(|measured| measured.setting == *setting)
+        .collect();
+    let figures = || {
+        found
+            .iter()
+            .filter_map(|measured| measured.found.as_ref().ok())
+    };
+    let numbers = figures()
+        .filter_map(|figures| greatest(&without_curve(&figures.numerical)))
+        .collect();
+    let curve = figures()
+        .filter_map(|figures| figures.numerical[Subject::Curve as usize])
+        .collect();
+    let total = found
+        .iter()
+        .filter_map(|measured| measured.total())
+        .collect();
     Row {
         setting: setting.to_string(),
-        seconds: median(figures().map(|figures| figures.time.seconds).collect()).map(|(median, _)| median),
-        evaluations: median(figures().filter_map(|figures| figures.evaluations).map(|count| count as f64).collect())
+        seconds: median(figures().map(|figures| figures.time.seconds).collect())
             .map(|(median, _)| median),
+        evaluations: median(
+            figures()
+                .filter_map(|figures| figures.evaluations)
+                .map(|count| count as f64)
+                .collect(),
+        )
+        .map(|(median, _)| median),
         errors: [numbers, curve, total].map(median),
     }
 }
@@ -172,7 +255,10 @@ pub(crate) fn median(mut values: Vec<f64>) -> Option<(f64, f64)> {
 fn read(line: &str) -> Row {
     let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
     let number = |text: &str| text.parse::<f64>().expect("a number");
-    let error = |text: &str| text.split_once(" / ").map(|(median, most)| (number(median), number(most)));
+    let error = |text: &str| {
+        text.split_once(" / ")
+            .map(|(median, most)| (number(median), number(most)))
+    };
     Row {
         setting: cells[0].to_owned(),
         seconds: None,

@@ -70,10 +70,21 @@ impl Launch {
     /// The workbench in a folder that is there already.
     pub(crate) fn of(folder: Arc<TempDir>) -> Launch {
         let state = folder.path().to_str().expect("a name in UTF-8");
-        let variables =
-            [("XDG_STATE_HOME", state), ("XDG_CONFIG_HOME", state), ("TERM", "xterm-256color"), ("LC_ALL", "C.UTF-8")];
-        let variables = variables.map(|(name, value)| (name.to_owned(), value.to_owned())).to_vec();
-        Launch { command: vec![PROGRAM.into()], variables, size: (24, 80), folder }
+        let variables = [
+            ("XDG_STATE_HOME", state),
+            ("XDG_CONFIG_HOME", state),
+            ("TERM", "xterm-256color"),
+            ("LC_ALL", "C.UTF-8"),
+        ];
+        let variables = variables
+            .map(|(name, value)| (name.to_owned(), value.to_owned()))
+            .to_vec();
+        Launch {
+            command: vec![PROGRAM.into()],
+            variables,
+            size: (24, 80),
+            folder,
+        }
     }
 
     pub(crate) fn argument(mut self, argument: impl AsRef<OsStr>) -> Launch {
@@ -83,7 +94,8 @@ impl Launch {
 
     /// By way of another program, such as `strace`.
     pub(crate) fn through(mut self, wrapper: &[&str]) -> Launch {
-        self.command.splice(0..0, wrapper.iter().map(OsString::from));
+        self.command
+            .splice(0..0, wrapper.iter().map(OsString::from));
         self
     }
 
@@ -109,7 +121,13 @@ impl Launch {
 
     pub(crate) fn start(self) -> Tty {
         let (rows, cols) = self.size;
-        let pair = native_pty_system().openpty(PtySize { rows, cols, ..PtySize::default() }).expect("a pseudo terminal");
+        let pair = native_pty_system()
+            .openpty(PtySize {
+                rows,
+                cols,
+                ..PtySize::default()
+            })
+            .expect("a pseudo terminal");
         let mut command = CommandBuilder::new(&self.command[0]);
         command.args(&self.command[1..]);
         command.cwd(self.folder.path());
@@ -117,10 +135,16 @@ impl Launch {
             command.env(name, value);
         }
         let before = modes(&*pair.master);
-        assert!(before.contains("ECHO") && before.contains("ICANON"), "a fresh terminal echoes");
+        assert!(
+            before.contains("ECHO") && before.contains("ICANON"),
+            "a fresh terminal echoes"
+        );
         let mut reader = pair.master.try_clone_reader().expect("a reader");
         let writer = pair.master.take_writer().expect("a writer");
-        let child = pair.slave.spawn_command(command).expect("the program starts");
+        let child = pair
+            .slave
+            .spawn_command(command)
+            .expect("the program starts");
         let (sender, output) = channel();
         let is_stalled = Arc::new(AtomicBool::new(false));
         let stalled = Arc::clone(&is_stalled);
@@ -130,8 +154,14 @@ impl Launch {
             let mut buffer = [0; 16384];
             loop {
                 let pace = their_pace.load(Ordering::Relaxed);
-                let most = if pace == 0 { buffer.len() } else { (pace / BEATS).clamp(1, buffer.len()) };
-                let Ok(count @ 1..) = reader.read(&mut buffer[..most]) else { return };
+                let most = if pace == 0 {
+                    buffer.len()
+                } else {
+                    (pace / BEATS).clamp(1, buffer.len())
+                };
+                let Ok(count @ 1..) = reader.read(&mut buffer[..most]) else {
+                    return;
+                };
                 if sender.send(buffer[..count].to_vec()).is_err() {
                     return;
                 }
@@ -143,9 +173,23 @@ impl Launch {
                 }
             }
         });
-        let line = Some(Line { master: pair.master, writer, output, reader, is_stalled, pace });
+        let line = Some(Line {
+            master: pair.master,
+            writer,
+            output,
+            reader,
+            is_stalled,
+            pace,
+        });
         let screen = vt100::Parser::new(cells(rows), cells(cols), 0);
-        Tty { folder: self.folder, child, written: None, line, screen, before }
+        Tty {
+            folder: self.folder,
+            child,
+            written: None,
+            line,
+            screen,
+            before,
+        }
     }
 }
 
@@ -168,7 +212,8 @@ impl Tty {
     }
 
     pub(crate) fn type_in(&mut self, keys: impl AsRef<[u8]>) {
-        self.try_to_type(keys.as_ref()).expect("the terminal takes keys");
+        self.try_to_type(keys.as_ref())
+            .expect("the terminal takes keys");
     }
 
     /// A program that has left takes nothing more.
@@ -177,11 +222,15 @@ impl Tty {
         writer.write_all(keys).and_then(|()| writer.flush())
     }
 
-    /// Keys from a thread of their own: a terminal takes only so much at a time. Meanwhile, its size changes.
+    /// Keys from a thread of their own: a terminal takes only so much at a time. Meanwhile, its
+    /// size changes.
     pub(crate) fn pour(&mut self, pieces: Vec<Vec<u8>>, sizes: &[(u16, u16)]) {
         let mut writer = std::mem::replace(&mut self.line().writer, Box::new(std::io::sink()));
         let pouring = thread::spawn(move || {
-            pieces.iter().try_for_each(|piece| writer.write_all(piece).and_then(|()| writer.flush())).ok();
+            pieces
+                .iter()
+                .try_for_each(|piece| writer.write_all(piece).and_then(|()| writer.flush()))
+                .ok();
             writer
         });
         let mut sizes = sizes.iter();
@@ -198,7 +247,14 @@ impl Tty {
     }
 
     pub(crate) fn resize(&mut self, rows: u16, columns: u16) {
-        self.line().master.resize(PtySize { rows, cols: columns, ..PtySize::default() }).expect("a new size");
+        self.line()
+            .master
+            .resize(PtySize {
+                rows,
+                cols: columns,
+                ..PtySize::default()
+            })
+            .expect("a new size");
         if let (Some(rows), Some(columns)) = (NonZero::new(rows), NonZero::new(columns)) {
             self.screen.screen_mut().set_size(rows, columns);
         }
@@ -215,7 +271,11 @@ impl Tty {
     pub(crate) fn wait_until(&mut self, what: &str, is_so: impl Fn(&mut Tty) -> bool) {
         let end = Instant::now() + PATIENCE;
         while !is_so(self) {
-            assert!(Instant::now() < end, "waited for {what} in vain:\n{}", self.screen().contents());
+            assert!(
+                Instant::now() < end,
+                "waited for {what} in vain:\n{}",
+                self.screen().contents()
+            );
             self.take_output(Duration::from_millis(5));
         }
     }
@@ -229,7 +289,9 @@ impl Tty {
         match line.output.recv_timeout(time) {
             Ok(bytes) => {
                 self.screen.process(&bytes);
-                self.written.iter_mut().for_each(|written| written.extend(&bytes));
+                self.written
+                    .iter_mut()
+                    .for_each(|written| written.extend(&bytes));
                 bytes.len()
             }
             Err(RecvTimeoutError::Timeout) => 0,
@@ -249,7 +311,11 @@ impl Tty {
                 0 => return total,
                 count => total += count,
             }
-            assert!(Instant::now() < end, "it never stops writing:\n{}", self.screen().contents());
+            assert!(
+                Instant::now() < end,
+                "it never stops writing:\n{}",
+                self.screen().contents()
+            );
         }
     }
 
@@ -258,7 +324,10 @@ impl Tty {
     }
 
     pub(crate) fn send_signal(&self, name: &str) {
-        let status = Command::new("kill").args([format!("-{name}"), self.id().to_string()]).status().expect("kill is there");
+        let status = Command::new("kill")
+            .args([format!("-{name}"), self.id().to_string()])
+            .status()
+            .expect("kill is there");
         assert!(status.success());
     }
 
@@ -281,7 +350,11 @@ impl Tty {
                 while self.take_output(Duration::from_millis(50)) > 0 {}
                 return status;
             }
-            assert!(Instant::now() < end, "the program does not end:\n{}", self.screen().contents());
+            assert!(
+                Instant::now() < end,
+                "the program does not end:\n{}",
+                self.screen().contents()
+            );
             self.take_output(Duration::from_millis(5));
         }
     }
@@ -294,14 +367,25 @@ impl Tty {
 
     /// The terminal goes away, as when a connection breaks.
     pub(crate) fn hang_up(&mut self) {
-        let Line { master, writer, output, reader, .. } = self.line.take().expect("the terminal has not hung up");
+        let Line {
+            master,
+            writer,
+            output,
+            reader,
+            ..
+        } = self.line.take().expect("the terminal has not hung up");
         drop(output);
         drop(writer);
-        // The reader sleeps on a copy of our end until something comes: we write to the other end ourselves.
+        // The reader sleeps on a copy of our end until something comes: we write to the other end
+        // ourselves.
         let other_end = master.tty_name().expect("the terminal has a name");
         let end = Instant::now() + PATIENCE;
         while !reader.is_finished() {
-            fs::OpenOptions::new().write(true).open(&other_end).and_then(|mut terminal| terminal.write_all(b" ")).ok();
+            fs::OpenOptions::new()
+                .write(true)
+                .open(&other_end)
+                .and_then(|mut terminal| terminal.write_all(b" "))
+                .ok();
             assert!(Instant::now() < end, "the reader stays");
             thread::sleep(Duration::from_millis(2));
         }
@@ -309,8 +393,15 @@ impl Tty {
 
     /// A signal to what stands in front of the shell of this terminal.
     pub(crate) fn send_to_program(&self, name: &str) {
-        let front = self.line.as_ref().and_then(|line| line.master.process_group_leader()).expect("something is in front");
-        let status = Command::new("kill").args([format!("-{name}"), format!("{front}")]).status().expect("kill is there");
+        let front = self
+            .line
+            .as_ref()
+            .and_then(|line| line.master.process_group_leader())
+            .expect("something is in front");
+        let status = Command::new("kill")
+            .args([format!("-{name}"), format!("{front}")])
+            .status()
+            .expect("kill is there");
         assert!(status.success());
     }
 
@@ -329,13 +420,22 @@ impl Tty {
     }
 
     pub(crate) fn modes(&self) -> String {
-        modes(&*self.line.as_ref().expect("the terminal has not hung up").master)
+        modes(
+            &*self
+                .line
+                .as_ref()
+                .expect("the terminal has not hung up")
+                .master,
+        )
     }
 
     /// The terminal as it was before: modes, screen, cursor, paste.
     pub(crate) fn assert_restored(&self) {
         assert_eq!(self.modes(), self.before, "the modes are what they were");
-        assert!(!self.screen().alternate_screen(), "the alternate screen is left");
+        assert!(
+            !self.screen().alternate_screen(),
+            "the alternate screen is left"
+        );
         assert!(!self.screen().hide_cursor(), "the cursor is shown");
         assert!(!self.screen().bracketed_paste(), "pastes are plain again");
     }
@@ -360,24 +460,40 @@ impl Drop for Tty {
     }
 }
 
-/// The words of a process's state after its name: state, parent, group, ...; 11 and 12 are its ticks in user and system.
+/// The words of a process's state after its name: state, parent, group, ...; 11 and 12 are its
+/// ticks in user and system.
 pub(crate) fn stat(process: u32) -> Option<Vec<String>> {
     let text = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
-    Some(text.rsplit_once(')')?.1.split_whitespace().map(str::to_owned).collect())
+    Some(
+        text.rsplit_once(')')?
+            .1
+            .split_whitespace()
+            .map(str::to_owned)
+            .collect(),
+    )
 }
 
 /// The journals of unsaved edits in a folder of state.
 pub(crate) fn journals(state: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(state.join("tipstrike/journals")).into_iter().flatten().flatten().map(|entry| entry.path());
-    let mut paths: Vec<_> = entries.filter(|path| path.extension().is_some_and(|ending| ending == "toml")).collect();
+    let entries = fs::read_dir(state.join("tipstrike/journals"))
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.path());
+    let mut paths: Vec<_> = entries
+        .filter(|path| path.extension().is_some_and(|ending| ending == "toml"))
+        .collect();
     paths.sort();
     paths
 }
 
-/// A tool that a test cannot do without; where it is missing, says so, so that a skipped test is seen.
+/// A tool that a test cannot do without; where it is missing, says so, so that a skipped test is
+/// seen.
 pub(crate) fn is_there(tool: &str) -> bool {
-    let found =
-        Command::new("sh").args(["-c", "command -v \"$0\" >/dev/null", tool]).status().is_ok_and(|status| status.success());
+    let found = Command::new("sh")
+        .args(["-c", "command -v \"$0\" >/dev/null", tool])
+        .status()
+        .is_ok_and(|status| status.success());
     if !found {
         skip(&format!("{tool} is not installed"));
     }
@@ -392,12 +508,21 @@ pub(crate) fn has_faults_on_demand() -> bool {
     cfg!(debug_assertions)
 }
 
-/// Say that a test did not run, past the harness, which holds back what passing tests print; `.ci/run` counts them.
+/// Say that a test did not run, past the harness, which holds back what passing tests print;
+/// `.ci/run` counts them.
 pub(crate) fn skip(why: &str) {
-    let line = format!("SKIPPED {}: {why}\n", thread::current().name().unwrap_or("a test"));
+    let line = format!(
+        "SKIPPED {}: {why}\n",
+        thread::current().name().unwrap_or("a test")
+    );
     std::io::stderr().write_all(line.as_bytes()).ok();
     if let Some(file) = std::env::var_os("TIPSTRIKE_SKIPPED") {
-        fs::OpenOptions::new().append(true).create(true).open(file).and_then(|mut file| file.write_all(line.as_bytes())).ok();
+        fs::OpenOptions::new()
+            .append(true)
+            .create(true)
+            .open(file)
+            .and_then(|mut file| file.write_all(line.as_bytes()))
+            .ok();
     }
 }
 

@@ -10,7 +10,14 @@ const fn range(from: f64, to: f64, unit: &'static str) -> Range {
 }
 
 const fn text(key: &'static str, label: &'static str, help: &'static str) -> Field {
-    Field { key, symbol: "", label, help, kind: Kind::Text, absent: Absent::Default("") }
+    Field {
+        key,
+        symbol: "",
+        label,
+        help,
+        kind: Kind::Text,
+        absent: Absent::Default(""),
+    }
 }
 
 macro_rules! number {
@@ -203,7 +210,10 @@ const TAIL: [Field; 18] = [
         symbol: "",
         label: "method",
         help: "paper: as printed, typesetting mended. exact: exact position, free impact. static: load shared by all pairs. dynamic: with inertia. auto: the cheapest that will do.",
-        kind: Kind::Choice(&["paper", "exact", "static", "dynamic", "auto"], |inputs, value| inputs.method = Method::ALL[value]),
+        kind: Kind::Choice(
+            &["paper", "exact", "static", "dynamic", "auto"],
+            |inputs, value| inputs.method = Method::ALL[value],
+        ),
         absent: Default("exact"),
     },
     number!(
@@ -223,7 +233,9 @@ const TAIL: [Field; 18] = [
         symbol: "q1,q2",
         label: "tooth compliance",
         help: "kuang-yang: Eq. 56, for z 12..100, |x| <= 0.6, 20 deg full-depth steel. beam: potential energy on the true profile.",
-        kind: Kind::Choice(&["kuang-yang", "beam"], |inputs, value| inputs.tooth_compliance = Some(ToothCompliance::ALL[value])),
+        kind: Kind::Choice(&["kuang-yang", "beam"], |inputs, value| {
+            inputs.tooth_compliance = Some(ToothCompliance::ALL[value])
+        }),
         absent: Without("by its range"),
     },
     Field {
@@ -241,7 +253,9 @@ const TAIL: [Field; 18] = [
         symbol: "",
         label: "relief shape",
         help: "How tip and root relief grow along the path of contact; static and dynamic alone.",
-        kind: Kind::Choice(&["linear", "parabolic"], |inputs, value| inputs.relief_shape = ReliefShape::ALL[value]),
+        kind: Kind::Choice(&["linear", "parabolic"], |inputs, value| {
+            inputs.relief_shape = ReliefShape::ALL[value]
+        }),
         absent: Default("linear"),
     },
     number!(
@@ -293,7 +307,9 @@ const TAIL: [Field; 18] = [
         symbol: "n",
         label: "stations",
         help: "Intervals between D and E, and in static and dynamic as many again to the last contact; auto: as many as the curve needs.",
-        kind: Kind::Count(1, 10000, |inputs, value| inputs.stations = (value > 0).then_some(value as usize)),
+        kind: Kind::Count(1, 10000, |inputs, value| {
+            inputs.stations = (value > 0).then_some(value as usize)
+        }),
         absent: Default("64"),
     },
     number!(

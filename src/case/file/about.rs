@@ -1,4 +1,5 @@
-//! What a file has beside its bytes, for the one that takes its place: owner, mode, access list, extended attributes.
+//! What a file has beside its bytes, for the one that takes its place: owner, mode, access list,
+//! extended attributes.
 
 use std::collections::BTreeSet;
 use std::ffi::{OsStr, OsString};
@@ -10,7 +11,8 @@ use std::path::Path;
 
 use xattr::FileExt;
 
-/// What the system itself says of a file, some of it of its bytes: labels and hashes, which it gives anew.
+/// What the system itself says of a file, some of it of its bytes: labels and hashes, which it
+/// gives anew.
 const OF_THE_SYSTEM: &[u8] = b"security.";
 
 /// Give a new file all that the old one has, but for its bytes.
@@ -29,7 +31,11 @@ fn keep_owner(old: &Metadata, new: &File) -> io::Result<()> {
     if (now.uid(), now.gid()) == (old.uid(), old.gid()) {
         return Ok(());
     }
-    let owner = format!("the file belongs to user {} and group {}, and a new one would not", old.uid(), old.gid());
+    let owner = format!(
+        "the file belongs to user {} and group {}, and a new one would not",
+        old.uid(),
+        old.gid()
+    );
     fchown(new, Some(old.uid()), Some(old.gid())).map_err(|error| refused(&error, owner))
 }
 
@@ -41,7 +47,9 @@ fn keep_attributes(path: &Path, new: &File) -> io::Result<()> {
     }
     for name in &kept {
         let value = xattr::get(path, name).map_err(|error| lost(&error, name))?;
-        value.map_or(Ok(()), |value| new.set_xattr(name, &value)).map_err(|error| lost(&error, name))?;
+        value
+            .map_or(Ok(()), |value| new.set_xattr(name, &value))
+            .map_err(|error| lost(&error, name))?;
     }
     Ok(())
 }
@@ -49,17 +57,35 @@ fn keep_attributes(path: &Path, new: &File) -> io::Result<()> {
 // A file system without attributes has none to lose.
 fn names(list: io::Result<xattr::XAttrs>) -> io::Result<BTreeSet<OsString>> {
     match list {
-        Ok(list) => Ok(list.filter(|name| !name.as_bytes().starts_with(OF_THE_SYSTEM)).collect()),
+        Ok(list) => Ok(list
+            .filter(|name| !name.as_bytes().starts_with(OF_THE_SYSTEM))
+            .collect()),
         Err(error) if error.kind() == ErrorKind::Unsupported => Ok(BTreeSet::new()),
         Err(error) => Err(error),
     }
 }
 
 fn lost(error: &io::Error, name: &OsStr) -> io::Error {
-    refused(error, format!("the attribute {} of the file would be lost ({error})", name.display()))
+    refused(
+        error,
+        format!(
+            "the attribute {} of the file would be lost ({error})",
+            name.display()
+        ),
+    )
 }
 
 fn refused(error: &io::Error, words: String) -> io::Error {
-    let is_full = matches!(error.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded);
-    io::Error::new(if is_full { error.kind() } else { ErrorKind::Unsupported }, words)
+    let is_full = matches!(
+        error.kind(),
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded
+    );
+    io::Error::new(
+        if is_full {
+            error.kind()
+        } else {
+            ErrorKind::Unsupported
+        },
+        words,
+    )
 }

@@ -1,4 +1,5 @@
-//! Files on disk: what is no case is refused without waiting, and a save leaves the old file or the new one.
+//! Files on disk: what is no case is refused without waiting, and a save leaves the old file or the
+//! new one.
 
 use std::borrow::Cow;
 use std::fs::{self, File, OpenOptions, Permissions};
@@ -12,7 +13,7 @@ use thiserror::Error;
 use super::{Document, Fault, FaultKind, MOST_BYTES, about};
 use crate::case::Case;
 use crate::case::journal::Stamp;
-use crate::case::visible::visible;
+use crate::case::sanitize::sanitize;
 
 /// Symbolic links that are followed, one after the other.
 const MOST_LINKS: usize = 40;
@@ -54,7 +55,9 @@ pub enum SaveError {
     #[error("{0}: there is a file of that name already")]
     AlreadyThere(String),
     /// It is of a newer format, of which not everything is understood.
-    #[error("{0}: this case is of a newer format, and saving it here would lose what this version does not know")]
+    #[error(
+        "{0}: this case is of a newer format, and saving it here would lose what this version does not know"
+    )]
     NewerFormat(String),
     /// It is a folder, a pipe or a device.
     #[error("{0}: this is not a regular file")]
@@ -69,15 +72,18 @@ pub enum SaveError {
     #[error("{0}: the file is read-only: save under another name, or make it writable (chmod u+w)")]
     ReadOnly(String),
     /// The file has other names, which a save would part from it.
-    #[error("{0}: the file has {1} names (hard links), which saving would part: save under another name")]
+    #[error(
+        "{0}: the file has {1} names (hard links), which saving would part: save under another name"
+    )]
     HardLinked(String, u64),
     /// The system refuses to write it.
     #[error("{0}: cannot be written: {1}: {mend}", mend = mend(.1))]
     Unwritable(String, io::Error),
 }
 
-/// Write a file that is no case, such as a report or a template, by the way of a save: whatever happens, the old file
-/// stays or the new one is whole. `over` says whether a file of that name may be replaced.
+/// Write a file that is no case, such as a report or a template, by the way of a save: whatever
+/// happens, the old file stays or the new one is whole. `over` says whether a file of that name may
+/// be replaced.
 ///
 /// # Errors
 /// Where nothing was written.
@@ -107,7 +113,8 @@ impl Document {
         Ok(document)
     }
 
-    /// Read what this version understands of a file of a newer format, to be looked at and not to be saved.
+    /// Read what this version understands of a file of a newer format, to be looked at and not to
+    /// be saved.
     ///
     /// # Errors
     /// Where the file cannot be read, or is no text.
@@ -115,7 +122,13 @@ impl Document {
         let name = shown(path);
         let bytes = capped(open(path, &name)?, &name)?;
         let text = std::str::from_utf8(&bytes);
-        let text = text.map_err(|error| ReadError::Bad(vec![super::fault::not_text(&name, &bytes, error.valid_up_to())]))?;
+        let text = text.map_err(|error| {
+            ReadError::Bad(vec![super::fault::not_text(
+                &name,
+                &bytes,
+                error.valid_up_to(),
+            )])
+        })?;
         let mut document = Document::parse_newer(&name, text);
         document.origin = followed(path).ok();
         Ok(document)
@@ -140,7 +153,11 @@ impl Document {
     }
 
     fn as_read(&self) -> Cow<'_, str> {
-        if self.marked { Cow::Owned(format!("{}{}", super::BYTE_ORDER_MARK, self.text)) } else { Cow::Borrowed(&self.text) }
+        if self.marked {
+            Cow::Owned(format!("{}{}", super::BYTE_ORDER_MARK, self.text))
+        } else {
+            Cow::Borrowed(&self.text)
+        }
     }
 
     /// Save to a file, unless it is not the one that was read or has been changed since.
@@ -187,21 +204,29 @@ impl Document {
 }
 
 fn shown(path: &Path) -> String {
-    visible(&path.display().to_string())
+    sanitize(&path.display().to_string())
 }
 
 fn one_a_line(faults: &[Fault]) -> String {
-    faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+    faults
+        .iter()
+        .map(ToString::to_string)
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 fn refused(mut faults: Vec<Fault>) -> ReadError {
-    match faults.iter().position(|fault| fault.kind == FaultKind::NewerFormat) {
+    match faults
+        .iter()
+        .position(|fault| fault.kind == FaultKind::NewerFormat)
+    {
         Some(newer) => ReadError::NewerFormat(faults.swap_remove(newer)),
         None => ReadError::Bad(faults),
     }
 }
 
-/// Open a regular file. Anything else is refused before it is opened, since opening a pipe waits for a writer.
+/// Open a regular file. Anything else is refused before it is opened, since opening a pipe waits
+/// for a writer.
 fn open(path: &Path, name: &str) -> Result<File, ReadError> {
     let failed = |error: io::Error| match error.kind() {
         ErrorKind::NotFound => ReadError::NotFound(name.to_owned()),
@@ -216,8 +241,15 @@ fn open(path: &Path, name: &str) -> Result<File, ReadError> {
 fn capped(source: impl Read, name: &str) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
     let most = MOST_BYTES as u64 + 1;
-    source.take(most).read_to_end(&mut bytes).map_err(|error| ReadError::Unreadable(name.to_owned(), error))?;
-    if bytes.len() > MOST_BYTES { Err(ReadError::TooLarge(name.to_owned())) } else { Ok(bytes) }
+    source
+        .take(most)
+        .read_to_end(&mut bytes)
+        .map_err(|error| ReadError::Unreadable(name.to_owned(), error))?;
+    if bytes.len() > MOST_BYTES {
+        Err(ReadError::TooLarge(name.to_owned()))
+    } else {
+        Ok(bytes)
+    }
 }
 
 /// The path behind every symbolic link, whether or not a file is there.
@@ -229,7 +261,9 @@ pub fn followed(path: &Path) -> io::Result<PathBuf> {
     for _ in 0..MOST_LINKS {
         let Ok(next) = fs::read_link(&path) else {
             let folder = fs::canonicalize(folder_of(&path))?;
-            return Ok(path.file_name().map_or(folder.clone(), |name| folder.join(name)));
+            return Ok(path
+                .file_name()
+                .map_or(folder.clone(), |name| folder.join(name)));
         };
         path = folder_of(&path).join(next);
     }
@@ -237,7 +271,9 @@ pub fn followed(path: &Path) -> io::Result<PathBuf> {
 }
 
 fn folder_of(path: &Path) -> &Path {
-    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+    path.parent()
+        .filter(|folder| !folder.as_os_str().is_empty())
+        .unwrap_or(Path::new("."))
 }
 
 /// A file to be written, links followed, and what is there now.
@@ -252,16 +288,24 @@ fn target_of(path: &Path) -> Result<Target, SaveError> {
     match fs::metadata(&target) {
         Ok(old) => {
             replaceable(&target, &old, &name)?;
-            Ok(Target { path: target, old: Some(old) })
+            Ok(Target {
+                path: target,
+                old: Some(old),
+            })
         }
-        Err(error) if error.kind() == ErrorKind::NotFound => Ok(Target { path: target, old: None }),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(Target {
+            path: target,
+            old: None,
+        }),
         Err(error) => Err(SaveError::Unwritable(name, error)),
     }
 }
 
 fn no_folder(path: &Path, error: io::Error) -> SaveError {
     match error.kind() {
-        ErrorKind::NotFound | ErrorKind::NotADirectory => SaveError::NoFolder(shown(path), shown(folder_of(path))),
+        ErrorKind::NotFound | ErrorKind::NotADirectory => {
+            SaveError::NoFolder(shown(path), shown(folder_of(path)))
+        }
         _ => SaveError::Unwritable(shown(path), error),
     }
 }
@@ -279,7 +323,9 @@ fn replaceable(target: &Path, old: &fs::Metadata, name: &str) -> Result<(), Save
     let closed = OpenOptions::new().write(true).open(target).err();
     match closed {
         None if !old.permissions().readonly() => Ok(()),
-        Some(error) if error.kind() != ErrorKind::PermissionDenied => Err(SaveError::Unwritable(name.to_owned(), error)),
+        Some(error) if error.kind() != ErrorKind::PermissionDenied => {
+            Err(SaveError::Unwritable(name.to_owned(), error))
+        }
         _ => Err(SaveError::ReadOnly(name.to_owned())),
     }
 }
@@ -298,7 +344,10 @@ impl Target {
         // A new file's mode is cut by the umask on creation.
         let mode = Permissions::from_mode(0o666);
         let prefix = format!("{TEMPORARY}{}-", std::process::id());
-        let mut file = tempfile::Builder::new().prefix(&prefix).permissions(mode).tempfile_in(folder)?;
+        let mut file = tempfile::Builder::new()
+            .prefix(&prefix)
+            .permissions(mode)
+            .tempfile_in(folder)?;
         file.write_all(bytes)?;
         if let Some(old) = &self.old {
             about::keep(old, &self.path, file.as_file())?;
@@ -307,7 +356,9 @@ impl Target {
         match self.old {
             Some(_) => file.persist(&self.path).map_err(|error| error.error)?,
             // A file that someone else made meanwhile is not ours to replace.
-            None => file.persist_noclobber(&self.path).map_err(|error| error.error)?,
+            None => file
+                .persist_noclobber(&self.path)
+                .map_err(|error| error.error)?,
         };
         // The new file is in place, whether or not the folder can be flushed.
         let _ = File::open(folder).and_then(|folder| folder.sync_all());
@@ -316,12 +367,17 @@ impl Target {
     }
 }
 
-/// Take away what saves that were killed have left in a folder. That one cannot be taken away is no reason to fail.
+/// Take away what saves that were killed have left in a folder. That one cannot be taken away is no
+/// reason to fail.
 fn clear(folder: &Path) {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     for entry in entries.filter(|entry| entry.file_name().to_str().is_some_and(is_left_over)) {
         let about = entry.metadata();
-        let is_old = |about: &fs::Metadata| about.modified().is_ok_and(|time| time.elapsed().is_ok_and(|age| age > STALE));
+        let is_old = |about: &fs::Metadata| {
+            about
+                .modified()
+                .is_ok_and(|time| time.elapsed().is_ok_and(|age| age > STALE))
+        };
         if about.is_ok_and(|about| about.is_file() && is_old(&about)) {
             drop(fs::remove_file(entry.path()));
         }
@@ -330,17 +386,23 @@ fn clear(folder: &Path) {
 
 // Of a process that is gone. On a shared disk it may live on another machine: hence the age.
 fn is_left_over(name: &str) -> bool {
-    let process =
-        name.strip_prefix(TEMPORARY).and_then(|rest| rest.split_once('-')).and_then(|(process, _)| process.parse().ok());
+    let process = name
+        .strip_prefix(TEMPORARY)
+        .and_then(|rest| rest.split_once('-'))
+        .and_then(|(process, _)| process.parse().ok());
     process.is_some_and(|process: u32| !Path::new("/proc").join(process.to_string()).exists())
 }
 
 /// What to do about a file that the system does not let us write.
 fn mend(error: &io::Error) -> &'static str {
     match error.kind() {
-        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "make room on the disk, or save elsewhere",
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
+            "make room on the disk, or save elsewhere"
+        }
         ErrorKind::FileTooLarge => "raise the limit on the size of files (ulimit -f)",
-        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => "save into a folder that may be written",
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            "save into a folder that may be written"
+        }
         ErrorKind::InvalidFilename => "take a shorter name",
         ErrorKind::Unsupported => "save under another name",
         _ => "save elsewhere",

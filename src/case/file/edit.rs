@@ -7,15 +7,22 @@ use super::{Document, tree};
 
 /// The document's text with its changes.
 pub(super) fn render(document: &Document) -> String {
-    let Some(text) = edited(document) else { return template::text(&document.case) };
+    let Some(text) = edited(document) else {
+        return template::text(&document.case);
+    };
     let sorted = |case| {
         let mut entries = entries(case);
         entries.sort();
         entries
     };
     let kept = sorted(&tree::read(&text).case) == sorted(&document.case);
-    // A layout that does not take the changes is written anew; a case that is not valid keeps its layout.
-    if kept || document.case.inputs().is_err() { text } else { template::text(&document.case) }
+    // A layout that does not take the changes is written anew; a case that is not valid keeps its
+    // layout.
+    if kept || document.case.inputs().is_err() {
+        text
+    } else {
+        template::text(&document.case)
+    }
 }
 
 fn edited(document: &Document) -> Option<String> {
@@ -24,7 +31,11 @@ fn edited(document: &Document) -> Option<String> {
     for entry in &before {
         if !after.iter().any(|kept| kept.key() == entry.key()) {
             // In braces a comment ends with a line of its own.
-            let end = if toml.get(entry.table).is_some_and(Item::is_inline_table) { "\n" } else { "" };
+            let end = if toml.get(entry.table).is_some_and(Item::is_inline_table) {
+                "\n"
+            } else {
+                ""
+            };
             let homeless = take_out(table(&mut toml, entry.table)?, entry.bare_name(), end);
             let trailing = toml.trailing().as_str().unwrap_or_default().to_owned();
             toml.set_trailing(trailing + &homeless);
@@ -41,13 +52,18 @@ fn table<'t>(toml: &'t mut DocumentMut, name: &str) -> Option<&'t mut dyn TableL
     if name.is_empty() {
         return Some(toml.as_table_mut());
     }
-    toml.entry(name).or_insert(Item::Table(Table::new())).as_table_like_mut()
+    toml.entry(name)
+        .or_insert(Item::Table(Table::new()))
+        .as_table_like_mut()
 }
 
 /// Write an entry, in its place where it has one.
 fn write(table: &mut dyn TableLike, entry: &Entry) -> Option<()> {
     let mut value: Value = entry.value.parse().ok()?;
-    if let Some(old) = table.get_mut(entry.bare_name()).and_then(Item::as_value_mut) {
+    if let Some(old) = table
+        .get_mut(entry.bare_name())
+        .and_then(Item::as_value_mut)
+    {
         *value.decor_mut() = old.decor().clone();
         *old = value;
     } else {
@@ -58,10 +74,13 @@ fn write(table: &mut dyn TableLike, entry: &Entry) -> Option<()> {
     Some(())
 }
 
-/// Take an entry out, with its own trailing comment; the comments above it go above what comes next, else below what
-/// comes before. Those that have no neighbour are given back.
+/// Take an entry out, with its own trailing comment; the comments above it go above what comes
+/// next, else below what comes before. Those that have no neighbour are given back.
 fn take_out(table: &mut dyn TableLike, name: &str, end: &str) -> String {
-    let above = table.key(name).map(|key| words(key.leaf_decor().prefix())).unwrap_or_default();
+    let above = table
+        .key(name)
+        .map(|key| words(key.leaf_decor().prefix()))
+        .unwrap_or_default();
     let names: Vec<String> = table.iter().map(|(name, _)| name.to_owned()).collect();
     let at = names.iter().position(|known| known == name);
     table.remove(name);
@@ -77,7 +96,8 @@ fn take_out(table: &mut dyn TableLike, name: &str, end: &str) -> String {
     let before = at.and_then(|at| names.get(at.checked_sub(1)?));
     if let Some(last) = before.and_then(|before| table.get_mut(before)?.as_value_mut()) {
         let own = words(last.decor().suffix());
-        last.decor_mut().set_suffix(format!("{own}\n{}{end}", above.trim_end()));
+        last.decor_mut()
+            .set_suffix(format!("{own}\n{}{end}", above.trim_end()));
         return String::new();
     }
     above
@@ -85,10 +105,20 @@ fn take_out(table: &mut dyn TableLike, name: &str, end: &str) -> String {
 
 /// Comments and blanks around a key or a value.
 fn words(decor: Option<&RawString>) -> String {
-    decor.and_then(RawString::as_str).unwrap_or_default().to_owned()
+    decor
+        .and_then(RawString::as_str)
+        .unwrap_or_default()
+        .to_owned()
 }
 
 /// The text with the line ends of another, which the editor of TOML makes its own.
 fn with_line_ends_of(model: &str, text: String) -> String {
-    if model.find('\n').is_some_and(|at| model[..at].ends_with('\r')) { text.replace('\n', "\r\n") } else { text }
+    if model
+        .find('\n')
+        .is_some_and(|at| model[..at].ends_with('\r'))
+    {
+        text.replace('\n', "\r\n")
+    } else {
+        text
+    }
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::case::Problem;
-use crate::case::visible::{cut, visible};
+use crate::case::sanitize::{cut, sanitize};
 
 /// The most faults that are shown of one file.
 const MOST: usize = 100;
@@ -17,8 +17,8 @@ pub enum FaultKind {
     NewerFormat,
 }
 
-/// What is wrong at one place of a file. It prints as `file:line:column: field: cause: mend`, on one line and without
-/// control characters.
+/// What is wrong at one place of a file. It prints as `file:line:column: field: cause: mend`, on
+/// one line and without control characters.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fault {
     /// The file's name.
@@ -27,7 +27,8 @@ pub struct Fault {
     pub line: usize,
     /// Column in characters, from 1.
     pub column: usize,
-    /// The field's key, the key as written where it is unknown, or `toml` where the text is not TOML.
+    /// The field's key, the key as written where it is unknown, or `toml` where the text is not
+    /// TOML.
     pub field: String,
     /// What is wrong.
     pub cause: String,
@@ -40,14 +41,37 @@ pub struct Fault {
 impl Fault {
     pub(super) fn new(file: &str, (line, column): (usize, usize), problem: Problem) -> Fault {
         let Problem { field, cause, mend } = problem;
-        Fault { file: file.to_owned(), line, column, field, cause, mend, kind: FaultKind::Bad }
+        Fault {
+            file: file.to_owned(),
+            line,
+            column,
+            field,
+            cause,
+            mend,
+            kind: FaultKind::Bad,
+        }
     }
 }
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Fault { file, line, column, field, cause, mend, .. } = self;
-        write!(f, "{}:{line}:{column}: {}: {}: {}", visible(file), cut(field), visible(cause), visible(mend))
+        let Fault {
+            file,
+            line,
+            column,
+            field,
+            cause,
+            mend,
+            ..
+        } = self;
+        write!(
+            f,
+            "{}:{line}:{column}: {}: {}: {}",
+            sanitize(file),
+            cut(field),
+            sanitize(cause),
+            sanitize(mend)
+        )
     }
 }
 
@@ -63,7 +87,11 @@ pub(super) struct Found {
 
 impl Found {
     pub(super) fn new(at: usize, problem: Problem) -> Found {
-        Found { at, problem, kind: FaultKind::Bad }
+        Found {
+            at,
+            problem,
+            kind: FaultKind::Bad,
+        }
     }
 }
 
@@ -75,10 +103,17 @@ pub(super) fn placed(file: &str, text: &str, mut found: Vec<Found>) -> Vec<Fault
     let lines = Lines::of(text);
     let mut faults: Vec<Fault> = found
         .into_iter()
-        .map(|found| Fault { kind: found.kind, ..Fault::new(file, lines.place(found.at), found.problem) })
+        .map(|found| Fault {
+            kind: found.kind,
+            ..Fault::new(file, lines.place(found.at), found.problem)
+        })
         .collect();
     if let (Some(last), 1..) = (faults.last(), more) {
-        let problem = Problem::new("toml", format!("{more} more faults"), "mend those above first");
+        let problem = Problem::new(
+            "toml",
+            format!("{more} more faults"),
+            "mend those above first",
+        );
         faults.push(Fault::new(file, (last.line, last.column), problem));
     }
     faults
@@ -87,14 +122,25 @@ pub(super) fn placed(file: &str, text: &str, mut found: Vec<Found>) -> Vec<Fault
 /// The refusal of a file over the limit.
 pub(super) fn too_large(file: &str) -> Fault {
     let cause = format!("the text is longer than {} KiB", super::MOST_BYTES / 1024);
-    Fault::new(file, (1, 1), Problem::new("toml", cause, "name a case file; a case needs a few KiB"))
+    Fault::new(
+        file,
+        (1, 1),
+        Problem::new("toml", cause, "name a case file; a case needs a few KiB"),
+    )
 }
 
 /// The refusal of bytes that are not UTF-8.
 pub(super) fn not_text(file: &str, bytes: &[u8], at: usize) -> Fault {
     let before = String::from_utf8_lossy(&bytes[..at]);
-    let cause = format!("byte 0x{:02x} is not UTF-8 text", bytes.get(at).copied().unwrap_or_default());
-    Fault::new(file, Lines::of(&before).place(at), Problem::new("toml", cause, "save the file as UTF-8"))
+    let cause = format!(
+        "byte 0x{:02x} is not UTF-8 text",
+        bytes.get(at).copied().unwrap_or_default()
+    );
+    Fault::new(
+        file,
+        Lines::of(&before).place(at),
+        Problem::new("toml", cause, "save the file as UTF-8"),
+    )
 }
 
 /// Where the lines of a text begin.
@@ -105,7 +151,9 @@ pub(super) struct Lines<'t> {
 
 impl<'t> Lines<'t> {
     pub(super) fn of(text: &'t str) -> Lines<'t> {
-        let starts = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
+        let starts = std::iter::once(0)
+            .chain(text.match_indices('\n').map(|(at, _)| at + 1))
+            .collect();
         Lines { text, starts }
     }
 
@@ -113,14 +161,20 @@ impl<'t> Lines<'t> {
     pub(super) fn place(&self, at: usize) -> (usize, usize) {
         let line = self.starts.partition_point(|&start| start <= at).max(1);
         let start = self.starts[line - 1];
-        let column = self.text[start..].char_indices().take_while(|&(offset, _)| start + offset < at).count();
+        let column = self.text[start..]
+            .char_indices()
+            .take_while(|&(offset, _)| start + offset < at)
+            .count();
         (line, column + 1)
     }
 
     /// The bytes of the line in which a byte stands, without its end.
     pub(super) fn around(&self, at: usize) -> std::ops::Range<usize> {
         let line = self.starts.partition_point(|&start| start <= at).max(1);
-        let end = self.starts.get(line).map_or(self.text.len(), |&next| next - 1);
+        let end = self
+            .starts
+            .get(line)
+            .map_or(self.text.len(), |&next| next - 1);
         let start = self.starts[line - 1];
         start..start + self.text[start..end].trim_end_matches('\r').len()
     }

@@ -4,8 +4,8 @@ use toml::de::{DeTable, Error};
 
 use super::fault::{Found, Lines};
 use crate::case::fields::{AUTO, FIELDS, Field, Kind, index_of};
+use crate::case::sanitize::{cut, quoted};
 use crate::case::units::{self, Dimension};
-use crate::case::visible::{cut, quoted};
 use crate::case::{Problem, check};
 
 /// Rounds of blanking lines before the rest is given up.
@@ -22,27 +22,40 @@ pub(super) struct Recovered {
     pub(super) faults: Vec<Found>,
     /// The broken lines.
     pub(super) broken: String,
-    /// Whether every table's header could be read, so that each key is known to stand where it does.
+    /// Whether every table's header could be read, so that each key is known to stand where it
+    /// does.
     pub(super) tables_known: bool,
 }
 
 /// Find what is not TOML, and blank it.
 pub(super) fn recover(source: &str) -> Recovered {
-    let mut recovered = Recovered { text: source.to_owned(), faults: Vec::new(), broken: String::new(), tables_known: true };
+    let mut recovered = Recovered {
+        text: source.to_owned(),
+        faults: Vec::new(),
+        broken: String::new(),
+        tables_known: true,
+    };
     let lines = Lines::of(source);
     for round in 0..ROUNDS {
         let (_, errors) = DeTable::parse_recoverable(&recovered.text);
-        let mut errors: Vec<(usize, Error)> = errors.into_iter().map(|error| (start(&error, source), error)).collect();
+        let mut errors: Vec<(usize, Error)> = errors
+            .into_iter()
+            .map(|error| (start(&error, source), error))
+            .collect();
         errors.sort_by_key(|(at, _)| *at);
         let flooded = errors.len() > MOST;
         errors.truncate(MOST);
-        let (doubles, slips): (Vec<_>, Vec<_>) = errors.into_iter().partition(|(_, error)| error.message() == "duplicate key");
+        let (doubles, slips): (Vec<_>, Vec<_>) = errors
+            .into_iter()
+            .partition(|(_, error)| error.message() == "duplicate key");
         if round == 0 {
             recovered.faults = first_of_each_line(&slips, &lines, source);
         }
         if slips.is_empty() || flooded || round + 1 == ROUNDS {
             recovered.tables_known &= slips.is_empty();
-            recovered.faults.extend(doubles.iter().map(|(at, error)| double(*at, error, source)));
+            recovered
+                .faults
+                .extend(doubles.iter().map(|(at, error)| double(*at, error, source)));
             break;
         }
         for (at, _) in &slips {
@@ -58,13 +71,16 @@ impl Recovered {
         self.tables_known &= !text.trim_start().starts_with('[');
         self.broken.push_str(text);
         self.broken.push('\n');
-        self.text.replace_range(line.clone(), &" ".repeat(line.len()));
+        self.text
+            .replace_range(line.clone(), &" ".repeat(line.len()));
     }
 }
 
 /// Whether the lines name the key.
 pub(super) fn names(lines: &str, key: &str) -> bool {
-    lines.split(|c: char| !(c.is_alphanumeric() || c == '_')).any(|word| word == key)
+    lines
+        .split(|c: char| !(c.is_alphanumeric() || c == '_'))
+        .any(|word| word == key)
 }
 
 fn start(error: &Error, source: &str) -> usize {
@@ -86,12 +102,23 @@ fn first_of_each_line(errors: &[(usize, Error)], lines: &Lines<'_>, source: &str
 
 /// The error in a case's terms where the line is a field's, else in TOML's.
 fn told(at: usize, error: &Error, source: &str, line: std::ops::Range<usize>) -> Found {
-    if let Some(control) = source[at..].chars().next().filter(|c| c.is_control() && !matches!(c, '\n' | '\r')) {
-        let cause = format!("the control character {} stands in the text", quoted(&control.to_string()));
-        return Found::new(at, Problem::new(&field_name(source, &line), cause, "take it out"));
+    if let Some(control) = source[at..]
+        .chars()
+        .next()
+        .filter(|c| c.is_control() && !matches!(c, '\n' | '\r'))
+    {
+        let cause = format!(
+            "the control character {} stands in the text",
+            quoted(&control.to_string())
+        );
+        return Found::new(
+            at,
+            Problem::new(&field_name(source, &line), cause, "take it out"),
+        );
     }
     let text = &source[line.clone()];
-    let field = key_and_value(text).and_then(|(key, value)| Some((field_of(source, line.start, key)?, value)));
+    let field = key_and_value(text)
+        .and_then(|(key, value)| Some((field_of(source, line.start, key)?, value)));
     if let Some((field, value)) = field
         && let Some(problem) = mistaken(field, value)
     {
@@ -102,7 +129,10 @@ fn told(at: usize, error: &Error, source: &str, line: std::ops::Range<usize>) ->
         && let Some(field) = field_of(source, line.start, key.trim())
     {
         let mend = format!("write {}", check::assignment(field));
-        return Found::new(line.start + key.len(), Problem::new(field.key, "`:` stands where `=` is due", mend));
+        return Found::new(
+            line.start + key.len(),
+            Problem::new(field.key, "`:` stands where `=` is due", mend),
+        );
     }
     Found::new(at, in_general(error, &field_name(source, &line)))
 }
@@ -121,9 +151,16 @@ fn key_and_value(line: &str) -> Option<(&str, &str)> {
 }
 
 fn field_of(source: &str, line: usize, key: &str) -> Option<&'static Field> {
-    let header = source[..line].lines().rev().find_map(|line| line.trim().strip_prefix('['));
+    let header = source[..line]
+        .lines()
+        .rev()
+        .find_map(|line| line.trim().strip_prefix('['));
     let table = header.map_or("", |rest| rest.split(']').next().unwrap_or_default().trim());
-    let path = if table.is_empty() { key.to_owned() } else { format!("{table}.{key}") };
+    let path = if table.is_empty() {
+        key.to_owned()
+    } else {
+        format!("{table}.{key}")
+    };
     index_of(&path).map(|index| &FIELDS[index])
 }
 
@@ -132,10 +169,16 @@ fn mistaken(field: &Field, value: &str) -> Option<Problem> {
     let inner = value.trim_matches(['"', '\'']);
     let problem = |cause: String, mend: String| Some(Problem::new(field.key, cause, mend));
     if value.is_empty() {
-        return problem("there is no value after `=`".to_owned(), format!("write {}", check::assignment(field)));
+        return problem(
+            "there is no value after `=`".to_owned(),
+            format!("write {}", check::assignment(field)),
+        );
     }
     if field.takes_auto() && value == AUTO {
-        return problem(format!("{} is not in quotes", quoted(value)), format!("write \"{AUTO}\""));
+        return problem(
+            format!("{} is not in quotes", quoted(value)),
+            format!("write \"{AUTO}\""),
+        );
     }
     let read = match field.kind {
         Kind::Number(dimension, ..) => units::parse(inner, dimension, field.usual_unit()),
@@ -144,17 +187,27 @@ fn mistaken(field: &Field, value: &str) -> Option<Problem> {
     };
     match read {
         _ if value.contains(['"', '\'', '[', '{']) => None,
-        Err(misread) if matches!(field.kind, Kind::Count(..)) && misread.mend.contains("such as") => {
-            problem(misread.cause, format!("write a whole number, such as {}", field.example()))
+        Err(misread)
+            if matches!(field.kind, Kind::Count(..)) && misread.mend.contains("such as") =>
+        {
+            problem(
+                misread.cause,
+                format!("write a whole number, such as {}", field.example()),
+            )
         }
         Err(misread) => problem(misread.cause, misread.mend),
-        Ok(_) if field.is_flag() => {
-            problem(format!("{} is neither true nor false", quoted(value)), "write true or false".to_owned())
-        }
-        Ok(number) if field.is_bare() => {
-            problem(format!("{} is not how TOML writes a number", quoted(value)), format!("write {}", units::text(number, "")))
-        }
-        Ok(_) => problem(format!("{} is not in quotes", quoted(value)), format!("write \"{}\"", cut(value))),
+        Ok(_) if field.is_flag() => problem(
+            format!("{} is neither true nor false", quoted(value)),
+            "write true or false".to_owned(),
+        ),
+        Ok(number) if field.is_bare() => problem(
+            format!("{} is not how TOML writes a number", quoted(value)),
+            format!("write {}", units::text(number, "")),
+        ),
+        Ok(_) => problem(
+            format!("{} is not in quotes", quoted(value)),
+            format!("write \"{}\"", cut(value)),
+        ),
     }
 }
 
@@ -165,34 +218,71 @@ const MENDS: [(&str, &str); 16] = [
     ("recurse", "a case has no nested arrays"),
     ("recursion", "a case has no nested arrays"),
     ("unclosed inline table", "close it with }"),
-    ("key with no value", "write key = value, or # in front of a comment"),
+    (
+        "key with no value",
+        "write key = value, or # in front of a comment",
+    ),
     ("extra `=`", "leave a single ="),
-    ("invalid unquoted key", "a key has only letters, digits, - and _"),
-    ("string values must be quoted", "put the value between quotes"),
+    (
+        "invalid unquoted key",
+        "a key has only letters, digits, - and _",
+    ),
+    (
+        "string values must be quoted",
+        "put the value between quotes",
+    ),
     ("multi-line basic string", "close the string with \"\"\""),
     ("multi-line literal string", "close the string with '''"),
-    ("invalid basic string", "close the string with \" on its line"),
-    ("invalid literal string", "close the string with ' on its line"),
-    ("escape", "write \\\\ for a backslash, or put the text between single quotes"),
+    (
+        "invalid basic string",
+        "close the string with \" on its line",
+    ),
+    (
+        "invalid literal string",
+        "close the string with ' on its line",
+    ),
+    (
+        "escape",
+        "write \\\\ for a backslash, or put the text between single quotes",
+    ),
     ("carriage return", "end lines with LF or CR LF"),
-    ("unexpected key or value", "only a # comment may follow a value on its line"),
+    (
+        "unexpected key or value",
+        "only a # comment may follow a value on its line",
+    ),
 ];
 
 fn in_general(error: &Error, field: &str) -> Problem {
     let message = error.message();
     let cause = message.split(", expected").next().unwrap_or(message);
-    let mend = MENDS.iter().find(|(part, _)| message.contains(part)).map_or("write it as TOML has it", |(_, mend)| mend);
+    let mend = MENDS
+        .iter()
+        .find(|(part, _)| message.contains(part))
+        .map_or("write it as TOML has it", |(_, mend)| mend);
     Problem::new(field, cause, mend)
 }
 
 /// The same key or table twice.
 fn double(at: usize, error: &Error, source: &str) -> Found {
-    let name = error.span().and_then(|span| source.get(span)).unwrap_or_default();
+    let name = error
+        .span()
+        .and_then(|span| source.get(span))
+        .unwrap_or_default();
     let line = Lines::of(source).around(at);
     if source[line.clone()].trim_start().starts_with('[') {
         let cause = format!("the table {} is there twice", quoted(name));
-        return Found::new(at, Problem::new(name, cause, "put its keys under one header"));
+        return Found::new(
+            at,
+            Problem::new(name, cause, "put its keys under one header"),
+        );
     }
     let field = field_of(source, line.start, name).map_or(name, |field| field.key);
-    Found::new(at, Problem::new(field, format!("the key {} is there twice", quoted(name)), "keep one of the two"))
+    Found::new(
+        at,
+        Problem::new(
+            field,
+            format!("the key {} is there twice", quoted(name)),
+            "keep one of the two",
+        ),
+    )
 }

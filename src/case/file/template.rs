@@ -1,4 +1,5 @@
-//! The text of a case that has no file yet: every field with its help, what is left out as a comment.
+//! The text of a case that has no file yet: every field with its help, what is left out as a
+//! comment.
 
 use std::fmt::Write;
 
@@ -21,7 +22,11 @@ pub(super) struct Entry {
 impl Entry {
     /// The key from the top of the file.
     pub(super) fn key(&self) -> String {
-        if self.table.is_empty() { self.name.clone() } else { format!("{}.{}", self.table, self.name) }
+        if self.table.is_empty() {
+            self.name.clone()
+        } else {
+            format!("{}.{}", self.table, self.name)
+        }
     }
 
     /// The key within the table, without the quotes that it may need in a file.
@@ -39,16 +44,36 @@ impl Entry {
 pub(super) fn entries(case: &Case) -> Vec<Entry> {
     let fields = FIELDS.iter().enumerate().filter_map(|(index, field)| {
         let value = value(field, case.text(index)?);
-        Some(Entry { table: field.table(), name: field.name().to_owned(), value })
+        Some(Entry {
+            table: field.table(),
+            name: field.name().to_owned(),
+            value,
+        })
     });
-    let limits = case.limits.iter().filter(|limit| !limit.text.is_empty()).map(|limit| {
-        let bare = units::parse(&limit.text, Dimension::Number, "").is_ok();
-        let value = if bare { number(&limit.text) } else { string(&limit.text) };
-        Entry { table: "limits", name: limit.quantity.to_owned(), value }
-    });
+    let limits = case
+        .limits
+        .iter()
+        .filter(|limit| !limit.text.is_empty())
+        .map(|limit| {
+            let bare = units::parse(&limit.text, Dimension::Number, "").is_ok();
+            let value = if bare {
+                number(&limit.text)
+            } else {
+                string(&limit.text)
+            };
+            Entry {
+                table: "limits",
+                name: limit.quantity.to_owned(),
+                value,
+            }
+        });
     let spread = case.spread.iter().map(|spread| {
         let value = format!("{{ {} = {} }}", spread.shape.name(), string(&spread.text));
-        Entry { table: "spread", name: format!("\"{}\"", spread.field), value }
+        Entry {
+            table: "spread",
+            name: format!("\"{}\"", spread.field),
+            value,
+        }
     });
     fields.chain(limits).chain(spread).collect()
 }
@@ -64,7 +89,9 @@ pub(super) fn text(case: &Case) -> String {
             let _ = write!(text, "\n# {title}\n[{table}]\n");
         }
         for field in FIELDS.iter().filter(|field| field.table() == table) {
-            let written = entries.iter().find(|entry| entry.table == table && entry.name == field.name());
+            let written = entries
+                .iter()
+                .find(|entry| entry.table == table && entry.name == field.name());
             text.push_str(&described(field, written));
         }
     }
@@ -75,14 +102,27 @@ pub(super) fn text(case: &Case) -> String {
         "impact_force = \"2500 N\"",
     ));
     let example = "\"deviations.base_pitch\" = { normal = \"4 um\" }";
-    text.push_str(&rest(&entries, "spread", "Distribution of any field around its value, for tolerances.", example));
+    text.push_str(&rest(
+        &entries,
+        "spread",
+        "Distribution of any field around its value, for tolerances.",
+        example,
+    ));
     text
 }
 
 fn described(field: &Field, written: Option<&Entry>) -> String {
-    let symbol = if field.symbol.is_empty() { String::new() } else { format!("{}: ", field.symbol) };
+    let symbol = if field.symbol.is_empty() {
+        String::new()
+    } else {
+        format!("{}: ", field.symbol)
+    };
     let range = field.range_text();
-    let range = if range.is_empty() { range } else { format!(" [{range}]") };
+    let range = if range.is_empty() {
+        range
+    } else {
+        format!(" [{range}]")
+    };
     let absent = match field.absent {
         Absent::Without(words) => format!(" Left out: {words}."),
         _ => String::new(),
@@ -93,8 +133,16 @@ fn described(field: &Field, written: Option<&Entry>) -> String {
 
 fn rest(entries: &[Entry], table: &str, help: &str, example: &str) -> String {
     let mut text = format!("\n# {help}\n[{table}]\n");
-    let lines: Vec<String> = entries.iter().filter(|entry| entry.table == table).map(Entry::line).collect();
-    let lines = if lines.is_empty() { format!("# {example}") } else { lines.join("\n") };
+    let lines: Vec<String> = entries
+        .iter()
+        .filter(|entry| entry.table == table)
+        .map(Entry::line)
+        .collect();
+    let lines = if lines.is_empty() {
+        format!("# {example}")
+    } else {
+        lines.join("\n")
+    };
     let _ = writeln!(text, "{lines}");
     text
 }
@@ -124,16 +172,31 @@ fn number(text: &str) -> String {
 
 fn is_toml_number(text: &str) -> bool {
     let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
-    let (mantissa, exponent) = unsigned.split_once(['e', 'E']).map_or((unsigned, None), |(a, b)| (a, Some(b)));
-    let (whole, fraction) = mantissa.split_once('.').map_or((mantissa, None), |(a, b)| (a, Some(b)));
+    let (mantissa, exponent) = unsigned
+        .split_once(['e', 'E'])
+        .map_or((unsigned, None), |(a, b)| (a, Some(b)));
+    let (whole, fraction) = mantissa
+        .split_once('.')
+        .map_or((mantissa, None), |(a, b)| (a, Some(b)));
     let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     let exponent = exponent.map(|text| text.strip_prefix(['+', '-']).unwrap_or(text));
-    digits(whole) && (whole == "0" || !whole.starts_with('0')) && fraction.is_none_or(digits) && exponent.is_none_or(digits)
+    digits(whole)
+        && (whole == "0" || !whole.starts_with('0'))
+        && fraction.is_none_or(digits)
+        && exponent.is_none_or(digits)
 }
 
 /// A TOML string on one line: a line end inside it would be taken for one of the file's.
 fn string(text: &str) -> String {
     let quoted = toml_edit::Value::from(text).to_string();
-    let on_one_line = || serde_json::Value::from(text).to_string().replace('\u{7f}', "\\u007f");
-    if quoted.contains(['\n', '\r']) { on_one_line() } else { quoted }
+    let on_one_line = || {
+        serde_json::Value::from(text)
+            .to_string()
+            .replace('\u{7f}', "\\u007f")
+    };
+    if quoted.contains(['\n', '\r']) {
+        on_one_line()
+    } else {
+        quoted
+    }
 }

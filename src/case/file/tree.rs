@@ -1,4 +1,5 @@
-//! From TOML to a case: every key is looked up in the table of fields and keeps its place in the text.
+//! From TOML to a case: every key is looked up in the table of fields and keeps its place in the
+//! text.
 
 use std::ops::Range;
 
@@ -8,9 +9,9 @@ use super::fault::{FaultKind, Found};
 use super::value::{bare_number, flag, kind_of, measure, misplaced, scalar, untaken, words};
 use super::{FORMAT, syntax};
 use crate::case::fields::{AUTO, FIELDS, GROUPS, Kind, index_of};
+use crate::case::sanitize::quoted;
 use crate::case::spread;
-use crate::case::units::Misread;
-use crate::case::visible::quoted;
+use crate::case::units::ParseError;
 use crate::case::{Case, Limit, Problem, Spread, check, suggest};
 use crate::model::Quantity;
 
@@ -44,13 +45,22 @@ impl Places {
     }
 
     pub(super) fn table(&self, name: &str) -> Option<&Range<usize>> {
-        self.tables.iter().find(|(table, _)| table == name).map(|(_, span)| span)
+        self.tables
+            .iter()
+            .find(|(table, _)| table == name)
+            .map(|(_, span)| span)
     }
 
     /// Where to point for a key: its value, its table, the end.
     pub(super) fn offset(&self, key: &str) -> usize {
-        let table = || self.table(key.split('.').next().unwrap_or_default()).map(|span| span.start);
-        self.entry(key).map(|place| place.value.start).or_else(table).unwrap_or(self.end)
+        let table = || {
+            self.table(key.split('.').next().unwrap_or_default())
+                .map(|span| span.start)
+        };
+        self.entry(key)
+            .map(|place| place.value.start)
+            .or_else(table)
+            .unwrap_or(self.end)
     }
 }
 
@@ -61,7 +71,8 @@ pub(super) struct Reading {
     pub(super) faults: Vec<Found>,
 }
 
-/// Read what is understood of a text of a newer format. What is wrong with it is for a newer version to say.
+/// Read what is understood of a text of a newer format. What is wrong with it is for a newer
+/// version to say.
 pub(super) fn read_newer(text: &str) -> Reading {
     let mut reader = Reader::of(text);
     let recovered = syntax::recover(text);
@@ -69,7 +80,11 @@ pub(super) fn read_newer(text: &str) -> Reading {
     if recovered.tables_known {
         reader.tables(tree.get_ref());
     }
-    Reading { case: reader.case, places: reader.places, faults: Vec::new() }
+    Reading {
+        case: reader.case,
+        places: reader.places,
+        faults: Vec::new(),
+    }
 }
 
 /// Read a text, past errors of syntax as far as the rest of it can be understood.
@@ -79,14 +94,26 @@ pub(super) fn read(text: &str) -> Reading {
     let (tree, _) = DeTable::parse_recoverable(&recovered.text);
     if recovered.tables_known {
         reader.root(tree.get_ref());
-        if reader.faults.iter().all(|found| found.kind != FaultKind::NewerFormat) {
+        if reader
+            .faults
+            .iter()
+            .all(|found| found.kind != FaultKind::NewerFormat)
+        {
             reader.fields_together(&recovered.broken);
         }
     }
-    if !reader.faults.iter().any(|found| found.kind == FaultKind::NewerFormat) {
+    if !reader
+        .faults
+        .iter()
+        .any(|found| found.kind == FaultKind::NewerFormat)
+    {
         reader.faults.extend(recovered.faults);
     }
-    Reading { case: reader.case, places: reader.places, faults: reader.faults }
+    Reading {
+        case: reader.case,
+        places: reader.places,
+        faults: reader.faults,
+    }
 }
 
 struct Reader {
@@ -99,8 +126,16 @@ struct Reader {
 
 impl Reader {
     fn of(text: &str) -> Reader {
-        let places = Places { end: text.len(), ..Places::default() };
-        Reader { case: Case::empty(), places, faults: Vec::new(), wrong: Vec::new() }
+        let places = Places {
+            end: text.len(),
+            ..Places::default()
+        };
+        Reader {
+            case: Case::empty(),
+            places,
+            faults: Vec::new(),
+            wrong: Vec::new(),
+        }
     }
 
     fn root(&mut self, root: &DeTable<'_>) {
@@ -128,20 +163,43 @@ impl Reader {
     /// A newer format is the only fault that is told of such a file.
     fn format(&mut self, root: &DeTable<'_>) -> FaultKind {
         let Some(value) = root.get("format") else {
-            self.fault(0, Problem::new("format", "the format is missing", format!("begin the file with format = {FORMAT}")));
+            self.fault(
+                0,
+                Problem::new(
+                    "format",
+                    "the format is missing",
+                    format!("begin the file with format = {FORMAT}"),
+                ),
+            );
             return FaultKind::Bad;
         };
         let at = value.span().start;
-        let written = value.get_ref().as_integer().and_then(|number| u64::from_str_radix(number.as_str(), number.radix()).ok());
+        let written = value
+            .get_ref()
+            .as_integer()
+            .and_then(|number| u64::from_str_radix(number.as_str(), number.radix()).ok());
         match written {
             Some(number) if number == u64::from(FORMAT) => {}
             Some(number) if number > u64::from(FORMAT) => {
-                let cause = format!("format {number} is newer than this version, which knows format {FORMAT}");
+                let cause = format!(
+                    "format {number} is newer than this version, which knows format {FORMAT}"
+                );
                 let problem = Problem::new("format", cause, "open it with a newer tipstrike");
-                self.faults.push(Found { at, problem, kind: FaultKind::NewerFormat });
+                self.faults.push(Found {
+                    at,
+                    problem,
+                    kind: FaultKind::NewerFormat,
+                });
                 return FaultKind::NewerFormat;
             }
-            _ => self.fault(at, Problem::new("format", "this is no known format", format!("write format = {FORMAT}"))),
+            _ => self.fault(
+                at,
+                Problem::new(
+                    "format",
+                    "this is no known format",
+                    format!("write format = {FORMAT}"),
+                ),
+            ),
         }
         FaultKind::Bad
     }
@@ -149,8 +207,18 @@ impl Reader {
     fn table(&mut self, key: Key<'_, '_>, value: Value<'_, '_>) {
         let name = key.get_ref().as_ref();
         let Some(table) = value.get_ref().as_table() else {
-            let cause = format!("{} stands where the table [{name}] is due", kind_of(value.get_ref()));
-            self.fault(value.span().start, Problem::new(name, cause, format!("write [{name}] on a line of its own, once")));
+            let cause = format!(
+                "{} stands where the table [{name}] is due",
+                kind_of(value.get_ref())
+            );
+            self.fault(
+                value.span().start,
+                Problem::new(
+                    name,
+                    cause,
+                    format!("write [{name}] on a line of its own, once"),
+                ),
+            );
             let belongs = |field: &usize| FIELDS[*field].table() == name;
             self.wrong.extend((0..FIELDS.len()).filter(belongs));
             return;
@@ -179,25 +247,38 @@ impl Reader {
         let written = match known.kind {
             Kind::Choice(..) if known.is_flag() => flag(value.get_ref()),
             Kind::Text | Kind::Choice(..) => words(value.get_ref()),
-            Kind::Count(..) if known.takes_auto() && value.get_ref().as_str() == Some(AUTO) => Ok(AUTO.to_owned()),
-            Kind::Number(..) | Kind::Count(..) if known.is_bare() => bare_number(value.get_ref(), &check::assignment(known)),
+            Kind::Count(..) if known.takes_auto() && value.get_ref().as_str() == Some(AUTO) => {
+                Ok(AUTO.to_owned())
+            }
+            Kind::Number(..) | Kind::Count(..) if known.is_bare() => {
+                bare_number(value.get_ref(), &check::assignment(known))
+            }
             Kind::Number(..) | Kind::Count(..) => measure(value.get_ref()),
         };
         let empty = |text: &String| text.is_empty() && !matches!(known.kind, Kind::Text);
         match written {
             Ok(text) if empty(&text) => {
-                self.wrongly(field, value, Misread::new("there is no value", format!("write {}", check::assignment(known))));
+                self.wrongly(
+                    field,
+                    value,
+                    ParseError::new(
+                        "there is no value",
+                        format!("write {}", check::assignment(known)),
+                    ),
+                );
             }
             Ok(text) => self.case.write(field, &text),
             Err(misread) => self.wrongly(
                 field,
                 value,
-                misread.unwrap_or_else(|| untaken(value.get_ref(), known.kind, &check::assignment(known))),
+                misread.unwrap_or_else(|| {
+                    untaken(value.get_ref(), known.kind, &check::assignment(known))
+                }),
             ),
         }
     }
 
-    fn wrongly(&mut self, field: usize, value: Value<'_, '_>, misread: Misread) {
+    fn wrongly(&mut self, field: usize, value: Value<'_, '_>, misread: ParseError) {
         self.wrong.push(field);
         self.fault(value.span().start, Problem::of(FIELDS[field].key, misread));
     }
@@ -208,13 +289,21 @@ impl Reader {
         self.note(&place, value);
         let known = Quantity::find(name);
         let bare = known.is_some_and(|quantity| quantity.unit == "1");
-        let example = format!("{name} = {}", known.map_or_else(String::new, limit_by_example));
-        let written = if bare { bare_number(value.get_ref(), &example) } else { measure(value.get_ref()) };
+        let example = format!(
+            "{name} = {}",
+            known.map_or_else(String::new, limit_by_example)
+        );
+        let written = if bare {
+            bare_number(value.get_ref(), &example)
+        } else {
+            measure(value.get_ref())
+        };
         let taken = match written {
             _ if known.is_none() => Limit::new(name, ""),
             Ok(text) => Limit::new(name, &text),
             Err(misread) => {
-                let misread = misread.unwrap_or_else(|| misplaced(value.get_ref(), "a value", &example));
+                let misread =
+                    misread.unwrap_or_else(|| misplaced(value.get_ref(), "a value", &example));
                 Err(Problem::of(&place, misread))
             }
         };
@@ -228,7 +317,11 @@ impl Reader {
     /// A field's spread, under its dotted key in quotes or, just as well, without.
     fn spread(&mut self, above: &str, key: Key<'_, '_>, value: Value<'_, '_>) {
         let name = key.get_ref().as_ref();
-        let path = if above.is_empty() { name.to_owned() } else { format!("{above}.{name}") };
+        let path = if above.is_empty() {
+            name.to_owned()
+        } else {
+            format!("{above}.{name}")
+        };
         let place = spread::place(&path);
         let table = value.get_ref().as_table();
         if let (Some(table), true) = (table, GROUPS.iter().any(|(group, _)| *group == path)) {
@@ -237,12 +330,22 @@ impl Reader {
         }
         self.note(&place, value);
         if index_of(&path).is_none() {
-            return self.fault(key.span().start, Problem { field: place, ..check::unknown_key(&path) });
+            return self.fault(
+                key.span().start,
+                Problem {
+                    field: place,
+                    ..check::unknown_key(&path)
+                },
+            );
         }
         let only = table.and_then(|table| table.iter().next().filter(|_| table.len() == 1));
         let taken = match only.map(|(shape, width)| (shape.get_ref(), scalar(width.get_ref()))) {
             Some((shape, Some(width))) => Spread::new(&path, shape, &width),
-            _ => Err(Problem::new(&place, "this is no distribution", "write { normal = \"4 um\" } or { uniform = \"4 um\" }")),
+            _ => Err(Problem::new(
+                &place,
+                "this is no distribution",
+                "write { normal = \"4 um\" } or { uniform = \"4 um\" }",
+            )),
         };
         match taken {
             Ok(spread) => self.case.spread.push(spread),
@@ -250,9 +353,12 @@ impl Reader {
         }
     }
 
-    /// Hold the fields against the table of fields and against each other. What stands on a broken line is not missing.
+    /// Hold the fields against the table of fields and against each other. What stands on a broken
+    /// line is not missing.
     fn fields_together(&mut self, broken: &str) {
-        let on_broken_line = |field: &usize| self.case.text(*field).is_none() && syntax::names(broken, FIELDS[*field].name());
+        let on_broken_line = |field: &usize| {
+            self.case.text(*field).is_none() && syntax::names(broken, FIELDS[*field].name())
+        };
         let lost: Vec<usize> = (0..FIELDS.len()).filter(on_broken_line).collect();
         self.wrong.extend(lost);
         let (_, problems) = check::read(&self.case, &self.wrong);
@@ -262,7 +368,10 @@ impl Reader {
     }
 
     fn note(&mut self, path: &str, value: Value<'_, '_>) {
-        self.places.entries.push(Place { key: path.to_owned(), value: value.span() });
+        self.places.entries.push(Place {
+            key: path.to_owned(),
+            value: value.span(),
+        });
     }
 
     fn fault(&mut self, at: usize, problem: Problem) {
@@ -278,7 +387,10 @@ fn in_order<'k, 'i>(table: &'k DeTable<'i>) -> impl Iterator<Item = (Key<'k, 'i>
 }
 
 fn is_table(name: &str) -> bool {
-    matches!(name, "limits" | "spread") || GROUPS.iter().any(|(group, _)| *group == name && !name.is_empty())
+    matches!(name, "limits" | "spread")
+        || GROUPS
+            .iter()
+            .any(|(group, _)| *group == name && !name.is_empty())
 }
 
 /// How a limit of the quantity is written.
@@ -292,12 +404,18 @@ fn limit_by_example(quantity: &Quantity) -> String {
 }
 
 /// What others call the two gears.
-const GEARS: [&str; 8] = ["pinion", "wheel", "gear", "gears", "gear1", "gear2", "gear_1", "gear_2"];
+const GEARS: [&str; 8] = [
+    "pinion", "wheel", "gear", "gears", "gear1", "gear2", "gear_1", "gear_2",
+];
 
 fn unknown_at_top(name: &str) -> Problem {
     if GEARS.contains(&name.to_lowercase().as_str()) {
         let cause = format!("unknown key or table {}", quoted(name));
-        return Problem::new(name, cause, "the gears are [driver] and [driven], whichever is the smaller");
+        return Problem::new(
+            name,
+            cause,
+            "the gears are [driver] and [driven], whichever is the smaller",
+        );
     }
 
     let known = GROUPS
@@ -305,17 +423,39 @@ fn unknown_at_top(name: &str) -> Problem {
         .map(|(table, _)| *table)
         .filter(|table| !table.is_empty())
         .chain(["limits", "spread", "format", "title", "notes"]);
-    let elsewhere = || FIELDS.iter().find(|field| field.name() == name).map(|field| format!("put it under [{}]", field.table()));
-    let mend = elsewhere().unwrap_or_else(|| suggest::mend(name, known, || "take it out".to_owned()));
+    let elsewhere = || {
+        FIELDS
+            .iter()
+            .find(|field| field.name() == name)
+            .map(|field| format!("put it under [{}]", field.table()))
+    };
+    let mend =
+        elsewhere().unwrap_or_else(|| suggest::mend(name, known, || "take it out".to_owned()));
     Problem::new(name, format!("unknown key or table {}", quoted(name)), mend)
 }
 
 fn unknown_in_table(table: &str, name: &str) -> Problem {
-    let here = FIELDS.iter().filter(|field| field.table() == table).map(super::super::fields::Field::name);
-    let elsewhere =
-        || FIELDS.iter().find(|field| field.name() == name).map(|field| format!("it belongs under [{}]", field.table()));
+    let here = FIELDS
+        .iter()
+        .filter(|field| field.table() == table)
+        .map(super::super::fields::Field::name);
+    let elsewhere = || {
+        FIELDS
+            .iter()
+            .find(|field| field.name() == name)
+            .map(|field| format!("it belongs under [{}]", field.table()))
+    };
     let mend = elsewhere().unwrap_or_else(|| {
-        suggest::mend(name, here.clone(), || format!("[{table}] has {}", here.clone().collect::<Vec<_>>().join(", ")))
+        suggest::mend(name, here.clone(), || {
+            format!(
+                "[{table}] has {}",
+                here.clone().collect::<Vec<_>>().join(", ")
+            )
+        })
     });
-    Problem::new(&format!("{table}.{name}"), format!("unknown key {}", quoted(name)), mend)
+    Problem::new(
+        &format!("{table}.{name}"),
+        format!("unknown key {}", quoted(name)),
+        mend,
+    )
 }

@@ -3,39 +3,49 @@
 use toml::de::DeValue;
 
 use crate::case::fields::Kind;
-use crate::case::units::Misread;
-use crate::case::visible::quoted;
+use crate::case::sanitize::quoted;
+use crate::case::units::ParseError;
 
 /// The text of words; `None` for the cause where the value is of another kind.
-pub(super) fn words(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
+pub(super) fn words(value: &DeValue<'_>) -> Result<String, Option<ParseError>> {
     value.as_str().map(str::to_owned).ok_or(None)
 }
 
 /// The text of a truth value.
-pub(super) fn flag(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
+pub(super) fn flag(value: &DeValue<'_>) -> Result<String, Option<ParseError>> {
     match value {
         DeValue::Boolean(value) => Ok(value.to_string()),
-        _ => Err(Some(Misread::new(
+        _ => Err(Some(ParseError::new(
             format!("{} stands where true or false is due", kind_of(value)),
             "write true or false without quotes",
         ))),
     }
 }
 
-/// The text of a value with its unit; a number's digits too, since the reader of units says what they lack.
-pub(super) fn measure(value: &DeValue<'_>) -> Result<String, Option<Misread>> {
+/// The text of a value with its unit; a number's digits too, since the reader of units says what
+/// they lack.
+pub(super) fn measure(value: &DeValue<'_>) -> Result<String, Option<ParseError>> {
     scalar(value).ok_or(None)
 }
 
 /// The text of a number without quotes; `example` shows how one is written.
-pub(super) fn bare_number(value: &DeValue<'_>, example: &str) -> Result<String, Option<Misread>> {
+pub(super) fn bare_number(
+    value: &DeValue<'_>,
+    example: &str,
+) -> Result<String, Option<ParseError>> {
     match value.as_str() {
         Some(text) => {
-            let cause = format!("{} stands in quotes where a bare number is due", quoted(text));
+            let cause = format!(
+                "{} stands in quotes where a bare number is due",
+                quoted(text)
+            );
             let is_number = text.trim().parse::<f64>().is_ok();
-            let mend =
-                if is_number { "write the number without quotes".to_owned() } else { format!("write {example}, without quotes") };
-            Err(Some(Misread::new(cause, mend)))
+            let mend = if is_number {
+                "write the number without quotes".to_owned()
+            } else {
+                format!("write {example}, without quotes")
+            };
+            Err(Some(ParseError::new(cause, mend)))
         }
         None => scalar(value).ok_or(None),
     }
@@ -46,13 +56,15 @@ pub(super) fn scalar(value: &DeValue<'_>) -> Option<String> {
     match value {
         DeValue::String(text) => Some(text.to_string()),
         DeValue::Integer(number) if number.radix() == 10 => Some(number.as_str().to_owned()),
-        DeValue::Integer(number) => i128::from_str_radix(number.as_str(), number.radix()).ok().map(|number| number.to_string()),
+        DeValue::Integer(number) => i128::from_str_radix(number.as_str(), number.radix())
+            .ok()
+            .map(|number| number.to_string()),
         DeValue::Float(number) => Some(number.as_str().to_owned()),
         _ => None,
     }
 }
 
-pub(super) fn untaken(value: &DeValue<'_>, kind: Kind, example: &str) -> Misread {
+pub(super) fn untaken(value: &DeValue<'_>, kind: Kind, example: &str) -> ParseError {
     let due = match kind {
         Kind::Text | Kind::Choice(..) => "a text in quotes",
         Kind::Number(..) | Kind::Count(..) => "a value",
@@ -60,8 +72,11 @@ pub(super) fn untaken(value: &DeValue<'_>, kind: Kind, example: &str) -> Misread
     misplaced(value, due, example)
 }
 
-pub(super) fn misplaced(value: &DeValue<'_>, due: &str, example: &str) -> Misread {
-    Misread::new(format!("{} stands where {due} is due", kind_of(value)), format!("write {example}"))
+pub(super) fn misplaced(value: &DeValue<'_>, due: &str, example: &str) -> ParseError {
+    ParseError::new(
+        format!("{} stands where {due} is due", kind_of(value)),
+        format!("write {example}"),
+    )
 }
 
 pub(super) fn kind_of(value: &DeValue<'_>) -> &'static str {
@@ -74,5 +89,8 @@ pub(super) fn kind_of(value: &DeValue<'_>) -> &'static str {
         ("array", "an array"),
         ("table", "a table"),
     ];
-    KINDS.iter().find(|(kind, _)| *kind == value.type_str()).map_or("something else", |(_, words)| words)
+    KINDS
+        .iter()
+        .find(|(kind, _)| *kind == value.type_str())
+        .map_or("something else", |(_, words)| words)
 }

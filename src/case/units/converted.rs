@@ -3,7 +3,8 @@
 use super::{Dimension, System, find, number, parse, text, units_of};
 use crate::numeric::decimal::significant;
 
-/// The least digits of a hint: as many as results have, so that "20 hp" is told as 14.914 kW and not as 15.
+/// The least digits of a hint: as many as results have, so that "20 hp" is told as 14.914 kW and
+/// not as 15.
 const LEAST_DIGITS: usize = 5;
 
 /// The most digits that a double carries.
@@ -12,19 +13,29 @@ const MOST_DIGITS: usize = 15;
 /// Units that are no decimal multiple of SI and no inch unit: beside them the SI value is told too.
 const BESIDE: [(&str, &str); 2] = [("rpm", "rad/s"), ("deg", "rad")];
 
-/// What a typed value is in the field's usual unit, such as `= 14.914 kW` for "20 hp" where kW is usual, and in SI where the
-/// usual unit is rpm or deg: `= 209.44 rad/s`. `None` where there is nothing to add, or the text is no value.
+/// What a typed value is in the field's usual unit, such as `= 14.914 kW` for "20 hp" where kW is
+/// usual, and in SI where the usual unit is rpm or deg: `= 209.44 rad/s`. `None` where there is
+/// nothing to add, or the text is no value.
 ///
-/// Digits: one more than were typed, but at least five and at most fifteen; rounded to the nearest, and zeros at the end
-/// left out. A number typed is meant exactly, so that a nominal "20 hp" is told to the digits of a result.
+/// Digits: one more than were typed, but at least five and at most fifteen; rounded to the nearest,
+/// and zeros at the end left out. A number typed is meant exactly, so that a nominal "20 hp" is
+/// told to the digits of a result.
 #[must_use]
-pub fn converted(typed: &str, dimension: Dimension, usual: &'static str, system: System) -> Option<String> {
+pub fn converted(
+    typed: &str,
+    dimension: Dimension,
+    usual: &'static str,
+    system: System,
+) -> Option<String> {
     let value = parse(typed, dimension, usual).ok()?;
     let (digits, unit) = number::split(typed.trim(), usual).ok()?;
     let digits = (typed_digits(digits) + 1).clamp(LEAST_DIGITS, MOST_DIGITS);
     let written = find(unit, units_of(dimension))?.symbol;
     let usual = system.unit(usual);
-    let beside = BESIDE.iter().find(|(unit, _)| *unit == usual).map(|(_, si)| *si);
+    let beside = BESIDE
+        .iter()
+        .find(|(unit, _)| *unit == usual)
+        .map(|(_, si)| *si);
     let told: Vec<String> = std::iter::once(usual)
         .chain(beside)
         .filter(|unit| *unit != written)
@@ -45,8 +56,14 @@ fn rounded(value: f64, unit: &str, digits: usize) -> String {
     let exact = text(value, unit);
     let number = exact.split(' ').next().unwrap_or_default();
     let short = significant(number.parse().unwrap_or(f64::NAN), digits);
-    let (mantissa, exponent) = short.find('e').map_or((short.as_str(), ""), |at| short.split_at(at));
-    let plain = if mantissa.contains('.') { mantissa.trim_end_matches('0').trim_end_matches('.') } else { mantissa };
+    let (mantissa, exponent) = short
+        .find('e')
+        .map_or((short.as_str(), ""), |at| short.split_at(at));
+    let plain = if mantissa.contains('.') {
+        mantissa.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        mantissa
+    };
     format!("{plain}{exponent}")
 }
 
@@ -72,7 +89,10 @@ mod tests {
         assert_eq!(length("-0.5 thou").as_deref(), Some("= -0.0127 mm"));
         assert_eq!(length("5000 µm").as_deref(), Some("= 5 mm"));
         assert_eq!(length("1e-9 um").as_deref(), Some("= 1e-12 mm"));
-        assert_eq!(metric("30000 ksi", Dimension::Pressure, "GPa").as_deref(), Some("= 206.843 GPa"));
+        assert_eq!(
+            metric("30000 ksi", Dimension::Pressure, "GPa").as_deref(),
+            Some("= 206.843 GPa")
+        );
     }
 
     #[test]
@@ -80,18 +100,33 @@ mod tests {
         let speed = |typed| metric(typed, Dimension::AngularVelocity, "rpm");
         assert_eq!(speed("2000 rpm").as_deref(), Some("= 209.44 rad/s"));
         assert_eq!(speed("2000 1/min").as_deref(), Some("= 209.44 rad/s"));
-        assert_eq!(speed("10 rev/s").as_deref(), Some("= 600 rpm = 62.832 rad/s"));
+        assert_eq!(
+            speed("10 rev/s").as_deref(),
+            Some("= 600 rpm = 62.832 rad/s")
+        );
         assert_eq!(speed("100 rad/s").as_deref(), Some("= 954.93 rpm"));
-        assert_eq!(metric("20 deg", Dimension::Angle, "deg").as_deref(), Some("= 0.34907 rad"));
+        assert_eq!(
+            metric("20 deg", Dimension::Angle, "deg").as_deref(),
+            Some("= 0.34907 rad")
+        );
     }
 
     #[test]
     fn in_inch_units_the_inch_unit_is_the_usual_one() {
         let inch = |typed, dimension, usual| converted(typed, dimension, usual, System::Inch);
-        assert_eq!(inch("5 mm", Dimension::Length, "mm").as_deref(), Some("= 0.19685 in"));
+        assert_eq!(
+            inch("5 mm", Dimension::Length, "mm").as_deref(),
+            Some("= 0.19685 in")
+        );
         assert_eq!(inch("0.2 in", Dimension::Length, "mm"), None);
-        assert_eq!(inch("16 um", Dimension::Length, "um").as_deref(), Some("= 0.62992 thou"));
-        assert_eq!(inch("2000 rpm", Dimension::AngularVelocity, "rpm").as_deref(), Some("= 209.44 rad/s"));
+        assert_eq!(
+            inch("16 um", Dimension::Length, "um").as_deref(),
+            Some("= 0.62992 thou")
+        );
+        assert_eq!(
+            inch("2000 rpm", Dimension::AngularVelocity, "rpm").as_deref(),
+            Some("= 209.44 rad/s")
+        );
     }
 
     #[test]

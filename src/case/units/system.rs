@@ -13,8 +13,8 @@ pub enum System {
     Inch,
 }
 
-/// Each metric unit in which something is shown, and the inch unit that stands for it. A unit that is not here, such as
-/// deg, rpm or us, serves both.
+/// Each metric unit in which something is shown, and the inch unit that stands for it. A unit that
+/// is not here, such as deg, rpm or us, serves both.
 const PAIRS: [(&str, &str); 18] = [
     ("m", "ft"),
     ("mm", "in"),
@@ -67,7 +67,12 @@ impl System {
     /// The unit of this system that stands for a metric one.
     #[must_use]
     pub fn unit(self, metric: &'static str) -> &'static str {
-        let inch = || PAIRS.iter().find(|(from, _)| *from == metric).map_or(metric, |(_, to)| to);
+        let inch = || {
+            PAIRS
+                .iter()
+                .find(|(from, _)| *from == metric)
+                .map_or(metric, |(_, to)| to)
+        };
         if self == System::Inch { inch() } else { metric }
     }
 }
@@ -89,19 +94,22 @@ const NEXT: [(&str, &str); 13] = [
     ("psi", "ksi"),
 ];
 
-/// The unit in which this system shows a value in SI: the one that stands for the metric one, or a greater one where its
-/// number would have more places than these digits.
+/// The unit in which this system shows a value in SI: the one that stands for the metric one, or a
+/// greater one where its number would have more places than these digits.
 #[must_use]
 pub fn unit_for(value: f64, metric: &'static str, digits: usize, system: System) -> &'static str {
     let mut unit = system.unit(metric);
     while has_more_places(value, unit, digits) {
-        let Some((_, next)) = NEXT.iter().find(|(from, _)| *from == unit) else { break };
+        let Some((_, next)) = NEXT.iter().find(|(from, _)| *from == unit) else {
+            break;
+        };
         unit = next;
     }
     unit
 }
 
-/// A value in SI counted in a unit, with that many significant digits and no more, in an exponent's place if need be.
+/// A value in SI counted in a unit, with that many significant digits and no more, in an exponent's
+/// place if need be.
 #[must_use]
 pub fn counted(value: f64, unit: &str, digits: usize) -> String {
     let number = value / factor(unit).unwrap_or(1.0);
@@ -119,9 +127,15 @@ fn has_more_places(value: f64, unit: &str, digits: usize) -> bool {
     number.is_finite() && number.round() >= end
 }
 
-/// A value in SI as this system shows it: the number with that many significant digits, and its unit, empty for a number.
+/// A value in SI as this system shows it: the number with that many significant digits, and its
+/// unit, empty for a number.
 #[must_use]
-pub fn shown(value: f64, metric: &'static str, digits: usize, system: System) -> (String, &'static str) {
+pub fn shown(
+    value: f64,
+    metric: &'static str,
+    digits: usize,
+    system: System,
+) -> (String, &'static str) {
     let unit = unit_for(value, metric, digits, system);
     (counted(value, unit, digits), named(unit))
 }
@@ -156,7 +170,10 @@ mod tests {
             ("in2/lbf", 0.00064516 / 4.4482216152605),
         ] {
             let worth = factor(unit).unwrap_or(f64::NAN);
-            assert!((worth / si - 1.0).abs() < 4e-16, "{unit}: {worth:e} for {si:e}");
+            assert!(
+                (worth / si - 1.0).abs() < 4e-16,
+                "{unit}: {worth:e} for {si:e}"
+            );
         }
     }
 
@@ -164,7 +181,11 @@ mod tests {
     fn both_units_of_a_pair_are_of_one_dimension() {
         for (metric, inch) in PAIRS {
             let (metric, inch) = (Dimension::of_unit(metric).unwrap(), inch);
-            assert!(parse(&format!("1 {inch}"), metric, "").is_ok(), "{inch} is no unit of {}", metric.name());
+            assert!(
+                parse(&format!("1 {inch}"), metric, "").is_ok(),
+                "{inch} is no unit of {}",
+                metric.name()
+            );
         }
     }
 
@@ -182,7 +203,10 @@ mod tests {
         assert_eq!(told(15e3, "kW", 5), "20.115 hp");
         assert_eq!(told(71.6197, "N m", 5), "52.824 lbf ft");
         assert_eq!(told(7800.0, "kg/m3", 5), "0.28179 lb/in3");
-        assert_eq!(told(2000.0 * factor("rpm").unwrap(), "rpm", 5), "2000.0 rpm");
+        assert_eq!(
+            told(2000.0 * factor("rpm").unwrap(), "rpm", 5),
+            "2000.0 rpm"
+        );
         assert_eq!(told(1.5568, "1", 5), "1.5568");
         assert_eq!(told(133.9e-6, "us", 4), "133.9 us");
     }
@@ -206,8 +230,14 @@ mod tests {
 
     #[test]
     fn metric_stays_as_it_is() {
-        assert_eq!(shown(47.327e-6, "um", 5, System::Metric), ("47.327".to_owned(), "um"));
-        assert_eq!(System::find("inch").map(System::other), Some(System::Metric));
+        assert_eq!(
+            shown(47.327e-6, "um", 5, System::Metric),
+            ("47.327".to_owned(), "um")
+        );
+        assert_eq!(
+            System::find("inch").map(System::other),
+            Some(System::Metric)
+        );
     }
 
     proptest! {

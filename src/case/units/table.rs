@@ -35,29 +35,53 @@ pub(super) struct Family {
 }
 
 const fn ten(symbol: &'static str, aliases: &'static [&'static str], exponent: i32) -> Unit {
-    Unit { symbol, aliases, scale: Scale::Ten(exponent) }
+    Unit {
+        symbol,
+        aliases,
+        scale: Scale::Ten(exponent),
+    }
 }
 
-const fn times(symbol: &'static str, aliases: &'static [&'static str], factor: f64, rest: f64) -> Unit {
-    Unit { symbol, aliases, scale: Scale::Times(factor, rest) }
+const fn times(
+    symbol: &'static str,
+    aliases: &'static [&'static str],
+    factor: f64,
+    rest: f64,
+) -> Unit {
+    Unit {
+        symbol,
+        aliases,
+        scale: Scale::Times(factor, rest),
+    }
 }
 
 const fn family(dimension: Dimension, name: &'static str, units: &'static [Unit]) -> Family {
-    Family { dimension, name, units }
+    Family {
+        dimension,
+        name,
+        units,
+    }
 }
 
 /// The units of a dimension; none for a bare number.
 pub(super) fn units_of(dimension: Dimension) -> &'static [Unit] {
-    FAMILIES.iter().find(|family| family.dimension == dimension).map_or(&[], |family| family.units)
+    FAMILIES
+        .iter()
+        .find(|family| family.dimension == dimension)
+        .map_or(&[], |family| family.units)
 }
 
 /// What a person calls a value of the dimension.
 pub(super) fn name_of(dimension: Dimension) -> &'static str {
-    FAMILIES.iter().find(|family| family.dimension == dimension).map_or("a number", |family| family.name)
+    FAMILIES
+        .iter()
+        .find(|family| family.dimension == dimension)
+        .map_or("a number", |family| family.name)
 }
 
-// Exact by definition: in = 25.4 mm, lb = 0.45359237 kg, standard gravity 9.80665 m/s2, hp = 550 ft lbf/s,
-// PS = 75 kgf m/s. Both parts of each factor come from rational arithmetic, with pi to 80 digits.
+// Exact by definition: in = 25.4 mm, lb = 0.45359237 kg, standard gravity 9.80665 m/s2, hp = 550 ft
+// lbf/s, PS = 75 kgf m/s. Both parts of each factor come from rational arithmetic, with pi to 80
+// digits.
 /// Every dimension but the bare number.
 #[rustfmt::skip]
 pub(super) static FAMILIES: [Family; 14] = [

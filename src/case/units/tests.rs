@@ -1,10 +1,13 @@
 //! What is read of a text with a unit, and what is not.
-#![expect(clippy::approx_constant, reason = "a value is read to the last bit, whatever it is")]
+#![expect(
+    clippy::approx_constant,
+    reason = "a value is read to the last bit, whatever it is"
+)]
 
-use super::{Dimension, Misread, factor, parse, text};
+use super::{Dimension, ParseError, factor, parse, text};
 use proptest::prelude::*;
 
-fn length(text: &str) -> Result<f64, Misread> {
+fn length(text: &str) -> Result<f64, ParseError> {
     parse(text, Dimension::Length, "mm")
 }
 
@@ -39,7 +42,11 @@ fn powers_of_ten_are_exact() {
         ("12.3 um mm/N", Dimension::Compliance, 12.3e-9),
         ("-0.25", Dimension::Number, -0.25),
     ] {
-        assert_eq!(parse(text, dimension, "").map_err(|misread| misread.cause), Ok(si), "{text}");
+        assert_eq!(
+            parse(text, dimension, "").map_err(|misread| misread.cause),
+            Ok(si),
+            "{text}"
+        );
     }
 }
 
@@ -52,8 +59,16 @@ fn other_units_are_right_to_the_last_place() {
         ("30 arcmin", Dimension::Angle, 0.008726646259971648),
         ("2000 rpm", Dimension::AngularVelocity, 209.43951023931956),
         ("1450 1/min", Dimension::AngularVelocity, 151.84364492350667),
-        ("1450 1 / min", Dimension::AngularVelocity, 151.84364492350667),
-        ("1450 min^-1", Dimension::AngularVelocity, 151.84364492350667),
+        (
+            "1450 1 / min",
+            Dimension::AngularVelocity,
+            151.84364492350667,
+        ),
+        (
+            "1450 min^-1",
+            Dimension::AngularVelocity,
+            151.84364492350667,
+        ),
         ("1450 min⁻¹", Dimension::AngularVelocity, 151.84364492350667),
         ("0.3125 in", Dimension::Length, 0.0079375),
         ("30000 ksi", Dimension::Pressure, 206842718795.05084),
@@ -62,7 +77,9 @@ fn other_units_are_right_to_the_last_place() {
         ("635 lbf in", Dimension::Torque, 71.7453664325366),
     ] {
         let read = parse(text, dimension, "").map_err(|misread| misread.cause);
-        let ulp = read.as_ref().map(|value| (value - si).abs() <= si.abs() * f64::EPSILON);
+        let ulp = read
+            .as_ref()
+            .map(|value| (value - si).abs() <= si.abs() * f64::EPSILON);
         assert_eq!(ulp, Ok(true), "{text}: {read:?} for {si}");
     }
 }
@@ -86,17 +103,43 @@ fn what_is_no_value_is_refused_with_its_mend() {
         ("16 mn", "unknown unit `mn`", "did you mean"),
         ("16 furlong", "unknown unit `furlong`", "use one of mm"),
         ("5 m m", "unknown unit `m m`", "did you mean mm"),
-        ("5 mm1", "1 stands after the unit", "write all digits before mm"),
-        ("5 mm 2.5", "2.5 stands after the unit", "write all digits before mm"),
+        (
+            "5 mm1",
+            "1 stands after the unit",
+            "write all digits before mm",
+        ),
+        (
+            "5 mm 2.5",
+            "2.5 stands after the unit",
+            "write all digits before mm",
+        ),
         ("5 5 mm", "not one number", "20 mm"),
         ("5.5.5 mm", "not one number", "20 mm"),
         ("1_000 mm", "not one number", "20 mm"),
     ] {
         refused(text, Dimension::Length, "mm", cause, mend);
     }
-    refused("0.3 mm", Dimension::Number, "", "bare number is due", "write 0.3");
-    refused("2 kNm", Dimension::Power, "kW", "unit of torque, not of power", "use one of kW");
-    refused("3 RPm", Dimension::AngularVelocity, "rpm", "unknown unit", "did you mean rpm");
+    refused(
+        "0.3 mm",
+        Dimension::Number,
+        "",
+        "bare number is due",
+        "write 0.3",
+    );
+    refused(
+        "2 kNm",
+        Dimension::Power,
+        "kW",
+        "unit of torque, not of power",
+        "use one of kW",
+    );
+    refused(
+        "3 RPm",
+        Dimension::AngularVelocity,
+        "rpm",
+        "unknown unit",
+        "did you mean rpm",
+    );
 }
 
 #[test]

@@ -1,24 +1,33 @@
-//! A value that is still being typed: the unit that completes it, and whether it may become a value by typing on.
+//! A value that is still being typed: the unit that completes it, and whether it may become a value
+//! by typing on.
 
 use super::{Dimension, Unit, number, parse, plain_spelling, units_of};
 
-/// What is to be typed after a text so that it is a value: the unit after a bare number, the rest of a unit that is begun.
-/// `usual` is the unit that a bare number takes; a unit begun is taken for it where it may be it, else for the only one that
-/// begins so. `None` where the text is a value as it stands, or no number with such a beginning.
+/// What is to be typed after a text so that it is a value: the unit after a bare number, the rest
+/// of a unit that is begun. `usual` is the unit that a bare number takes; a unit begun is taken for
+/// it where it may be it, else for the only one that begins so. `None` where the text is a value as
+/// it stands, or no number with such a beginning.
 #[must_use]
 pub fn ending(typed: &str, dimension: Dimension, usual: &str) -> Option<String> {
     let begun = begun_unit(typed, dimension)?;
     if begun.trim_end().is_empty() {
-        let gap = if typed.ends_with(char::is_whitespace) { "" } else { " " };
+        let gap = if typed.ends_with(char::is_whitespace) {
+            ""
+        } else {
+            " "
+        };
         return Some(format!("{gap}{usual}")).filter(|_| !usual.is_empty());
     }
     if parse(typed, dimension, usual).is_ok() {
         return None;
     }
-    let mut units = units_of(dimension).iter().filter_map(|unit| rest(unit, begun));
+    let mut units = units_of(dimension)
+        .iter()
+        .filter_map(|unit| rest(unit, begun));
     let plain = plain_spelling(usual);
     let own = rest_of(usual, begun).or_else(|| rest_of(&plain, &plain_spelling(begun)));
-    own.or_else(|| units.next().filter(|_| units.next().is_none())).map(str::to_owned)
+    own.or_else(|| units.next().filter(|_| units.next().is_none()))
+        .map(str::to_owned)
 }
 
 /// How a text may go on so that it becomes another value.
@@ -30,47 +39,70 @@ pub enum Open {
     Unit,
 }
 
-/// How more may be typed after a text so that it becomes a value, or another one; `None` where nothing may.
+/// How more may be typed after a text so that it becomes a value, or another one; `None` where
+/// nothing may.
 #[must_use]
 pub fn open(typed: &str, dimension: Dimension) -> Option<Open> {
-    let is_begun = |begun: &&str| !begun.is_empty() && units_of(dimension).iter().any(|unit| rest(unit, begun).is_some());
+    let is_begun = |begun: &&str| {
+        !begun.is_empty()
+            && units_of(dimension)
+                .iter()
+                .any(|unit| rest(unit, begun).is_some())
+    };
     if is_number_begun(typed.trim()) {
         return Some(Open::Number);
     }
-    begun_unit(typed, dimension).filter(is_begun).map(|_| Open::Unit)
+    begun_unit(typed, dimension)
+        .filter(is_begun)
+        .map(|_| Open::Unit)
 }
 
 /// The unit of a value as it is written; `None` where the text is no value.
 #[must_use]
 pub fn written_unit(text: &str, dimension: Dimension) -> Option<&str> {
     parse(text, dimension, "").ok()?;
-    number::split(text.trim(), "").ok().map(|(_, unit)| unit).filter(|unit| !unit.is_empty())
+    number::split(text.trim(), "")
+        .ok()
+        .map(|(_, unit)| unit)
+        .filter(|unit| !unit.is_empty())
 }
 
-/// What stands after the number, with the blanks at its end; `None` where no unit is due or no number stands.
+/// What stands after the number, with the blanks at its end; `None` where no unit is due or no
+/// number stands.
 fn begun_unit(typed: &str, dimension: Dimension) -> Option<&str> {
-    let (_, unit) = number::split(typed.trim_start(), "").ok().filter(|_| dimension != Dimension::Number)?;
+    let (_, unit) = number::split(typed.trim_start(), "")
+        .ok()
+        .filter(|_| dimension != Dimension::Number)?;
     Some(unit)
 }
 
 /// What is missing of the unit: of its symbol, else of the first of its other spellings.
 fn rest(unit: &Unit, begun: &str) -> Option<&'static str> {
     let mut spellings = std::iter::once(unit.symbol).chain(unit.aliases.iter().copied());
-    spellings.find_map(|spelling| rest_of(spelling, begun).or_else(|| rest_of(spelling, &plain_spelling(begun))))
+    spellings.find_map(|spelling| {
+        rest_of(spelling, begun).or_else(|| rest_of(spelling, &plain_spelling(begun)))
+    })
 }
 
 fn rest_of<'u>(spelling: &'u str, begun: &str) -> Option<&'u str> {
     spelling.strip_prefix(begun).filter(|rest| !rest.is_empty())
 }
 
-/// Whether the text is a number or the beginning of one, such as `-`, `0.` or `1e`, and nothing else.
+/// Whether the text is a number or the beginning of one, such as `-`, `0.` or `1e`, and nothing
+/// else.
 fn is_number_begun(text: &str) -> bool {
     let digits = |text: &'_ str| text.trim_start_matches(|c: char| c.is_ascii_digit()).len();
     let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
     let mantissa = &unsigned[unsigned.len() - digits(unsigned)..];
-    let after = mantissa.strip_prefix('.').map_or(mantissa, |fraction| &fraction[fraction.len() - digits(fraction)..]);
-    let exponent = after.strip_prefix(['e', 'E']).filter(|_| after.len() < unsigned.len());
-    let power = exponent.map_or(after, |power| power.strip_prefix(['+', '-']).unwrap_or(power));
+    let after = mantissa.strip_prefix('.').map_or(mantissa, |fraction| {
+        &fraction[fraction.len() - digits(fraction)..]
+    });
+    let exponent = after
+        .strip_prefix(['e', 'E'])
+        .filter(|_| after.len() < unsigned.len());
+    let power = exponent.map_or(after, |power| {
+        power.strip_prefix(['+', '-']).unwrap_or(power)
+    });
     power.is_empty() || exponent.is_some() && digits(power) == 0
 }
 
@@ -80,7 +112,10 @@ mod tests {
     use super::*;
 
     fn ended(typed: &str, dimension: Dimension, usual: &str) -> String {
-        format!("{typed}{}", ending(typed, dimension, usual).unwrap_or_default())
+        format!(
+            "{typed}{}",
+            ending(typed, dimension, usual).unwrap_or_default()
+        )
     }
 
     #[test]
@@ -106,7 +141,10 @@ mod tests {
         assert_eq!(ended("71.6 N", Dimension::Torque, "N m"), "71.6 N m");
         assert_eq!(ended("71.6 N ", Dimension::Torque, "N m"), "71.6 N m");
         assert_eq!(ended("300 r", Dimension::AngularVelocity, "rpm"), "300 rpm");
-        assert_eq!(ended("300 ra", Dimension::AngularVelocity, "rpm"), "300 rad/s");
+        assert_eq!(
+            ended("300 ra", Dimension::AngularVelocity, "rpm"),
+            "300 rad/s"
+        );
         assert_eq!(ended("20 h", Dimension::Power, "kW"), "20 hp");
     }
 
@@ -128,17 +166,25 @@ mod tests {
     #[test]
     fn on_the_way_to_any_value_nothing_is_wrong_but_unfinished() {
         for family in &FAMILIES {
-            let spellings = family.units.iter().flat_map(|unit| std::iter::once(&unit.symbol).chain(unit.aliases));
+            let spellings = family
+                .units
+                .iter()
+                .flat_map(|unit| std::iter::once(&unit.symbol).chain(unit.aliases));
             for unit in spellings.filter(|spelling| !spelling.starts_with('1')) {
                 let whole = format!("-1.5e-3 {unit}");
                 for (end, _) in whole.char_indices() {
                     let typed = &whole[..end];
                     let is_value = parse(typed, family.dimension, "").is_ok();
-                    assert!(is_value || open(typed, family.dimension).is_some(), "{typed}");
+                    assert!(
+                        is_value || open(typed, family.dimension).is_some(),
+                        "{typed}"
+                    );
                 }
             }
         }
-        for typed in ["fast", "4,8", "48 x", "48 um", "48 umm", "1.2.3", "e5", "4 8"] {
+        for typed in [
+            "fast", "4,8", "48 x", "48 um", "48 umm", "1.2.3", "e5", "4 8",
+        ] {
             assert_eq!(open(typed, Dimension::Length), None, "{typed}");
         }
     }
@@ -151,7 +197,10 @@ mod tests {
                     let typed = format!("2 {}", &unit.symbol[..end]);
                     let whole = ended(&typed, family.dimension, family.units[0].symbol);
                     let is_open = whole == typed;
-                    assert!(is_open || parse(&whole, family.dimension, "").is_ok(), "{typed} becomes {whole}");
+                    assert!(
+                        is_open || parse(&whole, family.dimension, "").is_ok(),
+                        "{typed} becomes {whole}"
+                    );
                 }
             }
         }

@@ -18,42 +18,70 @@ const TOLERANCE: f64 = 1e-11;
 /// q = ∫ (d cos a1 − h sin a1)²/(E I) + 1.2 cos² a1/(G A) + sin² a1/(E A) dx + q_f
 /// I = 2 hx³/3,  A = 2 hx,  G = E/(2 (1 + ν))
 /// ```
-/// per unit width, where the force stands at the angle a₁ to the normal of the tooth's centre line, x runs along it
-/// from the root to the load point, d is the distance to the load point, h half the thickness there and h_x at x.
+/// per unit width, where the force stands at the angle a₁ to the normal of the tooth's centre line,
+/// x runs along it from the root to the load point, d is the distance to the load point, h half the
+/// thickness there and h_x at x.
 ///
 /// # Source
-/// Potential-energy method of Yang & Lin 1987 with the shear term of Tian 2004, integrated over the true profile: the
-/// involute and the trochoidal fillet of the cutting rack. q_f: see `foundation`.
+/// Potential-energy method of Yang & Lin 1987 with the shear term of Tian 2004, integrated over the
+/// true profile: the involute and the trochoidal fillet of the cutting rack. q_f: see `foundation`.
 ///
 /// # Valid for
-/// Any tooth number, shift and pressure angle that leave a tooth; linear elasticity of one tooth on its own body.
+/// Any tooth number, shift and pressure angle that leave a tooth; linear elasticity of one tooth on
+/// its own body.
 ///
 /// # Errors
-/// [`Refusal::PointedTip`] where no tooth is left at the load point, [`Refusal::BelowFormCircle`] where the load point
-/// lies on the fillet, [`Refusal::CutThrough`] where the undercut leaves no neck.
+/// [`Refusal::PointedTip`] where no tooth is left at the load point, [`Refusal::BelowFormCircle`]
+/// where the load point lies on the fillet, [`Refusal::CutThrough`] where the undercut leaves no
+/// neck.
 pub fn tooth(inputs: &Inputs, gear: &Gear, circles: &Circles, radius: f64) -> Result<f64, Refusal> {
     tooth_within(inputs, gear, circles, radius, TOLERANCE)
 }
 
 /// The same, by a quadrature of some relative tolerance.
-fn tooth_within(inputs: &Inputs, gear: &Gear, circles: &Circles, radius: f64, tolerance: f64) -> Result<f64, Refusal> {
+fn tooth_within(
+    inputs: &Inputs,
+    gear: &Gear,
+    circles: &Circles,
+    radius: f64,
+    tolerance: f64,
+) -> Result<f64, Refusal> {
     let profile = Profile::of(inputs, gear, circles);
     let roll = profile.roll_at(radius);
     if roll <= profile.junction.roll {
-        return Err(Refusal::BelowFormCircle { radius, form: profile.form_radius() });
+        return Err(Refusal::BelowFormCircle {
+            radius,
+            form: profile.form_radius(),
+        });
     }
     let load = profile.involute_at(roll);
     if load.half_thickness <= 0.0 {
-        return Err(Refusal::PointedTip { thickness: 2.0 * load.half_thickness });
+        return Err(Refusal::PointedTip {
+            thickness: 2.0 * load.half_thickness,
+        });
     }
     let angle = profile.load_angle(roll);
-    let beam = Beam { load, sine: angle.sin(), cosine: angle.cos(), shear: 2.4 * (1.0 + gear.poisson) };
-    let fillet =
-        quadrature::adaptive(profile.junction.normal, FRAC_PI_2, tolerance, |normal| -beam.energy(&profile.fillet_at(normal)));
-    let flank = quadrature::adaptive(profile.junction.roll, roll, tolerance, |roll| beam.energy(&profile.involute_at(roll)));
+    let beam = Beam {
+        load,
+        sine: angle.sin(),
+        cosine: angle.cos(),
+        shear: 2.4 * (1.0 + gear.poisson),
+    };
+    let fillet = quadrature::adaptive(profile.junction.normal, FRAC_PI_2, tolerance, |normal| {
+        -beam.energy(&profile.fillet_at(normal))
+    });
+    let flank = quadrature::adaptive(profile.junction.roll, roll, tolerance, |roll| {
+        beam.energy(&profile.involute_at(roll))
+    });
     let compliance = (fillet + flank + foundation(&profile, gear, circles, angle)) / gear.young;
     let has_neck = compliance.is_finite() && compliance > 0.0;
-    if has_neck { Ok(compliance) } else { Err(Refusal::CutThrough { shift: gear.profile_shift }) }
+    if has_neck {
+        Ok(compliance)
+    } else {
+        Err(Refusal::CutThrough {
+            shift: gear.profile_shift,
+        })
+    }
 }
 
 /// A tooth as a cantilever under a force at its load point.
@@ -65,12 +93,15 @@ struct Beam {
 }
 
 impl Beam {
-    /// What a section adds to the compliance times E, per parameter; without bound where none is left.
+    /// What a section adds to the compliance times E, per parameter; without bound where none is
+    /// left.
     fn energy(&self, section: &Section) -> f64 {
         let half = section.half_thickness.max(0.0);
-        let moment = (self.load.along - section.along) * self.cosine - self.load.half_thickness * self.sine;
+        let moment =
+            (self.load.along - section.along) * self.cosine - self.load.half_thickness * self.sine;
         let bending = 1.5 * moment * moment / (half * half * half);
-        let straining = (self.shear * self.cosine * self.cosine + self.sine * self.sine) / (2.0 * half);
+        let straining =
+            (self.shear * self.cosine * self.cosine + self.sine * self.sine) / (2.0 * half);
         (bending + straining) * section.slope
     }
 }
@@ -88,28 +119,36 @@ pub const FOUNDATION_ANGLE: (f64, f64) = (0.01, 0.12);
 /// ```text
 /// q_f E = cos² a1 (L (u/S)² + M (u/S) + P (1 + Q tan² a1)),   X = A/θ² + B h² + C h/θ + D/θ + E h + F
 /// ```
-/// where u is the distance along the centre line from the root circle to the line of force, S = 2 θ r_f the thickness at
-/// the root, θ half of the tooth's angle there and h = r_f/r_bore.
+/// where u is the distance along the centre line from the root circle to the line of force, S = 2 θ
+/// r_f the thickness at the root, θ half of the tooth's angle there and h = r_f/r_bore.
 ///
 /// # Source
 /// Sainsot, Velex & Duverger 2004, J. Mech. Des. 126(4), 748-752.
 ///
 /// # Valid for
-/// h = 1.4..7 and θ = 0.01..0.12; outside, the nearest value of the range serves in L, M, P, Q. The formula holds the
-/// body at its bore and contains its windup about it, which grows as h². A gear without a bore is taken as one with its
-/// shaft, held at a third of the root radius: an assumption, h = 3.
+/// h = 1.4..7 and θ = 0.01..0.12; outside, the nearest value of the range serves in L, M, P, Q. The
+/// formula holds the body at its bore and contains its windup about it, which grows as h². A gear
+/// without a bore is taken as one with its shaft, held at a third of the root radius: an
+/// assumption, h = 3.
 fn foundation(profile: &Profile, gear: &Gear, circles: &Circles, angle: f64) -> f64 {
     const L: [f64; 6] = [-5.574e-5, -1.9986e-3, -2.3015e-4, 4.7702e-3, 0.0271, 6.8045];
     const M: [f64; 6] = [60.111e-5, 28.100e-3, -83.431e-4, -9.9256e-3, 0.1624, 0.9086];
     const P: [f64; 6] = [-50.952e-5, 185.50e-3, 0.0538e-4, 53.300e-3, 0.2895, 0.9236];
-    const Q: [f64; 6] = [-6.2042e-5, 9.0889e-3, -4.0964e-4, 7.8297e-3, -0.1472, 0.6904];
+    const Q: [f64; 6] = [
+        -6.2042e-5, 9.0889e-3, -4.0964e-4, 7.8297e-3, -0.1472, 0.6904,
+    ];
     let (sine, cosine) = angle.sin_cos();
     let half_angle = profile.root_half_angle();
-    let held_at = if gear.bore_radius > 0.0 { gear.bore_radius } else { circles.root / SOLID_BODY };
+    let held_at = if gear.bore_radius > 0.0 {
+        gear.bore_radius
+    } else {
+        circles.root / SOLID_BODY
+    };
     let body = (circles.root / held_at).clamp(FOUNDATION_BODY.0, FOUNDATION_BODY.1);
     let theta = half_angle.clamp(FOUNDATION_ANGLE.0, FOUNDATION_ANGLE.1);
-    let [l, m, p, q] = [L, M, P, Q]
-        .map(|[a, b, c, d, e, f]| a / (theta * theta) + b * body * body + c * body / theta + d / theta + e * body + f);
+    let [l, m, p, q] = [L, M, P, Q].map(|[a, b, c, d, e, f]| {
+        a / (theta * theta) + b * body * body + c * body / theta + d / theta + e * body + f
+    });
     let arm = (circles.base / cosine - circles.root) / (2.0 * half_angle * circles.root);
     cosine * cosine * (l * arm * arm + m * arm + p) + p * q * sine * sine
 }
@@ -130,7 +169,10 @@ mod tests {
             let circles = geometry::<f64>(&inputs).unwrap().driver;
             let found = tooth(&inputs, &inputs.driver, &circles, circles.tip);
             assert_eq!(found.is_ok(), whole, "x {shift}: {found:?}");
-            assert!(whole || matches!(found, Err(Refusal::CutThrough { .. })), "{found:?}");
+            assert!(
+                whole || matches!(found, Err(Refusal::CutThrough { .. })),
+                "{found:?}"
+            );
         }
     }
 
@@ -148,21 +190,31 @@ mod tests {
         assert!(solved > 1000, "{solved}");
     }
 
-    /// How many loads along the flank have a compliance; each must be that of a far finer quadrature.
+    /// How many loads along the flank have a compliance; each must be that of a far finer
+    /// quadrature.
     fn converged_loads(teeth: u32, degrees: f64, shift: f64) -> usize {
         let mut inputs = standard_pair(teeth, 60, 5e-3);
         inputs.pressure_angle = degrees.to_radians();
         inputs.driver.profile_shift = shift;
         inputs.driven.addendum = 0.2;
-        let Ok(geometry) = geometry::<f64>(&inputs) else { return 0 };
+        let Ok(geometry) = geometry::<f64>(&inputs) else {
+            return 0;
+        };
         let circles = &geometry.driver;
         let form = Profile::of(&inputs, &inputs.driver, circles).form_radius();
         let loads = [0.05, 0.5, 1.0].map(|part| form + part * (circles.tip - form));
-        let by = |radius, tolerance| tooth_within(&inputs, &inputs.driver, circles, radius, tolerance).ok();
-        let found = loads.iter().filter_map(|&radius| Some((by(radius, TOLERANCE)?, by(radius, 1e-15)?)));
+        let by = |radius, tolerance| {
+            tooth_within(&inputs, &inputs.driver, circles, radius, tolerance).ok()
+        };
+        let found = loads
+            .iter()
+            .filter_map(|&radius| Some((by(radius, TOLERANCE)?, by(radius, 1e-15)?)));
         found
             .inspect(|(found, exact)| {
-                assert!((found / exact - 1.0).abs() < 1e-10, "z {teeth} alpha {degrees} x {shift}: {found}, {exact}");
+                assert!(
+                    (found / exact - 1.0).abs() < 1e-10,
+                    "z {teeth} alpha {degrees} x {shift}: {found}, {exact}"
+                );
             })
             .count()
     }

@@ -37,15 +37,25 @@ impl ContactSpring {
     /// [`Refusal::HertzWidthTooLarge`] where the formula gives none above 0.
     pub fn compliance(&self, force: f64) -> Result<f64, Refusal> {
         let half_width = self.half_width(force);
-        let compliance = if self.slope > 0.0 { self.offset - self.slope * half_width.ln() } else { self.offset };
-        if compliance > 0.0 { Ok(compliance) } else { Err(self.too_wide(half_width)) }
+        let compliance = if self.slope > 0.0 {
+            self.offset - self.slope * half_width.ln()
+        } else {
+            self.offset
+        };
+        if compliance > 0.0 {
+            Ok(compliance)
+        } else {
+            Err(self.too_wide(half_width))
+        }
     }
 
-    /// The force F of an impact for which `F = momentum/√q` with `q = teeth + qH(F)`, in N, and that q in m²/N.
+    /// The force F of an impact for which `F = momentum/√q` with `q = teeth + qH(F)`, in N, and
+    /// that q in m²/N.
     ///
-    /// Newton's method on y = ln F/F₀ where F₀ is the force without contact compliance, `y + ln(q/teeth)/2 = 0`; q falls
-    /// slowly with y, so that a few steps reach the last digit. The logarithms of F and q themselves may be so large that
-    /// their rounding would keep the steps from settling.
+    /// Newton's method on y = ln F/F₀ where F₀ is the force without contact compliance, `y +
+    /// ln(q/teeth)/2 = 0`; q falls slowly with y, so that a few steps reach the last digit. The
+    /// logarithms of F and q themselves may be so large that their rounding would keep the steps
+    /// from settling.
     ///
     /// # Errors
     /// [`Refusal::HertzWidthTooLarge`] where the half-width outgrows the formula before they agree.
@@ -74,7 +84,10 @@ impl ContactSpring {
 
     /// The refusal, with the half-width at which the formula gives no compliance any more.
     fn too_wide(&self, half_width: f64) -> Refusal {
-        Refusal::HertzWidthTooLarge { half_width, limit: (self.offset / self.slope).exp() }
+        Refusal::HertzWidthTooLarge {
+            half_width,
+            limit: (self.offset / self.slope).exp(),
+        }
     }
 }
 
@@ -82,15 +95,24 @@ impl ContactSpring {
 ///
 /// # Errors
 /// Those of the tooth's profile, whose thickness `weber` reads.
-pub fn spring(inputs: &Inputs, geometry: &Geometry, place: &ContactPlace) -> Result<ContactSpring, Refusal> {
+pub fn spring(
+    inputs: &Inputs,
+    geometry: &Geometry,
+    place: &ContactPlace,
+) -> Result<ContactSpring, Refusal> {
     let give = plane_strain_compliance(inputs);
     let (offset, slope) = match inputs.contact_compliance {
         ContactCompliance::Logarithmic => logarithmic(inputs.module, give),
         ContactCompliance::Constant => (constant(give), 0.0),
         ContactCompliance::Weber => weber(inputs, geometry, place)?,
     };
-    let width_per_root_force = (4.0 * place.curvature_radius * give / (PI * inputs.common_width())).sqrt();
-    Ok(ContactSpring { offset, slope, width_per_root_force })
+    let width_per_root_force =
+        (4.0 * place.curvature_radius * give / (PI * inputs.common_width())).sqrt();
+    Ok(ContactSpring {
+        offset,
+        slope,
+        width_per_root_force,
+    })
 }
 
 /// 1/E' = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂, in 1/Pa.
@@ -120,13 +142,17 @@ fn give(gear: &Gear) -> f64 {
 fn logarithmic(module: f64, give: f64) -> (f64, f64) {
     const CONSTANT: f64 = 1.27;
     const FACTOR: f64 = 0.781;
-    (give / PI * (CONSTANT + FACTOR * module.ln()), give / PI * FACTOR)
+    (
+        give / PI * (CONSTANT + FACTOR * module.ln()),
+        give / PI * FACTOR,
+    )
 }
 
 /// Contact compliance without the half-width, q_H = 4 (1 − ν²)/(π E), in m²/N.
 ///
 /// # Source
-/// Yang & Sun 1985, "A rotary model for spur gear dynamics". For two materials (1 − ν²)/E is the mean of both.
+/// Yang & Sun 1985, "A rotary model for spur gear dynamics". For two materials (1 − ν²)/E is the
+/// mean of both.
 fn constant(give: f64) -> f64 {
     2.0 * give / PI
 }
@@ -140,20 +166,34 @@ fn constant(give: f64) -> f64 {
 /// where h_i is the depth from the contact to the tooth's centre line along the line of force.
 ///
 /// # Source
-/// Weber & Banaschek 1953, "Formänderung und Profilrücknahme bei gerad- und schrägverzahnten Rädern".
+/// Weber & Banaschek 1953, "Formänderung und Profilrücknahme bei gerad- und schrägverzahnten
+/// Rädern".
 ///
 /// # Valid for
 /// A half-width small against the depth h.
 ///
 /// # Errors
 /// [`Refusal::PointedTip`] where no tooth is left at the load point.
-fn weber(inputs: &Inputs, geometry: &Geometry, place: &ContactPlace) -> Result<(f64, f64), Refusal> {
+fn weber(
+    inputs: &Inputs,
+    geometry: &Geometry,
+    place: &ContactPlace,
+) -> Result<(f64, f64), Refusal> {
     let of = |gear: &Gear, depth: f64| {
         let scale = give(gear) / PI;
-        (scale * (2.0 * (2.0 * depth).ln() - gear.poisson / (1.0 - gear.poisson)), 2.0 * scale)
+        (
+            scale * (2.0 * (2.0 * depth).ln() - gear.poisson / (1.0 - gear.poisson)),
+            2.0 * scale,
+        )
     };
-    let driver = depth(&Profile::of(inputs, &inputs.driver, &geometry.driver), place.radius_driver)?;
-    let driven = depth(&Profile::of(inputs, &inputs.driven, &geometry.driven), place.radius_driven)?;
+    let driver = depth(
+        &Profile::of(inputs, &inputs.driver, &geometry.driver),
+        place.radius_driver,
+    )?;
+    let driven = depth(
+        &Profile::of(inputs, &inputs.driven, &geometry.driven),
+        place.radius_driven,
+    )?;
     let (first, second) = (of(&inputs.driver, driver), of(&inputs.driven, driven));
     Ok((first.0 + second.0, first.1 + second.1))
 }
@@ -161,7 +201,13 @@ fn weber(inputs: &Inputs, geometry: &Geometry, place: &ContactPlace) -> Result<(
 /// Depth from the flank to the tooth's centre line at a radius, where there is a tooth.
 fn depth(profile: &Profile, radius: f64) -> Result<f64, Refusal> {
     let depth = profile.depth_along_force(radius);
-    if depth > 0.0 { Ok(depth) } else { Err(Refusal::PointedTip { thickness: 2.0 * depth }) }
+    if depth > 0.0 {
+        Ok(depth)
+    } else {
+        Err(Refusal::PointedTip {
+            thickness: 2.0 * depth,
+        })
+    }
 }
 
 #[cfg(test)]
@@ -174,13 +220,20 @@ mod tests {
     #[test]
     fn force_settles_whatever_its_size() {
         let (offset, slope) = logarithmic(5e-3, 1e-11);
-        let spring = ContactSpring { offset, slope, width_per_root_force: 1e-6 };
+        let spring = ContactSpring {
+            offset,
+            slope,
+            width_per_root_force: 1e-6,
+        };
         for teeth in [1e-13, 7e-12, 3e-11, 1e-9] {
             for step in 0..2_000 {
                 let momentum = 1e-14 * 1.0123f64.powi(step);
                 let (force, compliance) = spring.impact(teeth, momentum).unwrap();
                 let back = force * (teeth + spring.compliance(force).unwrap()).sqrt();
-                assert!((back / momentum - 1.0).abs() < 1e-14, "teeth {teeth}, momentum {momentum}: {back}");
+                assert!(
+                    (back / momentum - 1.0).abs() < 1e-14,
+                    "teeth {teeth}, momentum {momentum}: {back}"
+                );
                 assert!(compliance > teeth);
             }
         }
@@ -198,6 +251,9 @@ mod tests {
             curvature_radius: inputs.module,
         };
         let refused = pair_at_load(&inputs, &pair, &beyond, 100.0);
-        assert!(matches!(refused, Err(Refusal::PointedTip { .. })), "{refused:?}");
+        assert!(
+            matches!(refused, Err(Refusal::PointedTip { .. })),
+            "{refused:?}"
+        );
     }
 }

@@ -1,4 +1,5 @@
-//! Compliance of the teeth along the flanks that the path of contact uses, computed once and then cheap.
+//! Compliance of the teeth along the flanks that the path of contact uses, computed once and then
+//! cheap.
 
 use super::{ContactPlace, contact, tooth};
 use crate::model::Refusal;
@@ -6,7 +7,8 @@ use crate::model::geometry::{Circles, Geometry};
 use crate::model::inputs::{Gear, Inputs};
 use crate::numeric::chebyshev::Series;
 
-/// What the last terms of a series may be, over the compliance at the tip: less than what those who use it allow.
+/// What the last terms of a series may be, over the compliance at the tip: less than what those who
+/// use it allow.
 const REST: f64 = 3e-14;
 
 /// Tooth compliances q₁ and q₂ over the distance of the load point from N₁ and N₂.
@@ -23,7 +25,9 @@ impl Flanks {
     /// Those of the teeth, see [`super::teeth`].
     pub fn new(inputs: &Inputs, geometry: &Geometry) -> Result<Flanks, Refusal> {
         let of = |gear: &Gear, circles: &Circles, from: f64, to: f64| {
-            let at = |curvature: f64| tooth(inputs, gear, circles, circles.base.hypot(curvature)).map(|found| [found]);
+            let at = |curvature: f64| {
+                tooth(inputs, gear, circles, circles.base.hypot(curvature)).map(|found| [found])
+            };
             let rest = REST * at(to)?[0];
             Series::of(from, to, &|_, _| [rest], &at)
         };
@@ -31,17 +35,26 @@ impl Flanks {
         let lowest = geometry.tangent_length - end;
         Ok(Flanks {
             driver: of(&inputs.driver, &geometry.driver, start, end)?,
-            driven: of(&inputs.driven, &geometry.driven, lowest, geometry.driven.tip_curvature)?,
+            driven: of(
+                &inputs.driven,
+                &geometry.driven,
+                lowest,
+                geometry.driven.tip_curvature,
+            )?,
         })
     }
 
     /// The same flanks with the gears swapped.
     #[must_use]
     pub fn swapped(&self) -> Flanks {
-        Flanks { driver: self.driven.clone(), driven: self.driver.clone() }
+        Flanks {
+            driver: self.driven.clone(),
+            driven: self.driver.clone(),
+        }
     }
 
-    /// Compliance of a pair under a given force, in m²/N, where its load points lie `driver` from N₁ and `driven` from N₂.
+    /// Compliance of a pair under a given force, in m²/N, where its load points lie `driver` from
+    /// N₁ and `driven` from N₂.
     ///
     /// # Errors
     /// Those of the contact.
@@ -69,16 +82,25 @@ mod tests {
     #[test]
     fn every_place_of_the_line_of_action_has_the_compliance_of_its_teeth() {
         for model in ToothCompliance::ALL {
-            let inputs = Inputs { tooth_compliance: Some(model), ..standard_pair(20, 33, 4e-3) };
+            let inputs = Inputs {
+                tooth_compliance: Some(model),
+                ..standard_pair(20, 33, 4e-3)
+            };
             let geometry = geometry::<f64>(&inputs).unwrap();
             let flanks = Flanks::new(&inputs, &geometry).unwrap();
             for step in 0..=40 {
-                let along = geometry.start + (geometry.end - geometry.start) * f64::from(step) / 40.0;
+                let along =
+                    geometry.start + (geometry.end - geometry.start) * f64::from(step) / 40.0;
                 let place = ContactPlace::on_line_of_action(&geometry, along);
                 let arms = (along, geometry.tangent_length - along);
-                let found = flanks.pair_at_load(&inputs, &geometry, &place, arms, 1000.0).unwrap();
+                let found = flanks
+                    .pair_at_load(&inputs, &geometry, &place, arms, 1000.0)
+                    .unwrap();
                 let expected = pair_at_load(&inputs, &geometry, &place, 1000.0).unwrap();
-                assert!((found / expected - 1.0).abs() < 1e-12, "{model:?} at {step}: {found} {expected}");
+                assert!(
+                    (found / expected - 1.0).abs() < 1e-12,
+                    "{model:?} at {step}: {found} {expected}"
+                );
             }
         }
     }

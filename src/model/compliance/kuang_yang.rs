@@ -14,7 +14,8 @@ pub const SHIFT: f64 = 0.6;
 /// The range of the fit, in words.
 pub const RANGE: &str = "z 12..100, |x| <= 0.6, 20 deg full-depth steel teeth";
 
-/// Whether both gears lie in the range of the fit: tooth number, profile shift, 20° full depth, steel.
+/// Whether both gears lie in the range of the fit: tooth number, profile shift, 20° full depth,
+/// steel.
 #[must_use]
 pub fn covers(inputs: &Inputs) -> bool {
     const PRESSURE_ANGLE_DEGREES: f64 = 20.0;
@@ -44,8 +45,8 @@ pub fn covers(inputs: &Inputs) -> bool {
 /// z = 12..100, |x| ≤ 0.6, 20° full-depth steel teeth. Being cubic in z it explodes outside.
 ///
 /// # Errors
-/// [`Refusal::TeethOutsideFit`], [`Refusal::ShiftOutsideFit`]; [`Refusal::HeightOutsideFit`] on a tooth so high that the
-/// fit, linear in the height, falls below 0.
+/// [`Refusal::TeethOutsideFit`], [`Refusal::ShiftOutsideFit`]; [`Refusal::HeightOutsideFit`] on a
+/// tooth so high that the fit, linear in the height, falls below 0.
 pub fn tooth(module: f64, gear: &Gear, circles: &Circles, radius: f64) -> Result<f64, Refusal> {
     const NEWTON_PER_MICRON_MILLIMETRE: f64 = 1e9;
     let (least, most) = TEETH;
@@ -59,7 +60,11 @@ pub fn tooth(module: f64, gear: &Gear, circles: &Circles, radius: f64) -> Result
     let [a0, a1, a2, a3] = coefficients(gear.teeth);
     let height = (radius - circles.reference) / ((1.0 + shift) * module);
     let stiffness = NEWTON_PER_MICRON_MILLIMETRE * (a0 + a1 * shift + (a2 + a3 * shift) * height);
-    if stiffness > 0.0 { Ok(1.0 / stiffness) } else { Err(Refusal::HeightOutsideFit { height }) }
+    if stiffness > 0.0 {
+        Ok(1.0 / stiffness)
+    } else {
+        Err(Refusal::HeightOutsideFit { height })
+    }
 }
 
 /// The coefficients A_0 to A_3 of the fit, in N/(µm mm).
@@ -86,7 +91,15 @@ mod tests {
         let inputs = standard_pair(59, 15, 5e-3);
         let circles = geometry::<f64>(&inputs).unwrap().driver;
         assert!(tooth(inputs.module, &inputs.driver, &circles, circles.tip).is_ok());
-        let high = tooth(inputs.module, &inputs.driver, &circles, circles.reference + 5.0 * inputs.module);
-        assert!(matches!(high, Err(Refusal::HeightOutsideFit { .. })), "{high:?}");
+        let high = tooth(
+            inputs.module,
+            &inputs.driver,
+            &circles,
+            circles.reference + 5.0 * inputs.module,
+        );
+        assert!(
+            matches!(high, Err(Refusal::HeightOutsideFit { .. })),
+            "{high:?}"
+        );
     }
 }

@@ -5,7 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use crate::model::geometry::Circles;
 use crate::model::inputs::{Gear, Inputs};
 
-/// Tip rounding of the standard basic rack, times the module (ISO 53, profile A), where there is room for it.
+/// Tip rounding of the standard basic rack, times the module (ISO 53, profile A), where there is
+/// room for it.
 const RACK_ROUNDING: f64 = 0.38;
 
 /// A tooth's profile in a frame whose x axis is the tooth's centre line, from the gear's centre.
@@ -60,12 +61,18 @@ impl Profile {
         let rounding = rack_rounding(alpha, gear);
         let mut profile = Profile {
             circles: *circles,
-            base_half_angle: half_pitch / 2.0 + 2.0 * shift * alpha.tan() / f64::from(gear.teeth) + involute(alpha),
+            base_half_angle: half_pitch / 2.0
+                + 2.0 * shift * alpha.tan() / f64::from(gear.teeth)
+                + involute(alpha),
             half_pitch,
             rounding: rounding * module,
             centre_depth: (gear.dedendum - rounding - shift) * module,
             centre_offset: (flank_room - rounding * (1.0 - sine) / cosine) * module,
-            junction: Junction { normal: alpha, roll: 0.0, undercut: false },
+            junction: Junction {
+                normal: alpha,
+                roll: 0.0,
+                undercut: false,
+            },
         };
         profile.junction = profile.find_junction(alpha);
         profile
@@ -77,7 +84,8 @@ impl Profile {
         self.half_pitch
     }
 
-    /// Half of the tooth's angle at the base circle, in rad, where its flanks begin if nothing undercuts them.
+    /// Half of the tooth's angle at the base circle, in rad, where its flanks begin if nothing
+    /// undercuts them.
     #[must_use]
     pub fn base_half_angle(&self) -> f64 {
         self.base_half_angle
@@ -102,7 +110,8 @@ impl Profile {
         ((radius - base).max(0.0) * (radius + base)).sqrt() / base
     }
 
-    /// Angle between the force on the flank and the normal of the tooth's centre line at a roll angle, in rad.
+    /// Angle between the force on the flank and the normal of the tooth's centre line at a roll
+    /// angle, in rad.
     #[must_use]
     pub fn load_angle(&self, roll: f64) -> f64 {
         roll - self.base_half_angle
@@ -118,7 +127,9 @@ impl Profile {
     /// Radius of the junction: the form circle of the tooth, in m.
     #[must_use]
     pub fn form_radius(&self) -> f64 {
-        self.circles.base.hypot(self.circles.base * self.junction.roll)
+        self.circles
+            .base
+            .hypot(self.circles.base * self.junction.roll)
     }
 
     /// Thickness of the tooth at its tip circle, in m; negative where the flanks meet below.
@@ -128,7 +139,8 @@ impl Profile {
         2.0 * self.circles.tip * (self.base_half_angle - roll + roll.atan())
     }
 
-    /// The involute at a roll angle: the point at the end of the tangent unwound from the base circle.
+    /// The involute at a roll angle: the point at the end of the tangent unwound from the base
+    /// circle.
     #[must_use]
     pub fn involute_at(&self, roll: f64) -> Section {
         let base = self.circles.base;
@@ -140,11 +152,12 @@ impl Profile {
         }
     }
 
-    /// The fillet where the rack's rounding touches it with its normal at the angle `normal`, π/2 at the root.
+    /// The fillet where the rack's rounding touches it with its normal at the angle `normal`, π/2
+    /// at the root.
     ///
     /// # Source
-    /// Rolling of the rack's line on the reference circle: every normal passes through the pitch point (Litvin 1994,
-    /// "Gear Geometry and Applied Theory").
+    /// Rolling of the rack's line on the reference circle: every normal passes through the pitch
+    /// point (Litvin 1994, "Gear Geometry and Applied Theory").
     #[must_use]
     pub fn fillet_at(&self, normal: f64) -> Section {
         let (radius, depth) = (self.circles.reference, self.centre_depth);
@@ -152,7 +165,10 @@ impl Profile {
         let reach = self.rounding + depth / sine;
         let reach_slope = -depth * cosine / (sine * sine);
         let (across, up) = (-reach * cosine, radius - reach * sine);
-        let (across_slope, up_slope) = (-reach_slope * cosine + reach * sine, -reach_slope * sine - reach * cosine);
+        let (across_slope, up_slope) = (
+            -reach_slope * cosine + reach * sine,
+            -reach_slope * sine - reach * cosine,
+        );
         let turn = (self.centre_offset - depth * cosine / sine) / radius - self.half_pitch;
         let turn_slope = depth / (sine * sine) / radius;
         let (turn_sine, turn_cosine) = turn.sin_cos();
@@ -164,25 +180,38 @@ impl Profile {
         }
     }
 
-    /// Where fillet and involute meet: where the rack's flank ends, or, on an undercut tooth, where they cross.
+    /// Where fillet and involute meet: where the rack's flank ends, or, on an undercut tooth, where
+    /// they cross.
     fn find_junction(&self, alpha: f64) -> Junction {
         let base = self.circles.base;
         let (sine, _) = alpha.sin_cos();
-        let roll = (self.circles.reference * sine - self.rounding - self.centre_depth / sine) / base;
+        let roll =
+            (self.circles.reference * sine - self.rounding - self.centre_depth / sine) / base;
         if roll >= 0.0 {
-            return Junction { normal: alpha, roll, undercut: false };
+            return Junction {
+                normal: alpha,
+                roll,
+                undercut: false,
+            };
         }
         let normal = self.crossing(alpha);
         let section = self.fillet_at(normal);
-        Junction { normal, roll: self.roll_at(section.along.hypot(section.half_thickness)), undercut: true }
+        Junction {
+            normal,
+            roll: self.roll_at(section.along.hypot(section.half_thickness)),
+            undercut: true,
+        }
     }
 
-    /// The normal's angle at which the fillet of an undercut tooth crosses the involute, by bisection.
+    /// The normal's angle at which the fillet of an undercut tooth crosses the involute, by
+    /// bisection.
     fn crossing(&self, alpha: f64) -> f64 {
         const SAMPLES: usize = 64;
         const HALVINGS: usize = 50;
         let at = |step: usize| FRAC_PI_2 - (FRAC_PI_2 - alpha) * step as f64 / SAMPLES as f64;
-        let Some(step) = (1..=SAMPLES).find(|&step| self.outside_involute(at(step))) else { return alpha };
+        let Some(step) = (1..=SAMPLES).find(|&step| self.outside_involute(at(step))) else {
+            return alpha;
+        };
         let (mut outside, mut inside) = (at(step), at(step - 1));
         for _ in 0..HALVINGS {
             let middle = 0.5 * (outside + inside);
@@ -200,21 +229,28 @@ impl Profile {
         let section = self.fillet_at(normal);
         let radius = section.along.hypot(section.half_thickness);
         let roll = self.roll_at(radius);
-        radius > self.circles.base && section.half_thickness.atan2(section.along) > self.base_half_angle - roll + roll.atan()
+        radius > self.circles.base
+            && section.half_thickness.atan2(section.along)
+                > self.base_half_angle - roll + roll.atan()
     }
 }
 
 /// Radius of the rack's rounding, times the module: the standard one, or what its tip has room for.
 fn rack_rounding(alpha: f64, gear: &Gear) -> f64 {
     let (sine, cosine) = alpha.sin_cos();
-    RACK_ROUNDING.min((PI / 4.0 * cosine - gear.dedendum * sine) / (1.0 - sine)).max(0.0)
+    RACK_ROUNDING
+        .min((PI / 4.0 * cosine - gear.dedendum * sine) / (1.0 - sine))
+        .max(0.0)
 }
 
-/// Least profile shift at which the rack does not undercut the tooth, h_fP* − ρ_fP* (1 − sin α) − z sin²α/2.
+/// Least profile shift at which the rack does not undercut the tooth, h_fP* − ρ_fP* (1 − sin α) − z
+/// sin²α/2.
 #[must_use]
 pub fn least_shift(inputs: &Inputs, gear: &Gear) -> f64 {
     let sine = inputs.pressure_angle.sin();
-    gear.dedendum - rack_rounding(inputs.pressure_angle, gear) * (1.0 - sine) - f64::from(gear.teeth) * sine * sine / 2.0
+    gear.dedendum
+        - rack_rounding(inputs.pressure_angle, gear) * (1.0 - sine)
+        - f64::from(gear.teeth) * sine * sine / 2.0
 }
 
 /// inv t = tan t − t.
@@ -260,16 +296,31 @@ mod tests {
         for (name, profile, module) in profiles() {
             let fillet = profile.fillet_at(profile.junction.normal);
             let flank = profile.involute_at(profile.junction.roll);
-            let gap = (fillet.along - flank.along).hypot(fillet.half_thickness - flank.half_thickness);
-            assert!(gap < 1e-9 * module, "{name}: {gap:e} m apart, {:?}", profile.junction);
+            let gap =
+                (fillet.along - flank.along).hypot(fillet.half_thickness - flank.half_thickness);
+            assert!(
+                gap < 1e-9 * module,
+                "{name}: {gap:e} m apart, {:?}",
+                profile.junction
+            );
         }
     }
 
     #[test]
     fn teeth_below_the_limit_are_undercut() {
-        let undercut: Vec<_> =
-            profiles().into_iter().filter(|(_, profile, _)| profile.junction.undercut).map(|(name, ..)| name).collect();
-        assert_eq!(undercut, ["z 9 x 0 alpha 20", "z 12 x -0.2 alpha 20", "z 25 x 0 alpha 14.5"]);
+        let undercut: Vec<_> = profiles()
+            .into_iter()
+            .filter(|(_, profile, _)| profile.junction.undercut)
+            .map(|(name, ..)| name)
+            .collect();
+        assert_eq!(
+            undercut,
+            [
+                "z 9 x 0 alpha 20",
+                "z 12 x -0.2 alpha 20",
+                "z 25 x 0 alpha 14.5"
+            ]
+        );
     }
 
     #[test]
@@ -277,9 +328,15 @@ mod tests {
         for (name, profile, module) in profiles() {
             let root = profile.fillet_at(FRAC_PI_2);
             let radius = root.along.hypot(root.half_thickness);
-            assert!((radius - profile.circles.root).abs() < 1e-12 * module, "{name}: root at {radius}");
+            assert!(
+                (radius - profile.circles.root).abs() < 1e-12 * module,
+                "{name}: root at {radius}"
+            );
             let angle = root.half_thickness.atan2(root.along);
-            assert!((angle - profile.root_half_angle()).abs() < 1e-12, "{name}: half angle {angle}");
+            assert!(
+                (angle - profile.root_half_angle()).abs() < 1e-12,
+                "{name}: half angle {angle}"
+            );
         }
     }
 
@@ -292,7 +349,10 @@ mod tests {
             let shift = (profile.circles.reference - profile.circles.root) / module - 1.25;
             let alpha = (profile.circles.base / profile.circles.reference).acos();
             let space = profile.circles.reference * twice / module;
-            assert!((space - (PI / 2.0 + 2.0 * shift * alpha.tan())).abs() < 1e-9, "{name}: space {space}");
+            assert!(
+                (space - (PI / 2.0 + 2.0 * shift * alpha.tan())).abs() < 1e-9,
+                "{name}: space {space}"
+            );
         }
     }
 
@@ -302,13 +362,15 @@ mod tests {
         for (name, profile, module) in profiles() {
             for part in [0.1, 0.5, 0.9] {
                 let normal = profile.junction.normal + part * (FRAC_PI_2 - profile.junction.normal);
-                let rise = profile.fillet_at(normal + STEP).along - profile.fillet_at(normal - STEP).along;
+                let rise =
+                    profile.fillet_at(normal + STEP).along - profile.fillet_at(normal - STEP).along;
                 assert!(
                     (rise / (2.0 * STEP) - profile.fillet_at(normal).slope).abs() < 1e-6 * module,
                     "{name}: fillet at {normal}"
                 );
                 let roll = profile.junction.roll + part * 0.1;
-                let rise = profile.involute_at(roll + STEP).along - profile.involute_at(roll - STEP).along;
+                let rise =
+                    profile.involute_at(roll + STEP).along - profile.involute_at(roll - STEP).along;
                 assert!(
                     (rise / (2.0 * STEP) - profile.involute_at(roll).slope).abs() < 1e-6 * module,
                     "{name}: involute at {roll}"

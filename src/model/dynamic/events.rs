@@ -14,16 +14,20 @@ pub(super) struct Event {
     pub(super) part: f64,
 }
 
-/// The first event of a step, where there is one: what a pair keeps, pressed where it touches, apart where it does not, is a
-/// polynomial over the step, so that no event hides. Those that have `turned` where the step begins stand at 0 there, within
-/// rounding: several of them may turn as one. A pair that stands off has no events.
+/// The first event of a step, where there is one: what a pair keeps, pressed where it touches,
+/// apart where it does not, is a polynomial over the step, so that no event hides. Those that have
+/// `turned` where the step begins stand at 0 there, within rounding: several of them may turn as
+/// one. A pair that stands off has no events.
 pub(super) fn first(
     course: &Course<'_>,
     (step, range): (&Step, (f64, f64)),
     gaps: &[Along],
     (turned, standing_off): (Touching, Option<usize>),
 ) -> Option<Event> {
-    let may_turn = gaps.iter().enumerate().filter(|&(pair, _)| Some(pair) != standing_off);
+    let may_turn = gaps
+        .iter()
+        .enumerate()
+        .filter(|&(pair, _)| Some(pair) != standing_off);
     let events = may_turn.filter_map(|(pair, gap)| {
         let touches = course.touches(pair);
         if is_clear(touches, range, gap) {
@@ -32,7 +36,11 @@ pub(super) fn first(
         let sign = if touches { 1.0 } else { -1.0 };
         let kept: Polynomial<TERMS> = step.ahead.plus(-1.0, gap).scaled(sign);
         let begins_at_0 = turned.has(pair) && is_rounding(&kept);
-        let part = if begins_at_0 { first_fall(&kept.over_argument()) } else { first_fall(&kept) }?;
+        let part = if begins_at_0 {
+            first_fall(&kept.over_argument())
+        } else {
+            first_fall(&kept)
+        }?;
         Some(Event { pair, part })
     });
     events.min_by(|one, other| one.part.total_cmp(&other.part))
@@ -41,11 +49,23 @@ pub(super) fn first(
 /// Whether the value at 0 is none against how the polynomial varies.
 fn is_rounding(kept: &Polynomial<TERMS>) -> bool {
     const ROUNDING: f64 = 1e-9;
-    kept.0[0].abs() <= ROUNDING * kept.0[1..].iter().map(|coefficient| coefficient.abs()).sum::<f64>()
+    kept.0[0].abs()
+        <= ROUNDING
+            * kept.0[1..]
+                .iter()
+                .map(|coefficient| coefficient.abs())
+                .sum::<f64>()
 }
 
 /// Whether a pair keeps what it is wherever in its range the displacement lies.
 fn is_clear(touches: bool, (least, most): (f64, f64), gap: &Along) -> bool {
-    let varying = gap.0[1..].iter().map(|coefficient| coefficient.abs()).sum::<f64>();
-    if touches { least > gap.0[0] + varying } else { most < gap.0[0] - varying }
+    let varying = gap.0[1..]
+        .iter()
+        .map(|coefficient| coefficient.abs())
+        .sum::<f64>();
+    if touches {
+        least > gap.0[0] + varying
+    } else {
+        most < gap.0[0] - varying
+    }
 }

@@ -1,4 +1,5 @@
-//! Whether the warm-up has come to repeat itself: before the incoming tooth is near, every base pitch is like the one before.
+//! Whether the warm-up has come to repeat itself: before the incoming tooth is near, every base
+//! pitch is like the one before.
 
 use super::motion::{Motion, State};
 
@@ -30,12 +31,24 @@ impl Laps {
     pub(super) fn new(start: f64, tolerance: f64) -> Laps {
         /// Of the tolerance: it lets a state that draws near go no further than rounding would.
         const PART: f64 = 1e-3;
-        Laps { next: 1.0, start, last: None, allowed: (PART * tolerance).max(10.0 * ROUNDING) }
+        Laps {
+            next: 1.0,
+            start,
+            last: None,
+            allowed: (PART * tolerance).max(10.0 * ROUNDING),
+        }
     }
 
-    /// Whether the state at `s`, in m, is that of a base pitch ago, drawing nearer with each of them at least by half: what
-    /// it would still move in all is then less than it moved last. Contacts that differ are no repetition.
-    pub(super) fn repeats(&mut self, motion: &Motion<'_>, s: f64, y: &State, ahead: &[i32]) -> bool {
+    /// Whether the state at `s`, in m, is that of a base pitch ago, drawing nearer with each of
+    /// them at least by half: what it would still move in all is then less than it moved last.
+    /// Contacts that differ are no repetition.
+    pub(super) fn repeats(
+        &mut self,
+        motion: &Motion<'_>,
+        s: f64,
+        y: &State,
+        ahead: &[i32],
+    ) -> bool {
         let pitch = motion.mesh.base_pitch;
         if (s - self.start - self.next * pitch).abs() > ALIKE * pitch {
             return false;
@@ -44,10 +57,21 @@ impl Laps {
         let mut ahead = ahead.to_vec();
         ahead.sort_unstable();
         let before = self.last.take();
-        let alike = before.as_ref().filter(|lap| lap.ahead.iter().map(|ahead| ahead - 1).eq(ahead.iter().copied()));
-        let moved = alike.map_or(f64::INFINITY, |lap| (y - lap.y).component_div(&motion.scale()).amax());
+        let alike = before.as_ref().filter(|lap| {
+            lap.ahead
+                .iter()
+                .map(|ahead| ahead - 1)
+                .eq(ahead.iter().copied())
+        });
+        let moved = alike.map_or(f64::INFINITY, |lap| {
+            (y - lap.y).component_div(&motion.scale()).amax()
+        });
         let draws_near = before.is_some_and(|lap| moved <= 0.5 * lap.moved);
-        self.last = Some(Lap { y: *y, ahead, moved });
+        self.last = Some(Lap {
+            y: *y,
+            ahead,
+            moved,
+        });
         moved <= if draws_near { self.allowed } else { ROUNDING }
     }
 }

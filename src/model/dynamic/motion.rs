@@ -23,7 +23,8 @@ pub(super) struct Motion<'a> {
     warmup_cycles: u32,
 }
 
-/// What stays the same between two borders: the pairs that may touch, and the zones in which they stand.
+/// What stays the same between two borders: the pairs that may touch, and the zones in which they
+/// stand.
 #[derive(Debug, Clone)]
 pub(super) struct Window {
     pub(super) pairs: Vec<Standing>,
@@ -57,13 +58,17 @@ impl<'a> Motion<'a> {
         }
     }
 
-    /// Where the incoming pair stands at the start. Where not a bit of a start one base pitch earlier would be left, no
-    /// more than that one is run.
+    /// Where the incoming pair stands at the start. Where not a bit of a start one base pitch
+    /// earlier would be left, no more than that one is run.
     pub(super) fn start(&self) -> f64 {
         const FORGOTTEN: f64 = 42.0;
         let pitch = self.mesh.base_pitch;
         let forgets_a_pitch = self.decay * pitch / self.mesh.speed > FORGOTTEN;
-        let pitches = if forgets_a_pitch { self.warmup_cycles.min(2) } else { self.warmup_cycles };
+        let pitches = if forgets_a_pitch {
+            self.warmup_cycles.min(2)
+        } else {
+            self.warmup_cycles
+        };
         -f64::from(pitches) * pitch
     }
 
@@ -97,7 +102,14 @@ impl<'a> Motion<'a> {
     pub(super) fn check_pace(&self, way: f64) -> Result<(), Refusal> {
         const MOST: f64 = 1e6;
         let swings = self.time(way) * self.frequency / TAU;
-        if swings > MOST { Err(Refusal::TooSlow { swings, limit: MOST }) } else { Ok(()) }
+        if swings > MOST {
+            Err(Refusal::TooSlow {
+                swings,
+                limit: MOST,
+            })
+        } else {
+            Ok(())
+        }
     }
 
     /// What stays the same while the incoming pair goes from one place to the other.
@@ -105,21 +117,35 @@ impl<'a> Motion<'a> {
         let inside = f64::midpoint(from, to);
         let standing = self.mesh.standing(inside).map(|(ahead, zone)| {
             let (_, sliding) = self.mesh.slide(ahead, zone, inside);
-            Standing { ahead, zone, direction: sliding.signum() }
+            Standing {
+                ahead,
+                zone,
+                direction: sliding.signum(),
+            }
         });
-        Window { pairs: standing.collect() }
+        Window {
+            pairs: standing.collect(),
+        }
     }
 }
 
 impl Window {
-    /// The pairs of that many base pitches ahead, as a set; none where one of them is not there any more.
+    /// The pairs of that many base pitches ahead, as a set; none where one of them is not there any
+    /// more.
     pub(super) fn touching(&self, ahead: &[i32]) -> Option<Touching> {
-        ahead.iter().try_fold(Touching::NONE, |set, &ahead| Some(set.with(self.index_of(ahead)?)))
+        ahead.iter().try_fold(Touching::NONE, |set, &ahead| {
+            Some(set.with(self.index_of(ahead)?))
+        })
     }
 
     /// How many base pitches ahead the touching pairs are.
     pub(super) fn ahead(&self, touching: Touching) -> Vec<i32> {
-        self.pairs.iter().enumerate().filter(|(pair, _)| touching.has(*pair)).map(|(_, pair)| pair.ahead).collect()
+        self.pairs
+            .iter()
+            .enumerate()
+            .filter(|(pair, _)| touching.has(*pair))
+            .map(|(_, pair)| pair.ahead)
+            .collect()
     }
 
     /// The place of the incoming pair in the window, where it is there.

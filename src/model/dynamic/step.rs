@@ -46,14 +46,19 @@ impl Step {
         Bernstein::of(&self.ahead).bounds()
     }
 
-    /// The most by which the displacement is beyond the gap in it, in m, where that is more than `least`.
+    /// The most by which the displacement is beyond the gap in it, in m, where that is more than
+    /// `least`.
     pub(super) fn most_beyond(&self, gap: &Along, least: f64) -> f64 {
         let beyond: Polynomial<TERMS> = self.ahead.plus(-1.0, gap);
         if Bernstein::of(&beyond).bounds().1 <= least {
             return least;
         }
         let turns = sign_changes(&beyond.derivative());
-        turns.into_iter().chain([0.0, 1.0]).map(|part| beyond.at(part)).fold(least, f64::max)
+        turns
+            .into_iter()
+            .chain([0.0, 1.0])
+            .map(|part| beyond.at(part))
+            .fold(least, f64::max)
     }
 
     /// When it ends, in s.
@@ -63,13 +68,25 @@ impl Step {
 
     /// The first part of it, as a step.
     pub(super) fn cut(&self, part: f64) -> Step {
-        Step { length: part * self.length, ahead: self.ahead.stretched(part), ..*self }
+        Step {
+            length: part * self.length,
+            ahead: self.ahead.stretched(part),
+            ..*self
+        }
     }
 }
 
 impl<'a> Course<'a> {
-    pub(super) fn new(motion: &'a Motion<'a>, window: &'a Window, touching: Touching) -> Course<'a> {
-        Course { motion, window, touching }
+    pub(super) fn new(
+        motion: &'a Motion<'a>,
+        window: &'a Window,
+        touching: Touching,
+    ) -> Course<'a> {
+        Course {
+            motion,
+            window,
+            touching,
+        }
     }
 
     /// How many pairs may touch.
@@ -81,23 +98,36 @@ impl<'a> Course<'a> {
         self.touching.has(pair)
     }
 
-    /// The step from a state on, as long as its series converges, to `end` at most and on one polynomial of every pair; and
-    /// every pair's gap over it, in m. The last terms of the series are `allowed` to be as large as that, in m.
+    /// The step from a state on, as long as its series converges, to `end` at most and on one
+    /// polynomial of every pair; and every pair's gap over it, in m. The last terms of the series
+    /// are `allowed` to be as large as that, in m.
     ///
     /// # Errors
     /// [`Refusal::Unsettled`] where the series has no numbers.
-    pub(super) fn step(&self, t: f64, y: &State, end: f64, allowed: f64) -> Result<(Step, Vec<Along>), Refusal> {
+    pub(super) fn step(
+        &self,
+        t: f64,
+        y: &State,
+        end: f64,
+        allowed: f64,
+    ) -> Result<(Step, Vec<Along>), Refusal> {
         let whole = self.serves_until(t).min(end) - t;
         let length = whole.min(self.motion.longest_step());
         let mut gaps = Vec::with_capacity(self.pairs());
-        let ahead = self.oscillator(t, length, &mut gaps).series(y[0], y[1] * length);
+        let ahead = self
+            .oscillator(t, length, &mut gaps)
+            .series(y[0], y[1] * length);
         let step = Step { t, length, ahead };
         let part = convergent_part(&ahead, allowed);
         if part >= 1.0 {
             return Ok((step, gaps));
         }
         // Steps to an end are of one length, and the last of them is no splinter.
-        let part = if length < whole { part } else { 1.0 / (1.0 / part).ceil() };
+        let part = if length < whole {
+            part
+        } else {
+            1.0 / (1.0 / part).ceil()
+        };
         if part * length <= 0.0 || !part.is_finite() {
             return Err(Refusal::Unsettled);
         }
@@ -110,13 +140,22 @@ impl<'a> Course<'a> {
     /// Until when what is known of the pairs from a time on is one polynomial each.
     fn serves_until(&self, t: f64) -> f64 {
         let s = self.motion.place(t);
-        let pairs = self.window.pairs.iter().map(|pair| self.motion.mesh.serves_until(pair.ahead, pair.zone, s));
+        let pairs = self
+            .window
+            .pairs
+            .iter()
+            .map(|pair| self.motion.mesh.serves_until(pair.ahead, pair.zone, s));
         self.motion.time(pairs.fold(f64::INFINITY, f64::min))
     }
 
     /// The equation of motion over a length of time, which is its unit.
     fn oscillator(&self, t: f64, length: f64, gaps: &mut Vec<Along>) -> Oscillator<TERMS> {
-        let Motion { mesh, mass, damping, .. } = *self.motion;
+        let Motion {
+            mesh,
+            mass,
+            damping,
+            ..
+        } = *self.motion;
         let (s, way) = (self.motion.place(t), mesh.speed * length);
         let (mut stiffness, mut load) = (Polynomial::<TERMS>::ZERO, Polynomial::<TERMS>::ZERO);
         load.0[0] = mesh.force;
@@ -129,27 +168,49 @@ impl<'a> Course<'a> {
                 load = load.plus(1.0, &carrying.times::<{ chebyshev::TERMS }, TERMS>(&gap));
             }
         }
-        let damping = if self.touching.is_none() { 0.0 } else { damping * length / mass };
+        let damping = if self.touching.is_none() {
+            0.0
+        } else {
+            damping * length / mass
+        };
         let scale = length * length / mass;
-        Oscillator { stiffness: stiffness.scaled(scale), load: load.scaled(scale), damping }
+        Oscillator {
+            stiffness: stiffness.scaled(scale),
+            load: load.scaled(scale),
+            damping,
+        }
     }
 
     /// The stiffness by which a pair turns the driver.
-    pub(super) fn carrying(&self, pair: &Standing, spring: &Along, s: f64, way: f64) -> Polynomial<TERMS> {
+    pub(super) fn carrying(
+        &self,
+        pair: &Standing,
+        spring: &Along,
+        s: f64,
+        way: f64,
+    ) -> Polynomial<TERMS> {
         let friction = self.motion.mesh.friction();
         let whole = Polynomial::ZERO.plus(1.0, spring);
         if friction == 0.0 {
             return whole;
         }
         let [lever, _] = self.motion.mesh.slide_along(pair.ahead, pair.zone, s, way);
-        whole.plus(-friction * pair.direction, &spring.times::<{ chebyshev::TERMS }, TERMS>(&lever))
+        whole.plus(
+            -friction * pair.direction,
+            &spring.times::<{ chebyshev::TERMS }, TERMS>(&lever),
+        )
     }
 
     /// Stiffness of a pair over a step, in N/m, and its gap, in m.
     pub(super) fn spring_along(&self, pair: usize, step: &Step) -> [Along; 2] {
         let Standing { ahead, zone, .. } = self.window.pairs[pair];
         let motion = self.motion;
-        motion.mesh.spring_along(ahead, zone, motion.place(step.t), motion.mesh.speed * step.length)
+        motion.mesh.spring_along(
+            ahead,
+            zone,
+            motion.place(step.t),
+            motion.mesh.speed * step.length,
+        )
     }
 
     /// Force of a pair over a step in which it touches, in N.
@@ -160,10 +221,18 @@ impl<'a> Course<'a> {
 
     /// Power of friction at a pair over such a step, over the coefficient, in W.
     pub(super) fn rubbing_along(&self, pair: usize, step: &Step) -> f64 {
-        let Standing { ahead, zone, direction } = self.window.pairs[pair];
-        let (s, way) = (self.motion.place(step.t), self.motion.mesh.speed * step.length);
+        let Standing {
+            ahead,
+            zone,
+            direction,
+        } = self.window.pairs[pair];
+        let (s, way) = (
+            self.motion.place(step.t),
+            self.motion.mesh.speed * step.length,
+        );
         let [_, sliding] = self.motion.mesh.slide_along(ahead, zone, s, way);
-        let power: Polynomial<{ FORCE_TERMS + chebyshev::TERMS }> = self.force_along(pair, step).times(&sliding);
+        let power: Polynomial<{ FORCE_TERMS + chebyshev::TERMS }> =
+            self.force_along(pair, step).times(&sliding);
         direction * power.integral()
     }
 
@@ -180,7 +249,10 @@ impl<'a> Course<'a> {
 
     /// Forces of all pairs together, in N.
     pub(super) fn total(&self, t: f64, ahead: f64) -> f64 {
-        (0..self.pairs()).filter(|&pair| self.touches(pair)).map(|pair| self.force(pair, t, ahead)).sum()
+        (0..self.pairs())
+            .filter(|&pair| self.touches(pair))
+            .map(|pair| self.force(pair, t, ahead))
+            .sum()
     }
 
     fn spring(&self, pair: usize, t: f64) -> (f64, f64) {

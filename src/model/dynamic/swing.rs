@@ -14,7 +14,8 @@ pub(super) struct Swing {
     turns: Vec<f64>,
 }
 
-/// A stretch on which the force rises throughout or falls throughout: when it ends, and by how much it rises, in N.
+/// A stretch on which the force rises throughout or falls throughout: when it ends, and by how much
+/// it rises, in N.
 struct Phase {
     end: f64,
     rise: f64,
@@ -23,7 +24,12 @@ struct Phase {
 impl Swing {
     /// The swing of a force over a step, in N.
     pub(super) fn of(step: &Step, force: &Polynomial<FORCE_TERMS>) -> Swing {
-        Swing { begin: step.t, length: step.length, force: *force, turns: sign_changes(&force.derivative()) }
+        Swing {
+            begin: step.t,
+            length: step.length,
+            force: *force,
+            turns: sign_changes(&force.derivative()),
+        }
     }
 
     /// Whether it lies before E, where a step ends within rounding.
@@ -43,13 +49,20 @@ impl Swing {
     fn phases(&self) -> impl Iterator<Item = Phase> {
         let begins = std::iter::once(0.0).chain(self.turns.iter().copied());
         let ends = self.turns.iter().copied().chain([1.0]);
-        begins.zip(ends).map(|(begin, end)| Phase { end: self.time(end), rise: self.force.at(end) - self.force.at(begin) })
+        begins.zip(ends).map(|(begin, end)| Phase {
+            end: self.time(end),
+            rise: self.force.at(end) - self.force.at(begin),
+        })
     }
 
     /// The greatest force, in N.
     fn peak(&self) -> f64 {
         let ends = [0.0, 1.0];
-        self.turns.iter().chain(&ends).map(|&part| self.force.at(part)).fold(0.0, f64::max)
+        self.turns
+            .iter()
+            .chain(&ends)
+            .map(|&part| self.force.at(part))
+            .fold(0.0, f64::max)
     }
 }
 

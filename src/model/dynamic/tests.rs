@@ -18,7 +18,14 @@ fn struck(adjust: impl FnOnce(&mut Inputs)) -> (Mesh, Settings) {
     adjust(&mut inputs);
     let solution = solve(&inputs, Stages::of(Stage::Static)).unwrap();
     let error = solution.deviation.equivalent_error;
-    let mesh = Mesh::new(&inputs, &solution.geometry, solution.mesh_force, error, 1e-3).unwrap();
+    let mesh = Mesh::new(
+        &inputs,
+        &solution.geometry,
+        solution.mesh_force,
+        error,
+        1e-3,
+    )
+    .unwrap();
     let settings = Settings {
         mass: solution.reduced_mass,
         damping_ratio: inputs.damping_ratio,
@@ -37,7 +44,8 @@ fn ran<'a>(motion: &'a Motion<'a>, settings: &Settings) -> Run<'a> {
     run
 }
 
-/// While one pair of a stiffness that hardly changes touches, the motion is the damped oscillator's closed form.
+/// While one pair of a stiffness that hardly changes touches, the motion is the damped oscillator's
+/// closed form.
 #[test]
 fn a_pair_of_constant_stiffness_swings_as_the_linear_oscillator() {
     // A rack of a gear pair: so large that neither stiffness nor place change within a few swings.
@@ -46,10 +54,16 @@ fn a_pair_of_constant_stiffness_swings_as_the_linear_oscillator() {
     let middle = 0.5 * mesh.length;
     let window = motion.window(middle, middle + 1e-9);
     let balance = static_load::balance(&mesh, middle, middle);
-    let touching: Vec<i32> =
-        mesh.pairs(middle, middle).filter(|pair| pair.place.gap < balance.displacement).map(|pair| pair.ahead).collect();
-    let stiffness: f64 =
-        mesh.pairs(middle, middle).filter(|pair| touching.contains(&pair.ahead)).map(|pair| pair.place.stiffness).sum();
+    let touching: Vec<i32> = mesh
+        .pairs(middle, middle)
+        .filter(|pair| pair.place.gap < balance.displacement)
+        .map(|pair| pair.ahead)
+        .collect();
+    let stiffness: f64 = mesh
+        .pairs(middle, middle)
+        .filter(|pair| touching.contains(&pair.ahead))
+        .map(|pair| pair.place.stiffness)
+        .sum();
     let course = Course::new(&motion, &window, window.touching(&touching).unwrap());
     let start = motion.time(middle);
     let swing = 0.1 * balance.displacement;
@@ -58,16 +72,21 @@ fn a_pair_of_constant_stiffness_swings_as_the_linear_oscillator() {
     let damped = (frequency * frequency - decay * decay).sqrt();
     let (mut y, mut time) = (State::new(balance.displacement + swing, 0.0), 0.0);
     let allowed = 1e-13 * balance.displacement;
-    // The time itself is so large that its last digit would be felt; the equation sees only that the gears stand still.
+    // The time itself is so large that its last digit would be felt; the equation sees only that
+    // the gears stand still.
     for number in 1..=20 {
         let (step, _) = course.step(start, &y, start + 1.0, allowed).unwrap();
         assert!(step.length * frequency > 1.0, "step {number} is short");
         for part in [0.25, 0.5, 0.75, 1.0] {
             let time = time + part * step.length;
             let (sine, cosine) = (damped * time).sin_cos();
-            let expected = balance.displacement + swing * (-decay * time).exp() * (cosine + decay / damped * sine);
+            let expected = balance.displacement
+                + swing * (-decay * time).exp() * (cosine + decay / damped * sine);
             let found = step.state(part)[0];
-            assert!((found - expected).abs() < 1e-10 * swing, "step {number}: {found} and not {expected}");
+            assert!(
+                (found - expected).abs() < 1e-10 * swing,
+                "step {number}: {found} and not {expected}"
+            );
         }
         (y, time) = (step.state(1.0), time + step.length);
     }
@@ -76,9 +95,14 @@ fn a_pair_of_constant_stiffness_swings_as_the_linear_oscillator() {
 /// Work of the mean force and of the moving mesh goes into motion, springs, damper and friction.
 #[test]
 fn energies_balance_to_the_tolerance() {
-    for (damping_ratio, torque, friction) in
-        [(0.07, 100.0, 0.0), (0.0, 100.0, 0.0), (0.02, 3.0, 0.0), (0.3, 400.0, 0.0), (0.07, 100.0, 0.08), (0.0, 30.0, 0.2)]
-    {
+    for (damping_ratio, torque, friction) in [
+        (0.07, 100.0, 0.0),
+        (0.0, 100.0, 0.0),
+        (0.02, 3.0, 0.0),
+        (0.3, 400.0, 0.0),
+        (0.07, 100.0, 0.08),
+        (0.0, 30.0, 0.2),
+    ] {
         let (mesh, settings) = struck(|inputs| {
             inputs.damping_ratio = damping_ratio;
             inputs.friction_coefficient = Some(friction);
@@ -88,18 +112,23 @@ fn energies_balance_to_the_tolerance() {
         let motion = Motion::new(&mesh, &settings);
         let run = ran(&motion, &settings);
         let (unexplained, turned_over) = run.watch.energies(&motion, &mesh);
-        let told = format!("damping {damping_ratio}, friction {friction}: {unexplained:e} of {turned_over:e} J");
+        let told = format!(
+            "damping {damping_ratio}, friction {friction}: {unexplained:e} of {turned_over:e} J"
+        );
         assert!(unexplained < 1e-9 * turned_over, "{told}");
     }
 }
 
 impl Watch {
-    /// What the energies leave unexplained over all kept steps, and how much energy was turned over, in J.
+    /// What the energies leave unexplained over all kept steps, and how much energy was turned
+    /// over, in J.
     fn energies(&self, motion: &Motion<'_>, mesh: &Mesh) -> (f64, f64) {
         let (mut unexplained, mut turned_over) = (0.0, 0.0);
         self.each_step(motion, |course, step| {
-            let put_in = step.length * over_halves(3, &|part| course.power(motion, mesh, step, part));
-            unexplained += course.stored(motion, step, 1.0) - course.stored(motion, step, 0.0) - put_in;
+            let put_in =
+                step.length * over_halves(3, &|part| course.power(motion, mesh, step, part));
+            unexplained +=
+                course.stored(motion, step, 1.0) - course.stored(motion, step, 0.0) - put_in;
             turned_over += put_in.abs();
         });
         (unexplained.abs(), turned_over)
@@ -111,7 +140,8 @@ fn over_halves(times: u32, f: &dyn Fn(f64) -> f64) -> f64 {
     if times == 0 {
         return quadrature::unit_interval(f);
     }
-    0.5 * (over_halves(times - 1, &|part| f(0.5 * part)) + over_halves(times - 1, &|part| f(0.5 + 0.5 * part)))
+    0.5 * (over_halves(times - 1, &|part| f(0.5 * part))
+        + over_halves(times - 1, &|part| f(0.5 + 0.5 * part)))
 }
 
 impl Course<'_> {
@@ -123,28 +153,47 @@ impl Course<'_> {
         0.5 * motion.mass * y[1] * y[1] + springs.map(spring).sum::<f64>()
     }
 
-    /// Power that the mean force, the moving mesh and friction put in, less what the damper takes, in W.
+    /// Power that the mean force, the moving mesh and friction put in, less what the damper takes,
+    /// in W.
     fn power(&self, motion: &Motion<'_>, mesh: &Mesh, step: &Step, part: f64) -> f64 {
         let rate = step.state(part)[1];
         let touching = (0..self.pairs()).filter(|&pair| self.touches(pair));
-        let moved = touching.clone().map(|pair| self.mesh_power(pair, step, part)).sum::<f64>();
-        let damped = if touching.clone().count() > 0 { motion.damping * rate * rate } else { 0.0 };
-        let rubbed = touching.clone().map(|pair| self.friction(pair, step, part)).sum::<f64>() * rate;
+        let moved = touching
+            .clone()
+            .map(|pair| self.mesh_power(pair, step, part))
+            .sum::<f64>();
+        let damped = if touching.clone().count() > 0 {
+            motion.damping * rate * rate
+        } else {
+            0.0
+        };
+        let rubbed = touching
+            .clone()
+            .map(|pair| self.friction(pair, step, part))
+            .sum::<f64>()
+            * rate;
         mesh.force * rate - damped + moved + rubbed
     }
 
     /// What friction at a pair adds to the force that drives, in N.
     fn friction(&self, pair: usize, step: &Step, part: f64) -> f64 {
-        let (s, way) = (self.motion.place(step.t), self.motion.mesh.speed * step.length);
+        let (s, way) = (
+            self.motion.place(step.t),
+            self.motion.mesh.speed * step.length,
+        );
         let [spring, gap] = self.spring_along(pair, step);
         let turning = self.carrying(&self.window.pairs[pair], &spring, s, way);
         (spring.at(part) - turning.at(part)) * (step.ahead.at(part) - gap.at(part))
     }
 
-    /// Power that the moving mesh puts in at a pair: its gap closes on a spring that is pressed, and its stiffness changes, in W.
+    /// Power that the moving mesh puts in at a pair: its gap closes on a spring that is pressed,
+    /// and its stiffness changes, in W.
     fn mesh_power(&self, pair: usize, step: &Step, part: f64) -> f64 {
         // d(k p²/2)/dt at rest is k p p' + k' p²/2, and the rate of the force is k p' + k' p.
-        let still = Step { ahead: Polynomial::ZERO.plus(step.ahead.at(part), &Polynomial([1.0])), ..*step };
+        let still = Step {
+            ahead: Polynomial::ZERO.plus(step.ahead.at(part), &Polynomial([1.0])),
+            ..*step
+        };
         let force = self.force_along(pair, &still);
         let [_, gap] = self.spring_along(pair, &still);
         let pressed = still.ahead.0[0] - gap.at(part);
@@ -155,10 +204,27 @@ impl Course<'_> {
 #[test]
 fn no_peak_falls_between_two_stations() {
     for stations in [Some(8), Some(64), None] {
-        let inputs = Inputs { stations, base_pitch_deviation: 30e-6, method: Method::Dynamic, ..standard_pair(20, 20, 5e-3) };
+        let inputs = Inputs {
+            stations,
+            base_pitch_deviation: 30e-6,
+            method: Method::Dynamic,
+            ..standard_pair(20, 20, 5e-3)
+        };
         let dynamic = solve(&inputs, Stages::EVERY).unwrap().dynamic.unwrap();
-        let highest = dynamic.stations.iter().map(|station| station.force).fold(0.0, f64::max);
-        assert!((highest / dynamic.peak_force - 1.0).abs() < 2e-3, "{highest} {}", dynamic.peak_force);
-        assert!(dynamic.stations.is_sorted_by(|one, other| one.time < other.time));
+        let highest = dynamic
+            .stations
+            .iter()
+            .map(|station| station.force)
+            .fold(0.0, f64::max);
+        assert!(
+            (highest / dynamic.peak_force - 1.0).abs() < 2e-3,
+            "{highest} {}",
+            dynamic.peak_force
+        );
+        assert!(
+            dynamic
+                .stations
+                .is_sorted_by(|one, other| one.time < other.time)
+        );
     }
 }

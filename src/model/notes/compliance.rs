@@ -12,7 +12,12 @@ use crate::model::{Inputs, Solution};
 pub(super) fn chosen_by_range(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let served = solution.compliance?.model;
     let chosen = inputs.tooth_compliance.is_none() && served == ToothCompliance::Beam;
-    let message = || format!("the tooth compliance is `beam`: the pair lies outside the Kuang-Yang fit, {}", kuang_yang::RANGE);
+    let message = || {
+        format!(
+            "the tooth compliance is `beam`: the pair lies outside the Kuang-Yang fit, {}",
+            kuang_yang::RANGE
+        )
+    };
     chosen.then(|| Note::new("tooth-compliance-beam", message()))
 }
 
@@ -21,7 +26,13 @@ pub(super) fn outside_fit(inputs: &Inputs, solution: &Solution) -> Option<Note> 
     let served = solution.compliance?.model;
     let outside = served == ToothCompliance::KuangYang && !kuang_yang::covers(inputs);
     outside.then(|| {
-        Note::new("outside-fit", format!("the tooth compliance `kuang-yang` is used outside its fit, {}", kuang_yang::RANGE))
+        Note::new(
+            "outside-fit",
+            format!(
+                "the tooth compliance `kuang-yang` is used outside its fit, {}",
+                kuang_yang::RANGE
+            ),
+        )
     })
 }
 
@@ -36,11 +47,21 @@ pub(super) fn foundation(inputs: &Inputs, solution: &Solution) -> Option<Note> {
         let body = circles.root / gear.bore_radius;
         let by_body = body.is_finite() && !(FOUNDATION_BODY.0..=FOUNDATION_BODY.1).contains(&body);
         let by_angle = !(FOUNDATION_ANGLE.0..=FOUNDATION_ANGLE.1).contains(&angle);
-        let bore = if body.is_finite() { format!("r_f/r_bore is {body:.3}") } else { "body has no bore".to_owned() };
-        (by_body || by_angle).then(|| format!("the {name}'s {bore} and its half angle at the root {} rad", four(angle)))
+        let bore = if body.is_finite() {
+            format!("r_f/r_bore is {body:.3}")
+        } else {
+            "body has no bore".to_owned()
+        };
+        (by_body || by_angle).then(|| {
+            format!(
+                "the {name}'s {bore} and its half angle at the root {} rad",
+                four(angle)
+            )
+        })
     };
     let driver = outside("driver", &inputs.driver, &solution.geometry.driver);
-    let found = driver.or_else(|| outside("driven gear", &inputs.driven, &solution.geometry.driven))?;
+    let found =
+        driver.or_else(|| outside("driven gear", &inputs.driven, &solution.geometry.driven))?;
     let ((body_from, body_to), (angle_from, angle_to)) = (FOUNDATION_BODY, FOUNDATION_ANGLE);
     let message = format!(
         "{found}, outside {body_from}..{body_to} and {angle_from}..{angle_to}, where the foundation was fitted: the end of the range serves"

@@ -12,42 +12,61 @@ const MICRO: f64 = 1e6;
 /// Quantities that could not be computed although the tooth strikes.
 pub(super) fn withheld(_: &Inputs, solution: &Solution) -> Option<Note> {
     let refusal = solution.withheld?;
-    Some(Note::new(refusal.code(), format!("{refusal}; no force, energy or duration is given: {}", refusal.mend())))
+    Some(Note::new(
+        refusal.code(),
+        format!(
+            "{refusal}; no force, energy or duration is given: {}",
+            refusal.mend()
+        ),
+    ))
 }
 
 /// Stations whose force could not be computed.
 pub(super) fn stations_left_out(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let refusal = solution.stations_withheld?;
     let message = match inputs.stations {
-        Some(count) => format!("{} of {} stations are left out: {refusal}", count + 1 - solution.stations.len(), count + 1),
+        Some(count) => format!(
+            "{} of {} stations are left out: {refusal}",
+            count + 1 - solution.stations.len(),
+            count + 1
+        ),
         None => format!("some stations are left out: {refusal}"),
     };
     Some(Note::new("stations-left-out", message))
 }
 
-/// The tooth comes in on time, but a little more of the base pitch deviation or of the load would make it strike.
+/// The tooth comes in on time, but a little more of the base pitch deviation or of the load would
+/// make it strike.
 ///
 /// # Formula
 /// ```text
 /// f_pb,0 = f_pb + g/√2,  told where f_pb,0 < 1.1 f_pb, or where g < 0.1 δ and the load makes δ
 /// ```
-/// where g is the gap that is left, which √2 f_pb closes, Eqs. 1 and 5, and δ grows about as the load.
+/// where g is the gap that is left, which √2 f_pb closes, Eqs. 1 and 5, and δ grows about as the
+/// load.
 pub(super) fn barely_clear(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     const CLOSE: f64 = 0.1;
     let clear = solution.margin()?;
     let now = inputs.base_pitch_deviation;
     let enough = now + clear / SQRT_2;
     let is_of_load = solution.method.shares_load() || inputs.deflection.is_none();
-    let more_load = Some(clear / solution.deviation.combined_deflection).filter(|part| is_of_load && *part < CLOSE);
+    let more_load = Some(clear / solution.deviation.combined_deflection)
+        .filter(|part| is_of_load && *part < CLOSE);
     let message = || {
         let (clear, now, enough) = (four(clear * MICRO), four(now * MICRO), four(enough * MICRO));
-        let load = more_load.map(|part| format!(", or under about {} % more load", significant(100.0 * part, 2)));
+        let load = more_load.map(|part| {
+            format!(
+                ", or under about {} % more load",
+                significant(100.0 * part, 2)
+            )
+        });
         let load = load.unwrap_or_default();
         format!(
             "the tooth clears by {clear} um only: it strikes from a base pitch deviation of {enough} um on, and {now} um is given{load}"
         )
     };
-    (enough < (1.0 + CLOSE) * now || more_load.is_some()).then(|| Note::new("barely-clear", message()))
+    (enough < (1.0 + CLOSE) * now || more_load.is_some())
+        .then(|| Note::new("barely-clear", message()))
 }
 
 /// The printed equations put D where the tip has hardly closed its gap.
@@ -60,7 +79,8 @@ pub(super) fn gap_left_open(_: &Inputs, solution: &Solution) -> Option<Note> {
             "the printed equations put D where the tip has closed {closed} um of the {total} um that it must: angle, velocity and force are too small for that; method exact closes all of it"
         )
     };
-    (solution.method == Method::Paper && closed < (1.0 - CLOSED) * total).then(|| Note::new("gap-left-open", message()))
+    (solution.method == Method::Paper && closed < (1.0 - CLOSED) * total)
+        .then(|| Note::new("gap-left-open", message()))
 }
 
 /// There is no end of the impact, and so no friction ratio.
@@ -72,7 +92,11 @@ pub(super) fn end_not_found(_: &Inputs, solution: &Solution) -> Option<Note> {
 
 /// The impact is longer than the way from D to E.
 pub(super) fn outlasting(_: &Inputs, solution: &Solution) -> Option<Note> {
-    let duration = solution.impact.filter(|_| !solution.method.shares_load())?.duration * MICRO;
+    let duration = solution
+        .impact
+        .filter(|_| !solution.method.shares_load())?
+        .duration
+        * MICRO;
     let transit = solution.velocity?.transit_time * MICRO;
     let message = || {
         let (lasts, way) = (four(duration), four(transit));
@@ -93,8 +117,15 @@ pub(super) fn impulse(_: &Inputs, solution: &Solution) -> Option<Note> {
         _ => "force and duration do not belong to one impact",
     };
     let possible = 1.0 - ROUNDING..=2.0 + ROUNDING;
-    (!possible.contains(&ratio))
-        .then(|| Note::new("impulse-ratio", format!("the impulse ratio is {}, outside 1..2: {cause}", four(ratio))))
+    (!possible.contains(&ratio)).then(|| {
+        Note::new(
+            "impulse-ratio",
+            format!(
+                "the impulse ratio is {}, outside 1..2: {cause}",
+                four(ratio)
+            ),
+        )
+    })
 }
 
 /// The load cannot hold the pair ahead in contact while the incoming tooth carries its error.
@@ -103,7 +134,10 @@ pub(super) fn contact_lost(_: &Inputs, solution: &Solution) -> Option<Note> {
         return None;
     }
     let deviation = solution.deviation;
-    let (deflection, error) = (deviation.combined_deflection * MICRO, deviation.equivalent_error * MICRO);
+    let (deflection, error) = (
+        deviation.combined_deflection * MICRO,
+        deviation.equivalent_error * MICRO,
+    );
     let message = || {
         let (deflects, error) = (four(deflection), four(error));
         format!(
@@ -119,7 +153,9 @@ pub(super) fn sliding_reverses(inputs: &Inputs, solution: &Solution) -> Option<N
     let at_start = (inputs.speed + inputs.driven_speed()) * solution.geometry.approach_length;
     let message = || {
         let (at_contact, at_start) = (four(at_contact), four(at_start));
-        format!("the sliding velocity is {at_contact} m/s at D and {at_start} m/s at E: it reverses between them")
+        format!(
+            "the sliding velocity is {at_contact} m/s at D and {at_start} m/s at E: it reverses between them"
+        )
     };
     (at_contact * at_start < 0.0).then(|| Note::new("sliding-reverses", message()))
 }
@@ -138,9 +174,15 @@ pub(super) fn friction(inputs: &Inputs, solution: &Solution) -> Option<Note> {
             ),
         )
     } else {
-        ("sticking", format!("not below the stick limit {limit}: sliding stops within the impact"))
+        (
+            "sticking",
+            format!("not below the stick limit {limit}: sliding stops within the impact"),
+        )
     };
-    Some(Note::new(code, format!("the friction coefficient is {friction}, {does}")))
+    Some(Note::new(
+        code,
+        format!("the friction coefficient is {friction}, {does}"),
+    ))
 }
 
 #[cfg(test)]
@@ -161,7 +203,9 @@ mod tests {
 
     fn clears_barely(inputs: &Inputs) -> bool {
         let solution = solve(inputs, Stages::EVERY).unwrap();
-        notes::notes(inputs, &solution).iter().any(|note| note.code == "barely-clear")
+        notes::notes(inputs, &solution)
+            .iter()
+            .any(|note| note.code == "barely-clear")
     }
 
     /// The pair m 2, z 23/71 under that power, in W, with so much tip relief, in m.
@@ -177,16 +221,36 @@ mod tests {
     fn every_method_tells_how_barely_it_clears_and_what_closes_the_gap() {
         for method in [Method::Exact, Method::Static, Method::Dynamic] {
             let mut inputs = of_two_modules(method, 4e3);
-            let least = solve(&inputs, Stages::EVERY).unwrap().clearing.unwrap().relief.unwrap();
+            let least = solve(&inputs, Stages::EVERY)
+                .unwrap()
+                .clearing
+                .unwrap()
+                .relief
+                .unwrap();
             inputs.driven.tip_relief = 1.002 * least;
             let solution = solve(&inputs, Stages::EVERY).unwrap();
             let clear = solution.margin().unwrap();
             assert!(clear > 0.0 && clear < 0.01 * least, "{method:?}: {clear:e}");
-            let told = notes::notes(&inputs, &solution).into_iter().find(|note| note.code == "barely-clear").unwrap().message;
-            assert!(told.contains(" um only") && told.contains(" % more load"), "{method:?}: {told}");
+            let told = notes::notes(&inputs, &solution)
+                .into_iter()
+                .find(|note| note.code == "barely-clear")
+                .unwrap()
+                .message;
+            assert!(
+                told.contains(" um only") && told.contains(" % more load"),
+                "{method:?}: {told}"
+            );
             let outcome = |part: f64| {
                 let base_pitch_deviation = 9e-6 + part * clear / SQRT_2;
-                solve(&Inputs { base_pitch_deviation, ..inputs.clone() }, Stages::EVERY).unwrap().outcome
+                solve(
+                    &Inputs {
+                        base_pitch_deviation,
+                        ..inputs.clone()
+                    },
+                    Stages::EVERY,
+                )
+                .unwrap()
+                .outcome
             };
             assert_eq!(outcome(1.01), Outcome::CornerContact, "{method:?}");
             assert_eq!(outcome(0.99), Outcome::NoCornerContact, "{method:?}");
@@ -200,9 +264,22 @@ mod tests {
         assert!(clears_barely(&relieved(48e-6, 16e-6)));
         assert!(!clears_barely(&relieved(47e-6, 16e-6)), "it strikes");
         assert!(!clears_barely(&relieved(60e-6, 16e-6)), "it clears by far");
-        let clear = -solve(&relieved(48e-6, 16e-6), Stages::EVERY).unwrap().deviation.total;
+        let clear = -solve(&relieved(48e-6, 16e-6), Stages::EVERY)
+            .unwrap()
+            .deviation
+            .total;
         let enough = 16e-6 + clear / SQRT_2;
-        assert_eq!(solve(&relieved(48e-6, enough * 1.0001), Stages::EVERY).unwrap().outcome, Outcome::CornerContact);
-        assert_eq!(solve(&relieved(48e-6, enough * 0.9999), Stages::EVERY).unwrap().outcome, Outcome::NoCornerContact);
+        assert_eq!(
+            solve(&relieved(48e-6, enough * 1.0001), Stages::EVERY)
+                .unwrap()
+                .outcome,
+            Outcome::CornerContact
+        );
+        assert_eq!(
+            solve(&relieved(48e-6, enough * 0.9999), Stages::EVERY)
+                .unwrap()
+                .outcome,
+            Outcome::NoCornerContact
+        );
     }
 }

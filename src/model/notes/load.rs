@@ -1,4 +1,5 @@
-//! Notes on the methods in which every pair takes its share of the load, and on the choice of the method.
+//! Notes on the methods in which every pair takes its share of the load, and on the choice of the
+//! method.
 
 use super::{Note, four};
 use crate::model::inputs::Method;
@@ -11,29 +12,50 @@ pub(super) fn method_taken(_: &Inputs, solution: &Solution) -> Option<Note> {
 
 /// The case gives a deflection that this method computes itself.
 pub(super) fn deflection_ignored(inputs: &Inputs, solution: &Solution) -> Option<Note> {
-    let given = inputs.deflection.filter(|_| solution.method.shares_load())?;
-    let (given, found) = (four(given * 1e6), four(solution.deviation.combined_deflection * 1e6));
+    let given = inputs
+        .deflection
+        .filter(|_| solution.method.shares_load())?;
+    let (given, found) = (
+        four(given * 1e6),
+        four(solution.deviation.combined_deflection * 1e6),
+    );
     let method = solution.method.name();
-    let message = format!("the deflection of {given} um is ignored: {method} computes what the pairs yield, {found} um before E");
+    let message = format!(
+        "the deflection of {given} um is ignored: {method} computes what the pairs yield, {found} um before E"
+    );
     Some(Note::new("deflection-ignored", message))
 }
 
 /// The case gives the deflection, so that the load moves nothing of the impact.
 pub(super) fn deflection_given(inputs: &Inputs, solution: &Solution) -> Option<Note> {
-    let given = four(inputs.deflection.filter(|_| !solution.method.shares_load())? * 1e6);
-    let message = format!("the deflection of {given} um is given: power and torque change F_0 alone, neither D nor the impact");
+    let given = four(
+        inputs
+            .deflection
+            .filter(|_| !solution.method.shares_load())?
+            * 1e6,
+    );
+    let message = format!(
+        "the deflection of {given} um is given: power and torque change F_0 alone, neither D nor the impact"
+    );
     Some(Note::new("deflection-given", message))
 }
 
 /// No pair carries at some moment.
 pub(super) fn lost_in_motion(_: &Inputs, solution: &Solution) -> Option<Note> {
     let lost = solution.dynamic.as_ref()?.contact_lost;
-    lost.then(|| Note::new("dynamic-contact-lost", "all teeth lose contact for a time: the gears rattle".to_owned()))
+    lost.then(|| {
+        Note::new(
+            "dynamic-contact-lost",
+            "all teeth lose contact for a time: the gears rattle".to_owned(),
+        )
+    })
 }
 
 /// The mesh has no time to follow the load at rest.
 pub(super) fn inertia(inputs: &Inputs, solution: &Solution) -> Option<Note> {
-    let (Method::Static, Some(mesh), Some(load)) = (solution.method, &solution.mesh, &solution.static_load) else {
+    let (Method::Static, Some(mesh), Some(load)) =
+        (solution.method, &solution.mesh, &solution.static_load)
+    else {
         return None;
     };
     let time = load.first_contact_angle? / inputs.driven_speed();
@@ -52,5 +74,8 @@ pub(super) fn inertia(inputs: &Inputs, solution: &Solution) -> Option<Note> {
 /// No relief was found that keeps the tooth from striking.
 pub(super) fn not_cleared(_: &Inputs, solution: &Solution) -> Option<Note> {
     let refusal = solution.clearing?.withheld?;
-    Some(Note::new(refusal.code(), format!("no tip relief is known that stops it: {refusal}")))
+    Some(Note::new(
+        refusal.code(),
+        format!("no tip relief is known that stops it: {refusal}"),
+    ))
 }

@@ -15,14 +15,24 @@ pub(super) fn contact_ratio_above_two(inputs: &Inputs, solution: &Solution) -> O
         Some(_) => "the deflection is the case's own",
         None => "the pairs ahead of the incoming one share the load as parallel springs",
     };
-    let message = || format!("the contact ratio is {}, above 2: no single pair carries the load at F; {done}", four(ratio));
+    let message = || {
+        format!(
+            "the contact ratio is {}, above 2: no single pair carries the load at F; {done}",
+            four(ratio)
+        )
+    };
     (ratio > 2.0).then(|| Note::new("contact-ratio-above-2", message()))
 }
 
 /// No pair is in contact while the next comes in.
 pub(super) fn contact_ratio_below_one(_: &Inputs, solution: &Solution) -> Option<Note> {
     let ratio = solution.geometry.contact_ratio;
-    let message = || format!("the contact ratio is {}, below 1: no pair is in contact when the next comes in", four(ratio));
+    let message = || {
+        format!(
+            "the contact ratio is {}, below 1: no pair is in contact when the next comes in",
+            four(ratio)
+        )
+    };
     (ratio < 1.0).then(|| Note::new("contact-ratio-below-1", message()))
 }
 
@@ -36,7 +46,9 @@ pub(super) fn centre_distance(inputs: &Inputs, solution: &Solution) -> Option<No
     if backlash < JAM * inputs.module {
         Some(Note::new(
             "centre-distance-jams",
-            format!("the centre distance jams the mesh: the normal backlash is {value} mm and must not be below 0"),
+            format!(
+                "the centre distance jams the mesh: the normal backlash is {value} mm and must not be below 0"
+            ),
         ))
     } else if backlash > OPEN * inputs.module {
         let limit = four(OPEN * inputs.module * MILLI);
@@ -64,7 +76,12 @@ pub(super) fn start_past_pitch(_: &Inputs, solution: &Solution) -> Option<Note> 
 /// The driver's tip would touch the driven gear below its base circle.
 pub(super) fn interference_at_end(_: &Inputs, solution: &Solution) -> Option<Note> {
     let rest = solution.geometry.tangent_length - solution.geometry.end;
-    let message = || format!("interference at the end of contact: N2B is {} mm and must be above 0", four(rest * MILLI));
+    let message = || {
+        format!(
+            "interference at the end of contact: N2B is {} mm and must be above 0",
+            four(rest * MILLI)
+        )
+    };
     (rest <= 0.0).then(|| Note::new("interference-at-end", message()))
 }
 
@@ -95,7 +112,12 @@ pub(super) fn tip_driver(inputs: &Inputs, solution: &Solution) -> Option<Note> {
 
 /// The driven gear's tip.
 pub(super) fn tip_driven(inputs: &Inputs, solution: &Solution) -> Option<Note> {
-    tip("driven gear", inputs, &inputs.driven, &solution.geometry.driven)
+    tip(
+        "driven gear",
+        inputs,
+        &inputs.driven,
+        &solution.geometry.driven,
+    )
 }
 
 fn tip(name: &str, inputs: &Inputs, gear: &Gear, circles: &Circles) -> Option<Note> {
@@ -105,10 +127,17 @@ fn tip(name: &str, inputs: &Inputs, gear: &Gear, circles: &Circles) -> Option<No
     if thickness <= 0.0 {
         Some(Note::new(
             "pointed-tip",
-            format!("the {name}'s tip is pointed: its thickness would be {value} mm and must be above 0"),
+            format!(
+                "the {name}'s tip is pointed: its thickness would be {value} mm and must be above 0"
+            ),
         ))
     } else if thickness < THIN * inputs.module {
-        Some(Note::new("thin-tip", format!("the {name}'s tip is thin: {value} mm, below a fifth of the module, {limit} mm")))
+        Some(Note::new(
+            "thin-tip",
+            format!(
+                "the {name}'s tip is thin: {value} mm, below a fifth of the module, {limit} mm"
+            ),
+        ))
     } else {
         None
     }
@@ -118,17 +147,27 @@ fn tip(name: &str, inputs: &Inputs, gear: &Gear, circles: &Circles) -> Option<No
 pub(super) fn form_circle(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let geometry = &solution.geometry;
     let form = Profile::of(inputs, &inputs.driver, &geometry.driver).form_radius();
-    let contact = solution.position.map(|position| ("D", position.contact.radius_driver));
+    let contact = solution
+        .position
+        .map(|position| ("D", position.contact.radius_driver));
     let start = ("E", geometry.driver.base.hypot(geometry.start));
-    let (point, radius) = contact.into_iter().chain([start]).find(|(_, radius)| *radius < form)?;
+    let (point, radius) = contact
+        .into_iter()
+        .chain([start])
+        .find(|(_, radius)| *radius < form)?;
     let (radius, form) = (told_apart(radius, form), told_apart(form, radius));
-    let message =
-        format!("{point} lies below the driver's form circle: O1{point} is {radius} mm and the involute starts at {form} mm");
+    let message = format!(
+        "{point} lies below the driver's form circle: O1{point} is {radius} mm and the involute starts at {form} mm"
+    );
     Some(Note::new("below-form-circle", message))
 }
 
 /// A length in mm with as many digits as tell it from another.
 fn told_apart(length: f64, other: f64) -> String {
     let digits = 4.0 - ((length - other) * MILLI).abs().log10().floor();
-    format!("{:.*}", digits.clamp(4.0, 12.0) as usize - 1, length * MILLI)
+    format!(
+        "{:.*}",
+        digits.clamp(4.0, 12.0) as usize - 1,
+        length * MILLI
+    )
 }

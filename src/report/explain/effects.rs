@@ -1,12 +1,12 @@
 //! The fields that a quantity depends on, and what a small step of each does to it in this case.
 
-use super::known::{Known, factor};
-use super::worth::{noise, value_of};
+use super::context::{Known, factor};
+use super::uncertainty::{noise, value_of};
 use crate::case::FIELDS;
+use crate::case::dependencies::fields_of;
 use crate::case::fields::{Absent, Kind, index_of};
-use crate::case::reach::fields_of;
+use crate::case::sanitize::sanitize;
 use crate::case::units::Dimension;
-use crate::case::visible::visible;
 use crate::model::compliance::model_of;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Quantity, Stage};
@@ -33,33 +33,81 @@ pub struct Effect {
 
 /// The fields behind a quantity, in the order of the form.
 pub(super) fn of(quantity: &Quantity, known: &Known) -> Vec<Effect> {
-    // A step must not change over from one stiffness model to the other, nor be lost in the steps of the motion.
+    // A step must not change over from one stiffness model to the other, nor be lost in the steps
+    // of the motion.
     let tolerance = known.inputs.tolerance.min(FINE);
-    let held = Inputs { tooth_compliance: Some(model_of(known.inputs)), tolerance, ..known.inputs.clone() };
+    let held = Inputs {
+        tooth_compliance: Some(model_of(known.inputs)),
+        tolerance,
+        ..known.inputs.clone()
+    };
     let is_coarse = quantity.stage == Stage::Dynamic && tolerance < known.inputs.tolerance;
     let own = value(quantity, known.solution);
-    let own = if is_coarse { value_of(quantity, &held) } else { own };
-    fields(quantity, known).into_iter().filter_map(|field| effect(quantity, field, known, &held, own)).collect()
+    let own = if is_coarse {
+        value_of(quantity, &held)
+    } else {
+        own
+    };
+    fields(quantity, known)
+        .into_iter()
+        .filter_map(|field| effect(quantity, field, known, &held, own))
+        .collect()
 }
 
-/// The fields behind a quantity; the method `auto` takes the tolerance from what it may leave in all.
+/// The fields behind a quantity; the method `auto` takes the tolerance from what it may leave in
+/// all.
 fn fields(quantity: &Quantity, known: &Known) -> Vec<usize> {
     let [given, taken] = ["model.within", "model.tolerance"].map(index_of);
-    let by_auto = |field: usize| if known.given.method == Method::Auto && Some(field) == taken { given } else { Some(field) };
-    fields_of(quantity, known.inputs).into_iter().filter_map(by_auto).collect()
+    let by_auto = |field: usize| {
+        if known.given.method == Method::Auto && Some(field) == taken {
+            given
+        } else {
+            Some(field)
+        }
+    };
+    fields_of(quantity, known.inputs)
+        .into_iter()
+        .filter_map(by_auto)
+        .collect()
 }
 
-fn effect(quantity: &Quantity, field: usize, known: &Known, held: &Inputs, own: Option<f64>) -> Option<Effect> {
+fn effect(
+    quantity: &Quantity,
+    field: usize,
+    known: &Known,
+    held: &Inputs,
+    own: Option<f64>,
+) -> Option<Effect> {
     let known_field = &FIELDS[field];
-    let text = known.case.effective(field).map(visible).unwrap_or_default();
+    let text = known
+        .case
+        .effective(field)
+        .map(sanitize)
+        .unwrap_or_default();
     if text.is_empty() && matches!(known_field.absent, Absent::Either(_)) {
         return None;
     }
-    let stepped = known.case.value(field).and_then(|now| stepped(field, now, held));
+    let stepped = known
+        .case
+        .value(field)
+        .and_then(|now| stepped(field, now, held));
     let (step, inputs) = stepped.unzip();
-    let change = own.zip(inputs).map(|(own, inputs)| change(quantity, own, value_of(quantity, &inputs), noise(quantity, held)));
+    let change = own.zip(inputs).map(|(own, inputs)| {
+        change(
+            quantity,
+            own,
+            value_of(quantity, &inputs),
+            noise(quantity, held),
+        )
+    });
     let (step, change) = (step.unwrap_or_default(), change.unwrap_or_default());
-    Some(Effect { key: known_field.key, symbol: known_field.symbol, text, step, change })
+    Some(Effect {
+        key: known_field.key,
+        symbol: known_field.symbol,
+        text,
+        step,
+        change,
+    })
 }
 
 /// A step that is small for the field, in words, and the inputs after it.
@@ -87,10 +135,16 @@ fn stepped(field: usize, now: f64, held: &Inputs) -> Option<(String, Inputs)> {
 
 /// A change of the quantity's value, as a share of it or else in its unit.
 fn change(quantity: &Quantity, own: f64, found: Option<f64>, noise: f64) -> String {
-    let Some(found) = found else { return "no value".to_owned() };
+    let Some(found) = found else {
+        return "no value".to_owned();
+    };
     let change = found - own;
     if quantity.is_flag() {
-        return if change == 0.0 { String::new() } else { format!("becomes {}", shown(quantity, found)) };
+        return if change == 0.0 {
+            String::new()
+        } else {
+            format!("becomes {}", shown(quantity, found))
+        };
     }
     if change.abs() <= noise * own.abs() {
         return String::new();
@@ -100,5 +154,8 @@ fn change(quantity: &Quantity, own: f64, found: Option<f64>, noise: f64) -> Stri
         let in_unit = change.abs() / factor(quantity.shown).unwrap_or(1.0);
         return format!("{sign}{} {}", significant(in_unit, 3), quantity.shown);
     }
-    format!("{sign}{} %", significant(100.0 * change.abs() / own.abs(), 3))
+    format!(
+        "{sign}{} %",
+        significant(100.0 * change.abs() / own.abs(), 3)
+    )
 }

@@ -1,8 +1,9 @@
-//! A formula in the field's writing, read into a tree: `ΔV_n √(b M/q_s)`, `2 (x1 + x2) tan α/(z1 + z2)`.
+//! A formula in the field's writing, read into a tree: `ΔV_n √(b M/q_s)`, `2 (x1 + x2) tan α/(z1 +
+//! z2)`.
 
 use std::f64::consts::PI;
 
-use super::known::factor;
+use super::context::factor;
 
 /// A right-hand side.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,28 +46,72 @@ impl PartialEq for Function {
 
 /// Every function; one of no fixed count of arguments has the count 0.
 const FUNCTIONS: [Function; 9] = [
-    Function { name: "sin", arguments: 1, of: |x| x[0].sin() },
-    Function { name: "cos", arguments: 1, of: |x| x[0].cos() },
-    Function { name: "tan", arguments: 1, of: |x| x[0].tan() },
-    Function { name: "acos", arguments: 1, of: |x| x[0].acos() },
-    Function { name: "atan2", arguments: 2, of: |x| x[0].atan2(x[1]) },
-    Function { name: "ln", arguments: 1, of: |x| x[0].ln() },
-    Function { name: "inv", arguments: 1, of: |x| x[0].tan() - x[0] },
-    Function { name: "min", arguments: 0, of: |x| x.iter().copied().fold(f64::INFINITY, f64::min) },
-    Function { name: "max", arguments: 0, of: |x| x.iter().copied().fold(f64::NEG_INFINITY, f64::max) },
+    Function {
+        name: "sin",
+        arguments: 1,
+        of: |x| x[0].sin(),
+    },
+    Function {
+        name: "cos",
+        arguments: 1,
+        of: |x| x[0].cos(),
+    },
+    Function {
+        name: "tan",
+        arguments: 1,
+        of: |x| x[0].tan(),
+    },
+    Function {
+        name: "acos",
+        arguments: 1,
+        of: |x| x[0].acos(),
+    },
+    Function {
+        name: "atan2",
+        arguments: 2,
+        of: |x| x[0].atan2(x[1]),
+    },
+    Function {
+        name: "ln",
+        arguments: 1,
+        of: |x| x[0].ln(),
+    },
+    Function {
+        name: "inv",
+        arguments: 1,
+        of: |x| x[0].tan() - x[0],
+    },
+    Function {
+        name: "min",
+        arguments: 0,
+        of: |x| x.iter().copied().fold(f64::INFINITY, f64::min),
+    },
+    Function {
+        name: "max",
+        arguments: 0,
+        of: |x| x.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+    },
 ];
 
 impl Tree {
     /// The tree of a text; `None` where it is no formula.
     pub(super) fn read(text: &str) -> Option<Tree> {
-        let mut reader = Reader { tokens: tokens(text)?, at: 0 };
+        let mut reader = Reader {
+            tokens: tokens(text)?,
+            at: 0,
+        };
         let tree = reader.sum()?;
         (reader.at == reader.tokens.len()).then_some(tree)
     }
 
     /// Its value, where every symbol has one.
     pub(super) fn value(&self, of: &dyn Fn(&str) -> Option<f64>) -> Option<f64> {
-        let list = |parts: &[Tree]| parts.iter().map(|part| part.value(of)).collect::<Option<Vec<f64>>>();
+        let list = |parts: &[Tree]| {
+            parts
+                .iter()
+                .map(|part| part.value(of))
+                .collect::<Option<Vec<f64>>>()
+        };
         match self {
             Tree::Number(text) => text.parse().ok(),
             Tree::Pi => Some(PI),
@@ -78,12 +123,18 @@ impl Tree {
             }),
             Tree::Product(factors) => factors.iter().try_fold(1.0, |product, (divides, factor)| {
                 let factor = factor.value(of)?;
-                Some(if *divides { product / factor } else { product * factor })
+                Some(if *divides {
+                    product / factor
+                } else {
+                    product * factor
+                })
             }),
             Tree::Power(base, exponent) => Some(base.value(of)?.powf(exponent.value(of)?)),
             Tree::Root(inner) => Some(inner.value(of)?.sqrt()),
             Tree::Absolute(inner) => Some(inner.value(of)?.abs()),
-            Tree::Call(function, arguments) => list(arguments).map(|arguments| (function.of)(&arguments)),
+            Tree::Call(function, arguments) => {
+                list(arguments).map(|arguments| (function.of)(&arguments))
+            }
         }
     }
 
@@ -99,10 +150,16 @@ impl Tree {
             Tree::Number(_) | Tree::Pi | Tree::Unit(_) => {}
             Tree::Symbol(symbol) if found.contains(&symbol.as_str()) => {}
             Tree::Symbol(symbol) => found.push(symbol),
-            Tree::Sum(parts) | Tree::Product(parts) => parts.iter().for_each(|(_, part)| part.collect(found)),
-            Tree::Power(base, exponent) => [base, exponent].into_iter().for_each(|part| part.collect(found)),
+            Tree::Sum(parts) | Tree::Product(parts) => {
+                parts.iter().for_each(|(_, part)| part.collect(found))
+            }
+            Tree::Power(base, exponent) => [base, exponent]
+                .into_iter()
+                .for_each(|part| part.collect(found)),
             Tree::Root(inner) | Tree::Absolute(inner) => inner.collect(found),
-            Tree::Call(_, arguments) => arguments.iter().for_each(|argument| argument.collect(found)),
+            Tree::Call(_, arguments) => arguments
+                .iter()
+                .for_each(|argument| argument.collect(found)),
         }
     }
 }
@@ -123,7 +180,9 @@ fn tokens(text: &str) -> Option<Vec<Token>> {
     while let Some(first) = rest.chars().next() {
         let length = match first {
             '0'..='9' => length(rest, |c, _| c.is_ascii_digit() || c == '.'),
-            _ if is_letter(first) => length(rest, |c, next| is_letter(c) || "_'*".contains(c) || c == ',' && is_letter(next)),
+            _ if is_letter(first) => length(rest, |c, next| {
+                is_letter(c) || "_'*".contains(c) || c == ',' && is_letter(next)
+            }),
             '[' => rest.find(']')? + 1,
             _ => first.len_utf8(),
         };
@@ -148,7 +207,9 @@ fn is_letter(c: char) -> bool {
 /// How many bytes of the text belong to its first token.
 fn length(text: &str, belongs: impl Fn(char, char) -> bool) -> usize {
     let next = |at: usize, c: char| text[at + c.len_utf8()..].chars().next().unwrap_or(' ');
-    text.char_indices().find(|&(at, c)| !belongs(c, next(at, c))).map_or(text.len(), |(at, _)| at)
+    text.char_indices()
+        .find(|&(at, c)| !belongs(c, next(at, c)))
+        .map_or(text.len(), |(at, _)| at)
 }
 
 /// Tokens and how many of them are read.
@@ -175,7 +236,11 @@ impl Reader {
             self.at += 1;
             terms.push((mark == '-', self.product()?));
         }
-        Some(if matches!(terms[..], [(false, _)]) { terms.remove(0).1 } else { Tree::Sum(terms) })
+        Some(if matches!(terms[..], [(false, _)]) {
+            terms.remove(0).1
+        } else {
+            Tree::Sum(terms)
+        })
     }
 
     fn product(&mut self) -> Option<Tree> {
@@ -183,14 +248,20 @@ impl Reader {
         loop {
             let divides = self.took('/');
             let told = divides || self.took('·');
-            let follows =
-                matches!(self.peek(), Some(Token::Number(_) | Token::Word(_) | Token::Unit(_) | Token::Mark('(' | '√')));
+            let follows = matches!(
+                self.peek(),
+                Some(Token::Number(_) | Token::Word(_) | Token::Unit(_) | Token::Mark('(' | '√'))
+            );
             if !told && !follows {
                 break;
             }
             factors.push((divides, self.factor()?));
         }
-        Some(if factors.len() == 1 { factors.remove(0).1 } else { Tree::Product(factors) })
+        Some(if factors.len() == 1 {
+            factors.remove(0).1
+        } else {
+            Tree::Product(factors)
+        })
     }
 
     fn factor(&mut self) -> Option<Tree> {
@@ -200,7 +271,10 @@ impl Reader {
         }
         let raised = SUPERSCRIPTS.iter().find(|(mark, _)| self.took(*mark));
         Some(match raised {
-            Some((_, exponent)) => Tree::Power(Box::new(base), Box::new(Tree::Number((*exponent).to_owned()))),
+            Some((_, exponent)) => Tree::Power(
+                Box::new(base),
+                Box::new(Tree::Number((*exponent).to_owned())),
+            ),
             None => base,
         })
     }
@@ -211,7 +285,8 @@ impl Reader {
         match token {
             Token::Number(text) => Some(Tree::Number(text)),
             Token::Word(word) if word == "π" => Some(Tree::Pi),
-            Token::Word(word) => match FUNCTIONS.into_iter().find(|function| function.name == word) {
+            Token::Word(word) => match FUNCTIONS.into_iter().find(|function| function.name == word)
+            {
                 Some(function) => self.call(function),
                 None => Some(Tree::Symbol(word)),
             },
@@ -259,7 +334,9 @@ mod tests {
                 _ => return None,
             })
         };
-        Tree::read(text).and_then(|tree| tree.value(&of)).unwrap_or(f64::NAN)
+        Tree::read(text)
+            .and_then(|tree| tree.value(&of))
+            .unwrap_or(f64::NAN)
     }
 
     #[test]
@@ -279,13 +356,19 @@ mod tests {
             ("3 sin(a - a) + inv(0)", 0.0),
             ("2 [N/(um mm)]/[mm]", 2e12),
         ] {
-            assert!((value(text) - expected).abs() < 1e-15, "{text}: {}", value(text));
+            assert!(
+                (value(text) - expected).abs() < 1e-15,
+                "{text}: {}",
+                value(text)
+            );
         }
     }
 
     #[test]
     fn what_is_no_formula_is_refused() {
-        for text in ["", "a +", "(a", "a)", "|a", "atan2(a)", "a ? a", "a ^", "cos"] {
+        for text in [
+            "", "a +", "(a", "a)", "|a", "atan2(a)", "a ? a", "a ^", "cos",
+        ] {
             assert_eq!(Tree::read(text), None, "{text}");
         }
         assert!(value("unknown").is_nan());

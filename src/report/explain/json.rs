@@ -1,7 +1,7 @@
 //! An explanation as one JSON object on one line.
 
 use super::numbers::GLUE;
-use super::{Effect, Finding, How, Leaf, Mend, Page, Work};
+use super::{Correction, Effect, Finding, How, Leaf, Page, Work};
 use crate::report::Shown;
 use crate::report::json::write_line;
 use serde::Serialize;
@@ -104,7 +104,21 @@ pub fn write(page: &Page, name: &str, out: &mut dyn Write) -> io::Result<()> {
         work: page.work.iter().map(WorkLine::of).collect(),
         with: page.leaves.iter().map(LeafLine::of).collect(),
         source: page.source,
-        mended: page.mended.iter().map(|&&Mend { equation, wrong, used }| MendLine { equation, wrong, used }).collect(),
+        mended: page
+            .mended
+            .iter()
+            .map(
+                |&&Correction {
+                     equation,
+                     wrong,
+                     used,
+                 }| MendLine {
+                    equation,
+                    wrong,
+                    used,
+                },
+            )
+            .collect(),
         assumes: page.assumes,
         valid: page.valid.iter().map(FindingLine::of).collect(),
         worth: &page.worth,
@@ -124,7 +138,10 @@ impl WorkLine<'_> {
                 How::Told => "told",
             },
             formula: &work.formula,
-            numbers: work.numbers.as_ref().map(|numbers| numbers.replace(GLUE, " ")),
+            numbers: work
+                .numbers
+                .as_ref()
+                .map(|numbers| numbers.replace(GLUE, " ")),
             shown: work.shown.as_ref().map(Shown::to_string),
             residual: work.residual.as_deref(),
         }
@@ -133,18 +150,32 @@ impl WorkLine<'_> {
 
 impl LeafLine<'_> {
     fn of(leaf: &Leaf) -> LeafLine<'_> {
-        LeafLine { symbol: leaf.symbol, key: leaf.key, shown: &leaf.shown, meaning: leaf.meaning }
+        LeafLine {
+            symbol: leaf.symbol,
+            key: leaf.key,
+            shown: &leaf.shown,
+            meaning: leaf.meaning,
+        }
     }
 }
 
 impl FindingLine<'_> {
     fn of(finding: &Finding) -> FindingLine<'_> {
-        FindingLine { range: &finding.range, here: &finding.here, holds: finding.holds }
+        FindingLine {
+            range: &finding.range,
+            here: &finding.here,
+            holds: finding.holds,
+        }
     }
 }
 
 impl EffectLine<'_> {
     fn of(effect: &Effect) -> EffectLine<'_> {
-        EffectLine { key: effect.key, text: &effect.text, step: &effect.step, change: &effect.change }
+        EffectLine {
+            key: effect.key,
+            text: &effect.text,
+            step: &effect.step,
+            change: &effect.change,
+        }
     }
 }

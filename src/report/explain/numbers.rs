@@ -15,7 +15,11 @@ pub(super) enum Term {
     /// As the case writes it, and its value in SI.
     Written(String, f64),
     /// A value in SI, shown in a unit that is worth so much.
-    Rounded { value: f64, unit: &'static str, factor: f64 },
+    Rounded {
+        value: f64,
+        unit: &'static str,
+        factor: f64,
+    },
 }
 
 impl Term {
@@ -30,7 +34,11 @@ impl Term {
     pub(super) fn text(&self, digits: usize) -> String {
         match self {
             Term::Written(text, _) => text.clone(),
-            Term::Rounded { value, unit, factor } => with_unit(&tidy(value / factor, digits), unit),
+            Term::Rounded {
+                value,
+                unit,
+                factor,
+            } => with_unit(&tidy(value / factor, digits), unit),
         }
     }
 
@@ -38,14 +46,20 @@ impl Term {
     fn shown_value(&self, digits: usize) -> Option<f64> {
         match self {
             Term::Written(_, value) => Some(*value),
-            Term::Rounded { value, factor, .. } => Some(significant(value / factor, digits).parse::<f64>().ok()? * factor),
+            Term::Rounded { value, factor, .. } => {
+                Some(significant(value / factor, digits).parse::<f64>().ok()? * factor)
+            }
         }
     }
 }
 
 /// A number and its unit, which a number alone has not.
 pub(super) fn with_unit(number: &str, unit: &str) -> String {
-    if matches!(unit, "" | "1") { number.to_owned() } else { format!("{number} {unit}") }
+    if matches!(unit, "" | "1") {
+        number.to_owned()
+    } else {
+        format!("{number} {unit}")
+    }
 }
 
 /// A number with that many digits, without the zeros at the end of one that has no more.
@@ -56,12 +70,14 @@ pub(super) fn tidy(value: f64, digits: usize) -> String {
         return full;
     }
     let short = full.trim_end_matches('0').trim_end_matches('.');
-    let exact = short.parse::<f64>().is_ok_and(|found| (found - value).abs() <= EXACT * value.abs());
+    let exact = short
+        .parse::<f64>()
+        .is_ok_and(|found| (found - value).abs() <= EXACT * value.abs());
     if exact { short.to_owned() } else { full }
 }
 
-/// The formula with the terms in it, each with the fewest digits (but no fewer than `digits`) from which the formula gives
-/// what `tells` accepts; `None` where even all digits do not.
+/// The formula with the terms in it, each with the fewest digits (but no fewer than `digits`) from
+/// which the formula gives what `tells` accepts; `None` where even all digits do not.
 pub(super) fn written(
     tree: &Tree,
     digits: usize,
@@ -72,7 +88,13 @@ pub(super) fn written(
         let found = tree.value(&|symbol| term(symbol)?.shown_value(digits));
         found.is_some_and(tells)
     })?;
-    Some(Writer { term, digits: enough }.write(tree, Place::Open))
+    Some(
+        Writer {
+            term,
+            digits: enough,
+        }
+        .write(tree, Place::Open),
+    )
 }
 
 /// Where a part stands, which decides what must be put in parentheses.
@@ -99,22 +121,34 @@ impl Writer<'_> {
             Tree::Number(text) => text.clone(),
             Tree::Pi => "π".to_owned(),
             Tree::Symbol(symbol) => self.symbol(symbol, place),
-            Tree::Unit(unit) => closed(format!("1 {unit}").replace(' ', GLUE), place == Place::Tight),
+            Tree::Unit(unit) => closed(
+                format!("1 {unit}").replace(' ', GLUE),
+                place == Place::Tight,
+            ),
             Tree::Sum(terms) => closed(self.sum(terms), place > Place::Open),
             Tree::Product(factors) => closed(self.product(factors), place > Place::InSum),
-            Tree::Power(base, exponent) => format!("{}{}", self.write(base, Place::Tight), self.exponent(exponent)),
+            Tree::Power(base, exponent) => format!(
+                "{}{}",
+                self.write(base, Place::Tight),
+                self.exponent(exponent)
+            ),
             Tree::Root(inner) => format!("√({})", self.write(inner, Place::Open)),
             Tree::Absolute(inner) => format!("|{}|", self.write(inner, Place::Open)),
             Tree::Call(function, arguments) => {
-                let arguments: Vec<String> = arguments.iter().map(|argument| self.write(argument, Place::Open)).collect();
+                let arguments: Vec<String> = arguments
+                    .iter()
+                    .map(|argument| self.write(argument, Place::Open))
+                    .collect();
                 format!("{}({})", function.name, arguments.join(", "))
             }
         }
     }
 
     fn symbol(&self, symbol: &str, place: Place) -> String {
-        let text = (self.term)(symbol).map_or_else(|| symbol.to_owned(), |term| term.text(self.digits));
-        let wraps = text.starts_with('-') && place > Place::Open || text.contains(' ') && place == Place::Tight;
+        let text =
+            (self.term)(symbol).map_or_else(|| symbol.to_owned(), |term| term.text(self.digits));
+        let wraps = text.starts_with('-') && place > Place::Open
+            || text.contains(' ') && place == Place::Tight;
         closed(text.replace(' ', GLUE), wraps)
     }
 
@@ -129,7 +163,14 @@ impl Writer<'_> {
             };
             text += &match term {
                 Tree::Product(factors) => self.product(factors),
-                other => self.write(other, if text.is_empty() { Place::Open } else { Place::InSum }),
+                other => self.write(
+                    other,
+                    if text.is_empty() {
+                        Place::Open
+                    } else {
+                        Place::InSum
+                    },
+                ),
             };
         }
         text
@@ -138,7 +179,14 @@ impl Writer<'_> {
     fn product(&self, factors: &[(bool, Tree)]) -> String {
         let mut text = String::new();
         for (index, (divides, factor)) in factors.iter().enumerate() {
-            let written = self.write(factor, if *divides { Place::Tight } else { Place::InProduct });
+            let written = self.write(
+                factor,
+                if *divides {
+                    Place::Tight
+                } else {
+                    Place::InProduct
+                },
+            );
             text += match index {
                 0 => "",
                 _ if *divides && [&text, &written].iter().any(|part| part.contains(GLUE)) => " / ",
@@ -171,26 +219,49 @@ mod tests {
 
     fn term(symbol: &str) -> Option<Term> {
         Some(match symbol {
-            "v" => Term::Rounded { value: 0.821_063_9, unit: "m/s", factor: 1.0 },
+            "v" => Term::Rounded {
+                value: 0.821_063_9,
+                unit: "m/s",
+                factor: 1.0,
+            },
             "b" => Term::Written("8 mm".to_owned(), 8e-3),
-            "M" => Term::Rounded { value: 0.113_731_2, unit: "kg", factor: 1.0 },
-            "q" => Term::Rounded { value: 0.127_770_4e-9, unit: "um mm/N", factor: 1e-9 },
-            "x" => Term::Rounded { value: -0.3, unit: "1", factor: 1.0 },
+            "M" => Term::Rounded {
+                value: 0.113_731_2,
+                unit: "kg",
+                factor: 1.0,
+            },
+            "q" => Term::Rounded {
+                value: 0.127_770_4e-9,
+                unit: "um mm/N",
+                factor: 1e-9,
+            },
+            "x" => Term::Rounded {
+                value: -0.3,
+                unit: "1",
+                factor: 1.0,
+            },
             _ => return None,
         })
     }
 
     fn text(formula: &str) -> Option<String> {
-        written(&Tree::read(formula)?, 5, &term, &|_| true).map(|text| text.replace(super::GLUE, " "))
+        written(&Tree::read(formula)?, 5, &term, &|_| true)
+            .map(|text| text.replace(super::GLUE, " "))
     }
 
     #[test]
     fn every_operation_stays_what_it_was() {
         for (formula, expected) in [
-            ("v √(b M/q)", "0.82106 m/s · √(8 mm · 0.11373 kg / (0.12777 um mm/N))"),
+            (
+                "v √(b M/q)",
+                "0.82106 m/s · √(8 mm · 0.11373 kg / (0.12777 um mm/N))",
+            ),
             ("b/2 (x + 1)", "8 mm / 2 · (-0.3 + 1)"),
             ("1 - x", "1 - (-0.3)"),
-            ("b² - b (M v)/q", "(8 mm)² - 8 mm · (0.11373 kg · 0.82106 m/s) / (0.12777 um mm/N)"),
+            (
+                "b² - b (M v)/q",
+                "(8 mm)² - 8 mm · (0.11373 kg · 0.82106 m/s) / (0.12777 um mm/N)",
+            ),
             ("-(b + b) x", "-(8 mm + 8 mm) · (-0.3)"),
             ("(b M)^(1/5)", "(8 mm · 0.11373 kg)^(1/5)"),
             ("atan2(b, -x)", "atan2(8 mm, -(-0.3))"),
@@ -203,7 +274,10 @@ mod tests {
     fn a_term_has_as_many_digits_as_the_value_needs() {
         let tree = Tree::read("v").unwrap();
         let close = |found: f64| (found - 0.821_063_9).abs() < 1e-8;
-        assert_eq!(written(&tree, 3, &term, &close).as_deref(), Some("0.8210639\u{a0}m/s"));
+        assert_eq!(
+            written(&tree, 3, &term, &close).as_deref(),
+            Some("0.8210639\u{a0}m/s")
+        );
         assert_eq!(written(&tree, 3, &term, &|_| false), None);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::numbers::GLUE;
 use super::{Effect, How, Leaf, Page, Work};
-use crate::case::visible::visible;
+use crate::case::sanitize::sanitize;
 use crate::report::layout::{WIDTH, count, flow, widest};
 
 /// What a line is, for the eye.
@@ -33,14 +33,20 @@ pub struct Line {
 
 impl Line {
     fn new(kind: Kind, text: impl Into<String>) -> Line {
-        Line { kind, text: text.into() }
+        Line {
+            kind,
+            text: text.into(),
+        }
     }
 }
 
 /// The page as text, 80 columns wide.
 #[must_use]
 pub fn render(page: &Page, name: &str) -> String {
-    lines(page, name, WIDTH).into_iter().map(|line| line.text.trim_end().to_owned() + "\n").collect()
+    lines(page, name, WIDTH)
+        .into_iter()
+        .map(|line| line.text.trim_end().to_owned() + "\n")
+        .collect()
 }
 
 /// The page in lines of at most so many columns; `name` says of which case it is.
@@ -49,13 +55,28 @@ pub fn lines(page: &Page, name: &str, width: usize) -> Vec<Line> {
     let width = width.max(20);
     let sections = [
         head(page, name, width),
-        titled("Formula", page.work.iter().flat_map(|work| worked(work, width)).collect()),
+        titled(
+            "Formula",
+            page.work
+                .iter()
+                .flat_map(|work| worked(work, width))
+                .collect(),
+        ),
         titled("with", leaves(&page.leaves, width)),
         titled("Source", paragraph(page.source, 2, width)),
         titled("Mended in print", mended(page, width)),
         titled("Valid for", valid(page, width)),
-        titled("Worth", page.worth.iter().flat_map(|line| paragraph(line, 2, width)).collect()),
-        titled("Depends on: what a small step does", effects(&page.effects, width)),
+        titled(
+            "Worth",
+            page.worth
+                .iter()
+                .flat_map(|line| paragraph(line, 2, width))
+                .collect(),
+        ),
+        titled(
+            "Depends on: what a small step does",
+            effects(&page.effects, width),
+        ),
     ];
     let mut lines: Vec<Line> = Vec::new();
     for section in sections.into_iter().filter(|section| !section.is_empty()) {
@@ -79,16 +100,33 @@ fn head(page: &Page, name: &str, width: usize) -> Vec<Line> {
         (Some(shown), _) => format!("{} = {shown}", page.symbol),
         (None, reason) => reason.clone().unwrap_or_default(),
     };
-    let symbol = if page.symbol.is_empty() { String::new() } else { format!(", {}", page.symbol) };
+    let symbol = if page.symbol.is_empty() {
+        String::new()
+    } else {
+        format!(", {}", page.symbol)
+    };
     let title = format!("{}{symbol} ({})", page.label, quantity.equation);
-    let by = if page.is_by_auto { ", taken by auto" } else { "" };
-    let of = format!("{} · {} · method {}{by}", quantity.key, visible(name), page.method);
+    let by = if page.is_by_auto {
+        ", taken by auto"
+    } else {
+        ""
+    };
+    let of = format!(
+        "{} · {} · method {}{by}",
+        quantity.key,
+        sanitize(name),
+        page.method
+    );
     let mut lines = block(Kind::Title, &title, "", "", width);
     lines.extend(block(Kind::Title, &value, "", "  ", width));
     lines.extend(block(Kind::Text, &of, "", "", width));
     lines.push(Line::new(Kind::Text, ""));
     lines.extend(paragraph(page.says, 0, width));
-    lines.extend(page.beside.iter().flat_map(|beside| paragraph(beside, 0, width)));
+    lines.extend(
+        page.beside
+            .iter()
+            .flat_map(|beside| paragraph(beside, 0, width)),
+    );
     lines
 }
 
@@ -99,18 +137,43 @@ fn worked(work: &Work, width: usize) -> Vec<Line> {
     let deep = " ".repeat(count(symbol) + 3);
     let more = format!("{deep}  ");
     let mut lines = match work.how {
-        How::Told if !work.meaning.is_empty() => {
-            block(Kind::Formula, &format!("{}; {}", work.meaning, work.formula), &lead, &more, width)
-        }
-        _ => with_meaning(block(Kind::Formula, &work.formula, &lead, &more, width), work.meaning, &more, width),
+        How::Told if !work.meaning.is_empty() => block(
+            Kind::Formula,
+            &format!("{}; {}", work.meaning, work.formula),
+            &lead,
+            &more,
+            width,
+        ),
+        _ => with_meaning(
+            block(Kind::Formula, &work.formula, &lead, &more, width),
+            work.meaning,
+            &more,
+            width,
+        ),
     };
-    let shown = work.shown.as_ref().map(|shown| shown.to_string().replace(' ', GLUE));
-    let numbers = work.numbers.clone().filter(|numbers| Some(numbers) != shown.as_ref());
+    let shown = work
+        .shown
+        .as_ref()
+        .map(|shown| shown.to_string().replace(' ', GLUE));
+    let numbers = work
+        .numbers
+        .clone()
+        .filter(|numbers| Some(numbers) != shown.as_ref());
     let told: Vec<String> = numbers.into_iter().chain(shown).collect();
     if !told.is_empty() {
-        lines.extend(block(Kind::Numbers, &told.join(&format!(" ={GLUE}")), &format!("{deep}= "), &more, width));
+        lines.extend(block(
+            Kind::Numbers,
+            &told.join(&format!(" ={GLUE}")),
+            &format!("{deep}= "),
+            &more,
+            width,
+        ));
     }
-    lines.extend(work.residual.iter().flat_map(|residual| block(Kind::Text, residual, &more, &more, width)));
+    lines.extend(
+        work.residual
+            .iter()
+            .flat_map(|residual| block(Kind::Text, residual, &more, &more, width)),
+    );
     lines
 }
 
@@ -125,7 +188,10 @@ fn sign(how: How) -> &'static str {
 /// The meaning of a step to the right of its formula, or else below it.
 fn with_meaning(mut lines: Vec<Line>, meaning: &str, more: &str, width: usize) -> Vec<Line> {
     const COLUMN: usize = 38;
-    let room = lines.last().map_or(0, |line| count(&line.text) + 2).max(COLUMN);
+    let room = lines
+        .last()
+        .map_or(0, |line| count(&line.text) + 2)
+        .max(COLUMN);
     match lines.last_mut() {
         _ if meaning.is_empty() => {}
         Some(line) if room + count(meaning) <= width => {
@@ -142,13 +208,19 @@ fn leaves(leaves: &[Leaf], width: usize) -> Vec<Line> {
     let line = |leaf: &Leaf| {
         let lead = format!("  {:symbols$}  {:values$}  ", leaf.symbol, leaf.shown);
         let more = " ".repeat(lead.chars().count());
-        block(Kind::Text, &format!("{} ({})", leaf.meaning, leaf.key), &lead, &more, width)
+        block(
+            Kind::Text,
+            &format!("{} ({})", leaf.meaning, leaf.key),
+            &lead,
+            &more,
+            width,
+        )
     };
     leaves.iter().flat_map(line).collect()
 }
 
 fn mended(page: &Page, width: usize) -> Vec<Line> {
-    let mend = |mend: &&super::Mend| {
+    let mend = |mend: &&super::Correction| {
         let text = format!("{}: {}. Used: {}.", mend.equation, mend.wrong, mend.used);
         block(Kind::Text, &text, "  ", "    ", width)
     };
@@ -161,14 +233,25 @@ fn mended(page: &Page, width: usize) -> Vec<Line> {
 fn valid(page: &Page, width: usize) -> Vec<Line> {
     let mut lines = paragraph(page.assumes, 2, width);
     for finding in &page.valid {
-        let (kind, mark) = if finding.holds { (Kind::Text, "  ok   ") } else { (Kind::Outside, "  NOT  ") };
-        lines.extend(block(kind, &format!("{}. Here: {}.", finding.range, finding.here), mark, "       ", width));
+        let (kind, mark) = if finding.holds {
+            (Kind::Text, "  ok   ")
+        } else {
+            (Kind::Outside, "  NOT  ")
+        };
+        lines.extend(block(
+            kind,
+            &format!("{}. Here: {}.", finding.range, finding.here),
+            mark,
+            "       ",
+            width,
+        ));
     }
     lines
 }
 
 fn effects(effects: &[Effect], width: usize) -> Vec<Line> {
-    let (acting, idle): (Vec<&Effect>, Vec<&Effect>) = effects.iter().partition(|effect| !effect.change.is_empty());
+    let (acting, idle): (Vec<&Effect>, Vec<&Effect>) =
+        effects.iter().partition(|effect| !effect.change.is_empty());
     let column = |of: fn(&Effect) -> &str| widest(acting.iter().map(|effect| of(effect)));
     let [symbol, key] = [column(|effect| effect.symbol), column(|effect| effect.key)];
     let [text, step] = [column(|effect| &effect.text), column(|effect| &effect.step)];
@@ -176,19 +259,39 @@ fn effects(effects: &[Effect], width: usize) -> Vec<Line> {
     let full = symbol + key + text + step + change + 10;
     let mut lines = Vec::new();
     for effect in acting {
-        let Effect { symbol: symbols, key: keys, text: texts, step: steps, change: changes } = effect;
+        let Effect {
+            symbol: symbols,
+            key: keys,
+            text: texts,
+            step: steps,
+            change: changes,
+        } = effect;
         let row = format!("{keys:key$}  {texts:text$}  {steps:>step$}  {changes:>change$}");
         lines.extend(match full {
-            _ if full <= width => vec![Line::new(Kind::Text, format!("  {symbols:symbol$}  {row}"))],
+            _ if full <= width => {
+                vec![Line::new(Kind::Text, format!("  {symbols:symbol$}  {row}"))]
+            }
             _ if full - symbol - 2 <= width => vec![Line::new(Kind::Text, format!("  {row}"))],
-            _ => paragraph(&format!("{keys} = {texts}: {steps} gives {changes}"), 2, width),
+            _ => paragraph(
+                &format!("{keys} = {texts}: {steps} gives {changes}"),
+                2,
+                width,
+            ),
         });
     }
     let told = |effect: &&Effect| format!("{} = {}", effect.key, effect.text).replace(' ', GLUE);
     if !idle.is_empty() {
-        let says = if lines.is_empty() { "Read:" } else { "Also read, but left out, a choice, or without effect here:" };
+        let says = if lines.is_empty() {
+            "Read:"
+        } else {
+            "Also read, but left out, a choice, or without effect here:"
+        };
         lines.extend(paragraph(says, 2, width));
-        lines.extend(paragraph(&idle.iter().map(told).collect::<Vec<_>>().join(", "), 4, width));
+        lines.extend(paragraph(
+            &idle.iter().map(told).collect::<Vec<_>>().join(", "),
+            4,
+            width,
+        ));
     }
     lines
 }
@@ -201,7 +304,13 @@ fn paragraph(text: &str, indent: usize, width: usize) -> Vec<Line> {
 /// Words set into lines: the first behind `lead`, the others behind `more`.
 fn block(kind: Kind, text: &str, lead: &str, more: &str, width: usize) -> Vec<Line> {
     let indent = count(lead).max(count(more));
-    let rows = flow(text.split(' ').filter(|word| !word.is_empty()), width.saturating_sub(indent).max(8));
+    let rows = flow(
+        text.split(' ').filter(|word| !word.is_empty()),
+        width.saturating_sub(indent).max(8),
+    );
     let start = |index| if index == 0 { lead } else { more };
-    rows.iter().enumerate().map(|(index, row)| Line::new(kind, format!("{}{}", start(index), row.replace(GLUE, " ")))).collect()
+    rows.iter()
+        .enumerate()
+        .map(|(index, row)| Line::new(kind, format!("{}{}", start(index), row.replace(GLUE, " "))))
+        .collect()
 }

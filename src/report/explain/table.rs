@@ -1,14 +1,15 @@
-//! The one table of explanations: for every quantity what it is, its formula, its source, and where it holds.
+//! The one table of explanations: for every quantity what it is, its formula, its source, and where
+//! it holds.
 
 mod deviation;
 mod friction;
 mod geometry;
 mod impact;
 mod load;
-pub(super) mod otherwise;
+pub(super) mod method_variants;
 mod position;
 
-use super::known::Formula;
+use super::context::Formula;
 use super::valid::Look;
 use crate::model::Quantity;
 
@@ -23,7 +24,7 @@ pub(super) struct Explanation {
     pub(super) formula: Formula,
     /// Author, year, equation.
     pub(super) source: &'static str,
-    /// The equations of [`MENDS`](super::mended::MENDS) that it rests on.
+    /// The equations of [`MENDS`](super::corrections::MENDS) that it rests on.
     pub(super) mended: &'static [&'static str],
     /// What is taken for granted.
     pub(super) assumes: &'static str,
@@ -33,7 +34,16 @@ pub(super) struct Explanation {
 
 /// Every explanation.
 pub(super) fn explanations() -> impl Iterator<Item = &'static Explanation> {
-    [geometry::TABLE, deviation::TABLE, position::TABLE, impact::TABLE, friction::TABLE, load::TABLE].into_iter().flatten()
+    [
+        geometry::TABLE,
+        deviation::TABLE,
+        position::TABLE,
+        impact::TABLE,
+        friction::TABLE,
+        load::TABLE,
+    ]
+    .into_iter()
+    .flatten()
 }
 
 /// The explanation of a quantity.

@@ -7,7 +7,7 @@ pub(super) mod pair;
 pub(super) mod position;
 pub(super) mod stiffness;
 
-use super::known::Known;
+use super::context::Known;
 use super::numbers::tidy;
 
 /// A range of validity and the case's place in it.
@@ -24,9 +24,16 @@ pub struct Finding {
 /// A range to look at; `None` where the case gives no value to look at.
 pub(super) type Look = fn(&Known) -> Option<Finding>;
 
-#[expect(clippy::unnecessary_wraps, reason = "every look has one shape, whether or not it may find nothing to look at")]
+#[expect(
+    clippy::unnecessary_wraps,
+    reason = "every look has one shape, whether or not it may find nothing to look at"
+)]
 fn finding(range: impl Into<String>, here: impl Into<String>, holds: bool) -> Option<Finding> {
-    Some(Finding { range: range.into(), here: here.into(), holds })
+    Some(Finding {
+        range: range.into(),
+        here: here.into(),
+        holds,
+    })
 }
 
 /// A length in mm.

@@ -46,12 +46,30 @@ pub struct Look {
 
 /// One look a series, in order.
 pub const LOOKS: [Look; 6] = [
-    Look { shape: "M-4-4H4V4H-4Z", colour: "#8a4b08" },
-    Look { shape: "M0-5.5L5.5 0L0 5.5L-5.5 0Z", colour: "#0b6e99" },
-    Look { shape: "M0-5L5 4.5H-5Z", colour: "#2b7a3d" },
-    Look { shape: "M-4.5 0a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0-9 0Z", colour: "#b3261e" },
-    Look { shape: "M0 5L5-4.5H-5Z", colour: "#6a3fa0" },
-    Look { shape: "M-1.5-5h3v3.5h3.5v3h-3.5v3.5h-3v-3.5h-3.5v-3h3.5Z", colour: "#555555" },
+    Look {
+        shape: "M-4-4H4V4H-4Z",
+        colour: "#8a4b08",
+    },
+    Look {
+        shape: "M0-5.5L5.5 0L0 5.5L-5.5 0Z",
+        colour: "#0b6e99",
+    },
+    Look {
+        shape: "M0-5L5 4.5H-5Z",
+        colour: "#2b7a3d",
+    },
+    Look {
+        shape: "M-4.5 0a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0-9 0Z",
+        colour: "#b3261e",
+    },
+    Look {
+        shape: "M0 5L5-4.5H-5Z",
+        colour: "#6a3fa0",
+    },
+    Look {
+        shape: "M-1.5-5h3v3.5h3.5v3h-3.5v3.5h-3v-3.5h-3.5v-3h3.5Z",
+        colour: "#555555",
+    },
 ];
 
 const SIZE: (f64, f64) = (760.0, 420.0);
@@ -78,12 +96,24 @@ impl Axis {
     #[must_use]
     pub fn of(values: impl Iterator<Item = f64>, start: f64, end: f64) -> Axis {
         let logs = values.map(f64::log10).filter(|log| log.is_finite());
-        let (least, most) = logs.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), log| (least.min(log), most.max(log)));
+        let (least, most) = logs.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), log| {
+            (least.min(log), most.max(log))
+        });
         if least > most {
-            return Axis { from: 0, to: 1, start, end };
+            return Axis {
+                from: 0,
+                to: 1,
+                start,
+                end,
+            };
         }
         let from = least.floor() as i32;
-        Axis { from, to: (most.ceil() as i32).max(from + 1), start, end }
+        Axis {
+            from,
+            to: (most.ceil() as i32).max(from + 1),
+            start,
+            end,
+        }
     }
 
     /// Where a value lies.
@@ -107,8 +137,15 @@ pub fn svg(plot: &Plot<'_>) -> String {
     let across = Axis::of(points().map(|point| point.seconds), FIELD.0, FIELD.2);
     let up = Axis::of(points().map(|point| shown(point.error)), FIELD.3, FIELD.1);
     let mut lines = vec![frame(plot)];
-    lines.extend(across.marks(MARKS).map(|decade| upright(decade, across.at(10f64.powi(decade)))));
-    lines.extend(up.marks(MARKS).map(|decade| level(decade, up.at(10f64.powi(decade)))));
+    lines.extend(
+        across
+            .marks(MARKS)
+            .map(|decade| upright(decade, across.at(10f64.powi(decade)))),
+    );
+    lines.extend(
+        up.marks(MARKS)
+            .map(|decade| level(decade, up.at(10f64.powi(decade)))),
+    );
     for (at, series) in plot.series.iter().enumerate() {
         lines.push(drawn(series, &across, &up));
         lines.push(legend(series, at));
@@ -173,16 +210,29 @@ pub fn time(decade: i32) -> String {
 
 fn drawn(series: &Series, across: &Axis, up: &Axis) -> String {
     let Look { shape, colour } = series.look;
-    let places: Vec<(f64, f64)> =
-        series.points.iter().map(|point| (across.at(point.seconds), up.at(shown(point.error)))).collect();
-    let way: Vec<String> = places.iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
+    let places: Vec<(f64, f64)> = series
+        .points
+        .iter()
+        .map(|point| (across.at(point.seconds), up.at(shown(point.error))))
+        .collect();
+    let way: Vec<String> = places
+        .iter()
+        .map(|(x, y)| format!("{x:.1},{y:.1}"))
+        .collect();
     let mut text = format!(
         "<g fill=\"{colour}\" stroke=\"{colour}\">\n<polyline points=\"{}\" fill=\"none\" stroke-opacity=\"0.5\"/>",
         way.join(" ")
     );
     for ((x, y), point) in places.iter().zip(&series.points) {
-        let ring = if point.is_usual { "<circle r=\"9\" fill=\"none\"/>" } else { "" };
-        let _ = write!(text, "\n<g transform=\"translate({x:.1} {y:.1})\"><path d=\"{shape}\" stroke=\"none\"/>{ring}</g>");
+        let ring = if point.is_usual {
+            "<circle r=\"9\" fill=\"none\"/>"
+        } else {
+            ""
+        };
+        let _ = write!(
+            text,
+            "\n<g transform=\"translate({x:.1} {y:.1})\"><path d=\"{shape}\" stroke=\"none\"/>{ring}</g>"
+        );
     }
     text + "\n</g>"
 }
@@ -199,7 +249,10 @@ fn legend(series: &Series, at: usize) -> String {
 }
 
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
 }
 
 #[cfg(test)]
@@ -207,18 +260,38 @@ mod tests {
     use super::*;
 
     fn plot(points: Vec<Point>) -> String {
-        let series = [Series { name: "exact & <co>".to_owned(), look: LOOKS[1], points }];
-        svg(&Plot { title: "Error against time", across: "time", up: "error", series: &series })
+        let series = [Series {
+            name: "exact & <co>".to_owned(),
+            look: LOOKS[1],
+            points,
+        }];
+        svg(&Plot {
+            title: "Error against time",
+            across: "time",
+            up: "error",
+            series: &series,
+        })
     }
 
     #[test]
     fn every_setting_has_a_mark_and_the_usual_one_a_ring() {
-        let point = |seconds, error, is_usual| Point { seconds, error, is_usual };
+        let point = |seconds, error, is_usual| Point {
+            seconds,
+            error,
+            is_usual,
+        };
         let drawn = plot(vec![point(1e-6, 1e-3, false), point(2e-5, 0.0, true)]);
         assert_eq!(drawn.matches("translate(").count(), 1 + 2 + 1, "{drawn}");
         assert_eq!(drawn.matches("<circle").count(), 1);
-        assert!(drawn.contains("1 us") && drawn.contains("100 us") && drawn.contains("1e-16"), "{drawn}");
-        assert!(drawn.contains("exact &amp; &lt;co&gt;") && !drawn.contains("NaN") && !drawn.contains("inf"));
+        assert!(
+            drawn.contains("1 us") && drawn.contains("100 us") && drawn.contains("1e-16"),
+            "{drawn}"
+        );
+        assert!(
+            drawn.contains("exact &amp; &lt;co&gt;")
+                && !drawn.contains("NaN")
+                && !drawn.contains("inf")
+        );
     }
 
     #[test]

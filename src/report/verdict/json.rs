@@ -41,7 +41,11 @@ struct Own {
 impl Own {
     fn of(beside: &Beside) -> Option<Own> {
         let (quantity, value) = beside.own?;
-        Some(Own { quantity, value, unit: Quantity::find(quantity).map(|own| own.unit) })
+        Some(Own {
+            quantity,
+            value,
+            unit: Quantity::find(quantity).map(|own| own.unit),
+        })
     }
 }
 
@@ -49,13 +53,32 @@ impl Own {
 ///
 /// # Errors
 /// What the writer refuses.
-pub fn write(verdicts: &[Verdict], case: &str, method: Method, out: &mut dyn Write) -> io::Result<()> {
+pub fn write(
+    verdicts: &[Verdict],
+    case: &str,
+    method: Method,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     if verdicts.is_empty() {
         let message = "no limits".to_owned();
         let standing = Standing::Within.name();
         let method = method.name();
         let (quantity, value, limit, unit, of, own) = (None, None, None, None, None, None);
-        return write_line(&Line { case, method, standing, quantity, value, limit, unit, of, own, message }, out);
+        return write_line(
+            &Line {
+                case,
+                method,
+                standing,
+                quantity,
+                value,
+                limit,
+                unit,
+                of,
+                own,
+                message,
+            },
+            out,
+        );
     }
     let line = |verdict: &Verdict| Line {
         case,
@@ -69,5 +92,7 @@ pub fn write(verdicts: &[Verdict], case: &str, method: Method, out: &mut dyn Wri
         own: verdict.beside.as_ref().and_then(Own::of),
         message: verdict.to_string(),
     };
-    verdicts.iter().try_for_each(|verdict| write_line(&line(verdict), out))
+    verdicts
+        .iter()
+        .try_for_each(|verdict| write_line(&line(verdict), out))
 }

@@ -106,7 +106,9 @@ pub fn stages(method: Method) -> Stages {
         Method::Static => Stages::of(Stage::Static),
         Method::Dynamic => Stages::of(Stage::Dynamic),
         // Where `static` is taken, it stands for `dynamic`.
-        Method::Auto => Stages::CLOSED_FORM.with(Stage::Stations).and(Stages::of(Stage::Dynamic)),
+        Method::Auto => Stages::CLOSED_FORM
+            .with(Stage::Stations)
+            .and(Stages::of(Stage::Dynamic)),
     }
 }
 
@@ -126,13 +128,20 @@ impl Answer {
     /// The answer of a solve.
     #[must_use]
     pub fn of(solution: &Solution) -> Answer {
-        let value = |subject: Subject| subject.quantity(solution.method).and_then(|quantity| (quantity.value)(solution));
+        let value = |subject: Subject| {
+            subject
+                .quantity(solution.method)
+                .and_then(|quantity| (quantity.value)(solution))
+        };
         Answer {
             method: solution.method,
             outcome: solution.outcome,
             values: Subject::ALL.map(value),
             curve: curve(solution),
-            evaluations: solution.dynamic.as_ref().map(|dynamic| dynamic.effort.evaluations),
+            evaluations: solution
+                .dynamic
+                .as_ref()
+                .map(|dynamic| dynamic.effort.evaluations),
         }
     }
 
@@ -142,8 +151,9 @@ impl Answer {
         self.values[subject as usize]
     }
 
-    /// How far this answer is from the true one, relative to it: nothing where one of the methods has no such quantity. That
-    /// no tooth strikes by both is agreement, by one of them an error of 1.
+    /// How far this answer is from the true one, relative to it: nothing where one of the methods
+    /// has no such quantity. That no tooth strikes by both is agreement, by one of them an error of
+    /// 1.
     #[must_use]
     pub fn off(&self, truth: &Answer, subject: Subject) -> Option<f64> {
         if !(subject.is_of(self.method) && subject.is_of(truth.method)) {
@@ -155,16 +165,25 @@ impl Answer {
         match (self.value(subject), truth.value(subject)) {
             (Some(found), Some(expected)) => Some(relative(found - expected, expected)),
             (None, None) => Some(0.0),
-            _ if self.outcome == truth.outcome && self.outcome == Outcome::NoCornerContact => Some(0.0),
+            _ if self.outcome == truth.outcome && self.outcome == Outcome::NoCornerContact => {
+                Some(0.0)
+            }
             _ => Some(1.0),
         }
     }
 
-    /// The greatest difference of the forces over the driver's roll angle from the earlier first contact to E, over the true
-    /// peak. Read linearly, both curves differ most at a station of one of them.
+    /// The greatest difference of the forces over the driver's roll angle from the earlier first
+    /// contact to E, over the true peak. Read linearly, both curves differ most at a station of one
+    /// of them.
     fn off_curve(&self, truth: &Answer) -> f64 {
-        let angles = self.curve.iter().chain(&truth.curve).map(|&(angle, _)| angle);
-        let apart = angles.map(|angle| (self.force_at(angle) - truth.force_at(angle)).abs()).fold(0.0, f64::max);
+        let angles = self
+            .curve
+            .iter()
+            .chain(&truth.curve)
+            .map(|&(angle, _)| angle);
+        let apart = angles
+            .map(|angle| (self.force_at(angle) - truth.force_at(angle)).abs())
+            .fold(0.0, f64::max);
         match (self.outcome, truth.outcome) {
             (Outcome::NoCornerContact, Outcome::NoCornerContact) => 0.0,
             (Outcome::CornerContact, Outcome::CornerContact) => {
@@ -174,15 +193,20 @@ impl Answer {
         }
     }
 
-    /// The force at the driver's angle before E, as a reader of the stations takes it: linearly between two of them, 0
-    /// before the first contact.
+    /// The force at the driver's angle before E, as a reader of the stations takes it: linearly
+    /// between two of them, 0 before the first contact.
     #[must_use]
     pub fn force_at(&self, angle: f64) -> f64 {
         /// A first contact that differs by rounding alone is the same one.
         const ROUNDING: f64 = 1e-9;
         let next = self.curve.partition_point(|station| station.0 > angle);
-        match (next.checked_sub(1).map(|before| self.curve[before]), self.curve.get(next)) {
-            (Some(before), Some(&after)) => before.1 + (after.1 - before.1) * (before.0 - angle) / (before.0 - after.0),
+        match (
+            next.checked_sub(1).map(|before| self.curve[before]),
+            self.curve.get(next),
+        ) {
+            (Some(before), Some(&after)) => {
+                before.1 + (after.1 - before.1) * (before.0 - angle) / (before.0 - after.0)
+            }
             (None, Some(&first)) if angle <= first.0 * (1.0 + ROUNDING) => first.1,
             (None, _) => 0.0,
             (Some(last), None) => last.1,
@@ -194,13 +218,22 @@ impl Answer {
 fn curve(solution: &Solution) -> Vec<(f64, f64)> {
     let shared = match solution.method {
         Method::Paper | Method::Exact | Method::Auto => {
-            return solution.stations.iter().map(|station| (station.roll_angle_driver, station.impact_force)).collect();
+            return solution
+                .stations
+                .iter()
+                .map(|station| (station.roll_angle_driver, station.impact_force))
+                .collect();
         }
         Method::Static => solution.static_load.as_ref().map(|load| &load.stations),
         Method::Dynamic => solution.dynamic.as_ref().map(|dynamic| &dynamic.stations),
     };
-    let before_end = shared.into_iter().flatten().filter(|station| station.roll_angle_driver >= 0.0);
-    before_end.map(|station| (station.roll_angle_driver, station.force)).collect()
+    let before_end = shared
+        .into_iter()
+        .flatten()
+        .filter(|station| station.roll_angle_driver >= 0.0);
+    before_end
+        .map(|station| (station.roll_angle_driver, station.force))
+        .collect()
 }
 
 /// A difference over a size; 1 over none.
@@ -218,7 +251,11 @@ mod tests {
     use crate::case::Case;
 
     fn answer(method: Method, stations: usize) -> Answer {
-        let inputs = Inputs { method, stations: Some(stations), ..Case::table_1().inputs().unwrap() };
+        let inputs = Inputs {
+            method,
+            stations: Some(stations),
+            ..Case::table_1().inputs().unwrap()
+        };
         Answer::of(&solve(&inputs, &|| true).unwrap())
     }
 
@@ -227,25 +264,49 @@ mod tests {
         let shared = answer(Method::Static, 4);
         let (first, second) = (shared.curve[0], shared.curve[1]);
         assert_eq!((shared.curve.len(), shared.curve[4].0), (5, 0.0));
-        assert!((shared.force_at(f64::midpoint(first.0, second.0)) - f64::midpoint(first.1, second.1)).abs() < 1e-9);
-        assert!((shared.force_at(0.0) - shared.value(Subject::PeakApproachForce).unwrap()).abs() < 1e-9);
+        assert!(
+            (shared.force_at(f64::midpoint(first.0, second.0)) - f64::midpoint(first.1, second.1))
+                .abs()
+                < 1e-9
+        );
+        assert!(
+            (shared.force_at(0.0) - shared.value(Subject::PeakApproachForce).unwrap()).abs() < 1e-9
+        );
         assert!(shared.force_at(1.01 * first.0).abs() < f64::MIN_POSITIVE);
         let impact = answer(Method::Exact, 4);
-        assert_eq!(Some(impact.force_at(impact.curve[0].0 * (1.0 + 1e-15))), impact.value(Subject::PeakForce));
+        assert_eq!(
+            Some(impact.force_at(impact.curve[0].0 * (1.0 + 1e-15))),
+            impact.value(Subject::PeakForce)
+        );
     }
 
     #[test]
     fn an_answer_differs_from_others_and_not_from_itself() {
         let (shared, impact) = (answer(Method::Static, 16), answer(Method::Exact, 16));
         for subject in Subject::ALL {
-            assert_eq!(shared.off(&shared, subject), subject.is_of(Method::Static).then_some(0.0));
+            assert_eq!(
+                shared.off(&shared, subject),
+                subject.is_of(Method::Static).then_some(0.0)
+            );
         }
         assert_eq!(impact.off(&shared, Subject::Duration), None);
         assert!(impact.off(&shared, Subject::Curve).unwrap() > 0.5);
-        let on_time = Answer { outcome: Outcome::NoCornerContact, values: [None; 6], curve: Vec::new(), ..impact.clone() };
+        let on_time = Answer {
+            outcome: Outcome::NoCornerContact,
+            values: [None; 6],
+            curve: Vec::new(),
+            ..impact.clone()
+        };
         assert_eq!(on_time.off(&shared, Subject::FirstContact), Some(1.0));
         assert_eq!(on_time.off(&shared, Subject::Curve), Some(1.0));
-        let also = Answer { outcome: Outcome::NoCornerContact, ..shared };
-        assert!(Subject::NEEDED.iter().all(|&subject| on_time.off(&also, subject) == Some(0.0)));
+        let also = Answer {
+            outcome: Outcome::NoCornerContact,
+            ..shared
+        };
+        assert!(
+            Subject::NEEDED
+                .iter()
+                .all(|&subject| on_time.off(&also, subject) == Some(0.0))
+        );
     }
 }

@@ -1,4 +1,5 @@
-//! How long solves take, here and now: all of them in rounds, so that what disturbs the machine hits all alike.
+//! How long solves take, here and now: all of them in rounds, so that what disturbs the machine
+//! hits all alike.
 
 use std::time::{Duration, Instant};
 
@@ -13,9 +14,15 @@ pub struct Patience {
 
 impl Patience {
     /// Enough for a figure that stands.
-    pub const STEADY: Patience = Patience { batch: Duration::from_micros(300), most: Duration::from_millis(2500) };
+    pub const STEADY: Patience = Patience {
+        batch: Duration::from_micros(300),
+        most: Duration::from_millis(2500),
+    };
     /// A single run: for those who want the errors alone.
-    pub const ONCE: Patience = Patience { batch: Duration::ZERO, most: Duration::ZERO };
+    pub const ONCE: Patience = Patience {
+        batch: Duration::ZERO,
+        most: Duration::ZERO,
+    };
 }
 
 /// What a solve takes.
@@ -25,7 +32,8 @@ pub struct Time {
     pub seconds: f64,
     /// Half of what the middle half of the batches lies apart, in s.
     pub spread: f64,
-    /// From where to where the median lies in 95 of 100 measurements, relative to it; of too few batches, all of them.
+    /// From where to where the median lies in 95 of 100 measurements, relative to it; of too few
+    /// batches, all of them.
     pub between: (f64, f64),
     /// Solves that were run.
     pub runs: u64,
@@ -42,7 +50,11 @@ pub(super) struct Batches {
 impl Batches {
     /// Run `once`, which says whether to go on, for so long, at least a time; whether it did.
     pub(super) fn add(&mut self, batch: Duration, mut once: impl FnMut() -> bool) -> bool {
-        let solves = self.seconds.last().map_or(1, |&last| (batch.as_secs_f64() / last.max(1e-9)).ceil().clamp(1.0, 1e6) as u64);
+        let solves = self.seconds.last().map_or(1, |&last| {
+            (batch.as_secs_f64() / last.max(1e-9))
+                .ceil()
+                .clamp(1.0, 1e6) as u64
+        });
         let begin = Instant::now();
         let done = (0..solves).all(|_| once());
         if done {
@@ -50,7 +62,8 @@ impl Batches {
             if self.runs == 1 {
                 self.seconds.clear();
             }
-            self.seconds.push(begin.elapsed().as_secs_f64() / solves as f64);
+            self.seconds
+                .push(begin.elapsed().as_secs_f64() / solves as f64);
             self.runs += solves;
         }
         done
@@ -75,7 +88,12 @@ impl Batches {
         let seconds = quarter(2);
         let aside = outside(times.len());
         let between = (times[aside] / seconds, times[last - aside] / seconds);
-        Some(Time { seconds, spread: 0.5 * (quarter(3) - quarter(1)), between, runs: self.runs })
+        Some(Time {
+            seconds,
+            spread: 0.5 * (quarter(3) - quarter(1)),
+            between,
+            runs: self.runs,
+        })
     }
 }
 
@@ -89,8 +107,8 @@ impl Time {
     }
 }
 
-/// How many batches on either side of the median's 95 % interval, by order statistics: fewer than that many lie below the
-/// median with a chance of 2.5 %, as in as many throws of a coin.
+/// How many batches on either side of the median's 95 % interval, by order statistics: fewer than
+/// that many lie below the median with a chance of 2.5 %, as in as many throws of a coin.
 fn outside(batches: usize) -> usize {
     const CHANCE: f64 = 0.025;
     let mut chance = 0.5f64.powi(i32::try_from(batches).unwrap_or(i32::MAX));
@@ -108,7 +126,10 @@ mod tests {
     use super::*;
 
     fn batches(seconds: &[f64]) -> Batches {
-        Batches { seconds: seconds.to_vec(), runs: 100 }
+        Batches {
+            seconds: seconds.to_vec(),
+            runs: 100,
+        }
     }
 
     fn of(seconds: &[f64]) -> Time {
@@ -118,7 +139,10 @@ mod tests {
     #[test]
     fn ranks_of_the_interval_are_those_of_the_tables() {
         // Binomial, one half: the 95 % interval of the median of 6, 9, 12, 20, 40 values.
-        assert_eq!([1, 5, 6, 8, 9, 12, 20, 40].map(outside), [0, 0, 0, 0, 1, 2, 5, 13]);
+        assert_eq!(
+            [1, 5, 6, 8, 9, 12, 20, 40].map(outside),
+            [0, 0, 0, 0, 1, 2, 5, 13]
+        );
     }
 
     #[test]
@@ -145,15 +169,23 @@ mod tests {
 
     #[test]
     fn a_median_is_steady_where_most_batches_agree_whatever_the_others_say() {
-        let disturbed = batches(&[1.0, 1.001, 1.002, 1.0, 1.003, 1.001, 1.002, 1.0, 9.0, 1.001, 5.0, 1.002]);
-        assert!(disturbed.are_steady() && disturbed.time().unwrap().seconds < 1.01, "{disturbed:?}");
+        let disturbed = batches(&[
+            1.0, 1.001, 1.002, 1.0, 1.003, 1.001, 1.002, 1.0, 9.0, 1.001, 5.0, 1.002,
+        ]);
+        assert!(
+            disturbed.are_steady() && disturbed.time().unwrap().seconds < 1.01,
+            "{disturbed:?}"
+        );
         assert!(!batches(&[1.0, 1.3, 1.1, 1.6, 1.2, 1.5, 1.4, 1.0]).are_steady());
         assert!(!batches(&[1.0; 5]).are_steady() && batches(&[1.0; 6]).are_steady());
     }
 
     #[test]
     fn what_cannot_be_told_apart_ties() {
-        let (quick, slow) = (of(&[1.0, 1.1, 1.2, 1.1, 1.0, 1.2]), of(&[1.3, 1.4, 1.5, 1.4, 1.3, 1.5]));
+        let (quick, slow) = (
+            of(&[1.0, 1.1, 1.2, 1.1, 1.0, 1.2]),
+            of(&[1.3, 1.4, 1.5, 1.4, 1.3, 1.5]),
+        );
         let between = of(&[1.15, 1.25, 1.35, 1.25, 1.2, 1.3]);
         assert!(!quick.ties(&slow) && !slow.ties(&quick));
         assert!(between.ties(&quick) && slow.ties(&between));

@@ -32,31 +32,61 @@ struct Timed {
 }
 
 impl<'a> Rounds<'a> {
-    pub(super) fn begin(inputs: &'a Inputs, patience: Patience, is_wanted: &'a dyn Fn() -> bool) -> Rounds<'a> {
+    pub(super) fn begin(
+        inputs: &'a Inputs,
+        patience: Patience,
+        is_wanted: &'a dyn Fn() -> bool,
+    ) -> Rounds<'a> {
         let begun = Instant::now();
-        Rounds { inputs, patience, is_wanted, timed: Vec::new(), begun, first_look: Duration::ZERO, done: 0 }
+        Rounds {
+            inputs,
+            patience,
+            is_wanted,
+            timed: Vec::new(),
+            begun,
+            first_look: Duration::ZERO,
+            done: 0,
+        }
     }
 
     /// One more setting: its answer and the time of that one solve, or why it has none.
-    pub(super) fn first(&mut self, setting: Setting) -> Result<Result<(Answer, Time), Refusal>, Refusal> {
+    pub(super) fn first(
+        &mut self,
+        setting: Setting,
+    ) -> Result<Result<(Answer, Time), Refusal>, Refusal> {
         if !(self.is_wanted)() {
             return Err(Refusal::Stopped);
         }
         let inputs = setting.inputs(self.inputs);
         let (mut batches, mut found) = (Batches::default(), None);
-        batches.add(Duration::ZERO, || found.insert(answer::solve(&inputs, self.is_wanted)).is_ok());
+        batches.add(Duration::ZERO, || {
+            found.insert(answer::solve(&inputs, self.is_wanted)).is_ok()
+        });
         let found = stopped(found.unwrap_or(Err(Refusal::Stopped)))?;
         let time = batches.time();
-        self.timed.push(Timed { inputs, batches: time.is_some().then_some(batches) });
+        self.timed.push(Timed {
+            inputs,
+            batches: time.is_some().then_some(batches),
+        });
         self.first_look = self.begun.elapsed();
         Ok(found.and_then(|solution| Ok((Answer::of(&solution), time.ok_or(Refusal::Stopped)?))))
     }
 
-    /// Whether another round is worth it: some time is not steady yet, and the round would not go beyond the patience.
+    /// Whether another round is worth it: some time is not steady yet, and the round would not go
+    /// beyond the patience.
     pub(super) fn go_on(&self) -> bool {
         let gone = self.begun.elapsed().saturating_sub(self.first_look);
-        let round = if self.done == 0 { self.first_look } else { gone / self.done };
-        let is_unsteady = |timed: &Timed| timed.batches.as_ref().is_some_and(|batches| !batches.are_steady());
+        let round = if self.done == 0 {
+            self.first_look
+        } else {
+            gone / self.done
+        };
+        let is_unsteady = |timed: &Timed| {
+            timed
+                .batches
+                .as_ref()
+                .is_some_and(|batches| !batches.are_steady())
+        };
         gone + round <= self.patience.most && self.timed.iter().any(is_unsteady)
     }
 
@@ -64,12 +94,22 @@ impl<'a> Rounds<'a> {
     pub(super) fn round(&mut self) -> Result<Vec<Option<Time>>, Refusal> {
         self.done += 1;
         for Timed { inputs, batches } in &mut self.timed {
-            let once = || (self.is_wanted)() && black_box(answer::solve(black_box(inputs), self.is_wanted)).is_ok();
-            if batches.as_mut().is_some_and(|batches| !batches.add(self.patience.batch, once)) {
+            let once = || {
+                (self.is_wanted)()
+                    && black_box(answer::solve(black_box(inputs), self.is_wanted)).is_ok()
+            };
+            if batches
+                .as_mut()
+                .is_some_and(|batches| !batches.add(self.patience.batch, once))
+            {
                 return Err(Refusal::Stopped);
             }
         }
-        Ok(self.timed.iter().map(|timed| timed.batches.as_ref()?.time()).collect())
+        Ok(self
+            .timed
+            .iter()
+            .map(|timed| timed.batches.as_ref()?.time())
+            .collect())
     }
 
     /// How much is done, from 0 to 1, of so many settings.

@@ -1,5 +1,5 @@
-//! A second way to the answers of the method `dynamic`, sharing with the first no more than the mesh: even steps of the
-//! extrapolated midpoint rule, and contacts found by looking at each step.
+//! A second way to the answers of the method `dynamic`, sharing with the first no more than the
+//! mesh: even steps of the extrapolated midpoint rule, and contacts found by looking at each step.
 
 use std::f64::consts::TAU;
 
@@ -37,14 +37,24 @@ impl Second {
 /// The case once more, from the static balance to a base pitch after B.
 ///
 /// # Errors
-/// Those of [`Mesh::new`], [`Refusal::TooSlow`] where it would take longer than a person waits for, and
-/// [`Refusal::Stopped`] where `go_on` says no.
-pub(super) fn second_way(inputs: &Inputs, solution: &Solution, go_on: &dyn Fn() -> bool) -> Result<Second, Refusal> {
+/// Those of [`Mesh::new`], [`Refusal::TooSlow`] where it would take longer than a person waits for,
+/// and [`Refusal::Stopped`] where `go_on` says no.
+pub(super) fn second_way(
+    inputs: &Inputs,
+    solution: &Solution,
+    go_on: &dyn Fn() -> bool,
+) -> Result<Second, Refusal> {
     const FURTHER: f64 = 16.0;
     let error = solution.deviation.equivalent_error;
     let mut reach = error.abs() + 4.0 * solution.deviation.combined_deflection;
     loop {
-        let mesh = Mesh::new(inputs, &solution.geometry, solution.mesh_force, error, reach)?;
+        let mesh = Mesh::new(
+            inputs,
+            &solution.geometry,
+            solution.mesh_force,
+            error,
+            reach,
+        )?;
         let mut run = Run::begin(&mesh, inputs, solution.reduced_mass)?;
         run.go(go_on)?;
         if run.most_ahead + error.max(0.0) < reach || mesh.is_whole() {
@@ -72,12 +82,19 @@ impl Oscillator<'_> {
 
     /// The least of what each pair keeps: pressed where it touches, apart where it does not; in m.
     fn kept(&self, t: f64, y: &State) -> f64 {
-        let pressed = self.mesh.pairs(self.place(t), self.inside).map(|pair| self.kept_by(pair.ahead, y[0] - pair.place.gap));
+        let pressed = self
+            .mesh
+            .pairs(self.place(t), self.inside)
+            .map(|pair| self.kept_by(pair.ahead, y[0] - pair.place.gap));
         pressed.fold(f64::INFINITY, f64::min)
     }
 
     fn kept_by(&self, ahead: i32, pressed: f64) -> f64 {
-        if self.touching.contains(&ahead) { pressed } else { -pressed }
+        if self.touching.contains(&ahead) {
+            pressed
+        } else {
+            -pressed
+        }
     }
 
     /// The pair that keeps least turns.
@@ -94,16 +111,30 @@ impl Oscillator<'_> {
 
     /// Force of the incoming tooth, in N.
     fn force(&self, t: f64, y: &State) -> f64 {
-        let incoming = self.mesh.pairs(self.place(t), self.inside).find(|pair| pair.ahead == 0);
-        incoming.map_or(0.0, |pair| pair.place.stiffness * (y[0] - pair.place.gap).max(0.0))
+        let incoming = self
+            .mesh
+            .pairs(self.place(t), self.inside)
+            .find(|pair| pair.ahead == 0);
+        incoming.map_or(0.0, |pair| {
+            pair.place.stiffness * (y[0] - pair.place.gap).max(0.0)
+        })
     }
 }
 
 impl Equation<2> for Oscillator<'_> {
     fn slope(&self, t: f64, y: &State) -> State {
-        let pairs = self.mesh.pairs(self.place(t), self.inside).filter(|pair| self.touching.contains(&pair.ahead));
-        let carried: f64 = pairs.map(|pair| pair.weight * pair.place.stiffness * (y[0] - pair.place.gap)).sum();
-        let damping = if self.touching.is_empty() { 0.0 } else { self.damping * y[1] };
+        let pairs = self
+            .mesh
+            .pairs(self.place(t), self.inside)
+            .filter(|pair| self.touching.contains(&pair.ahead));
+        let carried: f64 = pairs
+            .map(|pair| pair.weight * pair.place.stiffness * (y[0] - pair.place.gap))
+            .sum();
+        let damping = if self.touching.is_empty() {
+            0.0
+        } else {
+            self.damping * y[1]
+        };
         State::new(y[1], (self.mesh.force - carried - damping) / self.mass)
     }
 }
@@ -139,12 +170,18 @@ impl<'a> Run<'a> {
         let start = -f64::from(inputs.warmup_cycles) * mesh.base_pitch;
         let swings = (mesh.length - start) / mesh.speed * frequency / TAU;
         if swings > MOST_SWINGS {
-            return Err(Refusal::TooSlow { swings, limit: MOST_SWINGS });
+            return Err(Refusal::TooSlow {
+                swings,
+                limit: MOST_SWINGS,
+            });
         }
         let borders = mesh.borders(start, mesh.ends().1.min(mesh.length + mesh.base_pitch));
         let inside = f64::midpoint(borders[0], borders[1]);
         let displacement = balance(mesh, start, inside).displacement;
-        let touching = mesh.pairs(start, inside).filter(|pair| displacement > pair.place.gap).map(|pair| pair.ahead);
+        let touching = mesh
+            .pairs(start, inside)
+            .filter(|pair| displacement > pair.place.gap)
+            .map(|pair| pair.ahead);
         Ok(Run {
             oscillator: Oscillator {
                 mesh,
@@ -184,13 +221,24 @@ impl<'a> Run<'a> {
     /// One stretch, to `end` at most and to the next change of a contact.
     fn advance(&mut self, end: f64) {
         let stretches = ((end - self.t) / self.longest).ceil().max(1.0);
-        let whole = Stretch { t: self.t, y: self.y, length: (end - self.t) / stretches };
+        let whole = Stretch {
+            t: self.t,
+            y: self.y,
+            length: (end - self.t) / stretches,
+        };
         let turn = self.turn_within(&whole);
-        let stretch = Stretch { length: turn.unwrap_or(whole.length), ..whole };
+        let stretch = Stretch {
+            length: turn.unwrap_or(whole.length),
+            ..whole
+        };
         self.watch(&stretch);
         self.y = self.after(&stretch, stretch.length);
         self.most_ahead = self.most_ahead.max(self.y[0]);
-        self.t = if turn.is_none() && stretches < 1.5 { end } else { self.t + stretch.length };
+        self.t = if turn.is_none() && stretches < 1.5 {
+            end
+        } else {
+            self.t + stretch.length
+        };
         if turn.is_some() {
             let turned = self.oscillator.turn(self.t, &self.y);
             if turned == Some(0) && self.first_touch.is_none() {
@@ -203,10 +251,21 @@ impl<'a> Run<'a> {
     fn turn_within(&self, stretch: &Stretch) -> Option<f64> {
         /// A pair that has just turned stands at 0, within rounding.
         const SHORTEST: f64 = 1e-9;
-        let kept = |after: f64| self.oscillator.kept(stretch.t + after, &self.after(stretch, after));
-        let looks = [SHORTEST * stretch.length, 0.5 * stretch.length, stretch.length];
+        let kept = |after: f64| {
+            self.oscillator
+                .kept(stretch.t + after, &self.after(stretch, after))
+        };
+        let looks = [
+            SHORTEST * stretch.length,
+            0.5 * stretch.length,
+            stretch.length,
+        ];
         let at = (0..looks.len()).find(|&at| kept(looks[at]) < 0.0)?;
-        Some(if at == 0 { looks[0] } else { root::between(looks[at - 1], looks[at], kept) })
+        Some(if at == 0 {
+            looks[0]
+        } else {
+            root::between(looks[at - 1], looks[at], kept)
+        })
     }
 
     fn after(&self, stretch: &Stretch, length: f64) -> State {
@@ -229,7 +288,10 @@ impl<'a> Run<'a> {
     /// The greatest force of a stretch: where it rises first and falls then, to the last digits.
     fn peak(&self, stretch: &Stretch) -> f64 {
         const ASIDE: f64 = 1e-3;
-        let force = |after: f64| self.oscillator.force(stretch.t + after, &self.after(stretch, after));
+        let force = |after: f64| {
+            self.oscillator
+                .force(stretch.t + after, &self.after(stretch, after))
+        };
         let slope = |after: f64| {
             let aside = ASIDE * stretch.length;
             force((after + aside).min(stretch.length)) - force((after - aside).max(0.0))
@@ -244,7 +306,9 @@ impl<'a> Run<'a> {
 
     fn found(&self) -> Second {
         let mesh = self.oscillator.mesh;
-        let angle = self.first_touch.map(|t| -self.oscillator.place(t) / mesh.base_radii.1);
+        let angle = self
+            .first_touch
+            .map(|t| -self.oscillator.place(t) / mesh.base_radii.1);
         Second {
             first_contact_angle: angle.filter(|&angle| angle > 0.0),
             peak_force: self.peak_force,

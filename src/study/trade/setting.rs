@@ -8,7 +8,12 @@ use crate::model::Inputs;
 use crate::model::inputs::Method;
 
 /// The methods that are compared, cheapest first.
-pub const METHODS: [Method; 4] = [Method::Paper, Method::Exact, Method::Static, Method::Dynamic];
+pub const METHODS: [Method; 4] = [
+    Method::Paper,
+    Method::Exact,
+    Method::Static,
+    Method::Dynamic,
+];
 /// Intervals of the stations that are compared.
 pub const STATIONS: [usize; 8] = [8, 16, 32, 64, 128, 256, 512, 1024];
 /// Intervals of a case that leaves them out.
@@ -41,29 +46,63 @@ impl Setting {
     pub fn all() -> Vec<Setting> {
         let closed_form = Method::CLOSED_FORM.into_iter().flat_map(|method| {
             let plain = Setting::usual(method);
-            [plain, Setting { accurate: true, ..plain }].into_iter().flat_map(Setting::with_stations)
+            [
+                plain,
+                Setting {
+                    accurate: true,
+                    ..plain
+                },
+            ]
+            .into_iter()
+            .flat_map(Setting::with_stations)
         });
         let shared = Setting::usual(Method::Static).with_stations();
         let inertia = Setting::usual(Method::Dynamic);
         let tolerances = TOLERANCE_EXPONENTS
-            .map(move |exponent| Setting { tolerance: Some(power_of_ten(-exponent)), ..inertia })
+            .map(move |exponent| Setting {
+                tolerance: Some(power_of_ten(-exponent)),
+                ..inertia
+            })
             .filter(move |setting| *setting != inertia);
-        let choice = Setting { stations: None, ..Setting::usual(Method::Auto) };
-        let coarse = Setting { tolerance: Some(power_of_ten(-TOLERANCE_EXPONENTS.start())), ..inertia };
-        let corner = coarse.with_stations().filter(move |setting| *setting != coarse);
-        closed_form.chain(shared).chain(tolerances).chain(inertia.with_stations()).chain(corner).chain([choice]).collect()
+        let choice = Setting {
+            stations: None,
+            ..Setting::usual(Method::Auto)
+        };
+        let coarse = Setting {
+            tolerance: Some(power_of_ten(-TOLERANCE_EXPONENTS.start())),
+            ..inertia
+        };
+        let corner = coarse
+            .with_stations()
+            .filter(move |setting| *setting != coarse);
+        closed_form
+            .chain(shared)
+            .chain(tolerances)
+            .chain(inertia.with_stations())
+            .chain(corner)
+            .chain([choice])
+            .collect()
     }
 
     /// The setting of a case that names the method alone.
     #[must_use]
     pub fn usual(method: Method) -> Setting {
         let tolerance = (method == Method::Dynamic).then_some(USUAL_TOLERANCE);
-        Setting { method, stations: Some(USUAL_STATIONS), tolerance, accurate: false }
+        Setting {
+            method,
+            stations: Some(USUAL_STATIONS),
+            tolerance,
+            accurate: false,
+        }
     }
 
     /// This setting by every number of stations, and by as many as the curve needs.
     fn with_stations(self) -> impl Iterator<Item = Setting> {
-        STATIONS.into_iter().map(Some).chain([None]).map(move |stations| Setting { stations, ..self })
+        STATIONS
+            .into_iter()
+            .map(Some)
+            .chain([None])
+            .map(move |stations| Setting { stations, ..self })
     }
 
     /// The finest setting of a method, against which its numerical error is measured.
@@ -103,7 +142,8 @@ impl Setting {
     /// The number of stations as a case says it.
     #[must_use]
     pub fn stations_text(&self) -> String {
-        self.stations.map_or_else(|| AUTO.to_owned(), |stations| stations.to_string())
+        self.stations
+            .map_or_else(|| AUTO.to_owned(), |stations| stations.to_string())
     }
 
     /// Make it the case's own.
@@ -115,7 +155,10 @@ impl Setting {
         };
         write("model.method", self.method.name());
         write("model.stations", &self.stations_text());
-        write("model.accurate", if self.accurate { "true" } else { "false" });
+        write(
+            "model.accurate",
+            if self.accurate { "true" } else { "false" },
+        );
         if let Some(tolerance) = self.tolerance {
             write("model.tolerance", &format!("{tolerance:e}"));
         }
@@ -124,11 +167,20 @@ impl Setting {
 
 impl fmt::Display for Setting {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} with {} stations", self.method.name(), self.stations_text())?;
+        write!(
+            f,
+            "{} with {} stations",
+            self.method.name(),
+            self.stations_text()
+        )?;
         if let Some(tolerance) = self.tolerance {
             write!(f, " and tolerance {tolerance:e}")?;
         }
-        if self.accurate { f.write_str(", accurate") } else { Ok(()) }
+        if self.accurate {
+            f.write_str(", accurate")
+        } else {
+            Ok(())
+        }
     }
 }
 
@@ -166,8 +218,17 @@ mod tests {
 
     #[test]
     fn a_setting_tells_what_it_is() {
-        assert_eq!(Setting::best(Method::Dynamic).to_string(), "dynamic with 4096 stations and tolerance 1e-12");
-        assert_eq!(Setting::all().last().unwrap().to_string(), "auto with auto stations");
-        assert_eq!(Setting::best(Method::Exact).to_string(), "exact with 4096 stations, accurate");
+        assert_eq!(
+            Setting::best(Method::Dynamic).to_string(),
+            "dynamic with 4096 stations and tolerance 1e-12"
+        );
+        assert_eq!(
+            Setting::all().last().unwrap().to_string(),
+            "auto with auto stations"
+        );
+        assert_eq!(
+            Setting::best(Method::Exact).to_string(),
+            "exact with 4096 stations, accurate"
+        );
     }
 }

@@ -1,4 +1,5 @@
-//! The one table of keys, names and sentences, from which key map, status line, palette and help are derived.
+//! The one table of keys, names and sentences, from which key map, status line, palette and help
+//! are derived.
 
 use crossterm::event::KeyCode;
 use tui_input::InputRequest as Line;
@@ -10,7 +11,13 @@ use crate::tui::keys::{ALT, CTRL, Chord, Place, SHIFT, alt, ctrl, function, key,
 use crate::tui::pane::Pane;
 
 // In the status line, the palette and the help.
-const fn shown(places: Place, chords: &'static [Chord], command: Command, name: &'static str, sentence: &'static str) -> Binding {
+const fn shown(
+    places: Place,
+    chords: &'static [Chord],
+    command: Command,
+    name: &'static str,
+    sentence: &'static str,
+) -> Binding {
     shown_in(places, places, chords, command, name, sentence)
 }
 
@@ -23,7 +30,14 @@ const fn shown_in(
     name: &'static str,
     sentence: &'static str,
 ) -> Binding {
-    Binding { chords, command, places, name, sentence, footer }
+    Binding {
+        chords,
+        command,
+        places,
+        name,
+        sentence,
+        footer,
+    }
 }
 
 // In the palette and the help.
@@ -38,7 +52,12 @@ const fn listed(
 }
 
 // In the help alone.
-const fn told(places: Place, chords: &'static [Chord], command: Command, sentence: &'static str) -> Binding {
+const fn told(
+    places: Place,
+    chords: &'static [Chord],
+    command: Command,
+    sentence: &'static str,
+) -> Binding {
     shown_in(Place::NONE, places, chords, command, "", sentence)
 }
 

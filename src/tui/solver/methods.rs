@@ -1,4 +1,5 @@
-//! What every method says of a request: the closed forms at once, then the method of the case, then the least relief.
+//! What every method says of a request: the closed forms at once, then the method of the case, then
+//! the least relief.
 
 use std::time::Instant;
 
@@ -7,14 +8,15 @@ use crate::case::Evaluator;
 use crate::model::inputs::Method;
 use crate::model::{self, Refusal, Solution, Stage};
 
-/// Solve with the closed forms, which cost nothing, and the method of the case: their difference is what the engineer came for.
+/// Solve with the closed forms, which cost nothing, and the method of the case: their difference is
+/// what the engineer came for.
 #[must_use]
 pub fn answer(request: &Request) -> Answer {
     answer_while(request, &|| true)
 }
 
-/// The same for a first picture: where the method of the case takes long, the closed forms alone, and where the least relief does,
-/// all but that.
+/// The same for a first picture: where the method of the case takes long, the closed forms alone,
+/// and where the least relief does, all but that.
 #[must_use]
 pub fn first_answer(request: &Request) -> Answer {
     let begun = Instant::now();
@@ -29,8 +31,9 @@ fn answer_while(request: &Request, go_on: &dyn Fn() -> bool) -> Answer {
     cleared(evaluator, request, found.clone(), begun, &|_| go_on()).unwrap_or(found)
 }
 
-/// The answers of the closed forms, of the method of the case and of the load at rest below its inertia; of a method that takes its
-/// time for it without the least relief. None where `go_on`, which may show what stands at once, says no.
+/// The answers of the closed forms, of the method of the case and of the load at rest below its
+/// inertia; of a method that takes its time for it without the least relief. None where `go_on`,
+/// which may show what stands at once, says no.
 pub(super) fn solved(
     evaluator: &mut Evaluator,
     request: &Request,
@@ -38,27 +41,49 @@ pub(super) fn solved(
     go_on: &dyn Fn(f64, &dyn Fn() -> Answer) -> bool,
 ) -> Option<Answer> {
     let first = at_once(evaluator, request, begun);
-    let Some(method) = first.pending else { return Some(first) };
+    let Some(method) = first.pending else {
+        return Some(first);
+    };
     let stages = request.stages.without(Stage::Clearing);
-    let found = evaluator.solve(&request.case, &request.inputs, method, stages, &|part| go_on(part, &|| first.clone()));
+    let found = evaluator.solve(&request.case, &request.inputs, method, stages, &|part| {
+        go_on(part, &|| first.clone())
+    });
     if matches!(found, Err(Refusal::Stopped)) {
         return None;
     }
     // Where the program chose, its choice stands for it.
     let active = found.as_ref().map_or(method, |solution| solution.method);
-    let mut answer = Answer { active, pending: None, stages, ..first.clone() };
+    let mut answer = Answer {
+        active,
+        pending: None,
+        stages,
+        ..first.clone()
+    };
     answer.methods.retain(|(known, _)| *known != active);
     if active == Method::Dynamic {
-        let shared = evaluator.solve(&request.case, &request.inputs, Method::Static, stages, &|_| true);
+        let shared = evaluator.solve(
+            &request.case,
+            &request.inputs,
+            Method::Static,
+            stages,
+            &|_| true,
+        );
         answer.methods.push((Method::Static, shared));
     }
     answer.methods.push((active, found));
-    answer.cost = Cost { stages: stages_run(&answer.methods), micros: micros(begun) };
-    answer.notes = answer.of(active).map(|solution| model::notes(&request.inputs, solution)).unwrap_or_default();
+    answer.cost = Cost {
+        stages: stages_run(&answer.methods),
+        micros: micros(begun),
+    };
+    answer.notes = answer
+        .of(active)
+        .map(|solution| model::notes(&request.inputs, solution))
+        .unwrap_or_default();
     Some(answer)
 }
 
-/// The answer with the least relief, where that was asked for and is still to come; none where `go_on` says no.
+/// The answer with the least relief, where that was asked for and is still to come; none where
+/// `go_on` says no.
 pub(super) fn cleared(
     evaluator: &mut Evaluator,
     request: &Request,
@@ -70,18 +95,32 @@ pub(super) fn cleared(
         return Some(answer);
     }
     if answer.refusal().is_some() {
-        return Some(Answer { stages: request.stages, ..answer });
+        return Some(Answer {
+            stages: request.stages,
+            ..answer
+        });
     }
-    let found = evaluator.solve(&request.case, &request.inputs, request.inputs.method, request.stages, go_on);
+    let found = evaluator.solve(
+        &request.case,
+        &request.inputs,
+        request.inputs.method,
+        request.stages,
+        go_on,
+    );
     if matches!(found, Err(Refusal::Stopped)) {
         return None;
     }
     answer.stages = request.stages;
-    answer.cost.stages += found.as_ref().map_or(0, |solution| solution.ran.iter().count());
+    answer.cost.stages += found
+        .as_ref()
+        .map_or(0, |solution| solution.ran.iter().count());
     answer.cost.micros = micros(begun);
     answer.methods.retain(|(known, _)| *known != answer.active);
     answer.methods.push((answer.active, found));
-    answer.notes = answer.of(answer.active).map(|solution| model::notes(&request.inputs, solution)).unwrap_or_default();
+    answer.notes = answer
+        .of(answer.active)
+        .map(|solution| model::notes(&request.inputs, solution))
+        .unwrap_or_default();
     Some(answer)
 }
 
@@ -90,7 +129,18 @@ fn at_once(evaluator: &mut Evaluator, request: &Request, begun: Instant) -> Answ
     let asked = request.inputs.method;
     let methods: Vec<_> = Method::CLOSED_FORM
         .into_iter()
-        .map(|method| (method, evaluator.solve(&request.case, &request.inputs, method, request.stages, &|_| true)))
+        .map(|method| {
+            (
+                method,
+                evaluator.solve(
+                    &request.case,
+                    &request.inputs,
+                    method,
+                    request.stages,
+                    &|_| true,
+                ),
+            )
+        })
         .collect();
     let pending = Some(asked).filter(|method| !Method::CLOSED_FORM.contains(method));
     let mut answer = Answer {
@@ -98,18 +148,32 @@ fn at_once(evaluator: &mut Evaluator, request: &Request, begun: Instant) -> Answ
         stages: request.stages,
         asked: request.stages,
         inputs: request.inputs.clone(),
-        active: if pending.is_some() { Method::Exact } else { asked },
+        active: if pending.is_some() {
+            Method::Exact
+        } else {
+            asked
+        },
         pending,
-        cost: Cost { stages: stages_run(&methods), micros: micros(begun) },
+        cost: Cost {
+            stages: stages_run(&methods),
+            micros: micros(begun),
+        },
         methods,
         notes: Vec::new(),
     };
-    answer.notes = answer.of(answer.active).map(|solution| model::notes(&request.inputs, solution)).unwrap_or_default();
+    answer.notes = answer
+        .of(answer.active)
+        .map(|solution| model::notes(&request.inputs, solution))
+        .unwrap_or_default();
     answer
 }
 
 fn stages_run(methods: &[(Method, Result<Solution, Refusal>)]) -> usize {
-    methods.iter().filter_map(|(_, found)| found.as_ref().ok()).map(|solution| solution.ran.iter().count()).sum()
+    methods
+        .iter()
+        .filter_map(|(_, found)| found.as_ref().ok())
+        .map(|solution| solution.ran.iter().count())
+        .sum()
 }
 
 fn micros(begun: Instant) -> u64 {

@@ -5,7 +5,9 @@ use std::time::{SystemTime, UNIX_EPOCH};
 /// Seconds since 1970.
 #[must_use]
 pub(super) fn now() -> u64 {
-    SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_secs())
+    SystemTime::now()
+        .duration_since(UNIX_EPOCH)
+        .map_or(0, |time| time.as_secs())
 }
 
 /// A length of time in seconds, as a person says it.
@@ -27,6 +29,18 @@ mod tests {
     #[test]
     fn lengths_of_time_are_told_as_people_do() {
         let told = [0, 59, 60, 3599, 3600, 7260, 100_000, 172_800].map(age);
-        assert_eq!(told, ["0 s", "59 s", "1 min", "59 min", "1 h 0 min", "2 h 1 min", "27 h 46 min", "2 days"]);
+        assert_eq!(
+            told,
+            [
+                "0 s",
+                "59 s",
+                "1 min",
+                "59 min",
+                "1 h 0 min",
+                "2 h 1 min",
+                "27 h 46 min",
+                "2 days"
+            ]
+        );
     }
 }

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::at_home;
-use crate::case::visible::visible;
+use crate::case::sanitize::sanitize;
 
 /// So many are listed; a folder with more is not for looking through.
 const MOST: usize = 50_000;
@@ -40,23 +40,38 @@ pub struct Listing {
 #[must_use]
 pub fn list(base: PathBuf, typed: String) -> Listing {
     let place = place_of(&base, &typed);
-    let folder = fs::canonicalize(&place).or_else(|_| std::path::absolute(&place)).unwrap_or(place);
+    let folder = fs::canonicalize(&place)
+        .or_else(|_| std::path::absolute(&place))
+        .unwrap_or(place);
     let found = entries(&folder);
     let is_cut = found.as_ref().is_ok_and(|entries| entries.len() >= MOST);
-    Listing { asked: (base, typed), folder, entries: found, is_cut }
+    Listing {
+        asked: (base, typed),
+        folder,
+        entries: found,
+        is_cut,
+    }
 }
 
 /// The folder that is meant, the present one where nothing is said.
 #[must_use]
 pub fn place_of(base: &Path, typed: &str) -> PathBuf {
     let place = at_home(&beneath(base, typed));
-    if place.as_os_str().is_empty() { PathBuf::from(".") } else { place }
+    if place.as_os_str().is_empty() {
+        PathBuf::from(".")
+    } else {
+        place
+    }
 }
 
 /// The path of what is typed while the browser is in `base`; `~` and `/` begin anew.
 #[must_use]
 pub fn beneath(base: &Path, typed: &str) -> PathBuf {
-    if typed.starts_with('~') { PathBuf::from(typed) } else { base.join(typed) }
+    if typed.starts_with('~') {
+        PathBuf::from(typed)
+    } else {
+        base.join(typed)
+    }
 }
 
 /// The folders and cases of a folder in the order of their names.
@@ -64,8 +79,13 @@ pub fn beneath(base: &Path, typed: &str) -> PathBuf {
 /// # Errors
 /// In words, where it cannot be read.
 pub fn entries(folder: &Path) -> Result<Vec<Entry>, String> {
-    let found = fs::read_dir(folder).map_err(|error| format!("This folder cannot be read: {error}."))?;
-    let mut entries: Vec<_> = found.flatten().filter_map(|entry| Entry::of(&entry)).take(MOST).collect();
+    let found =
+        fs::read_dir(folder).map_err(|error| format!("This folder cannot be read: {error}."))?;
+    let mut entries: Vec<_> = found
+        .flatten()
+        .filter_map(|entry| Entry::of(&entry))
+        .take(MOST)
+        .collect();
     entries.sort();
     Ok(entries)
 }
@@ -74,7 +94,8 @@ impl Entry {
     /// Whether a file of that name is taken for a case.
     #[must_use]
     pub fn is_case(file: &Path) -> bool {
-        file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
+        file.extension()
+            .is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
     }
 
     fn of(entry: &fs::DirEntry) -> Option<Entry> {
@@ -83,7 +104,12 @@ impl Entry {
         // Only a link has to be followed to know.
         let is_folder = kind.is_dir() || kind.is_symlink() && entry.path().is_dir();
         let is_case = !is_folder && Entry::is_case(Path::new(&file));
-        let name = visible(&file.to_string_lossy());
-        (is_folder || is_case).then(|| Entry { is_folder, folded: name.to_lowercase(), name, file })
+        let name = sanitize(&file.to_string_lossy());
+        (is_folder || is_case).then(|| Entry {
+            is_folder,
+            folded: name.to_lowercase(),
+            name,
+            file,
+        })
     }
 }

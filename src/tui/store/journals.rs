@@ -1,4 +1,5 @@
-//! The folder of journals: writing them, finding those that an ended session left, setting aside what is damaged.
+//! The folder of journals: writing them, finding those that an ended session left, setting aside
+//! what is damaged.
 
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
@@ -7,7 +8,7 @@ use std::path::{Path, PathBuf};
 use super::lock::{Lock, Taken};
 use super::state;
 use crate::case::journal::{Journal, JournalFault, MOST_BYTES, hash};
-use crate::case::visible::visible;
+use crate::case::sanitize::sanitize;
 
 /// What a journal's name ends with.
 const ENDING: &str = "toml";
@@ -34,7 +35,10 @@ impl Journals {
     /// In the folder of what outlives a session.
     #[must_use]
     pub(super) fn within(state: &Path) -> Journals {
-        Journals { journals: state.join("journals"), sessions: state.join("sessions") }
+        Journals {
+            journals: state.join("journals"),
+            sessions: state.join("sessions"),
+        }
     }
 
     /// A new session: a lock that tells others that its journals are still being written.
@@ -45,10 +49,20 @@ impl Journals {
         state::make(&self.journals)?;
         state::make(&self.sessions)?;
         self.clear_sessions();
-        let file = tempfile::Builder::new().prefix("").rand_bytes(10).tempfile_in(&self.sessions)?;
-        let name = file.path().file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let file = tempfile::Builder::new()
+            .prefix("")
+            .rand_bytes(10)
+            .tempfile_in(&self.sessions)?;
+        let name = file
+            .path()
+            .file_name()
+            .map(|name| name.to_string_lossy().into_owned())
+            .unwrap_or_default();
         match Lock::take(file.path())? {
-            Taken::Ours(lock) => file.keep().map(|_| (name, lock)).map_err(|error| error.error),
+            Taken::Ours(lock) => file
+                .keep()
+                .map(|_| (name, lock))
+                .map_err(|error| error.error),
             Taken::Held(_) => Err(io::Error::other("the name of the session is taken")),
         }
     }
@@ -56,14 +70,21 @@ impl Journals {
     // A session that was killed could not take its own lock away.
     fn clear_sessions(&self) {
         let ended = |path: &PathBuf| !Lock::is_held(path);
-        let places = fs::read_dir(&self.sessions).into_iter().flatten().flatten().map(|entry| entry.path());
-        places.filter(ended).for_each(|path| drop(fs::remove_file(path)));
+        let places = fs::read_dir(&self.sessions)
+            .into_iter()
+            .flatten()
+            .flatten()
+            .map(|entry| entry.path());
+        places
+            .filter(ended)
+            .for_each(|path| drop(fs::remove_file(path)));
     }
 
     /// Where a session keeps the edits of a case; `number` tells its cases without a file apart.
     #[must_use]
     pub(super) fn place(&self, case: Option<&Path>, session: &str, number: usize) -> PathBuf {
-        self.journals.join(format!("{}{session}-{number}.{ENDING}", stem(case)))
+        self.journals
+            .join(format!("{}{session}-{number}.{ENDING}", stem(case)))
     }
 
     /// Write a journal over the one before; `lasting` where it must outlive a power cut as well.
@@ -80,7 +101,8 @@ impl Journals {
         file.persist(path).map(drop).map_err(|error| error.error)
     }
 
-    /// The journals of a case whose sessions have ended. What cannot be trusted is set aside and never deleted.
+    /// The journals of a case whose sessions have ended. What cannot be trusted is set aside and
+    /// never deleted.
     #[must_use]
     pub(super) fn left_behind(&self, case: Option<&Path>) -> Found {
         let mut found = Found::default();
@@ -89,35 +111,55 @@ impl Journals {
                 Ok(journal) if journal.case.as_deref() != case || self.is_written(&journal) => {}
                 Ok(journal) => found.journals.push((path, journal)),
                 Err(Untrusted::Unread(error)) => {
-                    found.notices.push(format!("unsaved edits in {} cannot be read: {error}", shown(&path)));
+                    found.notices.push(format!(
+                        "unsaved edits in {} cannot be read: {error}",
+                        shown(&path)
+                    ));
                 }
                 Err(Untrusted::Fault(fault)) => found.notices.push(set_aside(&path, &fault)),
             }
         }
-        found.journals.sort_by_key(|(_, journal)| std::cmp::Reverse(journal.written));
+        found
+            .journals
+            .sort_by_key(|(_, journal)| std::cmp::Reverse(journal.written));
         found
     }
 
     /// The cases, in words, for which an ended session left edits.
     #[must_use]
     pub(super) fn cases_left_behind(&self) -> Vec<Option<PathBuf>> {
-        let journals = self.named("").into_iter().filter_map(|path| read(&path).ok());
-        let mut cases: Vec<_> = journals.filter(|journal| !self.is_written(journal)).map(|journal| journal.case).collect();
+        let journals = self
+            .named("")
+            .into_iter()
+            .filter_map(|path| read(&path).ok());
+        let mut cases: Vec<_> = journals
+            .filter(|journal| !self.is_written(journal))
+            .map(|journal| journal.case)
+            .collect();
         cases.sort();
         cases.dedup();
         cases
     }
 
     fn is_written(&self, journal: &Journal) -> bool {
-        let is_a_name = journal.session.chars().all(|letter| letter.is_ascii_alphanumeric());
+        let is_a_name = journal
+            .session
+            .chars()
+            .all(|letter| letter.is_ascii_alphanumeric());
         is_a_name && Lock::is_held(&self.sessions.join(&journal.session))
     }
 
     fn named(&self, start: &str) -> Vec<PathBuf> {
-        let entries = fs::read_dir(&self.journals).into_iter().flatten().flatten().map(|entry| entry.path());
+        let entries = fs::read_dir(&self.journals)
+            .into_iter()
+            .flatten()
+            .flatten()
+            .map(|entry| entry.path());
         let fits = |path: &PathBuf| {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
-            !name.starts_with('.') && name.starts_with(start) && path.extension().is_some_and(|ending| ending == ENDING)
+            !name.starts_with('.')
+                && name.starts_with(start)
+                && path.extension().is_some_and(|ending| ending == ENDING)
         };
         let mut paths: Vec<_> = entries.filter(fits).collect();
         paths.sort();
@@ -131,13 +173,17 @@ enum Untrusted {
 }
 
 fn read(path: &Path) -> Result<Journal, Untrusted> {
-    let is_file = fs::symlink_metadata(path).map_err(Untrusted::Unread)?.is_file();
+    let is_file = fs::symlink_metadata(path)
+        .map_err(Untrusted::Unread)?
+        .is_file();
     if !is_file {
         return Err(Untrusted::Fault(JournalFault::NotOne));
     }
     let mut bytes = Vec::new();
     let file = File::open(path).map_err(Untrusted::Unread)?;
-    file.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes).map_err(Untrusted::Unread)?;
+    file.take(MOST_BYTES as u64 + 1)
+        .read_to_end(&mut bytes)
+        .map_err(Untrusted::Unread)?;
     if bytes.len() > MOST_BYTES {
         return Err(Untrusted::Fault(JournalFault::NotOne));
     }
@@ -147,21 +193,35 @@ fn read(path: &Path) -> Result<Journal, Untrusted> {
 
 // In words. One that cannot be moved stays, and is told again.
 fn set_aside(path: &Path, fault: &JournalFault) -> String {
-    let free =
-        (1..100).map(|number| path.with_extension(format!("damaged-{number}"))).find(|name| fs::symlink_metadata(name).is_err());
+    let free = (1..100)
+        .map(|number| path.with_extension(format!("damaged-{number}")))
+        .find(|name| fs::symlink_metadata(name).is_err());
     let moved = free.and_then(|name| fs::rename(path, &name).ok().map(|()| name));
     let place = moved.unwrap_or_else(|| path.to_owned());
-    format!("unsaved edits of this case were kept, but {fault}: what there is stays in {}", shown(&place))
+    format!(
+        "unsaved edits of this case were kept, but {fault}: what there is stays in {}",
+        shown(&place)
+    )
 }
 
 fn shown(path: &Path) -> String {
-    visible(&path.display().to_string())
+    sanitize(&path.display().to_string())
 }
 
-// How the journals of a case begin: a few letters for a person, and a hash that tells cases of one name apart.
+// How the journals of a case begin: a few letters for a person, and a hash that tells cases of one
+// name apart.
 fn stem(case: Option<&Path>) -> String {
-    let Some(case) = case else { return "new-".to_owned() };
+    let Some(case) = case else {
+        return "new-".to_owned();
+    };
     let name = case.file_stem().unwrap_or_default().to_string_lossy();
-    let letters: String = name.chars().filter(char::is_ascii_alphanumeric).take(MOST_LETTERS).collect();
-    format!("case-{letters}-{:016x}-", hash(std::os::unix::ffi::OsStrExt::as_bytes(case.as_os_str())))
+    let letters: String = name
+        .chars()
+        .filter(char::is_ascii_alphanumeric)
+        .take(MOST_LETTERS)
+        .collect();
+    format!(
+        "case-{letters}-{:016x}-",
+        hash(std::os::unix::ffi::OsStrExt::as_bytes(case.as_os_str()))
+    )
 }

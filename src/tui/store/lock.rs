@@ -47,8 +47,9 @@ pub struct Holder {
 }
 
 impl Lock {
-    /// Take a lock, if no living process has it. The file of a process that is gone is taken over: the system ends a
-    /// lock with its process, so that no number of a process, and no start of the machine, has to be believed.
+    /// Take a lock, if no living process has it. The file of a process that is gone is taken over:
+    /// the system ends a lock with its process, so that no number of a process, and no start of the
+    /// machine, has to be believed.
     ///
     /// # Errors
     /// When no file can be made there.
@@ -58,7 +59,10 @@ impl Lock {
             if let Some(holder) = other_holder(&mut file) {
                 return Ok(Taken::Held(holder));
             }
-            let mut lock = Lock { file, path: path.to_owned() };
+            let mut lock = Lock {
+                file,
+                path: path.to_owned(),
+            };
             if lock.is_in_place() {
                 lock.sign();
                 return Ok(Taken::Ours(lock));
@@ -77,13 +81,22 @@ impl Lock {
     fn sign(&mut self) {
         let text = Holder::ourselves().to_text();
         let file = &mut self.file;
-        drop(file.set_len(0).and_then(|()| file.rewind()).and_then(|()| file.write_all(text.as_bytes())));
+        drop(
+            file.set_len(0)
+                .and_then(|()| file.rewind())
+                .and_then(|()| file.write_all(text.as_bytes())),
+        );
     }
 
     // Its last holder takes the file away, perhaps while we were opening it.
     fn is_in_place(&self) -> bool {
-        let same = |ours: &fs::Metadata, there: &fs::Metadata| (ours.dev(), ours.ino()) == (there.dev(), there.ino());
-        let both = self.file.metadata().and_then(|ours| Ok((ours, fs::symlink_metadata(&self.path)?)));
+        let same = |ours: &fs::Metadata, there: &fs::Metadata| {
+            (ours.dev(), ours.ino()) == (there.dev(), there.ino())
+        };
+        let both = self
+            .file
+            .metadata()
+            .and_then(|ours| Ok((ours, fs::symlink_metadata(&self.path)?)));
         both.is_ok_and(|(ours, there)| same(&ours, &there))
     }
 }
@@ -101,7 +114,13 @@ impl Holder {
     #[must_use]
     pub fn ourselves() -> Holder {
         let process = std::process::id();
-        Holder { host: host(), process, started: started(process).unwrap_or(0), boot: boot(), since: clock::now() }
+        Holder {
+            host: host(),
+            process,
+            started: started(process).unwrap_or(0),
+            boot: boot(),
+            since: clock::now(),
+        }
     }
 
     /// In words, for someone who comes upon the lock.
@@ -110,7 +129,12 @@ impl Holder {
         if self.process == 0 {
             return "a process that does not say which".to_owned();
         }
-        format!("process {} on {} for {}", self.process, self.host, clock::age(now.saturating_sub(self.since)))
+        format!(
+            "process {} on {} for {}",
+            self.process,
+            self.host,
+            clock::age(now.saturating_sub(self.since))
+        )
     }
 
     /// Whether that very process is still there, as far as can be told from this machine.
@@ -137,7 +161,11 @@ impl Holder {
         file.take(MOST_BYTES).read_to_string(&mut text).ok()?;
         let toml: DocumentMut = text.parse().ok()?;
         let text = |key| toml.get(key).and_then(Item::as_str).map(str::to_owned);
-        let number = |key| toml.get(key).and_then(Item::as_integer).and_then(|number| u64::try_from(number).ok());
+        let number = |key| {
+            toml.get(key)
+                .and_then(Item::as_integer)
+                .and_then(|number| u64::try_from(number).ok())
+        };
         Some(Holder {
             host: text("host")?,
             process: number("process")?.try_into().ok()?,
@@ -159,34 +187,66 @@ fn other_holder(file: &mut File) -> Option<Holder> {
 }
 
 fn open(path: &Path) -> io::Result<File> {
-    let ours = open_with(OpenOptions::new().read(true).write(true).create(true).truncate(false).mode(0o644), path);
+    let ours = open_with(
+        OpenOptions::new()
+            .read(true)
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .mode(0o644),
+        path,
+    );
     // Someone else's lock may be ours to read and to lock only.
-    ours.or_else(|error| if error.kind() == io::ErrorKind::PermissionDenied { look_at(path) } else { Err(error) })
+    ours.or_else(|error| {
+        if error.kind() == io::ErrorKind::PermissionDenied {
+            look_at(path)
+        } else {
+            Err(error)
+        }
+    })
 }
 
 fn look_at(path: &Path) -> io::Result<File> {
     open_with(OpenOptions::new().read(true), path)
 }
 
-// A link or a pipe under the name of a lock is none of ours, and must not be followed or waited for.
+// A link or a pipe under the name of a lock is none of ours, and must not be followed or waited
+// for.
 fn open_with(options: &mut OpenOptions, path: &Path) -> io::Result<File> {
     let flags = OFlags::NOFOLLOW | OFlags::NONBLOCK;
-    let file = options.custom_flags(flags.bits().cast_signed()).open(path)?;
-    if file.metadata()?.is_file() { Ok(file) } else { Err(io::Error::other("it is no regular file")) }
+    let file = options
+        .custom_flags(flags.bits().cast_signed())
+        .open(path)?;
+    if file.metadata()?.is_file() {
+        Ok(file)
+    } else {
+        Err(io::Error::other("it is no regular file"))
+    }
 }
 
 fn host() -> String {
-    rustix::system::uname().nodename().to_string_lossy().into_owned()
+    rustix::system::uname()
+        .nodename()
+        .to_string_lossy()
+        .into_owned()
 }
 
 fn boot() -> String {
-    fs::read_to_string("/proc/sys/kernel/random/boot_id").map(|text| text.trim().to_owned()).unwrap_or_default()
+    fs::read_to_string("/proc/sys/kernel/random/boot_id")
+        .map(|text| text.trim().to_owned())
+        .unwrap_or_default()
 }
 
 // The 22nd word of a process's state; the second, its name, may hold spaces and brackets.
 fn started(process: u32) -> Option<u64> {
     let state = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
-    state.rsplit_once(')')?.1.split_whitespace().nth(19)?.parse().ok()
+    state
+        .rsplit_once(')')?
+        .1
+        .split_whitespace()
+        .nth(19)?
+        .parse()
+        .ok()
 }
 
 #[cfg(test)]
@@ -214,7 +274,10 @@ mod tests {
         match Lock::take(&path) {
             Ok(Taken::Held(holder)) => {
                 assert!(holder.is_alive());
-                assert_eq!((holder.process, &holder.host), (std::process::id(), &host()));
+                assert_eq!(
+                    (holder.process, &holder.host),
+                    (std::process::id(), &host())
+                );
                 assert!(!holder.host.is_empty() && !holder.boot.is_empty());
             }
             other => panic!("{other:?}"),
@@ -227,15 +290,28 @@ mod tests {
     #[test]
     fn what_a_dead_process_left_never_blocks() {
         let ourselves = Holder::ourselves();
-        let dead = Holder { process: u32::MAX / 4, ..ourselves.clone() };
-        let reused = Holder { started: ourselves.started + 1, ..ourselves.clone() };
-        let earlier = Holder { boot: "another".to_owned(), ..ourselves.clone() };
+        let dead = Holder {
+            process: u32::MAX / 4,
+            ..ourselves.clone()
+        };
+        let reused = Holder {
+            started: ourselves.started + 1,
+            ..ourselves.clone()
+        };
+        let earlier = Holder {
+            boot: "another".to_owned(),
+            ..ourselves.clone()
+        };
         for stale in [&dead, &reused, &earlier] {
             assert!(!stale.is_alive());
         }
         // Nobody has the lock of the file, so even the words of a living process mean nothing.
         let texts = [dead, reused, earlier, ourselves].map(|holder| holder.to_text());
-        for text in texts.iter().map(String::as_str).chain(["", "\0\u{1b}[2J", "process = -1"]) {
+        for text in texts
+            .iter()
+            .map(String::as_str)
+            .chain(["", "\0\u{1b}[2J", "process = -1"])
+        {
             let (_folder, path) = place();
             fs::write(&path, text).expect("room on the disk");
             drop(ours(&path));
@@ -251,7 +327,12 @@ mod tests {
         assert!(Lock::take(&path).is_err() && !Lock::is_held(&path));
         assert_eq!(fs::read_to_string(&other).expect("it is there"), "mine");
         let pipe = folder.path().join("pipe");
-        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().is_ok_and(|status| status.success()));
+        assert!(
+            std::process::Command::new("mkfifo")
+                .arg(&pipe)
+                .status()
+                .is_ok_and(|status| status.success())
+        );
         assert!(Lock::take(&pipe).is_err() && !Lock::is_held(&pipe));
         assert!(Lock::take(&folder.path().join("none/lock")).is_err());
     }

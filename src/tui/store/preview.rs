@@ -1,4 +1,5 @@
-//! What a file or a folder holds, in a few lines: a case with its verdict, or what is wrong with it.
+//! What a file or a folder holds, in a few lines: a case with its verdict, or what is wrong with
+//! it.
 
 use std::path::{Path, PathBuf};
 
@@ -12,7 +13,7 @@ const MOST_FAULTS: usize = 20;
 
 /// What a preview is of.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Sight {
+pub enum Viewport {
     /// A file.
     File(PathBuf),
     /// A folder.
@@ -34,11 +35,13 @@ pub enum Preview {
 
 /// Look; `None` where `go_on` says that it is wanted no more.
 #[must_use]
-pub fn of(sight: &Sight, system: System, go_on: &dyn Fn(f64) -> bool) -> Option<Preview> {
+pub fn of(sight: &Viewport, system: System, go_on: &dyn Fn(f64) -> bool) -> Option<Preview> {
     match sight {
-        Sight::File(path) => of_file(&at_home(path), system, go_on),
-        Sight::Folder(path) => Some(of_folder(&at_home(path))),
-        Sight::Example(example) => of_document(&example.document(), Path::new(example.name), system, go_on),
+        Viewport::File(path) => of_file(&at_home(path), system, go_on),
+        Viewport::Folder(path) => Some(of_folder(&at_home(path))),
+        Viewport::Example(example) => {
+            of_document(&example.document(), Path::new(example.name), system, go_on)
+        }
     }
 }
 
@@ -60,14 +63,21 @@ fn of_file(path: &Path, system: System, go_on: &dyn Fn(f64) -> bool) -> Option<P
     of_document(&document, path, system, go_on)
 }
 
-fn of_document(document: &Document, path: &Path, system: System, go_on: &dyn Fn(f64) -> bool) -> Option<Preview> {
+fn of_document(
+    document: &Document,
+    path: &Path,
+    system: System,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Option<Preview> {
     match document.case.inputs() {
         Ok(inputs) => {
             let digest = Digest::solve(&document.case, &inputs, system, go_on)?;
             Some(Preview::Case(digest, document.is_newer()))
         }
         Err(problems) => {
-            let faults = problems.into_iter().map(|problem| without_name(path, &document.fault(problem).to_string()));
+            let faults = problems
+                .into_iter()
+                .map(|problem| without_name(path, &document.fault(problem).to_string()));
             Some(first_of(faults.collect()))
         }
     }

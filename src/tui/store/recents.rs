@@ -1,4 +1,5 @@
-//! The cases that were open last, the latest first, in the folder of state. Only a convenience: what fails here is not told.
+//! The cases that were open last, the latest first, in the folder of state. Only a convenience:
+//! what fails here is not told.
 
 use std::ffi::OsString;
 use std::fs;
@@ -9,7 +10,7 @@ use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 use super::state;
-use crate::case::visible::visible;
+use crate::case::sanitize::sanitize;
 
 /// So many are remembered.
 const MOST: usize = 20;
@@ -33,8 +34,13 @@ pub struct Recent {
 #[must_use]
 pub fn looked_at(paths: Vec<PathBuf>) -> Vec<Recent> {
     let look = |path: PathBuf| {
-        let is_missing = fs::metadata(&path).is_err_and(|error| error.kind() == io::ErrorKind::NotFound);
-        Recent { folded: visible(&path.to_string_lossy()).to_lowercase(), is_missing, path }
+        let is_missing =
+            fs::metadata(&path).is_err_and(|error| error.kind() == io::ErrorKind::NotFound);
+        Recent {
+            folded: sanitize(&path.to_string_lossy()).to_lowercase(),
+            is_missing,
+            path,
+        }
     };
     paths.into_iter().map(look).collect()
 }
@@ -42,9 +48,16 @@ pub fn looked_at(paths: Vec<PathBuf>) -> Vec<Recent> {
 /// The cases that were open last.
 #[must_use]
 pub fn list() -> Vec<PathBuf> {
-    let Some(file) = file() else { return Vec::new() };
-    let is_ours = fs::metadata(&file).is_ok_and(|about| about.is_file() && about.len() <= MOST_BYTES);
-    if is_ours { parse(&fs::read(file).unwrap_or_default()) } else { Vec::new() }
+    let Some(file) = file() else {
+        return Vec::new();
+    };
+    let is_ours =
+        fs::metadata(&file).is_ok_and(|about| about.is_file() && about.len() <= MOST_BYTES);
+    if is_ours {
+        parse(&fs::read(file).unwrap_or_default())
+    } else {
+        Vec::new()
+    }
 }
 
 /// The case that was open last.
@@ -74,12 +87,20 @@ fn with(mut paths: Vec<PathBuf>, latest: PathBuf) -> Vec<PathBuf> {
 }
 
 fn parse(bytes: &[u8]) -> Vec<PathBuf> {
-    let paths = bytes.split(|&byte| byte == END).filter(|path| !path.is_empty());
-    paths.map(|path| OsString::from_vec(path.to_vec()).into()).take(MOST).collect()
+    let paths = bytes
+        .split(|&byte| byte == END)
+        .filter(|path| !path.is_empty());
+    paths
+        .map(|path| OsString::from_vec(path.to_vec()).into())
+        .take(MOST)
+        .collect()
 }
 
 fn render(paths: &[PathBuf]) -> Vec<u8> {
-    paths.iter().flat_map(|path| path.as_os_str().as_bytes().iter().copied().chain([END])).collect()
+    paths
+        .iter()
+        .flat_map(|path| path.as_os_str().as_bytes().iter().copied().chain([END]))
+        .collect()
 }
 
 fn file() -> Option<PathBuf> {
@@ -94,7 +115,10 @@ mod tests {
     #[test]
     fn the_latest_is_first_and_none_stands_twice() {
         let paths = ["a", "b", "c"].map(PathBuf::from).to_vec();
-        assert_eq!(with(paths.clone(), "c".into()), ["c", "a", "b"].map(PathBuf::from));
+        assert_eq!(
+            with(paths.clone(), "c".into()),
+            ["c", "a", "b"].map(PathBuf::from)
+        );
         let many: Vec<PathBuf> = (0..MOST).map(|number| number.to_string().into()).collect();
         let more = with(many, "new".into());
         assert_eq!((more.len(), &more[0]), (MOST, &PathBuf::from("new")));
@@ -105,7 +129,10 @@ mod tests {
         let odd = PathBuf::from(OsString::from_vec(vec![b'/', 0xff, b'\n', b' ']));
         let paths = vec![odd, "/plain.toml".into()];
         assert_eq!(parse(&render(&paths)), paths);
-        assert_eq!(parse(b"/kept/before.toml"), [PathBuf::from("/kept/before.toml")]);
+        assert_eq!(
+            parse(b"/kept/before.toml"),
+            [PathBuf::from("/kept/before.toml")]
+        );
         assert!(parse(b"").is_empty());
     }
 }

@@ -1,4 +1,5 @@
-//! The folder of what outlives a session: the cases that were open last, and the journals of unsaved edits.
+//! The folder of what outlives a session: the cases that were open last, and the journals of
+//! unsaved edits.
 
 use std::env;
 use std::fs::DirBuilder;
@@ -11,10 +12,17 @@ use directories::ProjectDirs;
 /// Where it is; `None` where the system names no home.
 #[must_use]
 pub fn folder() -> Option<PathBuf> {
-    let own = env::var_os("XDG_STATE_HOME").map(PathBuf::from).filter(|path| path.is_absolute());
+    let own = env::var_os("XDG_STATE_HOME")
+        .map(PathBuf::from)
+        .filter(|path| path.is_absolute());
     own.map(|path| path.join("tipstrike")).or_else(|| {
         let folders = ProjectDirs::from("", "", "tipstrike")?;
-        Some(folders.state_dir().unwrap_or(folders.data_local_dir()).to_owned())
+        Some(
+            folders
+                .state_dir()
+                .unwrap_or(folders.data_local_dir())
+                .to_owned(),
+        )
     })
 }
 

@@ -1,20 +1,21 @@
-//! Looking for a case to open: into folders and up again, among the recent ones, with a look into what is marked.
+//! Looking for a case to open: into folders and up again, among the recent ones, with a look into
+//! what is marked.
 
 use super::{files, tabs};
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::browser::Browser;
-use crate::tui::errands::Errand;
+use crate::tui::jobs::Job;
 use crate::tui::prompt::Prompt;
-use crate::tui::store::below::Below;
+use crate::tui::store::case_search::Below;
 use crate::tui::store::folder::Listing;
-use crate::tui::store::preview::{Preview, Sight};
+use crate::tui::store::preview::{Preview, Viewport};
 use crate::tui::store::recents::Recent;
 
 /// Ask for a file to open, from the folder of the present case or from the recent ones.
 pub(super) fn open(app: &mut App, prefers_recents: bool) -> Vec<Effect> {
     let browser = Browser::beside(app.path.as_deref(), prefers_recents);
-    let effects = vec![list(&browser), Effect::Errand(Errand::Recents)];
+    let effects = vec![list(&browser), Effect::Job(Job::Recents)];
     app.prompts.push(Prompt::Browse(Box::new(browser)));
     effects
 }
@@ -32,7 +33,9 @@ pub(super) fn recent(app: &mut App) -> Vec<Effect> {
 
 /// Go to the folder above.
 pub(super) fn up(app: &mut App) -> Vec<Effect> {
-    let Some(browser) = browser(app) else { return Vec::new() };
+    let Some(browser) = browser(app) else {
+        return Vec::new();
+    };
     let above = browser.above();
     browser.enter(above);
     vec![list(browser)]
@@ -45,17 +48,19 @@ pub(super) fn is_in_empty_line(app: &App) -> bool {
 
 /// Go into the marked folder, or write the marked name into the line.
 pub(super) fn complete(app: &mut App) -> Vec<Effect> {
-    let Some(browser) = browser(app) else { return Vec::new() };
+    let Some(browser) = browser(app) else {
+        return Vec::new();
+    };
     match browser.marked_sight() {
-        Some(Sight::Folder(folder)) => {
+        Some(Viewport::Folder(folder)) => {
             browser.enter(folder);
             vec![list(browser)]
         }
-        Some(Sight::File(path)) => {
+        Some(Viewport::File(path)) => {
             browser.input = path.display().to_string().into();
             typed(browser)
         }
-        Some(Sight::Example(example)) => {
+        Some(Viewport::Example(example)) => {
             browser.input = example.name.into();
             typed(browser)
         }
@@ -65,11 +70,13 @@ pub(super) fn complete(app: &mut App) -> Vec<Effect> {
 
 /// Enter: into a folder, or open a file; where nothing fits, what is typed.
 pub(super) fn accept(app: &mut App) -> Vec<Effect> {
-    let Some(browser) = browser(app) else { return Vec::new() };
+    let Some(browser) = browser(app) else {
+        return Vec::new();
+    };
     match browser.marked_sight() {
-        Some(Sight::Folder(_)) => complete(app),
-        Some(Sight::File(path)) => files::open(app, path),
-        Some(Sight::Example(example)) => {
+        Some(Viewport::Folder(_)) => complete(app),
+        Some(Viewport::File(path)) => files::open(app, path),
+        Some(Viewport::Example(example)) => {
             app.prompts.pop();
             super::solve(tabs::begin(app, example))
         }
@@ -83,8 +90,14 @@ pub(super) fn accept(app: &mut App) -> Vec<Effect> {
 
 /// The line of a browser has changed.
 pub(super) fn typed(browser: &mut Browser) -> Vec<Effect> {
-    let list = if browser.follow() { Some(list(browser)) } else { None };
-    let below = browser.seek().map(|(base, typed)| Effect::Errand(Errand::Below(base, typed)));
+    let list = if browser.follow() {
+        Some(list(browser))
+    } else {
+        None
+    };
+    let below = browser
+        .seek()
+        .map(|(base, typed)| Effect::Job(Job::Below(base, typed)));
     list.into_iter().chain(below).collect()
 }
 
@@ -110,7 +123,7 @@ pub(super) fn recalled(app: &mut App, recents: Vec<Recent>) {
 }
 
 /// What something holds has been found out.
-pub(super) fn previewed(app: &mut App, sight: Sight, preview: Preview) {
+pub(super) fn previewed(app: &mut App, sight: Viewport, preview: Preview) {
     if let Some(browser) = browser(app) {
         browser.show(sight, preview);
     }
@@ -120,12 +133,12 @@ pub(super) fn previewed(app: &mut App, sight: Sight, preview: Preview) {
 pub(super) fn look(app: &mut App) -> Option<Effect> {
     let units = app.settings.units;
     let sight = browser(app)?.look()?;
-    Some(Effect::Errand(Errand::Preview(sight, units)))
+    Some(Effect::Job(Job::Preview(sight, units)))
 }
 
 fn list(browser: &Browser) -> Effect {
     let (base, typed) = browser.asks();
-    Effect::Errand(Errand::Folder(base, typed))
+    Effect::Job(Job::Folder(base, typed))
 }
 
 fn browser(app: &mut App) -> Option<&mut Browser> {

@@ -10,8 +10,8 @@ use crate::report;
 use crate::report::digest::Digest;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
-use crate::tui::clean::symbol;
-use crate::tui::errands::Errand;
+use crate::tui::ascii::symbol;
+use crate::tui::jobs::Job;
 use crate::tui::pane::Pane;
 use crate::tui::pick::{List, Picker};
 use crate::tui::prompt::Prompt;
@@ -25,18 +25,24 @@ pub(super) fn materials(app: &mut App) {
         Row::Field(field) if FIELDS[field].table() == "driven" => &["driven"],
         _ => &["driver", "driven"],
     };
-    app.prompts.push(Prompt::Pick(Picker::new(List::Materials(gears))));
+    app.prompts
+        .push(Prompt::Pick(Picker::new(List::Materials(gears))));
 }
 
 /// Ask for an example to begin with.
 pub(super) fn examples(app: &mut App) -> Vec<Effect> {
-    app.prompts.push(Prompt::Pick(Picker::new(List::Examples(Vec::new()))));
-    vec![Effect::Errand(Errand::Examples(app.settings.units))]
+    app.prompts
+        .push(Prompt::Pick(Picker::new(List::Examples(Vec::new()))));
+    vec![Effect::Job(Job::Examples(app.settings.units))]
 }
 
 /// What the examples are has been found out.
 pub(super) fn digested(app: &mut App, found: Vec<Digest>) {
-    if let Some(Prompt::Pick(Picker { list: List::Examples(digests), .. })) = app.prompts.last_mut() {
+    if let Some(Prompt::Pick(Picker {
+        list: List::Examples(digests),
+        ..
+    })) = app.prompts.last_mut()
+    {
         *digests = found;
     }
 }
@@ -44,16 +50,30 @@ pub(super) fn digested(app: &mut App, found: Vec<Digest>) {
 /// Make the gears of a material: one edit, which undo takes back.
 pub(super) fn make(app: &mut App, gears: &[&str], material: &Material) -> Vec<Effect> {
     let mut case = app.case.clone();
-    let made = gears.iter().try_for_each(|gear| materials::apply(&mut case, gear, material));
+    let made = gears
+        .iter()
+        .try_for_each(|gear| materials::apply(&mut case, gear, material));
     if let Err(problem) = made {
         app.complain(problem.for_form().to_string());
         return Vec::new();
     }
     let is_other = case != app.case;
     let effects = edit::replace(app, case);
-    let whose = if let [gear] = gears { gear } else { "both gears" };
-    let verb = if is_other { "from" } else { "as they were, from" };
-    app.say(format!("{whose}: {} {verb} {}", told(app, material), material.name));
+    let whose = if let [gear] = gears {
+        gear
+    } else {
+        "both gears"
+    };
+    let verb = if is_other {
+        "from"
+    } else {
+        "as they were, from"
+    };
+    app.say(format!(
+        "{whose}: {} {verb} {}",
+        told(app, material),
+        material.name
+    ));
     effects
 }
 
@@ -61,7 +81,9 @@ pub(super) fn make(app: &mut App, gears: &[&str], material: &Material) -> Vec<Ef
 fn told(app: &App, material: &Material) -> String {
     let values = material.texts().map(|(name, text)| {
         let field = FIELDS.iter().find(|field| field.name() == name);
-        let name = field.map_or("", |field| field.symbol.trim_end_matches(|c: char| c.is_ascii_digit()));
+        let name = field.map_or("", |field| {
+            field.symbol.trim_end_matches(|c: char| c.is_ascii_digit())
+        });
         format!("{} {text}", symbol(name, app.look.ascii))
     });
     values.join(", ")
@@ -93,8 +115,13 @@ pub(super) fn hold(app: &mut App, quantity: &'static Quantity) -> Vec<Effect> {
 
 // The quantity's value as it is shown, rounded up so that it holds.
 fn beginning(app: &App, quantity: &'static Quantity) -> String {
-    let value = app.answer.as_ref().and_then(|answer| report::value(quantity, answer.of(answer.active)?));
-    let Some(value) = value else { return String::new() };
+    let value = app
+        .answer
+        .as_ref()
+        .and_then(|answer| report::value(quantity, answer.of(answer.active)?));
+    let Some(value) = value else {
+        return String::new();
+    };
     let text = report::shown_in(quantity, value, app.settings.units).to_string();
     let is_below = Limit::new(quantity.key, &text).is_ok_and(|limit| limit.value < value);
     let raised = step_limit(&text, quantity.key, 1).filter(|_| is_below);

@@ -7,7 +7,10 @@ use crate::tui::window::{ChartView, Frame};
 
 /// The chart so many places further, round and round.
 pub(super) fn step(app: &mut App, by: isize) {
-    choose(app, (app.graph + GRAPHS.len()).saturating_add_signed(by) % GRAPHS.len());
+    choose(
+        app,
+        (app.graph + GRAPHS.len()).saturating_add_signed(by) % GRAPHS.len(),
+    );
 }
 
 /// The chart at that place of the table.
@@ -18,16 +21,27 @@ pub(super) fn choose(app: &mut App, graph: usize) {
 /// The time after E in place of the roll angle before it, or back.
 pub(super) fn time_or_angle(app: &mut App) {
     app.by_time = !app.by_time;
-    app.say(if app.by_time { "the charts tell the time after E" } else { "the charts tell the roll angle before E" });
+    app.say(if app.by_time {
+        "the charts tell the time after E"
+    } else {
+        "the charts tell the roll angle before E"
+    });
 }
 
 /// Some steps closer around the cursor, or around D without one; farther below 0.
 pub(super) fn zoom(app: &mut App, steps: i32) {
-    let start = app.answer.as_ref().and_then(|answer| first_contact(answer.of(answer.active)?));
+    let start = app
+        .answer
+        .as_ref()
+        .and_then(|answer| first_contact(answer.of(answer.active)?));
     let around = 0.0 - app.cursor.or(start).unwrap_or(0.0).to_degrees();
     let view = app.chart.zoomed(steps, around, &app.scale);
     if view == app.chart {
-        app.say(if steps > 0 { "this is the closest" } else { "this is all of it" });
+        app.say(if steps > 0 {
+            "this is the closest"
+        } else {
+            "this is all of it"
+        });
     }
     app.chart = view;
 }
@@ -41,7 +55,9 @@ pub(super) fn whole(app: &mut App) {
 pub(super) fn strike_or_whole(app: &mut App) {
     app.chart = app.chart.strike_or_whole();
     app.say(match app.chart.frame {
-        Frame::Strike if app.scale.strike.is_empty() => "no corner contact: there is no strike to look at",
+        Frame::Strike if app.scale.strike.is_empty() => {
+            "no corner contact: there is no strike to look at"
+        }
         Frame::Strike => "the charts around the strike",
         Frame::Whole => "the charts over the whole contact",
     });

@@ -4,7 +4,7 @@ use crate::model::QUANTITIES;
 use crate::report;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
-use crate::tui::clean;
+use crate::tui::ascii;
 use crate::tui::keys::Place;
 use crate::tui::pane::Pane;
 use crate::tui::rows::{self, Row};
@@ -13,7 +13,8 @@ use crate::tui::view::{chart, results};
 /// Terminals refuse more than this, or cut it.
 const MOST_BYTES: usize = 48 * 1024;
 
-/// The focused value: of the form its text, of chart and teeth the reading at the cursor, else the marked result.
+/// The focused value: of the form its text, of chart and teeth the reading at the cursor, else the
+/// marked result.
 pub(super) fn value(app: &mut App) -> Vec<Effect> {
     if app.panes.focus == Pane::Form {
         let text = match rows::row(&app.case, app.focus) {
@@ -35,20 +36,32 @@ pub(super) fn value(app: &mut App) -> Vec<Effect> {
         app.complain("there are no results to copy");
         return Vec::new();
     };
-    let value = app.answer.as_ref().and_then(|answer| report::value(quantity, answer.of(answer.active)?));
-    let text = value.map(|value| report::shown_in(quantity, value, app.settings.units).to_string()).unwrap_or_default();
+    let value = app
+        .answer
+        .as_ref()
+        .and_then(|answer| report::value(quantity, answer.of(answer.active)?));
+    let text = value
+        .map(|value| report::shown_in(quantity, value, app.settings.units).to_string())
+        .unwrap_or_default();
     copy(app, text, quantity.label.trim())
 }
 
 /// Every result of the active method, a line each: key, value in SI, unit.
 pub(super) fn results(app: &mut App) -> Vec<Effect> {
-    let solution = app.answer.as_ref().filter(|_| !app.is_stale()).and_then(|answer| answer.of(answer.active));
+    let solution = app
+        .answer
+        .as_ref()
+        .filter(|_| !app.is_stale())
+        .and_then(|answer| answer.of(answer.active));
     let Some(solution) = solution else {
         app.complain("there are no valid results to copy");
         return Vec::new();
     };
-    let values = QUANTITIES.iter().filter_map(|quantity| Some((quantity, report::value(quantity, solution)?)));
-    let lines = values.map(|(quantity, value)| format!("{}\t{value}\t{}", quantity.key, quantity.unit));
+    let values = QUANTITIES
+        .iter()
+        .filter_map(|quantity| Some((quantity, report::value(quantity, solution)?)));
+    let lines =
+        values.map(|(quantity, value)| format!("{}\t{value}\t{}", quantity.key, quantity.unit));
     let lines = lines.collect::<Vec<_>>().join("\n");
     copy(app, lines, "all results in SI")
 }
@@ -59,10 +72,17 @@ fn copy(app: &mut App, text: String, what: &str) -> Vec<Effect> {
         return Vec::new();
     }
     if text.len() > MOST_BYTES {
-        app.complain(format!("{what}: {} bytes are too long for the clipboard of a terminal", text.len()));
+        app.complain(format!(
+            "{what}: {} bytes are too long for the clipboard of a terminal",
+            text.len()
+        ));
         return Vec::new();
     }
-    let told = if text.lines().count() > 1 { what.to_owned() } else { clean::clean(&text).into_owned() };
+    let told = if text.lines().count() > 1 {
+        what.to_owned()
+    } else {
+        ascii::printable(&text).into_owned()
+    };
     app.say(format!("copied {told}"));
     vec![Effect::Copy(text)]
 }

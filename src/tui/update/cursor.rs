@@ -1,4 +1,5 @@
-//! The cursor in the driver's roll angle that chart and teeth share: how it goes by keys and by itself.
+//! The cursor in the driver's roll angle that chart and teeth share: how it goes by keys and by
+//! itself.
 
 use super::panes;
 use crate::tui::actions::Effect;
@@ -8,11 +9,11 @@ use crate::tui::line::Line;
 use crate::tui::pane::Pane;
 use crate::tui::prompt::Prompt;
 use crate::tui::view::chart::{self, first_contact};
-use crate::tui::view::reach::{aim, reach, solution};
+use crate::tui::view::cursor_range::{cursor_range, parse_cursor, solution};
 
 /// Move by columns towards E.
 pub(super) fn step(app: &mut App, columns: i16) -> Vec<Effect> {
-    match reach(app) {
+    match cursor_range(app) {
         Some(reach) => app.cursor = Some(reach.moved(app.cursor, columns)),
         None => app.complain("no valid results to point at"),
     }
@@ -30,16 +31,17 @@ pub(super) fn to_start(app: &mut App) -> Vec<Effect> {
 
 /// Ask for an angle, a time or a place.
 pub(super) fn ask(app: &mut App) {
-    if reach(app).is_some() {
+    if cursor_range(app).is_some() {
         app.prompts.push(Prompt::Aim(Line::default()));
     } else {
         app.complain("no valid results to point at");
     }
 }
 
-/// To the angle that is typed, where there is such a one; a chart comes into sight where neither it nor the teeth are.
+/// To the angle that is typed, where there is such a one; a chart comes into sight where neither it
+/// nor the teeth are.
 pub(super) fn take_aim(app: &mut App, typed: &str) -> Vec<Effect> {
-    match aim(app, typed) {
+    match parse_cursor(app, typed) {
         Err(reason) => {
             app.complain(reason);
             // What is typed next is meant anew.
@@ -71,11 +73,14 @@ pub(super) fn play(app: &mut App) -> Vec<Effect> {
     if app.is_playing {
         return stop(app);
     }
-    let Some(reach) = reach(app).filter(|reach| reach.run_from > reach.run_to) else {
+    let Some(reach) = cursor_range(app).filter(|reach| reach.run_from > reach.run_to) else {
         app.complain("no corner contact: nothing to play");
         return Vec::new();
     };
-    if app.cursor.is_none_or(|cursor| cursor <= reach.run_to || cursor > reach.run_from) {
+    if app
+        .cursor
+        .is_none_or(|cursor| cursor <= reach.run_to || cursor > reach.run_from)
+    {
         app.cursor = Some(reach.run_from);
     }
     app.is_playing = true;
@@ -87,13 +92,23 @@ pub(super) fn tick(app: &mut App) -> Vec<Effect> {
     if !app.is_playing {
         return vec![Effect::Play(false)];
     }
-    let reach = reach(app);
-    let next = reach.zip(app.cursor).and_then(|(reach, cursor)| reach.played(cursor));
+    let reach = cursor_range(app);
+    let next = reach
+        .zip(app.cursor)
+        .and_then(|(reach, cursor)| reach.played(cursor));
     app.cursor = Some(next.unwrap_or(reach.map_or(0.0, |reach| reach.run_to)));
-    if next.is_none() { stop(app) } else { Vec::new() }
+    if next.is_none() {
+        stop(app)
+    } else {
+        Vec::new()
+    }
 }
 
 /// Stop what plays.
 pub(super) fn stop(app: &mut App) -> Vec<Effect> {
-    if std::mem::take(&mut app.is_playing) { vec![Effect::Play(false)] } else { Vec::new() }
+    if std::mem::take(&mut app.is_playing) {
+        vec![Effect::Play(false)]
+    } else {
+        Vec::new()
+    }
 }

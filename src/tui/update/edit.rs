@@ -13,7 +13,7 @@ use crate::tui::line::Line;
 use crate::tui::pane::Pane;
 use crate::tui::prompt::Prompt;
 use crate::tui::update::{browse, files};
-use crate::tui::{clean, rows};
+use crate::tui::{ascii, rows};
 
 /// A longer text is no value, title or path.
 const LONGEST: usize = 4096;
@@ -21,7 +21,9 @@ const LONGEST: usize = 4096;
 /// A character typed.
 pub(super) fn insert(app: &mut App, letter: char) -> Vec<Effect> {
     if let Some(Prompt::Ask(question)) = app.prompts.last() {
-        return question.by_letter(letter).map_or_else(Vec::new, |choice| files::choose(app, choice));
+        return question
+            .by_letter(letter)
+            .map_or_else(Vec::new, |choice| files::choose(app, choice));
     }
     if app.prompts.is_empty() && app.has_line() && !names(app).is_empty() {
         return choose_by_letter(app, letter);
@@ -29,7 +31,8 @@ pub(super) fn insert(app: &mut App, letter: char) -> Vec<Effect> {
     paste(app, letter.encode_utf8(&mut [0; 4]))
 }
 
-/// Text pasted: into a line of text and nowhere else, what controls a terminal left out. Of several lines one is made.
+/// Text pasted: into a line of text and nowhere else, what controls a terminal left out. Of several
+/// lines one is made.
 pub(super) fn paste(app: &mut App, text: &str) -> Vec<Effect> {
     let editing_case = app.prompts.is_empty();
     let takes_text = app.has_line() && names(app).is_empty();
@@ -40,13 +43,21 @@ pub(super) fn paste(app: &mut App, text: &str) -> Vec<Effect> {
     let Some(line) = line else { return Vec::new() };
     let room = LONGEST.saturating_sub(line.kept());
     let text = in_a_line(text);
-    let mut letters = text.chars().filter(|&letter| clean::is_safe(letter)).take(room).peekable();
+    let mut letters = text
+        .chars()
+        .filter(|&letter| ascii::is_safe(letter))
+        .take(room)
+        .peekable();
     if letters.peek().is_none() {
         return Vec::new();
     }
     let typed: String = letters.collect();
     line.insert(&typed);
-    if editing_case { write(app) } else { line_changed(app) }
+    if editing_case {
+        write(app)
+    } else {
+        line_changed(app)
+    }
 }
 
 fn in_a_line(text: &str) -> Cow<'_, str> {
@@ -54,7 +65,12 @@ fn in_a_line(text: &str) -> Cow<'_, str> {
     if !text.contains(BREAKS) {
         return text.into();
     }
-    text.split(BREAKS).map(str::trim).filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ").into()
+    text.split(BREAKS)
+        .map(str::trim)
+        .filter(|part| !part.is_empty())
+        .collect::<Vec<_>>()
+        .join(" ")
+        .into()
 }
 
 /// A key that moves in the line or deletes from it.
@@ -64,7 +80,11 @@ pub(super) fn handle(app: &mut App, request: InputRequest) -> Vec<Effect> {
     }
     if let Some(prompt) = app.prompts.last_mut() {
         let changed = prompt.input_mut().and_then(|input| input.handle(request));
-        return if changed.is_some_and(|changed| changed.value) { line_changed(app) } else { Vec::new() };
+        return if changed.is_some_and(|changed| changed.value) {
+            line_changed(app)
+        } else {
+            Vec::new()
+        };
     }
     match app.tab.input.handle(request) {
         Some(changed) if changed.value => write(app),
@@ -89,7 +109,9 @@ pub(super) fn choose(app: &mut App, field: usize, names: &[&str], by: isize) -> 
     let now = names.iter().position(|name| *name == chosen(app, field));
     let count = names.len().max(1);
     let next = now.map_or(0, |now| (now + count).saturating_add_signed(by) % count);
-    let Some(name) = names.get(next) else { return Vec::new() };
+    let Some(name) = names.get(next) else {
+        return Vec::new();
+    };
     set(app, field, name)
 }
 
@@ -101,7 +123,10 @@ fn names(app: &App) -> &'static [&'static str] {
 /// Move the value of the focused row by so many units of its last digit.
 pub(super) fn step(app: &mut App, by: i32) -> Vec<Effect> {
     let Some(text) = rows::stepped(&app.case, app.focus, by) else {
-        app.say(format!("{} has no step here", rows::label(&app.case, app.focus)));
+        app.say(format!(
+            "{} has no step here",
+            rows::label(&app.case, app.focus)
+        ));
         return Vec::new();
     };
     app.tab.input = Line::whole(text);
@@ -117,7 +142,9 @@ pub(super) fn chosen(app: &App, field: usize) -> &str {
 }
 
 fn choose_by_letter(app: &mut App, letter: char) -> Vec<Effect> {
-    let name = names(app).iter().find(|name| name.starts_with(letter.to_ascii_lowercase()));
+    let name = names(app)
+        .iter()
+        .find(|name| name.starts_with(letter.to_ascii_lowercase()));
     name.map_or_else(Vec::new, |name| set(app, app.focus, name))
 }
 
@@ -164,18 +191,33 @@ fn write(app: &mut App) -> Vec<Effect> {
 // What is typed, a number with its unit; blanks around a number are none of it.
 fn completed(app: &App) -> String {
     let text = [app.tab.input.value(), &app.ending().unwrap_or_default()].concat();
-    let is_words = rows::field(&app.case, app.focus).is_some_and(|field| matches!(field.kind, Kind::Text));
-    if is_words { text } else { text.trim().to_owned() }
+    let is_words =
+        rows::field(&app.case, app.focus).is_some_and(|field| matches!(field.kind, Kind::Text));
+    if is_words {
+        text
+    } else {
+        text.trim().to_owned()
+    }
 }
 
-// Of two fields that exclude each other the one that is typed stays; emptied again, it gives way to the other. That is told
-// for as long as it is typed.
+// Of two fields that exclude each other the one that is typed stays; emptied again, it gives way to
+// the other. That is told for as long as it is typed.
 fn take_turns(app: &mut App, field: usize, other: usize) {
-    let Some(before) = app.tab.history.before_visit().and_then(|before| before.text(other)).map(str::to_owned) else { return };
+    let Some(before) = app
+        .tab
+        .history
+        .before_visit()
+        .and_then(|before| before.text(other))
+        .map(str::to_owned)
+    else {
+        return;
+    };
     let (this, that) = (FIELDS[field].label, FIELDS[other].label);
     if app.case.text(field).is_some() {
         app.tab.case.write(other, "");
-        app.say(format!("{that} {before} is given up: the {this} stands in its place"));
+        app.say(format!(
+            "{that} {before} is given up: the {this} stands in its place"
+        ));
     } else if app.case.text(other).is_none() {
         app.tab.case.write(other, &before);
         app.say(format!("{that} {before} is back"));

@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{hold, recovery, solve, tabs};
+use super::{baseline, recovery, solve, tabs};
 use crate::case::Document;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
-use crate::tui::clean;
+use crate::tui::ascii;
 use crate::tui::line::Line;
 use crate::tui::prompt::{Choice, Next, Page, Prompt, Question};
 use crate::tui::recovery::{Access, NEWER};
@@ -15,16 +15,26 @@ use crate::tui::tab::Tab;
 
 /// Leave, or ask when anything is unsaved.
 pub(super) fn quit(app: &mut App) -> Vec<Effect> {
-    let unsaved: Vec<_> = app.tabs().enumerate().filter(|(_, tab)| tab.is_unsaved()).map(|(at, _)| at).collect();
+    let unsaved: Vec<_> = app
+        .tabs()
+        .enumerate()
+        .filter(|(_, tab)| tab.is_unsaved())
+        .map(|(at, _)| at)
+        .collect();
     match unsaved[..] {
         [] => vec![Effect::Quit],
         [only] => {
             tabs::go_to(app, only);
-            app.prompts.push(Prompt::Ask(Question::unsaved(&app.name(), &Next::Quit)));
+            app.prompts
+                .push(Prompt::Ask(Question::unsaved(&app.name(), &Next::Quit)));
             Vec::new()
         }
         _ => {
-            let names: Vec<_> = app.tabs().filter(|tab| tab.is_unsaved()).map(Tab::name).collect();
+            let names: Vec<_> = app
+                .tabs()
+                .filter(|tab| tab.is_unsaved())
+                .map(Tab::name)
+                .collect();
             app.prompts.push(Prompt::Ask(Question::all_unsaved(&names)));
             Vec::new()
         }
@@ -34,7 +44,8 @@ pub(super) fn quit(app: &mut App) -> Vec<Effect> {
 /// Close the current case, or ask when it is unsaved.
 pub(super) fn close(app: &mut App) -> Vec<Effect> {
     if app.is_unsaved() {
-        app.prompts.push(Prompt::Ask(Question::unsaved(&app.name(), &Next::Close)));
+        app.prompts
+            .push(Prompt::Ask(Question::unsaved(&app.name(), &Next::Close)));
         return Vec::new();
     }
     go(app, Next::Close)
@@ -56,7 +67,10 @@ pub(super) fn ask_where(app: &mut App, next: Next) -> Vec<Effect> {
     if refuse_faulty(app) {
         return Vec::new();
     }
-    let path = app.path.as_ref().map_or_else(|| "case.toml".to_owned(), |path| path.display().to_string());
+    let path = app
+        .path
+        .as_ref()
+        .map_or_else(|| "case.toml".to_owned(), |path| path.display().to_string());
     app.prompts.push(Prompt::SaveAs(Line::named(path), next));
     Vec::new()
 }
@@ -81,7 +95,11 @@ pub(super) fn choose(app: &mut App, choice: Choice) -> Vec<Effect> {
 }
 
 /// A file was read, or its faults were found: then nothing changes but what is told.
-pub(super) fn loaded(app: &mut App, path: PathBuf, result: Result<Box<Document>, Vec<String>>) -> Vec<Effect> {
+pub(super) fn loaded(
+    app: &mut App,
+    path: PathBuf,
+    result: Result<Box<Document>, Vec<String>>,
+) -> Vec<Effect> {
     match result {
         Ok(document) if is_open_as_another(app, &document, &path) => Vec::new(),
         Ok(document) => {
@@ -91,7 +109,7 @@ pub(super) fn loaded(app: &mut App, path: PathBuf, result: Result<Box<Document>,
             if app.access == Access::Newer {
                 app.complain(NEWER);
             } else {
-                app.say(format!("opened {}", clean::clean(&app.name())));
+                app.say(format!("opened {}", ascii::printable(&app.name())));
             }
             effects
         }
@@ -104,7 +122,12 @@ pub(super) fn loaded(app: &mut App, path: PathBuf, result: Result<Box<Document>,
 }
 
 /// A file was written, or not.
-pub(super) fn saved(app: &mut App, path: PathBuf, next: Next, result: Result<Box<Document>, SaveFault>) -> Vec<Effect> {
+pub(super) fn saved(
+    app: &mut App,
+    path: PathBuf,
+    next: Next,
+    result: Result<Box<Document>, SaveFault>,
+) -> Vec<Effect> {
     let asked = app.tab.being_saved.take();
     match result {
         Ok(document) => {
@@ -123,14 +146,20 @@ pub(super) fn saved(app: &mut App, path: PathBuf, next: Next, result: Result<Box
             app.tab.in_place_of = None;
             app.say(format!("saved {}", path.display()));
             app.tab.path = Some(path.clone());
-            hold::rename(app);
+            baseline::rename(app);
             let mut effects = vec![Effect::Remember(path)];
             effects.extend(go(app, next));
             return effects;
         }
-        Err(SaveFault::Exists(lines)) => app.prompts.push(Prompt::Ask(Question::exists(&path, lines, &next))),
-        Err(SaveFault::Changed(lines)) => app.prompts.push(Prompt::Ask(Question::changed(&path, lines, &next))),
-        Err(SaveFault::Held(holder)) => app.prompts.push(Prompt::Ask(Question::held(&path, &holder, &next))),
+        Err(SaveFault::Exists(lines)) => app
+            .prompts
+            .push(Prompt::Ask(Question::exists(&path, lines, &next))),
+        Err(SaveFault::Changed(lines)) => app
+            .prompts
+            .push(Prompt::Ask(Question::changed(&path, lines, &next))),
+        Err(SaveFault::Held(holder)) => app
+            .prompts
+            .push(Prompt::Ask(Question::held(&path, &holder, &next))),
         Err(SaveFault::Failed(reason)) => app.complain(format!("not saved: {reason}")),
     }
     Vec::new()
@@ -149,27 +178,39 @@ fn go(app: &mut App, next: Next) -> Vec<Effect> {
 
 fn save_rest(app: &mut App) -> Vec<Effect> {
     let unsaved = app.tabs().position(Tab::is_unsaved);
-    let Some(unsaved) = unsaved else { return vec![Effect::Quit] };
+    let Some(unsaved) = unsaved else {
+        return vec![Effect::Quit];
+    };
     tabs::go_to(app, unsaved);
     save(app, Next::SaveRest)
 }
 
 /// Open a file; a case that is open already is gone to, with what is unsaved in it.
 pub(super) fn open(app: &mut App, path: PathBuf) -> Vec<Effect> {
-    let Some(at) = place_of(app, &path) else { return vec![Effect::Load(path)] };
+    let Some(at) = place_of(app, &path) else {
+        return vec![Effect::Load(path)];
+    };
     app.prompts.clear();
     tabs::go_to(app, at);
-    app.say(format!("{} is open already", clean::clean(&app.name())));
+    app.say(format!("{} is open already", ascii::printable(&app.name())));
     Vec::new()
 }
 
 // The same file by another path, over a link, is the same case.
 fn is_open_as_another(app: &mut App, document: &Document, path: &Path) -> bool {
-    let is_it = |tab: &Tab| tab.path.as_deref().is_some_and(|own| own != path) && tab.document.path() == document.path();
-    let Some(at) = app.tabs().position(is_it) else { return false };
+    let is_it = |tab: &Tab| {
+        tab.path.as_deref().is_some_and(|own| own != path) && tab.document.path() == document.path()
+    };
+    let Some(at) = app.tabs().position(is_it) else {
+        return false;
+    };
     app.prompts.clear();
     tabs::go_to(app, at);
-    app.say(format!("{} is open already, as {}", clean::clean(&path.display().to_string()), clean::clean(&app.name())));
+    app.say(format!(
+        "{} is open already, as {}",
+        ascii::printable(&path.display().to_string()),
+        ascii::printable(&app.name())
+    ));
     true
 }
 
@@ -179,7 +220,9 @@ fn place_of(app: &App, path: &Path) -> Option<usize> {
 
 // What would be saved could not be opened again.
 fn refuse_faulty(app: &mut App) -> bool {
-    let Some(&(field, _)) = app.problems.first() else { return false };
+    let Some(&(field, _)) = app.problems.first() else {
+        return false;
+    };
     app.focus_on(field);
     app.complain("not saved: mend what is marked with ! first");
     true
@@ -189,7 +232,14 @@ fn saving(app: &mut App, path: PathBuf, over: Over, next: Next) -> Effect {
     let mut document = app.document.clone();
     document.case = app.case.clone();
     app.tab.being_saved = Some(app.case.clone());
-    Effect::Save(Box::new(Saving { document, path, over }), next)
+    Effect::Save(
+        Box::new(Saving {
+            document,
+            path,
+            over,
+        }),
+        next,
+    )
 }
 
 // A case has an ending, so that it is found among the cases of its folder.
@@ -197,7 +247,11 @@ fn named(name: &str) -> PathBuf {
     let last = name.rsplit('/').next().unwrap_or_default();
     let is_place = matches!(last, "" | "." | ".." | "~");
     let has_ending = last.rfind('.').is_some_and(|dot| dot > 0);
-    PathBuf::from(if is_place || has_ending { name.to_owned() } else { format!("{name}.toml") })
+    PathBuf::from(if is_place || has_ending {
+        name.to_owned()
+    } else {
+        format!("{name}.toml")
+    })
 }
 
 /// Save under the name that is typed.
@@ -207,6 +261,10 @@ pub(super) fn save_under(app: &mut App, name: &str, next: Next) -> Vec<Effect> {
         return Vec::new();
     }
     let is_own = app.path.as_deref() == Some(Path::new(name));
-    let (path, over) = if is_own { (PathBuf::from(name), Over::Own) } else { (named(name.trim()), Over::Nothing) };
+    let (path, over) = if is_own {
+        (PathBuf::from(name), Over::Own)
+    } else {
+        (named(name.trim()), Over::Nothing)
+    };
     vec![saving(app, path, over, next)]
 }

@@ -35,20 +35,29 @@ pub(super) fn cycle_theme(app: &mut App) -> Vec<Effect> {
     keep(app)
 }
 
-const UNICODE: &str = "drawn with the whole of Unicode; in this session alone where the locale has no UTF-8";
+const UNICODE: &str =
+    "drawn with the whole of Unicode; in this session alone where the locale has no UTF-8";
 
-/// ASCII alone, from now on; or, in this session whatever the environment says, the whole of Unicode.
+/// ASCII alone, from now on; or, in this session whatever the environment says, the whole of
+/// Unicode.
 pub(super) fn toggle_ascii(app: &mut App) -> Vec<Effect> {
     app.look.ascii = !app.look.ascii;
     app.settings.ascii = app.look.ascii;
-    app.say(if app.look.ascii { "drawn in ASCII" } else { UNICODE });
+    app.say(if app.look.ascii {
+        "drawn in ASCII"
+    } else {
+        UNICODE
+    });
     keep(app)
 }
 
 /// Metric units for what is shown, or inch.
 pub(super) fn cycle_units(app: &mut App) -> Vec<Effect> {
     app.settings.units = app.settings.units.other();
-    app.say(format!("results, hints, charts and teeth in {} units; the case stays as it is written", app.settings.units.name()));
+    app.say(format!(
+        "results, hints, charts and teeth in {} units; the case stays as it is written",
+        app.settings.units.name()
+    ));
     keep(app)
 }
 

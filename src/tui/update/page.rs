@@ -6,8 +6,8 @@ use crate::case::units::System;
 use crate::report;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
-use crate::tui::errands::{Asked, Errand, Explained};
 use crate::tui::explanation::Explanation;
+use crate::tui::jobs::{Asked, Explained, Job};
 use crate::tui::prompt::{Page, Prompt};
 use crate::tui::view::{explain, results};
 
@@ -18,17 +18,31 @@ pub(super) fn explain(app: &mut App) -> Vec<Effect> {
         return Vec::new();
     };
     let Ok(inputs) = app.case.inputs() else {
-        app.complain("these are the last valid results: mend what is marked with ! to have one explained");
+        app.complain(
+            "these are the last valid results: mend what is marked with ! to have one explained",
+        );
         return Vec::new();
     };
-    let solution = app.answer.as_ref().and_then(|answer| answer.of(answer.active));
+    let solution = app
+        .answer
+        .as_ref()
+        .and_then(|answer| answer.of(answer.active));
     let value = solution.and_then(|solution| report::value(quantity, solution));
     let value = value.and_then(|value| {
-        let [own, metric] = [app.settings.units, System::Metric].map(|system| report::shown_in(quantity, value, system));
+        let [own, metric] = [app.settings.units, System::Metric]
+            .map(|system| report::shown_in(quantity, value, system));
         (own.unit != metric.unit).then_some(own)
     });
-    app.prompts.push(Prompt::Explain(Explanation::new(quantity, app.name(), value)));
-    vec![Effect::Errand(Errand::Explain(Box::new(Asked { quantity, case: app.case.clone(), inputs })))]
+    app.prompts.push(Prompt::Explain(Explanation::new(
+        quantity,
+        app.name(),
+        value,
+    )));
+    vec![Effect::Job(Job::Explain(Box::new(Asked {
+        quantity,
+        case: app.case.clone(),
+        inputs,
+    })))]
 }
 
 /// Open a page with all that stands above and below the results, however little room they have.
@@ -37,7 +51,8 @@ pub(super) fn notes(app: &mut App) {
     if lines.is_empty() {
         app.complain("there are no results to tell of");
     } else {
-        app.prompts.push(Prompt::Read(Page::new("Outcome, gauges, notes", lines)));
+        app.prompts
+            .push(Prompt::Read(Page::new("Outcome, gauges, notes", lines)));
     }
 }
 

@@ -2,12 +2,13 @@
 
 use super::edit;
 use crate::tui::app::App;
-use crate::tui::clean;
+use crate::tui::ascii;
 use crate::tui::layout;
 use crate::tui::pane::Pane;
 use crate::tui::view::results;
 
-/// Go to a pane, and bring it into sight. In the form, letters stay commands until a field is entered.
+/// Go to a pane, and bring it into sight. In the form, letters stay commands until a field is
+/// entered.
 pub(super) fn show(app: &mut App, pane: Pane) {
     app.tab.history.end_visit();
     app.panes.focus = pane;
@@ -26,9 +27,15 @@ pub(super) fn step(app: &mut App, by: isize) {
 /// Another pane into the lower area; the focus stays where it is unless it is there.
 pub(super) fn cycle_lower(app: &mut App) {
     let plan = layout::plan(app.size, app.panes);
-    let now = Pane::LOWER.iter().position(|&pane| pane == app.panes.lower).unwrap_or(0);
+    let now = Pane::LOWER
+        .iter()
+        .position(|&pane| pane == app.panes.lower)
+        .unwrap_or(0);
     let others = (1..=Pane::LOWER.len()).map(|by| Pane::LOWER[(now + by) % Pane::LOWER.len()]);
-    let next = others.into_iter().find(|&pane| plan.area(pane).is_empty()).unwrap_or(Pane::Chart);
+    let next = others
+        .into_iter()
+        .find(|&pane| plan.area(pane).is_empty())
+        .unwrap_or(Pane::Chart);
     let has_room = Pane::LOWER.iter().any(|&pane| !plan.area(pane).is_empty());
     if app.panes.focus.is_lower() || !has_room {
         app.panes.lower = next;
@@ -60,7 +67,19 @@ pub(super) fn show_result(app: &mut App, key: &str) {
 
 /// A letter that is no command in the focused pane is told as such, with what may have been meant.
 pub(super) fn stray(app: &mut App, letter: char) {
-    let name = if letter == ' ' { "Space".to_owned() } else { letter.to_string() };
-    let meant = if app.panes.focus == Pane::Form { "Enter edits the field, " } else { "" };
-    app.say(format!("{} is no command in {}: {meant}? lists the keys", clean::clean(&name), app.panes.focus.name()));
+    let name = if letter == ' ' {
+        "Space".to_owned()
+    } else {
+        letter.to_string()
+    };
+    let meant = if app.panes.focus == Pane::Form {
+        "Enter edits the field, "
+    } else {
+        ""
+    };
+    app.say(format!(
+        "{} is no command in {}: {meant}? lists the keys",
+        ascii::printable(&name),
+        app.panes.focus.name()
+    ));
 }

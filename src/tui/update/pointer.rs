@@ -11,21 +11,29 @@ use crate::tui::prompt::Prompt;
 use crate::tui::view::chart::angle_at;
 use crate::tui::view::{self, browser, explain, form, picker, popup, results, status};
 
-/// A press: onto a field, a result, the chart, the name of a case or of a pane out of sight, a line of a list, a button. A
-/// second press on what is marked does what Enter does.
+/// A press: onto a field, a result, the chart, the name of a case or of a pane out of sight, a line
+/// of a list, a button. A second press on what is marked does what Enter does.
 pub(super) fn click(app: &mut App, at: Position) -> Vec<Effect> {
     let size = app.size;
     let is_again = match app.prompts.last_mut() {
         None => return in_panes(app, at),
-        Some(Prompt::Pick(picker)) => picker::item_at(picker, size, at).map(|line| mark(&mut picker.marked, line)),
-        Some(Prompt::Browse(browser)) => browser::line_at(browser, size, at).map(|line| mark(&mut browser.marked, line)),
+        Some(Prompt::Pick(picker)) => {
+            picker::item_at(picker, size, at).map(|line| mark(&mut picker.marked, line))
+        }
+        Some(Prompt::Browse(browser)) => {
+            browser::line_at(browser, size, at).map(|line| mark(&mut browser.marked, line))
+        }
         Some(Prompt::Ask(question)) => popup::button_at(question, size, at).map(|button| {
             question.marked = button;
             true
         }),
         Some(Prompt::Read(_) | Prompt::Explain(_) | Prompt::SaveAs(..) | Prompt::Aim(_)) => None,
     };
-    if is_again == Some(true) { prompts::accept(app) } else { Vec::new() }
+    if is_again == Some(true) {
+        prompts::accept(app)
+    } else {
+        Vec::new()
+    }
 }
 
 // Whether it was marked before.
@@ -103,5 +111,7 @@ pub(super) fn wheel(app: &mut App, at: Position, by: isize) {
 
 fn pane_at(app: &App, at: Position) -> Option<Pane> {
     let plan = layout::plan(app.size, app.panes);
-    Pane::ALL.into_iter().find(|&pane| plan.area(pane).contains(at))
+    Pane::ALL
+        .into_iter()
+        .find(|&pane| plan.area(pane).contains(at))
 }

@@ -32,7 +32,9 @@ fn pick(app: &mut App, pick: Pick) -> Vec<Effect> {
         Pick::Run(command) => run(app, command),
         Pick::Begin(example) => solve(tabs::begin(app, example)),
         Pick::Make(gears, material) => catalogue::make(app, gears, material),
-        Pick::Limit(key) => Quantity::find(key).map_or_else(Vec::new, |quantity| catalogue::hold(app, quantity)),
+        Pick::Limit(key) => {
+            Quantity::find(key).map_or_else(Vec::new, |quantity| catalogue::hold(app, quantity))
+        }
         Pick::Show(key) => {
             panes::show_result(app, key);
             Vec::new()

@@ -8,16 +8,26 @@ use crate::tui::recovery::{Access, Claim, Offer};
 
 /// A case was opened, and this was found out about it.
 pub(super) fn claimed(app: &mut App, claim: Claim) {
-    let Some(at) = app.tabs().position(|tab| tab.id == claim.id) else { return };
+    let Some(at) = app.tabs().position(|tab| tab.id == claim.id) else {
+        return;
+    };
     if !claim.is_silent() {
         tabs::go_to(app, at);
     }
-    let Claim { id, access, offers, notices } = claim;
+    let Claim {
+        id,
+        access,
+        offers,
+        notices,
+    } = claim;
     if let Access::Held(holder) = &access {
-        app.complain(format!("read-only: open in {holder}; F2 saves under another name"));
+        app.complain(format!(
+            "read-only: open in {holder}; F2 saves under another name"
+        ));
     }
-    if let Some(tab) =
-        std::iter::once(&mut app.tab).chain(&mut app.others).find(|tab| tab.id == id && tab.access != Access::Newer)
+    if let Some(tab) = std::iter::once(&mut app.tab)
+        .chain(&mut app.others)
+        .find(|tab| tab.id == id && tab.access != Access::Newer)
     {
         tab.access = access;
     }
@@ -26,18 +36,29 @@ pub(super) fn claimed(app: &mut App, claim: Claim) {
     }
     let name = app.name();
     // The latest on top.
-    app.prompts.extend(offers.into_iter().rev().map(|offer| Prompt::Ask(Question::recover(&name, offer))));
+    app.prompts.extend(
+        offers
+            .into_iter()
+            .rev()
+            .map(|offer| Prompt::Ask(Question::recover(&name, offer))),
+    );
 }
 
 /// The kept edits go into the form; undo takes them out again.
 pub(super) fn recover(app: &mut App, offer: &Offer) -> Vec<Effect> {
     let mut case = app.case.clone();
-    let refused: Vec<_> = offer.changes.iter().filter_map(|change| case.apply(&change.key, change.to.as_deref()).err()).collect();
+    let refused: Vec<_> = offer
+        .changes
+        .iter()
+        .filter_map(|change| case.apply(&change.key, change.to.as_deref()).err())
+        .collect();
     app.tab.history.end_visit();
     app.tab.before_edit(app.tab.focus);
     let mut effects = solve(app.replace_case(case, app.focus));
     if let Some(problem) = refused.first() {
-        app.complain(format!("not all of it is back, and the journal stays: {problem}"));
+        app.complain(format!(
+            "not all of it is back, and the journal stays: {problem}"
+        ));
     } else {
         app.say("the edits are back, not saved yet");
         effects.push(Effect::Adopt(offer.journal.clone()));

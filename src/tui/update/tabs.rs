@@ -20,7 +20,8 @@ pub(super) fn go_to(app: &mut App, at: usize) {
     let taken = if at > now { at - 1 } else { at };
     let next = app.others.remove(taken);
     let before = std::mem::replace(&mut app.tab, next);
-    app.others.insert(if at > now { now } else { now - 1 }, before);
+    app.others
+        .insert(if at > now { now } else { now - 1 }, before);
     app.place_of_tab = at;
     // A request of another case may have been put aside for a later one.
     if !app.is_settled {
@@ -35,10 +36,14 @@ pub(super) fn step(app: &mut App, by: isize) {
     if count == 1 {
         app.say("one case is open");
     }
-    go_to(app, (app.place_of_tab + count).saturating_add_signed(by) % count);
+    go_to(
+        app,
+        (app.place_of_tab + count).saturating_add_signed(by) % count,
+    );
 }
 
-/// Show a document that was read: in the tab of its path, in place of the untouched built-in case, else in a new tab.
+/// Show a document that was read: in the tab of its path, in place of the untouched built-in case,
+/// else in a new tab.
 pub(super) fn show(app: &mut App, document: Document, path: PathBuf) -> Option<Request> {
     let own = app.tabs().position(|tab| tab.path.as_ref() == Some(&path));
     if let Some(own) = own {
@@ -55,7 +60,14 @@ pub(super) fn show(app: &mut App, document: Document, path: PathBuf) -> Option<R
 /// Begin with the values of the built-in case in a tab of its own.
 pub(super) fn fresh(app: &mut App) -> Option<Request> {
     let replaces = app.is_untouched();
-    let request = put(app, Tab { is_new: true, ..Tab::new(Document::new(Case::fresh()), None) }, replaces);
+    let request = put(
+        app,
+        Tab {
+            is_new: true,
+            ..Tab::new(Document::new(Case::fresh()), None)
+        },
+        replaces,
+    );
     app.say("a new case, beginning with the values of Table 1; the load makes the deflection");
     request
 }
@@ -63,8 +75,18 @@ pub(super) fn fresh(app: &mut App) -> Option<Request> {
 /// Begin a case with an example, in a tab of its own.
 pub(super) fn begin(app: &mut App, example: &'static Example) -> Option<Request> {
     let replaces = app.is_untouched();
-    let request = put(app, Tab { example: Some(example.name), ..Tab::new(example.document(), None) }, replaces);
-    app.say(format!("a new case, beginning with {}; it has no file yet", example.name));
+    let request = put(
+        app,
+        Tab {
+            example: Some(example.name),
+            ..Tab::new(example.document(), None)
+        },
+        replaces,
+    );
+    app.say(format!(
+        "a new case, beginning with {}; it has no file yet",
+        example.name
+    ));
     request
 }
 
@@ -87,7 +109,13 @@ pub(super) fn close(app: &mut App) -> Option<Request> {
 fn put(app: &mut App, tab: Tab, replaces: bool) -> Option<Request> {
     let focus = app.focus;
     app.last_id += 1;
-    let before = std::mem::replace(&mut app.tab, Tab { id: app.last_id, ..tab });
+    let before = std::mem::replace(
+        &mut app.tab,
+        Tab {
+            id: app.last_id,
+            ..tab
+        },
+    );
     if !replaces {
         app.others.insert(app.place_of_tab, before);
         app.place_of_tab += 1;

@@ -7,7 +7,11 @@ use crate::tui::zoom::{Exaggeration, TeethView};
 /// Some steps closer, or farther below 0.
 pub(super) fn zoom(app: &mut App, steps: i32) {
     match solved(app).map(|(inputs, solution)| app.teeth.zoomed(steps, inputs, solution)) {
-        Some(view) if view == app.teeth => app.say(if steps > 0 { "this is the closest" } else { "this is all of it" }),
+        Some(view) if view == app.teeth => app.say(if steps > 0 {
+            "this is the closest"
+        } else {
+            "this is all of it"
+        }),
         Some(view) => app.teeth = view,
         None => app.complain("no valid results to look at"),
     }

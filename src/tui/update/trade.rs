@@ -6,9 +6,9 @@ use crate::study::trade::{Patience, Setting};
 use crate::tui::actions::Effect;
 use crate::tui::app::{App, Progress};
 use crate::tui::layout;
-use crate::tui::measurer::{End, Measured, Measuring};
 use crate::tui::pane::Pane;
 use crate::tui::tab::Traded;
+use crate::tui::trade_worker::{End, Measured, Measuring};
 use crate::tui::view::trade::ordered;
 
 /// The work that the progress tells of.
@@ -22,28 +22,60 @@ pub(super) fn measure(app: &mut App) -> Vec<Effect> {
     };
     app.last_serial += 1;
     let serial = app.last_serial;
-    app.tab.traded = Some(Traded { serial, inputs: inputs.clone(), trade: None, marked: None });
+    app.tab.traded = Some(Traded {
+        serial,
+        inputs: inputs.clone(),
+        trade: None,
+        marked: None,
+    });
     app.measuring = Some(serial);
-    app.progress = Some(Progress { what: MEASURING.to_owned(), part: 0.0 });
-    vec![Effect::Measure(Box::new(Measuring { serial, inputs, patience: Patience::STEADY }))]
+    app.progress = Some(Progress {
+        what: MEASURING.to_owned(),
+        part: 0.0,
+    });
+    vec![Effect::Measure(Box::new(Measuring {
+        serial,
+        inputs,
+        patience: Patience::STEADY,
+    }))]
 }
 
 /// What is measured out of sight stops: it would cost the machine what nobody looks at.
 pub(super) fn stop_unseen(app: &App) -> Vec<Effect> {
-    let Some(serial) = app.measuring else { return Vec::new() };
-    let is_own = app.tab.traded.as_ref().is_some_and(|traded| traded.serial == serial);
-    let is_shown = is_own && !layout::plan(app.size, app.panes).area(Pane::Trade).is_empty();
-    if is_shown { Vec::new() } else { vec![Effect::CancelWork] }
+    let Some(serial) = app.measuring else {
+        return Vec::new();
+    };
+    let is_own = app
+        .tab
+        .traded
+        .as_ref()
+        .is_some_and(|traded| traded.serial == serial);
+    let is_shown = is_own
+        && !layout::plan(app.size, app.panes)
+            .area(Pane::Trade)
+            .is_empty();
+    if is_shown {
+        Vec::new()
+    } else {
+        vec![Effect::CancelWork]
+    }
 }
 
 /// More is known, or all of it.
 pub(super) fn measured(app: &mut App, measured: Measured) {
     let Measured { serial, trade, end } = measured;
-    let is_shown = app.tab.traded.as_ref().is_some_and(|traded| traded.serial == serial);
+    let is_shown = app
+        .tab
+        .traded
+        .as_ref()
+        .is_some_and(|traded| traded.serial == serial);
     let is_latest = app.measuring == Some(serial);
     if let Some(trade) = trade {
         if is_latest {
-            app.progress = Some(Progress { what: MEASURING.to_owned(), part: trade.part });
+            app.progress = Some(Progress {
+                what: MEASURING.to_owned(),
+                part: trade.part,
+            });
         }
         if let Some(traded) = app.traded_of(serial) {
             traded.trade = Some(*trade);
@@ -55,7 +87,10 @@ pub(super) fn measured(app: &mut App, measured: Measured) {
     }
     let recommended = app.traded_of(serial).and_then(|traded| {
         let trade = traded.trade.as_ref()?;
-        let setting = trade.recommended.and_then(|at| trade.settings.get(at)).map(|measured| measured.setting);
+        let setting = trade
+            .recommended
+            .and_then(|at| trade.settings.get(at))
+            .map(|measured| measured.setting);
         traded.marked = traded.marked.or(setting);
         Some(conclusion(trade))
     });
@@ -69,10 +104,21 @@ pub(super) fn measured(app: &mut App, measured: Measured) {
 
 /// So many settings further, in the order of their times.
 pub(super) fn step(app: &mut App, by: isize) {
-    let Some(traded) = app.tab.traded.as_mut() else { return };
-    let settings: Vec<Setting> = traded.trade.iter().flat_map(ordered).map(|measured| measured.setting).collect();
-    let Some(last) = settings.len().checked_sub(1) else { return };
-    let now = traded.marked.and_then(|marked| settings.iter().position(|setting| *setting == marked));
+    let Some(traded) = app.tab.traded.as_mut() else {
+        return;
+    };
+    let settings: Vec<Setting> = traded
+        .trade
+        .iter()
+        .flat_map(ordered)
+        .map(|measured| measured.setting)
+        .collect();
+    let Some(last) = settings.len().checked_sub(1) else {
+        return;
+    };
+    let now = traded
+        .marked
+        .and_then(|marked| settings.iter().position(|setting| *setting == marked));
     let next = now.map_or(0, |now| now.saturating_add_signed(by).min(last));
     traded.marked = Some(settings[next]);
 }
@@ -91,6 +137,13 @@ pub(super) fn take(app: &mut App) -> Vec<Effect> {
     setting.apply(&mut case);
     let is_other = case != app.case;
     let effects = edit::replace(app, case);
-    app.say(format!("method {setting}{}", if is_other { "; u undoes" } else { ", as it was" }));
+    app.say(format!(
+        "method {setting}{}",
+        if is_other {
+            "; u undoes"
+        } else {
+            ", as it was"
+        }
+    ));
     effects
 }

@@ -17,14 +17,23 @@ const NARROWEST: u16 = 52;
 /// The room inside the largest box.
 #[must_use]
 pub fn room(screen: Size) -> Size {
-    Size { width: screen.width.min(WIDEST).saturating_sub(5), height: screen.height.saturating_sub(4) }
+    Size {
+        width: screen.width.min(WIDEST).saturating_sub(5),
+        height: screen.height.saturating_sub(4),
+    }
 }
 
 /// An emptied box with a border, as large as is wanted if there is room.
 pub fn frame(title: &str, wanted: Size, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Rect {
     let area = outside(wanted, screen);
     Clear.render(area, buffer);
-    let title = Line::styled(format!(" {} ", text::cut(title, usize::from(area.width).saturating_sub(6))), theme.title);
+    let title = Line::styled(
+        format!(
+            " {} ",
+            text::cut(title, usize::from(area.width).saturating_sub(6))
+        ),
+        theme.title,
+    );
     Block::bordered().title(title).render(area, buffer);
     inside(wanted, screen)
 }
@@ -33,21 +42,33 @@ fn outside(wanted: Size, screen: Rect) -> Rect {
     let room = room(screen.as_size());
     let height = wanted.height.clamp(1, room.height.max(1)) + 2;
     let width = wanted.width.max(NARROWEST).min(room.width) + 4;
-    screen.centered(Constraint::Length(width), Constraint::Length(height)).intersection(screen)
+    screen
+        .centered(Constraint::Length(width), Constraint::Length(height))
+        .intersection(screen)
 }
 
 /// What is inside of such a box.
 #[must_use]
 pub fn inside(wanted: Size, screen: Rect) -> Rect {
     let inner = Block::bordered().inner(outside(wanted, screen));
-    Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner }
+    Rect {
+        x: inner.x + 1,
+        width: inner.width.saturating_sub(2),
+        ..inner
+    }
 }
 
 /// A list on the left and what belongs to it on the right, with a rule between them.
 pub fn halves(area: Rect, buffer: &mut Buffer) -> (Rect, Rect) {
     let left = area.width * 2 / 5;
     for y in area.top()..area.bottom() {
-        buffer.set_stringn(area.x + left, y, "│", usize::from(area.width > left), Style::new());
+        buffer.set_stringn(
+            area.x + left,
+            y,
+            "│",
+            usize::from(area.width > left),
+            Style::new(),
+        );
     }
     parted(area)
 }
@@ -57,7 +78,17 @@ pub fn halves(area: Rect, buffer: &mut Buffer) -> (Rect, Rect) {
 pub fn parted(area: Rect) -> (Rect, Rect) {
     let left = area.width * 2 / 5;
     let right = area.width.saturating_sub(left + 2);
-    (Rect { width: left.saturating_sub(1), ..area }, Rect { x: area.right() - right, width: right, ..area })
+    (
+        Rect {
+            width: left.saturating_sub(1),
+            ..area
+        },
+        Rect {
+            x: area.right() - right,
+            width: right,
+            ..area
+        },
+    )
 }
 
 /// The lines of a list around the marked one; of the others nothing is made.
@@ -73,14 +104,22 @@ pub fn draw_window(
         let is_marked = marked == Some(at);
         let line = format!("{} {}", if is_marked { "▸" } else { " " }, line(at));
         let style = if is_marked { theme.focus } else { Style::new() };
-        buffer.set_stringn(area.x, y, text::cut(&line, area.width.into()), area.width.into(), style);
+        buffer.set_stringn(
+            area.x,
+            y,
+            text::cut(&line, area.width.into()),
+            area.width.into(),
+            style,
+        );
     }
 }
 
 /// The line of such a list on a cell, where there is one.
 #[must_use]
 pub fn line_at(count: usize, marked: Option<usize>, area: Rect, at: Position) -> Option<usize> {
-    let line = area.contains(at).then(|| top_of(marked, area) + usize::from(at.y - area.y));
+    let line = area
+        .contains(at)
+        .then(|| top_of(marked, area) + usize::from(at.y - area.y));
     line.filter(|&line| line < count)
 }
 

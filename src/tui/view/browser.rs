@@ -1,4 +1,5 @@
-//! The browser of files: a folder on the left, the recent cases below it, what the marked one holds on the right.
+//! The browser of files: a folder on the left, the recent cases below it, what the marked one holds
+//! on the right.
 
 use std::path::Path;
 
@@ -8,27 +9,54 @@ use ratatui::style::Style;
 
 use super::{boxes, digest, text};
 use crate::tui::browser::{Browser, Line};
-use crate::tui::store::preview::{Preview, Sight};
+use crate::tui::store::preview::{Preview, Viewport};
 use crate::tui::theme::Theme;
 
 /// As wide as may be, and so many lines at most.
-const SIZE: Size = Size { width: u16::MAX, height: 34 };
+const SIZE: Size = Size {
+    width: u16::MAX,
+    height: 34,
+};
 /// So many of the recent cases are in sight.
 const RECENTS: usize = 6;
 
 /// Draw the browser over the screen; where the cursor stands.
-pub fn draw(browser: &Browser, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Option<Position> {
+pub fn draw(
+    browser: &Browser,
+    screen: Rect,
+    theme: &Theme,
+    buffer: &mut Buffer,
+) -> Option<Position> {
     let inner = boxes::frame("Open a case", SIZE, screen, theme, buffer);
-    let folder = browser.listing.as_ref().map_or_else(String::new, |listing| listing.folder.display().to_string());
+    let folder = browser
+        .listing
+        .as_ref()
+        .map_or_else(String::new, |listing| listing.folder.display().to_string());
     let width = usize::from(inner.width);
-    buffer.set_stringn(inner.x, inner.y, text::cut_front(&folder, width), width, theme.title);
+    buffer.set_stringn(
+        inner.x,
+        inner.y,
+        text::cut_front(&folder, width),
+        width,
+        theme.title,
+    );
     let body = below_line(inner);
     let (left, right) = boxes::halves(body, buffer);
     draw_lists(browser, left, theme, buffer);
     draw_preview(browser, right, theme, buffer);
-    let line = Rect { y: inner.y + 1, height: inner.height.saturating_sub(1).min(1), ..inner };
+    let line = Rect {
+        y: inner.y + 1,
+        height: inner.height.saturating_sub(1).min(1),
+        ..inner
+    };
     if browser.input.value().is_empty() {
-        buffer.set_stringn(line.x + 1, line.y, " type a part of a name, or a path; ~ is the home folder", width - 1, theme.faint);
+        buffer.set_stringn(
+            line.x + 1,
+            line.y,
+            " type a part of a name, or a path; ~ is the home folder",
+            width - 1,
+            theme.faint,
+        );
     }
     text::edited(&browser.input, line, theme.focus, buffer)
 }
@@ -39,22 +67,55 @@ pub fn line_at(browser: &Browser, screen: Size, at: Position) -> Option<usize> {
     let inner = boxes::inside(SIZE, Rect::from((Position::ORIGIN, screen)));
     let (above, below) = stacked(browser, boxes::parted(below_line(inner)).0);
     let first = browser.count_of_folder();
-    let in_folder = boxes::line_at(first, Some(browser.marked).filter(|&marked| marked < first), above, at);
-    let recents = Rect { y: below.y + 1, height: below.height.saturating_sub(1), ..below };
-    let recent = || boxes::line_at(browser.count_of_recents(), browser.marked.checked_sub(first), recents, at);
+    let in_folder = boxes::line_at(
+        first,
+        Some(browser.marked).filter(|&marked| marked < first),
+        above,
+        at,
+    );
+    let recents = Rect {
+        y: below.y + 1,
+        height: below.height.saturating_sub(1),
+        ..below
+    };
+    let recent = || {
+        boxes::line_at(
+            browser.count_of_recents(),
+            browser.marked.checked_sub(first),
+            recents,
+            at,
+        )
+    };
     in_folder.or_else(|| recent().map(|line| first + line))
 }
 
 fn below_line(inner: Rect) -> Rect {
-    Rect { y: inner.y + 2, height: inner.height.saturating_sub(2), ..inner }
+    Rect {
+        y: inner.y + 2,
+        height: inner.height.saturating_sub(2),
+        ..inner
+    }
 }
 
 // The folder, and below it the recent cases with their title, where there are any.
 fn stacked(browser: &Browser, area: Rect) -> (Rect, Rect) {
-    let recents = browser.count_of_recents().min(RECENTS).min(usize::from(area.height) / 3);
+    let recents = browser
+        .count_of_recents()
+        .min(RECENTS)
+        .min(usize::from(area.height) / 3);
     let height = if recents == 0 { 0 } else { recents as u16 + 1 };
-    let above = Rect { height: area.height - height, ..area };
-    (above, Rect { y: above.bottom(), height, ..area })
+    let above = Rect {
+        height: area.height - height,
+        ..area
+    };
+    (
+        above,
+        Rect {
+            y: above.bottom(),
+            height,
+            ..area
+        },
+    )
 }
 
 fn draw_lists(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffer) {
@@ -65,7 +126,14 @@ fn draw_lists(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffer)
         let first = browser.count_of_folder();
         let name = |at: usize| line_of(browser, first + at);
         let marked = browser.marked.checked_sub(first);
-        boxes::draw_window(browser.count_of_recents(), name, marked, area, theme, buffer);
+        boxes::draw_window(
+            browser.count_of_recents(),
+            name,
+            marked,
+            area,
+            theme,
+            buffer,
+        );
     }
 }
 
@@ -89,9 +157,21 @@ fn draw_folder(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffer
             Ok(_) => return,
         },
     };
-    let from = area.y + u16::try_from(count).unwrap_or(u16::MAX).min(area.height.saturating_sub(3));
-    for (line, y) in text::wrap(said, area.width.into()).iter().zip(from..area.bottom()) {
-        buffer.set_stringn(area.x, y, format!("{line:<0$}", usize::from(area.width)), area.width.into(), theme.note);
+    let from = area.y
+        + u16::try_from(count)
+            .unwrap_or(u16::MAX)
+            .min(area.height.saturating_sub(3));
+    for (line, y) in text::wrap(said, area.width.into())
+        .iter()
+        .zip(from..area.bottom())
+    {
+        buffer.set_stringn(
+            area.x,
+            y,
+            format!("{line:<0$}", usize::from(area.width)),
+            area.width.into(),
+            theme.note,
+        );
     }
 }
 
@@ -104,8 +184,16 @@ fn line_of(browser: &Browser, at: usize) -> String {
         Some(Line::Below(case)) => case.name.clone(),
         Some(Line::Example(example)) => format!("{}  (example)", example.name),
         Some(Line::Recent(recent)) => {
-            let name = recent.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-            let folder = recent.path.parent().and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
+            let name = recent
+                .path
+                .file_name()
+                .map(|name| name.to_string_lossy().into_owned())
+                .unwrap_or_default();
+            let folder = recent
+                .path
+                .parent()
+                .and_then(Path::file_name)
+                .map(|name| name.to_string_lossy().into_owned());
             let missing = if recent.is_missing { "  (missing)" } else { "" };
             let folder = folder.map_or_else(String::new, |folder| format!("  in {folder}/"));
             format!("{name}{missing}{folder}")
@@ -114,15 +202,27 @@ fn line_of(browser: &Browser, at: usize) -> String {
 }
 
 fn draw_preview(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffer) {
-    let Some(sight) = browser.marked_sight() else { return };
-    let is_missing = matches!(browser.line(browser.marked), Some(Line::Recent(recent)) if recent.is_missing);
-    let preview = browser.preview.as_ref().filter(|(own, _)| *own == sight).map(|(_, preview)| preview);
+    let Some(sight) = browser.marked_sight() else {
+        return;
+    };
+    let is_missing =
+        matches!(browser.line(browser.marked), Some(Line::Recent(recent)) if recent.is_missing);
+    let preview = browser
+        .preview
+        .as_ref()
+        .filter(|(own, _)| *own == sight)
+        .map(|(_, preview)| preview);
     let mut lines = Vec::new();
-    if let (Sight::File(path), true) = (&sight, browser.marks_recent()) {
-        lines.push((text::cut_front(&path.display().to_string(), area.width.into()), theme.faint));
+    if let (Viewport::File(path), true) = (&sight, browser.marks_recent()) {
+        lines.push((
+            text::cut_front(&path.display().to_string(), area.width.into()),
+            theme.faint,
+        ));
     }
     match preview {
-        _ if is_missing => lines.push(("There is no such file any more.".to_owned(), theme.problem)),
+        _ if is_missing => {
+            lines.push(("There is no such file any more.".to_owned(), theme.problem))
+        }
         None => lines.push(("reading ...".to_owned(), theme.faint)),
         Some(preview) => lines.extend(told(preview, area.width.into(), theme)),
     }
@@ -134,16 +234,42 @@ fn draw_preview(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffe
 fn told(preview: &Preview, width: usize, theme: &Theme) -> Vec<(String, Style)> {
     match preview {
         Preview::Case(case, is_newer) => {
-            let newer = is_newer.then(|| ("Of a newer format: it opens read-only.".to_owned(), theme.problem));
-            newer.into_iter().chain(digest::lines(case, width, theme)).collect()
+            let newer = is_newer.then(|| {
+                (
+                    "Of a newer format: it opens read-only.".to_owned(),
+                    theme.problem,
+                )
+            });
+            newer
+                .into_iter()
+                .chain(digest::lines(case, width, theme))
+                .collect()
         }
         Preview::Folder(cases, folders) => {
-            let counted = |count: usize, one: &str| if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") };
-            vec![(format!("A folder with {}, {}.", counted(*cases, "case"), counted(*folders, "folder")), Style::new())]
+            let counted = |count: usize, one: &str| {
+                if count == 1 {
+                    format!("1 {one}")
+                } else {
+                    format!("{count} {one}s")
+                }
+            };
+            vec![(
+                format!(
+                    "A folder with {}, {}.",
+                    counted(*cases, "case"),
+                    counted(*folders, "folder")
+                ),
+                Style::new(),
+            )]
         }
         Preview::Faults(faults, more) => {
-            let head = text::wrap("It cannot be opened:", width).into_iter().map(|line| (line, theme.problem));
-            let faults = faults.iter().flat_map(|fault| text::wrap(fault, width)).map(|line| (line, Style::new()));
+            let head = text::wrap("It cannot be opened:", width)
+                .into_iter()
+                .map(|line| (line, theme.problem));
+            let faults = faults
+                .iter()
+                .flat_map(|fault| text::wrap(fault, width))
+                .map(|line| (line, Style::new()));
             let more = (*more > 0).then(|| (format!("and {more} more"), Style::new()));
             head.chain(faults).chain(more).collect()
         }

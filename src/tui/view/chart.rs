@@ -1,9 +1,10 @@
-//! The charts: what the stations tell over the driver's roll angle, the chosen one and as many others as have room.
+//! The charts: what the stations tell over the driver's roll angle, the chosen one and as many
+//! others as have room.
 
 pub mod axes;
 pub mod curves;
-pub mod ink;
 pub mod legend;
+pub mod raster;
 pub mod readout;
 
 use ratatui::buffer::Buffer;
@@ -16,7 +17,7 @@ use crate::model::{Outcome, Solution};
 use crate::report::absence::without_contact;
 use crate::report::graphs::{GRAPHS, Graph};
 use crate::tui::app::App;
-use crate::tui::clean::symbol;
+use crate::tui::ascii::symbol;
 use crate::tui::layout::plan;
 use crate::tui::pane::Pane;
 use crate::tui::scale::{Anew, Occasion, Scale, Span};
@@ -42,11 +43,25 @@ const AFTER_E: f64 = 0.5;
 #[must_use]
 pub fn occasion(app: &App) -> Occasion {
     Occasion {
-        answered: app.answer.as_ref().map(|answer| (answer.serial, answer.pending.is_some())),
+        answered: app
+            .answer
+            .as_ref()
+            .map(|answer| (answer.serial, answer.pending.is_some())),
         pinned: app.baseline.as_ref().map(|baseline| baseline.answer.serial),
-        shown: (app.graph, count(plan(app.size, app.panes).chart), app.settings.units),
-        sight: (app.chart.frame == Frame::Strike, app.chart.zoom, app.chart.middle.map(f64::to_bits)),
-        ground: (app.answer.as_ref().map(|answer| answer.active), app.tab.undone),
+        shown: (
+            app.graph,
+            count(plan(app.size, app.panes).chart),
+            app.settings.units,
+        ),
+        sight: (
+            app.chart.frame == Frame::Strike,
+            app.chart.zoom,
+            app.chart.middle.map(f64::to_bits),
+        ),
+        ground: (
+            app.answer.as_ref().map(|answer| answer.active),
+            app.tab.undone,
+        ),
     }
 }
 
@@ -54,23 +69,34 @@ pub fn occasion(app: &App) -> Occasion {
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let panels = panels(app, area);
     let window = app.chart.window(&app.scale);
-    let titles: Vec<String> = panels.iter().map(|(graph, axes)| title(app, &GRAPHS[*graph], axes)).collect();
+    let titles: Vec<String> = panels
+        .iter()
+        .map(|(graph, axes)| title(app, &GRAPHS[*graph], axes))
+        .collect();
     let stale = if app.is_stale() { "LAST VALID, " } else { "" };
     let first = format!("{stale}{}", titles.first().map_or("Chart", String::as_str));
     titled(app, Pane::Chart, &first, area, buffer);
     for (at, (graph, axes)) in panels.iter().enumerate() {
         if at > 0 {
-            let above = Rect { x: area.x, y: axes.plot.y.saturating_sub(1), width: area.width, height: 1 };
+            let above = Rect {
+                x: area.x,
+                y: axes.plot.y.saturating_sub(1),
+                width: area.width,
+                height: 1,
+            };
             text::titled(&titles[at], above, app.look.theme, buffer);
         }
         draw_panel(app, &GRAPHS[*graph], axes, window, area, buffer);
     }
 }
 
-/// How many columns stand for the roll angles in sight: those of the chart, else those of a usual one.
+/// How many columns stand for the roll angles in sight: those of the chart, else those of a usual
+/// one.
 #[must_use]
 pub fn columns(app: &App) -> u16 {
-    let columns = panels(app, plan(app.size, app.panes).chart).first().map_or(0, |(_, axes)| axes.plot.width);
+    let columns = panels(app, plan(app.size, app.panes).chart)
+        .first()
+        .map_or(0, |(_, axes)| axes.plot.width);
     if columns > 1 { columns } else { USUAL_COLUMNS }
 }
 
@@ -87,28 +113,49 @@ pub fn angle_at(app: &App, area: Rect, at: Position) -> Option<f64> {
 pub fn fitted(app: &App, anew: Anew) -> Scale {
     let mut scale = app.scale;
     let area = plan(app.size, app.panes).chart;
-    let Some(answer) = app.answer.as_ref().filter(|_| !area.is_empty()) else { return scale };
+    let Some(answer) = app.answer.as_ref().filter(|_| !area.is_empty()) else {
+        return scale;
+    };
     // While a method is to come, its axis waits for it.
-    let pinned = app.baseline.as_ref().map(|baseline| (&baseline.answer, baseline.answer.beside(answer.active)));
-    let way = pinned.map_or(Span::NONE, |(base, method)| way_by(base, method)).and(way(answer));
+    let pinned = app
+        .baseline
+        .as_ref()
+        .map(|baseline| (&baseline.answer, baseline.answer.beside(answer.active)));
+    let way = pinned
+        .map_or(Span::NONE, |(base, method)| way_by(base, method))
+        .and(way(answer));
     scale.across = match (answer.pending, anew.all) {
         (Some(_), _) => scale.across.grown(way),
         (None, true) => scale.across.anew(way),
         (None, false) => scale.across.fitted(way),
     };
     let touches = [Some((answer, answer.active)), pinned];
-    let touches = touches.into_iter().flatten().filter_map(|(answer, method)| first_contact(answer.of(method)?));
+    let touches = touches
+        .into_iter()
+        .flatten()
+        .filter_map(|(answer, method)| first_contact(answer.of(method)?));
     let first = touches.fold(0.0, f64::max).to_degrees();
     if first > 0.0 {
         let strike = Span::new(-first, AFTER_E * first);
-        scale.strike = if anew.all { scale.strike.anew(strike) } else { scale.strike.fitted(strike) };
+        scale.strike = if anew.all {
+            scale.strike.anew(strike)
+        } else {
+            scale.strike.fitted(strike)
+        };
     }
     let window = app.chart.window(&scale);
     for graph in shown(app, area) {
         let curves = curves(app, &GRAPHS[graph]);
-        let values = curves.iter().map(|curve| curve.upright_within(window)).fold(Span::NONE, Span::and);
+        let values = curves
+            .iter()
+            .map(|curve| curve.upright_within(window))
+            .fold(Span::NONE, Span::and);
         let now = scale.upright[graph];
-        scale.upright[graph] = if anew.upright || anew.all { now.anew(values) } else { now.fitted(values) };
+        scale.upright[graph] = if anew.upright || anew.all {
+            now.anew(values)
+        } else {
+            now.fitted(values)
+        };
     }
     scale
 }
@@ -119,18 +166,31 @@ pub fn shown(app: &App, area: Rect) -> Vec<usize> {
     let chosen = app.graph;
     let method = app.answer.as_ref().map(|answer| answer.active);
     let others = (1..GRAPHS.len()).map(|by| (chosen + by) % GRAPHS.len());
-    let has_curve = |graph: &usize| method.is_some_and(|method| GRAPHS[*graph].column(method).is_some());
-    std::iter::once(chosen).chain(others.filter(has_curve)).take(count(area)).collect()
+    let has_curve =
+        |graph: &usize| method.is_some_and(|method| GRAPHS[*graph].column(method).is_some());
+    std::iter::once(chosen)
+        .chain(others.filter(has_curve))
+        .take(count(area))
+        .collect()
 }
 
 fn count(area: Rect) -> usize {
-    if area.is_empty() { 0 } else { usize::from((area.height / ROWS).clamp(1, MOST)) }
+    if area.is_empty() {
+        0
+    } else {
+        usize::from((area.height / ROWS).clamp(1, MOST))
+    }
 }
 
 /// The charts in sight, from top to bottom, each with its axes below its title.
 fn panels(app: &App, area: Rect) -> Vec<(usize, Axes)> {
     let shown = shown(app, area);
-    let Some(answer) = &app.answer else { return shown.into_iter().map(|graph| (graph, Axes::default())).collect() };
+    let Some(answer) = &app.answer else {
+        return shown
+            .into_iter()
+            .map(|graph| (graph, Axes::default()))
+            .collect();
+    };
     let height = area.height / u16::try_from(shown.len().max(1)).unwrap_or(1);
     let window = app.chart.window(&app.scale);
     let ruler = Ruler::of(app.by_time, answer.inputs.speed, window);
@@ -138,18 +198,47 @@ fn panels(app: &App, area: Rect) -> Vec<(usize, Axes)> {
     let margin = axes::margin(uprights, height.saturating_sub(3));
     let below = |at: usize| {
         let y = area.y + height * at as u16;
-        let height = if at + 1 == shown.len() { area.bottom() - y } else { height };
-        Rect { y: y + 1, height: height.saturating_sub(1), ..area }
+        let height = if at + 1 == shown.len() {
+            area.bottom() - y
+        } else {
+            height
+        };
+        Rect {
+            y: y + 1,
+            height: height.saturating_sub(1),
+            ..area
+        }
     };
-    let axes = |(at, graph): (usize, &usize)| (*graph, Axes::new(below(at), margin, (window, app.scale.upright[*graph]), ruler));
+    let axes = |(at, graph): (usize, &usize)| {
+        (
+            *graph,
+            Axes::new(
+                below(at),
+                margin,
+                (window, app.scale.upright[*graph]),
+                ruler,
+            ),
+        )
+    };
     shown.iter().enumerate().map(axes).collect()
 }
 
-fn draw_panel(app: &App, graph: &Graph, axes: &Axes, window: Span, area: Rect, buffer: &mut Buffer) {
+fn draw_panel(
+    app: &App,
+    graph: &Graph,
+    axes: &Axes,
+    window: Span,
+    area: Rect,
+    buffer: &mut Buffer,
+) {
     let curves = curves::apart(curves(app, graph));
     let lacks = lack(app, graph, &curves);
     if axes.plot.is_empty() || curves.is_empty() || window.is_empty() {
-        let y = if axes.plot.is_empty() { area.y + 1 } else { axes.plot.y + axes.plot.height / 2 };
+        let y = if axes.plot.is_empty() {
+            area.y + 1
+        } else {
+            axes.plot.y + axes.plot.height / 2
+        };
         let said = lacks.unwrap_or_else(|| "There is no room for a chart.".to_owned());
         if y < area.bottom() {
             buffer.set_stringn(
@@ -164,7 +253,7 @@ fn draw_panel(app: &App, graph: &Graph, axes: &Axes, window: Span, area: Rect, b
     }
     axes.draw(buffer);
     for curve in &curves {
-        ink::draw(app, curve, (axes.across, axes.upright), axes.plot, buffer);
+        raster::draw(app, curve, (axes.across, axes.upright), axes.plot, buffer);
     }
     axes.draw_marks(app, buffer);
     legend::draw(app, &curves, lacks, axes.plot, buffer);
@@ -175,15 +264,30 @@ fn draw_panel(app: &App, graph: &Graph, axes: &Axes, window: Span, area: Rect, b
 // In words, with the symbol and the units.
 fn title(app: &App, graph: &Graph, axes: &Axes) -> String {
     let method = app.answer.as_ref().map(|answer| answer.active);
-    let column = method.and_then(|method| graph.column(method)).or_else(|| graph.all_columns().next());
+    let column = method
+        .and_then(|method| graph.column(method))
+        .or_else(|| graph.all_columns().next());
     let name = column.map_or_else(String::new, |column| {
         let shown = app.settings.units.unit(column.shown);
-        format!(" {}{}", symbol(column.symbol, app.look.ascii), unit(shown, axes.beside.power))
+        format!(
+            " {}{}",
+            symbol(column.symbol, app.look.ascii),
+            unit(shown, axes.beside.power)
+        )
     });
     let ruler = axes.ruler;
     // Where E stands is marked on the axis as well.
-    let side = if axes.plot.width < WIDE { String::new() } else { format!(" {}", ruler.side) };
-    format!("{}{name} over {}{side}{}", graph.label, ruler.label, unit(ruler.unit, axes.below.power))
+    let side = if axes.plot.width < WIDE {
+        String::new()
+    } else {
+        format!(" {}", ruler.side)
+    };
+    format!(
+        "{}{name} over {}{side}{}",
+        graph.label,
+        ruler.label,
+        unit(ruler.unit, axes.below.power)
+    )
 }
 
 fn unit(unit: &str, power: i32) -> String {
@@ -197,8 +301,13 @@ fn unit(unit: &str, power: i32) -> String {
 
 // Why the active method has no curve, where it has none.
 fn lack(app: &App, graph: &Graph, curves: &[Curve]) -> Option<String> {
-    let Some(answer) = &app.answer else { return Some("No valid results of this method.".to_owned()) };
-    if curves.iter().any(|curve| matches!(curve.whose, Whose::Active(_))) {
+    let Some(answer) = &app.answer else {
+        return Some("No valid results of this method.".to_owned());
+    };
+    if curves
+        .iter()
+        .any(|curve| matches!(curve.whose, Whose::Active(_)))
+    {
         return None;
     }
     if app.is_stale() {
@@ -208,14 +317,24 @@ fn lack(app: &App, graph: &Graph, curves: &[Curve]) -> Option<String> {
     let active = answer.active;
     if graph.column(active).is_none() {
         let methods: Vec<_> = graph.methods().map(Method::name).collect();
-        return Some(format!("The method {} has no {label}: {} do.", active.name(), methods.join(" and ")));
+        return Some(format!(
+            "The method {} has no {label}: {} do.",
+            active.name(),
+            methods.join(" and ")
+        ));
     }
-    Some(answer.of(active).map_or_else(|| "No valid results of this method.".to_owned(), |solution| nothing(solution, &label)))
+    Some(answer.of(active).map_or_else(
+        || "No valid results of this method.".to_owned(),
+        |solution| nothing(solution, &label),
+    ))
 }
 
 fn nothing(solution: &Solution, label: &str) -> String {
     match solution.outcome {
-        Outcome::NoCornerContact => format!("No corner contact: {}, without an impact.", without_contact(solution)),
+        Outcome::NoCornerContact => format!(
+            "No corner contact: {}, without an impact.",
+            without_contact(solution)
+        ),
         Outcome::CornerContact => format!("No {label} between D and E: the notes say why."),
     }
 }

@@ -7,11 +7,11 @@ use unicode_width::UnicodeWidthStr;
 
 use super::{text, titled};
 use crate::case::fields::{GROUPS, Kind};
-use crate::case::{Acting, FIELDS, Limit, acts, materials};
+use crate::case::{Acting, FIELDS, Limit, materials, relevance};
 use crate::model::{Inputs, Quantity};
 use crate::report::verdict::verdict;
 use crate::tui::app::{self, App};
-use crate::tui::clean::{self, symbol};
+use crate::tui::ascii::{self, symbol};
 use crate::tui::layout::plan;
 use crate::tui::pane::Pane;
 use crate::tui::rows;
@@ -51,15 +51,34 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     }
     let inputs = app.case.inputs_so_far();
     let mut cursor = None;
-    for (row, y) in rows.iter().skip(app.form_top).zip(inner.top()..inner.bottom()) {
-        let line = Rect { y, height: 1, width: inner.width - 1, ..inner };
+    for (row, y) in rows
+        .iter()
+        .skip(app.form_top)
+        .zip(inner.top()..inner.bottom())
+    {
+        let line = Rect {
+            y,
+            height: 1,
+            width: inner.width - 1,
+            ..inner
+        };
         cursor = draw_row(app, &inputs, row, line, buffer).or(cursor);
     }
-    scroll_bar(app.form_top, rows.len(), Rect { x: inner.right() - 1, width: 1, ..inner }, buffer);
+    scroll_bar(
+        app.form_top,
+        rows.len(),
+        Rect {
+            x: inner.right() - 1,
+            width: 1,
+            ..inner
+        },
+        buffer,
+    );
     cursor
 }
 
-/// The first line to be shown, so that the focused field is in sight with its reason and, at the top, its group.
+/// The first line to be shown, so that the focused field is in sight with its reason and, at the
+/// top, its group.
 #[must_use]
 pub fn top_for(app: &App) -> usize {
     let area = plan(app.size, app.panes).form;
@@ -68,12 +87,20 @@ pub fn top_for(app: &App) -> usize {
     }
     let height = usize::from(area.height.saturating_sub(1)).max(1);
     let rows = rows(app, area.width);
-    let focused = rows.iter().position(|row| *row == Row::Line(app.focus)).unwrap_or(0);
-    let reasons = rows[focused + 1..].iter().take_while(|row| matches!(row, Row::Reason(_))).count();
+    let focused = rows
+        .iter()
+        .position(|row| *row == Row::Line(app.focus))
+        .unwrap_or(0);
+    let reasons = rows[focused + 1..]
+        .iter()
+        .take_while(|row| matches!(row, Row::Reason(_)))
+        .count();
     let follows_group = focused > 0 && matches!(rows[focused - 1], Row::Group(_));
     let first = focused - usize::from(follows_group);
     let ahead = usize::from(height > 4);
-    let least = (focused + reasons + 1 + ahead).min(rows.len()).saturating_sub(height);
+    let least = (focused + reasons + 1 + ahead)
+        .min(rows.len())
+        .saturating_sub(height);
     let most = rows.len().saturating_sub(height);
     app.form_top.max(least).min(first.max(least)).min(most)
 }
@@ -92,7 +119,9 @@ pub fn field_at(app: &App, area: Rect, at: Position) -> Option<usize> {
 #[must_use]
 pub fn scrolled(app: &App, by: isize) -> usize {
     let area = plan(app.size, app.panes).form;
-    let most = rows(app, area.width).len().saturating_sub(area.height.saturating_sub(1).into());
+    let most = rows(app, area.width)
+        .len()
+        .saturating_sub(area.height.saturating_sub(1).into());
     app.form_top.saturating_add_signed(by).min(most)
 }
 
@@ -126,23 +155,46 @@ fn rows(app: &App, width: u16) -> Vec<Row> {
 
 // The title of a group; of a gear also its material, where that is known.
 fn group_title(app: &App, index: usize) -> String {
-    let Some(field) = rows::field(&app.case, index) else { return "Limits".to_owned() };
-    let title = GROUPS.iter().find(|(table, _)| *table == field.table()).map_or("", |(_, title)| title);
+    let Some(field) = rows::field(&app.case, index) else {
+        return "Limits".to_owned();
+    };
+    let title = GROUPS
+        .iter()
+        .find(|(table, _)| *table == field.table())
+        .map_or("", |(_, title)| title);
     let material = materials::name_of_gear(&app.case, field.table());
-    material.map_or_else(|| title.to_owned(), |material| format!("{title}, {material}"))
+    material.map_or_else(
+        || title.to_owned(),
+        |material| format!("{title}, {material}"),
+    )
 }
 
 // What is merely unfinished is told beside the form until the field is left.
 fn reasons(app: &App, field: usize, width: u16) -> impl Iterator<Item = String> {
     let is_unfinished = app.is_unfinished(field);
-    let own = app.problems.iter().filter(move |(at, _)| *at == field && !is_unfinished);
+    let own = app
+        .problems
+        .iter()
+        .filter(move |(at, _)| *at == field && !is_unfinished);
     own.flat_map(move |(_, problem)| {
-        let lines = text::wrap(&format!("{}: {}", problem.cause, problem.mend), usize::from(width).saturating_sub(5));
-        lines.into_iter().enumerate().map(|(index, line)| format!("{} {line}", if index == 0 { "!" } else { " " }))
+        let lines = text::wrap(
+            &format!("{}: {}", problem.cause, problem.mend),
+            usize::from(width).saturating_sub(5),
+        );
+        lines
+            .into_iter()
+            .enumerate()
+            .map(|(index, line)| format!("{} {line}", if index == 0 { "!" } else { " " }))
     })
 }
 
-fn draw_row(app: &App, inputs: &Inputs, row: &Row, line: Rect, buffer: &mut Buffer) -> Option<Position> {
+fn draw_row(
+    app: &App,
+    inputs: &Inputs,
+    row: &Row,
+    line: Rect,
+    buffer: &mut Buffer,
+) -> Option<Position> {
     let theme = app.look.theme;
     match row {
         Row::Group(index) => {
@@ -151,7 +203,13 @@ fn draw_row(app: &App, inputs: &Inputs, row: &Row, line: Rect, buffer: &mut Buff
             None
         }
         Row::Reason(reason) => {
-            buffer.set_stringn(line.x + MARK, line.y, reason, line.width.into(), theme.problem);
+            buffer.set_stringn(
+                line.x + MARK,
+                line.y,
+                reason,
+                line.width.into(),
+                theme.problem,
+            );
             None
         }
         Row::Line(index) => match rows::row(&app.case, *index) {
@@ -161,10 +219,16 @@ fn draw_row(app: &App, inputs: &Inputs, row: &Row, line: Rect, buffer: &mut Buff
     }
 }
 
-fn draw_field(app: &App, inputs: &Inputs, index: usize, line: Rect, buffer: &mut Buffer) -> Option<Position> {
+fn draw_field(
+    app: &App,
+    inputs: &Inputs,
+    index: usize,
+    line: Rect,
+    buffer: &mut Buffer,
+) -> Option<Position> {
     let field = &FIELDS[index];
     let theme = app.look.theme;
-    let is_idle = matches!(acts(index, inputs), Acting::No(_));
+    let is_idle = matches!(relevance(index, inputs), Acting::No(_));
     let style = match (app.focus == index, is_idle) {
         (true, _) => theme.focus,
         (false, true) => theme.faint,
@@ -174,16 +238,36 @@ fn draw_field(app: &App, inputs: &Inputs, index: usize, line: Rect, buffer: &mut
         buffer.set_stringn(line.x, line.y, IDLE, 1, style);
     }
     draw_mark(app, index, line, buffer);
-    let name = Rect { x: line.x + MARK, width: line.width.saturating_sub(MARK), ..line };
+    let name = Rect {
+        x: line.x + MARK,
+        width: line.width.saturating_sub(MARK),
+        ..line
+    };
     let offset = if matches!(field.kind, Kind::Text) {
         draw_words(field.label, name, style, buffer)
     } else {
         let (usual, label) = (label_width(name), field.label.width() as u16);
-        let least = if field.symbol.is_empty() { label } else { label.min(LEAST_LABEL) };
-        let over = longer(app, index, line.width - (MARK + SYMBOL + usual + 1)).min(usual.saturating_sub(least));
-        draw_name(&symbol(field.symbol, app.look.ascii), field.label, name, usual - over, style, buffer)
+        let least = if field.symbol.is_empty() {
+            label
+        } else {
+            label.min(LEAST_LABEL)
+        };
+        let over = longer(app, index, line.width - (MARK + SYMBOL + usual + 1))
+            .min(usual.saturating_sub(least));
+        draw_name(
+            &symbol(field.symbol, app.look.ascii),
+            field.label,
+            name,
+            usual - over,
+            style,
+            buffer,
+        )
     };
-    let value = Rect { x: line.x + offset, width: line.width.saturating_sub(offset), ..line };
+    let value = Rect {
+        x: line.x + offset,
+        width: line.width.saturating_sub(offset),
+        ..line
+    };
     draw_value(app, index, value, style, buffer)
 }
 
@@ -191,11 +275,25 @@ fn draw_field(app: &App, inputs: &Inputs, index: usize, line: Rect, buffer: &mut
 const ABOVE_BESIDE: &str = " (!)";
 
 // The limit as it is written, and how the result stands to it.
-fn draw_limit(app: &App, index: usize, limit: &Limit, line: Rect, buffer: &mut Buffer) -> Option<Position> {
+fn draw_limit(
+    app: &App,
+    index: usize,
+    limit: &Limit,
+    line: Rect,
+    buffer: &mut Buffer,
+) -> Option<Position> {
     let theme = app.look.theme;
-    let style = if app.focus == index { theme.focus } else { Style::new() };
+    let style = if app.focus == index {
+        theme.focus
+    } else {
+        Style::new()
+    };
     draw_mark(app, index, line, buffer);
-    let name = Rect { x: line.x + MARK, width: line.width.saturating_sub(MARK), ..line };
+    let name = Rect {
+        x: line.x + MARK,
+        width: line.width.saturating_sub(MARK),
+        ..line
+    };
     let symbol = Quantity::find(limit.quantity).map_or("", |quantity| quantity.symbol);
     let symbol = self::symbol(symbol, app.look.ascii);
     let label = rows::label(&app.case, index);
@@ -213,19 +311,36 @@ fn draw_limit(app: &App, index: usize, limit: &Limit, line: Rect, buffer: &mut B
         (MARK + brief.width() as u16).min(line.width)
     };
     let left = usize::from(line.width - offset).saturating_sub(limit.text.width() + 2);
-    // The label gives up what it does not need, so that the verdict stands in a word rather than a sign.
-    let spare = if is_whole { usize::from(usual).saturating_sub(label.width()) } else { 0 };
-    let in_words = words.iter().take(2).find(|word| word.width() <= left + spare);
-    let word = in_words.or_else(|| words.iter().find(|word| word.width() <= left)).cloned().unwrap_or_default();
+    // The label gives up what it does not need, so that the verdict stands in a word rather than a
+    // sign.
+    let spare = if is_whole {
+        usize::from(usual).saturating_sub(label.width())
+    } else {
+        0
+    };
+    let in_words = words
+        .iter()
+        .take(2)
+        .find(|word| word.width() <= left + spare);
+    let word = in_words
+        .or_else(|| words.iter().find(|word| word.width() <= left))
+        .cloned()
+        .unwrap_or_default();
     let offset = offset - word.width().saturating_sub(left).min(spare) as u16;
     let room = line.width.saturating_sub(offset);
     let width = word.width() as u16;
     buffer.set_string(line.right() - width, line.y, &word, of_word);
-    let value = Rect { x: line.x + offset, width: room.saturating_sub(width + u16::from(width > 0)), ..line };
+    let value = Rect {
+        x: line.x + offset,
+        width: room.saturating_sub(width + u16::from(width > 0)),
+        ..line
+    };
     draw_text(
         app,
         index,
-        Some(&limit.text).filter(|text| !text.is_empty()).map(String::as_str),
+        Some(&limit.text)
+            .filter(|text| !text.is_empty())
+            .map(String::as_str),
         "(no limit)",
         value,
         style,
@@ -233,25 +348,52 @@ fn draw_limit(app: &App, index: usize, limit: &Limit, line: Rect, buffer: &mut B
     )
 }
 
-// How the last valid result stands to the limit, in words, in fewer and by a sign alone, and their style.
+// How the last valid result stands to the limit, in words, in fewer and by a sign alone, and their
+// style.
 fn standing(app: &App, limit: &Limit) -> (Vec<String>, Style) {
     let theme = app.look.theme;
     let is_told = !app.is_stale() && !limit.text.is_empty();
-    let solution = app.answer.as_ref().and_then(|answer| answer.of(answer.active)).filter(|_| is_told);
-    let Some(verdict) = solution.map(|solution| verdict(limit, solution)) else { return (Vec::new(), Style::new()) };
+    let solution = app
+        .answer
+        .as_ref()
+        .and_then(|answer| answer.of(answer.active))
+        .filter(|_| is_told);
+    let Some(verdict) = solution.map(|solution| verdict(limit, solution)) else {
+        return (Vec::new(), Style::new());
+    };
     let is_above_beside = verdict.is_exceeded_beside();
-    let style = if verdict.standing.holds() && !is_above_beside { theme.note } else { theme.problem };
-    let part = verdict.part().map_or_else(String::new, |part| format!(" {:.0} %", 100.0 * part));
+    let style = if verdict.standing.holds() && !is_above_beside {
+        theme.note
+    } else {
+        theme.problem
+    };
+    let part = verdict
+        .part()
+        .map_or_else(String::new, |part| format!(" {:.0} %", 100.0 * part));
     let beside = if is_above_beside { ABOVE_BESIDE } else { "" };
     let word = verdict.standing.word();
     let sign = if verdict.standing.holds() { word } else { "!" };
-    (vec![format!("{word}{part}{beside}"), format!("{word}{beside}"), format!("{sign}{part}{beside}"), sign.to_owned()], style)
+    (
+        vec![
+            format!("{word}{part}{beside}"),
+            format!("{word}{beside}"),
+            format!("{sign}{part}{beside}"),
+            sign.to_owned(),
+        ],
+        style,
+    )
 }
 
 fn draw_mark(app: &App, index: usize, line: Rect, buffer: &mut Buffer) {
     let theme = app.look.theme;
     if rows::differs(&app.case, &app.saved, index) {
-        buffer.set_stringn(line.x + 1, line.y, EDITED, usize::from(line.width > 1), theme.note);
+        buffer.set_stringn(
+            line.x + 1,
+            line.y,
+            EDITED,
+            usize::from(line.width > 1),
+            theme.note,
+        );
     }
     // The reason stands below the line and has a mark of its own.
     if app.focus == index {
@@ -263,9 +405,16 @@ fn draw_mark(app: &App, index: usize, line: Rect, buffer: &mut Buffer) {
 
 // By how much a value that is not edited is wider than its room.
 fn longer(app: &App, index: usize, room: u16) -> u16 {
-    let shown = app.case.text(index).map_or_else(|| app::unwritten(&app.case, index), |text| clean::clean(text).into_owned());
+    let shown = app.case.text(index).map_or_else(
+        || app::unwritten(&app.case, index),
+        |text| ascii::printable(text).into_owned(),
+    );
     let is_edited = app.focus == index && app.has_line() && app.case.text(index).is_some();
-    if is_edited { 0 } else { (shown.width() as u16).saturating_sub(room) }
+    if is_edited {
+        0
+    } else {
+        (shown.width() as u16).saturating_sub(room)
+    }
 }
 
 // Words have no symbol, and need the room for themselves.
@@ -276,26 +425,55 @@ fn draw_words(label: &str, area: Rect, style: Style, buffer: &mut Buffer) -> u16
 
 // So much room labels have beside values of the usual width.
 fn label_width(area: Rect) -> u16 {
-    let value = if area.width + MARK < WHOLE { NARROW_VALUE } else { VALUE };
+    let value = if area.width + MARK < WHOLE {
+        NARROW_VALUE
+    } else {
+        VALUE
+    };
     LABEL.min(area.width.saturating_sub(SYMBOL + 1 + value))
 }
 
 // Symbol and label; how far into the line they go.
-fn draw_name(symbol: &str, label: &str, area: Rect, width: u16, style: Style, buffer: &mut Buffer) -> u16 {
+fn draw_name(
+    symbol: &str,
+    label: &str,
+    area: Rect,
+    width: u16,
+    style: Style,
+    buffer: &mut Buffer,
+) -> u16 {
     let name = text::cut(symbol, usize::from(SYMBOL) - 1);
     buffer.set_stringn(area.x, area.y, name, SYMBOL.into(), style);
-    buffer.set_stringn(area.x + SYMBOL, area.y, text::cut(label, width.into()), width.into(), style);
+    buffer.set_stringn(
+        area.x + SYMBOL,
+        area.y,
+        text::cut(label, width.into()),
+        width.into(),
+        style,
+    );
     MARK + SYMBOL + width + 1
 }
 
-fn draw_value(app: &App, index: usize, area: Rect, style: Style, buffer: &mut Buffer) -> Option<Position> {
+fn draw_value(
+    app: &App,
+    index: usize,
+    area: Rect,
+    style: Style,
+    buffer: &mut Buffer,
+) -> Option<Position> {
     let unwritten = app::unwritten(&app.case, index);
     let written = app.case.text(index);
     let is_edited = app.focus == index && app.has_line();
     if is_edited && matches!(FIELDS[index].kind, Kind::Choice(..)) {
-        let shown = written.map_or(unwritten, |text| clean::clean(text).into_owned());
+        let shown = written.map_or(unwritten, |text| ascii::printable(text).into_owned());
         let width = usize::from(area.width);
-        buffer.set_stringn(area.x, area.y, text::cut(&format!("‹ {shown} ›"), width), width, style);
+        buffer.set_stringn(
+            area.x,
+            area.y,
+            text::cut(&format!("‹ {shown} ›"), width),
+            width,
+            style,
+        );
         return None;
     }
     draw_text(app, index, written, &unwritten, area, style, buffer)
@@ -314,12 +492,27 @@ fn draw_text(
     let width = usize::from(area.width);
     let is_edited = app.focus == index && app.has_line();
     if is_edited && written.is_some() {
-        let cursor = text::edited(&app.input, area, style.add_modifier(Modifier::UNDERLINED), buffer);
-        text::ending(app.ending().as_deref(), app.input.value().width(), area, app.look.theme, buffer);
+        let cursor = text::edited(
+            &app.input,
+            area,
+            style.add_modifier(Modifier::UNDERLINED),
+            buffer,
+        );
+        text::ending(
+            app.ending().as_deref(),
+            app.input.value().width(),
+            area,
+            app.look.theme,
+            buffer,
+        );
         return cursor;
     }
-    let shown = written.map_or(unwritten.into(), clean::clean);
-    let faint = if written.is_none() { app.look.theme.faint } else { style };
+    let shown = written.map_or(unwritten.into(), ascii::printable);
+    let faint = if written.is_none() {
+        app.look.theme.faint
+    } else {
+        style
+    };
     buffer.set_stringn(area.x, area.y, text::cut(&shown, width), width, faint);
     is_edited.then_some(Position::new(area.x, area.y))
 }

@@ -45,9 +45,15 @@ pub fn lines() -> Vec<String> {
     for (title, place) in PLACES {
         lines.extend([String::new(), title.to_owned()]);
         let is_here = |binding: &Binding| {
-            if place == Place::WORK { binding.places.holds(place) } else { binding.places.meets(place) }
+            if place == Place::WORK {
+                binding.places.holds(place)
+            } else {
+                binding.places.meets(place)
+            }
         };
-        let mut here: Vec<_> = (0..BINDINGS.len()).filter(|&at| !told[at] && is_here(&BINDINGS[at])).collect();
+        let mut here: Vec<_> = (0..BINDINGS.len())
+            .filter(|&at| !told[at] && is_here(&BINDINGS[at]))
+            .collect();
         for &at in &here {
             told[at] = true;
         }
@@ -59,6 +65,10 @@ pub fn lines() -> Vec<String> {
 }
 
 fn line(binding: &Binding) -> Option<String> {
-    let keys = if binding.chords.is_empty() { format!(":{}", binding.name) } else { binding.keys() };
+    let keys = if binding.chords.is_empty() {
+        format!(":{}", binding.name)
+    } else {
+        binding.keys()
+    };
     (!binding.sentence.is_empty()).then(|| format!("  {keys:<24} {}", binding.sentence))
 }

@@ -1,4 +1,5 @@
-//! Lists to pick from: a line of text, the lines that fit it, and below them all that there is to say of the marked one.
+//! Lists to pick from: a line of text, the lines that fit it, and below them all that there is to
+//! say of the marked one.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
@@ -13,7 +14,10 @@ use crate::tui::pick::{Item, List, Pick, Picker};
 use crate::tui::theme::Theme;
 
 /// A list has so many columns and lines where there is room.
-const SIZE: Size = Size { width: 100, height: 20 };
+const SIZE: Size = Size {
+    width: 100,
+    height: 20,
+};
 /// Room for a name and for the keys of a command; a longer name takes what it needs.
 const NAME: usize = 18;
 const KEYS: usize = 14;
@@ -28,10 +32,22 @@ pub fn draw(picker: &Picker, screen: Rect, theme: &Theme, buffer: &mut Buffer) -
     } else {
         let above = above_told(&items, list);
         draw_items(&items, picker.marked, above, theme, buffer);
-        let below = Rect { y: above.bottom(), height: list.height - above.height, ..list };
+        let below = Rect {
+            y: above.bottom(),
+            height: list.height - above.height,
+            ..list
+        };
         draw_told(items.get(picker.marked), below, theme, buffer);
     }
-    text::edited(&picker.input, Rect { height: inner.height.min(1), ..inner }, theme.focus, buffer)
+    text::edited(
+        &picker.input,
+        Rect {
+            height: inner.height.min(1),
+            ..inner
+        },
+        theme.focus,
+        buffer,
+    )
 }
 
 /// The line of the list on a cell, where there is one.
@@ -39,35 +55,72 @@ pub fn draw(picker: &Picker, screen: Rect, theme: &Theme, buffer: &mut Buffer) -
 pub fn item_at(picker: &Picker, screen: Size, at: Position) -> Option<usize> {
     let items = picker.fitting();
     let list = below_line(inside(SIZE, Rect::from((Position::ORIGIN, screen))));
-    let area = if matches!(picker.list, List::Examples(_)) { parted(list).0 } else { above_told(&items, list) };
+    let area = if matches!(picker.list, List::Examples(_)) {
+        parted(list).0
+    } else {
+        above_told(&items, list)
+    };
     line_at(items.len(), Some(picker.marked), area, at)
 }
 
 fn below_line(inner: Rect) -> Rect {
-    Rect { y: inner.y + 1, height: inner.height.saturating_sub(1), ..inner }
+    Rect {
+        y: inner.y + 1,
+        height: inner.height.saturating_sub(1),
+        ..inner
+    }
 }
 
 fn above_told(items: &[Item], list: Rect) -> Rect {
-    Rect { height: list.height - told_lines(items, list), ..list }
+    Rect {
+        height: list.height - told_lines(items, list),
+        ..list
+    }
 }
 
 // Name, keys, and as much as fits of what more there is to say.
 fn draw_items(items: &[Item], marked: usize, area: Rect, theme: &Theme, buffer: &mut Buffer) {
-    let widest = |text: fn(&Item) -> &str, most: usize| items.iter().map(|item| text(item).width().min(most)).max().unwrap_or(0);
+    let widest = |text: fn(&Item) -> &str, most: usize| {
+        items
+            .iter()
+            .map(|item| text(item).width().min(most))
+            .max()
+            .unwrap_or(0)
+    };
     let keys = widest(|item| &item.keys, KEYS);
-    let has_places = items.iter().any(|item| matches!(item.pick, Pick::Go(_) | Pick::Show(_)));
-    let most = if keys == 0 || has_places { usize::from(area.width) * 2 / 5 } else { NAME.max(usize::from(area.width) / 4) };
+    let has_places = items
+        .iter()
+        .any(|item| matches!(item.pick, Pick::Go(_) | Pick::Show(_)));
+    let most = if keys == 0 || has_places {
+        usize::from(area.width) * 2 / 5
+    } else {
+        NAME.max(usize::from(area.width) / 4)
+    };
     let name = widest(|item| &item.name, most);
     let line = |item: &Item| {
-        let keys = if keys == 0 { String::new() } else { format!("  {}", text::padded(&item.keys, keys)) };
+        let keys = if keys == 0 {
+            String::new()
+        } else {
+            format!("  {}", text::padded(&item.keys, keys))
+        };
         let gap = name.saturating_sub(item.name.width());
-        format!("{}{}{keys}  {}", item.name, " ".repeat(gap), item.about).trim_end().to_owned()
+        format!("{}{}{keys}  {}", item.name, " ".repeat(gap), item.about)
+            .trim_end()
+            .to_owned()
     };
-    draw_window(items.len(), |at| line(&items[at]), Some(marked), area, theme, buffer);
+    draw_window(
+        items.len(),
+        |at| line(&items[at]),
+        Some(marked),
+        area,
+        theme,
+        buffer,
+    );
     say_if_none(items, area, theme, buffer);
 }
 
-// What is said of any of the lines takes so many lines, a rule above them counted, so that the list stays where it is.
+// What is said of any of the lines takes so many lines, a rule above them counted, so that the list
+// stays where it is.
 fn told_lines(items: &[Item], list: Rect) -> u16 {
     let lines = |item: &Item| text::wrap(&told(item), list.width.into()).len();
     let most = items.iter().map(lines).max().unwrap_or(0) as u16 + 1;
@@ -75,32 +128,77 @@ fn told_lines(items: &[Item], list: Rect) -> u16 {
 }
 
 fn told(item: &Item) -> String {
-    let keys = if item.keys.is_empty() { String::new() } else { format!(" ({})", item.keys) };
+    let keys = if item.keys.is_empty() {
+        String::new()
+    } else {
+        format!(" ({})", item.keys)
+    };
     format!("{}{keys}: {}", item.name, item.about)
 }
 
 fn draw_told(item: Option<&Item>, area: Rect, theme: &Theme, buffer: &mut Buffer) {
-    let Some(item) = item.filter(|_| area.height > 1) else { return };
-    buffer.set_stringn(area.x, area.y, "─".repeat(area.width.into()), area.width.into(), theme.rule);
-    for (line, y) in text::wrap(&told(item), area.width.into()).iter().zip(area.y + 1..area.bottom()) {
+    let Some(item) = item.filter(|_| area.height > 1) else {
+        return;
+    };
+    buffer.set_stringn(
+        area.x,
+        area.y,
+        "─".repeat(area.width.into()),
+        area.width.into(),
+        theme.rule,
+    );
+    for (line, y) in text::wrap(&told(item), area.width.into())
+        .iter()
+        .zip(area.y + 1..area.bottom())
+    {
         buffer.set_stringn(area.x, y, line, area.width.into(), Style::new());
     }
 }
 
 // The names on the left, what the marked one is on the right.
-fn draw_examples(items: &[Item], digests: &[Digest], marked: usize, area: Rect, theme: &Theme, buffer: &mut Buffer) {
+fn draw_examples(
+    items: &[Item],
+    digests: &[Digest],
+    marked: usize,
+    area: Rect,
+    theme: &Theme,
+    buffer: &mut Buffer,
+) {
     let (left, right) = halves(area, buffer);
-    draw_window(items.len(), |at| items[at].name.clone(), Some(marked), left, theme, buffer);
+    draw_window(
+        items.len(),
+        |at| items[at].name.clone(),
+        Some(marked),
+        left,
+        theme,
+        buffer,
+    );
     say_if_none(items, left, theme, buffer);
-    let at = items.get(marked).and_then(|item| EXAMPLES.iter().position(|example| example.name == item.name));
-    let lines = at.and_then(|at| digests.get(at)).map(|digest| digest::lines(digest, right.width.into(), theme));
-    for ((line, style), y) in lines.unwrap_or_default().iter().zip(right.top()..right.bottom()) {
+    let at = items.get(marked).and_then(|item| {
+        EXAMPLES
+            .iter()
+            .position(|example| example.name == item.name)
+    });
+    let lines = at
+        .and_then(|at| digests.get(at))
+        .map(|digest| digest::lines(digest, right.width.into(), theme));
+    for ((line, style), y) in lines
+        .unwrap_or_default()
+        .iter()
+        .zip(right.top()..right.bottom())
+    {
         buffer.set_stringn(right.x, y, line, right.width.into(), *style);
     }
 }
 
 fn say_if_none(items: &[Item], area: Rect, theme: &Theme, buffer: &mut Buffer) {
     if items.is_empty() && !area.is_empty() {
-        buffer.set_stringn(area.x, area.y, "(nothing here fits)", area.width.into(), theme.faint);
+        buffer.set_stringn(
+            area.x,
+            area.y,
+            "(nothing here fits)",
+            area.width.into(),
+            theme.faint,
+        );
     }
 }

@@ -8,7 +8,7 @@ use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
 use super::boxes::{WIDEST, frame, inside, room};
-use super::{aim, browser, explain, form, picker, text};
+use super::{browser, cursor_prompt, explain, form, picker, text};
 use crate::tui::app::App;
 use crate::tui::prompt::{Page, Prompt, Question};
 use crate::tui::theme::Theme;
@@ -17,8 +17,7 @@ use crate::tui::theme::Theme;
 const BESIDE_NAME: u16 = 7;
 
 /// How a name is given.
-const NAMING: &str =
-    "A name or a path, ~ is the home folder; without an ending it gets .toml. What is there already is asked about.";
+const NAMING: &str = "A name or a path, ~ is the home folder; without an ending it gets .toml. What is there already is asked about.";
 
 /// Draw a prompt over the screen; where the cursor stands.
 pub fn draw(app: &App, prompt: &Prompt, screen: Rect, buffer: &mut Buffer) -> Option<Position> {
@@ -34,13 +33,27 @@ pub fn draw(app: &App, prompt: &Prompt, screen: Rect, buffer: &mut Buffer) -> Op
         }
         Prompt::SaveAs(input, _) => {
             let how = text::wrap(NAMING, usize::from(room(screen.as_size()).width));
-            let inner = frame("Save as", Size::new(WIDEST, how.len() as u16 + 1), screen, theme, buffer);
+            let inner = frame(
+                "Save as",
+                Size::new(WIDEST, how.len() as u16 + 1),
+                screen,
+                theme,
+                buffer,
+            );
             for (line, y) in how.iter().zip(inner.top() + 1..inner.bottom()) {
                 buffer.set_stringn(inner.x, y, line, inner.width.into(), theme.faint);
             }
-            text::edited(input, Rect { height: inner.height.min(1), ..inner }, theme.focus, buffer)
+            text::edited(
+                input,
+                Rect {
+                    height: inner.height.min(1),
+                    ..inner
+                },
+                theme.focus,
+                buffer,
+            )
         }
-        Prompt::Aim(input) => aim::draw(app, input, screen, buffer),
+        Prompt::Aim(input) => cursor_prompt::draw(app, input, screen, buffer),
         Prompt::Explain(explanation) => {
             explain::draw(explanation, screen, app.look, buffer);
             None
@@ -59,11 +72,13 @@ pub fn wrapped(page: &Page, screen: Size) -> Vec<String> {
         let (head, text) = line.split_at(indent);
         let pieces = text::wrap(text, width.saturating_sub(indent));
         let head = head.to_owned();
-        pieces.into_iter().enumerate().map(
-            move |(index, piece)| {
-                if index == 0 { head.clone() + &piece } else { " ".repeat(indent) + &piece }
-            },
-        )
+        pieces.into_iter().enumerate().map(move |(index, piece)| {
+            if index == 0 {
+                head.clone() + &piece
+            } else {
+                " ".repeat(indent) + &piece
+            }
+        })
     };
     page.lines.iter().flat_map(wrap).collect()
 }
@@ -78,7 +93,9 @@ fn hanging(line: &str) -> usize {
 
 /// Scroll a page, as far as there are lines.
 pub fn scroll(page: &mut Page, by: isize, screen: Size) {
-    let last = wrapped(page, screen).len().saturating_sub(room(screen).height.into());
+    let last = wrapped(page, screen)
+        .len()
+        .saturating_sub(room(screen).height.into());
     page.top = page.top.saturating_add_signed(by).min(last);
 }
 
@@ -89,7 +106,16 @@ fn draw_page(page: &Page, screen: Rect, theme: &Theme, buffer: &mut Buffer) {
         buffer.set_stringn(inner.x, y, line, inner.width.into(), Style::new());
     }
     if lines.len() > usize::from(inner.height) {
-        form::scroll_bar(page.top, lines.len(), Rect { x: inner.right(), width: 1, ..inner }, buffer);
+        form::scroll_bar(
+            page.top,
+            lines.len(),
+            Rect {
+                x: inner.right(),
+                width: 1,
+                ..inner
+            },
+            buffer,
+        );
     }
 }
 
@@ -100,11 +126,19 @@ fn draw_question(question: &Question, screen: Rect, theme: &Theme, buffer: &mut 
         buffer.set_stringn(inner.x, y, line, inner.width.into(), Style::new());
     }
     let row = button_row(&lines, inner);
-    let buttons = question.buttons.iter().enumerate().flat_map(|(index, (name, _))| {
-        let marked = index == question.marked;
-        let (text, style) = if marked { (format!("[> {name} <]"), theme.key) } else { (format!("[  {name}  ]"), Style::new()) };
-        [Span::styled(text, style), Span::raw(" ")]
-    });
+    let buttons = question
+        .buttons
+        .iter()
+        .enumerate()
+        .flat_map(|(index, (name, _))| {
+            let marked = index == question.marked;
+            let (text, style) = if marked {
+                (format!("[> {name} <]"), theme.key)
+            } else {
+                (format!("[  {name}  ]"), Style::new())
+            };
+            [Span::styled(text, style), Span::raw(" ")]
+        });
     buttons.collect::<Line<'_>>().render(row, buffer);
 }
 
@@ -112,7 +146,10 @@ fn draw_question(question: &Question, screen: Rect, theme: &Theme, buffer: &mut 
 #[must_use]
 pub fn button_at(question: &Question, screen: Size, at: Position) -> Option<usize> {
     let lines = question_lines(question, room(screen));
-    let row = button_row(&lines, inside(extent(&lines, 2), Rect::from((Position::ORIGIN, screen))));
+    let row = button_row(
+        &lines,
+        inside(extent(&lines, 2), Rect::from((Position::ORIGIN, screen))),
+    );
     let mut right = row.x;
     let ends = question.buttons.iter().map(|(name, _)| {
         right += name.width() as u16 + BESIDE_NAME;
@@ -120,23 +157,44 @@ pub fn button_at(question: &Question, screen: Size, at: Position) -> Option<usiz
     });
     let ends: Vec<_> = ends.collect();
     // The gap before the next one is no button.
-    ends.iter().position(|&end| at.x + 1 < end).filter(|_| row.contains(at))
+    ends.iter()
+        .position(|&end| at.x + 1 < end)
+        .filter(|_| row.contains(at))
 }
 
 // Below the lines and one that is empty; nothing where it has no room.
 fn button_row(lines: &[String], inner: Rect) -> Rect {
-    let below = u16::try_from(lines.len()).unwrap_or(u16::MAX).saturating_add(1);
-    if below < inner.height { Rect { y: inner.y + below, height: 1, ..inner } } else { Rect::ZERO }
+    let below = u16::try_from(lines.len())
+        .unwrap_or(u16::MAX)
+        .saturating_add(1);
+    if below < inner.height {
+        Rect {
+            y: inner.y + below,
+            height: 1,
+            ..inner
+        }
+    } else {
+        Rect::ZERO
+    }
 }
 
-// The buttons below them must be in sight: of the details, as many as there is room for, a line each.
+// The buttons below them must be in sight: of the details, as many as there is room for, a line
+// each.
 fn question_lines(question: &Question, room: Size) -> Vec<String> {
     let width = usize::from(room.width);
     let mut lines = text::wrap(&question.text, width);
     let left = usize::from(room.height).saturating_sub(lines.len() + 2);
     let details = &question.details;
-    let shown = if details.len() <= left { details.len() } else { left.saturating_sub(1) };
-    lines.extend(details[..shown].iter().map(|line| text::cut(&format!("  {line}"), width)));
+    let shown = if details.len() <= left {
+        details.len()
+    } else {
+        left.saturating_sub(1)
+    };
+    lines.extend(
+        details[..shown]
+            .iter()
+            .map(|line| text::cut(&format!("  {line}"), width)),
+    );
     if shown < details.len() && left > 0 {
         lines.push(format!("  and {} more", details.len() - shown));
     }
@@ -147,5 +205,8 @@ fn question_lines(question: &Question, room: Size) -> Vec<String> {
 fn extent(lines: &[String], more: usize) -> Size {
     let width = lines.iter().map(|line| line.width()).max().unwrap_or(0);
     let size = |length: usize| u16::try_from(length).unwrap_or(u16::MAX);
-    Size { width: size(width), height: size(lines.len() + more) }
+    Size {
+        width: size(width),
+        height: size(lines.len() + more),
+    }
 }

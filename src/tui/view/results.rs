@@ -1,4 +1,5 @@
-//! The results: the outcome in a sentence, the gauges, every quantity with the methods side by side, what to know.
+//! The results: the outcome in a sentence, the gauges, every quantity with the methods side by
+//! side, what to know.
 
 mod table;
 
@@ -16,7 +17,7 @@ use crate::model::inputs::Method;
 use crate::model::{Note, Outcome, Quantity, Solution, Stage};
 use crate::report::{self, Shown, digest};
 use crate::tui::app::App;
-use crate::tui::clean::symbol;
+use crate::tui::ascii::symbol;
 use crate::tui::commands::{Command, keys_of};
 use crate::tui::layout::plan;
 use crate::tui::pane::Pane;
@@ -52,19 +53,36 @@ struct Parts {
 /// Draw the results.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let parts = parts(app, area);
-    let inner = titled(app, Pane::Results, &title(app, title_room(app, Pane::Results, area.width)), area, buffer);
+    let inner = titled(
+        app,
+        Pane::Results,
+        &title(app, title_room(app, Pane::Results, area.width)),
+        area,
+        buffer,
+    );
     let Some(answer) = &app.answer else {
         draw_lines(&parts.head, inner, buffer);
         return;
     };
-    let inner = Rect { x: inner.x + inner.width.min(1), width: inner.width.saturating_sub(1), ..inner };
+    let inner = Rect {
+        x: inner.x + inner.width.min(1),
+        width: inner.width.saturating_sub(1),
+        ..inner
+    };
     let table = table::lines(app, answer, inner.width.into(), hidden(app, parts.rows));
     let quantities = table.rows.iter().skip(app.results_top).take(parts.rows);
-    let lines: Vec<Line<'static>> =
-        parts.head.into_iter().chain([table.heading]).chain(quantities.cloned()).chain(parts.notes).collect();
+    let lines: Vec<Line<'static>> = parts
+        .head
+        .into_iter()
+        .chain([table.heading])
+        .chain(quantities.cloned())
+        .chain(parts.notes)
+        .collect();
     draw_lines(&lines, inner, buffer);
     if app.panes.focus == Pane::Results
-        && let Some(line) = line_of(app, app.row).checked_sub(app.results_top).filter(|&line| line < parts.rows)
+        && let Some(line) = line_of(app, app.row)
+            .checked_sub(app.results_top)
+            .filter(|&line| line < parts.rows)
     {
         let y = area.y + (lines_before(app, area) + line) as u16;
         buffer.set_stringn(area.x, y, "▸", 1, app.look.theme.focus);
@@ -111,10 +129,17 @@ pub struct Listed {
 #[must_use]
 pub fn place_of(tab: &Tab, key: Option<&str>) -> Option<Listed> {
     let answer = tab.answer.as_ref()?;
-    let is_meant = |(row, quantity): &(usize, &Quantity)| key.map_or(*row == tab.row, |key| quantity.key == key);
+    let is_meant = |(row, quantity): &(usize, &Quantity)| {
+        key.map_or(*row == tab.row, |key| quantity.key == key)
+    };
     let (row, quantity) = table::order(answer).enumerate().find(is_meant)?;
     let has_value = answer.of(answer.active).and_then(quantity.value).is_some();
-    Some(Listed { key: quantity.key, row, line: table::line_of(answer, row), has_value })
+    Some(Listed {
+        key: quantity.key,
+        row,
+        line: table::line_of(answer, row),
+        has_value,
+    })
 }
 
 /// The first line to be shown, so that the marked quantity is in sight.
@@ -123,13 +148,17 @@ pub fn top_for(app: &App) -> usize {
     let rows = page(app).max(1);
     let line = line_of(app, app.row);
     let least = (line + 1).saturating_sub(rows);
-    app.results_top.clamp(least, line.max(least)).min(line_count(app).saturating_sub(rows))
+    app.results_top
+        .clamp(least, line.max(least))
+        .min(line_count(app).saturating_sub(rows))
 }
 
 /// The first line to be shown after so many lines downwards.
 #[must_use]
 pub fn scrolled(app: &App, by: isize) -> usize {
-    app.results_top.saturating_add_signed(by).min(line_count(app).saturating_sub(page(app)))
+    app.results_top
+        .saturating_add_signed(by)
+        .min(line_count(app).saturating_sub(page(app)))
 }
 
 /// The value of the marked quantity beside that of the baseline, where one is pinned.
@@ -143,44 +172,70 @@ pub fn compared(app: &App, quantity: &Quantity) -> Option<String> {
 pub fn row_at(app: &App, area: Rect, at: Position) -> Option<usize> {
     let line = usize::from(at.y - area.y).checked_sub(lines_before(app, area))?;
     let in_sight = line < parts(app, area).rows;
-    table::row_of(app.answer.as_ref()?, app.results_top + line).filter(|&row| in_sight && row < count(app))
+    table::row_of(app.answer.as_ref()?, app.results_top + line)
+        .filter(|&row| in_sight && row < count(app))
 }
 
 // The line of a quantity, by their places.
 fn line_of(app: &App, row: usize) -> usize {
-    app.answer.as_ref().map_or(row, |answer| table::line_of(answer, row))
+    app.answer
+        .as_ref()
+        .map_or(row, |answer| table::line_of(answer, row))
 }
 
 fn line_count(app: &App) -> usize {
-    count(app).checked_sub(1).map_or(0, |last| line_of(app, last) + 1)
+    count(app)
+        .checked_sub(1)
+        .map_or(0, |last| line_of(app, last) + 1)
 }
 
 // How many lines of the table are out of sight, above and below.
 fn hidden(app: &App, rows: usize) -> (usize, usize) {
-    (app.results_top, line_count(app).saturating_sub(app.results_top + rows))
+    (
+        app.results_top,
+        line_count(app).saturating_sub(app.results_top + rows),
+    )
 }
 
 /// The outcome of a solve, in a sentence.
 #[must_use]
 pub fn sentence(app: &App, solution: &Solution) -> String {
     let sentence = digest::sentence(solution, app.settings.units);
-    if app.look.ascii { sentence.replace('Δ', &symbol("Δ", true)) } else { sentence }
+    if app.look.ascii {
+        sentence.replace('Δ', &symbol("Δ", true))
+    } else {
+        sentence
+    }
 }
 
 /// The outcome, the gauges and the notes in full, a line each.
 #[must_use]
 pub fn told(app: &App) -> Vec<String> {
-    let Some(answer) = &app.answer else { return Vec::new() };
-    let outcome = answer.of(answer.active).map(|solution| sentence(app, solution));
+    let Some(answer) = &app.answer else {
+        return Vec::new();
+    };
+    let outcome = answer
+        .of(answer.active)
+        .map(|solution| sentence(app, solution));
     let gauges = gauges(app, answer).into_iter().map(Gauge::in_full);
-    let notes = answer.notes.iter().map(|note| format!("{NOTE}{}.", note.message));
+    let notes = answer
+        .notes
+        .iter()
+        .map(|note| format!("{NOTE}{}.", note.message));
     let lines = outcome.into_iter().chain(gauges).chain(notes);
     lines.flat_map(|line| [line, String::new()]).collect()
 }
 
 fn draw_lines(lines: &[Line<'static>], area: Rect, buffer: &mut Buffer) {
     for (line, y) in lines.iter().zip(area.top()..area.bottom()) {
-        line.render(Rect { y, height: 1, ..area }, buffer);
+        line.render(
+            Rect {
+                y,
+                height: 1,
+                ..area
+            },
+            buffer,
+        );
     }
 }
 
@@ -191,17 +246,34 @@ fn lines_before(app: &App, area: Rect) -> usize {
 
 // As much of it as has room, so that nothing is cut.
 fn title(app: &App, room: usize) -> String {
-    let name = if app.is_stale() { "Results: LAST VALID" } else { "Results" };
-    let name_of_base = app.baseline.as_ref().map(|baseline| format!(", against {}", baseline.name));
+    let name = if app.is_stale() {
+        "Results: LAST VALID"
+    } else {
+        "Results"
+    };
+    let name_of_base = app
+        .baseline
+        .as_ref()
+        .map(|baseline| format!(", against {}", baseline.name));
     let against = name_of_base.as_deref().unwrap_or_default();
     let begun = text::cut(against, room.saturating_sub(name.width()));
-    let base = if begun.width() >= LEAST_OF_BASE { begun.as_str() } else { "" };
+    let base = if begun.width() >= LEAST_OF_BASE {
+        begun.as_str()
+    } else {
+        ""
+    };
     let answer = app.answer.as_ref();
-    let pending =
-        answer.and_then(|answer| answer.pending).map_or_else(String::new, |method| format!(", {} to come", method.name()));
+    let pending = answer
+        .and_then(|answer| answer.pending)
+        .map_or_else(String::new, |method| format!(", {} to come", method.name()));
     let cost = answer
         .filter(|_| app.shows_cost)
-        .map_or_else(String::new, |answer| format!(", {} stages in {} us", answer.cost.stages, answer.cost.micros));
+        .map_or_else(String::new, |answer| {
+            format!(
+                ", {} stages in {} us",
+                answer.cost.stages, answer.cost.micros
+            )
+        });
     let short = if app.is_stale() { "LAST VALID" } else { name };
     let titles = [
         format!("{name}{against}{pending}{cost}"),
@@ -210,7 +282,10 @@ fn title(app: &App, room: usize) -> String {
         format!("{name}{cost}"),
         name.to_owned(),
     ];
-    titles.into_iter().find(|title| title.width() <= room).unwrap_or_else(|| short.to_owned())
+    titles
+        .into_iter()
+        .find(|title| title.width() <= room)
+        .unwrap_or_else(|| short.to_owned())
 }
 
 // With room every gauge and note is told in full, else each in a line, and the notes in one.
@@ -221,68 +296,153 @@ fn parts(app: &App, area: Rect) -> Parts {
     let (mut gauges, mut notes) = (Vec::new(), Vec::new());
     if let Some(answer) = &app.answer {
         head.extend(outcome(app, answer, width, height < LOW));
-        gauges = self::gauges(app, answer).iter().map(|gauge| gauge.fitting(width)).collect();
-        notes = answer.notes.iter().map(|note| format!("{NOTE}{}", note.message)).collect();
+        gauges = self::gauges(app, answer)
+            .iter()
+            .map(|gauge| gauge.fitting(width))
+            .collect();
+        notes = answer
+            .notes
+            .iter()
+            .map(|note| format!("{NOTE}{}", note.message))
+            .collect();
     }
-    let whole = |texts: &[String]| texts.iter().flat_map(|text| text::wrap(text, width)).collect::<Vec<_>>();
-    let rows_beside = |gauges: &[String], notes: &[String]| height.saturating_sub(head.len() + gauges.len() + 1 + notes.len());
+    let whole = |texts: &[String]| {
+        texts
+            .iter()
+            .flat_map(|text| text::wrap(text, width))
+            .collect::<Vec<_>>()
+    };
+    let rows_beside = |gauges: &[String], notes: &[String]| {
+        height.saturating_sub(head.len() + gauges.len() + 1 + notes.len())
+    };
     let (mut gauge_lines, mut note_lines) = (whole(&gauges), whole(&notes));
     if rows_beside(&gauge_lines, &note_lines) < ENOUGH_ROWS {
         gauge_lines = gauges.iter().map(|gauge| text::cut(gauge, width)).collect();
-        note_lines = app.answer.iter().filter_map(|answer| shortened(&answer.notes, width)).collect();
+        note_lines = app
+            .answer
+            .iter()
+            .filter_map(|answer| shortened(&answer.notes, width))
+            .collect();
     }
     let room_for_head = height.saturating_sub(1 + LEAST_ROWS + note_lines.len());
-    let faint = if app.is_stale() { app.look.theme.faint } else { Style::new() };
-    head.extend(gauge_lines.into_iter().map(|gauge| Line::styled(gauge, faint)));
+    let faint = if app.is_stale() {
+        app.look.theme.faint
+    } else {
+        Style::new()
+    };
+    head.extend(
+        gauge_lines
+            .into_iter()
+            .map(|gauge| Line::styled(gauge, faint)),
+    );
     head.truncate(room_for_head);
     let rows = height.saturating_sub(head.len() + 1 + note_lines.len());
     let style = app.look.theme.note.patch(faint);
-    Parts { head, rows, notes: note_lines.into_iter().map(|note| Line::styled(note, style)).collect() }
+    Parts {
+        head,
+        rows,
+        notes: note_lines
+            .into_iter()
+            .map(|note| Line::styled(note, style))
+            .collect(),
+    }
 }
 
 // The only note in full, else as many as have room by their names, else how many there are.
 fn shortened(notes: &[Note], width: usize) -> Option<String> {
     let count = notes.len();
-    let in_full = notes.first().filter(|_| count == 1).map(|note| format!("{NOTE}{}", note.message));
-    let names: Vec<String> = notes.iter().map(|note| note.code.replace('-', " ")).collect();
+    let in_full = notes
+        .first()
+        .filter(|_| count == 1)
+        .map(|note| format!("{NOTE}{}", note.message));
+    let names: Vec<String> = notes
+        .iter()
+        .map(|note| note.code.replace('-', " "))
+        .collect();
     let noun = if count == 1 { "note" } else { "notes" };
     let by_names = (1..=count).rev().map(|told| {
-        let others = if told < count { format!(", {} more", count - told) } else { String::new() };
+        let others = if told < count {
+            format!(", {} more", count - told)
+        } else {
+            String::new()
+        };
         format!("key n: {}{others}", names[..told].join(", "))
     });
     let counted = format!("{count} {noun}: press n");
     let mut sayings = in_full.into_iter().chain(by_names).chain([counted.clone()]);
-    (count > 0).then(|| sayings.find(|words| words.width() <= width).unwrap_or(counted))
+    (count > 0).then(|| {
+        sayings
+            .find(|words| words.width() <= width)
+            .unwrap_or(counted)
+    })
 }
 
 fn banner(app: &App, width: usize) -> Vec<Line<'static>> {
     let theme = app.look.theme;
-    let said = |text: String, style: Style| text::wrap(&text, width).into_iter().map(move |line| Line::styled(line, style));
+    let said = |text: String, style: Style| {
+        text::wrap(&text, width)
+            .into_iter()
+            .map(move |line| Line::styled(line, style))
+    };
     let Some(refusal) = &app.refusal else {
-        return wrong(app).into_iter().flat_map(|wrong| said(wrong, theme.problem)).collect();
+        return wrong(app)
+            .into_iter()
+            .flat_map(|wrong| said(wrong, theme.problem))
+            .collect();
     };
     let cause = said(format!("! Not solved: {refusal}."), theme.problem);
-    cause.chain(said(format!("Mend: {}.", refusal.mend()), Style::new())).collect()
+    cause
+        .chain(said(
+            format!("Correction: {}.", refusal.mend()),
+            Style::new(),
+        ))
+        .collect()
 }
 
-// The first field that is wrong, in the order of the form, why, how many more are, and the key that goes there.
+// The first field that is wrong, in the order of the form, why, how many more are, and the key that
+// goes there.
 fn wrong(app: &App) -> Option<String> {
     let (row, problem) = app.problems.iter().min_by_key(|(row, _)| *row)?;
     let symbol = rows::symbol(&app.case, *row);
-    let name = format!("{} {}", self::symbol(symbol, app.look.ascii), rows::label(&app.case, *row));
+    let name = format!(
+        "{} {}",
+        self::symbol(symbol, app.look.ascii),
+        rows::label(&app.case, *row)
+    );
     let fields: BTreeSet<usize> = app.problems.iter().map(|(row, _)| *row).collect();
-    let more = if fields.len() > 1 { format!("; {} more", fields.len() - 1) } else { String::new() };
+    let more = if fields.len() > 1 {
+        format!("; {} more", fields.len() - 1)
+    } else {
+        String::new()
+    };
     let key = keys_of(Command::NextFault);
     let key = key.split(',').next().unwrap_or_default();
-    Some(format!("! {}: {}{more} ({key})", name.trim_start(), problem.cause))
+    Some(format!(
+        "! {}: {}{more} ({key})",
+        name.trim_start(),
+        problem.cause
+    ))
 }
 
 fn outcome(app: &App, answer: &Answer, width: usize, is_low: bool) -> Vec<Line<'static>> {
-    let Some(solution) = answer.of(answer.active) else { return Vec::new() };
-    let style = if app.is_stale() { app.look.theme.faint } else { app.look.theme.focus };
-    let words = if is_low && width < NARROW { digest::short(solution, app.settings.units) } else { sentence(app, solution) };
+    let Some(solution) = answer.of(answer.active) else {
+        return Vec::new();
+    };
+    let style = if app.is_stale() {
+        app.look.theme.faint
+    } else {
+        app.look.theme.focus
+    };
+    let words = if is_low && width < NARROW {
+        digest::short(solution, app.settings.units)
+    } else {
+        sentence(app, solution)
+    };
     let lines = text::wrap(&words, width);
-    lines.into_iter().map(|line| Line::styled(line, style)).collect()
+    lines
+        .into_iter()
+        .map(|line| Line::styled(line, style))
+        .collect()
 }
 
 impl Gauge {
@@ -297,20 +457,36 @@ impl Gauge {
 }
 
 fn gauges(app: &App, answer: &Answer) -> Vec<Gauge> {
-    let Some(solution) = answer.of(answer.active) else { return Vec::new() };
-    let ratios = (!solution.method.shares_load()).then(|| ratios(answer, app.look.ascii)).flatten();
-    [relief(app, answer, solution), band(app, solution), ratios].into_iter().flatten().collect()
+    let Some(solution) = answer.of(answer.active) else {
+        return Vec::new();
+    };
+    let ratios = (!solution.method.shares_load())
+        .then(|| ratios(answer, app.look.ascii))
+        .flatten();
+    [relief(app, answer, solution), band(app, solution), ratios]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 // What stops it; where that is yet to come, a place is kept for it.
 fn relief(app: &App, answer: &Answer, solution: &Solution) -> Option<Gauge> {
     let is_to_come = answer.strikes() && answer.lacks(Stage::Clearing);
-    let to_come = || ["... tip relief of the driven gear stops it", "... driven tip relief stops it", "Ca2 ... stops it"];
+    let to_come = || {
+        [
+            "... tip relief of the driven gear stops it",
+            "... driven tip relief stops it",
+            "Ca2 ... stops it",
+        ]
+    };
     let known = report::relief::relief(solution, app.settings.units);
-    known.or_else(|| is_to_come.then(|| to_come().map(str::to_owned))).map(|words| Gauge(words.into()))
+    known
+        .or_else(|| is_to_come.then(|| to_come().map(str::to_owned)))
+        .map(|words| Gauge(words.into()))
 }
 
-// How far the force depends on the choice of stiffness model; where nothing strikes there is none to depend on it.
+// How far the force depends on the choice of stiffness model; where nothing strikes there is none
+// to depend on it.
 fn band(app: &App, solution: &Solution) -> Option<Gauge> {
     if solution.outcome == Outcome::NoCornerContact {
         return None;
@@ -318,11 +494,22 @@ fn band(app: &App, solution: &Solution) -> Option<Gauge> {
     let (band, force) = (solution.band?, solution.impact?.force);
     let percent = |end: f64| 100.0 * (end / force - 1.0) + 0.0;
     let quantity = Quantity::find("impact_force_low")?;
-    let unit = report::unit_beside(quantity, [band.low, band.high].into_iter(), app.settings.units);
-    let (low, high) = (report::shown_with(quantity, band.low, unit).number, report::shown_with(quantity, band.high, unit));
+    let unit = report::unit_beside(
+        quantity,
+        [band.low, band.high].into_iter(),
+        app.settings.units,
+    );
+    let (low, high) = (
+        report::shown_with(quantity, band.low, unit).number,
+        report::shown_with(quantity, band.high, unit),
+    );
     let parts = format!("{:+.1}..{:+.1} %", percent(band.low), percent(band.high));
     let range = format!("{low}..{high} ({parts})");
-    let (whose, force) = if solution.method.shares_load() { ("the free impact's ", "free F_S") } else { ("", "F_S") };
+    let (whose, force) = if solution.method.shares_load() {
+        ("the free impact's ", "free F_S")
+    } else {
+        ("", "F_S")
+    };
     Some(Gauge(vec![
         format!("the stiffness models in range give {whose}F_S {range}"),
         format!("by stiffness: {force} {range}"),
@@ -337,18 +524,26 @@ fn ratios(answer: &Answer, ascii: bool) -> Option<Gauge> {
     let ratio = |key| {
         let quantity = Quantity::find(key)?;
         let ratio = (quantity.value)(exact)? / (quantity.value)(paper)?;
-        ratio.is_finite().then(|| (symbol(quantity.symbol, ascii), rounded(ratio)))
+        ratio
+            .is_finite()
+            .then(|| (symbol(quantity.symbol, ascii), rounded(ratio)))
     };
     let ((u, times), (force, more)) = (ratio("approach_angle_driven")?, ratio("impact_force")?);
     Some(Gauge(vec![
-        format!("the exact {u} is {times} times that of the printed equations, {force} {more} times"),
+        format!(
+            "the exact {u} is {times} times that of the printed equations, {force} {more} times"
+        ),
         format!("exact/paper: {u} {times}x, {force} {more}x"),
         format!("exact/paper: {force} {more}x"),
     ]))
 }
 
 fn rounded(ratio: f64) -> String {
-    let digits = if ratio < 10.0 { 2 } else { usize::from(ratio < 100.0) };
+    let digits = if ratio < 10.0 {
+        2
+    } else {
+        usize::from(ratio < 100.0)
+    };
     format!("{ratio:.digits$}")
 }
 

@@ -9,12 +9,12 @@ use unicode_width::UnicodeWidthStr;
 use super::{chart, results, text, trade};
 use crate::case::fields::{self, Absent, Field, Kind};
 use crate::case::units::System;
-use crate::case::{Acting, FIELDS, Limit, acts, acts_in_part, materials};
+use crate::case::{Acting, FIELDS, Limit, materials, partial_relevance, relevance};
 use crate::model::inputs::Method;
 use crate::numeric::decimal::shortest;
 use crate::report::verdict::verdicts;
 use crate::tui::app::{App, Progress};
-use crate::tui::clean::symbol;
+use crate::tui::ascii::symbol;
 use crate::tui::commands::{BINDINGS, Binding};
 use crate::tui::keys::Chord;
 use crate::tui::pane::Pane;
@@ -50,7 +50,11 @@ pub fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
         lines.push(Line::styled(text::cut(&bar(&progress), width), theme.note));
     }
     if let Some(message) = &app.message {
-        let (mark, style) = if message.is_fault { ("! ", theme.problem) } else { ("", theme.note) };
+        let (mark, style) = if message.is_fault {
+            ("! ", theme.problem)
+        } else {
+            ("", theme.note)
+        };
         let told = text::wrap(&format!("{mark}{}", message.text), width);
         // A fault's mend stands at its end: a long message takes the place of what is focused.
         is_long = told.len() > 1;
@@ -62,13 +66,27 @@ pub fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
     let room = usize::from(area.height);
     if !is_long {
         let left = room.saturating_sub(lines.len());
-        lines.extend(text::sentences(&focused(app), width, left).into_iter().map(Line::raw));
+        lines.extend(
+            text::sentences(&focused(app), width, left)
+                .into_iter()
+                .map(Line::raw),
+        );
     }
     if let Some(at) = room.checked_sub(1).filter(|_| lines.len() > room) {
-        lines[at] = Line::styled(text::cut(&format!("{} {}", lines[at], lines[room]), width), lines[at].style);
+        lines[at] = Line::styled(
+            text::cut(&format!("{} {}", lines[at], lines[room]), width),
+            lines[at].style,
+        );
     }
     for (line, y) in lines.iter().zip(area.top()..area.bottom()) {
-        line.render(Rect { y, height: 1, ..area }, buffer);
+        line.render(
+            Rect {
+                y,
+                height: 1,
+                ..area
+            },
+            buffer,
+        );
     }
 }
 
@@ -79,7 +97,10 @@ pub fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
     let mut spans = Vec::new();
     let mut told: Vec<&str> = Vec::new();
     let mut left = usize::from(area.width);
-    for binding in BINDINGS.iter().filter(|binding| binding.places.meets(place) && binding.footer.meets(place)) {
+    for binding in BINDINGS
+        .iter()
+        .filter(|binding| binding.places.meets(place) && binding.footer.meets(place))
+    {
         let key = short(binding);
         let used = key.width() + binding.name.width() + 3;
         if used > left + 2 {
@@ -90,7 +111,10 @@ pub fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
         }
         told.push(binding.name);
         left = left.saturating_sub(used);
-        spans.extend([Span::styled(key, theme.key), Span::raw(format!(" {}  ", binding.name))]);
+        spans.extend([
+            Span::styled(key, theme.key),
+            Span::raw(format!(" {}  ", binding.name)),
+        ]);
     }
     Line::from(spans).render(area, buffer);
 }
@@ -101,9 +125,14 @@ pub fn about(field: &Field, ascii: bool, units: System) -> String {
     let name = [symbol(field.symbol, ascii).as_ref(), field.label].join(" ");
     let bounds = match field.kind {
         Kind::Text => String::new(),
-        Kind::Number(_, range, _) if units.unit(range.unit) == range.unit => {
-            format!(", {}..{} {}", shortest(range.from), shortest(range.to), range.unit).trim_end().to_owned()
-        }
+        Kind::Number(_, range, _) if units.unit(range.unit) == range.unit => format!(
+            ", {}..{} {}",
+            shortest(range.from),
+            shortest(range.to),
+            range.unit
+        )
+        .trim_end()
+        .to_owned(),
         Kind::Number(..) => format!(", {}", field.range_in(units)),
         Kind::Count(from, to, _) => format!(", {from}..{to}"),
         Kind::Choice(names, _) => format!(", {}", names.join(" | ")),
@@ -117,14 +146,34 @@ pub fn about(field: &Field, ascii: bool, units: System) -> String {
 }
 
 fn only_case(app: &App, width: u16) -> Vec<Span<'static>> {
-    let mark = [if app.is_unsaved() { " *unsaved*" } else { "" }, app.access.mark()].concat();
+    let mark = [
+        if app.is_unsaved() { " *unsaved*" } else { "" },
+        app.access.mark(),
+    ]
+    .concat();
     let room = usize::from(width).saturating_sub(11 + mark.width());
-    let instead = app.in_place_of.as_ref().map(|path| format!(", for {} cannot be opened", path.display()));
-    let name = text::cut(&format!("{}{}", app.name(), instead.unwrap_or_default()), room);
-    let title = fields::index_of("title").and_then(|title| app.case.text(title)).unwrap_or_default();
+    let instead = app
+        .in_place_of
+        .as_ref()
+        .map(|path| format!(", for {} cannot be opened", path.display()));
+    let name = text::cut(
+        &format!("{}{}", app.name(), instead.unwrap_or_default()),
+        room,
+    );
+    let title = fields::index_of("title")
+        .and_then(|title| app.case.text(title))
+        .unwrap_or_default();
     let left = usize::from(width).saturating_sub(11 + name.width() + mark.width() + 3);
-    let title = if title.is_empty() || left <= 8 { String::new() } else { format!("   {}", text::cut(title, left)) };
-    vec![Span::raw(name), Span::styled(mark, app.look.theme.note), Span::raw(title)]
+    let title = if title.is_empty() || left <= 8 {
+        String::new()
+    } else {
+        format!("   {}", text::cut(title, left))
+    };
+    vec![
+        Span::raw(name),
+        Span::styled(mark, app.look.theme.note),
+        Span::raw(title),
+    ]
 }
 
 /// The place of the open case whose name stands on a cell, where there is one.
@@ -133,9 +182,18 @@ pub fn tab_at(app: &App, area: Rect, at: Position) -> Option<usize> {
     if app.others.is_empty() || !area.contains(at) {
         return None;
     }
-    let names: Vec<String> = app.tabs().enumerate().map(|(at, tab)| tab_name(at, tab)).collect();
-    let (from, to) = window(&names, app.place_of_tab, usize::from(area.width).saturating_sub(15));
-    let mut right = usize::from(area.x) + HEAD.width() + 2 + if from > 0 { BEFORE.width() } else { 0 };
+    let names: Vec<String> = app
+        .tabs()
+        .enumerate()
+        .map(|(at, tab)| tab_name(at, tab))
+        .collect();
+    let (from, to) = window(
+        &names,
+        app.place_of_tab,
+        usize::from(area.width).saturating_sub(15),
+    );
+    let mut right =
+        usize::from(area.x) + HEAD.width() + 2 + if from > 0 { BEFORE.width() } else { 0 };
     (from..to).find(|&tab| {
         let left = right;
         right += names[tab].width() + 2;
@@ -143,10 +201,19 @@ pub fn tab_at(app: &App, area: Rect, at: Position) -> Option<usize> {
     })
 }
 
-// The open cases by their numbers, as many around the current one as have room; a mark at the end where others are.
+// The open cases by their numbers, as many around the current one as have room; a mark at the end
+// where others are.
 fn tabs(app: &App, width: u16) -> Vec<Span<'static>> {
-    let names: Vec<String> = app.tabs().enumerate().map(|(at, tab)| tab_name(at, tab)).collect();
-    let (from, to) = window(&names, app.place_of_tab, usize::from(width).saturating_sub(15));
+    let names: Vec<String> = app
+        .tabs()
+        .enumerate()
+        .map(|(at, tab)| tab_name(at, tab))
+        .collect();
+    let (from, to) = window(
+        &names,
+        app.place_of_tab,
+        usize::from(width).saturating_sub(15),
+    );
     let mut spans = vec![Span::raw(if from > 0 { BEFORE } else { "" })];
     for (at, name) in names.iter().enumerate().take(to).skip(from) {
         if at == app.place_of_tab {
@@ -193,10 +260,17 @@ fn focused(app: &App) -> String {
                 Row::Field(field) => about_field(app, field),
                 Row::Limit(limit) => about_limit(app, limit),
             };
-            typed(app).into_iter().chain([about]).collect::<Vec<_>>().join(" ")
+            typed(app)
+                .into_iter()
+                .chain([about])
+                .collect::<Vec<_>>()
+                .join(" ")
         }
         Pane::Results => results::marked(app).map_or_else(String::new, |quantity| {
-            let method = app.answer.as_ref().map_or(Method::Exact, |answer| answer.active);
+            let method = app
+                .answer
+                .as_ref()
+                .map_or(Method::Exact, |answer| answer.active);
             let name = symbol(quantity.symbol_in(method), app.look.ascii);
             let about = format!(
                 "{name} {}, {} ({}).",
@@ -204,7 +278,8 @@ fn focused(app: &App) -> String {
                 symbol(quantity.equation, app.look.ascii),
                 quantity.key
             );
-            let compared = results::compared(app, quantity).map_or_else(String::new, |compared| format!("{compared} "));
+            let compared = results::compared(app, quantity)
+                .map_or_else(String::new, |compared| format!("{compared} "));
             compared + &about
         }),
         Pane::Chart | Pane::Teeth => at_cursor(app),
@@ -212,8 +287,8 @@ fn focused(app: &App) -> String {
     }
 }
 
-// The unit that a number typed without one takes, or why it is no value yet. That it stays as it is while digits are typed
-// spares bytes.
+// The unit that a number typed without one takes, or why it is no value yet. That it stays as it is
+// while digits are typed spares bytes.
 fn typed(app: &App) -> Option<String> {
     if app.is_unfinished(app.focus)
         && let Some((_, problem)) = app.problems.iter().find(|(at, _)| *at == app.focus)
@@ -227,18 +302,28 @@ fn typed(app: &App) -> Option<String> {
 // What is typed in another unit, why it does not act, what it is.
 fn about_field(app: &App, index: usize) -> String {
     let field = &FIELDS[index];
-    let converted = app.case.text(index).and_then(|text| field.converted(text, app.settings.units));
+    let converted = app
+        .case
+        .text(index)
+        .and_then(|text| field.converted(text, app.settings.units));
     let inputs = app.case.inputs_so_far();
-    let idle = match acts(index, &inputs) {
-        Acting::No(why) | Acting::Beside(why) if !matches!(field.kind, Kind::Text) => Some(format!("Does not act: {why}.")),
-        _ => acts_in_part(index, &inputs).map(|why| format!("Acts in part: {why}.")),
+    let idle = match relevance(index, &inputs) {
+        Acting::No(why) | Acting::Beside(why) if !matches!(field.kind, Kind::Text) => {
+            Some(format!("Does not act: {why}."))
+        }
+        _ => partial_relevance(index, &inputs).map(|why| format!("Acts in part: {why}.")),
     };
     let about = about(field, app.look.ascii, app.settings.units);
-    [converted.map(|value| value + "."), idle, material(app, field), Some(about)]
-        .into_iter()
-        .flatten()
-        .collect::<Vec<_>>()
-        .join(" ")
+    [
+        converted.map(|value| value + "."),
+        idle,
+        material(app, field),
+        Some(about),
+    ]
+    .into_iter()
+    .flatten()
+    .collect::<Vec<_>>()
+    .join(" ")
 }
 
 // Where the value is from, where it is that of a material.
@@ -251,18 +336,37 @@ fn material(app: &App, field: &Field) -> Option<String> {
 }
 
 fn about_limit(app: &App, limit: &Limit) -> String {
-    let solution = app.answer.as_ref().and_then(|answer| answer.of(answer.active)).filter(|_| !app.is_stale());
-    let of_case = |solution| verdicts(&app.case, solution).into_iter().find(|verdict| verdict.limit.quantity == limit.quantity);
-    let verdict = solution.filter(|_| !limit.text.is_empty()).and_then(of_case);
-    let told = verdict.map(|verdict| format!("{} {}. ", verdict.standing.word(), verdict.told(app.settings.units)));
-    format!("{}The greatest value that {} may take; empty: none.", told.unwrap_or_default(), rows::label(&app.case, app.focus))
+    let solution = app
+        .answer
+        .as_ref()
+        .and_then(|answer| answer.of(answer.active))
+        .filter(|_| !app.is_stale());
+    let of_case = |solution| {
+        verdicts(&app.case, solution)
+            .into_iter()
+            .find(|verdict| verdict.limit.quantity == limit.quantity)
+    };
+    let verdict = solution
+        .filter(|_| !limit.text.is_empty())
+        .and_then(of_case);
+    let told = verdict.map(|verdict| {
+        format!(
+            "{} {}. ",
+            verdict.standing.word(),
+            verdict.told(app.settings.units)
+        )
+    });
+    format!(
+        "{}The greatest value that {} may take; empty: none.",
+        told.unwrap_or_default(),
+        rows::label(&app.case, app.focus)
+    )
 }
 
 fn at_cursor(app: &App) -> String {
     const NONE: &str = "No cursor: h and l bring it, Space lets it run.";
     const MARKS: &str = "D first contact, E and B ends of the path of contact, L last contact, d another method's D.";
-    const LINES: &str =
-        "Solid: flanks (incoming pair bold), path of contact; dashed: line of action; dots: base circles, tip's path.";
+    const LINES: &str = "Solid: flanks (incoming pair bold), path of contact; dashed: line of action; dots: base circles, tip's path.";
     match app.cursor {
         Some(cursor) => chart::readout(app, cursor),
         None if app.panes.focus == Pane::Chart => format!("{NONE} {MARKS}"),
@@ -272,17 +376,36 @@ fn at_cursor(app: &App) -> String {
 
 // A solve that takes its time.
 fn solving(app: &App) -> Option<Progress> {
-    let method = app.answer.as_ref().and_then(|answer| answer.pending).map_or("", Method::name);
-    app.solving.map(|part| Progress { what: format!("solving {method}"), part })
+    let method = app
+        .answer
+        .as_ref()
+        .and_then(|answer| answer.pending)
+        .map_or("", Method::name);
+    app.solving.map(|part| Progress {
+        what: format!("solving {method}"),
+        part,
+    })
 }
 
 fn bar(progress: &Progress) -> String {
-    let part = if progress.part.is_finite() { progress.part.clamp(0.0, 1.0) } else { 0.0 };
+    let part = if progress.part.is_finite() {
+        progress.part.clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
     let full = (part * BAR as f64).floor() as usize;
     let bar = "█".repeat(full) + &"░".repeat(BAR - full);
-    format!("{bar} {:3.0} % {}; Esc cancels", part * 100.0, progress.what)
+    format!(
+        "{bar} {:3.0} % {}; Esc cancels",
+        part * 100.0,
+        progress.what
+    )
 }
 
 fn short(binding: &Binding) -> String {
-    binding.chords.first().map(Chord::short_name).unwrap_or_default()
+    binding
+        .chords
+        .first()
+        .map(Chord::short_name)
+        .unwrap_or_default()
 }

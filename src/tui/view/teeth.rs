@@ -1,12 +1,12 @@
 //! The teeth, drawn: the pair true to scale around the strike, with every value at the cursor.
 
-pub mod ink;
 pub mod labels;
-pub mod pen;
+pub mod path;
 pub mod picture;
+pub mod raster;
 pub mod readings;
 pub mod scene;
-pub mod trace;
+pub mod strokes;
 pub mod window;
 
 use ratatui::buffer::Buffer;
@@ -25,7 +25,10 @@ const NOTHING: &str = "  No valid results of this method.";
 /// Draw the pane.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let stale = if app.is_stale() { "LAST VALID, " } else { "" };
-    let title = format!("{stale}Teeth, true to scale, around {}", app.teeth.centre.name());
+    let title = format!(
+        "{stale}Teeth, true to scale, around {}",
+        app.teeth.centre.name()
+    );
     let inner = titled(app, Pane::Teeth, &title, area, buffer);
     let Some((inputs, solution)) = solved(app) else {
         buffer.set_stringn(inner.x, inner.y, NOTHING, inner.width.into(), Style::new());

@@ -5,14 +5,14 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::{Modifier, Style};
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
-use crate::tui::clean::clean;
+use crate::tui::ascii::printable;
 use crate::tui::line::Line;
 use crate::tui::theme::Theme;
 
 /// The text cut to the width, with a mark where it goes on.
 #[must_use]
 pub fn cut(text: &str, width: usize) -> String {
-    let text = clean(text);
+    let text = printable(text);
     if text.width() <= width {
         return text.into_owned();
     }
@@ -23,15 +23,20 @@ pub fn cut(text: &str, width: usize) -> String {
     kept
 }
 
-/// The text cut to the width at its beginning, with a mark where something is left out: a path is known by its end.
+/// The text cut to the width at its beginning, with a mark where something is left out: a path is
+/// known by its end.
 #[must_use]
 pub fn cut_front(text: &str, width: usize) -> String {
-    let text = clean(text);
+    let text = printable(text);
     let over = text.width().saturating_sub(width);
     if over == 0 {
         return text.into_owned();
     }
-    if width == 0 { String::new() } else { format!("…{}", skip(&text, over + 1)) }
+    if width == 0 {
+        String::new()
+    } else {
+        format!("…{}", skip(&text, over + 1))
+    }
 }
 
 /// The text cut to the width, or filled up to it.
@@ -46,7 +51,7 @@ pub fn padded(text: &str, width: usize) -> String {
 #[must_use]
 pub fn wrap(text: &str, width: usize) -> Vec<String> {
     let width = width.max(1);
-    let text = clean(text);
+    let text = printable(text);
     let mut lines = vec![String::new()];
     for word in text.split(' ') {
         put(&mut lines, word, width);
@@ -54,8 +59,8 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// The text in so many lines at most: where it is longer, up to the end of a sentence, or of a part of one with a mark that
-/// it goes on, unless half of the room would stay empty.
+/// The text in so many lines at most: where it is longer, up to the end of a sentence, or of a part
+/// of one with a mark that it goes on, unless half of the room would stay empty.
 #[must_use]
 pub fn sentences(text: &str, width: usize, rows: usize) -> Vec<String> {
     let fits = |text: &str| wrap(text, width).len() <= rows;
@@ -63,13 +68,26 @@ pub fn sentences(text: &str, width: usize, rows: usize) -> Vec<String> {
         return wrap(text, width);
     }
     let least = width * rows / 2;
-    let ends = |mark: &'static str| text.match_indices(mark).map(|(at, _)| at).collect::<Vec<_>>().into_iter().rev();
+    let ends = |mark: &'static str| {
+        text.match_indices(mark)
+            .map(|(at, _)| at)
+            .collect::<Vec<_>>()
+            .into_iter()
+            .rev()
+    };
     let is_end = |at: &usize| !text[..*at].ends_with("Eq") && !text[..*at].ends_with("Eqs");
     let whole = ends(". ").filter(is_end).map(|at| text[..=at].to_owned());
-    let parts = ends("; ").chain(ends(", ")).map(|at| format!("{}…", &text[..at]));
+    let parts = ends("; ")
+        .chain(ends(", "))
+        .map(|at| format!("{}…", &text[..at]));
     let words = ends(" ").map(|at| format!("{}…", &text[..at]));
-    let mut sayings = whole.chain(parts).filter(|told| told.width() >= least).chain(words);
-    sayings.find(|told| fits(told)).map_or_else(Vec::new, |told| wrap(&told, width))
+    let mut sayings = whole
+        .chain(parts)
+        .filter(|told| told.width() >= least)
+        .chain(words);
+    sayings
+        .find(|told| fits(told))
+        .map_or_else(Vec::new, |told| wrap(&told, width))
 }
 
 /// A rule with a title, over the top line of an area; what is below it.
@@ -83,7 +101,11 @@ pub fn titled(title: &str, area: Rect, theme: &Theme, buffer: &mut Buffer) -> Re
     if width > 4 {
         buffer.set_stringn(area.x + 1, area.y, title, width - 1, theme.title);
     }
-    Rect { y: area.y + 1, height: area.height - 1, ..area }
+    Rect {
+        y: area.y + 1,
+        height: area.height - 1,
+        ..area
+    }
 }
 
 /// A line of text that is edited, scrolled so that the cursor is in sight; where the cursor stands.
@@ -92,24 +114,45 @@ pub fn edited(input: &Line, area: Rect, style: Style, buffer: &mut Buffer) -> Op
     if area.is_empty() {
         return None;
     }
-    let shown = clean(input.value());
+    let shown = printable(input.value());
     let before: usize = shown.chars().take(input.cursor()).map(width_of).sum();
     let hidden = (before + 1).saturating_sub(width);
     buffer.set_style(area, style);
     buffer.set_stringn(area.x, area.y, skip(&shown, hidden), width, style);
     if let Some(part) = input.selected() {
-        let cell = |at: usize| shown.chars().take(at).map(width_of).sum::<usize>().saturating_sub(hidden).min(width) as u16;
+        let cell = |at: usize| {
+            shown
+                .chars()
+                .take(at)
+                .map(width_of)
+                .sum::<usize>()
+                .saturating_sub(hidden)
+                .min(width) as u16
+        };
         let (from, to) = (cell(part.start), cell(part.end));
-        buffer.set_style(Rect { x: area.x + from, width: to - from, height: 1, ..area }, Modifier::REVERSED);
+        buffer.set_style(
+            Rect {
+                x: area.x + from,
+                width: to - from,
+                height: 1,
+                ..area
+            },
+            Modifier::REVERSED,
+        );
     }
-    Some(Position::new(area.x + u16::try_from(before - hidden).unwrap_or(0), area.y))
+    Some(Position::new(
+        area.x + u16::try_from(before - hidden).unwrap_or(0),
+        area.y,
+    ))
 }
 
 /// What completes a line of text that is edited, after so many cells of it.
 pub fn ending(ending: Option<&str>, typed: usize, area: Rect, theme: &Theme, buffer: &mut Buffer) {
     let width = usize::from(area.width);
     if let Some(ending) = ending.filter(|_| typed < width && !area.is_empty()) {
-        let style = theme.faint.remove_modifier(Modifier::BOLD | Modifier::UNDERLINED);
+        let style = theme
+            .faint
+            .remove_modifier(Modifier::BOLD | Modifier::UNDERLINED);
         buffer.set_stringn(area.x + typed as u16, area.y, ending, width - typed, style);
     }
 }
@@ -132,7 +175,11 @@ fn put_piecewise(lines: &mut Vec<String>, word: &str, width: usize) {
     while !rest.is_empty() {
         let piece = take(rest, width);
         // A character wider than the line has no place: it goes, so that the loop ends.
-        let piece = if piece.is_empty() { &rest[..rest.chars().next().map_or(0, char::len_utf8)] } else { piece };
+        let piece = if piece.is_empty() {
+            &rest[..rest.chars().next().map_or(0, char::len_utf8)]
+        } else {
+            piece
+        };
         lines.push(piece.to_owned());
         rest = &rest[piece.len()..];
     }
@@ -171,8 +218,15 @@ mod tests {
         let text = "cause: the value is out of its range -5000..5000 um: mend: averyverylongwordwithoutanybreak 歯車";
         for width in 1..60 {
             let lines = wrap(text, width);
-            assert!(lines.iter().all(|line| line.width() <= width.max(2)), "{width}: {lines:?}");
-            let letters = |text: &str| text.chars().filter(|letter| *letter != ' ').collect::<String>();
+            assert!(
+                lines.iter().all(|line| line.width() <= width.max(2)),
+                "{width}: {lines:?}"
+            );
+            let letters = |text: &str| {
+                text.chars()
+                    .filter(|letter| *letter != ' ')
+                    .collect::<String>()
+            };
             assert_eq!(letters(&lines.concat()), letters(text), "{width}");
         }
     }
@@ -183,7 +237,10 @@ mod tests {
         assert_eq!(cut("module", 6), "module");
         assert_eq!(cut("module", 0), "");
         assert_eq!(cut_front("/home/me/case.toml", 10), "…case.toml");
-        assert_eq!((cut_front("case", 4).as_str(), cut_front("case", 0).as_str()), ("case", ""));
+        assert_eq!(
+            (cut_front("case", 4).as_str(), cut_front("case", 0).as_str()),
+            ("case", "")
+        );
     }
 
     #[test]
@@ -191,7 +248,10 @@ mod tests {
         let area = Rect::new(3, 0, 8, 1);
         let mut buffer = Buffer::empty(Rect::new(0, 0, 11, 1));
         let input = Line::from("0123456789");
-        assert_eq!(edited(&input, area, Style::new(), &mut buffer), Some(Position::new(10, 0)));
+        assert_eq!(
+            edited(&input, area, Style::new(), &mut buffer),
+            Some(Position::new(10, 0))
+        );
         assert_eq!(buffer, Buffer::with_lines(["   3456789 "]));
     }
 }

@@ -28,9 +28,16 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     if inner.is_empty() {
         return;
     }
-    let traded = app.traded.as_ref().and_then(|traded| Some((traded, traded.trade.as_ref()?)));
+    let traded = app
+        .traded
+        .as_ref()
+        .and_then(|traded| Some((traded, traded.trade.as_ref()?)));
     let Some((traded, trade)) = traded.filter(|(_, trade)| !trade.settings.is_empty()) else {
-        let words = if app.traded.is_some() { "The reference is computed first." } else { INVITATION };
+        let words = if app.traded.is_some() {
+            "The reference is computed first."
+        } else {
+            INVITATION
+        };
         return write(words, inner, buffer);
     };
     let (legend, plot, words) = split(inner);
@@ -44,14 +51,26 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
 /// The settings that have an error and a time, the quicker ones first.
 #[must_use]
 pub fn ordered(trade: &Trade) -> Vec<&Measured> {
-    let mut found: Vec<&Measured> = trade.settings.iter().filter(|measured| measured.total().is_some()).collect();
+    let mut found: Vec<&Measured> = trade
+        .settings
+        .iter()
+        .filter(|measured| measured.total().is_some())
+        .collect();
     found.sort_by(|one, other| one.seconds().total_cmp(&other.seconds()));
     found
 }
 
 fn title(app: &App) -> String {
-    let stale = app.traded.as_ref().is_some_and(|traded| app.case.inputs().map_or(true, |inputs| traded.is_stale(&inputs)));
-    let stale = if stale { "AS IT WAS, m measures anew: " } else { "" };
+    let stale = app.traded.as_ref().is_some_and(|traded| {
+        app.case
+            .inputs()
+            .map_or(true, |inputs| traded.is_stale(&inputs))
+    });
+    let stale = if stale {
+        "AS IT WAS, m measures anew: "
+    } else {
+        ""
+    };
     format!("{stale}Error against time of a solve, both logarithmic")
 }
 
@@ -59,27 +78,68 @@ fn title(app: &App) -> String {
 fn split(inner: Rect) -> (Rect, Rect, Rect) {
     let legend = u16::from(inner.height >= TALL);
     let words = inner.height.min(if inner.height > TALL { 2 } else { 1 });
-    let plot = Rect { y: inner.y + legend, height: inner.height - legend - words, ..inner };
-    (Rect { height: legend, ..inner }, plot, Rect { y: plot.bottom(), height: words, ..inner })
+    let plot = Rect {
+        y: inner.y + legend,
+        height: inner.height - legend - words,
+        ..inner
+    };
+    (
+        Rect {
+            height: legend,
+            ..inner
+        },
+        plot,
+        Rect {
+            y: plot.bottom(),
+            height: words,
+            ..inner
+        },
+    )
 }
 
 /// The marked setting in words, what matters most first; else how far the measurement is.
 fn told(app: &App, traded: &Traded, trade: &Trade) -> Vec<String> {
-    let marked = traded.marked.and_then(|marked| trade.settings.iter().find(|measured| measured.setting == marked));
-    let refused = trade.settings.iter().filter(|measured| measured.found.is_err()).count();
+    let marked = traded.marked.and_then(|marked| {
+        trade
+            .settings
+            .iter()
+            .find(|measured| measured.setting == marked)
+    });
+    let refused = trade
+        .settings
+        .iter()
+        .filter(|measured| measured.found.is_err())
+        .count();
     let refused = (refused > 0).then(|| format!("; {refused} settings refuse the case"));
     let Some(measured) = marked else {
-        let far = format!("{} of {} settings measured", trade.settings.len(), trade.planned);
+        let far = format!(
+            "{} of {} settings measured",
+            trade.settings.len(),
+            trade.planned
+        );
         return std::iter::once(far).chain(refused).collect();
     };
-    let qualifies = if measured.qualifies { "within" } else { "not within" };
-    let on_time = if trade.comes_in_on_time() { format!("{ON_TIME}: ") } else { String::new() };
+    let qualifies = if measured.qualifies {
+        "within"
+    } else {
+        "not within"
+    };
+    let on_time = if trade.comes_in_on_time() {
+        format!("{ON_TIME}: ")
+    } else {
+        String::new()
+    };
     let qualifies = format!(" {qualifies} {} %", percent(trade.within));
     let own = (own(app) == Some(measured.setting)).then(|| "; it is the case's own".to_owned());
-    let front = measured.is_on_front.then(|| "; none is both nearer and quicker".to_owned());
+    let front = measured
+        .is_on_front
+        .then(|| "; none is both nearer and quicker".to_owned());
     let parts = parts(trade, measured).map(|parts| format!("; {parts}"));
     let first = format!("{on_time}[{}]", summary(measured));
-    [Some(first), Some(qualifies), own, parts, front, refused].into_iter().flatten().collect()
+    [Some(first), Some(qualifies), own, parts, front, refused]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 /// As much of it as has room in that many lines, so that nothing is cut.
@@ -87,14 +147,24 @@ fn fitting(told: &[String], area: Rect) -> String {
     let width = usize::from(area.width).saturating_sub(2);
     let fits = |words: &String| text::wrap(words, width).len() <= area.height.into();
     let joined = |count: usize| told[..count].concat();
-    (1..=told.len()).rev().map(joined).find(fits).unwrap_or_else(|| joined(told.len().min(1)))
+    (1..=told.len())
+        .rev()
+        .map(joined)
+        .find(fits)
+        .unwrap_or_else(|| joined(told.len().min(1)))
 }
 
 /// What the signs in the pane mean.
 #[must_use]
 pub fn signs(app: &App) -> String {
-    let within = app.traded.as_ref().and_then(|traded| traded.trade.as_ref()).map(|trade| percent(trade.within));
-    let level = within.map_or_else(String::new, |within| format!("; {LEVEL} {within} % is near enough"));
+    let within = app
+        .traded
+        .as_ref()
+        .and_then(|traded| traded.trade.as_ref())
+        .map(|trade| percent(trade.within));
+    let level = within.map_or_else(String::new, |within| {
+        format!("; {LEVEL} {within} % is near enough")
+    });
     format!(
         "p paper, e exact, s static, d dynamic, a auto; CAPITAL, ·: none is nearer and quicker; (x) the case's own, \
          [x] the marked one{level}."
@@ -107,7 +177,10 @@ fn own(app: &App) -> Option<Setting> {
 
 fn write(words: &str, area: Rect, buffer: &mut Buffer) {
     let width = usize::from(area.width).saturating_sub(2);
-    for (line, y) in text::wrap(words, width).iter().zip(area.top()..area.bottom()) {
+    for (line, y) in text::wrap(words, width)
+        .iter()
+        .zip(area.top()..area.bottom())
+    {
         buffer.set_stringn(area.x + 1, y, line, width, Style::new());
     }
 }
@@ -129,7 +202,12 @@ fn draw_legend(app: &App, trade: &Trade, area: Rect, buffer: &mut Buffer) {
     let methods = METHODS.into_iter().chain([Method::Auto]);
     let words = methods.map(|method| (method.name().to_owned(), mark(app, method).1));
     let within = format!("{LEVEL}{LEVEL} within {} %", percent(trade.within));
-    let writing = ["CAPITAL on the front".to_owned(), "(own)".to_owned(), "[marked]".to_owned(), within];
+    let writing = [
+        "CAPITAL on the front".to_owned(),
+        "(own)".to_owned(),
+        "[marked]".to_owned(),
+        within,
+    ];
     let mut x = area.x + 1;
     for (word, style) in words.chain(writing.map(|word| (word, Style::new()))) {
         let width = word.chars().count() as u16;
@@ -142,22 +220,61 @@ fn draw_legend(app: &App, trade: &Trade, area: Rect, buffer: &mut Buffer) {
 }
 
 fn draw_plot(app: &App, traded: &Traded, trade: &Trade, area: Rect, buffer: &mut Buffer) {
-    let field = Rect { x: area.x + LABEL + 1, width: area.width - LABEL - 2, height: area.height - 2, ..area };
+    let field = Rect {
+        x: area.x + LABEL + 1,
+        width: area.width - LABEL - 2,
+        height: area.height - 2,
+        ..area
+    };
     let mut found = ordered(trade);
-    let errors = found.iter().filter_map(|measured| measured.total()).chain([trade.within]).map(shown);
-    let across = Axis::of(found.iter().map(|measured| measured.seconds()), f64::from(field.left()), f64::from(field.right() - 1));
-    let up = Axis::of(errors, f64::from(field.bottom() - 1), f64::from(field.top()));
-    let errors: Vec<f64> = found.iter().filter_map(|measured| measured.total()).collect();
+    let errors = found
+        .iter()
+        .filter_map(|measured| measured.total())
+        .chain([trade.within])
+        .map(shown);
+    let across = Axis::of(
+        found.iter().map(|measured| measured.seconds()),
+        f64::from(field.left()),
+        f64::from(field.right() - 1),
+    );
+    let up = Axis::of(
+        errors,
+        f64::from(field.bottom() - 1),
+        f64::from(field.top()),
+    );
+    let errors: Vec<f64> = found
+        .iter()
+        .filter_map(|measured| measured.total())
+        .collect();
     let rows = Rows::of(up, trade.within, &errors, field);
     draw_axes(app, &across, &rows, field, buffer);
-    buffer.set_string(field.x, rows.level, LEVEL.repeat(field.width.into()), app.look.theme.rule);
-    let place = |measured: &Measured| Some((across.at(measured.seconds()).round() as u16, rows.at(measured.total()?)));
-    let front: Vec<(u16, u16)> = found.iter().filter(|measured| measured.is_on_front).filter_map(|one| place(one)).collect();
+    buffer.set_string(
+        field.x,
+        rows.level,
+        LEVEL.repeat(field.width.into()),
+        app.look.theme.rule,
+    );
+    let place = |measured: &Measured| {
+        Some((
+            across.at(measured.seconds()).round() as u16,
+            rows.at(measured.total()?),
+        ))
+    };
+    let front: Vec<(u16, u16)> = found
+        .iter()
+        .filter(|measured| measured.is_on_front)
+        .filter_map(|one| place(one))
+        .collect();
     draw_front(app, &front, field, buffer);
     let own = own(app);
     // What is marked and what is the case's own lie on top.
-    let weight =
-        |measured: &Measured| (traded.marked == Some(measured.setting), own == Some(measured.setting), measured.is_on_front);
+    let weight = |measured: &Measured| {
+        (
+            traded.marked == Some(measured.setting),
+            own == Some(measured.setting),
+            measured.is_on_front,
+        )
+    };
     found.sort_by_key(|measured| weight(measured));
     for measured in found {
         if let Some(at) = place(measured) {
@@ -166,7 +283,8 @@ fn draw_plot(app: &App, traded: &Traded, trade: &Trade, area: Rect, buffer: &mut
     }
 }
 
-/// The rows of the field: one is that of the error that will do, and what is above or below it stands there.
+/// The rows of the field: one is that of the error that will do, and what is above or below it
+/// stands there.
 struct Rows {
     up: Axis,
     within: f64,
@@ -178,14 +296,28 @@ impl Rows {
     fn of(up: Axis, within: f64, errors: &[f64], field: Rect) -> Rows {
         let above = u16::from(errors.iter().any(|error| *error > within));
         let below = u16::from(errors.iter().any(|error| *error <= within));
-        let (first, last) = (field.top() + above, (field.bottom() - 1).saturating_sub(below));
-        let level = (up.at(shown(within)).round() as u16).max(first).min(last.max(first));
-        Rows { up, within, level, field }
+        let (first, last) = (
+            field.top() + above,
+            (field.bottom() - 1).saturating_sub(below),
+        );
+        let level = (up.at(shown(within)).round() as u16)
+            .max(first)
+            .min(last.max(first));
+        Rows {
+            up,
+            within,
+            level,
+            field,
+        }
     }
 
     fn at(&self, error: f64) -> u16 {
         let row = self.up.at(shown(error)).round() as u16;
-        let row = if error > self.within { row.min(self.level.saturating_sub(1)) } else { row.max(self.level + 1) };
+        let row = if error > self.within {
+            row.min(self.level.saturating_sub(1))
+        } else {
+            row.max(self.level + 1)
+        };
         row.clamp(self.field.top(), self.field.bottom() - 1)
     }
 }
@@ -213,13 +345,22 @@ fn draw_mark(
 ) {
     let theme = app.look.theme;
     let (letter, style) = mark(app, measured.setting.method);
-    let letter = if is_on_front { letter.to_ascii_uppercase() } else { letter };
+    let letter = if is_on_front {
+        letter.to_ascii_uppercase()
+    } else {
+        letter
+    };
     let (mark, style) = match (is_marked, is_own) {
         (true, _) => (format!("[{letter}]"), theme.key),
         (false, true) => (format!("({letter})"), theme.focus),
         (false, false) => (letter.to_string(), style),
     };
-    let x = if mark.len() == 3 { x.saturating_sub(1).clamp(field.left(), field.right().saturating_sub(3)) } else { x };
+    let x = if mark.len() == 3 {
+        x.saturating_sub(1)
+            .clamp(field.left(), field.right().saturating_sub(3))
+    } else {
+        x
+    };
     buffer.set_string(x, y, mark, style);
 }
 
@@ -233,7 +374,12 @@ fn draw_axes(app: &App, across: &Axis, rows: &Rows, field: Rect, buffer: &mut Bu
     buffer.set_string(field.x, axis, "─".repeat(field.width.into()), rule);
     let mut label = |y: u16, number: &str| {
         buffer.set_string(field.x - 1, y, "┤", rule);
-        buffer.set_string(field.x - LABEL - 1, y, format!("{number:>0$} %", usize::from(LABEL) - 2), Style::new());
+        buffer.set_string(
+            field.x - LABEL - 1,
+            y,
+            format!("{number:>0$} %", usize::from(LABEL) - 2),
+            Style::new(),
+        );
     };
     for decade in rows.up.marks(usize::from(field.height / 2)) {
         label(rows.at(10f64.powi(decade)), &in_percent(decade));
@@ -243,9 +389,17 @@ fn draw_axes(app: &App, across: &Axis, rows: &Rows, field: Rect, buffer: &mut Bu
         let x = across.at(10f64.powi(decade)).round() as u16;
         let label = time(decade);
         let width = label.len() as u16;
-        let start = x.saturating_sub(width / 2).clamp(field.x, field.right().saturating_sub(width).max(field.x));
+        let start = x
+            .saturating_sub(width / 2)
+            .clamp(field.x, field.right().saturating_sub(width).max(field.x));
         buffer.set_string(x, axis, "┴", rule);
-        buffer.set_stringn(start, axis + 1, label, usize::from(field.width), Style::new());
+        buffer.set_stringn(
+            start,
+            axis + 1,
+            label,
+            usize::from(field.width),
+            Style::new(),
+        );
     }
 }
 

@@ -1,9 +1,10 @@
-//! Steps of the first contact: the pair ahead under load, the angles and radii of the triangle O1 D O2.
+//! Steps of the first contact: the pair ahead under load, the angles and radii of the triangle O1 D
+//! O2.
 
 use super::{step, told};
 use crate::model::compliance::{ContactPlace, contact, pair_at_load, teeth};
-use crate::report::explain::known::Formula::{By, Text, Words};
-use crate::report::explain::known::{Known, Step};
+use crate::report::explain::context::Formula::{By, Text, Words};
+use crate::report::explain::context::{Known, Step};
 
 /// How many pairs ahead of the incoming one are named.
 pub(in crate::report::explain) const PAIRS_AHEAD: [&str; 4] = ["q_F", "q_F,2", "q_F,3", "q_F,4"];
@@ -42,7 +43,13 @@ fn place(known: &Known, pitches: u32) -> Option<ContactPlace> {
 /// Compliance of the pair so many base pitches after E, under the mesh force.
 fn ahead(known: &Known, pitches: u32) -> Option<f64> {
     let solution = known.solution;
-    pair_at_load(known.inputs, &solution.geometry, &place(known, pitches)?, solution.mesh_force).ok()
+    pair_at_load(
+        known.inputs,
+        &solution.geometry,
+        &place(known, pitches)?,
+        solution.mesh_force,
+    )
+    .ok()
 }
 
 fn teeth_ahead(known: &Known) -> Option<(f64, f64)> {
@@ -52,5 +59,8 @@ fn teeth_ahead(known: &Known) -> Option<(f64, f64)> {
 
 fn contact_ahead(known: &Known) -> Option<f64> {
     let solution = known.solution;
-    contact::spring(known.inputs, &solution.geometry, &place(known, 1)?).ok()?.compliance(solution.mesh_force).ok()
+    contact::spring(known.inputs, &solution.geometry, &place(known, 1)?)
+        .ok()?
+        .compliance(solution.mesh_force)
+        .ok()
 }

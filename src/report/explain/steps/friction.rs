@@ -2,8 +2,8 @@
 
 use super::told;
 use crate::model::inputs::Method;
-use crate::report::explain::known::Formula::{self, By, Text};
-use crate::report::explain::known::{Known, Step};
+use crate::report::explain::context::Formula::{self, By, Text};
+use crate::report::explain::context::{Known, Step};
 
 #[rustfmt::skip]
 pub(super) static STEPS: &[Step] = &[
@@ -24,5 +24,9 @@ pub(super) static STEPS: &[Step] = &[
 ];
 
 fn by_method(known: &Known, paper: &'static str, other: &'static str) -> Formula {
-    Text(if known.inputs.method == Method::Paper { paper } else { other })
+    Text(if known.inputs.method == Method::Paper {
+        paper
+    } else {
+        other
+    })
 }

@@ -1,4 +1,5 @@
-//! Steps of the impact: the compliance of the pair in contact at D, and the forces of the other stiffness models.
+//! Steps of the impact: the compliance of the pair in contact at D, and the forces of the other
+//! stiffness models.
 
 use super::{step, told};
 use crate::model::compliance::profile::Profile;
@@ -6,11 +7,13 @@ use crate::model::compliance::{ContactPlace, contact, kuang_yang};
 use crate::model::impact::HERTZ_PREFACTOR;
 use crate::model::inputs::{ContactCompliance, ToothCompliance};
 use crate::model::{self, Stage, Stages};
-use crate::report::explain::known::Formula::{self, By, Text, Words};
-use crate::report::explain::known::{Known, Step};
+use crate::report::explain::context::Formula::{self, By, Text, Words};
+use crate::report::explain::context::{Known, Step};
 use crate::report::explain::models::models;
 
-const BEAM: Formula = Words("by quadrature of bending, shear and compression over the tooth's profile, and its foundation");
+const BEAM: Formula = Words(
+    "by quadrature of bending, shear and compression over the tooth's profile, and its foundation",
+);
 
 const NEWTON_PER_MICRON_MILLIMETRE: f64 = 1e9;
 
@@ -55,7 +58,10 @@ pub(super) static STEPS: &[Step] = &[
 /// Offset and slope of Eq. 56.
 fn fit(teeth: u32, shift: f64) -> (f64, f64) {
     let [a0, a1, a2, a3] = kuang_yang::coefficients(teeth);
-    (NEWTON_PER_MICRON_MILLIMETRE * (a0 + a1 * shift), NEWTON_PER_MICRON_MILLIMETRE * (a2 + a3 * shift))
+    (
+        NEWTON_PER_MICRON_MILLIMETRE * (a0 + a1 * shift),
+        NEWTON_PER_MICRON_MILLIMETRE * (a2 + a3 * shift),
+    )
 }
 
 fn by_tooth_model(known: &Known, fit: &'static str) -> Formula {
@@ -66,7 +72,11 @@ fn by_tooth_model(known: &Known, fit: &'static str) -> Formula {
 }
 
 fn place(known: &Known) -> Option<ContactPlace> {
-    Some(ContactPlace::at_tip(known.inputs, &known.solution.geometry, &known.solution.position?.contact))
+    Some(ContactPlace::at_tip(
+        known.inputs,
+        &known.solution.geometry,
+        &known.solution.position?.contact,
+    ))
 }
 
 fn contact_compliance(known: &Known) -> Option<f64> {
@@ -77,5 +87,10 @@ fn contact_compliance(known: &Known) -> Option<f64> {
 /// The force by the models of a step, where they cover the pair.
 fn force_by(known: &Known, symbol: &str) -> Option<f64> {
     let (_, inputs) = models(known.inputs).find(|(name, _)| *name == symbol)?;
-    Some(model::solve(&inputs, Stages::of(Stage::Impact)).ok()?.impact?.force)
+    Some(
+        model::solve(&inputs, Stages::of(Stage::Impact))
+            .ok()?
+            .impact?
+            .force,
+    )
 }

@@ -1,14 +1,15 @@
-//! Steps of the load that every pair shares: stiffness, gap and displacement at E and at the first contact, and the swing.
+//! Steps of the load that every pair shares: stiffness, gap and displacement at E and at the first
+//! contact, and the swing.
 
 use super::{step, told};
 use crate::model::compliance::{ContactPlace, pair_at_load};
 use crate::model::position::{gap, tip_at};
 use crate::model::relief::Relief;
 use crate::model::static_load::balance;
-use crate::model::tip::TipContact;
+use crate::model::tip_gap::TipContact;
 use crate::numeric::quadrature;
-use crate::report::explain::known::Formula::{Text, Words};
-use crate::report::explain::known::{Known, Step};
+use crate::report::explain::context::Formula::{Text, Words};
+use crate::report::explain::context::{Known, Step};
 
 #[rustfmt::skip]
 pub(super) static STEPS: &[Step] = &[

@@ -2,8 +2,8 @@
 
 use super::{step, told};
 use crate::model::inputs::Drive;
-use crate::report::explain::known::Formula::{By, Given, Text};
-use crate::report::explain::known::Step;
+use crate::report::explain::context::Formula::{By, Given, Text};
+use crate::report::explain::context::Step;
 
 #[rustfmt::skip]
 pub(super) static STEPS: &[Step] = &[

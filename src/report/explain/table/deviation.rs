@@ -2,8 +2,8 @@
 
 use super::Explanation;
 use crate::model::inputs::Method;
-use crate::report::explain::known::Formula::{By, Found, Given, Made, Text, Words};
-use crate::report::explain::known::Known;
+use crate::report::explain::context::Formula::{By, Found, Given, Made, Text, Words};
+use crate::report::explain::context::Known;
 use crate::report::explain::steps::contact::PAIRS_AHEAD;
 use crate::report::explain::valid::{impact, load, pair, stiffness};
 
@@ -36,7 +36,13 @@ pub(super) static TABLE: &[Explanation] = &[
     Explanation {
         key: "combined_deflection",
         says: "How far the pairs that carry the load give way along the line of action while the incoming pair stands at E.",
-        formula: By(|k| if k.inputs.deflection_taken().is_some() { Given("model.deflection") } else { Made(shared) }),
+        formula: By(|k| {
+            if k.inputs.deflection_taken().is_some() {
+                Given("model.deflection")
+            } else {
+                Made(shared)
+            }
+        }),
         source: "Zhou & Chen 2014, Eqs. 3 and 4, with the compliances of Eqs. 54-56 in place of the curve in its Fig. 3; \
             Table 1 takes 24.7 um from its reference 20.",
         mended: &["Eq. 55", "Eq. 56"],
@@ -48,7 +54,13 @@ pub(super) static TABLE: &[Explanation] = &[
         key: "total_deviation",
         says: "What brings the tooth in early, in all. Above 0 the tip strikes before E; at 0 or below it comes in on time, and \
             there is no corner contact.",
-        formula: By(|k| Text(if k.inputs.method.shares_load() { "Δf_0 + e_m + δ" } else { "Δf + δ" })),
+        formula: By(|k| {
+            Text(if k.inputs.method.shares_load() {
+                "Δf_0 + e_m + δ"
+            } else {
+                "Δf + δ"
+            })
+        }),
         source: "Zhou & Chen 2014, Eq. 5.",
         mended: &["Eq. 1"],
         assumes: "Deviations and deflection add up along the line of action.",
@@ -60,7 +72,9 @@ pub(super) static TABLE: &[Explanation] = &[
             before E: by the method itself, at rest or in motion.",
         formula: By(|k| match k.solution.method {
             Method::Exact | Method::Auto => Text("Δ"),
-            Method::Paper => Words("the root C of u(Δf - C/√2) = 0, u by Eqs. 11-20 as printed: no more than √2 Δ"),
+            Method::Paper => Words(
+                "the root C of u(Δf - C/√2) = 0, u by Eqs. 11-20 as printed: no more than √2 Δ",
+            ),
             Method::Static => Found {
                 words: "the root C of: the most by which the other pairs let the driver run ahead of the incoming tooth's gap up to E = 0, \
                     the gap with C more tip relief, x by Σ w_k F_k = F_0 with the same relief on every pair",
@@ -84,9 +98,19 @@ pub(super) static TABLE: &[Explanation] = &[
 
 /// Eqs. 3 and 4 with as many pairs as carry the load.
 fn shared(known: &Known) -> String {
-    let pairs: Vec<&str> = PAIRS_AHEAD.into_iter().filter(|symbol| known.term(symbol).is_some()).collect();
+    let pairs: Vec<&str> = PAIRS_AHEAD
+        .into_iter()
+        .filter(|symbol| known.term(symbol).is_some())
+        .collect();
     match pairs[..] {
         [] | [_] => "F_0 q_F/b".to_owned(),
-        _ => format!("F_0/(b ({}))", pairs.iter().map(|symbol| format!("1/{symbol}")).collect::<Vec<_>>().join(" + ")),
+        _ => format!(
+            "F_0/(b ({}))",
+            pairs
+                .iter()
+                .map(|symbol| format!("1/{symbol}"))
+                .collect::<Vec<_>>()
+                .join(" + ")
+        ),
     }
 }

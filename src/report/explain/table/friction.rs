@@ -1,7 +1,7 @@
 //! Explanations of the friction ratio and of what holds it in bounds.
 
 use super::Explanation;
-use crate::report::explain::known::Formula::Text;
+use crate::report::explain::context::Formula::Text;
 use crate::report::explain::valid::{friction, impact};
 
 pub(super) static TABLE: &[Explanation] = &[
@@ -11,7 +11,15 @@ pub(super) static TABLE: &[Explanation] = &[
             velocity from D to D', where the impact ends. D' is the same tip at u', after the turn of T_S,32.",
         formula: Text("|ΔV_τ' - ΔV_τ|/|ΔV_n' - ΔV_n|"),
         source: "Zhou & Chen 2014, Eqs. 29-45 and 61-64.",
-        mended: &["Eq. 31", "Eq. 34", "Eq. 36", "Eqs. 44, 45", "Eqs. 27, 42, 60", "Eq. 64", "section 6"],
+        mended: &[
+            "Eq. 31",
+            "Eq. 34",
+            "Eq. 36",
+            "Eqs. 44, 45",
+            "Eqs. 27, 42, 60",
+            "Eq. 64",
+            "section 6",
+        ],
         assumes: "A ratio of velocities, most of which the gears' geometry changes and not friction. It is no material property \
             and not bounded by Coulomb's coefficient.",
         valid: &[friction::coulomb, friction::before_start],

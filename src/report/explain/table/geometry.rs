@@ -1,10 +1,11 @@
 //! Explanations of the pair's geometry, its load and its masses.
 
 use super::Explanation;
-use crate::report::explain::known::Formula::{By, Given, Solved, Text};
+use crate::report::explain::context::Formula::{By, Given, Solved, Text};
 use crate::report::explain::valid::pair;
 
-const SPUR_PAIR: &str = "External spur gears with involute flanks down to the contact, aligned, on rigid shafts.";
+const SPUR_PAIR: &str =
+    "External spur gears with involute flanks down to the contact, aligned, on rigid shafts.";
 
 pub(super) static TABLE: &[Explanation] = &[
     Explanation {

@@ -2,8 +2,8 @@
 
 use super::Explanation;
 use crate::model::inputs::Method;
-use crate::report::explain::known::Formula::{By, Made, Text};
-use crate::report::explain::known::Known;
+use crate::report::explain::context::Formula::{By, Made, Text};
+use crate::report::explain::context::Known;
 use crate::report::explain::models::models;
 use crate::report::explain::valid::{impact, pair, position, stiffness};
 
@@ -22,7 +22,12 @@ pub(super) static TABLE: &[Explanation] = &[
         source: "Zhou & Chen 2014, Eqs. 50-57.",
         mended: &["Eq. 53", "Eq. 54", "Eq. 33, Eq. 50", "Table 1"],
         assumes: SPRING,
-        valid: &[position::gap_closed, stiffness::teeth, stiffness::contact, impact::within_approach],
+        valid: &[
+            position::gap_closed,
+            stiffness::teeth,
+            stiffness::contact,
+            impact::within_approach,
+        ],
     },
     Explanation {
         key: "impact_force_low",
@@ -142,6 +147,14 @@ pub(super) static TABLE: &[Explanation] = &[
 
 /// The least or the greatest of the case's own force and those of the models.
 fn over_models(known: &Known, choice: &str) -> String {
-    let forces = models(known.inputs).map(|(symbol, _)| symbol).filter(|symbol| known.term(symbol).is_some());
-    format!("{choice}({})", std::iter::once("F_S").chain(forces).collect::<Vec<_>>().join(", "))
+    let forces = models(known.inputs)
+        .map(|(symbol, _)| symbol)
+        .filter(|symbol| known.term(symbol).is_some());
+    format!(
+        "{choice}({})",
+        std::iter::once("F_S")
+            .chain(forces)
+            .collect::<Vec<_>>()
+            .join(", ")
+    )
 }

@@ -1,7 +1,7 @@
 //! Explanations of the methods in which every pair takes its share of the load.
 
 use super::Explanation;
-use crate::report::explain::known::Formula::{self, Found, Solved, Text};
+use crate::report::explain::context::Formula::{self, Found, Solved, Text};
 use crate::report::explain::valid::{load, pair, stiffness};
 
 const AT_REST: &str = "Every pair is a spring b/q with a gap, and they share the mesh force at rest. Of the pairs only the incoming one \
@@ -88,7 +88,10 @@ pub(super) static TABLE: &[Explanation] = &[
     Explanation {
         key: "static_transmission_error",
         says: "By how much the driver runs ahead more at one place than at another while the tooth carries: what makes the gears whine.",
-        formula: Found { words: "max x - min x from the first contact to the last, x by Σ w_k F_k = F_0", with: SHARED },
+        formula: Found {
+            words: "max x - min x from the first contact to the last, x by Σ w_k F_k = F_0",
+            with: SHARED,
+        },
         source: BALANCE_OF_ERROR,
         mended: &[],
         assumes: AT_REST,

@@ -2,7 +2,7 @@
 
 use super::Explanation;
 use crate::model::inputs::Method;
-use crate::report::explain::known::Formula::{By, Solved, Text};
+use crate::report::explain::context::Formula::{By, Solved, Text};
 use crate::report::explain::valid::{impact, pair, position};
 
 const TIP: &str = "The driven gear's tip edge meets the driver's involute; both turn at their steady speeds up to D.";

@@ -1,4 +1,5 @@
-//! The frame of a chart: where its plot stands, ticks with their labels, and the marks of the contact.
+//! The frame of a chart: where its plot stands, ticks with their labels, and the marks of the
+//! contact.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -53,9 +54,24 @@ impl Ruler {
         let micros = 1f64.to_radians() / speed * 1e6;
         let longest = micros * window.from.abs().max(window.to.abs());
         match by_time {
-            false => Ruler { factor: -1.0, unit: "deg", label: "roll angle", side: "before E" },
-            true if longest < MOST_MICROS => Ruler { factor: micros, unit: "us", label: "time", side: "after E" },
-            true => Ruler { factor: 1e-3 * micros, unit: "ms", label: "time", side: "after E" },
+            false => Ruler {
+                factor: -1.0,
+                unit: "deg",
+                label: "roll angle",
+                side: "before E",
+            },
+            true if longest < MOST_MICROS => Ruler {
+                factor: micros,
+                unit: "us",
+                label: "time",
+                side: "after E",
+            },
+            true => Ruler {
+                factor: 1e-3 * micros,
+                unit: "ms",
+                label: "time",
+                side: "after E",
+            },
         }
     }
 
@@ -69,7 +85,12 @@ impl Ruler {
 #[must_use]
 pub fn margin(uprights: impl Iterator<Item = Span>, height: u16) -> u16 {
     let labels = uprights.flat_map(|span| beside(span, height).labelled);
-    labels.map(|(_, label)| label.len()).max().unwrap_or(0).max(LABEL) as u16 + 2
+    labels
+        .map(|(_, label)| label.len())
+        .max()
+        .unwrap_or(0)
+        .max(LABEL) as u16
+        + 2
 }
 
 fn beside(span: Span, height: u16) -> Ticks {
@@ -80,10 +101,29 @@ impl Axes {
     /// The axes in an area with so many columns for labels; without a plot where there is no room.
     #[must_use]
     pub fn new(area: Rect, margin: u16, (across, upright): (Span, Span), ruler: Ruler) -> Axes {
-        let (width, height) = (area.width.saturating_sub(margin + 1), area.height.saturating_sub(2));
+        let (width, height) = (
+            area.width.saturating_sub(margin + 1),
+            area.height.saturating_sub(2),
+        );
         let has_room = width >= 20 && height >= 2;
-        let plot = if has_room { Rect { x: area.x + margin, y: area.y, width, height } } else { Rect::ZERO };
-        Axes { plot, across, upright, below: ruler.ticks(across, width), beside: beside(upright, height), ruler }
+        let plot = if has_room {
+            Rect {
+                x: area.x + margin,
+                y: area.y,
+                width,
+                height,
+            }
+        } else {
+            Rect::ZERO
+        };
+        Axes {
+            plot,
+            across,
+            upright,
+            below: ruler.ticks(across, width),
+            beside: beside(upright, height),
+            ruler,
+        }
     }
 
     /// The column of an angle in sight.
@@ -91,21 +131,25 @@ impl Axes {
     pub fn column(&self, x: f64) -> Option<u16> {
         let part = self.across.part(x);
         let rounding = 1e-9;
-        (-rounding..=1.0 + rounding)
-            .contains(&part)
-            .then(|| self.plot.x + (f64::from(self.plot.width.saturating_sub(1)) * part.clamp(0.0, 1.0)).round() as u16)
+        (-rounding..=1.0 + rounding).contains(&part).then(|| {
+            self.plot.x
+                + (f64::from(self.plot.width.saturating_sub(1)) * part.clamp(0.0, 1.0)).round()
+                    as u16
+        })
     }
 
     /// The angle on a column.
     #[must_use]
     pub fn angle(&self, column: u16) -> f64 {
-        let part = f64::from(column.saturating_sub(self.plot.x)) / f64::from(self.plot.width.max(2) - 1);
+        let part =
+            f64::from(column.saturating_sub(self.plot.x)) / f64::from(self.plot.width.max(2) - 1);
         self.across.from + part * self.across.length()
     }
 
     fn row(&self, y: f64) -> u16 {
         let dots = 4 * self.plot.height;
-        let dot = ((1.0 - self.upright.part(y)).clamp(0.0, 1.0) * f64::from(dots - 1)).round() as u16;
+        let dot =
+            ((1.0 - self.upright.part(y)).clamp(0.0, 1.0) * f64::from(dots - 1)).round() as u16;
         self.plot.y + dot / 4
     }
 
@@ -131,7 +175,9 @@ impl Axes {
         for (column, label) in self.labels_below() {
             buffer.set_string(column, axis, "┴", Style::new());
             let width = label.len() as u16;
-            let x = column.saturating_sub(width / 2).min((plot.right() + 1).saturating_sub(width));
+            let x = column
+                .saturating_sub(width / 2)
+                .min((plot.right() + 1).saturating_sub(width));
             if x >= free {
                 buffer.set_string(x, axis + 1, label, Style::new());
                 free = x + width + 1;
@@ -142,8 +188,11 @@ impl Axes {
     // From left to right.
     fn labels_below(&self) -> Vec<(u16, &str)> {
         let ticks = self.below.labelled.iter();
-        let mut labels: Vec<_> =
-            ticks.filter_map(|(value, label)| Some((self.column(value / self.ruler.factor)?, label.as_str()))).collect();
+        let mut labels: Vec<_> = ticks
+            .filter_map(|(value, label)| {
+                Some((self.column(value / self.ruler.factor)?, label.as_str()))
+            })
+            .collect();
         labels.sort_by_key(|(column, _)| *column);
         labels
     }
@@ -158,15 +207,23 @@ impl Axes {
         }
     }
 
-    /// The marks of the contact on the axis: where the other methods strike, B and the last contact L, E and D.
+    /// The marks of the contact on the axis: where the other methods strike, B and the last contact
+    /// L, E and D.
     pub fn draw_marks(&self, app: &App, buffer: &mut Buffer) {
         let Some(answer) = &app.answer else { return };
         let theme = app.look.theme;
-        let others =
-            answer.methods.iter().filter(|(method, _)| *method != answer.active).filter_map(|(_, found)| found.as_ref().ok());
-        let struck = others.filter_map(first_contact).map(|angle| (0.0 - angle.to_degrees(), "d", theme.other));
+        let others = answer
+            .methods
+            .iter()
+            .filter(|(method, _)| *method != answer.active)
+            .filter_map(|(_, found)| found.as_ref().ok());
+        let struck = others
+            .filter_map(first_contact)
+            .map(|angle| (0.0 - angle.to_degrees(), "d", theme.other));
         let own = answer.of(answer.active).map(marks).unwrap_or_default();
-        for (x, name, style) in struck.chain(own.into_iter().map(|(x, name)| (x, name, theme.active))) {
+        for (x, name, style) in
+            struck.chain(own.into_iter().map(|(x, name)| (x, name, theme.active)))
+        {
             if let Some(column) = self.column(x) {
                 buffer.set_string(column, self.plot.bottom(), name, style);
             }
@@ -175,7 +232,9 @@ impl Axes {
 
     /// A broken line where the curves leave room for it, and a mark on the axis.
     pub fn draw_cursor(&self, app: &App, buffer: &mut Buffer) {
-        let column = app.cursor.and_then(|cursor| self.column(0.0 - cursor.to_degrees()));
+        let column = app
+            .cursor
+            .and_then(|cursor| self.column(0.0 - cursor.to_degrees()));
         let Some(x) = column else { return };
         for y in self.plot.top()..self.plot.bottom() {
             put_where_free((x, y), "┊", app.look.theme.faint, buffer);
@@ -191,7 +250,11 @@ fn marks(solution: &Solution) -> Vec<(f64, &'static str)> {
     let last = last_contact(solution).map(|angle| (angle, "L"));
     let first = first_contact(solution).map(|angle| (angle, "D"));
     let found = [Some(end), last, Some((0.0, "E")), first];
-    found.into_iter().flatten().map(|(angle, name)| (0.0 - angle.to_degrees(), name)).collect()
+    found
+        .into_iter()
+        .flatten()
+        .map(|(angle, name)| (0.0 - angle.to_degrees(), name))
+        .collect()
 }
 
 /// Write into a cell that nothing is drawn in.

@@ -1,16 +1,18 @@
-//! What stands in a chart: the curve of every method, of the pinned results, and what the values are held against.
+//! What stands in a chart: the curve of every method, of the pinned results, and what the values
+//! are held against.
 
 use crate::case::units::{self, System};
 use crate::model::inputs::Method;
 use crate::model::spacing::Spacing;
-use crate::model::{Inputs, Solution, moment};
+use crate::model::{Inputs, Solution, contact_state};
 use crate::report::graphs::Graph;
 use crate::report::stations::{Column, Row, rows};
 use crate::tui::app::App;
 use crate::tui::scale::Span;
 use crate::tui::solver::Answer;
 
-/// An interval between stations is at most this many times as long as they are asked for; in a longer one some are left out.
+/// An interval between stations is at most this many times as long as they are asked for; in a
+/// longer one some are left out.
 const LEFT_OUT: f64 = 1.5;
 
 /// Curves that differ by no more than this part of what is in sight lie on each other.
@@ -48,16 +50,31 @@ pub struct Curve {
 /// Every curve of a chart, the lowest first.
 #[must_use]
 pub fn curves(app: &App, graph: &Graph) -> Vec<Curve> {
-    let Some(answer) = &app.answer else { return Vec::new() };
-    let drawn = Drawn { graph, system: app.settings.units };
-    let pinned = app.baseline.as_ref().and_then(|baseline| drawn.pinned(&baseline.answer, answer.active));
+    let Some(answer) = &app.answer else {
+        return Vec::new();
+    };
+    let drawn = Drawn {
+        graph,
+        system: app.settings.units,
+    };
+    let pinned = app
+        .baseline
+        .as_ref()
+        .and_then(|baseline| drawn.pinned(&baseline.answer, answer.active));
     let others = answer
         .methods
         .iter()
         .filter(|(method, _)| *method != answer.active)
-        .filter_map(|(method, found)| drawn.curve(&answer.inputs, found.as_ref().ok()?, Whose::Other(*method)));
+        .filter_map(|(method, found)| {
+            drawn.curve(&answer.inputs, found.as_ref().ok()?, Whose::Other(*method))
+        });
     let own = drawn.active(answer, Whose::Active(answer.active));
-    pinned.into_iter().chain(others).chain(drawn.bound(answer)).chain(own).collect()
+    pinned
+        .into_iter()
+        .chain(others)
+        .chain(drawn.bound(answer))
+        .chain(own)
+        .collect()
 }
 
 // A chart, and the units in which it is read.
@@ -80,7 +97,9 @@ impl Drawn<'_> {
     fn bound(self, answer: &Answer) -> Option<Curve> {
         let (solution, bound) = (answer.of(answer.active)?, self.graph.bound?);
         let symbol = bound.symbols[usize::from(solution.method.shares_load())];
-        self.with(&answer.inputs, solution, Whose::Bound(symbol), |row| (bound.value)(solution, row))
+        self.with(&answer.inputs, solution, Whose::Bound(symbol), |row| {
+            (bound.value)(solution, row)
+        })
     }
 
     // None where the method has no such column, or no station.
@@ -89,41 +108,75 @@ impl Drawn<'_> {
         self.with(inputs, solution, whose, |row| column.of(row))
     }
 
-    fn with(self, inputs: &Inputs, solution: &Solution, whose: Whose, value: impl Fn(Row) -> Option<f64>) -> Option<Curve> {
+    fn with(
+        self,
+        inputs: &Inputs,
+        solution: &Solution,
+        whose: Whose,
+        value: impl Fn(Row) -> Option<f64>,
+    ) -> Option<Curve> {
         let column = self.graph.column(solution.method)?;
         let unit = self.system.unit(column.shown);
         let factor = units::factor(unit).unwrap_or(1.0);
-        let points = rows(solution).into_iter().map(|row| (angle(row), value(row).map(|value| value / factor)));
+        let points = rows(solution)
+            .into_iter()
+            .map(|row| (angle(row), value(row).map(|value| value / factor)));
         let pieces = pieces(points, longest_interval(inputs, solution));
-        (!pieces.is_empty()).then_some(Curve { whose, column, unit, pieces })
+        (!pieces.is_empty()).then_some(Curve {
+            whose,
+            column,
+            unit,
+            pieces,
+        })
     }
 }
 
 /// The curves without what lies on the active one, where nothing would be seen but specks of it.
 #[must_use]
 pub fn apart(curves: Vec<Curve>) -> Vec<Curve> {
-    let Some(own) = curves.iter().find(|curve| matches!(curve.whose, Whose::Active(_))).cloned() else { return curves };
-    let alike = ALIKE * curves.iter().map(Curve::upright).fold(Span::NONE, Span::and).length();
+    let Some(own) = curves
+        .iter()
+        .find(|curve| matches!(curve.whose, Whose::Active(_)))
+        .cloned()
+    else {
+        return curves;
+    };
+    let alike = ALIKE
+        * curves
+            .iter()
+            .map(Curve::upright)
+            .fold(Span::NONE, Span::and)
+            .length();
     let lies_on = |(x, y): Point| own.at(x).is_some_and(|value| (value - y).abs() <= alike);
     let shown = curves.into_iter().map(|curve| match curve.whose {
         Whose::Other(_) | Whose::Pinned(_) => curve.without(lies_on),
         Whose::Active(_) | Whose::Bound(_) => curve,
     });
     // Pinned results stand in the legend even where nothing of them differs.
-    shown.filter(|curve| matches!(curve.whose, Whose::Pinned(_)) || !curve.pieces.is_empty()).collect()
+    shown
+        .filter(|curve| matches!(curve.whose, Whose::Pinned(_)) || !curve.pieces.is_empty())
+        .collect()
 }
 
 impl Curve {
-    // The points that are not hidden, and those beside them, so that the line leads to where it goes under.
+    // The points that are not hidden, and those beside them, so that the line leads to where it
+    // goes under.
     fn without(self, is_hidden: impl Fn(Point) -> bool) -> Curve {
         let pieces = self.pieces.iter().flat_map(|piece| {
             let hidden: Vec<bool> = piece.iter().map(|point| is_hidden(*point)).collect();
             let around = |at: usize| at.saturating_sub(1)..=(at + 1).min(piece.len() - 1);
-            let kept: Vec<usize> = (0..piece.len()).filter(|&at| around(at).any(|near| !hidden[near])).collect();
-            let runs = kept.chunk_by(|one, next| one + 1 == *next && !(hidden[*one] && hidden[*next]));
-            runs.map(|run| run.iter().map(|&at| piece[at]).collect()).collect::<Vec<Vec<Point>>>()
+            let kept: Vec<usize> = (0..piece.len())
+                .filter(|&at| around(at).any(|near| !hidden[near]))
+                .collect();
+            let runs =
+                kept.chunk_by(|one, next| one + 1 == *next && !(hidden[*one] && hidden[*next]));
+            runs.map(|run| run.iter().map(|&at| piece[at]).collect())
+                .collect::<Vec<Vec<Point>>>()
         });
-        Curve { pieces: pieces.collect(), ..self }
+        Curve {
+            pieces: pieces.collect(),
+            ..self
+        }
     }
 
     /// The least and the greatest value.
@@ -135,12 +188,18 @@ impl Curve {
     /// The least and the greatest value within a stretch of the angle.
     #[must_use]
     pub fn upright_within(&self, window: Span) -> Span {
-        let ends = [window.from, window.to].into_iter().filter_map(|x| self.at(x));
-        let inside = self.points().filter(|(x, _)| (window.from..=window.to).contains(x)).map(|(_, y)| y);
+        let ends = [window.from, window.to]
+            .into_iter()
+            .filter_map(|x| self.at(x));
+        let inside = self
+            .points()
+            .filter(|(x, _)| (window.from..=window.to).contains(x))
+            .map(|(_, y)| y);
         ends.chain(inside).fold(Span::NONE, Span::with)
     }
 
-    /// Its value at an angle, between the stations on either side; after a jump, where there is one.
+    /// Its value at an angle, between the stations on either side; after a jump, where there is
+    /// one.
     #[must_use]
     pub fn at(&self, x: f64) -> Option<f64> {
         self.pieces.iter().find_map(|piece| {
@@ -148,7 +207,9 @@ impl Curve {
             let (before, last) = (piece.get(after.checked_sub(1)?)?, piece.len() - 1);
             let rounding = 1e-12 * x.abs();
             match piece.get(after) {
-                Some(next) => Some(before.1 + (next.1 - before.1) * (x - before.0) / (next.0 - before.0)),
+                Some(next) => {
+                    Some(before.1 + (next.1 - before.1) * (x - before.0) / (next.0 - before.0))
+                }
                 None => (x <= piece[last].0 + rounding).then_some(before.1),
             }
         })
@@ -163,10 +224,11 @@ impl Curve {
 #[must_use]
 pub fn first_contact(solution: &Solution) -> Option<f64> {
     let ratio = solution.geometry.driven.base / solution.geometry.driver.base;
-    moment::first_contact(solution).map(|angle| angle * ratio)
+    contact_state::first_contact(solution).map(|angle| angle * ratio)
 }
 
-/// The driver's angle before E at the last contact, below 0 after E, in rad; in the methods that go on after E.
+/// The driver's angle before E at the last contact, below 0 after E, in rad; in the methods that go
+/// on after E.
 #[must_use]
 pub fn last_contact(solution: &Solution) -> Option<f64> {
     match rows(solution).last() {
@@ -178,7 +240,12 @@ pub fn last_contact(solution: &Solution) -> Option<f64> {
 /// From the first station of any method to the last, in deg after E.
 #[must_use]
 pub fn way(answer: &Answer) -> Span {
-    answer.methods.iter().filter_map(|(_, found)| found.as_ref().ok()).map(way_of).fold(Span::NONE, Span::and)
+    answer
+        .methods
+        .iter()
+        .filter_map(|(_, found)| found.as_ref().ok())
+        .map(way_of)
+        .fold(Span::NONE, Span::and)
 }
 
 /// The same of one method alone, as of pinned results, of which one is drawn.
@@ -189,7 +256,11 @@ pub fn way_by(answer: &Answer, method: Method) -> Span {
 
 fn way_of(solution: &Solution) -> Span {
     let rows = rows(solution);
-    [rows.first(), rows.last()].into_iter().flatten().map(|row| angle(*row)).fold(Span::NONE, Span::with)
+    [rows.first(), rows.last()]
+        .into_iter()
+        .flatten()
+        .map(|row| angle(*row))
+        .fold(Span::NONE, Span::with)
 }
 
 fn angle(row: Row) -> f64 {
@@ -209,7 +280,10 @@ fn pieces(points: impl Iterator<Item = (f64, Option<f64>)>, longest: f64) -> Vec
             follows = false;
             continue;
         };
-        match pieces.last_mut().filter(|piece| follows && piece.last().is_some_and(|last| x - last.0 <= longest)) {
+        match pieces
+            .last_mut()
+            .filter(|piece| follows && piece.last().is_some_and(|last| x - last.0 <= longest))
+        {
             Some(piece) => piece.push((x, y)),
             None => pieces.push(vec![(x, y)]),
         }
@@ -218,7 +292,8 @@ fn pieces(points: impl Iterator<Item = (f64, Option<f64>)>, longest: f64) -> Vec
     pieces
 }
 
-// In the closed forms a station whose force cannot be computed is left out; the others have every one.
+// In the closed forms a station whose force cannot be computed is left out; the others have every
+// one.
 fn longest_interval(inputs: &Inputs, solution: &Solution) -> f64 {
     match solution.position {
         Some(position) if solution.stations_withheld.is_some() => {
@@ -240,9 +315,15 @@ mod tests {
     #[test]
     fn a_curve_breaks_where_a_station_is_missing_or_no_number() {
         let one = Some(1.0);
-        assert_eq!(pieces_of(&[(0.0, one), (1.0, one), (3.0, one)]), [vec![(0.0, 1.0), (1.0, 1.0)], vec![(3.0, 1.0)]]);
+        assert_eq!(
+            pieces_of(&[(0.0, one), (1.0, one), (3.0, one)]),
+            [vec![(0.0, 1.0), (1.0, 1.0)], vec![(3.0, 1.0)]]
+        );
         assert_eq!(pieces_of(&[(0.0, one), (1.0, None), (2.0, one)]).len(), 2);
-        assert_eq!(pieces_of(&[(0.0, one), (1.0, Some(f64::NAN)), (2.0, one)]).len(), 2);
+        assert_eq!(
+            pieces_of(&[(0.0, one), (1.0, Some(f64::NAN)), (2.0, one)]).len(),
+            2
+        );
         assert_eq!(pieces_of(&[]), Vec::<Vec<Point>>::new());
     }
 
@@ -250,15 +331,36 @@ mod tests {
     fn what_lies_on_the_active_curve_is_not_drawn_again() {
         let column = &crate::report::stations::COLUMNS[6];
         let curve = |whose, points: &[f64]| {
-            let points = points.iter().enumerate().map(|(at, y)| (at as f64, *y)).collect();
-            Curve { whose, column, unit: column.shown, pieces: vec![points] }
+            let points = points
+                .iter()
+                .enumerate()
+                .map(|(at, y)| (at as f64, *y))
+                .collect();
+            Curve {
+                whose,
+                column,
+                unit: column.shown,
+                pieces: vec![points],
+            }
         };
-        let own = curve(Whose::Active(Method::Exact), &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
+        let own = curve(
+            Whose::Active(Method::Exact),
+            &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0],
+        );
         let same = curve(Whose::Other(Method::Static), &[0.0, 1.0, 2.0, 3.0, 4.0]);
-        let other = curve(Whose::Other(Method::Paper), &[9.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+        let other = curve(
+            Whose::Other(Method::Paper),
+            &[9.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0],
+        );
         let shown = apart(vec![same, other, own]);
         assert_eq!(shown.len(), 2);
-        assert_eq!(shown[0].pieces, [vec![(0.0, 9.0), (1.0, 1.0)], vec![(5.0, 5.0), (6.0, 6.0), (7.0, 7.0)]]);
+        assert_eq!(
+            shown[0].pieces,
+            [
+                vec![(0.0, 9.0), (1.0, 1.0)],
+                vec![(5.0, 5.0), (6.0, 6.0), (7.0, 7.0)]
+            ]
+        );
         assert_eq!(shown[1].pieces[0].len(), 6);
     }
 
@@ -266,8 +368,20 @@ mod tests {
     fn a_value_between_stations_is_on_the_line_and_beyond_them_there_is_none() {
         let column = &crate::report::stations::COLUMNS[6];
         let pieces = vec![vec![(-1.0, 4.0), (0.0, 2.0), (0.0, 8.0), (1.0, 0.0)]];
-        let curve = Curve { whose: Whose::Pinned(Method::Exact), column, unit: column.shown, pieces };
-        for (x, y) in [(-1.0, Some(4.0)), (-0.5, Some(3.0)), (0.0, Some(8.0)), (1.0, Some(0.0)), (1.1, None), (-1.1, None)] {
+        let curve = Curve {
+            whose: Whose::Pinned(Method::Exact),
+            column,
+            unit: column.shown,
+            pieces,
+        };
+        for (x, y) in [
+            (-1.0, Some(4.0)),
+            (-0.5, Some(3.0)),
+            (0.0, Some(8.0)),
+            (1.0, Some(0.0)),
+            (1.1, None),
+            (-1.1, None),
+        ] {
             assert_eq!(curve.at(x), y, "{x}");
         }
         assert_eq!(curve.upright(), Span::new(0.0, 8.0));

@@ -4,13 +4,13 @@ use super::curves::{Curve, Whose, curves};
 use super::shown;
 use crate::case::units;
 use crate::model::Told;
-use crate::model::between::DIGITS_BETWEEN;
 use crate::model::inputs::Method;
+use crate::model::interpolate::DIGITS_BETWEEN;
 use crate::numeric::decimal::significant;
 use crate::report::graphs::{GRAPHS, Graph};
 use crate::report::stations::Row;
 use crate::tui::app::App;
-use crate::tui::clean::symbol;
+use crate::tui::ascii::symbol;
 use crate::tui::layout::plan;
 
 /// Significant digits of the time since E.
@@ -25,70 +25,138 @@ pub fn readout(app: &App, cursor: f64) -> String {
     let mut parts = vec![place(app, cursor)];
     let chart = plan(app.size, app.panes).chart;
     let graphs = shown(app, chart);
-    let chosen = if graphs.is_empty() { vec![app.graph] } else { graphs };
-    let seen: Vec<String> = chosen.iter().filter_map(|&graph| all(app, &GRAPHS[graph], cursor)).collect();
+    let chosen = if graphs.is_empty() {
+        vec![app.graph]
+    } else {
+        graphs
+    };
+    let seen: Vec<String> = chosen
+        .iter()
+        .filter_map(|&graph| all(app, &GRAPHS[graph], cursor))
+        .collect();
     let rest = (0..GRAPHS.len()).filter(|graph| !chosen.contains(graph));
-    let rest: Vec<String> = rest.filter_map(|graph| own(app, &GRAPHS[graph], cursor)).collect();
+    let rest: Vec<String> = rest
+        .filter_map(|graph| own(app, &GRAPHS[graph], cursor))
+        .collect();
     parts.extend(seen);
     parts.extend((!rest.is_empty()).then(|| rest.join(", ")));
     let (angle, values) = parts.split_at(1);
-    if values.is_empty() { format!("{}.", angle[0]) } else { format!("{}: {}.", angle[0], values.join("; ")) }
+    if values.is_empty() {
+        format!("{}.", angle[0])
+    } else {
+        format!("{}: {}.", angle[0], values.join("; "))
+    }
 }
 
 fn place(app: &App, cursor: f64) -> String {
-    let (side, degrees) = (if cursor < 0.0 { "after" } else { "before" }, cursor.abs().to_degrees());
-    if degrees > 0.0 { format!("{degrees:.4} deg of the driver {side} E{}", time(app, cursor)) } else { "At E".to_owned() }
+    let (side, degrees) = (
+        if cursor < 0.0 { "after" } else { "before" },
+        cursor.abs().to_degrees(),
+    );
+    if degrees > 0.0 {
+        format!(
+            "{degrees:.4} deg of the driver {side} E{}",
+            time(app, cursor)
+        )
+    } else {
+        "At E".to_owned()
+    }
 }
 
 fn time(app: &App, cursor: f64) -> String {
-    let speed = app.answer.as_ref().map_or(0.0, |answer| answer.inputs.speed);
+    let speed = app
+        .answer
+        .as_ref()
+        .map_or(0.0, |answer| answer.inputs.speed);
     let micros = 1e6 * cursor.abs() / speed;
-    if app.by_time && micros.is_finite() { format!(", {} us", significant(micros, TIME_DIGITS)) } else { String::new() }
+    if app.by_time && micros.is_finite() {
+        format!(", {} us", significant(micros, TIME_DIGITS))
+    } else {
+        String::new()
+    }
 }
 
 // Every curve of a chart, the active method first.
 fn all(app: &App, graph: &Graph, cursor: f64) -> Option<String> {
     let curves = curves(app, graph);
-    let told: Vec<String> = curves.iter().rev().filter_map(|curve| told(app, graph, curve, cursor)).collect();
+    let told: Vec<String> = curves
+        .iter()
+        .rev()
+        .filter_map(|curve| told(app, graph, curve, cursor))
+        .collect();
     (!told.is_empty()).then(|| told.join(", "))
 }
 
 // The active method's value alone.
 fn own(app: &App, graph: &Graph, cursor: f64) -> Option<String> {
     let curves = curves(app, graph);
-    let own = curves.iter().find(|curve| matches!(curve.whose, Whose::Active(_)))?;
+    let own = curves
+        .iter()
+        .find(|curve| matches!(curve.whose, Whose::Active(_)))?;
     told(app, graph, own, cursor)
 }
 
-// By the same evaluation as in the teeth, not off the line that is drawn; and how many digits of it are good.
+// By the same evaluation as in the teeth, not off the line that is drawn; and how many digits of it
+// are good.
 fn value(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<(f64, usize)> {
     let is_pinned = matches!(curve.whose, Whose::Pinned(_));
-    let answer = if is_pinned { &app.baseline.as_ref()?.answer } else { app.answer.as_ref()? };
-    let method = if let Whose::Other(method) | Whose::Pinned(method) = curve.whose { method } else { answer.active };
+    let answer = if is_pinned {
+        &app.baseline.as_ref()?.answer
+    } else {
+        app.answer.as_ref()?
+    };
+    let method = if let Whose::Other(method) | Whose::Pinned(method) = curve.whose {
+        method
+    } else {
+        answer.active
+    };
     let solution = answer.of(method)?;
     let told = Told::at(&answer.inputs, solution, cursor)?;
     if let Whose::Bound(_) = curve.whose {
-        let digits = if matches!(told, Told::Between(_)) { DIGITS_BETWEEN } else { curve.column.digits };
+        let digits = if matches!(told, Told::Between(_)) {
+            DIGITS_BETWEEN
+        } else {
+            curve.column.digits
+        };
         Some(((graph.bound?.value)(solution, Row::from(&told))?, digits))
     } else {
         let value = curve.column.of(Row::from(&told))?;
-        Some((curve.column.resolved(value, &answer.inputs, solution), curve.column.digits_of(&told)))
+        Some((
+            curve.column.resolved(value, &answer.inputs, solution),
+            curve.column.digits_of(&told),
+        ))
     }
 }
 
 /// How the baseline's curve is called: with its method where that is not the one in force.
 #[must_use]
 pub fn base_name(app: &App, method: Method) -> String {
-    let is_other = app.answer.as_ref().is_some_and(|answer| answer.active != method);
-    if is_other { format!("baseline ({})", method.name()) } else { "baseline".to_owned() }
+    let is_other = app
+        .answer
+        .as_ref()
+        .is_some_and(|answer| answer.active != method);
+    if is_other {
+        format!("baseline ({})", method.name())
+    } else {
+        "baseline".to_owned()
+    }
 }
 
 fn told(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<String> {
     let name = |text: &'static str| symbol(text, app.look.ascii).into_owned();
     let (value, digits) = value(app, graph, curve, cursor)?;
     let in_unit = value / units::factor(curve.unit).unwrap_or(1.0);
-    let most = curve.pieces.iter().flatten().map(|(_, y)| y.abs()).fold(0.0, f64::max);
-    let told = if in_unit.abs() < ROUNDING * most { 0.0 } else { value };
+    let most = curve
+        .pieces
+        .iter()
+        .flatten()
+        .map(|(_, y)| y.abs())
+        .fold(0.0, f64::max);
+    let told = if in_unit.abs() < ROUNDING * most {
+        0.0
+    } else {
+        value
+    };
     let (number, unit) = units::system::shown(told, curve.column.shown, digits, app.settings.units);
     let number = format!("{number} {unit}").trim_end().to_owned();
     Some(match curve.whose {

@@ -6,12 +6,12 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
-use super::ink::Ink;
 use super::picture::Picture;
+use super::raster::Ink;
 use super::scene::Scene;
 use super::window::unit_of_length;
 use crate::case::units::System;
-use crate::model::placing::{driven_tangent_point, driver_tangent_point};
+use crate::model::gear_pose::{driven_tangent_point, driver_tangent_point};
 use crate::numeric::decimal::significant;
 
 /// So many columns and rows from its point a name may stand.
@@ -29,7 +29,11 @@ impl Labels {
     /// None yet, on a picture drawn in that area.
     #[must_use]
     pub fn new(area: Rect) -> Labels {
-        Labels { area, marks: Vec::new(), words: Vec::new() }
+        Labels {
+            area,
+            marks: Vec::new(),
+            words: Vec::new(),
+        }
     }
 
     /// Write the scale, the factor, and every name that has room; the cells that they take.
@@ -37,7 +41,11 @@ impl Labels {
         let theme = picture.look.theme;
         self.draw_scale(scene, picture, buffer);
         self.draw_factor(scene, Ink::Mark.style(theme), buffer);
-        let cells: Vec<_> = scene.points.iter().filter_map(|point| Some((point.name, self.cell(scene, point.at)?))).collect();
+        let cells: Vec<_> = scene
+            .points
+            .iter()
+            .filter_map(|point| Some((point.name, self.cell(scene, point.at)?)))
+            .collect();
         self.marks.extend(cells.iter().map(|(_, at)| *at));
         for (name, at) in cells {
             self.put_beside(name, at, usize::MAX, Ink::Mark.style(theme), buffer);
@@ -45,7 +53,10 @@ impl Labels {
         for (name, at) in self.ways_out(scene, picture) {
             self.put_beside(name, at, 0, theme.faint, buffer);
         }
-        for (name, places, ink) in [("driver", &scene.bodies[0], Ink::Driver), ("driven", &scene.bodies[1], Ink::Driven)] {
+        for (name, places, ink) in [
+            ("driver", &scene.bodies[0], Ink::Driver),
+            ("driven", &scene.bodies[1], Ink::Driven),
+        ] {
             self.put_inside(name, scene, places, ink.style(theme), buffer);
         }
         self.words
@@ -53,53 +64,140 @@ impl Labels {
 
     /// The length of the bar beside it.
     fn draw_scale(&mut self, scene: &Scene, picture: &Picture, buffer: &mut Buffer) {
-        let Some((start, end)) = self.cell(scene, scene.bar.0).zip(self.cell(scene, scene.bar.1)) else { return };
+        let Some((start, end)) = self
+            .cell(scene, scene.bar.0)
+            .zip(self.cell(scene, scene.bar.1))
+        else {
+            return;
+        };
         let text = length((scene.bar.1 - scene.bar.0).norm(), picture.units);
         let style = Ink::Mark.style(picture.look.theme);
-        let line = Rect { y: end.y, height: 1, ..self.area };
-        self.put(&text, Rect { x: end.x + 2, width: text.width() as u16, ..line }, style, buffer);
-        self.words.push(Rect { x: start.x, width: end.x + 1 - start.x, ..line });
+        let line = Rect {
+            y: end.y,
+            height: 1,
+            ..self.area
+        };
+        self.put(
+            &text,
+            Rect {
+                x: end.x + 2,
+                width: text.width() as u16,
+                ..line
+            },
+            style,
+            buffer,
+        );
+        self.words.push(Rect {
+            x: start.x,
+            width: end.x + 1 - start.x,
+            ..line
+        });
     }
 
-    /// How far the gap is exaggerated, in the first corner where nothing is drawn, else where there is room.
+    /// How far the gap is exaggerated, in the first corner where nothing is drawn, else where there
+    /// is room.
     fn draw_factor(&mut self, scene: &Scene, style: Style, buffer: &mut Buffer) {
         let Some(factor) = scene.factor else { return };
         let text = format!("gap x{}", times(factor));
         let width = text.width() as u16;
-        let (left, right) = (self.area.x + 1, self.area.right().saturating_sub(width + 1).max(self.area.x));
+        let (left, right) = (
+            self.area.x + 1,
+            self.area.right().saturating_sub(width + 1).max(self.area.x),
+        );
         let (top, bottom) = (self.area.y, self.area.bottom() - 1);
-        let corners = [(right, top), (left, top), (right, bottom), (left, bottom.saturating_sub(1))];
-        let edges = [top, bottom].into_iter().flat_map(|y| (left..=right).rev().map(move |x| (x, y)));
+        let corners = [
+            (right, top),
+            (left, top),
+            (right, bottom),
+            (left, bottom.saturating_sub(1)),
+        ];
+        let edges = [top, bottom]
+            .into_iter()
+            .flat_map(|y| (left..=right).rev().map(move |x| (x, y)));
         let inside = (top..=bottom).flat_map(|y| (left..=right).rev().map(move |x| (x, y)));
-        let mut rooms = corners.into_iter().chain(edges).chain(inside).map(|(x, y)| Rect { x, y, width, height: 1 });
+        let mut rooms = corners
+            .into_iter()
+            .chain(edges)
+            .chain(inside)
+            .map(|(x, y)| Rect {
+                x,
+                y,
+                width,
+                height: 1,
+            });
         let free = rooms.find(|room| self.is_free(*room) && covered(*room, buffer) == 0);
-        self.put(&text, free.unwrap_or(Rect { x: right, y: top, width, height: 1 }), style, buffer);
+        self.put(
+            &text,
+            free.unwrap_or(Rect {
+                x: right,
+                y: top,
+                width,
+                height: 1,
+            }),
+            style,
+            buffer,
+        );
     }
 
     /// Where the line of action leaves what is in sight, towards a point of tangency that is not.
     fn ways_out(&self, scene: &Scene, picture: &Picture) -> Vec<(&'static str, Position)> {
         let geometry = &picture.solution.geometry;
-        let (first, second) = (driver_tangent_point(geometry), driven_tangent_point(geometry));
-        let Some((from, to)) = scene.window.clip(first, second) else { return Vec::new() };
+        let (first, second) = (
+            driver_tangent_point(geometry),
+            driven_tangent_point(geometry),
+        );
+        let Some((from, to)) = scene.window.clip(first, second) else {
+            return Vec::new();
+        };
         let at = |part: f64| first + (second - first) * part;
         let inward = 1e-9 * (to - from);
-        let ends = [("to N1", first, from + inward), ("to N2", second, to - inward)];
-        let out_of_sight = ends.into_iter().filter(|(_, end, _)| !scene.window.sees(*end));
-        out_of_sight.filter_map(|(name, _, part)| Some((name, self.cell(scene, at(part))?))).collect()
+        let ends = [
+            ("to N1", first, from + inward),
+            ("to N2", second, to - inward),
+        ];
+        let out_of_sight = ends
+            .into_iter()
+            .filter(|(_, end, _)| !scene.window.sees(*end));
+        out_of_sight
+            .filter_map(|(name, _, part)| Some((name, self.cell(scene, at(part))?)))
+            .collect()
     }
 
     fn cell(&self, scene: &Scene, at: Point2<f64>) -> Option<Position> {
         let (x, y) = scene.window.cell(at)?;
-        Some(Position { x: self.area.x + x, y: self.area.y + y })
+        Some(Position {
+            x: self.area.x + x,
+            y: self.area.y + y,
+        })
     }
 
-    /// Write a name next to its point, where it covers nothing of the picture; else near it, and not nearer to another
-    /// point; else, where so many cells may be covered, where it covers least.
-    fn put_beside(&mut self, name: &str, at: Position, most: usize, style: Style, buffer: &mut Buffer) {
+    /// Write a name next to its point, where it covers nothing of the picture; else near it, and
+    /// not nearer to another point; else, where so many cells may be covered, where it covers
+    /// least.
+    fn put_beside(
+        &mut self,
+        name: &str,
+        at: Position,
+        most: usize,
+        style: Style,
+        buffer: &mut Buffer,
+    ) {
         let width = i32::from(name.width() as u16);
-        let places = [(1, 0), (2, -1), (2, 1), (-width, 0), (-width - 1, -1), (-width - 1, 1), (-width / 2, -1), (-width / 2, 1)];
+        let places = [
+            (1, 0),
+            (2, -1),
+            (2, 1),
+            (-width, 0),
+            (-width - 1, -1),
+            (-width - 1, 1),
+            (-width / 2, -1),
+            (-width / 2, 1),
+        ];
         let further = std::iter::once_with(|| further(width)).flatten();
-        let rooms = places.into_iter().chain(further).filter_map(|(right, down)| self.room(at, right, down, width));
+        let rooms = places
+            .into_iter()
+            .chain(further)
+            .filter_map(|(right, down)| self.room(at, right, down, width));
         let mut least: Option<(usize, Rect)> = None;
         for room in rooms.filter(|room| self.is_free(*room) && self.is_nearest(*room, at)) {
             let over = covered(room, buffer);
@@ -118,14 +216,26 @@ impl Labels {
     /// Whether no other mark is nearer to a word.
     fn is_nearest(&self, room: Rect, at: Position) -> bool {
         let from = |mark: &Position| {
-            let off = (i32::from(room.x) - i32::from(mark.x), i32::from(room.y) - i32::from(mark.y));
+            let off = (
+                i32::from(room.x) - i32::from(mark.x),
+                i32::from(room.y) - i32::from(mark.y),
+            );
             distance(off, i32::from(room.width))
         };
-        self.marks.iter().all(|mark| *mark == at || from(mark) > from(&at))
+        self.marks
+            .iter()
+            .all(|mark| *mark == at || from(mark) > from(&at))
     }
 
     /// Write a name at the first of several places where it covers nothing of the picture.
-    fn put_inside(&mut self, name: &str, scene: &Scene, places: &[Point2<f64>], style: Style, buffer: &mut Buffer) {
+    fn put_inside(
+        &mut self,
+        name: &str,
+        scene: &Scene,
+        places: &[Point2<f64>],
+        style: Style,
+        buffer: &mut Buffer,
+    ) {
         let width = i32::from(name.width() as u16);
         let cells = places.iter().filter_map(|place| self.cell(scene, *place));
         let mut rooms = cells.filter_map(|at| self.room(at, -width / 2, 0, width));
@@ -137,20 +247,39 @@ impl Labels {
 
     /// The cells of a word some columns and rows from a place, where they are on the picture.
     fn room(&self, at: Position, right: i32, down: i32, width: i32) -> Option<Rect> {
-        let (x, y) = (u16::try_from(i32::from(at.x) + right).ok()?, u16::try_from(i32::from(at.y) + down).ok()?);
-        let room = Rect { x, y, width: u16::try_from(width).ok()?, height: 1 };
+        let (x, y) = (
+            u16::try_from(i32::from(at.x) + right).ok()?,
+            u16::try_from(i32::from(at.y) + down).ok()?,
+        );
+        let room = Rect {
+            x,
+            y,
+            width: u16::try_from(width).ok()?,
+            height: 1,
+        };
         (self.area.intersection(room) == room).then_some(room)
     }
 
     /// Whether no mark stands in the cells, and no word in them or beside them.
     fn is_free(&self, room: Rect) -> bool {
-        let spaced = Rect { x: room.x.saturating_sub(1), width: room.width + 2, ..room };
-        !self.marks.iter().any(|mark| room.contains(*mark)) && !self.words.iter().any(|word| word.intersects(spaced))
+        let spaced = Rect {
+            x: room.x.saturating_sub(1),
+            width: room.width + 2,
+            ..room
+        };
+        !self.marks.iter().any(|mark| room.contains(*mark))
+            && !self.words.iter().any(|word| word.intersects(spaced))
     }
 
     fn put(&mut self, text: &str, room: Rect, style: Style, buffer: &mut Buffer) {
         let room = room.intersection(self.area);
-        buffer.set_stringn(room.x, room.y, text, room.width.into(), Style::reset().patch(style));
+        buffer.set_stringn(
+            room.x,
+            room.y,
+            text,
+            room.width.into(),
+            Style::reset().patch(style),
+        );
         self.words.push(room);
     }
 }
@@ -170,7 +299,13 @@ fn further(width: i32) -> Vec<(i32, i32)> {
 
 /// How many cells of a room are drawn on.
 fn covered(room: Rect, buffer: &Buffer) -> usize {
-    room.positions().filter(|position| buffer.cell(*position).is_some_and(|cell| !cell.symbol().trim().is_empty())).count()
+    room.positions()
+        .filter(|position| {
+            buffer
+                .cell(*position)
+                .is_some_and(|cell| !cell.symbol().trim().is_empty())
+        })
+        .count()
 }
 
 /// A length in the unit in which it is a small number.
@@ -181,5 +316,9 @@ fn length(length: f64, system: System) -> String {
 
 /// A factor: whole, or with two digits.
 fn times(factor: f64) -> String {
-    if (factor - factor.round()).abs() < 1e-9 { format!("{factor:.0}") } else { format!("{factor:.1}") }
+    if (factor - factor.round()).abs() < 1e-9 {
+        format!("{factor:.0}")
+    } else {
+        format!("{factor:.1}")
+    }
 }

@@ -8,17 +8,17 @@ use unicode_width::UnicodeWidthStr;
 
 use super::labels::Labels;
 use super::scene::Scene;
-use super::{ink, readings};
+use super::{raster, readings};
 use crate::case::units::System;
-use crate::model::{Inputs, Moment, Solution, moment};
-use crate::tui::clean::symbol;
+use crate::model::{ContactState, Inputs, Solution, contact_state};
+use crate::tui::ascii::symbol;
 use crate::tui::theme::Look;
 use crate::tui::zoom::TeethView;
 
 /// Least width and height of the picture itself, in cells.
 const SMALLEST: (u16, u16) = (12, 4);
-/// The values have one line, and from these heights on two and three. They keep their places and the picture its size when
-/// one of them has no number.
+/// The values have one line, and from these heights on two and three. They keep their places and
+/// the picture its size when one of them has no number.
 const TWO_LINES_FROM: u16 = 13;
 const THREE_LINES_FROM: u16 = 20;
 
@@ -47,35 +47,49 @@ impl Picture<'_> {
     /// The driver's roll angle before E that is shown, in rad.
     #[must_use]
     pub fn angle(&self) -> f64 {
-        let contact = moment::first_contact(self.solution).unwrap_or(0.0) * self.inputs.ratio();
-        self.cursor.filter(|cursor| cursor.is_finite()).unwrap_or(contact)
+        let contact =
+            contact_state::first_contact(self.solution).unwrap_or(0.0) * self.inputs.ratio();
+        self.cursor
+            .filter(|cursor| cursor.is_finite())
+            .unwrap_or(contact)
     }
 }
 
 /// Draw the teeth, and below them the values at the cursor.
 pub fn draw(picture: &Picture, area: Rect, buffer: &mut Buffer) {
     let area = area.intersection(buffer.area);
-    let moment = Moment::at(picture.inputs, picture.solution, picture.angle());
+    let moment = ContactState::at(picture.inputs, picture.solution, picture.angle());
     let values = values(picture, moment.as_ref(), area.width);
-    let most = 1 + u16::from(area.height >= TWO_LINES_FROM) + u16::from(area.height >= THREE_LINES_FROM);
+    let most =
+        1 + u16::from(area.height >= TWO_LINES_FROM) + u16::from(area.height >= THREE_LINES_FROM);
     let lines = most.min(values.len().max(1) as u16);
-    let plot = Rect { height: area.height.saturating_sub(lines), ..area };
+    let plot = Rect {
+        height: area.height.saturating_sub(lines),
+        ..area
+    };
     for (line, y) in values.iter().zip(plot.bottom()..area.bottom()) {
-        buffer.set_stringn(area.x + 1, y, line, usize::from(area.width.saturating_sub(1)), Style::new());
+        buffer.set_stringn(
+            area.x + 1,
+            y,
+            line,
+            usize::from(area.width.saturating_sub(1)),
+            Style::new(),
+        );
     }
     if plot.width < SMALLEST.0 || plot.height < SMALLEST.1 {
         return;
     }
     let scene = Scene::of(picture, moment.as_ref(), plot.as_size());
-    ink::draw(&scene, picture, plot, buffer);
+    raster::draw(&scene, picture, plot, buffer);
     let _ = Labels::new(plot).draw(&scene, picture, buffer);
 }
 
 /// The values at the cursor, in lines.
-fn values(picture: &Picture, moment: Option<&Moment>, width: u16) -> Vec<String> {
+fn values(picture: &Picture, moment: Option<&ContactState>, width: u16) -> Vec<String> {
     let ascii = picture.look.ascii;
-    let told =
-        moment.map(|moment| readings::readings(moment, (picture.inputs, picture.solution), picture.units)).unwrap_or_default();
+    let told = moment
+        .map(|moment| readings::readings(moment, (picture.inputs, picture.solution), picture.units))
+        .unwrap_or_default();
     let told = told.iter().map(|reading| {
         let cells = reading.width(symbol(reading.symbol, ascii).width());
         (symbol(&reading.to_string(), ascii).into_owned(), cells)

@@ -6,14 +6,15 @@ use unicode_width::UnicodeWidthStr;
 
 use crate::case::units::System;
 use crate::case::units::system::shown;
-use crate::model::{Inputs, Moment, Solution};
+use crate::model::{ContactState, Inputs, Solution};
 use crate::report::stations::{COLUMNS, Column, Row};
 
 /// Significant digits of the opening.
 const GAP_DIGITS: usize = 4;
 /// The opening, which no station tells.
 const OPEN: &str = "open";
-/// What is told where the method has a value for it, or the involutes have: what matters first. The charts tell the rest.
+/// What is told where the method has a value for it, or the involutes have: what matters first. The
+/// charts tell the rest.
 const ORDER: [&str; 12] = [
     "roll_angle_driver",
     "impact_force",
@@ -48,7 +49,14 @@ impl Reading {
     /// So many cells it takes, whatever the number, after a symbol so wide.
     #[must_use]
     pub fn width(&self, symbol: usize) -> usize {
-        symbol + 1 + NUMBER + if self.unit.is_empty() { 0 } else { 1 + self.unit.len() }
+        symbol
+            + 1
+            + NUMBER
+            + if self.unit.is_empty() {
+                0
+            } else {
+                1 + self.unit.len()
+            }
     }
 }
 
@@ -64,36 +72,75 @@ impl fmt::Display for Reading {
 
 /// Every value that the method has at some place, and the opening, in an order that stays.
 #[must_use]
-pub fn readings(moment: &Moment, solved: (&Inputs, &Solution), system: System) -> Vec<Reading> {
+pub fn readings(
+    moment: &ContactState,
+    solved: (&Inputs, &Solution),
+    system: System,
+) -> Vec<Reading> {
     ORDER
         .into_iter()
-        .filter_map(|key| if key == OPEN { Some(open(moment, system)) } else { reading(moment, key, solved, system) })
+        .filter_map(|key| {
+            if key == OPEN {
+                Some(open(moment, system))
+            } else {
+                reading(moment, key, solved, system)
+            }
+        })
         .collect()
 }
 
-fn open(moment: &Moment, system: System) -> Reading {
+fn open(moment: &ContactState, system: System) -> Reading {
     let (number, unit) = shown(moment.opening, "um", GAP_DIGITS, system);
-    Reading { symbol: OPEN, number: Some(number), unit }
+    Reading {
+        symbol: OPEN,
+        number: Some(number),
+        unit,
+    }
 }
 
-fn reading(moment: &Moment, key: &str, (inputs, solution): (&Inputs, &Solution), system: System) -> Option<Reading> {
+fn reading(
+    moment: &ContactState,
+    key: &str,
+    (inputs, solution): (&Inputs, &Solution),
+    system: System,
+) -> Option<Reading> {
     let column: &Column = COLUMNS.iter().find(|column| column.key == key)?;
-    let told = moment.told.as_ref().map(Row::from).and_then(|row| column.of(row));
+    let told = moment
+        .told
+        .as_ref()
+        .map(Row::from)
+        .and_then(|row| column.of(row));
     let value = told.or_else(|| without_contact(moment, key));
     if value.is_none() && !column.methods.contains(&solution.method) {
         return None;
     }
-    let digits = moment.told.as_ref().map_or(column.digits, |told| column.digits_of(told));
-    let usual = if column.shown == "1" { "" } else { system.unit(column.shown) };
+    let digits = moment
+        .told
+        .as_ref()
+        .map_or(column.digits, |told| column.digits_of(told));
+    let usual = if column.shown == "1" {
+        ""
+    } else {
+        system.unit(column.shown)
+    };
     let (number, unit) = value.map_or((None, usual), |value| {
-        let (number, unit) = shown(column.resolved(value, inputs, solution), column.shown, digits, system);
+        let (number, unit) = shown(
+            column.resolved(value, inputs, solution),
+            column.shown,
+            digits,
+            system,
+        );
         (Some(number), unit)
     });
-    Some(Reading { symbol: column.symbol, number, unit })
+    Some(Reading {
+        symbol: column.symbol,
+        number,
+        unit,
+    })
 }
 
 /// What the involutes do where the method tells nothing.
-fn without_contact(moment: &Moment, key: &str) -> Option<f64> {
+fn without_contact(moment: &ContactState, key: &str) -> Option<f64> {
     match key {
         "roll_angle_driver" => Some(moment.roll_angle_driver),
         "roll_angle_driven" => Some(moment.roll_angle_driven),
@@ -105,7 +152,8 @@ fn without_contact(moment: &Moment, key: &str) -> Option<f64> {
     }
 }
 
-/// The values in lines of at most a width, each with the cells that it takes whatever its number, two spaces between them.
+/// The values in lines of at most a width, each with the cells that it takes whatever its number,
+/// two spaces between them.
 #[must_use]
 pub fn lines(values: impl Iterator<Item = (String, usize)>, width: usize) -> Vec<String> {
     let mut lines: Vec<(String, usize)> = Vec::new();
@@ -131,11 +179,26 @@ mod tests {
     #[test]
     fn a_value_stays_in_its_place_whatever_the_others_are() {
         let line = |numbers: [Option<&str>; 2]| {
-            let readings = numbers.map(|number| Reading { symbol: "F_S", number: number.map(str::to_owned), unit: "N" });
-            lines(readings.iter().map(|reading| (reading.to_string(), reading.width(3))), 40)
+            let readings = numbers.map(|number| Reading {
+                symbol: "F_S",
+                number: number.map(str::to_owned),
+                unit: "N",
+            });
+            lines(
+                readings
+                    .iter()
+                    .map(|reading| (reading.to_string(), reading.width(3))),
+                40,
+            )
         };
-        assert_eq!(line([Some("2191.0"), Some("1")]), ["F_S 2191.0 N   F_S 1 N"]);
+        assert_eq!(
+            line([Some("2191.0"), Some("1")]),
+            ["F_S 2191.0 N   F_S 1 N"]
+        );
         assert_eq!(line([None, Some("1")]), ["F_S –          F_S 1 N"]);
-        assert_eq!(line([Some("-0.12345"), Some("1")]), ["F_S -0.12345 N F_S 1 N"]);
+        assert_eq!(
+            line([Some("-0.12345"), Some("1")]),
+            ["F_S -0.12345 N F_S 1 N"]
+        );
     }
 }

@@ -3,13 +3,15 @@
 use nalgebra::Point2;
 use ratatui::layout::Size;
 
-use super::ink::{self, Ink};
-use super::pen::{Dash, Pen, Stroke};
 use super::picture::Picture;
+use super::raster::{self, Ink};
+use super::strokes::{Dash, Pen, Stroke};
 use super::window::Window;
-use crate::model::Moment;
-use crate::model::moment::{first_contact, shares_load};
-use crate::model::placing::{Placed, Placing, driven_tangent_point, driver_tangent_point, on_line_of_action, tip_point};
+use crate::model::ContactState;
+use crate::model::contact_state::{first_contact, shares_load};
+use crate::model::gear_pose::{
+    GearPose, Placed, driven_tangent_point, driver_tangent_point, on_line_of_action, tip_point,
+};
 use crate::model::position::tip_at;
 
 /// Dashes and what follows them, in dots.
@@ -48,24 +50,56 @@ pub struct Named {
 impl Scene {
     /// What is to be seen on a screen of that size.
     #[must_use]
-    pub fn of(picture: &Picture, moment: Option<&Moment>, size: Size) -> Scene {
-        let Picture { inputs, solution, view, .. } = *picture;
-        let window = Window::of(view, inputs, solution, size, ink::marker(picture));
+    pub fn of(picture: &Picture, moment: Option<&ContactState>, size: Size) -> Scene {
+        let Picture {
+            inputs,
+            solution,
+            view,
+            ..
+        } = *picture;
+        let window = Window::of(view, inputs, solution, size, raster::marker(picture));
         let factor = moment.map(|moment| view.factor(inputs, solution, moment));
         let angle = moment.map_or(0.0, |moment| moment.roll_angle_driver);
-        let lead = moment.zip(factor).map_or(0.0, |(moment, factor)| moment.lead(factor)) / solution.geometry.driver.base;
-        let placing = Placing::nominal(inputs, &solution.geometry, angle);
+        let lead = moment
+            .zip(factor)
+            .map_or(0.0, |(moment, factor)| moment.lead(factor))
+            / solution.geometry.driver.base;
+        let placing = GearPose::nominal(inputs, &solution.geometry, angle);
         let mut pen = Pen::new(&window);
         construction(&mut pen, picture);
-        pen.gear(&placing.driven, 0.0, inputs.driven.bore_radius, [Ink::Driven, Ink::StruckDriven]);
-        pen.gear(&placing.driver, -lead, inputs.driver.bore_radius, [Ink::Driver, Ink::StruckDriver]);
+        pen.gear(
+            &placing.driven,
+            0.0,
+            inputs.driven.bore_radius,
+            [Ink::Driven, Ink::StruckDriven],
+        );
+        pen.gear(
+            &placing.driver,
+            -lead,
+            inputs.driver.bore_radius,
+            [Ink::Driver, Ink::StruckDriver],
+        );
         let points = told_apart(points(picture), &window);
-        let contacts = moment.into_iter().flat_map(|moment| contacts(picture, moment)).map(|at| (at, Ink::Contact));
-        for (at, ink) in points.iter().map(|point| (point.at, Ink::Mark)).chain(contacts) {
+        let contacts = moment
+            .into_iter()
+            .flat_map(|moment| contacts(picture, moment))
+            .map(|at| (at, Ink::Contact));
+        for (at, ink) in points
+            .iter()
+            .map(|point| (point.at, Ink::Mark))
+            .chain(contacts)
+        {
             pen.cross(at, ink);
         }
         let bar = pen.bar(picture.units);
-        Scene { strokes: pen.strokes, points, bodies: [bodies(&placing.driver), bodies(&placing.driven)], factor, bar, window }
+        Scene {
+            strokes: pen.strokes,
+            points,
+            bodies: [bodies(&placing.driver), bodies(&placing.driven)],
+            factor,
+            bar,
+            window,
+        }
     }
 }
 
@@ -73,28 +107,55 @@ impl Scene {
 fn construction(pen: &mut Pen, picture: &Picture) {
     let geometry = &picture.solution.geometry;
     let centre = Point2::new(geometry.centre_distance, 0.0);
-    pen.circle(Point2::origin(), geometry.driver.base, Some(CIRCLE), Ink::Construction);
-    pen.circle(centre, geometry.driven.base, Some(CIRCLE), Ink::Construction);
-    let line = |from: f64, to: f64| move |part: f64| on_line_of_action(geometry, from + part * (to - from));
-    pen.curve(line(0.0, geometry.tangent_length), geometry.tangent_length, Some(LINE_OF_ACTION), Ink::Construction);
-    pen.curve(line(geometry.start, geometry.end), geometry.end - geometry.start, None, Ink::Path);
+    pen.circle(
+        Point2::origin(),
+        geometry.driver.base,
+        Some(CIRCLE),
+        Ink::Construction,
+    );
+    pen.circle(
+        centre,
+        geometry.driven.base,
+        Some(CIRCLE),
+        Ink::Construction,
+    );
+    let line = |from: f64, to: f64| {
+        move |part: f64| on_line_of_action(geometry, from + part * (to - from))
+    };
+    pen.curve(
+        line(0.0, geometry.tangent_length),
+        geometry.tangent_length,
+        Some(LINE_OF_ACTION),
+        Ink::Construction,
+    );
+    pen.curve(
+        line(geometry.start, geometry.end),
+        geometry.end - geometry.start,
+        None,
+        Ink::Path,
+    );
     let from = PATH_FROM * first_contact(picture.solution).unwrap_or(0.0);
     let path = |part: f64| tip_point(geometry, &tip_at(geometry, part * from));
     pen.curve(path, from * geometry.driven.tip, Some(PATH), Ink::Path);
 }
 
-/// D, E, D', the pitch point, the end of contact, the points of tangency and the centres. D' is the driven tip where the
-/// method's impact duration ends, not past E; the methods that share the load have
-/// none.
+/// D, E, D', the pitch point, the end of contact, the points of tangency and the centres. D' is the
+/// driven tip where the method's impact duration ends, not past E; the methods that share the load
+/// have none.
 fn points(picture: &Picture) -> Vec<Named> {
-    let Picture { inputs, solution, .. } = *picture;
+    let Picture {
+        inputs, solution, ..
+    } = *picture;
     let geometry = &solution.geometry;
     let mut points = Vec::new();
     let mut add = |name, at| points.push(Named { at, name });
     let start = on_line_of_action(geometry, geometry.start);
     let contact = first_contact(solution);
     let on_way = |angle: f64| tip_point(geometry, &tip_at(geometry, angle));
-    let turn = solution.impact.map(|impact| inputs.driven_speed() * impact.duration).filter(|_| !shares_load(solution));
+    let turn = solution
+        .impact
+        .map(|impact| inputs.driven_speed() * impact.duration)
+        .filter(|_| !shares_load(solution));
     if let Some(contact) = contact {
         add("D", on_way(contact));
     }
@@ -106,7 +167,10 @@ fn points(picture: &Picture) -> Vec<Named> {
         Some(_) => add("E=D'", start),
         None => add("E", start),
     }
-    add("P", on_line_of_action(geometry, geometry.start + geometry.approach_length));
+    add(
+        "P",
+        on_line_of_action(geometry, geometry.start + geometry.approach_length),
+    );
     add("B", on_line_of_action(geometry, geometry.end));
     add("N1", driver_tangent_point(geometry));
     add("N2", driven_tangent_point(geometry));
@@ -119,29 +183,39 @@ fn points(picture: &Picture) -> Vec<Named> {
 fn told_apart(points: Vec<Named>, window: &Window) -> Vec<Named> {
     let mut kept: Vec<Named> = Vec::new();
     for point in points.into_iter().filter(|point| window.sees(point.at)) {
-        if kept.iter().all(|other| (other.at - point.at).norm() >= 2.0 * window.column()) {
+        if kept
+            .iter()
+            .all(|other| (other.at - point.at).norm() >= 2.0 * window.column())
+        {
             kept.push(point);
         }
     }
     kept
 }
 
-/// Where flanks touch: the incoming pair from the first contact on, and the pairs ahead of it, a base pitch apart on the path of contact.
-fn contacts(picture: &Picture, moment: &Moment) -> Vec<Point2<f64>> {
+/// Where flanks touch: the incoming pair from the first contact on, and the pairs ahead of it, a
+/// base pitch apart on the path of contact.
+fn contacts(picture: &Picture, moment: &ContactState) -> Vec<Point2<f64>> {
     let geometry = &picture.solution.geometry;
     let incoming = geometry.start - moment.roll_angle_driver * geometry.driver.base;
     let ahead = (1..10).map(|pair| incoming + f64::from(pair) * geometry.base_pitch);
     let touching = ahead.filter(|length| (geometry.start..=geometry.end).contains(length));
     let own = moment.touches().then_some(moment.point);
-    touching.map(|length| on_line_of_action(geometry, length)).chain(own).collect()
+    touching
+        .map(|length| on_line_of_action(geometry, length))
+        .chain(own)
+        .collect()
 }
 
-/// Places inside a gear's body: on the centre lines of the teeth, from the middle of the tooth to the centre.
+/// Places inside a gear's body: on the centre lines of the teeth, from the middle of the tooth to
+/// the centre.
 fn bodies(gear: &Placed) -> Vec<Point2<f64>> {
     let circles = gear.outline.profile().circles();
     let depth = circles.tip - circles.root;
     let radii = [0.5, 0.0, -0.5, -1.2, -2.5, -5.0].map(|part| circles.root + part * depth);
     let inside = radii.into_iter().filter(|radius| *radius > 0.0);
-    let on_teeth = inside.flat_map(|radius| [0, 1, -1, 2, -2].map(|number| gear.tooth(number) * Point2::new(radius, 0.0)));
+    let on_teeth = inside.flat_map(|radius| {
+        [0, 1, -1, 2, -2].map(|number| gear.tooth(number) * Point2::new(radius, 0.0))
+    });
     on_teeth.collect()
 }

@@ -5,8 +5,8 @@ use ratatui::layout::Size;
 use ratatui::symbols::Marker;
 
 use crate::case::units::System;
-use crate::model::moment::first_contact_point;
-use crate::model::placing::on_line_of_action;
+use crate::model::contact_state::first_contact_point;
+use crate::model::gear_pose::on_line_of_action;
 use crate::model::{Inputs, Solution};
 use crate::tui::scale::bounds;
 use crate::tui::zoom::{Centre, TeethView, whole};
@@ -16,7 +16,8 @@ const CELL_HEIGHT: f64 = 2.0;
 /// Bounds of the width of a cell, in m: beyond, differences of coordinates are lost or overflow.
 const CELL: (f64, f64) = (1e-12, 1e6);
 
-/// Units of a length, the longest first, each in m and with its name; in inch units the shortest length that is told in it.
+/// Units of a length, the longest first, each in m and with its name; in inch units the shortest
+/// length that is told in it.
 const METRIC: [(f64, &str); 4] = [(1.0, "m"), (1e-3, "mm"), (1e-6, "um"), (1e-9, "nm")];
 const INCH: [(f64, &str); 2] = [(25.4e-3, "in"), (25.4e-6, "thou")];
 /// A tenth of an inch is told in inches, what is shorter in thou.
@@ -29,7 +30,9 @@ pub fn unit_of_length(length: f64, system: System) -> (f64, &'static str) {
         System::Metric => (&METRIC[..], 1.0),
         System::Inch => (&INCH[..], LEAST_INCHES),
     };
-    let fitting = units.iter().find(|(unit, _)| length >= 0.999 * least * unit);
+    let fitting = units
+        .iter()
+        .find(|(unit, _)| length >= 0.999 * least * unit);
     fitting.or(units.last()).copied().unwrap_or((1.0, "m"))
 }
 
@@ -49,14 +52,23 @@ pub struct Window {
 }
 
 impl Window {
-    /// What the view shows on a screen of that size. The scale is the same in both directions; what is in sight does not
-    /// leave the pair further than it must.
+    /// What the view shows on a screen of that size. The scale is the same in both directions; what
+    /// is in sight does not leave the pair further than it must.
     #[must_use]
-    pub fn of(view: &TeethView, inputs: &Inputs, solution: &Solution, size: Size, marker: Marker) -> Window {
+    pub fn of(
+        view: &TeethView,
+        inputs: &Inputs,
+        solution: &Solution,
+        size: Size,
+        marker: Marker,
+    ) -> Window {
         let geometry = &solution.geometry;
         let dots = dots(marker);
         let span = |cells: u16, dots: u16| (f64::from(cells) - 1.0 / f64::from(dots)).max(0.5);
-        let (wide, high) = (span(size.width, dots.0), CELL_HEIGHT * span(size.height, dots.1));
+        let (wide, high) = (
+            span(size.width, dots.0),
+            CELL_HEIGHT * span(size.height, dots.1),
+        );
         let (height, width) = whole(geometry);
         let fitting = (width / wide).max(height / high);
         let cell = if view.centre == Centre::Pair {
@@ -66,17 +78,35 @@ impl Window {
         };
         let cell = cell.min(fitting).max(CELL.0).min(CELL.1);
         let half = Vector2::new(wide, high) * (0.5 * cell);
-        let middle = Point2::new(0.5 * (geometry.centre_distance + geometry.driven.tip - geometry.driver.tip), 0.0);
-        let held = |at: f64, middle: f64, room: f64| at.max(middle - room.max(0.0)).min(middle + room.max(0.0));
+        let middle = Point2::new(
+            0.5 * (geometry.centre_distance + geometry.driven.tip - geometry.driver.tip),
+            0.0,
+        );
+        let held = |at: f64, middle: f64, room: f64| {
+            at.max(middle - room.max(0.0)).min(middle + room.max(0.0))
+        };
         let at = anchor(view.centre, solution).unwrap_or(middle);
-        let centre = Point2::new(held(at.x, middle.x, 0.5 * width - half.x), held(at.y, middle.y, 0.5 * height - half.y));
-        Window { centre, half, dot: cell / f64::from(dots.0), size, dots }
+        let centre = Point2::new(
+            held(at.x, middle.x, 0.5 * width - half.x),
+            held(at.y, middle.y, 0.5 * height - half.y),
+        );
+        Window {
+            centre,
+            half,
+            dot: cell / f64::from(dots.0),
+            size,
+            dots,
+        }
     }
 
     /// The same for a room that begins at its lower left corner.
     #[must_use]
     pub fn around(&self, from: Point2<f64>, room: Vector2<f64>) -> Window {
-        Window { centre: from + 0.5 * room, half: 0.5 * room, ..*self }
+        Window {
+            centre: from + 0.5 * room,
+            half: 0.5 * room,
+            ..*self
+        }
     }
 
     /// Ends of the x axis.
@@ -102,10 +132,15 @@ impl Window {
     #[must_use]
     pub fn distance(&self, point: Point2<f64>) -> f64 {
         let off = point - self.centre;
-        Vector2::new((off.x.abs() - self.half.x).max(0.0), (off.y.abs() - self.half.y).max(0.0)).norm()
+        Vector2::new(
+            (off.x.abs() - self.half.x).max(0.0),
+            (off.y.abs() - self.half.y).max(0.0),
+        )
+        .norm()
     }
 
-    /// The part of a straight line that is in sight, as shares of its length from its beginning (Liang & Barsky 1984).
+    /// The part of a straight line that is in sight, as shares of its length from its beginning
+    /// (Liang & Barsky 1984).
     #[must_use]
     pub fn clip(&self, from: Point2<f64>, to: Point2<f64>) -> Option<(f64, f64)> {
         let (start, way) = (from - self.centre, to - from);
@@ -132,10 +167,15 @@ impl Window {
             return None;
         }
         let off = point - self.centre;
-        let dot = |part: f64, cells: u16, dots: u16| (part * (f64::from(cells) * f64::from(dots) - 1.0)).round() as u16 / dots;
+        let dot = |part: f64, cells: u16, dots: u16| {
+            (part * (f64::from(cells) * f64::from(dots) - 1.0)).round() as u16 / dots
+        };
         let right = 0.5 * (1.0 + off.x / self.half.x);
         let down = 0.5 * (1.0 - off.y / self.half.y);
-        Some((dot(right, self.size.width, self.dots.0), dot(down, self.size.height, self.dots.1)))
+        Some((
+            dot(right, self.size.width, self.dots.0),
+            dot(down, self.size.height, self.dots.1),
+        ))
     }
 
     /// Width of a column of the screen.
@@ -163,7 +203,10 @@ fn anchor(centre: Centre, solution: &Solution) -> Option<Point2<f64>> {
     let start = on_line_of_action(geometry, geometry.start);
     match centre {
         Centre::Strike => Some(first_contact_point(solution).unwrap_or(start)),
-        Centre::PitchPoint => Some(on_line_of_action(geometry, geometry.start + geometry.approach_length)),
+        Centre::PitchPoint => Some(on_line_of_action(
+            geometry,
+            geometry.start + geometry.approach_length,
+        )),
         Centre::Pair => None,
     }
 }
@@ -195,17 +238,32 @@ mod tests {
     fn windows() -> Vec<(Window, Marker)> {
         let inputs = Case::table_1().inputs().unwrap();
         let solution = model::solve(&inputs, Stages::CLOSED_FORM).unwrap();
-        let of = |(marker, size)| (Window::of(&TeethView::default(), &inputs, &solution, size, marker), marker);
-        MARKERS.into_iter().flat_map(|marker| [Size::new(80, 24), Size::new(30, 40)].map(|size| (marker, size))).map(of).collect()
+        let of = |(marker, size)| {
+            (
+                Window::of(&TeethView::default(), &inputs, &solution, size, marker),
+                marker,
+            )
+        };
+        MARKERS
+            .into_iter()
+            .flat_map(|marker| [Size::new(80, 24), Size::new(30, 40)].map(|size| (marker, size)))
+            .map(of)
+            .collect()
     }
 
     #[test]
     fn scale_is_the_same_in_both_directions() {
         for (window, marker) in windows() {
             let (columns, rows) = (f64::from(window.size.width), f64::from(window.size.height));
-            let (wide, high) = (columns - 1.0 / f64::from(window.dots.0), rows - 1.0 / f64::from(window.dots.1));
+            let (wide, high) = (
+                columns - 1.0 / f64::from(window.dots.0),
+                rows - 1.0 / f64::from(window.dots.1),
+            );
             let (column, row) = (2.0 * window.half.x / wide, 2.0 * window.half.y / high);
-            assert!((row / column - CELL_HEIGHT).abs() < 1e-12, "{marker:?}: {column} m and {row} m");
+            assert!(
+                (row / column - CELL_HEIGHT).abs() < 1e-12,
+                "{marker:?}: {column} m and {row} m"
+            );
             assert!((column - window.column()).abs() < 1e-15);
         }
     }
@@ -213,7 +271,14 @@ mod tests {
     #[test]
     fn a_point_is_drawn_in_the_cell_that_is_told() {
         for (window, marker) in windows() {
-            for (right, up) in [(0.02, -0.03), (0.3, -0.7), (-0.99, 0.99), (0.999, 0.999), (-0.999, -0.999), (0.51, 0.13)] {
+            for (right, up) in [
+                (0.02, -0.03),
+                (0.3, -0.7),
+                (-0.99, 0.99),
+                (0.999, 0.999),
+                (-0.999, -0.999),
+                (0.51, 0.13),
+            ] {
                 let point = window.centre + Vector2::new(right * window.half.x, up * window.half.y);
                 let area = Rect::new(0, 0, window.size.width, window.size.height);
                 let mut buffer = Buffer::empty(area);
@@ -221,9 +286,14 @@ mod tests {
                     .marker(marker)
                     .x_bounds(window.across())
                     .y_bounds(window.upright())
-                    .paint(|context| context.draw(&Line::new(point.x, point.y, point.x, point.y, Color::Reset)))
+                    .paint(|context| {
+                        context.draw(&Line::new(point.x, point.y, point.x, point.y, Color::Reset))
+                    })
                     .render(area, &mut buffer);
-                let drawn = area.positions().find(|position| buffer[*position].symbol() != " ").map(|cell| (cell.x, cell.y));
+                let drawn = area
+                    .positions()
+                    .find(|position| buffer[*position].symbol() != " ")
+                    .map(|cell| (cell.x, cell.y));
                 assert_eq!(drawn, window.cell(point), "{marker:?} {right} {up}");
             }
         }
@@ -232,7 +302,9 @@ mod tests {
     #[test]
     fn lines_are_cut_at_the_edges() {
         let (window, _) = windows()[0];
-        let at = |right: f64, up: f64| window.centre + Vector2::new(right * window.half.x, up * window.half.y);
+        let at = |right: f64, up: f64| {
+            window.centre + Vector2::new(right * window.half.x, up * window.half.y)
+        };
         assert_eq!(window.clip(at(0.1, 0.2), at(-0.5, 0.9)), Some((0.0, 1.0)));
         let (first, last) = window.clip(at(-3.0, 0.0), at(1.0, 0.0)).unwrap();
         assert!((first - 0.5).abs() < 1e-9 && (last - 1.0).abs() < 1e-9);

@@ -1,0 +1,380 @@
+//! The table of reach held against the truth: every field is changed in every case, and the bits
+//! are compared.
+
+use std::collections::BTreeSet;
+
+use super::table::ROWS;
+use super::{fields_of, first_stage, stages_of};
+use crate::case::fields::{Kind, index_of};
+use crate::case::{Case, EXAMPLES, FIELDS};
+use crate::model::inputs::{ContactCompliance, Method, ToothCompliance};
+use crate::model::{self, Inputs, QUANTITIES, Quantity, Refusal, Solution, Stage, Stages};
+
+/// A case and what became of it.
+struct Solved {
+    name: String,
+    variant: &'static str,
+    case: Case,
+    inputs: Inputs,
+    solution: Solution,
+}
+
+type Change = fn(&mut Inputs);
+
+/// What turns a case into one that reads other fields.
+const VARIANTS: [(&str, Change); 16] = [
+    ("as it is", |_| {}),
+    ("paper", |inputs| inputs.method = Method::Paper),
+    ("static", |inputs| inputs.method = Method::Static),
+    ("static, relieved, with friction", |inputs| {
+        relieved(inputs, Method::Static)
+    }),
+    ("static, contact ratio 1.94", |inputs| {
+        nearly_double_contact(inputs, 1.15)
+    }),
+    ("static, contact ratio 1.97", |inputs| {
+        nearly_double_contact(inputs, 1.17)
+    }),
+    ("dynamic", |inputs| {
+        relieved(inputs, Method::Dynamic);
+        (inputs.warmup_cycles, inputs.tolerance) = (2, 1e-5);
+    }),
+    ("deflection computed", |inputs| inputs.deflection = None),
+    ("stations as needed", |inputs| inputs.stations = None),
+    ("auto", |inputs| inputs.method = Method::Auto),
+    ("beam, deflection given", |inputs| {
+        inputs.tooth_compliance = Some(ToothCompliance::Beam);
+        inputs.deflection = Some(21e-6);
+    }),
+    ("weber", |inputs| {
+        inputs.contact_compliance = ContactCompliance::Weber
+    }),
+    ("constant", |inputs| {
+        inputs.contact_compliance = ContactCompliance::Constant
+    }),
+    ("edge radius", |inputs| {
+        inputs.driven.tip_radius = Some(0.3e-3)
+    }),
+    ("outside the fit", |inputs| {
+        inputs.pressure_angle = 22f64.to_radians();
+        inputs.centre_distance = None;
+        inputs.tooth_compliance = Some(ToothCompliance::KuangYang);
+    }),
+    ("softer than the fit", |inputs| {
+        inputs.tooth_compliance = Some(ToothCompliance::KuangYang);
+        (inputs.driver.young, inputs.driven.young) = (90e9, 90e9);
+    }),
+];
+
+/// The variants in which other methods are tried.
+const AS_IT_IS: [&str; 2] = ["as it is", "static, relieved, with friction"];
+
+fn relieved(inputs: &mut Inputs, method: Method) {
+    (
+        inputs.method,
+        inputs.friction_coefficient,
+        inputs.base_pitch_deviation,
+    ) = (method, Some(0.05), 0.0);
+    for gear in [&mut inputs.driver, &mut inputs.driven] {
+        (gear.tip_relief, gear.root_relief) = (3e-6, 2e-6);
+    }
+}
+
+/// Where contact begins and ends, a pair two base pitches on stands just off the line of action.
+fn nearly_double_contact(inputs: &mut Inputs, addendum: f64) {
+    relieved(inputs, Method::Static);
+    inputs.centre_distance = None;
+    for gear in [&mut inputs.driver, &mut inputs.driven] {
+        (gear.teeth, gear.profile_shift, gear.addendum) = (40, 0.0, addendum);
+    }
+}
+
+/// Every stage, in few steps; not with inertia where the pair is so slow that it swings for long.
+fn solve(inputs: &Inputs) -> Result<Solution, Refusal> {
+    const SLOW: f64 = 500.0;
+    let wanted = if inputs.speed < SLOW {
+        Stages::ALL.and(Stages::of(Stage::Static))
+    } else {
+        Stages::EVERY
+    };
+    model::solve(
+        &Inputs {
+            stations: inputs.stations.map(|count| count.min(2)),
+            ..inputs.clone()
+        },
+        wanted,
+    )
+}
+
+fn solved_cases() -> Vec<Solved> {
+    EXAMPLES
+        .iter()
+        .flat_map(|example| variants(&example.document().case, example.name))
+        .collect()
+}
+
+fn variants(case: &Case, name: &str) -> Vec<Solved> {
+    /// The load that every pair shares takes a thousand times as long to find: three kinds of pair
+    /// stand for all.
+    const SHARING: [&str; 3] = ["zhou", "turbo", "high-contact"];
+    let shares = SHARING.iter().any(|kind| name.contains(kind));
+    let of = |(variant, change): (&'static str, Change)| {
+        let mut inputs = case.inputs().unwrap();
+        (inputs.stations, inputs.warmup_cycles, inputs.tolerance) = (Some(1), 1, 1e-3);
+        change(&mut inputs);
+        let costly = inputs.method.shares_load() || variant != "as it is";
+        if costly && !shares {
+            return None;
+        }
+        let solution = solve(&inputs).ok()?;
+        Some(Solved {
+            name: format!("{name}, {variant}"),
+            variant,
+            case: case.clone(),
+            inputs,
+            solution,
+        })
+    };
+    VARIANTS.into_iter().filter_map(of).collect()
+}
+
+/// The inputs with the field changed a little, and much, and given or taken away.
+fn changed(solved: &Solved, field: usize) -> Vec<Inputs> {
+    let with = |put: &dyn Fn(&mut Inputs)| {
+        let mut inputs = solved.inputs.clone();
+        put(&mut inputs);
+        inputs
+    };
+    match FIELDS[field].kind {
+        Kind::Text => Vec::new(),
+        // Another method is another case.
+        Kind::Choice(..)
+            if FIELDS[field].key == "model.method" && !AS_IT_IS.contains(&solved.variant) =>
+        {
+            Vec::new()
+        }
+        Kind::Choice(names, put) => (0..names.len())
+            .map(|choice| with(&|inputs| put(inputs, choice)))
+            .collect(),
+        Kind::Count(_, _, put) => {
+            let now = solved.case.value(field).unwrap() as u32;
+            [1, 9]
+                .map(|more| with(&|inputs| put(inputs, now + more)))
+                .into()
+        }
+        Kind::Number(_, range, put) => {
+            let values = match solved.case.value(field) {
+                Some(now) if now != 0.0 => vec![now * 0.997, now * 1.2],
+                _ => offered(solved, FIELDS[field].key, range.unit),
+            };
+            values
+                .into_iter()
+                .map(|value| with(&|inputs| put(inputs, value)))
+                .collect()
+        }
+    }
+}
+
+/// Values for a field that is zero or left out.
+fn offered(solved: &Solved, key: &str, unit: &str) -> Vec<f64> {
+    match (key, unit) {
+        ("pair.centre_distance", _) => [1.0002, 1.003]
+            .map(|part| part * solved.solution.geometry.centre_distance)
+            .into(),
+        ("operation.power", _) => vec![1e4],
+        ("operation.torque", _) => vec![50.0],
+        (key, _) if key.ends_with("relief_length") => vec![0.2e-3, 1.5e-3, 30e-3],
+        (_, "um") => vec![2e-6, 9e-6],
+        (_, "mm") => vec![0.2e-3, 1.5e-3],
+        _ => vec![0.02, 0.3],
+    }
+}
+
+/// The value's bits; `None` where there is none.
+fn bits(quantity: &Quantity, solution: &Solution) -> Option<u64> {
+    (quantity.value)(solution).map(f64::to_bits)
+}
+
+/// Whether the results of a stage are the same to the last bit.
+fn same(stage: Stage, one: &Solution, other: &Solution) -> bool {
+    match stage {
+        Stage::Geometry => one.geometry == other.geometry,
+        Stage::Load => (one.mesh_force, one.reduced_mass) == (other.mesh_force, other.reduced_mass),
+        Stage::Deviation => one.deviation == other.deviation,
+        Stage::Position => one.position == other.position,
+        Stage::Velocity => one.velocity == other.velocity,
+        Stage::Compliance => one.compliance == other.compliance,
+        Stage::Impact => (one.impact, one.withheld) == (other.impact, other.withheld),
+        Stage::Friction => one.friction == other.friction,
+        Stage::Band => one.band == other.band,
+        Stage::Stations => {
+            (&one.stations, one.stations_withheld) == (&other.stations, other.stations_withheld)
+        }
+        Stage::Mesh => one.mesh == other.mesh,
+        Stage::Static => one.static_load == other.static_load,
+        Stage::Dynamic => one.dynamic == other.dynamic,
+        Stage::Clearing => one.clearing == other.clearing,
+    }
+}
+
+/// Every quantity and every stage, in every case, under every change of every field.
+#[test]
+fn the_table_says_what_a_change_changes_and_no_less() {
+    let mut acting: BTreeSet<(&str, &str)> = BTreeSet::new();
+    let mut wrong: BTreeSet<String> = BTreeSet::new();
+    for solved in solved_cases() {
+        for (field, known) in FIELDS.iter().enumerate() {
+            for inputs in changed(&solved, field) {
+                let stages = stages_of(field, &solved.inputs).and(stages_of(field, &inputs));
+                let Ok(found) = solve(&inputs) else {
+                    if stages == Stages::NONE {
+                        wrong.insert(format!(
+                            "{} is refused and reaches nothing, {}",
+                            known.key, solved.name
+                        ));
+                    }
+                    continue;
+                };
+                for stage in Stage::ALL
+                    .into_iter()
+                    .filter(|&stage| !same(stage, &solved.solution, &found))
+                {
+                    acting.insert((stage.name(), known.key));
+                    if !stages.has(stage) {
+                        wrong.insert(format!(
+                            "{} changes {}, {}",
+                            known.key,
+                            stage.name(),
+                            solved.name
+                        ));
+                    }
+                }
+                for quantity in QUANTITIES
+                    .iter()
+                    .filter(|quantity| bits(quantity, &solved.solution) != bits(quantity, &found))
+                {
+                    acting.insert((quantity.key, known.key));
+                    let listed = fields_of(quantity, &solved.inputs).contains(&field)
+                        || fields_of(quantity, &inputs).contains(&field);
+                    // A quantity appears or goes where D or the force does.
+                    let both = bits(quantity, &solved.solution).is_some()
+                        && bits(quantity, &found).is_some();
+                    if both && !listed {
+                        wrong.insert(format!(
+                            "{} changes {}, {}",
+                            known.key, quantity.key, solved.name
+                        ));
+                    }
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    // Tolerances change nothing where every step, or every station, is short enough as it is; and
+    // the edge of a driven tip is felt by the next tooth's first contact only where the mesh still
+    // swings from the one before, and by the first impact only where a tooth strikes, which it does
+    // in none of the cases that are run with inertia.
+    let seldom = [
+        "model.tolerance",
+        "model.station_tolerance",
+        "driven.tip_radius: dynamic_first_contact_angle",
+        "driven.tip_radius: dynamic_impact_duration",
+        "driven.tip_radius: clearing",
+    ];
+    let mut idle = idle(&acting);
+    idle.retain(|said| !seldom.iter().any(|start| said.starts_with(start)));
+    assert!(idle.is_empty(), "said to act, and never did: {idle:#?}");
+}
+
+/// What the table lists in some case and no change in any case has shown. Before the method is
+/// chosen it lists what any method would read.
+fn idle(acting: &BTreeSet<(&str, &str)>) -> BTreeSet<String> {
+    let mut idle = BTreeSet::new();
+    for solved in solved_cases()
+        .into_iter()
+        .filter(|solved| solved.inputs.method != Method::Auto)
+    {
+        // What is yes or no seldom changes.
+        for quantity in QUANTITIES.iter().filter(|quantity| !quantity.is_flag()) {
+            let listed = fields_of(quantity, &solved.inputs)
+                .into_iter()
+                .map(|field| FIELDS[field].key);
+            idle.extend(
+                listed
+                    .filter(|key| !acting.contains(&(quantity.key, key)))
+                    .map(|key| format!("{key}: {}", quantity.key)),
+            );
+        }
+        for (field, known) in FIELDS.iter().enumerate() {
+            let listed = stages_of(field, &solved.inputs).iter().map(Stage::name);
+            idle.extend(
+                listed
+                    .filter(|stage| !acting.contains(&(stage, known.key)))
+                    .map(|stage| format!("{}: {stage}", known.key)),
+            );
+        }
+    }
+    idle
+}
+
+#[test]
+fn every_name_of_the_table_is_known() {
+    let values: BTreeSet<&str> = ROWS.iter().map(|row| row.value).collect();
+    for quantity in QUANTITIES {
+        assert!(values.contains(quantity.key), "{} has no row", quantity.key);
+        let stages: Vec<_> = ROWS
+            .iter()
+            .filter(|row| row.value == quantity.key)
+            .map(|row| row.stage)
+            .collect();
+        assert!(
+            stages.iter().all(|&stage| stage == Some(quantity.stage)),
+            "{}: {stages:?}",
+            quantity.key
+        );
+    }
+    for read in ROWS.iter().flat_map(|row| row.reads) {
+        let field = read.replace('*', "driver");
+        assert!(
+            values.contains(read) || index_of(&field).is_some(),
+            "{read}"
+        );
+    }
+}
+
+#[test]
+fn an_edit_leaves_alone_what_it_does_not_reach() {
+    let inputs = Case::table_1().inputs().unwrap();
+    let stages = |key: &str| stages_of(index_of(key).unwrap(), &inputs);
+    let density = stages("driver.density");
+    assert_eq!(
+        first_stage(index_of("driver.density").unwrap(), &inputs),
+        Some(Stage::Load)
+    );
+    assert!(
+        ![
+            Stage::Geometry,
+            Stage::Deviation,
+            Stage::Position,
+            Stage::Velocity,
+            Stage::Compliance
+        ]
+        .iter()
+        .any(|&s| density.has(s))
+    );
+    assert!(density.has(Stage::Impact) && density.has(Stage::Stations));
+    // The deflection of Table 1 is given, so that no load and no stiffness moves D.
+    assert!(
+        !stages("driver.young").has(Stage::Position)
+            && !stages("operation.power").has(Stage::Position)
+    );
+    let computed = Inputs {
+        deflection: None,
+        ..inputs.clone()
+    };
+    assert!(stages_of(index_of("operation.power").unwrap(), &computed).has(Stage::Position));
+    for silent in ["title", "notes", "operation.friction_coefficient"] {
+        assert_eq!(stages(silent), Stages::NONE, "{silent}");
+    }
+    assert_eq!(stages("model.stations"), Stages::NONE.with(Stage::Stations));
+}

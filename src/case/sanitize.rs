@@ -1,0 +1,85 @@
+//! Text from outside, made safe to show: no byte of it reaches a terminal as a control.
+
+/// The most characters of a foreign text that a message repeats.
+const MOST: usize = 60;
+
+/// The text with control, direction and zero-width characters written out, such as `\u{1b}`.
+#[must_use]
+pub fn sanitize(text: &str) -> String {
+    let mut shown = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '\n' | '\r' | '\t' => shown.extend(c.escape_default()),
+            _ if is_hidden(c) => shown.extend(c.escape_unicode()),
+            _ => shown.push(c),
+        }
+    }
+    shown
+}
+
+/// The text for a message: visible, cut where it is long.
+#[must_use]
+pub fn cut(text: &str) -> String {
+    let mut shown: String = text.chars().take(MOST).collect();
+    if shown.len() < text.len() {
+        shown.push('…');
+    }
+    sanitize(&shown)
+}
+
+/// The text as [`cut`] leaves it, between backquotes.
+#[must_use]
+pub fn quoted(text: &str) -> String {
+    format!("`{}`", cut(text))
+}
+
+/// Whether a character acts on the screen, or is none to the eye.
+#[must_use]
+pub fn is_hidden(c: char) -> bool {
+    c.is_control() || HIDDEN.iter().any(|&(from, to)| (from..=to).contains(&c))
+}
+
+const HIDDEN: [(char, char); 18] = [
+    ('\u{ad}', '\u{ad}'),       // soft hyphen
+    ('\u{34f}', '\u{34f}'),     // combining grapheme joiner
+    ('\u{61c}', '\u{61c}'),     // Arabic letter mark
+    ('\u{115f}', '\u{1160}'),   // Hangul fillers
+    ('\u{17b4}', '\u{17b5}'),   // Khmer inherent vowels
+    ('\u{180b}', '\u{180f}'),   // Mongolian selectors
+    ('\u{200b}', '\u{200f}'),   // zero width, direction marks
+    ('\u{2028}', '\u{202e}'),   // line separators, direction overrides
+    ('\u{2060}', '\u{206f}'),   // invisible operators, isolates
+    ('\u{3164}', '\u{3164}'),   // Hangul filler
+    ('\u{e000}', '\u{f8ff}'),   // private use
+    ('\u{fe00}', '\u{fe0f}'),   // variation selectors
+    ('\u{feff}', '\u{feff}'),   // byte order mark
+    ('\u{ffa0}', '\u{ffa0}'),   // half-width Hangul filler
+    ('\u{fff0}', '\u{fffb}'),   // interlinear annotation
+    ('\u{1bca0}', '\u{1bca3}'), // shorthand format
+    ('\u{1d173}', '\u{1d17a}'), // musical format
+    ('\u{e0000}', '\u{e0fff}'), // tags and selectors
+];
+
+#[cfg(test)]
+mod tests {
+    use super::{quoted, sanitize};
+
+    #[test]
+    fn nothing_that_acts_on_a_screen_passes() {
+        assert_eq!(sanitize("a\u{1b}[2Jb\u{9b}c\n"), r"a\u{1b}[2Jb\u{9b}c\n");
+        assert_eq!(
+            sanitize("\u{202e}abc\u{200b}\u{feff}"),
+            r"\u{202e}abc\u{200b}\u{feff}"
+        );
+    }
+
+    #[test]
+    fn ordinary_text_stays_as_it_is() {
+        assert_eq!(sanitize("Zähne, 歯車, α = 20°"), "Zähne, 歯車, α = 20°");
+    }
+
+    #[test]
+    fn a_long_text_is_cut() {
+        assert_eq!(quoted(&"x".repeat(1000)).chars().count(), 63);
+    }
+}

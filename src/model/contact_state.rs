@@ -1,0 +1,472 @@
+//! The incoming pair at one roll angle: where tip and flank face each other, and every value there.
+
+use nalgebra::Point2;
+
+use super::gear_pose::{on_line_of_action, tip_point};
+use super::geometry::geometry;
+use super::inputs::Inputs;
+use super::interpolate::Told;
+use super::tip_gap::{TipContact, gap_without, tip_at};
+use super::velocity::velocity;
+use super::{Geometry, Solution};
+
+/// No tip is followed further from its end of the path of contact, in rad of its gear.
+pub const MOST_ANGLE: f64 = 1.0;
+
+/// The gap in closed form may lose this factor of its digits before the quadrature serves: four of
+/// a double are kept.
+const LOSS: f64 = 1e12;
+
+/// A gap below this share of what is closed at the first contact is none.
+const ROUNDING: f64 = 1e-9;
+
+/// The incoming pair at a roll angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactState {
+    /// Where in its course it is.
+    pub phase: Phase,
+    /// Driver's angle before E, in rad; below 0 after E.
+    pub roll_angle_driver: f64,
+    /// Driven gear's angle before E, u, in rad.
+    pub roll_angle_driven: f64,
+    /// The tip, or the contact on the line of action, in m; O₁ at the origin, O₂ at (a, 0).
+    pub point: Point2<f64>,
+    /// Its distance from O₁, O₁J, in m.
+    pub radius_driver: f64,
+    /// Gap S that the involutes without deviation leave between tip and flank, in m; 0 on the line
+    /// of action.
+    pub gap: f64,
+    /// What is left of it until the first contact, in m; 0 from there on.
+    pub opening: f64,
+    /// Approach velocity ΔV_n, in m/s; below 0 where tip and flank part.
+    pub normal_velocity: f64,
+    /// Sliding velocity ΔV_τ, in m/s.
+    pub sliding_velocity: f64,
+    /// What the method tells of the tooth here, where it is in contact.
+    pub told: Option<Told>,
+}
+
+/// Where in its course the incoming pair is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Phase {
+    /// Before E: the driven tip faces the driver's flank.
+    RunIn,
+    /// From E to B: flank on flank on the line of action.
+    Line,
+    /// After B: the driver's tip faces the driven flank.
+    RunOut,
+}
+
+/// The driven gear's angle before E at the first contact, in rad, by the solution's method; `None`
+/// where no tooth strikes.
+#[must_use]
+pub fn first_contact(solution: &Solution) -> Option<f64> {
+    let at_rest = solution
+        .static_load
+        .as_ref()
+        .map(|load| load.first_contact_angle);
+    let moving = solution
+        .dynamic
+        .as_ref()
+        .map(|dynamic| dynamic.first_contact_angle);
+    moving.or(at_rest).unwrap_or(
+        solution
+            .position
+            .map(|position| position.approach_angle_driven),
+    )
+}
+
+/// Whether the solution tells how the pairs share the load.
+#[must_use]
+pub fn shares_load(solution: &Solution) -> bool {
+    solution.static_load.is_some() || solution.dynamic.is_some()
+}
+
+/// Where the driven tip is at the first contact, D, in m.
+#[must_use]
+pub fn first_contact_point(solution: &Solution) -> Option<Point2<f64>> {
+    let tip = tip_at(&solution.geometry, first_contact(solution)?);
+    Some(tip_point(&solution.geometry, &tip))
+}
+
+impl ContactState {
+    /// The incoming pair where the driver stands `roll_angle` before E, in rad, or at the nearest
+    /// angle at which a tip is followed. `None` where that tip would be inside the other gear's
+    /// base circle.
+    ///
+    /// # Formula
+    /// ```text
+    /// u = θ/i,   opening = max(0, S(u) − S₀),   S = 0 on the line of action
+    /// ```
+    /// where S₀ is the gap that is closed at the first contact: Δ in the methods `paper` and
+    /// `exact`, S at the first contact in `static` and `dynamic`. After B the same is told of the
+    /// driver's tip, by swapped gears, and S₀ is 0.
+    ///
+    /// # Source
+    /// Gap, velocities and force of the method `exact` stand in `paper` too, so that what is seen
+    /// is what the involutes do.
+    #[must_use]
+    pub fn at(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> Option<ContactState> {
+        let last =
+            (solution.geometry.start - solution.geometry.end) / solution.geometry.driver.base;
+        let roll_angle = roll_angle
+            .max(last - MOST_ANGLE)
+            .min(MOST_ANGLE * inputs.ratio());
+        let moment = if roll_angle < last {
+            run_out(inputs, solution, roll_angle, last)?
+        } else if roll_angle < 0.0 {
+            line(inputs, solution, roll_angle)
+        } else {
+            run_in(inputs, solution, roll_angle)
+        };
+        moment.is_sound().then_some(moment)
+    }
+
+    /// How far the struck flank is ahead of its nominal place along the line of action when the
+    /// opening is shown `factor` times as wide, in m.
+    ///
+    /// # Formula
+    /// ```text
+    /// S(u) − factor · opening,   0 after B
+    /// ```
+    /// An involute turned about its gear moves by the same length along each of its normals, so
+    /// that the gap drawn is the factor times the opening, exactly, and in contact the two touch
+    /// whatever the factor.
+    #[must_use]
+    pub fn lead(&self, factor: f64) -> f64 {
+        if self.phase == Phase::RunOut {
+            0.0
+        } else {
+            self.gap - factor * self.opening
+        }
+    }
+
+    /// Whether the pair touches.
+    #[must_use]
+    pub fn touches(&self) -> bool {
+        self.opening <= 0.0
+            && self
+                .told
+                .as_ref()
+                .and_then(Told::load)
+                .is_none_or(|load| load.force > 0.0)
+    }
+
+    fn is_sound(&self) -> bool {
+        let numbers = [
+            self.point.x,
+            self.point.y,
+            self.radius_driver,
+            self.gap,
+            self.opening,
+        ];
+        numbers
+            .iter()
+            .chain(&[self.normal_velocity, self.sliding_velocity])
+            .all(|number| number.is_finite())
+    }
+}
+
+/// The driven tip in front of the driver's flank.
+fn run_in(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> ContactState {
+    let geometry = &solution.geometry;
+    let angle = roll_angle / inputs.ratio();
+    let tip = tip_at(geometry, angle);
+    let gap = gap_of(geometry, &tip);
+    let velocity = velocity(inputs, &tip);
+    ContactState {
+        phase: Phase::RunIn,
+        roll_angle_driver: roll_angle,
+        roll_angle_driven: angle,
+        point: tip_point(geometry, &tip),
+        radius_driver: tip.radius_driver,
+        gap,
+        opening: opening(solution, gap),
+        normal_velocity: velocity.normal,
+        sliding_velocity: velocity.sliding,
+        told: Told::at(inputs, solution, roll_angle),
+    }
+}
+
+/// Flank on flank on the line of action.
+fn line(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> ContactState {
+    let geometry = &solution.geometry;
+    let curvature = geometry.start - roll_angle * geometry.driver.base;
+    let rest = geometry.tangent_length - curvature;
+    ContactState {
+        phase: Phase::Line,
+        roll_angle_driver: roll_angle,
+        roll_angle_driven: roll_angle / inputs.ratio(),
+        point: on_line_of_action(geometry, curvature),
+        radius_driver: geometry.driver.base.hypot(curvature),
+        gap: 0.0,
+        opening: opening(solution, 0.0),
+        normal_velocity: 0.0,
+        sliding_velocity: inputs.driven_speed() * rest - inputs.speed * curvature,
+        told: Told::at(inputs, solution, roll_angle),
+    }
+}
+
+/// The driver's tip leaving the driven flank: the run-in of the swapped gears, backwards and seen
+/// from the other side.
+fn run_out(
+    inputs: &Inputs,
+    solution: &Solution,
+    roll_angle: f64,
+    last: f64,
+) -> Option<ContactState> {
+    let swapped = Inputs {
+        driver: inputs.driven.clone(),
+        driven: inputs.driver.clone(),
+        speed: inputs.driven_speed(),
+        ..inputs.clone()
+    };
+    let geometry = geometry::<f64>(&swapped).ok()?;
+    let tip = tip_at(&geometry, last - roll_angle);
+    let (gap, velocity, told) = (
+        gap_of(&geometry, &tip),
+        velocity(&swapped, &tip),
+        Told::at(inputs, solution, roll_angle),
+    );
+    let point = tip_point(&geometry, &tip);
+    Some(ContactState {
+        phase: Phase::RunOut,
+        roll_angle_driver: roll_angle,
+        roll_angle_driven: roll_angle / inputs.ratio(),
+        point: Point2::new(geometry.centre_distance - point.x, -point.y),
+        radius_driver: geometry.driven.tip,
+        gap,
+        opening: if told.is_some() { 0.0 } else { gap },
+        normal_velocity: -velocity.normal,
+        sliding_velocity: -velocity.sliding,
+        told,
+    })
+}
+
+fn gap_of(geometry: &Geometry, tip: &TipContact) -> f64 {
+    gap_without(LOSS, geometry, tip).max(0.0)
+}
+
+/// What is left of a gap until the first contact.
+fn opening(solution: &Solution, gap: f64) -> f64 {
+    let total = solution.deviation.total;
+    let closed = match first_contact(solution) {
+        Some(angle) if shares_load(solution) => {
+            gap_of(&solution.geometry, &tip_at(&solution.geometry, angle))
+        }
+        None if shares_load(solution) => total.min(0.0),
+        _ => total,
+    };
+    let left = gap - closed;
+    if left > ROUNDING * closed.abs() {
+        left
+    } else {
+        0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::inputs::Method;
+    use crate::model::sample::standard_pair;
+    use crate::model::{Stages, solve};
+
+    /// Pairs with a deviation of 30 µm, up and down in ratio, shifted, and without a deviation.
+    fn solved() -> Vec<(Inputs, Solution)> {
+        let mut found = Vec::new();
+        for (driver, driven, shift, deflection) in [
+            (20, 20, 0.0, 30e-6),
+            (20, 60, 0.2, 30e-6),
+            (60, 20, -0.1, 30e-6),
+            (33, 47, 0.3, 1e-6),
+            (20, 20, 0.0, -20e-6),
+        ] {
+            let mut inputs = standard_pair(driver, driven, 5e-3);
+            inputs.driver.profile_shift = shift;
+            inputs.deflection = Some(deflection);
+            let solution = solve(&inputs, Stages::ALL).unwrap();
+            found.push((inputs, solution));
+        }
+        found
+    }
+
+    fn force(moment: &ContactState) -> Option<f64> {
+        Some(moment.told?.impact()?.impact_force)
+    }
+
+    #[test]
+    fn values_at_d_and_at_the_stations_are_the_solutions() {
+        for (inputs, solution) in solved() {
+            let Some(position) = solution.position else {
+                continue;
+            };
+            let moment =
+                ContactState::at(&inputs, &solution, position.approach_angle_driver).unwrap();
+            assert_eq!(
+                (moment.opening, moment.radius_driver),
+                (0.0, position.contact.radius_driver)
+            );
+            assert_eq!(force(&moment), solution.impact.map(|impact| impact.force));
+            for station in &solution.stations {
+                let moment =
+                    ContactState::at(&inputs, &solution, station.roll_angle_driver).unwrap();
+                let close =
+                    |found: f64, expected: f64| (found - expected).abs() <= 1e-9 * expected.abs();
+                assert!(
+                    close(moment.normal_velocity, station.normal_velocity),
+                    "{moment:?} {station:?}"
+                );
+                assert!(
+                    close(moment.sliding_velocity, station.sliding_velocity),
+                    "{moment:?} {station:?}"
+                );
+                assert!(
+                    close(force(&moment).unwrap(), station.impact_force),
+                    "{moment:?} {station:?}"
+                );
+                assert!(
+                    close(moment.radius_driver, station.radius_driver),
+                    "{moment:?} {station:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_opening_closes_at_d_and_stays_closed() {
+        for (inputs, solution) in solved() {
+            let Some(position) = solution.position else {
+                continue;
+            };
+            let at = |part: f64| {
+                ContactState::at(&inputs, &solution, part * position.approach_angle_driver).unwrap()
+            };
+            let openings: Vec<f64> = (0..=30)
+                .map(|step| at(2.0 - f64::from(step) / 10.0).opening)
+                .collect();
+            assert!(
+                openings[..10]
+                    .windows(2)
+                    .all(|pair| pair[0] > pair[1] && pair[1] > 0.0),
+                "{openings:?}"
+            );
+            assert!(
+                openings[10..].iter().all(|opening| *opening == 0.0),
+                "{openings:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn without_contact_the_flanks_stay_apart_by_what_lacks() {
+        let (inputs, solution) = solved().pop().unwrap();
+        assert_eq!(solution.position, None);
+        for angle in [0.0, -0.05] {
+            let moment = ContactState::at(&inputs, &solution, angle).unwrap();
+            assert!(
+                (moment.opening - 20e-6).abs() < 1e-15 && force(&moment).is_none(),
+                "{moment:?}"
+            );
+        }
+    }
+
+    /// The methods that share the load, of an ordinary pair.
+    fn shared() -> Vec<(Inputs, Solution)> {
+        [Method::Static, Method::Dynamic]
+            .map(|method| {
+                let mut inputs = standard_pair(20, 30, 5e-3);
+                (inputs.method, inputs.base_pitch_deviation) = (method, 10e-6);
+                let solution = solve(&inputs, Stages::EVERY).unwrap();
+                (inputs, solution)
+            })
+            .into()
+    }
+
+    #[test]
+    fn the_load_at_an_angle_is_that_of_the_stations() {
+        for (inputs, solution) in shared() {
+            let first = first_contact(&solution).unwrap() * inputs.ratio();
+            let before = ContactState::at(&inputs, &solution, 1.001 * first).unwrap();
+            assert!(
+                before.opening > 0.0 && before.told.is_none() && !before.touches(),
+                "{before:?}"
+            );
+            let stations = solution.dynamic.map_or_else(
+                || solution.static_load.clone().unwrap().stations,
+                |run| run.stations,
+            );
+            let solution = solve(&inputs, Stages::EVERY).unwrap();
+            for station in &stations {
+                let moment =
+                    ContactState::at(&inputs, &solution, station.roll_angle_driver).unwrap();
+                let load = *moment.told.as_ref().and_then(Told::load).unwrap();
+                assert!(
+                    (load.force - station.force).abs() < 1e-9 * (1.0 + station.force),
+                    "{load:?} {station:?}"
+                );
+                assert!(
+                    (moment.sliding_velocity - station.sliding_velocity).abs() < 1e-9,
+                    "{moment:?} {station:?}"
+                );
+                assert!(
+                    moment.opening == 0.0 && force(&moment).is_none(),
+                    "{moment:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_jumps_at_b_and_the_tip_leaves_the_flank_after_it() {
+        for (inputs, solution) in solved() {
+            let last =
+                (solution.geometry.start - solution.geometry.end) / solution.geometry.driver.base;
+            let at = |after: f64| ContactState::at(&inputs, &solution, last - after).unwrap();
+            let (before, after) = (at(-1e-9), at(1e-9));
+            assert_eq!((before.phase, after.phase), (Phase::Line, Phase::RunOut));
+            assert!(
+                (before.point - after.point).norm() < 1e-7 * inputs.module,
+                "{before:?} {after:?}"
+            );
+            assert!(
+                (before.sliding_velocity - after.sliding_velocity).abs() < 1e-6,
+                "{before:?} {after:?}"
+            );
+            let gaps = [0.001, 0.01, 0.05].map(|after| at(after).gap);
+            assert!(
+                gaps[0] > 0.0 && gaps.is_sorted() && at(0.01).normal_velocity < 0.0,
+                "{gaps:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn nothing_jumps_at_e() {
+        for (inputs, solution) in solved() {
+            let (before, after) = (
+                ContactState::at(&inputs, &solution, 1e-9),
+                ContactState::at(&inputs, &solution, -1e-9),
+            );
+            let (before, after) = (before.unwrap(), after.unwrap());
+            assert!(
+                (before.point - after.point).norm() < 1e-7 * inputs.module,
+                "{before:?} {after:?}"
+            );
+            assert!(
+                (before.sliding_velocity - after.sliding_velocity).abs() < 1e-6,
+                "{before:?} {after:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn angles_beyond_what_can_be_are_held_at_its_ends() {
+        let (mut inputs, solution) = solved().remove(0);
+        inputs.method = Method::Paper;
+        for angle in [1e300, -1e300, f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+            let moment = ContactState::at(&inputs, &solution, angle).unwrap();
+            assert!(moment.roll_angle_driver.is_finite(), "{angle}: {moment:?}");
+        }
+    }
+}

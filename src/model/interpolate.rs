@@ -1,0 +1,230 @@
+//! What a method tells of the incoming tooth at any roll angle, between its stations as well as on
+//! them.
+
+use super::impact::Masses;
+use super::inputs::Inputs;
+use super::mesh::Mesh;
+use super::static_load::{balance, carried};
+use super::{MeshStation, Solution, Station, stations};
+
+/// An angle beyond the first contact by less than this share of it is at the first contact.
+const ROUNDING: f64 = 1e-9;
+
+/// What a method tells of the incoming tooth at a roll angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Told {
+    /// From D to E, the impact as if it happened there.
+    Impact(Station),
+    /// From the first contact to the last, with the load shared.
+    Load(MeshStation),
+    /// The same between two stations of a motion: force and displacement are good to
+    /// [`DIGITS_BETWEEN`] digits.
+    Between(MeshStation),
+}
+
+/// Digits of the greatest force to which the force between two stations of a motion is good, with
+/// 64 stations.
+pub const DIGITS_BETWEEN: usize = 3;
+
+impl Told {
+    /// What the solution's method tells where the driver stands `roll_angle` before E, in rad;
+    /// `None` where the tooth is not in contact, or has no force.
+    ///
+    /// # Formula
+    /// ```text
+    /// paper, exact:  as at a station
+    /// static:        as at a station
+    /// dynamic:       F = k(s) max(0, x + e − S(s)),  x by the cubic with x and x' of the stations on either side
+    /// ```
+    ///
+    /// # Valid for
+    /// All digits in closed form and in `static`, and on the stations of `dynamic`. Between those,
+    /// with 64 of them, the force is good to 5e-3 of its peak.
+    #[must_use]
+    pub fn at(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> Option<Told> {
+        match (&solution.dynamic, &solution.static_load) {
+            (Some(dynamic), _) => moving(solution.mesh.as_deref()?, &dynamic.stations, roll_angle),
+            (None, Some(load)) => {
+                at_rest(solution.mesh.as_deref()?, &load.stations, roll_angle).map(Told::Load)
+            }
+            (None, None) => struck(inputs, solution, roll_angle).map(Told::Impact),
+        }
+    }
+
+    /// The impact, where that is told.
+    #[must_use]
+    pub fn impact(&self) -> Option<&Station> {
+        if let Told::Impact(station) = self {
+            Some(station)
+        } else {
+            None
+        }
+    }
+
+    /// The load, where that is told.
+    #[must_use]
+    pub fn load(&self) -> Option<&MeshStation> {
+        if let Told::Load(station) | Told::Between(station) = self {
+            Some(station)
+        } else {
+            None
+        }
+    }
+}
+
+/// The impact from D to E.
+fn struck(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> Option<Station> {
+    let angle = roll_angle / inputs.ratio();
+    let first = solution.position?.approach_angle_driven * (1.0 + ROUNDING);
+    let masses = Masses::of(inputs, &solution.geometry)
+        .ok()
+        .filter(|_| (0.0..=first).contains(&angle))?;
+    let station = stations::station(inputs, &solution.geometry, &masses, angle).ok()?;
+    station.impact_force.is_finite().then_some(station)
+}
+
+/// The balance from the first contact to the last.
+fn at_rest(mesh: &Mesh, stations: &[MeshStation], roll_angle: f64) -> Option<MeshStation> {
+    let (first, last) = (
+        stations.first()?.roll_angle_driver,
+        stations.last()?.roll_angle_driver,
+    );
+    let s = (last..=first)
+        .contains(&roll_angle)
+        .then_some(0.0 - roll_angle * mesh.base_radii.0)?;
+    let balance = balance(mesh, s, s);
+    Some(MeshStation::at(
+        mesh,
+        s,
+        balance.force,
+        balance.total,
+        balance.displacement,
+        None,
+    ))
+}
+
+/// The motion from the first contact to the last.
+fn moving(mesh: &Mesh, stations: &[MeshStation], roll_angle: f64) -> Option<Told> {
+    let next = stations.partition_point(|station| station.roll_angle_driver > roll_angle);
+    let to = stations.get(next)?;
+    if (to.roll_angle_driver..=to.roll_angle_driver).contains(&roll_angle) {
+        return Some(Told::Load(*to));
+    }
+    let from = stations.get(next.checked_sub(1)?)?;
+    let part =
+        (from.roll_angle_driver - roll_angle) / (from.roll_angle_driver - to.roll_angle_driver);
+    let (displacement, time) = cubic(from, to, part)?;
+    let s = 0.0 - roll_angle * mesh.base_radii.0;
+    let pairs: Vec<_> = mesh.pairs(s, s).collect();
+    let total = pairs.iter().map(|pair| carried(pair, displacement)).sum();
+    let force = pairs
+        .iter()
+        .find(|pair| pair.ahead == 0)
+        .map_or(0.0, |pair| carried(pair, displacement));
+    Some(Told::Between(MeshStation::at(
+        mesh,
+        s,
+        force,
+        total,
+        displacement,
+        Some(time),
+    )))
+}
+
+/// Displacement and time at a part of the way between two stations, by the cubic that has value and
+/// rate of both.
+fn cubic(from: &MeshStation, to: &MeshStation, part: f64) -> Option<(f64, f64)> {
+    let (begin, end) = (from.time?, to.time?);
+    let rest = 1.0 - part;
+    let values = from.transmission_error * (1.0 + 2.0 * part) * rest * rest
+        + to.transmission_error * (3.0 - 2.0 * part) * part * part;
+    let rates = part * rest * (end - begin) * (from.rate? * rest - to.rate? * part);
+    Some((values + rates, begin + part * (end - begin)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::inputs::Method;
+    use crate::model::sample::standard_pair;
+    use crate::model::{Stages, solve};
+
+    fn solved(method: Method, stations: usize) -> (Inputs, Solution) {
+        let mut inputs = standard_pair(20, 30, 5e-3);
+        (inputs.method, inputs.base_pitch_deviation, inputs.stations) =
+            (method, 10e-6, Some(stations));
+        let solution = solve(&inputs, Stages::EVERY).unwrap();
+        (inputs, solution)
+    }
+
+    fn told(method: Method, stations: usize) -> (Inputs, Solution, Vec<(f64, f64)>) {
+        let (inputs, solution) = solved(method, stations);
+        let of = |stations: &[MeshStation]| {
+            stations
+                .iter()
+                .map(|one| (one.roll_angle_driver, one.force))
+                .collect()
+        };
+        let curve = match method {
+            Method::Dynamic => of(&solution.dynamic.as_ref().unwrap().stations),
+            Method::Static => of(&solution.static_load.as_ref().unwrap().stations),
+            _ => solution
+                .stations
+                .iter()
+                .map(|one| (one.roll_angle_driver, one.impact_force))
+                .collect(),
+        };
+        (inputs, solution, curve)
+    }
+
+    fn force(told: Told) -> f64 {
+        told.impact().map_or_else(
+            || told.load().unwrap().force,
+            |station| station.impact_force,
+        )
+    }
+
+    #[test]
+    fn between_the_stations_of_one_solve_stands_what_those_of_a_finer_one_say() {
+        for (method, good_to) in [
+            (Method::Exact, 1e-12),
+            (Method::Static, 1e-9),
+            (Method::Dynamic, 5e-3),
+        ] {
+            let (inputs, coarse, _) = told(method, 64);
+            let (_, _, fine) = told(method, 2048);
+            let peak = fine.iter().map(|(_, force)| *force).fold(0.0, f64::max);
+            let off = |(angle, expected): &(f64, f64)| {
+                Some((force(Told::at(&inputs, &coarse, *angle)?) - expected).abs())
+            };
+            let off: Vec<f64> = fine[1..fine.len() - 1].iter().filter_map(off).collect();
+            assert!(off.len() > 2000, "{method:?} {}", off.len());
+            let most = off.into_iter().fold(0.0, f64::max);
+            assert!(most <= good_to * peak, "{method:?} {:e}", most / peak);
+        }
+    }
+
+    #[test]
+    fn out_of_contact_nothing_is_told() {
+        for method in [
+            Method::Paper,
+            Method::Exact,
+            Method::Static,
+            Method::Dynamic,
+        ] {
+            let (inputs, solution, curve) = told(method, 64);
+            let (first, last) = (curve[0].0, curve[curve.len() - 1].0);
+            for angle in [first * 1.001, last - 1e-3, f64::NAN, f64::INFINITY] {
+                assert_eq!(
+                    Told::at(&inputs, &solution, angle),
+                    None,
+                    "{method:?} {angle}"
+                );
+            }
+            assert!(
+                Told::at(&inputs, &solution, first).is_some()
+                    && Told::at(&inputs, &solution, 0.5 * first).is_some()
+            );
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! The driven tip on its circle, and the gap to the driver's flank that it closes.
+
+use nalgebra::Vector2;
+
+use super::geometry::{Geometry, LEAST_REST, foot};
+use crate::numeric::{Real, quadrature};
+
+/// A place of the driven tip on its circle, and the driver's flank that it would touch there.
+///
+/// What changes from E is carried as an increment, so that nothing is lost close to E.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TipContact<T = f64> {
+    /// Driven gear's angle before E, u, in rad.
+    pub angle: T,
+    /// Angle at O₂ between the centre line and the tip, γ₂ + u, in rad.
+    pub polar_angle: T,
+    /// O₁D, in m.
+    pub radius_driver: T,
+    /// Radius of curvature of the driver's flank ρ₁ = N₁'D, in m.
+    pub curvature_driver: T,
+    /// Growth of ρ₁ since E, in m.
+    pub curvature_growth: T,
+    /// Rise of the contact normal's angle over E, χ − α_w, in rad.
+    pub normal_turn: T,
+    /// Distance from O₂ to the contact normal r_b2', in m.
+    pub normal_radius_driven: T,
+    /// r_b2 − r_b2' = dS/du, in m.
+    pub normal_radius_drop: T,
+    /// Growth of N₂'D since E, in m.
+    pub normal_length_growth: T,
+    /// N₂'D along the contact normal, in m.
+    pub normal_length_driven: T,
+    /// Arm of the sliding velocity ΔV_τ/ω₂ = N₂'D − i ρ₁, in m.
+    pub sliding_arm: T,
+}
+
+/// The driven tip at the angle `angle` before E.
+///
+/// # Formula
+/// ```text
+/// Q = 4 a ra2 sin(u/2) sin(γ2 + u/2),  O1D² = O1E² + Q,  ρ1 = √(N1E² + Q),  Δρ1 = Q/(ρ1 + N1E)
+/// Δβ1 = atan2(rb1 Δρ1, rb1² + ρ1 N1E),  Δψ = atan2(E × D, E · D),  Δχ = Δψ + Δβ1
+/// rb2 − rb2' = 2 a sin(αw + Δχ/2) sin(Δχ/2),  N2'D = N2E + 2 a cos(αw + Δχ/2) sin(Δχ/2) − Δρ1
+/// N2'D − i ρ1 = (1 + i) EP + Δ(N2'D) − i Δρ1
+/// ```
+/// where E and D are seen from O₁, D − E is the chord of the tip circle, EP is the path of approach
+/// and Δ the growth since E.
+///
+/// # Source
+/// Zhou & Chen 2014, Eqs. 7, 24-28, 48, 49, rewritten as increments from E; Eq. 27 mended to the
+/// law of cosines.
+///
+/// # Valid for
+/// Any angle at which the tip lies outside the driver's base circle (`N1E² + Q > 0`).
+pub fn tip_at<T: Real>(geometry: &Geometry<T>, angle: T) -> TipContact<T> {
+    let (half, two): (T, T) = (0.5.into(), 2.0.into());
+    let (base, start) = (geometry.driver.base, geometry.start);
+    let half_sine = (angle * half).sine_cosine().0;
+    let (middle_sine, middle_cosine) = (geometry.start_angle_driven + angle * half).sine_cosine();
+    let chord_length = two * geometry.driven.tip * half_sine;
+
+    let grown_square = two * geometry.centre_distance * chord_length * middle_sine;
+    let curvature_driver = (start * start + grown_square).root();
+    let curvature_growth = grown_square.over(curvature_driver + start);
+    let flank_turn = (base * curvature_growth).angle_to(base * base + curvature_driver * start);
+
+    let from = geometry.start_point;
+    let chord = Vector2::new(middle_sine, middle_cosine) * chord_length;
+    let polar_turn = from
+        .perp(&chord)
+        .angle_to(from.dot(&from) + from.dot(&chord));
+
+    let normal_turn = polar_turn + flank_turn;
+    let turn_chord = two * geometry.centre_distance * (normal_turn * half).sine_cosine().0;
+    let (sine, cosine) = (geometry.working_pressure_angle + normal_turn * half).sine_cosine();
+    let normal_radius_drop = turn_chord * sine;
+    let normal_length_growth = turn_chord * cosine - curvature_growth;
+    TipContact {
+        angle,
+        polar_angle: geometry.start_angle_driven + angle,
+        radius_driver: (base * base + curvature_driver * curvature_driver).root(),
+        curvature_driver,
+        curvature_growth,
+        normal_turn,
+        normal_radius_driven: geometry.driven.base - normal_radius_drop,
+        normal_radius_drop,
+        normal_length_growth,
+        normal_length_driven: geometry.driven.tip_curvature + normal_length_growth,
+        sliding_arm: (T::one() + geometry.ratio) * geometry.approach_length + normal_length_growth
+            - geometry.ratio * curvature_growth,
+    }
+}
+
+/// Normal gap S(u) that the tip has closed at the angle u before E, in m, in closed form.
+///
+/// # Formula
+/// ```text
+/// S(u) = Δρ1 + rb2 u − rb1 Δχ
+/// ```
+/// The three terms grow as u and their sum as u², so that about ε r_b2 u/S is lost; see
+/// [`gap_by_quadrature`].
+pub fn gap<T: Real>(geometry: &Geometry<T>, tip: &TipContact<T>) -> T {
+    tip.curvature_growth + geometry.driven.base * tip.angle - geometry.driver.base * tip.normal_turn
+}
+
+/// Normal gap S(u), in m, in closed form, or by quadrature where the terms of the closed form
+/// outgrow their sum by more than the factor `loss`.
+pub(super) fn gap_without(loss: f64, geometry: &Geometry, tip: &TipContact) -> f64 {
+    let closed = gap(geometry, tip);
+    if largest_term(geometry, tip) > loss * closed {
+        gap_by_quadrature(geometry, tip)
+    } else {
+        closed
+    }
+}
+
+/// The largest term of the gap in closed form, in m, to within a factor of 2.
+pub(super) fn largest_term(geometry: &Geometry, tip: &TipContact) -> f64 {
+    tip.curvature_growth
+        .abs()
+        .max(geometry.driven.base * tip.angle)
+}
+
+/// Normal gap S(u), in m, as the integral of dS/du = r_b2 − r_b2', which cancels nothing.
+///
+/// The integrand has its branch point where ρ₁ = 0. Where that is near, ρ₁ itself is the variable,
+/// in which the integrand is smooth.
+#[must_use]
+pub fn gap_by_quadrature(geometry: &Geometry, tip: &TipContact) -> f64 {
+    if tip.curvature_driver < std::f64::consts::SQRT_2 * geometry.start {
+        return tip.angle
+            * quadrature::unit_interval(|part| {
+                tip_at(geometry, part * tip.angle).normal_radius_drop
+            });
+    }
+    let arm = geometry.centre_distance * geometry.driven.tip;
+    tip.curvature_growth
+        * quadrature::unit_interval(|part| {
+            let curvature = geometry.start + part * tip.curvature_growth;
+            let angle = angle_at_curvature(geometry, curvature);
+            let slope = curvature / (arm * (geometry.start_angle_driven + angle).sin());
+            tip_at(geometry, angle).normal_radius_drop * slope
+        })
+}
+
+/// The angle u at which the driver's flank has the radius of curvature ρ₁: the inverse of `ρ1² =
+/// N1E² + Q(u)`.
+pub(super) fn angle_at_curvature(geometry: &Geometry, curvature: f64) -> f64 {
+    angle_by_growth(
+        geometry,
+        (curvature - geometry.start) * (curvature + geometry.start),
+    )
+}
+
+/// The angle u at which O₁D² and ρ₁² have grown by `grown_square`: the inverse of Q(u). NaN where
+/// the tip circle does not reach so far.
+#[must_use]
+pub fn angle_by_growth(geometry: &Geometry, grown_square: f64) -> f64 {
+    let fallen = grown_square / (2.0 * geometry.centre_distance * geometry.driven.tip);
+    let (sine, cosine) = geometry.start_angle_driven.sin_cos();
+    let risen = fallen * (2.0 * cosine - fallen);
+    let end_sine = (sine * sine + risen).sqrt();
+    let sine_growth = if sine > 0.0 {
+        risen / (end_sine + sine)
+    } else {
+        end_sine - sine
+    };
+    (cosine * sine_growth + fallen * sine).atan2(cosine * (cosine - fallen) + sine * end_sine)
+}
+
+/// The pair as seen from `tip` in place of E, so that [`tip_at`] gives what changes from there and
+/// loses nothing close to it. Only what `tip_at` reads is moved, and its sliding arm has no meaning
+/// then.
+#[must_use]
+pub fn seen_from(geometry: &Geometry, tip: &TipContact) -> Geometry {
+    let mut moved = *geometry;
+    moved.driven.base = tip.normal_radius_driven;
+    moved.driven.tip_curvature = tip.normal_length_driven;
+    moved.start = tip.curvature_driver;
+    moved.start_angle_driven = tip.polar_angle;
+    moved.working_pressure_angle += tip.normal_turn;
+    moved.start_point = foot(
+        geometry.driver.base,
+        moved.start,
+        moved.working_pressure_angle,
+    );
+    moved
+}
+
+impl TipContact {
+    /// Whether the tip all but rolls, or stands all but on the centre line, or its normal all but
+    /// passes through O₂: f64 loses digits in the small rest.
+    pub(super) fn is_close_call(&self, geometry: &Geometry) -> bool {
+        let sliding_terms =
+            self.normal_length_driven.abs() + geometry.ratio * self.curvature_driver;
+        self.sliding_arm.abs() < LEAST_REST * sliding_terms
+            || self.polar_angle.abs() < LEAST_REST * self.angle
+            || self.normal_radius_driven.abs() < LEAST_REST * geometry.driven.base
+    }
+}
+
+impl<T: Real> TipContact<T> {
+    /// Rounded to f64.
+    pub(super) fn rounded(self) -> TipContact {
+        TipContact {
+            angle: self.angle.rounded(),
+            polar_angle: self.polar_angle.rounded(),
+            radius_driver: self.radius_driver.rounded(),
+            curvature_driver: self.curvature_driver.rounded(),
+            curvature_growth: self.curvature_growth.rounded(),
+            normal_turn: self.normal_turn.rounded(),
+            normal_radius_driven: self.normal_radius_driven.rounded(),
+            normal_radius_drop: self.normal_radius_drop.rounded(),
+            normal_length_growth: self.normal_length_growth.rounded(),
+            normal_length_driven: self.normal_length_driven.rounded(),
+            sliding_arm: self.sliding_arm.rounded(),
+        }
+    }
+}

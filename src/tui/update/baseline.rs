@@ -1,0 +1,51 @@
+//! The baseline: results that are pinned, and held against all others.
+
+use crate::tui::app::{App, Baseline};
+
+/// Pin the results of the current case, or let go of those that are pinned.
+pub(super) fn toggle(app: &mut App) {
+    if let Some(baseline) = app.baseline.take() {
+        app.say(format!("baseline {} unpinned", baseline.name));
+    } else if app.is_stale() || app.answer.is_none() {
+        app.complain("there are no valid results to pin: mend the form first");
+    } else {
+        app.is_pinning = true;
+        pin(app);
+    }
+}
+
+/// Pin the results that were asked for as soon as all of them are there.
+pub(super) fn pin(app: &mut App) {
+    let Some(answer) = app
+        .answer
+        .as_ref()
+        .filter(|answer| app.is_pinning && answer.stages == crate::model::Stages::EVERY)
+    else {
+        return;
+    };
+    let (name, is_file) = (app.short_name(), app.path.is_some());
+    let baseline = Baseline {
+        tab: app.tab.id,
+        name,
+        is_file,
+        case: app.case.clone(),
+        answer: answer.clone(),
+    };
+    let words = format!("baseline: {} as it is now, for this session", baseline.name);
+    app.is_pinning = false;
+    app.baseline = Some(baseline);
+    app.say(words);
+}
+
+/// A case that had no file when it was pinned is called as the file that these values were saved
+/// to.
+pub(super) fn rename(app: &mut App) {
+    let (tab, name) = (app.tab.id, app.short_name());
+    let saved = &app.tab.saved;
+    let is_it = |baseline: &&mut Baseline| {
+        baseline.tab == tab && !baseline.is_file && baseline.case == *saved
+    };
+    if let Some(baseline) = app.baseline.as_mut().filter(is_it) {
+        (baseline.name, baseline.is_file) = (name, true);
+    }
+}

@@ -1,0 +1,92 @@
+//! What Esc and Ctrl-C end: what is topmost first.
+
+use super::{cursor, files, panes};
+use crate::model::Stage;
+use crate::tui::actions::Effect;
+use crate::tui::app::App;
+use crate::tui::pane::Pane;
+use crate::tui::tab::Tab;
+
+/// Said by Ctrl-C where there is nothing to cancel and nothing unsaved.
+pub(super) const LEAVING: &str = "nothing runs and nothing is unsaved: Ctrl-C again quits";
+
+/// Esc: what is topmost goes, and nothing is lost.
+pub(super) fn leave(app: &mut App) -> Vec<Effect> {
+    if app.prompts.pop().is_some() {
+        return Vec::new();
+    }
+    let stopped = stop(app);
+    if !stopped.is_empty() {
+        return stopped;
+    }
+    if app.has_line() {
+        app.tab.history.end_visit();
+        app.is_editing = false;
+    } else if app.is_playing {
+        return cursor::stop(app);
+    } else if app.cursor.is_some() && app.panes.focus.is_lower() {
+        app.cursor = None;
+    } else if app.panes.is_zoomed {
+        panes::zoom(app);
+    } else {
+        panes::show(app, Pane::Form);
+    }
+    Vec::new()
+}
+
+/// Ctrl-C: what is topmost goes. When nothing is left it quits the second time, for it is also the
+/// key by which others copy.
+pub(super) fn cancel(app: &mut App) -> Vec<Effect> {
+    if app.prompts.pop().is_some() {
+        return Vec::new();
+    }
+    let stopped = stop(app);
+    if !stopped.is_empty() {
+        return stopped;
+    }
+    if app.is_playing {
+        return cursor::stop(app);
+    }
+    if app.tabs().any(Tab::is_unsaved) {
+        return files::quit(app);
+    }
+    app.say(LEAVING);
+    Vec::new()
+}
+
+// What takes its time ends; what is known of it stays.
+fn stop(app: &mut App) -> Vec<Effect> {
+    let measuring = app.progress.as_ref().map(|_| Effect::CancelWork);
+    let solving = app.tab.solving.take().map(|_| {
+        app.tab.is_settled = true;
+        app.is_pinning = false;
+        if let Some(method) = app
+            .tab
+            .answer
+            .as_mut()
+            .and_then(|answer| answer.pending.take())
+        {
+            app.say(format!(
+                "method {} is stopped: the closed form stands until the next edit",
+                method.name()
+            ));
+        }
+        Effect::CancelSolve
+    });
+    measuring
+        .into_iter()
+        .chain(solving.or_else(|| stop_seeking(app)))
+        .collect()
+}
+
+// The least relief, which is sought once the rest is shown.
+fn stop_seeking(app: &mut App) -> Option<Effect> {
+    let answer = app
+        .tab
+        .answer
+        .as_mut()
+        .filter(|answer| answer.strikes() && answer.lacks(Stage::Clearing))?;
+    answer.asked = answer.stages;
+    app.say("the relief that stops it is not sought further, until the next edit");
+    Some(Effect::CancelSolve)
+}

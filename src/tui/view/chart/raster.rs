@@ -1,0 +1,174 @@
+//! Curves on their cells: every point of a curve is met, so that no peak is lost between two
+//! columns.
+
+use ratatui::buffer::{Buffer, Cell};
+use ratatui::layout::Rect;
+use ratatui::style::{Color, Style};
+use ratatui::symbols::Marker;
+use ratatui::widgets::Widget;
+use ratatui::widgets::canvas::{Canvas, Line, Points};
+
+use super::curves::{Curve, Point, Whose};
+use crate::model::inputs::Method;
+use crate::tui::app::App;
+use crate::tui::scale::{Span, bounds};
+
+/// Stands for the style of the curve until its cells are known.
+const OWN: Color = Color::Indexed(1);
+/// Of more points than this in a column the first, the last, the least and the greatest are drawn.
+const MANY: usize = 8;
+
+/// How the points of a curve are drawn.
+#[must_use]
+pub fn marker(app: &App, whose: Whose) -> Marker {
+    let plain = app.look.ascii;
+    match whose {
+        Whose::Active(_) if plain => Marker::Custom('*'),
+        Whose::Active(_) => app.settings.marker,
+        Whose::Other(Method::Paper) => Marker::Custom(if plain { '.' } else { '·' }),
+        Whose::Other(Method::Static) => Marker::Custom(if plain { 'x' } else { '×' }),
+        Whose::Other(_) => Marker::Custom(if plain { 'o' } else { '∘' }),
+        Whose::Pinned(_) => Marker::Custom('+'),
+        Whose::Bound(_) => Marker::Custom(if plain { '-' } else { '╌' }),
+    }
+}
+
+/// How a curve looks.
+#[must_use]
+pub fn style(app: &App, whose: Whose) -> Style {
+    let theme = app.look.theme;
+    let style = match whose {
+        Whose::Active(_) => theme.active,
+        Whose::Other(_) => theme.other,
+        Whose::Pinned(_) => theme.baseline,
+        Whose::Bound(_) => theme.rule,
+    };
+    if app.is_stale() {
+        style.patch(theme.faint)
+    } else {
+        style
+    }
+}
+
+/// Draw a curve, as far as it is in sight.
+pub fn draw(
+    app: &App,
+    curve: &Curve,
+    (across, upright): (Span, Span),
+    plot: Rect,
+    buffer: &mut Buffer,
+) {
+    let pieces: Vec<Vec<Point>> = curve
+        .pieces
+        .iter()
+        .map(|piece| seen(piece, across, plot.width))
+        .collect();
+    let canvas = Canvas::default()
+        .marker(marker(app, curve.whose))
+        .x_bounds(held(across))
+        .y_bounds(held(upright))
+        .paint(|context| {
+            for piece in &pieces {
+                context.draw(&Points {
+                    coords: if piece.len() == 1 { piece } else { &[] },
+                    color: OWN,
+                });
+                for ends in piece.windows(2) {
+                    context.draw(&Line::new(ends[0].0, ends[0].1, ends[1].0, ends[1].1, OWN));
+                }
+            }
+        });
+    canvas.render(plot, buffer);
+    let style = style(app, curve.whose);
+    for position in plot.positions() {
+        if let Some(cell) = buffer.cell_mut(position) {
+            finish(cell, style);
+        }
+    }
+}
+
+// What lies on an end but for rounding is in sight.
+fn held(span: Span) -> [f64; 2] {
+    let rounding = 1e-8 * span.length();
+    bounds(span.from - rounding, span.to + rounding)
+}
+
+// Half blocks are of two colours, the upper and the lower one.
+fn finish(cell: &mut Cell, style: Style) {
+    if cell.fg != OWN && cell.bg != OWN {
+        return;
+    }
+    if cell.bg == OWN {
+        cell.set_symbol("█");
+    }
+    (cell.fg, cell.bg) = (Color::Reset, Color::Reset);
+    cell.modifier = ratatui::style::Modifier::empty();
+    cell.set_style(style);
+}
+
+// The points in sight and the next ones beside them; of many in a column those that make its
+// picture.
+fn seen(piece: &[Point], across: Span, columns: u16) -> Vec<Point> {
+    let from = piece
+        .partition_point(|point| point.0 < across.from)
+        .saturating_sub(1);
+    let to = (piece.partition_point(|point| point.0 <= across.to) + 1).min(piece.len());
+    let piece = &piece[from.min(to)..to];
+    if piece.len() <= MANY * usize::from(columns) {
+        return piece.to_vec();
+    }
+    let column = |point: &Point| (across.part(point.0) * f64::from(columns)).floor();
+    piece
+        .chunk_by(|one, other| column(one).total_cmp(&column(other)).is_eq())
+        .flat_map(outline)
+        .collect()
+}
+
+// In their order: the first, the least, the greatest and the last of some points.
+fn outline(points: &[Point]) -> Vec<Point> {
+    let by_height = |one: &usize, other: &usize| points[*one].1.total_cmp(&points[*other].1);
+    let extremes = [
+        (0..points.len()).min_by(by_height),
+        (0..points.len()).max_by(by_height),
+    ];
+    let mut kept: Vec<usize> = extremes
+        .into_iter()
+        .flatten()
+        .chain([0, points.len() - 1])
+        .collect();
+    kept.sort_unstable();
+    kept.dedup();
+    kept.into_iter().map(|index| points[index]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_peak_narrower_than_a_column_is_kept() {
+        let points: Vec<Point> = (0..10_000)
+            .map(|at| (f64::from(at), if at == 4321 { 7.0 } else { 1.0 }))
+            .collect();
+        let kept = seen(&points, Span::new(0.0, 9999.0), 50);
+        assert!(
+            kept.len() <= 4 * 51 && kept.contains(&(4321.0, 7.0)),
+            "{}",
+            kept.len()
+        );
+        assert!(kept.is_sorted_by(|one, other| one.0 < other.0));
+        assert_eq!((kept.first(), kept.last()), (points.first(), points.last()));
+    }
+
+    #[test]
+    fn what_is_out_of_sight_is_left_out_but_for_the_next_points() {
+        let points: Vec<Point> = (0..100).map(|at| (f64::from(at), 0.0)).collect();
+        let kept = seen(&points, Span::new(10.5, 20.5), 50);
+        assert_eq!(
+            (kept.first(), kept.last()),
+            (Some(&(10.0, 0.0)), Some(&(21.0, 0.0)))
+        );
+        assert_eq!(seen(&points[..5], Span::new(10.5, 20.5), 50), [points[4]]);
+        assert_eq!(seen(&[], Span::new(0.0, 1.0), 50), []);
+    }
+}

@@ -1,0 +1,220 @@
+//! From strokes to cells: ratatui's canvas with the app's marker, and letters that run with the
+//! line where Unicode is missing.
+
+use ratatui::buffer::{Buffer, Cell};
+use ratatui::layout::Rect;
+use ratatui::style::{Color, Modifier, Style};
+use ratatui::symbols::Marker;
+use ratatui::widgets::Widget;
+use ratatui::widgets::canvas::{Canvas, Line};
+
+use super::picture::Picture;
+use super::scene::Scene;
+use crate::tui::theme::Theme;
+
+/// What a stroke belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Ink {
+    /// Base circles and line of action.
+    Construction,
+    /// The path of contact and that of the tip before it.
+    Path,
+    /// The driven gear.
+    Driven,
+    /// Its incoming tooth.
+    StruckDriven,
+    /// The driver.
+    Driver,
+    /// Its tooth that is struck.
+    StruckDriver,
+    /// A point with a name.
+    Mark,
+    /// Where two flanks touch.
+    Contact,
+}
+
+impl Ink {
+    const ALL: [Ink; 8] = [
+        Ink::Construction,
+        Ink::Path,
+        Ink::Driven,
+        Ink::StruckDriven,
+        Ink::Driver,
+        Ink::StruckDriver,
+        Ink::Mark,
+        Ink::Contact,
+    ];
+
+    /// How it looks.
+    #[must_use]
+    pub fn style(self, theme: &Theme) -> Style {
+        match self {
+            Ink::Construction => theme.faint,
+            Ink::Path => theme.path,
+            Ink::Driven => theme.driven,
+            Ink::StruckDriven => theme.driven.add_modifier(Modifier::BOLD),
+            Ink::Driver => theme.driver,
+            Ink::StruckDriver => theme.driver.add_modifier(Modifier::BOLD),
+            Ink::Mark => theme.focus,
+            Ink::Contact => theme.active,
+        }
+    }
+
+    /// The canvas knows colours alone: a number stands for the ink until [`draw`] gives each cell
+    /// its style.
+    fn number(self) -> Color {
+        Color::Indexed(self as u8)
+    }
+
+    fn of(number: Color) -> Option<Ink> {
+        Ink::ALL.into_iter().find(|ink| ink.number() == number)
+    }
+}
+
+/// How a point is drawn: fine enough for letters that run with the line where Unicode is missing.
+#[must_use]
+pub fn marker(picture: &Picture) -> Marker {
+    if picture.look.ascii {
+        Marker::Braille
+    } else {
+        picture.marker
+    }
+}
+
+/// Draw the strokes of a scene.
+pub fn draw(scene: &Scene, picture: &Picture, area: Rect, buffer: &mut Buffer) {
+    let canvas = Canvas::default()
+        .marker(marker(picture))
+        .x_bounds(scene.window.across())
+        .y_bounds(scene.window.upright())
+        .paint(|context| {
+            for stroke in &scene.strokes {
+                context.draw(&Line::new(
+                    stroke.from.x,
+                    stroke.from.y,
+                    stroke.to.x,
+                    stroke.to.y,
+                    stroke.ink.number(),
+                ));
+            }
+        });
+    canvas.render(area, buffer);
+    for position in area.positions() {
+        if let Some(cell) = buffer.cell_mut(position) {
+            finish(cell, picture);
+        }
+    }
+}
+
+/// Give a cell of the canvas its style, and its letter where Unicode is missing.
+fn finish(cell: &mut Cell, picture: &Picture) {
+    let theme = picture.look.theme;
+    let Some(ink) = Ink::of(cell.fg) else { return };
+    let style = if picture.is_stale {
+        ink.style(theme).patch(theme.faint)
+    } else {
+        ink.style(theme)
+    };
+    let below = Ink::of(cell.bg).map(|ink| ink.style(theme).fg);
+    let both = below.is_some_and(|below| below.is_none() || below == style.fg);
+    (cell.fg, cell.bg) = (Color::Reset, Color::Reset);
+    cell.set_style(style);
+    if both {
+        cell.set_symbol("█");
+    } else if let Some(Some(colour)) = below {
+        cell.set_bg(colour);
+    }
+    if picture.look.ascii {
+        let letter = cell
+            .symbol()
+            .chars()
+            .next()
+            .and_then(pattern)
+            .map_or(' ', letter);
+        cell.set_char(letter);
+    }
+}
+
+/// The dots of a Braille sign row by row, the left one first: the top left one is the lowest bit.
+fn pattern(sign: char) -> Option<u8> {
+    const PLACES: [u8; 8] = [0, 2, 4, 1, 3, 5, 6, 7];
+    let dots = u32::from(sign)
+        .checked_sub(0x2800)
+        .and_then(|dots| u8::try_from(dots).ok())?;
+    Some(
+        (0..8)
+            .filter(|bit| dots & 1 << bit != 0)
+            .fold(0, |pattern, bit| pattern | 1 << PLACES[bit]),
+    )
+}
+
+/// Letters and the dots that they cover, four rows of two.
+#[rustfmt::skip]
+const LETTERS: [(char, &[u8]); 14] = [
+    ('.', &[0b_01_00_00_00, 0b_10_00_00_00, 0b_00_01_00_00, 0b_00_10_00_00]),
+    ('\'', &[0b_00_00_00_01, 0b_00_00_00_10, 0b_00_00_01_00, 0b_00_00_10_00, 0b_00_00_01_01, 0b_00_00_10_10]),
+    (',', &[0b_01_01_00_00, 0b_10_10_00_00, 0b_01_10_00_00]),
+    ('`', &[0b_00_00_10_01]),
+    ('"', &[0b_00_00_00_11]),
+    ('_', &[0b_11_00_00_00]),
+    ('-', &[0b_00_00_11_00, 0b_00_11_00_00, 0b_00_01_10_00, 0b_00_10_01_00, 0b_00_01_11_00, 0b_00_10_11_00]),
+    ('|', &[0b_01_01_01_01, 0b_10_10_10_10, 0b_00_01_01_01, 0b_00_10_10_10, 0b_01_01_01_00, 0b_10_10_10_00]),
+    ('/', &[0b_01_01_10_10, 0b_01_10_10_10, 0b_01_01_01_10, 0b_01_10_10_00, 0b_00_01_10_10, 0b_00_01_01_10, 0b_01_01_10_00, 0b_01_11_10_10]),
+    ('\\', &[0b_10_10_01_01, 0b_10_01_01_01, 0b_10_10_10_01, 0b_10_01_01_00, 0b_00_10_01_01, 0b_00_10_10_01, 0b_10_10_01_00, 0b_10_11_01_01]),
+    (':', &[0b_00_01_01_00, 0b_00_10_10_00]),
+    ('=', &[0b_11_00_11_00, 0b_00_11_00_11, 0b_11_00_00_11, 0b_00_11_11_00]),
+    ('+', &[0b_01_01_11_01, 0b_10_10_11_10, 0b_01_11_01_01, 0b_10_11_10_10, 0b_11_01_01_01, 0b_11_10_10_10]),
+    ('#', &[0b_11_11_11_11]),
+];
+
+/// The letter that looks most like a pattern of dots.
+fn letter(pattern: u8) -> char {
+    let off = |covers: &[u8]| {
+        covers
+            .iter()
+            .map(|dots| (dots ^ pattern).count_ones())
+            .min()
+    };
+    if pattern == 0 {
+        ' '
+    } else {
+        LETTERS
+            .iter()
+            .min_by_key(|(_, covers)| off(covers))
+            .map_or('*', |&(letter, _)| letter)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dots_are_read_row_by_row() {
+        assert_eq!(pattern('⠁'), Some(0b_00_00_00_01));
+        assert_eq!(pattern('⡀'), Some(0b_01_00_00_00));
+        assert_eq!(pattern('⢸'), Some(0b_10_10_10_10));
+        assert_eq!(pattern('⣿'), Some(0xff));
+        assert_eq!((pattern('x'), pattern(' ')), (None, None));
+    }
+
+    #[test]
+    fn letters_run_with_the_line() {
+        let drawn = "⣀⠤⠒⠉⢸⡇⡜⢣⣿⠈⡀"
+            .chars()
+            .map(|sign| letter(pattern(sign).unwrap()))
+            .collect::<String>();
+        assert_eq!(drawn, r#"_--"||/\#'."#);
+        assert!((1..=u8::MAX).all(|pattern| letter(pattern).is_ascii_graphic()));
+        assert_eq!(letter(0), ' ');
+    }
+
+    #[test]
+    fn every_ink_is_known_by_its_number() {
+        for ink in Ink::ALL {
+            assert_eq!(Ink::of(ink.number()), Some(ink));
+        }
+        assert_eq!(Ink::of(Color::Reset), None);
+    }
+}

@@ -1,0 +1,293 @@
+//! Draws curves, gears and marks as strokes, dashed or not, as far as they are in sight.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+use std::ops::Range;
+
+use nalgebra::{Point2, Vector2};
+
+use super::path::{Stretch, trace};
+use super::raster::Ink;
+use super::window::{Window, unit_of_length};
+use crate::case::units::System;
+use crate::model::gear_pose::Placed;
+use crate::tui::zoom::round_down;
+
+/// Below this many dots from tooth to tooth the circles stand for them.
+const LEAST_PITCH: f64 = 5.0;
+/// So many places along an edge are looked at for the scale bar.
+const PLACES: u32 = 24;
+/// Columns that its label takes beside it.
+const BAR_LABEL: f64 = 9.0;
+/// Part of the width that the scale bar takes at the most.
+const BAR: f64 = 0.25;
+
+/// A straight stroke, or a dot where it ends as it begins.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stroke {
+    /// Its beginning.
+    pub from: Point2<f64>,
+    /// Its end.
+    pub to: Point2<f64>,
+    /// What it belongs to.
+    pub ink: Ink,
+}
+
+/// A dashed line, in dots; dots alone where a dash has no length.
+#[derive(Debug, Clone, Copy)]
+pub struct Dash {
+    /// Length of a dash.
+    pub on: f64,
+    /// Length of what follows it.
+    pub off: f64,
+}
+
+/// Draws what is in sight.
+#[derive(Debug)]
+pub struct Pen<'a> {
+    window: &'a Window,
+    /// What is drawn so far.
+    pub strokes: Vec<Stroke>,
+}
+
+impl<'a> Pen<'a> {
+    /// Nothing drawn yet.
+    #[must_use]
+    pub fn new(window: &'a Window) -> Pen<'a> {
+        Pen {
+            window,
+            strokes: Vec::new(),
+        }
+    }
+
+    /// A gear, its tooth 0 turned on by an angle.
+    pub fn gear(&mut self, gear: &Placed, turned: f64, bore: f64, [ink, struck]: [Ink; 2]) {
+        let circles = gear.outline.profile().circles();
+        if bore > 0.0 {
+            self.circle(gear.centre, bore, None, ink);
+        }
+        if gear.pitch() * circles.tip < LEAST_PITCH * self.window.dot {
+            for radius in [circles.tip, circles.root] {
+                self.circle(gear.centre, radius, None, ink);
+            }
+            return;
+        }
+        let teeth = i64::from(gear.teeth);
+        let turn_of = |number: i64| {
+            if number.rem_euclid(teeth) == 0 {
+                turned
+            } else {
+                0.0
+            }
+        };
+        for number in self.in_sight(gear) {
+            let ink = if number.rem_euclid(teeth) == 0 {
+                struck
+            } else {
+                ink
+            };
+            self.tooth(&gear.turned(turn_of(number)), number, ink);
+            let half = gear.outline.profile().root_half_angle();
+            let middle = gear.turn + number as f64 * gear.pitch();
+            let (from, to) = (
+                middle + turn_of(number) + half,
+                middle + gear.pitch() + turn_of(number + 1) - half,
+            );
+            self.arc(gear.centre, circles.root, from, to, None, ink);
+        }
+    }
+
+    fn tooth(&mut self, gear: &Placed, number: i64, ink: Ink) {
+        let place = gear.tooth(number);
+        for piece in gear.outline.pieces() {
+            for side in [1.0, -1.0] {
+                let curve = |part: f64| {
+                    let point = gear.outline.at(piece, part);
+                    place * Point2::new(point.x, side * point.y)
+                };
+                self.curve(curve, 0.0, None, ink);
+            }
+        }
+    }
+
+    /// The numbers of the teeth in sight, and a few beside them.
+    fn in_sight(&self, gear: &Placed) -> Range<i64> {
+        let teeth = i64::from(gear.teeth);
+        let way = self.window.centre - gear.centre;
+        let (distance, reach) = (way.norm(), self.window.half.norm());
+        let circles = gear.outline.profile().circles();
+        if distance - reach > circles.tip || distance + reach < circles.root {
+            return 0..0;
+        }
+        if distance <= reach {
+            return 0..teeth;
+        }
+        let half = (reach / distance).asin() + gear.pitch();
+        let middle = (way.y.atan2(way.x) - gear.turn).rem_euclid(TAU);
+        let (first, last) = (
+            (middle - half) / gear.pitch(),
+            (middle + half) / gear.pitch(),
+        );
+        let first = first.floor() as i64;
+        first..(last.ceil() as i64 + 1).min(first + teeth)
+    }
+
+    /// A circle, in one stroke or dashed.
+    pub fn circle(&mut self, centre: Point2<f64>, radius: f64, dash: Option<Dash>, ink: Ink) {
+        self.arc(centre, radius, 0.0, TAU, dash, ink);
+    }
+
+    fn arc(
+        &mut self,
+        centre: Point2<f64>,
+        radius: f64,
+        from: f64,
+        to: f64,
+        dash: Option<Dash>,
+        ink: Ink,
+    ) {
+        let quarters = ((to - from).abs() / FRAC_PI_2 + 1e-9)
+            .ceil()
+            .clamp(1.0, 4.0);
+        let step = (to - from) / quarters;
+        for quarter in 0..quarters as u32 {
+            let start = from + f64::from(quarter) * step;
+            let curve = |part: f64| {
+                centre
+                    + Vector2::new((start + part * step).cos(), (start + part * step).sin())
+                        * radius
+            };
+            self.curve(curve, radius * step.abs(), dash, ink);
+        }
+    }
+
+    /// A curve of a length, in one stroke or dashed; see [`trace`] for what it may be.
+    pub fn curve(
+        &mut self,
+        curve: impl Fn(f64) -> Point2<f64>,
+        length: f64,
+        dash: Option<Dash>,
+        ink: Ink,
+    ) {
+        let window = self.window;
+        trace(curve, window, |stretch| match dash {
+            None => self.strokes.push(Stroke {
+                from: stretch.from.1,
+                to: stretch.to.1,
+                ink,
+            }),
+            Some(dash) => self.dashes(&stretch, length / window.dot, dash, ink),
+        });
+    }
+
+    /// The dashes of a stretch of a curve that is `length` dots long.
+    fn dashes(&mut self, stretch: &Stretch, length: f64, dash: Dash, ink: Ink) {
+        let ((from, start), (to, end)) = (stretch.from, stretch.to);
+        let (period, rest) = ((dash.on + dash.off) / length, to - from);
+        if !(period > 0.0 && rest > 0.0) {
+            return;
+        }
+        let at = |part: f64| start + (end - start) * ((part - from) / rest).clamp(0.0, 1.0);
+        let mut dash_from = ((from - dash.on / length) / period).ceil() * period;
+        while dash_from < to {
+            self.strokes.push(Stroke {
+                from: at(dash_from),
+                to: at(dash_from + dash.on / length),
+                ink,
+            });
+            dash_from += period;
+        }
+    }
+
+    /// The scale bar, along the lower edge or the upper one, the lower left corner first.
+    pub fn bar(&mut self, system: System) -> (Point2<f64>, Point2<f64>) {
+        let (dot, high) = (self.window.dot, self.window.dot_height());
+        let most = BAR * 2.0 * self.window.half.x;
+        let (unit, _) = unit_of_length(most, system);
+        let length = round_down(most / unit) * unit;
+        let room = Vector2::new(length + BAR_LABEL * self.window.column(), self.window.row());
+        let (low, top) = (
+            self.window.centre - self.window.half,
+            self.window.centre + self.window.half,
+        );
+        let margin = Vector2::new(2.0 * dot, 0.25 * high);
+        let left = low + margin;
+        let (right, up) = (
+            (top.x - room.x - margin.x).max(left.x),
+            (top.y - 1.5 * high).max(left.y),
+        );
+        let from = self.free_place(left, Point2::new(right, up), room);
+        let to = from + Vector2::new(length, 0.0);
+        self.strokes.push(Stroke {
+            from,
+            to,
+            ink: Ink::Mark,
+        });
+        for end in [from, to] {
+            self.strokes.push(Stroke {
+                from: end,
+                to: end + Vector2::new(0.0, high),
+                ink: Ink::Mark,
+            });
+        }
+        (from, to)
+    }
+
+    /// Where along the lower edge and then the upper one fewest strokes are in a room, from the
+    /// corners inwards.
+    fn free_place(&self, low: Point2<f64>, top: Point2<f64>, room: Vector2<f64>) -> Point2<f64> {
+        let part = |place: u32| f64::from(place) / f64::from(PLACES);
+        let mut parts: Vec<f64> = (0..=PLACES).map(part).collect();
+        parts.sort_by(|one, other| one.min(1.0 - one).total_cmp(&other.min(1.0 - other)));
+        let mut best = (usize::MAX, low);
+        for y in [low.y, top.y] {
+            let row = if y > low.y {
+                self.window.centre.y + self.window.half.y - room.y
+            } else {
+                y
+            };
+            let band = self.window.around(
+                Point2::new(low.x, row),
+                Vector2::new(top.x - low.x + room.x, room.y),
+            );
+            let near: Vec<&Stroke> = self
+                .strokes
+                .iter()
+                .filter(|stroke| band.clip(stroke.from, stroke.to).is_some())
+                .collect();
+            for at in parts
+                .iter()
+                .map(|part| Point2::new(low.x + part * (top.x - low.x), y))
+            {
+                let window = self.window.around(Point2::new(at.x, row), room);
+                let count = near
+                    .iter()
+                    .filter(|stroke| window.clip(stroke.from, stroke.to).is_some())
+                    .count();
+                best = if count < best.0 { (count, at) } else { best };
+            }
+        }
+        best.1
+    }
+
+    /// A cross of five dots, or a dot where a dot is a cell.
+    pub fn cross(&mut self, at: Point2<f64>, ink: Ink) {
+        if self.window.sees(at) {
+            let arm = if self.window.dot < self.window.column() {
+                1.0
+            } else {
+                0.0
+            };
+            let (right, up) = (
+                Vector2::new(arm * self.window.dot, 0.0),
+                Vector2::new(0.0, arm * self.window.dot_height()),
+            );
+            for arm in [right, up] {
+                self.strokes.push(Stroke {
+                    from: at - arm,
+                    to: at + arm,
+                    ink,
+                });
+            }
+        }
+    }
+}

@@ -1,0 +1,312 @@
+//! A workbench without a terminal: keys in, screen out, files in a folder of its own.
+
+#![allow(dead_code, reason = "each test file uses its own part")]
+
+use std::cell::RefCell;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use ratatui::Terminal;
+use ratatui::backend::TestBackend;
+use ratatui::buffer::{Buffer, Cell};
+use ratatui::layout::Size;
+use tempfile::TempDir;
+use tipstrike::case::Document;
+use tipstrike::study::trade::{Patience, Time};
+use tipstrike::tui::actions::Effect;
+use tipstrike::tui::actions::{self, Action};
+use tipstrike::tui::app::App;
+use tipstrike::tui::jobs::{self, Job};
+use tipstrike::tui::settings::Settings;
+use tipstrike::tui::store::recents;
+use tipstrike::tui::theme::Look;
+use tipstrike::tui::trade_worker::{Measuring, measure};
+use tipstrike::tui::update::update;
+use tipstrike::tui::{effects, solver, store, update, view};
+
+pub(crate) const SMALL: Size = Size {
+    width: 80,
+    height: 24,
+};
+pub(crate) const LARGE: Size = Size {
+    width: 140,
+    height: 45,
+};
+pub(crate) const TABLE_1: &str = include_str!("../../cases/zhou-chen-2014.toml");
+
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each tells what was asked of the world"
+)]
+pub(crate) struct Desk {
+    pub(crate) app: App,
+    pub(crate) folder: TempDir,
+    pub(crate) has_quit: bool,
+    pub(crate) has_cancelled: bool,
+    pub(crate) has_mouse: bool,
+    pub(crate) ticks: bool,
+    pub(crate) has_redrawn: bool,
+    pub(crate) is_suspended: bool,
+    pub(crate) copied: Option<String>,
+    pub(crate) kept: Option<Settings>,
+    pub(crate) recents: Vec<PathBuf>,
+}
+
+impl Desk {
+    /// On the built-in case.
+    pub(crate) fn new(size: Size) -> Desk {
+        let app = update::opened(store::built_in(), None, Look::FULL, size);
+        Desk {
+            app,
+            folder: tempfile::tempdir().expect("a folder"),
+            has_quit: false,
+            has_cancelled: false,
+            has_mouse: false,
+            ticks: false,
+            has_redrawn: false,
+            is_suspended: false,
+            copied: None,
+            kept: None,
+            recents: Vec::new(),
+        }
+    }
+
+    /// On a file of that text.
+    pub(crate) fn on(size: Size, name: &str, text: &str) -> Desk {
+        let mut desk = Desk::new(size);
+        let path = desk.write(name, text);
+        desk.app = update::opened(
+            Document::read(&path).expect("a good case"),
+            Some(path),
+            Look::FULL,
+            size,
+        );
+        desk
+    }
+
+    pub(crate) fn write(&self, name: &str, text: &str) -> PathBuf {
+        let path = self.path(name);
+        fs::write(&path, text).expect("room on the disk");
+        path
+    }
+
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    pub(crate) fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).expect("the file is there")
+    }
+
+    /// Keys by their names: `Ctrl-S`, `Alt-S`, `F1`, `Down`; anything else is typed letter by
+    /// letter.
+    pub(crate) fn keys(&mut self, keys: &[&str]) -> &mut Desk {
+        for key in keys {
+            match named(key) {
+                Some(event) => self.press(event),
+                None => self.type_in(key),
+            }
+        }
+        self
+    }
+
+    pub(crate) fn type_in(&mut self, text: &str) {
+        for letter in text.chars() {
+            self.press(KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE));
+        }
+    }
+
+    pub(crate) fn press(&mut self, event: KeyEvent) {
+        if let Some(action) = actions::of_key(event, self.app.place()) {
+            self.act(action);
+        }
+    }
+
+    /// Change the state and do at once what it asks for.
+    pub(crate) fn act(&mut self, action: Action) {
+        let mut actions = vec![action];
+        while let Some(action) = actions.pop() {
+            for effect in update(&mut self.app, action) {
+                match effect {
+                    Effect::Solve(request) => {
+                        actions.push(Action::Solved(Box::new(solver::answer(&request))))
+                    }
+                    Effect::Measure(measuring) => actions.extend(measured(*measuring)),
+                    Effect::Quit => self.has_quit = true,
+                    Effect::Copy(text) => self.copied = Some(text),
+                    Effect::Mouse(takes) => self.has_mouse = takes,
+                    Effect::Play(plays) => self.ticks = plays,
+                    Effect::CancelWork | Effect::CancelSolve => self.has_cancelled = true,
+                    Effect::Redraw => self.has_redrawn = true,
+                    Effect::Suspend => self.is_suspended = true,
+                    Effect::Keep(settings) => self.kept = Some(settings),
+                    Effect::Job(Job::Recents) => {
+                        actions.push(Action::Recents(recents::looked_at(self.recents.clone())))
+                    }
+                    Effect::Job(errand) => {
+                        actions.extend(jobs::perform(errand, &|_| true).map(effects::told))
+                    }
+                    Effect::Remember(_) => (),
+                    other => actions.extend(effects::perform(other)),
+                }
+            }
+        }
+    }
+
+    /// Go to a field by its key.
+    pub(crate) fn go_to(&mut self, key: &str) -> &mut Desk {
+        let field = tipstrike::case::fields::index_of(key).expect("a field of that key");
+        self.keys(&["Ctrl-Home"]);
+        (0..field).for_each(|_| {
+            self.keys(&["Down"]);
+        });
+        assert_eq!(self.app.focus, field);
+        self
+    }
+
+    /// Write a field anew.
+    pub(crate) fn fill(&mut self, key: &str, text: &str) -> &mut Desk {
+        self.go_to(key);
+        if !self.app.has_line() {
+            self.keys(&["Enter"]);
+        }
+        self.keys(&["Ctrl-U", text])
+    }
+
+    pub(crate) fn screen(&self) -> String {
+        self.screen_at(self.app.size)
+    }
+
+    /// The screen as text, the folder of the test named `DIR`, each line without the spaces at its
+    /// end.
+    pub(crate) fn screen_at(&self, size: Size) -> String {
+        let folder = self.folder.path().display().to_string();
+        let lines: Vec<String> = self
+            .rows(size)
+            .iter()
+            .map(|row| row.replace(&folder, "DIR").trim_end().to_owned())
+            .collect();
+        lines.join("\n")
+    }
+
+    pub(crate) fn shows(&self, text: &str) -> bool {
+        self.rows(self.app.size).join("\n").contains(text)
+    }
+
+    fn rows(&self, size: Size) -> Vec<String> {
+        let width = usize::from(size.width.max(1));
+        self.buffer(size)
+            .content
+            .chunks(width)
+            .map(|row| row.iter().map(Cell::symbol).collect())
+            .collect()
+    }
+
+    /// The screen with its styles.
+    pub(crate) fn buffer(&self, size: Size) -> Buffer {
+        let mut terminal =
+            Terminal::new(TestBackend::new(size.width, size.height)).expect("a test terminal");
+        let frame = terminal.draw(|frame| {
+            let area = frame.area();
+            if let Some(cursor) = view::draw(&self.app, area, frame.buffer_mut()) {
+                frame.set_cursor_position(cursor);
+            }
+        });
+        frame.expect("a frame").buffer.clone()
+    }
+}
+
+/// All that a measurement tells, the last first; each setting is run once.
+/// Times that are the same on every machine: each setting takes a tenth more than the one before.
+pub(crate) fn time_evenly(desk: &mut Desk) {
+    let traded = desk.app.tab.traded.as_mut().expect("a measurement");
+    let trade = traded.trade.as_mut().expect("it is whole");
+    for (number, one) in trade.settings.iter_mut().enumerate() {
+        let seconds = 4e-6 * 1.1f64.powi(i32::try_from(number).expect("few settings"));
+        let figures = one.found.as_mut().expect("every method answers");
+        figures.time = Time {
+            seconds,
+            ..figures.time
+        };
+    }
+    trade.judge();
+    traded.marked = trade.recommended.map(|at| trade.settings[at].setting);
+}
+
+fn measured(measuring: Measuring) -> Vec<Action> {
+    let told = RefCell::new(Vec::new());
+    measure(
+        &Measuring {
+            patience: Patience::ONCE,
+            ..measuring
+        },
+        &AtomicBool::new(false),
+        &|measured| {
+            told.borrow_mut().push(Action::Measured(Box::new(measured)));
+            true
+        },
+    );
+    let mut told = told.into_inner();
+    told.reverse();
+    told
+}
+
+/// A file that holds a case and its name.
+pub(crate) fn name(path: &Path) -> &str {
+    path.to_str().expect("a name in UTF-8")
+}
+
+/// The press of a key by its name, or of a letter.
+pub(crate) fn event(key: &str) -> KeyEvent {
+    let letter = || {
+        KeyEvent::new(
+            KeyCode::Char(key.chars().next().expect("a key")),
+            KeyModifiers::NONE,
+        )
+    };
+    named(key).unwrap_or_else(letter)
+}
+
+/// The screen without the rest of the lines in which a folder of the test is named: its name has a
+/// length of its own.
+pub(crate) fn without_folder(desk: &Desk) -> String {
+    let lines = desk.screen();
+    let kept = lines.lines().map(|line| match line.find("DIR") {
+        Some(at) => format!("{}.", &line[..at + 3]),
+        None => line.to_owned(),
+    });
+    kept.collect::<Vec<_>>().join("\n")
+}
+
+pub(crate) fn named(key: &str) -> Option<KeyEvent> {
+    let (modifiers, name) = match key.split_once('-') {
+        Some(("Ctrl", name)) => (KeyModifiers::CONTROL, name),
+        Some(("Alt", name)) => (KeyModifiers::ALT, name),
+        Some(("Shift", name)) => (KeyModifiers::SHIFT, name),
+        _ => (KeyModifiers::NONE, key),
+    };
+    let code = match name {
+        "Up" => KeyCode::Up,
+        "Down" => KeyCode::Down,
+        "Left" => KeyCode::Left,
+        "Right" => KeyCode::Right,
+        "Home" => KeyCode::Home,
+        "End" => KeyCode::End,
+        "PageUp" => KeyCode::PageUp,
+        "PageDown" => KeyCode::PageDown,
+        "Tab" => KeyCode::Tab,
+        "BackTab" => KeyCode::BackTab,
+        "Enter" => KeyCode::Enter,
+        "Esc" => KeyCode::Esc,
+        "Backspace" => KeyCode::Backspace,
+        "Delete" => KeyCode::Delete,
+        "Space" => KeyCode::Char(' '),
+        _ if modifiers != KeyModifiers::NONE => {
+            KeyCode::Char(name.chars().next()?.to_ascii_lowercase())
+        }
+        _ => KeyCode::F(name.strip_prefix('F')?.parse().ok()?),
+    };
+    Some(KeyEvent::new(code, modifiers))
+}
