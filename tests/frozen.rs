@@ -18,7 +18,7 @@ use harness::{Desk, SMALL, TABLE_1};
 use tipstrike::case::Document;
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::actions::Effect;
-use tipstrike::tui::effects::effects;
+use tipstrike::tui::effects::perform;
 
 #[test]
 fn every_frozen_case_opens_and_an_untouched_save_keeps_its_bytes() {

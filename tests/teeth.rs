@@ -586,7 +586,7 @@ fn no_word_lies_on_a_line_where_there_is_room() {
                     let area = Rect::new(0, 0, width, height);
                     let scene = Scene::of(&picture, moment.as_ref(), area.as_size());
                     let mut buffer = Buffer::empty(area);
-                    teeth::ink::draw(&scene, &picture, area, &mut buffer);
+                    teeth::raster::draw(&scene, &picture, area, &mut buffer);
                     let drawn = buffer.clone();
                     let words = Labels::new(area).draw(&scene, &picture, &mut buffer);
                     // The second one is the scale bar itself.

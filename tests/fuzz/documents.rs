@@ -14,7 +14,7 @@ use tipstrike::model::QUANTITIES;
 
 use crate::properties::{Fate, assert_placed, assert_same, read_and_solve};
 use crate::values::{HOSTILE, field_and_text};
-use crate::{assert_safe, baseline, texts};
+use crate::{assert_safe, hold, texts};
 
 /// An edit of a document in the form or by `--set`.
 #[derive(Debug, Clone)]

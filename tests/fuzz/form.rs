@@ -30,7 +30,7 @@ use tipstrike::tui::update::update;
 use tipstrike::tui::{effects, rows, update, view};
 
 use crate::values::{HOSTILE, field_and_text};
-use crate::{baseline, is_hostile, texts};
+use crate::{hold, is_hostile, texts};
 
 /// Something that happens to the workbench.
 #[derive(Debug, Clone)]

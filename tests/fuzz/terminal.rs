@@ -11,7 +11,7 @@ use proptest::sample::{Index, select};
 use tipstrike::case::Document;
 use tipstrike::case::journal::Journal;
 
-use crate::baseline;
+use crate::hold;
 use crate::tty::{PATIENCE, Tty, journals};
 
 /// The program has taken what came when it writes nothing for so long. Longer than it waits for the
