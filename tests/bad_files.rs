@@ -110,10 +110,10 @@ const ONE_BAD_LINE: &[OneLine] = &[
     (MODULE, "module = “5 mm”", 0, 10, "pair.module", "not the straight ones", "\"5 mm\""),
     (MODULE, "module: \"5 mm\"", 0, 7, "pair.module", "`:` stands where `=` is due", "module = \"5 mm\""),
     // words and choices
-    ("method = \"exact\"", "method = \"exat\"", 0, 8, "model.method", "unknown choice `exat`", "did you mean exact?"),
-    ("method = \"exact\"", "method = \"dinamic\"", 0, 8, "model.method", "unknown choice `dinamic`", "did you mean dynamic?"),
-    ("method = \"exact\"", "method = 2", 0, 8, "model.method", "a number stands where a text in quotes", "\"exact\""),
-    ("method = \"exact\"", "method = exact", 0, 8, "model.method", "not in quotes", "write \"exact\""),
+    ("method = \"exact\"", "method = \"exat\"", 0, 10, "model.method", "unknown choice `exat`", "did you mean exact?"),
+    ("method = \"exact\"", "method = \"dinamic\"", 0, 10, "model.method", "unknown choice `dinamic`", "did you mean dynamic?"),
+    ("method = \"exact\"", "method = 2", 0, 10, "model.method", "a number stands where a text in quotes", "\"exact\""),
+    ("method = \"exact\"", "method = exact", 0, 10, "model.method", "not in quotes", "write \"exact\""),
     ("title = \"Zhou & Chen 2014, Table 1\"", "title = [1]", 0, 9, "title", "an array", "title = "),
     // keys and tables
     (MODULE, "modul = \"5 mm\"\nmodule = \"5 mm\"", 0, 1, "pair.modul", "unknown key `modul`", "did you mean module?"),
@@ -275,7 +275,7 @@ fn all_faults_come_in_one_run_in_the_order_of_the_places() {
             ),
             (
                 47,
-                8,
+                10,
                 "model.method",
                 "unknown choice",
                 "did you mean paper?",
