@@ -29,7 +29,7 @@ fn closed_form(criterion: &mut Criterion) {
         ("exact, accurate", accurate),
     ] {
         group.bench_function(name, |bencher| {
-            bencher.iter(|| solve(black_box(&inputs), Stages::CLOSED_FORM))
+            bencher.iter(|| solve(black_box(&inputs), Stages::CLOSED_FORM));
         });
     }
     group.finish();
@@ -41,7 +41,7 @@ fn stations(criterion: &mut Criterion) {
         ..table_1(Method::Exact)
     };
     criterion.bench_function("exact with 256 stations", |bencher| {
-        bencher.iter(|| solve(black_box(&inputs), Stages::ALL))
+        bencher.iter(|| solve(black_box(&inputs), Stages::ALL));
     });
 }
 

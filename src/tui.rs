@@ -328,7 +328,7 @@ impl Workbench {
 fn keep_what_is_left(journal_writer: &JournalWriter) {
     match journal_writer.write(false) {
         Ok(()) if journal_writer.is_needed() => {
-            tell("unsaved edits are kept: open the case again to get them back")
+            tell("unsaved edits are kept: open the case again to get them back");
         }
         Ok(()) => {}
         Err(error) => tell(&format!("unsaved edits could not be kept: {error}")),

@@ -267,7 +267,7 @@ fn killed_at_the_write_beside(editor: &Editor) -> Left {
                 step = writes[..=at]
                     .iter()
                     .filter(|line| thread_of(line) == thread_of(writes[at]))
-                    .count()
+                    .count();
             }
             None => step += 1,
         }

@@ -28,7 +28,7 @@ fn an_edit_keeps_what_it_changed_and_undo_has_no_end() {
     };
     edit(&mut desk, "6 mm");
     let bytes = kept(EDITS, |number| {
-        edit(&mut desk, if number % 2 == 0 { "5 mm" } else { "6 mm" })
+        edit(&mut desk, if number % 2 == 0 { "5 mm" } else { "6 mm" });
     });
     println!("an edit: {bytes:.0} bytes");
     assert!(bytes < 100.0, "{bytes}");

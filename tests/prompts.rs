@@ -58,7 +58,7 @@ const SCREENS: &[(&str, Way)] = &[
         desk.act(Action::Progress(Some(Progress {
             what: "trade".to_owned(),
             part: 0.37,
-        })))
+        })));
     }),
     ("changed_on_disk", |desk| {
         desk.fill("operation.speed", "1500 rpm");
@@ -133,7 +133,7 @@ const SCREENS: &[(&str, Way)] = &[
         desk.fill("driven.addendum", "1.9");
     }),
     ("in_place_of", |desk| {
-        desk.app.tab.in_place_of = Some("gone.toml".into())
+        desk.app.tab.in_place_of = Some("gone.toml".into());
     }),
 ];
 

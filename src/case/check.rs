@@ -166,7 +166,7 @@ fn put_text(known: &Field, field: usize, text: &str, inputs: &mut Inputs) -> Res
     match known.kind {
         Kind::Text => {}
         Kind::Number(dimension, range, put) => {
-            put(inputs, number(known, field, text, dimension, range)?)
+            put(inputs, number(known, field, text, dimension, range)?);
         }
         Kind::Count(from, to, put) => put(inputs, count(known, text, from, to)?),
         Kind::Choice(names, put) => put(inputs, choice(known, text, names)?),

@@ -233,9 +233,9 @@ fn closed_in(tried: Try<'_>, mut touching: Tried, mut clear: Tried) -> Result<Tr
         widths[PATIENCE - 1] = width;
         let found = tried(aim.clamp(touching.relief + 0.1 * near, clear.relief - 0.1 * near))?;
         if found.lead > 0.0 {
-            touching = found
+            touching = found;
         } else {
-            clear = found
+            clear = found;
         }
     }
 }

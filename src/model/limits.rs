@@ -214,6 +214,7 @@ impl Refusal {
         self.remedy().mend
     }
 
+    #[expect(clippy::too_many_lines, reason = "one row per refusal")]
     fn remedy(&self) -> Remedy {
         let (code, field, mend) = match self {
             Refusal::Interference { .. } => (

@@ -125,10 +125,10 @@ mod tests {
         let third = edited(&second, &|case| case.write_limit("friction_ratio", "0.5"));
         let fourth = edited(&third, &|case| {
             case.spread
-                .push(Spread::new("pair.module", "normal", "4 um").unwrap())
+                .push(Spread::new("pair.module", "normal", "4 um").unwrap());
         });
         let fifth = edited(&fourth, &|case| {
-            (0..9).for_each(|field| case.write(field, ""))
+            (0..9).for_each(|field| case.write(field, ""));
         });
         vec![first, second, third, fourth, fifth]
     }

@@ -65,9 +65,9 @@ pub fn plan(size: Size, panes: Panes) -> Plan {
     let body = row(1, height - 4);
     if panes.is_zoomed || height < LOWER_FROM {
         if panes.focus.is_lower() {
-            *plan.area_mut(panes.focus) = body
+            *plan.area_mut(panes.focus) = body;
         } else {
-            plan.split_upper(body)
+            plan.split_upper(body);
         }
     } else if holds(size, THREE_FROM) {
         plan.three_columns(body, panes);

@@ -79,7 +79,7 @@ fn bytes_that_may_be_no_text_are_told_in_their_places() {
         },
     );
     hold(300, &prop::collection::vec(any::<u8>(), 0..300), |bytes| {
-        assert_bytes(&bytes)
+        assert_bytes(&bytes);
     });
     hold(300, &".{0,200}", |text| {
         read_and_solve(&text);
@@ -239,7 +239,7 @@ impl Edit {
             Edit::Field(field, text) => case.write(*field, text),
             // What is no limit leaves the case as it was.
             Edit::Limit(at, text) => {
-                drop(case.set_limit(QUANTITIES[at.index(QUANTITIES.len())].key, text))
+                drop(case.set_limit(QUANTITIES[at.index(QUANTITIES.len())].key, text));
             }
             Edit::Unspread => case.spread.clear(),
         }

@@ -250,7 +250,7 @@ impl Bench {
             Happening::Type(text) => self.feed(letters(text)),
             Happening::Paste(text) => self.feed([Event::Input(Input::Paste(text))]),
             Happening::Resize(width, height) => {
-                self.feed([Event::Input(Input::Resize(width, height))])
+                self.feed([Event::Input(Input::Resize(width, height))]);
             }
             Happening::Fill(field, text) => {
                 let steps = vec![Event::Input(Input::Key(key(KeyCode::Down))); field];

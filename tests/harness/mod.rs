@@ -131,7 +131,7 @@ impl Desk {
             for effect in update(&mut self.app, action) {
                 match effect {
                     Effect::Solve(request) => {
-                        actions.push(Action::Solved(Box::new(solver::answer(&request))))
+                        actions.push(Action::Solved(Box::new(solver::answer(&request))));
                     }
                     Effect::Measure(measuring) => actions.extend(measured(*measuring)),
                     Effect::Quit => self.has_quit = true,
@@ -143,10 +143,10 @@ impl Desk {
                     Effect::Suspend => self.is_suspended = true,
                     Effect::Keep(settings) => self.kept = Some(settings),
                     Effect::Job(Job::Recents) => {
-                        actions.push(Action::Recents(recents::looked_at(self.recents.clone())))
+                        actions.push(Action::Recents(recents::looked_at(self.recents.clone())));
                     }
                     Effect::Job(errand) => {
-                        actions.extend(jobs::perform(errand, &|_| true).map(effects::told))
+                        actions.extend(jobs::perform(errand, &|_| true).map(effects::told));
                     }
                     Effect::Remember(_) => (),
                     other => actions.extend(effects::perform(other)),

@@ -27,13 +27,13 @@ const VARIANTS: [(&str, Change); 16] = [
     ("paper", |inputs| inputs.method = Method::Paper),
     ("static", |inputs| inputs.method = Method::Static),
     ("static, relieved, with friction", |inputs| {
-        relieved(inputs, Method::Static)
+        relieved(inputs, Method::Static);
     }),
     ("static, contact ratio 1.94", |inputs| {
-        nearly_double_contact(inputs, 1.15)
+        nearly_double_contact(inputs, 1.15);
     }),
     ("static, contact ratio 1.97", |inputs| {
-        nearly_double_contact(inputs, 1.17)
+        nearly_double_contact(inputs, 1.17);
     }),
     ("dynamic", |inputs| {
         relieved(inputs, Method::Dynamic);
@@ -47,13 +47,13 @@ const VARIANTS: [(&str, Change); 16] = [
         inputs.deflection = Some(21e-6);
     }),
     ("weber", |inputs| {
-        inputs.contact_compliance = ContactCompliance::Weber
+        inputs.contact_compliance = ContactCompliance::Weber;
     }),
     ("constant", |inputs| {
-        inputs.contact_compliance = ContactCompliance::Constant
+        inputs.contact_compliance = ContactCompliance::Constant;
     }),
     ("edge radius", |inputs| {
-        inputs.driven.tip_radius = Some(0.3e-3)
+        inputs.driven.tip_radius = Some(0.3e-3);
     }),
     ("outside the fit", |inputs| {
         inputs.pressure_angle = 22f64.to_radians();

@@ -234,7 +234,7 @@ const TAIL: [Field; 18] = [
         label: "tooth compliance",
         help: "kuang-yang: Eq. 56, for z 12..100, |x| <= 0.6, 20 deg full-depth steel. beam: potential energy on the true profile.",
         kind: Kind::Choice(&["kuang-yang", "beam"], |inputs, value| {
-            inputs.tooth_compliance = Some(ToothCompliance::ALL[value])
+            inputs.tooth_compliance = Some(ToothCompliance::ALL[value]);
         }),
         absent: Without("by its range"),
     },
@@ -254,7 +254,7 @@ const TAIL: [Field; 18] = [
         label: "relief shape",
         help: "How tip and root relief grow along the path of contact; static and dynamic alone.",
         kind: Kind::Choice(&["linear", "parabolic"], |inputs, value| {
-            inputs.relief_shape = ReliefShape::ALL[value]
+            inputs.relief_shape = ReliefShape::ALL[value];
         }),
         absent: Default("linear"),
     },
@@ -308,7 +308,7 @@ const TAIL: [Field; 18] = [
         label: "stations",
         help: "Intervals between D and E, and in static and dynamic as many again to the last contact; auto: as many as the curve needs.",
         kind: Kind::Count(1, 10000, |inputs, value| {
-            inputs.stations = (value > 0).then_some(value as usize)
+            inputs.stations = (value > 0).then_some(value as usize);
         }),
         absent: Default("64"),
     },

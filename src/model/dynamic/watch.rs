@@ -59,9 +59,9 @@ impl Watch {
     /// The incoming pair touches or leaves.
     pub(super) fn turn(&mut self, t: f64, touches: bool) {
         if touches {
-            self.touches.push(t)
+            self.touches.push(t);
         } else {
-            self.leaves.push(t)
+            self.leaves.push(t);
         }
     }
 

@@ -151,7 +151,9 @@ impl Tree {
             Tree::Symbol(symbol) if found.contains(&symbol.as_str()) => {}
             Tree::Symbol(symbol) => found.push(symbol),
             Tree::Sum(parts) | Tree::Product(parts) => {
-                parts.iter().for_each(|(_, part)| part.collect(found))
+                for (_, part) in parts {
+                    part.collect(found);
+                }
             }
             Tree::Power(base, exponent) => [base, exponent]
                 .into_iter()

@@ -55,7 +55,7 @@ fn step(app: &mut App, by: isize) {
         Some(Prompt::Ask(question)) => question.mark(by),
         Some(Prompt::Read(page)) => popup::scroll(page, by, app.size),
         Some(Prompt::Explain(explanation)) => {
-            explain::scroll(explanation, by, app.size, app.look.ascii)
+            explain::scroll(explanation, by, app.size, app.look.ascii);
         }
         Some(Prompt::SaveAs(..) | Prompt::Aim(_)) => (),
     }
@@ -72,7 +72,7 @@ fn leap(app: &mut App, by: isize) {
         Some(Prompt::Pick(picker)) => picker.mark(by * page_of_prompt),
         Some(Prompt::Read(text)) => popup::scroll(text, by * page_of_prompt, app.size),
         Some(Prompt::Explain(text)) => {
-            explain::scroll(text, by * page_of_prompt, app.size, app.look.ascii)
+            explain::scroll(text, by * page_of_prompt, app.size, app.look.ascii);
         }
         Some(Prompt::Ask(_) | Prompt::SaveAs(..) | Prompt::Aim(_)) => (),
     }

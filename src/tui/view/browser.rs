@@ -221,7 +221,7 @@ fn draw_preview(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffe
     }
     match preview {
         _ if is_missing => {
-            lines.push(("There is no such file any more.".to_owned(), theme.problem))
+            lines.push(("There is no such file any more.".to_owned(), theme.problem));
         }
         None => lines.push(("reading ...".to_owned(), theme.faint)),
         Some(preview) => lines.extend(told(preview, area.width.into(), theme)),

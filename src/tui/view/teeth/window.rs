@@ -287,7 +287,7 @@ mod tests {
                     .x_bounds(window.across())
                     .y_bounds(window.upright())
                     .paint(|context| {
-                        context.draw(&Line::new(point.x, point.y, point.x, point.y, Color::Reset))
+                        context.draw(&Line::new(point.x, point.y, point.x, point.y, Color::Reset));
                     })
                     .render(area, &mut buffer);
                 let drawn = area
