@@ -1,6 +1,6 @@
 //! Speed against accuracy over the cases in `cases/`: `cargo bench --bench trade` prints the table
 //! and draws the picture; with `TIPSTRIKE_REGENERATE=1` both are kept, `tests/trade/table.md` and
-//! `assets/trade.svg`, and the README's lines.
+//! `assets/trade.svg`, and the lines of docs/speed.md.
 #![allow(
     clippy::expect_used,
     clippy::panic,
@@ -29,7 +29,7 @@ fn main() {
         made.keep();
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/trade.svg");
         std::fs::write(path, picture(&made)).expect("the picture is written");
-        table::tell_readme();
+        table::write_docs();
     }
 }
 

@@ -1,9 +1,46 @@
 //! Corner contact in spur gear pairs: where, how hard and how long the tip of an incoming driven
 //! tooth strikes the driver's flank before the normal path of contact begins.
 //!
-//! Data flows one way: [`numeric`] → [`model`] → [`case`](mod@case) → [`study`] → [`report`] → the
-//! command line or the workbench. The core ([`numeric`], [`model`]) knows no files and no screen,
-//! and builds without the terminal crates (`--no-default-features`).
+//! The program `tipstrike` is a workbench in the terminal with the same answers from scripts. This
+//! library is its inside. A case is a TOML file; a solve turns it into a [`Solution`]:
+//!
+//! ```
+//! use tipstrike::case::Document;
+//! use tipstrike::model::{Stages, solve};
+//!
+//! let text = include_str!("../cases/zhou-chen-2014.toml");
+//! let document = Document::parse("zhou-chen-2014.toml", text).expect("a valid file");
+//! let inputs = document.case.inputs().expect("a valid case");
+//!
+//! let solution = solve(&inputs, Stages::ALL).expect("the pair meshes");
+//! let impact = solution.impact.expect("the tooth strikes");
+//! assert_eq!(format!("{:.1} N", impact.force), "2191.0 N");
+//! ```
+//!
+//! # Modules
+//!
+//! Data flows one way, and a module sees only those before it:
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`numeric`] | root finding, series and quadrature, without a word of gears |
+//! | [`model`] | the computation: one stage per file, without files, threads or printing |
+//! | [`case`](mod@case) | the case file: fields, units, reading, checking, saving |
+//! | [`study`] | many solves: speed against accuracy |
+//! | [`report`] | results as text, JSON, CSV and explanations |
+//! | [`cli`] | the commands |
+//! | [`tui`] | the workbench; the only module that sees a terminal |
+//!
+//! The computation builds without command line and workbench (`--no-default-features`). Units are
+//! SI throughout.
+//!
+//! # Pages
+//!
+//! [Guide](docs::guide), [methods and limits](docs::methods), [numerical
+//! accuracy](docs::accuracy), [speed](docs::speed), [scripting](docs::scripting),
+//! [contributing](docs::contributing).
+//!
+//! [`Solution`]: model::Solution
 
 pub mod case;
 #[cfg(feature = "cli")]
@@ -14,3 +51,25 @@ pub mod report;
 pub mod study;
 #[cfg(feature = "tui")]
 pub mod tui;
+
+/// The pages of the folder `docs`, for people.
+#[cfg(all(doc, not(doctest)))]
+pub mod docs {
+    #[doc = include_str!("../docs/guide.md")]
+    pub mod guide {}
+
+    #[doc = include_str!("../docs/methods.md")]
+    pub mod methods {}
+
+    #[doc = include_str!("../docs/accuracy.md")]
+    pub mod accuracy {}
+
+    #[doc = include_str!("../docs/speed.md")]
+    pub mod speed {}
+
+    #[doc = include_str!("../docs/scripting.md")]
+    pub mod scripting {}
+
+    #[doc = include_str!("../CONTRIBUTING.md")]
+    pub mod contributing {}
+}

@@ -1,6 +1,6 @@
 //! Speed against accuracy: what the trade promises, and the stored errors of the cases in `cases/`.
 //!
-//! `TIPSTRIKE_REGENERATE=1 cargo bench --bench trade` makes the stored table, the README's lines
+//! `TIPSTRIKE_REGENERATE=1 cargo bench --bench trade` makes the stored table, the lines of docs/speed.md
 //! and its picture anew.
 #![allow(
     clippy::expect_used,
@@ -425,11 +425,11 @@ fn cost_grows_linearly_with_cycles_and_stations() {
 }
 
 #[test]
-fn the_readme_tells_the_stored_table() {
-    let readme = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md"))
-        .expect("the README");
-    for line in table::Table::of_readme() {
-        assert!(readme.contains(&line), "README.md lacks: {line}");
+fn the_page_on_speed_has_the_stored_table() {
+    let readme = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/speed.md"))
+        .expect("docs/speed.md");
+    for line in table::Table::of_docs() {
+        assert!(readme.contains(&line), "docs/speed.md lacks: {line}");
     }
 }
 

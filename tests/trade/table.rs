@@ -129,12 +129,12 @@ impl Table {
         text
     }
 
-    /// The lines of the README: a few of the stored ones, as they stand.
-    pub(crate) fn of_readme() -> Vec<String> {
+    /// The lines of docs/speed.md: a selection of the stored ones.
+    pub(crate) fn of_docs() -> Vec<String> {
         let text = std::fs::read_to_string(path()).expect("the stored table");
         let names: Vec<String> = Setting::all()
             .iter()
-            .filter(|setting| is_told(setting))
+            .filter(|setting| is_listed(setting))
             .map(|setting| format!("| {setting} |"))
             .collect();
         let lines = text.lines().enumerate();
@@ -177,26 +177,26 @@ impl Table {
     }
 }
 
-/// Write the lines of the README between its marks.
-pub(crate) fn tell_readme() {
+/// Write the lines of docs/speed.md between its marks.
+pub(crate) fn write_docs() {
     const MARKS: [&str; 2] = [
         "<!-- speed against accuracy -->\n",
         "<!-- /speed against accuracy -->",
     ];
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("README.md");
-    let text = std::fs::read_to_string(&path).expect("the README");
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("docs/speed.md");
+    let text = std::fs::read_to_string(&path).expect("docs/speed.md");
     let (before, rest) = text.split_once(MARKS[0]).expect("the first mark");
     let (_, after) = rest.split_once(MARKS[1]).expect("the second mark");
-    let lines = Table::of_readme().join("\n");
+    let lines = Table::of_docs().join("\n");
     std::fs::write(
         &path,
         format!("{before}{}{lines}\n{}{after}", MARKS[0], MARKS[1]),
     )
-    .expect("the README is written");
+    .expect("docs/speed.md is written");
 }
 
-/// Whether it stands in the README.
-fn is_told(setting: &Setting) -> bool {
+/// Whether docs/speed.md has it.
+fn is_listed(setting: &Setting) -> bool {
     let few = setting
         .stations
         .is_none_or(|stations| [8, 64, 1024].contains(&stations));
