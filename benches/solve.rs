@@ -92,7 +92,7 @@ fn compliance(criterion: &mut Criterion) {
                 contact_compliance: contact,
                 ..table_1(Method::Exact)
             };
-            let Ok(geometry) = geometry::<f64>(&inputs) else {
+            let Ok(geometry) = geometry::<f64>(&inputs.shape()) else {
                 continue;
             };
             let place = ContactPlace::on_line_of_action(&geometry, geometry.start);

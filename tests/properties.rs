@@ -291,8 +291,8 @@ fn swapped_gears_mirror_the_path_of_contact() {
             driven: inputs.driver.clone(),
             ..inputs.clone()
         };
-        let here = geometry::geometry::<f64>(&inputs).ok()?;
-        let there = geometry::geometry::<f64>(&swapped).ok()?;
+        let here = geometry::geometry::<f64>(&inputs.shape()).ok()?;
+        let there = geometry::geometry::<f64>(&swapped.shape()).ok()?;
         let close =
             |found: f64, expected: f64| (found - expected).abs() <= 1e-13 * here.tangent_length;
         assert!(

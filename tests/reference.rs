@@ -99,7 +99,7 @@ fn every_row_of_positions_within_1e_11() {
 
 /// The promise is 1e-11 for Delta >= 1e-6 m; it is held tighter, and for every Delta of the rows.
 fn row_within(row: &Value, inputs: &Inputs, bound: f64) {
-    let geometry = geometry::<f64>(inputs).expect("geometry");
+    let geometry = geometry::<f64>(&inputs.shape()).expect("geometry");
     let solution = solve(inputs, Stages::CLOSED_FORM).expect("a solution");
     let position = solution.position.expect("a position");
     let velocity = solution.velocity.expect("velocities");
@@ -364,7 +364,7 @@ fn table_1_friction_ratio_by_the_printed_end() {
         ..inputs
     };
     let mixed = friction(
-        &printed_end,
+        (printed_end.method, printed_end.speed),
         &solution.geometry,
         &position.contact,
         &velocity,

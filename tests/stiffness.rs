@@ -74,7 +74,7 @@ fn stiffness(
         contact_compliance: contact,
         ..inputs.clone()
     };
-    let geometry = geometry(&inputs).expect("a meshing pair");
+    let geometry = geometry(&inputs.shape()).expect("a meshing pair");
     let place = ContactPlace::on_line_of_action(&geometry, along(&geometry));
     1e-9 / pair_at_load(
         &inputs,
@@ -159,7 +159,7 @@ fn equal_pair_agrees_with_open_codes() {
 #[test]
 fn a_tooth_is_stiffer_the_nearer_to_its_root_the_load_stands() {
     for inputs in pairs() {
-        let geometry = geometry::<f64>(&inputs).expect("a meshing pair");
+        let geometry = geometry::<f64>(&inputs.shape()).expect("a meshing pair");
         let (tip, base) = (geometry.driver.tip, geometry.driver.base);
         let loads = [1.0, 0.8, 0.6, 0.4, 0.2]
             .map(|part| geometry.driver.base.max(geometry.driver.root) + part * (tip - base) * 0.9);
@@ -180,7 +180,7 @@ fn young_poisson_and_bore_enter() {
     let beam = |change: &dyn Fn(&mut Inputs)| {
         let mut inputs = plain.clone();
         change(&mut inputs);
-        let geometry = geometry::<f64>(&inputs).expect("a meshing pair");
+        let geometry = geometry::<f64>(&inputs.shape()).expect("a meshing pair");
         beam::tooth(
             &inputs,
             &inputs.driver,

@@ -64,7 +64,7 @@ pub fn clearing(
     let runs = Cell::new(0);
     let found = match (solution.outcome, inputs.method) {
         (Outcome::NoCornerContact, _) => Ok(None),
-        (_, Method::Paper) => printed_relief_to_clear(inputs, &solution.kept.deviation),
+        (_, Method::Paper) => printed_relief_to_clear(&inputs.shape(), &solution.kept.deviation),
         (_, Method::Static | Method::Dynamic) => {
             let tried = |relief: f64| {
                 runs.set(runs.get() + 1);

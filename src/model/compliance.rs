@@ -59,7 +59,11 @@ impl ContactPlace {
         ContactPlace {
             radius_driver: tip.radius_driver,
             radius_driven: geometry.driven.tip,
-            curvature_radius: super::position::reduced_curvature(inputs, geometry, tip),
+            curvature_radius: super::position::reduced_curvature(
+                inputs.driven.tip_radius,
+                geometry,
+                tip,
+            ),
         }
     }
 }

@@ -173,7 +173,7 @@ fn run_in(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> ContactState
     let angle = roll_angle / inputs.ratio();
     let tip = tip_at(geometry, angle);
     let gap = gap_of(geometry, &tip);
-    let velocity = velocity(inputs, &tip);
+    let velocity = velocity(inputs.driven_speed(), &tip);
     ContactState {
         phase: Phase::RunIn,
         roll_angle_driver: roll_angle,
@@ -221,11 +221,11 @@ fn run_out(
         speed: inputs.driven_speed(),
         ..inputs.clone()
     };
-    let geometry = geometry::<f64>(&swapped).ok()?;
+    let geometry = geometry::<f64>(&swapped.shape()).ok()?;
     let tip = tip_at(&geometry, last - roll_angle);
     let (gap, velocity, told) = (
         gap_of(&geometry, &tip),
-        velocity(&swapped, &tip),
+        velocity(swapped.driven_speed(), &tip),
         Told::at(inputs, solution, roll_angle),
     );
     let point = tip_point(&geometry, &tip);

@@ -1,7 +1,7 @@
 //! The paper's friction coefficient: a ratio of velocity changes over the impact.
 
 use super::geometry::Geometry;
-use super::inputs::{Inputs, Method};
+use super::inputs::Method;
 use super::tip_gap::{TipContact, angle_by_growth, seen_from, tip_at};
 use super::{Impact, Velocity};
 
@@ -29,31 +29,31 @@ pub struct Friction {
 /// A kinematic ratio: it is not bounded by Coulomb's coefficient.
 #[must_use]
 pub fn friction(
-    inputs: &Inputs,
+    (method, speed): (Method, f64),
     geometry: &Geometry,
     tip: &TipContact,
     velocity: &Velocity,
     impact: &Impact,
     reduced_mass: f64,
 ) -> Friction {
-    let turn = inputs.driven_speed() * impact.duration_printed;
+    let speeds = (speed, speed / geometry.ratio);
+    let turn = speeds.1 * impact.duration_printed;
     let from_contact = seen_from(geometry, tip);
-    let end = match inputs.method {
-        Method::Paper => printed_end(inputs, &from_contact, tip, turn),
+    let end = match method {
+        Method::Paper => printed_end(&from_contact, tip, turn),
         _ => Some(tip_after(geometry, &from_contact, tip, turn)),
     };
     let gained = impact.force * impact.duration_printed / (reduced_mass * geometry.driven.tip);
     let ratio = end
-        .map(|end| changes_ratio(inputs, &end, gained))
+        .map(|end| changes_ratio(speeds, &end, gained))
         .filter(|ratio| ratio.is_finite() && velocity.normal > 0.0);
     Friction { ratio }
 }
 
 /// |change of ΔV_τ|/|change of ΔV_n| to the end of the impact, the driven gear having gained `gained` rad/s.
-fn changes_ratio(inputs: &Inputs, end: &TipContact, gained: f64) -> f64 {
-    let driven_speed = inputs.driven_speed();
+fn changes_ratio((driver_speed, driven_speed): (f64, f64), end: &TipContact, gained: f64) -> f64 {
     let normal = driven_speed * end.normal_radius_drop - gained * end.normal_radius_driven;
-    let sliding = driven_speed * end.normal_length_growth - inputs.speed * end.curvature_growth
+    let sliding = driven_speed * end.normal_length_growth - driver_speed * end.curvature_growth
         + gained * end.normal_length_driven;
     (sliding / normal).abs()
 }
@@ -85,13 +85,8 @@ fn tip_after(
 ///
 /// Close to the pitch point r_a2 is next to i O₁D, and the chord next to what the triangle needs
 /// across O₁D: their difference is taken from small terms.
-fn printed_end(
-    inputs: &Inputs,
-    from_contact: &Geometry,
-    tip: &TipContact,
-    turn: f64,
-) -> Option<TipContact> {
-    let at_driver = turn * inputs.ratio();
+fn printed_end(from_contact: &Geometry, tip: &TipContact, turn: f64) -> Option<TipContact> {
+    let at_driver = turn * from_contact.ratio;
     let chord = 2.0 * from_contact.driven.tip * (turn / 2.0).sin();
     let lateral = tip.radius_driver * at_driver.sin();
     let rest = tip_excess(from_contact, tip) * turn

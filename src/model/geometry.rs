@@ -10,6 +10,63 @@ use crate::numeric::Real;
 /// two digits and more.
 pub(super) const LEAST_REST: f64 = 1.0 / 64.0;
 
+/// Shape of the pair: all that its geometry depends on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PairShape {
+    /// Module m, in m.
+    pub module: f64,
+    /// Pressure angle α, in rad.
+    pub pressure_angle: f64,
+    /// Centre distance a, in m; without it the mesh has no backlash.
+    pub centre_distance: Option<f64>,
+    /// Shape of the driver.
+    pub driver: GearShape,
+    /// Shape of the driven gear.
+    pub driven: GearShape,
+}
+
+/// Shape of one gear.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GearShape {
+    /// Number of teeth z.
+    pub teeth: u32,
+    /// Profile shift coefficient x.
+    pub profile_shift: f64,
+    /// Addendum coefficient h_a*.
+    pub addendum: f64,
+    /// Dedendum coefficient h_fP*.
+    pub dedendum: f64,
+    /// Radial tip chamfer, in m.
+    pub tip_chamfer: f64,
+}
+
+impl Inputs {
+    /// Shape of the pair.
+    #[must_use]
+    pub fn shape(&self) -> PairShape {
+        let shape = |gear: &Gear| GearShape {
+            teeth: gear.teeth,
+            profile_shift: gear.profile_shift,
+            addendum: gear.addendum,
+            dedendum: gear.dedendum,
+            tip_chamfer: gear.tip_chamfer,
+        };
+        PairShape {
+            module: self.module,
+            pressure_angle: self.pressure_angle,
+            centre_distance: self.centre_distance,
+            driver: shape(&self.driver),
+            driven: shape(&self.driven),
+        }
+    }
+
+    /// Bore radii of driver and driven gear, in m.
+    #[must_use]
+    pub fn bores(&self) -> [f64; 2] {
+        [self.driver.bore_radius, self.driven.bore_radius]
+    }
+}
+
 /// Circles of one gear, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Circles<T = f64> {
@@ -75,12 +132,12 @@ pub struct Geometry<T = f64> {
 /// # Errors
 /// A [`Refusal`] where the pair has no line of action, a tip lies inside its base circle, or the
 /// driven tip would touch the driver below its base circle.
-pub fn geometry<T: Real>(inputs: &Inputs) -> Result<Geometry<T>, Refusal> {
-    let alpha: T = inputs.pressure_angle.into();
-    let driver = circles(inputs, &inputs.driver, alpha)?;
-    let driven = circles(inputs, &inputs.driven, alpha)?;
+pub fn geometry<T: Real>(shape: &PairShape) -> Result<Geometry<T>, Refusal> {
+    let alpha: T = shape.pressure_angle.into();
+    let driver = circles(shape, &shape.driver, alpha)?;
+    let driven = circles(shape, &shape.driven, alpha)?;
     let base_sum = driver.base + driven.base;
-    let (centre_distance, tangent) = working_tangent(inputs, alpha, base_sum)?;
+    let (centre_distance, tangent) = working_tangent(shape, alpha, base_sum)?;
     let tangent_length = base_sum * tangent;
     let start = tangent_length - driven.tip_curvature;
     if start <= T::zero() {
@@ -88,7 +145,7 @@ pub fn geometry<T: Real>(inputs: &Inputs) -> Result<Geometry<T>, Refusal> {
             start: start.rounded(),
         });
     }
-    let base_pitch = T::PI * inputs.module.into() * alpha.sine_cosine().1;
+    let base_pitch = T::PI * shape.module.into() * alpha.sine_cosine().1;
     let approach_length = driven.tip_curvature - driven.base * tangent;
     let working_pressure_angle = tangent.angle_to(T::one());
     let end = driver.tip_curvature;
@@ -96,11 +153,11 @@ pub fn geometry<T: Real>(inputs: &Inputs) -> Result<Geometry<T>, Refusal> {
         return Err(Refusal::NoPath {
             start: start.rounded(),
             end: end.rounded(),
-            is_distance_given: inputs.centre_distance.is_some(),
+            is_distance_given: shape.centre_distance.is_some(),
         });
     }
     Ok(Geometry {
-        ratio: T::count(inputs.driven.teeth).over(T::count(inputs.driver.teeth)),
+        ratio: T::count(shape.driven.teeth).over(T::count(shape.driver.teeth)),
         driver,
         driven,
         centre_distance,
@@ -135,15 +192,15 @@ fn turned<T: Real>(angle: T) -> Rotation2<T> {
 }
 
 /// Circles of one gear.
-fn circles<T: Real>(inputs: &Inputs, gear: &Gear, alpha: T) -> Result<Circles<T>, Refusal> {
-    let module: T = inputs.module.into();
+fn circles<T: Real>(shape: &PairShape, gear: &GearShape, alpha: T) -> Result<Circles<T>, Refusal> {
+    let module: T = shape.module.into();
     let (half, two): (T, T) = (0.5.into(), 2.0.into());
     let shift: T = gear.profile_shift.into();
     let reference = module * T::count(gear.teeth) * half;
     let base = reference * alpha.sine_cosine().1;
     let height = module * (shift + gear.addendum.into()) - gear.tip_chamfer.into();
     let half_sine = (alpha * half).sine_cosine().0;
-    let most_dedendum = std::f64::consts::FRAC_PI_4 / inputs.pressure_angle.tan();
+    let most_dedendum = std::f64::consts::FRAC_PI_4 / shape.pressure_angle.tan();
     if gear.dedendum >= most_dedendum {
         return Err(Refusal::PointedRack {
             dedendum: gear.dedendum,
@@ -169,8 +226,8 @@ fn circles<T: Real>(inputs: &Inputs, gear: &Gear, alpha: T) -> Result<Circles<T>
 }
 
 /// Centre distance and tan α_w.
-fn working_tangent<T: Real>(inputs: &Inputs, alpha: T, base_sum: T) -> Result<(T, T), Refusal> {
-    if let Some(given) = inputs.centre_distance {
+fn working_tangent<T: Real>(shape: &PairShape, alpha: T, base_sum: T) -> Result<(T, T), Refusal> {
+    if let Some(given) = shape.centre_distance {
         let distance: T = given.into();
         if distance <= base_sum {
             return Err(Refusal::CentreDistanceJams {
@@ -185,7 +242,7 @@ fn working_tangent<T: Real>(inputs: &Inputs, alpha: T, base_sum: T) -> Result<(T
                 .over(base_sum),
         ));
     }
-    let angle = alpha + working_angle_rise(inputs, alpha)?;
+    let angle = alpha + working_angle_rise(shape, alpha)?;
     let (sine, cosine) = angle.sine_cosine();
     Ok((base_sum.over(cosine), sine.over(cosine)))
 }
@@ -193,10 +250,10 @@ fn working_tangent<T: Real>(inputs: &Inputs, alpha: T, base_sum: T) -> Result<(T
 /// α_w − α of the mesh without backlash, by Newton's method on the involute function.
 ///
 /// The involute function is convex, so that from the right of the root each step stays right of it.
-fn working_angle_rise<T: Real>(inputs: &Inputs, alpha: T) -> Result<T, Refusal> {
+fn working_angle_rise<T: Real>(shape: &PairShape, alpha: T) -> Result<T, Refusal> {
     const LARGEST_ANGLE: f64 = 1.4;
     const STEPS: usize = 40;
-    let (driver, driven) = (&inputs.driver, &inputs.driven);
+    let (driver, driven) = (&shape.driver, &shape.driven);
     let two: T = 2.0.into();
     let tangent = tangent_of(alpha);
     let shifts = <T as From<f64>>::from(driver.profile_shift) + driven.profile_shift.into();
@@ -245,33 +302,32 @@ impl Geometry {
     /// N₁E, the path of contact, EP, r_a − r_b, a − (r_b1 + r_b2) and the wall between bore and
     /// base circle.
     #[must_use]
-    pub fn is_close_call(&self, inputs: &Inputs) -> bool {
+    pub fn is_close_call(&self, bores: [f64; 2]) -> bool {
         const FLAT: f64 = 0.125;
         const SHORT: f64 = 1.0 / 32.0;
         let short_tip = |circles: &Circles| circles.tip_curvature < SHORT * circles.base;
-        let thin_wall = |gear: &Gear, circles: &Circles| {
-            circles.base - gear.bore_radius < LEAST_REST * circles.base
-        };
+        let thin_wall =
+            |bore: f64, circles: &Circles| circles.base - bore < LEAST_REST * circles.base;
         self.start < LEAST_REST * self.tangent_length
             || self.approach_length.abs() < LEAST_REST * self.driven.tip_curvature
             || self.end - self.start < LEAST_REST * self.end
             || self.tangent_length < FLAT * (self.driver.base + self.driven.base)
             || short_tip(&self.driver)
             || short_tip(&self.driven)
-            || thin_wall(&inputs.driver, &self.driver)
-            || thin_wall(&inputs.driven, &self.driven)
+            || thin_wall(bores[0], &self.driver)
+            || thin_wall(bores[1], &self.driven)
     }
 
     /// Normal backlash that the centre distance leaves, 2 (r_b1 + r_b2) (inv α_w − inv α_w0), in m,
     /// where α_w0 is the working pressure angle without backlash; below 0 the teeth jam (ISO
     /// 21771).
     #[must_use]
-    pub fn backlash(&self, inputs: &Inputs) -> f64 {
+    pub fn backlash(&self, shape: &PairShape) -> f64 {
         let involute = |angle: f64| angle.tan() - angle;
-        let alpha = inputs.pressure_angle;
-        let shifts = inputs.driver.profile_shift + inputs.driven.profile_shift;
+        let alpha = shape.pressure_angle;
+        let shifts = shape.driver.profile_shift + shape.driven.profile_shift;
         let without = involute(alpha)
-            + 2.0 * shifts * alpha.tan() / f64::from(inputs.driver.teeth + inputs.driven.teeth);
+            + 2.0 * shifts * alpha.tan() / f64::from(shape.driver.teeth + shape.driven.teeth);
         2.0 * (self.driver.base + self.driven.base)
             * (involute(self.working_pressure_angle) - without)
     }

@@ -37,6 +37,36 @@ pub struct Impact {
     pub impulse_ratio: f64,
 }
 
+/// Body of a gear: all that its mass depends on, but for its circles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Body {
+    /// Key of the field of the bore.
+    pub bore_field: &'static str,
+    /// Bore radius r_h, in m.
+    pub bore_radius: f64,
+    /// Face width b, in m.
+    pub face_width: f64,
+    /// Density ρ, in kg/m³.
+    pub density: f64,
+}
+
+impl Inputs {
+    /// Bodies of driver and driven gear.
+    #[must_use]
+    pub fn bodies(&self) -> [Body; 2] {
+        let body = |bore_field, gear: &Gear| Body {
+            bore_field,
+            bore_radius: gear.bore_radius,
+            face_width: gear.face_width,
+            density: gear.density,
+        };
+        [
+            body("driver.bore_radius", &self.driver),
+            body("driven.bore_radius", &self.driven),
+        ]
+    }
+}
+
 /// Masses of the two gears at their base circles J/r_b², in kg.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Masses {
@@ -58,9 +88,9 @@ impl Masses {
     ///
     /// # Errors
     /// [`Refusal::BoreTooLarge`] where the bore reaches the base circle or the root circle.
-    pub fn of<T: Real>(inputs: &Inputs, geometry: &Geometry<T>) -> Result<Masses, Refusal> {
-        let driver = mass("driver.bore_radius", &inputs.driver, &geometry.driver)?;
-        let driven = mass("driven.bore_radius", &inputs.driven, &geometry.driven)?;
+    pub fn of<T: Real>(bodies: &[Body; 2], geometry: &Geometry<T>) -> Result<Masses, Refusal> {
+        let driver = mass(&bodies[0], &geometry.driver)?;
+        let driven = mass(&bodies[1], &geometry.driven)?;
         Ok(Masses { driver, driven })
     }
 
@@ -80,8 +110,8 @@ impl Masses {
 }
 
 /// Mass of one gear at its base circle, in kg.
-fn mass<T: Real>(field: &'static str, gear: &Gear, circles: &Circles<T>) -> Result<f64, Refusal> {
-    let (base, bore): (T, T) = (circles.base, gear.bore_radius.into());
+fn mass<T: Real>(body: &Body, circles: &Circles<T>) -> Result<f64, Refusal> {
+    let (base, bore): (T, T) = (circles.base, body.bore_radius.into());
     let limit = if base < circles.root {
         base
     } else {
@@ -89,14 +119,14 @@ fn mass<T: Real>(field: &'static str, gear: &Gear, circles: &Circles<T>) -> Resu
     };
     if bore >= limit {
         return Err(Refusal::BoreTooLarge {
-            field,
-            bore: gear.bore_radius,
+            field: body.bore_field,
+            bore: body.bore_radius,
             limit: limit.rounded(),
         });
     }
-    let (wall, base, bore) = ((base - bore).rounded(), base.rounded(), gear.bore_radius);
+    let (wall, base, bore) = ((base - bore).rounded(), base.rounded(), body.bore_radius);
     let fourth_powers = wall * (base + bore) * (base * base + bore * bore);
-    Ok(PI * gear.density * gear.face_width / 2.0 * fourth_powers / (base * base))
+    Ok(PI * body.density * body.face_width / 2.0 * fourth_powers / (base * base))
 }
 
 /// The impact of the driven tip on the driver's flank: force, energy, duration.

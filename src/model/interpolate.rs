@@ -76,7 +76,7 @@ impl Told {
 fn struck(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> Option<Station> {
     let angle = roll_angle / inputs.ratio();
     let first = solution.position?.approach_angle_driven * (1.0 + ROUNDING);
-    let masses = Masses::of(inputs, &solution.geometry)
+    let masses = Masses::of(&inputs.bodies(), &solution.geometry)
         .ok()
         .filter(|_| (0.0..=first).contains(&angle))?;
     let station = stations::station(inputs, &solution.geometry, &masses, angle).ok()?;

@@ -407,7 +407,7 @@ impl End {
             speed: self.inputs.driven_speed(),
             ..self.inputs.clone()
         };
-        let geometry = geometry(&inputs).map_err(|refusal| match refusal {
+        let geometry = geometry(&inputs.shape()).map_err(|refusal| match refusal {
             Refusal::Interference { start } => Refusal::InterferenceAtEnd { start },
             other => other,
         })?;

@@ -269,7 +269,7 @@ mod tests {
             let mut inputs = standard_pair(teeth, 60, 5e-3);
             inputs.driven.addendum = 0.3;
             (inputs.driver.profile_shift, inputs.driver.tip_radius) = (shift, tip_radius);
-            let circles = geometry::<f64>(&inputs).unwrap().driver;
+            let circles = geometry::<f64>(&inputs.shape()).unwrap().driver;
             (
                 format!("z {teeth} x {shift} re {tip_radius:?}"),
                 Outline::of(&inputs, &inputs.driver, &circles),
@@ -390,7 +390,7 @@ mod tests {
             inputs.driver.profile_shift,
             inputs.driven.addendum,
         ) = (1.4, 0.6, 0.3);
-        let circles = geometry::<f64>(&inputs).unwrap().driver;
+        let circles = geometry::<f64>(&inputs.shape()).unwrap().driver;
         let outline = Outline::of(&inputs, &inputs.driver, &circles);
         assert!(outline.profile().tip_thickness() < 0.0);
         assert!(outline.tip_radius() < circles.tip);

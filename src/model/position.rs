@@ -2,7 +2,7 @@
 
 use twofloat::TwoFloat;
 
-use super::geometry::{self, Geometry};
+use super::geometry::{self, Geometry, PairShape};
 use super::inputs::{Inputs, Method};
 pub use super::tip_gap::{TipContact, gap, gap_by_quadrature, tip_at};
 use super::tip_gap::{angle_at_curvature, gap_without, largest_term};
@@ -18,6 +18,29 @@ const LOST: f64 = 1e14;
 /// The gap in closed form may lose this factor of its digits, 5e-14 of u, before the quadrature,
 /// ten times as costly, serves.
 const KEPT_DIGITS: f64 = 512.0;
+
+/// How the first contact is searched for, apart from geometry and deviation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactSearch {
+    /// `paper` takes the printed equations, every other method the gap.
+    pub method: Method,
+    /// Shape of the pair, for a close call in double-double arithmetic.
+    pub shape: PairShape,
+    /// Radius of the edge of the driven tip, in m.
+    pub tip_radius: Option<f64>,
+}
+
+impl Inputs {
+    /// How the first contact is searched for.
+    #[must_use]
+    pub fn contact_search(&self) -> ContactSearch {
+        ContactSearch {
+            method: self.method,
+            shape: self.shape(),
+            tip_radius: self.driven.tip_radius,
+        }
+    }
+}
 
 /// The first contact D.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -126,11 +149,11 @@ fn printed_contact<T: Real>(geometry: &Geometry<T>, deviation: &Deviation<T>) ->
 /// # Errors
 /// Those of [`geometry`](geometry::geometry).
 pub(super) fn printed_relief_to_clear(
-    inputs: &Inputs,
+    shape: &PairShape,
     deviation: &Deviation<TwoFloat>,
 ) -> Result<Option<f64>, Refusal> {
     const UP: f64 = 1.0 + 1e-14;
-    let geometry = geometry::geometry::<TwoFloat>(inputs)?;
+    let geometry = geometry::geometry::<TwoFloat>(shape)?;
     let left = |relief: f64| {
         let equivalent_error =
             deviation.equivalent_error - twofloat::consts::FRAC_1_SQRT_2 * TwoFloat::from(relief);
@@ -151,11 +174,8 @@ pub(super) fn printed_relief_to_clear(
 /// flank's own at its tip, or the radius of the tip's edge where the case gives one (Zhou & Chen
 /// 2014, below Eq. 32).
 #[must_use]
-pub fn reduced_curvature(inputs: &Inputs, geometry: &Geometry, tip: &TipContact) -> f64 {
-    let driven = inputs
-        .driven
-        .tip_radius
-        .unwrap_or(geometry.driven.tip_curvature);
+pub fn reduced_curvature(tip_radius: Option<f64>, geometry: &Geometry, tip: &TipContact) -> f64 {
+    let driven = tip_radius.unwrap_or(geometry.driven.tip_curvature);
     tip.curvature_driver * driven / (tip.curvature_driver + driven)
 }
 
@@ -165,7 +185,7 @@ pub fn reduced_curvature(inputs: &Inputs, geometry: &Geometry, tip: &TipContact)
 /// # Errors
 /// A [`Refusal`] where D does not exist or lies beyond the driver's tip.
 pub fn position(
-    inputs: &Inputs,
+    search: &ContactSearch,
     geometry: &Geometry,
     precise: Option<&Geometry<TwoFloat>>,
     deviation: &Deviation<TwoFloat>,
@@ -174,37 +194,44 @@ pub fn position(
     if plain.total <= 0.0 {
         return Ok(None);
     }
-    let angle = match inputs.method {
+    let angle = match search.method {
         Method::Paper => printed_contact(geometry, &plain),
         _ => first_contact(geometry, plain.total)?,
     };
     let contact = tip_at(geometry, angle);
     let close_call = contact.is_close_call(geometry)
-        || inputs.method == Method::Paper && plain.equivalent_error < 0.0;
+        || search.method == Method::Paper && plain.equivalent_error < 0.0;
     let (contact, printed_gap) = match precise {
-        Some(precise) => precise_contact(inputs, precise, deviation, angle),
+        Some(precise) => precise_contact(search.method, precise, deviation, angle),
         None if close_call => {
-            precise_contact(inputs, &geometry::geometry(inputs)?, deviation, angle)
+            let precise = geometry::geometry(&search.shape)?;
+            precise_contact(search.method, &precise, deviation, angle)
         }
         None => (contact, gap_without(KEPT_DIGITS, geometry, &contact)),
     };
-    let closed_gap = if inputs.method == Method::Exact {
+    let closed_gap = if search.method == Method::Exact {
         plain.total
     } else {
         printed_gap
     };
-    checked(inputs, geometry, plain.total, contact, closed_gap)
+    checked(
+        search.tip_radius,
+        geometry,
+        plain.total,
+        contact,
+        closed_gap,
+    )
 }
 
 /// The contact in double-double arithmetic, near the angle that f64 has found, and the gap closed
 /// there.
 fn precise_contact(
-    inputs: &Inputs,
+    method: Method,
     geometry: &Geometry<TwoFloat>,
     deviation: &Deviation<TwoFloat>,
     near: f64,
 ) -> (TipContact, f64) {
-    let angle = match inputs.method {
+    let angle = match method {
         Method::Paper => printed_contact(geometry, deviation),
         _ => refine(geometry, near, deviation.total),
     };
@@ -225,7 +252,7 @@ fn precise_contact(
 /// The contact as a position, where there is one on the driver's flank: ρ₁ has not grown by more
 /// than the path of contact, which tells more sharply than O₁D against r_a1.
 fn checked(
-    inputs: &Inputs,
+    tip_radius: Option<f64>,
     geometry: &Geometry,
     deviation: f64,
     contact: TipContact,
@@ -244,10 +271,10 @@ fn checked(
         });
     }
     Ok(Some(Position {
-        approach_angle_driver: contact.angle * inputs.ratio(),
+        approach_angle_driver: contact.angle * geometry.ratio,
         approach_angle_driven: contact.angle,
         contact,
-        curvature_radius: reduced_curvature(inputs, geometry, &contact),
+        curvature_radius: reduced_curvature(tip_radius, geometry, &contact),
         closed_gap,
     }))
 }

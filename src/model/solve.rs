@@ -255,8 +255,8 @@ impl Solving<'_> {
         } else {
             ran = ran.with(Stage::Load);
             let masses = self.precise(&geometry)?.map_or_else(
-                || Masses::of(inputs, &geometry),
-                |pair| Masses::of(inputs, &pair),
+                || Masses::of(&inputs.bodies(), &geometry),
+                |pair| Masses::of(&inputs.bodies(), &pair),
             );
             (masses?, inputs.torque() / geometry.driver.base)
         };
@@ -300,7 +300,7 @@ impl Solving<'_> {
 
     fn geometry(&self, ran: &mut Stages) -> Result<Geometry, Refusal> {
         *ran = ran.with(Stage::Geometry);
-        let plain = geometry::geometry::<f64>(self.asked.inputs);
+        let plain = geometry::geometry::<f64>(&self.asked.inputs.shape());
         let precise = self.precise_of(plain.as_ref().ok())?;
         let _ = self.precise.set(precise);
         precise.map_or(plain, |precise| Ok(precise.rounded()))
@@ -316,9 +316,10 @@ impl Solving<'_> {
     }
 
     fn precise_of(&self, plain: Option<&Geometry>) -> Result<Option<Geometry<TwoFloat>>, Refusal> {
-        let close_call = plain.is_none_or(|geometry| geometry.is_close_call(self.asked.inputs));
+        let close_call =
+            plain.is_none_or(|geometry| geometry.is_close_call(self.asked.inputs.bores()));
         (self.asked.inputs.accurate || close_call)
-            .then(|| geometry::geometry::<TwoFloat>(self.asked.inputs))
+            .then(|| geometry::geometry::<TwoFloat>(&self.asked.inputs.shape()))
             .transpose()
     }
 
@@ -330,7 +331,7 @@ impl Solving<'_> {
             solution.ran = solution.ran.with(Stage::Position);
             let precise = self.precise(&solution.geometry)?;
             position::position(
-                self.asked.inputs,
+                &self.asked.inputs.contact_search(),
                 &solution.geometry,
                 precise.as_ref(),
                 &solution.kept.deviation,
@@ -361,7 +362,7 @@ impl Solving<'_> {
             solution,
             Stage::Velocity,
             |s| s.velocity,
-            || Ok(velocity::velocity(inputs, tip)),
+            || Ok(velocity::velocity(inputs.driven_speed(), tip)),
         )?;
         let place = || compliance::ContactPlace::at_tip(inputs, &geometry, tip);
         let borne = || compliance::teeth(inputs, &geometry, &place());
@@ -376,7 +377,7 @@ impl Solving<'_> {
         solution.impact = Some(impact);
         let rubbed = || {
             Ok(friction::friction(
-                inputs,
+                (inputs.method, inputs.speed),
                 &geometry,
                 tip,
                 &velocity,

@@ -155,7 +155,7 @@ pub fn station(
     angle: f64,
 ) -> Result<Station, Refusal> {
     let tip = tip_at(geometry, angle);
-    let velocity = velocity::velocity(inputs, &tip);
+    let velocity = velocity::velocity(inputs.driven_speed(), &tip);
     let struck = if angle > 0.0 {
         let teeth = compliance::teeth(
             inputs,

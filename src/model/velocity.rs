@@ -1,6 +1,5 @@
 //! How fast the tip approaches the flank and slides on it.
 
-use super::inputs::Inputs;
 use super::tip_gap::TipContact;
 
 /// Velocities at D.
@@ -16,7 +15,7 @@ pub struct Velocity {
     pub stick_limit: f64,
 }
 
-/// Velocities of the tip against the flank.
+/// Velocities of the tip against the flank, while the driven gear turns at `driven_speed`, in rad/s.
 ///
 /// # Formula
 /// ```text
@@ -30,8 +29,7 @@ pub struct Velocity {
 /// Zhou & Chen 2014, Eqs. 21-28. Eq. 27 is mended to the law of cosines: as printed, ΔV_n at E
 /// would be 1.32 m/s for its Table 1 where it must be 0. Eq. 22 is ΔV_Dτ, whatever its label.
 #[must_use]
-pub fn velocity(inputs: &Inputs, tip: &TipContact) -> Velocity {
-    let driven_speed = inputs.driven_speed();
+pub fn velocity(driven_speed: f64, tip: &TipContact) -> Velocity {
     let normal = driven_speed * tip.normal_radius_drop;
     let sliding = driven_speed * tip.sliding_arm;
     Velocity {

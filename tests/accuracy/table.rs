@@ -176,7 +176,7 @@ fn errors_of(row: &Row) -> [[Option<f64>; 2]; 7] {
     let solution = solve(&row.inputs, Stages::CLOSED_FORM).expect("a solution");
     let angle = row.answer("approach_angle_driven").expect("an angle");
     let exact_gap = oracle::gap_at(&row.inputs, angle).expect("a gap");
-    let plain = geometry::<f64>(&row.inputs).expect("a geometry");
+    let plain = geometry::<f64>(&row.inputs.shape()).expect("a geometry");
     let gap = gap_by_quadrature(&plain, &tip_at(&plain, angle));
 
     let deviation = row.answer("total_deviation").expect("a deviation");

@@ -166,7 +166,7 @@ mod tests {
         inputs.pressure_angle = 0.477;
         for (shift, whole) in [(-0.2, true), (-0.64, false)] {
             inputs.driver.profile_shift = shift;
-            let circles = geometry::<f64>(&inputs).unwrap().driver;
+            let circles = geometry::<f64>(&inputs.shape()).unwrap().driver;
             let found = tooth(&inputs, &inputs.driver, &circles, circles.tip);
             assert_eq!(found.is_ok(), whole, "x {shift}: {found:?}");
             assert!(
@@ -197,7 +197,7 @@ mod tests {
         inputs.pressure_angle = degrees.to_radians();
         inputs.driver.profile_shift = shift;
         inputs.driven.addendum = 0.2;
-        let Ok(geometry) = geometry::<f64>(&inputs) else {
+        let Ok(geometry) = geometry::<f64>(&inputs.shape()) else {
             return 0;
         };
         let circles = &geometry.driver;

@@ -244,7 +244,7 @@ mod tests {
         let mut inputs = standard_pair(8, 60, 5e-3);
         inputs.contact_compliance = ContactCompliance::Weber;
         inputs.driver.profile_shift = 0.6;
-        let pair = geometry::<f64>(&inputs).unwrap();
+        let pair = geometry::<f64>(&inputs.shape()).unwrap();
         let beyond = ContactPlace {
             radius_driver: pair.driver.tip * 1.2,
             radius_driven: pair.driven.tip,

@@ -86,7 +86,7 @@ mod tests {
                 tooth_compliance: Some(model),
                 ..standard_pair(20, 33, 4e-3)
             };
-            let geometry = geometry::<f64>(&inputs).unwrap();
+            let geometry = geometry::<f64>(&inputs.shape()).unwrap();
             let flanks = Flanks::new(&inputs, &geometry).unwrap();
             for step in 0..=40 {
                 let along =

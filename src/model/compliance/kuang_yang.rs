@@ -89,7 +89,7 @@ mod tests {
     #[test]
     fn refuses_a_height_at_which_the_fit_has_no_stiffness() {
         let inputs = standard_pair(59, 15, 5e-3);
-        let circles = geometry::<f64>(&inputs).unwrap().driver;
+        let circles = geometry::<f64>(&inputs.shape()).unwrap().driver;
         assert!(tooth(inputs.module, &inputs.driver, &circles, circles.tip).is_ok());
         let high = tooth(
             inputs.module,

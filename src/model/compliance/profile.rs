@@ -281,7 +281,7 @@ mod tests {
             inputs.driven.addendum = 0.3;
             inputs.pressure_angle = f64::to_radians(degrees);
             inputs.driver.profile_shift = shift;
-            let circles = geometry::<f64>(&inputs).unwrap().driver;
+            let circles = geometry::<f64>(&inputs.shape()).unwrap().driver;
             found.push((
                 format!("z {teeth} x {shift} alpha {degrees}"),
                 Profile::of(&inputs, &inputs.driver, &circles),

@@ -41,7 +41,7 @@ pub(super) fn centre_distance(inputs: &Inputs, solution: &Solution) -> Option<No
     const JAM: f64 = -1e-4;
     const OPEN: f64 = 0.1;
     inputs.centre_distance?;
-    let backlash = solution.geometry.backlash(inputs);
+    let backlash = solution.geometry.backlash(&inputs.shape());
     let value = four(backlash * MILLI);
     if backlash < JAM * inputs.module {
         Some(Note::new(

@@ -35,7 +35,7 @@ pub(in crate::report::explain) fn distance(known: &Known) -> Option<Finding> {
     const JAM: f64 = -1e-4;
     const OPEN: f64 = 0.1;
     known.inputs.centre_distance?;
-    let backlash = known.solution.geometry.backlash(known.inputs);
+    let backlash = known.solution.geometry.backlash(&known.inputs.shape());
     let part = backlash / known.inputs.module;
     let here = format!("{}, {} of the module", mm(backlash), four(part));
     finding(
