@@ -96,7 +96,7 @@ fn compliance(criterion: &mut Criterion) {
                 continue;
             };
             let place = ContactPlace::on_line_of_action(&geometry, geometry.start);
-            group.bench_function(format!("{}, {contact:?}", model.name()), |bencher| {
+            group.bench_function(format!("{}, {}", model.name(), contact.name()), |bencher| {
                 bencher.iter(|| pair_at_load(black_box(&inputs), &geometry, &place, 1500.0));
             });
         }

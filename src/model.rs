@@ -11,6 +11,7 @@ pub mod compliance;
 pub mod contact_state;
 pub mod deviation;
 pub mod dynamic;
+pub mod explanation;
 pub mod friction;
 pub mod gear_pose;
 pub mod geometry;

@@ -33,8 +33,8 @@ fn numbered(number: u64) -> Inputs {
     let mut inputs = pair(&mut random, corner);
     inputs.tooth_compliance = random.one_of(&[
         None,
-        Some(ToothCompliance::KuangYang),
-        Some(ToothCompliance::Beam),
+        Some(ToothCompliance::KUANG_YANG),
+        Some(ToothCompliance::BEAM),
     ]);
     inputs.accurate = random.chance(0.25);
     inputs
@@ -326,10 +326,10 @@ fn swapped_gears_mirror_the_path_of_contact() {
 fn swapped_materials_strike_alike_in_the_fit() {
     some(1_000, |inputs| {
         let fit = Inputs {
-            tooth_compliance: Some(ToothCompliance::KuangYang),
+            tooth_compliance: Some(ToothCompliance::KUANG_YANG),
             ..inputs
         };
-        if fit.contact_compliance == ContactCompliance::Weber {
+        if fit.contact_compliance == ContactCompliance::WEBER {
             return None;
         }
         let mut swapped = fit.clone();

@@ -11,7 +11,8 @@ mod support;
 
 use support::standard_pair;
 use tipstrike::model::Inputs;
-use tipstrike::model::compliance::{ContactPlace, beam, pair_at_load};
+use tipstrike::model::compliance::tooth::beam;
+use tipstrike::model::compliance::{ContactPlace, pair_at_load};
 use tipstrike::model::geometry::{Geometry, geometry};
 use tipstrike::model::inputs::{ContactCompliance, Gear, ToothCompliance};
 
@@ -100,7 +101,7 @@ fn single_stiffness_agrees_with_iso_6336_within_a_quarter() {
     for inputs in pairs() {
         let iso = iso_single_stiffness(&inputs);
         let ours = ToothCompliance::ALL
-            .map(|model| stiffness(&inputs, model, ContactCompliance::Logarithmic, at_pitch));
+            .map(|model| stiffness(&inputs, model, ContactCompliance::LOGARITHMIC, at_pitch));
         let percent = ours.map(|value| 100.0 * (value / iso - 1.0));
         let (driver, driven) = (&inputs.driver, &inputs.driven);
         println!(
@@ -136,18 +137,18 @@ fn iso_value_of_the_standard_pair() {
 fn equal_pair_agrees_with_open_codes() {
     let inputs = pair((20, 0.0), (20, 0.0));
     let constant = |model, place: fn(&Geometry) -> f64| {
-        stiffness(&inputs, model, ContactCompliance::Constant, place)
+        stiffness(&inputs, model, ContactCompliance::CONSTANT, place)
     };
     for (place, published, open) in [
         (at_end as fn(&Geometry) -> f64, 8.30, 6.9..=7.9),
         (at_pitch, 11.97, 8.9..=10.3),
     ] {
-        let fit = constant(ToothCompliance::KuangYang, place);
+        let fit = constant(ToothCompliance::KUANG_YANG, place);
         assert!(
             (fit - published).abs() < 0.02,
             "kuang-yang {fit}, published {published}"
         );
-        let beam = constant(ToothCompliance::Beam, place);
+        let beam = constant(ToothCompliance::BEAM, place);
         let nearest = beam.clamp(*open.start(), *open.end());
         assert!(
             (beam / nearest - 1.0).abs() < 0.2,

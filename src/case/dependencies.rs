@@ -84,7 +84,7 @@ pub fn is_read(field: usize, inputs: &Inputs) -> bool {
 
 /// The rows that count in a case with these inputs.
 fn active(inputs: &Inputs) -> impl Iterator<Item = &'static Row> {
-    ROWS.iter().filter(move |row| (row.when)(inputs))
+    ROWS.iter().filter(move |row| row.when.is_true(inputs))
 }
 
 /// The rows of a value and of every value that it reads, in turn.

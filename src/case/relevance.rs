@@ -6,7 +6,7 @@ use super::fields::FIELDS;
 use super::{Case, check};
 use crate::model::Inputs;
 use crate::model::compliance::model_of;
-use crate::model::inputs::{ContactCompliance, Drive, Method, ToothCompliance};
+use crate::model::inputs::{Drive, Method};
 
 /// Whether what stands in a field makes a difference to the results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,7 +52,7 @@ const REASONS: &[Reason] = &[
     Reason {
         keys: &["driver.tip_radius", "driven.tip_radius"],
         when: by_constant_contact,
-        why: "the constant contact compliance does not depend on curvature",
+        why: "the contact compliance of this case does not depend on curvature",
     },
     Reason {
         keys: &["model.deflection"],
@@ -147,10 +147,11 @@ const PARTS: &[Reason] = &[
     Reason {
         keys: &["driver.dedendum", "driven.dedendum"],
         when: |inputs| {
-            model_of(inputs) == ToothCompliance::KuangYang
-                && inputs.contact_compliance != ContactCompliance::Weber
+            let tooth = model_of(inputs).model().reads;
+            let contact = inputs.contact_compliance.model().reads;
+            !tooth.iter().chain(contact).any(|&read| read == "profile")
         },
-        why: "the fit of Kuang and Yang knows no root: of the results the stiffness band alone changes, which tries the beam too",
+        why: "the tooth compliance does not read the root: only the stiffness spread changes, which tries the other models too",
     },
     Reason {
         keys: &["driver.addendum", "driver.tip_chamfer"],
@@ -175,7 +176,7 @@ fn by_impact(inputs: &Inputs) -> bool {
 }
 
 fn by_constant_contact(inputs: &Inputs) -> bool {
-    inputs.contact_compliance == ContactCompliance::Constant
+    !inputs.contact_compliance.model().reads_half_width
 }
 
 impl Case {

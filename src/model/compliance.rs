@@ -1,20 +1,25 @@
 //! Compliance of the teeth and of the contact between them, per unit width.
+//!
+//! [`tooth::MODELS`] and [`contact::MODELS`] list the models.
 
-pub mod beam;
 pub mod contact;
 pub mod flanks;
-pub mod kuang_yang;
+mod list;
 pub mod profile;
+pub mod tooth;
 
 use super::Refusal;
-use super::geometry::{Circles, Geometry};
-use super::inputs::{Gear, Inputs, ToothCompliance};
+use super::geometry::Geometry;
+use super::inputs::{Inputs, ToothCompliance};
 use super::tip_gap::TipContact;
+use tooth::Tooth;
+
+pub use tooth::model_of;
 
 /// Compliance of the two teeth at D, contact excluded, per unit width, in m²/N.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TeethCompliance {
-    /// The method that served.
+    /// The model that was used.
     pub model: ToothCompliance,
     /// Driver's tooth q₁, loaded at O₁D.
     pub driver: f64,
@@ -68,62 +73,62 @@ impl ContactPlace {
     }
 }
 
-/// Compliance of the two teeth at a place, in m²/N.
-///
-/// # Errors
-/// A [`Refusal`] outside the range of the fit.
-pub fn teeth(
-    inputs: &Inputs,
-    geometry: &Geometry,
-    place: &ContactPlace,
-) -> Result<TeethCompliance, Refusal> {
-    Ok(TeethCompliance {
-        model: model_of(inputs),
-        driver: tooth(
-            inputs,
-            &inputs.driver,
-            &geometry.driver,
-            place.radius_driver,
-        )?,
-        driven: tooth(
-            inputs,
-            &inputs.driven,
-            &geometry.driven,
-            place.radius_driven,
-        )?,
-    })
+/// Both teeth of a pair, ready for any place of contact.
+pub struct Teeth<'a> {
+    inputs: &'a Inputs,
+    geometry: &'a Geometry,
+    model: ToothCompliance,
+    driver: Tooth<'a>,
+    driven: Tooth<'a>,
 }
 
-/// Compliance of one tooth loaded at a radius, in m²/N.
-fn tooth(inputs: &Inputs, gear: &Gear, circles: &Circles, radius: f64) -> Result<f64, Refusal> {
-    match model_of(inputs) {
-        ToothCompliance::KuangYang => kuang_yang::tooth(inputs.module, gear, circles, radius),
-        ToothCompliance::Beam => beam::tooth(inputs, gear, circles, radius),
+impl<'a> Teeth<'a> {
+    /// The teeth of a pair by the model of the case.
+    ///
+    /// # Errors
+    /// Those of a model that builds an object for each gear.
+    pub fn of(inputs: &'a Inputs, geometry: &'a Geometry) -> Result<Teeth<'a>, Refusal> {
+        Ok(Teeth {
+            inputs,
+            geometry,
+            model: model_of(inputs),
+            driver: Tooth::of(inputs, &inputs.driver, &geometry.driver)?,
+            driven: Tooth::of(inputs, &inputs.driven, &geometry.driven)?,
+        })
+    }
+
+    /// Compliance of the two teeth at a place, in m²/N.
+    ///
+    /// # Errors
+    /// A [`Refusal`] outside the range of the model.
+    pub fn at(&self, place: &ContactPlace) -> Result<TeethCompliance, Refusal> {
+        Ok(TeethCompliance {
+            model: self.model,
+            driver: self.driver.at(place.radius_driver)?,
+            driven: self.driven.at(place.radius_driven)?,
+        })
+    }
+
+    /// Compliance of the pair at a place under a given force, in m²/N.
+    ///
+    /// # Errors
+    /// A [`Refusal`] outside the range of the models.
+    pub fn pair_at_load(&self, place: &ContactPlace, force: f64) -> Result<f64, Refusal> {
+        let spring = contact::spring(self.inputs, self.geometry, place)?;
+        let contact = spring.compliance(force)?;
+        Ok(self.at(place)?.sum() + contact)
     }
 }
 
-/// The tooth compliance that serves the pair: the case's own choice, else Kuang and Yang's inside
-/// its range.
-#[must_use]
-pub fn model_of(inputs: &Inputs) -> ToothCompliance {
-    let chosen = if kuang_yang::covers(inputs) {
-        ToothCompliance::KuangYang
-    } else {
-        ToothCompliance::Beam
-    };
-    inputs.tooth_compliance.unwrap_or(chosen)
-}
-
-/// Compliance of a pair at a place under a given force, in m²/N.
+/// Compliance of a pair at one place under a given force, in m²/N.
 ///
 /// # Errors
-/// A [`Refusal`] outside the range of the fit.
+/// A [`Refusal`] outside the range of the model.
 pub fn pair_at_load(
     inputs: &Inputs,
     geometry: &Geometry,
     place: &ContactPlace,
     force: f64,
 ) -> Result<f64, Refusal> {
-    let contact = contact::spring(inputs, geometry, place)?.compliance(force)?;
-    Ok(teeth(inputs, geometry, place)?.sum() + contact)
+    Teeth::of(inputs, geometry)?.pair_at_load(place, force)
 }

@@ -3,7 +3,7 @@
 use twofloat::TwoFloat;
 
 use super::Refusal;
-use super::compliance::{self, ContactPlace};
+use super::compliance::{ContactPlace, Teeth};
 use super::geometry::Geometry;
 use super::inputs::{Inputs, Method};
 use crate::numeric::Real;
@@ -117,9 +117,10 @@ fn combined_deflection(
             is_deflection_taken: is_taken,
         });
     }
+    let teeth = Teeth::of(inputs, geometry)?;
     while along <= geometry.end && along < geometry.tangent_length {
         let place = ContactPlace::on_line_of_action(geometry, along);
-        stiffness += 1.0 / compliance::pair_at_load(inputs, geometry, &place, mesh_force)?;
+        stiffness += 1.0 / teeth.pair_at_load(&place, mesh_force)?;
         along += geometry.base_pitch;
     }
     Ok(mesh_force / (inputs.common_width() * stiffness))

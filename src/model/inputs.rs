@@ -129,47 +129,36 @@ impl Method {
     }
 }
 
-/// Where a tooth's compliance comes from.
+/// A tooth compliance by its name; `compliance::tooth` has the list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ToothCompliance {
-    /// Kuang & Yang 1992, Eq. 56.
-    KuangYang,
-    /// Potential-energy method on the true profile, with the fillet's foundation.
-    Beam,
-}
+pub struct ToothCompliance(&'static str);
 
 impl ToothCompliance {
-    /// Every method.
-    pub const ALL: [ToothCompliance; 2] = [ToothCompliance::KuangYang, ToothCompliance::Beam];
+    pub(super) const fn named(name: &'static str) -> ToothCompliance {
+        ToothCompliance(name)
+    }
 
     /// The name in a case file.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            ToothCompliance::KuangYang => "kuang-yang",
-            ToothCompliance::Beam => "beam",
-        }
+        self.0
     }
 }
 
-/// Where the contact's compliance comes from.
+/// A contact compliance by its name; `compliance::contact` has the list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ContactCompliance {
-    /// Eq. 55, logarithmic in the Hertz half-width.
-    Logarithmic,
-    /// 4 (1 − ν²)/(π E), Yang & Sun 1985.
-    Constant,
-    /// Weber & Banaschek 1953, from the depth to the tooth's centre line.
-    Weber,
-}
+pub struct ContactCompliance(&'static str);
 
 impl ContactCompliance {
-    /// Every formula.
-    pub const ALL: [ContactCompliance; 3] = [
-        ContactCompliance::Logarithmic,
-        ContactCompliance::Constant,
-        ContactCompliance::Weber,
-    ];
+    pub(super) const fn named(name: &'static str) -> ContactCompliance {
+        ContactCompliance(name)
+    }
+
+    /// The name in a case file.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.0
+    }
 }
 
 /// How a relief grows from its start to its full amount.
@@ -256,7 +245,7 @@ impl Default for Inputs {
             method: Method::Exact,
             deflection: None,
             tooth_compliance: None,
-            contact_compliance: ContactCompliance::Logarithmic,
+            contact_compliance: ContactCompliance::LOGARITHMIC,
             relief_shape: ReliefShape::Linear,
             damping_ratio: 0.07,
             warmup_cycles: 20,

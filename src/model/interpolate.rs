@@ -1,6 +1,7 @@
 //! What a method tells of the incoming tooth at any roll angle, between its stations as well as on
 //! them.
 
+use super::compliance::Teeth;
 use super::impact::Masses;
 use super::inputs::Inputs;
 use super::mesh::Mesh;
@@ -79,7 +80,9 @@ fn struck(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> Option<Stati
     let masses = Masses::of(&inputs.bodies(), &solution.geometry)
         .ok()
         .filter(|_| (0.0..=first).contains(&angle))?;
-    let station = stations::station(inputs, &solution.geometry, &masses, angle).ok()?;
+    let geometry = &solution.geometry;
+    let teeth = Teeth::of(inputs, geometry).ok()?;
+    let station = stations::station(inputs, geometry, &teeth, &masses, angle).ok()?;
     station.impact_force.is_finite().then_some(station)
 }
 

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::compliance::kuang_yang;
+use super::compliance::tooth::kuang_yang;
 
 const MILLIMETRE: f64 = 1e-3;
 const MICROMETRE: f64 = 1e-6;

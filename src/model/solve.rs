@@ -365,7 +365,7 @@ impl Solving<'_> {
             || Ok(velocity::velocity(inputs.driven_speed(), tip)),
         )?;
         let place = || compliance::ContactPlace::at_tip(inputs, &geometry, tip);
-        let borne = || compliance::teeth(inputs, &geometry, &place());
+        let borne = || compliance::Teeth::of(inputs, &geometry)?.at(&place());
         solution.compliance = self.stage(solution, Stage::Compliance, |s| s.compliance, borne)?;
         let (Some(velocity), Some(teeth)) = (solution.velocity, solution.compliance) else {
             return Ok(());

@@ -1,6 +1,6 @@
 //! The force over roll angle, from D to E.
 
-use super::compliance::{self, ContactPlace};
+use super::compliance::{ContactPlace, Teeth};
 use super::geometry::Geometry;
 use super::impact::{Masses, impact};
 use super::inputs::Inputs;
@@ -123,8 +123,12 @@ pub fn stations(
 ) -> (Vec<Station>, Option<Refusal>) {
     let (spacing, mut refused) = (Spacing::of(inputs), None);
     let mut found = Vec::with_capacity(spacing.count().map_or(0, |count| count + 1));
+    let teeth = match Teeth::of(inputs, geometry) {
+        Ok(teeth) => teeth,
+        Err(refusal) => return (found, Some(refusal)),
+    };
     let at = |angle: f64| {
-        let station = station(inputs, geometry, masses, angle);
+        let station = station(inputs, geometry, &teeth, masses, angle);
         (
             station
                 .as_ref()
@@ -151,17 +155,14 @@ pub fn stations(
 pub fn station(
     inputs: &Inputs,
     geometry: &Geometry,
+    teeth: &Teeth,
     masses: &Masses,
     angle: f64,
 ) -> Result<Station, Refusal> {
     let tip = tip_at(geometry, angle);
     let velocity = velocity::velocity(inputs.driven_speed(), &tip);
     let struck = if angle > 0.0 {
-        let teeth = compliance::teeth(
-            inputs,
-            geometry,
-            &ContactPlace::at_tip(inputs, geometry, &tip),
-        )?;
+        let teeth = teeth.at(&ContactPlace::at_tip(inputs, geometry, &tip))?;
         Some(impact(inputs, geometry, masses, &tip, &teeth, &velocity)?)
     } else {
         None

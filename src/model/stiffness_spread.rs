@@ -1,6 +1,7 @@
 //! How far the impact force depends on the choice of stiffness model.
 
-use super::compliance::kuang_yang;
+use super::compliance::contact::{self, ContactModel};
+use super::compliance::tooth::{self, ToothModel};
 use super::inputs::{ContactCompliance, Inputs, ToothCompliance};
 
 /// Least and greatest impact force over the stiffness models that cover the pair, in N.
@@ -17,16 +18,8 @@ pub struct Band {
 /// case's own, the others by `solved`, which has none where a model gives no answer.
 #[must_use]
 pub fn band(inputs: &Inputs, force: f64, solved: impl Fn(&Inputs) -> Option<f64>) -> Band {
-    let teeth = ToothCompliance::ALL
-        .into_iter()
-        .filter(|&model| model == ToothCompliance::Beam || kuang_yang::covers(inputs));
-    teeth
-        .flat_map(|tooth| ContactCompliance::ALL.map(|contact| (tooth, contact)))
-        .map(|(tooth, contact)| Inputs {
-            tooth_compliance: Some(tooth),
-            contact_compliance: contact,
-            ..inputs.clone()
-        })
+    covering(inputs)
+        .map(|(tooth, contact)| with(inputs, tooth, contact))
         .filter_map(|chosen| solved(&chosen))
         .fold(
             Band {
@@ -38,4 +31,24 @@ pub fn band(inputs: &Inputs, force: f64, solved: impl Fn(&Inputs) -> Option<f64>
                 high: band.high.max(force),
             },
         )
+}
+
+/// Every tooth model that covers the pair, with every contact model.
+pub fn covering(
+    inputs: &Inputs,
+) -> impl Iterator<Item = (&'static ToothModel, &'static ContactModel)> + use<'_> {
+    let teeth = tooth::MODELS
+        .into_iter()
+        .filter(|model| (model.covers)(inputs));
+    teeth.flat_map(|tooth| contact::MODELS.map(|contact| (tooth, contact)))
+}
+
+/// The inputs with these models.
+#[must_use]
+pub fn with(inputs: &Inputs, tooth: &ToothModel, contact: &ContactModel) -> Inputs {
+    Inputs {
+        tooth_compliance: Some(ToothCompliance::named(tooth.name)),
+        contact_compliance: ContactCompliance::named(contact.name),
+        ..inputs.clone()
+    }
 }

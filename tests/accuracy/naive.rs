@@ -105,8 +105,8 @@ impl<'a> Naive<'a> {
     /// F_S by Eq. 57 with Eq. 55 or a constant, where Eq. 56 serves.
     pub(crate) fn force(&self, angle: f64) -> Option<f64> {
         let inputs = self.inputs;
-        let logarithmic = inputs.contact_compliance == ContactCompliance::Logarithmic;
-        if inputs.tooth_compliance != Some(ToothCompliance::KuangYang) || !logarithmic {
+        let logarithmic = inputs.contact_compliance == ContactCompliance::LOGARITHMIC;
+        if inputs.tooth_compliance != Some(ToothCompliance::KUANG_YANG) || !logarithmic {
             return None;
         }
         let (tip, [.., normal, _]) = (self.tip_at(angle), self.at(angle));

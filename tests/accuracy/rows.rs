@@ -315,16 +315,16 @@ fn choices(inputs: &Inputs) -> String {
         .tooth_compliance
         .map_or("by-range", ToothCompliance::name);
     format!(
-        "{} {drive} {tooth} {:?}",
+        "{} {drive} {tooth} {}",
         inputs.method.name(),
-        inputs.contact_compliance
+        inputs.contact_compliance.name()
     )
 }
 
 /// Inputs with these choices and no numbers yet.
 fn chosen(choices: &str) -> Inputs {
     let words: Vec<&str> = choices.split(' ').collect();
-    let named = |contact: &ContactCompliance| format!("{contact:?}") == words[3];
+    let named = |contact: &ContactCompliance| contact.name() == words[3];
     Inputs {
         drive: if words[1] == "power" {
             Drive::Power(0.0)

@@ -126,7 +126,7 @@ fn anywhere(random: &mut Random, fit: bool) -> Inputs {
         },
         speed,
         method: random.one_of(&[Method::Exact, Method::Exact, Method::Exact, Method::Paper]),
-        tooth_compliance: fit.then_some(ToothCompliance::KuangYang),
+        tooth_compliance: fit.then_some(ToothCompliance::KUANG_YANG),
         contact_compliance: random.one_of(&ContactCompliance::ALL),
         stations: Some(8),
         ..Inputs::default()

@@ -194,12 +194,12 @@ impl Load {
     fn contact(&self, given: &Given, depths: &[Big; 2], half_width: &Big) -> Big {
         let [first, second] = &self.give;
         match given.contact_compliance {
-            ContactCompliance::Constant => 2 * (first + second) / pi(),
-            ContactCompliance::Logarithmic => {
+            ContactCompliance::CONSTANT => 2 * (first + second) / pi(),
+            ContactCompliance::LOGARITHMIC => {
                 let logarithm = (&given.module / half_width).ln();
                 (first + second) / pi() * (decimal("1.27") + decimal("0.781") * logarithm)
             }
-            ContactCompliance::Weber => {
+            ContactCompliance::WEBER => {
                 let of = |gear: &Gear, give: &Big, depth: &Big| {
                     give / pi()
                         * (2 * logarithm(2 * depth / half_width)
@@ -207,6 +207,7 @@ impl Load {
                 };
                 of(&given.driver, first, &depths[0]) + of(&given.driven, second, &depths[1])
             }
+            other => panic!("no oracle for the contact compliance {}", other.name()),
         }
     }
 
@@ -267,7 +268,7 @@ fn teeth(given: &Given, pair: &Pair, radii: &[Big; 2]) -> Option<Big> {
     let fit = [&given.driver, &given.driven]
         .iter()
         .all(|gear| (12..=100).contains(&gear.teeth));
-    if given.tooth_compliance != Some(ToothCompliance::KuangYang) || !fit {
+    if given.tooth_compliance != Some(ToothCompliance::KUANG_YANG) || !fit {
         return None;
     }
     let driver = tooth(given, &given.driver, &pair.driver, &radii[0]);
@@ -297,7 +298,7 @@ fn tooth(given: &Given, gear: &Gear, circles: &Circles, radius: &Big) -> Big {
 /// Depths from the flanks to the teeth's centre lines along the line of force, which Weber's
 /// formula alone reads. `None` where no tooth is left.
 fn depths(given: &Given, pair: &Pair, radii: &[Big; 2]) -> Option<[Big; 2]> {
-    if given.contact_compliance != ContactCompliance::Weber {
+    if given.contact_compliance != ContactCompliance::WEBER {
         return Some([whole(0), whole(0)]);
     }
     Some([

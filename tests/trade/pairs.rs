@@ -31,8 +31,8 @@ pub(crate) fn numbered(number: u64) -> Inputs {
         damping_ratio: random.even(0.03, 0.12),
         tooth_compliance: random.one_of(&[
             None,
-            Some(ToothCompliance::KuangYang),
-            Some(ToothCompliance::Beam),
+            Some(ToothCompliance::KUANG_YANG),
+            Some(ToothCompliance::BEAM),
         ]),
         deflection: None,
         ..built

@@ -1,13 +1,18 @@
 //! The one table of what each value of a solve reads: fields, and other values.
 
+use std::sync::LazyLock;
+
 use crate::model::Stage::{
     self, Band, Clearing, Compliance, Deviation, Dynamic, Friction, Geometry, Impact, Load, Mesh,
     Position, Static, Stations, Velocity,
 };
+use crate::model::compliance::contact::{self, ContactModel};
 use crate::model::compliance::model_of;
-use crate::model::inputs::{ContactCompliance, Drive, Inputs, Method, ToothCompliance};
+use crate::model::compliance::tooth::{self, ToothModel};
+use crate::model::inputs::{Drive, Inputs, Method};
 
 /// What a value reads directly, in the cases that the condition names.
+#[derive(Clone)]
 pub(super) struct Row {
     /// A quantity's key, or the name of a value that has no page of its own.
     pub(super) value: &'static str,
@@ -15,9 +20,27 @@ pub(super) struct Row {
     /// for itself.
     pub(super) stage: Option<Stage>,
     /// The cases in which it reads these.
-    pub(super) when: fn(&Inputs) -> bool,
+    pub(super) when: When,
     /// Fields by their keys, `*` standing for both gears, and other values by their names.
     pub(super) reads: &'static [&'static str],
+}
+
+/// The cases in which a row counts.
+#[derive(Clone, Copy)]
+pub(super) enum When {
+    Is(fn(&Inputs) -> bool),
+    Tooth(&'static ToothModel),
+    Contact(&'static ContactModel),
+}
+
+impl When {
+    pub(super) fn is_true(self, inputs: &Inputs) -> bool {
+        match self {
+            When::Is(condition) => condition(inputs),
+            When::Tooth(model) => model_of(inputs).name() == model.name,
+            When::Contact(model) => inputs.contact_compliance.name() == model.name,
+        }
+    }
 }
 
 impl Row {
@@ -43,7 +66,7 @@ const fn row(
     Row {
         value,
         stage: Some(stage),
-        when,
+        when: When::Is(when),
         reads,
     }
 }
@@ -56,7 +79,7 @@ const fn part(
     Row {
         value,
         stage: None,
-        when,
+        when: When::Is(when),
         reads,
     }
 }
@@ -111,18 +134,6 @@ fn method_free(inputs: &Inputs) -> bool {
     inputs.tooth_compliance.is_none()
 }
 
-fn by_beam(inputs: &Inputs) -> bool {
-    model_of(inputs) == ToothCompliance::Beam
-}
-
-fn by_logarithm(inputs: &Inputs) -> bool {
-    inputs.contact_compliance == ContactCompliance::Logarithmic
-}
-
-fn by_depth(inputs: &Inputs) -> bool {
-    inputs.contact_compliance == ContactCompliance::Weber
-}
-
 fn with_inertia(inputs: &Inputs) -> bool {
     inputs.method == Method::Dynamic || by_choice(inputs)
 }
@@ -133,12 +144,38 @@ fn tips_press(inputs: &Inputs) -> bool {
 }
 
 fn by_half_width(inputs: &Inputs) -> bool {
-    inputs.contact_compliance != ContactCompliance::Constant
+    inputs.contact_compliance.model().reads_half_width
 }
 
-/// Every value, in the order the data flows.
+/// Every row.
+pub(super) static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
+    let mut rows = TABLE.to_vec();
+    let part = |value, when, reads| Row {
+        value,
+        stage: None,
+        when,
+        reads,
+    };
+    for model in tooth::MODELS {
+        rows.push(part(
+            "tooth_method",
+            When::Is(method_free),
+            model.range_reads,
+        ));
+        rows.push(part("tooth_stiffness", When::Tooth(model), model.reads));
+        rows.push(part("every_model", When::Is(always), model.range_reads));
+        rows.push(part("every_model", When::Is(always), model.reads));
+    }
+    for model in contact::MODELS {
+        rows.push(part("contact_stiffness", When::Contact(model), model.reads));
+        rows.push(part("every_model", When::Is(always), model.reads));
+    }
+    rows
+});
+
+/// Every value, in the order the data flows; the compliance models name what else they read.
 #[rustfmt::skip]
-pub(super) static ROWS: &[Row] = &[
+static TABLE: &[Row] = &[
     part("method", always, &["model.method"]),
     part("method", by_choice, &["model.within", "mesh_force", "total_deviation", "impact_force", "impact_duration_spring", "impulse_ratio", "transit_time", "reduced_mass", "contact_ratio"]),
     part("spacing", always, &["model.stations"]),
@@ -165,15 +202,11 @@ pub(super) static ROWS: &[Row] = &[
     row("reduced_mass", Load, always, &["masses"]),
 
     part("tooth_method", always, &["model.tooth_compliance"]),
-    part("tooth_method", method_free, &["pair.pressure_angle", "*.teeth", "*.profile_shift", "*.addendum", "*.young"]),
     part("tooth_stiffness", always, &["tooth_method", "pair.module", "*.teeth", "*.profile_shift", "base_circle_driver", "base_circle_driven"]),
-    part("tooth_stiffness", by_beam, &["profile", "*.bore_radius", "*.young", "*.poisson"]),
     part("profile", always, &["pair.pressure_angle", "root_circles", "base_circle_driver", "base_circle_driven"]),
     part("materials", always, &["*.young", "*.poisson"]),
     part("contact_stiffness", always, &["model.contact_compliance", "materials"]),
     part("contact_stiffness", by_half_width, &["*.face_width"]),
-    part("contact_stiffness", by_logarithm, &["pair.module"]),
-    part("contact_stiffness", by_depth, &["profile"]),
     row("equivalent_error", Deviation, always, &["deviations.base_pitch", "deviations.backlash", "method"]),
     row("equivalent_error", Deviation, by_impact, &["driven.tip_relief", "driver.root_relief"]),
     row("modification", Deviation, always, &["driven.tip_relief", "driver.root_relief"]),
@@ -218,7 +251,7 @@ pub(super) static ROWS: &[Row] = &[
 
     row("friction_ratio", Friction, always, &["approach_angle_driven", "operation.speed", "impact_force", "impact_duration_printed", "reduced_mass", "method"]),
 
-    part("every_model", always, &["materials", "pair.module", "profile", "*.bore_radius", "*.face_width", "*.addendum"]),
+    part("every_model", always, &["materials", "*.face_width"]),
     row("impact_force_low", Band, always, &["impact_force", "every_model", "curvature_radius"]),
     row("impact_force_high", Band, always, &["impact_force", "every_model", "curvature_radius"]),
 

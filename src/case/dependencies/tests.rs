@@ -43,14 +43,14 @@ const VARIANTS: [(&str, Change); 16] = [
     ("stations as needed", |inputs| inputs.stations = None),
     ("auto", |inputs| inputs.method = Method::Auto),
     ("beam, deflection given", |inputs| {
-        inputs.tooth_compliance = Some(ToothCompliance::Beam);
+        inputs.tooth_compliance = Some(ToothCompliance::BEAM);
         inputs.deflection = Some(21e-6);
     }),
     ("weber", |inputs| {
-        inputs.contact_compliance = ContactCompliance::Weber;
+        inputs.contact_compliance = ContactCompliance::WEBER;
     }),
     ("constant", |inputs| {
-        inputs.contact_compliance = ContactCompliance::Constant;
+        inputs.contact_compliance = ContactCompliance::CONSTANT;
     }),
     ("edge radius", |inputs| {
         inputs.driven.tip_radius = Some(0.3e-3);
@@ -58,10 +58,10 @@ const VARIANTS: [(&str, Change); 16] = [
     ("outside the fit", |inputs| {
         inputs.pressure_angle = 22f64.to_radians();
         inputs.centre_distance = None;
-        inputs.tooth_compliance = Some(ToothCompliance::KuangYang);
+        inputs.tooth_compliance = Some(ToothCompliance::KUANG_YANG);
     }),
     ("softer than the fit", |inputs| {
-        inputs.tooth_compliance = Some(ToothCompliance::KuangYang);
+        inputs.tooth_compliance = Some(ToothCompliance::KUANG_YANG);
         (inputs.driver.young, inputs.driven.young) = (90e9, 90e9);
     }),
 ];

@@ -232,8 +232,8 @@ const TAIL: [Field; 18] = [
         key: "model.tooth_compliance",
         symbol: "q1,q2",
         label: "tooth compliance",
-        help: "kuang-yang: Eq. 56, for z 12..100, |x| <= 0.6, 20 deg full-depth steel. beam: potential energy on the true profile.",
-        kind: Kind::Choice(&["kuang-yang", "beam"], |inputs, value| {
+        help: ToothCompliance::HELP,
+        kind: Kind::Choice(&ToothCompliance::NAMES, |inputs, value| {
             inputs.tooth_compliance = Some(ToothCompliance::ALL[value]);
         }),
         absent: Without("by its range"),
@@ -242,11 +242,11 @@ const TAIL: [Field; 18] = [
         key: "model.contact_compliance",
         symbol: "q_H",
         label: "contact compliance",
-        help: "logarithmic: Eq. 55. constant: Yang & Sun 1985. weber: Weber & Banaschek 1953, from the teeth's thickness.",
-        kind: Kind::Choice(&["logarithmic", "constant", "weber"], |inputs, value| {
+        help: ContactCompliance::HELP,
+        kind: Kind::Choice(&ContactCompliance::NAMES, |inputs, value| {
             inputs.contact_compliance = ContactCompliance::ALL[value];
         }),
-        absent: Default("logarithmic"),
+        absent: Default(ContactCompliance::NAMES[0]),
     },
     Field {
         key: "model.relief_shape",

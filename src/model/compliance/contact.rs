@@ -1,12 +1,44 @@
-//! Compliance of the contact between two flanks.
+//! Compliance of the contact between two flanks, and the list of its models: a new model is one
+//! file in this folder and one entry of [`MODELS`].
+
+mod constant;
+mod logarithmic;
+mod weber;
 
 use std::f64::consts::PI;
 
 use super::ContactPlace;
-use super::profile::Profile;
+use super::list::{help_bytes, help_length, text};
 use crate::model::Refusal;
+use crate::model::explanation::{Context, Step};
 use crate::model::geometry::Geometry;
 use crate::model::inputs::{ContactCompliance, Gear, Inputs};
+
+/// Every model; the first is the default of a case.
+pub const MODELS: [&ContactModel; 3] = [&logarithmic::MODEL, &constant::MODEL, &weber::MODEL];
+
+/// A model of the compliance of a contact.
+#[derive(Debug)]
+pub struct ContactModel {
+    /// The name in a case file.
+    pub name: &'static str,
+    /// The index in a symbol such as F_fit,log.
+    pub index: &'static str,
+    /// What the form says of the model, without a full stop.
+    pub help: &'static str,
+    /// Whether the compliance depends on the half-width, and so on load and curvature.
+    pub reads_half_width: bool,
+    /// The keys of fields, `*` for both gears, and the values of the dependency table that the
+    /// compliance reads beyond the materials and the half-width.
+    pub reads: &'static [&'static str],
+    /// q_H at the impact force and the steps before it.
+    pub steps: &'static [Step],
+    /// Offset and slope of q_H = offset − slope ln a per unit width, in m²/N.
+    pub offset_and_slope: OffsetAndSlope,
+}
+
+/// See [`ContactModel::offset_and_slope`].
+type OffsetAndSlope = fn(&Inputs, &Geometry, &ContactPlace) -> Result<(f64, f64), Refusal>;
 
 /// The compliance of a contact as its half-width a grows: q_H = offset − slope ln a.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,7 +123,7 @@ impl ContactSpring {
     }
 }
 
-/// The spring between two flanks, by the case's formula.
+/// The contact between two flanks, by the model of the case.
 ///
 /// # Errors
 /// Those of the tooth's profile, whose thickness `weber` reads.
@@ -100,12 +132,9 @@ pub fn spring(
     geometry: &Geometry,
     place: &ContactPlace,
 ) -> Result<ContactSpring, Refusal> {
+    let model = inputs.contact_compliance.model();
+    let (offset, slope) = (model.offset_and_slope)(inputs, geometry, place)?;
     let give = plane_strain_compliance(inputs);
-    let (offset, slope) = match inputs.contact_compliance {
-        ContactCompliance::Logarithmic => logarithmic(inputs.module, give),
-        ContactCompliance::Constant => (constant(give), 0.0),
-        ContactCompliance::Weber => weber(inputs, geometry, place)?,
-    };
     let width_per_root_force =
         (4.0 * place.curvature_radius * give / (PI * inputs.common_width())).sqrt();
     Ok(ContactSpring {
@@ -126,89 +155,70 @@ fn give(gear: &Gear) -> f64 {
     (1.0 - gear.poisson) * (1.0 + gear.poisson) / gear.young
 }
 
-/// Offset and slope of Eq. 55.
-///
-/// # Formula
-/// ```text
-/// qH = 2 (1 − ν²)/(π E) (1.27 + 0.781 ln(m/a))
-/// ```
-/// where for two materials (1 − ν²)/E is the mean of both.
-///
-/// # Source
-/// Zhou & Chen 2014, Eq. 55 (from Xiao & Tang 1995).
-///
-/// # Valid for
-/// A half-width small against the module: q_H is negative from a = 5.08 m on.
-fn logarithmic(module: f64, give: f64) -> (f64, f64) {
-    const CONSTANT: f64 = 1.27;
-    const FACTOR: f64 = 0.781;
-    (
-        give / PI * (CONSTANT + FACTOR * module.ln()),
-        give / PI * FACTOR,
-    )
+/// The contact under the impact force, for the step q_H.
+fn at_impact(context: &Context) -> Option<f64> {
+    let (inputs, geometry) = (context.inputs, &context.solution.geometry);
+    let spring = spring(inputs, geometry, &place_at_d(context)?).ok()?;
+    spring.compliance(context.solution.impact?.force).ok()
 }
 
-/// Contact compliance without the half-width, q_H = 4 (1 − ν²)/(π E), in m²/N.
-///
-/// # Source
-/// Yang & Sun 1985, "A rotary model for spur gear dynamics". For two materials (1 − ν²)/E is the
-/// mean of both.
-fn constant(give: f64) -> f64 {
-    2.0 * give / PI
+fn place_at_d(context: &Context) -> Option<ContactPlace> {
+    let tip = context.solution.position?.contact;
+    Some(ContactPlace::at_tip(
+        context.inputs,
+        &context.solution.geometry,
+        &tip,
+    ))
 }
 
-/// Offset and slope of Weber's contact term.
-///
-/// # Formula
-/// ```text
-/// qH = Σ (1 − ν_i²)/(π E_i) (2 ln(2 h_i/a) − ν_i/(1 − ν_i))
-/// ```
-/// where h_i is the depth from the contact to the tooth's centre line along the line of force.
-///
-/// # Source
-/// Weber & Banaschek 1953, "Formänderung und Profilrücknahme bei gerad- und schrägverzahnten
-/// Rädern".
-///
-/// # Valid for
-/// A half-width small against the depth h.
-///
-/// # Errors
-/// [`Refusal::PointedTip`] where no tooth is left at the load point.
-fn weber(
-    inputs: &Inputs,
-    geometry: &Geometry,
-    place: &ContactPlace,
-) -> Result<(f64, f64), Refusal> {
-    let of = |gear: &Gear, depth: f64| {
-        let scale = give(gear) / PI;
-        (
-            scale * (2.0 * (2.0 * depth).ln() - gear.poisson / (1.0 - gear.poisson)),
-            2.0 * scale,
-        )
+impl ContactCompliance {
+    /// Every model, in the order of the list.
+    pub const ALL: [ContactCompliance; MODELS.len()] = {
+        let mut all = [ContactCompliance::named(MODELS[0].name); MODELS.len()];
+        let mut at = 0;
+        while at < MODELS.len() {
+            all[at] = ContactCompliance::named(MODELS[at].name);
+            at += 1;
+        }
+        all
     };
-    let driver = depth(
-        &Profile::of(inputs, &inputs.driver, &geometry.driver),
-        place.radius_driver,
-    )?;
-    let driven = depth(
-        &Profile::of(inputs, &inputs.driven, &geometry.driven),
-        place.radius_driven,
-    )?;
-    let (first, second) = (of(&inputs.driver, driver), of(&inputs.driven, driven));
-    Ok((first.0 + second.0, first.1 + second.1))
-}
 
-/// Depth from the flank to the tooth's centre line at a radius, where there is a tooth.
-fn depth(profile: &Profile, radius: f64) -> Result<f64, Refusal> {
-    let depth = profile.depth_along_force(radius);
-    if depth > 0.0 {
-        Ok(depth)
-    } else {
-        Err(Refusal::PointedTip {
-            thickness: 2.0 * depth,
-        })
+    /// The names in a case file.
+    pub const NAMES: [&str; MODELS.len()] = {
+        let mut names = [""; MODELS.len()];
+        let mut at = 0;
+        while at < MODELS.len() {
+            names[at] = MODELS[at].name;
+            at += 1;
+        }
+        names
+    };
+
+    /// One sentence on each model, for the form.
+    pub const HELP: &'static str = text(&help_bytes::<HELP_LENGTH>(
+        &ContactCompliance::NAMES,
+        &HELPS,
+    ));
+
+    /// The model of that name.
+    #[must_use]
+    pub fn model(self) -> &'static ContactModel {
+        let named = |model: &&'static ContactModel| model.name == self.name();
+        MODELS.into_iter().find(named).unwrap_or(MODELS[0])
     }
 }
+
+const HELPS: [&str; MODELS.len()] = {
+    let mut helps = [""; MODELS.len()];
+    let mut at = 0;
+    while at < MODELS.len() {
+        helps[at] = MODELS[at].help;
+        at += 1;
+    }
+    helps
+};
+
+const HELP_LENGTH: usize = help_length(&ContactCompliance::NAMES, &HELPS);
 
 #[cfg(test)]
 mod tests {
@@ -219,7 +229,7 @@ mod tests {
 
     #[test]
     fn force_settles_whatever_its_size() {
-        let (offset, slope) = logarithmic(5e-3, 1e-11);
+        let (offset, slope) = (1e-11, 3e-12);
         let spring = ContactSpring {
             offset,
             slope,
@@ -242,7 +252,7 @@ mod tests {
     #[test]
     fn no_depth_is_left_on_a_pointed_tooth() {
         let mut inputs = standard_pair(8, 60, 5e-3);
-        inputs.contact_compliance = ContactCompliance::Weber;
+        inputs.contact_compliance = ContactCompliance::WEBER;
         inputs.driver.profile_shift = 0.6;
         let pair = geometry::<f64>(&inputs.shape()).unwrap();
         let beyond = ContactPlace {

@@ -1,7 +1,8 @@
 //! Compliance of the teeth along the flanks that the path of contact uses, computed once and then
 //! cheap.
 
-use super::{ContactPlace, contact, tooth};
+use super::tooth::Tooth;
+use super::{ContactPlace, contact};
 use crate::model::Refusal;
 use crate::model::geometry::{Circles, Geometry};
 use crate::model::inputs::{Gear, Inputs};
@@ -25,9 +26,8 @@ impl Flanks {
     /// Those of the teeth, see [`super::teeth`].
     pub fn new(inputs: &Inputs, geometry: &Geometry) -> Result<Flanks, Refusal> {
         let of = |gear: &Gear, circles: &Circles, from: f64, to: f64| {
-            let at = |curvature: f64| {
-                tooth(inputs, gear, circles, circles.base.hypot(curvature)).map(|found| [found])
-            };
+            let tooth = Tooth::of(inputs, gear, circles)?;
+            let at = |curvature: f64| tooth.at(circles.base.hypot(curvature)).map(|found| [found]);
             let rest = REST * at(to)?[0];
             Series::of(from, to, &|_, _| [rest], &at)
         };

@@ -1,55 +1,26 @@
 //! The stiffness models that cover a pair, by the symbol of the force that each gives.
 
-use crate::model::compliance::kuang_yang;
-use crate::model::inputs::{ContactCompliance, Inputs, ToothCompliance};
+use std::sync::LazyLock;
 
-const MODELS: [(&str, ToothCompliance, ContactCompliance); 6] = [
-    (
-        "F_fit,log",
-        ToothCompliance::KuangYang,
-        ContactCompliance::Logarithmic,
-    ),
-    (
-        "F_fit,const",
-        ToothCompliance::KuangYang,
-        ContactCompliance::Constant,
-    ),
-    (
-        "F_fit,weber",
-        ToothCompliance::KuangYang,
-        ContactCompliance::Weber,
-    ),
-    (
-        "F_beam,log",
-        ToothCompliance::Beam,
-        ContactCompliance::Logarithmic,
-    ),
-    (
-        "F_beam,const",
-        ToothCompliance::Beam,
-        ContactCompliance::Constant,
-    ),
-    (
-        "F_beam,weber",
-        ToothCompliance::Beam,
-        ContactCompliance::Weber,
-    ),
-];
+use crate::model::compliance::{contact, tooth};
+use crate::model::inputs::Inputs;
+use crate::model::stiffness_spread::{covering, with};
+
+static SYMBOLS: LazyLock<Vec<String>> = LazyLock::new(|| {
+    let of = |tooth: &tooth::ToothModel| {
+        contact::MODELS.map(|contact| format!("F_{},{}", tooth.index, contact.index))
+    };
+    tooth::MODELS.into_iter().flat_map(of).collect()
+});
 
 /// Every model that covers the pair, and the inputs with it.
 pub(super) fn models(inputs: &Inputs) -> impl Iterator<Item = (&'static str, Inputs)> {
-    let fits = kuang_yang::covers(inputs);
-    let covering = MODELS
-        .into_iter()
-        .filter(move |(_, tooth, _)| fits || *tooth == ToothCompliance::Beam);
-    covering.map(|(symbol, tooth, contact)| {
+    covering(inputs).map(move |(tooth, contact)| {
+        let name = format!("F_{},{}", tooth.index, contact.index);
+        let symbol = SYMBOLS.iter().find(|symbol| **symbol == name);
         (
-            symbol,
-            Inputs {
-                tooth_compliance: Some(tooth),
-                contact_compliance: contact,
-                ..inputs.clone()
-            },
+            symbol.map_or("", String::as_str),
+            with(inputs, tooth, contact),
         )
     })
 }

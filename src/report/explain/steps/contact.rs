@@ -2,7 +2,7 @@
 //! O2.
 
 use super::{step, told};
-use crate::model::compliance::{ContactPlace, contact, pair_at_load, teeth};
+use crate::model::compliance::{ContactPlace, Teeth, contact, pair_at_load};
 use crate::report::explain::context::Formula::{By, Text, Words};
 use crate::report::explain::context::{Known, Step};
 
@@ -53,7 +53,8 @@ fn ahead(known: &Known, pitches: u32) -> Option<f64> {
 }
 
 fn teeth_ahead(known: &Known) -> Option<(f64, f64)> {
-    let teeth = teeth(known.inputs, &known.solution.geometry, &place(known, 1)?).ok()?;
+    let teeth = Teeth::of(known.inputs, &known.solution.geometry).ok()?;
+    let teeth = teeth.at(&place(known, 1)?).ok()?;
     Some((teeth.driver, teeth.driven))
 }
 

@@ -2,11 +2,55 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::profile::{Profile, Section};
+use super::{Compliance, ToothModel};
 use crate::model::Refusal;
-use crate::model::geometry::Circles;
-use crate::model::inputs::{Gear, Inputs};
+use crate::model::compliance::profile::{Profile, Section};
+use crate::model::explanation::Formula::Words;
+use crate::model::explanation::{Context, Finding, Step, four};
+use crate::model::geometry::{Circles, Geometry};
+use crate::model::inputs::{Gear, Inputs, ToothCompliance};
 use crate::numeric::quadrature;
+
+/// The row of the list.
+pub const MODEL: ToothModel = ToothModel {
+    name: "beam",
+    index: "beam",
+    help: "potential energy on the true profile",
+    range: "any tooth number, profile shift and pressure angle that leave a tooth",
+    covers: |_| true,
+    range_reads: &[],
+    check,
+    outside,
+    chosen: "tooth-compliance-beam",
+    reads: &["profile", "*.bore_radius", "*.young", "*.poisson"],
+    steps: STEPS,
+    compliance: Compliance::AtRadius(tooth),
+};
+
+impl ToothCompliance {
+    /// Potential-energy method on the true profile, with the fillet's foundation.
+    pub const BEAM: ToothCompliance = ToothCompliance::named(MODEL.name);
+}
+
+const FORMULA: &str = "quadrature of bending, shear and compression over the tooth profile (Yang & Lin 1987), \
+    plus the foundation (Sainsot, Velex & Duverger 2004)";
+
+const STEPS: &[Step] = &[
+    Step {
+        symbol: "q_1",
+        meaning: "driver's tooth loaded at O1D",
+        unit: "um mm/N",
+        formula: Words(FORMULA),
+        value: |k| Some(k.solution.compliance?.driver),
+    },
+    Step {
+        symbol: "q_2",
+        meaning: "driven tooth loaded at its tip",
+        unit: "um mm/N",
+        formula: Words(FORMULA),
+        value: |k| Some(k.solution.compliance?.driven),
+    },
+];
 
 /// Tolerance of the quadrature, relative.
 const TOLERANCE: f64 = 1e-11;
@@ -109,9 +153,87 @@ impl Beam {
 /// r_f/r_bore that stands for a gear without a bore.
 const SOLID_BODY: f64 = 3.0;
 /// Range of r_f/r_bore in which the foundation's coefficients were fitted.
-pub const FOUNDATION_BODY: (f64, f64) = (1.4, 7.0);
+const FOUNDATION_BODY: (f64, f64) = (1.4, 7.0);
 /// Range of the half tooth angle at the root in which they were fitted, in rad.
-pub const FOUNDATION_ANGLE: (f64, f64) = (0.01, 0.12);
+const FOUNDATION_ANGLE: (f64, f64) = (0.01, 0.12);
+
+fn check(context: &Context) -> Option<Finding> {
+    let geometry = &context.solution.geometry;
+    let gears = [
+        (&context.inputs.driver, &geometry.driver),
+        (&context.inputs.driven, &geometry.driven),
+    ];
+    let [driver, driven] =
+        gears.map(|(gear, circles)| Foundation::of(context.inputs, gear, circles));
+    let here = format!(
+        "h {} and {}, θ {} and {} rad",
+        driver.body_text(),
+        driven.body_text(),
+        four(driver.angle),
+        four(driven.angle)
+    );
+    let ((body_from, body_to), (angle_from, angle_to)) = (FOUNDATION_BODY, FOUNDATION_ANGLE);
+    let range = format!(
+        "foundation of the beam: h = r_f/r_h {body_from}..{body_to}, half angle at the root θ {angle_from}..{angle_to} rad; \
+        outside, the nearest end of the range is used"
+    );
+    Finding::new(range, here, driver.is_inside() && driven.is_inside())
+}
+
+fn outside(inputs: &Inputs, geometry: &Geometry) -> Option<(&'static str, String)> {
+    let gears = [
+        ("driver", &inputs.driver, &geometry.driver),
+        ("driven gear", &inputs.driven, &geometry.driven),
+    ];
+    let found = gears.into_iter().find_map(|(name, gear, circles)| {
+        let foundation = Foundation::of(inputs, gear, circles);
+        let bore = if foundation.body.is_finite() {
+            format!("r_f/r_bore is {:.3}", foundation.body)
+        } else {
+            "body has no bore".to_owned()
+        };
+        (!foundation.is_inside()).then(|| {
+            format!(
+                "the {name}'s {bore} and its half angle at the root {} rad",
+                four(foundation.angle)
+            )
+        })
+    })?;
+    let ((body_from, body_to), (angle_from, angle_to)) = (FOUNDATION_BODY, FOUNDATION_ANGLE);
+    let message = format!(
+        "{found}, outside the range {body_from}..{body_to} and {angle_from}..{angle_to} of the foundation: the nearest end of the range is used"
+    );
+    Some(("foundation-outside-range", message))
+}
+
+/// Where a gear lies in the range of the foundation.
+struct Foundation {
+    body: f64,
+    angle: f64,
+}
+
+impl Foundation {
+    fn of(inputs: &Inputs, gear: &Gear, circles: &Circles) -> Foundation {
+        Foundation {
+            body: circles.root / gear.bore_radius,
+            angle: Profile::of(inputs, gear, circles).root_half_angle(),
+        }
+    }
+
+    fn is_inside(&self) -> bool {
+        let within = |value: f64, (from, to): (f64, f64)| (from..=to).contains(&value);
+        (!self.body.is_finite() || within(self.body, FOUNDATION_BODY))
+            && within(self.angle, FOUNDATION_ANGLE)
+    }
+
+    fn body_text(&self) -> String {
+        if self.body.is_finite() {
+            four(self.body)
+        } else {
+            "none (no bore: clamped at a third of r_f)".to_owned()
+        }
+    }
+}
 
 /// Compliance of the body under the tooth, times E.
 ///

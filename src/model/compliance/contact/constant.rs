@@ -1,0 +1,46 @@
+//! Contact compliance independent of the half-width.
+
+use std::f64::consts::PI;
+
+use super::{ContactModel, at_impact, plane_strain_compliance};
+use crate::model::Refusal;
+use crate::model::compliance::ContactPlace;
+use crate::model::explanation::Formula::Text;
+use crate::model::explanation::Step;
+use crate::model::geometry::Geometry;
+use crate::model::inputs::{ContactCompliance, Inputs};
+
+/// The row of the list.
+pub(super) const MODEL: ContactModel = ContactModel {
+    name: "constant",
+    index: "const",
+    help: "Yang & Sun 1985",
+    reads_half_width: false,
+    reads: &[],
+    steps: &[Step {
+        symbol: "q_H",
+        meaning: "contact at any force, Yang & Sun 1985",
+        unit: "um mm/N",
+        formula: Text("2/(π E')"),
+        value: at_impact,
+    }],
+    offset_and_slope: constant,
+};
+
+impl ContactCompliance {
+    /// 4 (1 − ν²)/(π E), Yang & Sun 1985.
+    pub const CONSTANT: ContactCompliance = ContactCompliance::named(MODEL.name);
+}
+
+/// Contact compliance without the half-width, q_H = 4 (1 − ν²)/(π E), in m²/N.
+///
+/// # Source
+/// Yang & Sun 1985, "A rotary model for spur gear dynamics". For two materials (1 − ν²)/E is the
+/// mean of both.
+#[expect(
+    clippy::unnecessary_wraps,
+    reason = "every model of the list has one signature"
+)]
+fn constant(inputs: &Inputs, _: &Geometry, _: &ContactPlace) -> Result<(f64, f64), Refusal> {
+    Ok((2.0 * plane_strain_compliance(inputs) / PI, 0.0))
+}

@@ -1,0 +1,60 @@
+//! Contact compliance logarithmic in the Hertz half-width, Eq. 55 of the paper.
+
+use std::f64::consts::PI;
+
+use super::{ContactModel, at_impact, plane_strain_compliance};
+use crate::model::Refusal;
+use crate::model::compliance::ContactPlace;
+use crate::model::explanation::Formula::Text;
+use crate::model::explanation::Step;
+use crate::model::geometry::Geometry;
+use crate::model::inputs::{ContactCompliance, Inputs};
+
+/// The row of the list.
+pub(super) const MODEL: ContactModel = ContactModel {
+    name: "logarithmic",
+    index: "log",
+    help: "Eq. 55",
+    reads_half_width: true,
+    reads: &["pair.module"],
+    steps: &[Step {
+        symbol: "q_H",
+        meaning: "contact at the impact force, Eq. 55",
+        unit: "um mm/N",
+        formula: Text("(1.27 + 0.781 ln(m/a_H))/(π E')"),
+        value: at_impact,
+    }],
+    offset_and_slope: logarithmic,
+};
+
+impl ContactCompliance {
+    /// Eq. 55, logarithmic in the Hertz half-width.
+    pub const LOGARITHMIC: ContactCompliance = ContactCompliance::named(MODEL.name);
+}
+
+/// Offset and slope of Eq. 55.
+///
+/// # Formula
+/// ```text
+/// qH = 2 (1 − ν²)/(π E) (1.27 + 0.781 ln(m/a))
+/// ```
+/// where for two materials (1 − ν²)/E is the mean of both.
+///
+/// # Source
+/// Zhou & Chen 2014, Eq. 55 (from Xiao & Tang 1995).
+///
+/// # Valid for
+/// A half-width small against the module: q_H is negative from a = 5.08 m on.
+#[expect(
+    clippy::unnecessary_wraps,
+    reason = "every model of the list has one signature"
+)]
+fn logarithmic(inputs: &Inputs, _: &Geometry, _: &ContactPlace) -> Result<(f64, f64), Refusal> {
+    const CONSTANT: f64 = 1.27;
+    const FACTOR: f64 = 0.781;
+    let give = plane_strain_compliance(inputs);
+    Ok((
+        give / PI * (CONSTANT + FACTOR * inputs.module.ln()),
+        give / PI * FACTOR,
+    ))
+}

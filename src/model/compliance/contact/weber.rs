@@ -1,0 +1,110 @@
+//! Contact compliance from the depth to the centre line of each tooth, Weber & Banaschek 1953.
+
+use std::f64::consts::PI;
+
+use super::{ContactModel, at_impact, give, place_at_d};
+use crate::model::Refusal;
+use crate::model::compliance::ContactPlace;
+use crate::model::compliance::profile::Profile;
+use crate::model::explanation::Formula::{Text, Words};
+use crate::model::explanation::Step;
+use crate::model::geometry::Geometry;
+use crate::model::inputs::{ContactCompliance, Gear, Inputs};
+
+/// The row of the list.
+#[rustfmt::skip]
+pub(super) const MODEL: ContactModel = ContactModel {
+    name: "weber",
+    index: "weber",
+    help: "Weber & Banaschek 1953, from the thickness of the teeth",
+    reads_half_width: true,
+    reads: &["profile"],
+    steps: &[
+        Step {
+            symbol: "q_H",
+            meaning: "contact at the impact force, Weber & Banaschek 1953",
+            unit: "um mm/N",
+            formula: Text("(1 - ν1²)/(π E1) (2 ln(2 h_1/a_H) - ν1/(1 - ν1)) + (1 - ν2²)/(π E2) (2 ln(2 h_2/a_H) - ν2/(1 - ν2))"),
+            value: at_impact,
+        },
+        Step {
+            symbol: "h_1",
+            meaning: "from the driver's flank at O1D to the centre line of its tooth, along the force",
+            unit: "mm",
+            formula: Words("from the tooth profile"),
+            value: |k| {
+                let profile = Profile::of(k.inputs, &k.inputs.driver, &k.solution.geometry.driver);
+                Some(profile.depth_along_force(place_at_d(k)?.radius_driver))
+            },
+        },
+        Step {
+            symbol: "h_2",
+            meaning: "from the driven tip to the centre line of its tooth, along the force",
+            unit: "mm",
+            formula: Words("from the tooth profile"),
+            value: |k| {
+                let profile = Profile::of(k.inputs, &k.inputs.driven, &k.solution.geometry.driven);
+                Some(profile.depth_along_force(place_at_d(k)?.radius_driven))
+            },
+        },
+    ],
+    offset_and_slope: weber,
+};
+
+impl ContactCompliance {
+    /// Weber & Banaschek 1953, from the depth to the tooth's centre line.
+    pub const WEBER: ContactCompliance = ContactCompliance::named(MODEL.name);
+}
+
+/// Offset and slope of Weber's contact term.
+///
+/// # Formula
+/// ```text
+/// qH = Σ (1 − ν_i²)/(π E_i) (2 ln(2 h_i/a) − ν_i/(1 − ν_i))
+/// ```
+/// where h_i is the depth from the contact to the tooth's centre line along the line of force.
+///
+/// # Source
+/// Weber & Banaschek 1953, "Formänderung und Profilrücknahme bei gerad- und schrägverzahnten
+/// Rädern".
+///
+/// # Valid for
+/// A half-width small against the depth h.
+///
+/// # Errors
+/// [`Refusal::PointedTip`] where no tooth is left at the load point.
+fn weber(
+    inputs: &Inputs,
+    geometry: &Geometry,
+    place: &ContactPlace,
+) -> Result<(f64, f64), Refusal> {
+    let of = |gear: &Gear, depth: f64| {
+        let scale = give(gear) / PI;
+        (
+            scale * (2.0 * (2.0 * depth).ln() - gear.poisson / (1.0 - gear.poisson)),
+            2.0 * scale,
+        )
+    };
+    let driver = depth(
+        &Profile::of(inputs, &inputs.driver, &geometry.driver),
+        place.radius_driver,
+    )?;
+    let driven = depth(
+        &Profile::of(inputs, &inputs.driven, &geometry.driven),
+        place.radius_driven,
+    )?;
+    let (first, second) = (of(&inputs.driver, driver), of(&inputs.driven, driven));
+    Ok((first.0 + second.0, first.1 + second.1))
+}
+
+/// Depth from the flank to the tooth's centre line at a radius, where there is a tooth.
+fn depth(profile: &Profile, radius: f64) -> Result<f64, Refusal> {
+    let depth = profile.depth_along_force(radius);
+    if depth > 0.0 {
+        Ok(depth)
+    } else {
+        Err(Refusal::PointedTip {
+            thickness: 2.0 * depth,
+        })
+    }
+}

@@ -1,0 +1,222 @@
+//! The list of tooth compliances: a new model is one file in this folder and one entry of
+//! [`MODELS`].
+
+pub mod beam;
+pub mod kuang_yang;
+
+use super::list::{help_bytes, help_length, text};
+use crate::model::Refusal;
+use crate::model::explanation::{Context, Finding, Step};
+use crate::model::geometry::{Circles, Geometry};
+use crate::model::inputs::{Gear, Inputs, ToothCompliance};
+
+/// Every model; where a case names none, the first that covers the pair is used.
+pub const MODELS: [&ToothModel; 2] = [&kuang_yang::MODEL, &beam::MODEL];
+
+/// A model of the compliance of one tooth.
+#[derive(Debug)]
+pub struct ToothModel {
+    /// The name in a case file.
+    pub name: &'static str,
+    /// The index in a symbol such as F_fit,log.
+    pub index: &'static str,
+    /// What the form says of the model, without a full stop.
+    pub help: &'static str,
+    /// The range, in words.
+    pub range: &'static str,
+    /// Whether the pair is in the range.
+    pub covers: fn(&Inputs) -> bool,
+    /// What decides whether the pair is in the range, see [`ToothModel::reads`].
+    pub range_reads: &'static [&'static str],
+    /// Compares a pair with the range, for an explanation.
+    pub check: fn(&Context) -> Option<Finding>,
+    /// The note on a pair outside the range: its code and its message.
+    pub outside: fn(&Inputs, &Geometry) -> Option<(&'static str, String)>,
+    /// The code of the note that the range chose this model.
+    pub chosen: &'static str,
+    /// The keys of fields, `*` for both gears, and the values of the dependency table that the
+    /// compliance reads beyond the load point, the module, tooth numbers and profile shifts.
+    pub reads: &'static [&'static str],
+    /// q_1, q_2 and the steps before them.
+    pub steps: &'static [Step],
+    /// The compliance itself.
+    pub compliance: Compliance,
+}
+
+type ByRadius = fn(&Inputs, &Gear, &Circles, f64) -> Result<f64, Refusal>;
+type Build = fn(&Inputs, &Gear, &Circles) -> Result<Box<dyn AtRadius>, Refusal>;
+
+/// Computes the compliance of one tooth, contact excluded, per unit width, in m²/N.
+#[derive(Debug, Clone, Copy)]
+pub enum Compliance {
+    /// From the radius of the load point, each time anew.
+    AtRadius(ByRadius),
+    /// From an object that is built once per gear and then read at each radius.
+    PerGear(Build),
+}
+
+/// What a [`Compliance::PerGear`] builds.
+pub trait AtRadius: Send + Sync {
+    /// Compliance of the tooth loaded at a radius, in m²/N.
+    ///
+    /// # Errors
+    /// A [`Refusal`] outside the range of the model.
+    fn at(&self, radius: f64) -> Result<f64, Refusal>;
+}
+
+/// One tooth of a gear, ready for any load point.
+pub struct Tooth<'a> {
+    inputs: &'a Inputs,
+    gear: &'a Gear,
+    circles: &'a Circles,
+    serves: Serves,
+}
+
+enum Serves {
+    AtRadius(ByRadius),
+    Built(Box<dyn AtRadius>),
+}
+
+impl<'a> Tooth<'a> {
+    /// The tooth of a gear by the model of the case.
+    ///
+    /// # Errors
+    /// Those of the model, where it builds an object for the gear.
+    pub fn of(
+        inputs: &'a Inputs,
+        gear: &'a Gear,
+        circles: &'a Circles,
+    ) -> Result<Tooth<'a>, Refusal> {
+        Tooth::by(&model_of(inputs).model().compliance, inputs, gear, circles)
+    }
+
+    fn by(
+        compliance: &Compliance,
+        inputs: &'a Inputs,
+        gear: &'a Gear,
+        circles: &'a Circles,
+    ) -> Result<Tooth<'a>, Refusal> {
+        let serves = match compliance {
+            Compliance::AtRadius(of) => Serves::AtRadius(*of),
+            Compliance::PerGear(build) => Serves::Built(build(inputs, gear, circles)?),
+        };
+        Ok(Tooth {
+            inputs,
+            gear,
+            circles,
+            serves,
+        })
+    }
+
+    /// Compliance of the tooth loaded at a radius, in m²/N.
+    ///
+    /// # Errors
+    /// A [`Refusal`] outside the range of the model.
+    pub fn at(&self, radius: f64) -> Result<f64, Refusal> {
+        match &self.serves {
+            Serves::AtRadius(of) => of(self.inputs, self.gear, self.circles, radius),
+            Serves::Built(built) => built.at(radius),
+        }
+    }
+}
+
+/// The tooth compliance of a pair: the choice of the case, else the first model of the list that
+/// covers the pair.
+#[must_use]
+pub fn model_of(inputs: &Inputs) -> ToothCompliance {
+    let by_range = || {
+        let mut covering = MODELS.into_iter().filter(|model| (model.covers)(inputs));
+        ToothCompliance::named(covering.next().unwrap_or(MODELS[0]).name)
+    };
+    inputs.tooth_compliance.unwrap_or_else(by_range)
+}
+
+impl ToothCompliance {
+    /// Every model, in the order of the list.
+    pub const ALL: [ToothCompliance; MODELS.len()] = {
+        let mut all = [ToothCompliance::named(MODELS[0].name); MODELS.len()];
+        let mut at = 0;
+        while at < MODELS.len() {
+            all[at] = ToothCompliance::named(MODELS[at].name);
+            at += 1;
+        }
+        all
+    };
+
+    /// The names in a case file.
+    pub const NAMES: [&str; MODELS.len()] = {
+        let mut names = [""; MODELS.len()];
+        let mut at = 0;
+        while at < MODELS.len() {
+            names[at] = MODELS[at].name;
+            at += 1;
+        }
+        names
+    };
+
+    /// One sentence on each model, for the form.
+    pub const HELP: &'static str =
+        text(&help_bytes::<HELP_LENGTH>(&ToothCompliance::NAMES, &HELPS));
+
+    /// The model of that name.
+    #[must_use]
+    pub fn model(self) -> &'static ToothModel {
+        let named = |model: &&'static ToothModel| model.name == self.name();
+        MODELS.into_iter().find(named).unwrap_or(MODELS[0])
+    }
+}
+
+const HELPS: [&str; MODELS.len()] = {
+    let mut helps = [""; MODELS.len()];
+    let mut at = 0;
+    while at < MODELS.len() {
+        helps[at] = MODELS[at].help;
+        at += 1;
+    }
+    helps
+};
+
+const HELP_LENGTH: usize = help_length(&ToothCompliance::NAMES, &HELPS);
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use super::*;
+    use crate::model::geometry::geometry;
+    use crate::model::sample::standard_pair;
+
+    static BUILT: AtomicUsize = AtomicUsize::new(0);
+
+    struct Field(f64);
+
+    impl AtRadius for Field {
+        fn at(&self, radius: f64) -> Result<f64, Refusal> {
+            Ok(self.0 * radius)
+        }
+    }
+
+    #[test]
+    fn an_object_of_a_gear_is_built_once_for_every_load_point() {
+        let build = Compliance::PerGear(|_, gear, _| {
+            BUILT.fetch_add(1, Ordering::Relaxed);
+            Ok(Box::new(Field(1.0 / gear.young)))
+        });
+        let inputs = standard_pair(20, 30, 5e-3);
+        let geometry = geometry::<f64>(&inputs.shape()).unwrap();
+        let tooth = Tooth::by(&build, &inputs, &inputs.driver, &geometry.driver).unwrap();
+        for radius in [0.048, 0.05, 0.052] {
+            assert_eq!(tooth.at(radius), Ok(1.0 / inputs.driver.young * radius));
+        }
+        assert_eq!(BUILT.load(Ordering::Relaxed), 1);
+    }
+
+    #[test]
+    fn every_pair_is_covered_by_a_model() {
+        for teeth in [5, 12, 20, 100, 1000] {
+            let inputs = standard_pair(teeth, 60, 5e-3);
+            let model = model_of(&inputs).model();
+            assert!((model.covers)(&inputs), "z {teeth}: {}", model.name);
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! The types in which quantities, steps and compliance models describe themselves.
+
+use super::{Inputs, Solution};
+
+/// A solved case as formulas and checks see it.
+#[derive(Debug, Clone, Copy)]
+pub struct Context<'a> {
+    /// The inputs with the settings that the method `auto` chose.
+    pub inputs: &'a Inputs,
+    /// The inputs as the case gives them.
+    pub given: &'a Inputs,
+    /// The results.
+    pub solution: &'a Solution,
+}
+
+/// A condition on the inputs.
+pub type When = fn(&Inputs) -> bool;
+
+/// How a value is computed.
+#[derive(Debug, Clone, Copy)]
+pub enum Formula {
+    /// An explicit right-hand side.
+    Text(&'static str),
+    /// An explicit right-hand side with as many terms as the case has.
+    Made(fn(&Context) -> String),
+    /// The first formula whose condition is true.
+    Cases(&'static [(When, Formula)]),
+    /// The case gives the value in the field of this key.
+    Given(&'static str),
+    /// The root of an equation.
+    Solved(&'static Equation),
+    /// A description in words.
+    Words(&'static str),
+    /// A description in words and the symbols that the page explains after it.
+    Found(&'static str, &'static [&'static str]),
+}
+
+/// An equation that a solver solves.
+#[derive(Debug, Clone, Copy)]
+pub struct Equation {
+    /// The equation as print shows it.
+    pub text: &'static str,
+    /// The left side.
+    pub left: &'static str,
+    /// The right side.
+    pub right: &'static str,
+    /// The unit in which a page shows both sides.
+    pub unit: &'static str,
+    /// Both sides at the root, in SI.
+    pub sides: fn(&Context) -> Option<[f64; 2]>,
+}
+
+/// A value between the fields and a quantity.
+#[derive(Debug, Clone, Copy)]
+pub struct Step {
+    /// The symbol in formulas.
+    pub symbol: &'static str,
+    /// A few words for a person.
+    pub meaning: &'static str,
+    /// The unit in which a page shows the value.
+    pub unit: &'static str,
+    /// How the value is computed.
+    pub formula: Formula,
+    /// The value in SI; `None` where the case has no such value.
+    pub value: fn(&Context) -> Option<f64>,
+}
+
+/// A range of validity and the values of a case in it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Finding {
+    /// The range.
+    pub range: String,
+    /// The values of the case.
+    pub here: String,
+    /// Whether the case is inside.
+    pub inside: bool,
+}
+
+/// Compares a case with a range of validity; `None` where the case has no value to compare.
+pub type Check = fn(&Context) -> Option<Finding>;
+
+impl Finding {
+    /// A finding, in the shape that a [`Check`] returns.
+    #[must_use]
+    pub fn new(range: impl Into<String>, here: impl Into<String>, inside: bool) -> Option<Finding> {
+        Some(Finding {
+            range: range.into(),
+            here: here.into(),
+            inside,
+        })
+    }
+}
+
+impl Formula {
+    /// The formula that this case uses.
+    #[must_use]
+    pub fn resolved(self, inputs: &Inputs) -> Formula {
+        match self {
+            Formula::Cases(cases) => cases
+                .iter()
+                .find(|(when, _)| when(inputs))
+                .map_or(Formula::Words(""), |(_, formula)| formula.resolved(inputs)),
+            other => other,
+        }
+    }
+
+    /// The right-hand side, where the formula is explicit.
+    #[must_use]
+    pub fn explicit(self, context: &Context) -> Option<String> {
+        match self.resolved(context.inputs) {
+            Formula::Text(text) => Some(text.to_owned()),
+            Formula::Made(make) => Some(make(context)),
+            _ => None,
+        }
+    }
+}
+
+/// A number with that many significant digits, without trailing zeros where it has no further
+/// digits.
+#[must_use]
+pub fn tidy(value: f64, digits: usize) -> String {
+    const EXACT: f64 = 4.0 * f64::EPSILON;
+    let full = crate::numeric::decimal::significant(value, digits);
+    if !full.contains('.') || full.contains('e') {
+        return full;
+    }
+    let short = full.trim_end_matches('0').trim_end_matches('.');
+    let exact = short
+        .parse::<f64>()
+        .is_ok_and(|found| (found - value).abs() <= EXACT * value.abs());
+    if exact { short.to_owned() } else { full }
+}
+
+/// A length in mm with five digits.
+#[allow(dead_code)]
+pub(super) fn mm(length: f64) -> String {
+    format!("{} mm", tidy(length * 1e3, 5))
+}
+
+/// A time or a length in millionths of its unit, with four digits.
+#[allow(dead_code)]
+pub(super) fn micro(value: f64, unit: &str) -> String {
+    format!("{} {unit}", tidy(value * 1e6, 4))
+}
+
+/// A number with four digits.
+pub(super) fn four(value: f64) -> String {
+    tidy(value, 4)
+}
