@@ -34,7 +34,14 @@ fn dynamic(inputs: &Inputs) -> (Solution, Dynamic) {
 
 fn mesh(inputs: &Inputs, solution: &Solution) -> Mesh {
     let error = solution.deviation.equivalent_error;
-    Mesh::new(inputs, &solution.geometry, solution.mesh_force, error, 2e-3).expect("a mesh")
+    Mesh::new(
+        &inputs.mesh(),
+        &solution.geometry,
+        solution.mesh_force,
+        error,
+        2e-3,
+    )
+    .expect("a mesh")
 }
 
 /// The slower the gears turn, the less the force differs from that of the shared load at the same

@@ -364,7 +364,7 @@ fn table_1_friction_ratio_by_the_printed_end() {
         ..inputs
     };
     let mixed = friction(
-        (printed_end.method, printed_end.speed),
+        &printed_end.impact(),
         &solution.geometry,
         &position.contact,
         &velocity,

@@ -78,7 +78,7 @@ fn stiffness(
     let geometry = geometry(&inputs.shape()).expect("a meshing pair");
     let place = ContactPlace::on_line_of_action(&geometry, along(&geometry));
     1e-9 / pair_at_load(
-        &inputs,
+        &inputs.elasticity(),
         &geometry,
         &place,
         LINE_LOAD * inputs.common_width(),
@@ -164,8 +164,8 @@ fn a_tooth_is_stiffer_the_nearer_to_its_root_the_load_stands() {
         let (tip, base) = (geometry.driver.tip, geometry.driver.base);
         let loads = [1.0, 0.8, 0.6, 0.4, 0.2]
             .map(|part| geometry.driver.base.max(geometry.driver.root) + part * (tip - base) * 0.9);
-        let found =
-            loads.map(|radius| beam::tooth(&inputs, &inputs.driver, &geometry.driver, radius).ok());
+        let found = loads
+            .map(|radius| beam::tooth(&inputs.elasticity().driver, &geometry.driver, radius).ok());
         let given: Vec<f64> = found.into_iter().flatten().collect();
         assert!(
             given.len() >= 3 && given.is_sorted_by(|a, b| a > b),
@@ -183,8 +183,7 @@ fn young_poisson_and_bore_enter() {
         change(&mut inputs);
         let geometry = geometry::<f64>(&inputs.shape()).expect("a meshing pair");
         beam::tooth(
-            &inputs,
-            &inputs.driver,
+            &inputs.elasticity().driver,
             &geometry.driver,
             geometry.driver.tip,
         )

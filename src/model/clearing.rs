@@ -107,7 +107,7 @@ fn relieved(
         ..inputs.clone()
     };
     let settings = Settings::of(inputs, solution.reduced_mass);
-    on_mesh(&relieved, solution, |mesh| match inputs.method {
+    on_mesh(&relieved.mesh(), solution, |mesh| match inputs.method {
         Method::Dynamic => {
             let Approach { lead, contact_lost } = approach(mesh, &settings, go_on)?;
             Ok(Tried {

@@ -10,11 +10,60 @@ pub mod tooth;
 
 use super::Refusal;
 use super::geometry::Geometry;
-use super::inputs::{Inputs, ToothCompliance};
+use super::inputs::{ContactCompliance, Gear, Inputs, ToothCompliance};
 use super::tip_gap::TipContact;
+use profile::Rack;
 use tooth::Tooth;
 
 pub use tooth::model_of;
+
+/// Elasticity of a pair: all that its compliances read beside its geometry.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Elasticity {
+    /// Model of the teeth.
+    pub tooth: ToothCompliance,
+    /// Model of the contact.
+    pub contact: ContactCompliance,
+    /// The driver.
+    pub driver: ElasticGear,
+    /// The driven gear.
+    pub driven: ElasticGear,
+    /// Common face width b, in m.
+    pub width: f64,
+}
+
+/// One gear of an [`Elasticity`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ElasticGear {
+    /// The rack that cuts the profile.
+    pub rack: Rack,
+    /// Bore radius r_h, in m.
+    pub bore_radius: f64,
+    /// Young's modulus E, in Pa.
+    pub young: f64,
+    /// Poisson's ratio ν.
+    pub poisson: f64,
+}
+
+impl Inputs {
+    /// Elasticity of the pair.
+    #[must_use]
+    pub fn elasticity(&self) -> Elasticity {
+        let gear = |gear: &Gear| ElasticGear {
+            rack: Rack::of(self, gear),
+            bore_radius: gear.bore_radius,
+            young: gear.young,
+            poisson: gear.poisson,
+        };
+        Elasticity {
+            tooth: model_of(self),
+            contact: self.contact_compliance,
+            driver: gear(&self.driver),
+            driven: gear(&self.driven),
+            width: self.common_width(),
+        }
+    }
+}
 
 /// Compliance of the two teeth at D, contact excluded, per unit width, in m²/N.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,24 +109,19 @@ impl ContactPlace {
 
     /// The driven tip on the driver's flank.
     #[must_use]
-    pub fn at_tip(inputs: &Inputs, geometry: &Geometry, tip: &TipContact) -> ContactPlace {
+    pub fn at_tip(tip_radius: Option<f64>, geometry: &Geometry, tip: &TipContact) -> ContactPlace {
         ContactPlace {
             radius_driver: tip.radius_driver,
             radius_driven: geometry.driven.tip,
-            curvature_radius: super::position::reduced_curvature(
-                inputs.driven.tip_radius,
-                geometry,
-                tip,
-            ),
+            curvature_radius: super::position::reduced_curvature(tip_radius, geometry, tip),
         }
     }
 }
 
 /// Both teeth of a pair, ready for any place of contact.
 pub struct Teeth<'a> {
-    inputs: &'a Inputs,
+    elasticity: &'a Elasticity,
     geometry: &'a Geometry,
-    model: ToothCompliance,
     driver: Tooth<'a>,
     driven: Tooth<'a>,
 }
@@ -87,13 +131,12 @@ impl<'a> Teeth<'a> {
     ///
     /// # Errors
     /// Those of a model that builds an object for each gear.
-    pub fn of(inputs: &'a Inputs, geometry: &'a Geometry) -> Result<Teeth<'a>, Refusal> {
+    pub fn of(elasticity: &'a Elasticity, geometry: &'a Geometry) -> Result<Teeth<'a>, Refusal> {
         Ok(Teeth {
-            inputs,
+            elasticity,
             geometry,
-            model: model_of(inputs),
-            driver: Tooth::of(inputs, &inputs.driver, &geometry.driver)?,
-            driven: Tooth::of(inputs, &inputs.driven, &geometry.driven)?,
+            driver: Tooth::of(elasticity.tooth, &elasticity.driver, &geometry.driver)?,
+            driven: Tooth::of(elasticity.tooth, &elasticity.driven, &geometry.driven)?,
         })
     }
 
@@ -103,7 +146,7 @@ impl<'a> Teeth<'a> {
     /// A [`Refusal`] outside the range of the model.
     pub fn at(&self, place: &ContactPlace) -> Result<TeethCompliance, Refusal> {
         Ok(TeethCompliance {
-            model: self.model,
+            model: self.elasticity.tooth,
             driver: self.driver.at(place.radius_driver)?,
             driven: self.driven.at(place.radius_driven)?,
         })
@@ -114,7 +157,7 @@ impl<'a> Teeth<'a> {
     /// # Errors
     /// A [`Refusal`] outside the range of the models.
     pub fn pair_at_load(&self, place: &ContactPlace, force: f64) -> Result<f64, Refusal> {
-        let spring = contact::spring(self.inputs, self.geometry, place)?;
+        let spring = contact::spring(self.elasticity, self.geometry, place)?;
         let contact = spring.compliance(force)?;
         Ok(self.at(place)?.sum() + contact)
     }
@@ -125,10 +168,10 @@ impl<'a> Teeth<'a> {
 /// # Errors
 /// A [`Refusal`] outside the range of the model.
 pub fn pair_at_load(
-    inputs: &Inputs,
+    elasticity: &Elasticity,
     geometry: &Geometry,
     place: &ContactPlace,
     force: f64,
 ) -> Result<f64, Refusal> {
-    Teeth::of(inputs, geometry)?.pair_at_load(place, force)
+    Teeth::of(elasticity, geometry)?.pair_at_load(place, force)
 }

@@ -3,10 +3,54 @@
 use twofloat::TwoFloat;
 
 use super::Refusal;
-use super::compliance::{ContactPlace, Teeth};
+use super::compliance::{ContactPlace, Elasticity, Teeth};
 use super::geometry::Geometry;
 use super::inputs::{Inputs, Method};
 use crate::numeric::Real;
+
+/// What the deviation depends on, apart from geometry and mesh force.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DeviationInputs {
+    /// `paper` scales the reliefs as printed; `static` and `dynamic` leave them to the flanks.
+    pub method: Method,
+    /// Base pitch deviation f_pb, in m.
+    pub base_pitch: f64,
+    /// Normal backlash j_bn, in m.
+    pub backlash: f64,
+    /// Tip relief of the driven gear, in m.
+    pub driven_tip_relief: f64,
+    /// Root relief of the driver, in m.
+    pub driver_root_relief: f64,
+    /// Where the combined deflection comes from.
+    pub deflection: Deflection,
+}
+
+/// Where the combined deflection comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Deflection {
+    /// The case gives it, in m.
+    Given(f64),
+    /// The load causes it.
+    ByLoad(Elasticity),
+}
+
+impl Inputs {
+    /// What the deviation depends on.
+    #[must_use]
+    pub fn deviation(&self) -> DeviationInputs {
+        DeviationInputs {
+            method: self.method,
+            base_pitch: self.base_pitch_deviation,
+            backlash: self.backlash,
+            driven_tip_relief: self.driven.tip_relief,
+            driver_root_relief: self.driver.root_relief,
+            deflection: match self.deflection_taken() {
+                Some(given) => Deflection::Given(given),
+                None => Deflection::ByLoad(self.elasticity()),
+            },
+        }
+    }
+}
 
 /// Deviation along the line of action, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,13 +72,16 @@ pub struct Deviation<T = f64> {
 /// # Errors
 /// A [`Refusal`] where the deflection has to be computed and cannot be.
 pub fn deviation(
-    inputs: &Inputs,
+    inputs: &DeviationInputs,
     geometry: &Geometry,
     mesh_force: f64,
 ) -> Result<Deviation<TwoFloat>, Refusal> {
-    let combined_deflection = match inputs.deflection_taken() {
-        Some(given) => given.into(),
-        None => combined_deflection(inputs, geometry, mesh_force)?.into(),
+    let combined_deflection = match &inputs.deflection {
+        Deflection::Given(given) => (*given).into(),
+        Deflection::ByLoad(elasticity) => {
+            let is_taken = !inputs.method.shares_load();
+            combined_deflection(elasticity, is_taken, geometry, mesh_force)?.into()
+        }
     };
     let with_reliefs = equivalent_error(inputs);
     let equivalent_error = if inputs.method.shares_load() {
@@ -64,7 +111,7 @@ pub fn deviation(
 /// Zhou & Chen 2014, Eqs. 1 and 2. The method `paper` scales the modification e_m with the random
 /// errors, as printed; the others count it in full, since a relief that was ground is there in
 /// full.
-fn equivalent_error(inputs: &Inputs) -> TwoFloat {
+fn equivalent_error(inputs: &DeviationInputs) -> TwoFloat {
     match inputs.method {
         Method::Paper => {
             (random_deviation(inputs) + modification(inputs)) * twofloat::consts::FRAC_1_SQRT_2
@@ -74,18 +121,18 @@ fn equivalent_error(inputs: &Inputs) -> TwoFloat {
 }
 
 /// Modification e_m = −(driven tip relief + driver root relief), in m.
-fn modification(inputs: &Inputs) -> TwoFloat {
-    -TwoFloat::new_add(inputs.driven.tip_relief, inputs.driver.root_relief)
+fn modification(inputs: &DeviationInputs) -> TwoFloat {
+    -TwoFloat::new_add(inputs.driven_tip_relief, inputs.driver_root_relief)
 }
 
 /// Equivalent error without reliefs, (2 f_pb − j_bn)/√2, in m.
-fn random_error(inputs: &Inputs) -> TwoFloat {
+fn random_error(inputs: &DeviationInputs) -> TwoFloat {
     random_deviation(inputs) * twofloat::consts::FRAC_1_SQRT_2
 }
 
 /// 2 f_pb − j_bn, in m.
-fn random_deviation(inputs: &Inputs) -> TwoFloat {
-    TwoFloat::new_sub(2.0 * inputs.base_pitch_deviation, inputs.backlash)
+fn random_deviation(inputs: &DeviationInputs) -> TwoFloat {
+    TwoFloat::new_sub(2.0 * inputs.base_pitch, inputs.backlash)
 }
 
 /// Combined deflection δ of the pairs in contact when the incoming pair stands at E, in m.
@@ -104,26 +151,26 @@ fn random_deviation(inputs: &Inputs) -> TwoFloat {
 /// # Errors
 /// [`Refusal::ContactRatioBelowOne`] where no pair is in contact at F, or the compliance's own.
 fn combined_deflection(
-    inputs: &Inputs,
+    elasticity: &Elasticity,
+    is_deflection_taken: bool,
     geometry: &Geometry,
     mesh_force: f64,
 ) -> Result<f64, Refusal> {
     let mut stiffness = 0.0;
     let mut along = geometry.start + geometry.base_pitch;
     if along > geometry.end || along >= geometry.tangent_length {
-        let is_taken = !inputs.method.shares_load();
         return Err(Refusal::ContactRatioBelowOne {
             ratio: geometry.contact_ratio,
-            is_deflection_taken: is_taken,
+            is_deflection_taken,
         });
     }
-    let teeth = Teeth::of(inputs, geometry)?;
+    let teeth = Teeth::of(elasticity, geometry)?;
     while along <= geometry.end && along < geometry.tangent_length {
         let place = ContactPlace::on_line_of_action(geometry, along);
         stiffness += 1.0 / teeth.pair_at_load(&place, mesh_force)?;
         along += geometry.base_pitch;
     }
-    Ok(mesh_force / (inputs.common_width() * stiffness))
+    Ok(mesh_force / (elasticity.width * stiffness))
 }
 
 impl Deviation {

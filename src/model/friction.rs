@@ -1,6 +1,7 @@
 //! The paper's friction coefficient: a ratio of velocity changes over the impact.
 
 use super::geometry::Geometry;
+use super::impact::ImpactInputs;
 use super::inputs::Method;
 use super::tip_gap::{TipContact, angle_by_growth, seen_from, tip_at};
 use super::{Impact, Velocity};
@@ -29,17 +30,17 @@ pub struct Friction {
 /// A kinematic ratio: it is not bounded by Coulomb's coefficient.
 #[must_use]
 pub fn friction(
-    (method, speed): (Method, f64),
+    inputs: &ImpactInputs,
     geometry: &Geometry,
     tip: &TipContact,
     velocity: &Velocity,
     impact: &Impact,
     reduced_mass: f64,
 ) -> Friction {
-    let speeds = (speed, speed / geometry.ratio);
+    let speeds = (inputs.speed, inputs.speed / geometry.ratio);
     let turn = speeds.1 * impact.duration_printed;
     let from_contact = seen_from(geometry, tip);
-    let end = match method {
+    let end = match inputs.method {
         Method::Paper => printed_end(&from_contact, tip, turn),
         _ => Some(tip_after(geometry, &from_contact, tip, turn)),
     };

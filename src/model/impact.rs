@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use super::compliance::ContactPlace;
 use super::compliance::contact::{plane_strain_compliance, spring};
+use super::compliance::{ContactPlace, Elasticity};
 use super::geometry::{Circles, Geometry};
 use super::inputs::{Gear, Inputs, Method};
 use super::tip_gap::TipContact;
@@ -35,6 +35,33 @@ pub struct Impact {
     pub duration_spring: f64,
     /// (2/π) F_S T_S/(M ΔV_n): 2 for the elastic spring, below 1 impossible.
     pub impulse_ratio: f64,
+}
+
+/// What velocities, force and friction of an impact depend on, apart from geometry, masses and
+/// place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ImpactInputs {
+    /// `paper` takes Eqs. 32 and 34 as printed.
+    pub method: Method,
+    /// Speed of the driver ω₁, in rad/s.
+    pub speed: f64,
+    /// Radius of the edge of the driven tip, in m.
+    pub tip_radius: Option<f64>,
+    /// Elasticity of the pair.
+    pub elasticity: Elasticity,
+}
+
+impl Inputs {
+    /// What velocities, force and friction of an impact depend on.
+    #[must_use]
+    pub fn impact(&self) -> ImpactInputs {
+        ImpactInputs {
+            method: self.method,
+            speed: self.speed,
+            tip_radius: self.driven.tip_radius,
+            elasticity: self.elasticity(),
+        }
+    }
 }
 
 /// Body of a gear: all that its mass depends on, but for its circles.
@@ -145,16 +172,16 @@ fn mass<T: Real>(body: &Body, circles: &Circles<T>) -> Result<f64, Refusal> {
 /// # Errors
 /// [`Refusal::HertzWidthTooLarge`] where Eq. 55 has no answer.
 pub fn impact(
-    inputs: &Inputs,
+    inputs: &ImpactInputs,
     geometry: &Geometry,
     masses: &Masses,
     tip: &TipContact,
     teeth: &TeethCompliance,
     velocity: &Velocity,
 ) -> Result<Impact, Refusal> {
-    let place = ContactPlace::at_tip(inputs, geometry, tip);
-    let spring = spring(inputs, geometry, &place)?;
-    let width = inputs.common_width();
+    let place = ContactPlace::at_tip(inputs.tip_radius, geometry, tip);
+    let spring = spring(&inputs.elasticity, geometry, &place)?;
+    let width = inputs.elasticity.width;
     let effective_mass = masses.effective(geometry, tip);
     let (force, pair_compliance) = spring.impact(
         teeth.sum(),
@@ -164,7 +191,7 @@ pub fn impact(
         masses.reduced(),
         velocity.normal,
         place.curvature_radius,
-        plane_strain_compliance(inputs),
+        plane_strain_compliance(&inputs.elasticity),
     );
     let duration_spring = PI * (effective_mass * pair_compliance / width).sqrt();
     let duration = match inputs.method {

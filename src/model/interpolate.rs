@@ -81,8 +81,9 @@ fn struck(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> Option<Stati
         .ok()
         .filter(|_| (0.0..=first).contains(&angle))?;
     let geometry = &solution.geometry;
-    let teeth = Teeth::of(inputs, geometry).ok()?;
-    let station = stations::station(inputs, geometry, &teeth, &masses, angle).ok()?;
+    let impact = inputs.impact();
+    let teeth = Teeth::of(&impact.elasticity, geometry).ok()?;
+    let station = stations::station(&impact, geometry, &teeth, &masses, angle).ok()?;
     station.impact_force.is_finite().then_some(station)
 }
 

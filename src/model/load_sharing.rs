@@ -4,8 +4,7 @@
 use std::sync::Arc;
 
 use super::dynamic::{Dynamic, Settings, dynamic};
-use super::inputs::Inputs;
-use super::mesh::Mesh;
+use super::mesh::{Mesh, MeshInputs};
 use super::request::Request;
 use super::spacing::Spacing;
 use super::stage::{Stage, Stages};
@@ -73,7 +72,7 @@ fn within_reach(
             found => return found,
         }
     }
-    on_mesh(asked.inputs, solution, |mesh| {
+    on_mesh(&asked.inputs.mesh(), solution, |mesh| {
         run(
             mesh,
             solution.reduced_mass,
@@ -90,17 +89,15 @@ fn within_reach(
 /// # Errors
 /// Those of [`Mesh::new`] and of `find`.
 pub(super) fn on_mesh<T>(
-    inputs: &Inputs,
+    inputs: &MeshInputs,
     solution: &Solution,
     find: impl Fn(&Arc<Mesh>) -> Result<T, Refusal>,
 ) -> Result<T, Refusal> {
     const AT_FIRST: f64 = 8.0;
     const FURTHER: f64 = 16.0;
-    let reliefs = [&inputs.driver, &inputs.driven].map(|gear| gear.tip_relief + gear.root_relief);
     let deviation = &solution.deviation;
-    let yields = deviation.combined_deflection
-        + deviation.equivalent_error.abs()
-        + reliefs.iter().sum::<f64>();
+    let yields =
+        deviation.combined_deflection + deviation.equivalent_error.abs() + inputs.reliefs.sum();
     let mut reach = AT_FIRST * yields;
     loop {
         let mesh = Mesh::new(

@@ -2,12 +2,12 @@
 //! `dynamic` share.
 
 use super::Refusal;
-use super::compliance::ContactPlace;
 use super::compliance::flanks::Flanks;
-use super::geometry::{Geometry, geometry};
+use super::compliance::{ContactPlace, Elasticity};
+use super::geometry::{Geometry, PairShape, geometry};
 use super::inputs::Inputs;
 use super::position::first_contact;
-use super::relief::Relief;
+use super::relief::{Relief, Reliefs};
 use super::tip_gap::{TipContact, angle_at_curvature, gap, tip_at};
 use crate::numeric::chebyshev::{Series, TERMS};
 use crate::numeric::polynomial::Polynomial;
@@ -15,6 +15,75 @@ use crate::numeric::root;
 
 /// No tip is followed further from its end of the path of contact, in rad.
 const LARGEST_ANGLE: f64 = 1.5;
+
+/// What the mesh depends on, apart from geometry, mesh force and error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeshInputs {
+    /// Shape of the pair; swapped, it is that of the run-out.
+    pub shape: PairShape,
+    /// Elasticity of the pair.
+    pub elasticity: Elasticity,
+    /// Reliefs of the pair.
+    pub reliefs: Reliefs,
+    /// Radii of the tip edges of driver and driven gear, in m.
+    pub tip_radii: [Option<f64>; 2],
+    /// Speed of the driver ω₁, in rad/s.
+    pub speed: f64,
+    /// Friction coefficient, 0 where the case gives none.
+    pub friction: f64,
+}
+
+impl Inputs {
+    /// What the mesh depends on.
+    #[must_use]
+    pub fn mesh(&self) -> MeshInputs {
+        MeshInputs {
+            shape: self.shape(),
+            elasticity: self.elasticity(),
+            reliefs: self.reliefs(),
+            tip_radii: [self.driver.tip_radius, self.driven.tip_radius],
+            speed: self.speed,
+            friction: self.friction_coefficient.unwrap_or(0.0),
+        }
+    }
+}
+
+impl MeshInputs {
+    fn driven_speed(&self) -> f64 {
+        self.speed / (f64::from(self.shape.driven.teeth) / f64::from(self.shape.driver.teeth))
+    }
+
+    /// The same with the gears swapped.
+    fn swapped(&self) -> MeshInputs {
+        let MeshInputs {
+            shape,
+            elasticity,
+            reliefs,
+            tip_radii: [driver_tip, driven_tip],
+            ..
+        } = *self;
+        MeshInputs {
+            shape: PairShape {
+                driver: shape.driven,
+                driven: shape.driver,
+                ..shape
+            },
+            elasticity: Elasticity {
+                driver: elasticity.driven,
+                driven: elasticity.driver,
+                ..elasticity
+            },
+            reliefs: Reliefs {
+                driver: reliefs.driven,
+                driven: reliefs.driver,
+                ..reliefs
+            },
+            tip_radii: [driven_tip, driver_tip],
+            speed: self.driven_speed(),
+            friction: self.friction,
+        }
+    }
+}
 
 /// What a pair is at a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,7 +147,7 @@ struct Zone {
 /// The pair as seen from one end of its path of contact: the run-in, or by swapped gears the
 /// run-out.
 struct End {
-    inputs: Inputs,
+    inputs: MeshInputs,
     geometry: Geometry,
     flanks: Flanks,
     /// −1 where s falls with the distance from the path of contact.
@@ -102,16 +171,16 @@ impl Mesh {
     /// # Errors
     /// A [`Refusal`] where no compliance can be computed, or the run-out interferes.
     pub fn new(
-        inputs: &Inputs,
+        inputs: &MeshInputs,
         geometry: &Geometry,
         force: f64,
         error: f64,
         reach: f64,
     ) -> Result<Mesh, Refusal> {
-        let relief = Relief::of(inputs, geometry);
-        let flanks = Flanks::new(inputs, geometry)?;
+        let relief = Relief::of(&inputs.reliefs, geometry);
+        let flanks = Flanks::new(&inputs.elasticity, geometry)?;
         let run_in = End {
-            inputs: inputs.clone(),
+            inputs: *inputs,
             geometry: *geometry,
             flanks: flanks.clone(),
             side: -1.0,
@@ -128,7 +197,7 @@ impl Mesh {
         let levers = zones
             .iter()
             .flat_map(|zone| [zone.from, zone.to].map(|s| zone.series.one(LEVER, s)));
-        let friction = inputs.friction_coefficient.unwrap_or(0.0);
+        let friction = inputs.friction;
         let limit = 1.0 / levers.fold(0.0, f64::max);
         if friction >= limit {
             return Err(Refusal::FrictionLocks { friction, limit });
@@ -147,7 +216,7 @@ impl Mesh {
             error,
             mean_stiffness: stiffness / geometry.base_pitch,
             base_radii: (geometry.driver.base, geometry.driven.base),
-            width: inputs.common_width(),
+            width: inputs.elasticity.width,
             friction,
             pitch_point: geometry.approach_length,
             zones,
@@ -361,7 +430,7 @@ fn push_zones(
 
 /// The zones of the line of action.
 fn line_zones(
-    inputs: &Inputs,
+    inputs: &MeshInputs,
     geometry: &Geometry,
     (flanks, relief): (&Flanks, &Relief),
     force: f64,
@@ -373,9 +442,15 @@ fn line_zones(
     let at = |s: f64| {
         let along = geometry.start + s;
         let place = ContactPlace::on_line_of_action(geometry, along);
-        let compliance = flanks.pair_at_load(inputs, geometry, &place, (along, rest - s), force)?;
+        let compliance = flanks.pair_at_load(
+            &inputs.elasticity,
+            geometry,
+            &place,
+            (along, rest - s),
+            force,
+        )?;
         Ok([
-            inputs.common_width() / compliance,
+            inputs.elasticity.width / compliance,
             relief.at(along, rest - s),
             along / geometry.driver.base,
             speeds * (geometry.approach_length - s),
@@ -401,13 +476,8 @@ fn line_zones(
 impl End {
     /// The other end, with the gears swapped: there the driver's tip meets the driven flank.
     fn swapped(&self) -> Result<End, Refusal> {
-        let inputs = Inputs {
-            driver: self.inputs.driven.clone(),
-            driven: self.inputs.driver.clone(),
-            speed: self.inputs.driven_speed(),
-            ..self.inputs.clone()
-        };
-        let geometry = geometry(&inputs.shape()).map_err(|refusal| match refusal {
+        let inputs = self.inputs.swapped();
+        let geometry = geometry(&inputs.shape).map_err(|refusal| match refusal {
             Refusal::Interference { start } => Refusal::InterferenceAtEnd { start },
             other => other,
         })?;
@@ -468,11 +538,15 @@ impl End {
     /// The four values at an angle from the end of the path of contact.
     fn at(&self, relief: &Relief, force: f64, angle: f64) -> Result<[f64; 4], Refusal> {
         let tip = tip_at(&self.geometry, angle);
-        let place = ContactPlace::at_tip(&self.inputs, &self.geometry, &tip);
+        let place = ContactPlace::at_tip(self.inputs.tip_radii[1], &self.geometry, &tip);
         let arms = (tip.curvature_driver, self.geometry.driven.tip_curvature);
-        let compliance =
-            self.flanks
-                .pair_at_load(&self.inputs, &self.geometry, &place, arms, force)?;
+        let compliance = self.flanks.pair_at_load(
+            &self.inputs.elasticity,
+            &self.geometry,
+            &place,
+            arms,
+            force,
+        )?;
         let sliding = self.inputs.driven_speed() * tip.sliding_arm;
         let (relief, lever) = if self.side < 0.0 {
             (
@@ -486,7 +560,7 @@ impl End {
             )
         };
         Ok([
-            self.inputs.common_width() / compliance,
+            self.inputs.elasticity.width / compliance,
             gap(&self.geometry, &tip) + relief,
             lever,
             -self.side * sliding,

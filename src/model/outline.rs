@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Point2, Vector2};
 
-use super::compliance::profile::{Profile, Section};
+use super::compliance::profile::{Profile, Rack, Section};
 use super::geometry::Circles;
 use super::inputs::{Gear, Inputs};
 
@@ -63,7 +63,7 @@ impl Outline {
     /// room is made as large as there is room for.
     #[must_use]
     pub fn of(inputs: &Inputs, gear: &Gear, circles: &Circles) -> Outline {
-        let profile = Profile::of(inputs, gear, circles);
+        let profile = Profile::of(&Rack::of(inputs, gear), circles);
         let (fillet_end, flank_end) = (fillet_end(&profile), flank_end(&profile));
         let edge = gear
             .tip_radius

@@ -3,6 +3,56 @@
 use super::geometry::Geometry;
 use super::inputs::{Gear, Inputs, ReliefShape};
 
+/// Reliefs of the pair as the case gives them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reliefs {
+    /// How they grow along the path of contact.
+    pub shape: ReliefShape,
+    /// Of the driver.
+    pub driver: GearReliefs,
+    /// Of the driven gear.
+    pub driven: GearReliefs,
+}
+
+/// Reliefs of one gear, in m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GearReliefs {
+    /// Material removed at the tip.
+    pub tip: f64,
+    /// Material removed at the root.
+    pub root: f64,
+    /// Length of the tip relief along the path of contact.
+    pub tip_length: Option<f64>,
+    /// Length of the root relief along the path of contact.
+    pub root_length: Option<f64>,
+}
+
+impl Inputs {
+    /// Reliefs of the pair.
+    #[must_use]
+    pub fn reliefs(&self) -> Reliefs {
+        let of = |gear: &Gear| GearReliefs {
+            tip: gear.tip_relief,
+            root: gear.root_relief,
+            tip_length: gear.tip_relief_length,
+            root_length: gear.root_relief_length,
+        };
+        Reliefs {
+            shape: self.relief_shape,
+            driver: of(&self.driver),
+            driven: of(&self.driven),
+        }
+    }
+}
+
+impl Reliefs {
+    /// All of them together, in m.
+    #[must_use]
+    pub fn sum(&self) -> f64 {
+        (self.driver.tip + self.driver.root) + (self.driven.tip + self.driven.root)
+    }
+}
+
 /// Material that both flanks lack where they touch, as a function of the radii of curvature there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Relief {
@@ -26,20 +76,20 @@ impl Relief {
     /// is in contact, (ε − ⌈ε⌉ + 1) p_b: for 1 < ε < 2 to the start of single contact, the long
     /// relief.
     #[must_use]
-    pub fn of(inputs: &Inputs, geometry: &Geometry) -> Relief {
+    pub fn of(reliefs: &Reliefs, geometry: &Geometry) -> Relief {
         let usual =
             (geometry.contact_ratio - geometry.contact_ratio.ceil() + 1.0) * geometry.base_pitch;
-        let ramps = |gear: &Gear, tip: f64, root: f64| {
-            let tip_length = gear.tip_relief_length.unwrap_or(usual);
-            let root_length = gear.root_relief_length.unwrap_or(usual);
+        let ramps = |gear: &GearReliefs, tip: f64, root: f64| {
+            let tip_length = gear.tip_length.unwrap_or(usual);
+            let root_length = gear.root_length.unwrap_or(usual);
             [
                 Ramp {
-                    amount: gear.tip_relief,
+                    amount: gear.tip,
                     full: tip,
                     none: tip - tip_length,
                 },
                 Ramp {
-                    amount: gear.root_relief,
+                    amount: gear.root,
                     full: root,
                     none: root + root_length,
                 },
@@ -47,9 +97,9 @@ impl Relief {
         };
         let (start, end, length) = (geometry.start, geometry.end, geometry.tangent_length);
         Relief {
-            shape: inputs.relief_shape,
-            driver: ramps(&inputs.driver, end, start),
-            driven: ramps(&inputs.driven, length - start, length - end),
+            shape: reliefs.shape,
+            driver: ramps(&reliefs.driver, end, start),
+            driven: ramps(&reliefs.driven, length - start, length - end),
         }
     }
 

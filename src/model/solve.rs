@@ -8,6 +8,7 @@ use twofloat::TwoFloat;
 use super::impact::Masses;
 use super::inputs::{Inputs, Method};
 use super::request::{Earlier, Request};
+use super::spacing::Spacing;
 use super::stage::{Stage, Stages};
 use super::{
     Choice, Geometry, Kept, Outcome, Position, Refusal, Solution, auto, clearing, compliance,
@@ -264,7 +265,7 @@ impl Solving<'_> {
             earlier.kept.deviation
         } else {
             ran = ran.with(Stage::Deviation);
-            deviation::deviation(inputs, &geometry, mesh_force)?
+            deviation::deviation(&inputs.deviation(), &geometry, mesh_force)?
         };
         let strikes = deviation.total.rounded() > 0.0;
         Ok(Solution {
@@ -357,6 +358,7 @@ impl Solving<'_> {
     /// The stages from the velocity on, as far as they are wanted and can be computed.
     fn strike(&self, solution: &mut Solution, position: &Position) -> Result<(), Refusal> {
         let (inputs, geometry, tip) = (self.asked.inputs, solution.geometry, &position.contact);
+        let strike = inputs.impact();
         let masses = solution.kept.masses;
         solution.velocity = self.stage(
             solution,
@@ -364,20 +366,20 @@ impl Solving<'_> {
             |s| s.velocity,
             || Ok(velocity::velocity(inputs.driven_speed(), tip)),
         )?;
-        let place = || compliance::ContactPlace::at_tip(inputs, &geometry, tip);
-        let borne = || compliance::Teeth::of(inputs, &geometry)?.at(&place());
+        let place = || compliance::ContactPlace::at_tip(strike.tip_radius, &geometry, tip);
+        let borne = || compliance::Teeth::of(&strike.elasticity, &geometry)?.at(&place());
         solution.compliance = self.stage(solution, Stage::Compliance, |s| s.compliance, borne)?;
         let (Some(velocity), Some(teeth)) = (solution.velocity, solution.compliance) else {
             return Ok(());
         };
-        let struck = || impact::impact(inputs, &geometry, &masses, tip, &teeth, &velocity);
+        let struck = || impact::impact(&strike, &geometry, &masses, tip, &teeth, &velocity);
         let Some(impact) = self.stage(solution, Stage::Impact, |s| s.impact, struck)? else {
             return Ok(());
         };
         solution.impact = Some(impact);
         let rubbed = || {
             Ok(friction::friction(
-                (inputs.method, inputs.speed),
+                &strike,
                 &geometry,
                 tip,
                 &velocity,
@@ -394,7 +396,7 @@ impl Solving<'_> {
         )?;
         let stood = || {
             Ok(stations::stations(
-                inputs,
+                (&strike, Spacing::of(inputs)),
                 &geometry,
                 &masses,
                 position,

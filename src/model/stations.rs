@@ -2,8 +2,7 @@
 
 use super::compliance::{ContactPlace, Teeth};
 use super::geometry::Geometry;
-use super::impact::{Masses, impact};
-use super::inputs::Inputs;
+use super::impact::{ImpactInputs, Masses, impact};
 use super::mesh::Mesh;
 use super::position::Position;
 use super::spacing::Spacing;
@@ -115,15 +114,15 @@ impl MeshStation {
 /// inside the base circle.
 #[must_use]
 pub fn stations(
-    inputs: &Inputs,
+    (inputs, spacing): (&ImpactInputs, Spacing),
     geometry: &Geometry,
     masses: &Masses,
     position: &Position,
     peak: f64,
 ) -> (Vec<Station>, Option<Refusal>) {
-    let (spacing, mut refused) = (Spacing::of(inputs), None);
+    let mut refused = None;
     let mut found = Vec::with_capacity(spacing.count().map_or(0, |count| count + 1));
-    let teeth = match Teeth::of(inputs, geometry) {
+    let teeth = match Teeth::of(&inputs.elasticity, geometry) {
         Ok(teeth) => teeth,
         Err(refusal) => return (found, Some(refusal)),
     };
@@ -153,22 +152,22 @@ pub fn stations(
 /// # Errors
 /// The [`Refusal`] of the stage that has no force there.
 pub fn station(
-    inputs: &Inputs,
+    inputs: &ImpactInputs,
     geometry: &Geometry,
     teeth: &Teeth,
     masses: &Masses,
     angle: f64,
 ) -> Result<Station, Refusal> {
     let tip = tip_at(geometry, angle);
-    let velocity = velocity::velocity(inputs.driven_speed(), &tip);
+    let velocity = velocity::velocity(inputs.speed / geometry.ratio, &tip);
     let struck = if angle > 0.0 {
-        let teeth = teeth.at(&ContactPlace::at_tip(inputs, geometry, &tip))?;
+        let teeth = teeth.at(&ContactPlace::at_tip(inputs.tip_radius, geometry, &tip))?;
         Some(impact(inputs, geometry, masses, &tip, &teeth, &velocity)?)
     } else {
         None
     };
     Ok(Station {
-        roll_angle_driver: angle * inputs.ratio(),
+        roll_angle_driver: angle * geometry.ratio,
         roll_angle_driven: angle,
         radius_driver: tip.radius_driver,
         normal_velocity: velocity.normal,

@@ -7,12 +7,12 @@ mod weber;
 
 use std::f64::consts::PI;
 
-use super::ContactPlace;
 use super::list::{help_bytes, help_length, text};
+use super::{ContactPlace, ElasticGear, Elasticity};
 use crate::model::Refusal;
 use crate::model::explanation::{Context, Step};
 use crate::model::geometry::Geometry;
-use crate::model::inputs::{ContactCompliance, Gear, Inputs};
+use crate::model::inputs::ContactCompliance;
 
 /// Every model; the first is the default of a case.
 pub const MODELS: [&ContactModel; 3] = [&logarithmic::MODEL, &constant::MODEL, &weber::MODEL];
@@ -38,7 +38,7 @@ pub struct ContactModel {
 }
 
 /// See [`ContactModel::offset_and_slope`].
-type OffsetAndSlope = fn(&Inputs, &Geometry, &ContactPlace) -> Result<(f64, f64), Refusal>;
+type OffsetAndSlope = fn(&Elasticity, &Geometry, &ContactPlace) -> Result<(f64, f64), Refusal>;
 
 /// The compliance of a contact as its half-width a grows: q_H = offset − slope ln a.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -128,15 +128,15 @@ impl ContactSpring {
 /// # Errors
 /// Those of the tooth's profile, whose thickness `weber` reads.
 pub fn spring(
-    inputs: &Inputs,
+    elasticity: &Elasticity,
     geometry: &Geometry,
     place: &ContactPlace,
 ) -> Result<ContactSpring, Refusal> {
-    let model = inputs.contact_compliance.model();
-    let (offset, slope) = (model.offset_and_slope)(inputs, geometry, place)?;
-    let give = plane_strain_compliance(inputs);
+    let model = elasticity.contact.model();
+    let (offset, slope) = (model.offset_and_slope)(elasticity, geometry, place)?;
+    let give = plane_strain_compliance(elasticity);
     let width_per_root_force =
-        (4.0 * place.curvature_radius * give / (PI * inputs.common_width())).sqrt();
+        (4.0 * place.curvature_radius * give / (PI * elasticity.width)).sqrt();
     Ok(ContactSpring {
         offset,
         slope,
@@ -146,26 +146,26 @@ pub fn spring(
 
 /// 1/E' = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂, in 1/Pa.
 #[must_use]
-pub fn plane_strain_compliance(inputs: &Inputs) -> f64 {
-    give(&inputs.driver) + give(&inputs.driven)
+pub fn plane_strain_compliance(elasticity: &Elasticity) -> f64 {
+    give(&elasticity.driver) + give(&elasticity.driven)
 }
 
 /// (1 − ν²)/E, in 1/Pa.
-fn give(gear: &Gear) -> f64 {
+fn give(gear: &ElasticGear) -> f64 {
     (1.0 - gear.poisson) * (1.0 + gear.poisson) / gear.young
 }
 
 /// The contact under the impact force, for the step q_H.
 fn at_impact(context: &Context) -> Option<f64> {
-    let (inputs, geometry) = (context.inputs, &context.solution.geometry);
-    let spring = spring(inputs, geometry, &place_at_d(context)?).ok()?;
+    let (elasticity, geometry) = (context.inputs.elasticity(), &context.solution.geometry);
+    let spring = spring(&elasticity, geometry, &place_at_d(context)?).ok()?;
     spring.compliance(context.solution.impact?.force).ok()
 }
 
 fn place_at_d(context: &Context) -> Option<ContactPlace> {
     let tip = context.solution.position?.contact;
     Some(ContactPlace::at_tip(
-        context.inputs,
+        context.inputs.driven.tip_radius,
         &context.solution.geometry,
         &tip,
     ))
@@ -260,7 +260,7 @@ mod tests {
             radius_driven: pair.driven.tip,
             curvature_radius: inputs.module,
         };
-        let refused = pair_at_load(&inputs, &pair, &beyond, 100.0);
+        let refused = pair_at_load(&inputs.elasticity(), &pair, &beyond, 100.0);
         assert!(
             matches!(refused, Err(Refusal::PointedTip { .. })),
             "{refused:?}"

@@ -2,10 +2,9 @@
 //! cheap.
 
 use super::tooth::Tooth;
-use super::{ContactPlace, contact};
+use super::{ContactPlace, ElasticGear, Elasticity, contact};
 use crate::model::Refusal;
 use crate::model::geometry::{Circles, Geometry};
-use crate::model::inputs::{Gear, Inputs};
 use crate::numeric::chebyshev::Series;
 
 /// What the last terms of a series may be, over the compliance at the tip: less than what those who
@@ -24,9 +23,9 @@ impl Flanks {
     ///
     /// # Errors
     /// Those of the teeth, see [`super::teeth`].
-    pub fn new(inputs: &Inputs, geometry: &Geometry) -> Result<Flanks, Refusal> {
-        let of = |gear: &Gear, circles: &Circles, from: f64, to: f64| {
-            let tooth = Tooth::of(inputs, gear, circles)?;
+    pub fn new(elasticity: &Elasticity, geometry: &Geometry) -> Result<Flanks, Refusal> {
+        let of = |gear: &ElasticGear, circles: &Circles, from: f64, to: f64| {
+            let tooth = Tooth::of(elasticity.tooth, gear, circles)?;
             let at = |curvature: f64| tooth.at(circles.base.hypot(curvature)).map(|found| [found]);
             let rest = REST * at(to)?[0];
             Series::of(from, to, &|_, _| [rest], &at)
@@ -34,9 +33,9 @@ impl Flanks {
         let (start, end) = (geometry.start, geometry.end);
         let lowest = geometry.tangent_length - end;
         Ok(Flanks {
-            driver: of(&inputs.driver, &geometry.driver, start, end)?,
+            driver: of(&elasticity.driver, &geometry.driver, start, end)?,
             driven: of(
-                &inputs.driven,
+                &elasticity.driven,
                 &geometry.driven,
                 lowest,
                 geometry.driven.tip_curvature,
@@ -60,13 +59,13 @@ impl Flanks {
     /// Those of the contact.
     pub fn pair_at_load(
         &self,
-        inputs: &Inputs,
+        elasticity: &Elasticity,
         geometry: &Geometry,
         place: &ContactPlace,
         (driver, driven): (f64, f64),
         force: f64,
     ) -> Result<f64, Refusal> {
-        let contact = contact::spring(inputs, geometry, place)?.compliance(force)?;
+        let contact = contact::spring(elasticity, geometry, place)?.compliance(force)?;
         Ok(self.driver.one(0, driver) + self.driven.one(0, driven) + contact)
     }
 }
@@ -76,7 +75,7 @@ mod tests {
     use super::*;
     use crate::model::compliance::pair_at_load;
     use crate::model::geometry::geometry;
-    use crate::model::inputs::ToothCompliance;
+    use crate::model::inputs::{Inputs, ToothCompliance};
     use crate::model::sample::standard_pair;
 
     #[test]
@@ -87,16 +86,17 @@ mod tests {
                 ..standard_pair(20, 33, 4e-3)
             };
             let geometry = geometry::<f64>(&inputs.shape()).unwrap();
-            let flanks = Flanks::new(&inputs, &geometry).unwrap();
+            let elasticity = inputs.elasticity();
+            let flanks = Flanks::new(&elasticity, &geometry).unwrap();
             for step in 0..=40 {
                 let along =
                     geometry.start + (geometry.end - geometry.start) * f64::from(step) / 40.0;
                 let place = ContactPlace::on_line_of_action(&geometry, along);
                 let arms = (along, geometry.tangent_length - along);
                 let found = flanks
-                    .pair_at_load(&inputs, &geometry, &place, arms, 1000.0)
+                    .pair_at_load(&elasticity, &geometry, &place, arms, 1000.0)
                     .unwrap();
-                let expected = pair_at_load(&inputs, &geometry, &place, 1000.0).unwrap();
+                let expected = pair_at_load(&elasticity, &geometry, &place, 1000.0).unwrap();
                 assert!(
                     (found / expected - 1.0).abs() < 1e-12,
                     "{model:?} at {step}: {found} {expected}"

@@ -9,6 +9,21 @@ use crate::model::inputs::{Gear, Inputs};
 /// room for it.
 const RACK_ROUNDING: f64 = 0.38;
 
+/// The rack that cuts a gear: all that the profile of a tooth depends on, but for its circles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rack {
+    /// Module m, in m.
+    pub module: f64,
+    /// Pressure angle α, in rad.
+    pub pressure_angle: f64,
+    /// Number of teeth z that it cuts.
+    pub teeth: u32,
+    /// Profile shift coefficient x.
+    pub profile_shift: f64,
+    /// Dedendum coefficient h_fP*.
+    pub dedendum: f64,
+}
+
 /// A tooth's profile in a frame whose x axis is the tooth's centre line, from the gear's centre.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Profile {
@@ -50,23 +65,54 @@ pub struct Section {
     pub slope: f64,
 }
 
-impl Profile {
-    /// The profile that the gear's rack cuts.
+impl Rack {
+    /// The rack of a gear of the pair.
     #[must_use]
-    pub fn of(inputs: &Inputs, gear: &Gear, circles: &Circles) -> Profile {
-        let (module, alpha, shift) = (inputs.module, inputs.pressure_angle, gear.profile_shift);
-        let half_pitch = PI / f64::from(gear.teeth);
+    pub fn of(inputs: &Inputs, gear: &Gear) -> Rack {
+        Rack {
+            module: inputs.module,
+            pressure_angle: inputs.pressure_angle,
+            teeth: gear.teeth,
+            profile_shift: gear.profile_shift,
+            dedendum: gear.dedendum,
+        }
+    }
+
+    /// Radius of the rounding of its tip, times the module: the standard one, or what its tip has
+    /// room for.
+    fn rounding(&self) -> f64 {
+        let (sine, cosine) = self.pressure_angle.sin_cos();
+        RACK_ROUNDING
+            .min((PI / 4.0 * cosine - self.dedendum * sine) / (1.0 - sine))
+            .max(0.0)
+    }
+
+    /// Least profile shift at which it does not undercut the tooth, h_fP* − ρ_fP* (1 − sin α) − z
+    /// sin²α/2.
+    #[must_use]
+    pub fn least_shift(&self) -> f64 {
+        let sine = self.pressure_angle.sin();
+        self.dedendum - self.rounding() * (1.0 - sine) - f64::from(self.teeth) * sine * sine / 2.0
+    }
+}
+
+impl Profile {
+    /// The profile that a rack cuts.
+    #[must_use]
+    pub fn of(rack: &Rack, circles: &Circles) -> Profile {
+        let (module, alpha, shift) = (rack.module, rack.pressure_angle, rack.profile_shift);
+        let half_pitch = PI / f64::from(rack.teeth);
         let (sine, cosine) = alpha.sin_cos();
-        let flank_room = PI / 4.0 - gear.dedendum * sine / cosine;
-        let rounding = rack_rounding(alpha, gear);
+        let flank_room = PI / 4.0 - rack.dedendum * sine / cosine;
+        let rounding = rack.rounding();
         let mut profile = Profile {
             circles: *circles,
             base_half_angle: half_pitch / 2.0
-                + 2.0 * shift * alpha.tan() / f64::from(gear.teeth)
+                + 2.0 * shift * alpha.tan() / f64::from(rack.teeth)
                 + involute(alpha),
             half_pitch,
             rounding: rounding * module,
-            centre_depth: (gear.dedendum - rounding - shift) * module,
+            centre_depth: (rack.dedendum - rounding - shift) * module,
             centre_offset: (flank_room - rounding * (1.0 - sine) / cosine) * module,
             junction: Junction {
                 normal: alpha,
@@ -235,24 +281,6 @@ impl Profile {
     }
 }
 
-/// Radius of the rack's rounding, times the module: the standard one, or what its tip has room for.
-fn rack_rounding(alpha: f64, gear: &Gear) -> f64 {
-    let (sine, cosine) = alpha.sin_cos();
-    RACK_ROUNDING
-        .min((PI / 4.0 * cosine - gear.dedendum * sine) / (1.0 - sine))
-        .max(0.0)
-}
-
-/// Least profile shift at which the rack does not undercut the tooth, h_fP* − ρ_fP* (1 − sin α) − z
-/// sin²α/2.
-#[must_use]
-pub fn least_shift(inputs: &Inputs, gear: &Gear) -> f64 {
-    let sine = inputs.pressure_angle.sin();
-    gear.dedendum
-        - rack_rounding(inputs.pressure_angle, gear) * (1.0 - sine)
-        - f64::from(gear.teeth) * sine * sine / 2.0
-}
-
 /// inv t = tan t − t.
 fn involute(angle: f64) -> f64 {
     angle.tan() - angle
@@ -284,7 +312,7 @@ mod tests {
             let circles = geometry::<f64>(&inputs.shape()).unwrap().driver;
             found.push((
                 format!("z {teeth} x {shift} alpha {degrees}"),
-                Profile::of(&inputs, &inputs.driver, &circles),
+                Profile::of(&Rack::of(&inputs, &inputs.driver), &circles),
                 inputs.module,
             ));
         }

@@ -4,11 +4,12 @@
 pub mod beam;
 pub mod kuang_yang;
 
+use super::ElasticGear;
 use super::list::{help_bytes, help_length, text};
 use crate::model::Refusal;
 use crate::model::explanation::{Context, Finding, Step};
 use crate::model::geometry::{Circles, Geometry};
-use crate::model::inputs::{Gear, Inputs, ToothCompliance};
+use crate::model::inputs::{Inputs, ToothCompliance};
 
 /// Every model; where a case names none, the first that covers the pair is used.
 pub const MODELS: [&ToothModel; 2] = [&kuang_yang::MODEL, &beam::MODEL];
@@ -43,8 +44,8 @@ pub struct ToothModel {
     pub compliance: Compliance,
 }
 
-type ByRadius = fn(&Inputs, &Gear, &Circles, f64) -> Result<f64, Refusal>;
-type Build = fn(&Inputs, &Gear, &Circles) -> Result<Box<dyn AtRadius>, Refusal>;
+type ByRadius = fn(&ElasticGear, &Circles, f64) -> Result<f64, Refusal>;
+type Build = fn(&ElasticGear, &Circles) -> Result<Box<dyn AtRadius>, Refusal>;
 
 /// Computes the compliance of one tooth, contact excluded, per unit width, in m²/N.
 #[derive(Debug, Clone, Copy)]
@@ -66,8 +67,7 @@ pub trait AtRadius: Send + Sync {
 
 /// One tooth of a gear, ready for any load point.
 pub struct Tooth<'a> {
-    inputs: &'a Inputs,
-    gear: &'a Gear,
+    gear: &'a ElasticGear,
     circles: &'a Circles,
     serves: Serves,
 }
@@ -78,30 +78,28 @@ enum Serves {
 }
 
 impl<'a> Tooth<'a> {
-    /// The tooth of a gear by the model of the case.
+    /// The tooth of a gear by a model.
     ///
     /// # Errors
     /// Those of the model, where it builds an object for the gear.
     pub fn of(
-        inputs: &'a Inputs,
-        gear: &'a Gear,
+        model: ToothCompliance,
+        gear: &'a ElasticGear,
         circles: &'a Circles,
     ) -> Result<Tooth<'a>, Refusal> {
-        Tooth::by(&model_of(inputs).model().compliance, inputs, gear, circles)
+        Tooth::by(&model.model().compliance, gear, circles)
     }
 
     fn by(
         compliance: &Compliance,
-        inputs: &'a Inputs,
-        gear: &'a Gear,
+        gear: &'a ElasticGear,
         circles: &'a Circles,
     ) -> Result<Tooth<'a>, Refusal> {
         let serves = match compliance {
             Compliance::AtRadius(of) => Serves::AtRadius(*of),
-            Compliance::PerGear(build) => Serves::Built(build(inputs, gear, circles)?),
+            Compliance::PerGear(build) => Serves::Built(build(gear, circles)?),
         };
         Ok(Tooth {
-            inputs,
             gear,
             circles,
             serves,
@@ -114,7 +112,7 @@ impl<'a> Tooth<'a> {
     /// A [`Refusal`] outside the range of the model.
     pub fn at(&self, radius: f64) -> Result<f64, Refusal> {
         match &self.serves {
-            Serves::AtRadius(of) => of(self.inputs, self.gear, self.circles, radius),
+            Serves::AtRadius(of) => of(self.gear, self.circles, radius),
             Serves::Built(built) => built.at(radius),
         }
     }
@@ -198,13 +196,14 @@ mod tests {
 
     #[test]
     fn an_object_of_a_gear_is_built_once_for_every_load_point() {
-        let build = Compliance::PerGear(|_, gear, _| {
+        let build = Compliance::PerGear(|gear, _| {
             BUILT.fetch_add(1, Ordering::Relaxed);
             Ok(Box::new(Field(1.0 / gear.young)))
         });
         let inputs = standard_pair(20, 30, 5e-3);
         let geometry = geometry::<f64>(&inputs.shape()).unwrap();
-        let tooth = Tooth::by(&build, &inputs, &inputs.driver, &geometry.driver).unwrap();
+        let gear = inputs.elasticity().driver;
+        let tooth = Tooth::by(&build, &gear, &geometry.driver).unwrap();
         for radius in [0.048, 0.05, 0.052] {
             assert_eq!(tooth.at(radius), Ok(1.0 / inputs.driver.young * radius));
         }

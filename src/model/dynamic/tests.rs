@@ -19,7 +19,7 @@ fn struck(adjust: impl FnOnce(&mut Inputs)) -> (Mesh, Settings) {
     let solution = solve(&inputs, Stages::of(Stage::Static)).unwrap();
     let error = solution.deviation.equivalent_error;
     let mesh = Mesh::new(
-        &inputs,
+        &inputs.mesh(),
         &solution.geometry,
         solution.mesh_force,
         error,

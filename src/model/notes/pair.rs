@@ -1,7 +1,7 @@
 //! Notes on the geometry of the pair.
 
 use super::{Note, four};
-use crate::model::compliance::profile::{Profile, least_shift};
+use crate::model::compliance::profile::{Profile, Rack};
 use crate::model::geometry::Circles;
 use crate::model::inputs::Gear;
 use crate::model::{Inputs, Solution};
@@ -96,7 +96,7 @@ pub(super) fn undercut_driven(inputs: &Inputs, _: &Solution) -> Option<Note> {
 }
 
 fn undercut(name: &str, inputs: &Inputs, gear: &Gear) -> Option<Note> {
-    let limit = least_shift(inputs, gear);
+    let limit = Rack::of(inputs, gear).least_shift();
     let shift = gear.profile_shift;
     let below = shift < limit;
     let limit = four(limit);
@@ -122,7 +122,7 @@ pub(super) fn tip_driven(inputs: &Inputs, solution: &Solution) -> Option<Note> {
 
 fn tip(name: &str, inputs: &Inputs, gear: &Gear, circles: &Circles) -> Option<Note> {
     const THIN: f64 = 0.2;
-    let thickness = Profile::of(inputs, gear, circles).tip_thickness();
+    let thickness = Profile::of(&Rack::of(inputs, gear), circles).tip_thickness();
     let (value, limit) = (four(thickness * MILLI), four(THIN * inputs.module * MILLI));
     if thickness <= 0.0 {
         Some(Note::new(
@@ -146,7 +146,7 @@ fn tip(name: &str, inputs: &Inputs, gear: &Gear, circles: &Circles) -> Option<No
 /// D or E lies where the driver has no involute.
 pub(super) fn form_circle(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let geometry = &solution.geometry;
-    let form = Profile::of(inputs, &inputs.driver, &geometry.driver).form_radius();
+    let form = Profile::of(&Rack::of(inputs, &inputs.driver), &geometry.driver).form_radius();
     let contact = solution
         .position
         .map(|position| ("D", position.contact.radius_driver));

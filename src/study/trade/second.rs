@@ -49,7 +49,7 @@ pub(super) fn second_way(
     let mut reach = error.abs() + 4.0 * solution.deviation.combined_deflection;
     loop {
         let mesh = Mesh::new(
-            inputs,
+            &inputs.mesh(),
             &solution.geometry,
             solution.mesh_force,
             error,

@@ -4,11 +4,11 @@ use std::f64::consts::PI;
 
 use super::{ContactModel, at_impact, plane_strain_compliance};
 use crate::model::Refusal;
-use crate::model::compliance::ContactPlace;
+use crate::model::compliance::{ContactPlace, Elasticity};
 use crate::model::explanation::Formula::Text;
 use crate::model::explanation::Step;
 use crate::model::geometry::Geometry;
-use crate::model::inputs::{ContactCompliance, Inputs};
+use crate::model::inputs::ContactCompliance;
 
 /// The row of the list.
 pub(super) const MODEL: ContactModel = ContactModel {
@@ -41,6 +41,10 @@ impl ContactCompliance {
     clippy::unnecessary_wraps,
     reason = "every model of the list has one signature"
 )]
-fn constant(inputs: &Inputs, _: &Geometry, _: &ContactPlace) -> Result<(f64, f64), Refusal> {
-    Ok((2.0 * plane_strain_compliance(inputs) / PI, 0.0))
+fn constant(
+    elasticity: &Elasticity,
+    _: &Geometry,
+    _: &ContactPlace,
+) -> Result<(f64, f64), Refusal> {
+    Ok((2.0 * plane_strain_compliance(elasticity) / PI, 0.0))
 }

@@ -4,11 +4,11 @@ use std::f64::consts::PI;
 
 use super::{ContactModel, at_impact, plane_strain_compliance};
 use crate::model::Refusal;
-use crate::model::compliance::ContactPlace;
+use crate::model::compliance::{ContactPlace, Elasticity};
 use crate::model::explanation::Formula::Text;
 use crate::model::explanation::Step;
 use crate::model::geometry::Geometry;
-use crate::model::inputs::{ContactCompliance, Inputs};
+use crate::model::inputs::ContactCompliance;
 
 /// The row of the list.
 pub(super) const MODEL: ContactModel = ContactModel {
@@ -49,12 +49,16 @@ impl ContactCompliance {
     clippy::unnecessary_wraps,
     reason = "every model of the list has one signature"
 )]
-fn logarithmic(inputs: &Inputs, _: &Geometry, _: &ContactPlace) -> Result<(f64, f64), Refusal> {
+fn logarithmic(
+    elasticity: &Elasticity,
+    _: &Geometry,
+    _: &ContactPlace,
+) -> Result<(f64, f64), Refusal> {
     const CONSTANT: f64 = 1.27;
     const FACTOR: f64 = 0.781;
-    let give = plane_strain_compliance(inputs);
+    let give = plane_strain_compliance(elasticity);
     Ok((
-        give / PI * (CONSTANT + FACTOR * inputs.module.ln()),
+        give / PI * (CONSTANT + FACTOR * elasticity.driver.rack.module.ln()),
         give / PI * FACTOR,
     ))
 }

@@ -4,12 +4,12 @@ use std::f64::consts::PI;
 
 use super::{ContactModel, at_impact, give, place_at_d};
 use crate::model::Refusal;
-use crate::model::compliance::ContactPlace;
-use crate::model::compliance::profile::Profile;
+use crate::model::compliance::profile::{Profile, Rack};
+use crate::model::compliance::{ContactPlace, ElasticGear, Elasticity};
 use crate::model::explanation::Formula::{Text, Words};
 use crate::model::explanation::Step;
 use crate::model::geometry::Geometry;
-use crate::model::inputs::{ContactCompliance, Gear, Inputs};
+use crate::model::inputs::ContactCompliance;
 
 /// The row of the list.
 #[rustfmt::skip]
@@ -33,7 +33,7 @@ pub(super) const MODEL: ContactModel = ContactModel {
             unit: "mm",
             formula: Words("from the tooth profile"),
             value: |k| {
-                let profile = Profile::of(k.inputs, &k.inputs.driver, &k.solution.geometry.driver);
+                let profile = Profile::of(&Rack::of(k.inputs, &k.inputs.driver), &k.solution.geometry.driver);
                 Some(profile.depth_along_force(place_at_d(k)?.radius_driver))
             },
         },
@@ -43,7 +43,7 @@ pub(super) const MODEL: ContactModel = ContactModel {
             unit: "mm",
             formula: Words("from the tooth profile"),
             value: |k| {
-                let profile = Profile::of(k.inputs, &k.inputs.driven, &k.solution.geometry.driven);
+                let profile = Profile::of(&Rack::of(k.inputs, &k.inputs.driven), &k.solution.geometry.driven);
                 Some(profile.depth_along_force(place_at_d(k)?.radius_driven))
             },
         },
@@ -74,11 +74,11 @@ impl ContactCompliance {
 /// # Errors
 /// [`Refusal::PointedTip`] where no tooth is left at the load point.
 fn weber(
-    inputs: &Inputs,
+    elasticity: &Elasticity,
     geometry: &Geometry,
     place: &ContactPlace,
 ) -> Result<(f64, f64), Refusal> {
-    let of = |gear: &Gear, depth: f64| {
+    let of = |gear: &ElasticGear, depth: f64| {
         let scale = give(gear) / PI;
         (
             scale * (2.0 * (2.0 * depth).ln() - gear.poisson / (1.0 - gear.poisson)),
@@ -86,14 +86,17 @@ fn weber(
         )
     };
     let driver = depth(
-        &Profile::of(inputs, &inputs.driver, &geometry.driver),
+        &Profile::of(&elasticity.driver.rack, &geometry.driver),
         place.radius_driver,
     )?;
     let driven = depth(
-        &Profile::of(inputs, &inputs.driven, &geometry.driven),
+        &Profile::of(&elasticity.driven.rack, &geometry.driven),
         place.radius_driven,
     )?;
-    let (first, second) = (of(&inputs.driver, driver), of(&inputs.driven, driven));
+    let (first, second) = (
+        of(&elasticity.driver, driver),
+        of(&elasticity.driven, driven),
+    );
     Ok((first.0 + second.0, first.1 + second.1))
 }
 

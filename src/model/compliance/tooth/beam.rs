@@ -4,7 +4,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::{Compliance, ToothModel};
 use crate::model::Refusal;
-use crate::model::compliance::profile::{Profile, Section};
+use crate::model::compliance::ElasticGear;
+use crate::model::compliance::profile::{Profile, Rack, Section};
 use crate::model::explanation::Formula::Words;
 use crate::model::explanation::{Context, Finding, Step, four};
 use crate::model::geometry::{Circles, Geometry};
@@ -78,19 +79,18 @@ const TOLERANCE: f64 = 1e-11;
 /// [`Refusal::PointedTip`] where no tooth is left at the load point, [`Refusal::BelowFormCircle`]
 /// where the load point lies on the fillet, [`Refusal::CutThrough`] where the undercut leaves no
 /// neck.
-pub fn tooth(inputs: &Inputs, gear: &Gear, circles: &Circles, radius: f64) -> Result<f64, Refusal> {
-    tooth_within(inputs, gear, circles, radius, TOLERANCE)
+pub fn tooth(gear: &ElasticGear, circles: &Circles, radius: f64) -> Result<f64, Refusal> {
+    tooth_within(gear, circles, radius, TOLERANCE)
 }
 
 /// The same, by a quadrature of some relative tolerance.
 fn tooth_within(
-    inputs: &Inputs,
-    gear: &Gear,
+    gear: &ElasticGear,
     circles: &Circles,
     radius: f64,
     tolerance: f64,
 ) -> Result<f64, Refusal> {
-    let profile = Profile::of(inputs, gear, circles);
+    let profile = Profile::of(&gear.rack, circles);
     let roll = profile.roll_at(radius);
     if roll <= profile.junction.roll {
         return Err(Refusal::BelowFormCircle {
@@ -123,7 +123,7 @@ fn tooth_within(
         Ok(compliance)
     } else {
         Err(Refusal::CutThrough {
-            shift: gear.profile_shift,
+            shift: gear.rack.profile_shift,
         })
     }
 }
@@ -216,7 +216,7 @@ impl Foundation {
     fn of(inputs: &Inputs, gear: &Gear, circles: &Circles) -> Foundation {
         Foundation {
             body: circles.root / gear.bore_radius,
-            angle: Profile::of(inputs, gear, circles).root_half_angle(),
+            angle: Profile::of(&Rack::of(inputs, gear), circles).root_half_angle(),
         }
     }
 
@@ -252,7 +252,7 @@ impl Foundation {
 /// formula holds the body at its bore and contains its windup about it, which grows as h². A gear
 /// without a bore is taken as one with its shaft, held at a third of the root radius: an
 /// assumption, h = 3.
-fn foundation(profile: &Profile, gear: &Gear, circles: &Circles, angle: f64) -> f64 {
+fn foundation(profile: &Profile, gear: &ElasticGear, circles: &Circles, angle: f64) -> f64 {
     const L: [f64; 6] = [-5.574e-5, -1.9986e-3, -2.3015e-4, 4.7702e-3, 0.0271, 6.8045];
     const M: [f64; 6] = [60.111e-5, 28.100e-3, -83.431e-4, -9.9256e-3, 0.1624, 0.9086];
     const P: [f64; 6] = [-50.952e-5, 185.50e-3, 0.0538e-4, 53.300e-3, 0.2895, 0.9236];
@@ -289,7 +289,7 @@ mod tests {
         for (shift, whole) in [(-0.2, true), (-0.64, false)] {
             inputs.driver.profile_shift = shift;
             let circles = geometry::<f64>(&inputs.shape()).unwrap().driver;
-            let found = tooth(&inputs, &inputs.driver, &circles, circles.tip);
+            let found = tooth(&inputs.elasticity().driver, &circles, circles.tip);
             assert_eq!(found.is_ok(), whole, "x {shift}: {found:?}");
             assert!(
                 whole || matches!(found, Err(Refusal::CutThrough { .. })),
@@ -323,11 +323,10 @@ mod tests {
             return 0;
         };
         let circles = &geometry.driver;
-        let form = Profile::of(&inputs, &inputs.driver, circles).form_radius();
+        let gear = inputs.elasticity().driver;
+        let form = Profile::of(&gear.rack, circles).form_radius();
         let loads = [0.05, 0.5, 1.0].map(|part| form + part * (circles.tip - form));
-        let by = |radius, tolerance| {
-            tooth_within(&inputs, &inputs.driver, circles, radius, tolerance).ok()
-        };
+        let by = |radius, tolerance| tooth_within(&gear, circles, radius, tolerance).ok();
         let found = loads
             .iter()
             .filter_map(|&radius| Some((by(radius, TOLERANCE)?, by(radius, 1e-15)?)));

@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 
 use super::{Compliance, ToothModel};
 use crate::model::Refusal;
+use crate::model::compliance::ElasticGear;
 use crate::model::explanation::Formula::Text;
 use crate::model::explanation::{Context, Finding, Step, four};
 use crate::model::geometry::{Circles, Geometry};
@@ -152,8 +153,8 @@ fn outside(inputs: &Inputs, _: &Geometry) -> Option<(&'static str, String)> {
 /// # Errors
 /// [`Refusal::TeethOutsideFit`], [`Refusal::ShiftOutsideFit`]; [`Refusal::HeightOutsideFit`] on a
 /// tooth so high that the fit, linear in the height, falls below 0.
-pub fn tooth(inputs: &Inputs, gear: &Gear, circles: &Circles, radius: f64) -> Result<f64, Refusal> {
-    let (least, most) = TEETH;
+pub fn tooth(gear: &ElasticGear, circles: &Circles, radius: f64) -> Result<f64, Refusal> {
+    let (gear, (least, most)) = (&gear.rack, TEETH);
     if !(least..=most).contains(&gear.teeth) {
         return Err(Refusal::TeethOutsideFit { teeth: gear.teeth });
     }
@@ -162,7 +163,7 @@ pub fn tooth(inputs: &Inputs, gear: &Gear, circles: &Circles, radius: f64) -> Re
         return Err(Refusal::ShiftOutsideFit { shift });
     }
     let [a0, a1, a2, a3] = coefficients(gear.teeth);
-    let height = (radius - circles.reference) / ((1.0 + shift) * inputs.module);
+    let height = (radius - circles.reference) / ((1.0 + shift) * gear.module);
     let stiffness = NEWTON_PER_MICRON_MILLIMETRE * (a0 + a1 * shift + (a2 + a3 * shift) * height);
     if stiffness > 0.0 {
         Ok(1.0 / stiffness)
@@ -200,13 +201,9 @@ mod tests {
     fn refuses_a_height_at_which_the_fit_has_no_stiffness() {
         let inputs = standard_pair(59, 15, 5e-3);
         let circles = geometry::<f64>(&inputs.shape()).unwrap().driver;
-        assert!(tooth(&inputs, &inputs.driver, &circles, circles.tip).is_ok());
-        let high = tooth(
-            &inputs,
-            &inputs.driver,
-            &circles,
-            circles.reference + 5.0 * inputs.module,
-        );
+        let gear = inputs.elasticity().driver;
+        assert!(tooth(&gear, &circles, circles.tip).is_ok());
+        let high = tooth(&gear, &circles, circles.reference + 5.0 * inputs.module);
         assert!(
             matches!(high, Err(Refusal::HeightOutsideFit { .. })),
             "{high:?}"

@@ -44,7 +44,7 @@ fn place(known: &Known, pitches: u32) -> Option<ContactPlace> {
 fn ahead(known: &Known, pitches: u32) -> Option<f64> {
     let solution = known.solution;
     pair_at_load(
-        known.inputs,
+        &known.inputs.elasticity(),
         &solution.geometry,
         &place(known, pitches)?,
         solution.mesh_force,
@@ -53,15 +53,20 @@ fn ahead(known: &Known, pitches: u32) -> Option<f64> {
 }
 
 fn teeth_ahead(known: &Known) -> Option<(f64, f64)> {
-    let teeth = Teeth::of(known.inputs, &known.solution.geometry).ok()?;
+    let elasticity = known.inputs.elasticity();
+    let teeth = Teeth::of(&elasticity, &known.solution.geometry).ok()?;
     let teeth = teeth.at(&place(known, 1)?).ok()?;
     Some((teeth.driver, teeth.driven))
 }
 
 fn contact_ahead(known: &Known) -> Option<f64> {
     let solution = known.solution;
-    contact::spring(known.inputs, &solution.geometry, &place(known, 1)?)
-        .ok()?
-        .compliance(solution.mesh_force)
-        .ok()
+    contact::spring(
+        &known.inputs.elasticity(),
+        &solution.geometry,
+        &place(known, 1)?,
+    )
+    .ok()?
+    .compliance(solution.mesh_force)
+    .ok()
 }

@@ -2,7 +2,7 @@
 //! stiffness models.
 
 use super::{step, told};
-use crate::model::compliance::profile::Profile;
+use crate::model::compliance::profile::{Profile, Rack};
 use crate::model::compliance::{ContactPlace, contact};
 use crate::model::explanation::{self, Context};
 use crate::model::impact::HERTZ_PREFACTOR;
@@ -42,9 +42,9 @@ pub(super) static STEPS: &[Step] = &[
             "(1 - ν1²)/(π E1) (2 ln(2 h_1/a_H) - ν1/(1 - ν1)) + (1 - ν2²)/(π E2) (2 ln(2 h_2/a_H) - ν2/(1 - ν2))",
     })), contact_compliance),
     step!("h_1", "from the driver's flank at O1D to its tooth's centre line, along the force", "mm", Words("from the tooth's profile"),
-        |k| Some(Profile::of(k.inputs, &k.inputs.driver, &k.solution.geometry.driver).depth_along_force(place(k)?.radius_driver))),
+        |k| Some(Profile::of(&Rack::of(k.inputs, &k.inputs.driver), &k.solution.geometry.driver).depth_along_force(place(k)?.radius_driver))),
     step!("h_2", "from the driven tip to its tooth's centre line, along the force", "mm", Words("from the tooth's profile"),
-        |k| Some(Profile::of(k.inputs, &k.inputs.driven, &k.solution.geometry.driven).depth_along_force(place(k)?.radius_driven))),
+        |k| Some(Profile::of(&Rack::of(k.inputs, &k.inputs.driven), &k.solution.geometry.driven).depth_along_force(place(k)?.radius_driven))),
     step!("F_fit,log", "by kuang-yang and logarithmic", "N", Words("a solve of its own"), |k| force_by(k, "F_fit,log")),
     step!("F_fit,const", "by kuang-yang and constant", "N", Words("a solve of its own"), |k| force_by(k, "F_fit,const")),
     step!("F_fit,weber", "by kuang-yang and weber", "N", Words("a solve of its own"), |k| force_by(k, "F_fit,weber")),
@@ -74,14 +74,19 @@ fn by_tooth_model(known: &Known, fit: &'static str) -> Formula {
 
 fn place(known: &Known) -> Option<ContactPlace> {
     Some(ContactPlace::at_tip(
-        known.inputs,
+        known.inputs.driven.tip_radius,
         &known.solution.geometry,
         &known.solution.position?.contact,
     ))
 }
 
 fn contact_compliance(known: &Known) -> Option<f64> {
-    let spring = contact::spring(known.inputs, &known.solution.geometry, &place(known)?).ok()?;
+    let spring = contact::spring(
+        &known.inputs.elasticity(),
+        &known.solution.geometry,
+        &place(known)?,
+    )
+    .ok()?;
     spring.compliance(known.solution.impact?.force).ok()
 }
 

@@ -17,8 +17,8 @@ pub(super) static STEPS: &[Step] = &[
     told!("k_E", "stiffness of the incoming pair at E", "N/m", Text("b/q_E")),
     step!("q_E", "compliance of the incoming pair at E, contact under F_0", "um mm/N", Words("the tip on the flank, Eqs. 54-56"), |k| {
         let geometry = &k.solution.geometry;
-        let place = ContactPlace::at_tip(k.inputs, geometry, &tip_at(geometry, 0.0));
-        pair_at_load(k.inputs, geometry, &place, k.solution.mesh_force).ok()
+        let place = ContactPlace::at_tip(k.inputs.driven.tip_radius, geometry, &tip_at(geometry, 0.0));
+        pair_at_load(&k.inputs.elasticity(), geometry, &place, k.solution.mesh_force).ok()
     }),
     step!("x_E", "how far the driver runs ahead while the tooth stands at E", "um", Words("from ΣF = F_0 of all pairs"),
         |k| Some(balance(k.solution.mesh.as_deref()?, 0.0, 0.0).displacement)),
@@ -46,7 +46,8 @@ fn first_contact(known: &Known) -> Option<TipContact> {
 /// What both flanks lack where the driven tip stands.
 fn relief(known: &Known, tip: &TipContact) -> f64 {
     let geometry = &known.solution.geometry;
-    Relief::of(known.inputs, geometry).at(tip.curvature_driver, geometry.driven.tip_curvature)
+    Relief::of(&known.inputs.reliefs(), geometry)
+        .at(tip.curvature_driver, geometry.driven.tip_curvature)
 }
 
 fn mean_stiffness(known: &Known) -> Option<f64> {
@@ -56,7 +57,12 @@ fn mean_stiffness(known: &Known) -> Option<f64> {
     let stiffness = |part: f64| {
         let along = geometry.start + part * (geometry.end - geometry.start);
         let place = ContactPlace::on_line_of_action(geometry, along);
-        let compliance = pair_at_load(inputs, geometry, &place, known.solution.mesh_force);
+        let compliance = pair_at_load(
+            &inputs.elasticity(),
+            geometry,
+            &place,
+            known.solution.mesh_force,
+        );
         inputs.common_width() / compliance.unwrap_or(f64::NAN)
     };
     Some(quadrature::adaptive(0.0, 1.0, TOLERANCE, stiffness))

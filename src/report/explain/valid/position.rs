@@ -1,7 +1,7 @@
 //! Ranges of the first contact D.
 
 use super::{Finding, finding, four, micro, mm};
-use crate::model::compliance::profile::Profile;
+use crate::model::compliance::profile::{Profile, Rack};
 use crate::report::explain::context::Known;
 
 /// The tip has closed the gap that it has to close.
@@ -29,7 +29,7 @@ pub(in crate::report::explain) fn gap_closed(known: &Known) -> Option<Finding> {
 pub(in crate::report::explain) fn on_flank(known: &Known) -> Option<Finding> {
     let circles = &known.solution.geometry.driver;
     let radius = known.solution.position?.contact.radius_driver;
-    let form = Profile::of(known.inputs, &known.inputs.driver, circles).form_radius();
+    let form = Profile::of(&Rack::of(known.inputs, &known.inputs.driver), circles).form_radius();
     let here = format!("{} <= {} <= {}", mm(form), mm(radius), mm(circles.tip));
     finding(
         "D on the driver's involute: form circle <= O1D <= r_a1",
