@@ -69,7 +69,7 @@ fn over_the_cases_it_takes_the_method_that_a_trade_recommends_at_its_cost() {
             patience: Patience::ONCE,
         };
         let trade = trade(&inputs, &question, &|| true, &mut |_| ()).expect("a trade");
-        let best = &trade.settings[trade.recommended.expect("one qualifies")];
+        let best = &trade.settings[trade.cheapest.expect("one qualifies")];
         let recommended = best.setting.method;
         let chosen = solved(&inputs).expect("a solution");
         let name = format!(

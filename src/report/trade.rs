@@ -56,7 +56,7 @@ fn heading(told: &Told<'_>) -> Vec<String> {
         [
             sanitize(told.name).as_str(),
             "·",
-            "speed against accuracy, measured here and now",
+            "accuracy against run time, measured on this machine",
         ],
         WIDTH,
     ));
@@ -65,14 +65,16 @@ fn heading(told: &Told<'_>) -> Vec<String> {
 
 fn reference(trade: &Trade) -> Vec<String> {
     let sentence = match &trade.reference {
-        Err(refusal) => format!("No reference: the method dynamic refuses the case: {refusal}."),
+        Err(refusal) => format!("No reference: method dynamic refuses the case: {refusal}."),
         Ok(reference) => {
             let check = match &reference.disagreement {
                 Ok(off) => format!(
-                    "a second way is within {:.0e} of it",
+                    "a second integration method differs by at most {:.0e}",
                     greatest(off).unwrap_or(0.0)
                 ),
-                Err(refusal) => format!("it could not be checked by a second way: {refusal}"),
+                Err(refusal) => {
+                    format!("a second integration method could not check it: {refusal}")
+                }
             };
             format!("Reference: {}; {check}.", reference.setting)
         }
@@ -80,24 +82,15 @@ fn reference(trade: &Trade) -> Vec<String> {
     flow(sentence.split(' '), WIDTH)
 }
 
-/// What every method says where no tooth strikes.
-pub const ON_TIME: &str = "No tooth strikes, by every method";
+/// The conclusion where no method finds corner contact.
+pub const NO_CONTACT: &str = "No method finds corner contact: no setting is recommended";
 
-/// What no method in closed form says there.
-const CARRIED: &str = "What the teeth carry in the mesh, static and dynamic tell.";
-
-/// What to take, in a sentence.
+/// The recommendation in a sentence.
 #[must_use]
 pub fn conclusion(trade: &Trade) -> String {
     let within = percent(trade.within);
-    match trade.recommended.and_then(|at| trade.settings.get(at)) {
-        Some(measured) if trade.comes_in_on_time() => {
-            let Measured { setting, .. } = measured;
-            format!(
-                "{ON_TIME}: the cheapest that says so is {setting}, {}. {CARRIED}",
-                duration(measured.seconds())
-            )
-        }
+    match trade.recommended() {
+        _ if trade.is_without_contact() => format!("{NO_CONTACT}."),
         Some(measured) => format!("Within {within} %: {}", summary(measured)),
         None => format!("Within {within} %: none"),
     }
@@ -247,8 +240,7 @@ pub fn write_json(told: &Told<'_>, out: &mut dyn Write) -> io::Result<()> {
             .map(|measured| setting_line(trade, measured))
             .collect(),
         recommended: trade
-            .recommended
-            .and_then(|at| trade.settings.get(at))
+            .recommended()
             .map(|measured| setting_line(trade, measured)),
     };
     write_line(&line, out)

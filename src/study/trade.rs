@@ -43,7 +43,7 @@ pub struct Trade {
     /// Each method's best setting against the reference: what its physics leaves out.
     pub models: Vec<Model>,
     /// The place of the cheapest setting that qualifies.
-    pub recommended: Option<usize>,
+    pub cheapest: Option<usize>,
 }
 
 /// The answer that counts as true.
@@ -216,7 +216,7 @@ impl Standards {
             part: 0.0,
             reference,
             models,
-            recommended: None,
+            cheapest: None,
         };
         Ok((trade, Standards { truth, best }))
     }
@@ -268,9 +268,17 @@ impl Trade {
         self.models.iter().find(|model| model.method == method)
     }
 
-    /// Whether no tooth strikes, by every method that solves the case.
+    /// The cheapest setting that qualifies, or none where no method finds corner contact: there is
+    /// no force whose error a setting could reduce.
     #[must_use]
-    pub fn comes_in_on_time(&self) -> bool {
+    pub fn recommended(&self) -> Option<&Measured> {
+        let cheapest = self.cheapest.filter(|_| !self.is_without_contact());
+        cheapest.and_then(|at| self.settings.get(at))
+    }
+
+    /// Whether every method that solves the case finds no corner contact.
+    #[must_use]
+    pub fn is_without_contact(&self) -> bool {
         let mut outcomes = self
             .models
             .iter()
@@ -292,13 +300,13 @@ impl Trade {
                     .any(|other| dominates(other, &point))
             });
         }
-        self.recommended = self.cheapest();
+        self.cheapest = self.find_cheapest();
     }
 
     /// The cheapest setting that qualifies of the methods among which `auto` chooses: what that
     /// takes is one of the others, and `paper` is the print, which says no more than `exact` even
     /// where nothing strikes. Of those whose times cannot be told apart from it, the most accurate.
-    fn cheapest(&self) -> Option<usize> {
+    fn find_cheapest(&self) -> Option<usize> {
         let is_candidate = |measured: &&Measured| {
             measured.qualifies && auto::METHODS.contains(&measured.setting.method)
         };

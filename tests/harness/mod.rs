@@ -232,7 +232,7 @@ pub(crate) fn time_evenly(desk: &mut Desk) {
         };
     }
     trade.judge();
-    traded.marked = trade.recommended.map(|at| trade.settings[at].setting);
+    traded.marked = trade.recommended().map(|measured| measured.setting);
 }
 
 fn measured(measuring: Measuring) -> Vec<Action> {

@@ -6,7 +6,7 @@ use crate::study::trade::{Differences, METHODS, Measured, Subject, Trade, greate
 
 /// What each method leaves out, a line a subject.
 pub(super) fn models(trade: &Trade) -> Vec<String> {
-    let title = "What a method leaves out: its best setting against the reference, in %";
+    let title = "Model error: the best setting of each method against the reference, in %";
     let head = row("", METHODS.map(|method| method.name().to_owned()));
     let lines = Subject::ALL.into_iter().filter_map(|subject| {
         let cells = METHODS.map(|method| model_off(trade, method)[subject as usize]);
@@ -24,9 +24,9 @@ fn row<const N: usize>(label: &str, cells: [String; N]) -> String {
 
 /// Every setting with time and errors; those that refuse the case with the reason.
 pub(super) fn settings(trade: &Trade) -> Vec<String> {
-    let title = "Settings, with the greatest errors in %: of the numbers and of the curve, read linearly, against the \
-        method's best setting; of the model, as above; in total against the reference. * none is both nearer and quicker, \
-        > the case's own.";
+    let title = "Settings, with the greatest errors in %. numbers and curve: against the best setting of the same \
+        method. model: as above. total: against the reference. *: no other setting is both faster and more accurate. \
+        >: the setting of the case.";
     let head = format!(
         "  {:<16}{:>5}{:>7}{:>9}{:>7}{:>9}{:>9}{:>8}{:>8}",
         "method", "stat.", "tol.", "time", "spread", "numbers", "curve", "model", "total"

@@ -87,10 +87,7 @@ pub(super) fn measured(app: &mut App, measured: Measured) {
     }
     let recommended = app.traded_of(serial).and_then(|traded| {
         let trade = traded.trade.as_ref()?;
-        let setting = trade
-            .recommended
-            .and_then(|at| trade.settings.get(at))
-            .map(|measured| measured.setting);
+        let setting = trade.recommended().map(|measured| measured.setting);
         traded.marked = traded.marked.or(setting);
         Some(conclusion(trade))
     });

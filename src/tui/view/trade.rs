@@ -7,7 +7,7 @@ use ratatui::style::Style;
 use super::{text, titled};
 use crate::model::inputs::Method;
 use crate::report::trade::plot::{Axis, shown, time};
-use crate::report::trade::{ON_TIME, parts, percent, summary};
+use crate::report::trade::{NO_CONTACT, parts, percent, summary};
 use crate::study::trade::{METHODS, Measured, Setting, Trade};
 use crate::tui::app::App;
 use crate::tui::pane::Pane;
@@ -19,8 +19,8 @@ const LABEL: u16 = 9;
 const TALL: u16 = 8;
 /// The line of the error that is good enough.
 const LEVEL: &str = "╌";
-const INVITATION: &str = "Nothing is measured yet: m measures every method by its settings on this case, for a few seconds; \
-    Esc stops it, and what was measured stays. Enter then makes the marked setting the case's.";
+const INVITATION: &str = "No benchmark yet: m runs every method with its settings on this case for a few seconds. Esc stops the \
+    benchmark and keeps its results. Enter then applies the selected setting to the case.";
 
 /// Draw the pane.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
@@ -34,7 +34,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         .and_then(|traded| Some((traded, traded.trade.as_ref()?)));
     let Some((traded, trade)) = traded.filter(|(_, trade)| !trade.settings.is_empty()) else {
         let words = if app.traded.is_some() {
-            "The reference is computed first."
+            "Computing the reference."
         } else {
             INVITATION
         };
@@ -67,11 +67,11 @@ fn title(app: &App) -> String {
             .map_or(true, |inputs| traded.is_stale(&inputs))
     });
     let stale = if stale {
-        "AS IT WAS, m measures anew: "
+        "OUTDATED, m runs it again: "
     } else {
         ""
     };
-    format!("{stale}Error against time of a solve, both logarithmic")
+    format!("{stale}Accuracy against run time, both logarithmic")
 }
 
 /// The rooms of the legend, of the plot with its axes, and of the words below it.
@@ -111,35 +111,48 @@ fn told(app: &App, traded: &Traded, trade: &Trade) -> Vec<String> {
         .filter(|measured| measured.found.is_err())
         .count();
     let refused = (refused > 0).then(|| format!("; {refused} settings refuse the case"));
+    let without_contact = trade.is_without_contact().then(|| NO_CONTACT.to_owned());
     let Some(measured) = marked else {
         let far = format!(
             "{} of {} settings measured",
             trade.settings.len(),
             trade.planned
         );
-        return std::iter::once(far).chain(refused).collect();
+        let far = match &without_contact {
+            Some(_) => format!("; {far}"),
+            None => far,
+        };
+        return without_contact
+            .into_iter()
+            .chain([far])
+            .chain(refused)
+            .collect();
     };
     let qualifies = if measured.qualifies {
         "within"
     } else {
         "not within"
     };
-    let on_time = if trade.comes_in_on_time() {
-        format!("{ON_TIME}: ")
-    } else {
-        String::new()
-    };
     let qualifies = format!(" {qualifies} {} %", percent(trade.within));
-    let own = (own(app) == Some(measured.setting)).then(|| "; it is the case's own".to_owned());
+    let own = (own(app) == Some(measured.setting)).then(|| "; setting of the case".to_owned());
     let front = measured
         .is_on_front
-        .then(|| "; none is both nearer and quicker".to_owned());
+        .then(|| "; no other setting is both faster and more accurate".to_owned());
     let parts = parts(trade, measured).map(|parts| format!("; {parts}"));
-    let first = format!("{on_time}[{}]", summary(measured));
-    [Some(first), Some(qualifies), own, parts, front, refused]
-        .into_iter()
-        .flatten()
-        .collect()
+    let without_contact = without_contact.map(|words| format!("; {words}"));
+    let first = format!("[{}]", summary(measured));
+    [
+        Some(first),
+        Some(qualifies),
+        without_contact,
+        own,
+        parts,
+        front,
+        refused,
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 /// As much of it as has room in that many lines, so that nothing is cut.
@@ -163,11 +176,11 @@ pub fn signs(app: &App) -> String {
         .and_then(|traded| traded.trade.as_ref())
         .map(|trade| percent(trade.within));
     let level = within.map_or_else(String::new, |within| {
-        format!("; {LEVEL} {within} % is near enough")
+        format!("; {LEVEL} tolerance {within} %")
     });
     format!(
-        "p paper, e exact, s static, d dynamic, a auto; CAPITAL, ·: none is nearer and quicker; (x) the case's own, \
-         [x] the marked one{level}."
+        "p paper, e exact, s static, d dynamic, a auto; CAPITAL, ·: no other setting is both faster and more accurate; \
+         (x) setting of the case, [x] selected{level}."
     )
 }
 
@@ -204,8 +217,8 @@ fn draw_legend(app: &App, trade: &Trade, area: Rect, buffer: &mut Buffer) {
     let within = format!("{LEVEL}{LEVEL} within {} %", percent(trade.within));
     let writing = [
         "CAPITAL on the front".to_owned(),
-        "(own)".to_owned(),
-        "[marked]".to_owned(),
+        "(case)".to_owned(),
+        "[selected]".to_owned(),
         within,
     ];
     let mut x = area.x + 1;
