@@ -18,14 +18,15 @@ use std::path::PathBuf;
 const CSV_SHAPE: &str = "CSV is in SI units: a row a case with a column a quantity, such as `impact_force [N]`; with --stations \
     instead a row a station. JSON is an object a case, one a line, in SI units; what does not exist is absent.";
 
-const CHECK_SHAPE: &str = "A limit keeps its meaning in every method: one on impact_force is held against the free impact in closed \
-    form, and what static or dynamic itself finds stands beside it, with the quantity to limit for that. Where nothing strikes, a \
-    limit on the impact holds. Where its quantity has no value, as one of another method, it does not, and the line says why. JSON \
-    is an object a verdict, in SI units.";
+const CHECK_SHAPE: &str = "A limit keeps its meaning in every method: a limit on impact_force applies to the free impact in closed \
+    form, and the verdict also gives the counterpart of static or dynamic, which can have a limit of its own. Without corner contact \
+    a limit on the impact is met. A limit on a quantity without a value is not met, and the line gives the reason. JSON: one object \
+    per verdict, in SI units.";
 
-const TRADE_SHAPE: &str = "Each setting is timed here and now, and its first contact, forces and curve are held against the method \
-    dynamic at its finest: the greatest relative difference is its total error, what the same method at its finest leaves of it is \
-    the model's, the rest numerical. JSON is one object in SI units; what does not exist is absent.";
+const TRADE_SHAPE: &str = "Each setting is timed on this machine. Its total error is the greatest relative difference of first contact, \
+    forces and curve from the finest setting of method dynamic. The model error is that of the finest setting of the same method; \
+    the rest is numerical. Where no method finds corner contact, no setting is recommended. JSON is one object in SI units; missing \
+    values are absent.";
 
 /// Corner contact in spur gear pairs: where, how hard and how long an incoming tooth strikes
 #[derive(Debug, Parser)]
@@ -42,13 +43,13 @@ pub struct Arguments {
 /// A headless command.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Solve cases and tell what was found
+    /// Solve cases and print the results
     Solve(Solve),
-    /// Hold each case's [limits] against its results, a verdict a line
+    /// Check each case's [limits] against its results, one verdict per line
     Check(Check),
     /// Explain a quantity of a case: formula, numbers, source, range, and what it depends on
     Explain(Explain),
-    /// Measure, here and now, speed against accuracy of every method on a case
+    /// Measure accuracy against run time of every method on a case, on this machine
     Trade(Trading),
     /// List every field of a case with its unit, range, default and meaning
     Fields(Fields),
@@ -98,11 +99,11 @@ pub struct Solve {
     /// What differs from the case
     #[command(flatten)]
     pub changes: Changes,
-    /// Tell these quantities alone, and run no more than they need; `tipstrike fields --results`
-    /// lists them
-    #[arg(long, value_name = "QUANTITY,...", value_delimiter = ',', hide_possible_values = true, value_parser = Quantities)]
-    pub only: Vec<&'static Quantity>,
-    /// Tell the stations as well, in this many intervals between D and E, or auto
+    /// Print these quantities alone, by name or symbol, and run only the stages that they need;
+    /// `tipstrike fields --results` lists them
+    #[arg(long, value_name = "QUANTITY,...", hide_possible_values = true, value_parser = QuantityList)]
+    pub only: Vec<Vec<&'static Quantity>>,
+    /// Print the stations as well, in this many intervals between D and E, or auto
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = station_count)]
     pub stations: Option<String>,
     /// How to tell it
@@ -257,8 +258,7 @@ fn methods() -> impl TypedValueParser<Value = Method> {
     })
 }
 
-/// Quantities by their names, or by symbols that are of one alone; else a symbol or a slip is told
-/// the name that is meant.
+/// A quantity by its name or its symbol.
 #[derive(Clone)]
 struct Quantities;
 
@@ -288,6 +288,49 @@ impl TypedValueParser for Quantities {
                 .map(|quantity| PossibleValue::new(quantity.key)),
         ))
     }
+}
+
+/// Quantities with commas between them; a comma may be part of a symbol, as in `F_d,max`.
+#[derive(Clone)]
+struct QuantityList;
+
+impl TypedValueParser for QuantityList {
+    type Value = Vec<&'static Quantity>;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<Self::Value, Error> {
+        let text = value.to_string_lossy();
+        let one = |name: &String| Quantities.parse_ref(command, argument, OsStr::new(name));
+        names(&text).iter().map(one).collect()
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Quantities.possible_values()
+    }
+}
+
+/// The names in a list: a part that continues a symbol joins the part before it.
+fn names(list: &str) -> Vec<String> {
+    let is_symbol = |name: &str| {
+        let mut symbols = QUANTITIES.iter().map(|quantity| quantity.symbol);
+        symbols.any(|symbol| symbol.eq_ignore_ascii_case(name))
+    };
+    let mut names: Vec<String> = Vec::new();
+    for part in list.split(',').map(str::trim) {
+        let joined = names.last().map(|before| format!("{before},{part}"));
+        match joined.filter(|joined| is_symbol(joined)) {
+            Some(joined) => {
+                names.pop();
+                names.push(joined);
+            }
+            None => names.push(part.to_owned()),
+        }
+    }
+    names
 }
 
 /// A field and its value, each on its own as it should be.
@@ -356,6 +399,16 @@ mod tests {
     #[test]
     fn the_shape_is_sound() {
         Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn a_comma_in_a_symbol_does_not_end_a_name() {
+        assert_eq!(
+            names("F_d,max, F_d,DE,impact_force,F_S,T_S,32"),
+            ["F_d,max", "F_d,DE", "impact_force", "F_S", "T_S,32"]
+        );
+        let list = QUANTITIES.iter().map(|quantity| quantity.symbol);
+        assert!(list.clone().eq(names(&list.collect::<Vec<_>>().join(","))));
     }
 
     #[test]

@@ -40,7 +40,7 @@ fn settings(options: &Solve) -> Vec<Setting> {
 
 fn selection(options: &Solve) -> Selection {
     let mut only: Vec<&'static Quantity> = Vec::new();
-    for &quantity in &options.only {
+    for &quantity in options.only.iter().flatten() {
         if only.iter().all(|known| known.key != quantity.key) {
             only.push(quantity);
         }

@@ -286,7 +286,7 @@ fn difference(mesh: &Mesh, still: &StaticLoad, moved: &Dynamic) -> f64 {
 
 impl fmt::Display for Choice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "auto took {}: {}", self.method.name(), self.reason)?;
+        write!(f, "auto chose {}: {}", self.method.name(), self.reason)?;
         self.inertia.map_or(Ok(()), |inertia| {
             write!(f, ", and inertia {inertia} of the shared load")
         })
@@ -300,7 +300,7 @@ impl fmt::Display for Inertia {
             Inertia::AtMost(most) => write!(f, "changes at most {} %", percent(most)),
             Inertia::AtLeast(least) => write!(f, "changes at least {} %", percent(least)),
             Inertia::Between(least, _) => write!(f, "changes {} % or more", percent(least)),
-            Inertia::Tried(adds) => write!(f, "changes {} %, by a trial,", percent(adds)),
+            Inertia::Tried(adds) => write!(f, "changes {} % (by trial)", percent(adds)),
         }
     }
 }
@@ -310,20 +310,20 @@ impl fmt::Display for Reason {
         let micro = |time: f64| significant(time * 1e6, 4);
         match self {
             Reason::NoContact => {
-                f.write_str("the tooth comes in on time, by more than the mesh swings")
+                f.write_str("no contact before E, with a gap wider than the mesh oscillation")
             }
-            Reason::BarelyOnTime => {
-                f.write_str("the tooth comes in on time, but by less than the mesh swings")
-            }
+            Reason::BarelyOnTime => f.write_str(
+                "no contact before E, but with a gap narrower than the mesh oscillation",
+            ),
             Reason::FreeImpact => {
-                f.write_str("the impact is over before E, and the load adds little to it")
+                f.write_str("the impact ends before E, and the load adds little to it")
             }
-            Reason::Refused => f.write_str("the closed form has no answer"),
+            Reason::Refused => f.write_str("the closed form has no solution"),
             Reason::ContactLost => f.write_str("the pair ahead loses contact"),
             Reason::Outlasts(lasts, way) => {
                 write!(
                     f,
-                    "the impact lasts {} us and D to E only {} us",
+                    "the impact lasts {} us, longer than the {} us from D to E",
                     micro(*lasts),
                     micro(*way)
                 )
@@ -331,7 +331,7 @@ impl fmt::Display for Reason {
             Reason::Impulse(ratio) => write!(f, "the impulse ratio is {}", significant(*ratio, 4)),
             Reason::LoadShared(part) => write!(
                 f,
-                "the load shared is {} of the impact force",
+                "the shared load is {} of the impact force",
                 significant(*part, 3)
             ),
         }

@@ -27,7 +27,7 @@ pub enum Refusal {
         is_distance_given: bool,
     },
     /// No involute is left at the tip.
-    #[error("the tip lies inside the base circle: its radius is {:.4} mm and must be above {:.4} mm", .tip / MILLIMETRE, .base / MILLIMETRE)]
+    #[error("the tip is inside the base circle: its radius is {:.4} mm and must be above {:.4} mm", .tip / MILLIMETRE, .base / MILLIMETRE)]
     TipInsideBase {
         /// r_a, in m.
         tip: f64,
@@ -85,7 +85,7 @@ pub enum Refusal {
         deviation: f64,
     },
     /// The driver's flank ends before D.
-    #[error("D lies beyond the driver's tip: O1D is {:.4} mm and ra1 is {:.4} mm", .radius / MILLIMETRE, .tip / MILLIMETRE)]
+    #[error("D is beyond the driver's tip: O1D is {:.4} mm and ra1 is {:.4} mm", .radius / MILLIMETRE, .tip / MILLIMETRE)]
     BeyondDriverTip {
         /// O₁D, in m.
         radius: f64,
@@ -144,7 +144,7 @@ pub enum Refusal {
         start: f64,
     },
     /// The pairs yield so far that a tip would leave the other flank.
-    #[error("the teeth do not hold the load: the pairs yield further than their flanks reach")]
+    #[error("the teeth cannot carry the load: the pairs deflect further than their flanks reach")]
     BeyondReach,
     /// Friction alone would hold the gears.
     #[error(
@@ -158,7 +158,7 @@ pub enum Refusal {
     },
     /// The mesh swings too often while a tooth passes.
     #[error(
-        "too slow to be followed: the mesh swings {swings:.2e} times on the way, and the limit is {limit:.0e}"
+        "too slow for method dynamic: the mesh oscillates {swings:.2e} times while a tooth passes, and the limit is {limit:.0e}"
     )]
     TooSlow {
         /// Swings of the mesh on the way.
@@ -167,10 +167,10 @@ pub enum Refusal {
         limit: f64,
     },
     /// The steps of the motion come to no end.
-    #[error("the motion does not settle: contacts are made and lost without end")]
+    #[error("the motion does not settle: the teeth touch and separate without end")]
     Unsettled,
     /// No relief keeps the incoming tooth from touching before E.
-    #[error("the tooth touches before E with up to {:.4} um more tip relief of the driven gear", .most / MICROMETRE)]
+    #[error("the tooth touches before E even with {:.4} um more tip relief of the driven gear", .most / MICROMETRE)]
     NoClearing {
         /// The most that was tried, in m.
         most: f64,
@@ -233,7 +233,7 @@ impl Refusal {
             Refusal::NoPath { .. } => (
                 "no-path",
                 "driven.tip_chamfer",
-                "take less off the tips, or bring the gears closer",
+                "reduce the tip chamfers, or bring the gears closer",
             ),
             Refusal::TipInsideBase { .. } => (
                 "tip-inside-base",
@@ -264,7 +264,7 @@ impl Refusal {
                 if *is_deflection_taken {
                     "lengthen the addenda or bring the gears closer, or give model.deflection"
                 } else {
-                    "lengthen the addenda or bring the gears closer; a deflection that is given counts in paper and exact alone"
+                    "lengthen the addenda or bring the gears closer; only paper and exact use a given deflection"
                 },
             ),
             Refusal::BoreTooLarge { field, .. } => {
@@ -328,7 +328,7 @@ impl Refusal {
             Refusal::TooSlow { .. } => (
                 "too-slow",
                 "model.method",
-                "set model.method to static: so slowly the mesh follows the load at rest",
+                "set model.method to static: at this speed the pairs share the load as at rest",
             ),
             Refusal::Unsettled => (
                 "unsettled",
@@ -340,7 +340,7 @@ impl Refusal {
                 "model.damping_ratio",
                 "give a greater damping ratio, a smaller deviation or another speed",
             ),
-            Refusal::Stopped => ("stopped", "model.method", "ask again"),
+            Refusal::Stopped => ("stopped", "model.method", "start it again"),
             Refusal::HertzWidthTooLarge { .. } => (
                 "hertz-width",
                 "driver.face_width",

@@ -55,7 +55,7 @@ impl Quantity {
     #[must_use]
     pub fn label_in(&self, method: Method) -> &'static str {
         if self.leaves_reliefs_out(method) {
-            "error without the reliefs"
+            "error without reliefs"
         } else {
             self.label
         }
@@ -95,13 +95,16 @@ impl Quantity {
         QUANTITIES.iter().find(|quantity| quantity.key == key)
     }
 
-    /// The quantity of that key, or of that symbol where no other has it.
+    /// The quantity of that key, or of that symbol in some method.
     #[must_use]
     pub fn named(name: &str) -> Option<&'static Quantity> {
-        let mut of_symbol = QUANTITIES
-            .iter()
-            .filter(|quantity| quantity.symbol == name && !name.is_empty());
-        Quantity::find(name).or_else(|| of_symbol.next().filter(|_| of_symbol.next().is_none()))
+        let has_symbol = |quantity: &&Quantity| {
+            let mut symbols = Method::ALL
+                .map(|method| quantity.symbol_in(method))
+                .into_iter();
+            symbols.any(|symbol| symbol == name)
+        };
+        Quantity::find(name).or_else(|| QUANTITIES.iter().find(has_symbol))
     }
 }
 
@@ -116,9 +119,8 @@ const FREE_IMPACT: [Stage; 7] = [
     Stage::Stations,
 ];
 
-/// What the closed form tells of the free impact, and what `static` and `dynamic` find in its
-/// place; empty where they do not. What a name goes on with, as in `impact_force_low`, is another
-/// reading of the same.
+/// A quantity of the free impact and its counterparts in `static` and `dynamic`; empty where a
+/// method has none. A suffixed key such as `impact_force_low` is a variant of the same quantity.
 const RESOLVED: [[&str; 3]; 4] = [
     [
         "approach_angle_driven",
@@ -127,8 +129,8 @@ const RESOLVED: [[&str; 3]; 4] = [
     ],
     [
         "approach_angle_driver",
-        "static_first_contact_angle",
-        "dynamic_first_contact_angle",
+        "static_first_contact_angle_driver",
+        "dynamic_first_contact_angle_driver",
     ],
     [
         "impact_force",
@@ -154,6 +156,11 @@ macro_rules! quantity {
     };
 }
 
+/// The driver's angle over the same arc of the base circles, in rad.
+fn of_driver(solution: &Solution, angle_driven: f64) -> f64 {
+    angle_driven * solution.geometry.driven.base / solution.geometry.driver.base
+}
+
 /// Every quantity, in the order a person reads them.
 #[rustfmt::skip]
 pub static QUANTITIES: &[Quantity] = &[
@@ -166,13 +173,13 @@ pub static QUANTITIES: &[Quantity] = &[
     quantity!("modification", "e_m", "modification at run-in", "m", "um", 5, "Eq. 1", Deviation, |s| Some(s.deviation.modification)),
     quantity!("combined_deflection", "δ", "combined deflection", "m", "um", 5, "Eq. 3", Deviation, |s| Some(s.deviation.combined_deflection)),
     quantity!("total_deviation", "Δ", "total deviation", "m", "um", 5, "Eq. 5", Deviation, |s| Some(s.deviation.total)),
-    quantity!("clearing_relief", "ΔC_a2", "least more tip relief", "m", "um", 5, "no touch before E", Clearing, |s| s.clearing?.relief),
+    quantity!("clearing_relief", "ΔC_a2", "additional tip relief", "m", "um", 5, "no touch before E", Clearing, |s| s.clearing?.relief),
     quantity!("approach_angle_driver", "θ_1", "driver angle before E", "rad", "deg", 6, "Eq. 12", Position, |s| Some(s.position?.approach_angle_driver)),
     quantity!("approach_angle_driven", "u", "driven angle before E", "rad", "deg", 6, "Eq. 11", Position, |s| Some(s.position?.approach_angle_driven)),
     quantity!("contact_radius_driver", "O1D", "driver radius at D", "m", "mm", 6, "Eq. 7", Position, |s| Some(s.position?.contact.radius_driver)),
     quantity!("contact_normal_radius_driven", "r_b2'", "normal's radius, driven", "m", "mm", 6, "Eq. 49", Position, |s| Some(s.position?.contact.normal_radius_driven)),
     quantity!("curvature_radius", "ρ_S", "radius of curvature", "m", "mm", 5, "Eq. 32", Position, |s| Some(s.position?.curvature_radius)),
-    quantity!("closed_gap", "S(u)", "gap the tip has closed", "m", "um", 5, "S(u) = Δ", Position, |s| Some(s.position?.closed_gap)),
+    quantity!("closed_gap", "S(u)", "gap closed by the tip", "m", "um", 5, "S(u) = Δ", Position, |s| Some(s.position?.closed_gap)),
     quantity!("transit_time", "t_DE", "time from D to E", "s", "us", 5, "u/ω2", Velocity, |s| Some(s.velocity?.transit_time)),
     quantity!("normal_velocity", "ΔV_n", "approach velocity at D", "m/s", "m/s", 5, "Eq. 21", Velocity, |s| Some(s.velocity?.normal)),
     quantity!("sliding_velocity", "ΔV_τ", "sliding velocity at D", "m/s", "m/s", 5, "Eq. 22", Velocity, |s| Some(s.velocity?.sliding)),
@@ -194,17 +201,44 @@ pub static QUANTITIES: &[Quantity] = &[
     quantity!("stick_limit", "μ_stick", "stick limit", "1", "1", 4, "ΔVτ/(2ΔVn)", Velocity, |s| Some(s.velocity?.stick_limit)),
     quantity!("impulse_ratio", "κ", "impulse ratio", "1", "1", 4, "(2/π)F_S·T_S/(M·ΔV_n)", Impact, |s| Some(s.impact?.impulse_ratio)),
     quantity!("mesh_stiffness", "k_m", "mean mesh stiffness", "N/m", "N/um", 5, "mean of b/q", Mesh, |s| Some(s.mesh.as_ref()?.mean_stiffness)),
-    quantity!("static_first_contact_angle", "u_s", "static: driven before E", "rad", "deg", 6, "ΣF = F0", Static, |s| s.static_load.as_ref()?.first_contact_angle),
-    quantity!("static_force_at_start", "F_s,E", "static: force at E", "N", "N", 5, "ΣF = F0", Static, |s| Some(s.static_load.as_ref()?.force_at_start)),
-    quantity!("static_peak_force", "F_s,max", "static: greatest force", "N", "N", 5, "ΣF = F0", Static, |s| Some(s.static_load.as_ref()?.peak_force)),
-    quantity!("static_last_contact_angle", "θ_s,B", "static: driver after B", "rad", "deg", 6, "ΣF = F0", Static, |s| s.static_load.as_ref()?.last_contact_angle),
-    quantity!("static_transmission_error", "TE_s", "static: transmission error", "m", "um", 5, "max x − min x", Static, |s| Some(s.static_load.as_ref()?.transmission_error)),
+    quantity!("static_first_contact_angle_driver", "θ_st", "static: driver before E", "rad", "deg", 6, "ΣF = F0", Static, |s| Some(of_driver(s, s.static_load.as_ref()?.first_contact_angle?))),
+    quantity!("static_first_contact_angle", "u_st", "static: driven before E", "rad", "deg", 6, "ΣF = F0", Static, |s| s.static_load.as_ref()?.first_contact_angle),
+    quantity!("static_force_at_start", "F_st,E", "static: force at E", "N", "N", 5, "ΣF = F0", Static, |s| Some(s.static_load.as_ref()?.force_at_start)),
+    quantity!("static_peak_force", "F_st,max", "static: peak force", "N", "N", 5, "ΣF = F0", Static, |s| Some(s.static_load.as_ref()?.peak_force)),
+    quantity!("static_last_contact_angle", "θ_st,B", "static: driver after B", "rad", "deg", 6, "ΣF = F0", Static, |s| s.static_load.as_ref()?.last_contact_angle),
+    quantity!("static_transmission_error", "TE_st", "transmission error", "m", "um", 5, "max x − min x", Static, |s| Some(s.static_load.as_ref()?.transmission_error)),
     quantity!("pitch_contact_jump", "ΔF_P", "jump at the pitch point", "N", "N", 4, "μ reverses", Static, |s| s.static_load.as_ref()?.pitch_jump),
+    quantity!("dynamic_first_contact_angle_driver", "θ_d", "dynamic: driver before E", "rad", "deg", 6, "m x'' + ΣF = F0", Dynamic, |s| Some(of_driver(s, s.dynamic.as_ref()?.first_contact_angle?))),
     quantity!("dynamic_first_contact_angle", "u_d", "dynamic: driven before E", "rad", "deg", 6, "m x'' + ΣF = F0", Dynamic, |s| s.dynamic.as_ref()?.first_contact_angle),
     quantity!("dynamic_peak_approach_force", "F_d,DE", "dynamic: peak before E", "N", "N", 5, "m x'' + ΣF = F0", Dynamic, |s| Some(s.dynamic.as_ref()?.peak_approach_force)),
-    quantity!("dynamic_peak_force", "F_d,max", "dynamic: greatest force", "N", "N", 5, "m x'' + ΣF = F0", Dynamic, |s| Some(s.dynamic.as_ref()?.peak_force)),
-    quantity!("dynamic_impact_duration", "T_d", "dynamic: first peak lasts", "s", "us", 4, "m x'' + ΣF = F0", Dynamic, |s| s.dynamic.as_ref()?.impact_duration),
+    quantity!("dynamic_peak_force", "F_d,max", "dynamic: peak force", "N", "N", 5, "m x'' + ΣF = F0", Dynamic, |s| Some(s.dynamic.as_ref()?.peak_force)),
+    quantity!("dynamic_impact_duration", "T_d", "dynamic: impact duration", "s", "us", 4, "m x'' + ΣF = F0", Dynamic, |s| s.dynamic.as_ref()?.impact_duration),
     quantity!("dynamic_last_contact_angle", "θ_d,B", "dynamic: driver after B", "rad", "deg", 6, "m x'' + ΣF = F0", Dynamic, |s| s.dynamic.as_ref()?.last_contact_angle),
     quantity!("dynamic_contact_lost", "lost", "dynamic: contact lost", "1", "yes/no", 1, "no pair touches", Dynamic, |s| Some(f64::from(u8::from(s.dynamic.as_ref()?.contact_lost)))),
     quantity!("dynamic_friction_work", "W_μ", "dynamic: friction work", "J", "J", 5, "∫μ F |v| dt", Dynamic, |s| s.dynamic.as_ref()?.friction_work),
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_two_symbols_differ_by_case_alone() {
+        let symbols = |quantity: &'static Quantity| {
+            Method::ALL.map(|method| (quantity.key, quantity.symbol_in(method)))
+        };
+        let symbols: Vec<_> = QUANTITIES.iter().flat_map(symbols).collect();
+        let stem = |symbol: &'static str| symbol.split(',').next().unwrap_or_default();
+        for (key, symbol) in &symbols {
+            let clash = |(_, theirs): &&(&str, &'static str)| {
+                stem(theirs) != stem(symbol) && stem(theirs).eq_ignore_ascii_case(stem(symbol))
+            };
+            assert_eq!(symbols.iter().find(clash), None, "{key} {symbol}");
+            assert_eq!(
+                Quantity::named(symbol).map(|found| found.key),
+                Some(*key),
+                "{symbol}"
+            );
+        }
+    }
+}

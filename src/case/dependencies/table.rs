@@ -266,6 +266,7 @@ static TABLE: &[Row] = &[
     part("edges", tips_press, &["*.tip_radius"]),
     row("static_first_contact_angle", Static, by_sharing, &["mesh"]),
     row("static_first_contact_angle", Static, tips_press, &["driver.tip_radius"]),
+    row("static_first_contact_angle_driver", Static, by_sharing, &["static_first_contact_angle"]),
     row("static_force_at_start", Static, by_sharing, &["mesh", "edges"]),
     row("static_peak_force", Static, by_sharing, &["mesh", "edges"]),
     row("static_last_contact_angle", Static, by_sharing, &["mesh"]),
@@ -277,6 +278,7 @@ static TABLE: &[Row] = &[
 
     part("motion", with_inertia, &["mesh", "edges", "masses", "operation.speed", "model.damping_ratio", "model.warmup_cycles", "model.tolerance"]),
     row("dynamic_first_contact_angle", Dynamic, always, &["motion"]),
+    row("dynamic_first_contact_angle_driver", Dynamic, always, &["dynamic_first_contact_angle"]),
     row("dynamic_peak_approach_force", Dynamic, always, &["motion"]),
     row("dynamic_peak_force", Dynamic, always, &["motion"]),
     row("dynamic_impact_duration", Dynamic, always, &["motion"]),

@@ -15,7 +15,7 @@ pub(super) fn withheld(_: &Inputs, solution: &Solution) -> Option<Note> {
     Some(Note::new(
         refusal.code(),
         format!(
-            "{refusal}; no force, energy or duration is given: {}",
+            "{refusal}; force, energy and duration are not computed; {}",
             refusal.mend()
         ),
     ))
@@ -26,17 +26,16 @@ pub(super) fn stations_left_out(inputs: &Inputs, solution: &Solution) -> Option<
     let refusal = solution.stations_withheld?;
     let message = match inputs.stations {
         Some(count) => format!(
-            "{} of {} stations are left out: {refusal}",
+            "{} of {} stations are omitted: {refusal}",
             count + 1 - solution.stations.len(),
             count + 1
         ),
-        None => format!("some stations are left out: {refusal}"),
+        None => format!("some stations are omitted: {refusal}"),
     };
     Some(Note::new("stations-left-out", message))
 }
 
-/// The tooth comes in on time, but a little more of the base pitch deviation or of the load would
-/// make it strike.
+/// No contact before E, but slightly more base pitch deviation or load causes corner contact.
 ///
 /// # Formula
 /// ```text
@@ -56,13 +55,13 @@ pub(super) fn barely_clear(inputs: &Inputs, solution: &Solution) -> Option<Note>
         let (clear, now, enough) = (four(clear * MICRO), four(now * MICRO), four(enough * MICRO));
         let load = more_load.map(|part| {
             format!(
-                ", or under about {} % more load",
+                " or the load rises by about {} %",
                 significant(100.0 * part, 2)
             )
         });
         let load = load.unwrap_or_default();
         format!(
-            "the tooth clears by {clear} um only: it strikes from a base pitch deviation of {enough} um on, and {now} um is given{load}"
+            "the tooth clears by only {clear} um: it strikes once f_pb exceeds {enough} um (now {now} um){load}"
         )
     };
     (enough < (1.0 + CLOSE) * now || more_load.is_some())
@@ -76,7 +75,7 @@ pub(super) fn gap_left_open(_: &Inputs, solution: &Solution) -> Option<Note> {
     let message = || {
         let (closed, total) = (four(closed * MICRO), four(total * MICRO));
         format!(
-            "the printed equations put D where the tip has closed {closed} um of the {total} um that it must: angle, velocity and force are too small for that; method exact closes all of it"
+            "the printed equations leave the gap open: at D the tip has closed {closed} um of {total} um, so angle, velocity and force are too small; method exact closes the gap"
         )
     };
     (solution.method == Method::Paper && closed < (1.0 - CLOSED) * total)
@@ -86,7 +85,7 @@ pub(super) fn gap_left_open(_: &Inputs, solution: &Solution) -> Option<Note> {
 /// There is no end of the impact, and so no friction ratio.
 pub(super) fn end_not_found(_: &Inputs, solution: &Solution) -> Option<Note> {
     let is_without = solution.friction?.ratio.is_none();
-    let message = "no friction ratio is given: the triangle of Eq. 34 does not close, and the impact has no end D'".to_owned();
+    let message = "the friction ratio is not computed: the triangle of Eq. 34 does not close, so the impact has no end D'".to_owned();
     (solution.method == Method::Paper && is_without).then(|| Note::new("no-end-of-impact", message))
 }
 
@@ -101,7 +100,7 @@ pub(super) fn outlasting(_: &Inputs, solution: &Solution) -> Option<Note> {
     let message = || {
         let (lasts, way) = (four(duration), four(transit));
         format!(
-            "the impact lasts {lasts} us and D to E only {way} us: it runs on into the normal mesh, which this method does not follow"
+            "the impact lasts {lasts} us, longer than the {way} us from D to E: it continues in the normal mesh, which this method does not compute"
         )
     };
     (duration > transit).then(|| Note::new("impact-outlasts-approach", message()))
@@ -113,7 +112,9 @@ pub(super) fn impulse(_: &Inputs, solution: &Solution) -> Option<Note> {
     let ratio = solution.impact?.impulse_ratio;
     let cause = match solution.method {
         Method::Paper if ratio < 1.0 => "Eq. 32 as printed lacks Hertz's prefactor",
-        Method::Paper => "Eq. 32 is of two spheres, and the force of the teeth's spring",
+        Method::Paper => {
+            "Eq. 32 describes two spheres, but the force follows from the tooth stiffness"
+        }
         _ => "force and duration do not belong to one impact",
     };
     let possible = 1.0 - ROUNDING..=2.0 + ROUNDING;
@@ -154,7 +155,7 @@ pub(super) fn sliding_reverses(inputs: &Inputs, solution: &Solution) -> Option<N
     let message = || {
         let (at_contact, at_start) = (four(at_contact), four(at_start));
         format!(
-            "the sliding velocity is {at_contact} m/s at D and {at_start} m/s at E: it reverses between them"
+            "the sliding velocity changes sign between D ({at_contact} m/s) and E ({at_start} m/s)"
         )
     };
     (at_contact * at_start < 0.0).then(|| Note::new("sliding-reverses", message()))
@@ -170,13 +171,13 @@ pub(super) fn friction(inputs: &Inputs, solution: &Solution) -> Option<Note> {
         (
             "sliding-throughout",
             format!(
-                "below the stick limit {limit}: sliding goes on throughout, and the tangential impulse is {friction} times the normal one"
+                "below the stick limit {limit}: the tip slides throughout the impact, and the tangential impulse is {friction} times the normal impulse"
             ),
         )
     } else {
         (
             "sticking",
-            format!("not below the stick limit {limit}: sliding stops within the impact"),
+            format!("not below the stick limit {limit}: sliding stops during the impact"),
         )
     };
     Some(Note::new(
@@ -218,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn every_method_tells_how_barely_it_clears_and_what_closes_the_gap() {
+    fn every_method_gives_a_small_clearance_and_the_changes_that_close_it() {
         for method in [Method::Exact, Method::Static, Method::Dynamic] {
             let mut inputs = of_two_modules(method, 4e3);
             let least = solve(&inputs, Stages::EVERY)
@@ -237,7 +238,7 @@ mod tests {
                 .unwrap()
                 .message;
             assert!(
-                told.contains(" um only") && told.contains(" % more load"),
+                told.contains("clears by only ") && told.contains("or the load rises by about "),
                 "{method:?}: {told}"
             );
             let outcome = |part: f64| {
@@ -260,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tooth_that_clears_by_little_is_told_with_the_deviation_that_makes_it_strike() {
+    fn a_small_clearance_is_given_with_the_deviation_that_causes_contact() {
         assert!(clears_barely(&relieved(48e-6, 16e-6)));
         assert!(!clears_barely(&relieved(47e-6, 16e-6)), "it strikes");
         assert!(!clears_barely(&relieved(60e-6, 16e-6)), "it clears by far");

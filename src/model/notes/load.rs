@@ -21,7 +21,7 @@ pub(super) fn deflection_ignored(inputs: &Inputs, solution: &Solution) -> Option
     );
     let method = solution.method.name();
     let message = format!(
-        "the deflection of {given} um is ignored: {method} computes what the pairs yield, {found} um before E"
+        "method {method} ignores the given deflection of {given} um and computes {found} um before E"
     );
     Some(Note::new("deflection-ignored", message))
 }
@@ -35,7 +35,7 @@ pub(super) fn deflection_given(inputs: &Inputs, solution: &Solution) -> Option<N
             * 1e6,
     );
     let message = format!(
-        "the deflection of {given} um is given: power and torque change F_0 alone, neither D nor the impact"
+        "the deflection of {given} um is given: power and torque change only F_0, not D or the impact"
     );
     Some(Note::new("deflection-given", message))
 }
@@ -64,7 +64,7 @@ pub(super) fn inertia(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let message = || {
         let (period, time) = (four(period * 1e6), four(time * 1e6));
         format!(
-            "the mesh swings with a period of {period} us and the load is taken over in {time} us: inertia, which this method leaves out, may change the force by {:.0} %",
+            "the mesh oscillates with a period of {period} us and the tooth takes over the load in {time} us: inertia, which this method ignores, may change the force by {:.0} %",
             100.0 * part.min(1.0)
         )
     };
@@ -76,6 +76,6 @@ pub(super) fn not_cleared(_: &Inputs, solution: &Solution) -> Option<Note> {
     let refusal = solution.clearing?.withheld?;
     Some(Note::new(
         refusal.code(),
-        format!("no tip relief is known that stops it: {refusal}"),
+        format!("the required tip relief is unknown: {refusal}"),
     ))
 }

@@ -12,12 +12,12 @@ const MILLI: f64 = 1e3;
 pub(super) fn contact_ratio_above_two(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let ratio = solution.geometry.contact_ratio;
     let done = match inputs.deflection {
-        Some(_) => "the deflection is the case's own",
-        None => "the pairs ahead of the incoming one share the load as parallel springs",
+        Some(_) => "the case gives the deflection",
+        None => "the pairs ahead of the incoming pair share the load as parallel springs",
     };
     let message = || {
         format!(
-            "the contact ratio is {}, above 2: no single pair carries the load at F; {done}",
+            "the contact ratio is {}, above 2: more than one pair carries the load at F; {done}",
             four(ratio)
         )
     };
@@ -66,7 +66,7 @@ pub(super) fn start_past_pitch(_: &Inputs, solution: &Solution) -> Option<Note> 
     let length = solution.geometry.approach_length;
     let message = || {
         format!(
-            "the path of approach is {} mm, below 0: the driven tip, chamfer off, starts past the pitch point",
+            "the path of approach is {} mm, below 0: contact starts past the pitch point, at the driven tip without its chamfer",
             four(length * MILLI)
         )
     };
@@ -157,7 +157,7 @@ pub(super) fn form_circle(inputs: &Inputs, solution: &Solution) -> Option<Note> 
         .find(|(_, radius)| *radius < form)?;
     let (radius, form) = (told_apart(radius, form), told_apart(form, radius));
     let message = format!(
-        "{point} lies below the driver's form circle: O1{point} is {radius} mm and the involute starts at {form} mm"
+        "{point} is below the driver's form circle: O1{point} is {radius} mm and the involute starts at {form} mm"
     );
     Some(Note::new("below-form-circle", message))
 }

@@ -23,7 +23,7 @@ pub(super) static STEPS: &[Step] = &[
     step!("x_E", "how far the driver runs ahead while the tooth stands at E", "um", Words("from ΣF = F_0 of all pairs"),
         |k| Some(balance(k.solution.mesh.as_deref()?, 0.0, 0.0).displacement)),
     step!("C_E", "relief of both flanks there", "um", Words("by length and shape of the reliefs"), |k| Some(relief(k, &tip_at(&k.solution.geometry, 0.0)))),
-    step!("S_s", "gap S(u) between tip and flank at the first contact", "um", Words("as S(u) on closed_gap's page, at u_s"), |k| {
+    step!("S_s", "gap S(u) between tip and flank at the first contact", "um", Words("as S(u) on closed_gap's page, at u_st"), |k| {
         let tip = first_contact(k)?;
         Some(gap(&k.solution.geometry, &tip))
     }),

@@ -51,6 +51,15 @@ pub(super) static TABLE: &[Explanation] = &[
         valid: STATIC_VALID,
     },
     Explanation {
+        key: "static_first_contact_angle_driver",
+        says: "Driver roll angle from the first contact at rest to E. The verdict of method static gives this angle.",
+        formula: Text("i u_st"),
+        source: BALANCE,
+        mended: &["Eqs. 7-20"],
+        assumes: AT_REST,
+        valid: STATIC_VALID,
+    },
+    Explanation {
         key: "static_force_at_start",
         says: "What the incoming tooth carries at rest when it comes to E: with a good tip relief nothing, without any a good part of the \
             mesh force.",
@@ -115,6 +124,15 @@ pub(super) static TABLE: &[Explanation] = &[
         key: "dynamic_first_contact_angle",
         says: "How far the driven gear stands before E when the incoming tooth first touches, the gears swinging.",
         formula: MOVED,
+        source: MOTION,
+        mended: &["Eqs. 7-20"],
+        assumes: IN_MOTION,
+        valid: DYNAMIC_VALID,
+    },
+    Explanation {
+        key: "dynamic_first_contact_angle_driver",
+        says: "Driver roll angle from the first contact in motion to E. The verdict of method dynamic gives this angle.",
+        formula: Text("i u_d"),
         source: MOTION,
         mended: &["Eqs. 7-20"],
         assumes: IN_MOTION,
