@@ -228,8 +228,18 @@ fn where_contact_is_lost_the_relief_found_and_fifty_greater_ones_stop_it() {
     assert!(looked_at >= 2, "{looked_at}");
 }
 
+/// The additional and the total relief of a sentence, each with its unit.
+fn figures(sentence: &str) -> (String, Option<String>) {
+    let (before, total) = match sentence.split_once("; total ") {
+        Some((before, total)) => (before, Some(total.to_owned())),
+        None => (sentence, None),
+    };
+    let words: Vec<&str> = before.split(' ').collect();
+    (words[words.len() - 2..].join(" "), total)
+}
+
 #[test]
-fn the_figure_that_is_told_stops_it_when_it_is_typed_in() {
+fn the_required_relief_prevents_contact_when_it_is_typed_in() {
     let mut looked_at = 0;
     for (number, method) in
         (0..pairs_to_look_at()).flat_map(|number| METHODS.map(|method| (number, method)))
@@ -244,16 +254,16 @@ fn the_figure_that_is_told_stops_it_when_it_is_typed_in() {
                 continue;
             };
             for system in System::ALL {
-                let Some(words) = told(&solution, system) else {
+                let Some(words) = told(&solution, &[], system) else {
                     continue;
                 };
                 let read = |text: &str| {
                     parse(text, Dimension::Length, "")
                         .unwrap_or_else(|error| panic!("{words:?}: {error:?}"))
                 };
-                let figure = |text: &str| text.split(' ').take(2).collect::<Vec<_>>().join(" ");
-                let in_all = words[0].split_once('(').map(|(_, all)| read(&figure(all)));
-                let sum = given + read(&figure(&words[0]));
+                let (more, total) = figures(&words[0]);
+                let in_all = total.as_deref().map(read);
+                let sum = given + read(&more);
                 for relief in in_all.into_iter().chain([sum]) {
                     assert!(
                         !strikes(&inputs, relief),

@@ -7,18 +7,20 @@ use crate::model::inputs::Method;
 use crate::model::{Outcome, Quantity, Refusal, Solution, Stage};
 use crate::numeric::decimal::significant;
 
+use super::shown_in;
+
 /// Why a quantity has no value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Absence {
     /// This method has no such quantity; it is of one of the stages of another.
     OtherMethod(Method, Stage),
-    /// Nothing strikes: why, and the total deviation in m.
+    /// No corner contact: the reason, and the total deviation in m.
     NoContact(&'static str, f64),
-    /// The closed form finds no first contact, though the method itself does.
+    /// The closed form finds no first contact, although the method does.
     NoFreeImpact,
-    /// It is of friction, and the case gives none.
+    /// The quantity needs a friction coefficient, and the case has none.
     NoFriction,
-    /// The tooth does not come to it.
+    /// The event does not occur.
     NotReached,
     /// The model refuses it.
     Withheld(Refusal),
@@ -52,27 +54,26 @@ impl Absence {
         }
     }
 
-    /// Whether it has none because nothing strikes, so that no limit can be exceeded.
+    /// Whether the reason is that no tooth strikes, so that no limit can be exceeded.
     #[must_use]
     pub fn is_for_want_of_contact(&self) -> bool {
         matches!(self, Absence::NoContact(..))
     }
 }
 
-/// Why the tooth does not strike: one that the load at rest, or the exact position, would bring in
-/// early may yet not.
+/// Why the tooth does not strike; in a few words.
 #[must_use]
 pub fn without_contact(solution: &Solution) -> &'static str {
     match solution.method {
-        _ if solution.deviation.total <= 0.0 => "the tooth comes in on time",
-        Method::Paper => "the printed equations bring it in on time",
-        Method::Static => "at rest the pairs in contact do not give way so far",
-        _ => "in motion the tooth does not touch before E",
+        _ if solution.deviation.total <= 0.0 => "no contact before E",
+        Method::Paper => "the printed equations find no contact before E",
+        Method::Static => "the pairs in contact do not deflect so far at rest",
+        _ => "no contact before E in motion",
     }
 }
 
-/// The same in full, with the deviation where that is the reason; where the load at rest would
-/// bring the tooth in early, by how much, and where it would not, how much is left.
+/// The same in full, with the total deviation, the remaining gap, or the gap that the load at rest
+/// would close.
 #[must_use]
 pub fn without_contact_in_full(solution: &Solution, system: System) -> String {
     let (why, total) = (without_contact(solution), solution.deviation.total);
@@ -81,20 +82,34 @@ pub fn without_contact_in_full(solution: &Solution, system: System) -> String {
         format!("{number} {unit}")
     };
     match solution.method {
-        _ if total <= 0.0 => why.to_owned(),
-        Method::Paper => format!("{why}, though Δ is {}", told(total)),
+        _ if total <= 0.0 => {
+            let shown = Quantity::find("total_deviation")
+                .map(|quantity| shown_in(quantity, total + 0.0, system));
+            shown.map_or_else(|| why.to_owned(), |shown| format!("{why}, Δ = {shown}"))
+        }
+        Method::Paper => format!("{why} although Δ is {}", told(total)),
         Method::Static => solution.margin().map_or_else(
             || why.to_owned(),
-            |gap| format!("at rest a gap of {} is left before E", told(gap)),
+            |gap| format!("a gap of {} remains before E at rest", told(gap)),
         ),
         _ => match solution.lead_at_rest().filter(|&lead| lead > 0.0) {
-            Some(lead) => format!("{why}; at rest it would, by {}", told(lead)),
+            Some(lead) => format!("{why}; at rest the tooth touches, {} early", told(lead)),
             None => why.to_owned(),
         },
     }
 }
 
-/// Why no relief is known that stops it.
+/// Names with commas and "and" between them.
+#[must_use]
+pub fn listed(names: &[&str]) -> String {
+    match names {
+        [] => String::new(),
+        [one] => (*one).to_owned(),
+        [others @ .., last] => format!("{} and {last}", others.join(", ")),
+    }
+}
+
+/// Why the required relief is unknown.
 fn cleared(solution: &Solution) -> Absence {
     solution
         .clearing
@@ -113,21 +128,29 @@ impl fmt::Display for Absence {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Absence::OtherMethod(method, stage) => {
-                let methods = Method::ALL.into_iter().filter(|method| method.stages().has(*stage)).map(Method::name);
-                let methods = methods.collect::<Vec<_>>().join(", ");
-                write!(f, "the method is {}, and this is of {methods}", method.name())
+                let methods = Method::ALL
+                    .into_iter()
+                    .filter(|method| method.stages().has(*stage))
+                    .map(Method::name);
+                let methods = listed(&methods.collect::<Vec<_>>());
+                let own = method.name();
+                write!(f, "method {own} does not compute it, only {methods} do")
             }
             // A deviation above 0 is of the load at rest, and no reason.
             Absence::NoContact(why, total) if *total > 0.0 => write!(f, "no corner contact: {why}"),
             Absence::NoContact(why, total) => {
-                write!(f, "no corner contact: {why}, the total deviation is {} um", significant(total * 1e6, 5))
+                write!(
+                    f,
+                    "no corner contact: {why}, Δ = {} um",
+                    significant(total * 1e6, 5)
+                )
             }
             Absence::NoFreeImpact => f.write_str("the closed form finds no first contact at D"),
-            Absence::NoFriction => f.write_str("the case gives no friction coefficient, operation.friction_coefficient"),
-            Absence::NotReached => f.write_str("the tooth does not come to it"),
+            Absence::NoFriction => f.write_str("the case has no operation.friction_coefficient"),
+            Absence::NotReached => f.write_str("the event does not occur"),
             Absence::Withheld(refusal) => write!(f, "{refusal}; {}", refusal.mend()),
             Absence::Unclosed => {
-                f.write_str("the end of the impact D' does not exist, since the triangle of Eq. 34 does not close")
+                f.write_str("the impact has no end D': the triangle of Eq. 34 does not close")
             }
         }
     }

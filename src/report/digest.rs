@@ -1,5 +1,4 @@
-//! A case in a few lines: its title, the pair, what is asked of it, and its verdict - whether the
-//! tooth strikes and how its limits stand.
+//! A case in a few lines: title, pair, load, outcome and limits.
 
 use super::absence::without_contact_in_full;
 use super::verdict::{self, Standing};
@@ -8,7 +7,6 @@ use crate::case::fields::index_of;
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
 use crate::case::{Case, Evaluator};
-use crate::model::contact_state::first_contact;
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Outcome, Quantity, Refusal, Solution, Stage, Stages};
 
@@ -23,13 +21,13 @@ pub struct Digest {
     pub load: String,
     /// The method, and the one that `auto` took.
     pub method: String,
-    /// Whether the tooth strikes, in a sentence; or why the model does not tell.
+    /// The outcome in a sentence, or the model's refusal.
     pub outcome: String,
-    /// The same in two or three words.
+    /// The same in a few words.
     pub short: String,
     /// The word and the line of each limit.
     pub limits: Vec<(Standing, String)>,
-    /// What a reader must know beside it.
+    /// Notes on the result.
     pub notes: Vec<String>,
 }
 
@@ -86,8 +84,8 @@ impl Digest {
             },
             Err(refusal) => Digest {
                 method: inputs.method.name().to_owned(),
-                outcome: format!("The model refuses it: {refusal}; {}.", refusal.mend()),
-                short: "refused".to_owned(),
+                outcome: format!("Not solved: {refusal}; {}.", refusal.mend()),
+                short: "not solved".to_owned(),
                 limits: verdict::refused(case, refusal)
                     .iter()
                     .map(|verdict| (verdict.standing, verdict.told(system)))
@@ -97,7 +95,7 @@ impl Digest {
         }
     }
 
-    /// The verdict in a line: whether it strikes, and how the limits stand.
+    /// Outcome and limits in a line.
     #[must_use]
     pub fn verdict(&self) -> String {
         match self.limits.len() {
@@ -106,7 +104,7 @@ impl Digest {
         }
     }
 
-    /// How many of the limits hold, in words.
+    /// How many limits are met, in words.
     #[must_use]
     pub fn of_limits(&self) -> String {
         let count = self.limits.len();
@@ -123,84 +121,76 @@ impl Digest {
         };
         match (missed(Standing::Exceeded), missed(Standing::Unknown)) {
             _ if count == 0 => "no limits".to_owned(),
-            (0, 0) if count == 1 => "limit held".to_owned(),
-            (0, 0) => format!("{limits} held"),
+            (0, 0) if count == 1 => "limit met".to_owned(),
+            (0, 0) => format!("{limits} met"),
             (0, unknown) => format!("{unknown} of {limits} unknown"),
             (exceeded, _) => format!("{exceeded} of {limits} EXCEEDED"),
         }
     }
 }
 
-/// The outcome of a solve, in a sentence.
+/// The outcome of a solve, in a sentence: angle and forces where their stages ran.
 #[must_use]
 pub fn sentence(solution: &Solution, system: System) -> String {
     match solution.outcome {
         Outcome::CornerContact => {
             let angle = first_touch(solution).map(|(quantity, angle)| {
-                format!(
-                    " {} of the driver before E",
-                    shown_in(quantity, angle, system)
-                )
+                let shown = shown_in(quantity, angle, system);
+                format!("{} = {shown} before E", quantity.symbol)
             });
             let force = force(solution.method, |key| told(key, solution, system));
-            let force = force.unwrap_or_else(|| "no force is given".to_owned());
-            format!("Corner contact{}, {force}.", angle.unwrap_or_default())
+            let found: Vec<String> = angle.into_iter().chain(force).collect();
+            let colon = if found.is_empty() { "" } else { ": " };
+            format!("Corner contact{colon}{}.", found.join("; "))
         }
         Outcome::NoCornerContact => {
-            let is_reason = solution.deviation.total <= 0.0;
-            let total = told("total_deviation", solution, system)
-                .filter(|_| is_reason)
-                .map(|total| format!("Δ = {total}, "));
-            format!(
-                "No corner contact: {}{}.",
-                total.unwrap_or_default(),
-                without_contact_in_full(solution, system)
-            )
+            let why = without_contact_in_full(solution, system);
+            format!("No corner contact: {why}.")
         }
     }
 }
 
-/// The outcome in two or three words.
+/// The outcome in a few words, with the forces of [`sentence`].
 #[must_use]
 pub fn short(solution: &Solution, system: System) -> String {
-    let force = Quantity::find("impact_force").and_then(|free| free.by(solution.method));
-    match (
-        solution.outcome,
-        force.and_then(|force| told(force.key, solution, system)),
-    ) {
-        (Outcome::NoCornerContact, _) => "does not strike".to_owned(),
-        (Outcome::CornerContact, Some(force)) => format!("strikes with {force}"),
-        (Outcome::CornerContact, None) => "strikes".to_owned(),
+    let told = |key| told(key, solution, system);
+    let peaks = || {
+        Some((
+            told("dynamic_peak_approach_force")?,
+            told("dynamic_peak_force")?,
+        ))
+    };
+    let force = || Quantity::find("impact_force")?.by(solution.method);
+    match solution.outcome {
+        Outcome::NoCornerContact => "no corner contact".to_owned(),
+        Outcome::CornerContact => match (peaks(), force().and_then(|force| told(force.key))) {
+            (Some((before, overall)), _) => format!("strikes with {before}, {overall} overall"),
+            (None, Some(force)) => format!("strikes with {force}"),
+            (None, None) => "strikes".to_owned(),
+        },
     }
 }
 
-/// The driver's roll angle before E at which the tooth touches, in rad, and how it is shown; of the
-/// driver in every method, so that they can be held against each other.
+/// The driver's roll angle before E at the first contact: the quantity and its value in rad.
 pub(super) fn first_touch(solution: &Solution) -> Option<(&'static Quantity, f64)> {
-    let quantity = Quantity::find("approach_angle_driver")?;
-    let angle = if solution.method.shares_load() {
-        let geometry = &solution.geometry;
-        first_contact(solution)? * geometry.driven.base / geometry.driver.base
-    } else {
-        value(quantity, solution)?
-    };
-    Some((quantity, angle))
+    let quantity = Quantity::find("approach_angle_driver")?.by(solution.method)?;
+    Some((quantity, value(quantity, solution)?))
 }
 
-/// The force of the incoming tooth in words: of the closed form its impact, of the load at rest
-/// what it carries at E, in motion its peaks.
-pub(super) fn force(method: Method, told: impl Fn(&str) -> Option<String>) -> Option<String> {
+/// The forces of the incoming tooth in words, where their stages ran.
+fn force(method: Method, told: impl Fn(&str) -> Option<String>) -> Option<String> {
     match method {
-        Method::Static => Some(format!("carrying {} at E", told("static_force_at_start")?)),
+        Method::Static => {
+            let (start, peak) = (told("static_force_at_start")?, told("static_peak_force")?);
+            Some(format!("force {start} at E, {peak} overall"))
+        }
         Method::Dynamic => {
-            let (before, most) = (
-                told("dynamic_peak_approach_force")?,
-                told("dynamic_peak_force")?,
-            );
-            Some(format!("with up to {before} before E and {most} in all"))
+            let before = told("dynamic_peak_approach_force")?;
+            let overall = told("dynamic_peak_force")?;
+            Some(format!("peak force {before} before E, {overall} overall"))
         }
         Method::Paper | Method::Exact | Method::Auto => {
-            Some(format!("with {}", told("impact_force")?))
+            Some(format!("impact force {}", told("impact_force")?))
         }
     }
 }
@@ -224,7 +214,7 @@ fn method(asked: Method, solution: &Solution) -> String {
     if asked == solution.method {
         asked.name().to_owned()
     } else {
-        format!("{}, by {}", solution.method.name(), asked.name())
+        format!("{}, chosen by {}", solution.method.name(), asked.name())
     }
 }
 
@@ -286,9 +276,9 @@ mod tests {
         );
         assert_eq!(
             told.outcome,
-            "Corner contact 1.36628 deg of the driver before E, with 2191.0 N."
+            "Corner contact: θ_1 = 1.36628 deg before E; impact force 2191.0 N."
         );
-        assert_eq!(told.verdict(), "strikes with 2191.0 N; limit held");
+        assert_eq!(told.verdict(), "strikes with 2191.0 N; limit met");
         assert_eq!(told.method, "exact");
         assert!(!told.notes.is_empty());
     }
@@ -300,17 +290,21 @@ mod tests {
             "strikes with 2191.0 N; 1 of 1 limit EXCEEDED"
         );
         let relieved = digest(&[("driven.tip_relief", "80 um"), ("limits.impact_force", "")]);
-        assert_eq!(relieved.verdict(), "does not strike");
-        assert!(relieved.outcome.starts_with("No corner contact: Δ = "));
+        assert_eq!(relieved.verdict(), "no corner contact");
+        assert!(
+            relieved
+                .outcome
+                .starts_with("No corner contact: no contact before E, Δ = ")
+        );
     }
 
     #[test]
     fn a_tooth_that_the_load_at_rest_alone_would_bring_in_early_is_told_without_contradiction() {
         let in_motion = digest(&[("model.method", "dynamic"), ("driven.tip_relief", "39 um")]);
         assert!(
-            in_motion
-                .outcome
-                .starts_with("No corner contact: in motion the tooth does not touch before E; at rest it would, by 1."),
+            in_motion.outcome.starts_with(
+                "No corner contact: no contact before E in motion; at rest the tooth touches, 1."
+            ),
             "{}",
             in_motion.outcome
         );
@@ -328,25 +322,25 @@ mod tests {
             ["static", "dynamic", "auto"].map(|method| digest(&[("model.method", method)]));
         assert_eq!(
             forces[0].outcome,
-            "Corner contact 1.25226 deg of the driver before E, carrying 1466.2 N at E."
+            "Corner contact: θ_st = 1.25226 deg before E; force 1466.2 N at E, 1524.3 N overall."
         );
-        let moving = "Corner contact 1.27924 deg of the driver before E, with up to 1410.8 N before E and 2003.0 N in all.";
+        let moving = "Corner contact: θ_d = 1.27924 deg before E; peak force 1410.8 N before E, 2003.0 N overall.";
         assert_eq!(forces[1].outcome, moving);
         let short = [
             "strikes with 1466.2 N",
-            "strikes with 1410.8 N",
-            "strikes with 1410.8 N",
+            "strikes with 1410.8 N, 2003.0 N overall",
+            "strikes with 1410.8 N, 2003.0 N overall",
         ];
         assert_eq!(forces.each_ref().map(|told| told.short.as_str()), short);
-        assert_eq!(forces[2].method, "dynamic, by auto");
+        assert_eq!(forces[2].method, "dynamic, chosen by auto");
     }
 
     #[test]
     fn a_refusal_is_the_verdict() {
         let told = digest(&[("driven.addendum", "1.9")]);
         assert!(
-            told.outcome.starts_with("The model refuses it: ")
-                && told.verdict() == "refused; 1 of 1 limit unknown",
+            told.outcome.starts_with("Not solved: ")
+                && told.verdict() == "not solved; 1 of 1 limit unknown",
             "{told:?}"
         );
     }
@@ -363,7 +357,13 @@ mod tests {
             let case = example.document().case;
             let inputs = case.inputs().unwrap();
             let told = Digest::solve(&case, &inputs, System::Metric, &|_| true).unwrap();
-            assert!(told.short.contains("strike"), "{}: {told:?}", example.name);
+            assert!(
+                ["strikes with", "no corner contact"]
+                    .iter()
+                    .any(|start| told.short.starts_with(start)),
+                "{}: {told:?}",
+                example.name
+            );
             let slow = Inputs {
                 method: Method::Dynamic,
                 ..inputs

@@ -59,11 +59,11 @@ static GROUPS: [Group; 12] = [
         stages: &[Stage::Mesh],
     },
     Group {
-        title: "Load shared by every pair",
+        title: "Load sharing",
         stages: &[Stage::Static],
     },
     Group {
-        title: "Load shared, with inertia",
+        title: "Load sharing with inertia",
         stages: &[Stage::Dynamic],
     },
 ];

@@ -21,11 +21,10 @@ pub(super) fn flow<'a>(words: impl IntoIterator<Item = &'a str>, width: usize) -
 /// The sentence set into lines, those after the first moved in as far as the mark before it.
 pub(super) fn item(mark: &str, sentence: &str) -> Vec<String> {
     let indent = count(mark);
-    let words = with_units(sentence);
-    let lines = flow(
-        words.iter().map(String::as_str),
-        WIDTH.saturating_sub(indent),
-    );
+    let width = WIDTH.saturating_sub(indent);
+    let sentence = sentence.split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = with_units(&sentence, width);
+    let lines = flow(words.iter().map(String::as_str), width);
     let lead = |index| {
         if index == 0 {
             mark.to_owned()
@@ -40,18 +39,26 @@ pub(super) fn item(mark: &str, sentence: &str) -> Vec<String> {
         .collect()
 }
 
-/// The words of a sentence, a number with what it is of: no line ends between the two.
-fn with_units(sentence: &str) -> Vec<String> {
+/// The words of a sentence, each number with its unit: no line ends between the two. A longer pair
+/// than `most` stays apart.
+pub(crate) fn with_units(sentence: &str, most: usize) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     let mut after_number = false;
-    for word in sentence.split_whitespace() {
-        match words.last_mut().filter(|_| after_number) {
+    for word in sentence.split(' ') {
+        let fits = |number: &String| count(number) + 1 + count(word) <= most;
+        let is_unit = after_number && !word.is_empty();
+        match words.last_mut().filter(|number| is_unit && fits(number)) {
             Some(number) => number.extend([" ", word]),
             None => words.push(word.to_owned()),
         }
-        after_number = !after_number && word.parse::<f64>().is_ok();
+        after_number = !is_unit && is_number(word);
     }
     words
+}
+
+fn is_number(word: &str) -> bool {
+    let is_digit = |letter: char| letter.is_ascii_digit();
+    word.contains(is_digit) && word.parse::<f64>().is_ok()
 }
 
 /// The greatest number of characters among the texts.

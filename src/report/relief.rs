@@ -1,46 +1,101 @@
-//! The tip relief that stops the corner contact, in figures that can be typed in as they stand.
+//! The tip relief that prevents corner contact, rounded up to figures that can be typed in.
 
 use super::value;
 use crate::case::units::{self, System};
+use crate::model::inputs::Method;
 use crate::model::{Quantity, Solution};
 
-/// No digit of a relief is told below this one behind the point, a nanometre or a quarter of a
-/// hundred of them.
+/// The most decimal places of a relief, by system of units.
 const LEAST_DIGIT: [(System, i32); 2] = [(System::Metric, 3), (System::Inch, 4)];
-/// Significant digits of the relief that is to be added.
+/// Significant digits of the additional relief.
 const DIGITS: i32 = 3;
 
-/// The tip relief of the driven gear that stops it, in words, in fewer and in the fewest; where the
-/// tooth strikes and it is known.
+/// The required tip relief of the driven gear by the governing method and by the others, in full
+/// and in fewer and fewer words; none without corner contact, or where it is unknown.
 #[must_use]
-pub fn relief(solution: &Solution, system: System) -> Option<[String; 3]> {
-    let quantity = Quantity::find("clearing_relief")?;
-    let least = value(quantity, solution)?;
+pub fn relief(governing: &Solution, others: &[&Solution], system: System) -> Option<[String; 4]> {
+    let unit = unit(system)?;
+    let (given, figures) = figures(governing, unit, system)?;
+    Some(phrases(
+        governing.method,
+        given > 0.0,
+        &figures,
+        others,
+        unit,
+        system,
+    ))
+}
+
+/// The same while the figure of the governing method is not known yet, for a gear that has that
+/// relief, in m.
+#[must_use]
+pub fn pending(
+    method: Method,
+    given: f64,
+    others: &[&Solution],
+    system: System,
+) -> Option<[String; 4]> {
+    let figures = ["...", "..."].map(str::to_owned);
+    Some(phrases(
+        method,
+        given > 0.0,
+        &figures,
+        others,
+        unit(system)?,
+        system,
+    ))
+}
+
+fn unit(system: System) -> Option<&'static str> {
+    Some(system.unit(Quantity::find("clearing_relief")?.shown))
+}
+
+/// The relief that the gear has, in m; and the additional and the total one, as they are shown.
+fn figures(solution: &Solution, unit: &str, system: System) -> Option<(f64, [String; 2])> {
+    let least = value(Quantity::find("clearing_relief")?, solution)?;
     let given = solution.clearing?.given;
-    let unit = system.unit(quantity.shown);
-    let [more, all] =
-        rounded_up(least, given, unit, system).map(|number| format!("{number} {unit}"));
-    Some(if given > 0.0 {
+    Some((given, rounded_up(least, given, unit, system)))
+}
+
+fn phrases(
+    method: Method,
+    has_relief: bool,
+    [more, all]: &[String; 2],
+    others: &[&Solution],
+    unit: &str,
+    system: System,
+) -> [String; 4] {
+    let own = method.name();
+    let others = others.iter().filter_map(|other| {
+        let (_, [more, _]) = figures(other, unit, system)?;
+        Some(format!(", {} {more}", other.method.name()))
+    });
+    let others: String = others.collect();
+    if has_relief {
         [
-            format!("{more} more tip relief of the driven gear ({all} in all) stops it"),
-            format!("+{more} driven tip relief ({all} in all) stops it"),
-            format!("Ca2 {all} stops it"),
+            format!(
+                "Relief to add at the driven tip: {own} {more}{others} {unit}; total {all} {unit}"
+            ),
+            format!("Relief to add: {own} {more}{others} {unit}; total {all} {unit}"),
+            format!("Relief needed: +{more}, total {all} {unit}"),
+            format!("Ca2 needed: {all} {unit}"),
         ]
     } else {
         [
-            format!("{all} of tip relief of the driven gear stops it"),
-            format!("{all} driven tip relief stops it"),
-            format!("Ca2 {all} stops it"),
+            format!("Relief needed at the driven tip: {own} {more}{others} {unit}"),
+            format!("Relief needed: {own} {more}{others} {unit}"),
+            format!("Relief needed: {own} {more} {unit}"),
+            format!("Ca2 needed: {all} {unit}"),
         ]
-    })
+    }
 }
 
-/// The relief to be added and the one to be typed in: the latter up to a digit, the former to the
-/// same digit, so that the sum of what there is and what is told is no less.
+/// The additional and the total relief, rounded up to the same digit, so that the given and the
+/// additional relief add up to no less than the total.
 fn rounded_up(least: f64, given: f64, unit: &str, system: System) -> [String; 2] {
-    /// What the factor of the unit and the sum may have rounded off.
+    /// Rounding error of the unit's factor and of the sum.
     const ROUNDING: f64 = 1.0 + 4.0 * f64::EPSILON;
-    /// A part of a digit that is rounding, where the sum has no more digits.
+    /// The part of a digit that is rounding error.
     const NONE: f64 = 1e-9;
     let factor = units::factor(unit).unwrap_or(1.0);
     let last = LEAST_DIGIT
@@ -61,7 +116,7 @@ mod tests {
     use super::{System, rounded_up};
 
     #[test]
-    fn what_is_told_is_no_less_and_adds_up() {
+    fn a_relief_is_rounded_up_and_adds_up() {
         let told = |least: f64, given: f64| {
             rounded_up(least * 1e-6, given * 1e-6, "um", System::Metric).join(" ")
         };

@@ -1,19 +1,19 @@
 //! A solve as a page of text for a person, 80 columns wide.
 
-use super::absence::without_contact_in_full;
-use super::digest::{first_touch, force};
+use super::comparison::{closed_forms, differing};
+use super::digest;
 use super::groups::{FREE_IMPACT, Group, groups};
 use super::layout::{WIDTH, flow, item, widest};
 use super::relief::relief;
 use super::stations::{Column, columns, rows};
 use super::verdict::{Verdict, verdicts};
-use super::{Report, Shown, shown, value};
+use super::{Report, Shown, shown};
 use crate::case::FIELDS;
 use crate::case::fields::Absent;
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
 use crate::model::inputs::Method;
-use crate::model::{self, Inputs, Outcome, Quantity, Solution, Stage, Stages};
+use crate::model::{self, Inputs, Quantity, Solution, Stage, Stages};
 use std::io::{self, Write};
 
 /// The parts of a page, in order; an empty one leaves no trace.
@@ -52,9 +52,6 @@ const TOLD_INPUTS: &[&str] = &[
     "operation.speed",
     "model.deflection",
 ];
-
-/// A space at which no line ends.
-const GLUE: &str = "\u{a0}";
 
 /// Write the page.
 ///
@@ -97,109 +94,46 @@ fn heading(report: &Report) -> Vec<String> {
 }
 
 fn outcome(report: &Report) -> Vec<String> {
-    let mut sentences = vec![sentence(&report.solution)];
+    let solution = &report.solution;
+    let mut sentences = vec![digest::sentence(solution, System::Metric)];
     if report.selection.is_whole() {
-        sentences.extend(
-            relief(&report.solution, System::Metric).map(|[words, ..]| format!("{words}.")),
-        );
-        let others = Method::CLOSED_FORM
-            .into_iter()
-            .filter(|&method| method != report.solution.method);
-        sentences.extend(others.filter_map(|method| other_method(report, method)));
+        let others: Vec<Solution> = others(report);
+        let others: Vec<&Solution> = others.iter().collect();
+        let beside: Vec<&Solution> = (others.iter().copied())
+            .filter(|other| other.method != Method::Paper)
+            .collect();
+        let is_given = report.inputs.deflection.is_some();
+        let told = [
+            differing(solution, &beside).map(|[words, ..]| words),
+            relief(solution, &beside, System::Metric).map(|[words, ..]| words),
+            closed_forms(solution, &others, is_given, System::Metric),
+        ];
+        sentences.extend(told.into_iter().flatten().map(|words| words + "."));
     }
-    // A number stays on the line of its unit.
-    let lines = sentences
+    sentences
         .iter()
-        .flat_map(|sentence| flow(sentence.split(' '), WIDTH));
-    lines.map(|line| line.replace(GLUE, " ")).collect()
+        .flat_map(|sentence| item("", sentence))
+        .collect()
 }
 
-/// The outcome, as far as the stages that ran can tell it.
-fn sentence(solution: &Solution) -> String {
-    let part = |before: &str, key| {
-        told(key, solution)
-            .map(|shown| format!("{before}{shown}"))
-            .unwrap_or_default()
-    };
-    let verb = if solution.method.shares_load() {
-        "touches"
-    } else {
-        "strikes"
-    };
-    match solution.outcome {
-        Outcome::CornerContact => format!(
-            "Corner contact: the tooth {verb}{}{}{}.",
-            first_touch(solution)
-                .map(|(quantity, angle)| format!(
-                    " {} of the driver before E",
-                    glued(quantity, angle)
-                ))
-                .unwrap_or_default(),
-            force(solution.method, |key| told(key, solution))
-                .map(|force| format!(" {force}"))
-                .unwrap_or_default(),
-            if solution.method.shares_load() {
-                String::new()
-            } else {
-                part(", approaching at ", "normal_velocity")
-            },
-        ),
-        Outcome::NoCornerContact => {
-            let is_reason = solution.deviation.total <= 0.0;
-            let deviates = if is_reason {
-                part(", the total deviation is ", "total_deviation")
-            } else {
-                String::new()
+/// The methods beside the governing one that cost little: the load at rest below its inertia, and
+/// the closed forms.
+fn others(report: &Report) -> Vec<Solution> {
+    let governing = report.solution.method;
+    let at_rest = (governing == Method::Dynamic).then_some(Method::Static);
+    let closed_forms = [Method::Exact, Method::Paper];
+    let methods = at_rest.into_iter().chain(closed_forms);
+    let stages = Stages::of(Stage::Clearing).and(Stages::of(Stage::Impact));
+    methods
+        .filter(|&method| method != governing)
+        .filter_map(|method| {
+            let inputs = Inputs {
+                method,
+                ..report.inputs.clone()
             };
-            let why = without_contact_in_full(solution, System::Metric);
-            format!("No corner contact: {why}{deviates}.")
-        }
-    }
-}
-
-fn other_method(report: &Report, method: Method) -> Option<String> {
-    let other = model::solve(
-        &Inputs {
-            method,
-            ..report.inputs.clone()
-        },
-        Stages::of(Stage::Impact),
-    )
-    .ok()?;
-    let with = if report.solution.method.shares_load() && report.inputs.deflection.is_some() {
-        " with the given deflection"
-    } else {
-        ""
-    };
-    let found = match other.outcome {
-        Outcome::NoCornerContact => {
-            format!(
-                "no corner contact, the total deviation is {}",
-                told("total_deviation", &other)?
-            )
-        }
-        Outcome::CornerContact => {
-            let (angle, force) = (
-                told("approach_angle_driver", &other)?,
-                told("impact_force", &other)?,
-            );
-            format!("{angle} of the driver before E with {force}")
-        }
-    };
-    Some(format!(
-        "For comparison, method {}{with}: {found}.",
-        method.name()
-    ))
-}
-
-/// A quantity's value, glued to its unit.
-fn told(key: &str, solution: &Solution) -> Option<String> {
-    let quantity = Quantity::find(key)?;
-    Some(glued(quantity, value(quantity, solution)?))
-}
-
-fn glued(quantity: &Quantity, value: f64) -> String {
-    shown(quantity, value).to_string().replace(' ', GLUE)
+            model::solve(&inputs, stages).ok()
+        })
+        .collect()
 }
 
 fn inputs(report: &Report) -> Vec<String> {

@@ -1,4 +1,4 @@
-//! A case held against its own limits.
+//! The limits of a case compared with its results.
 
 mod json;
 
@@ -19,14 +19,14 @@ pub enum Standing {
     Within,
     /// Above the limit.
     Exceeded,
-    /// No tooth strikes, so that there is nothing to exceed it.
+    /// No corner contact, so that nothing can exceed the limit.
     NotApplicable,
-    /// There is no value to hold against it, though a tooth may strike: the limit does not hold.
+    /// The quantity has no value, although corner contact is possible: the limit is not met.
     Unknown,
 }
 
 impl Standing {
-    /// Whether the limit holds.
+    /// Whether the limit is met.
     #[must_use]
     pub fn holds(self) -> bool {
         matches!(self, Standing::Within | Standing::NotApplicable)
@@ -65,24 +65,23 @@ pub struct Verdict<'a> {
     pub standing: Standing,
     /// Why there is no value.
     pub absence: Option<Absence>,
-    /// What the method itself finds in place of the limited quantity, where that is the closed
-    /// form's.
+    /// The counterpart in the method, where the limited quantity is of the free impact.
     pub beside: Option<Beside>,
 }
 
-/// What stands beside a quantity of the free impact in a method that resolves the impact.
+/// The counterpart of a quantity of the free impact in a method that resolves the impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Beside {
     /// The method.
     pub method: Method,
     /// Its own quantity and the value in SI, where it has them.
     pub own: Option<(&'static str, Option<f64>)>,
-    /// Whether the case holds that one to a limit of its own.
+    /// Whether the case limits that quantity, too.
     pub is_limited: bool,
 }
 
 impl Beside {
-    /// What stands beside that quantity of a solution.
+    /// The counterpart of that quantity in a solution.
     #[must_use]
     pub fn of(quantity: &'static Quantity, solution: &Solution) -> Option<Beside> {
         let method = solution.method;
@@ -107,22 +106,18 @@ impl Beside {
         let method = self.method.name();
         match own {
             Some((own, Some(value))) => {
-                format!(
-                    "of the free impact, in closed form; {method} itself finds {} {}",
-                    own.key,
-                    shown_in(own, value, system)
-                )
+                let value = shown_in(own, value, system);
+                format!("the free impact; {method} finds {} {value}", own.key)
             }
-            Some((own, None)) => format!(
-                "of the free impact, in closed form; {method} itself tells {}",
-                own.key
-            ),
-            None => format!("of the free impact, in closed form, and not of {method}"),
+            Some((own, None)) => {
+                format!("the free impact; {method} has {} instead", own.key)
+            }
+            None => format!("the free impact; {method} has no such quantity"),
         }
     }
 }
 
-/// Every limit of the case held against the solution, in the case's order.
+/// The verdict on every limit, in the case's order.
 #[must_use]
 pub fn verdicts<'a>(case: &'a Case, solution: &Solution) -> Vec<Verdict<'a>> {
     let is_limited = |beside: &Beside| {
@@ -149,7 +144,7 @@ pub fn stages(case: &Case) -> Stages {
     of_all(limited(case))
 }
 
-/// The stages of what a method itself finds in place of the limited quantities.
+/// The stages of the counterparts that a method has of the limited quantities.
 #[must_use]
 pub fn stages_beside(case: &Case, method: Method) -> Stages {
     of_all(
@@ -185,7 +180,7 @@ pub fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Verdict<'a> {
         (None, Some(absence)) if absence.is_for_want_of_contact() => Standing::NotApplicable,
         (None, _) => Standing::Unknown,
     };
-    // Where nothing strikes no method tells another story.
+    // Without corner contact there is nothing to compare.
     let beside = quantity
         .filter(|_| value.is_some())
         .and_then(|quantity| Beside::of(quantity, solution));
@@ -198,7 +193,7 @@ pub fn verdict<'a>(limit: &'a Limit, solution: &Solution) -> Verdict<'a> {
     }
 }
 
-/// Every limit of a case that the model refuses: none can be held against anything.
+/// Every limit of a case that the model refuses: no quantity has a value.
 #[must_use]
 pub fn refused<'a>(case: &'a Case, refusal: &Refusal) -> Vec<Verdict<'a>> {
     let absence = Some(Absence::Withheld(*refusal));
@@ -213,7 +208,7 @@ pub fn refused<'a>(case: &'a Case, refusal: &Refusal) -> Vec<Verdict<'a>> {
 }
 
 impl Verdict<'_> {
-    /// The value as a part of the limit, where that says something.
+    /// The value as a part of the limit, where both are in range.
     #[must_use]
     pub fn part(&self) -> Option<f64> {
         let value = self.value.filter(|&value| {
@@ -222,43 +217,29 @@ impl Verdict<'_> {
         Some(value / self.limit.value)
     }
 
-    /// The verdict in a line, the value in metric or inch units; the limit as it was written.
+    /// The verdict in a sentence, the value in metric or inch units; the limit as it was written.
     #[must_use]
     pub fn told(&self, system: System) -> String {
-        let beside = self
-            .beside
-            .map_or_else(String::new, |beside| format!(": {}", beside.told(system)));
-        let above = if self.is_exceeded_beside() {
-            ", above the limit"
-        } else {
-            ""
+        let said = self.said(system);
+        let Some(beside) = self.beside else {
+            return said;
         };
-        self.said(system) + &beside + above + self.to_hold_beside()
+        let is_unlimited = beside.own.is_some() && !beside.is_limited;
+        let also = match (self.is_exceeded_beside(), is_unlimited) {
+            (true, true) => ", which is above this limit and has no limit of its own",
+            (true, false) => ", which is above this limit",
+            (false, true) => ", which has no limit of its own",
+            (false, false) => "",
+        };
+        format!("{said} for {}{also}", beside.told(system))
     }
 
-    // The limit keeps its meaning: how to hold what the method finds, where the case does not.
-    fn to_hold_beside(&self) -> &'static str {
-        let may_be_limited = self
-            .beside
-            .is_some_and(|beside| beside.own.is_some() && !beside.is_limited);
-        if may_be_limited {
-            "; a limit on that holds it"
-        } else {
-            ""
-        }
-    }
-
-    /// Whether what the method itself finds is above the limit of what the closed form says.
+    /// Whether the counterpart in the method is above the limit on the free impact.
     #[must_use]
     pub fn is_exceeded_beside(&self) -> bool {
-        // An angle may be of the other gear.
-        let is_held = |key: &str| Quantity::find(key).is_some_and(|own| own.unit != "rad");
-        let own = self
-            .beside
-            .and_then(|beside| beside.own)
-            .filter(|(key, _)| is_held(key))
-            .and_then(|(_, own)| own);
-        own.is_some_and(|own| own > self.limit.value)
+        let own = self.beside.and_then(|beside| beside.own);
+        own.and_then(|(_, own)| own)
+            .is_some_and(|own| own > self.limit.value)
     }
 
     fn said(&self, system: System) -> String {
@@ -269,9 +250,9 @@ impl Verdict<'_> {
                     format!("{key} cannot be computed: {refusal} (limit {limit})")
                 }
                 Some(absence) if self.standing == Standing::Unknown => {
-                    format!("{key} has no value to hold against {limit}: {absence}")
+                    format!("{key} has no value (limit {limit}): {absence}")
                 }
-                _ => format!("{key} none, no corner contact (limit {limit})"),
+                _ => format!("{key} does not occur: no corner contact (limit {limit})"),
             };
         };
         let sign = if self.standing == Standing::Exceeded {
@@ -312,7 +293,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_method_itself_finds_stands_beside_the_free_impact_and_leaves_the_verdict() {
+    fn a_limit_on_the_free_impact_is_followed_by_the_counterpart_in_the_method() {
         let verdicts = |method, limit| {
             let mut case = Case::table_1();
             case.set("model.method", method).unwrap();
@@ -335,7 +316,7 @@ mod tests {
         };
         assert_eq!(*standing, Standing::Within);
         assert!(
-            told.ends_with("; dynamic itself finds dynamic_peak_approach_force 1410.8 N; a limit on that holds it"),
+            told.ends_with(" for the free impact; dynamic finds dynamic_peak_approach_force 1410.8 N, which has no limit of its own"),
             "{told}"
         );
         let [(standing, told)] = &verdicts("static", "1 kN")[..] else {
@@ -343,13 +324,13 @@ mod tests {
         };
         assert_eq!(*standing, Standing::Exceeded);
         assert!(
-            told.ends_with("; static itself finds static_force_at_start 1466.2 N, above the limit; a limit on that holds it"),
+            told.ends_with(" for the free impact; static finds static_force_at_start 1466.2 N, which is above this limit and has no limit of its own"),
             "{told}"
         );
     }
 
     #[test]
-    fn a_limit_without_a_value_says_why_and_passes_only_where_nothing_strikes() {
+    fn a_limit_without_a_value_gives_the_reason_and_passes_only_without_contact() {
         let stands = |method, relief, key, limit| {
             let mut case = Case::table_1();
             case.set("model.method", method).unwrap();
@@ -364,9 +345,9 @@ mod tests {
         assert_eq!(standing, Standing::Unknown);
         assert_eq!(
             told,
-            "dynamic_peak_force has no value to hold against 2 kN: the method is exact, and this is of dynamic, auto"
+            "dynamic_peak_force has no value (limit 2 kN): method exact does not compute it, only dynamic and auto do"
         );
-        // That nothing strikes in closed form says nothing of the motion.
+        // The closed form decides nothing about the motion.
         assert_eq!(
             stands("exact", "80 um", "dynamic_peak_force", "2 kN").0,
             Standing::Unknown
@@ -378,9 +359,7 @@ mod tests {
         let (standing, told) = stands("static", "80 um", "pitch_contact_jump", "2 kN");
         assert_eq!(standing, Standing::Unknown);
         assert!(
-            told.ends_with(
-                "the case gives no friction coefficient, operation.friction_coefficient"
-            ),
+            told.ends_with("the case has no operation.friction_coefficient"),
             "{told}"
         );
         assert_eq!(
@@ -390,14 +369,14 @@ mod tests {
     }
 
     #[test]
-    fn who_limits_what_the_method_finds_is_not_told_to() {
+    fn a_counterpart_with_a_limit_of_its_own_needs_no_hint() {
         let mut case = Case::table_1();
         case.set("model.method", "static").unwrap();
         case.set_limit("static_force_at_start", "1 kN").unwrap();
         let solution = crate::model::solve(&case.inputs().unwrap(), Stages::EVERY).unwrap();
         let told = verdicts(&case, &solution)[0].to_string();
         assert!(
-            told.ends_with("static itself finds static_force_at_start 1466.2 N"),
+            told.ends_with("static finds static_force_at_start 1466.2 N"),
             "{told}"
         );
     }

@@ -20,10 +20,10 @@ struct Line<'a> {
     limit: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     unit: Option<&'static str>,
-    /// What it is of, where that is not what the method resolves.
+    /// `free-impact` where the method resolves the impact itself.
     #[serde(skip_serializing_if = "Option::is_none")]
     of: Option<&'static str>,
-    /// What the method itself finds.
+    /// The counterpart in the method.
     #[serde(skip_serializing_if = "Option::is_none")]
     own: Option<Own>,
     message: String,
