@@ -1,6 +1,7 @@
 //! What a person or a script reads of a solve.
 
 pub mod absence;
+pub mod comparison;
 pub mod csv;
 pub mod digest;
 pub mod explain;
@@ -21,6 +22,7 @@ use crate::case::{Case, units};
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Note, QUANTITIES, Quantity, Refusal, Solution, Stage, Stages};
 use crate::numeric::decimal::significant;
+pub(crate) use layout::with_units;
 
 /// A value as a person reads it.
 #[derive(Debug, Clone, PartialEq, Eq)]

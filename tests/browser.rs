@@ -112,7 +112,7 @@ fn the_case_under_the_cursor_is_told_with_its_verdict() {
         (
             "a-str",
             &[
-                "Corner contact 1.36628 deg of the driver before E, with 2191.0 N.",
+                "Corner contact: θ_1 = 1.36628 deg before E; impact force 2191.0 N.",
                 "ok impact_force 2191.0 N <= 2500 N",
             ],
         ),
@@ -123,8 +123,8 @@ fn the_case_under_the_cursor_is_told_with_its_verdict() {
         (
             "c-rel",
             &[
-                "No corner contact: Δ = ",
-                "ok impact_force none, no corner contact",
+                "No corner contact: no contact before E, Δ = ",
+                "ok impact_force does not occur: no corner contact",
             ],
         ),
         (
@@ -135,10 +135,10 @@ fn the_case_under_the_cursor_is_told_with_its_verdict() {
             "e-new",
             &[
                 "Of a newer format: it opens read-only.",
-                "Corner contact 1.36628 deg",
+                "Corner contact: θ_1 = 1.36628 deg",
             ],
         ),
-        ("f-ref", &["The model refuses it: ", "unknown impact_force"]),
+        ("f-ref", &["Not solved: ", "unknown impact_force"]),
         ("sub", &["A folder with 1 case, 0 folders."]),
     ] {
         desk.keys(&["Ctrl-U", file]);
@@ -284,7 +284,7 @@ fn names_that_no_terminal_should_see_are_shown_as_text_and_open() {
     for start in ["z1", "z2", "z3", "z4"] {
         desk.keys(&["Ctrl-O", start]);
         assert!(
-            preview(&desk).contains("Corner contact 1.36628 deg"),
+            preview(&desk).contains("Corner contact: θ_1 = 1.36628 deg"),
             "{start}\n{}",
             desk.screen()
         );
@@ -450,12 +450,12 @@ fn a_new_case_begins_with_an_example_and_has_no_file() {
     assert!(
         desk.shows("New from an example")
             && desk.shows("▸ zhou-chen-2014")
-            && desk.shows("with 2191.0 N.")
+            && desk.shows("impact force 2191.0 N.")
     );
     desk.keys(&["Down"]);
     assert!(
         preview(&desk).contains("FZG type C test gears")
-            && preview(&desk).contains("with 3346.5 N.")
+            && preview(&desk).contains("impact force 3346.5 N.")
     );
     desk.keys(&["relief", "Enter"]);
     assert!(

@@ -87,10 +87,13 @@ fn a_solve_is_told_for_a_person() {
     let page = told(&["solve", TABLE_1]);
     assert!(page.starts_with("Zhou & Chen 2014, Table 1\n"), "{page}");
     assert!(
-        page.contains("strikes 1.36628 deg of the driver before E"),
+        page.contains("Corner contact: θ_1 = 1.36628 deg before E; impact force 2191.0 N."),
         "{page}"
     );
-    assert!(page.contains("method paper: 0.0525747 deg"), "{page}");
+    assert!(
+        page.contains("Other method: paper 84.649 N at θ_1 = 0.0525747 deg."),
+        "{page}"
+    );
     assert!(!page.contains("Stations"), "{page}");
     assert!(told(&["solve", TABLE_1, "--stations", "4"]).contains("Stations from D to E"));
 }
@@ -159,7 +162,7 @@ fn what_does_not_exist_is_absent_and_the_outcome_says_why() {
     assert_eq!(solved["quantities"]["total_deviation"]["value"], 0.0);
     assert!(
         told(&[&["solve", TABLE_1], &on_time[..]].concat())
-            .contains("No corner contact: the tooth comes in on time, the total deviation is 0 um")
+            .contains("No corner contact: no contact before E, Δ = 0 um")
     );
 }
 
@@ -570,14 +573,11 @@ fn what_a_method_resolves_itself_stands_before_the_free_impact() {
             "{text}"
         );
         assert!(
-            free.contains("ok        impact_force 2011.2 N <= 2500 N (80 %): of the free impact"),
+            free.contains("ok        impact_force 2011.2 N <= 2500 N (80 %) for the free impact; "),
             "{text}"
         );
         let page = told(&["explain", "impact_force", TABLE_1, "--method", method]);
-        assert!(
-            page.contains("This is of the free impact, in closed form"),
-            "{page}"
-        );
+        assert!(page.contains("This is the free impact; "), "{page}");
         assert!(
             !page.contains(&format!("{method} 2011.2 N"))
                 && page.contains("exact with the deflection that"),
@@ -615,14 +615,12 @@ fn the_relief_that_is_told_stops_it_and_a_little_less_does_not() {
             .join(" ");
         let sentence = text
             .split(". ")
-            .find(|sentence| sentence.ends_with("stops it"))
+            .find(|sentence| sentence.contains(" at the driven tip: "))
             .unwrap_or_else(|| panic!("{method}: {text}"));
-        let told: f64 = sentence
-            .split(' ')
-            .next()
-            .unwrap_or_default()
-            .parse()
-            .unwrap();
+        let figures = sentence
+            .split([' ', ','])
+            .skip_while(|word| *word != method);
+        let told: f64 = figures.skip(1).next().unwrap_or_default().parse().unwrap();
         for (part, outcome) in [(1.0, "no-corner-contact"), (0.99, "corner-contact")] {
             let solved: Value =
                 serde_json::from_str(&run(with(given + told * part, "json"))).unwrap();
@@ -660,10 +658,8 @@ fn the_page_of_a_result_by_auto_says_which_tolerance_was_taken() {
 #[test]
 fn a_limit_is_tried_on_another_method_and_on_a_changed_field() {
     let dynamic = told(&["check", TABLE_1, "--method", "dynamic"]);
-    let beside = "of the free impact, in closed form; dynamic itself finds dynamic_peak_approach_force 1410.8 N";
-    let held = format!(
-        "ok {TABLE_1}: impact_force 2011.2 N <= 2500 N (80 %): {beside}; a limit on that holds it\n"
-    );
+    let beside = "for the free impact; dynamic finds dynamic_peak_approach_force 1410.8 N, which has no limit of its own";
+    let held = format!("ok {TABLE_1}: impact_force 2011.2 N <= 2500 N (80 %) {beside}\n");
     assert_eq!(dynamic, held);
     let by_auto = told(&["check", TABLE_1, "--method", "auto"]);
     assert_eq!(
@@ -683,7 +679,7 @@ fn a_limit_is_tried_on_another_method_and_on_a_changed_field() {
     let relieved = told(&["check", TABLE_1, "--set", "driven.tip_relief=60 um"]);
     assert_eq!(
         relieved,
-        format!("ok {TABLE_1}: impact_force none, no corner contact (limit 2500 N)\n")
+        format!("ok {TABLE_1}: impact_force does not occur: no corner contact (limit 2500 N)\n")
     );
 }
 
@@ -701,7 +697,7 @@ fn a_limit_holds_where_no_tooth_strikes() {
     let (_folder, path) = changed("base_pitch = \"16 um\"", "base_pitch = \"-50 um\"");
     assert_eq!(
         told(&["check", &path]),
-        format!("ok {path}: impact_force none, no corner contact (limit 2500 N)\n")
+        format!("ok {path}: impact_force does not occur: no corner contact (limit 2500 N)\n")
     );
 }
 
@@ -828,8 +824,8 @@ fn a_new_case_begins_with_an_example_wherever_the_program_stands() {
         assert!(listed.contains(example.name));
     }
     assert!(
-        listed.contains("strikes with 2191.0 N; limit held")
-            && listed.contains("does not strike; 2 limits held"),
+        listed.contains("strikes with 2191.0 N; limit met")
+            && listed.contains("no corner contact; 2 limits met"),
         "{listed}"
     );
     assert_eq!(code(&elsewhere(&["new", "--from", "fzg-type-c", path])), 0);

@@ -64,7 +64,7 @@ fn the_mark_in_the_results_stays_with_its_quantity() {
     );
     // What is gone comes back marked.
     desk.keys(&["g", "j", "j"]);
-    assert_eq!(marked(&desk), Some("approach_angle_driven"));
+    assert_eq!(marked(&desk), Some("approach_angle_driver"));
     desk.fill("driven.tip_relief", "80 um");
     assert!(
         desk.app.row == 0 && desk.app.results_top == 0,
@@ -72,7 +72,7 @@ fn the_mark_in_the_results_stays_with_its_quantity() {
         desk.screen()
     );
     desk.fill("driven.tip_relief", "0 um");
-    assert_eq!(marked(&desk), Some("approach_angle_driven"));
+    assert_eq!(marked(&desk), Some("approach_angle_driver"));
 }
 
 #[test]
@@ -139,7 +139,7 @@ fn values_have_their_units_beside_the_baseline_on_the_smallest_screen() {
     );
     desk.keys(&["Ctrl-T"]);
     assert!(
-        desk.shows("▸static    to base, exact") && desk.shows("F_s,max 1604.5 N"),
+        desk.shows("▸static vs exact baseline") && desk.shows("F_st,max"),
         "{}",
         desk.screen()
     );

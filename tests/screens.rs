@@ -12,6 +12,7 @@ mod harness;
 use harness::{Desk, LARGE, SMALL, TABLE_1, without_folder};
 use insta::assert_snapshot;
 use ratatui::layout::Size;
+use tipstrike::model::inputs::Method;
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::theme::{Look, MONO};
 use tipstrike::tui::view::results;
@@ -83,39 +84,30 @@ fn what_the_method_resolves_itself_stands_first() {
 }
 
 #[test]
-fn every_quantity_comes_in_sight_and_the_mark_says_how_many_are_below() {
+fn every_quantity_comes_in_sight_whole_and_the_title_shows_which_rows_are() {
     for size in [TINY, SMALL, LARGE] {
         let mut desk = in_motion(size);
         let (count, mut rows) = (results::count(&desk.app), Vec::new());
         for row in 0..count {
             assert_eq!(desk.app.row, row);
             let marked = results::marked(&desk.app).expect("a quantity");
-            // A long symbol has no room where no labels are.
-            let symbol: String = format!("▸{}", marked.symbol).chars().take(5).collect();
+            let symbol = format!("▸{} ", marked.symbol_in(Method::Dynamic));
             assert!(desk.shows(&symbol), "{size}: {symbol}\n{}", desk.screen());
             rows.push(marked.key);
             desk.keys(&["j"]);
         }
         rows.dedup();
         assert_eq!(rows.len(), count, "{size}");
-        let hidden = |desk: &Desk| {
-            format!(
-                "{} more",
-                count + 1 - results::page(&desk.app) - desk.app.results_top
-            )
+        let shows_position = |desk: &Desk| {
+            let (first, lines) = (desk.app.results_top + 1, count + 1);
+            let last = desk.app.results_top + results::page(&desk.app);
+            desk.shows(&format!("2 Results {first} to {last} of {lines}"))
+                || size == TINY && first > 1 && desk.shows("2 Results ↑ ")
+                || size == TINY && last < lines && desk.shows("2 Results ↓ ")
         };
-        assert!(
-            !desk.shows(&hidden(&desk)),
-            "{size}: nothing is below the last\n{}",
-            desk.screen()
-        );
+        assert!(shows_position(&desk), "{size}: {}", desk.screen());
         desk.keys(&["g"]);
-        assert!(
-            desk.shows(&hidden(&desk)),
-            "{size}: {}\n{}",
-            hidden(&desk),
-            desk.screen()
-        );
+        assert!(shows_position(&desk), "{size}: {}", desk.screen());
     }
 }
 

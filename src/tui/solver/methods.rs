@@ -61,13 +61,17 @@ pub(super) fn solved(
     };
     answer.methods.retain(|(known, _)| *known != active);
     if active == Method::Dynamic {
+        // Its required relief costs little and is compared with that of the motion.
         let shared = evaluator.solve(
             &request.case,
             &request.inputs,
             Method::Static,
-            stages,
-            &|_| true,
+            request.stages,
+            &|_| go_on(1.0, &|| first.clone()),
         );
+        if matches!(shared, Err(Refusal::Stopped)) {
+            return None;
+        }
         answer.methods.push((Method::Static, shared));
     }
     answer.methods.push((active, found));

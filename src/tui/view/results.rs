@@ -1,6 +1,7 @@
 //! The results: the outcome in a sentence, the gauges, every quantity with the methods side by
 //! side, what to know.
 
+mod gauges;
 mod table;
 
 use std::collections::BTreeSet;
@@ -13,8 +14,7 @@ use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
 use super::{text, title_room, titled};
-use crate::model::inputs::Method;
-use crate::model::{Note, Outcome, Quantity, Solution, Stage};
+use crate::model::{Note, Quantity, Solution};
 use crate::report::{self, Shown, digest};
 use crate::tui::app::App;
 use crate::tui::ascii::symbol;
@@ -37,9 +37,6 @@ const NOTE: &str = "Note: ";
 const LOW: usize = 20;
 const NARROW: usize = 30;
 
-/// What stops the impact and how far the results may be off, in words and then in fewer and fewer.
-struct Gauge(Vec<String>);
-
 /// What stands in the pane, from its top to its bottom.
 struct Parts {
     /// The refusal, the outcome, the gauges.
@@ -56,7 +53,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let inner = titled(
         app,
         Pane::Results,
-        &title(app, title_room(app, Pane::Results, area.width)),
+        &title(app, parts.rows, title_room(app, Pane::Results, area.width)),
         area,
         buffer,
     );
@@ -69,7 +66,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         width: inner.width.saturating_sub(1),
         ..inner
     };
-    let table = table::lines(app, answer, inner.width.into(), hidden(app, parts.rows));
+    let table = table::lines(app, answer, inner.width.into());
     let quantities = table.rows.iter().skip(app.results_top).take(parts.rows);
     let lines: Vec<Line<'static>> = parts
         .head
@@ -189,12 +186,23 @@ fn line_count(app: &App) -> usize {
         .map_or(0, |last| line_of(app, last) + 1)
 }
 
-// How many lines of the table are out of sight, above and below.
-fn hidden(app: &App, rows: usize) -> (usize, usize) {
-    (
-        app.results_top,
-        line_count(app).saturating_sub(app.results_top + rows),
-    )
+// Which lines of the table are in sight, where some are not; in words, in numbers, in arrows.
+fn position(app: &App, rows: usize) -> [String; 3] {
+    let (lines, first) = (line_count(app), app.results_top + 1);
+    let last = (app.results_top + rows).min(lines);
+    if rows == 0 || rows >= lines {
+        return Default::default();
+    }
+    [
+        format!(" {first} to {last} of {lines}"),
+        format!(" {first}-{last}/{lines}"),
+        [
+            " ",
+            if first > 1 { "↑" } else { "" },
+            if last < lines { "↓" } else { "" },
+        ]
+        .concat(),
+    ]
 }
 
 /// The outcome of a solve, in a sentence.
@@ -217,7 +225,9 @@ pub fn told(app: &App) -> Vec<String> {
     let outcome = answer
         .of(answer.active)
         .map(|solution| sentence(app, solution));
-    let gauges = gauges(app, answer).into_iter().map(Gauge::in_full);
+    let gauges = gauges::gauges(app, answer)
+        .into_iter()
+        .map(gauges::Gauge::in_full);
     let notes = answer
         .notes
         .iter()
@@ -245,7 +255,7 @@ fn lines_before(app: &App, area: Rect) -> usize {
 }
 
 // As much of it as has room, so that nothing is cut.
-fn title(app: &App, room: usize) -> String {
+fn title(app: &App, rows: usize, room: usize) -> String {
     let name = if app.is_stale() {
         "Results: LAST VALID"
     } else {
@@ -275,11 +285,17 @@ fn title(app: &App, room: usize) -> String {
             )
         });
     let short = if app.is_stale() { "LAST VALID" } else { name };
+    let [position, numbers, arrows] = position(app, rows);
     let titles = [
-        format!("{name}{against}{pending}{cost}"),
-        format!("{name}{against}{cost}"),
+        format!("{name}{position}{against}{pending}{cost}"),
+        format!("{name}{numbers}{against}{pending}{cost}"),
+        format!("{name}{arrows}{against}{pending}{cost}"),
+        format!("{name}{arrows}{against}{cost}"),
+        format!("{name}{position}{base}"),
+        format!("{name}{numbers}{base}"),
+        format!("{name}{arrows}{base}"),
         format!("{name}{base}"),
-        format!("{name}{cost}"),
+        format!("{name}{arrows}"),
         name.to_owned(),
     ];
     titles
@@ -296,7 +312,7 @@ fn parts(app: &App, area: Rect) -> Parts {
     let (mut gauges, mut notes) = (Vec::new(), Vec::new());
     if let Some(answer) = &app.answer {
         head.extend(outcome(app, answer, width, height < LOW));
-        gauges = self::gauges(app, answer)
+        gauges = gauges::gauges(app, answer)
             .iter()
             .map(|gauge| gauge.fitting(width))
             .collect();
@@ -443,108 +459,6 @@ fn outcome(app: &App, answer: &Answer, width: usize, is_low: bool) -> Vec<Line<'
         .into_iter()
         .map(|line| Line::styled(line, style))
         .collect()
-}
-
-impl Gauge {
-    fn fitting(&self, width: usize) -> String {
-        let fits = self.0.iter().find(|words| words.chars().count() <= width);
-        fits.or(self.0.last()).cloned().unwrap_or_default()
-    }
-
-    fn in_full(self) -> String {
-        self.0.into_iter().next().unwrap_or_default() + "."
-    }
-}
-
-fn gauges(app: &App, answer: &Answer) -> Vec<Gauge> {
-    let Some(solution) = answer.of(answer.active) else {
-        return Vec::new();
-    };
-    let ratios = (!solution.method.shares_load())
-        .then(|| ratios(answer, app.look.ascii))
-        .flatten();
-    [relief(app, answer, solution), band(app, solution), ratios]
-        .into_iter()
-        .flatten()
-        .collect()
-}
-
-// What stops it; where that is yet to come, a place is kept for it.
-fn relief(app: &App, answer: &Answer, solution: &Solution) -> Option<Gauge> {
-    let is_to_come = answer.strikes() && answer.lacks(Stage::Clearing);
-    let to_come = || {
-        [
-            "... tip relief of the driven gear stops it",
-            "... driven tip relief stops it",
-            "Ca2 ... stops it",
-        ]
-    };
-    let known = report::relief::relief(solution, app.settings.units);
-    known
-        .or_else(|| is_to_come.then(|| to_come().map(str::to_owned)))
-        .map(|words| Gauge(words.into()))
-}
-
-// How far the force depends on the choice of stiffness model; where nothing strikes there is none
-// to depend on it.
-fn band(app: &App, solution: &Solution) -> Option<Gauge> {
-    if solution.outcome == Outcome::NoCornerContact {
-        return None;
-    }
-    let (band, force) = (solution.band?, solution.impact?.force);
-    let percent = |end: f64| 100.0 * (end / force - 1.0) + 0.0;
-    let quantity = Quantity::find("impact_force_low")?;
-    let unit = report::unit_beside(
-        quantity,
-        [band.low, band.high].into_iter(),
-        app.settings.units,
-    );
-    let (low, high) = (
-        report::shown_with(quantity, band.low, unit).number,
-        report::shown_with(quantity, band.high, unit),
-    );
-    let parts = format!("{:+.1}..{:+.1} %", percent(band.low), percent(band.high));
-    let range = format!("{low}..{high} ({parts})");
-    let (whose, force) = if solution.method.shares_load() {
-        ("the free impact's ", "free F_S")
-    } else {
-        ("", "F_S")
-    };
-    Some(Gauge(vec![
-        format!("the stiffness models in range give {whose}F_S {range}"),
-        format!("by stiffness: {force} {range}"),
-        format!("by stiffness: {force} {parts}"),
-        format!("{force} {parts}"),
-    ]))
-}
-
-// How far the printed position is off, where both methods find one.
-fn ratios(answer: &Answer, ascii: bool) -> Option<Gauge> {
-    let (paper, exact) = (answer.of(Method::Paper)?, answer.of(Method::Exact)?);
-    let ratio = |key| {
-        let quantity = Quantity::find(key)?;
-        let ratio = (quantity.value)(exact)? / (quantity.value)(paper)?;
-        ratio
-            .is_finite()
-            .then(|| (symbol(quantity.symbol, ascii), rounded(ratio)))
-    };
-    let ((u, times), (force, more)) = (ratio("approach_angle_driven")?, ratio("impact_force")?);
-    Some(Gauge(vec![
-        format!(
-            "the exact {u} is {times} times that of the printed equations, {force} {more} times"
-        ),
-        format!("exact/paper: {u} {times}x, {force} {more}x"),
-        format!("exact/paper: {force} {more}x"),
-    ]))
-}
-
-fn rounded(ratio: f64) -> String {
-    let digits = if ratio < 10.0 {
-        2
-    } else {
-        usize::from(ratio < 100.0)
-    };
-    format!("{ratio:.digits$}")
 }
 
 fn shown_in(app: &App, quantity: &Quantity, value: f64) -> Shown {

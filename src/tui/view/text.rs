@@ -5,6 +5,7 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::{Modifier, Style};
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
+use crate::report::with_units;
 use crate::tui::ascii::printable;
 use crate::tui::line::Line;
 use crate::tui::theme::Theme;
@@ -47,14 +48,15 @@ pub fn padded(text: &str, width: usize) -> String {
     text + &" ".repeat(gap)
 }
 
-/// The text in lines of at most the width, broken between words where there is a place.
+/// The text in lines of at most the width, broken between words, and after a unit rather than
+/// before it.
 #[must_use]
 pub fn wrap(text: &str, width: usize) -> Vec<String> {
     let width = width.max(1);
     let text = printable(text);
     let mut lines = vec![String::new()];
-    for word in text.split(' ') {
-        put(&mut lines, word, width);
+    for word in with_units(&text, width) {
+        put(&mut lines, &word, width);
     }
     lines
 }

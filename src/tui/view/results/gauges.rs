@@ -1,0 +1,132 @@
+//! The lines between outcome and table: methods that differ, the required relief, the spread of the
+//! stiffness models, the error of the printed equations.
+
+use crate::model::inputs::Method;
+use crate::model::{Outcome, Quantity, Solution, Stage};
+use crate::report;
+use crate::report::comparison::differing;
+use crate::tui::app::App;
+use crate::tui::ascii::symbol;
+use crate::tui::solver::Answer;
+
+/// A statement in full, and then in fewer and fewer words.
+pub(super) struct Gauge(Vec<String>);
+
+impl Gauge {
+    pub(super) fn fitting(&self, width: usize) -> String {
+        let fits = self.0.iter().find(|words| words.chars().count() <= width);
+        fits.or(self.0.last()).cloned().unwrap_or_default()
+    }
+
+    pub(super) fn in_full(self) -> String {
+        self.0.into_iter().next().unwrap_or_default() + "."
+    }
+}
+
+pub(super) fn gauges(app: &App, answer: &Answer) -> Vec<Gauge> {
+    let Some(solution) = answer.of(answer.active) else {
+        return Vec::new();
+    };
+    let ratios = (!solution.method.shares_load())
+        .then(|| ratios(answer, app.look.ascii))
+        .flatten();
+    // The printed equations are no other opinion on the pair.
+    let others: Vec<&Solution> = (answer.methods.iter().rev())
+        .filter(|(method, _)| *method != answer.active && *method != Method::Paper)
+        .filter_map(|(_, found)| found.as_ref().ok())
+        .collect();
+    let differing = other_outcomes(answer, solution, &others);
+    let relief = relief(app, answer, solution, &others);
+    [differing, relief, band(app, solution), ratios]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+// A method that takes its time is not compared before its own result is there.
+fn other_outcomes(answer: &Answer, solution: &Solution, others: &[&Solution]) -> Option<Gauge> {
+    let found = differing(solution, others).filter(|_| answer.pending.is_none());
+    found.map(|words| Gauge(words.into()))
+}
+
+// The required relief; a place is kept for it while the worker still looks for it.
+fn relief(app: &App, answer: &Answer, solution: &Solution, others: &[&Solution]) -> Option<Gauge> {
+    let (units, given) = (app.settings.units, answer.inputs.driven.tip_relief);
+    let is_to_come = answer.strikes() && answer.lacks(Stage::Clearing);
+    let pending = || report::relief::pending(solution.method, given, others, units);
+    report::relief::relief(solution, others, units)
+        .or_else(|| is_to_come.then(pending).flatten())
+        .map(|words| Gauge(words.into()))
+}
+
+// How far the force depends on the stiffness model.
+fn band(app: &App, solution: &Solution) -> Option<Gauge> {
+    if solution.outcome == Outcome::NoCornerContact {
+        return None;
+    }
+    let (band, force) = (solution.band?, solution.impact?.force);
+    let percent = |end: f64| 100.0 * (end / force - 1.0) + 0.0;
+    let quantity = Quantity::find("impact_force_low")?;
+    let unit = report::unit_beside(
+        quantity,
+        [band.low, band.high].into_iter(),
+        app.settings.units,
+    );
+    let (low, high) = (
+        report::shown_with(quantity, band.low, unit).number,
+        report::shown_with(quantity, band.high, unit),
+    );
+    let parts = format!("{:+.1} to {:+.1} %", percent(band.low), percent(band.high));
+    let (whose, force) = if solution.method.shares_load() {
+        ("Free impact with other stiffness models", "free F_S")
+    } else {
+        ("Other stiffness models", "F_S")
+    };
+    Some(Gauge(vec![
+        format!("{whose}: F_S {low} to {high} ({parts})"),
+        format!("{whose}: F_S {parts}"),
+        format!("Stiffness models: {force} {parts}"),
+        format!("{force} {parts}"),
+    ]))
+}
+
+// How far the printed equations are off, where both methods find a contact.
+fn ratios(answer: &Answer, ascii: bool) -> Option<Gauge> {
+    let (paper, exact) = (answer.of(Method::Paper)?, answer.of(Method::Exact)?);
+    let ratio = |key| {
+        let quantity = Quantity::find(key)?;
+        let (paper, exact) = ((quantity.value)(paper)?, (quantity.value)(exact)?);
+        let times = match answer.active {
+            Method::Paper => times(exact / paper)?,
+            _ => times(paper / exact)?,
+        };
+        Some((symbol(quantity.symbol, ascii), times))
+    };
+    let ((angle, of_angle), (force, of_force)) =
+        (ratio("approach_angle_driver")?, ratio("impact_force")?);
+    let (in_full, method) = match answer.active {
+        Method::Paper => ("Method exact gives", "exact"),
+        _ => ("The printed equations give", "paper"),
+    };
+    Some(Gauge(vec![
+        format!("{in_full} {of_angle} of this angle and {of_force} of this force"),
+        format!("{method}: {of_angle} {angle}, {of_force} {force}"),
+        format!("{method}: {of_force} {force}"),
+    ]))
+}
+
+// A ratio as a multiple, a fraction or a percentage.
+fn times(ratio: f64) -> Option<String> {
+    let told = match ratio {
+        _ if !ratio.is_finite() || ratio <= 0.0 => return None,
+        _ if ratio >= 2.0 => format!("{} times", rounded(ratio)),
+        _ if ratio <= 0.5 => format!("1/{}", rounded(1.0 / ratio)),
+        _ => format!("{:.1} %", 100.0 * ratio),
+    };
+    Some(told)
+}
+
+fn rounded(ratio: f64) -> String {
+    let digits = usize::from(ratio < 10.0);
+    format!("{ratio:.digits$}")
+}
