@@ -617,10 +617,10 @@ fn the_relief_that_is_told_stops_it_and_a_little_less_does_not() {
             .split(". ")
             .find(|sentence| sentence.contains(" at the driven tip: "))
             .unwrap_or_else(|| panic!("{method}: {text}"));
-        let figures = sentence
+        let mut figures = sentence
             .split([' ', ','])
             .skip_while(|word| *word != method);
-        let told: f64 = figures.skip(1).next().unwrap_or_default().parse().unwrap();
+        let told: f64 = figures.nth(1).unwrap_or_default().parse().unwrap();
         for (part, outcome) in [(1.0, "no-corner-contact"), (0.99, "corner-contact")] {
             let solved: Value =
                 serde_json::from_str(&run(with(given + told * part, "json"))).unwrap();

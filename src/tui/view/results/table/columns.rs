@@ -143,7 +143,7 @@ impl Columns {
         if self.has_base {
             let room = self.unit + MARK + DIFFERENCE + 1;
             let heading = to_base(app, answer, room);
-            let heading = format!(" {heading:>width$}", width = room);
+            let heading = format!(" {heading:>room$}");
             spans.push(Span::styled(heading, theme.baseline));
         }
         Line::from(spans)
