@@ -787,6 +787,59 @@ fn a_quantity_is_known_by_a_symbol_of_its_own() {
         told(&["solve", TABLE_1, "--only", "F_S"]),
         told(&["solve", TABLE_1, "--only", "impact_force"])
     );
+    let page = told(&[
+        "solve",
+        TABLE_1,
+        "--method",
+        "dynamic",
+        "--only",
+        "F_d,max,F_st,E,Δf_0",
+    ]);
+    let rows = [
+        "F_d,max dynamic: peak force",
+        "F_st,E  static: force at E",
+        "Δf_0    error without",
+    ];
+    assert!(rows.iter().all(|row| page.contains(row)), "{page}");
+}
+
+#[test]
+fn the_angle_of_the_verdict_is_a_row_of_the_table() {
+    for (method, symbol, label) in [
+        ("exact", "θ_1", "driver angle before E"),
+        ("static", "θ_st", "static: driver before E"),
+        ("dynamic", "θ_d", "dynamic: driver before E"),
+    ] {
+        let page = told(&["solve", TABLE_1, "--method", method]);
+        let start = format!("Corner contact: {symbol} = ");
+        let (_, rest) = page.split_once(&start).unwrap_or_else(|| panic!("{page}"));
+        let (angle, _) = rest.split_once(" before E").unwrap();
+        let row = page.lines().find(|line| line.contains(label)).unwrap();
+        assert!(
+            row.contains(&format!(" {symbol} ")) && row.contains(angle),
+            "{row}"
+        );
+    }
+}
+
+#[test]
+fn one_method_governs_and_the_others_follow_in_a_line() {
+    let solve = |options: &[&str]| {
+        let page = told(&[&["solve", TABLE_1, "--method", "dynamic"], options].concat());
+        page.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let page = solve(&[]);
+    for line in [
+        "peak force 1410.8 N before E, 2003.0 N overall.",
+        "Relief needed at the driven tip: dynamic 38.9, static 40.1, exact 47.4 um.",
+        "Free impact with the given deflection: exact 2191.0 N at θ_1 = 1.36628 deg; paper 84.649 N",
+    ] {
+        assert!(page.contains(line), "{line}: {page}");
+    }
+    let differing = solve(&["--set", "driven.tip_relief=39 um"]);
+    let line = "static and exact find corner contact; dynamic governs: the case selects it, and it includes inertia.";
+    assert!(differing.contains(line), "{differing}");
+    assert!(!page.contains("governs"), "{page}");
 }
 
 #[test]

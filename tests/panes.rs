@@ -124,6 +124,62 @@ fn the_mark_of_a_change_stands_apart_behind_the_unit() {
 }
 
 #[test]
+fn no_mark_touches_a_unit_and_no_name_is_cut_where_there_is_room() {
+    let size = Size {
+        width: 240,
+        height: 70,
+    };
+    let mut desk = Desk::on(size, "case.toml", TABLE_1);
+    desk.keys(&["Esc", "b"]).fill("operation.speed", "1900 rpm");
+    desk.keys(&["Esc"]);
+    assert!(desk.shows("0.12777 um mm/N   "), "{}", desk.screen());
+    desk.fill("operation.power", "20 kW")
+        .fill("model.deflection", "");
+    desk.keys(&["Esc"]);
+    assert!(desk.shows(" um mm/N ← "), "{}", desk.screen());
+    desk.keys(&["Esc", "b", "Ctrl-T", "Ctrl-T"]);
+    assert!(
+        desk.shows("m x'' + ΣF = F0") && desk.shows("no touch before E"),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn the_closed_forms_beside_another_method_are_called_free_impact() {
+    for (size, heading) in [
+        (LARGE, "free impact: paper     exact"),
+        (SMALL, "free: exact"),
+    ] {
+        let mut desk = Desk::on(size, "case.toml", TABLE_1);
+        assert!(!desk.shows("free"), "{}", desk.screen());
+        desk.keys(&["Ctrl-T"]);
+        assert!(desk.shows(heading), "{}", desk.screen());
+    }
+}
+
+#[test]
+fn the_verdict_in_motion_has_the_overall_peak_at_every_size() {
+    for (size, words) in [
+        (TINY, "2003.0 N overall"),
+        (SMALL, "2003.0 N overall."),
+        (LARGE, "2003.0 N"),
+    ] {
+        let mut desk = Desk::on(size, "case.toml", TABLE_1);
+        desk.keys(&["Ctrl-T", "Ctrl-T"]);
+        assert!(desk.shows(words), "{}", desk.screen());
+        let is_unit_alone = |line: &str| {
+            ["N", "um", "deg"].contains(&line.split('│').nth(1).unwrap_or_default().trim())
+        };
+        assert!(
+            !desk.screen().lines().any(is_unit_alone),
+            "{}",
+            desk.screen()
+        );
+    }
+}
+
+#[test]
 fn values_have_their_units_beside_the_baseline_on_the_smallest_screen() {
     let mut desk = Desk::new(TINY);
     assert!(

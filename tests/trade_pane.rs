@@ -56,6 +56,20 @@ fn nothing_is_measured_until_it_is_asked_for() {
 }
 
 #[test]
+fn without_corner_contact_no_setting_is_recommended() {
+    let case = include_str!("../cases/tip-relief-enough.toml");
+    let mut desk = Desk::on(LARGE, "case.toml", case);
+    desk.keys(&["Esc", "5", "z", "m"]);
+    assert!(
+        desk.shows("No method finds corner contact: no setting is recommended"),
+        "{}",
+        desk.screen()
+    );
+    let traded = desk.app.traded.as_ref().expect("a measurement");
+    assert_eq!(traded.marked, None);
+}
+
+#[test]
 fn m_measures_and_the_cheapest_that_will_do_is_marked() {
     let desk = measured(LARGE);
     let traded = desk.app.traded.as_ref().expect("a measurement");

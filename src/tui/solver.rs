@@ -384,6 +384,23 @@ mod tests {
     }
 
     #[test]
+    fn the_relief_at_rest_is_known_while_that_in_motion_is_sought() {
+        let (sender, replies) = channel();
+        let solver = Solver::start(teller(sender)).expect("a thread");
+        let mut asked = request(1);
+        asked.inputs.method = Method::Dynamic;
+        solver.ask(asked);
+        let first = replies.iter().find_map(|reply| match reply {
+            Reply::Solved(answer) if answer.pending.is_none() => Some(answer),
+            _ => None,
+        });
+        let answer = first.expect("an answer");
+        let relief = |method| answer.of(method).and_then(|solution| solution.clearing);
+        assert!(answer.lacks(Stage::Clearing) && relief(Method::Dynamic).is_none());
+        assert!(relief(Method::Static).is_some_and(|clearing| clearing.relief.is_some()));
+    }
+
+    #[test]
     fn the_method_of_the_case_stands_first_and_auto_is_told_by_its_choice() {
         for (method, active) in [
             (Method::Paper, Method::Paper),
