@@ -44,6 +44,7 @@ pub use compliance::TeethCompliance;
 pub use contact_state::ContactState;
 pub use deviation::Deviation;
 pub use dynamic::Dynamic;
+pub use explanation::Context;
 pub use friction::Friction;
 pub use gear_pose::GearPose;
 pub use geometry::Geometry;

@@ -636,9 +636,9 @@ fn the_relief_that_is_told_stops_it_and_a_little_less_does_not() {
 fn the_page_of_a_result_by_auto_says_which_tolerance_was_taken() {
     let page = told(&["explain", "dynamic_peak_force", TABLE_1, "--method", "auto"]);
     let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(page.contains("method dynamic, taken by auto"), "{page}");
+    assert!(page.contains("method dynamic, chosen by auto"), "{page}");
     assert!(
-        page.contains("good to 1e-3, as auto takes it for model.within = 0.05; model.tolerance = 1e-6 is not used"),
+        page.contains("at most 1e-3 (chosen by auto for model.within = 0.05; model.tolerance = 1e-6 is not used)"),
         "{page}"
     );
     assert!(
@@ -652,7 +652,7 @@ fn the_page_of_a_result_by_auto_says_which_tolerance_was_taken() {
         "--method",
         "dynamic",
     ]);
-    assert!(given.contains("good to model.tolerance = 1e-6"), "{given}");
+    assert!(given.contains("at most model.tolerance = 1e-6"), "{given}");
 }
 
 #[test]
@@ -941,10 +941,16 @@ fn a_quantity_is_explained_for_people_and_for_scripts() {
         (&paper["key"], &paper["method"]),
         (&"approach_angle_driver".into(), &"paper".into())
     );
-    assert_eq!(paper["work"][0]["formula"], "ε_e + ε_d");
-    assert_eq!(paper["work"][0]["numbers"], "0.0272067 deg + 0.0253680 deg");
+    assert_eq!(paper["derivation"][0]["formula"], "ε_e + ε_d");
     assert_eq!(
-        (&paper["valid"][0]["holds"], &paper["mended"][0]["equation"]),
+        paper["derivation"][0]["numbers"],
+        "0.02720673 deg + 0.02536797 deg"
+    );
+    assert_eq!(
+        (
+            &paper["validity"][0]["inside"],
+            &paper["corrections"][0]["equation"]
+        ),
         (&false.into(), &"Eqs. 7-20".into())
     );
     let faster = json(&[
@@ -955,7 +961,7 @@ fn a_quantity_is_explained_for_people_and_for_scripts() {
         "--format",
         "json",
     ]);
-    let effect = faster["depends_on"]
+    let effect = faster["sensitivity"]
         .as_array()
         .unwrap()
         .iter()

@@ -9,13 +9,16 @@
 
 #[path = "explain/evaluate.rs"]
 mod evaluate;
+#[path = "explain/formula.rs"]
+mod formula;
 
 use evaluate::{evaluate, factor};
-use std::collections::BTreeSet;
+use formula::Tree;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 use tipstrike::case::{Case, EXAMPLES};
 use tipstrike::model::{QUANTITIES, Quantity, Stage, Stages, solve};
-use tipstrike::report::explain::{How, MENDS, Page, Work, explain, lines, render};
+use tipstrike::report::explain::{CORRECTIONS, How, Page, Work, explain, lines, render};
 
 type Settings = &'static [(&'static str, &'static str)];
 
@@ -51,7 +54,7 @@ const VARIANTS: [Settings; 8] = [
     ],
 ];
 
-struct Told {
+struct Explained {
     name: String,
     pages: Vec<Page>,
 }
@@ -69,7 +72,7 @@ fn cases() -> Vec<(String, Case)> {
 }
 
 /// The pages of a case once the settings have changed it; none where the model refuses it.
-fn told(name: &str, case: &Case, settings: &[(&str, &str)]) -> Option<Told> {
+fn explained(name: &str, case: &Case, settings: &[(&str, &str)]) -> Option<Explained> {
     let mut case = case.clone();
     for (key, value) in settings {
         case.set(key, value).unwrap();
@@ -78,27 +81,28 @@ fn told(name: &str, case: &Case, settings: &[(&str, &str)]) -> Option<Told> {
     let solution = solve(&inputs, Stages::ALL.with(Stage::Clearing)).ok()?;
     let pages = QUANTITIES
         .iter()
-        .map(|quantity| explain(quantity, &case, &inputs, &solution).expect(quantity.key))
+        .map(|quantity| explain(quantity, &case, &inputs, &solution))
         .collect();
-    Some(Told {
+    Some(Explained {
         name: format!("{name} {settings:?}"),
         pages,
     })
 }
 
-static TOLD: LazyLock<Vec<Told>> = LazyLock::new(|| {
+static EXPLAINED: LazyLock<Vec<Explained>> = LazyLock::new(|| {
     let cases = cases();
     let variants = cases
         .iter()
         .flat_map(|(name, case)| VARIANTS.iter().map(move |settings| (name, case, settings)));
     variants
-        .filter_map(|(name, case, settings)| told(name, case, settings))
+        .filter_map(|(name, case, settings)| explained(name, case, settings))
         .collect()
 });
 
 fn every_page(mut look: impl FnMut(&str, &Page)) {
-    TOLD.iter()
-        .for_each(|told| told.pages.iter().for_each(|page| look(&told.name, page)));
+    EXPLAINED
+        .iter()
+        .for_each(|case| case.pages.iter().for_each(|page| look(&case.name, page)));
 }
 
 fn page(case: &str, key: &str, settings: &[(&str, &str)]) -> Page {
@@ -106,32 +110,19 @@ fn page(case: &str, key: &str, settings: &[(&str, &str)]) -> Page {
         .into_iter()
         .find(|(name, _)| name.contains(case))
         .unwrap();
-    let told = told(&name, &case, settings).unwrap();
-    told.pages
+    let case = explained(&name, &case, settings).unwrap();
+    case.pages
         .into_iter()
         .find(|page| page.quantity.key == key)
         .unwrap()
 }
 
-/// A number rounded to the digits of a page, or to those of a longer whole number.
-fn rounded(value: f64, work: &Work) -> f64 {
-    let shown = work
-        .shown
-        .as_ref()
-        .unwrap()
-        .number
-        .split('e')
-        .next()
-        .unwrap();
-    let written = shown
-        .chars()
-        .filter(char::is_ascii_digit)
-        .collect::<String>()
-        .trim_start_matches('0')
-        .len();
-    format!("{value:.*e}", work.digits.max(written) - 1)
-        .parse()
-        .unwrap()
+/// One unit of the last digit that a page shows of a value, in the shown unit.
+fn last_place(work: &Work) -> f64 {
+    let shown: f64 = work.shown.as_ref().unwrap().number.parse().unwrap();
+    let magnitude = format!("{shown:e}").split('e').nth(1).unwrap().to_owned();
+    let digits = i32::try_from(work.digits).unwrap();
+    10f64.powi(magnitude.parse::<i32>().unwrap() + 1 - digits)
 }
 
 /// What is printed behind the last equals sign, in its unit, and what the numbers before it make.
@@ -145,11 +136,17 @@ fn printed(work: &Work) -> Option<(f64, f64)> {
 fn the_printed_numbers_make_the_printed_value() {
     let mut checked = 0;
     every_page(|name, page| {
-        for work in &page.work {
+        for work in &page.derivation {
             let Some((shown, found)) = printed(work) else {
                 continue;
             };
-            let agree = (rounded(found, work) - shown).abs() <= 1e-12 * shown.abs();
+            // The terms of a difference of close numbers have ten digits.
+            let lost = if work.formula.contains(" - ") {
+                1e-4
+            } else {
+                0.0
+            };
+            let agree = (found - shown).abs() <= last_place(work).max(lost * shown.abs());
             assert!(
                 agree,
                 "{name}, {}: {} = {:?} makes {found}, not {shown}",
@@ -162,10 +159,42 @@ fn the_printed_numbers_make_the_printed_value() {
 }
 
 #[test]
+fn every_formula_gives_the_value_of_the_solver() {
+    let mut checked = 0;
+    every_page(|name, page| {
+        let steps = page.derivation.iter().map(|work| (work.symbol, work.value));
+        let leaves = page.leaves.iter().map(|leaf| (leaf.symbol, leaf.value));
+        let values: BTreeMap<&str, f64> = steps
+            .chain(leaves)
+            .filter_map(|(symbol, value)| Some((symbol, value?)))
+            .collect();
+        for work in page
+            .derivation
+            .iter()
+            .filter(|work| work.how == How::Equals)
+        {
+            let Some(value) = work.value else { continue };
+            let tree = Tree::read(&work.formula).unwrap_or_else(|| panic!("{}", work.formula));
+            let found = tree.value(&|symbol| values.get(symbol).copied());
+            let found = found.unwrap_or_else(|| panic!("{name}: {}", work.formula));
+            assert!(
+                (found - value).abs() <= 1e-6 * value.abs() + 1e-18,
+                "{name}, {}: {} = {} gives {found}, the solver {value}",
+                page.quantity.key,
+                work.symbol,
+                work.formula
+            );
+            checked += 1;
+        }
+    });
+    assert!(checked > 10_000, "{checked}");
+}
+
+#[test]
 fn every_value_with_a_formula_is_shown_with_its_numbers() {
     every_page(|name, page| {
         for work in page
-            .work
+            .derivation
             .iter()
             .filter(|work| work.how == How::Equals && work.shown.is_some())
         {
@@ -178,13 +207,13 @@ fn every_value_with_a_formula_is_shown_with_its_numbers() {
             );
         }
         for work in page
-            .work
+            .derivation
             .iter()
             .filter(|work| work.how == How::Solves && work.shown.is_some())
         {
             assert_eq!(
                 work.residual.as_deref(),
-                Some("both sides meet within 1e-12 of either"),
+                Some("both sides agree within 1e-12 of either"),
                 "{name}, {}",
                 work.symbol
             );
@@ -197,13 +226,13 @@ fn every_quantity_is_explained_in_all_its_parts() {
     every_page(|name, page| {
         let Quantity { key, symbol, .. } = page.quantity;
         assert!(
-            [page.says, page.source, page.assumes]
+            [page.meaning, page.source, page.assumptions]
                 .iter()
                 .all(|part| part.ends_with('.')),
             "{key}"
         );
         assert_eq!(
-            page.work.first().map(|work| work.symbol),
+            page.derivation.first().map(|work| work.symbol),
             Some(*symbol),
             "{key}"
         );
@@ -214,27 +243,27 @@ fn every_quantity_is_explained_in_all_its_parts() {
         );
         assert_eq!(
             page.value.is_some(),
-            !page.worth.is_empty(),
+            !page.accuracy.is_empty(),
             "{name}, {key}"
         );
         assert!(
             page.missing.is_some() || !page.effects.is_empty(),
             "{name}, {key}"
         );
-        let given = page.work[0].how == How::Told;
-        let sides =
-            !page.work[0].formula.is_empty() && (given || page.work.len() + page.leaves.len() > 1);
+        let given = page.derivation[0].how == How::Described;
+        let sides = !page.derivation[0].formula.is_empty()
+            && (given || page.derivation.len() + page.leaves.len() > 1);
         assert!(sides, "{name}, {key}");
     });
 }
 
 #[test]
 fn every_equation_that_is_cited_is_one() {
-    let mut mended = BTreeSet::new();
+    let mut cited_errors = BTreeSet::new();
     every_page(|_, page| {
-        mended.extend(page.mended.iter().map(|mend| mend.equation));
+        cited_errors.extend(page.corrections.iter().map(|row| row.equation));
         let equation = page.quantity.equation;
-        let cited = [page.source, page.says, page.assumes];
+        let cited = [page.source, page.meaning, page.assumptions];
         let named = if let [number] = equations(equation)[..] {
             equations(page.source).contains(&number)
         } else {
@@ -255,16 +284,16 @@ fn every_equation_that_is_cited_is_one() {
             );
         }
     });
-    let table: BTreeSet<&str> = MENDS.iter().map(|mend| mend.equation).collect();
-    assert_eq!(mended, table);
-    for mend in MENDS {
-        let known = equations(mend.equation)
+    let table: BTreeSet<&str> = CORRECTIONS.iter().map(|row| row.equation).collect();
+    assert_eq!(cited_errors, table);
+    for row in CORRECTIONS {
+        let known = equations(row.equation)
             .iter()
             .all(|number| (1..=64).contains(number));
         assert!(
-            known && !mend.wrong.is_empty() && !mend.used.is_empty(),
+            known && !row.error.is_empty() && !row.used.is_empty(),
             "{}",
-            mend.equation
+            row.equation
         );
     }
 }
@@ -295,7 +324,7 @@ fn span(word: &str) -> Option<std::ops::RangeInclusive<u32>> {
 #[test]
 fn no_line_is_wider_than_asked_for() {
     for (name, case) in cases() {
-        for page in told(&name, &case, &[]).unwrap().pages {
+        for page in explained(&name, &case, &[]).unwrap().pages {
             for width in [38, 58, 80, 100] {
                 let lines = lines(&page, &name, width);
                 let wide = lines.iter().find(|line| line.text.chars().count() > width);
@@ -314,7 +343,7 @@ fn a_step_of_a_field_does_what_a_solve_says() {
             .find(|effect| effect.key == key)
             .unwrap()
     };
-    let more = told("", &Case::table_1(), &[("deviations.base_pitch", "17 um")]).unwrap();
+    let more = explained("", &Case::table_1(), &[("deviations.base_pitch", "17 um")]).unwrap();
     let force = more
         .pages
         .iter()

@@ -33,13 +33,7 @@ fn tell(options: &Explain, opened: &Opened, streams: &mut Streams) -> io::Result
         Ok(solution) => solution,
         Err(refusal) => return Ok(opened.refused(&refusal, streams)),
     };
-    let Some(page) = explain(options.quantity, &document.case, inputs, &solution) else {
-        streams.say(&format!(
-            "explain: {}: no explanation is written for this quantity",
-            options.quantity.key
-        ));
-        return Ok(Exit::Usage);
-    };
+    let page = explain(options.quantity, &document.case, inputs, &solution);
     match options.format {
         Listing::Text => streams.output.write_all(render(&page, name).as_bytes())?,
         Listing::Json => write_json(&page, name, &mut streams.output)?,

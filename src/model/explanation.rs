@@ -21,6 +21,9 @@ pub type When = fn(&Inputs) -> bool;
 pub enum Formula {
     /// An explicit right-hand side.
     Text(&'static str),
+    /// An explicit right-hand side that subtracts close numbers: a page shows its terms with more
+    /// digits.
+    Difference(&'static str),
     /// An explicit right-hand side with as many terms as the case has.
     Made(fn(&Context) -> String),
     /// The first formula whose condition is true.
@@ -41,9 +44,9 @@ pub struct Equation {
     /// The equation as print shows it.
     pub text: &'static str,
     /// The left side.
-    pub left: &'static str,
+    pub left: Formula,
     /// The right side.
-    pub right: &'static str,
+    pub right: Formula,
     /// The unit in which a page shows both sides.
     pub unit: &'static str,
     /// Both sides at the root, in SI.
@@ -63,6 +66,23 @@ pub struct Step {
     pub formula: Formula,
     /// The value in SI; `None` where the case has no such value.
     pub value: fn(&Context) -> Option<f64>,
+}
+
+/// A row of a table of steps.
+pub(super) const fn step(
+    symbol: &'static str,
+    meaning: &'static str,
+    unit: &'static str,
+    formula: Formula,
+    value: fn(&Context) -> Option<f64>,
+) -> Step {
+    Step {
+        symbol,
+        meaning,
+        unit,
+        formula,
+        value,
+    }
 }
 
 /// A range of validity and the values of a case in it.
@@ -108,7 +128,7 @@ impl Formula {
     #[must_use]
     pub fn explicit(self, context: &Context) -> Option<String> {
         match self.resolved(context.inputs) {
-            Formula::Text(text) => Some(text.to_owned()),
+            Formula::Text(text) | Formula::Difference(text) => Some(text.to_owned()),
             Formula::Made(make) => Some(make(context)),
             _ => None,
         }
@@ -132,13 +152,11 @@ pub fn tidy(value: f64, digits: usize) -> String {
 }
 
 /// A length in mm with five digits.
-#[allow(dead_code)]
 pub(super) fn mm(length: f64) -> String {
     format!("{} mm", tidy(length * 1e3, 5))
 }
 
 /// A time or a length in millionths of its unit, with four digits.
-#[allow(dead_code)]
 pub(super) fn micro(value: f64, unit: &str) -> String {
     format!("{} {unit}", tidy(value * 1e6, 4))
 }

@@ -97,8 +97,8 @@ impl Inputs {
 /// Masses of the two gears at their base circles J/r_b², in kg.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Masses {
-    driver: f64,
-    driven: f64,
+    pub(super) driver: f64,
+    pub(super) driven: f64,
 }
 
 impl Masses {

@@ -245,7 +245,7 @@ impl Default for Inputs {
             method: Method::Exact,
             deflection: None,
             tooth_compliance: None,
-            contact_compliance: ContactCompliance::LOGARITHMIC,
+            contact_compliance: ContactCompliance::ALL[0],
             relief_shape: ReliefShape::Linear,
             damping_ratio: 0.07,
             warmup_cycles: 20,

@@ -2,8 +2,6 @@
 
 use thiserror::Error;
 
-use super::compliance::tooth::kuang_yang;
-
 const MILLIMETRE: f64 = 1e-3;
 const MICROMETRE: f64 = 1e-6;
 
@@ -93,19 +91,20 @@ pub enum Refusal {
         tip: f64,
     },
     /// Eq. 56 does not cover the tooth number.
-    #[error("tooth number outside the Kuang-Yang fit: z is {teeth} and must be {}..{}", kuang_yang::TEETH.0, kuang_yang::TEETH.1)]
+    #[error("tooth number outside the Kuang-Yang fit: z is {teeth} and must be {}..{}", range.0, range.1)]
     TeethOutsideFit {
         /// z.
         teeth: u32,
+        /// Least and greatest z of the fit.
+        range: (u32, u32),
     },
     /// Eq. 56 does not cover the profile shift.
-    #[error(
-        "profile shift outside the Kuang-Yang fit: x is {shift} and must be -{0}..{0}",
-        kuang_yang::SHIFT
-    )]
+    #[error("profile shift outside the Kuang-Yang fit: x is {shift} and must be -{limit}..{limit}")]
     ShiftOutsideFit {
         /// x.
         shift: f64,
+        /// Greatest |x| of the fit.
+        limit: f64,
     },
     /// Eq. 56 gives no stiffness so far out on the tooth.
     #[error(

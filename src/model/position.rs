@@ -130,11 +130,20 @@ fn gap_curvature_at_start(geometry: &Geometry) -> f64 {
 /// jump by π where Δf > N₁E, are taken as one; Eqs. 16 and 20 without the rounded contact ratio.
 /// Kept as printed: the result is linear in Δ, where the tip's gap grows as u².
 fn printed_contact<T: Real>(geometry: &Geometry<T>, deviation: &Deviation<T>) -> T {
+    let [error, deflection] = printed_turns(geometry, deviation);
+    (error + deflection).over(geometry.ratio)
+}
+
+/// The turns εe and εd of the driver in [`printed_contact`].
+pub(super) fn printed_turns<T: Real>(geometry: &Geometry<T>, deviation: &Deviation<T>) -> [T; 2] {
     let base = geometry.driver.base;
     let turn = |from: T, by: T| (base * by).angle_to(base * base + from * (from - by));
     let error = deviation.equivalent_error;
     let ahead = geometry.start + geometry.base_pitch - error;
-    (turn(geometry.start, error) + turn(ahead, deviation.combined_deflection)).over(geometry.ratio)
+    [
+        turn(geometry.start, error),
+        turn(ahead, deviation.combined_deflection),
+    ]
 }
 
 /// Least tip relief of the driven gear, beyond what it has, with which the printed equations bring

@@ -52,3 +52,9 @@ pub fn with(inputs: &Inputs, tooth: &ToothModel, contact: &ContactModel) -> Inpu
         ..inputs.clone()
     }
 }
+
+/// The symbol of the impact force by these models.
+#[must_use]
+pub fn symbol(tooth: &ToothModel, contact: &ContactModel) -> String {
+    format!("F_{},{}", tooth.index, contact.index)
+}

@@ -187,9 +187,9 @@ fn explained(asked: Asked) -> Explained {
         inputs,
     } = asked;
     let page = match model::solve(&inputs, Stages::of(quantity.stage)) {
-        Ok(solution) => explain::explain(quantity, &case, &inputs, &solution)
-            .map(Box::new)
-            .ok_or_else(|| "no explanation is written for this result".to_owned()),
+        Ok(solution) => Ok(Box::new(explain::explain(
+            quantity, &case, &inputs, &solution,
+        ))),
         Err(refusal) => Err(format!(
             "Not solved: {refusal}. Correction: {}.",
             refusal.mend()

@@ -1,15 +1,21 @@
-//! What the symbols of a formula stand for in one case: quantities, steps on the way to them, and
-//! fields.
+//! The values of the symbols of a formula in one case: quantities, steps, forces of other stiffness
+//! models, and fields.
 
-use super::formula::Tree;
-use super::numbers::{Term, with_unit};
-use super::steps::steps;
+use std::sync::LazyLock;
+
+use super::substitution::{Term, with_unit};
 use crate::case::fields::Kind;
 use crate::case::{Case, FIELDS, units};
-use crate::model::{Inputs, QUANTITIES, Quantity, Solution};
+use crate::model::compliance::contact::{self, ContactModel};
+use crate::model::compliance::model_of;
+use crate::model::compliance::tooth::{self, ToothModel};
+use crate::model::explanation::{Context, Formula, Step};
+use crate::model::quantities::{spread_force, steps};
+use crate::model::stiffness_spread::{covering, symbol};
+use crate::model::{QUANTITIES, Quantity};
 use crate::report::value;
 
-/// Units in which a step is told and no field or quantity is, and what one of each is in SI.
+/// Units of steps that are no units of a field or a quantity, and one of each in SI.
 pub const STEP_UNITS: [(&str, f64); 5] = [
     ("kg m2", 1.0),
     ("N/(um mm)", 1e9),
@@ -18,17 +24,13 @@ pub const STEP_UNITS: [(&str, f64); 5] = [
     ("N s/m", 1.0),
 ];
 
-/// A solved case.
+/// A solved case with its texts.
 #[derive(Debug, Clone, Copy)]
-pub struct Known<'a> {
-    /// As the user wrote it.
-    pub case: &'a Case,
-    /// What the model read of it, with what the method `auto` took.
-    pub inputs: &'a Inputs,
-    /// The same as the case gives it.
-    pub given: &'a Inputs,
-    /// What the model found.
-    pub solution: &'a Solution,
+pub(super) struct Known<'a> {
+    /// The case as the user wrote it.
+    pub(super) case: &'a Case,
+    /// Inputs and results.
+    pub(super) context: Context<'a>,
 }
 
 /// Where the value of a symbol comes from.
@@ -38,83 +40,50 @@ pub(super) enum Source {
     Quantity(&'static Quantity),
     /// A step that formulas share.
     Step(&'static Step),
+    /// The impact force by another stiffness model.
+    Force(&'static Force),
     /// A field of the case, by its place.
     Field(usize),
 }
 
-/// A value on the way to a quantity.
+/// The impact force by another stiffness model.
 #[derive(Debug)]
-pub(super) struct Step {
-    pub(super) symbol: &'static str,
-    /// What it is, in a few words.
-    pub(super) meaning: &'static str,
-    /// The unit in which a person reads it.
-    pub(super) unit: &'static str,
-    /// Its right-hand side, where the case has one.
-    pub(super) formula: Formula,
-    /// Its value in SI as the model has it; without, the right-hand side tells.
-    pub(super) value: Option<fn(&Known) -> Option<f64>>,
+pub(super) struct Force {
+    pub(super) symbol: String,
+    pub(super) meaning: String,
+    tooth: &'static ToothModel,
+    contact: &'static ContactModel,
 }
 
-/// How a value is found.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Formula {
-    /// By an explicit right-hand side.
-    Text(&'static str),
-    /// As the case decides.
-    By(fn(&Known) -> Formula),
-    /// By an explicit right-hand side that has as many terms as the case has.
-    Made(fn(&Known) -> String),
-    /// Given by the field of that key.
-    Given(&'static str),
-    /// The root of an equation between two sides, told in that unit.
-    Solved {
-        equation: &'static str,
-        left: &'static str,
-        right: &'static str,
-        unit: &'static str,
-    },
-    /// In a way that these words tell.
-    Words(&'static str),
-    /// In a way that these words tell, with symbols to be explained.
-    Found {
-        words: &'static str,
-        with: &'static [&'static str],
-    },
-}
-
-impl Formula {
-    /// What it comes down to in this case.
-    pub(super) fn resolved(self, known: &Known) -> Formula {
-        match self {
-            Formula::By(choose) => choose(known).resolved(known),
-            other => other,
-        }
-    }
-
-    /// The right-hand side, where it is explicit.
-    pub(super) fn explicit(self, known: &Known) -> Option<String> {
-        match self.resolved(known) {
-            Formula::Text(text) => Some(text.to_owned()),
-            Formula::Made(make) => Some(make(known)),
-            _ => None,
-        }
-    }
-}
+static FORCES: LazyLock<Vec<Force>> = LazyLock::new(|| {
+    let force = |tooth: &'static ToothModel, contact: &'static ContactModel| Force {
+        symbol: symbol(tooth, contact),
+        meaning: format!("by {} and {}", tooth.name, contact.name),
+        tooth,
+        contact,
+    };
+    let pairs = tooth::MODELS
+        .into_iter()
+        .flat_map(|tooth| contact::MODELS.map(|contact| (tooth, contact)));
+    pairs
+        .map(|(tooth, contact)| force(tooth, contact))
+        .collect()
+});
 
 impl Known<'_> {
-    /// What a symbol stands for.
+    /// Where the value of a symbol comes from.
     pub(super) fn source(&self, symbol: &str) -> Option<Source> {
+        let method = self.context.solution.method;
         let quantity = QUANTITIES
             .iter()
-            .find(|quantity| {
-                quantity.symbol_in(self.solution.method) == symbol && !quantity.is_flag()
-            })
+            .find(|quantity| quantity.symbol_in(method) == symbol && !quantity.is_flag())
             .map(Source::Quantity);
-        let step = || {
-            steps()
-                .find(|step| step.symbol == symbol && self.has(step))
-                .map(Source::Step)
+        let step = || self.step(symbol).map(Source::Step);
+        let force = || {
+            FORCES
+                .iter()
+                .find(|force| force.symbol == symbol)
+                .map(Source::Force)
         };
         let field = || {
             FIELDS
@@ -122,66 +91,65 @@ impl Known<'_> {
                 .position(|field| field.symbol == symbol)
                 .map(Source::Field)
         };
-        quantity.or_else(step).or_else(field)
+        quantity.or_else(step).or_else(force).or_else(field)
     }
 
-    /// Whether the step is one in this case: the torque is not where it is given.
-    fn has(&self, step: &Step) -> bool {
-        !matches!(step.formula.resolved(self), Formula::Given(_))
+    /// A step that the case does not give in a field, as the torque may be.
+    fn step(&self, symbol: &str) -> Option<&'static Step> {
+        let inputs = self.context.inputs;
+        let models = model_of(inputs).model().steps.iter();
+        let models = models.chain(inputs.contact_compliance.model().steps);
+        let is_given = |step: &Step| matches!(step.formula.resolved(inputs), Formula::Given(_));
+        steps()
+            .chain(models)
+            .find(|step| step.symbol == symbol && !is_given(step))
     }
 
-    /// The value of a symbol and how it is shown.
-    pub(super) fn term(&self, symbol: &str) -> Option<Term> {
-        match self.source(symbol)? {
-            Source::Quantity(quantity) => {
-                Some(rounded(value(quantity, self.solution)?, quantity.shown))
+    /// The value of a source in SI.
+    pub(super) fn value(&self, source: Source) -> Option<f64> {
+        let found = match source {
+            Source::Quantity(quantity) => value(quantity, self.context.solution),
+            Source::Step(step) => (step.value)(&self.context),
+            Source::Force(force) => {
+                let inputs = self.context.inputs;
+                let covers = covering(inputs).any(|(tooth, _)| tooth.name == force.tooth.name);
+                covers
+                    .then(|| spread_force(inputs, force.tooth, force.contact))
+                    .flatten()
             }
-            Source::Step(step) => Some(rounded(self.step_value(step)?, step.unit)),
-            Source::Field(field) => self.field_term(field),
-        }
-    }
-
-    /// A step's value in SI, where it is a number.
-    pub(super) fn step_value(&self, step: &Step) -> Option<f64> {
-        let by_formula =
-            || self.evaluated(&Tree::read(&step.formula.resolved(self).explicit(self)?)?);
-        step.value
-            .map_or_else(by_formula, |value| value(self))
+            Source::Field(field) => self.case.value(field),
+        };
+        found
             .filter(|value| value.is_finite())
             .map(|value| value + 0.0)
     }
 
-    /// The value of a formula with all digits of its terms.
-    pub(super) fn evaluated(&self, tree: &Tree) -> Option<f64> {
-        tree.value(&|symbol| Some(self.term(symbol)?.value()))
+    /// The value of a symbol as a formula shows it.
+    pub(super) fn term(&self, symbol: &str) -> Option<Term> {
+        let source = self.source(symbol)?;
+        let value = self.value(source)?;
+        let in_unit = |unit| Term::Value(value / factor(unit).unwrap_or(1.0), unit);
+        Some(match source {
+            Source::Quantity(quantity) => in_unit(quantity.shown),
+            Source::Step(step) => in_unit(step.unit),
+            Source::Force(_) => in_unit("N"),
+            Source::Field(field) => Term::Written(self.field_text(field, value)),
+        })
     }
 
-    /// A field's value as the user wrote it, or in the field's usual unit where that could be
+    /// A field's value as the user wrote it, or in the field's usual unit where that text could be
     /// misread in a formula.
-    fn field_term(&self, field: usize) -> Option<Term> {
-        let value = self.case.value(field)?;
-        let usual = if let Kind::Number(_, range, _) = FIELDS[field].kind {
-            range.unit
-        } else {
-            ""
+    fn field_text(&self, field: usize, value: f64) -> String {
+        let usual = match FIELDS[field].kind {
+            Kind::Number(_, range, _) => range.unit,
+            _ => "",
         };
         let written = self.case.effective(field).and_then(plainly_written);
-        Some(Term::Written(
-            written.unwrap_or_else(|| units::text(value, usual)),
-            value,
-        ))
+        written.unwrap_or_else(|| units::text(value, usual))
     }
 }
 
-fn rounded(value: f64, unit: &'static str) -> Term {
-    Term::Rounded {
-        value,
-        unit,
-        factor: factor(unit).unwrap_or(1.0),
-    }
-}
-
-/// What one of a unit is in SI; `None` for an unknown one.
+/// One of a unit in SI; `None` for an unknown unit.
 pub(super) fn factor(unit: &str) -> Option<f64> {
     let of_step = || {
         STEP_UNITS

@@ -1,61 +1,69 @@
-//! The formula of a quantity and of each step on the way to it, with the case's numbers in it.
+//! The formula of a quantity and of each step before it, with the numbers of a case.
 
-use super::context::{Formula, Known, Source, Step, factor};
-use super::formula::Tree;
-use super::numbers::{tidy, with_unit, written};
-use super::table::Explanation;
+use super::context::{Known, Source, factor};
+use super::substitution::{substituted, symbols, with_unit};
 use crate::case::FIELDS;
 use crate::model::Quantity;
+use crate::model::explanation::{Equation, Formula, tidy};
 use crate::numeric::decimal::significant;
-use crate::report::{Shown, shown, value};
+use crate::report::{Shown, shown};
 
 /// Significant digits of a step.
 const STEP_DIGITS: usize = 5;
 
-/// How closely the two sides of a solved equation meet is told in these steps.
-const MET: [f64; 3] = [1e-12, 1e-9, 1e-6];
+/// How many digits a term has more than the result.
+const MORE_DIGITS: usize = 1;
 
-/// A value and the way to it.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// How many digits the terms have of a formula that subtracts close numbers.
+const DIFFERENCE_DIGITS: usize = 10;
+
+/// Bounds with which a page reports how closely the two sides of an equation agree.
+const BOUNDS: [f64; 3] = [1e-12, 1e-9, 1e-6];
+
+/// A value and how it is computed.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Work {
-    /// What is found, as formulas call it.
+    /// The symbol in formulas.
     pub symbol: &'static str,
-    /// What it is, in a few words; empty for the quantity itself.
+    /// A few words on a step; empty for the quantity itself.
     pub meaning: &'static str,
-    /// The right-hand side, or the equation that is solved, or words.
+    /// The right-hand side, the equation, or words.
     pub formula: String,
-    /// How the formula leads to the value.
+    /// How the formula gives the value.
     pub how: How,
-    /// The right-hand side with numbers: worked out, it gives what is shown. The space between a
-    /// number and its unit is one at which no line ends.
+    /// The right-hand side with numbers. No line ends between a number and its unit.
     pub numbers: Option<String>,
-    /// What is shown.
+    /// The value as a person reads it.
     pub shown: Option<Shown>,
-    /// Significant digits of it.
+    /// Its significant digits.
     pub digits: usize,
-    /// How well the root of an equation meets it.
+    /// The value in SI.
+    pub value: Option<f64>,
+    /// How closely the root of an equation satisfies it.
     pub residual: Option<String>,
 }
 
-/// How a formula leads to a value.
+/// How a formula gives a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum How {
-    /// The value is its right-hand side.
+    /// The value is the right-hand side.
     Equals,
     /// The value is the root of an equation.
     Solves,
-    /// Words tell.
-    Told,
+    /// Words describe the computation.
+    Described,
 }
 
-/// A symbol that a formula takes from elsewhere.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// A symbol that a formula takes from another page or from the form.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Leaf {
     /// The symbol.
     pub symbol: &'static str,
-    /// Its value as shown.
+    /// Its value as a person reads it.
     pub shown: String,
-    /// What it is, in a few words.
+    /// Its value in SI.
+    pub value: Option<f64>,
+    /// A few words for a person.
     pub meaning: &'static str,
     /// The key of the quantity or of the field.
     pub key: &'static str,
@@ -63,19 +71,14 @@ pub struct Leaf {
     pub is_quantity: bool,
 }
 
-/// The work on a quantity, and what its formulas take from elsewhere.
-pub(super) fn of(
-    quantity: &'static Quantity,
-    about: &Explanation,
-    known: &Known,
-) -> (Vec<Work>, Vec<Leaf>) {
-    let target = Target::of(quantity, known);
-    let mut work = worked(&target, about.formula, known);
-    let mut seen = vec![quantity.symbol_in(known.solution.method)];
+/// The derivation of a quantity, and what its formulas take from elsewhere.
+pub(super) fn of(quantity: &'static Quantity, known: &Known) -> (Vec<Work>, Vec<Leaf>) {
+    let mut work = derived(&Target::of(quantity, known), quantity.formula, known);
+    let mut seen = vec![quantity.symbol_in(known.context.solution.method)];
     let mut leaves = Vec::new();
-    let mut symbols = symbols(about.formula, known);
+    let mut open = symbols_of(quantity.formula, known);
     let mut next = 0;
-    while let Some(symbol) = symbols.get(next).cloned() {
+    while let Some(symbol) = open.get(next).cloned() {
         next += 1;
         let Some(source) = known
             .source(&symbol)
@@ -84,227 +87,180 @@ pub(super) fn of(
             continue;
         };
         seen.push(source.symbol(known));
+        let value = known.value(source);
         match source {
             Source::Step(step) => {
-                work.extend(worked(&Target::step(step, known), step.formula, known));
-                symbols.extend(self::symbols(step.formula, known));
+                let target = Target::step(step.symbol, step.meaning, value, step.unit);
+                work.extend(derived(&target, step.formula, known));
+                open.extend(symbols_of(step.formula, known));
             }
-            leaf => leaves.push(leaf.leaf(known)),
+            Source::Force(force) => {
+                let target = Target::step(&force.symbol, &force.meaning, value, "N");
+                let formula = Formula::Words("a separate solution with these models");
+                work.extend(derived(&target, formula, known));
+            }
+            Source::Quantity(_) | Source::Field(_) => leaves.extend(source.leaf(known)),
         }
     }
     (work, leaves)
 }
 
-/// What a formula must arrive at.
+/// The value that a formula gives.
 struct Target {
     symbol: &'static str,
     meaning: &'static str,
     value: Option<f64>,
-    unit: &'static str,
     digits: usize,
     shown: Option<Shown>,
 }
 
 impl Target {
     fn of(quantity: &'static Quantity, known: &Known) -> Target {
-        let value = value(quantity, known.solution);
-        let shown = value.map(|value| shown(quantity, value));
-        let symbol = quantity.symbol_in(known.solution.method);
-        let symbol = if symbol.is_empty() { "value" } else { symbol };
+        let value = known.value(Source::Quantity(quantity));
         Target {
-            symbol,
+            symbol: quantity.symbol_in(known.context.solution.method),
             meaning: "",
             value,
-            unit: quantity.shown,
             digits: quantity.digits,
-            shown,
+            shown: value.map(|value| shown(quantity, value)),
         }
     }
 
-    fn step(step: &'static Step, known: &Known) -> Target {
-        Target::told(step.symbol, step.meaning, known.step_value(step), step.unit)
-    }
-
-    fn told(
+    fn step(
         symbol: &'static str,
         meaning: &'static str,
         value: Option<f64>,
         unit: &'static str,
     ) -> Target {
-        let in_unit = |value: f64| value / factor(unit).unwrap_or(1.0);
         let shown = value.map(|value| Shown {
-            number: tidy(in_unit(value), STEP_DIGITS),
+            number: tidy(value / factor(unit).unwrap_or(1.0), STEP_DIGITS),
             unit: if unit == "1" { "" } else { unit },
         });
         Target {
             symbol,
             meaning,
             value,
-            unit,
             digits: STEP_DIGITS,
             shown,
         }
     }
 
-    /// Whether a number is the target's value, as far as its digits tell.
-    fn is(&self, found: f64) -> bool {
-        let told = |value: f64| significant(value / factor(self.unit).unwrap_or(1.0), self.digits);
-        self.value.is_some_and(|value| told(value) == told(found))
-    }
-
-    fn work(self, how: How, formula: String, numbers: Option<String>) -> Work {
-        let Target {
-            symbol,
-            meaning,
-            shown,
-            digits,
-            ..
-        } = self;
+    fn work(&self, how: How, formula: String) -> Work {
         Work {
-            symbol,
-            meaning,
+            symbol: self.symbol,
+            meaning: self.meaning,
             formula,
             how,
-            numbers,
-            shown,
-            digits,
+            numbers: None,
+            shown: self.shown.clone(),
+            digits: self.digits,
+            value: self.value,
             residual: None,
         }
     }
 }
 
-/// The formula of a target, with numbers where it is explicit; with both its sides where it is an
-/// equation.
-fn worked(target: &Target, formula: Formula, known: &Known) -> Vec<Work> {
-    let target = Target {
-        shown: target.shown.clone(),
-        ..*target
-    };
-    match formula.resolved(known) {
+/// The formula of a target: with numbers if it is explicit, with both sides if it is an equation.
+fn derived(target: &Target, formula: Formula, known: &Known) -> Vec<Work> {
+    match formula.resolved(known.context.inputs) {
         Formula::Given(key) => {
             let text = FIELDS
                 .iter()
                 .position(|field| field.key == key)
                 .and_then(|field| known.case.effective(field));
-            vec![target.work(
-                How::Told,
-                format!("given by the case, {key} = {}", text.unwrap_or_default()),
-                None,
-            )]
+            let text = format!("the case gives {key} = {}", text.unwrap_or_default());
+            vec![target.work(How::Described, text)]
         }
-        Formula::Words(words) | Formula::Found { words, .. } => {
-            vec![target.work(How::Told, words.to_owned(), None)]
+        Formula::Words(words) | Formula::Found(words, _) => {
+            vec![target.work(How::Described, words.to_owned())]
         }
-        Formula::Solved {
-            equation,
-            left,
-            right,
-            unit,
-        } => {
-            let mut root = target.work(How::Solves, equation.to_owned(), None);
-            root.residual = met(left, right, known);
-            vec![
-                root,
-                side("left side", left, unit, known),
-                side("right side", right, unit, known),
-            ]
-        }
+        Formula::Solved(equation) => solved(target, equation, known),
         other => {
-            let text = other.explicit(known).unwrap_or_default();
-            let numbers = Tree::read(&text).and_then(|tree| {
-                let term = |symbol: &str| known.term(symbol);
-                target.value.and_then(|_| {
-                    written(&tree, target.digits.min(STEP_DIGITS), &term, &|found| {
-                        target.is(found)
-                    })
-                })
-            });
-            vec![target.work(How::Equals, text, numbers)]
+            let text = other.explicit(&known.context).unwrap_or_default();
+            let digits = match other {
+                _ if symbols(&text) == [text.as_str()] => target.digits,
+                Formula::Difference(_) => DIFFERENCE_DIGITS,
+                _ => target.digits + MORE_DIGITS,
+            };
+            let term = |symbol: &str| known.term(symbol);
+            let numbers = target.value.and_then(|_| substituted(&text, digits, &term));
+            vec![Work {
+                numbers,
+                ..target.work(How::Equals, text)
+            }]
         }
     }
 }
 
-/// One side of an equation.
-fn side(name: &'static str, text: &'static str, unit: &'static str, known: &Known) -> Work {
-    let value = Tree::read(text).and_then(|tree| known.evaluated(&tree));
-    let target = Target::told(name, "", value, unit);
-    worked(&target, Formula::Text(text), known).remove(0)
+/// The root of an equation, how closely it satisfies the equation, and both sides.
+fn solved(target: &Target, equation: &'static Equation, known: &Known) -> Vec<Work> {
+    let sides = target.value.and_then(|_| (equation.sides)(&known.context));
+    let mut work = vec![Work {
+        residual: sides.map(agreement),
+        ..target.work(How::Solves, equation.text.to_owned())
+    }];
+    let side = |name, at: usize| Target::step(name, "", sides.map(|s| s[at]), equation.unit);
+    work.extend(derived(&side("left side", 0), equation.left, known));
+    work.extend(derived(&side("right side", 1), equation.right, known));
+    work
 }
 
-/// How closely the two sides of an equation meet.
-fn met(left: &str, right: &str, known: &Known) -> Option<String> {
-    let [left, right] = [left, right].map(|side| known.evaluated(&Tree::read(side)?));
-    let apart = (left? - right?).abs() / right?.abs();
-    let step = MET.into_iter().find(|&met| apart <= met);
-    let within = step.map_or_else(|| significant(apart, 2), |met| format!("{met:e}"));
-    Some(format!("both sides meet within {within} of either"))
+/// How closely the two sides of an equation agree.
+fn agreement([left, right]: [f64; 2]) -> String {
+    let apart = (left - right).abs() / right.abs();
+    let bound = BOUNDS.into_iter().find(|&bound| apart <= bound);
+    let within = bound.map_or_else(|| significant(apart, 2), |bound| format!("{bound:e}"));
+    format!("both sides agree within {within} of either")
 }
 
 /// The symbols of a formula, in the order of reading.
-fn symbols(formula: Formula, known: &Known) -> Vec<String> {
-    let texts = match formula.resolved(known) {
-        Formula::Solved { left, right, .. } => vec![left.to_owned(), right.to_owned()],
-        Formula::Found { with, .. } => {
-            return with.iter().map(|&symbol| symbol.to_owned()).collect();
-        }
-        other => other.explicit(known).into_iter().collect(),
-    };
-    let trees = texts.iter().filter_map(|text| Tree::read(text));
-    trees
-        .flat_map(|tree| {
-            tree.symbols()
-                .into_iter()
-                .map(str::to_owned)
-                .collect::<Vec<_>>()
-        })
-        .collect()
+fn symbols_of(formula: Formula, known: &Known) -> Vec<String> {
+    match formula.resolved(known.context.inputs) {
+        Formula::Solved(equation) => [equation.left, equation.right]
+            .into_iter()
+            .flat_map(|side| symbols_of(side, known))
+            .collect(),
+        Formula::Found(_, with) => with.iter().map(|&symbol| symbol.to_owned()).collect(),
+        other => other
+            .explicit(&known.context)
+            .map(|text| symbols(&text))
+            .unwrap_or_default(),
+    }
 }
 
 impl Source {
     fn symbol(self, known: &Known) -> &'static str {
         match self {
-            Source::Quantity(quantity) => quantity.symbol_in(known.solution.method),
+            Source::Quantity(quantity) => quantity.symbol_in(known.context.solution.method),
             Source::Step(step) => step.symbol,
+            Source::Force(force) => &force.symbol,
             Source::Field(field) => FIELDS[field].symbol,
         }
     }
 
-    fn leaf(self, known: &Known) -> Leaf {
-        let symbol = self.symbol(known);
-        let term = || {
-            known
-                .term(symbol)
-                .map_or_else(|| "no value".to_owned(), |term| term.text(STEP_DIGITS))
-        };
-        match self {
+    /// The leaf of a quantity or of a field; steps and forces have a derivation instead.
+    fn leaf(self, known: &Known) -> Option<Leaf> {
+        let (symbol, value) = (self.symbol(known), known.value(self));
+        let (text, meaning, key) = match self {
             Source::Quantity(quantity) => {
-                let shown = value(quantity, known.solution).map(|value| shown(quantity, value));
-                let shown = shown.map_or_else(
-                    || "no value".to_owned(),
-                    |shown| with_unit(&shown.number, shown.unit),
-                );
-                Leaf {
-                    symbol,
-                    shown,
-                    meaning: quantity.label_in(known.solution.method).trim_start(),
-                    key: quantity.key,
-                    is_quantity: true,
-                }
+                let text = value.map(|value| shown(quantity, value));
+                let text = text.map(|shown| with_unit(&shown.number, shown.unit));
+                let label = quantity.label_in(known.context.solution.method);
+                (text, label.trim_start(), quantity.key)
             }
-            Source::Step(step) => Leaf {
-                symbol,
-                shown: term(),
-                meaning: step.meaning,
-                key: "",
-                is_quantity: false,
-            },
-            Source::Field(field) => Leaf {
-                symbol,
-                shown: term(),
-                meaning: FIELDS[field].label,
-                key: FIELDS[field].key,
-                is_quantity: false,
-            },
-        }
+            Source::Field(field) => {
+                let text = known.term(symbol).map(|term| term.text(STEP_DIGITS));
+                (text, FIELDS[field].label, FIELDS[field].key)
+            }
+            Source::Step(_) | Source::Force(_) => return None,
+        };
+        Some(Leaf {
+            symbol,
+            shown: text.unwrap_or_else(|| "no value".to_owned()),
+            value,
+            meaning,
+            key,
+            is_quantity: matches!(self, Source::Quantity(_)),
+        })
     }
 }

@@ -1,4 +1,5 @@
-//! The fields that a quantity depends on, and what a small step of each does to it in this case.
+//! The sensitivity of a quantity: the fields that it depends on, and its change by a small step of
+//! each.
 
 use super::context::{Known, factor};
 use super::uncertainty::{noise, value_of};
@@ -13,36 +14,35 @@ use crate::model::{Inputs, Quantity, Stage};
 use crate::numeric::decimal::significant;
 use crate::report::{shown, value};
 
-/// The tolerance of the motion with which a small step is told from none.
+/// The tolerance of the motion at which a small step is distinguishable.
 const FINE: f64 = 1e-6;
 
-/// A field and what a small step of it does.
+/// A field and the change by a small step of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Effect {
     /// The field's key.
     pub key: &'static str,
     /// The field's symbol.
     pub symbol: &'static str,
-    /// What stands in it.
+    /// The field's text.
     pub text: String,
-    /// The step; empty for a choice, or for a field that is left out.
+    /// The step; empty for a choice or a field without a value.
     pub step: String,
-    /// What the step does to the quantity; empty where it does nothing.
+    /// The change of the quantity; empty without a change.
     pub change: String,
 }
 
 /// The fields behind a quantity, in the order of the form.
 pub(super) fn of(quantity: &Quantity, known: &Known) -> Vec<Effect> {
-    // A step must not change over from one stiffness model to the other, nor be lost in the steps
-    // of the motion.
-    let tolerance = known.inputs.tolerance.min(FINE);
+    // A step must not switch the stiffness model and must exceed the steps of the motion.
+    let tolerance = known.context.inputs.tolerance.min(FINE);
     let held = Inputs {
-        tooth_compliance: Some(model_of(known.inputs)),
+        tooth_compliance: Some(model_of(known.context.inputs)),
         tolerance,
-        ..known.inputs.clone()
+        ..known.context.inputs.clone()
     };
-    let is_coarse = quantity.stage == Stage::Dynamic && tolerance < known.inputs.tolerance;
-    let own = value(quantity, known.solution);
+    let is_coarse = quantity.stage == Stage::Dynamic && tolerance < known.context.inputs.tolerance;
+    let own = value(quantity, known.context.solution);
     let own = if is_coarse {
         value_of(quantity, &held)
     } else {
@@ -54,18 +54,17 @@ pub(super) fn of(quantity: &Quantity, known: &Known) -> Vec<Effect> {
         .collect()
 }
 
-/// The fields behind a quantity; the method `auto` takes the tolerance from what it may leave in
-/// all.
+/// The fields behind a quantity; method `auto` derives the tolerance from `model.within`.
 fn fields(quantity: &Quantity, known: &Known) -> Vec<usize> {
     let [given, taken] = ["model.within", "model.tolerance"].map(index_of);
     let by_auto = |field: usize| {
-        if known.given.method == Method::Auto && Some(field) == taken {
+        if known.context.given.method == Method::Auto && Some(field) == taken {
             given
         } else {
             Some(field)
         }
     };
-    fields_of(quantity, known.inputs)
+    fields_of(quantity, known.context.inputs)
         .into_iter()
         .filter_map(by_auto)
         .collect()
@@ -133,7 +132,7 @@ fn stepped(field: usize, now: f64, held: &Inputs) -> Option<(String, Inputs)> {
     Some((step, inputs))
 }
 
-/// A change of the quantity's value, as a share of it or else in its unit.
+/// A change of the value, relative or in the unit of the quantity.
 fn change(quantity: &Quantity, own: f64, found: Option<f64>, noise: f64) -> String {
     let Some(found) = found else {
         return "no value".to_owned();

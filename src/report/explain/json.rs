@@ -1,7 +1,11 @@
-//! An explanation as one JSON object on one line.
+//! A page as one JSON object on one line.
 
-use super::numbers::GLUE;
-use super::{Correction, Effect, Finding, How, Leaf, Page, Work};
+use super::corrections::Correction;
+use super::derivation::{How, Leaf, Work};
+use super::effects::Effect;
+use super::page::Page;
+use super::substitution::GLUE;
+use crate::model::explanation::Finding;
 use crate::report::Shown;
 use crate::report::json::write_line;
 use serde::Serialize;
@@ -22,17 +26,17 @@ struct Line<'a> {
     shown: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     missing: Option<&'a str>,
-    says: &'static str,
+    meaning: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     beside: Option<&'a str>,
-    work: Vec<WorkLine<'a>>,
+    derivation: Vec<WorkLine<'a>>,
     with: Vec<LeafLine<'a>>,
     source: &'static str,
-    mended: Vec<MendLine>,
-    assumes: &'static str,
-    valid: Vec<FindingLine<'a>>,
-    worth: &'a [String],
-    depends_on: Vec<EffectLine<'a>>,
+    corrections: Vec<CorrectionLine>,
+    assumptions: &'static str,
+    validity: Vec<FindingLine<'a>>,
+    accuracy: &'a [String],
+    sensitivity: Vec<EffectLine<'a>>,
 }
 
 #[derive(Serialize)]
@@ -59,9 +63,9 @@ struct LeafLine<'a> {
 }
 
 #[derive(Serialize)]
-struct MendLine {
+struct CorrectionLine {
     equation: &'static str,
-    wrong: &'static str,
+    error: &'static str,
     used: &'static str,
 }
 
@@ -69,7 +73,7 @@ struct MendLine {
 struct FindingLine<'a> {
     range: &'a str,
     here: &'a str,
-    holds: bool,
+    inside: bool,
 }
 
 #[derive(Serialize)]
@@ -82,7 +86,7 @@ struct EffectLine<'a> {
     change: &'a str,
 }
 
-/// Write the page as one line; `name` says of which case it is.
+/// Write the page as one line; `name` is that of the case.
 ///
 /// # Errors
 /// What the writer refuses.
@@ -99,30 +103,20 @@ pub fn write(page: &Page, name: &str, out: &mut dyn Write) -> io::Result<()> {
         value: page.value,
         shown: page.shown.as_ref().map(Shown::to_string),
         missing: page.missing.as_deref(),
-        says: page.says,
+        meaning: page.meaning,
         beside: page.beside.as_deref(),
-        work: page.work.iter().map(WorkLine::of).collect(),
+        derivation: page.derivation.iter().map(WorkLine::of).collect(),
         with: page.leaves.iter().map(LeafLine::of).collect(),
         source: page.source,
-        mended: page
-            .mended
+        corrections: page
+            .corrections
             .iter()
-            .map(
-                |&&Correction {
-                     equation,
-                     wrong,
-                     used,
-                 }| MendLine {
-                    equation,
-                    wrong,
-                    used,
-                },
-            )
+            .map(|correction| CorrectionLine::of(correction))
             .collect(),
-        assumes: page.assumes,
-        valid: page.valid.iter().map(FindingLine::of).collect(),
-        worth: &page.worth,
-        depends_on: page.effects.iter().map(EffectLine::of).collect(),
+        assumptions: page.assumptions,
+        validity: page.validity.iter().map(FindingLine::of).collect(),
+        accuracy: &page.accuracy,
+        sensitivity: page.effects.iter().map(EffectLine::of).collect(),
     };
     write_line(&line, out)
 }
@@ -135,7 +129,7 @@ impl WorkLine<'_> {
             how: match work.how {
                 How::Equals => "equals",
                 How::Solves => "solves",
-                How::Told => "told",
+                How::Described => "described",
             },
             formula: &work.formula,
             numbers: work
@@ -144,6 +138,16 @@ impl WorkLine<'_> {
                 .map(|numbers| numbers.replace(GLUE, " ")),
             shown: work.shown.as_ref().map(Shown::to_string),
             residual: work.residual.as_deref(),
+        }
+    }
+}
+
+impl CorrectionLine {
+    fn of(correction: &Correction) -> CorrectionLine {
+        CorrectionLine {
+            equation: correction.equation,
+            error: correction.error,
+            used: correction.used,
         }
     }
 }
@@ -164,7 +168,7 @@ impl FindingLine<'_> {
         FindingLine {
             range: &finding.range,
             here: &finding.here,
-            holds: finding.holds,
+            inside: finding.inside,
         }
     }
 }

@@ -1,316 +1,111 @@
-//! An explanation as lines of text, for a terminal of any width.
+//! The page of a quantity: all that the program knows of it in a case.
 
-use super::numbers::GLUE;
-use super::{Effect, How, Leaf, Page, Work};
-use crate::case::sanitize::sanitize;
-use crate::report::layout::{WIDTH, count, flow, widest};
+use super::context::Known;
+use super::corrections::{self, Correction};
+use super::derivation::{self, Leaf, Work};
+use super::effects::{self, Effect};
+use super::uncertainty;
+use crate::case::Case;
+use crate::case::units::System;
+use crate::model::explanation::{Context, Finding};
+use crate::model::inputs::Method;
+use crate::model::{Inputs, Quantity, Solution, auto};
+use crate::report::absence::Absence;
+use crate::report::verdict::Beside;
+use crate::report::{Shown, shown, value};
 
-/// What a line is, for the eye.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    /// The quantity and its value.
-    Title,
-    /// The name of a section.
-    Heading,
-    /// A formula in symbols.
-    Formula,
-    /// A formula with numbers, or what comes of it.
-    Numbers,
-    /// Words and tables.
-    Text,
-    /// A range that the case is outside of.
-    Outside,
+/// An explained quantity.
+#[derive(Debug, Clone)]
+pub struct Page {
+    /// The quantity.
+    pub quantity: &'static Quantity,
+    /// Its symbol in this method.
+    pub symbol: &'static str,
+    /// Its label in this method.
+    pub label: &'static str,
+    /// The method of the solution.
+    pub method: &'static str,
+    /// Whether the method `auto` chose the method.
+    pub is_by_auto: bool,
+    /// The value in SI, if there is one.
+    pub value: Option<f64>,
+    /// The value as a person reads it.
+    pub shown: Option<Shown>,
+    /// Why there is no value.
+    pub missing: Option<String>,
+    /// What the quantity is and what it is used for.
+    pub meaning: &'static str,
+    /// The quantity of the method itself that corresponds to a quantity of the free impact.
+    pub beside: Option<String>,
+    /// The formula of the quantity, then those of each step before it.
+    pub derivation: Vec<Work>,
+    /// The other quantities and the fields in the formulas.
+    pub leaves: Vec<Leaf>,
+    /// Author, year, equation.
+    pub source: &'static str,
+    /// Corrected errors in print.
+    pub corrections: Vec<&'static Correction>,
+    /// What the formula assumes.
+    pub assumptions: &'static str,
+    /// The ranges of validity with the values of the case.
+    pub validity: Vec<Finding>,
+    /// Sentences on the accuracy.
+    pub accuracy: Vec<String>,
+    /// The fields that the quantity depends on, with its change by a small step of each.
+    pub effects: Vec<Effect>,
 }
 
-/// A line of a page.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Line {
-    /// What it is.
-    pub kind: Kind,
-    /// What it says.
-    pub text: String,
-}
-
-impl Line {
-    fn new(kind: Kind, text: impl Into<String>) -> Line {
-        Line {
-            kind,
-            text: text.into(),
-        }
-    }
-}
-
-/// The page as text, 80 columns wide.
+/// Explain a quantity of a solved case. The solution must have run the quantity's stage.
 #[must_use]
-pub fn render(page: &Page, name: &str) -> String {
-    lines(page, name, WIDTH)
-        .into_iter()
-        .map(|line| line.text.trim_end().to_owned() + "\n")
-        .collect()
-}
-
-/// The page in lines of at most so many columns; `name` says of which case it is.
-#[must_use]
-pub fn lines(page: &Page, name: &str, width: usize) -> Vec<Line> {
-    let width = width.max(20);
-    let sections = [
-        head(page, name, width),
-        titled(
-            "Formula",
-            page.work
-                .iter()
-                .flat_map(|work| worked(work, width))
-                .collect(),
-        ),
-        titled("with", leaves(&page.leaves, width)),
-        titled("Source", paragraph(page.source, 2, width)),
-        titled("Mended in print", mended(page, width)),
-        titled("Valid for", valid(page, width)),
-        titled(
-            "Worth",
-            page.worth
-                .iter()
-                .flat_map(|line| paragraph(line, 2, width))
-                .collect(),
-        ),
-        titled(
-            "Depends on: what a small step does",
-            effects(&page.effects, width),
-        ),
-    ];
-    let mut lines: Vec<Line> = Vec::new();
-    for section in sections.into_iter().filter(|section| !section.is_empty()) {
-        if !lines.is_empty() {
-            lines.push(Line::new(Kind::Text, ""));
-        }
-        lines.extend(section);
-    }
-    lines
-}
-
-fn titled(title: &str, lines: Vec<Line>) -> Vec<Line> {
-    let heading = (!lines.is_empty()).then(|| Line::new(Kind::Heading, title));
-    heading.into_iter().chain(lines).collect()
-}
-
-fn head(page: &Page, name: &str, width: usize) -> Vec<Line> {
-    let quantity = page.quantity;
-    let value = match (&page.shown, &page.missing) {
-        (Some(shown), _) if page.symbol.is_empty() => shown.to_string(),
-        (Some(shown), _) => format!("{} = {shown}", page.symbol),
-        (None, reason) => reason.clone().unwrap_or_default(),
-    };
-    let symbol = if page.symbol.is_empty() {
-        String::new()
+pub fn explain(
+    quantity: &'static Quantity,
+    case: &Case,
+    inputs: &Inputs,
+    solution: &Solution,
+) -> Page {
+    let is_by_auto = inputs.method == Method::Auto;
+    let used = if is_by_auto {
+        auto::taken(inputs, solution.method)
     } else {
-        format!(", {}", page.symbol)
+        inputs.clone()
     };
-    let title = format!("{}{symbol} ({})", page.label, quantity.equation);
-    let by = if page.is_by_auto {
-        ", taken by auto"
-    } else {
-        ""
+    let context = Context {
+        inputs: &used,
+        given: inputs,
+        solution,
     };
-    let of = format!(
-        "{} · {} · method {}{by}",
-        quantity.key,
-        sanitize(name),
-        page.method
-    );
-    let mut lines = block(Kind::Title, &title, "", "", width);
-    lines.extend(block(Kind::Title, &value, "", "  ", width));
-    lines.extend(block(Kind::Text, &of, "", "", width));
-    lines.push(Line::new(Kind::Text, ""));
-    lines.extend(paragraph(page.says, 0, width));
-    lines.extend(
-        page.beside
+    let known = Known { case, context };
+    let value = value(quantity, solution);
+    let (derivation, leaves) = derivation::of(quantity, &known);
+    Page {
+        quantity,
+        symbol: quantity.symbol_in(solution.method),
+        label: quantity.label_in(solution.method).trim_start(),
+        method: solution.method.name(),
+        is_by_auto,
+        value,
+        shown: value.map(|value| shown(quantity, value)),
+        missing: value
+            .is_none()
+            .then(|| format!("No value: {}", Absence::of(quantity, solution))),
+        meaning: quantity.meaning_in(&used),
+        beside: Beside::of(quantity, solution)
+            .map(|beside| format!("This is {}.", beside.told(System::Metric))),
+        derivation,
+        leaves,
+        source: quantity.source,
+        corrections: quantity
+            .corrections
             .iter()
-            .flat_map(|beside| paragraph(beside, 0, width)),
-    );
-    lines
-}
-
-/// A value, its formula, its numbers.
-fn worked(work: &Work, width: usize) -> Vec<Line> {
-    let (symbol, sign) = (work.symbol, sign(work.how));
-    let lead = format!("  {symbol}{sign}");
-    let deep = " ".repeat(count(symbol) + 3);
-    let more = format!("{deep}  ");
-    let mut lines = match work.how {
-        How::Told if !work.meaning.is_empty() => block(
-            Kind::Formula,
-            &format!("{}; {}", work.meaning, work.formula),
-            &lead,
-            &more,
-            width,
-        ),
-        _ => with_meaning(
-            block(Kind::Formula, &work.formula, &lead, &more, width),
-            work.meaning,
-            &more,
-            width,
-        ),
-    };
-    let shown = work
-        .shown
-        .as_ref()
-        .map(|shown| shown.to_string().replace(' ', GLUE));
-    let numbers = work
-        .numbers
-        .clone()
-        .filter(|numbers| Some(numbers) != shown.as_ref());
-    let told: Vec<String> = numbers.into_iter().chain(shown).collect();
-    if !told.is_empty() {
-        lines.extend(block(
-            Kind::Numbers,
-            &told.join(&format!(" ={GLUE}")),
-            &format!("{deep}= "),
-            &more,
-            width,
-        ));
-    }
-    lines.extend(
-        work.residual
+            .filter_map(|equation| corrections::find(equation))
+            .collect(),
+        assumptions: quantity.assumptions_in(&used),
+        validity: quantity
+            .checks
             .iter()
-            .flat_map(|residual| block(Kind::Text, residual, &more, &more, width)),
-    );
-    lines
-}
-
-fn sign(how: How) -> &'static str {
-    match how {
-        How::Equals => " = ",
-        How::Solves => " from ",
-        How::Told => ": ",
+            .filter_map(|check| check(&known.context))
+            .collect(),
+        accuracy: uncertainty::of(quantity, &known),
+        effects: effects::of(quantity, &known),
     }
-}
-
-/// The meaning of a step to the right of its formula, or else below it.
-fn with_meaning(mut lines: Vec<Line>, meaning: &str, more: &str, width: usize) -> Vec<Line> {
-    const COLUMN: usize = 38;
-    let room = lines
-        .last()
-        .map_or(0, |line| count(&line.text) + 2)
-        .max(COLUMN);
-    match lines.last_mut() {
-        _ if meaning.is_empty() => {}
-        Some(line) if room + count(meaning) <= width => {
-            line.text = format!("{:room$}{meaning}", line.text);
-        }
-        _ => lines.extend(block(Kind::Text, meaning, more, more, width)),
-    }
-    lines
-}
-
-fn leaves(leaves: &[Leaf], width: usize) -> Vec<Line> {
-    let symbols = widest(leaves.iter().map(|leaf| leaf.symbol));
-    let values = widest(leaves.iter().map(|leaf| leaf.shown.as_str()));
-    let line = |leaf: &Leaf| {
-        let lead = format!("  {:symbols$}  {:values$}  ", leaf.symbol, leaf.shown);
-        let more = " ".repeat(lead.chars().count());
-        block(
-            Kind::Text,
-            &format!("{} ({})", leaf.meaning, leaf.key),
-            &lead,
-            &more,
-            width,
-        )
-    };
-    leaves.iter().flat_map(line).collect()
-}
-
-fn mended(page: &Page, width: usize) -> Vec<Line> {
-    let mend = |mend: &&super::Correction| {
-        let text = format!("{}: {}. Used: {}.", mend.equation, mend.wrong, mend.used);
-        block(Kind::Text, &text, "  ", "    ", width)
-    };
-    if page.mended.is_empty() {
-        return paragraph("Nothing.", 2, width);
-    }
-    page.mended.iter().flat_map(mend).collect()
-}
-
-fn valid(page: &Page, width: usize) -> Vec<Line> {
-    let mut lines = paragraph(page.assumes, 2, width);
-    for finding in &page.valid {
-        let (kind, mark) = if finding.holds {
-            (Kind::Text, "  ok   ")
-        } else {
-            (Kind::Outside, "  NOT  ")
-        };
-        lines.extend(block(
-            kind,
-            &format!("{}. Here: {}.", finding.range, finding.here),
-            mark,
-            "       ",
-            width,
-        ));
-    }
-    lines
-}
-
-fn effects(effects: &[Effect], width: usize) -> Vec<Line> {
-    let (acting, idle): (Vec<&Effect>, Vec<&Effect>) =
-        effects.iter().partition(|effect| !effect.change.is_empty());
-    let column = |of: fn(&Effect) -> &str| widest(acting.iter().map(|effect| of(effect)));
-    let [symbol, key] = [column(|effect| effect.symbol), column(|effect| effect.key)];
-    let [text, step] = [column(|effect| &effect.text), column(|effect| &effect.step)];
-    let change = column(|effect| &effect.change);
-    let full = symbol + key + text + step + change + 10;
-    let mut lines = Vec::new();
-    for effect in acting {
-        let Effect {
-            symbol: symbols,
-            key: keys,
-            text: texts,
-            step: steps,
-            change: changes,
-        } = effect;
-        let row = format!("{keys:key$}  {texts:text$}  {steps:>step$}  {changes:>change$}");
-        lines.extend(match full {
-            _ if full <= width => {
-                vec![Line::new(Kind::Text, format!("  {symbols:symbol$}  {row}"))]
-            }
-            _ if full - symbol - 2 <= width => vec![Line::new(Kind::Text, format!("  {row}"))],
-            _ => paragraph(
-                &format!("{keys} = {texts}: {steps} gives {changes}"),
-                2,
-                width,
-            ),
-        });
-    }
-    let told = |effect: &&Effect| format!("{} = {}", effect.key, effect.text).replace(' ', GLUE);
-    if !idle.is_empty() {
-        let says = if lines.is_empty() {
-            "Read:"
-        } else {
-            "Also read, but left out, a choice, or without effect here:"
-        };
-        lines.extend(paragraph(says, 2, width));
-        lines.extend(paragraph(
-            &idle.iter().map(told).collect::<Vec<_>>().join(", "),
-            4,
-            width,
-        ));
-    }
-    lines
-}
-
-fn paragraph(text: &str, indent: usize, width: usize) -> Vec<Line> {
-    let lead = " ".repeat(indent);
-    block(Kind::Text, text, &lead, &lead, width)
-}
-
-/// Words set into lines: the first behind `lead`, the others behind `more`.
-fn block(kind: Kind, text: &str, lead: &str, more: &str, width: usize) -> Vec<Line> {
-    let indent = count(lead).max(count(more));
-    let rows = flow(
-        text.split(' ').filter(|word| !word.is_empty()),
-        width.saturating_sub(indent).max(8),
-    );
-    let start = |index| if index == 0 { lead } else { more };
-    rows.iter()
-        .enumerate()
-        .map(|(index, row)| Line::new(kind, format!("{}{}", start(index), row.replace(GLUE, " "))))
-        .collect()
 }

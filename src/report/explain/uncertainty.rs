@@ -1,13 +1,12 @@
-//! What a figure is worth: the numerical error, the spread of the stiffness models, the methods
-//! side by side.
+//! The accuracy of a value: numerical error, spread of the stiffness models, methods side by side.
 
 use super::context::Known;
-use super::models::models;
 use crate::model::inputs::Method;
+use crate::model::stiffness_spread::{covering, with};
 use crate::model::{self, Inputs, Quantity, Stage, Stages};
 use crate::report::{shown, value, value_as_in};
 
-/// A change of a smaller part of the value is no change of it: rounding, or the steps of the
+/// The relative change below which a value counts as unchanged: rounding, or the steps of the
 /// motion.
 pub(super) fn noise(quantity: &Quantity, inputs: &Inputs) -> f64 {
     const ROUNDING: f64 = 1e-11;
@@ -22,57 +21,57 @@ pub(super) fn noise(quantity: &Quantity, inputs: &Inputs) -> f64 {
     }
 }
 
-/// What there is to say of a quantity's worth.
+/// Sentences on the accuracy of a quantity.
 pub(super) fn of(quantity: &Quantity, known: &Known) -> Vec<String> {
-    let parts: [fn(&Quantity, &Known) -> Option<String>; 3] =
-        [numerical, over_models, over_methods];
-    let has_value = value(quantity, known.solution).is_some();
-    parts
-        .into_iter()
-        .filter(|_| has_value)
-        .filter_map(|part| part(quantity, known))
-        .collect()
+    let Some(own) = value(quantity, known.context.solution) else {
+        return Vec::new();
+    };
+    let spread = (!quantity.is_flag())
+        .then(|| over_models(quantity, own, known))
+        .flatten();
+    [
+        numerical(quantity, known),
+        spread,
+        over_methods(quantity, known),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
-/// The promise of the arithmetic.
+/// The numerical error.
 fn numerical(quantity: &Quantity, known: &Known) -> Option<String> {
-    value(quantity, known.solution)?;
-    let digits = format!("{} digits are shown", quantity.digits);
-    Some(match quantity.stage {
+    let inputs = known.context.inputs;
+    let error = match quantity.stage {
         _ if quantity.is_flag() => return None,
-        Stage::Dynamic => format!(
-            "Arithmetic: the peak force is good to {}; {digits}.",
-            tolerance(known)
-        ),
-        Stage::Clearing if known.inputs.method.shares_load() => {
-            format!("Arithmetic: with 1/20,000 less the tooth touches; {digits}.")
+        Stage::Dynamic => format!("at most {} of the peak force", tolerance(known)),
+        Stage::Clearing if inputs.method.shares_load() => {
+            "with 1/20,000 less relief the tooth touches".to_owned()
         }
-        Stage::Static => format!("Arithmetic: good to 1e-11 of the value; {digits}."),
-        _ if known.inputs.accurate => format!("Arithmetic: good to 1e-13 of the value; {digits}."),
-        _ => format!("Arithmetic: good to 1e-12 of the value; {digits}."),
-    })
+        Stage::Static => "at most 1e-11 of the value".to_owned(),
+        _ if inputs.accurate => "at most 1e-13 of the value".to_owned(),
+        _ => "at most 1e-12 of the value".to_owned(),
+    };
+    let digits = quantity.digits;
+    Some(format!("Numerical error: {error}; {digits} digits shown."))
 }
 
-/// The tolerance of the motion, and whose it is.
+/// The tolerance of the motion and its origin.
 fn tolerance(known: &Known) -> String {
-    let Inputs {
-        method,
-        tolerance,
-        within,
-        ..
-    } = known.given;
-    let taken = known.inputs.tolerance;
-    match method {
-        Method::Auto => {
-            format!(
-                "{taken:e}, as auto takes it for model.within = {within}; model.tolerance = {tolerance:e} is not used"
-            )
-        }
-        _ => format!("model.tolerance = {taken:e}"),
+    let given = known.context.given;
+    let used = known.context.inputs.tolerance;
+    if given.method == Method::Auto {
+        let (within, tolerance) = (given.within, given.tolerance);
+        format!(
+            "{used:e} (chosen by auto for model.within = {within}; model.tolerance = \
+                {tolerance:e} is not used)"
+        )
+    } else {
+        format!("model.tolerance = {used:e}")
     }
 }
 
-/// The quantity's value under other inputs, where it has one.
+/// The quantity's value with other inputs, if it has one.
 pub(super) fn value_of(quantity: &Quantity, inputs: &Inputs) -> Option<f64> {
     value(
         quantity,
@@ -80,18 +79,19 @@ pub(super) fn value_of(quantity: &Quantity, inputs: &Inputs) -> Option<f64> {
     )
 }
 
-/// The quantity under every stiffness model that covers the pair.
-fn over_models(quantity: &Quantity, known: &Known) -> Option<String> {
-    let own = value(quantity, known.solution).filter(|_| !quantity.is_flag())?;
-    let found = models(known.inputs).filter_map(|(_, inputs)| value_of(quantity, &inputs));
+/// The quantity by every stiffness model that covers the pair.
+fn over_models(quantity: &Quantity, own: f64, known: &Known) -> Option<String> {
+    let inputs = known.context.inputs;
+    let found = covering(inputs)
+        .filter_map(|(tooth, contact)| value_of(quantity, &with(inputs, tooth, contact)));
     let (least, most) = found.fold((own, own), |(least, most), value| {
         (least.min(value), most.max(value))
     });
     let share = |value: f64| format!("{:+.1} %", 100.0 * (value - own) / own.abs());
-    (most - least > noise(quantity, known.inputs) * own.abs()).then(|| {
+    (most - least > noise(quantity, inputs) * own.abs()).then(|| {
         format!(
-            "Stiffness: the models in range give {} to {} ({} to {}). A tooth's stiffness is honestly known to 20 %, which is 10 % \
-             on the impact force.",
+            "Other stiffness models: {} to {} ({} to {}). The stiffness of a tooth is known to about 20 %, \
+             which is 10 % of the impact force.",
             shown(quantity, least),
             shown(quantity, most),
             share(least),
@@ -100,44 +100,39 @@ fn over_models(quantity: &Quantity, known: &Known) -> Option<String> {
     })
 }
 
-/// The methods side by side, where they differ.
+/// The methods side by side, if they differ.
 fn over_methods(quantity: &Quantity, known: &Known) -> Option<String> {
+    let inputs = known.context.inputs;
     let by = |method: Method| {
-        let solution = model::solve(
-            &Inputs {
-                method,
-                ..known.inputs.clone()
-            },
-            Stages::of(quantity.stage),
-        )
-        .ok()?;
-        Some((
+        let inputs = Inputs {
             method,
-            value_as_in(quantity, &solution, known.solution.method)?,
-        ))
+            ..inputs.clone()
+        };
+        let solution = model::solve(&inputs, Stages::of(quantity.stage)).ok()?;
+        let own = known.context.solution.method;
+        Some((method, value_as_in(quantity, &solution, own)?))
     };
-    let own = Some(known.inputs.method).filter(|method| !Method::CLOSED_FORM.contains(method));
+    let own = Some(inputs.method).filter(|method| !Method::CLOSED_FORM.contains(method));
     let found: Vec<(Method, f64)> = Method::CLOSED_FORM
         .into_iter()
         .chain(own)
         .filter_map(by)
         .collect();
     let (&(_, first), others) = found.split_first()?;
-    let apart = |(_, value): &(Method, f64)| {
-        (value - first).abs() > noise(quantity, known.inputs) * first.abs()
-    };
-    let told: Vec<String> = found
+    let differs =
+        |(_, value): &(Method, f64)| (value - first).abs() > noise(quantity, inputs) * first.abs();
+    let listed: Vec<String> = found
         .iter()
         .map(|&(method, value)| format!("{} {}", name(quantity, method), shown(quantity, value)))
         .collect();
     others
         .iter()
-        .any(apart)
-        .then(|| format!("Methods: {}.", told.join(", ")))
+        .any(differs)
+        .then(|| format!("Methods: {}.", listed.join(", ")))
 }
 
-/// The method; of the free impact, where the method resolves the impact itself, what the closed
-/// form takes from it.
+/// The method; for a free impact in a method that resolves the impact itself, the closed form with
+/// the deflection of that method.
 fn name(quantity: &Quantity, method: Method) -> String {
     let is_beside = method.shares_load() && quantity.is_of_free_impact();
     if is_beside {

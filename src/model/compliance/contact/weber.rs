@@ -24,12 +24,14 @@ pub(super) const MODEL: ContactModel = ContactModel {
             symbol: "q_H",
             meaning: "contact at the impact force, Weber & Banaschek 1953",
             unit: "um mm/N",
-            formula: Text("(1 - ν1²)/(π E1) (2 ln(2 h_1/a_H) - ν1/(1 - ν1)) + (1 - ν2²)/(π E2) (2 ln(2 h_2/a_H) - ν2/(1 - ν2))"),
+            formula: Text("(1 - ν1²)/(π E1) (2 ln(2 h_1/a_H) - ν1/(1 - ν1)) + (1 - ν2²)/(π E2) (2 \
+                ln(2 h_2/a_H) - ν2/(1 - ν2))"),
             value: at_impact,
         },
         Step {
             symbol: "h_1",
-            meaning: "from the driver's flank at O1D to the centre line of its tooth, along the force",
+            meaning: "from the driver's flank at O1D to the centre line of its tooth, along the \
+                force",
             unit: "mm",
             formula: Words("from the tooth profile"),
             value: |k| {

@@ -201,7 +201,8 @@ fn outside(inputs: &Inputs, geometry: &Geometry) -> Option<(&'static str, String
     })?;
     let ((body_from, body_to), (angle_from, angle_to)) = (FOUNDATION_BODY, FOUNDATION_ANGLE);
     let message = format!(
-        "{found}, outside the range {body_from}..{body_to} and {angle_from}..{angle_to} of the foundation: the nearest end of the range is used"
+        "{found}, outside the range {body_from}..{body_to} and {angle_from}..{angle_to} of the \
+            foundation: the nearest end of the range is used"
     );
     Some(("foundation-outside-range", message))
 }

@@ -57,28 +57,32 @@ const STEPS: &[Step] = &[
         symbol: "c_1",
         meaning: "A_0 + A_1 x of the driver",
         unit: "N/(um mm)",
-        formula: Text("(3.867 + 1.612 z1 - 0.02916 z1² + 0.0001553 z1³ + (17.060 + 0.7289 z1 - 0.01728 z1² + 0.0000999 z1³) x1) [N/(um mm)]"),
+        formula: Text("(3.867 + 1.612 z1 - 0.02916 z1² + 0.0001553 z1³ + (17.060 + 0.7289 z1 - \
+            0.01728 z1² + 0.0000999 z1³) x1) [N/(um mm)]"),
         value: |k| Some(fit(&k.inputs.driver)[0]),
     },
     Step {
         symbol: "d_1",
         meaning: "A_2 + A_3 x of the driver",
         unit: "N/(um mm)",
-        formula: Text("(2.637 - 1.222 z1 + 0.02217 z1² - 0.0001179 z1³ + (-6.330 - 1.033 z1 + 0.02068 z1² - 0.0001130 z1³) x1) [N/(um mm)]"),
+        formula: Text("(2.637 - 1.222 z1 + 0.02217 z1² - 0.0001179 z1³ + (-6.330 - 1.033 z1 + \
+            0.02068 z1² - 0.0001130 z1³) x1) [N/(um mm)]"),
         value: |k| Some(fit(&k.inputs.driver)[1]),
     },
     Step {
         symbol: "c_2",
         meaning: "A_0 + A_1 x of the driven gear",
         unit: "N/(um mm)",
-        formula: Text("(3.867 + 1.612 z2 - 0.02916 z2² + 0.0001553 z2³ + (17.060 + 0.7289 z2 - 0.01728 z2² + 0.0000999 z2³) x2) [N/(um mm)]"),
+        formula: Text("(3.867 + 1.612 z2 - 0.02916 z2² + 0.0001553 z2³ + (17.060 + 0.7289 z2 - \
+            0.01728 z2² + 0.0000999 z2³) x2) [N/(um mm)]"),
         value: |k| Some(fit(&k.inputs.driven)[0]),
     },
     Step {
         symbol: "d_2",
         meaning: "A_2 + A_3 x of the driven gear",
         unit: "N/(um mm)",
-        formula: Text("(2.637 - 1.222 z2 + 0.02217 z2² - 0.0001179 z2³ + (-6.330 - 1.033 z2 + 0.02068 z2² - 0.0001130 z2³) x2) [N/(um mm)]"),
+        formula: Text("(2.637 - 1.222 z2 + 0.02217 z2² - 0.0001179 z2³ + (-6.330 - 1.033 z2 + \
+            0.02068 z2² - 0.0001130 z2³) x2) [N/(um mm)]"),
         value: |k| Some(fit(&k.inputs.driven)[1]),
     },
 ];
@@ -86,9 +90,9 @@ const STEPS: &[Step] = &[
 const NEWTON_PER_MICRON_MILLIMETRE: f64 = 1e9;
 
 /// Tooth numbers that the fit of Eq. 56 covers.
-pub const TEETH: (u32, u32) = (12, 100);
+const TEETH: (u32, u32) = (12, 100);
 /// Greatest profile shift, either way, that the fit of Eq. 56 covers.
-pub const SHIFT: f64 = 0.6;
+const SHIFT: f64 = 0.6;
 
 /// The range of the fit, in words.
 const RANGE: &str = "z 12..100, |x| <= 0.6, 20 deg full-depth steel teeth";
@@ -156,11 +160,17 @@ fn outside(inputs: &Inputs, _: &Geometry) -> Option<(&'static str, String)> {
 pub fn tooth(gear: &ElasticGear, circles: &Circles, radius: f64) -> Result<f64, Refusal> {
     let (gear, (least, most)) = (&gear.rack, TEETH);
     if !(least..=most).contains(&gear.teeth) {
-        return Err(Refusal::TeethOutsideFit { teeth: gear.teeth });
+        return Err(Refusal::TeethOutsideFit {
+            teeth: gear.teeth,
+            range: TEETH,
+        });
     }
     let shift = gear.profile_shift;
     if shift.abs() > SHIFT {
-        return Err(Refusal::ShiftOutsideFit { shift });
+        return Err(Refusal::ShiftOutsideFit {
+            shift,
+            limit: SHIFT,
+        });
     }
     let [a0, a1, a2, a3] = coefficients(gear.teeth);
     let height = (radius - circles.reference) / ((1.0 + shift) * gear.module);

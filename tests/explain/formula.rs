@@ -1,13 +1,12 @@
-//! A formula in the field's writing, read into a tree: `ΔV_n √(b M/q_s)`, `2 (x1 + x2) tan α/(z1 +
-//! z2)`.
+//! Evaluates a formula as a page prints it, `ΔV_n √(b M/q_s)`, with the values of its symbols.
 
 use std::f64::consts::PI;
 
-use super::context::factor;
+use super::evaluate::factor;
 
 /// A right-hand side.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Tree {
+pub(crate) enum Tree {
     /// A literal, as written.
     Number(String),
     /// π.
@@ -32,8 +31,8 @@ pub(super) enum Tree {
 
 /// A function by its name in print, and what it does.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Function {
-    pub(super) name: &'static str,
+pub(crate) struct Function {
+    pub(crate) name: &'static str,
     arguments: usize,
     of: fn(&[f64]) -> f64,
 }
@@ -95,7 +94,7 @@ const FUNCTIONS: [Function; 9] = [
 
 impl Tree {
     /// The tree of a text; `None` where it is no formula.
-    pub(super) fn read(text: &str) -> Option<Tree> {
+    pub(crate) fn read(text: &str) -> Option<Tree> {
         let mut reader = Reader {
             tokens: tokens(text)?,
             at: 0,
@@ -105,7 +104,7 @@ impl Tree {
     }
 
     /// Its value, where every symbol has one.
-    pub(super) fn value(&self, of: &dyn Fn(&str) -> Option<f64>) -> Option<f64> {
+    pub(crate) fn value(&self, of: &dyn Fn(&str) -> Option<f64>) -> Option<f64> {
         let list = |parts: &[Tree]| {
             parts
                 .iter()
@@ -135,33 +134,6 @@ impl Tree {
             Tree::Call(function, arguments) => {
                 list(arguments).map(|arguments| (function.of)(&arguments))
             }
-        }
-    }
-
-    /// Every symbol, in the order of reading, each once.
-    pub(super) fn symbols(&self) -> Vec<&str> {
-        let mut found = Vec::new();
-        self.collect(&mut found);
-        found
-    }
-
-    fn collect<'a>(&'a self, found: &mut Vec<&'a str>) {
-        match self {
-            Tree::Number(_) | Tree::Pi | Tree::Unit(_) => {}
-            Tree::Symbol(symbol) if found.contains(&symbol.as_str()) => {}
-            Tree::Symbol(symbol) => found.push(symbol),
-            Tree::Sum(parts) | Tree::Product(parts) => {
-                for (_, part) in parts {
-                    part.collect(found);
-                }
-            }
-            Tree::Power(base, exponent) => [base, exponent]
-                .into_iter()
-                .for_each(|part| part.collect(found)),
-            Tree::Root(inner) | Tree::Absolute(inner) => inner.collect(found),
-            Tree::Call(_, arguments) => arguments
-                .iter()
-                .for_each(|argument| argument.collect(found)),
         }
     }
 }
@@ -249,12 +221,12 @@ impl Reader {
         let mut factors = vec![(false, self.factor()?)];
         loop {
             let divides = self.took('/');
-            let told = divides || self.took('·');
+            let is_factor = divides || self.took('·');
             let follows = matches!(
                 self.peek(),
                 Some(Token::Number(_) | Token::Word(_) | Token::Unit(_) | Token::Mark('(' | '√'))
             );
-            if !told && !follows {
+            if !is_factor && !follows {
                 break;
             }
             factors.push((divides, self.factor()?));
@@ -323,56 +295,51 @@ impl Reader {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::Tree;
+fn value(text: &str) -> f64 {
+    let of = |symbol: &str| {
+        Some(match symbol {
+            "a" | "ha*1" => 2.0,
+            "T_S,32" => 3.0,
+            "r_b2'" => 5.0,
+            _ => return None,
+        })
+    };
+    Tree::read(text)
+        .and_then(|tree| tree.value(&of))
+        .unwrap_or(f64::NAN)
+}
 
-    fn value(text: &str) -> f64 {
-        let of = |symbol: &str| {
-            Some(match symbol {
-                "a" | "ha*1" => 2.0,
-                "T_S,32" => 3.0,
-                "r_b2'" => 5.0,
-                _ => return None,
-            })
-        };
-        Tree::read(text)
-            .and_then(|tree| tree.value(&of))
-            .unwrap_or(f64::NAN)
+#[test]
+fn the_evaluator_follows_the_precedence_of_print() {
+    for (text, expected) in [
+        ("1 + 2 3", 7.0),
+        ("-(a + 1) T_S,32", -9.0),
+        ("12/a T_S,32", 18.0),
+        ("12/(a T_S,32)", 2.0),
+        ("2 a²/r_b2' - ha*1", -0.4),
+        ("√(a T_S,32 - 2)/a", 1.0),
+        ("(a a)^(1/2)", 2.0),
+        ("|1 - a|/|a - 4|", 0.5),
+        ("min(r_b2', T_S,32)", 3.0),
+        ("4 atan2(1, 1) - π", 0.0),
+        ("cos π a + a", 0.0),
+        ("3 sin(a - a) + inv(0)", 0.0),
+        ("2 [N/(um mm)]/[mm]", 2e12),
+    ] {
+        assert!(
+            (value(text) - expected).abs() < 1e-15,
+            "{text}: {}",
+            value(text)
+        );
     }
+}
 
-    #[test]
-    fn a_formula_means_what_it_says_in_print() {
-        for (text, expected) in [
-            ("1 + 2 3", 7.0),
-            ("-(a + 1) T_S,32", -9.0),
-            ("12/a T_S,32", 18.0),
-            ("12/(a T_S,32)", 2.0),
-            ("2 a²/r_b2' - ha*1", -0.4),
-            ("√(a T_S,32 - 2)/a", 1.0),
-            ("(a a)^(1/2)", 2.0),
-            ("|1 - a|/|a - 4|", 0.5),
-            ("min(r_b2', T_S,32)", 3.0),
-            ("4 atan2(1, 1) - π", 0.0),
-            ("cos π a + a", 0.0),
-            ("3 sin(a - a) + inv(0)", 0.0),
-            ("2 [N/(um mm)]/[mm]", 2e12),
-        ] {
-            assert!(
-                (value(text) - expected).abs() < 1e-15,
-                "{text}: {}",
-                value(text)
-            );
-        }
+#[test]
+fn the_evaluator_refuses_a_text_that_is_no_formula() {
+    for text in [
+        "", "a +", "(a", "a)", "|a", "atan2(a)", "a ? a", "a ^", "cos",
+    ] {
+        assert_eq!(Tree::read(text), None, "{text}");
     }
-
-    #[test]
-    fn what_is_no_formula_is_refused() {
-        for text in [
-            "", "a +", "(a", "a)", "|a", "atan2(a)", "a ? a", "a ^", "cos",
-        ] {
-            assert_eq!(Tree::read(text), None, "{text}");
-        }
-        assert!(value("unknown").is_nan());
-    }
+    assert!(value("unknown").is_nan());
 }

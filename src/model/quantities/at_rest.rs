@@ -1,0 +1,350 @@
+//! Rows of the load that the pairs share at rest.
+
+use super::conditions::{always, edges_read, friction_given, may_share_load};
+use super::{Quantity, Variant, checks, of_driver};
+use crate::model::Stage::{Mesh, Static};
+use crate::model::compliance::{ContactPlace, Teeth};
+use crate::model::explanation::Formula::{self, Difference, Found, Solved, Text, Words};
+use crate::model::explanation::{Check, Context, Equation, Step, step};
+use crate::model::position::{gap, tip_at};
+use crate::model::relief::Relief;
+use crate::model::static_load::balance;
+use crate::model::tip_gap::TipContact;
+use crate::numeric::quadrature;
+
+const AT_REST: &str = "Every pair is a spring b/q with a gap, and all pairs share the mesh force \
+    at rest. Only the incoming pair has a deviation, e = Δf_0; all pairs have their reliefs. The \
+    method ignores a deflection that the case gives.";
+const BALANCE: &str = "Balance ΣF = F0 of parallel springs with gaps, as in Seireg & Houser 1970, \
+    with the gap S(u) of the tips off the line of action. Compliances of Zhou & Chen 2014, Eqs. \
+    54-56.";
+const SHARED: &[&str] = &["F_0", "k_m", "Δf_0"];
+const CHECKS: &[Check] = &[checks::contact_ratio, checks::teeth, checks::at_rest];
+
+pub(super) const TABLE: &[Quantity] = &[
+    Quantity {
+        key: "mesh_stiffness",
+        symbol: "k_m",
+        label: "mean mesh stiffness",
+        unit: "N/m",
+        shown: "N/um",
+        digits: 5,
+        equation: "mean of b/q",
+        stage: Mesh,
+        value: |s| Some(s.mesh.as_ref()?.mean_stiffness),
+        meaning: "The mean stiffness of the mesh over a base pitch, of all pairs on the line of \
+            action together and without deviations. It determines the natural frequency, and the \
+            damping is a fraction of it.",
+        formula: Text("ε k_p"),
+        source: "Mean of b/q of a pair over its path of contact, times the contact ratio. \
+            Compliances of Zhou & Chen 2014, Eqs. 54-56. The mean of ISO 6336-1 is c_γ.",
+        corrections: &["Eq. 55", "Eq. 56"],
+        assumptions: "The contact compliance is that under F_0, so the stiffness of a pair \
+            depends on its place only.",
+        checks: &[checks::teeth],
+        variants: &[],
+        reads: &[
+            (always, &["method"]),
+            (
+                may_share_load,
+                &[
+                    "mesh_force",
+                    "start_of_contact",
+                    "end_of_contact",
+                    "base_pitch",
+                    "tooth_stiffness",
+                    "contact_stiffness",
+                    "*.face_width",
+                    "reliefs",
+                ],
+            ),
+        ],
+    },
+    Quantity {
+        key: "static_first_contact_angle",
+        symbol: "u_st",
+        label: "static: driven before E",
+        unit: "rad",
+        shown: "deg",
+        digits: 6,
+        equation: "ΣF = F0",
+        stage: Static,
+        value: |s| s.static_load.as_ref()?.first_contact_angle,
+        meaning: "The angle of the driven gear before E at which the incoming tooth begins to \
+            carry load at rest: its gap there equals the displacement by the other pairs.",
+        formula: Solved(&FIRST_CONTACT),
+        source: BALANCE,
+        corrections: &["Eqs. 7-20"],
+        assumptions: AT_REST,
+        checks: CHECKS,
+        variants: &[],
+        reads: &[
+            (may_share_load, &["mesh"]),
+            (edges_read, &["driver.tip_radius"]),
+        ],
+    },
+    Quantity {
+        key: "static_first_contact_angle_driver",
+        symbol: "θ_st",
+        label: "static: driver before E",
+        unit: "rad",
+        shown: "deg",
+        digits: 6,
+        equation: "ΣF = F0",
+        stage: Static,
+        value: |s| Some(of_driver(s, s.static_load.as_ref()?.first_contact_angle?)),
+        meaning: "The angle of the driver before E at which the incoming tooth begins to carry load \
+            at rest. The verdict of method static gives this angle.",
+        formula: Text("i u_st"),
+        source: BALANCE,
+        corrections: &["Eqs. 7-20"],
+        assumptions: AT_REST,
+        checks: CHECKS,
+        variants: &[],
+        reads: &[(may_share_load, &["static_first_contact_angle"])],
+    },
+    Quantity {
+        key: "static_force_at_start",
+        symbol: "F_st,E",
+        label: "static: force at E",
+        unit: "N",
+        shown: "N",
+        digits: 5,
+        equation: "ΣF = F0",
+        stage: Static,
+        value: |s| Some(s.static_load.as_ref()?.force_at_start),
+        meaning: "The force on the incoming tooth at E at rest: 0 with a good tip relief, a large \
+            part of the mesh force without relief.",
+        formula: Difference("max(k_E (x_E + Δf_0 - C_E), 0)"),
+        source: BALANCE,
+        corrections: &["Eq. 53", "Eq. 54"],
+        assumptions: AT_REST,
+        checks: CHECKS,
+        variants: &[],
+        reads: &[(may_share_load, &["mesh", "edges"])],
+    },
+    Quantity {
+        key: "static_peak_force",
+        symbol: "F_st,max",
+        label: "static: peak force",
+        unit: "N",
+        shown: "N",
+        digits: 5,
+        equation: "ΣF = F0",
+        stage: Static,
+        value: |s| Some(s.static_load.as_ref()?.peak_force),
+        meaning: "The peak force on the incoming tooth at rest from its first contact to its \
+            last. In single-tooth contact it carries the whole mesh force.",
+        formula: Found(
+            "the largest F_k of the tooth from its first contact to its last, F_k = b/q max(0, x \
+                + e - S) with Σ w_k F_k = F_0",
+            SHARED,
+        ),
+        source: BALANCE,
+        corrections: &["Eq. 53", "Eq. 54"],
+        assumptions: AT_REST,
+        checks: CHECKS,
+        variants: &[Variant::meaning(
+            friction_given,
+            "The peak force on the incoming tooth at rest from its first contact to its last. In \
+                single-tooth contact it carries the whole mesh force and the addition by \
+                friction.",
+        )],
+        reads: &[(may_share_load, &["mesh", "edges"])],
+    },
+    Quantity {
+        key: "static_last_contact_angle",
+        symbol: "θ_st,B",
+        label: "static: driver after B",
+        unit: "rad",
+        shown: "deg",
+        digits: 6,
+        equation: "ΣF = F0",
+        stage: Static,
+        value: |s| s.static_load.as_ref()?.last_contact_angle,
+        meaning: "The angle of the driver after B at which the incoming tooth no longer carries \
+            load at rest: the corner contact at run-out, of the driver's tip on the driven flank.",
+        formula: Found(
+            "the angle after B at which the gap of the tooth equals the displacement by the other \
+                pairs, with Σ w_k F_k = F_0",
+            SHARED,
+        ),
+        source: BALANCE,
+        corrections: &[],
+        assumptions: AT_REST,
+        checks: CHECKS,
+        variants: &[],
+        reads: &[
+            (may_share_load, &["mesh"]),
+            (edges_read, &["driven.tip_radius"]),
+        ],
+    },
+    Quantity {
+        key: "static_transmission_error",
+        symbol: "TE_st",
+        label: "transmission error",
+        unit: "m",
+        shown: "um",
+        digits: 5,
+        equation: "max x − min x",
+        stage: Static,
+        value: |s| Some(s.static_load.as_ref()?.transmission_error),
+        meaning: "The difference between the largest and the smallest lead of the driver while \
+            the tooth carries load. The transmission error causes gear whine.",
+        formula: Found(
+            "max x - min x from the first contact to the last, x by Σ w_k F_k = F_0",
+            SHARED,
+        ),
+        source: "Displacement x of the driver along the line of action, max x − min x, by the \
+            balance ΣF = F0 of parallel springs with gaps, as in Seireg & Houser 1970.",
+        corrections: &[],
+        assumptions: AT_REST,
+        checks: CHECKS,
+        variants: &[],
+        reads: &[(may_share_load, &["mesh", "edges"])],
+    },
+    Quantity {
+        key: "pitch_contact_jump",
+        symbol: "ΔF_P",
+        label: "jump at the pitch point",
+        unit: "N",
+        shown: "N",
+        digits: 4,
+        equation: "μ reverses",
+        stage: Static,
+        value: |s| s.static_load.as_ref()?.pitch_jump,
+        meaning: "The change of the sum of all pair forces where the incoming tooth passes the \
+            pitch point. Before this point its friction μ drives the driver, after it friction \
+            brakes the driver.",
+        formula: PITCH_JUMP,
+        source: "Friction in the balance of the driver, ΣF = F0 with weights. The introduction of \
+            Zhou & Chen 2014 names pitch corner contact as the third kind of contact; μ reverses \
+            there.",
+        corrections: &[],
+        assumptions: AT_REST,
+        checks: &[checks::at_rest],
+        variants: &[],
+        reads: &[(may_share_load, &["mesh", "edges"])],
+    },
+];
+
+const PITCH_JUMP: Formula = Found(
+    "Σ F_k just after the pitch point minus Σ F_k just before it, with Σ w_k F_k = F_0 and w = 1 \
+        -+ μ ρ_1/r_b1",
+    SHARED,
+);
+
+const FIRST_CONTACT: Equation = Equation {
+    text: "gap of the incoming pair = displacement by the other pairs, S_st + C_st - Δf_0 = x_st",
+    left: Difference("S_st + C_st - Δf_0"),
+    right: Text("x_st"),
+    unit: "um",
+    sides: |k| {
+        let error = k.solution.deviation.equivalent_error;
+        let open = gap_at_first(k)? + relief(k, &first_contact(k)?);
+        Some([open - error, lead_at_first(k)?])
+    },
+};
+
+fn first_contact(k: &Context) -> Option<TipContact> {
+    let angle = k.solution.static_load.as_ref()?.first_contact_angle?;
+    Some(tip_at(&k.solution.geometry, angle))
+}
+
+fn gap_at_first(k: &Context) -> Option<f64> {
+    Some(gap(&k.solution.geometry, &first_contact(k)?))
+}
+
+fn lead_at_first(k: &Context) -> Option<f64> {
+    let s = -first_contact(k)?.angle * k.solution.geometry.driven.base;
+    Some(balance(k.solution.mesh.as_deref()?, s, s).displacement)
+}
+
+/// Relief of both flanks at the position of the driven tip.
+fn relief(k: &Context, tip: &TipContact) -> f64 {
+    let geometry = &k.solution.geometry;
+    Relief::of(&k.inputs.reliefs(), geometry)
+        .at(tip.curvature_driver, geometry.driven.tip_curvature)
+}
+
+fn compliance_at_start(k: &Context) -> Option<f64> {
+    let geometry = &k.solution.geometry;
+    let place = ContactPlace::at_tip(k.inputs.driven.tip_radius, geometry, &tip_at(geometry, 0.0));
+    let elasticity = k.inputs.elasticity();
+    let teeth = Teeth::of(&elasticity, geometry).ok()?;
+    teeth.pair_at_load(&place, k.solution.mesh_force).ok()
+}
+
+fn mean_stiffness(k: &Context) -> Option<f64> {
+    const TOLERANCE: f64 = 1e-12;
+    k.solution.mesh.as_ref()?;
+    let geometry = &k.solution.geometry;
+    let elasticity = k.inputs.elasticity();
+    let teeth = Teeth::of(&elasticity, geometry).ok()?;
+    let stiffness = |part: f64| {
+        let along = geometry.start + part * (geometry.end - geometry.start);
+        let place = ContactPlace::on_line_of_action(geometry, along);
+        let compliance = teeth.pair_at_load(&place, k.solution.mesh_force);
+        k.inputs.common_width() / compliance.unwrap_or(f64::NAN)
+    };
+    Some(quadrature::adaptive(0.0, 1.0, TOLERANCE, stiffness))
+}
+
+pub(super) const STEPS: &[Step] = &[
+    step(
+        "k_p",
+        "mean stiffness b/q of one pair from E to B, contact under F_0",
+        "N/m",
+        Words("by quadrature"),
+        mean_stiffness,
+    ),
+    step(
+        "k_E",
+        "stiffness of the incoming pair at E",
+        "N/m",
+        Text("b/q_E"),
+        |k| Some(k.inputs.common_width() / compliance_at_start(k)?),
+    ),
+    step(
+        "q_E",
+        "compliance of the incoming pair at E, contact under F_0",
+        "um mm/N",
+        Words("the tip on the flank, Eqs. 54-56"),
+        compliance_at_start,
+    ),
+    step(
+        "x_E",
+        "lead of the driver with the tooth at E",
+        "um",
+        Words("from ΣF = F_0 of all pairs"),
+        |k| Some(balance(k.solution.mesh.as_deref()?, 0.0, 0.0).displacement),
+    ),
+    step(
+        "C_E",
+        "relief of both flanks at E",
+        "um",
+        Words("from length and shape of the reliefs"),
+        |k| Some(relief(k, &tip_at(&k.solution.geometry, 0.0))),
+    ),
+    step(
+        "S_st",
+        "gap S(u) between tip and flank at the first contact",
+        "um",
+        Words("as S(u) on the page of closed_gap, at u_stt"),
+        gap_at_first,
+    ),
+    step(
+        "C_st",
+        "relief of both flanks at the first contact",
+        "um",
+        Words("from length and shape of the reliefs"),
+        |k| Some(relief(k, &first_contact(k)?)),
+    ),
+    step(
+        "x_st",
+        "lead of the driver by the other pairs at the first contact",
+        "um",
+        Words("from ΣF = F_0 of the other pairs"),
+        lead_at_first,
+    ),
+];

@@ -1,0 +1,281 @@
+//! Ranges of validity, each with the values of a case in it.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::model::compliance::model_of;
+use crate::model::compliance::profile::{Profile, Rack};
+use crate::model::explanation::{Context, Finding, four, micro, mm};
+
+/// No interference at the start of contact.
+pub(super) fn start(k: &Context) -> Option<Finding> {
+    let start = k.solution.geometry.start;
+    Finding::new(
+        "N1E > 0: the driven tip meets the driver above its base circle",
+        format!("N1E = {}", mm(start)),
+        start > 0.0,
+    )
+}
+
+/// No interference at the end of contact.
+pub(super) fn end(k: &Context) -> Option<Finding> {
+    let rest = k.solution.geometry.tangent_length - k.solution.geometry.end;
+    Finding::new(
+        "N2B > 0: the driver's tip meets the driven gear above its base circle",
+        format!("N2B = {}", mm(rest)),
+        rest > 0.0,
+    )
+}
+
+/// A pair carries the load while the next one comes into contact.
+pub(super) fn contact_ratio(k: &Context) -> Option<Finding> {
+    let ratio = k.solution.geometry.contact_ratio;
+    Finding::new(
+        "ε > 1: a pair carries the load while the next pair comes into contact; above 2 several \
+            pairs share the load",
+        format!("ε = {}", four(ratio)),
+        ratio > 1.0,
+    )
+}
+
+/// A given centre distance leaves a usual backlash.
+pub(super) fn distance(k: &Context) -> Option<Finding> {
+    const JAM: f64 = -1e-4;
+    const OPEN: f64 = 0.1;
+    k.inputs.centre_distance?;
+    let backlash = k.solution.geometry.backlash(&k.inputs.shape());
+    let part = backlash / k.inputs.module;
+    Finding::new(
+        "a given centre distance leaves a normal backlash of 0 to a tenth of the module",
+        format!("{}, {} of the module", mm(backlash), four(part)),
+        (JAM..=OPEN).contains(&part),
+    )
+}
+
+/// The bores lie within the discs.
+pub(super) fn discs(k: &Context) -> Option<Finding> {
+    let geometry = &k.solution.geometry;
+    let [driver, driven] = k.inputs.bores();
+    let parts = [driver / geometry.driver.base, driven / geometry.driven.base];
+    Finding::new(
+        "the bores leave a disc, r_h < r_b",
+        format!(
+            "rh1/r_b1 = {}, rh2/r_b2 = {}",
+            four(parts[0]),
+            four(parts[1])
+        ),
+        parts.iter().all(|&part| part < 1.0),
+    )
+}
+
+/// The tip has closed the gap that Δ closes.
+pub(super) fn gap_closed(k: &Context) -> Option<Finding> {
+    const CLOSED: f64 = 1e-9;
+    let closed = k.solution.position?.closed_gap;
+    let total = k.solution.deviation.total;
+    let part = closed / total;
+    let (closed, total) = (micro(closed, "um"), micro(total, "um"));
+    Finding::new(
+        "the tip has closed Δ at D, S(u) = Δ",
+        format!("S(u) = {closed} of {total}, {} %", four(100.0 * part)),
+        (part - 1.0).abs() < CLOSED,
+    )
+}
+
+/// D lies on the driver's involute.
+pub(super) fn on_flank(k: &Context) -> Option<Finding> {
+    let circles = &k.solution.geometry.driver;
+    let radius = k.solution.position?.contact.radius_driver;
+    let form = Profile::of(&Rack::of(k.inputs, &k.inputs.driver), circles).form_radius();
+    Finding::new(
+        "D on the driver's involute: form circle <= O1D <= r_a1",
+        format!("{} <= {} <= {}", mm(form), mm(radius), mm(circles.tip)),
+        (form..=circles.tip).contains(&radius),
+    )
+}
+
+/// The case gives the edge of the tip.
+pub(super) fn edge(k: &Context) -> Option<Finding> {
+    let given = k.inputs.driven.tip_radius;
+    let here = match given {
+        Some(radius) => format!("re2 = {}", mm(radius)),
+        None => "not given, the flank's curvature is used".to_owned(),
+    };
+    Finding::new(
+        "the case gives the edge radius of the driven tip",
+        here,
+        given.is_some(),
+    )
+}
+
+/// Sliding keeps its direction from D to E.
+pub(super) fn keeps_sliding(k: &Context) -> Option<Finding> {
+    let at_contact = k.solution.velocity?.sliding;
+    let speeds = k.inputs.speed + k.inputs.driven_speed();
+    let at_start = speeds * k.solution.geometry.approach_length;
+    Finding::new(
+        "sliding keeps its direction from D to E",
+        format!("{} m/s at D, {} m/s at E", four(at_contact), four(at_start)),
+        at_contact * at_start > 0.0,
+    )
+}
+
+/// The pair ahead stays in contact; a method that follows every pair needs no such condition.
+pub(super) fn pair_ahead(k: &Context) -> Option<Finding> {
+    if k.solution.method.shares_load() {
+        return None;
+    }
+    let deviation = k.solution.deviation;
+    let (deflection, error) = (deviation.combined_deflection, deviation.equivalent_error);
+    Finding::new(
+        "δ >= Δf: the load keeps the pair ahead in contact",
+        format!(
+            "δ = {}, Δf = {}",
+            micro(deflection, "um"),
+            micro(error, "um")
+        ),
+        deflection >= error,
+    )
+}
+
+/// The impact ends before E.
+pub(super) fn within_approach(k: &Context) -> Option<Finding> {
+    let (duration, transit) = (
+        k.solution.impact?.duration,
+        k.solution.velocity?.transit_time,
+    );
+    Finding::new(
+        "T_S <= t_DE: the impact ends before the normal mesh begins",
+        format!(
+            "T_S = {}, t_DE = {}",
+            micro(duration, "us"),
+            micro(transit, "us")
+        ),
+        duration <= transit,
+    )
+}
+
+/// Force and duration belong to one impact.
+pub(super) fn possible(k: &Context) -> Option<Finding> {
+    const ROUNDING: f64 = 1e-9;
+    let ratio = k.solution.impact?.impulse_ratio;
+    let possible = 1.0 - ROUNDING..=2.0 + ROUNDING;
+    Finding::new(
+        "1 <= κ <= 2: force and duration belong to one impact",
+        format!("κ = {}", four(ratio)),
+        possible.contains(&ratio),
+    )
+}
+
+/// The printed duration equals Hertz's.
+pub(super) fn printed_shorter(k: &Context) -> Option<Finding> {
+    let impact = k.solution.impact?;
+    let (printed, hertz) = (impact.duration_printed, impact.duration_hertz);
+    Finding::new(
+        "T_S,32 equals the duration after Hertz",
+        format!(
+            "T_S,32 = {}, T_S,H = {}",
+            micro(printed, "us"),
+            micro(hertz, "us")
+        ),
+        false,
+    )
+}
+
+/// The friction coefficient of the case against the limit of sliding.
+pub(super) fn coulomb(k: &Context) -> Option<Finding> {
+    let limit = k.solution.velocity?.stick_limit;
+    let range = "μ of the case below stick_limit: sliding throughout";
+    match k.inputs.friction_coefficient {
+        None => Finding::new(range, "the case gives no μ", true),
+        Some(friction) => Finding::new(
+            range,
+            format!("μ = {friction}, stick_limit = {}", four(limit)),
+            friction < limit,
+        ),
+    }
+}
+
+/// D' lies before E.
+pub(super) fn before_start(k: &Context) -> Option<Finding> {
+    let printed = k.solution.impact?.duration_printed;
+    let transit = k.solution.velocity?.transit_time;
+    Finding::new(
+        "T_S,32 <= t_DE: D' lies before E",
+        format!(
+            "T_S,32 = {}, t_DE = {}",
+            micro(printed, "us"),
+            micro(transit, "us")
+        ),
+        printed <= transit,
+    )
+}
+
+/// The range of the tooth compliance of the case.
+pub(super) fn teeth(k: &Context) -> Option<Finding> {
+    (model_of(k.inputs).model().check)(k)
+}
+
+/// The same for a deflection that the load gives.
+pub(super) fn teeth_of_deflection(k: &Context) -> Option<Finding> {
+    let is_computed = k.inputs.deflection.is_none();
+    is_computed.then(|| teeth(k)).flatten()
+}
+
+/// The contact is small compared with the tooth.
+pub(super) fn contact_small(k: &Context) -> Option<Finding> {
+    const SMALL: f64 = 0.1;
+    let half_width = k.solution.impact?.hertz_half_width;
+    let limit = SMALL * k.inputs.module;
+    Finding::new(
+        "the contact is small compared with the tooth: a_H <= m/10",
+        format!("a_H = {}, m/10 = {}", mm(half_width), mm(limit)),
+        half_width <= limit,
+    )
+}
+
+/// The mesh follows the load at rest.
+pub(super) fn at_rest(k: &Context) -> Option<Finding> {
+    let solution = k.solution;
+    let time = solution.static_load.as_ref()?.first_contact_angle? / k.inputs.driven_speed();
+    let period = TAU * (solution.reduced_mass / solution.mesh.as_ref()?.mean_stiffness).sqrt();
+    let part = period / (PI * time);
+    let share = four(100.0 * part.min(1.0));
+    let (period, time) = (micro(period, "us"), micro(time, "us"));
+    Finding::new(
+        "the load on the tooth grows so slowly that the mesh does not oscillate: 1/(π f_n t) <= \
+            model.within",
+        format!("1/f_n = {period}, t = {time}, {share} %"),
+        part <= k.inputs.within,
+    )
+}
+
+/// The start of the motion no longer matters at E.
+pub(super) fn forgotten(k: &Context) -> Option<Finding> {
+    const LEFT: f64 = 1e-3;
+    let (inputs, geometry) = (k.inputs, &k.solution.geometry);
+    let frequency = (k.solution.mesh.as_ref()?.mean_stiffness / k.solution.reduced_mass).sqrt();
+    let cycles = f64::from(inputs.warmup_cycles);
+    let time = cycles * geometry.base_pitch / (inputs.speed * geometry.driver.base);
+    let left = (-inputs.damping_ratio * frequency * time).exp();
+    Finding::new(
+        "the start of the motion has decayed at E: e^(-ζ 2 π f_n t) <= 0.001",
+        format!("{} of it after {cycles} base pitches", four(left)),
+        left <= LEFT,
+    )
+}
+
+/// The teeth stay in contact.
+pub(super) fn contact_kept(k: &Context) -> Option<Finding> {
+    let lost = k.solution.dynamic.as_ref()?.contact_lost;
+    let here = if lost {
+        "contact is lost at times"
+    } else {
+        "the teeth stay in contact"
+    };
+    Finding::new(
+        "the teeth stay in contact; where they rattle, a small change of the case may change the \
+            value much",
+        here,
+        !lost,
+    )
+}

@@ -1,0 +1,371 @@
+//! Rows of the deviations that bring a tooth into contact early.
+
+use super::conditions::{
+    always, at_rest, deflection_computed, deflection_used, edges_read, free_impact, in_motion,
+    may_move, may_share_load, paper, shared_load,
+};
+use super::{Quantity, Variant, checks};
+use crate::model::Context;
+use crate::model::Stage::{Clearing, Deviation};
+use crate::model::compliance::{ContactPlace, Teeth, contact};
+use crate::model::explanation::Formula::{Cases, Difference, Found, Given, Made, Text, Words};
+use crate::model::explanation::{Step, step};
+
+pub(super) const TABLE: &[Quantity] = &[
+    Quantity {
+        key: "equivalent_error",
+        symbol: "Δf",
+        label: "equivalent error",
+        unit: "m",
+        shown: "um",
+        digits: 5,
+        equation: "Eq. 1",
+        stage: Deviation,
+        value: |s| Some(s.deviation.equivalent_error),
+        meaning: "The distance along the line of action by which the deviations of both gears \
+            bring the incoming tooth into contact early. Relief reduces it by its full amount.",
+        formula: Cases(&[
+            (paper, Difference("(2 f_pb + e_m - j_bn)/√2")),
+            (shared_load, Difference("(2 f_pb - j_bn)/√2")),
+            (always, Difference("(2 f_pb - j_bn)/√2 + e_m")),
+        ]),
+        source: "Zhou & Chen 2014, Eqs. 1 and 2.",
+        corrections: &["Eq. 1"],
+        assumptions: "The f_pb of both gears and j_bn are independent random deviations, which \
+            add as squares: hence the factor 1/√2. The relief acts with its full amount at the \
+            tip, where first contact occurs.",
+        checks: &[],
+        variants: &[
+            Variant::words(
+                shared_load,
+                "The distance along the line of action by which the deviations of both gears \
+                    bring the incoming tooth into contact early, without the reliefs. In this \
+                    method the reliefs act on the flanks over their length. Method exact calls \
+                    the sum of this distance and e_m Δf.",
+                "The f_pb of both gears and j_bn are independent random deviations, which add as \
+                    squares: hence the factor 1/√2. The reliefs are not included.",
+            ),
+            Variant::words(
+                paper,
+                "The distance along the line of action by which the deviations of both gears \
+                    bring the incoming tooth into contact early. Relief reduces it by 1/√2 of its \
+                    amount, as printed.",
+                "The f_pb of both gears, j_bn and e_m are independent random deviations, which \
+                    add as squares: hence the factor 1/√2. A ground relief is not random: method \
+                    exact counts its full amount.",
+            ),
+        ],
+        reads: &[
+            (
+                always,
+                &["deviations.base_pitch", "deviations.backlash", "method"],
+            ),
+            (free_impact, &["driven.tip_relief", "driver.root_relief"]),
+        ],
+    },
+    Quantity {
+        key: "modification",
+        symbol: "e_m",
+        label: "modification at run-in",
+        unit: "m",
+        shown: "um",
+        digits: 5,
+        equation: "Eq. 1",
+        stage: Deviation,
+        value: |s| Some(s.deviation.modification),
+        meaning: "The material that the reliefs remove where the incoming tooth first touches: \
+            the tip relief of the driven gear and the root relief of the driver, as a negative \
+            number. Δf and Δ include its full amount.",
+        formula: Text("-(Ca2 + Cf1)"),
+        source: "Zhou & Chen 2014, Eqs. 1 and 2.",
+        corrections: &["Eq. 1"],
+        assumptions: "Both reliefs have their full amount at the first contact, whatever their \
+            length.",
+        checks: &[],
+        variants: &[
+            Variant::words(
+                shared_load,
+                "The material that the reliefs remove where tip and root meet: the tip relief of \
+                    the driven gear and the root relief of the driver, as a negative number. Only \
+                    Δ includes it. The forces of this method follow the reliefs on the flanks, \
+                    with their length and shape.",
+                "Both reliefs have their full amount where the driven tip meets the driver's \
+                    flank.",
+            ),
+            Variant::meaning(
+                paper,
+                "The material that the reliefs remove where tip and root meet: the tip relief of \
+                    the driven gear and the root relief of the driver, as a negative number. Δf \
+                    includes 1/√2 of it, as printed.",
+            ),
+        ],
+        reads: &[(always, &["driven.tip_relief", "driver.root_relief"])],
+    },
+    Quantity {
+        key: "combined_deflection",
+        symbol: "δ",
+        label: "combined deflection",
+        unit: "m",
+        shown: "um",
+        digits: 5,
+        equation: "Eq. 3",
+        stage: Deviation,
+        value: |s| Some(s.deviation.combined_deflection),
+        meaning: "The deflection along the line of action of the pairs that carry the load when \
+            the incoming pair is at E.",
+        formula: Cases(&[
+            (deflection_used, Given("model.deflection")),
+            (always, Made(shared)),
+        ]),
+        source: "Zhou & Chen 2014, Eqs. 3 and 4, with the compliances of Eqs. 54-56 instead of \
+            the curve in Fig. 3. Table 1 takes 24.7 um from its reference 20.",
+        corrections: &["Eq. 55", "Eq. 56"],
+        assumptions: "Teeth and contacts deflect under the mesh force at rest and share the force \
+            as parallel springs. Shafts, bearings and housing are rigid.",
+        checks: &[checks::contact_ratio, checks::teeth_of_deflection],
+        variants: &[
+            Variant::meaning(
+                in_motion,
+                "The deflection at rest along the line of action of the pairs that carry the load \
+                    when the incoming pair is at E. In motion the mesh oscillates about this \
+                    deflection. The method ignores a deflection that the case gives.",
+            ),
+            Variant::meaning(
+                shared_load,
+                "The deflection along the line of action of the pairs that carry the load when \
+                    the incoming pair is at E, on flanks without relief. The method ignores a \
+                    deflection that the case gives.",
+            ),
+            Variant::words(
+                deflection_used,
+                "The deflection along the line of action of the pairs that carry the load when \
+                    the incoming pair is at E. The case gives it, and the load does not change \
+                    it.",
+                "The given deflection belongs to the load of the case. The program does not \
+                    compare the two.",
+            ),
+        ],
+        reads: &[
+            (always, &["method"]),
+            (free_impact, &["model.deflection"]),
+            (
+                deflection_computed,
+                &[
+                    "mesh_force",
+                    "start_of_contact",
+                    "end_of_contact",
+                    "base_pitch",
+                    "tooth_stiffness",
+                    "contact_stiffness",
+                    "*.face_width",
+                ],
+            ),
+        ],
+    },
+    Quantity {
+        key: "total_deviation",
+        symbol: "Δ",
+        label: "total deviation",
+        unit: "m",
+        shown: "um",
+        digits: 5,
+        equation: "Eq. 5",
+        stage: Deviation,
+        value: |s| Some(s.deviation.total),
+        meaning: "The total distance by which the incoming tooth is early. Above 0 the tip \
+            strikes before E. At 0 or below there is no contact before E.",
+        formula: Cases(&[
+            (shared_load, Difference("Δf_0 + e_m + δ")),
+            (always, Difference("Δf + δ")),
+        ]),
+        source: "Zhou & Chen 2014, Eq. 5.",
+        corrections: &["Eq. 1"],
+        assumptions: "Deviations and deflection add up along the line of action.",
+        checks: &[checks::pair_ahead],
+        variants: &[
+            Variant::words(
+                in_motion,
+                "The total distance by which the incoming tooth is early at rest. In motion the \
+                    mesh oscillates, and the tooth may touch before E with either sign: \
+                    dynamic_first_contact_angle has the answer.",
+                "Deviations and deflection add up along the line of action. The gears are at \
+                    rest, and the pairs ahead are on flanks without relief.",
+            ),
+            Variant::words(
+                shared_load,
+                "The total distance by which the incoming tooth is early if the pairs ahead are \
+                    on flanks without relief. Above 0 it touches before E, at 0 or below it does \
+                    not. The balance of all pairs decides: static_first_contact_angle has the \
+                    answer.",
+                "Deviations and deflection add up along the line of action. The pairs ahead are \
+                    on flanks without relief.",
+            ),
+            Variant::meaning(
+                paper,
+                "The total distance by which the incoming tooth is early. At 0 or below there is \
+                    no contact before E. Above 0 the tip strikes if the printed equations give an \
+                    angle before E.",
+            ),
+        ],
+        reads: &[(
+            always,
+            &[
+                "equivalent_error",
+                "combined_deflection",
+                "driven.tip_relief",
+                "driver.root_relief",
+            ],
+        )],
+    },
+    Quantity {
+        key: "clearing_relief",
+        symbol: "ΔC_a2",
+        label: "additional tip relief",
+        unit: "m",
+        shown: "um",
+        digits: 5,
+        equation: "no touch before E",
+        stage: Clearing,
+        value: |s| s.clearing?.relief,
+        meaning: "The required additional tip relief of the driven gear: with it the incoming \
+            tooth does not touch before E, by the method itself.",
+        formula: Cases(&[
+            (
+                paper,
+                Words("the root C of u(Δf - C/√2) = 0, u by Eqs. 11-20 as printed; at most √2 Δ"),
+            ),
+            (
+                at_rest,
+                Found(
+                    "the root C of max(x - gap) = 0 up to E: x is the lead of the driver by the \
+                        balance Σ w_k F_k = F_0 of the other pairs; every pair has the additional \
+                        tip relief C",
+                    &["F_0", "k_m", "Δf", "Δ"],
+                ),
+            ),
+            (
+                in_motion,
+                Found(
+                    "the root C of max(x - gap) = 0 up to E: x is the lead of the driver in the \
+                        motion m_red x'' + c x' + Σ w_k F_k = F_0 without a force on the incoming \
+                        tooth; every pair has the additional tip relief C",
+                    &["m_red", "c", "f_n", "f_z", "Δf", "Δ"],
+                ),
+            ),
+            (always, Text("Δ")),
+        ]),
+        source: "Zhou & Chen 2014, Eq. 5: the condition Δ <= 0. Methods static and dynamic apply \
+            the same condition, no touch before E, to the displacement of every pair.",
+        corrections: &["Eq. 1", "Eqs. 7-20"],
+        assumptions: "Every tooth of the driven gear has the additional relief, with the length \
+            and shape of its tip relief. In motion the tooth touches with slightly less relief. \
+            It touches with none of 4 larger reliefs, up to twice this one (50 reliefs where \
+            contact is lost).",
+        checks: &[checks::contact_kept],
+        variants: &[],
+        reads: &[
+            (always, &["total_deviation", "method"]),
+            (paper, &["start_of_contact", "base_pitch"]),
+            (may_share_load, &["mesh"]),
+            (edges_read, &["driver.tip_radius"]),
+            (may_move, &["motion"]),
+        ],
+    },
+];
+
+/// Eqs. 3 and 4 with as many pairs as carry the load.
+fn shared(k: &Context) -> String {
+    let pairs: Vec<String> = STEPS
+        .iter()
+        .filter(|step| step.symbol == "q_F" || step.symbol.starts_with("q_F,"))
+        .filter(|step| (step.value)(k).is_some())
+        .map(|step| format!("1/{}", step.symbol))
+        .collect();
+    match pairs.len() {
+        0 | 1 => "F_0 q_F/b".to_owned(),
+        _ => format!("F_0/(b ({}))", pairs.join(" + ")),
+    }
+}
+
+/// The point of the line of action this many base pitches after E, if a pair is in contact there.
+fn place(k: &Context, pitches: u32) -> Option<ContactPlace> {
+    let geometry = &k.solution.geometry;
+    let along = (0..pitches).fold(geometry.start, |along, _| along + geometry.base_pitch);
+    let before_end = along <= geometry.end && along < geometry.tangent_length;
+    before_end.then(|| ContactPlace::on_line_of_action(geometry, along))
+}
+
+/// Compliance of the pair this many base pitches after E, under the mesh force.
+fn ahead(k: &Context, pitches: u32) -> Option<f64> {
+    let solution = k.solution;
+    let elasticity = k.inputs.elasticity();
+    let teeth = Teeth::of(&elasticity, &solution.geometry).ok()?;
+    teeth
+        .pair_at_load(&place(k, pitches)?, solution.mesh_force)
+        .ok()
+}
+
+fn teeth_ahead(k: &Context) -> Option<[f64; 2]> {
+    let elasticity = k.inputs.elasticity();
+    let teeth = Teeth::of(&elasticity, &k.solution.geometry).ok()?;
+    let teeth = teeth.at(&place(k, 1)?).ok()?;
+    Some([teeth.driver, teeth.driven])
+}
+
+fn contact_ahead(k: &Context) -> Option<f64> {
+    let spring =
+        contact::spring(&k.inputs.elasticity(), &k.solution.geometry, &place(k, 1)?).ok()?;
+    spring.compliance(k.solution.mesh_force).ok()
+}
+
+pub(super) const STEPS: &[Step] = &[
+    step(
+        "q_F",
+        "compliance of the pair at F, one base pitch after E",
+        "um mm/N",
+        Text("q_1F + q_2F + q_HF"),
+        |k| ahead(k, 1),
+    ),
+    step(
+        "q_1F",
+        "driver's tooth of that pair, loaded at O1F",
+        "um mm/N",
+        Words("the tooth compliance at that radius"),
+        |k| Some(teeth_ahead(k)?[0]),
+    ),
+    step(
+        "q_2F",
+        "driven tooth of that pair, loaded at O2F",
+        "um mm/N",
+        Words("the tooth compliance at that radius"),
+        |k| Some(teeth_ahead(k)?[1]),
+    ),
+    step(
+        "q_HF",
+        "contact of that pair under F_0",
+        "um mm/N",
+        Words("the contact compliance at that load"),
+        contact_ahead,
+    ),
+    step(
+        "q_F,2",
+        "compliance of the pair two base pitches after E",
+        "um mm/N",
+        Words("computed as for the pair at F"),
+        |k| ahead(k, 2),
+    ),
+    step(
+        "q_F,3",
+        "compliance of the pair three base pitches after E",
+        "um mm/N",
+        Words("computed as for the pair at F"),
+        |k| ahead(k, 3),
+    ),
+    step(
+        "q_F,4",
+        "compliance of the pair four base pitches after E",
+        "um mm/N",
+        Words("computed as for the pair at F"),
+        |k| ahead(k, 4),
+    ),
+];

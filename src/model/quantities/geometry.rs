@@ -1,0 +1,331 @@
+//! Rows of the geometry, the load and the steps on the way to them.
+
+use super::checks;
+use super::conditions::{always, distance_computed, distance_given, power_given};
+use super::{Quantity, Variant};
+use crate::model::Context;
+use crate::model::Stage::{Geometry, Load};
+use crate::model::explanation::Formula::{Cases, Difference, Given, Solved, Text};
+use crate::model::explanation::{Equation, Step, step};
+use crate::model::impact::Masses;
+
+const SPUR_PAIR: &str =
+    "External spur gears on parallel, rigid shafts, with involute flanks down to the contact.";
+
+pub(super) const TABLE: &[Quantity] = &[
+    Quantity {
+        key: "contact_ratio",
+        symbol: "ε",
+        label: "contact ratio",
+        unit: "1",
+        shown: "1",
+        digits: 5,
+        equation: "ISO 21771",
+        stage: Geometry,
+        value: |s| Some(s.geometry.contact_ratio),
+        meaning: "The mean number of tooth pairs in contact: the length of the path of contact EB \
+            over the base pitch. Tip chamfers shorten the path.",
+        formula: Text("(N1B - N1E)/p_b"),
+        source: "ISO 21771:2007, transverse contact ratio. Table 1 of Zhou & Chen 2014 has 1.5568.",
+        corrections: &["Eqs. 16, 20"],
+        assumptions: SPUR_PAIR,
+        checks: &[checks::start, checks::end, checks::contact_ratio],
+        variants: &[],
+        reads: &[(
+            always,
+            &["start_of_contact", "end_of_contact", "base_pitch"],
+        )],
+    },
+    Quantity {
+        key: "base_pitch",
+        symbol: "p_b",
+        label: "base pitch",
+        unit: "m",
+        shown: "mm",
+        digits: 6,
+        equation: "ISO 21771",
+        stage: Geometry,
+        value: |s| Some(s.geometry.base_pitch),
+        meaning: "The distance between neighbouring flanks along the line of action. Both gears \
+            need the same base pitch to mesh evenly.",
+        formula: Text("π m cos α"),
+        source: "ISO 21771:2007, base pitch.",
+        corrections: &[],
+        assumptions: SPUR_PAIR,
+        checks: &[],
+        variants: &[],
+        reads: &[(
+            always,
+            &["pair.module", "pair.pressure_angle", "model.accurate"],
+        )],
+    },
+    Quantity {
+        key: "centre_distance",
+        symbol: "a",
+        label: "centre distance",
+        unit: "m",
+        shown: "mm",
+        digits: 6,
+        equation: "ISO 21771",
+        stage: Geometry,
+        value: |s| Some(s.geometry.centre_distance),
+        meaning: "The distance between the gear axes. Without a given value, the distance at \
+            which the profile shifts leave no backlash.",
+        formula: Cases(&[
+            (distance_given, Given("pair.centre_distance")),
+            (always, Text("(r_b1 + r_b2)/cos α_w")),
+        ]),
+        source: "ISO 21771:2007, working centre distance. Zhou & Chen 2014 use r_1 + r_2, which \
+            is exact without profile shift.",
+        corrections: &[],
+        assumptions: SPUR_PAIR,
+        checks: &[checks::distance],
+        variants: &[],
+        reads: &[
+            (always, &["pair.centre_distance"]),
+            (
+                distance_computed,
+                &[
+                    "base_circle_driver",
+                    "base_circle_driven",
+                    "working_pressure_angle",
+                ],
+            ),
+        ],
+    },
+    Quantity {
+        key: "working_pressure_angle",
+        symbol: "α_w",
+        label: "working pressure angle",
+        unit: "rad",
+        shown: "deg",
+        digits: 6,
+        equation: "ISO 21771",
+        stage: Geometry,
+        value: |s| Some(s.geometry.working_pressure_angle),
+        meaning: "The angle between the line of action and the common tangent of the pitch \
+            circles at this centre distance.",
+        formula: Cases(&[
+            (distance_given, Difference("acos((r_b1 + r_b2)/a)")),
+            (always, Solved(&INVOLUTE)),
+        ]),
+        source: "ISO 21771:2007, working pressure angle. Zhou & Chen 2014 use α, which is exact \
+            without profile shift.",
+        corrections: &[],
+        assumptions: SPUR_PAIR,
+        checks: &[checks::distance],
+        variants: &[],
+        reads: &[
+            (
+                distance_given,
+                &[
+                    "pair.centre_distance",
+                    "base_circle_driver",
+                    "base_circle_driven",
+                ],
+            ),
+            (
+                distance_computed,
+                &[
+                    "pair.centre_distance",
+                    "pair.pressure_angle",
+                    "*.teeth",
+                    "*.profile_shift",
+                    "model.accurate",
+                ],
+            ),
+        ],
+    },
+    Quantity {
+        key: "mesh_force",
+        symbol: "F_0",
+        label: "mesh force",
+        unit: "N",
+        shown: "N",
+        digits: 5,
+        equation: "T1/rb1",
+        stage: Load,
+        value: |s| Some(s.mesh_force),
+        meaning: "The steady force along the line of action. It deflects the teeth, and the \
+            dynamic factor compares the impact force with it.",
+        formula: Text("T1/r_b1"),
+        source: "Static balance of the driver, torque over base radius, T1/rb1.",
+        corrections: &["section 6"],
+        assumptions: "Constant torque and speed, no losses in the mesh.",
+        checks: &[],
+        variants: &[Variant::meaning(
+            super::conditions::deflection_used,
+            "The steady force along the line of action. The dynamic factor compares the impact \
+                force with it. The case gives the deflection, so the load changes neither the \
+                place nor the force of the impact.",
+        )],
+        reads: &[
+            (
+                always,
+                &["operation.power", "operation.torque", "base_circle_driver"],
+            ),
+            (power_given, &["operation.speed"]),
+        ],
+    },
+];
+
+const INVOLUTE: Equation = Equation {
+    text: "inv α_w = inv α + 2 (x1 + x2) tan α/(z1 + z2), inv t = tan t - t",
+    left: Difference("inv α_w"),
+    right: Difference("inv α + 2 (x1 + x2) tan α/(z1 + z2)"),
+    unit: "1",
+    sides: |k| {
+        let (inputs, working) = (k.inputs, k.solution.geometry.working_pressure_angle);
+        let inv = |angle: f64| angle.tan() - angle;
+        let shifts = inputs.driver.profile_shift + inputs.driven.profile_shift;
+        let teeth = f64::from(inputs.driver.teeth + inputs.driven.teeth);
+        let alpha = inputs.pressure_angle;
+        Some([
+            inv(working),
+            inv(alpha) + 2.0 * shifts * alpha.tan() / teeth,
+        ])
+    },
+};
+
+fn masses(k: &Context) -> Option<[f64; 2]> {
+    let masses = Masses::of(&k.inputs.bodies(), &k.solution.geometry).ok()?;
+    Some([masses.driver, masses.driven])
+}
+
+pub(super) const STEPS: &[Step] = &[
+    step(
+        "i",
+        "ratio of the tooth numbers, ω_1/ω_2",
+        "1",
+        Text("z2/z1"),
+        |k| Some(k.inputs.ratio()),
+    ),
+    step(
+        "r_1",
+        "reference radius of the driver",
+        "mm",
+        Text("m z1/2"),
+        |k| Some(k.solution.geometry.driver.reference),
+    ),
+    step(
+        "r_2",
+        "reference radius of the driven gear",
+        "mm",
+        Text("m z2/2"),
+        |k| Some(k.solution.geometry.driven.reference),
+    ),
+    step(
+        "r_b1",
+        "base radius of the driver",
+        "mm",
+        Text("r_1 cos α"),
+        |k| Some(k.solution.geometry.driver.base),
+    ),
+    step(
+        "r_b2",
+        "base radius of the driven gear",
+        "mm",
+        Text("r_2 cos α"),
+        |k| Some(k.solution.geometry.driven.base),
+    ),
+    step(
+        "r_a1",
+        "tip radius of the driver without the chamfer",
+        "mm",
+        Text("m (z1/2 + ha*1 + x1) - hk1"),
+        |k| Some(k.solution.geometry.driver.tip),
+    ),
+    step(
+        "r_a2",
+        "tip radius of the driven gear without the chamfer",
+        "mm",
+        Text("m (z2/2 + ha*2 + x2) - hk2"),
+        |k| Some(k.solution.geometry.driven.tip),
+    ),
+    step(
+        "N2E",
+        "from the driven gear's tangent point to E",
+        "mm",
+        Text("√(r_a2² - r_b2²)"),
+        |k| Some(k.solution.geometry.driven.tip_curvature),
+    ),
+    step(
+        "N1E",
+        "from the driver's tangent point to E",
+        "mm",
+        Difference("a sin α_w - N2E"),
+        |k| Some(k.solution.geometry.start),
+    ),
+    step(
+        "N1B",
+        "from the driver's tangent point to B",
+        "mm",
+        Text("√(r_a1² - r_b1²)"),
+        |k| Some(k.solution.geometry.end),
+    ),
+    step(
+        "N1F",
+        "from the driver's tangent point to F, the contact of the pair ahead",
+        "mm",
+        Text("N1E + p_b"),
+        |k| Some(k.solution.geometry.start + k.solution.geometry.base_pitch),
+    ),
+    step(
+        "γ_2",
+        "angle at O2 from the centre line to the tip at E",
+        "deg",
+        Text("acos(r_b2/r_a2) - α_w"),
+        |k| Some(k.solution.geometry.start_angle_driven),
+    ),
+    step("ω_1", "speed of the driver", "rad/s", Text("n1"), |k| {
+        Some(k.inputs.speed)
+    }),
+    step(
+        "ω_2",
+        "speed of the driven gear",
+        "rad/s",
+        Text("ω_1/i"),
+        |k| Some(k.inputs.driven_speed()),
+    ),
+    step(
+        "T1",
+        "torque on the driver",
+        "N m",
+        Cases(&[
+            (power_given, Text("P/ω_1")),
+            (always, Given("operation.torque")),
+        ]),
+        |k| Some(k.inputs.torque()),
+    ),
+    step("b", "common face width", "mm", Text("min(b1, b2)"), |k| {
+        Some(k.inputs.common_width())
+    }),
+    step(
+        "J_1",
+        "moment of inertia of the driver, a disc up to its base circle",
+        "kg m2",
+        Text("π ρ1 b1/2 (r_b1⁴ - rh1⁴)"),
+        |k| Some(masses(k)?[0] * k.solution.geometry.driver.base.powi(2)),
+    ),
+    step(
+        "J_2",
+        "moment of inertia of the driven gear, a disc up to its base circle",
+        "kg m2",
+        Text("π ρ2 b2/2 (r_b2⁴ - rh2⁴)"),
+        |k| Some(masses(k)?[1] * k.solution.geometry.driven.base.powi(2)),
+    ),
+    step(
+        "m_1",
+        "mass of the driver at its base circle, Eq. 46 in kg",
+        "kg",
+        Text("J_1/r_b1²"),
+        |k| Some(masses(k)?[0]),
+    ),
+    step(
+        "m_2",
+        "mass of the driven gear at its base circle, Eq. 46 in kg",
+        "kg",
+        Text("J_2/r_b2²"),
+        |k| Some(masses(k)?[1]),
+    ),
+];

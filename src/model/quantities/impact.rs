@@ -1,0 +1,405 @@
+//! Rows of the impact: force, energy, duration, and the values behind them.
+
+use super::conditions::{always, half_width_read, not_paper, paper, shared_load};
+use super::{Quantity, Variant, checks};
+use crate::model::Stage::{Band, Impact, Load};
+use crate::model::compliance::contact::{ContactModel, plane_strain_compliance};
+use crate::model::compliance::tooth::ToothModel;
+use crate::model::explanation::Formula::{Cases, Made, Text};
+use crate::model::explanation::{Context, Step, step};
+use crate::model::impact::HERTZ_PREFACTOR;
+use crate::model::stiffness_spread::{covering, symbol, with};
+use crate::model::{self, Inputs, Stages};
+
+const SPRING: &str = "The effective mass strikes the pair at D as a mass strikes a spring, without \
+    damping and without another pair in contact. The place and the stiffness of the pair stay \
+    constant during the impact.";
+const BAND: &str = "Every tooth compliance that covers the pair is combined with every contact \
+    compliance, each with its own deflection if the case gives none. The models share the mass \
+    and the position, so the spread is smaller than the real uncertainty of about 10 %.";
+const BAND_SHARED: &str = "Every tooth compliance that covers the pair is combined with every \
+    contact compliance, each with its own deflection. The models share the mass, so the spread is \
+    smaller than the real uncertainty of about 10 %.";
+const SPHERES: &str = "Two spheres collide. The bending of the teeth is neglected.";
+const DISCS: &str = "Each gear is a solid disc of its own width from the bore to the base circle, \
+    without web, shaft or coupling.";
+
+pub(super) const TABLE: &[Quantity] = &[
+    Quantity {
+        key: "impact_force",
+        symbol: "F_S",
+        label: "impact force",
+        unit: "N",
+        shown: "N",
+        digits: 5,
+        equation: "Eq. 57",
+        stage: Impact,
+        value: |s| Some(s.impact?.force),
+        meaning: "The peak force of the impact of the tip on the driver's flank, over the whole \
+            width. q_s includes the contact compliance under this force, so the solver computes \
+            both together.",
+        formula: Text("ΔV_n √(b M/q_s)"),
+        source: "Zhou & Chen 2014, Eqs. 50-57.",
+        corrections: &["Eq. 53", "Eq. 54", "Eq. 33, Eq. 50", "Table 1"],
+        assumptions: SPRING,
+        checks: &[
+            checks::gap_closed,
+            checks::teeth,
+            checks::contact_small,
+            checks::within_approach,
+        ],
+        variants: &[],
+        reads: &[
+            (
+                always,
+                &[
+                    "normal_velocity",
+                    "effective_mass",
+                    "teeth_compliance",
+                    "contact_stiffness",
+                    "*.face_width",
+                ],
+            ),
+            (half_width_read, &["curvature_radius"]),
+        ],
+    },
+    Quantity {
+        key: "impact_force_low",
+        symbol: "F_S,low",
+        label: "  stiffness band from",
+        unit: "N",
+        shown: "N",
+        digits: 4,
+        equation: "models in range",
+        stage: Band,
+        value: |s| Some(s.band?.low),
+        meaning: "The impact force by the most compliant of the stiffness models that cover the \
+            pair.",
+        formula: Made(|k| over_models(k, "min")),
+        source: "Zhou & Chen 2014, Eq. 57, with all stiffness models in range: the models in \
+            range combine a tooth compliance and a contact compliance.",
+        corrections: &["Eq. 56"],
+        assumptions: BAND,
+        checks: &[checks::teeth],
+        variants: &[Variant::words(
+            shared_load,
+            "The force of the free impact by the most compliant of the stiffness models that \
+                cover the pair.",
+            BAND_SHARED,
+        )],
+        reads: &[(always, &["impact_force", "every_model", "curvature_radius"])],
+    },
+    Quantity {
+        key: "impact_force_high",
+        symbol: "F_S,high",
+        label: "  stiffness band to",
+        unit: "N",
+        shown: "N",
+        digits: 4,
+        equation: "models in range",
+        stage: Band,
+        value: |s| Some(s.band?.high),
+        meaning: "The impact force by the stiffest of the stiffness models that cover the pair.",
+        formula: Made(|k| over_models(k, "max")),
+        source: "Zhou & Chen 2014, Eq. 57, with all stiffness models in range: the models in \
+            range combine a tooth compliance and a contact compliance.",
+        corrections: &["Eq. 56"],
+        assumptions: BAND,
+        checks: &[checks::teeth],
+        variants: &[Variant::words(
+            shared_load,
+            "The force of the free impact by the stiffest of the stiffness models that cover the \
+                pair.",
+            BAND_SHARED,
+        )],
+        reads: &[(always, &["impact_force", "every_model", "curvature_radius"])],
+    },
+    Quantity {
+        key: "dynamic_factor",
+        symbol: "F_S/F_0",
+        label: "dynamic factor",
+        unit: "1",
+        shown: "1",
+        digits: 4,
+        equation: "F_S/F_0",
+        stage: Impact,
+        value: |s| Some(s.impact?.force / s.mesh_force),
+        meaning: "The ratio of the impact force to the steady mesh force.",
+        formula: Text("F_S/F_0"),
+        source: "Zhou & Chen 2014, section 6: the ratio F_S/F_0.",
+        corrections: &["section 6"],
+        assumptions: "The ratio compares the impact alone with the steady load alone. It is not \
+            the factor K_v of ISO 6336, which includes the whole mesh.",
+        checks: &[checks::gap_closed, checks::within_approach],
+        variants: &[],
+        reads: &[(always, &["impact_force", "mesh_force"])],
+    },
+    Quantity {
+        key: "impact_duration",
+        symbol: "T_S",
+        label: "impact duration",
+        unit: "s",
+        shown: "us",
+        digits: 4,
+        equation: "by the method",
+        stage: Impact,
+        value: |s| Some(s.impact?.duration),
+        meaning: "The duration of the impact by the method of the case.",
+        formula: Cases(&[(paper, Text("T_S,32")), (always, Text("T_S,q"))]),
+        source: "Method paper: Zhou & Chen 2014, Eq. 32. Method exact: half a period of the \
+            spring and mass that give F_S.",
+        corrections: &["Eq. 32"],
+        assumptions: SPRING,
+        checks: &[checks::within_approach, checks::possible],
+        variants: &[Variant::words(
+            paper,
+            "The duration of the impact by Eq. 32 as printed.",
+            "Two spheres collide. The bending of the teeth, which determines the force, is \
+                neglected.",
+        )],
+        reads: &[
+            (always, &["method"]),
+            (paper, &["impact_duration_printed"]),
+            (not_paper, &["impact_duration_spring"]),
+        ],
+    },
+    Quantity {
+        key: "impact_duration_printed",
+        symbol: "T_S,32",
+        label: "  by Eq. 32 as printed",
+        unit: "s",
+        shown: "us",
+        digits: 4,
+        equation: "Eq. 32",
+        stage: Impact,
+        value: |s| Some(s.impact?.duration_printed),
+        meaning: "The duration of Eq. 32 as printed. Methods paper and exact compute the friction \
+            ratio with it, as published.",
+        formula: Text("(m_red²/(π² ΔV_n ρ_S E'²))^(1/5)"),
+        source: "Zhou & Chen 2014, Eq. 32, after Hertz 1882.",
+        corrections: &["Eq. 32", "Eq. 33, Eq. 50"],
+        assumptions: SPHERES,
+        checks: &[checks::printed_shorter],
+        variants: &[],
+        reads: &[(
+            always,
+            &[
+                "reduced_mass",
+                "normal_velocity",
+                "curvature_radius",
+                "materials",
+            ],
+        )],
+    },
+    Quantity {
+        key: "impact_duration_hertz",
+        symbol: "T_S,H",
+        label: "  with Hertz's prefactor",
+        unit: "s",
+        shown: "us",
+        digits: 4,
+        equation: "Hertz 1882",
+        stage: Impact,
+        value: |s| Some(s.impact?.duration_hertz),
+        meaning: "The duration of the collision of two spheres after Hertz, with the prefactor \
+            that Eq. 32 omits.",
+        formula: Text("C_H T_S,32"),
+        source: "Hertz 1882: T = 2.868266 (M²/(ρ E'² ΔV_n))^(1/5). Eq. 32 omits the factor \
+            2.868266 π^(2/5).",
+        corrections: &["Eq. 32"],
+        assumptions: SPHERES,
+        checks: &[],
+        variants: &[],
+        reads: &[(always, &["impact_duration_printed"])],
+    },
+    Quantity {
+        key: "impact_duration_spring",
+        symbol: "T_S,q",
+        label: "  of the model's spring",
+        unit: "s",
+        shown: "us",
+        digits: 4,
+        equation: "π√(Mq/b)",
+        stage: Impact,
+        value: |s| Some(s.impact?.duration_spring),
+        meaning: "Half a period of the effective mass on the spring of the pair: the duration \
+            that belongs to the impact force.",
+        formula: Text("π √(M q_s/b)"),
+        source: "Free vibration of the mass and spring of Zhou & Chen 2014, Eqs. 50-57: π√(Mq/b).",
+        corrections: &["Eq. 32"],
+        assumptions: SPRING,
+        checks: &[checks::within_approach, checks::teeth],
+        variants: &[],
+        reads: &[(
+            always,
+            &["effective_mass", "pair_compliance", "*.face_width"],
+        )],
+    },
+    Quantity {
+        key: "reduced_mass",
+        symbol: "m_red",
+        label: "reduced mass",
+        unit: "kg",
+        shown: "kg",
+        digits: 5,
+        equation: "Eq. 33",
+        stage: Load,
+        value: |s| Some(s.reduced_mass),
+        meaning: "The masses of both gears on the line of action, combined in series. Eqs. 31 and \
+            32 use it. The impact force uses the effective mass at D.",
+        formula: Text("m_1 m_2/(m_1 + m_2)"),
+        source: "Zhou & Chen 2014, Eqs. 33, 46 and 47.",
+        corrections: &["Eq. 33, Eq. 50", "Eq. 46", "Eq. 47"],
+        assumptions: "Each gear is a solid disc of its own width from the bore to the base \
+            circle, without web, shaft or coupling. A part that is fixed to a gear adds to its \
+            mass.",
+        checks: &[checks::discs],
+        variants: &[],
+        reads: &[(always, &["masses"])],
+    },
+    Quantity {
+        key: "effective_mass",
+        symbol: "M",
+        label: "effective mass at D",
+        unit: "kg",
+        shown: "kg",
+        digits: 5,
+        equation: "Eq. 50",
+        stage: Impact,
+        value: |s| Some(s.impact?.effective_mass),
+        meaning: "The masses of both gears combined along the contact normal at D: the reduced \
+            mass, with r_b2' instead of r_b2 as the lever arm of the driven gear.",
+        formula: Text("m_1 m_2/(m_1 (r_b2'/r_b2)² + m_2)"),
+        source: "Zhou & Chen 2014, Eq. 50: J_1 J_2/(J_1 r_b2'² + J_2 r_b1²).",
+        corrections: &["Eq. 33, Eq. 50", "Eq. 46", "Eq. 47"],
+        assumptions: DISCS,
+        checks: &[checks::discs],
+        variants: &[],
+        reads: &[(always, &["masses", "contact_normal_radius_driven"])],
+    },
+    Quantity {
+        key: "pair_compliance",
+        symbol: "q_s",
+        label: "pair compliance",
+        unit: "m2/N",
+        shown: "um mm/N",
+        digits: 5,
+        equation: "Eq. 54",
+        stage: Impact,
+        value: |s| Some(s.impact?.pair_compliance),
+        meaning: "The deflection of the pair in contact at D along the contact normal, per force \
+            and width: two teeth and the contact.",
+        formula: Text("q_1 + q_2 + q_H"),
+        source: "Zhou & Chen 2014, Eqs. 54-56, with the tooth compliance and the contact \
+            compliance of the case.",
+        corrections: &["Eq. 54", "Eq. 55", "Eq. 56"],
+        assumptions: "The teeth are linear elastic and of one width. The contact compliance is \
+            that under the impact force.",
+        checks: &[checks::teeth, checks::contact_small],
+        variants: &[],
+        reads: &[
+            (always, &["teeth_compliance", "contact_stiffness"]),
+            (half_width_read, &["impact_force"]),
+        ],
+    },
+    Quantity {
+        key: "hertz_half_width",
+        symbol: "a_H",
+        label: "Hertz half-width",
+        unit: "m",
+        shown: "um",
+        digits: 5,
+        equation: "Eq. 55",
+        stage: Impact,
+        value: |s| Some(s.impact?.hertz_half_width),
+        meaning: "Half the width of the contact area of tip and flank under the impact force.",
+        formula: Text("√(4 F_S ρ_S/(π b E'))"),
+        source: "Hertz 1882, two cylinders. Zhou & Chen 2014 do not define a in Eq. 55.",
+        corrections: &["Eq. 55"],
+        assumptions: "Smooth cylinders of the reduced radius at D over the full width.",
+        checks: &[checks::contact_small, checks::edge],
+        variants: &[],
+        reads: &[(
+            always,
+            &[
+                "impact_force",
+                "curvature_radius",
+                "materials",
+                "*.face_width",
+            ],
+        )],
+    },
+    Quantity {
+        key: "impact_energy",
+        symbol: "E_k",
+        label: "impact energy",
+        unit: "J",
+        shown: "J",
+        digits: 5,
+        equation: "Eq. 50",
+        stage: Impact,
+        value: |s| Some(s.impact?.energy),
+        meaning: "The kinetic energy of the approach at D, over the whole width. The teeth absorb \
+            it and return it.",
+        formula: Text("M ΔV_n²/2"),
+        source: "Zhou & Chen 2014, Eq. 50.",
+        corrections: &["Eq. 46", "Eq. 33, Eq. 50"],
+        assumptions: "The gears approach at their steady speeds.",
+        checks: &[checks::gap_closed],
+        variants: &[],
+        reads: &[(always, &["effective_mass", "normal_velocity"])],
+    },
+    Quantity {
+        key: "sliding_energy",
+        symbol: "W_f",
+        label: "sliding energy",
+        unit: "J",
+        shown: "J",
+        digits: 5,
+        equation: "Eq. 51",
+        stage: Impact,
+        value: |s| Some(s.impact?.sliding_energy),
+        meaning: "The energy of the sliding at D by Eq. 51, over the whole width. Friction can \
+            absorb only a part of it: see stick_limit.",
+        formula: Text("M ΔV_τ²/2"),
+        source: "Zhou & Chen 2014, Eq. 51.",
+        corrections: &["Eq. 46", "Eq. 33, Eq. 50"],
+        assumptions: "The effective mass along the normal also applies to the sliding, as printed.",
+        checks: &[checks::gap_closed, checks::keeps_sliding],
+        variants: &[],
+        reads: &[(always, &["effective_mass", "sliding_velocity"])],
+    },
+];
+
+/// The least or the greatest of the force of the case and the forces of all models in range.
+fn over_models(k: &Context, choice: &str) -> String {
+    let forces = covering(k.inputs)
+        .filter(|(tooth, contact)| spread_force(k.inputs, tooth, contact).is_some())
+        .map(|(tooth, contact)| symbol(tooth, contact));
+    let all: Vec<String> = std::iter::once("F_S".to_owned()).chain(forces).collect();
+    format!("{choice}({})", all.join(", "))
+}
+
+/// The impact force by a tooth model and a contact model, in N.
+#[must_use]
+pub fn spread_force(inputs: &Inputs, tooth: &ToothModel, contact: &ContactModel) -> Option<f64> {
+    let solution = model::solve(&with(inputs, tooth, contact), Stages::of(Impact)).ok()?;
+    Some(solution.impact?.force)
+}
+
+pub(super) const STEPS: &[Step] = &[
+    step(
+        "E'",
+        "modulus of both materials in plane strain",
+        "GPa",
+        Text("1/((1 - ν1²)/E1 + (1 - ν2²)/E2)"),
+        |k| Some(1.0 / plane_strain_compliance(&k.inputs.elasticity())),
+    ),
+    step(
+        "C_H",
+        "ratio of Hertz's duration to Eq. 32",
+        "1",
+        Text("2.868265699 π^(2/5)"),
+        |_| Some(HERTZ_PREFACTOR),
+    ),
+];

@@ -1,0 +1,215 @@
+//! Rows of the motion: the load that the pairs share with inertia.
+
+use std::f64::consts::TAU;
+
+use super::conditions::always;
+use super::{Quantity, checks, of_driver};
+use crate::model::Context;
+use crate::model::Stage::Dynamic;
+use crate::model::explanation::Formula::{self, Found, Text};
+use crate::model::explanation::{Check, Step, step};
+
+const IN_MOTION: &str = "One mass m_red moves on the springs and gaps of all pairs, with damping \
+    while a pair is in contact. Shafts are rigid, and the load is steady. Only the incoming pair \
+    has a deviation, e = Δf_0.";
+const MOTION: &str = "Oscillator of gear dynamics with backlash, Özgüven & Houser 1988, m x'' + \
+    ΣF = F0, with the gap S(u) of the tips off the line of action. Integration by Taylor series \
+    from contact event to contact event.";
+const CHECKS: &[Check] = &[checks::teeth, checks::forgotten, checks::contact_kept];
+const BY_MOTION: Formula = Found(
+    "taken from the motion m_red x'' + c x' + Σ w_k F_k = F_0, F_k = b/q max(0, x + e - S), which \
+        starts at the static balance model.warmup_cycles base pitches before E",
+    &["m_red", "c", "f_n", "f_z"],
+);
+
+pub(super) const TABLE: &[Quantity] = &[
+    Quantity {
+        key: "dynamic_first_contact_angle",
+        symbol: "u_d",
+        label: "dynamic: driven before E",
+        unit: "rad",
+        shown: "deg",
+        digits: 6,
+        equation: "m x'' + ΣF = F0",
+        stage: Dynamic,
+        value: |s| s.dynamic.as_ref()?.first_contact_angle,
+        meaning: "The angle of the driven gear before E at which the incoming tooth first touches \
+            in motion.",
+        formula: BY_MOTION,
+        source: MOTION,
+        corrections: &["Eqs. 7-20"],
+        assumptions: IN_MOTION,
+        checks: CHECKS,
+        variants: &[],
+        reads: &[(always, &["motion"])],
+    },
+    Quantity {
+        key: "dynamic_first_contact_angle_driver",
+        symbol: "θ_d",
+        label: "dynamic: driver before E",
+        unit: "rad",
+        shown: "deg",
+        digits: 6,
+        equation: "m x'' + ΣF = F0",
+        stage: Dynamic,
+        value: |s| Some(of_driver(s, s.dynamic.as_ref()?.first_contact_angle?)),
+        meaning: "The angle of the driver before E at which the incoming tooth first touches in \
+            motion. The verdict of method dynamic gives this angle.",
+        formula: Text("i u_d"),
+        source: MOTION,
+        corrections: &["Eqs. 7-20"],
+        assumptions: IN_MOTION,
+        checks: CHECKS,
+        variants: &[],
+        reads: &[(always, &["dynamic_first_contact_angle"])],
+    },
+    Quantity {
+        key: "dynamic_peak_approach_force",
+        symbol: "F_d,DE",
+        label: "dynamic: peak before E",
+        unit: "N",
+        shown: "N",
+        digits: 5,
+        equation: "m x'' + ΣF = F0",
+        stage: Dynamic,
+        value: |s| Some(s.dynamic.as_ref()?.peak_approach_force),
+        meaning: "The peak force on the incoming tooth before E, in the corner contact: the \
+            impact force by the motion of the whole mesh.",
+        formula: BY_MOTION,
+        source: MOTION,
+        corrections: &["Eqs. 7-20", "Eq. 54"],
+        assumptions: IN_MOTION,
+        checks: CHECKS,
+        variants: &[],
+        reads: &[(always, &["motion"])],
+    },
+    Quantity {
+        key: "dynamic_peak_force",
+        symbol: "F_d,max",
+        label: "dynamic: peak force",
+        unit: "N",
+        shown: "N",
+        digits: 5,
+        equation: "m x'' + ΣF = F0",
+        stage: Dynamic,
+        value: |s| Some(s.dynamic.as_ref()?.peak_force),
+        meaning: "The peak force on the incoming tooth from its first contact to its last: the \
+            load on its root and its flank.",
+        formula: BY_MOTION,
+        source: MOTION,
+        corrections: &["Eq. 54"],
+        assumptions: IN_MOTION,
+        checks: CHECKS,
+        variants: &[],
+        reads: &[(always, &["motion"])],
+    },
+    Quantity {
+        key: "dynamic_impact_duration",
+        symbol: "T_d",
+        label: "dynamic: impact duration",
+        unit: "s",
+        shown: "us",
+        digits: 4,
+        equation: "m x'' + ΣF = F0",
+        stage: Dynamic,
+        value: |s| s.dynamic.as_ref()?.impact_duration,
+        meaning: "The time from a first contact before E to the first minimum of the force after \
+            its first peak, or to the loss of contact if that is earlier.",
+        formula: BY_MOTION,
+        source: MOTION,
+        corrections: &["Eq. 32"],
+        assumptions: IN_MOTION,
+        checks: CHECKS,
+        variants: &[],
+        reads: &[(always, &["motion"])],
+    },
+    Quantity {
+        key: "dynamic_last_contact_angle",
+        symbol: "θ_d,B",
+        label: "dynamic: driver after B",
+        unit: "rad",
+        shown: "deg",
+        digits: 6,
+        equation: "m x'' + ΣF = F0",
+        stage: Dynamic,
+        value: |s| s.dynamic.as_ref()?.last_contact_angle,
+        meaning: "The angle of the driver after B at the last contact of the incoming tooth in \
+            motion.",
+        formula: BY_MOTION,
+        source: MOTION,
+        corrections: &[],
+        assumptions: IN_MOTION,
+        checks: CHECKS,
+        variants: &[],
+        reads: &[(always, &["motion"])],
+    },
+    Quantity {
+        key: "dynamic_contact_lost",
+        symbol: "lost",
+        label: "dynamic: contact lost",
+        unit: "1",
+        shown: "yes/no",
+        digits: 1,
+        equation: "no pair touches",
+        stage: Dynamic,
+        value: |s| Some(f64::from(u8::from(s.dynamic.as_ref()?.contact_lost))),
+        meaning: "Whether no pair touches at some moment. The gears then rattle and strike again.",
+        formula: BY_MOTION,
+        source: "Oscillator of gear dynamics with backlash, Özgüven & Houser 1988: no pair \
+            touches at some moment from one base pitch before E to the last contact of the tooth.",
+        corrections: &[],
+        assumptions: IN_MOTION,
+        checks: &[checks::teeth, checks::forgotten],
+        variants: &[],
+        reads: &[(always, &["motion"])],
+    },
+    Quantity {
+        key: "dynamic_friction_work",
+        symbol: "W_μ",
+        label: "dynamic: friction work",
+        unit: "J",
+        shown: "J",
+        digits: 5,
+        equation: "∫μ F |v| dt",
+        stage: Dynamic,
+        value: |s| s.dynamic.as_ref()?.friction_work,
+        meaning: "The work of the friction on the incoming tooth from its first contact to its \
+            last, with the μ of the case.",
+        formula: BY_MOTION,
+        source: "Coulomb friction along the motion, ∫μ F |v| dt with the sliding velocity v of \
+            the pair, after Özgüven & Houser 1988.",
+        corrections: &["Eq. 64"],
+        assumptions: IN_MOTION,
+        checks: CHECKS,
+        variants: &[],
+        reads: &[(always, &["motion"])],
+    },
+];
+
+fn stiffness(k: &Context) -> Option<f64> {
+    Some(k.solution.mesh.as_ref()?.mean_stiffness)
+}
+
+pub(super) const STEPS: &[Step] = &[
+    step(
+        "f_n",
+        "natural frequency of the mesh at its mean stiffness",
+        "Hz",
+        Text("√(k_m/m_red)/(2 π)"),
+        |k| Some((stiffness(k)? / k.solution.reduced_mass).sqrt() / TAU),
+    ),
+    step(
+        "f_z",
+        "tooth frequency",
+        "Hz",
+        Text("z1 ω_1/(2 π)"),
+        |k| Some(f64::from(k.inputs.driver.teeth) * k.inputs.speed / TAU),
+    ),
+    step(
+        "c",
+        "damping of the mesh while a pair is in contact",
+        "N s/m",
+        Text("2 ζ √(k_m m_red)"),
+        |k| Some(2.0 * k.inputs.damping_ratio * (stiffness(k)? * k.solution.reduced_mass).sqrt()),
+    ),
+];

@@ -1,0 +1,339 @@
+//! Rows of the first contact D and the velocities there.
+
+use super::conditions::{always, edge_given, paper};
+use super::{Quantity, Variant, checks};
+use crate::model::Context;
+use crate::model::Stage::{Position, Velocity};
+use crate::model::explanation::Formula::{Cases, Difference, Solved, Text};
+use crate::model::explanation::{Equation, Step, step};
+use crate::model::position::{gap, printed_turns};
+
+const TIP: &str = "The tip edge of the driven gear meets the involute of the driver. Both gears \
+    turn at their steady speeds up to D.";
+
+pub(super) const TABLE: &[Quantity] = &[
+    Quantity {
+        key: "approach_angle_driver",
+        symbol: "θ_1",
+        label: "driver angle before E",
+        unit: "rad",
+        shown: "deg",
+        digits: 6,
+        equation: "Eq. 12",
+        stage: Position,
+        value: |s| Some(s.position?.approach_angle_driver),
+        meaning: "The angle through which the driver turns from the first contact D to E, where \
+            contact should begin.",
+        formula: Cases(&[(paper, Text("ε_e + ε_d")), (always, Text("i u"))]),
+        source: "Zhou & Chen 2014, Eqs. 11-20. Method exact: the contact condition S(u) = Δ of \
+            the two involutes (see approach_angle_driven), and Eq. 11.",
+        corrections: &["Eqs. 7-20", "Eq. 14", "Eqs. 16, 20"],
+        assumptions: TIP,
+        checks: &[checks::gap_closed, checks::on_flank],
+        variants: &[Variant::meaning(
+            paper,
+            "The angle through which the driver turns from D to E by the printed equations, which \
+                are linear in Δ. They place D so close to E that the tip has closed only a small \
+                part of its gap: see closed_gap.",
+        )],
+        reads: &[(always, &["approach_angle_driven"])],
+    },
+    Quantity {
+        key: "approach_angle_driven",
+        symbol: "u",
+        label: "driven angle before E",
+        unit: "rad",
+        shown: "deg",
+        digits: 6,
+        equation: "Eq. 11",
+        stage: Position,
+        value: |s| Some(s.position?.approach_angle_driven),
+        meaning: "The angle through which the driven gear turns from the first contact D to E. \
+            S(u) is the gap between its tip and the driver's flank along the contact normal. At D \
+            the total deviation Δ has closed this gap.",
+        formula: Cases(&[(paper, Text("θ_1/i")), (always, Solved(&CONTACT))]),
+        source: "Zhou & Chen 2014, Eq. 11. Method exact: the contact condition of the path of the \
+            tip and the involute of the driver, solved by Newton's method; dS/du = r_b2 - r_b2', \
+            so u grows with √Δ.",
+        corrections: &["Eqs. 7-20", "Eq. 14", "Eqs. 16, 20"],
+        assumptions: TIP,
+        checks: &[checks::start, checks::gap_closed, checks::on_flank],
+        variants: &[Variant::meaning(
+            paper,
+            "The angle through which the driven gear turns from D to E by the printed equations, \
+                which are linear in Δ. They place D so close to E that the tip has closed only a \
+                small part of its gap: see closed_gap.",
+        )],
+        reads: &[
+            (always, &["total_deviation", "start_of_contact", "method"]),
+            (paper, &["base_pitch"]),
+        ],
+    },
+    Quantity {
+        key: "contact_radius_driver",
+        symbol: "O1D",
+        label: "driver radius at D",
+        unit: "m",
+        shown: "mm",
+        digits: 6,
+        equation: "Eq. 7",
+        stage: Position,
+        value: |s| Some(s.position?.contact.radius_driver),
+        meaning: "The radius of D on the driver. D is near the root, where the flank has its \
+            strongest curvature.",
+        formula: Text("√(r_a2² + a² - 2 a r_a2 cos η)"),
+        source: "Zhou & Chen 2014, Eqs. 7-10, with a instead of r_1 + r_2.",
+        corrections: &["Eqs. 7-20"],
+        assumptions: TIP,
+        checks: &[checks::on_flank, checks::gap_closed],
+        variants: &[],
+        reads: &[(always, &["approach_angle_driven"])],
+    },
+    Quantity {
+        key: "contact_normal_radius_driven",
+        symbol: "r_b2'",
+        label: "normal's radius, driven",
+        unit: "m",
+        shown: "mm",
+        digits: 6,
+        equation: "Eq. 49",
+        stage: Position,
+        value: |s| Some(s.position?.contact.normal_radius_driven),
+        meaning: "The distance from O2 to the contact normal at D, the lever arm of the driven \
+            gear. At E it equals r_b2. Its difference from r_b2 causes the approach velocity.",
+        formula: Text("a cos χ - r_b1"),
+        source: "Zhou & Chen 2014, Eqs. 24-28, 48 and 49, in closed form.",
+        corrections: &["Eqs. 27, 42, 60"],
+        assumptions: TIP,
+        checks: &[checks::gap_closed],
+        variants: &[],
+        reads: &[(always, &["approach_angle_driven"])],
+    },
+    Quantity {
+        key: "curvature_radius",
+        symbol: "ρ_S",
+        label: "radius of curvature",
+        unit: "m",
+        shown: "mm",
+        digits: 5,
+        equation: "Eq. 32",
+        stage: Position,
+        value: |s| Some(s.position?.curvature_radius),
+        meaning: "The reduced radius of curvature of flank and tip at D. The width of the contact \
+            and its stress depend on it.",
+        formula: Text("ρ_1 ρ_2/(ρ_1 + ρ_2)"),
+        source: "Zhou & Chen 2014, below Eq. 32.",
+        corrections: &[],
+        assumptions: "The tip has the curvature of its own flank, or the radius of its edge if \
+            the case gives one. A sharp edge causes far higher pressure than either.",
+        checks: &[checks::edge],
+        variants: &[],
+        reads: &[(always, &["approach_angle_driven", "driven.tip_radius"])],
+    },
+    Quantity {
+        key: "closed_gap",
+        symbol: "S(u)",
+        label: "gap closed by the tip",
+        unit: "m",
+        shown: "um",
+        digits: 5,
+        equation: "S(u) = Δ",
+        stage: Position,
+        value: |s| Some(s.position?.closed_gap),
+        meaning: "The gap between tip and flank that is closed at D. It equals Δ at the exact \
+            position. At the printed position the difference from Δ is the error of that \
+            position.",
+        formula: Difference("Δρ_1 + r_b2 u - r_b1 Δχ"),
+        source: "Contact condition S(u) = Δ: the normal distance of the involutes, the integral \
+            of dS/du = r_b2 - r_b2'. Zhou & Chen 2014 have no such equation.",
+        corrections: &["Eqs. 7-20"],
+        assumptions: TIP,
+        checks: &[checks::gap_closed],
+        variants: &[],
+        reads: &[
+            (always, &["total_deviation", "method"]),
+            (paper, &["approach_angle_driven"]),
+        ],
+    },
+    Quantity {
+        key: "transit_time",
+        symbol: "t_DE",
+        label: "time from D to E",
+        unit: "s",
+        shown: "us",
+        digits: 5,
+        equation: "u/ω2",
+        stage: Velocity,
+        value: |s| Some(s.velocity?.transit_time),
+        meaning: "The time from the first contact D to E. A longer impact continues into the \
+            normal mesh.",
+        formula: Text("u/ω_2"),
+        source: "Kinematics, u/ω2.",
+        corrections: &["Eqs. 7-20"],
+        assumptions: "Constant speed.",
+        checks: &[checks::within_approach],
+        variants: &[],
+        reads: &[(always, &["approach_angle_driven", "operation.speed"])],
+    },
+    Quantity {
+        key: "normal_velocity",
+        symbol: "ΔV_n",
+        label: "approach velocity at D",
+        unit: "m/s",
+        shown: "m/s",
+        digits: 5,
+        equation: "Eq. 21",
+        stage: Velocity,
+        value: |s| Some(s.velocity?.normal),
+        meaning: "The velocity at which the tip approaches the flank at D along the contact \
+            normal. It causes the impact, and it is 0 at E.",
+        formula: Difference("ω_2 (r_b2 - r_b2')"),
+        source: "Zhou & Chen 2014, Eqs. 21, 23-28; equal to ω_1 r_b1 - ω_2 r_b2'.",
+        corrections: &["Eqs. 27, 42, 60", "Eqs. 7-20"],
+        assumptions: TIP,
+        checks: &[checks::gap_closed],
+        variants: &[],
+        reads: &[(always, &["approach_angle_driven", "operation.speed"])],
+    },
+    Quantity {
+        key: "sliding_velocity",
+        symbol: "ΔV_τ",
+        label: "sliding velocity at D",
+        unit: "m/s",
+        shown: "m/s",
+        digits: 5,
+        equation: "Eq. 22",
+        stage: Velocity,
+        value: |s| Some(s.velocity?.sliding),
+        meaning: "The velocity at which the tip slides along the flank at D. A positive value \
+            points to the root of the driver.",
+        formula: Difference("ω_2 N2'D - ω_1 ρ_1"),
+        source: "Zhou & Chen 2014, Eqs. 22-28.",
+        corrections: &["Eq. 22", "Eqs. 27, 42, 60"],
+        assumptions: TIP,
+        checks: &[checks::gap_closed, checks::keeps_sliding],
+        variants: &[],
+        reads: &[(always, &["approach_angle_driven", "operation.speed"])],
+    },
+];
+
+const CONTACT: Equation = Equation {
+    text: "S(u) = Δ,  S(u) = Δρ_1 + r_b2 u - r_b1 Δχ",
+    left: Difference("Δρ_1 + r_b2 u - r_b1 Δχ"),
+    right: Text("Δ"),
+    unit: "um",
+    sides: |k| {
+        let contact = k.solution.position?.contact;
+        Some([
+            gap(&k.solution.geometry, &contact),
+            k.solution.deviation.total,
+        ])
+    },
+};
+
+fn angle_at_tip(k: &Context) -> Option<f64> {
+    let (geometry, contact) = (&k.solution.geometry, k.solution.position?.contact);
+    let (sine, cosine) = contact.polar_angle.sin_cos();
+    let tip = geometry.driven.tip;
+    Some((tip * sine).atan2(geometry.centre_distance - tip * cosine))
+}
+
+pub(super) const STEPS: &[Step] = &[
+    step(
+        "ε_e",
+        "turn of the driver by the equivalent error, Eqs. 13-15",
+        "deg",
+        Text("atan2(r_b1 Δf, r_b1² + N1E (N1E - Δf))"),
+        |k| Some(printed_turns(&k.solution.geometry, &k.solution.deviation)[0]),
+    ),
+    step(
+        "ε_d",
+        "turn of the driver by the deflection, Eqs. 17-19",
+        "deg",
+        Text("atan2(r_b1 δ, r_b1² + (N1F - Δ) (N1F - Δf))"),
+        |k| Some(printed_turns(&k.solution.geometry, &k.solution.deviation)[1]),
+    ),
+    step(
+        "η",
+        "angle at O2 from the centre line to the tip at D, Eq. 10",
+        "deg",
+        Text("γ_2 + u"),
+        |k| Some(k.solution.position?.contact.polar_angle),
+    ),
+    step(
+        "ρ_1",
+        "radius of curvature of the driver at D, N1'D",
+        "mm",
+        Difference("√(O1D² - r_b1²)"),
+        |k| Some(k.solution.position?.contact.curvature_driver),
+    ),
+    step(
+        "Δρ_1",
+        "growth of ρ_1 since E",
+        "mm",
+        Difference("ρ_1 - N1E"),
+        |k| Some(k.solution.position?.contact.curvature_growth),
+    ),
+    step(
+        "ψ",
+        "angle D O1 P",
+        "deg",
+        Text("atan2(r_a2 sin η, a - r_a2 cos η)"),
+        angle_at_tip,
+    ),
+    step(
+        "β_1",
+        "angle D O1 N1'",
+        "deg",
+        Text("atan2(ρ_1, r_b1)"),
+        |k| {
+            Some(
+                k.solution
+                    .position?
+                    .contact
+                    .curvature_driver
+                    .atan2(k.solution.geometry.driver.base),
+            )
+        },
+    ),
+    step(
+        "χ",
+        "angle of the contact normal at D, α_w at E",
+        "deg",
+        Text("ψ + β_1"),
+        |k| {
+            Some(
+                k.solution.geometry.working_pressure_angle
+                    + k.solution.position?.contact.normal_turn,
+            )
+        },
+    ),
+    step(
+        "Δχ",
+        "turn of the contact normal since E",
+        "deg",
+        Difference("χ - α_w"),
+        |k| Some(k.solution.position?.contact.normal_turn),
+    ),
+    step(
+        "N2'D",
+        "from the driven gear's foot on the contact normal to D",
+        "mm",
+        Text("a sin χ - ρ_1"),
+        |k| Some(k.solution.position?.contact.normal_length_driven),
+    ),
+    step(
+        "ρ_2",
+        "radius of curvature of the driven flank at its tip",
+        "mm",
+        Cases(&[(edge_given, Text("re2")), (always, Text("N2E"))]),
+        |k| {
+            Some(
+                k.inputs
+                    .driven
+                    .tip_radius
+                    .unwrap_or(k.solution.geometry.driven.tip_curvature),
+            )
+        },
+    ),
+];

@@ -1,0 +1,321 @@
+//! A page as lines of text, for a terminal of any width.
+
+use super::corrections::Correction;
+use super::derivation::{How, Leaf, Work};
+use super::effects::Effect;
+use super::page::Page;
+use super::substitution::GLUE;
+use crate::case::sanitize::sanitize;
+use crate::report::layout::{WIDTH, count, flow, widest};
+
+/// The kind of a line, which decides its style.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// The quantity and its value.
+    Title,
+    /// The name of a section.
+    Heading,
+    /// A formula in symbols.
+    Formula,
+    /// A formula with numbers, or its result.
+    Numbers,
+    /// Words and tables.
+    Text,
+    /// A range that the case is outside of.
+    Outside,
+}
+
+/// A line of a page.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Line {
+    /// Its kind.
+    pub kind: Kind,
+    /// Its text.
+    pub text: String,
+}
+
+impl Line {
+    fn new(kind: Kind, text: impl Into<String>) -> Line {
+        Line {
+            kind,
+            text: text.into(),
+        }
+    }
+}
+
+/// The page as text, 80 columns wide.
+#[must_use]
+pub fn render(page: &Page, name: &str) -> String {
+    lines(page, name, WIDTH)
+        .into_iter()
+        .map(|line| line.text.trim_end().to_owned() + "\n")
+        .collect()
+}
+
+/// The page in lines of at most `width` columns; `name` is that of the case.
+#[must_use]
+pub fn lines(page: &Page, name: &str, width: usize) -> Vec<Line> {
+    let width = width.max(20);
+    let sections = [
+        head(page, name, width),
+        titled(
+            "Formula",
+            page.derivation
+                .iter()
+                .flat_map(|work| worked(work, width))
+                .collect(),
+        ),
+        titled("Values used", leaves(&page.leaves, width)),
+        titled("Source", paragraph(page.source, 2, width)),
+        titled("Corrections to the paper", corrections(page, width)),
+        titled("Validity", validity(page, width)),
+        titled(
+            "Accuracy",
+            page.accuracy
+                .iter()
+                .flat_map(|line| paragraph(line, 2, width))
+                .collect(),
+        ),
+        titled("Sensitivity", effects(&page.effects, width)),
+    ];
+    let mut lines: Vec<Line> = Vec::new();
+    for section in sections.into_iter().filter(|section| !section.is_empty()) {
+        if !lines.is_empty() {
+            lines.push(Line::new(Kind::Text, ""));
+        }
+        lines.extend(section);
+    }
+    lines
+}
+
+fn titled(title: &str, lines: Vec<Line>) -> Vec<Line> {
+    let heading = (!lines.is_empty()).then(|| Line::new(Kind::Heading, title));
+    heading.into_iter().chain(lines).collect()
+}
+
+fn head(page: &Page, name: &str, width: usize) -> Vec<Line> {
+    let quantity = page.quantity;
+    let value = match (&page.shown, &page.missing) {
+        (Some(shown), _) if page.symbol.is_empty() => shown.to_string(),
+        (Some(shown), _) => format!("{} = {shown}", page.symbol),
+        (None, reason) => reason.clone().unwrap_or_default(),
+    };
+    let symbol = if page.symbol.is_empty() {
+        String::new()
+    } else {
+        format!(", {}", page.symbol)
+    };
+    let title = format!("{}{symbol} ({})", page.label, quantity.equation);
+    let by = if page.is_by_auto {
+        ", chosen by auto"
+    } else {
+        ""
+    };
+    let of = format!(
+        "{} · {} · method {}{by}",
+        quantity.key,
+        sanitize(name),
+        page.method
+    );
+    let mut lines = block(Kind::Title, &title, "", "", width);
+    lines.extend(block(Kind::Title, &value, "", "  ", width));
+    lines.extend(block(Kind::Text, &of, "", "", width));
+    lines.push(Line::new(Kind::Text, ""));
+    lines.extend(paragraph(page.meaning, 0, width));
+    lines.extend(
+        page.beside
+            .iter()
+            .flat_map(|beside| paragraph(beside, 0, width)),
+    );
+    lines
+}
+
+/// A value, its formula, its numbers.
+fn worked(work: &Work, width: usize) -> Vec<Line> {
+    let (symbol, sign) = (work.symbol, sign(work.how));
+    let lead = format!("  {symbol}{sign}");
+    let deep = " ".repeat(count(symbol) + 3);
+    let more = format!("{deep}  ");
+    let mut lines = match work.how {
+        How::Described if !work.meaning.is_empty() => block(
+            Kind::Formula,
+            &format!("{}; {}", work.meaning, work.formula),
+            &lead,
+            &more,
+            width,
+        ),
+        _ => with_meaning(
+            block(Kind::Formula, &work.formula, &lead, &more, width),
+            work.meaning,
+            &more,
+            width,
+        ),
+    };
+    let shown = work
+        .shown
+        .as_ref()
+        .map(|shown| shown.to_string().replace(' ', GLUE));
+    let numbers = work
+        .numbers
+        .clone()
+        .filter(|numbers| Some(numbers) != shown.as_ref());
+    let parts: Vec<String> = numbers.into_iter().chain(shown).collect();
+    if !parts.is_empty() {
+        lines.extend(block(
+            Kind::Numbers,
+            &parts.join(&format!(" ={GLUE}")),
+            &format!("{deep}= "),
+            &more,
+            width,
+        ));
+    }
+    lines.extend(
+        work.residual
+            .iter()
+            .flat_map(|residual| block(Kind::Text, residual, &more, &more, width)),
+    );
+    lines
+}
+
+fn sign(how: How) -> &'static str {
+    match how {
+        How::Equals => " = ",
+        How::Solves => " from ",
+        How::Described => ": ",
+    }
+}
+
+/// The meaning of a step to the right of its formula, or else below it.
+fn with_meaning(mut lines: Vec<Line>, meaning: &str, more: &str, width: usize) -> Vec<Line> {
+    const COLUMN: usize = 38;
+    let room = lines
+        .last()
+        .map_or(0, |line| count(&line.text) + 2)
+        .max(COLUMN);
+    match lines.last_mut() {
+        _ if meaning.is_empty() => {}
+        Some(line) if room + count(meaning) <= width => {
+            line.text = format!("{:room$}{meaning}", line.text);
+        }
+        _ => lines.extend(block(Kind::Text, meaning, more, more, width)),
+    }
+    lines
+}
+
+fn leaves(leaves: &[Leaf], width: usize) -> Vec<Line> {
+    let symbols = widest(leaves.iter().map(|leaf| leaf.symbol));
+    let values = widest(leaves.iter().map(|leaf| leaf.shown.as_str()));
+    let line = |leaf: &Leaf| {
+        let lead = format!("  {:symbols$}  {:values$}  ", leaf.symbol, leaf.shown);
+        let more = " ".repeat(lead.chars().count());
+        block(
+            Kind::Text,
+            &format!("{} ({})", leaf.meaning, leaf.key),
+            &lead,
+            &more,
+            width,
+        )
+    };
+    leaves.iter().flat_map(line).collect()
+}
+
+fn corrections(page: &Page, width: usize) -> Vec<Line> {
+    let lines = |correction: &&Correction| {
+        let Correction {
+            equation,
+            error,
+            used,
+        } = correction;
+        let text = format!("{equation}: {error}. Used: {used}.");
+        block(Kind::Text, &text, "  ", "    ", width)
+    };
+    if page.corrections.is_empty() {
+        return paragraph("None.", 2, width);
+    }
+    page.corrections.iter().flat_map(lines).collect()
+}
+
+fn validity(page: &Page, width: usize) -> Vec<Line> {
+    let mut lines = paragraph(page.assumptions, 2, width);
+    for finding in &page.validity {
+        let (kind, mark) = if finding.inside {
+            (Kind::Text, "  ok   ")
+        } else {
+            (Kind::Outside, "  NOT  ")
+        };
+        lines.extend(block(
+            kind,
+            &format!("{}. Here: {}.", finding.range, finding.here),
+            mark,
+            "       ",
+            width,
+        ));
+    }
+    lines
+}
+
+fn effects(effects: &[Effect], width: usize) -> Vec<Line> {
+    let (acting, idle): (Vec<&Effect>, Vec<&Effect>) =
+        effects.iter().partition(|effect| !effect.change.is_empty());
+    let column = |of: fn(&Effect) -> &str| widest(acting.iter().map(|effect| of(effect)));
+    let [symbol, key] = [column(|effect| effect.symbol), column(|effect| effect.key)];
+    let [text, step] = [column(|effect| &effect.text), column(|effect| &effect.step)];
+    let change = column(|effect| &effect.change);
+    let full = symbol + key + text + step + change + 10;
+    let mut lines = Vec::new();
+    for effect in acting {
+        let Effect {
+            symbol: symbols,
+            key: keys,
+            text: texts,
+            step: steps,
+            change: changes,
+        } = effect;
+        let row = format!("{keys:key$}  {texts:text$}  {steps:>step$}  {changes:>change$}");
+        lines.extend(match full {
+            _ if full <= width => {
+                vec![Line::new(Kind::Text, format!("  {symbols:symbol$}  {row}"))]
+            }
+            _ if full - symbol - 2 <= width => vec![Line::new(Kind::Text, format!("  {row}"))],
+            _ => paragraph(
+                &format!("{keys} = {texts}: {steps} gives {changes}"),
+                2,
+                width,
+            ),
+        });
+    }
+    let field = |effect: &&Effect| format!("{} = {}", effect.key, effect.text).replace(' ', GLUE);
+    if !idle.is_empty() {
+        let lead = if lines.is_empty() {
+            "Fields read:"
+        } else {
+            "Other fields read (a choice, not given, or without effect here):"
+        };
+        lines.extend(paragraph(lead, 2, width));
+        lines.extend(paragraph(
+            &idle.iter().map(field).collect::<Vec<_>>().join(", "),
+            4,
+            width,
+        ));
+    }
+    lines
+}
+
+fn paragraph(text: &str, indent: usize, width: usize) -> Vec<Line> {
+    let lead = " ".repeat(indent);
+    block(Kind::Text, text, &lead, &lead, width)
+}
+
+/// Words set into lines: the first behind `lead`, the others behind `more`.
+fn block(kind: Kind, text: &str, lead: &str, more: &str, width: usize) -> Vec<Line> {
+    let indent = count(lead).max(count(more));
+    let rows = flow(
+        text.split(' ').filter(|word| !word.is_empty()),
+        width.saturating_sub(indent).max(8),
+    );
+    let start = |index| if index == 0 { lead } else { more };
+    rows.iter()
+        .enumerate()
+        .map(|(index, row)| Line::new(kind, format!("{}{}", start(index), row.replace(GLUE, " "))))
+        .collect()
+}
