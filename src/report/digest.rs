@@ -153,21 +153,20 @@ pub fn sentence(solution: &Solution, system: System) -> String {
 /// The outcome in a few words, with the forces of [`sentence`].
 #[must_use]
 pub fn short(solution: &Solution, system: System) -> String {
+    if solution.outcome == Outcome::NoCornerContact {
+        return "no corner contact".to_owned();
+    }
     let told = |key| told(key, solution, system);
-    let peaks = || {
-        Some((
-            told("dynamic_peak_approach_force")?,
-            told("dynamic_peak_force")?,
-        ))
+    let overall = match solution.method {
+        Method::Static => told("static_peak_force"),
+        Method::Dynamic => told("dynamic_peak_force"),
+        Method::Paper | Method::Exact | Method::Auto => None,
     };
-    let force = || Quantity::find("impact_force")?.by(solution.method);
-    match solution.outcome {
-        Outcome::NoCornerContact => "no corner contact".to_owned(),
-        Outcome::CornerContact => match (peaks(), force().and_then(|force| told(force.key))) {
-            (Some((before, overall)), _) => format!("strikes with {before}, {overall} overall"),
-            (None, Some(force)) => format!("strikes with {force}"),
-            (None, None) => "strikes".to_owned(),
-        },
+    let force = Quantity::find("impact_force").and_then(|force| force.by(solution.method));
+    match (force.and_then(|force| told(force.key)), overall) {
+        (Some(force), Some(overall)) => format!("strikes with {force}, {overall} overall"),
+        (Some(force), None) => format!("strikes with {force}"),
+        (None, _) => "strikes".to_owned(),
     }
 }
 
@@ -327,7 +326,7 @@ mod tests {
         let moving = "Corner contact: θ_d = 1.27924 deg before E; peak force 1410.8 N before E, 2003.0 N overall.";
         assert_eq!(forces[1].outcome, moving);
         let short = [
-            "strikes with 1466.2 N",
+            "strikes with 1466.2 N, 1524.3 N overall",
             "strikes with 1410.8 N, 2003.0 N overall",
             "strikes with 1410.8 N, 2003.0 N overall",
         ];
