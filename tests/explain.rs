@@ -94,10 +94,29 @@ static EXPLAINED: LazyLock<Vec<Explained>> = LazyLock::new(|| {
     let variants = cases
         .iter()
         .flat_map(|(name, case)| VARIANTS.iter().map(move |settings| (name, case, settings)));
-    variants
-        .filter_map(|(name, case, settings)| explained(name, case, settings))
+    let closed = variants.filter_map(|(name, case, settings)| explained(name, case, settings));
+    closed
+        .chain([shared("static"), shared("dynamic")])
         .collect()
 });
+
+/// The pages of the values that Table 1 has only in this method.
+fn shared(method: &str) -> Explained {
+    let mut case = Case::table_1();
+    case.set("model.method", method).unwrap();
+    let inputs = case.inputs().unwrap();
+    let solution = solve(&inputs, Stages::EVERY).unwrap();
+    let own = QUANTITIES.iter().filter(|quantity| match quantity.stage {
+        Stage::Mesh | Stage::Static => method == "static",
+        Stage::Dynamic => quantity.key.contains("first_contact"),
+        _ => false,
+    });
+    let pages = own.map(|quantity| explain(quantity, &case, &inputs, &solution));
+    Explained {
+        name: format!("Table 1, {method}"),
+        pages: pages.collect(),
+    }
+}
 
 fn every_page(mut look: impl FnMut(&str, &Page)) {
     EXPLAINED

@@ -125,7 +125,7 @@ fn an_explanation_says_what_holds_in_its_method() {
             "{method}"
         );
     }
-    let in_full = "Relief counts against it, in full";
+    let in_full = "Relief reduces it by its full amount";
     for (method, holds) in [("paper", false), ("exact", true), ("static", false)] {
         assert_eq!(
             relieved(method, &["explain", "equivalent_error"]).contains(in_full),
@@ -133,7 +133,7 @@ fn an_explanation_says_what_holds_in_its_method() {
             "{method}"
         );
     }
-    let deflects = "the load that deflects the teeth";
+    let deflects = "It deflects the teeth";
     assert!(
         !relieved("exact", &["explain", "mesh_force"]).contains(deflects),
         "the deflection is given"

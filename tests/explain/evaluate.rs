@@ -119,10 +119,13 @@ impl Reader<'_> {
     fn number(&mut self) -> f64 {
         let digits = |c: char| c.is_ascii_digit() || c == '.';
         let mut end = self.rest.find(|c| !digits(c)).unwrap_or(self.rest.len());
-        if self.rest[end..].starts_with("e-") {
-            end += 2 + self.rest[end + 2..]
-                .find(|c| !digits(c))
-                .unwrap_or(self.rest.len() - end - 2);
+        let power = self.rest[end..].strip_prefix('e').unwrap_or_default();
+        let digits = power.trim_start_matches('-');
+        let length = digits
+            .find(|c: char| !c.is_ascii_digit())
+            .unwrap_or(digits.len());
+        if length > 0 {
+            end += 1 + power.len() - digits.len() + length;
         }
         let number: f64 = self.rest[..end]
             .parse()

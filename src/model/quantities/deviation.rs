@@ -240,7 +240,7 @@ pub(super) const TABLE: &[Quantity] = &[
                     "the root C of max(x - gap) = 0 up to E: x is the lead of the driver by the \
                         balance Σ w_k F_k = F_0 of the other pairs; every pair has the additional \
                         tip relief C",
-                    &["F_0", "k_m", "Δf", "Δ"],
+                    &["F_0", "k_m", "Δf_0", "Δ"],
                 ),
             ),
             (
@@ -249,7 +249,7 @@ pub(super) const TABLE: &[Quantity] = &[
                     "the root C of max(x - gap) = 0 up to E: x is the lead of the driver in the \
                         motion m_red x'' + c x' + Σ w_k F_k = F_0 without a force on the incoming \
                         tooth; every pair has the additional tip relief C",
-                    &["m_red", "c", "f_n", "f_z", "Δf", "Δ"],
+                    &["m_red", "c", "f_n", "f_z", "Δf_0", "Δ"],
                 ),
             ),
             (always, Text("Δ")),

@@ -24,26 +24,6 @@ const BY_MOTION: Formula = Found(
 
 pub(super) const TABLE: &[Quantity] = &[
     Quantity {
-        key: "dynamic_first_contact_angle",
-        symbol: "u_d",
-        label: "dynamic: driven before E",
-        unit: "rad",
-        shown: "deg",
-        digits: 6,
-        equation: "m x'' + ΣF = F0",
-        stage: Dynamic,
-        value: |s| s.dynamic.as_ref()?.first_contact_angle,
-        meaning: "The angle of the driven gear before E at which the incoming tooth first touches \
-            in motion.",
-        formula: BY_MOTION,
-        source: MOTION,
-        corrections: &["Eqs. 7-20"],
-        assumptions: IN_MOTION,
-        checks: CHECKS,
-        variants: &[],
-        reads: &[(always, &["motion"])],
-    },
-    Quantity {
         key: "dynamic_first_contact_angle_driver",
         symbol: "θ_d",
         label: "dynamic: driver before E",
@@ -62,6 +42,26 @@ pub(super) const TABLE: &[Quantity] = &[
         checks: CHECKS,
         variants: &[],
         reads: &[(always, &["dynamic_first_contact_angle"])],
+    },
+    Quantity {
+        key: "dynamic_first_contact_angle",
+        symbol: "u_d",
+        label: "dynamic: driven before E",
+        unit: "rad",
+        shown: "deg",
+        digits: 6,
+        equation: "m x'' + ΣF = F0",
+        stage: Dynamic,
+        value: |s| s.dynamic.as_ref()?.first_contact_angle,
+        meaning: "The angle of the driven gear before E at which the incoming tooth first touches \
+            in motion.",
+        formula: BY_MOTION,
+        source: MOTION,
+        corrections: &["Eqs. 7-20"],
+        assumptions: IN_MOTION,
+        checks: CHECKS,
+        variants: &[],
+        reads: &[(always, &["motion"])],
     },
     Quantity {
         key: "dynamic_peak_approach_force",
