@@ -1,5 +1,5 @@
-//! The last look at what reaches the terminal: nothing that controls it, and plain ASCII where it
-//! asks for that.
+//! The last pass over a screen: no control characters, few combining marks in a cell, and plain
+//! ASCII on terminals that need it.
 
 use std::borrow::Cow;
 
@@ -9,6 +9,9 @@ use crate::case::sanitize::is_hidden;
 
 /// Stands for a character that must not reach a terminal.
 const VEILED: char = '\u{FFFD}';
+
+/// Combining marks of one cell that reach the terminal.
+const MOST_MARKS: usize = 8;
 
 /// Symbols in the field's writing, and in letters that every terminal has.
 const WRITTEN_OUT: [(&str, &str); 34] = [
@@ -139,6 +142,10 @@ pub fn written_out(line: &str) -> Cow<'_, str> {
 /// The last pass over a finished screen.
 pub fn finish(buffer: &mut Buffer, ascii: bool) {
     for cell in &mut buffer.content {
+        if let Some((end, _)) = cell.symbol().char_indices().nth(1 + MOST_MARKS) {
+            let symbol = cell.symbol()[..end].to_owned();
+            cell.set_symbol(&symbol);
+        }
         let symbol = cell.symbol();
         if !symbol.chars().all(is_safe) {
             cell.set_char(VEILED);
@@ -166,6 +173,7 @@ fn to_ascii(symbol: &str) -> char {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ratatui::buffer::Cell;
     use ratatui::layout::Rect;
 
     #[test]
@@ -186,6 +194,16 @@ mod tests {
             assert!(cleaned.chars().all(is_safe), "{hostile:?}");
         }
         assert_eq!(printable("16 µm, ΔV_n, 歯車"), "16 µm, ΔV_n, 歯車");
+    }
+
+    #[test]
+    fn a_cell_shows_at_most_eight_combining_marks() {
+        let marks = "\u{301}".repeat(400_000);
+        let mut buffer = Buffer::with_lines([format!("e{marks}xe\u{301}")]);
+        finish(&mut buffer, false);
+        let symbols: Vec<_> = buffer.content.iter().map(Cell::symbol).collect();
+        assert_eq!(symbols[0], format!("e{}", &marks[..2 * MOST_MARKS]));
+        assert_eq!(symbols[1..], ["x", "e\u{301}"]);
     }
 
     #[test]
