@@ -9,6 +9,7 @@ pub mod actions;
 pub mod app;
 pub mod ascii;
 pub mod browser;
+pub mod capped_backend;
 pub mod commands;
 pub mod effects;
 mod ending;
@@ -16,6 +17,7 @@ pub mod events;
 pub mod explanation;
 mod fault;
 pub mod history;
+mod input;
 pub mod jobs;
 pub mod keys;
 pub mod latest_request;
@@ -46,7 +48,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use signal_hook::consts::{SIGCONT, SIGTSTP};
+use signal_hook::consts::{SIGCONT, SIGTSTP, SIGWINCH};
 
 use actions::{Action, Effect};
 use app::App;
@@ -105,8 +107,14 @@ pub fn run(case: Option<PathBuf>) -> ExitCode {
         return ExitCode::from(NO_TERMINAL);
     }
     terminal::hold_panics();
+    // Memory for the picture is taken before any thread takes some: the picture then shrinks to the
+    // memory that there is.
+    let screen = match Screen::new() {
+        Ok(screen) => screen,
+        Err(error) => return no_answer(&error),
+    };
     let events = Events::new();
-    let journal_writer = match JournalWriter::open(events.warner()) {
+    let journal_writer = match begin(&events) {
         Ok(journal_writer) => journal_writer,
         Err(error) => {
             return fail(
@@ -115,20 +123,17 @@ pub fn run(case: Option<PathBuf>) -> ExitCode {
             );
         }
     };
-    let ended = catch_unwind(AssertUnwindSafe(|| session(case, events, &journal_writer)));
+    let ended = catch_unwind(AssertUnwindSafe(|| {
+        session(case, events, screen, &journal_writer)
+    }));
     if matches!(ended, Ok(Ok(End::Left))) {
         return ExitCode::SUCCESS;
     }
     keep_what_is_left(&journal_writer);
     match ended {
-        Ok(Ok(End::Signal(signal))) => {
-            ExitCode::from(u8::try_from(ending::SIGNALLED + signal).unwrap_or(u8::MAX))
-        }
+        Ok(Ok(End::Signal(signal))) => ending::die_of(signal),
         Ok(Ok(End::Left | End::Lost)) => ExitCode::from(TERMINAL_LOST),
-        Ok(Err(error)) => fail(
-            TERMINAL_LOST,
-            &format!("the terminal does not answer: {error}"),
-        ),
+        Ok(Err(error)) => no_answer(&error),
         Err(_) => fail(
             PANICKED,
             &format!(
@@ -139,9 +144,22 @@ pub fn run(case: Option<PathBuf>) -> ExitCode {
     }
 }
 
+// Signals before any other thread starts, and before the terminal is taken: none of them must leave
+// the terminal in our modes.
+fn begin(events: &Events) -> io::Result<Arc<JournalWriter>> {
+    let signals = ending::hold_signals()?;
+    let journal_writer = JournalWriter::open(events.warner())?;
+    let last_words = Arc::clone(&journal_writer);
+    ending::listen(signals, &events.sender(), move || {
+        drop(last_words.write(false));
+    })?;
+    Ok(journal_writer)
+}
+
 fn session(
     case: Option<PathBuf>,
     events: Events,
+    mut screen: Screen,
     journal_writer: &Arc<JournalWriter>,
 ) -> io::Result<End> {
     let Opening {
@@ -149,11 +167,8 @@ fn session(
         path,
         trouble,
     } = store::opening(case);
-    // Before the terminal is taken: a signal must never leave it in our modes.
-    let last_words = Arc::clone(journal_writer);
+    screen.enter()?;
     events.listen()?;
-    ending::listen(events.sender(), move || drop(last_words.write(false)))?;
-    let mut screen = Screen::open()?;
     let settings = Settings::read();
     let look = Look::of(|name| std::env::var_os(name));
     let look = settings.look(look, |name| {
@@ -257,6 +272,10 @@ impl Workbench {
         match signal {
             SIGTSTP => self.suspend()?,
             SIGCONT => self.screen.resume()?,
+            SIGWINCH => {
+                let size = self.screen.size()?;
+                self.act(Action::Resize(size))?;
+            }
             _ => return Ok(Some(End::Signal(signal))),
         }
         Ok(None)
@@ -333,6 +352,13 @@ fn keep_what_is_left(journal_writer: &JournalWriter) {
         Ok(()) => {}
         Err(error) => tell(&format!("unsaved edits could not be kept: {error}")),
     }
+}
+
+fn no_answer(error: &io::Error) -> ExitCode {
+    fail(
+        TERMINAL_LOST,
+        &format!("the terminal does not answer: {error}"),
+    )
 }
 
 fn fail(code: u8, words: &str) -> ExitCode {

@@ -14,7 +14,7 @@ use std::fs;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use tty::{Launch, PROGRAM, TABLE_1, Tty};
+use tty::{Launch, PROGRAM, TABLE_1, Tty, journals};
 
 #[test]
 fn it_types_saves_quits_and_gives_the_terminal_back() {
@@ -35,22 +35,48 @@ fn it_types_saves_quits_and_gives_the_terminal_back() {
     );
 }
 
+/// Signals that end a process, and what the system calls them.
+const DEADLY: [(&str, &str); 24] = [
+    ("HUP", "Hangup"),
+    ("INT", "Interrupt"),
+    ("QUIT", "Quit"),
+    ("ILL", "Illegal instruction"),
+    ("TRAP", "Trace/breakpoint trap"),
+    ("ABRT", "Aborted"),
+    ("BUS", "Bus error"),
+    ("FPE", "Floating point exception"),
+    ("USR1", "User defined signal 1"),
+    ("SEGV", "Segmentation fault"),
+    ("USR2", "User defined signal 2"),
+    ("ALRM", "Alarm clock"),
+    ("TERM", "Terminated"),
+    ("STKFLT", "Stack fault"),
+    ("XCPU", "CPU time limit exceeded"),
+    ("VTALRM", "Virtual timer expired"),
+    ("PROF", "Profiling timer expired"),
+    ("29", "I/O possible"),
+    ("PWR", "Power failure"),
+    ("SYS", "Bad system call"),
+    ("34", "Real-time signal 0"),
+    ("41", "Real-time signal 7"),
+    ("63", "Real-time signal 29"),
+    ("64", "Real-time signal 30"),
+];
+
 #[test]
-fn a_signal_to_end_gives_the_terminal_back() {
-    for (signal, code) in [
-        ("TERM", 15),
-        ("HUP", 1),
-        ("INT", 2),
-        ("QUIT", 3),
-        ("USR1", 10),
-        ("USR2", 12),
-        ("XCPU", 24),
-    ] {
+fn every_deadly_signal_restores_the_terminal_keeps_the_edit_and_ends_the_process() {
+    for (signal, name) in DEADLY {
         let mut tty = Tty::open();
         tty.wait_for("Corner contact");
+        tty.type_in("\x151.25 in");
+        tty.wait_for("1.25 in");
         tty.send_signal(signal);
-        assert_eq!(tty.wait_for_end().exit_code(), 128 + code, "{signal}");
+        assert_eq!(tty.wait_for_end().signal(), Some(name), "{signal}");
         tty.assert_restored();
+        let kept = journals(tty.folder.path());
+        assert_eq!(kept.len(), 1, "{signal}");
+        let journal = fs::read_to_string(&kept[0]).expect("it is there");
+        assert!(journal.contains("1.25 in"), "{signal}: {journal}");
     }
 }
 

@@ -14,7 +14,7 @@ mod tty;
 use std::fs;
 use std::time::{Duration, Instant};
 
-use tty::{Launch, PATIENCE, TABLE_1, Tty, has_faults_on_demand, is_there, journals};
+use tty::{Launch, PATIENCE, TABLE_1, Tty, cells, has_faults_on_demand, is_there, journals};
 
 /// Nothing more comes when nothing came for so long.
 const QUIET: Duration = Duration::from_millis(150);
@@ -148,6 +148,19 @@ fn a_terminal_that_takes_nothing_more_does_not_hold_it() {
         fs::read_to_string(&kept[0]).is_ok_and(|text| text.contains("1.25 in")),
         "{kept:?}"
     );
+}
+
+#[test]
+fn a_stuck_workbench_ended_by_a_signal_leaves_no_modes_behind() {
+    if !has_faults_on_demand() {
+        return;
+    }
+    let mut tty = opened(Launch::on_table_1().variable("TIPSTRIKE_FAULT", "stuck screen"));
+    tty.type_in("\x0c");
+    tty.settle(QUIET);
+    tty.send_signal("TERM");
+    assert_eq!(tty.wait_for_end().signal(), Some("Terminated"));
+    tty.assert_restored();
 }
 
 #[test]
@@ -293,6 +306,106 @@ fn a_flood_and_a_long_paste_cost_little_and_press_nothing() {
         fs::read_to_string(tty.case()).expect("it is there"),
         TABLE_1
     );
+}
+
+#[test]
+fn a_reply_that_nobody_asked_for_and_an_unfinished_sequence_leave_the_keys_alive() {
+    for stray in [
+        &b"\x1b[?2026;2$y"[..],
+        b"\x1b[<",
+        b"\x1b[1;",
+        b"\x1b[1111",
+        b"\x1b[M ",
+        b"\x1bP1$r0",
+        b"\x1b]11;rgb:00",
+        b"\x1b[200~",
+    ] {
+        let mut tty = opened(Launch::on_table_1());
+        tty.type_in(stray);
+        tty.settle(QUIET);
+        let is_paste = stray.ends_with(b"~");
+        if is_paste {
+            tty.type_in("\x1b");
+            tty.settle(QUIET);
+        }
+        tty.type_in("\x15");
+        tty.type_in("1.25 in");
+        tty.wait_for("1.25 in");
+        // A control character need not wait for the end of a sequence.
+        let stray = if is_paste { b"" } else { stray };
+        tty.type_in([stray, b"\x11"].concat());
+        tty.wait_for("Discard");
+        tty.type_in("d");
+        assert_eq!(tty.wait_for_end().exit_code(), 0, "{stray:?}");
+    }
+}
+
+#[test]
+fn a_paste_without_an_end_ends_after_a_silence() {
+    let mut tty = opened(Launch::on_table_1());
+    tty.type_in("\x15\x1b[200~1.25 in");
+    tty.wait_for("1.25 in");
+    tty.type_in("\x11");
+    tty.wait_for("Discard");
+    tty.type_in("d");
+    assert_eq!(tty.wait_for_end().exit_code(), 0);
+}
+
+#[test]
+fn an_old_picture_in_the_alternate_screen_is_cleared() {
+    let mut tty = Launch::on_table_1().start();
+    tty.written = Some(Vec::new());
+    tty.wait_for("quit");
+    tty.settle(QUIET);
+    // The terminal after a lost connection: full of the old picture, with a background to erase
+    // with, and in the alternate screen already, which is then not cleared by entering it.
+    let mut old = vt100::Parser::new(cells(24), cells(80), 0);
+    old.process("\x1b[44mX".repeat(24 * 80).as_bytes());
+    let written = String::from_utf8(tty.written.clone().unwrap_or_default()).expect("words");
+    old.process(written.replace("\x1b[?1049h", "").as_bytes());
+    assert_eq!(old.screen().contents(), tty.screen().contents());
+    assert_eq!(
+        old.screen().contents_formatted(),
+        tty.screen().contents_formatted()
+    );
+    tty.quit();
+}
+
+#[test]
+fn the_largest_terminal_costs_little_memory() {
+    let mut tty = opened(Launch::on_table_1());
+    for (rows, columns) in [(3000, 3000), (u16::MAX, u16::MAX)] {
+        tty.resize(rows, columns);
+        tty.wait_for("Corner contact");
+        tty.settle(QUIET);
+        let resident = resident(tty.id());
+        println!("{columns}x{rows}: {resident} KiB");
+        assert!(resident <= 150 << 10, "{columns}x{rows}: {resident} KiB");
+        let outside = tty.screen().rows(1000, 200).any(|row| !row.is_empty());
+        let below = tty.screen().rows(0, 1200).skip(500);
+        assert!(!outside && below.into_iter().all(|row| row.is_empty()));
+    }
+    tty.resize(24, 80);
+    tty.settle(QUIET);
+    tty.wait_for("Corner contact");
+    tty.quit();
+}
+
+#[test]
+fn a_title_of_combining_marks_does_not_flood_the_terminal() {
+    let launch = Launch::on_table_1();
+    let title = format!("title = \"e{}", "\u{301}".repeat(400_000));
+    let text = TABLE_1.replacen("title = \"", &title, 1);
+    fs::write(launch.case(), text).expect("room on the disk");
+    let mut tty = launch.start();
+    tty.written = Some(Vec::new());
+    tty.wait_for("quit");
+    tty.settle(QUIET);
+    tty.type_in("7");
+    tty.settle(QUIET);
+    let written = tty.written.as_ref().map_or(0, Vec::len);
+    println!("{written} bytes");
+    assert!(written <= 12 << 10, "{written} bytes");
 }
 
 #[test]

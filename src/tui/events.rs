@@ -6,13 +6,12 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crossterm::event::{
-    self, Event as Input, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
-};
-use ratatui::layout::{Position, Size};
+use crossterm::event::{Event as Input, MouseButton, MouseEvent, MouseEventKind};
+use ratatui::layout::Position;
 
 use super::actions::{self, Action};
 use super::effects::told;
+use super::input;
 use super::jobs::Finding;
 use super::keys::Place;
 use super::solver::Reply;
@@ -49,34 +48,8 @@ pub struct Events {
 const CHANNEL: usize = 4096;
 /// A batch is drawn after this long, even while more is coming.
 const BATCH: Duration = Duration::from_millis(50);
-/// So long may the parts of one escape sequence lie apart.
-const ESCAPE: Duration = Duration::from_millis(50);
 /// Lines that a turn of the wheel moves.
 const WHEEL: isize = 3;
-
-/// What follows `Esc` in the sequences of the common keys.
-const SEQUENCES: [(&str, KeyCode); 20] = [
-    ("[A", KeyCode::Up),
-    ("[B", KeyCode::Down),
-    ("[C", KeyCode::Right),
-    ("[D", KeyCode::Left),
-    ("[H", KeyCode::Home),
-    ("[F", KeyCode::End),
-    ("[Z", KeyCode::BackTab),
-    ("OA", KeyCode::Up),
-    ("OB", KeyCode::Down),
-    ("OC", KeyCode::Right),
-    ("OD", KeyCode::Left),
-    ("OH", KeyCode::Home),
-    ("OF", KeyCode::End),
-    ("OP", KeyCode::F(1)),
-    ("OQ", KeyCode::F(2)),
-    ("OR", KeyCode::F(3)),
-    ("OS", KeyCode::F(4)),
-    ("[3~", KeyCode::Delete),
-    ("[5~", KeyCode::PageUp),
-    ("[6~", KeyCode::PageDown),
-];
 
 impl Default for Events {
     fn default() -> Events {
@@ -97,8 +70,6 @@ impl Events {
     /// # Errors
     /// When the system gives no thread.
     pub fn listen(&self) -> io::Result<()> {
-        // Makes the handler of new sizes now: one that comes before the thread runs would be lost.
-        event::poll(Duration::ZERO)?;
         let keys = self.sender.clone();
         thread::Builder::new()
             .name("keys".to_owned())
@@ -146,17 +117,12 @@ impl Events {
         let mut batch = vec![first];
         let end = Instant::now() + BATCH;
         while Instant::now() < end {
-            let patience = if is_open(&batch) {
-                ESCAPE
-            } else {
-                Duration::ZERO
-            };
-            match self.receiver.recv_timeout(patience) {
+            match self.receiver.try_recv() {
                 Ok(event) => batch.push(event),
-                Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => break,
+                Err(_) => break,
             }
         }
-        join(batch)
+        batch
     }
 
     fn first(&self, alarm: Option<Instant>, deadline: Option<Instant>) -> Option<Event> {
@@ -185,7 +151,6 @@ pub fn take_action(
             action => Some(action),
         },
         Event::Input(Input::Paste(text)) => Some(Action::Paste(text)),
-        Event::Input(Input::Resize(width, height)) => Some(Action::Resize(Size { width, height })),
         Event::Reply(Reply::Solved(answer)) => Some(Action::Solved(answer)),
         Event::Reply(Reply::Solving(serial, part)) => Some(Action::Solving(serial, part)),
         Event::Measured(measured) => Some(Action::Measured(measured)),
@@ -236,79 +201,17 @@ fn letter_of(event: &Event, place: Place) -> Option<char> {
 }
 
 fn read_terminal(sender: &SyncSender<Event>) {
-    let read = || {
-        while let Ok(input) = event::read() {
-            if sender.send(Event::Input(input)).is_err() {
-                return;
-            }
-        }
-    };
-    // Whatever ends the reading, a workbench that no longer hears its keys must not stay. Nobody
-    // listens only when it is on its way out already.
-    drop(catch_unwind(AssertUnwindSafe(read)));
+    let send = |input| sender.send(Event::Input(input)).is_ok();
+    // Whatever ends the reader, a workbench without keys must not stay. The receiver is gone only
+    // when the workbench is on its way out.
+    drop(catch_unwind(AssertUnwindSafe(|| input::read_all(send))));
     drop(sender.send(Event::Lost));
-}
-
-// A slow line may deliver an escape sequence in pieces, which then arrive as keys of their own.
-fn join(batch: Vec<Event>) -> Vec<Event> {
-    let mut joined: Vec<Event> = Vec::with_capacity(batch.len());
-    for event in batch {
-        joined.push(event);
-        let Some(start) = escape_at(&joined) else {
-            continue;
-        };
-        let tail = tail(&joined[start + 1..]);
-        if let Some(&(_, code)) = SEQUENCES.iter().find(|(sequence, _)| *sequence == tail) {
-            joined.truncate(start);
-            joined.push(Event::Input(Input::Key(KeyEvent::new(
-                code,
-                KeyModifiers::NONE,
-            ))));
-        }
-    }
-    joined
-}
-
-fn is_open(batch: &[Event]) -> bool {
-    escape_at(batch).is_some_and(|start| {
-        let tail = tail(&batch[start + 1..]);
-        SEQUENCES
-            .iter()
-            .any(|(sequence, _)| sequence.starts_with(&tail))
-    })
-}
-
-// The last Esc, when it stands at most three keys before the end.
-fn escape_at(batch: &[Event]) -> Option<usize> {
-    let from = batch.len().saturating_sub(4);
-    batch[from..]
-        .iter()
-        .rposition(|event| plain(event) == Some(KeyCode::Esc))
-        .map(|at| from + at)
-}
-
-fn tail(events: &[Event]) -> String {
-    let letter = |event| {
-        if let Some(KeyCode::Char(letter)) = plain(event) {
-            letter
-        } else {
-            '\0'
-        }
-    };
-    events.iter().map(letter).collect()
-}
-
-fn plain(event: &Event) -> Option<KeyCode> {
-    match event {
-        Event::Input(Input::Key(key)) if (key.modifiers - KeyModifiers::SHIFT).is_empty() => {
-            Some(key.code)
-        }
-        _ => None,
-    }
 }
 
 #[cfg(test)]
 mod tests {
+    use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+
     use super::*;
 
     fn keys(codes: &[KeyCode]) -> Vec<Event> {
@@ -316,41 +219,6 @@ mod tests {
             .iter()
             .map(|&code| Event::Input(Input::Key(KeyEvent::new(code, KeyModifiers::NONE))))
             .collect()
-    }
-
-    fn codes(events: &[Event]) -> Vec<KeyCode> {
-        events.iter().filter_map(plain).collect()
-    }
-
-    #[test]
-    fn a_split_escape_sequence_is_one_key() {
-        use KeyCode::{Char, Delete, Esc, Up};
-        assert_eq!(codes(&join(keys(&[Esc, Char('['), Char('A')]))), [Up]);
-        assert_eq!(
-            codes(&join(keys(&[
-                Char('x'),
-                Esc,
-                Char('['),
-                Char('3'),
-                Char('~'),
-                Char('y')
-            ]))),
-            [Char('x'), Delete, Char('y')]
-        );
-        assert_eq!(
-            codes(&join(keys(&[Esc, Esc, Char('['), Char('A')]))),
-            [Esc, Up]
-        );
-        assert_eq!(codes(&join(keys(&[Esc, Char('x')]))), [Esc, Char('x')]);
-    }
-
-    #[test]
-    fn only_the_start_of_a_sequence_is_waited_for() {
-        use KeyCode::{Char, Esc};
-        assert!(is_open(&keys(&[Esc])));
-        assert!(is_open(&keys(&[Esc, Char('['), Char('5')])));
-        assert!(!is_open(&keys(&[Esc, Char('x')])));
-        assert!(!is_open(&keys(&[Char('[')])));
     }
 
     #[test]

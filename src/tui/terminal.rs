@@ -1,8 +1,9 @@
 //! The terminal: its modes, and giving it back as it was found on every way out.
 
 use std::ffi::OsString;
-use std::io::{self, BufWriter, IsTerminal, Stdout};
+use std::io::{self, BufWriter, IsTerminal, Stdout, Write};
 use std::panic::{self, PanicHookInfo};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use crossterm::clipboard::CopyToClipboard;
@@ -11,25 +12,29 @@ use crossterm::event::{
     DisableBracketedPaste, DisableMouseCapture, EnableBracketedPaste, EnableMouseCapture,
 };
 use crossterm::execute;
-use crossterm::style::force_color_output;
+use crossterm::style::{ResetColor, force_color_output};
 use crossterm::terminal::{
-    EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
+    Clear, ClearType, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
 };
 use ratatui::Terminal;
 use ratatui::backend::CrosstermBackend;
 use ratatui::layout::Size;
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
 
 use super::app::App;
+use super::capped_backend::CappedBackend;
 use super::view;
 
 /// One write a frame, where the standard buffer would make ten.
 const FRAME: usize = 64 * 1024;
 
+/// Whether the terminal is in the modes of the workbench.
+static IS_TAKEN: AtomicBool = AtomicBool::new(false);
 static LAST_PANIC: Mutex<Option<String>> = Mutex::new(None);
 
-/// The terminal while the workbench has it; dropping it gives it back.
+/// The picture on the terminal. Dropping it gives the terminal back.
 pub struct Screen {
-    terminal: Terminal<CrosstermBackend<BufWriter<Stdout>>>,
+    terminal: Terminal<CappedBackend<CrosstermBackend<BufWriter<Stdout>>>>,
     /// The signal that ended our own suspension is still to come.
     is_back: bool,
     /// Whether the mouse is ours.
@@ -67,22 +72,44 @@ pub fn last_panic() -> Option<String> {
         .take()
 }
 
+/// Gives the terminal back while the workbench is stuck. A terminal that accepts no bytes gets its
+/// modes back alone.
+pub(super) fn give_back_by_force() {
+    if !IS_TAKEN.load(Ordering::Relaxed) {
+        return;
+    }
+    drop(disable_raw_mode());
+    let stdout = io::stdout();
+    let mut line = [PollFd::new(&stdout, PollFlags::OUT)];
+    let mut sequences = Vec::new();
+    let is_made = execute!(
+        sequences,
+        DisableMouseCapture,
+        DisableBracketedPaste,
+        ResetColor,
+        Show,
+        LeaveAlternateScreen
+    );
+    // Past the lock of the standard output, which the workbench may hold.
+    if is_made.is_ok() && poll(&mut line, Some(&Timespec::default())) == Ok(1) {
+        let _ = rustix::io::write(&stdout, &sequences);
+    }
+}
+
 impl Screen {
-    /// Take the terminal.
+    /// A picture of the size of the terminal, which is left alone until [`Screen::enter`].
     ///
     /// # Errors
-    /// When the terminal does not answer; it is then as it was.
-    pub fn open() -> io::Result<Screen> {
+    /// When the terminal does not report its size.
+    pub fn new() -> io::Result<Screen> {
         // Else NO_COLOR takes bold and reverse away too; our own theme has no colour then.
         force_color_output(true);
         let backend = CrosstermBackend::new(BufWriter::with_capacity(FRAME, io::stdout()));
-        let mut screen = Screen {
-            terminal: Terminal::new(backend)?,
+        Ok(Screen {
+            terminal: Terminal::new(CappedBackend::new(backend))?,
             is_back: false,
             has_mouse: false,
-        };
-        screen.enter()?;
-        Ok(screen)
+        })
     }
 
     /// The size of the terminal.
@@ -152,11 +179,10 @@ impl Screen {
             return Ok(());
         }
         self.has_mouse = takes;
-        let backend = self.terminal.backend_mut();
         if takes {
-            execute!(backend, EnableMouseCapture)
+            execute!(self.output(), EnableMouseCapture)
         } else {
-            execute!(backend, DisableMouseCapture)
+            execute!(self.output(), DisableMouseCapture)
         }
     }
 
@@ -166,22 +192,28 @@ impl Screen {
     /// # Errors
     /// When the terminal is gone.
     pub fn copy(&mut self, text: &str) -> io::Result<()> {
-        execute!(
-            self.terminal.backend_mut(),
-            CopyToClipboard::to_clipboard_from(text)
-        )
+        execute!(self.output(), CopyToClipboard::to_clipboard_from(text))
     }
 
-    fn enter(&mut self) -> io::Result<()> {
+    /// Takes the terminal.
+    ///
+    /// # Errors
+    /// When the terminal does not answer.
+    pub fn enter(&mut self) -> io::Result<()> {
         enable_raw_mode()?;
+        IS_TAKEN.store(true, Ordering::Relaxed);
+        // A terminal that is still in the alternate screen, as after a lost connection, shows its
+        // old picture there, and erases with the colour that was last set.
         execute!(
-            self.terminal.backend_mut(),
+            self.output(),
             EnterAlternateScreen,
             EnableBracketedPaste,
-            Hide
+            Hide,
+            ResetColor,
+            Clear(ClearType::All)
         )?;
         if self.has_mouse {
-            execute!(self.terminal.backend_mut(), EnableMouseCapture)
+            execute!(self.output(), EnableMouseCapture)
         } else {
             Ok(())
         }
@@ -189,22 +221,29 @@ impl Screen {
 
     fn leave(&mut self) -> io::Result<()> {
         if self.has_mouse {
-            execute!(self.terminal.backend_mut(), DisableMouseCapture)?;
+            execute!(self.output(), DisableMouseCapture)?;
         }
         let written = execute!(
-            self.terminal.backend_mut(),
+            self.output(),
             DisableBracketedPaste,
             Show,
             LeaveAlternateScreen
         );
+        IS_TAKEN.store(false, Ordering::Relaxed);
         disable_raw_mode().and(written)
+    }
+
+    fn output(&mut self) -> &mut impl Write {
+        &mut self.terminal.backend_mut().backend
     }
 }
 
 impl Drop for Screen {
     fn drop(&mut self) {
         // On a terminal that is gone there is nothing to give back.
-        drop(self.leave());
+        if IS_TAKEN.load(Ordering::Relaxed) {
+            drop(self.leave());
+        }
     }
 }
 

@@ -27,6 +27,10 @@ pub(crate) const PATIENCE: Duration = Duration::from_secs(20);
 /// How often in a second a slow line takes something.
 const BEATS: usize = 100;
 
+/// Our picture of a terminal of any size has no more cells than these.
+const MOST_ROWS: u16 = 600;
+const MOST_COLUMNS: u16 = 1200;
+
 /// What to start, and on which terminal.
 pub(crate) struct Launch {
     pub(crate) folder: Arc<TempDir>,
@@ -255,6 +259,7 @@ impl Tty {
                 ..PtySize::default()
             })
             .expect("a new size");
+        let (rows, columns) = (rows.min(MOST_ROWS), columns.min(MOST_COLUMNS));
         if let (Some(rows), Some(columns)) = (NonZero::new(rows), NonZero::new(columns)) {
             self.screen.screen_mut().set_size(rows, columns);
         }
@@ -526,7 +531,7 @@ pub(crate) fn skip(why: &str) {
     }
 }
 
-fn cells(count: u16) -> NonZero<u16> {
+pub(crate) fn cells(count: u16) -> NonZero<u16> {
     NonZero::new(count).unwrap_or(NonZero::<u16>::MIN)
 }
 

@@ -1,0 +1,300 @@
+//! Splits the bytes of the terminal into keys, sequences and pastes. An unfinished one never keeps
+//! later keys waiting: time, the next Esc or a control character ends it.
+
+use std::mem;
+use std::time::Duration;
+
+use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
+
+use super::sequence;
+
+/// After `Esc` alone, the rest of a sequence may take this long.
+const ESCAPE: Duration = Duration::from_millis(50);
+/// A sequence or a character may take this long.
+const SEQUENCE: Duration = Duration::from_millis(100);
+/// A paste may pause this long. A line that loses packets pauses for some hundred milliseconds.
+const PASTE: Duration = Duration::from_secs(1);
+const LONGEST_SEQUENCE: usize = 4096;
+/// Bytes of a paste that are kept.
+const LONGEST_PASTE: usize = 1 << 20;
+const PASTE_START: (&[u8], u8) = (b"200", b'~');
+const PASTE_END: &[u8] = b"\x1b[201~";
+
+const ESC: u8 = 0x1b;
+const BELL: u8 = 0x07;
+
+#[derive(Debug, Default)]
+pub(super) struct Decoder {
+    state: State,
+    /// The bytes since the state began.
+    bytes: Vec<u8>,
+    /// How much longer the rest of the state may take.
+    patience: Duration,
+}
+
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+enum State {
+    #[default]
+    Ground,
+    /// After Esc.
+    Escape {
+        /// A read ended with the Esc: a letter that follows is a key of its own.
+        is_apart: bool,
+        /// The Esc may begin the end of a text.
+        ends_text: bool,
+    },
+    /// Inside a character of several bytes.
+    Letter { modifiers: KeyModifiers },
+    /// After `Esc [`.
+    Csi,
+    /// After `Esc O`.
+    Ss3,
+    /// After `Esc [ M`: button, column and row, one byte each.
+    Mouse,
+    /// Inside a reply in words: from `Esc ]`, `Esc P`, `Esc X`, `Esc ^` or `Esc _` on.
+    Text { introducer: u8 },
+    /// Inside a paste, with the number of bytes that match its end.
+    Paste { matched: usize },
+}
+
+impl Decoder {
+    /// How long to wait for the next byte; `None` when nothing is unfinished.
+    pub(super) fn patience(&self) -> Option<Duration> {
+        (self.state != State::Ground).then_some(self.patience)
+    }
+
+    pub(super) fn has_waited(&mut self, time: Duration) {
+        self.patience = self.patience.saturating_sub(time);
+    }
+
+    /// Takes the bytes of one read. `is_full` if more bytes may be ready.
+    pub(super) fn feed(&mut self, bytes: &[u8], is_full: bool, inputs: &mut Vec<Event>) {
+        for &byte in bytes {
+            self.take(byte, inputs);
+        }
+        if let State::Escape { is_apart, .. } = &mut self.state {
+            *is_apart |= !is_full;
+        }
+    }
+
+    /// The rest of what is unfinished did not arrive in time.
+    pub(super) fn expire(&mut self, inputs: &mut Vec<Event>) {
+        let bytes = mem::take(&mut self.bytes);
+        match mem::take(&mut self.state) {
+            State::Escape { .. } => inputs.push(plain(KeyCode::Esc)),
+            // No sequence stops after its first letter: Alt was held.
+            State::Csi if bytes.is_empty() => inputs.push(with_alt(b'[')),
+            State::Ss3 if bytes.is_empty() => inputs.push(with_alt(b'O')),
+            State::Text { introducer } if bytes.is_empty() => inputs.push(with_alt(introducer)),
+            // An Esc that nothing follows is a person who wants to leave.
+            State::Paste { .. } => inputs.push(paste(&bytes)),
+            _ => {}
+        }
+    }
+
+    fn take(&mut self, byte: u8, inputs: &mut Vec<Event>) {
+        match self.state {
+            State::Ground => self.begin(byte, KeyModifiers::NONE, inputs),
+            State::Escape {
+                is_apart,
+                ends_text,
+            } => self.after_escape(byte, is_apart, ends_text, inputs),
+            State::Letter { modifiers } => self.in_letter(byte, modifiers, inputs),
+            State::Csi => self.in_csi(byte, inputs),
+            State::Ss3 => self.in_ss3(byte, inputs),
+            State::Mouse => self.in_mouse(byte, inputs),
+            State::Text { introducer } => self.in_text(byte, introducer, inputs),
+            State::Paste { matched } => self.in_paste(byte, matched, inputs),
+        }
+    }
+
+    fn enter(&mut self, state: State, patience: Duration) {
+        self.bytes.clear();
+        self.state = state;
+        self.patience = patience;
+    }
+
+    /// Drops what is unfinished; the byte begins something new.
+    fn restart(&mut self, byte: u8, inputs: &mut Vec<Event>) {
+        self.enter(State::Ground, Duration::ZERO);
+        self.take(byte, inputs);
+    }
+
+    fn keep(&mut self, byte: u8) {
+        self.bytes.push(byte);
+        if self.bytes.len() > LONGEST_SEQUENCE {
+            self.enter(State::Ground, Duration::ZERO);
+        }
+    }
+
+    fn begin(&mut self, byte: u8, modifiers: KeyModifiers, inputs: &mut Vec<Event>) {
+        match byte {
+            ESC => {
+                let state = State::Escape {
+                    is_apart: false,
+                    ends_text: false,
+                };
+                self.enter(state, ESCAPE);
+            }
+            0x80.. => {
+                self.enter(State::Letter { modifiers }, SEQUENCE);
+                self.in_letter(byte, modifiers, inputs);
+            }
+            _ => {
+                self.enter(State::Ground, Duration::ZERO);
+                inputs.push(of_byte(byte, modifiers));
+            }
+        }
+    }
+
+    fn after_escape(&mut self, byte: u8, apart: bool, ends_text: bool, inputs: &mut Vec<Event>) {
+        match byte {
+            b'[' => self.enter(State::Csi, SEQUENCE),
+            b'O' => self.enter(State::Ss3, SEQUENCE),
+            b'\\' if ends_text => self.enter(State::Ground, Duration::ZERO),
+            _ if apart || byte == ESC => {
+                inputs.push(plain(KeyCode::Esc));
+                self.restart(byte, inputs);
+            }
+            b']' | b'P' | b'X' | b'^' | b'_' => {
+                self.enter(State::Text { introducer: byte }, SEQUENCE);
+            }
+            _ => self.begin(byte, KeyModifiers::ALT, inputs),
+        }
+    }
+
+    fn in_letter(&mut self, byte: u8, modifiers: KeyModifiers, inputs: &mut Vec<Event>) {
+        self.bytes.push(byte);
+        match str::from_utf8(&self.bytes) {
+            Ok(text) => {
+                inputs.extend(text.chars().map(|letter| of_letter(letter, modifiers)));
+                self.enter(State::Ground, Duration::ZERO);
+            }
+            Err(error) if error.error_len().is_none() => {}
+            Err(_) if self.bytes.len() > 1 => self.restart(byte, inputs),
+            Err(_) => self.enter(State::Ground, Duration::ZERO),
+        }
+    }
+
+    fn in_csi(&mut self, byte: u8, inputs: &mut Vec<Event>) {
+        match byte {
+            b'M' if self.bytes.is_empty() => self.enter(State::Mouse, SEQUENCE),
+            // The function keys of the Linux console.
+            b'[' if self.bytes.is_empty() => self.keep(byte),
+            b' '..=b'?' => self.keep(byte),
+            b'@'..=b'~' if (&*self.bytes, byte) == PASTE_START => {
+                self.enter(State::Paste { matched: 0 }, PASTE);
+            }
+            b'@'..=b'~' => {
+                inputs.extend(sequence::csi(&self.bytes, byte));
+                self.enter(State::Ground, Duration::ZERO);
+            }
+            _ => self.restart(byte, inputs),
+        }
+    }
+
+    fn in_ss3(&mut self, byte: u8, inputs: &mut Vec<Event>) {
+        match byte {
+            b'0'..=b'9' | b';' => self.keep(byte),
+            b'@'..=b'~' => {
+                inputs.extend(sequence::ss3(&self.bytes, byte));
+                self.enter(State::Ground, Duration::ZERO);
+            }
+            _ => self.restart(byte, inputs),
+        }
+    }
+
+    fn in_mouse(&mut self, byte: u8, inputs: &mut Vec<Event>) {
+        if byte < b' ' {
+            return self.restart(byte, inputs);
+        }
+        self.keep(byte);
+        if let [button, column, row] = self.bytes[..] {
+            inputs.extend(sequence::mouse(button, column, row));
+            self.enter(State::Ground, Duration::ZERO);
+        }
+    }
+
+    fn in_text(&mut self, byte: u8, introducer: u8, inputs: &mut Vec<Event>) {
+        match byte {
+            BELL => self.enter(State::Ground, Duration::ZERO),
+            ESC => {
+                let state = State::Escape {
+                    is_apart: false,
+                    ends_text: true,
+                };
+                self.enter(state, ESCAPE);
+            }
+            0..b' ' if self.bytes.is_empty() => {
+                inputs.push(with_alt(introducer));
+                self.restart(byte, inputs);
+            }
+            0..b' ' => self.restart(byte, inputs),
+            _ => self.keep(byte),
+        }
+    }
+
+    fn in_paste(&mut self, byte: u8, matched: usize, inputs: &mut Vec<Event>) {
+        let is_next = PASTE_END.get(matched) == Some(&byte);
+        let matched = if is_next {
+            matched + 1
+        } else {
+            self.paste(&PASTE_END[..matched]);
+            if byte != ESC {
+                self.paste(&[byte]);
+            }
+            usize::from(byte == ESC)
+        };
+        if matched == PASTE_END.len() {
+            inputs.push(paste(&self.bytes));
+            self.enter(State::Ground, Duration::ZERO);
+            return;
+        }
+        self.state = State::Paste { matched };
+        self.patience = if matched == 1 { SEQUENCE } else { PASTE };
+    }
+
+    fn paste(&mut self, bytes: &[u8]) {
+        let room = LONGEST_PASTE.saturating_sub(self.bytes.len());
+        self.bytes.extend(&bytes[..bytes.len().min(room)]);
+    }
+}
+
+fn paste(bytes: &[u8]) -> Event {
+    Event::Paste(String::from_utf8_lossy(bytes).into_owned())
+}
+
+fn plain(code: KeyCode) -> Event {
+    Event::Key(code.into())
+}
+
+fn with_alt(letter: u8) -> Event {
+    of_letter(letter.into(), KeyModifiers::ALT)
+}
+
+fn of_byte(byte: u8, modifiers: KeyModifiers) -> Event {
+    let ctrl = modifiers | KeyModifiers::CONTROL;
+    let key = match byte {
+        b'\r' => KeyEvent::new(KeyCode::Enter, modifiers),
+        b'\t' => KeyEvent::new(KeyCode::Tab, modifiers),
+        0x7f => KeyEvent::new(KeyCode::Backspace, modifiers),
+        0 => KeyEvent::new(KeyCode::Char(' '), ctrl),
+        1..=0x1a => KeyEvent::new(KeyCode::Char((byte + b'a' - 1).into()), ctrl),
+        ESC => KeyEvent::new(KeyCode::Esc, modifiers),
+        0x1c..=0x1f => KeyEvent::new(KeyCode::Char((byte - 0x1c + b'4').into()), ctrl),
+        _ => return of_letter(byte.into(), modifiers),
+    };
+    Event::Key(key)
+}
+
+fn of_letter(letter: char, modifiers: KeyModifiers) -> Event {
+    let shift = if letter.is_uppercase() {
+        KeyModifiers::SHIFT
+    } else {
+        KeyModifiers::NONE
+    };
+    Event::Key(KeyEvent::new(KeyCode::Char(letter), modifiers | shift))
+}
+
+#[cfg(test)]
+mod tests;
