@@ -1,11 +1,11 @@
-//! How far a field reaches: which values of a solve read it, themselves or through others, and so
-//! which stages an edit of it puts out of date.
+//! Which stages read a field, and which fields a quantity depends on.
 
 mod table;
 #[cfg(test)]
 mod tests;
 
 use super::FIELDS;
+use super::fields::Kind;
 use crate::model::{Inputs, Quantity, Stage, Stages};
 use table::{ROWS, Row};
 
@@ -29,57 +29,46 @@ pub fn fields_of(quantity: &Quantity, inputs: &Inputs) -> Vec<usize> {
         .collect()
 }
 
-/// The stages whose results an edit of the field puts out of date; none for a field that only words
-/// or notes read.
-///
-/// Ask with the inputs after the edit, and take the union with those before it where the edit adds
-/// or takes away a field.
+/// The stages that read a field in a case with these inputs: those whose inputs differ once the
+/// field holds another value.
 #[must_use]
 pub fn stages_of(field: usize, inputs: &Inputs) -> Stages {
-    let key = FIELDS[field].key;
-    let mut reached: Vec<&Row> = active(inputs).filter(|row| row.reads_field(key)).collect();
-    let mut next = 0;
-    while let Some(&row) = reached.get(next) {
-        let reads = |other: &&Row| {
-            other.reads.contains(&row.value)
-                && reached.iter().all(|known| !std::ptr::eq(*known, *other))
-        };
-        let fresh: Vec<&Row> = active(inputs).filter(reads).collect();
-        reached.extend(fresh);
-        next += 1;
-    }
-    reached
-        .iter()
-        .filter_map(|row| row.stage)
-        .fold(Stages::NONE, Stages::with)
+    let others = with_other_values(field, inputs);
+    let reads = |stage: &Stage| {
+        let own = stage.inputs(inputs);
+        others.iter().any(|other| stage.inputs(other) != own)
+    };
+    let stages = inputs.method.stages().iter().filter(reads);
+    stages.fold(Stages::NONE, Stages::with)
 }
 
-/// The first stage that an edit of the field puts out of date.
-#[must_use]
-pub fn first_stage(field: usize, inputs: &Inputs) -> Option<Stage> {
-    stages_of(field, inputs).iter().next()
-}
-
-/// Whether any stage reads the field, itself or through others: whether [`stages_of`] names one, at
-/// a fraction of its cost.
+/// Whether any stage reads a field in a case with these inputs.
 #[must_use]
 pub fn is_read(field: usize, inputs: &Inputs) -> bool {
-    let key = FIELDS[field].key;
-    let mut reached: Vec<&Row> = active(inputs).filter(|row| row.reads_field(key)).collect();
-    let mut next = 0;
-    while let Some(&row) = reached.get(next) {
-        if row.stage.is_some() {
-            return true;
-        }
-        let reads = |other: &&Row| {
-            other.reads.contains(&row.value)
-                && reached.iter().all(|known| !std::ptr::eq(*known, *other))
-        };
-        let fresh: Vec<&Row> = active(inputs).filter(reads).collect();
-        reached.extend(fresh);
-        next += 1;
+    stages_of(field, inputs) != Stages::NONE
+}
+
+/// The inputs with other values in a field, so that one of them at least differs from the present.
+fn with_other_values(field: usize, inputs: &Inputs) -> Vec<Inputs> {
+    /// Shares of the range, both unlike a value that a person types.
+    const SHARES: [f64; 2] = [0.381_966, 0.618_034];
+    let with = move |put: &dyn Fn(&mut Inputs)| {
+        let mut other = inputs.clone();
+        put(&mut other);
+        other
+    };
+    match FIELDS[field].kind {
+        Kind::Text => Vec::new(),
+        Kind::Number(_, range, put) => SHARES
+            .map(|share| with(&|other| put(other, range.from + share * (range.to - range.from))))
+            .into(),
+        Kind::Count(from, to, put) => [from, to]
+            .map(|count| with(&|other| put(other, count)))
+            .into(),
+        Kind::Choice(names, put) => (0..names.len())
+            .map(|at| with(&|other| put(other, at)))
+            .collect(),
     }
-    false
 }
 
 /// The rows that count in a case with these inputs.

@@ -1,36 +1,24 @@
-//! Cases solved one after the other, each from what the one before it has in common with it.
+//! Pairs solved one after the other, each from the results that it shares with the one before.
 
-use super::dependencies::stages_of;
-use super::{Case, FIELDS};
 use crate::model::inputs::Method;
 use crate::model::request::Earlier;
 use crate::model::solve::solve_after;
 use crate::model::{Inputs, Refusal, Solution, Stages};
 
-/// What was solved last with each method.
+/// The last solve by each method.
 #[derive(Debug, Clone, Default)]
 pub struct Evaluator {
-    kept: Vec<Solved>,
-}
-
-#[derive(Debug, Clone)]
-struct Solved {
-    method: Method,
-    case: Case,
-    inputs: Inputs,
-    solution: Solution,
+    solved: Vec<(Method, Inputs, Solution)>,
 }
 
 impl Evaluator {
-    /// Solve a case with a method, whichever the case itself asks for, running only the stages that
-    /// are wanted and that the edits since the last solve with this method reach. [`Solution::ran`]
-    /// tells which those were.
+    /// Solves a pair by a method, whichever the inputs name. Only the wanted stages run whose
+    /// inputs differ from those of the last solve by this method; [`Solution::ran`] lists them.
     ///
     /// # Errors
-    /// Those of [`solve_after`]; what was kept then stays.
+    /// Those of [`solve_after`]; the last results then stay.
     pub fn solve(
         &mut self,
-        case: &Case,
         inputs: &Inputs,
         method: Method,
         wanted: Stages,
@@ -40,46 +28,25 @@ impl Evaluator {
             method,
             ..inputs.clone()
         };
-        let at = self.kept.iter().position(|solved| solved.method == method);
-        let earlier = at.map(|at| self.kept[at].seen_from(case, &inputs));
+        let at = self.solved.iter().position(|(by, ..)| *by == method);
+        let earlier = at.map(|at| {
+            let (_, inputs, solution) = &self.solved[at];
+            Earlier { inputs, solution }
+        });
         let solution = solve_after(&inputs, wanted, earlier, go_on)?;
-        let solved = Solved {
-            method,
-            case: case.clone(),
-            inputs,
-            solution: solution.clone(),
-        };
+        let solved = (method, inputs, solution.clone());
         match at {
-            Some(at) => self.kept[at] = solved,
-            None => self.kept.push(solved),
+            Some(at) => self.solved[at] = solved,
+            None => self.solved.push(solved),
         }
         Ok(solution)
-    }
-}
-
-impl Solved {
-    /// This solve, and what of it the edits since then reach.
-    fn seen_from(&self, case: &Case, inputs: &Inputs) -> Earlier<'_> {
-        let edited = (0..FIELDS.len()).filter(|&field| self.case.text(field) != case.text(field));
-        let stale = edited.fold(Stages::NONE, |stale, field| {
-            // The method is the same one, whatever the case says.
-            if FIELDS[field].key == "model.method" {
-                return stale;
-            }
-            stale
-                .and(stages_of(field, &self.inputs))
-                .and(stages_of(field, inputs))
-        });
-        Earlier {
-            solution: &self.solution,
-            stale,
-        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::case::Case;
     use crate::case::fields::index_of;
     use crate::model::{QUANTITIES, Stage, solve};
 
@@ -95,13 +62,7 @@ mod tests {
         let (before, after) = (Case::table_1(), edited(key, text));
         let mut run = |case: &Case| {
             evaluator
-                .solve(
-                    case,
-                    &case.inputs().unwrap(),
-                    method,
-                    Stages::EVERY,
-                    &|_| true,
-                )
+                .solve(&case.inputs().unwrap(), method, Stages::EVERY, &|_| true)
                 .unwrap()
         };
         assert_eq!(run(&before).ran, run_fresh(method, &before).ran);
@@ -153,7 +114,7 @@ mod tests {
                     stage.name()
                 );
             }
-            assert!(density.has(Stage::Load) && density.has(Stage::Impact));
+            assert!(density.has(Stage::Masses) && density.has(Stage::Impact));
             assert_eq!(density.has(Stage::Dynamic), method == Method::Dynamic);
             assert!(!ran(method, "operation.speed", "1900 rpm").has(Stage::Geometry));
             assert!(ran(method, "pair.module", "5.5 mm").has(Stage::Geometry));
@@ -173,7 +134,7 @@ mod tests {
         let inputs = case.inputs().unwrap();
         let mut ran = |wanted| {
             evaluator
-                .solve(&case, &inputs, Method::Exact, wanted, &|_| true)
+                .solve(&inputs, Method::Exact, wanted, &|_| true)
                 .unwrap()
                 .ran
         };

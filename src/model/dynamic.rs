@@ -76,16 +76,36 @@ pub struct Settings {
     pub spacing: Spacing,
 }
 
+impl Inputs {
+    /// How the motion is computed; the mass at the line of action is not known yet.
+    #[must_use]
+    pub fn motion(&self) -> Settings {
+        Settings {
+            mass: 0.0,
+            damping_ratio: self.damping_ratio,
+            warmup_cycles: self.warmup_cycles,
+            tolerance: self.tolerance,
+            spacing: Spacing::of(self),
+        }
+    }
+}
+
 impl Settings {
     /// Those of a case, with the mass at the line of action, in kg.
     #[must_use]
     pub fn of(inputs: &Inputs, mass: f64) -> Settings {
         Settings {
             mass,
-            damping_ratio: inputs.damping_ratio,
-            warmup_cycles: inputs.warmup_cycles,
-            tolerance: inputs.tolerance,
-            spacing: Spacing::of(inputs),
+            ..inputs.motion()
+        }
+    }
+
+    /// The same with a single interval of stations.
+    #[must_use]
+    pub fn without_stations(self) -> Settings {
+        Settings {
+            spacing: Spacing::Even(1),
+            ..self
         }
     }
 }

@@ -72,6 +72,7 @@ fn within_reach(
             found => return found,
         }
     }
+    asked.note(Stage::Mesh, |_| false);
     on_mesh(&asked.inputs.mesh(), solution, |mesh| {
         run(
             mesh,

@@ -1,29 +1,47 @@
-//! What a solve is asked for, and what of an earlier one still holds.
+//! A solve as it is asked for: the inputs, the wanted stages, and the results of an earlier solve.
+
+use std::cell::Cell;
 
 use super::Solution;
 use super::inputs::Inputs;
 use super::stage::{Stage, Stages};
 
-/// An earlier solve of the same method, and the stages whose results no longer hold.
+/// An earlier solve by the same method.
 #[derive(Debug, Clone, Copy)]
 pub struct Earlier<'a> {
-    /// What was found.
+    /// Its inputs.
+    pub inputs: &'a Inputs,
+    /// Its results.
     pub solution: &'a Solution,
-    /// What the edits since then reach.
-    pub stale: Stages,
 }
 
-/// What a solve is asked for.
+/// A solve as it is asked for.
 pub(super) struct Request<'a> {
     pub(super) inputs: &'a Inputs,
     pub(super) wanted: Stages,
     pub(super) earlier: Option<Earlier<'a>>,
+    /// The stages whose results differ from the earlier ones.
+    pub(super) changed: Cell<Stages>,
 }
 
 impl<'a> Request<'a> {
-    /// The earlier solution, where this stage's result of it still holds.
+    /// The earlier solution, if its result of this stage is valid: the stage reads the same of the
+    /// case and of the other stages.
     pub(super) fn kept(&self, stage: Stage) -> Option<&'a Solution> {
-        let Earlier { solution, stale } = self.earlier?;
-        (solution.stages.has(stage) && !stale.has(stage)).then_some(solution)
+        let Earlier { inputs, solution } = self.earlier?;
+        let is_valid = solution.stages.has(stage)
+            && stage.depends_on().within(self.changed.get()) == Stages::NONE
+            && stage.inputs(self.inputs) == stage.inputs(inputs);
+        is_valid.then_some(solution)
+    }
+
+    /// Compares a new result with the earlier one, which `same` does.
+    pub(super) fn note(&self, stage: Stage, same: impl FnOnce(&Solution) -> bool) {
+        let is_same = self
+            .earlier
+            .is_some_and(|earlier| earlier.solution.stages.has(stage) && same(earlier.solution));
+        if !is_same {
+            self.changed.set(self.changed.get().with(stage));
+        }
     }
 }

@@ -1,7 +1,7 @@
-//! A solve: the stages in their order, each run only where it is wanted and nothing earlier still
+//! A solve: the stages in their order, each run only where it is wanted and no earlier result is valid
 //! holds.
 
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
 
 use twofloat::TwoFloat;
 
@@ -60,6 +60,7 @@ pub fn solve_after(
         inputs,
         wanted: wanted.within(inputs.method.stages()),
         earlier,
+        changed: Cell::default(),
     };
     Solving {
         asked,
@@ -77,8 +78,8 @@ fn solve_by_choice(
     earlier: Option<Earlier<'_>>,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Solution, Refusal> {
-    let before = earlier
-        .filter(|earlier| earlier.stale == Stages::NONE && earlier.solution.choice.is_some());
+    let before =
+        earlier.filter(|earlier| earlier.inputs == inputs && earlier.solution.choice.is_some());
     let chosen = match before {
         Some(earlier) => Solution {
             ran: Stages::NONE,
@@ -96,8 +97,8 @@ fn solve_by_choice(
         wanted
     };
     let earlier = Earlier {
+        inputs: &taken,
         solution: &chosen,
-        stale: Stages::NONE,
     };
     let whole = solve_after(&taken, wanted, Some(earlier), go_on)?;
     Ok(Solution {
@@ -120,16 +121,12 @@ fn chosen(
     let still = || solve_while(&auto::taken(inputs, Method::Static), at_rest(wanted), go_on);
     let (solved, choice) = match (choice.method, &closed_form) {
         (Method::Exact, Ok(known)) => {
+            let taken = auto::taken(inputs, Method::Exact);
             let earlier = Earlier {
+                inputs: &taken,
                 solution: known,
-                stale: Stages::NONE,
             };
-            let found = solve_after(
-                &auto::taken(inputs, Method::Exact),
-                wanted,
-                Some(earlier),
-                go_on,
-            )?;
+            let found = solve_after(&taken, wanted, Some(earlier), go_on)?;
             (
                 Ok(Solution {
                     ran: found.ran.and(known.ran),
@@ -171,16 +168,12 @@ fn decided(
         method: Method::Static,
         ..moved
     };
+    let taken = auto::taken(inputs, Method::Static);
     let earlier = Earlier {
+        inputs: &taken,
         solution: &known,
-        stale: Stages::NONE,
     };
-    let found = solve_after(
-        &auto::taken(inputs, Method::Static),
-        at_rest(wanted),
-        Some(earlier),
-        go_on,
-    );
+    let found = solve_after(&taken, at_rest(wanted), Some(earlier), go_on);
     (
         found.map(|found| Solution {
             ran: found.ran.and(known.ran),
@@ -251,21 +244,35 @@ impl Solving<'_> {
             Some(earlier) => earlier.geometry,
             None => self.geometry(&mut ran)?,
         };
-        let (masses, mesh_force) = if let Some(earlier) = self.asked.kept(Stage::Load) {
-            (earlier.kept.masses, earlier.mesh_force)
+        let mesh_force = if let Some(earlier) = self.asked.kept(Stage::Load) {
+            earlier.mesh_force
         } else {
             ran = ran.with(Stage::Load);
+            let force = inputs.torque() / geometry.driver.base;
+            self.asked
+                .note(Stage::Load, |s| s.mesh_force.to_bits() == force.to_bits());
+            force
+        };
+        let masses = if let Some(earlier) = self.asked.kept(Stage::Masses) {
+            earlier.kept.masses
+        } else {
+            ran = ran.with(Stage::Masses);
+            let bodies = inputs.bodies();
             let masses = self.precise(&geometry)?.map_or_else(
-                || Masses::of(&inputs.bodies(), &geometry),
-                |pair| Masses::of(&inputs.bodies(), &pair),
-            );
-            (masses?, inputs.torque() / geometry.driver.base)
+                || Masses::of(&bodies, &geometry),
+                |pair| Masses::of(&bodies, &pair),
+            )?;
+            self.asked.note(Stage::Masses, |s| s.kept.masses == masses);
+            masses
         };
         let deviation = if let Some(earlier) = self.asked.kept(Stage::Deviation) {
             earlier.kept.deviation
         } else {
             ran = ran.with(Stage::Deviation);
-            deviation::deviation(&inputs.deviation(), &geometry, mesh_force)?
+            let deviation = deviation::deviation(&inputs.deviation(), &geometry, mesh_force)?;
+            self.asked
+                .note(Stage::Deviation, |s| s.kept.deviation == deviation);
+            deviation
         };
         let strikes = deviation.total.rounded() > 0.0;
         Ok(Solution {
@@ -276,7 +283,7 @@ impl Solving<'_> {
             } else {
                 Outcome::NoCornerContact
             },
-            stages: Stages::of(Stage::Deviation),
+            stages: Stages::of(Stage::Deviation).with(Stage::Masses),
             ran,
             geometry,
             mesh_force,
@@ -301,6 +308,8 @@ impl Solving<'_> {
 
     fn geometry(&self, ran: &mut Stages) -> Result<Geometry, Refusal> {
         *ran = ran.with(Stage::Geometry);
+        // More digits may be behind the same rounded ones.
+        self.asked.note(Stage::Geometry, |_| false);
         let plain = geometry::geometry::<f64>(&self.asked.inputs.shape());
         let precise = self.precise_of(plain.as_ref().ok())?;
         let _ = self.precise.set(precise);
@@ -331,12 +340,15 @@ impl Solving<'_> {
         } else {
             solution.ran = solution.ran.with(Stage::Position);
             let precise = self.precise(&solution.geometry)?;
-            position::position(
+            let found = position::position(
                 &self.asked.inputs.contact_search(),
                 &solution.geometry,
                 precise.as_ref(),
                 &solution.kept.deviation,
-            )
+            );
+            let position = found.as_ref().ok().copied().flatten();
+            self.asked.note(Stage::Position, |s| s.position == position);
+            found
         };
         solution.stages = solution.stages.with(Stage::Position);
         match found {
@@ -411,7 +423,7 @@ impl Solving<'_> {
     }
 
     /// A stage's result: the earlier one where it still holds, else a new one where it is wanted.
-    fn stage<T>(
+    fn stage<T: PartialEq>(
         &self,
         solution: &mut Solution,
         stage: Stage,
@@ -421,11 +433,13 @@ impl Solving<'_> {
         if !self.asked.wanted.has(stage) {
             return Ok(None);
         }
-        if let Some(held) = self.asked.kept(stage).and_then(earlier) {
+        if let Some(held) = self.asked.kept(stage).and_then(&earlier) {
             solution.stages = solution.stages.with(stage);
             return Ok(Some(held));
         }
         let found = new()?;
+        self.asked
+            .note(stage, |s| earlier(s).as_ref() == Some(&found));
         solution.stages = solution.stages.with(stage);
         solution.ran = solution.ran.with(stage);
         Ok(Some(found))

@@ -8,6 +8,8 @@ pub enum Stage {
     Geometry,
     /// Force along the line of action.
     Load,
+    /// Masses of the gears at their base circles.
+    Masses,
     /// Deviation and deflection that bring the tooth in early.
     Deviation,
     /// Where the tip first touches the flank: D.
@@ -36,9 +38,10 @@ pub enum Stage {
 
 impl Stage {
     /// Every stage, in order.
-    pub const ALL: [Stage; 14] = [
+    pub const ALL: [Stage; 15] = [
         Stage::Geometry,
         Stage::Load,
+        Stage::Masses,
         Stage::Deviation,
         Stage::Position,
         Stage::Velocity,
@@ -59,6 +62,7 @@ impl Stage {
         match self {
             Stage::Geometry => "geometry",
             Stage::Load => "load",
+            Stage::Masses => "masses",
             Stage::Deviation => "deviation",
             Stage::Position => "position",
             Stage::Velocity => "velocity",
@@ -74,22 +78,44 @@ impl Stage {
         }
     }
 
-    /// The stages that this one reads directly.
-    const fn reads(self) -> Stages {
+    /// The stages whose results this one reads.
+    pub(super) const fn reads(self) -> Stages {
+        let geometry = Stages::NONE.with(Stage::Geometry);
+        let pair = geometry.with(Stage::Masses);
         match self {
             Stage::Geometry => Stages::NONE,
-            Stage::Load => Stages::NONE.with(Stage::Geometry),
-            Stage::Static | Stage::Dynamic => Stages::NONE.with(Stage::Mesh),
-            Stage::Deviation | Stage::Mesh => Stages::NONE.with(Stage::Geometry).with(Stage::Load),
-            Stage::Position => Stages::NONE.with(Stage::Deviation),
-            // What the method does not have falls away.
-            Stage::Clearing => Stages::NONE
+            Stage::Load | Stage::Masses => geometry,
+            Stage::Deviation => geometry.with(Stage::Load),
+            Stage::Mesh => geometry.with(Stage::Load).with(Stage::Deviation),
+            Stage::Static => Stages::NONE.with(Stage::Mesh),
+            Stage::Dynamic => Stages::NONE.with(Stage::Mesh).with(Stage::Masses),
+            Stage::Position => geometry.with(Stage::Deviation),
+            // Stages that the method does not have are left out.
+            Stage::Clearing => pair
+                .with(Stage::Load)
                 .with(Stage::Deviation)
                 .with(Stage::Static)
                 .with(Stage::Dynamic),
-            Stage::Velocity | Stage::Compliance => Stages::NONE.with(Stage::Position),
-            Stage::Impact => Stages::NONE.with(Stage::Velocity).with(Stage::Compliance),
-            Stage::Friction | Stage::Band | Stage::Stations => Stages::NONE.with(Stage::Impact),
+            Stage::Velocity | Stage::Compliance => geometry.with(Stage::Position),
+            Stage::Impact => pair
+                .with(Stage::Position)
+                .with(Stage::Velocity)
+                .with(Stage::Compliance),
+            Stage::Friction => pair
+                .with(Stage::Position)
+                .with(Stage::Velocity)
+                .with(Stage::Impact),
+            Stage::Band => pair.with(Stage::Deviation).with(Stage::Impact),
+            Stage::Stations => pair.with(Stage::Position).with(Stage::Impact),
+        }
+    }
+
+    /// The stages on whose results the own one depends. The relief is found anew from the mesh and
+    /// the motion without their stations, and so does not depend on those.
+    pub(super) const fn depends_on(self) -> Stages {
+        match self {
+            Stage::Clearing => self.reads().without(Stage::Static).without(Stage::Dynamic),
+            _ => self.reads(),
         }
     }
 }

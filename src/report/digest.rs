@@ -40,13 +40,8 @@ impl Digest {
         system: System,
         go_on: &dyn Fn(f64) -> bool,
     ) -> Option<Digest> {
-        let found = Evaluator::default().solve(
-            case,
-            inputs,
-            inputs.method,
-            stages(case, inputs.method),
-            go_on,
-        );
+        let found =
+            Evaluator::default().solve(inputs, inputs.method, stages(case, inputs.method), go_on);
         match found {
             Err(Refusal::Stopped) => None,
             found => Some(Digest::of(case, inputs, found.as_ref(), system)),

@@ -2,7 +2,6 @@
 
 use std::sync::LazyLock;
 
-use crate::model::Stage::{self, Compliance, Dynamic, Geometry, Mesh, Position, Static, Stations};
 use crate::model::compliance::contact::{self, ContactModel};
 use crate::model::compliance::model_of;
 use crate::model::compliance::tooth::{self, ToothModel};
@@ -17,9 +16,6 @@ use crate::model::{QUANTITIES, Quantity};
 pub(super) struct Row {
     /// A quantity's key, or the name of a value that has no page of its own.
     pub(super) value: &'static str,
-    /// The stage whose result it is; none for a part of other values, which each stage works out
-    /// for itself.
-    pub(super) stage: Option<Stage>,
     /// The cases in which it reads these.
     pub(super) when: When,
     /// Fields by their keys, `*` standing for both gears, and other values by their names.
@@ -58,20 +54,6 @@ impl Row {
     }
 }
 
-const fn row(
-    value: &'static str,
-    stage: Stage,
-    when: fn(&Inputs) -> bool,
-    reads: &'static [&'static str],
-) -> Row {
-    Row {
-        value,
-        stage: Some(stage),
-        when: When::Is(when),
-        reads,
-    }
-}
-
 const fn part(
     value: &'static str,
     when: fn(&Inputs) -> bool,
@@ -79,7 +61,6 @@ const fn part(
 ) -> Row {
     Row {
         value,
-        stage: None,
         when: When::Is(when),
         reads,
     }
@@ -98,19 +79,13 @@ pub(super) static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
     let of = |quantity: &'static Quantity| {
         quantity.reads.iter().map(|&(when, reads)| Row {
             value: quantity.key,
-            stage: Some(quantity.stage),
             when: When::Is(when),
             reads,
         })
     };
     let mut rows = TABLE.to_vec();
     rows.extend(QUANTITIES.iter().flat_map(of));
-    let part = |value, when, reads| Row {
-        value,
-        stage: None,
-        when,
-        reads,
-    };
+    let part = |value, when, reads| Row { value, when, reads };
     for model in tooth::MODELS {
         rows.push(part(
             "tooth_method",
@@ -137,14 +112,14 @@ static TABLE: &[Row] = &[
     part("spacing", always, &["model.stations"]),
     part("spacing", as_needed, &["model.station_tolerance"]),
 
-    row("base_circle_driver", Geometry, always, &["pair.module", "pair.pressure_angle", "driver.teeth", "model.accurate"]),
-    row("base_circle_driven", Geometry, always, &["pair.module", "pair.pressure_angle", "driven.teeth", "model.accurate"]),
-    row("tip_circle_driver", Geometry, always, &["base_circle_driver", "driver.profile_shift", "driver.addendum", "driver.tip_chamfer"]),
-    row("tip_circle_driven", Geometry, always, &["base_circle_driven", "driven.profile_shift", "driven.addendum", "driven.tip_chamfer"]),
-    row("root_circles", Geometry, always, &["pair.module", "*.teeth", "*.profile_shift", "*.dedendum"]),
-    row("line_of_action", Geometry, always, &["base_circle_driver", "base_circle_driven", "centre_distance", "working_pressure_angle"]),
-    row("start_of_contact", Geometry, always, &["line_of_action", "tip_circle_driven"]),
-    row("end_of_contact", Geometry, always, &["line_of_action", "tip_circle_driver"]),
+    part("base_circle_driver", always, &["pair.module", "pair.pressure_angle", "driver.teeth", "model.accurate"]),
+    part("base_circle_driven", always, &["pair.module", "pair.pressure_angle", "driven.teeth", "model.accurate"]),
+    part("tip_circle_driver", always, &["base_circle_driver", "driver.profile_shift", "driver.addendum", "driver.tip_chamfer"]),
+    part("tip_circle_driven", always, &["base_circle_driven", "driven.profile_shift", "driven.addendum", "driven.tip_chamfer"]),
+    part("root_circles", always, &["pair.module", "*.teeth", "*.profile_shift", "*.dedendum"]),
+    part("line_of_action", always, &["base_circle_driver", "base_circle_driven", "centre_distance", "working_pressure_angle"]),
+    part("start_of_contact", always, &["line_of_action", "tip_circle_driven"]),
+    part("end_of_contact", always, &["line_of_action", "tip_circle_driver"]),
 
     part("masses", always, &["*.density", "*.face_width", "*.bore_radius", "base_circle_driver", "base_circle_driven"]),
 
@@ -155,23 +130,23 @@ static TABLE: &[Row] = &[
     part("contact_stiffness", always, &["model.contact_compliance", "materials"]),
     part("contact_stiffness", half_width_read, &["*.face_width"]),
 
-    row("end_of_flank", Position, always, &["approach_angle_driven", "end_of_contact"]),
+    part("end_of_flank", always, &["approach_angle_driven", "end_of_contact"]),
 
-    row("teeth_compliance", Compliance, always, &["approach_angle_driven", "tooth_stiffness", "tip_circle_driven"]),
+    part("teeth_compliance", always, &["approach_angle_driven", "tooth_stiffness", "tip_circle_driven"]),
 
     part("every_model", always, &["materials", "*.face_width"]),
 
-    row("stations", Stations, always, &["method"]),
-    row("stations", Stations, free_impact, &["impact_force", "spacing"]),
+    part("stations", always, &["method"]),
+    part("stations", free_impact, &["impact_force", "spacing"]),
 
     part("reliefs", always, &["*.tip_relief", "*.root_relief", "*.tip_relief_length", "*.root_relief_length", "start_of_contact", "end_of_contact", "contact_ratio"]),
     part("mesh", may_share_load, &["mesh_stiffness", "reliefs", "model.relief_shape", "equivalent_error", "combined_deflection", "operation.friction_coefficient"]),
-    row("pairs_along_the_line", Mesh, may_share_load, &["mesh", "edges", "operation.speed"]),
+    part("pairs_along_the_line", may_share_load, &["mesh", "edges", "operation.speed"]),
     part("edges", edges_read, &["*.tip_radius"]),
-    row("static_stations", Static, always, &["method"]),
-    row("static_stations", Static, may_share_load, &["mesh", "edges", "spacing", "operation.speed"]),
+    part("static_stations", always, &["method"]),
+    part("static_stations", may_share_load, &["mesh", "edges", "spacing", "operation.speed"]),
 
     part("motion", may_move, &["mesh", "edges", "masses", "operation.speed", "model.damping_ratio", "model.warmup_cycles", "model.tolerance"]),
-    row("dynamic_stations", Dynamic, always, &["method"]),
-    row("dynamic_stations", Dynamic, may_move, &["motion", "spacing"]),
+    part("dynamic_stations", always, &["method"]),
+    part("dynamic_stations", may_move, &["motion", "spacing"]),
 ];

@@ -45,7 +45,7 @@ pub(super) fn solved(
         return Some(first);
     };
     let stages = request.stages.without(Stage::Clearing);
-    let found = evaluator.solve(&request.case, &request.inputs, method, stages, &|part| {
+    let found = evaluator.solve(&request.inputs, method, stages, &|part| {
         go_on(part, &|| first.clone())
     });
     if matches!(found, Err(Refusal::Stopped)) {
@@ -62,13 +62,9 @@ pub(super) fn solved(
     answer.methods.retain(|(known, _)| *known != active);
     if active == Method::Dynamic {
         // Its required relief costs little and is compared with that of the motion.
-        let shared = evaluator.solve(
-            &request.case,
-            &request.inputs,
-            Method::Static,
-            request.stages,
-            &|_| go_on(1.0, &|| first.clone()),
-        );
+        let shared = evaluator.solve(&request.inputs, Method::Static, request.stages, &|_| {
+            go_on(1.0, &|| first.clone())
+        });
         if matches!(shared, Err(Refusal::Stopped)) {
             return None;
         }
@@ -105,7 +101,6 @@ pub(super) fn cleared(
         });
     }
     let found = evaluator.solve(
-        &request.case,
         &request.inputs,
         request.inputs.method,
         request.stages,
@@ -136,13 +131,7 @@ fn at_once(evaluator: &mut Evaluator, request: &Request, begun: Instant) -> Answ
         .map(|method| {
             (
                 method,
-                evaluator.solve(
-                    &request.case,
-                    &request.inputs,
-                    method,
-                    request.stages,
-                    &|_| true,
-                ),
+                evaluator.solve(&request.inputs, method, request.stages, &|_| true),
             )
         })
         .collect();
