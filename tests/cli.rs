@@ -200,7 +200,7 @@ fn only_what_is_asked_for_is_computed_and_told() {
     ]);
     assert_eq!(
         solved["stages"],
-        serde_json::json!(["geometry", "load", "deviation", "position"])
+        serde_json::json!(["geometry", "load", "masses", "deviation", "position"])
     );
     assert_eq!(
         solved["quantities"]
