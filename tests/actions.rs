@@ -148,7 +148,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Ctrl-P Down Down", "Up", "", "▸ explain "),
     ("Ctrl-P", "Tab", "", "▸ explain "),
     ("Ctrl-P Down Down", "BackTab", "", "▸ explain "),
-    ("Esc 2 j j Enter", "j", "", "m     pair.module            5 mm"),
+    ("Esc 2 j j Enter j j", "j", "", "m     pair.module"),
     ("Esc 2 j j Enter j j", "k", "", "│ θ_1 = 1.36628 deg"),
     ("Esc 2 j j Enter", "PageDown", "", "pair.centre_distance = no backlash"),
     ("Esc 2 j j Enter", "Space", "", "pair.centre_distance = no backlash"),

@@ -142,6 +142,17 @@ fn no_mark_touches_a_unit_and_no_name_is_cut_where_there_is_room() {
 }
 
 #[test]
+fn the_angle_of_the_verdict_has_the_symbol_of_its_row_in_ascii_too() {
+    let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
+    desk.keys(&["Esc", ":", "ascii", "Enter", "Ctrl-T", "Ctrl-T"]);
+    assert!(
+        desk.shows("Corner contact: theta_d = 1.27924 deg") && desk.shows(" theta_d  "),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
 fn the_closed_forms_beside_another_method_are_called_free_impact() {
     for (size, heading) in [
         (LARGE, "free impact: paper     exact"),

@@ -209,11 +209,7 @@ fn position(app: &App, rows: usize) -> [String; 3] {
 #[must_use]
 pub fn sentence(app: &App, solution: &Solution) -> String {
     let sentence = digest::sentence(solution, app.settings.units);
-    if app.look.ascii {
-        sentence.replace('Δ', &symbol("Δ", true))
-    } else {
-        sentence
-    }
+    symbol(&sentence, app.look.ascii).into_owned()
 }
 
 /// The outcome, the gauges and the notes in full, a line each.
