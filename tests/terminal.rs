@@ -127,6 +127,42 @@ fn a_shell_stops_it_and_brings_it_back() {
 }
 
 #[test]
+fn a_shell_ends_a_stopped_workbench_without_bringing_it_back() {
+    if !is_there("bash") {
+        return;
+    }
+    let launch = Launch::on_table_1();
+    let case = launch.case();
+    for stop in ["TSTP", "STOP"] {
+        let mut tty = Launch::of(launch.folder.clone())
+            .variable("PS1", "ready> ")
+            .instead("bash")
+            .argument("--norc")
+            .argument("-i")
+            .start();
+        tty.wait_for("ready>");
+        let ours = tty.modes();
+        tty.type_in(format!("{} {}\r", tty::PROGRAM, case.display()));
+        tty.wait_until("the workbench", |tty| {
+            tty.screen().alternate_screen() && tty.shows("quit")
+        });
+        tty.settle(QUIET);
+        tty.send_to_program(stop);
+        tty.wait_for("Stopped");
+        tty.type_in("kill %1\r");
+        // The shell reports an end with its next prompt.
+        tty.wait_until("its end", |tty| {
+            tty.type_in("\r");
+            tty.settle(QUIET);
+            tty.shows("Terminated") && !tty.screen().alternate_screen()
+        });
+        assert_eq!(tty.modes(), ours, "{stop}: the shell has its modes");
+        tty.type_in("exit\r");
+        tty.wait_for_end();
+    }
+}
+
+#[test]
 fn a_terminal_that_takes_nothing_more_does_not_hold_it() {
     let mut tty = opened(Launch::on_table_1());
     tty.type_in("\x151.25 in");

@@ -19,7 +19,7 @@ use rustix::io::Errno;
 use signal_hook::low_level::raise;
 
 use super::events::Event;
-use super::terminal::give_back_by_force;
+use super::terminal::{expect_end, give_back_by_force};
 
 /// Signals that neither end the process nor tell it anything, or whose handler is elsewhere: those
 /// of a write beyond a limit and to a closed pipe.
@@ -153,6 +153,7 @@ fn for_each_signal(
 // The workbench ends by itself, unless it is stuck, such as in a write to a terminal that accepts
 // nothing more.
 fn end(last_words: &LastWords, sender: &SyncSender<Event>, cause: &Event) -> ! {
+    expect_end();
     last_words();
     drop(sender.try_send(cause.clone()));
     thread::sleep(GRACE);

@@ -4,16 +4,20 @@ mod decoder;
 mod sequence;
 
 use std::io;
+use std::thread;
 use std::time::{Duration, Instant};
 
 use crossterm::event::Event;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::io::{Errno, read};
 
+use super::terminal::is_in_foreground;
 use decoder::Decoder;
 
 /// Less than the terminal's own buffer, so that a full read means that more bytes are ready.
 const BUFFER: usize = 1024;
+/// Time between two looks while the shell has the terminal and its keys.
+const BACKGROUND: Duration = Duration::from_millis(50);
 
 /// Reads the terminal and passes each input to `send`, until `send` returns false or the terminal
 /// is gone.
@@ -26,6 +30,10 @@ pub(super) fn read_all(mut send: impl FnMut(Event) -> bool) {
         let start = Instant::now();
         match wait(&stdin, decoder.patience()) {
             Ok(None) => decoder.expire(&mut inputs),
+            // The shell has the terminal: a read would stop the process.
+            Ok(Some(state)) if !state.contains(PollFlags::HUP) && !is_in_foreground() => {
+                thread::sleep(BACKGROUND);
+            }
             Ok(Some(state)) => {
                 decoder.has_waited(start.elapsed());
                 match read(&stdin, &mut buffer) {

@@ -5,6 +5,8 @@ use std::io::{self, BufWriter, IsTerminal, Stdout, Write};
 use std::panic::{self, PanicHookInfo};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
+use std::thread;
+use std::time::Duration;
 
 use crossterm::clipboard::CopyToClipboard;
 use crossterm::cursor::{Hide, Show};
@@ -20,6 +22,8 @@ use ratatui::Terminal;
 use ratatui::backend::CrosstermBackend;
 use ratatui::layout::Size;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use rustix::process::getpgrp;
+use rustix::termios::tcgetpgrp;
 
 use super::app::App;
 use super::capped_backend::CappedBackend;
@@ -30,6 +34,10 @@ const FRAME: usize = 64 * 1024;
 
 /// Whether the terminal is in the modes of the workbench.
 static IS_TAKEN: AtomicBool = AtomicBool::new(false);
+static IS_ENDING: AtomicBool = AtomicBool::new(false);
+/// A signal that ends the process is known after this time.
+const NOTICE: Duration = Duration::from_millis(50);
+
 static LAST_PANIC: Mutex<Option<String>> = Mutex::new(None);
 
 /// The picture on the terminal. Dropping it gives the terminal back.
@@ -72,13 +80,42 @@ pub fn last_panic() -> Option<String> {
         .take()
 }
 
+/// A signal ends the process soon.
+pub(super) fn expect_end() {
+    IS_ENDING.store(true, Ordering::Relaxed);
+}
+
+/// Whether the process ends without a terminal: the `kill` of a shell sends a signal to a stopped
+/// job and continues it in the background. Taking the terminal would stop it again.
+fn ends_in_background() -> bool {
+    if is_in_foreground() {
+        return false;
+    }
+    thread::sleep(NOTICE);
+    IS_ENDING.load(Ordering::Relaxed)
+}
+
+/// Whether the terminal is ours rather than that of the shell.
+pub(super) fn is_in_foreground() -> bool {
+    tcgetpgrp(io::stdin()).map_or(true, |group| group == getpgrp())
+}
+
+// In the background the modes are those of the shell.
+fn restore_modes() -> io::Result<()> {
+    if is_in_foreground() {
+        disable_raw_mode()
+    } else {
+        Ok(())
+    }
+}
+
 /// Gives the terminal back while the workbench is stuck. A terminal that accepts no bytes gets its
 /// modes back alone.
 pub(super) fn give_back_by_force() {
     if !IS_TAKEN.load(Ordering::Relaxed) {
         return;
     }
-    drop(disable_raw_mode());
+    drop(restore_modes());
     let stdout = io::stdout();
     let mut line = [PollFd::new(&stdout, PollFlags::OUT)];
     let mut sequences = Vec::new();
@@ -125,6 +162,9 @@ impl Screen {
     /// # Errors
     /// When the terminal is gone.
     pub fn draw(&mut self, app: &App) -> io::Result<()> {
+        if !IS_TAKEN.load(Ordering::Relaxed) {
+            return Ok(());
+        }
         self.terminal.draw(|frame| {
             if let Some(cursor) = view::draw(app, frame.area(), frame.buffer_mut()) {
                 frame.set_cursor_position(cursor);
@@ -151,6 +191,9 @@ impl Screen {
         self.leave()?;
         signal_hook::low_level::emulate_default_handler(signal_hook::consts::SIGTSTP)?;
         self.is_back = true;
+        if ends_in_background() {
+            return Ok(());
+        }
         self.enter()?;
         self.clear()
     }
@@ -163,6 +206,9 @@ impl Screen {
         // For a moment the terminal is in the shell's modes, in which it would eat a Ctrl-Q: only
         // where it must be.
         if std::mem::take(&mut self.is_back) {
+            return Ok(());
+        }
+        if ends_in_background() {
             return Ok(());
         }
         disable_raw_mode()?;
@@ -230,7 +276,7 @@ impl Screen {
             LeaveAlternateScreen
         );
         IS_TAKEN.store(false, Ordering::Relaxed);
-        disable_raw_mode().and(written)
+        restore_modes().and(written)
     }
 
     fn output(&mut self) -> &mut impl Write {
