@@ -58,7 +58,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 3", "+", "", " 1.2           1.0           0.8 "),
     ("Esc 3 + +", "-", "", " 1.2           1.0           0.8 "),
     ("Esc 3 + +", "0", "", " 0.2        0 "),
-    ("Esc 3", "v", "", "the charts around the strike"),
+    ("Esc 3", "v", "", "the charts show the strike"),
     ("Esc 3", "t", "", "Force F_S in N over time in us"),
     ("Esc 4", "+", "", "⡄ 5 mm"),
     ("Esc 4 +", "-", "", "⡄ 10 mm"),

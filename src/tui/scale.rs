@@ -1,8 +1,6 @@
 //! The chart's axes: round ends that stay until a curve leaves them, and ticks at multiples of 1, 2
 //! or 5.
 
-use crate::case::units::System;
-use crate::model::inputs::Method;
 use crate::report::graphs::GRAPHS;
 
 /// Ends of an axis that begins at 0, times a power of ten.
@@ -271,48 +269,6 @@ fn power(greatest: f64) -> i32 {
         0
     } else {
         3 * (greatest.log10() / 3.0).floor() as i32
-    }
-}
-
-/// What the axes were fitted to: they are fitted again only when it is something else.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Occasion {
-    /// The request that was answered, and whether more of the answer is to come.
-    pub answered: Option<(u64, bool)>,
-    /// The request of the baseline.
-    pub pinned: Option<u64>,
-    /// The chosen chart, how many are in sight, and the units in which they are read.
-    pub shown: (usize, usize, System),
-    /// Whether the strike alone is in sight, how close, and the bits of the angle in the middle.
-    pub sight: (bool, i32, Option<u64>),
-    /// The method, and the first request after the last undo.
-    pub ground: (Option<Method>, u64),
-}
-
-/// Which axes are made anew, whether they would serve or not.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Anew {
-    /// Those of the values: of other charts, in other units.
-    pub upright: bool,
-    /// All of them: of another method, or after an undo.
-    pub all: bool,
-}
-
-impl Occasion {
-    /// What is made anew since an earlier one. What waits for a method that is to come keeps its
-    /// ground until then.
-    #[must_use]
-    pub fn since(&mut self, before: Occasion) -> Anew {
-        if self
-            .answered
-            .is_some_and(|(serial, is_pending)| is_pending || serial < self.ground.1)
-        {
-            self.ground = before.ground;
-        }
-        Anew {
-            upright: self.shown != before.shown,
-            all: self.ground != before.ground,
-        }
     }
 }
 

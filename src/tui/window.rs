@@ -1,36 +1,40 @@
-//! What of the roll angle is in sight: the state of the chart.
+//! The visible range of roll angles: the state of the chart.
 
 use super::scale::{Scale, Span};
+use crate::case::units::System;
+use crate::model::inputs::Method;
 
-/// Each step of the zoom is √2; the last one shows a thousandth of what is there without it.
+/// Each zoom step is √2; the last step shows a thousandth of the frame.
 const LAST_STEP_IN: i32 = 20;
-/// A cursor that leaves what is in sight comes back this far from the edge, so that it does not
-/// drag the picture along.
+/// Distance from the edge, as a part of the visible range, of a cursor that had left the range.
+/// Without it the charts would scroll with every step of the cursor.
 const MARGIN: f64 = 0.25;
 
-/// What of the roll angle is in sight.
+/// The visible range of roll angles.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ChartView {
-    /// What is in sight without zoom.
+    /// The range without zoom.
     pub frame: Frame,
-    /// Steps of √2, in above 0 and out below.
+    /// Zoom steps of √2: in above 0, out below.
     pub zoom: i32,
-    /// What stands in the middle, in deg after E; else the middle of the frame.
+    /// The angle in the middle, in deg after E; the middle of the frame if `None`.
     pub middle: Option<f64>,
 }
 
-/// What is in sight without zoom.
+/// The range of roll angles without zoom.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Frame {
-    /// From D to the end of the contact.
+    /// The strike if the contact continues after it, else the whole contact.
     #[default]
+    Opening,
+    /// From D to the end of the contact.
     Whole,
     /// From D to a little after E.
     Strike,
 }
 
 impl ChartView {
-    /// The roll angles in sight, in deg after E.
+    /// The visible roll angles, in deg after E.
     #[must_use]
     pub fn window(&self, scale: &Scale) -> Span {
         let frame = self.frame(scale);
@@ -47,7 +51,8 @@ impl ChartView {
         }
     }
 
-    /// The view some steps closer around an angle, or farther below 0; as far as the whole.
+    /// The view zoomed in by `steps` around an angle, or out if `steps` is negative, at most to
+    /// the whole contact.
     #[must_use]
     pub fn zoomed(self, steps: i32, around: f64, scale: &Scale) -> ChartView {
         let zoom = (self.zoom + steps).min(LAST_STEP_IN);
@@ -58,19 +63,27 @@ impl ChartView {
         };
         let shows_all = view.window(scale).length() >= scale.across.length() * (1.0 - 1e-9);
         if steps < 0 && shows_all {
-            ChartView::default()
+            ChartView::whole()
         } else {
             view
         }
     }
 
-    /// The strike, or the whole where that is in sight already.
+    /// The whole contact.
     #[must_use]
-    pub fn strike_or_whole(self) -> ChartView {
-        let frame = if self.frame == Frame::Strike {
-            Frame::Whole
-        } else {
-            Frame::Strike
+    pub fn whole() -> ChartView {
+        ChartView {
+            frame: Frame::Whole,
+            ..ChartView::default()
+        }
+    }
+
+    /// Switches between the strike and the whole contact.
+    #[must_use]
+    pub fn strike_or_whole(self, scale: &Scale) -> ChartView {
+        let frame = match self.resolved(scale) {
+            Frame::Strike => Frame::Whole,
+            Frame::Opening | Frame::Whole => Frame::Strike,
         };
         ChartView {
             frame,
@@ -78,7 +91,7 @@ impl ChartView {
         }
     }
 
-    /// The view moved, where it must be, until an angle is in sight.
+    /// The view, scrolled if necessary to make an angle visible.
     #[must_use]
     pub fn following(self, angle: f64, scale: &Scale) -> ChartView {
         let window = self.window(scale);
@@ -96,10 +109,63 @@ impl ChartView {
         }
     }
 
-    fn frame(&self, scale: &Scale) -> Span {
+    /// `Strike` or `Whole`, whichever frame the view has on these axes.
+    #[must_use]
+    pub fn resolved(&self, scale: &Scale) -> Frame {
+        let opens_on_strike = !scale.strike.is_empty() && scale.strike.to < scale.across.to;
         match self.frame {
+            Frame::Opening if opens_on_strike => Frame::Strike,
+            Frame::Opening => Frame::Whole,
+            chosen => chosen,
+        }
+    }
+
+    fn frame(&self, scale: &Scale) -> Span {
+        match self.resolved(scale) {
             Frame::Strike if !scale.strike.is_empty() => scale.strike,
             _ => scale.across,
+        }
+    }
+}
+
+/// The state that the axes were fitted to. The axes are fitted again when it changes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Occasion {
+    /// The serial of the answered request, and whether the answer is still incomplete.
+    pub answered: Option<(u64, bool)>,
+    /// The serial of the baseline's request.
+    pub pinned: Option<u64>,
+    /// The chosen chart, the number of visible charts, and the units.
+    pub shown: (usize, usize, System),
+    /// The frame, the zoom, and the bits of the angle in the middle.
+    pub sight: (Frame, i32, Option<u64>),
+    /// The method, and the first request after the last undo.
+    pub ground: (Option<Method>, u64),
+}
+
+/// The axes that are fitted anew even if the old ones would serve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Anew {
+    /// The value axes: for other charts or other units.
+    pub upright: bool,
+    /// All axes: for another method, or after an undo.
+    pub all: bool,
+}
+
+impl Occasion {
+    /// Compares with an earlier occasion. While an answer is incomplete, the method and the undo of
+    /// the earlier occasion still count.
+    #[must_use]
+    pub fn since(&mut self, before: Occasion) -> Anew {
+        if self
+            .answered
+            .is_some_and(|(serial, is_pending)| is_pending || serial < self.ground.1)
+        {
+            self.ground = before.ground;
+        }
+        Anew {
+            upright: self.shown != before.shown,
+            all: self.ground != before.ground,
         }
     }
 }
@@ -122,8 +188,25 @@ mod tests {
     };
 
     #[test]
-    fn it_opens_on_the_whole_and_comes_back_to_it() {
+    fn it_opens_on_the_strike_if_the_contact_continues_after_it() {
         let view = ChartView::default();
+        assert_eq!(view.window(&SCALE), SCALE.strike);
+        let closed_form = Scale {
+            across: Span::new(-1.5, 0.0),
+            ..SCALE
+        };
+        assert_eq!(view.window(&closed_form), closed_form.across);
+        let no_strike = Scale {
+            strike: Span::default(),
+            ..SCALE
+        };
+        assert_eq!(view.window(&no_strike), SCALE.across);
+        assert_eq!(view.strike_or_whole(&SCALE).window(&SCALE), SCALE.across);
+    }
+
+    #[test]
+    fn zooming_out_ends_at_the_whole_contact() {
+        let view = ChartView::whole();
         assert_eq!(view.window(&SCALE), SCALE.across);
         let close = (0..4).fold(view, |view, _| view.zoomed(1, -1.0, &SCALE));
         assert_eq!(close.window(&SCALE), Span::new(-4.75, 2.75));
@@ -131,25 +214,25 @@ mod tests {
             (0..4).fold(close, |view, _| view.zoomed(-1, -1.0, &SCALE)),
             view
         );
-        assert_eq!(view.strike_or_whole().window(&SCALE), SCALE.strike);
-        assert_eq!(view.strike_or_whole().strike_or_whole(), view);
+        assert_eq!(view.strike_or_whole(&SCALE).window(&SCALE), SCALE.strike);
+        assert_eq!(view.strike_or_whole(&SCALE).strike_or_whole(&SCALE), view);
         assert_eq!(
-            (0..9).fold(view.strike_or_whole(), |view, _| view
+            (0..9).fold(view.strike_or_whole(&SCALE), |view, _| view
                 .zoomed(-1, 0.0, &SCALE)),
             view
         );
     }
 
     #[test]
-    fn however_close_something_is_in_sight() {
+    fn the_closest_zoom_still_shows_a_range() {
         let view = (0..99).fold(ChartView::default(), |view, _| view.zoomed(1, 25.0, &SCALE));
         let window = view.window(&SCALE);
         assert!(window.length() > 0.02 && window.to == 25.0, "{window:?}");
     }
 
     #[test]
-    fn it_follows_the_cursor_and_stays_on_the_axis() {
-        let strike = ChartView::default().strike_or_whole();
+    fn the_view_follows_the_cursor_and_stays_on_the_axis() {
+        let strike = ChartView::default();
         assert_eq!(strike.following(-1.0, &SCALE), strike);
         let moved = strike.following(0.6, &SCALE).window(&SCALE);
         assert!(

@@ -48,18 +48,17 @@ pub(super) fn zoom(app: &mut App, steps: i32) {
 
 /// All of the roll angle.
 pub(super) fn whole(app: &mut App) {
-    app.chart = ChartView::default();
+    app.chart = ChartView::whole();
+    app.say("the charts show the whole contact");
 }
 
 /// From D to a little after E, or all of it.
 pub(super) fn strike_or_whole(app: &mut App) {
-    app.chart = app.chart.strike_or_whole();
+    app.chart = app.chart.strike_or_whole(&app.scale);
     app.say(match app.chart.frame {
-        Frame::Strike if app.scale.strike.is_empty() => {
-            "no corner contact: there is no strike to look at"
-        }
-        Frame::Strike => "the charts around the strike",
-        Frame::Whole => "the charts over the whole contact",
+        Frame::Strike if app.scale.strike.is_empty() => "no corner contact: no strike to show",
+        Frame::Strike => "the charts show the strike",
+        Frame::Opening | Frame::Whole => "the charts show the whole contact",
     });
 }
 

@@ -214,10 +214,20 @@ pub fn cursor_range(app: &App) -> Option<Reach> {
     } else {
         (end.min(-axis.to.to_radians()), window.length().to_radians())
     };
+    // A run covers the visible part of the contact.
+    let visible = (
+        start.min(-window.from.to_radians()),
+        end.max(-window.to.to_radians()),
+    );
+    let (run_from, run_to) = if visible.0 > visible.1 {
+        visible
+    } else {
+        (start, end)
+    };
     Some(Reach {
         start,
-        run_from: start,
-        run_to: end,
+        run_from,
+        run_to,
         most: before,
         least,
         column: shown / columns,
