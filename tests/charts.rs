@@ -21,13 +21,14 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 use tipstrike::case::units::System;
 use tipstrike::model::{ContactState, Outcome};
-use tipstrike::report::graphs::GRAPHS;
+use tipstrike::report::graphs::{GRAPHS, Graph};
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::layout;
 use tipstrike::tui::pane::Pane;
 use tipstrike::tui::solver::Answer;
 use tipstrike::tui::theme::{Look, MONO};
-use tipstrike::tui::view::chart;
+use tipstrike::tui::view::chart::curves::{self, Whose};
+use tipstrike::tui::view::chart::{self, raster};
 use tipstrike::tui::view::teeth::readings::readings;
 use tipstrike::tui::window::Frame;
 
@@ -94,7 +95,7 @@ fn a_chart_that_comes_in_sight_while_a_field_is_wrong_says_so() {
     let text = chart(&desk).join("\n");
     assert!(
         text.contains("LAST VALID")
-            && text.contains("Nothing is drawn anew while a field is wrong."),
+            && text.contains("The charts are not redrawn while a field is invalid."),
         "{text}"
     );
 }
@@ -108,6 +109,9 @@ fn every_chart() {
         );
     }
     assert_snapshot!("dynamic_140x45", album(&mut at_method(LARGE, "dynamic")));
+    let mut whole = at_method(SMALL, "dynamic");
+    assert_snapshot!("dynamic_whole_80x24", album(whole.keys(&["0"])));
+    assert_snapshot!("static_60x16", album(&mut at_method(TINY, "static")));
     let mut desk = at_method(SMALL, "dynamic");
     desk.app.look = Look {
         theme: &MONO,
@@ -115,26 +119,24 @@ fn every_chart() {
     };
     assert_snapshot!("dynamic_ascii", album(desk.keys(&["l"])));
     let mut huge = at_method(HUGE, "static");
-    assert_snapshot!(
-        "static_240x70",
-        chart(huge.keys(&["b", "v", "l"])).join("\n")
-    );
+    assert_snapshot!("static_240x70", chart(huge.keys(&["b", "l"])).join("\n"));
+}
+
+fn assert_title(desk: &Desk, graph: &Graph) {
+    let title = &chart(desk)[0].to_lowercase();
+    let label = graph.label.to_lowercase();
+    assert!(title.contains(&label), "{label}\n{}", desk.screen());
 }
 
 #[test]
 fn charts_are_walked_through_and_chosen_by_name_and_the_choice_is_kept() {
     let mut desk = at_method(SMALL, "static");
     for graph in GRAPHS.iter().chain([&GRAPHS[0]]) {
-        assert!(
-            desk.shows(&format!("3 {} ", graph.label)),
-            "{}\n{}",
-            graph.label,
-            desk.screen()
-        );
+        assert_title(&desk, graph);
         desk.keys(&["j"]);
     }
     desk.keys(&["Up", "k"]);
-    assert!(desk.shows("3 Driver radius"), "round and round");
+    assert_title(&desk, &GRAPHS[GRAPHS.len() - 1]);
     for graph in &GRAPHS {
         desk.keys(&[
             "1",
@@ -144,11 +146,7 @@ fn charts_are_walked_through_and_chosen_by_name_and_the_choice_is_kept() {
             "Enter",
             "3",
         ]);
-        assert!(
-            desk.shows(&format!("3 {} ", graph.label)),
-            "{}",
-            desk.screen()
-        );
+        assert_title(&desk, graph);
     }
     assert_eq!(
         desk.kept, None,
@@ -157,14 +155,77 @@ fn charts_are_walked_through_and_chosen_by_name_and_the_choice_is_kept() {
 }
 
 #[test]
+fn static_and_dynamic_open_on_the_strike_and_0_shows_the_whole_contact() {
+    let window = |desk: &Desk| desk.app.chart.window(&desk.app.scale);
+    for method in ["static", "dynamic"] {
+        let mut desk = at_method(SMALL, method);
+        let (strike, whole) = (window(&desk), desk.app.scale.across);
+        assert!(strike.length() < 0.2 * whole.length(), "{strike:?}");
+        assert!(strike.from < -1.25 && strike.to > 0.0, "{strike:?}");
+        assert_eq!(window(desk.keys(&["0"])), whole);
+        assert_eq!(window(desk.keys(&["j", "0"])), whole);
+        assert_eq!(window(desk.keys(&["v"])), strike);
+        assert_eq!(window(desk.keys(&["v"])), whole);
+
+        let mut desk = at_method(SMALL, method);
+        desk.fill("driven.tip_relief", "80 um");
+        assert_eq!(window(&desk), desk.app.scale.across, "there is no strike");
+        desk.fill("driven.tip_relief", "0 um");
+        assert!(window(&desk).length() < 0.2 * whole.length());
+    }
+    let desk = at_method(SMALL, "exact");
+    assert_eq!(window(&desk), desk.app.scale.across, "from D to E");
+}
+
+#[test]
+fn the_axis_shows_the_direction_of_time_and_the_title_its_quantity() {
+    for method in ["exact", "static"] {
+        let mut desk = at_method(SMALL, method);
+        for key in ["0", "v", "+", "l", "t", "0", "v"] {
+            desk.keys(&[key]);
+            let lines = chart(&desk);
+            let axis = lines.iter().find(|line| line.contains('└'));
+            assert!(
+                axis.is_some_and(|axis| axis.contains("time ->")),
+                "{method} {key}\n{}",
+                desk.screen()
+            );
+        }
+    }
+    let mut desk = at_method(LARGE, "static");
+    assert!(desk.shows("Force F in N over driver roll angle before E in deg "));
+    desk.keys(&["t"]);
+    assert!(desk.shows("Force F in N over time after E in us "));
+}
+
+#[test]
+fn a_chart_of_the_free_impact_says_so_in_its_title() {
+    for (method, is_free) in [("exact", false), ("static", true), ("dynamic", true)] {
+        let mut desk = at_method(SMALL, method);
+        for graph in &GRAPHS {
+            let label = graph.label.to_lowercase();
+            let closed_form = ["impact energy", "driver contact radius"];
+            assert_eq!(
+                desk.shows(&format!("3 Free impact: {label} "))
+                    || desk.shows(&format!("3 Free impact, closed form: {label} ")),
+                is_free && closed_form.contains(&label.as_str()),
+                "{}",
+                desk.screen()
+            );
+            desk.keys(&["j"]);
+        }
+    }
+}
+
+#[test]
 fn a_method_without_the_curve_says_so() {
     let mut desk = at_method(SMALL, "exact");
     desk.keys(&[":", "chart: load", "Enter"]);
-    assert!(desk.shows("The method exact has no load share: static and dynamic do."));
-    let mut desk = at_method(SMALL, "static");
+    assert!(desk.shows("Method exact does not compute the load share; static and dynamic do."));
+    let mut desk = at_method(LARGE, "static");
     desk.keys(&[":", "chart: impact", "Enter"]);
     assert!(
-        desk.shows("The method static has no impact energy: paper and exact do."),
+        desk.shows("Method static does not compute the impact energy; paper and exact do."),
         "{}",
         desk.screen()
     );
@@ -174,7 +235,8 @@ fn a_method_without_the_curve_says_so() {
 #[test]
 fn the_axis_goes_on_to_the_last_contact_where_the_method_does() {
     for (method, ends) in [("exact", false), ("static", true), ("dynamic", true)] {
-        let desk = at_method(SMALL, method);
+        let mut desk = at_method(SMALL, method);
+        desk.keys(&["0"]);
         let axis = chart(&desk)
             .into_iter()
             .find(|line| line.contains('└'))
@@ -192,7 +254,7 @@ fn the_axis_goes_on_to_the_last_contact_where_the_method_does() {
 #[test]
 fn the_cursor_walks_beyond_e_and_every_value_is_read_off() {
     let mut desk = at_method(SMALL, "dynamic");
-    desk.keys(&["End", "L"]);
+    desk.keys(&["0", "End", "L"]);
     let cursor = desk.app.cursor.expect("a cursor");
     assert!(
         cursor < 0.0 && desk.shows("deg of the driver after E: F "),
@@ -209,7 +271,7 @@ fn the_cursor_walks_beyond_e_and_every_value_is_read_off() {
     desk.keys(&["4"]);
     assert!(desk.shows("after E"), "the teeth stand there as well");
     let mut desk = at_method(SMALL, "static");
-    desk.keys(&["v", "Home", "LL"]);
+    desk.keys(&["Home", "LL"]);
     assert!(
         desk.shows(" N, exact "),
         "every curve in sight is read off\n{}",
@@ -238,6 +300,7 @@ fn a_click_points_where_it_is_drawn() {
 #[test]
 fn zoom_goes_to_the_strike_around_the_cursor_and_back_to_the_whole() {
     let mut desk = at_method(SMALL, "static");
+    desk.keys(&["0"]);
     let (whole, window) = (chart(&desk), |desk: &Desk| {
         desk.app.chart.window(&desk.app.scale)
     });
@@ -272,7 +335,7 @@ fn zoom_goes_to_the_strike_around_the_cursor_and_back_to_the_whole() {
 #[test]
 fn what_is_in_sight_follows_the_cursor() {
     let mut desk = at_method(SMALL, "static");
-    desk.keys(&["v", "End"]);
+    desk.keys(&["End"]);
     for _ in 0..12 {
         desk.keys(&["L"]);
         let window = desk.app.chart.window(&desk.app.scale);
@@ -280,7 +343,7 @@ fn what_is_in_sight_follows_the_cursor() {
         assert!((window.from..=window.to).contains(&x), "{x} {window:?}");
     }
     assert!(
-        desk.app.chart.frame == Frame::Strike
+        desk.app.chart.frame == Frame::Opening
             && desk.app.cursor.is_some_and(|cursor| cursor < -0.01)
     );
 }
@@ -292,7 +355,8 @@ fn the_time_axis_tells_the_same_curve_in_time() {
     desk.keys(&["t"]);
     let time = chart(&desk);
     assert!(
-        time[0].contains("over time in us") && angle[0].contains("over roll angle in deg"),
+        time[0].contains("over time after E in us")
+            && angle[0].contains("over driver roll angle before E in deg"),
         "{}",
         time[0]
     );
@@ -316,7 +380,8 @@ fn pinned_results_and_the_present_ones_are_in_sight_from_end_to_end() {
             desk.keys(&["b"]);
             let pinned = desk.app.scale;
             desk.fill("driven.tip_relief", relief);
-            for frame in [Frame::Whole, Frame::Strike] {
+            for key in ["0", "v"] {
+                desk.keys(&["Esc", "3", key]);
                 let window = desk.app.chart.window(&desk.app.scale);
                 let solution = |answer: &Answer| answer.of(answer.active).expect("solved").clone();
                 let baseline = solution(&desk.app.baseline.as_ref().expect("pinned").answer);
@@ -327,10 +392,9 @@ fn pinned_results_and_the_present_ones_are_in_sight_from_end_to_end() {
                 {
                     assert!(
                         window.from <= -first.to_degrees(),
-                        "{method} {relief} {frame:?}: {window:?} {first}"
+                        "{method} {relief} {key}: {window:?} {first}"
                     );
                 }
-                desk.keys(&["Esc", "3", "v"]);
             }
             // Of pinned results of the method paper the other method, which drew the axis, is not
             // drawn.
@@ -378,9 +442,19 @@ fn the_readout_and_the_teeth_tell_the_same_numbers() {
 }
 
 #[test]
-fn a_run_goes_on_to_the_last_contact() {
+fn a_run_covers_the_visible_part_of_the_contact() {
     let mut desk = at_method(SMALL, "static");
+    let strike = desk.app.chart.window(&desk.app.scale);
     desk.keys(&["Space"]);
+    let runs = (0..200).take_while(|_| {
+        desk.act(Action::Tick);
+        desk.ticks
+    });
+    assert!((40..60).contains(&runs.count()));
+    let last = desk.app.cursor.expect("a cursor");
+    assert!((last.to_degrees() + strike.to).abs() < 1e-9 && !desk.app.is_playing);
+    assert_eq!(desk.app.chart.window(&desk.app.scale), strike);
+    desk.keys(&["0", "Home", "Space"]);
     let runs = (0..200).take_while(|_| {
         desk.act(Action::Tick);
         desk.ticks
@@ -408,7 +482,7 @@ fn as_many_charts_as_have_room_stand_below_each_other() {
     let desk = at_method(HUGE, "static");
     let lines = chart(&desk).join("\n");
     assert!(
-        lines.contains("3 Force F in N over roll angle before E in deg")
+        lines.contains("3 Force F in N over driver roll angle before E in deg")
             && lines.contains("─ Gap S in um"),
         "{lines}"
     );
@@ -484,6 +558,75 @@ fn assert_round(numbers: &[f64], desk: &Desk) {
     }
 }
 
+/// The plots of the visible charts, from top to bottom, found by their axes.
+fn plots(desk: &Desk) -> Vec<Rect> {
+    let area = chart_area(desk);
+    let lines = chart(desk);
+    let column = |line: &str, letter| line.chars().position(|found| found == letter);
+    let mut plots = Vec::new();
+    for (bottom, line) in lines.iter().enumerate() {
+        let Some(left) = column(line, '└') else {
+            continue;
+        };
+        let is_side = |line: &&String| {
+            let side = line.chars().nth(left);
+            side.is_some_and(|side| "│┤".contains(side))
+        };
+        let height = lines[..bottom].iter().rev().take_while(is_side).count();
+        let x = area.x + left as u16 + 1;
+        plots.push(Rect {
+            x,
+            y: area.y + (bottom - height) as u16,
+            width: area.right() - 1 - x,
+            height: height as u16,
+        });
+    }
+    plots
+}
+
+/// Every curve is drawn whole, and every curve is named, with no dash or dot of a line in its name.
+fn assert_legends(desk: &Desk) {
+    let app = &desk.app;
+    let screen = desk.buffer(app.size);
+    let text = chart(desk).join("\n");
+    let window = app.chart.window(&app.scale);
+    for (graph, plot) in chart::shown(app, chart_area(desk))
+        .into_iter()
+        .zip(plots(desk))
+    {
+        let curves = curves::apart(curves::curves(app, &GRAPHS[graph]));
+        let mut alone = Buffer::empty(screen.area);
+        for curve in &curves {
+            let spans = (window, app.scale.upright[graph]);
+            raster::draw(app, curve, spans, plot, &mut alone);
+        }
+        let is_drawn = |at: &Position| alone[*at].symbol() != " ";
+        for at in plot.positions().filter(is_drawn) {
+            assert_eq!(alone[at].symbol(), screen[at].symbol(), "{at}\n{text}");
+        }
+        for curve in &curves {
+            let name = match curve.whose {
+                Whose::Active(method) => format!("⠒ {}", method.name()),
+                Whose::Other(method) => method.name().to_owned(),
+                Whose::Pinned(_) => "+ baseline".to_owned(),
+                Whose::Bound(symbol) => format!("╌ {symbol}"),
+            };
+            assert!(text.contains(&name), "{name} is missing\n{text}");
+        }
+    }
+}
+
+#[test]
+fn a_legend_never_covers_a_curve() {
+    for method in ["exact", "static", "dynamic"] {
+        let mut desk = at_method(SMALL, method);
+        desk.keys(&["b"]).fill("operation.power", "12 kW");
+        assert_charts(&mut desk);
+        desk.keys(&["1"]).fill("driven.tip_relief", "80 um");
+        assert_charts(&mut desk);
+    }
+}
+
 /// Every chart at some sizes: nothing panics, no number is none, ticks are round and each has a
 /// label of its own.
 fn assert_charts(desk: &mut Desk) {
@@ -499,6 +642,7 @@ fn assert_charts(desk: &mut Desk) {
                     .any(|none| screen.contains(none)),
                 "{screen}"
             );
+            assert_legends(desk);
             if size.height < HUGE.height {
                 let (below, beside) = labels(desk);
                 assert_round(&below, desk);

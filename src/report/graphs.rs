@@ -58,7 +58,7 @@ pub static GRAPHS: [Graph; 9] = [
     graph!("pair_compliance", "Pair compliance", ["pair_compliance"], None),
     graph!("impact_energy", "Impact energy", ["impact_energy"], None),
     graph!("transmission_error", "Transmission error", ["transmission_error"], None),
-    graph!("radius_driver", "Driver radius of the contact", ["radius_driver"], None),
+    graph!("radius_driver", "Driver contact radius", ["radius_driver"], None),
 ];
 
 impl Graph {

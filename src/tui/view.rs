@@ -28,7 +28,7 @@ use super::layout::{self, SMALLEST, plan};
 use super::pane::Pane;
 
 /// Room for a title beside the names of hidden panes.
-const LEAST_TITLE: usize = 16;
+const LEAST_TITLE: usize = 32;
 
 /// Draw the whole screen; the place of the cursor, where there is one.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {

@@ -10,8 +10,10 @@ pub mod readout;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
+use ratatui::widgets::{Clear, Widget};
+use unicode_width::UnicodeWidthStr;
 
-use super::{text, titled};
+use super::{text, title_room, titled};
 use crate::model::inputs::Method;
 use crate::model::{Outcome, Solution};
 use crate::report::absence::without_contact;
@@ -20,11 +22,12 @@ use crate::tui::app::App;
 use crate::tui::ascii::symbol;
 use crate::tui::layout::plan;
 use crate::tui::pane::Pane;
-use crate::tui::scale::{Anew, Occasion, Scale, Span};
-use crate::tui::window::Frame;
+use crate::tui::scale::{Scale, Span};
+use crate::tui::window::{Anew, Occasion};
 
 use axes::{Axes, Ruler};
 use curves::{Curve, Whose, curves, way, way_by};
+use legend::Legend;
 
 pub use curves::{first_contact, last_contact};
 pub use readout::readout;
@@ -32,8 +35,6 @@ pub use readout::readout;
 /// Rows that another chart below the chosen one asks for, and the most charts.
 const ROWS: u16 = 16;
 const MOST: u16 = 3;
-/// A title above so many columns has room for all of its words.
-const WIDE: u16 = 80;
 /// Columns of the plot on a terminal of 80.
 const USUAL_COLUMNS: u16 = 71;
 /// After E the strike goes on for this part of the way from D to E.
@@ -54,7 +55,7 @@ pub fn occasion(app: &App) -> Occasion {
             app.settings.units,
         ),
         sight: (
-            app.chart.frame == Frame::Strike,
+            app.chart.frame,
             app.chart.zoom,
             app.chart.middle.map(f64::to_bits),
         ),
@@ -69,11 +70,18 @@ pub fn occasion(app: &App) -> Occasion {
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let panels = panels(app, area);
     let window = app.chart.window(&app.scale);
+    let stale = if app.is_stale() { "LAST VALID, " } else { "" };
     let titles: Vec<String> = panels
         .iter()
-        .map(|(graph, axes)| title(app, &GRAPHS[*graph], axes))
+        .enumerate()
+        .map(|(at, (graph, axes))| {
+            let room = match at {
+                0 => title_room(app, Pane::Chart, area.width).saturating_sub(stale.len()),
+                _ => usize::from(area.width.saturating_sub(4)),
+            };
+            title(app, &GRAPHS[*graph], axes, room)
+        })
         .collect();
-    let stale = if app.is_stale() { "LAST VALID, " } else { "" };
     let first = format!("{stale}{}", titles.first().map_or("Chart", String::as_str));
     titled(app, Pane::Chart, &first, area, buffer);
     for (at, (graph, axes)) in panels.iter().enumerate() {
@@ -135,14 +143,12 @@ pub fn fitted(app: &App, anew: Anew) -> Scale {
         .flatten()
         .filter_map(|(answer, method)| first_contact(answer.of(method)?));
     let first = touches.fold(0.0, f64::max).to_degrees();
-    if first > 0.0 {
-        let strike = Span::new(-first, AFTER_E * first);
-        scale.strike = if anew.all {
-            scale.strike.anew(strike)
-        } else {
-            scale.strike.fitted(strike)
-        };
-    }
+    let strike = Span::new(-first, AFTER_E * first);
+    scale.strike = match (strike.is_empty(), anew.all) {
+        (true, _) => Span::default(),
+        (false, true) => scale.strike.anew(strike),
+        (false, false) => scale.strike.fitted(strike),
+    };
     let window = app.chart.window(&scale);
     for graph in shown(app, area) {
         let curves = curves(app, &GRAPHS[graph]);
@@ -232,62 +238,91 @@ fn draw_panel(
     buffer: &mut Buffer,
 ) {
     let curves = curves::apart(curves(app, graph));
-    let lacks = lack(app, graph, &curves);
+    let missing = missing(app, graph, &curves);
     if axes.plot.is_empty() || curves.is_empty() || window.is_empty() {
         let y = if axes.plot.is_empty() {
             area.y + 1
         } else {
             axes.plot.y + axes.plot.height / 2
         };
-        let said = lacks.unwrap_or_else(|| "There is no room for a chart.".to_owned());
+        let message = missing.unwrap_or_else(|| "The pane is too small for a chart.".to_owned());
         if y < area.bottom() {
             buffer.set_stringn(
                 area.x + 2,
                 y,
-                text::cut(&said, usize::from(area.width.saturating_sub(3))),
+                text::cut(&message, usize::from(area.width.saturating_sub(3))),
                 area.width.into(),
                 Style::new(),
             );
         }
         return;
     }
-    axes.draw(buffer);
-    for curve in &curves {
-        raster::draw(app, curve, (axes.across, axes.upright), axes.plot, buffer);
+    let legend = Legend::of(app, &curves, missing.as_deref());
+    draw_curves(app, axes, &curves, buffer);
+    let inside = legend.inside(axes.plot, buffer);
+    let (axes, placed) = match inside {
+        Some(placed) => (axes.clone(), placed),
+        None => {
+            let (above, lower) = axes.split(legend.height(axes.plot.width));
+            Clear.render(axes.area, buffer);
+            draw_curves(app, &lower, &curves, buffer);
+            (lower, legend.above(above))
+        }
+    };
+    for block in &placed {
+        block.draw(buffer);
     }
-    axes.draw_marks(app, buffer);
-    legend::draw(app, &curves, lacks, axes.plot, buffer);
-    axes.draw_zero(app, buffer);
-    axes.draw_cursor(app, buffer);
+    let is_legend = |at| placed.iter().any(|block| block.area.contains(at));
+    axes.draw_cursor(app, is_legend, buffer);
+    axes.draw_time_direction(buffer);
 }
 
-// In words, with the symbol and the units.
-fn title(app: &App, graph: &Graph, axes: &Axes) -> String {
-    let method = app.answer.as_ref().map(|answer| answer.active);
-    let column = method
-        .and_then(|method| graph.column(method))
-        .or_else(|| graph.all_columns().next());
-    let name = column.map_or_else(String::new, |column| {
+// Everything below the legend.
+fn draw_curves(app: &App, axes: &Axes, curves: &[Curve], buffer: &mut Buffer) {
+    axes.draw(buffer);
+    for curve in curves {
+        raster::draw(app, curve, (axes.across, axes.upright), axes.plot, buffer);
+    }
+    axes.draw_zero(app, buffer);
+    axes.draw_marks(app, buffer);
+}
+
+/// The longest title with a unit for both axes that has room, else the shortest.
+fn title(app: &App, graph: &Graph, axes: &Axes, room: usize) -> String {
+    let answer = app.answer.as_ref();
+    let own = answer.and_then(|answer| graph.column(answer.active));
+    let is_free_impact = own.is_none()
+        && answer.is_some_and(|answer| answer.active.shares_load())
+        && !curves(app, graph).is_empty();
+    let column = own.or_else(|| graph.all_columns().next());
+    let value = column.map_or_else(String::new, |column| {
         let shown = app.settings.units.unit(column.shown);
         format!(
-            " {}{}",
+            "{}{}",
             symbol(column.symbol, app.look.ascii),
             unit(shown, axes.beside.power)
         )
     });
-    let ruler = axes.ruler;
-    // Where E stands is marked on the axis as well.
-    let side = if axes.plot.width < WIDE {
-        String::new()
+    let names: Vec<String> = if is_free_impact {
+        let label = graph.label.to_lowercase();
+        vec![
+            format!("Free impact, closed form: {label}"),
+            format!("Free impact: {label}"),
+        ]
     } else {
-        format!(" {}", ruler.side)
+        vec![graph.label.to_owned()]
     };
-    format!(
-        "{}{name} over {}{side}{}",
-        graph.label,
-        ruler.label,
-        unit(ruler.unit, axes.below.power)
-    )
+    let ruler = axes.ruler;
+    let below = unit(ruler.unit, axes.below.power);
+    let titles = ruler.labels.iter().flat_map(|label| {
+        names
+            .iter()
+            .map(|name| format!("{name} {value} over {}{below}", label))
+            .collect::<Vec<_>>()
+    });
+    let titles: Vec<String> = titles.collect();
+    let fitting = titles.iter().find(|title| title.width() <= room);
+    fitting.or(titles.last()).cloned().unwrap_or_default()
 }
 
 fn unit(unit: &str, power: i32) -> String {
@@ -300,7 +335,7 @@ fn unit(unit: &str, power: i32) -> String {
 }
 
 // Why the active method has no curve, where it has none.
-fn lack(app: &App, graph: &Graph, curves: &[Curve]) -> Option<String> {
+fn missing(app: &App, graph: &Graph, curves: &[Curve]) -> Option<String> {
     let Some(answer) = &app.answer else {
         return Some("No valid results of this method.".to_owned());
     };
@@ -311,14 +346,14 @@ fn lack(app: &App, graph: &Graph, curves: &[Curve]) -> Option<String> {
         return None;
     }
     if app.is_stale() {
-        return Some("Nothing is drawn anew while a field is wrong.".to_owned());
+        return Some("The charts are not redrawn while a field is invalid.".to_owned());
     }
     let label = graph.label.to_lowercase();
     let active = answer.active;
     if graph.column(active).is_none() {
         let methods: Vec<_> = graph.methods().map(Method::name).collect();
         return Some(format!(
-            "The method {} has no {label}: {} do.",
+            "Method {} does not compute the {label}; {} do.",
             active.name(),
             methods.join(" and ")
         ));
@@ -335,6 +370,6 @@ fn nothing(solution: &Solution, label: &str) -> String {
             "No corner contact: {}, without an impact.",
             without_contact(solution)
         ),
-        Outcome::CornerContact => format!("No {label} between D and E: the notes say why."),
+        Outcome::CornerContact => format!("No {label} between D and E; press n for the reason."),
     }
 }

@@ -2,7 +2,7 @@
 //! contact.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 
 use super::curves::{first_contact, last_contact};
@@ -14,26 +14,35 @@ use crate::tui::scale::{Span, Ticks};
 const LABEL: usize = 6;
 /// A label below the plot has so many columns for itself, and one beside it so many rows.
 const ROOM: (u16, u16) = (9, 2);
+/// The smallest plot.
+const LEAST_COLUMNS: u16 = 20;
+const LEAST_ROWS: u16 = 2;
 /// In ms from so many us on.
 const MOST_MICROS: f64 = 5000.0;
 
-/// What the roll angle is told in.
+/// The direction of time on the axis, the first text that has room.
+const TIME: [&str; 3] = [" time -> ", "time ->", "->"];
+
+/// Names of the time axis.
+const TIME_LABELS: [&str; 2] = ["time after E", "time"];
+
+/// The quantity on the x axis.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Ruler {
-    /// The number on the ruler over the roll angle after E in deg.
+    /// The axis value of one degree of roll after E.
     pub factor: f64,
-    /// Its unit.
+    /// The unit.
     pub unit: &'static str,
-    /// What it tells.
-    pub label: &'static str,
-    /// Before or after what.
-    pub side: &'static str,
+    /// The name, the longest form first.
+    pub labels: &'static [&'static str],
 }
 
 /// Where a chart stands and what is in sight of it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Axes {
-    /// The room of the curves.
+    /// The plot with the axes and their labels.
+    pub area: Rect,
+    /// The cells of the curves.
     pub plot: Rect,
     /// Roll angles in sight, in deg after E.
     pub across: Span,
@@ -57,20 +66,22 @@ impl Ruler {
             false => Ruler {
                 factor: -1.0,
                 unit: "deg",
-                label: "roll angle",
-                side: "before E",
+                labels: &[
+                    "driver roll angle before E",
+                    "roll angle before E",
+                    "roll angle",
+                    "angle",
+                ],
             },
             true if longest < MOST_MICROS => Ruler {
                 factor: micros,
                 unit: "us",
-                label: "time",
-                side: "after E",
+                labels: &TIME_LABELS,
             },
             true => Ruler {
                 factor: 1e-3 * micros,
                 unit: "ms",
-                label: "time",
-                side: "after E",
+                labels: &TIME_LABELS,
             },
         }
     }
@@ -105,7 +116,7 @@ impl Axes {
             area.width.saturating_sub(margin + 1),
             area.height.saturating_sub(2),
         );
-        let has_room = width >= 20 && height >= 2;
+        let has_room = width >= LEAST_COLUMNS && height >= LEAST_ROWS;
         let plot = if has_room {
             Rect {
                 x: area.x + margin,
@@ -117,6 +128,7 @@ impl Axes {
             Rect::ZERO
         };
         Axes {
+            area,
             plot,
             across,
             upright,
@@ -126,7 +138,26 @@ impl Axes {
         }
     }
 
-    /// The column of an angle in sight.
+    /// Cuts rows off at the top: the rows, at most all but two of the plot, and the axes below
+    /// them.
+    #[must_use]
+    pub fn split(&self, rows: u16) -> (Rect, Axes) {
+        let rows = rows.min(self.plot.height.saturating_sub(LEAST_ROWS));
+        let above = Rect {
+            height: rows,
+            ..self.plot
+        };
+        let area = Rect {
+            y: self.area.y + rows,
+            height: self.area.height - rows,
+            ..self.area
+        };
+        let margin = self.plot.x - self.area.x;
+        let spans = (self.across, self.upright);
+        (above, Axes::new(area, margin, spans, self.ruler))
+    }
+
+    /// The column of a visible angle.
     #[must_use]
     pub fn column(&self, x: f64) -> Option<u16> {
         let part = self.across.part(x);
@@ -230,16 +261,41 @@ impl Axes {
         }
     }
 
-    /// A broken line where the curves leave room for it, and a mark on the axis.
-    pub fn draw_cursor(&self, app: &App, buffer: &mut Buffer) {
+    /// A dotted line on blank cells outside the legend, and a mark on the axis.
+    pub fn draw_cursor(
+        &self,
+        app: &App,
+        is_legend: impl Fn(Position) -> bool,
+        buffer: &mut Buffer,
+    ) {
         let column = app
             .cursor
             .and_then(|cursor| self.column(0.0 - cursor.to_degrees()));
         let Some(x) = column else { return };
         for y in self.plot.top()..self.plot.bottom() {
-            put_where_free((x, y), "┊", app.look.theme.faint, buffer);
+            if !is_legend(Position::new(x, y)) {
+                put_where_free((x, y), "┊", app.look.theme.faint, buffer);
+            }
         }
         buffer.set_string(x, self.plot.bottom(), "▴", app.look.theme.focus);
+    }
+
+    /// The direction of time, on the axis between its ticks and marks.
+    pub fn draw_time_direction(&self, buffer: &mut Buffer) {
+        let y = self.plot.bottom();
+        let is_line = |x: u16| buffer.cell((x, y)).is_some_and(|cell| cell.symbol() == "─");
+        let place = |text: &&str| {
+            let width = text.len() as u16;
+            (self.plot.left()..=self.plot.right().saturating_sub(width))
+                .rev()
+                .find(|&x| (x..x + width).all(is_line))
+        };
+        let found = TIME
+            .into_iter()
+            .find_map(|text| Some((text, place(&text)?)));
+        if let Some((text, x)) = found {
+            buffer.set_string(x, y, text, Style::new());
+        }
     }
 }
 
