@@ -63,9 +63,9 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 4", "+", "", "⡄ 5 mm"),
     ("Esc 4 +", "-", "", "⡄ 10 mm"),
     ("Esc 4 + +", "0", "", "⡄ 10 mm"),
-    ("Esc 4", "v", "", "the teeth around the pitch point"),
-    ("Esc 4", "k", "", "the teeth around the pair"),
-    ("Esc 4", "x", "", "the gap is drawn as it is"),
+    ("Esc 4", "v", "", "view: the pitch point"),
+    ("Esc 4", "k", "", "view: the pair"),
+    ("Esc 4", "x", "", "gap drawn true to scale"),
     // Outside a field, in every pane.
     ("Esc 3", ":", "", "Commands"),
     ("Esc 3", "q", "", "[quit]"),

@@ -19,7 +19,7 @@ fn at(desk: &mut Desk, typed: &str) -> f64 {
 }
 
 #[test]
-fn an_angle_in_any_unit_and_a_time_lead_to_the_same_place() {
+fn an_angle_in_any_unit_and_a_time_mean_the_same_place() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc"]);
     for typed in [
@@ -46,7 +46,7 @@ fn an_angle_in_any_unit_and_a_time_lead_to_the_same_place() {
 }
 
 #[test]
-fn places_have_names() {
+fn points_have_names() {
     let case = TABLE_1.replace("\"exact\"", "\"dynamic\"");
     let mut desk = Desk::on(LARGE, "case.toml", &case);
     desk.keys(&["Esc"]);
@@ -63,20 +63,17 @@ fn places_have_names() {
 }
 
 #[test]
-fn what_cannot_be_is_said_and_the_line_stays() {
+fn a_wrong_text_shows_the_reason_and_stays() {
     let mut desk = Desk::new(SMALL);
     for (typed, said) in [
         (
             "30 deg",
-            "30.0000 deg (2500.0 us) before E is out of sight: the cursor goes from",
+            "30.0000 deg (2500.0 us) before E is out of range: from",
         ),
-        ("there", "there is no angle, time or place"),
-        ("5 mm", "5 mm is no angle, time or place"),
-        ("1 m", "1 m is no angle, time or place"),
-        (
-            "L",
-            "the last contact L is known to static and dynamic alone",
-        ),
+        ("there", "there is no angle, time or point"),
+        ("5 mm", "5 mm is no angle, time or point"),
+        ("1 m", "1 m is no angle, time or point"),
+        ("L", "only static and dynamic compute the last contact L"),
     ] {
         desk.keys(&["Esc", "Esc", "a", typed, "Enter"]);
         assert!(desk.shows(said), "{typed}\n{}", desk.screen());
@@ -89,14 +86,14 @@ fn what_cannot_be_is_said_and_the_line_stays() {
     );
     desk.keys(&["Esc", "a", "D", "Enter"]);
     assert!(
-        desk.shows("no corner contact: there is no D"),
+        desk.shows("no corner contact, so no D"),
         "{}",
         desk.screen()
     );
 }
 
 #[test]
-fn a_chart_comes_into_sight_where_nothing_shows_the_cursor() {
+fn the_chart_opens_if_no_pane_shows_the_cursor() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "5", "a", "0.6", "Enter"]);
     assert!(desk.shows("▸ 3 Force"), "{}", desk.screen());

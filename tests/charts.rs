@@ -1,12 +1,11 @@
-//! The charts: each as it looks, each of their keys, what they promise over random cases, and the
-//! bytes that they cost.
+//! The charts: snapshots, keys, properties over random cases, and bytes written per key.
 #![allow(
     clippy::expect_used,
     clippy::panic,
     clippy::unwrap_used,
     reason = "a test that cannot go on says why"
 )]
-#![allow(clippy::print_stdout, reason = "figures are told")]
+#![allow(clippy::print_stdout, reason = "the test prints figures")]
 #![cfg(feature = "tui")]
 
 mod harness;
@@ -45,14 +44,14 @@ const TINY: Size = Size {
     height: 16,
 };
 
-/// Table 1 at a method, the chart focused.
+/// Table 1 with a method, the chart pane focused.
 fn at_method(size: Size, method: &str) -> Desk {
     let mut desk = Desk::on(
         size,
         "case.toml",
         &TABLE_1.replace("\"exact\"", &format!("\"{method}\"")),
     );
-    // The first picture may not wait for a slow method.
+    // The first frame does not wait for a slow method; an edit does.
     desk.fill("title", "a");
     desk.keys(&["Esc", "3"]);
     desk
@@ -62,7 +61,7 @@ fn chart_area(desk: &Desk) -> Rect {
     layout::plan(desk.app.size, desk.app.panes).area(Pane::Chart)
 }
 
-/// The lines of the chart's pane.
+/// The lines of the chart pane.
 fn chart(desk: &Desk) -> Vec<String> {
     let area = chart_area(desk);
     let buffer = desk.buffer(desk.app.size);
@@ -89,7 +88,7 @@ fn album(desk: &mut Desk) -> String {
 }
 
 #[test]
-fn a_chart_that_comes_in_sight_while_a_field_is_wrong_says_so() {
+fn a_chart_opened_while_a_field_is_invalid_says_so() {
     let mut desk = Desk::on(TINY, "case.toml", TABLE_1);
     desk.keys(&["x", "Esc", "3"]);
     let text = chart(&desk).join("\n");
@@ -129,7 +128,7 @@ fn assert_title(desk: &Desk, graph: &Graph) {
 }
 
 #[test]
-fn charts_are_walked_through_and_chosen_by_name_and_the_choice_is_kept() {
+fn charts_are_selected_by_key_and_by_name() {
     let mut desk = at_method(SMALL, "static");
     for graph in GRAPHS.iter().chain([&GRAPHS[0]]) {
         assert_title(&desk, graph);
@@ -150,7 +149,7 @@ fn charts_are_walked_through_and_chosen_by_name_and_the_choice_is_kept() {
     }
     assert_eq!(
         desk.kept, None,
-        "which chart is looked at is no setting: a session begins with the force"
+        "the chart is no setting: a session starts with the force"
     );
 }
 
@@ -218,7 +217,7 @@ fn a_chart_of_the_free_impact_says_so_in_its_title() {
 }
 
 #[test]
-fn a_method_without_the_curve_says_so() {
+fn a_chart_names_the_methods_that_have_the_curve() {
     let mut desk = at_method(SMALL, "exact");
     desk.keys(&[":", "chart: load", "Enter"]);
     assert!(desk.shows("Method exact does not compute the load share; static and dynamic do."));
@@ -233,7 +232,7 @@ fn a_method_without_the_curve_says_so() {
 }
 
 #[test]
-fn the_axis_goes_on_to_the_last_contact_where_the_method_does() {
+fn the_axis_ends_at_the_last_contact_for_static_and_dynamic() {
     for (method, ends) in [("exact", false), ("static", true), ("dynamic", true)] {
         let mut desk = at_method(SMALL, method);
         desk.keys(&["0"]);
@@ -252,7 +251,7 @@ fn the_axis_goes_on_to_the_last_contact_where_the_method_does() {
 }
 
 #[test]
-fn the_cursor_walks_beyond_e_and_every_value_is_read_off() {
+fn the_cursor_moves_beyond_e_and_the_readout_shows_every_value() {
     let mut desk = at_method(SMALL, "dynamic");
     desk.keys(&["0", "End", "L"]);
     let cursor = desk.app.cursor.expect("a cursor");
@@ -267,20 +266,20 @@ fn the_cursor_walks_beyond_e_and_every_value_is_read_off() {
     desk.keys(&["L"; 9]);
     let end = desk.app.cursor.expect("a cursor");
     desk.keys(&["L"]);
-    assert_eq!(desk.app.cursor, Some(end), "the axis has its end");
+    assert_eq!(desk.app.cursor, Some(end), "the axis ends here");
     desk.keys(&["4"]);
-    assert!(desk.shows("after E"), "the teeth stand there as well");
+    assert!(desk.shows("after E"), "the teeth pane has the same cursor");
     let mut desk = at_method(SMALL, "static");
     desk.keys(&["Home", "LL"]);
     assert!(
         desk.shows(" N, exact "),
-        "every curve in sight is read off\n{}",
+        "the readout has every visible curve\n{}",
         desk.screen()
     );
 }
 
 #[test]
-fn a_click_points_where_it_is_drawn() {
+fn a_click_moves_the_cursor_to_its_column() {
     let mut desk = at_method(SMALL, "static");
     let area = chart_area(&desk);
     for x in [8, 9, 40, 78] {
@@ -298,7 +297,7 @@ fn a_click_points_where_it_is_drawn() {
 }
 
 #[test]
-fn zoom_goes_to_the_strike_around_the_cursor_and_back_to_the_whole() {
+fn zoom_is_around_the_cursor_and_ends_at_the_whole_contact() {
     let mut desk = at_method(SMALL, "static");
     desk.keys(&["0"]);
     let (whole, window) = (chart(&desk), |desk: &Desk| {
@@ -322,18 +321,18 @@ fn zoom_goes_to_the_strike_around_the_cursor_and_back_to_the_whole() {
     assert!(window(&desk).length() < all.length());
     desk.keys(&["0", "c"]);
     assert_eq!(chart(&desk), whole);
-    assert!(desk.keys(&["-"]).shows("this is all of it"));
+    assert!(desk.keys(&["-"]).shows("the charts show the whole contact"));
     desk.act(Action::Wheel(
         Position::new(20, chart_area(&desk).y + 2),
         -3,
     ));
     assert!(window(&desk).length() < all.length(), "the wheel zooms");
     desk.keys(&["+"; 30]);
-    assert!(desk.shows("this is the closest"));
+    assert!(desk.shows("closest zoom"));
 }
 
 #[test]
-fn what_is_in_sight_follows_the_cursor() {
+fn the_view_follows_the_cursor() {
     let mut desk = at_method(SMALL, "static");
     desk.keys(&["End"]);
     for _ in 0..12 {
@@ -349,7 +348,7 @@ fn what_is_in_sight_follows_the_cursor() {
 }
 
 #[test]
-fn the_time_axis_tells_the_same_curve_in_time() {
+fn the_time_axis_shows_the_same_curve() {
     let mut desk = at_method(SMALL, "dynamic");
     let angle = chart(&desk);
     desk.keys(&["t"]);
@@ -363,17 +362,17 @@ fn the_time_axis_tells_the_same_curve_in_time() {
     assert_eq!(
         angle[1..angle.len() - 2],
         time[1..time.len() - 2],
-        "the curves stay where they are"
+        "the curves do not move"
     );
     desk.keys(&["l"]);
     assert!(desk.shows(" us: F "), "{}", desk.screen());
-    assert_eq!(desk.kept, None, "a way to look at it is no setting");
+    assert_eq!(desk.kept, None, "the x axis is no setting");
     desk.keys(&["c", "t"]);
     assert_eq!(chart(&desk), angle);
 }
 
 #[test]
-fn pinned_results_and_the_present_ones_are_in_sight_from_end_to_end() {
+fn the_axis_covers_the_results_and_the_baseline() {
     for method in ["paper", "exact", "static", "dynamic"] {
         for relief in ["46 um", "48 um", "80 um"] {
             let mut desk = at_method(SMALL, method);
@@ -396,18 +395,17 @@ fn pinned_results_and_the_present_ones_are_in_sight_from_end_to_end() {
                     );
                 }
             }
-            // Of pinned results of the method paper the other method, which drew the axis, is not
-            // drawn.
+            // A baseline of the method paper has the curve of that method alone, not of exact.
             assert!(
                 method == "paper" || desk.app.scale.across == pinned.across,
-                "{method} {relief}: the axis stays as long as it serves"
+                "{method} {relief}: the axis stays while it serves"
             );
         }
     }
 }
 
 #[test]
-fn the_readout_and_the_teeth_tell_the_same_numbers() {
+fn the_readout_and_the_teeth_pane_show_the_same_numbers() {
     for method in ["paper", "exact", "static", "dynamic"] {
         let mut desk = at_method(LARGE, method);
         desk.keys(&["Home", "lllll"]);
@@ -465,7 +463,7 @@ fn a_run_covers_the_visible_part_of_the_contact() {
 }
 
 #[test]
-fn the_baseline_stands_behind_in_the_same_chart() {
+fn the_baseline_is_drawn_in_the_same_chart() {
     let mut desk = at_method(SMALL, "static");
     desk.keys(&["b", "1"]).fill("operation.power", "12 kW");
     desk.keys(&["Esc", "3"]);
@@ -478,7 +476,7 @@ fn the_baseline_stands_behind_in_the_same_chart() {
 }
 
 #[test]
-fn as_many_charts_as_have_room_stand_below_each_other() {
+fn a_large_pane_shows_several_charts() {
     let desk = at_method(HUGE, "static");
     let lines = chart(&desk).join("\n");
     assert!(
@@ -493,12 +491,12 @@ fn as_many_charts_as_have_room_stand_below_each_other() {
 }
 
 #[test]
-fn a_chart_out_of_sight_costs_nothing() {
+fn a_hidden_chart_is_not_computed() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["F5"]);
     let fitted = desk.app.scale;
     desk.fill("operation.speed", "9000 rpm");
-    assert_eq!(desk.app.scale, fitted, "no curve is looked at");
+    assert_eq!(desk.app.scale, fitted, "no curve is computed");
     assert!(
         !desk
             .app
@@ -513,7 +511,7 @@ fn a_chart_out_of_sight_costs_nothing() {
     assert_ne!(desk.app.scale, fitted);
 }
 
-/// The numbers on the axes of a chart as they stand on the screen: below it, and beside it.
+/// The numbers on the axes of a chart: below it, and beside it.
 fn labels(desk: &Desk) -> (Vec<f64>, Vec<f64>) {
     let lines = chart(desk);
     let Some(axis) = lines.iter().position(|line| line.contains('└')) else {
@@ -627,8 +625,8 @@ fn a_legend_never_covers_a_curve() {
     }
 }
 
-/// Every chart at some sizes: nothing panics, no number is none, ticks are round and each has a
-/// label of its own.
+/// Every chart at several sizes: no panic, no invalid number, round ticks, different labels, and
+/// legends clear of curves.
 fn assert_charts(desk: &mut Desk) {
     desk.keys(&["Esc", "3"]);
     for (size, keys) in [(SMALL, "0"), (TINY, "v"), (LARGE, "+"), (HUGE, "t")] {
@@ -655,7 +653,7 @@ fn assert_charts(desk: &mut Desk) {
 }
 
 #[test]
-fn every_case_of_the_collection_is_drawn_at_every_method() {
+fn every_example_is_drawn_at_every_method() {
     for entry in fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/cases"))
         .expect("the cases")
         .flatten()
@@ -711,7 +709,7 @@ fn random_cases_are_drawn() {
     });
 }
 
-/// The bytes with which a terminal goes from one picture of the chart to the next.
+/// The bytes that change one picture of the chart into another.
 fn bytes(before: &Buffer, after: &Buffer, area: Rect) -> usize {
     let mut written = Vec::new();
     let changes = before
@@ -724,7 +722,7 @@ fn bytes(before: &Buffer, after: &Buffer, area: Rect) -> usize {
     written.len()
 }
 
-/// The bytes of the chart for one key.
+/// The bytes that a key writes into the chart.
 fn cost(desk: &mut Desk, key: &str) -> usize {
     let before = desk.buffer(desk.app.size);
     desk.keys(&[key]);
@@ -732,7 +730,7 @@ fn cost(desk: &mut Desk, key: &str) -> usize {
 }
 
 #[test]
-fn a_chart_costs_few_bytes_a_key() {
+fn a_key_changes_few_bytes_of_a_chart() {
     for (size, most) in [(SMALL, 1400), (MIDDLE, 3000)] {
         let mut all = Vec::new();
         for (method, graph) in ["exact", "static", "dynamic"]

@@ -1,5 +1,4 @@
-//! The picture of the teeth: as a person sees it, and sound for every pair, zoom, angle, size and
-//! terminal.
+//! The teeth pane: snapshots, keys, and properties over pairs, zooms, angles, sizes and terminals.
 #![allow(
     clippy::expect_used,
     clippy::panic,
@@ -159,7 +158,7 @@ fn no_corner_contact_shows_the_flanks_apart() {
 }
 
 #[test]
-fn coarser_but_right_without_braille_and_without_unicode() {
+fn other_markers_and_ascii_draw_the_same_picture() {
     let table_1 = solved("zhou-chen-2014.toml");
     let view = TeethView::default();
     let plain = picture(&table_1, &view, 1.5);
@@ -178,7 +177,7 @@ fn coarser_but_right_without_braille_and_without_unicode() {
 }
 
 #[test]
-fn the_cursor_turns_the_gears_and_its_values_are_the_solutions() {
+fn the_cursor_turns_the_gears_and_shows_the_values_of_the_solution() {
     let table_1 = solved("zhou-chen-2014.toml");
     let view = TeethView::default();
     let at_d = screen(&picture(&table_1, &view, 1.0), (140, 30));
@@ -216,7 +215,7 @@ fn the_cursor_turns_the_gears_and_its_values_are_the_solutions() {
 }
 
 #[test]
-fn the_methods_that_share_the_load_show_their_own_first_contact_and_force() {
+fn static_and_dynamic_show_their_own_first_contact_and_force() {
     for (method, told) in [
         (Method::Static, ["F ", "x "]),
         (Method::Dynamic, ["t ", "F/ΣF "]),
@@ -260,7 +259,7 @@ fn the_methods_that_share_the_load_show_their_own_first_contact_and_force() {
 }
 
 #[test]
-fn the_factor_is_told_and_falls_to_one() {
+fn the_factor_is_shown_and_decreases_to_one() {
     let table_1 = solved("zhou-chen-2014.toml");
     let shown = |view: TeethView| screen(&picture(&table_1, &view, 1.2), (100, 30));
     assert!(shown(TeethView::default()).contains("gap x20"));
@@ -271,7 +270,7 @@ fn the_factor_is_told_and_falls_to_one() {
             ..TeethView::default()
         })
         .contains("gap x1"),
-        "close up the gap is seen as it is"
+        "a large gap is drawn true to scale"
     );
     let far = screen(&picture(&table_1, &TeethView::default(), 3.0), (100, 30));
     let factor: f64 = far
@@ -295,7 +294,7 @@ fn the_factor_is_told_and_falls_to_one() {
 }
 
 #[test]
-fn zoom_ends_at_the_whole_pair_and_at_the_micrometre() {
+fn zoom_ends_at_the_whole_pair_and_at_a_micrometre() {
     let (inputs, solution) = solved("zhou-chen-2014.toml");
     for centre in [Centre::Strike, Centre::PitchPoint, Centre::Pair] {
         let view = TeethView {
@@ -316,7 +315,7 @@ fn zoom_ends_at_the_whole_pair_and_at_the_micrometre() {
 }
 
 #[test]
-fn keys_change_what_is_in_sight_and_zero_brings_it_back() {
+fn keys_change_the_view_and_0_resets_it() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc", "4"]);
     let at_first = desk.screen();
@@ -340,20 +339,20 @@ fn keys_change_what_is_in_sight_and_zero_brings_it_back() {
     assert_eq!(desk.screen(), at_first);
     desk.keys(&["-"; 12]);
     assert!(
-        desk.shows("this is all of it") && desk.shows("O1"),
+        desk.shows("the teeth pane shows the whole pair") && desk.shows("O1"),
         "{}",
         desk.screen()
     );
     desk.keys(&["+"; 40]);
     assert!(
-        desk.shows("this is the closest") && desk.shows("um "),
+        desk.shows("closest zoom") && desk.shows("um "),
         "{}",
         desk.screen()
     );
 }
 
 #[test]
-fn the_approach_plays_from_before_d_until_the_tip_touches_and_on_to_e() {
+fn a_run_starts_before_d_and_ends_at_e() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "4", "z", "Space"]);
     assert!(desk.ticks && !desk.shows("open 0 um"), "{}", desk.screen());
@@ -378,7 +377,7 @@ fn the_approach_plays_from_before_d_until_the_tip_touches_and_on_to_e() {
     );
     assert!(
         screens.windows(2).all(|pair| pair[0] != pair[1]),
-        "a picture stands still"
+        "a picture repeats"
     );
     assert!(desk.app.cursor == Some(0.0) && desk.shows("θ_1 0 deg"));
 }
@@ -395,7 +394,7 @@ fn the_pane_on_the_screen() {
     assert_snapshot!("pane_80x24", desk.screen());
 }
 
-/// Solved pairs of the whole envelope, some with the load shared.
+/// Solved pairs of the whole envelope, some by static.
 fn some_pairs(count: u64) -> impl Iterator<Item = (Inputs, Solution, Random)> {
     (0..count).filter_map(|number| {
         let mut random = Random::new(number + 1);
@@ -462,14 +461,14 @@ fn any_cursor(solution: &Solution, random: &mut Random) -> Option<f64> {
     ])
 }
 
-/// Strokes that a picture of that size may cost: what its edges and area have dots for, and not
-/// what the gears have teeth.
+/// The greatest number of strokes of a picture of a given size. It depends on the dots along the
+/// edges and in the area, not on the number of teeth.
 fn most_strokes(size: Size) -> usize {
     300 + 16 * usize::from(size.width + 2 * size.height)
 }
 
 #[test]
-fn no_pair_zoom_angle_or_size_troubles_the_picture() {
+fn every_pair_zoom_angle_and_size_gives_a_valid_picture() {
     const WIDTHS: [u16; 10] = [0, 1, 2, 5, 11, 20, 40, 80, 140, 200];
     const HEIGHTS: [u16; 10] = [0, 1, 2, 3, 5, 8, 16, 24, 45, 60];
     let (mut drawn_pairs, mut most) = (0, (0.0, String::new()));
@@ -518,7 +517,7 @@ fn no_pair_zoom_angle_or_size_troubles_the_picture() {
     assert!(drawn_pairs > 4_000, "only {drawn_pairs}");
 }
 
-/// Every stroke is a number and in sight, and no word lies over another; the share of the allowed
+/// Every stroke is finite and visible, and no two words overlap. Returns the share of the allowed
 /// strokes.
 fn examine(picture: &Picture, size: Size, told: &dyn Fn() -> String) -> f64 {
     let moment = ContactState::at(picture.inputs, picture.solution, picture.angle());
@@ -555,11 +554,11 @@ fn examine(picture: &Picture, size: Size, told: &dyn Fn() -> String) -> f64 {
     share
 }
 
-/// Sizes of the picture alone on the usual terminals, and of the pane beside others.
+/// Sizes of the picture alone on usual terminals, and beside other panes.
 const PLOTS: [(u16, u16); 5] = [(60, 9), (80, 6), (56, 15), (80, 17), (238, 62)];
 
 #[test]
-fn no_word_lies_on_a_line_where_there_is_room() {
+fn words_cover_no_line_where_there_is_room() {
     let (mut words_in_all, mut covering) = (0, Vec::new());
     for case in fs::read_dir("cases")
         .unwrap()
@@ -589,7 +588,7 @@ fn no_word_lies_on_a_line_where_there_is_room() {
                     teeth::raster::draw(&scene, &picture, area, &mut buffer);
                     let drawn = buffer.clone();
                     let words = Labels::new(area).draw(&scene, &picture, &mut buffer);
-                    // The second one is the scale bar itself.
+                    // The second rectangle is the scale bar.
                     for word in words
                         .iter()
                         .enumerate()
@@ -624,9 +623,9 @@ fn no_word_lies_on_a_line_where_there_is_room() {
     );
 }
 
-/// Wall time only tells; what gates is the number of strokes above.
+/// Prints the wall time. The test of the strokes is the limit.
 #[test]
-fn the_cost_of_a_picture() {
+fn a_picture_has_few_strokes() {
     for (case, centre) in [
         ("zhou-chen-2014.toml", Centre::Strike),
         ("zhou-chen-2014.toml", Centre::Pair),

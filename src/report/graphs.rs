@@ -1,29 +1,29 @@
-//! The one table of charts: which columns of the stations are drawn in one, and what it is called.
+//! The table of charts: the name of each chart and its columns of the stations.
 
 use super::stations::{self, COLUMNS, Column, Row};
 use crate::model::Solution;
 use crate::model::inputs::Method;
 
-/// A chart over the roll angle. Where methods differ in how they call a value, all its columns are
-/// drawn in one.
+/// A chart over the roll angle. Columns of different methods share a chart if they are the same
+/// value.
 #[derive(Debug, Clone, Copy)]
 pub struct Graph {
-    /// The name in settings and palette.
+    /// The key in the settings.
     pub key: &'static str,
-    /// The name in words.
+    /// The name.
     pub label: &'static str,
-    /// Keys of the columns, of which each method has one or none.
+    /// Keys of the columns; each method has at most one of them.
     pub columns: &'static [&'static str],
-    /// What the value is held against, and its symbol.
+    /// The value that the curve is compared with.
     pub bound: Option<Bound>,
 }
 
-/// What a value is held against.
+/// A value that a curve is compared with.
 #[derive(Debug, Clone, Copy)]
 pub struct Bound {
-    /// Its symbol in the methods `paper` and `exact`, and in those that share the load.
+    /// The symbol in `paper` and `exact`, and in `static` and `dynamic`.
     pub symbols: [&'static str; 2],
-    /// Its value at a station, in SI.
+    /// The value at a station, in SI.
     pub value: fn(&Solution, Row) -> Option<f64>,
 }
 
@@ -38,7 +38,7 @@ macro_rules! graph {
     };
 }
 
-/// The tip touches where the gap is Δ; the pair carries where it is closed by more than the gap.
+/// The tip touches at the gap Δ; a pair carries load if it is closed by more than the gap.
 const CLOSED: Bound = Bound {
     symbols: ["Δ", "x+Δf_0"],
     value: |solution, row| match row {
@@ -47,7 +47,7 @@ const CLOSED: Bound = Bound {
     },
 };
 
-/// Every chart, the most asked for first.
+/// Every chart, the most important first.
 #[rustfmt::skip]
 pub static GRAPHS: [Graph; 9] = [
     graph!("force", "Force", ["impact_force", "force"], None),
@@ -62,13 +62,13 @@ pub static GRAPHS: [Graph; 9] = [
 ];
 
 impl Graph {
-    /// The column that a method has.
+    /// The column of a method.
     #[must_use]
     pub fn column(&self, method: Method) -> Option<&'static Column> {
         stations::columns(method).find(|column| self.columns.contains(&column.key))
     }
 
-    /// Its columns.
+    /// The columns of every method.
     pub fn all_columns(&self) -> impl Iterator<Item = &'static Column> {
         let keys = self.columns;
         COLUMNS
@@ -76,7 +76,7 @@ impl Graph {
             .filter(move |column| keys.contains(&column.key))
     }
 
-    /// The methods that have a curve.
+    /// The methods with a curve.
     pub fn methods(&self) -> impl Iterator<Item = Method> {
         Method::ALL
             .into_iter()

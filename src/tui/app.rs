@@ -45,18 +45,17 @@ pub struct App {
     pub is_pinning: bool,
     /// Whether the results tell what they took.
     pub shows_cost: bool,
-    /// The driver's roll angle before E that chart and teeth point at, in rad; negative after E.
+    /// The cursor of charts and teeth: the driver's roll angle before E, in rad, negative after E.
     pub cursor: Option<f64>,
-    /// What of the teeth is in sight.
+    /// The view of the teeth pane.
     pub teeth: TeethView,
-    /// What of the roll angle is in sight in the charts.
+    /// The visible roll angles of the charts.
     pub chart: ChartView,
-    /// The chart, by its place in the table; until the workbench is left.
+    /// The chosen chart, as an index of the table.
     pub graph: usize,
-    /// Whether the charts tell the time after E in place of the roll angle before it; until the
-    /// workbench is left.
+    /// Whether the x axis of the charts is the time after E.
     pub by_time: bool,
-    /// Whether the cursor runs by itself.
+    /// Whether the run plays.
     pub is_playing: bool,
     /// Long work that goes on.
     pub progress: Option<Progress>,

@@ -1,84 +1,83 @@
-//! The chart's axes: round ends that stay until a curve leaves them, and ticks at multiples of 1, 2
-//! or 5.
+//! Axis ranges of the charts: round ends that stay until a curve leaves them, and ticks at
+//! multiples of 1, 2 or 5.
 
 use crate::report::graphs::GRAPHS;
 
 /// Ends of an axis that begins at 0, times a power of ten.
 const ENDS: [f64; 9] = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
-/// So many more intervals always give two ticks.
+/// With this many more intervals an axis always has two ticks.
 const CLOSER: u16 = 4;
 /// Steps from tick to tick, times a power of ten.
 const STEPS: [f64; 4] = [1.0, 2.0, 5.0, 10.0];
 
-/// Below this part of the axis the curve is too small, and the axis shrinks. An end is at most 1.5
-/// times the one before, so that a curve that has just left its axis fills two thirds of the next.
+/// The axis shrinks if the curve fills a smaller part of it. An end is at most 1.5 times the end
+/// before it, so a curve that has just left its axis fills two thirds of the next axis.
 const TOO_SMALL: f64 = 0.5;
 
-/// Values whose least is above this part of the greatest are drawn without 0.
+/// The axis leaves out 0 if the least value exceeds this part of the greatest value.
 const FAR_FROM_ZERO: f64 = 0.5;
 
-/// What is less than this part of the rest is 0 but for rounding.
+/// A smaller part of the greatest value is 0 except for rounding.
 const NOTHING: f64 = 1e-9;
 
-/// Values that differ by less than this part of themselves are drawn with 0: no label could tell
-/// them apart.
+/// The axis includes 0 if the values differ by a smaller part, too small for the labels to show.
 const ALIKE: f64 = 1e-3;
 
-/// A stretch of an axis.
+/// A range of values.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Span {
-    /// Where it begins.
+    /// The lower end.
     pub from: f64,
-    /// Where it ends, not before.
+    /// The upper end.
     pub to: f64,
 }
 
 /// The axes of the charts.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Scale {
-    /// Roll angle of the driver after E, in deg, below 0 before it: the whole way of the contact.
+    /// The driver's roll angle over the whole contact, in deg after E, negative before E.
     pub across: Span,
-    /// The same, from D to a little after E.
+    /// The driver's roll angle from D to a little after E, in the same unit.
     pub strike: Span,
-    /// Values of each chart, in the unit that it is read in.
+    /// The values of each chart, in its display unit.
     pub upright: [Span; GRAPHS.len()],
 }
 
 /// Ticks of an axis.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Ticks {
-    /// Where they stand, with their labels.
+    /// The values of the ticks, with their labels.
     pub labelled: Vec<(f64, String)>,
-    /// The labels are to be taken times ten to this power.
+    /// The labels are multiples of ten to this power.
     pub power: i32,
 }
 
 impl Span {
-    /// A stretch that holds nothing.
+    /// The empty range.
     pub const NONE: Span = Span {
         from: f64::INFINITY,
         to: f64::NEG_INFINITY,
     };
 
-    /// From where to where.
+    /// The range between two ends.
     #[must_use]
     pub fn new(from: f64, to: f64) -> Span {
         Span { from, to }
     }
 
-    /// Its length.
+    /// The length.
     #[must_use]
     pub fn length(self) -> f64 {
         self.to - self.from
     }
 
-    /// Whether it holds nothing, or a single point.
+    /// Whether the range is empty or a single point.
     #[must_use]
     pub fn is_empty(self) -> bool {
         self.length().is_nan() || self.length() <= 0.0
     }
 
-    /// The stretch and one point more.
+    /// The range extended to a point.
     #[must_use]
     pub fn with(self, value: f64) -> Span {
         Span {
@@ -87,7 +86,7 @@ impl Span {
         }
     }
 
-    /// The stretch that holds both.
+    /// The range that covers both.
     #[must_use]
     pub fn and(self, other: Span) -> Span {
         Span {
@@ -96,13 +95,13 @@ impl Span {
         }
     }
 
-    /// Whether the other lies within.
+    /// Whether the range contains the other.
     #[must_use]
     pub fn covers(self, other: Span) -> bool {
         self.from <= other.from && other.to <= self.to
     }
 
-    /// How far along a value stands, 0 at the beginning and 1 at the end.
+    /// The position of a value, 0 at the lower end and 1 at the upper end.
     #[must_use]
     pub fn part(self, value: f64) -> f64 {
         if self.is_empty() {
@@ -112,7 +111,7 @@ impl Span {
         }
     }
 
-    /// The stretch moved as little as brings it into the other, which is longer.
+    /// The range, shifted into a longer one.
     #[must_use]
     pub fn within(self, other: Span) -> Span {
         let from = self.from.min(other.to - self.length()).max(other.from);
@@ -122,7 +121,7 @@ impl Span {
         }
     }
 
-    /// An axis with a place for all of these values: this one as long as it serves.
+    /// An axis that covers the values. Keeps this axis while it serves.
     #[must_use]
     pub fn fitted(self, values: Span) -> Span {
         if !(values.from.is_finite() && values.to.is_finite()) {
@@ -144,15 +143,14 @@ impl Span {
         }
     }
 
-    /// An axis with a place for all of these values, whatever this one is; this one where there are
-    /// none.
+    /// A new axis that covers the values, or this axis if there are no values.
     #[must_use]
     pub fn anew(self, values: Span) -> Span {
         let fitted = Span::default().fitted(values);
         if fitted.is_empty() { self } else { fitted }
     }
 
-    /// The same, but never a shorter one.
+    /// An axis that covers the values and never shrinks.
     #[must_use]
     pub fn grown(self, values: Span) -> Span {
         if self.covers(values) && !self.is_empty() {
@@ -162,8 +160,7 @@ impl Span {
         }
     }
 
-    /// Ticks at multiples of the least step of 1, 2 or 5 that gives no more intervals than this;
-    /// but never less than two ticks, without which an axis has no scale.
+    /// Ticks at multiples of 1, 2 or 5, with at most `most` intervals but at least two ticks.
     #[must_use]
     pub fn ticks(self, most: u16) -> Ticks {
         let greatest = self.from.abs().max(self.to.abs());
@@ -200,7 +197,7 @@ impl Span {
     }
 }
 
-/// Bounds that a chart can bear: finite, the lesser first, never equal.
+/// Valid bounds of a canvas: finite, in order, never equal.
 #[must_use]
 pub fn bounds(from: f64, to: f64) -> [f64; 2] {
     let sound = |value: f64| {
@@ -215,7 +212,7 @@ pub fn bounds(from: f64, to: f64) -> [f64; 2] {
     [from - pad, to + pad]
 }
 
-// Values far from 0 stand for themselves; others are seen from 0.
+// Extends the values to 0 unless they are far from it.
 fn with_zero(values: Span) -> Span {
     let least = values.from.abs().min(values.to.abs());
     let greatest = values.from.abs().max(values.to.abs());
@@ -232,7 +229,7 @@ fn with_zero(values: Span) -> Span {
     if apart { values } else { values.with(0.0) }
 }
 
-// From 0 to a round end, or between multiples of a tick's step.
+// Rounds the ends: from 0 to a round end, or to multiples of a step.
 fn rounded(values: Span) -> Span {
     let end = |value: f64| round_up(value, &ENDS);
     match (values.from, values.to) {
@@ -248,8 +245,7 @@ fn rounded(values: Span) -> Span {
     }
 }
 
-// The least of the round numbers that is not below the value; the smallest that is drawn where the
-// value is less.
+// The least round number that is not below the value, at least `LEAST`.
 fn round_up(value: f64, round: &[f64]) -> f64 {
     const LEAST: f64 = 1e-30;
     if !value.is_normal() || value < LEAST {
@@ -262,8 +258,7 @@ fn round_up(value: f64, round: &[f64]) -> f64 {
     step.unwrap_or(&10.0) * power
 }
 
-// Labels of up to five digits before the point stand as they are, others in thousands or
-// thousandths and so on.
+// The power of ten of the labels: 0 for up to five digits before the point, else a multiple of 3.
 fn power(greatest: f64) -> i32 {
     if (0.01..1e5).contains(&greatest) {
         0
@@ -298,7 +293,7 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_that_changes_its_sign_has_both_sides_and_one_far_from_zero_stands_for_itself() {
+    fn an_axis_has_both_signs_if_the_curve_has_and_leaves_out_a_distant_zero() {
         assert_eq!(
             Span::default().fitted(Span::new(-1.366, 24.6)),
             Span::new(-2.0, 26.0)
@@ -321,7 +316,7 @@ mod tests {
     }
 
     #[test]
-    fn bounds_are_always_bearable() {
+    fn bounds_are_always_valid() {
         let hostile = [
             f64::NAN,
             f64::INFINITY,

@@ -4,7 +4,7 @@ use super::scale::{Scale, Span};
 use crate::case::units::System;
 use crate::model::inputs::Method;
 
-/// Each zoom step is √2; the last step shows a thousandth of the frame.
+/// The last zoom step in. Each step is √2, and the last step shows a thousandth of the frame.
 const LAST_STEP_IN: i32 = 20;
 /// Distance from the edge, as a part of the visible range, of a cursor that had left the range.
 /// Without it the charts would scroll with every step of the cursor.

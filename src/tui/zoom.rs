@@ -1,42 +1,43 @@
-//! What of the plane is in sight, and how far the gap is exaggerated: the state of the picture.
+//! The view of the teeth pane: centre, zoom, and exaggeration of the gap.
 
 use crate::model::contact_state::{Phase, first_contact_point};
 use crate::model::gear_pose::on_line_of_action;
 use crate::model::{ContactState, Geometry, Inputs, Solution};
 
-/// Before any zoom the picture around the strike is this many modules high, and this many times the
-/// way from D to E.
+/// The least height of the picture around the strike without zoom, in modules and in distances from
+/// D to E.
 const STRIKE: (f64, f64) = (3.4, 4.0);
-/// The picture around the pitch point is this many times the way from there to the further end of
-/// the path of contact.
+/// The height of the picture around the pitch point, in distances to the further end of the path of
+/// contact.
 const PATH: f64 = 2.4;
-/// Each step of the zoom is √2. The last step in shows some micrometres of an ordinary gear.
+/// The last zoom step in. Each step is √2, and the last step shows some micrometres of a usual
+/// gear.
 const LAST_STEP_IN: i32 = 20;
-/// No case needs so many steps out: two gears of 1000 teeth.
+/// The last zoom step out, enough for two gears of 1000 teeth.
 const LAST_STEP_OUT: i32 = -24;
-/// The deviation exaggerated has this share of the picture's height, and at most this many modules.
+/// The exaggerated deviation, as a share of the picture's height, and at most in modules.
 const SHARE: f64 = 0.1;
 const MOST_DEVIATION: f64 = 0.2;
-/// The opening exaggerated has at most this many modules.
+/// The greatest exaggerated opening, in modules.
 const MOST_OPENING: f64 = 0.3;
-/// The greatest factor.
+/// The greatest exaggeration.
 const MOST_FACTOR: f64 = 1000.0;
 
-/// What of the plane is in sight.
+/// The view of the teeth pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TeethView {
-    /// What stands in the middle.
+    /// The centre.
     pub centre: Centre,
-    /// Steps of √2, in above 0 and out below.
+    /// Zoom steps of √2: in above 0, out below.
     pub zoom: i32,
     /// Whether the gap is exaggerated.
     pub exaggeration: Exaggeration,
 }
 
-/// What stands in the middle of the picture.
+/// The centre of the picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Centre {
-    /// D, or E where no tooth strikes.
+    /// D, or E without corner contact.
     #[default]
     Strike,
     /// The pitch point.
@@ -48,17 +49,17 @@ pub enum Centre {
 /// Whether the gap is exaggerated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Exaggeration {
-    /// As far as it takes to see it.
+    /// By a factor that makes the gap visible.
     #[default]
     Fitted,
-    /// Not at all.
+    /// True to scale.
     True,
 }
 
 impl Centre {
     const ALL: [Centre; 3] = [Centre::Strike, Centre::PitchPoint, Centre::Pair];
 
-    /// The one so many places further, round and round.
+    /// The centre `by` places further, wrapping around.
     #[must_use]
     pub fn beside(self, by: isize) -> Centre {
         let count = Centre::ALL.len();
@@ -77,8 +78,7 @@ impl Centre {
 }
 
 impl TeethView {
-    /// The view some steps closer, or farther below 0; not beyond the whole pair, nor so close that
-    /// nothing is left to see.
+    /// The view zoomed in by `steps`, or out if negative, at most to the whole pair.
     #[must_use]
     pub fn zoomed(self, steps: i32, inputs: &Inputs, solution: &Solution) -> TeethView {
         let unzoomed = TeethView { zoom: 0, ..self }.extent(inputs, solution);
@@ -92,7 +92,7 @@ impl TeethView {
         TeethView { zoom, ..self }
     }
 
-    /// The view around another centre, not zoomed.
+    /// The view around another centre, without zoom.
     #[must_use]
     pub fn centred_beside(self, by: isize) -> TeethView {
         TeethView {
@@ -102,7 +102,7 @@ impl TeethView {
         }
     }
 
-    /// The view with the gap exaggerated, or no longer.
+    /// The view with the exaggeration of the gap switched.
     #[must_use]
     pub fn exaggerated_or_not(self) -> TeethView {
         let exaggeration = match self.exaggeration {
@@ -115,7 +115,7 @@ impl TeethView {
         }
     }
 
-    /// Length that the lesser side of the picture spans, in m.
+    /// The length of the lesser side of the picture, in m.
     #[must_use]
     pub fn extent(&self, inputs: &Inputs, solution: &Solution) -> f64 {
         let geometry = &solution.geometry;
@@ -139,11 +139,10 @@ impl TeethView {
         unzoomed * 2f64.powf(-0.5 * f64::from(steps))
     }
 
-    /// How many times as wide as it is the opening is drawn. 1 where that is to be seen anyhow.
+    /// The exaggeration of the opening, 1 if the opening is visible true to scale.
     ///
-    /// The factor is a round number that makes the deviation up to 10 % of the picture's height.
-    /// Far from the flank it falls, so that the struck tooth keeps to its place. After B nothing is
-    /// exaggerated.
+    /// The factor is a round number that makes the deviation at most 10 % of the picture's height.
+    /// It decreases far from the flank, so that the struck tooth keeps its place, and is 1 after B.
     #[must_use]
     pub fn factor(&self, inputs: &Inputs, solution: &Solution, moment: &ContactState) -> f64 {
         if self.exaggeration == Exaggeration::True || moment.phase == Phase::RunOut {
@@ -157,7 +156,7 @@ impl TeethView {
     }
 }
 
-/// Height and width of the whole pair with a margin, in m.
+/// The height and width of the whole pair with a margin, in m.
 #[must_use]
 pub fn whole(geometry: &Geometry) -> (f64, f64) {
     const MARGIN: f64 = 1.04;
@@ -168,8 +167,7 @@ pub fn whole(geometry: &Geometry) -> (f64, f64) {
     )
 }
 
-/// The greatest of 1, 2, 5, 10, 20 .. that is not above the value, for any power of ten; 1 where
-/// there is none.
+/// The greatest of 1, 2, 5 times a power of ten that is not above the value; 1 if there is none.
 #[must_use]
 pub fn round_down(value: f64) -> f64 {
     if !(value.is_finite() && value > 0.0) {

@@ -1,11 +1,11 @@
-//! The charts: which one, how much of the roll angle, and what it is told in.
+//! The commands of the chart pane: the chart, the visible range, and the x axis.
 
 use crate::report::graphs::GRAPHS;
 use crate::tui::app::App;
 use crate::tui::view::chart::{first_contact, fitted, occasion};
 use crate::tui::window::{ChartView, Frame};
 
-/// The chart so many places further, round and round.
+/// Selects the chart `by` places further, wrapping around.
 pub(super) fn step(app: &mut App, by: isize) {
     choose(
         app,
@@ -13,22 +13,22 @@ pub(super) fn step(app: &mut App, by: isize) {
     );
 }
 
-/// The chart at that place of the table.
+/// Selects the chart at an index of the table.
 pub(super) fn choose(app: &mut App, graph: usize) {
     app.graph = graph.min(GRAPHS.len() - 1);
 }
 
-/// The time after E in place of the roll angle before it, or back.
+/// Switches the x axis between roll angle and time.
 pub(super) fn time_or_angle(app: &mut App) {
     app.by_time = !app.by_time;
     app.say(if app.by_time {
-        "the charts tell the time after E"
+        "x axis: time after E"
     } else {
-        "the charts tell the roll angle before E"
+        "x axis: driver roll angle before E"
     });
 }
 
-/// Some steps closer around the cursor, or around D without one; farther below 0.
+/// Zooms in by `steps` around the cursor, or around D without a cursor; out if negative.
 pub(super) fn zoom(app: &mut App, steps: i32) {
     let start = app
         .answer
@@ -38,21 +38,21 @@ pub(super) fn zoom(app: &mut App, steps: i32) {
     let view = app.chart.zoomed(steps, around, &app.scale);
     if view == app.chart {
         app.say(if steps > 0 {
-            "this is the closest"
+            "closest zoom"
         } else {
-            "this is all of it"
+            "the charts show the whole contact"
         });
     }
     app.chart = view;
 }
 
-/// All of the roll angle.
+/// Shows the whole contact.
 pub(super) fn whole(app: &mut App) {
     app.chart = ChartView::whole();
     app.say("the charts show the whole contact");
 }
 
-/// From D to a little after E, or all of it.
+/// Switches between the strike and the whole contact.
 pub(super) fn strike_or_whole(app: &mut App) {
     app.chart = app.chart.strike_or_whole(&app.scale);
     app.say(match app.chart.frame {
@@ -62,7 +62,7 @@ pub(super) fn strike_or_whole(app: &mut App) {
     });
 }
 
-/// Fit the axes to the curves in sight.
+/// Fits the axes to the visible curves.
 pub(super) fn fit(app: &mut App) {
     let mut occasion = occasion(app);
     let anew = occasion.since(app.tab.fitted);
@@ -72,7 +72,7 @@ pub(super) fn fit(app: &mut App) {
     }
 }
 
-/// A cursor that moved is brought in sight.
+/// Scrolls to a cursor that moved.
 pub(super) fn follow_cursor(app: &mut App, cursor_before: Option<f64>) {
     if let Some(cursor) = app.cursor.filter(|_| app.cursor != cursor_before) {
         app.chart = app.chart.following(0.0 - cursor.to_degrees(), &app.scale);

@@ -1,5 +1,4 @@
-//! The cursor in the driver's roll angle that chart and teeth share: how it goes by keys and by
-//! itself.
+//! The cursor on the driver's roll angle, shared by charts and teeth: keys, prompt and run.
 
 use super::panes;
 use crate::tui::actions::Effect;
@@ -11,40 +10,39 @@ use crate::tui::prompt::Prompt;
 use crate::tui::view::chart::{self, first_contact};
 use crate::tui::view::cursor_range::{cursor_range, parse_cursor, solution};
 
-/// Move by columns towards E.
+/// Moves the cursor by columns towards E.
 pub(super) fn step(app: &mut App, columns: i16) -> Vec<Effect> {
     match cursor_range(app) {
         Some(reach) => app.cursor = Some(reach.moved(app.cursor, columns)),
-        None => app.complain("no valid results to point at"),
+        None => app.complain("no valid results for a cursor"),
     }
     stop(app)
 }
 
-/// To the first contact.
+/// Moves the cursor to the first contact.
 pub(super) fn to_start(app: &mut App) -> Vec<Effect> {
     match solution(app).and_then(first_contact) {
         Some(angle) => app.cursor = Some(angle),
-        None => app.complain("no corner contact: there is no D"),
+        None => app.complain("no corner contact, so no D"),
     }
     stop(app)
 }
 
-/// Ask for an angle, a time or a place.
+/// Asks for an angle, a time or a point.
 pub(super) fn ask(app: &mut App) {
     if cursor_range(app).is_some() {
         app.prompts.push(Prompt::Aim(Line::default()));
     } else {
-        app.complain("no valid results to point at");
+        app.complain("no valid results for a cursor");
     }
 }
 
-/// To the angle that is typed, where there is such a one; a chart comes into sight where neither it
-/// nor the teeth are.
+/// Moves the cursor to the typed angle. Shows the chart if neither charts nor teeth are visible.
 pub(super) fn take_aim(app: &mut App, typed: &str) -> Vec<Effect> {
     match parse_cursor(app, typed) {
         Err(reason) => {
             app.complain(reason);
-            // What is typed next is meant anew.
+            // Typing replaces the wrong text.
             if let Some(Prompt::Aim(line)) = app.prompts.last_mut() {
                 line.select_all();
             }
@@ -62,19 +60,19 @@ pub(super) fn take_aim(app: &mut App, typed: &str) -> Vec<Effect> {
     stop(app)
 }
 
-/// To E.
+/// Moves the cursor to E.
 pub(super) fn to_end(app: &mut App) -> Vec<Effect> {
     app.cursor = Some(0.0);
     stop(app)
 }
 
-/// Start or stop the run; from its end it starts again.
+/// Starts or stops the run. At its end the run starts again.
 pub(super) fn play(app: &mut App) -> Vec<Effect> {
     if app.is_playing {
         return stop(app);
     }
     let Some(reach) = cursor_range(app).filter(|reach| reach.run_from > reach.run_to) else {
-        app.complain("no corner contact: nothing to play");
+        app.complain("no corner contact, so nothing to play");
         return Vec::new();
     };
     if app
@@ -87,7 +85,7 @@ pub(super) fn play(app: &mut App) -> Vec<Effect> {
     vec![Effect::Play(true)]
 }
 
-/// The next picture.
+/// Moves to the next picture of the run.
 pub(super) fn tick(app: &mut App) -> Vec<Effect> {
     if !app.is_playing {
         return vec![Effect::Play(false)];
@@ -104,7 +102,7 @@ pub(super) fn tick(app: &mut App) -> Vec<Effect> {
     }
 }
 
-/// Stop what plays.
+/// Stops the run.
 pub(super) fn stop(app: &mut App) -> Vec<Effect> {
     if std::mem::take(&mut app.is_playing) {
         vec![Effect::Play(false)]

@@ -1,5 +1,5 @@
-//! The charts: what the stations tell over the driver's roll angle, the chosen one and as many
-//! others as have room.
+//! The charts of the station values over the driver's roll angle: the chosen chart, and others
+//! below it where they have room.
 
 pub mod axes;
 pub mod curves;
@@ -32,15 +32,15 @@ use legend::Legend;
 pub use curves::{first_contact, last_contact};
 pub use readout::readout;
 
-/// Rows that another chart below the chosen one asks for, and the most charts.
+/// The least rows of each chart, and the greatest number of charts.
 const ROWS: u16 = 16;
 const MOST: u16 = 3;
-/// Columns of the plot on a terminal of 80.
+/// Columns of the plot on a terminal of 80 columns.
 const USUAL_COLUMNS: u16 = 71;
-/// After E the strike goes on for this part of the way from D to E.
+/// The part of the approach that the strike shows after E.
 const AFTER_E: f64 = 0.5;
 
-/// What the axes are to fit now.
+/// The state that the axes depend on.
 #[must_use]
 pub fn occasion(app: &App) -> Occasion {
     Occasion {
@@ -98,8 +98,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// How many columns stand for the roll angles in sight: those of the chart, else those of a usual
-/// one.
+/// The columns of the visible chart, or of a usual chart if none is visible.
 #[must_use]
 pub fn columns(app: &App) -> u16 {
     let columns = panels(app, plan(app.size, app.panes).chart)
@@ -108,7 +107,7 @@ pub fn columns(app: &App) -> u16 {
     if columns > 1 { columns } else { USUAL_COLUMNS }
 }
 
-/// The driver's roll angle before E on a cell of a plot, in rad.
+/// The driver's roll angle before E at a cell of a plot, in rad.
 #[must_use]
 pub fn angle_at(app: &App, area: Rect, at: Position) -> Option<f64> {
     let panels = panels(app, area);
@@ -116,7 +115,7 @@ pub fn angle_at(app: &App, area: Rect, at: Position) -> Option<f64> {
     Some(0.0 - axes.angle(at.x).to_radians()).filter(|angle| angle.is_finite())
 }
 
-/// The axes on which every curve in sight has its place, the present ones where they serve.
+/// Axes that contain every visible curve. Keeps the present axes while they serve.
 #[must_use]
 pub fn fitted(app: &App, anew: Anew) -> Scale {
     let mut scale = app.scale;
@@ -124,7 +123,7 @@ pub fn fitted(app: &App, anew: Anew) -> Scale {
     let Some(answer) = app.answer.as_ref().filter(|_| !area.is_empty()) else {
         return scale;
     };
-    // While a method is to come, its axis waits for it.
+    // The axis never shrinks while a method is still being solved.
     let pinned = app
         .baseline
         .as_ref()
@@ -166,7 +165,7 @@ pub fn fitted(app: &App, anew: Anew) -> Scale {
     scale
 }
 
-/// The charts in sight: the chosen one, and below it the next ones that the active method has.
+/// The visible charts: the chosen chart, and below it the next charts of the active method.
 #[must_use]
 pub fn shown(app: &App, area: Rect) -> Vec<usize> {
     let chosen = app.graph;
@@ -188,7 +187,7 @@ fn count(area: Rect) -> usize {
     }
 }
 
-/// The charts in sight, from top to bottom, each with its axes below its title.
+/// The visible charts from top to bottom, each with its axes below its title.
 fn panels(app: &App, area: Rect) -> Vec<(usize, Axes)> {
     let shown = shown(app, area);
     let Some(answer) = &app.answer else {
@@ -334,10 +333,10 @@ fn unit(unit: &str, power: i32) -> String {
     }
 }
 
-// Why the active method has no curve, where it has none.
+// The reason why the active method has no curve.
 fn missing(app: &App, graph: &Graph, curves: &[Curve]) -> Option<String> {
     let Some(answer) = &app.answer else {
-        return Some("No valid results of this method.".to_owned());
+        return Some("This method has no valid results.".to_owned());
     };
     if curves
         .iter()
@@ -359,7 +358,7 @@ fn missing(app: &App, graph: &Graph, curves: &[Curve]) -> Option<String> {
         ));
     }
     Some(answer.of(active).map_or_else(
-        || "No valid results of this method.".to_owned(),
+        || "This method has no valid results.".to_owned(),
         |solution| nothing(solution, &label),
     ))
 }
@@ -367,7 +366,7 @@ fn missing(app: &App, graph: &Graph, curves: &[Curve]) -> Option<String> {
 fn nothing(solution: &Solution, label: &str) -> String {
     match solution.outcome {
         Outcome::NoCornerContact => format!(
-            "No corner contact: {}, without an impact.",
+            "No corner contact: {}; no impact.",
             without_contact(solution)
         ),
         Outcome::CornerContact => format!("No {label} between D and E; press n for the reason."),

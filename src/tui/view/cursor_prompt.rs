@@ -1,19 +1,19 @@
-//! Where the cursor is to go: a line to type in, and what is meant by it.
+//! The prompt for the cursor: a line of text, and the angle that it means.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
-use super::cursor_range::{HOW, ending, parse_cursor, told};
+use super::cursor_range::{HOW, describe, ending, parse_cursor};
 use super::{boxes, text};
 use crate::tui::app::App;
 use crate::tui::line::Line;
 
-/// Room for the sentence that says how, in two lines.
+/// The width at which the instruction has two lines.
 const WIDTH: u16 = 62;
 
-/// Draw it over the screen; where the cursor stands.
+/// Draws the prompt over the screen. Returns the place of the text cursor.
 pub fn draw(app: &App, input: &Line, screen: Rect, buffer: &mut Buffer) -> Option<Position> {
     let theme = app.look.theme;
     let how = text::wrap(
@@ -29,7 +29,7 @@ pub fn draw(app: &App, input: &Line, screen: Rect, buffer: &mut Buffer) -> Optio
     );
     let (meant, style) = match parse_cursor(app, input.value()) {
         _ if input.value().trim().is_empty() => (String::new(), theme.faint),
-        Ok(angle) => (format!("= {}", told(app, angle)), theme.note),
+        Ok(angle) => (format!("= {}", describe(app, angle)), theme.note),
         Err(reason) => (reason, theme.faint),
     };
     let lines =

@@ -1,4 +1,4 @@
-//! The roll angles at which the cursor may stand, and which of them is meant by what is typed.
+//! The range of the cursor on the roll angle, and the parser of its prompt.
 
 use super::chart::axes::Ruler;
 use super::chart::curves::{Whose, curves};
@@ -10,34 +10,34 @@ use crate::tui::app::App;
 use crate::tui::layout::plan;
 use crate::tui::pane::Pane;
 
-/// How an angle is typed.
-pub const HOW: &str = "An angle before E (1.2 deg, 20 mrad), a time after E (-80 us, 0.1 ms), or a place: D, E, B, L, peak.";
+/// The instruction of the prompt.
+pub const HOW: &str = "Type an angle before E (1.2 deg, 20 mrad), a time after E (-80 us, 0.1 ms) \
+    or a point (D, E, B, L, peak).";
 
-/// Pictures of a run: four seconds at twelve a second.
+/// Pictures of a run: four seconds at twelve pictures a second.
 const PICTURES: f64 = 48.0;
-/// In the teeth a run begins before D, where the tip is still to come: at this many times the angle
-/// from D to E.
+/// The start of a run in the teeth pane, before D, as a multiple of the angle from D to E.
 const APPROACH: f64 = 1.6;
 
-/// Where the cursor may stand, in rad before E.
+/// The range of the cursor, in rad before E.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reach {
-    /// The first contact D, or E where no tooth strikes.
+    /// The first contact D, or E without corner contact.
     pub start: f64,
-    /// Where a run begins.
+    /// The start of a run.
     pub run_from: f64,
-    /// Where it ends: at E, or at the last contact where the method goes on to it.
+    /// The end of a run.
     pub run_to: f64,
     /// The leftmost angle.
     pub most: f64,
     /// The rightmost angle, negative after E.
     pub least: f64,
-    /// What a column stands for.
+    /// The angle per column.
     pub column: f64,
 }
 
 impl Reach {
-    /// The angle so many columns towards E from this one, or from D where there is none yet.
+    /// The angle `columns` closer to E, or D if there is no cursor yet.
     #[must_use]
     pub fn moved(self, cursor: Option<f64>, columns: i16) -> f64 {
         let Some(cursor) = cursor else {
@@ -46,7 +46,7 @@ impl Reach {
         self.held(cursor - f64::from(columns) * self.column)
     }
 
-    /// The next picture of the run, none when its end is reached.
+    /// The next picture of the run. `None` at its end.
     #[must_use]
     pub fn played(self, cursor: f64) -> Option<f64> {
         let next = cursor - (self.run_from - self.run_to) / PICTURES;
@@ -55,7 +55,7 @@ impl Reach {
 
     fn held(self, angle: f64) -> f64 {
         let angle = angle.clamp(self.least, self.most);
-        // E itself can be reached by whole columns, whatever they add up to.
+        // Whole columns meet E exactly.
         if angle.abs() < 1e-9 * self.column {
             0.0
         } else {
@@ -64,13 +64,13 @@ impl Reach {
     }
 }
 
-/// The driver's angle before E that is meant, in rad.
+/// The driver's angle before E that a text means, in rad.
 ///
 /// # Errors
-/// In words, where none is or the cursor cannot stand there.
+/// If the text has no meaning, or the angle is out of range.
 pub fn parse_cursor(app: &App, typed: &str) -> Result<f64, String> {
-    let solution = solution(app).ok_or("no valid results to point at")?;
-    let reach = cursor_range(app).ok_or("no valid results to point at")?;
+    let solution = solution(app).ok_or("no valid results for a cursor")?;
+    let reach = cursor_range(app).ok_or("no valid results for a cursor")?;
     let angle = match place(app, solution, typed.trim()) {
         Some(place) => place?,
         None => measured(app, typed)?,
@@ -79,16 +79,16 @@ pub fn parse_cursor(app: &App, typed: &str) -> Result<f64, String> {
     if (reach.least - slack..=reach.most + slack).contains(&angle) {
         return Ok(reach.held(angle));
     }
-    let ends = [reach.most, reach.least].map(|end| told(app, end));
+    let ends = [reach.most, reach.least].map(|end| describe(app, end));
     Err(format!(
-        "{} is out of sight: the cursor goes from {} to {}",
-        told(app, angle),
+        "{} is out of range: from {} to {}",
+        describe(app, angle),
         ends[0],
         ends[1]
     ))
 }
 
-/// What completes an angle or a time that is typed.
+/// The completion of a typed angle or time.
 #[must_use]
 pub fn ending(app: &App, typed: &str) -> Option<String> {
     let ruler = ruler(app);
@@ -107,9 +107,9 @@ pub fn ending(app: &App, typed: &str) -> Option<String> {
         .filter(|_| endings.next().is_none() && !is_whole)
 }
 
-/// An angle as the cursor tells it, with the time from there to E or back.
+/// An angle in words, with the time between it and E.
 #[must_use]
-pub fn told(app: &App, angle: f64) -> String {
+pub fn describe(app: &App, angle: f64) -> String {
     let speed = app
         .answer
         .as_ref()
@@ -124,24 +124,24 @@ pub fn told(app: &App, angle: f64) -> String {
     format!("{:.4} deg{time} {side} E", angle.abs().to_degrees())
 }
 
-// A place by its name; none where what is typed is no name.
+// A point by its name. `None` if the text is no name.
 fn place(app: &App, solution: &Solution, name: &str) -> Option<Result<f64, String>> {
     let geometry = &solution.geometry;
     let found = |angle: Option<f64>, why: &str| angle.ok_or_else(|| why.to_owned());
     Some(match name.to_lowercase().as_str() {
-        "d" => found(first_contact(solution), "no corner contact: there is no D"),
+        "d" => found(first_contact(solution), "no corner contact, so no D"),
         "e" => Ok(0.0),
         "b" => Ok((geometry.start - geometry.end) / geometry.driver.base),
         "l" => found(
             last_contact(solution),
-            "the last contact L is known to static and dynamic alone",
+            "only static and dynamic compute the last contact L",
         ),
-        "peak" => found(peak(app), "there is no curve in the chart, and so no peak"),
+        "peak" => found(peak(app), "the chart has no curve, so no peak"),
         _ => return None,
     })
 }
 
-// Where the active method's curve in the chosen chart is farthest from 0.
+// The angle at which the active method's curve in the chosen chart is farthest from 0.
 fn peak(app: &App) -> Option<f64> {
     let curves = curves(app, &GRAPHS[app.graph]);
     let own = curves
@@ -155,7 +155,7 @@ fn peak(app: &App) -> Option<f64> {
     Some(0.0 - highest.0.to_radians())
 }
 
-// Angles count before E, times after it, as the axes have them.
+// Angles count before E and times after E, as on the axes.
 fn measured(app: &App, typed: &str) -> Result<f64, String> {
     let whole = [typed, &ending(app, typed).unwrap_or_default()].concat();
     let angle = units::parse(&whole, Dimension::Angle, "deg");
@@ -167,7 +167,7 @@ fn measured(app: &App, typed: &str) -> Result<f64, String> {
     angle.or_else(|_| time()).map_err(
         |_| match units::parse(typed.trim(), Dimension::Number, "") {
             Err(misread) if typed.contains(',') => misread.mend,
-            _ => format!("{} is no angle, time or place", typed.trim()),
+            _ => format!("{} is no angle, time or point", typed.trim()),
         },
     )
 }
@@ -180,9 +180,8 @@ fn ruler(app: &App) -> Ruler {
     Ruler::of(app.by_time, speed, app.chart.window(&app.scale))
 }
 
-// The chart ends where its axis does; the teeth go on until the next pair is where this one was,
-// and come from further.
-/// Where the cursor may stand in the focused pane, or in the one that is in sight.
+/// The range of the cursor in the focused pane, or in the visible pane. In a chart it is the range
+/// of the axis. In the teeth pane it extends to one base pitch after E.
 #[must_use]
 pub fn cursor_range(app: &App) -> Option<Reach> {
     let solution = solution(app)?;

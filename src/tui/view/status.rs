@@ -364,8 +364,9 @@ fn about_limit(app: &App, limit: &Limit) -> String {
 }
 
 fn at_cursor(app: &App) -> String {
-    const NONE: &str = "No cursor: h and l bring it, Space lets it run.";
-    const MARKS: &str = "D first contact, E and B ends of the path of contact, L last contact, d another method's D.";
+    const NONE: &str = "No cursor: h and l place it, Space runs it.";
+    const MARKS: &str =
+        "D first contact, E and B ends of the path of contact, L last contact, d other methods' D.";
     const LINES: &str = "Solid: flanks (incoming pair bold), path of contact; dashed: line of action; dots: base circles, tip's path.";
     match app.cursor {
         Some(cursor) => chart::readout(app, cursor),

@@ -1,4 +1,4 @@
-//! The teeth, drawn: the pair true to scale around the strike, with every value at the cursor.
+//! The teeth pane: the pair true to scale, and the values at the cursor.
 
 pub mod labels;
 pub mod path;
@@ -20,9 +20,9 @@ use crate::tui::pane::Pane;
 
 pub use picture::Picture;
 
-const NOTHING: &str = "  No valid results of this method.";
+const NOTHING: &str = "  This method has no valid results.";
 
-/// Draw the pane.
+/// Draws the pane.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let stale = if app.is_stale() { "LAST VALID, " } else { "" };
     let title = format!(
@@ -47,7 +47,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     picture::draw(&picture, inner, buffer);
 }
 
-/// The pair that the active method has solved last, and what it found.
+/// The pair that the active method solved last, and its results.
 #[must_use]
 pub fn solved(app: &App) -> Option<(&Inputs, &Solution)> {
     let answer = app.answer.as_ref()?;

@@ -1,5 +1,4 @@
-//! The frame of a chart: where its plot stands, ticks with their labels, and the marks of the
-//! contact.
+//! The axes of a chart: the area of the plot, ticks with labels, and the marks of the contact.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
@@ -10,14 +9,14 @@ use crate::model::Solution;
 use crate::tui::app::App;
 use crate::tui::scale::{Span, Ticks};
 
-/// Least columns of the labels beside the plot.
+/// The least columns of the labels beside the plot.
 const LABEL: usize = 6;
-/// A label below the plot has so many columns for itself, and one beside it so many rows.
+/// The least columns between labels below the plot, and the least rows between labels beside it.
 const ROOM: (u16, u16) = (9, 2);
 /// The smallest plot.
 const LEAST_COLUMNS: u16 = 20;
 const LEAST_ROWS: u16 = 2;
-/// In ms from so many us on.
+/// Longer times are in ms, in us.
 const MOST_MICROS: f64 = 5000.0;
 
 /// The direction of time on the axis, the first text that has room.
@@ -37,27 +36,27 @@ pub struct Ruler {
     pub labels: &'static [&'static str],
 }
 
-/// Where a chart stands and what is in sight of it.
+/// The axes of a chart, and its place on the screen.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Axes {
     /// The plot with the axes and their labels.
     pub area: Rect,
     /// The cells of the curves.
     pub plot: Rect,
-    /// Roll angles in sight, in deg after E.
+    /// The visible roll angles, in deg after E.
     pub across: Span,
-    /// Values in sight.
+    /// The visible values.
     pub upright: Span,
-    /// Ticks below, by the ruler.
+    /// Ticks below the plot, in the unit of the ruler.
     pub below: Ticks,
-    /// Ticks beside.
+    /// Ticks beside the plot.
     pub beside: Ticks,
-    /// What the roll angle is told in.
+    /// The quantity on the x axis.
     pub ruler: Ruler,
 }
 
 impl Ruler {
-    /// The driver's angle before E, or the time since E at its speed in rad/s.
+    /// The driver's angle before E, or the time after E at the driver's speed in rad/s.
     #[must_use]
     pub fn of(by_time: bool, speed: f64, window: Span) -> Ruler {
         let micros = 1f64.to_radians() / speed * 1e6;
@@ -92,7 +91,7 @@ impl Ruler {
     }
 }
 
-/// Columns that the labels of some axes of that height need.
+/// The columns of the labels of several axes of the same height.
 #[must_use]
 pub fn margin(uprights: impl Iterator<Item = Span>, height: u16) -> u16 {
     let labels = uprights.flat_map(|span| beside(span, height).labelled);
@@ -109,7 +108,7 @@ fn beside(span: Span, height: u16) -> Ticks {
 }
 
 impl Axes {
-    /// The axes in an area with so many columns for labels; without a plot where there is no room.
+    /// The axes in an area with a margin for labels. The plot is empty if the area is too small.
     #[must_use]
     pub fn new(area: Rect, margin: u16, (across, upright): (Span, Span), ruler: Ruler) -> Axes {
         let (width, height) = (
@@ -228,7 +227,7 @@ impl Axes {
         labels
     }
 
-    /// A faint line at 0 where values have both signs, in cells that are free.
+    /// A faint line at 0 on blank cells, if the values have both signs.
     pub fn draw_zero(&self, app: &App, buffer: &mut Buffer) {
         if self.upright.from < 0.0 && self.upright.to > 0.0 {
             let y = self.row(0.0);
@@ -238,8 +237,8 @@ impl Axes {
         }
     }
 
-    /// The marks of the contact on the axis: where the other methods strike, B and the last contact
-    /// L, E and D.
+    /// The marks of the contact on the axis: D of the other methods, B, the last contact L, E and
+    /// D.
     pub fn draw_marks(&self, app: &App, buffer: &mut Buffer) {
         let Some(answer) = &app.answer else { return };
         let theme = app.look.theme;
@@ -313,7 +312,7 @@ fn marks(solution: &Solution) -> Vec<(f64, &'static str)> {
         .collect()
 }
 
-/// Write into a cell that nothing is drawn in.
+/// Writes into a blank cell.
 pub fn put_where_free(at: (u16, u16), symbol: &str, style: Style, buffer: &mut Buffer) {
     if buffer.cell(at).is_some_and(|cell| cell.symbol() == " ") {
         buffer.set_string(at.0, at.1, symbol, style);

@@ -1,5 +1,5 @@
-//! What stands in a chart: the curve of every method, of the pinned results, and what the values
-//! are held against.
+//! The curves of a chart: every method, the baseline, and the value that the curve is compared
+//! with.
 
 use crate::case::units::{self, System};
 use crate::model::inputs::Method;
@@ -11,43 +11,42 @@ use crate::tui::app::App;
 use crate::tui::scale::Span;
 use crate::tui::solver::Answer;
 
-/// An interval between stations is at most this many times as long as they are asked for; in a
-/// longer one some are left out.
+/// A longer interval between stations, in requested intervals, is a gap in the curve.
 const LEFT_OUT: f64 = 1.5;
 
-/// Curves that differ by no more than this part of what is in sight lie on each other.
+/// Curves coincide if they differ by at most this part of the values.
 const ALIKE: f64 = 2e-3;
 
-/// Whose curve it is.
+/// The source of a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Whose {
-    /// That of the method in force.
+    /// The active method.
     Active(Method),
-    /// That of another method.
+    /// Another method.
     Other(Method),
-    /// That of the pinned results, by the method in force where they have it.
+    /// The baseline, by the active method if the baseline has that method.
     Pinned(Method),
-    /// What the active method's values are held against.
+    /// The value that the active method's curve is compared with.
     Bound(&'static str),
 }
 
-/// A point: the driver's roll angle after E in deg, and the value in the unit that it is read in.
+/// A point: the driver's roll angle after E in deg, and the value in the display unit.
 pub type Point = (f64, f64);
 
-/// A curve, in pieces between which there is nothing.
+/// A curve in pieces, with gaps between them.
 #[derive(Debug, Clone)]
 pub struct Curve {
-    /// Whose it is.
+    /// The source.
     pub whose: Whose,
-    /// The column that it is of.
+    /// The column of the stations.
     pub column: &'static Column,
-    /// The unit in which its values are read.
+    /// The display unit.
     pub unit: &'static str,
-    /// Its points, from D onwards.
+    /// The points from D onwards.
     pub pieces: Vec<Vec<Point>>,
 }
 
-/// Every curve of a chart, the lowest first.
+/// Every curve of a chart in drawing order.
 #[must_use]
 pub fn curves(app: &App, graph: &Graph) -> Vec<Curve> {
     let Some(answer) = &app.answer else {
@@ -77,7 +76,7 @@ pub fn curves(app: &App, graph: &Graph) -> Vec<Curve> {
         .collect()
 }
 
-// A chart, and the units in which it is read.
+// A chart and its display units.
 #[derive(Clone, Copy)]
 struct Drawn<'a> {
     graph: &'a Graph,
@@ -102,7 +101,7 @@ impl Drawn<'_> {
         })
     }
 
-    // None where the method has no such column, or no station.
+    // `None` if the method has no such column or no station.
     fn curve(self, inputs: &Inputs, solution: &Solution, whose: Whose) -> Option<Curve> {
         let column = self.graph.column(solution.method)?;
         self.with(inputs, solution, whose, |row| column.of(row))
@@ -131,7 +130,7 @@ impl Drawn<'_> {
     }
 }
 
-/// The curves without what lies on the active one, where nothing would be seen but specks of it.
+/// The curves without the parts that coincide with the active curve.
 #[must_use]
 pub fn apart(curves: Vec<Curve>) -> Vec<Curve> {
     let Some(own) = curves
@@ -147,20 +146,20 @@ pub fn apart(curves: Vec<Curve>) -> Vec<Curve> {
             .map(Curve::upright)
             .fold(Span::NONE, Span::and)
             .length();
-    let lies_on = |(x, y): Point| own.at(x).is_some_and(|value| (value - y).abs() <= alike);
+    let coincides = |(x, y): Point| own.at(x).is_some_and(|value| (value - y).abs() <= alike);
     let shown = curves.into_iter().map(|curve| match curve.whose {
-        Whose::Other(_) | Whose::Pinned(_) => curve.without(lies_on),
+        Whose::Other(_) | Whose::Pinned(_) => curve.without(coincides),
         Whose::Active(_) | Whose::Bound(_) => curve,
     });
-    // Pinned results stand in the legend even where nothing of them differs.
+    // The legend names the baseline even if its curve coincides.
     shown
         .filter(|curve| matches!(curve.whose, Whose::Pinned(_)) || !curve.pieces.is_empty())
         .collect()
 }
 
 impl Curve {
-    // The points that are not hidden, and those beside them, so that the line leads to where it
-    // goes under.
+    // Keeps the points that are not hidden, and their neighbours, so that the line meets the active
+    // curve.
     fn without(self, is_hidden: impl Fn(Point) -> bool) -> Curve {
         let pieces = self.pieces.iter().flat_map(|piece| {
             let hidden: Vec<bool> = piece.iter().map(|point| is_hidden(*point)).collect();
@@ -198,8 +197,7 @@ impl Curve {
         ends.chain(inside).fold(Span::NONE, Span::with)
     }
 
-    /// Its value at an angle, between the stations on either side; after a jump, where there is
-    /// one.
+    /// The value at an angle, interpolated between stations. At a jump, the value after it.
     #[must_use]
     pub fn at(&self, x: f64) -> Option<f64> {
         self.pieces.iter().find_map(|piece| {
@@ -227,8 +225,8 @@ pub fn first_contact(solution: &Solution) -> Option<f64> {
     contact_state::first_contact(solution).map(|angle| angle * ratio)
 }
 
-/// The driver's angle before E at the last contact, below 0 after E, in rad; in the methods that go
-/// on after E.
+/// The driver's angle before E at the last contact, in rad, negative after E. Only `static` and
+/// `dynamic` have a last contact.
 #[must_use]
 pub fn last_contact(solution: &Solution) -> Option<f64> {
     match rows(solution).last() {
@@ -237,7 +235,7 @@ pub fn last_contact(solution: &Solution) -> Option<f64> {
     }
 }
 
-/// From the first station of any method to the last, in deg after E.
+/// The range from the first station of any method to the last, in deg after E.
 #[must_use]
 pub fn way(answer: &Answer) -> Span {
     answer
@@ -248,7 +246,7 @@ pub fn way(answer: &Answer) -> Span {
         .fold(Span::NONE, Span::and)
 }
 
-/// The same of one method alone, as of pinned results, of which one is drawn.
+/// The range of the stations of one method, in deg after E.
 #[must_use]
 pub fn way_by(answer: &Answer, method: Method) -> Span {
     answer.of(method).map_or(Span::NONE, way_of)
@@ -271,7 +269,7 @@ fn angle(row: Row) -> f64 {
     0.0 - angle.to_degrees()
 }
 
-// Only what is finite reaches a chart; where a station is left out, the line breaks off.
+// Splits the curve at missing stations and at values that are not finite.
 fn pieces(points: impl Iterator<Item = (f64, Option<f64>)>, longest: f64) -> Vec<Vec<Point>> {
     let mut pieces: Vec<Vec<Point>> = Vec::new();
     let mut follows = false;
@@ -292,8 +290,8 @@ fn pieces(points: impl Iterator<Item = (f64, Option<f64>)>, longest: f64) -> Vec
     pieces
 }
 
-// In the closed forms a station whose force cannot be computed is left out; the others have every
-// one.
+// The closed forms leave out stations whose force cannot be computed; the other methods have every
+// station.
 fn longest_interval(inputs: &Inputs, solution: &Solution) -> f64 {
     match solution.position {
         Some(position) if solution.stations_withheld.is_some() => {
@@ -313,7 +311,7 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_breaks_where_a_station_is_missing_or_no_number() {
+    fn a_curve_has_a_gap_at_a_missing_or_invalid_station() {
         let one = Some(1.0);
         assert_eq!(
             pieces_of(&[(0.0, one), (1.0, one), (3.0, one)]),
@@ -328,7 +326,7 @@ mod tests {
     }
 
     #[test]
-    fn what_lies_on_the_active_curve_is_not_drawn_again() {
+    fn parts_that_coincide_with_the_active_curve_are_not_drawn() {
         let column = &crate::report::stations::COLUMNS[6];
         let curve = |whose, points: &[f64]| {
             let points = points
@@ -365,7 +363,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_between_stations_is_on_the_line_and_beyond_them_there_is_none() {
+    fn values_are_interpolated_between_stations_and_absent_beyond_them() {
         let column = &crate::report::stations::COLUMNS[6];
         let pieces = vec![vec![(-1.0, 4.0), (0.0, 2.0), (0.0, 8.0), (1.0, 0.0)]];
         let curve = Curve {

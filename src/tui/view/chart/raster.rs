@@ -1,5 +1,4 @@
-//! Curves on their cells: every point of a curve is met, so that no peak is lost between two
-//! columns.
+//! Draws curves into cells, and keeps every peak that is narrower than a column.
 
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Rect;
@@ -13,12 +12,12 @@ use crate::model::inputs::Method;
 use crate::tui::app::App;
 use crate::tui::scale::{Span, bounds};
 
-/// Stands for the style of the curve until its cells are known.
+/// Marks the cells of a curve until they get its style.
 const OWN: Color = Color::Indexed(1);
-/// Of more points than this in a column the first, the last, the least and the greatest are drawn.
+/// From more points than this in a column, only the first, last, least and greatest are drawn.
 const MANY: usize = 8;
 
-/// How the points of a curve are drawn.
+/// The marker of a curve.
 #[must_use]
 pub fn marker(app: &App, whose: Whose) -> Marker {
     let plain = app.look.ascii;
@@ -33,7 +32,7 @@ pub fn marker(app: &App, whose: Whose) -> Marker {
     }
 }
 
-/// How a curve looks.
+/// The style of a curve.
 #[must_use]
 pub fn style(app: &App, whose: Whose) -> Style {
     let theme = app.look.theme;
@@ -50,7 +49,7 @@ pub fn style(app: &App, whose: Whose) -> Style {
     }
 }
 
-/// Draw a curve, as far as it is in sight.
+/// Draws the visible part of a curve.
 pub fn draw(
     app: &App,
     curve: &Curve,
@@ -61,12 +60,12 @@ pub fn draw(
     let pieces: Vec<Vec<Point>> = curve
         .pieces
         .iter()
-        .map(|piece| seen(piece, across, plot.width))
+        .map(|piece| visible(piece, across, plot.width))
         .collect();
     let canvas = Canvas::default()
         .marker(marker(app, curve.whose))
-        .x_bounds(held(across))
-        .y_bounds(held(upright))
+        .x_bounds(widened(across))
+        .y_bounds(widened(upright))
         .paint(|context| {
             for piece in &pieces {
                 context.draw(&Points {
@@ -87,13 +86,13 @@ pub fn draw(
     }
 }
 
-// What lies on an end but for rounding is in sight.
-fn held(span: Span) -> [f64; 2] {
+// The bounds include points that lie on an end except for rounding.
+fn widened(span: Span) -> [f64; 2] {
     let rounding = 1e-8 * span.length();
     bounds(span.from - rounding, span.to + rounding)
 }
 
-// Half blocks are of two colours, the upper and the lower one.
+// A half block has two colours, for its upper and its lower half.
 fn finish(cell: &mut Cell, style: Style) {
     if cell.fg != OWN && cell.bg != OWN {
         return;
@@ -106,9 +105,8 @@ fn finish(cell: &mut Cell, style: Style) {
     cell.set_style(style);
 }
 
-// The points in sight and the next ones beside them; of many in a column those that make its
-// picture.
-fn seen(piece: &[Point], across: Span, columns: u16) -> Vec<Point> {
+// The visible points and their neighbours, thinned out if a column has many.
+fn visible(piece: &[Point], across: Span, columns: u16) -> Vec<Point> {
     let from = piece
         .partition_point(|point| point.0 < across.from)
         .saturating_sub(1);
@@ -124,7 +122,7 @@ fn seen(piece: &[Point], across: Span, columns: u16) -> Vec<Point> {
         .collect()
 }
 
-// In their order: the first, the least, the greatest and the last of some points.
+// The first, the least, the greatest and the last point, in their order.
 fn outline(points: &[Point]) -> Vec<Point> {
     let by_height = |one: &usize, other: &usize| points[*one].1.total_cmp(&points[*other].1);
     let extremes = [
@@ -150,7 +148,7 @@ mod tests {
         let points: Vec<Point> = (0..10_000)
             .map(|at| (f64::from(at), if at == 4321 { 7.0 } else { 1.0 }))
             .collect();
-        let kept = seen(&points, Span::new(0.0, 9999.0), 50);
+        let kept = visible(&points, Span::new(0.0, 9999.0), 50);
         assert!(
             kept.len() <= 4 * 51 && kept.contains(&(4321.0, 7.0)),
             "{}",
@@ -161,14 +159,17 @@ mod tests {
     }
 
     #[test]
-    fn what_is_out_of_sight_is_left_out_but_for_the_next_points() {
+    fn hidden_points_are_left_out_except_the_next_ones() {
         let points: Vec<Point> = (0..100).map(|at| (f64::from(at), 0.0)).collect();
-        let kept = seen(&points, Span::new(10.5, 20.5), 50);
+        let kept = visible(&points, Span::new(10.5, 20.5), 50);
         assert_eq!(
             (kept.first(), kept.last()),
             (Some(&(10.0, 0.0)), Some(&(21.0, 0.0)))
         );
-        assert_eq!(seen(&points[..5], Span::new(10.5, 20.5), 50), [points[4]]);
-        assert_eq!(seen(&[], Span::new(0.0, 1.0), 50), []);
+        assert_eq!(
+            visible(&points[..5], Span::new(10.5, 20.5), 50),
+            [points[4]]
+        );
+        assert_eq!(visible(&[], Span::new(0.0, 1.0), 50), []);
     }
 }

@@ -1,4 +1,4 @@
-//! What every curve says at the cursor.
+//! The values of every curve at the cursor.
 
 use super::curves::{Curve, Whose, curves};
 use super::shown;
@@ -16,10 +16,10 @@ use crate::tui::layout::plan;
 /// Significant digits of the time since E.
 const TIME_DIGITS: usize = 4;
 
-/// Below this part of the curve's greatest value a value is what rounding leaves of zero.
+/// A smaller part of the curve's greatest value is zero except for rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// The angle, the curves in sight there, and every other value of the active method.
+/// The angle, the visible curves at it, and every other value of the active method.
 #[must_use]
 pub fn readout(app: &App, cursor: f64) -> String {
     let mut parts = vec![place(app, cursor)];
@@ -79,12 +79,12 @@ fn time(app: &App, cursor: f64) -> String {
 // Every curve of a chart, the active method first.
 fn all(app: &App, graph: &Graph, cursor: f64) -> Option<String> {
     let curves = curves(app, graph);
-    let told: Vec<String> = curves
+    let values: Vec<String> = curves
         .iter()
         .rev()
-        .filter_map(|curve| told(app, graph, curve, cursor))
+        .filter_map(|curve| reading(app, graph, curve, cursor))
         .collect();
-    (!told.is_empty()).then(|| told.join(", "))
+    (!values.is_empty()).then(|| values.join(", "))
 }
 
 // The active method's value alone.
@@ -93,11 +93,11 @@ fn own(app: &App, graph: &Graph, cursor: f64) -> Option<String> {
     let own = curves
         .iter()
         .find(|curve| matches!(curve.whose, Whose::Active(_)))?;
-    told(app, graph, own, cursor)
+    reading(app, graph, own, cursor)
 }
 
-// By the same evaluation as in the teeth, not off the line that is drawn; and how many digits of it
-// are good.
+// The value from the same evaluation as in the teeth pane, not from the drawn line, and its number
+// of significant digits.
 fn value(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<(f64, usize)> {
     let is_pinned = matches!(curve.whose, Whose::Pinned(_));
     let answer = if is_pinned {
@@ -128,7 +128,7 @@ fn value(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<(f64, u
     }
 }
 
-/// How the baseline's curve is called: with its method where that is not the one in force.
+/// The name of the baseline's curve, with its method if that differs from the active method.
 #[must_use]
 pub fn base_name(app: &App, method: Method) -> String {
     let is_other = app
@@ -142,7 +142,7 @@ pub fn base_name(app: &App, method: Method) -> String {
     }
 }
 
-fn told(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<String> {
+fn reading(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<String> {
     let name = |text: &'static str| symbol(text, app.look.ascii).into_owned();
     let (value, digits) = value(app, graph, curve, cursor)?;
     let in_unit = value / units::factor(curve.unit).unwrap_or(1.0);
@@ -152,12 +152,13 @@ fn told(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<String> 
         .flatten()
         .map(|(_, y)| y.abs())
         .fold(0.0, f64::max);
-    let told = if in_unit.abs() < ROUNDING * most {
+    let rounded = if in_unit.abs() < ROUNDING * most {
         0.0
     } else {
         value
     };
-    let (number, unit) = units::system::shown(told, curve.column.shown, digits, app.settings.units);
+    let (number, unit) =
+        units::system::shown(rounded, curve.column.shown, digits, app.settings.units);
     let number = format!("{number} {unit}").trim_end().to_owned();
     Some(match curve.whose {
         Whose::Active(_) => format!("{} {number}", name(curve.column.symbol)),

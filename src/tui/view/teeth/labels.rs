@@ -1,4 +1,4 @@
-//! Names beside their points, the scale and the factor, none over another.
+//! Names of points, the scale and the factor, none on top of another.
 
 use nalgebra::Point2;
 use ratatui::buffer::Buffer;
@@ -14,10 +14,10 @@ use crate::case::units::System;
 use crate::model::gear_pose::{driven_tangent_point, driver_tangent_point};
 use crate::numeric::decimal::significant;
 
-/// So many columns and rows from its point a name may stand.
+/// The greatest distance between a point and its name, in columns and rows.
 const NEAR: (i32, i32) = (8, 3);
 
-/// What stands on the picture, so that no word comes to lie over another.
+/// The marks and words on the picture, so that no two words overlap.
 #[derive(Debug)]
 pub struct Labels {
     area: Rect,
@@ -26,7 +26,7 @@ pub struct Labels {
 }
 
 impl Labels {
-    /// None yet, on a picture drawn in that area.
+    /// No labels yet, on a picture in an area.
     #[must_use]
     pub fn new(area: Rect) -> Labels {
         Labels {
@@ -36,7 +36,7 @@ impl Labels {
         }
     }
 
-    /// Write the scale, the factor, and every name that has room; the cells that they take.
+    /// Writes the scale, the factor, and every name that has room. Returns their cells.
     pub fn draw(mut self, scene: &Scene, picture: &Picture, buffer: &mut Buffer) -> Vec<Rect> {
         let theme = picture.look.theme;
         self.draw_scale(scene, picture, buffer);
@@ -62,7 +62,7 @@ impl Labels {
         self.words
     }
 
-    /// The length of the bar beside it.
+    /// Writes the length of the scale bar beside it.
     fn draw_scale(&mut self, scene: &Scene, picture: &Picture, buffer: &mut Buffer) {
         let Some((start, end)) = self
             .cell(scene, scene.bar.0)
@@ -94,8 +94,7 @@ impl Labels {
         });
     }
 
-    /// How far the gap is exaggerated, in the first corner where nothing is drawn, else where there
-    /// is room.
+    /// Writes the exaggeration of the gap in the first free corner, else in any free place.
     fn draw_factor(&mut self, scene: &Scene, style: Style, buffer: &mut Buffer) {
         let Some(factor) = scene.factor else { return };
         let text = format!("gap x{}", times(factor));
@@ -139,7 +138,7 @@ impl Labels {
         );
     }
 
-    /// Where the line of action leaves what is in sight, towards a point of tangency that is not.
+    /// The places where the line of action leaves the window towards a hidden point of tangency.
     fn ways_out(&self, scene: &Scene, picture: &Picture) -> Vec<(&'static str, Position)> {
         let geometry = &picture.solution.geometry;
         let (first, second) = (
@@ -171,9 +170,8 @@ impl Labels {
         })
     }
 
-    /// Write a name next to its point, where it covers nothing of the picture; else near it, and
-    /// not nearer to another point; else, where so many cells may be covered, where it covers
-    /// least.
+    /// Writes a name next to its point where it covers nothing, else near its point and no nearer
+    /// to another point, else where it covers the fewest cells, at most `most`.
     fn put_beside(
         &mut self,
         name: &str,
@@ -213,7 +211,7 @@ impl Labels {
         }
     }
 
-    /// Whether no other mark is nearer to a word.
+    /// Whether a word is nearest to its own mark.
     fn is_nearest(&self, room: Rect, at: Position) -> bool {
         let from = |mark: &Position| {
             let off = (
@@ -227,7 +225,7 @@ impl Labels {
             .all(|mark| *mark == at || from(mark) > from(&at))
     }
 
-    /// Write a name at the first of several places where it covers nothing of the picture.
+    /// Writes a name at the first place where it covers nothing.
     fn put_inside(
         &mut self,
         name: &str,
@@ -245,7 +243,7 @@ impl Labels {
         }
     }
 
-    /// The cells of a word some columns and rows from a place, where they are on the picture.
+    /// The cells of a word at an offset from a place. `None` if they leave the picture.
     fn room(&self, at: Position, right: i32, down: i32, width: i32) -> Option<Rect> {
         let (x, y) = (
             u16::try_from(i32::from(at.x) + right).ok()?,
@@ -260,7 +258,7 @@ impl Labels {
         (self.area.intersection(room) == room).then_some(room)
     }
 
-    /// Whether no mark stands in the cells, and no word in them or beside them.
+    /// Whether the cells have no mark, and no word in them or beside them.
     fn is_free(&self, room: Rect) -> bool {
         let spaced = Rect {
             x: room.x.saturating_sub(1),
@@ -284,12 +282,12 @@ impl Labels {
     }
 }
 
-/// How far from a point a word stands that begins so many columns and rows from it, in columns.
+/// The distance in columns between a point and a word at an offset from it.
 fn distance((right, down): (i32, i32), width: i32) -> i32 {
     right.max(1 - width - right).max(0) + 2 * down.abs()
 }
 
-/// Where a word may begin, in columns and rows from its point, the nearest places first.
+/// Offsets of a word from its point, the nearest first.
 fn further(width: i32) -> Vec<(i32, i32)> {
     let columns = |down: i32| (-NEAR.0 - width..=NEAR.0).map(move |right| (right, down));
     let mut places: Vec<(i32, i32)> = (-NEAR.1..=NEAR.1).flat_map(columns).collect();
@@ -297,7 +295,7 @@ fn further(width: i32) -> Vec<(i32, i32)> {
     places
 }
 
-/// How many cells of a room are drawn on.
+/// The number of cells that are not blank.
 fn covered(room: Rect, buffer: &Buffer) -> usize {
     room.positions()
         .filter(|position| {
@@ -308,13 +306,13 @@ fn covered(room: Rect, buffer: &Buffer) -> usize {
         .count()
 }
 
-/// A length in the unit in which it is a small number.
+/// A length in a fitting unit.
 fn length(length: f64, system: System) -> String {
     let (unit, name) = unit_of_length(length, system);
     format!("{} {name}", significant(length / unit, 1))
 }
 
-/// A factor: whole, or with two digits.
+/// A factor: whole, or with one decimal.
 fn times(factor: f64) -> String {
     if (factor - factor.round()).abs() < 1e-9 {
         format!("{factor:.0}")

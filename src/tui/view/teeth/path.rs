@@ -1,31 +1,31 @@
-//! Curves as straight strokes, as many as the dots in sight need and no more.
+//! Splits curves into straight stretches, as many as the visible dots need.
 
 use nalgebra::Point2;
 
 use super::window::Window;
 
-/// A chord that strays this far from its curve still hits its dots, in dots.
+/// The greatest distance between a chord and its curve, in dots.
 const STRAY: f64 = 0.4;
-/// An arc of up to a quarter of a turn is at most this many times as long as its two half chords.
+/// The greatest ratio of an arc of up to a quarter of a turn to its two half chords.
 const LONGER: f64 = 1.1;
-/// Halvings of a curve at the most.
+/// The greatest number of halvings of a curve.
 const MOST_HALVINGS: u32 = 32;
 
-/// A straight stretch of a curve, with the parameter at its ends, in sight as a whole.
+/// A straight, wholly visible stretch of a curve, with the parameter at its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stretch {
-    /// Parameter and place of its beginning.
+    /// Parameter and point at the beginning.
     pub from: (f64, Point2<f64>),
-    /// Parameter and place of its end.
+    /// Parameter and point at the end.
     pub to: (f64, Point2<f64>),
 }
 
-/// Follow a curve over its parameter from 0 to 1 through the window, in stretches that are straight
-/// to within a dot.
+/// Follows a curve over its parameter from 0 to 1 through the window, in stretches that are
+/// straight to within a dot.
 ///
-/// The curve turns by less than a quarter of a turn, and one way only. Where it is out of sight it
-/// is not followed, so that the cost depends on the dots and not on the zoom.
-pub fn trace(curve: impl Fn(f64) -> Point2<f64>, window: &Window, mut found: impl FnMut(Stretch)) {
+/// The curve turns by less than a quarter of a turn, and one way only. Its hidden parts are
+/// skipped, so that the cost depends on the dots and not on the zoom.
+pub fn follow(curve: impl Fn(f64) -> Point2<f64>, window: &Window, mut found: impl FnMut(Stretch)) {
     let ends = ((0.0, curve(0.0)), (1.0, curve(1.0)));
     halve(&curve, window, ends.0, ends.1, MOST_HALVINGS, &mut found);
 }
@@ -41,7 +41,7 @@ fn halve(
     let at = f64::midpoint(from.0, to.0);
     let middle = (at, curve(at));
     let reach = LONGER * ((middle.1 - from.1).norm() + (to.1 - middle.1).norm());
-    // A curve that is not a number is nowhere in sight.
+    // A curve of NaN is never visible.
     let in_sight = window.distance(middle.1) <= reach;
     if !in_sight {
         return;
@@ -56,7 +56,7 @@ fn halve(
     halve(curve, window, middle, to, halvings - 1, found);
 }
 
-/// Distance of the middle from the chord.
+/// The distance between the middle and the chord.
 fn stray(from: Point2<f64>, middle: Point2<f64>, to: Point2<f64>) -> f64 {
     let (chord, way) = (to - from, middle - from);
     let length = chord.norm();
@@ -115,12 +115,12 @@ mod tests {
     }
 
     #[test]
-    fn stretches_keep_to_the_curve_and_to_what_is_in_sight_at_every_zoom() {
+    fn stretches_keep_to_the_curve_and_the_window_at_every_zoom() {
         let centre = quarter(1.0)(0.3);
         for zoom in 0..20 {
             let window = window(centre, 4.0 * 0.5f64.powi(zoom));
             let (mut count, mut length) = (0, 0.0);
-            trace(quarter(1.0), &window, |stretch| {
+            follow(quarter(1.0), &window, |stretch| {
                 count += 1;
                 length += (stretch.to.1 - stretch.from.1).norm();
                 let off = (1.0
@@ -147,15 +147,15 @@ mod tests {
     }
 
     #[test]
-    fn what_is_out_of_sight_or_not_a_number_costs_nothing() {
+    fn hidden_and_invalid_curves_cost_nothing() {
         let window = window(Point2::new(5.0, 5.0), 1.0);
-        trace(quarter(1.0), &window, |stretch| panic!("{stretch:?}"));
-        trace(
+        follow(quarter(1.0), &window, |stretch| panic!("{stretch:?}"));
+        follow(
             |_| Point2::new(f64::NAN, 5.0),
             &window,
             |stretch| panic!("{stretch:?}"),
         );
-        trace(
+        follow(
             |part| Point2::new(5.0, part / 0.0),
             &window,
             |stretch| panic!("{stretch:?}"),

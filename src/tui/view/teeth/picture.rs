@@ -1,4 +1,4 @@
-//! The picture itself: the pair true to scale, and below it every value at the cursor.
+//! The picture of the pair, true to scale, and below it the values at the cursor.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -15,10 +15,10 @@ use crate::tui::ascii::symbol;
 use crate::tui::theme::Look;
 use crate::tui::zoom::TeethView;
 
-/// Least width and height of the picture itself, in cells.
+/// Least width and height of the picture, in cells.
 const SMALLEST: (u16, u16) = (12, 4);
-/// The values have one line, and from these heights on two and three. They keep their places and
-/// the picture its size when one of them has no number.
+/// The least heights with two and three lines of values. The number of lines does not depend on the
+/// values, so that the picture keeps its size.
 const TWO_LINES_FROM: u16 = 13;
 const THREE_LINES_FROM: u16 = 20;
 
@@ -55,7 +55,7 @@ impl Picture<'_> {
     }
 }
 
-/// Draw the teeth, and below them the values at the cursor.
+/// Draws the teeth, and below them the values at the cursor.
 pub fn draw(picture: &Picture, area: Rect, buffer: &mut Buffer) {
     let area = area.intersection(buffer.area);
     let moment = ContactState::at(picture.inputs, picture.solution, picture.angle());

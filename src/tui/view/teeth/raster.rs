@@ -1,5 +1,4 @@
-//! From strokes to cells: ratatui's canvas with the app's marker, and letters that run with the
-//! line where Unicode is missing.
+//! Draws strokes into cells: ratatui's canvas with the chosen marker, or letters in ASCII mode.
 
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Rect;
@@ -12,25 +11,25 @@ use super::picture::Picture;
 use super::scene::Scene;
 use crate::tui::theme::Theme;
 
-/// What a stroke belongs to.
+/// The kind of a stroke.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Ink {
     /// Base circles and line of action.
     Construction,
-    /// The path of contact and that of the tip before it.
+    /// The path of contact, and the path of the tip before it.
     Path,
     /// The driven gear.
     Driven,
-    /// Its incoming tooth.
+    /// The incoming tooth.
     StruckDriven,
     /// The driver.
     Driver,
-    /// Its tooth that is struck.
+    /// The struck tooth.
     StruckDriver,
     /// A point with a name.
     Mark,
-    /// Where two flanks touch.
+    /// A contact of two flanks.
     Contact,
 }
 
@@ -46,7 +45,7 @@ impl Ink {
         Ink::Contact,
     ];
 
-    /// How it looks.
+    /// The style.
     #[must_use]
     pub fn style(self, theme: &Theme) -> Style {
         match self {
@@ -61,8 +60,8 @@ impl Ink {
         }
     }
 
-    /// The canvas knows colours alone: a number stands for the ink until [`draw`] gives each cell
-    /// its style.
+    /// The canvas has only colours, so a colour number encodes the ink until [`draw`] styles the
+    /// cells.
     fn number(self) -> Color {
         Color::Indexed(self as u8)
     }
@@ -200,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn letters_run_with_the_line() {
+    fn letters_follow_the_direction_of_a_line() {
         let drawn = "⣀⠤⠒⠉⢸⡇⡜⢣⣿⠈⡀"
             .chars()
             .map(|sign| letter(pattern(sign).unwrap()))
@@ -211,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn every_ink_is_known_by_its_number() {
+    fn every_ink_has_its_own_number() {
         for ink in Ink::ALL {
             assert_eq!(Ink::of(ink.number()), Some(ink));
         }

@@ -1,4 +1,4 @@
-//! The values at the cursor, as a person reads them.
+//! The values at the cursor, with symbol and unit.
 
 use std::fmt;
 
@@ -11,10 +11,9 @@ use crate::report::stations::{COLUMNS, Column, Row};
 
 /// Significant digits of the opening.
 const GAP_DIGITS: usize = 4;
-/// The opening, which no station tells.
+/// The key of the opening, which is no column of the stations.
 const OPEN: &str = "open";
-/// What is told where the method has a value for it, or the involutes have: what matters first. The
-/// charts tell the rest.
+/// The values shown, the most important first. The charts show the others.
 const ORDER: [&str; 12] = [
     "roll_angle_driver",
     "impact_force",
@@ -29,7 +28,7 @@ const ORDER: [&str; 12] = [
     "time",
     "roll_angle_driven",
 ];
-/// Stands for a number that is not there.
+/// The text of a missing number.
 const NONE: &str = "–";
 /// Cells of a number.
 const NUMBER: usize = 7;
@@ -46,7 +45,7 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// So many cells it takes, whatever the number, after a symbol so wide.
+    /// The width with any number, after a symbol of that width.
     #[must_use]
     pub fn width(&self, symbol: usize) -> usize {
         symbol
@@ -70,7 +69,7 @@ impl fmt::Display for Reading {
     }
 }
 
-/// Every value that the method has at some place, and the opening, in an order that stays.
+/// Every value of the method at a contact state, and the opening, in a fixed order.
 #[must_use]
 pub fn readings(
     moment: &ContactState,
@@ -139,7 +138,7 @@ fn reading(
     })
 }
 
-/// What the involutes do where the method tells nothing.
+/// The value from the involutes alone, where the method has none.
 fn without_contact(moment: &ContactState, key: &str) -> Option<f64> {
     match key {
         "roll_angle_driver" => Some(moment.roll_angle_driver),
@@ -177,7 +176,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_value_stays_in_its_place_whatever_the_others_are() {
+    fn a_value_keeps_its_place_if_others_change() {
         let line = |numbers: [Option<&str>; 2]| {
             let readings = numbers.map(|number| Reading {
                 symbol: "F_S",

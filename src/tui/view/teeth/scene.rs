@@ -1,4 +1,4 @@
-//! What is to be seen of the pair: strokes in sight, and points with a name.
+//! The visible parts of the pair: strokes, and points with a name.
 
 use nalgebra::Point2;
 use ratatui::layout::Size;
@@ -14,25 +14,25 @@ use crate::model::gear_pose::{
 };
 use crate::model::position::tip_at;
 
-/// Dashes and what follows them, in dots.
+/// Dashes and gaps, in dots.
 const LINE_OF_ACTION: Dash = Dash { on: 5.0, off: 4.0 };
 const CIRCLE: Dash = Dash { on: 0.0, off: 4.0 };
 const PATH: Dash = Dash { on: 0.0, off: 2.0 };
-/// The path of the tip is shown from this many times the angle from D to E.
+/// The start of the path of the tip, as a multiple of the angle from D to E.
 const PATH_FROM: f64 = 2.5;
 
-/// What is to be seen.
+/// The visible parts of the pair.
 #[derive(Debug, Clone)]
 pub struct Scene {
-    /// The part of the plane in sight.
+    /// The visible part of the plane.
     pub window: Window,
-    /// What is drawn, the lowest first.
+    /// The strokes in drawing order.
     pub strokes: Vec<Stroke>,
     /// Points with a name, the most important first.
     pub points: Vec<Named>,
-    /// Places where a gear's name may stand, the best first.
+    /// Places for the name of each gear, the best first.
     pub bodies: [Vec<Point2<f64>>; 2],
-    /// How many times as wide as it is the opening is drawn.
+    /// The exaggeration of the opening.
     pub factor: Option<f64>,
     /// Ends of the scale bar.
     pub bar: (Point2<f64>, Point2<f64>),
@@ -41,14 +41,14 @@ pub struct Scene {
 /// A point with a name.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Named {
-    /// Where it is.
+    /// The place.
     pub at: Point2<f64>,
     /// The name.
     pub name: &'static str,
 }
 
 impl Scene {
-    /// What is to be seen on a screen of that size.
+    /// The visible parts on a screen of a given size.
     #[must_use]
     pub fn of(picture: &Picture, moment: Option<&ContactState>, size: Size) -> Scene {
         let Picture {
@@ -79,7 +79,7 @@ impl Scene {
             inputs.driver.bore_radius,
             [Ink::Driver, Ink::StruckDriver],
         );
-        let points = told_apart(points(picture), &window);
+        let points = distinct(points(picture), &window);
         let contacts = moment
             .into_iter()
             .flat_map(|moment| contacts(picture, moment))
@@ -103,7 +103,7 @@ impl Scene {
     }
 }
 
-/// Base circles, line of action, path of contact and that of the tip before it.
+/// Base circles, line of action, path of contact, and path of the tip before it.
 fn construction(pen: &mut Pen, picture: &Picture) {
     let geometry = &picture.solution.geometry;
     let centre = Point2::new(geometry.centre_distance, 0.0);
@@ -140,8 +140,7 @@ fn construction(pen: &mut Pen, picture: &Picture) {
 }
 
 /// D, E, D', the pitch point, the end of contact, the points of tangency and the centres. D' is the
-/// driven tip where the method's impact duration ends, not past E; the methods that share the load
-/// have none.
+/// driven tip at the end of the impact duration, not past E. `static` and `dynamic` have no D'.
 fn points(picture: &Picture) -> Vec<Named> {
     let Picture {
         inputs, solution, ..
@@ -179,8 +178,8 @@ fn points(picture: &Picture) -> Vec<Named> {
     points
 }
 
-/// The points in sight, less those that one before them hides: closer than two columns or one row.
-fn told_apart(points: Vec<Named>, window: &Window) -> Vec<Named> {
+/// The visible points without those that are closer than two columns to an earlier point.
+fn distinct(points: Vec<Named>, window: &Window) -> Vec<Named> {
     let mut kept: Vec<Named> = Vec::new();
     for point in points.into_iter().filter(|point| window.sees(point.at)) {
         if kept
@@ -193,7 +192,7 @@ fn told_apart(points: Vec<Named>, window: &Window) -> Vec<Named> {
     kept
 }
 
-/// Where flanks touch: the incoming pair from the first contact on, and the pairs ahead of it, a
+/// The contact points: the incoming pair from the first contact on, and the pairs ahead of it, one
 /// base pitch apart on the path of contact.
 fn contacts(picture: &Picture, moment: &ContactState) -> Vec<Point2<f64>> {
     let geometry = &picture.solution.geometry;
@@ -207,8 +206,8 @@ fn contacts(picture: &Picture, moment: &ContactState) -> Vec<Point2<f64>> {
         .collect()
 }
 
-/// Places inside a gear's body: on the centre lines of the teeth, from the middle of the tooth to
-/// the centre.
+/// Places inside a gear: on the centre lines of the teeth, from the middle of a tooth to the
+/// centre.
 fn bodies(gear: &Placed) -> Vec<Point2<f64>> {
     let circles = gear.outline.profile().circles();
     let depth = circles.tip - circles.root;

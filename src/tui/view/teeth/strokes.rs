@@ -1,56 +1,56 @@
-//! Draws curves, gears and marks as strokes, dashed or not, as far as they are in sight.
+//! Draws the visible parts of curves, gears and marks as strokes.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::ops::Range;
 
 use nalgebra::{Point2, Vector2};
 
-use super::path::{Stretch, trace};
+use super::path::{Stretch, follow};
 use super::raster::Ink;
 use super::window::{Window, unit_of_length};
 use crate::case::units::System;
 use crate::model::gear_pose::Placed;
 use crate::tui::zoom::round_down;
 
-/// Below this many dots from tooth to tooth the circles stand for them.
+/// The least pitch, in dots, at which teeth are drawn instead of circles.
 const LEAST_PITCH: f64 = 5.0;
-/// So many places along an edge are looked at for the scale bar.
+/// The number of places along an edge that are tried for the scale bar.
 const PLACES: u32 = 24;
-/// Columns that its label takes beside it.
+/// The columns of its label.
 const BAR_LABEL: f64 = 9.0;
-/// Part of the width that the scale bar takes at the most.
+/// The greatest part of the width for the scale bar.
 const BAR: f64 = 0.25;
 
-/// A straight stroke, or a dot where it ends as it begins.
+/// A straight stroke, or a dot if both ends coincide.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stroke {
-    /// Its beginning.
+    /// The beginning.
     pub from: Point2<f64>,
-    /// Its end.
+    /// The end.
     pub to: Point2<f64>,
-    /// What it belongs to.
+    /// The kind.
     pub ink: Ink,
 }
 
-/// A dashed line, in dots; dots alone where a dash has no length.
+/// A dashed line, in dots. Dashes of length 0 are dots.
 #[derive(Debug, Clone, Copy)]
 pub struct Dash {
-    /// Length of a dash.
+    /// The length of a dash.
     pub on: f64,
-    /// Length of what follows it.
+    /// The length of a gap.
     pub off: f64,
 }
 
-/// Draws what is in sight.
+/// Draws into a window.
 #[derive(Debug)]
 pub struct Pen<'a> {
     window: &'a Window,
-    /// What is drawn so far.
+    /// The strokes so far.
     pub strokes: Vec<Stroke>,
 }
 
 impl<'a> Pen<'a> {
-    /// Nothing drawn yet.
+    /// A pen without strokes.
     #[must_use]
     pub fn new(window: &'a Window) -> Pen<'a> {
         Pen {
@@ -59,7 +59,7 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// A gear, its tooth 0 turned on by an angle.
+    /// A gear with its tooth 0 turned by an angle.
     pub fn gear(&mut self, gear: &Placed, turned: f64, bore: f64, [ink, struck]: [Ink; 2]) {
         let circles = gear.outline.profile().circles();
         if bore > 0.0 {
@@ -109,7 +109,7 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// The numbers of the teeth in sight, and a few beside them.
+    /// The numbers of the visible teeth and their neighbours.
     fn in_sight(&self, gear: &Placed) -> Range<i64> {
         let teeth = i64::from(gear.teeth);
         let way = self.window.centre - gear.centre;
@@ -160,7 +160,7 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// A curve of a length, in one stroke or dashed; see [`trace`] for what it may be.
+    /// A curve of a length, in one stroke or dashed. See [`follow`] for the condition on the curve.
     pub fn curve(
         &mut self,
         curve: impl Fn(f64) -> Point2<f64>,
@@ -169,7 +169,7 @@ impl<'a> Pen<'a> {
         ink: Ink,
     ) {
         let window = self.window;
-        trace(curve, window, |stretch| match dash {
+        follow(curve, window, |stretch| match dash {
             None => self.strokes.push(Stroke {
                 from: stretch.from.1,
                 to: stretch.to.1,
@@ -232,8 +232,8 @@ impl<'a> Pen<'a> {
         (from, to)
     }
 
-    /// Where along the lower edge and then the upper one fewest strokes are in a room, from the
-    /// corners inwards.
+    /// The place along the lower or the upper edge with the fewest strokes, from the corners
+    /// inwards.
     fn free_place(&self, low: Point2<f64>, top: Point2<f64>, room: Vector2<f64>) -> Point2<f64> {
         let part = |place: u32| f64::from(place) / f64::from(PLACES);
         let mut parts: Vec<f64> = (0..=PLACES).map(part).collect();
@@ -269,7 +269,7 @@ impl<'a> Pen<'a> {
         best.1
     }
 
-    /// A cross of five dots, or a dot where a dot is a cell.
+    /// A cross of five dots, or a dot if a dot is a cell.
     pub fn cross(&mut self, at: Point2<f64>, ink: Ink) {
         if self.window.sees(at) {
             let arm = if self.window.dot < self.window.column() {

@@ -1,4 +1,4 @@
-//! The part of the plane in sight, in m, and its dots on the screen.
+//! The visible part of the plane, in m, and its dots on the screen.
 
 use nalgebra::{Point2, Vector2};
 use ratatui::layout::Size;
@@ -11,19 +11,19 @@ use crate::model::{Inputs, Solution};
 use crate::tui::scale::bounds;
 use crate::tui::zoom::{Centre, TeethView, whole};
 
-/// A cell of the screen is twice as high as it is wide.
+/// The height of a cell over its width.
 const CELL_HEIGHT: f64 = 2.0;
-/// Bounds of the width of a cell, in m: beyond, differences of coordinates are lost or overflow.
+/// Bounds of the width of a cell, in m. Beyond them, differences of coordinates are lost or
+/// overflow.
 const CELL: (f64, f64) = (1e-12, 1e6);
 
-/// Units of a length, the longest first, each in m and with its name; in inch units the shortest
-/// length that is told in it.
+/// Units of a length, the longest first, each in m and with its name.
 const METRIC: [(f64, &str); 4] = [(1.0, "m"), (1e-3, "mm"), (1e-6, "um"), (1e-9, "nm")];
 const INCH: [(f64, &str); 2] = [(25.4e-3, "in"), (25.4e-6, "thou")];
-/// A tenth of an inch is told in inches, what is shorter in thou.
+/// The least length in inches; shorter lengths are in thou.
 const LEAST_INCHES: f64 = 0.1;
 
-/// The unit in which a length in m is told: what one of it is in m, and its name.
+/// The unit for a length in m: its size in m and its name.
 #[must_use]
 pub fn unit_of_length(length: f64, system: System) -> (f64, &'static str) {
     let (units, least) = match system {
@@ -36,24 +36,24 @@ pub fn unit_of_length(length: f64, system: System) -> (f64, &'static str) {
     fitting.or(units.last()).copied().unwrap_or((1.0, "m"))
 }
 
-/// The part of the plane in sight.
+/// The visible part of the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Window {
-    /// Its middle.
+    /// The middle.
     pub centre: Point2<f64>,
-    /// From the middle to the middles of the outermost dots.
+    /// The vector from the middle to the middle of the outermost dot.
     pub half: Vector2<f64>,
-    /// Width of a dot.
+    /// The width of a dot.
     pub dot: f64,
-    /// Columns and rows of the screen.
+    /// The columns and rows of the screen.
     pub size: Size,
-    /// Dots of a cell, side by side and above each other.
+    /// The dots of a cell, across and down.
     pub(super) dots: (u16, u16),
 }
 
 impl Window {
-    /// What the view shows on a screen of that size. The scale is the same in both directions; what
-    /// is in sight does not leave the pair further than it must.
+    /// The window of a view on a screen of a given size. The scale is the same in both directions,
+    /// and the window shows as little as possible beyond the pair.
     #[must_use]
     pub fn of(
         view: &TeethView,
@@ -99,7 +99,7 @@ impl Window {
         }
     }
 
-    /// The same for a room that begins at its lower left corner.
+    /// The window of a rectangle with a given lower left corner.
     #[must_use]
     pub fn around(&self, from: Point2<f64>, room: Vector2<f64>) -> Window {
         Window {
@@ -109,26 +109,26 @@ impl Window {
         }
     }
 
-    /// Ends of the x axis.
+    /// The ends of the x axis.
     #[must_use]
     pub fn across(&self) -> [f64; 2] {
         bounds(self.centre.x - self.half.x, self.centre.x + self.half.x)
     }
 
-    /// Ends of the y axis.
+    /// The ends of the y axis.
     #[must_use]
     pub fn upright(&self) -> [f64; 2] {
         bounds(self.centre.y - self.half.y, self.centre.y + self.half.y)
     }
 
-    /// Whether a point is in sight.
+    /// Whether a point is visible.
     #[must_use]
     pub fn sees(&self, point: Point2<f64>) -> bool {
         let off = point - self.centre;
         off.x.abs() <= self.half.x && off.y.abs() <= self.half.y
     }
 
-    /// Distance from a point to what is in sight, 0 inside.
+    /// The distance from a point to the window, 0 inside.
     #[must_use]
     pub fn distance(&self, point: Point2<f64>) -> f64 {
         let off = point - self.centre;
@@ -139,8 +139,7 @@ impl Window {
         .norm()
     }
 
-    /// The part of a straight line that is in sight, as shares of its length from its beginning
-    /// (Liang & Barsky 1984).
+    /// The visible part of a straight line, as shares of its length (Liang & Barsky 1984).
     #[must_use]
     pub fn clip(&self, from: Point2<f64>, to: Point2<f64>) -> Option<(f64, f64)> {
         let (start, way) = (from - self.centre, to - from);
@@ -160,7 +159,7 @@ impl Window {
         (first <= last).then_some((first, last))
     }
 
-    /// Column and row of a point in sight.
+    /// The column and row of a visible point.
     #[must_use]
     pub fn cell(&self, point: Point2<f64>) -> Option<(u16, u16)> {
         if !self.sees(point) {
@@ -197,7 +196,7 @@ impl Window {
     }
 }
 
-/// What stands in the middle, where it is a point.
+/// The point in the middle, if the view has one.
 fn anchor(centre: Centre, solution: &Solution) -> Option<Point2<f64>> {
     let geometry = &solution.geometry;
     let start = on_line_of_action(geometry, geometry.start);
@@ -211,7 +210,7 @@ fn anchor(centre: Centre, solution: &Solution) -> Option<Point2<f64>> {
     }
 }
 
-/// Dots of a cell for each way of drawing, side by side and above each other.
+/// The dots of a cell for each marker, across and down.
 fn dots(marker: Marker) -> (u16, u16) {
     match marker {
         Marker::Braille | Marker::Octant => (2, 4),
@@ -269,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn a_point_is_drawn_in_the_cell_that_is_told() {
+    fn a_point_is_drawn_in_its_cell() {
         for (window, marker) in windows() {
             for (right, up) in [
                 (0.02, -0.03),
