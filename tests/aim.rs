@@ -1,4 +1,4 @@
-//! The cursor goes to an angle, a time or a place that is typed, in chart and teeth alike.
+//! The prompt that moves the cursor of charts and teeth to an angle, a time or a point.
 #![allow(
     clippy::expect_used,
     clippy::panic,
