@@ -76,7 +76,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc", "b", "", "baseline: case.toml as it is now"),
     ("Esc", "y", "", "[copied 5 mm]"),
     ("Esc", "Y", "", "impact_force\t2191.0"),
-    ("Esc 3", "z", "", "▸ 3 Force F_S in N over driver roll angle before E in deg"),
+    ("Esc 3", "z", "", "  2500 ┤"),
     ("Esc 3", "1", "", "▸ 1 Form"),
     ("Esc", "2", "", "▸ 2 Results"),
     ("Esc", "3", "", "▸ 3"),
