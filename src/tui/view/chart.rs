@@ -259,14 +259,13 @@ fn draw_panel(
     let legend = Legend::of(app, &curves, missing.as_deref());
     draw_curves(app, axes, &curves, buffer);
     let inside = legend.inside(axes.plot, buffer);
-    let (axes, placed) = match inside {
-        Some(placed) => (axes.clone(), placed),
-        None => {
-            let (above, lower) = axes.split(legend.height(axes.plot.width));
-            Clear.render(axes.area, buffer);
-            draw_curves(app, &lower, &curves, buffer);
-            (lower, legend.above(above))
-        }
+    let (axes, placed) = if let Some(placed) = inside {
+        (axes.clone(), placed)
+    } else {
+        let (above, lower) = axes.split(legend.height(axes.plot.width));
+        Clear.render(axes.area, buffer);
+        draw_curves(app, &lower, &curves, buffer);
+        (lower, legend.above(above))
     };
     for block in &placed {
         block.draw(buffer);
@@ -316,7 +315,7 @@ fn title(app: &App, graph: &Graph, axes: &Axes, room: usize) -> String {
     let titles = ruler.labels.iter().flat_map(|label| {
         names
             .iter()
-            .map(|name| format!("{name} {value} over {}{below}", label))
+            .map(|name| format!("{name} {value} over {label}{below}"))
             .collect::<Vec<_>>()
     });
     let titles: Vec<String> = titles.collect();
