@@ -397,7 +397,35 @@ fn no_depth_and_no_length_is_too_much() {
 fn a_flood_of_faults_is_cut() {
     let found = faults(&format!("{GOOD}[pair.x]\n{}", "? = 1\n".repeat(100_000)));
     assert_eq!(found.len(), 101);
-    assert!(found[100].cause.contains("more faults"), "{}", found[100]);
+    assert_eq!(found[100].cause, "and 99900 more faults");
+    for (line, table, first) in [
+        ("a = 1", "", "toml"),
+        ("a# = 1", "", "a0"),
+        ("a# = 1", "[pair]\n", "pair.a0"),
+        ("a# = 1", "[limits]\n", "limits.a0"),
+        ("a# = 1", "[spread]\n", "spread.\"a0\""),
+        ("[a#]", "", "a0"),
+        ("a#", "", "toml"),
+    ] {
+        let flood: Vec<_> = (0..50_000)
+            .map(|number| line.replace('#', &number.to_string()))
+            .collect();
+        let found = faults(&format!("format = 1\n{table}{}\n", flood.join("\n")));
+        assert_eq!(found.len(), 101, "{line}");
+        let is_first = |fault: &&Fault| first == "toml" || fault.field == first;
+        assert!(
+            found.iter().any(|fault| is_first(&fault)),
+            "{line}: {}",
+            found[0]
+        );
+        let more = found[100]
+            .cause
+            .split(' ')
+            .nth(1)
+            .and_then(|more| more.parse().ok());
+        let more: usize = more.expect("a number");
+        assert!((49_899..=49_901).contains(&more), "{line}: {}", found[100]);
+    }
 }
 
 #[test]

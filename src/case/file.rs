@@ -3,10 +3,12 @@
 mod about;
 mod disk;
 mod edit;
+mod excerpt;
 mod fault;
 mod syntax;
 mod template;
 mod tree;
+mod unknown;
 mod value;
 
 use std::path::PathBuf;
@@ -56,7 +58,12 @@ impl Document {
         let unmarked = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
         let reading = tree::read(unmarked);
         if !reading.faults.is_empty() {
-            return Err(fault::placed(name, unmarked, reading.faults));
+            return Err(fault::placed(
+                name,
+                unmarked,
+                reading.faults,
+                reading.more,
+            ));
         }
         let marked = unmarked.len() < text.len();
         let (case, places) = (reading.case, reading.places);

@@ -95,10 +95,11 @@ impl Found {
     }
 }
 
-/// The faults with line and column, in the order of their places.
-pub(super) fn placed(file: &str, text: &str, mut found: Vec<Found>) -> Vec<Fault> {
+/// The first faults with line and column, in the order of their places, and the number of the
+/// others, of which `more` are not in the list.
+pub(super) fn placed(file: &str, text: &str, mut found: Vec<Found>, more: usize) -> Vec<Fault> {
     found.sort_by_key(|found| found.at);
-    let more = found.len().saturating_sub(MOST);
+    let more = more + found.len().saturating_sub(MOST);
     found.truncate(MOST);
     let lines = Lines::of(text);
     let mut faults: Vec<Fault> = found
@@ -111,8 +112,8 @@ pub(super) fn placed(file: &str, text: &str, mut found: Vec<Found>) -> Vec<Fault
     if let (Some(last), 1..) = (faults.last(), more) {
         let problem = Problem::new(
             "toml",
-            format!("{more} more faults"),
-            "mend those above first",
+            format!("and {more} more faults"),
+            "fix those above first",
         );
         faults.push(Fault::new(file, (last.line, last.column), problem));
     }

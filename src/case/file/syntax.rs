@@ -1,4 +1,4 @@
-//! Errors of TOML itself: each told in a case's terms, and the lines around them kept readable.
+//! Errors of TOML itself: names each in the terms of a case, and recovers the lines around it.
 
 use toml::de::{DeTable, Error};
 
@@ -11,7 +11,7 @@ use crate::case::{Problem, check};
 /// Rounds of blanking lines before the rest is given up.
 const ROUNDS: usize = 8;
 
-/// Errors that are told of one text; with more of them it is hardly a case.
+/// Errors that are named; with more of them the text is hardly a case.
 const MOST: usize = 200;
 
 /// A text without its broken lines.
@@ -20,6 +20,8 @@ pub(super) struct Recovered {
     pub(super) text: String,
     /// What is wrong with the broken lines.
     pub(super) faults: Vec<Found>,
+    /// How many errors there are besides.
+    pub(super) more: usize,
     /// The broken lines.
     pub(super) broken: String,
     /// Whether every table's header could be read, so that each key is known to stand where it
@@ -32,6 +34,7 @@ pub(super) fn recover(source: &str) -> Recovered {
     let mut recovered = Recovered {
         text: source.to_owned(),
         faults: Vec::new(),
+        more: 0,
         broken: String::new(),
         tables_known: true,
     };
@@ -43,19 +46,31 @@ pub(super) fn recover(source: &str) -> Recovered {
             .map(|error| (start(&error, source), error))
             .collect();
         errors.sort_by_key(|(at, _)| *at);
-        let flooded = errors.len() > MOST;
+        // One broken line may have several errors, and a broken key may be there twice.
+        errors.dedup_by(|(at, error), (before, other)| {
+            let is_same = lines.around(*at).start == lines.around(*before).start
+                && !(is_double(error) && is_double(other));
+            if is_same && is_double(other) {
+                std::mem::swap(error, other);
+                std::mem::swap(at, before);
+            }
+            is_same
+        });
+        let beyond = errors.len().saturating_sub(MOST);
         errors.truncate(MOST);
-        let (doubles, slips): (Vec<_>, Vec<_>) = errors
-            .into_iter()
-            .partition(|(_, error)| error.message() == "duplicate key");
+        let (doubles, slips): (Vec<_>, Vec<_>) =
+            errors.into_iter().partition(|(_, error)| is_double(error));
         if round == 0 {
             recovered.faults = first_of_each_line(&slips, &lines, source);
         }
-        if slips.is_empty() || flooded || round + 1 == ROUNDS {
+        if slips.is_empty() || beyond > 0 || round + 1 == ROUNDS {
+            recovered.more = beyond;
             recovered.tables_known &= slips.is_empty();
-            recovered
-                .faults
-                .extend(doubles.iter().map(|(at, error)| double(*at, error, source)));
+            recovered.faults.extend(
+                doubles
+                    .iter()
+                    .map(|(at, error)| double(*at, error, &lines, source)),
+            );
             break;
         }
         for (at, _) in &slips {
@@ -262,13 +277,17 @@ fn in_general(error: &Error, field: &str) -> Problem {
     Problem::new(field, cause, mend)
 }
 
+fn is_double(error: &Error) -> bool {
+    error.message() == "duplicate key"
+}
+
 /// The same key or table twice.
-fn double(at: usize, error: &Error, source: &str) -> Found {
+fn double(at: usize, error: &Error, lines: &Lines<'_>, source: &str) -> Found {
     let name = error
         .span()
         .and_then(|span| source.get(span))
         .unwrap_or_default();
-    let line = Lines::of(source).around(at);
+    let line = lines.around(at);
     if source[line.clone()].trim_start().starts_with('[') {
         let cause = format!("the table {} is there twice", quoted(name));
         return Found::new(

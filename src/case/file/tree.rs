@@ -1,24 +1,25 @@
-//! From TOML to a case: every key is looked up in the table of fields and keeps its place in the
+//! Reads a case from TOML: looks every key up in the table of fields and records its place in the
 //! text.
 
 use std::ops::Range;
 
 use toml::de::{DeTable, DeValue};
 
+use super::excerpt::excerpt;
 use super::fault::{FaultKind, Found};
+use super::unknown::{unknown_at_top, unknown_in_table};
 use super::value::{bare_number, flag, kind_of, measure, misplaced, scalar, untaken, words};
 use super::{FORMAT, syntax};
 use crate::case::fields::{AUTO, FIELDS, GROUPS, Kind, index_of};
-use crate::case::sanitize::quoted;
 use crate::case::spread;
 use crate::case::units::ParseError;
-use crate::case::{Case, Limit, Problem, Spread, check, suggest};
+use crate::case::{Case, Limit, Problem, Spread, check};
 use crate::model::Quantity;
 
 type Key<'k, 'i> = &'k toml::Spanned<toml::de::DeString<'i>>;
 type Value<'k, 'i> = &'k toml::Spanned<DeValue<'i>>;
 
-/// Keys of one table after which no more are looked at.
+/// Faults after which unknown keys are only counted.
 const ENOUGH: usize = 200;
 
 /// Where a key and its value stand in the text.
@@ -69,6 +70,8 @@ pub(super) struct Reading {
     pub(super) case: Case,
     pub(super) places: Places,
     pub(super) faults: Vec<Found>,
+    /// How many faults there are besides.
+    pub(super) more: usize,
 }
 
 /// Read what is understood of a text of a newer format. What is wrong with it is for a newer
@@ -84,35 +87,33 @@ pub(super) fn read_newer(text: &str) -> Reading {
         case: reader.case,
         places: reader.places,
         faults: Vec::new(),
+        more: 0,
     }
 }
 
 /// Read a text, past errors of syntax as far as the rest of it can be understood.
 pub(super) fn read(text: &str) -> Reading {
     let mut reader = Reader::of(text);
+    let (text, unread) = excerpt(text);
     let recovered = syntax::recover(text);
     let (tree, _) = DeTable::parse_recoverable(&recovered.text);
     if recovered.tables_known {
         reader.root(tree.get_ref());
-        if reader
-            .faults
-            .iter()
-            .all(|found| found.kind != FaultKind::NewerFormat)
-        {
+    }
+    let is_newer = |found: &Found| found.kind == FaultKind::NewerFormat;
+    if !reader.faults.iter().any(is_newer) {
+        // What seems to be missing may be in the rest.
+        if recovered.tables_known && unread == 0 {
             reader.fields_together(&recovered.broken);
         }
-    }
-    if !reader
-        .faults
-        .iter()
-        .any(|found| found.kind == FaultKind::NewerFormat)
-    {
         reader.faults.extend(recovered.faults);
+        reader.more += recovered.more + unread;
     }
     Reading {
         case: reader.case,
         places: reader.places,
         faults: reader.faults,
+        more: reader.more,
     }
 }
 
@@ -120,6 +121,8 @@ struct Reader {
     case: Case,
     places: Places,
     faults: Vec<Found>,
+    /// Unknown keys that were only counted.
+    more: usize,
     /// Fields whose value could not be taken at all.
     wrong: Vec<usize>,
 }
@@ -134,6 +137,7 @@ impl Reader {
             case: Case::empty(),
             places,
             faults: Vec::new(),
+            more: 0,
             wrong: Vec::new(),
         }
     }
@@ -155,7 +159,7 @@ impl Reader {
             } else if is_table(name) {
                 self.table(key, value);
             } else {
-                self.fault(key.span().start, unknown_at_top(name));
+                self.unknown(key, || unknown_at_top(name));
             }
         }
     }
@@ -237,7 +241,7 @@ impl Reader {
         let name = key.get_ref().as_ref();
         match index_of(&format!("{table}.{name}")) {
             Some(field) => self.field(field, value),
-            None => self.fault(key.span().start, unknown_in_table(table, name)),
+            None => self.unknown(key, || unknown_in_table(table, name)),
         }
     }
 
@@ -286,20 +290,18 @@ impl Reader {
     fn limit(&mut self, key: Key<'_, '_>, value: Value<'_, '_>) {
         let name = key.get_ref().as_ref();
         let place = format!("limits.{name}");
+        let Some(known) = Quantity::find(name) else {
+            return self.unknown(key, || check::unknown_quantity(&place, name));
+        };
         self.note(&place, value);
-        let known = Quantity::find(name);
-        let bare = known.is_some_and(|quantity| quantity.unit == "1");
-        let example = format!(
-            "{name} = {}",
-            known.map_or_else(String::new, limit_by_example)
-        );
+        let bare = known.unit == "1";
+        let example = format!("{name} = {}", limit_by_example(known));
         let written = if bare {
             bare_number(value.get_ref(), &example)
         } else {
             measure(value.get_ref())
         };
         let taken = match written {
-            _ if known.is_none() => Limit::new(name, ""),
             Ok(text) => Limit::new(name, &text),
             Err(misread) => {
                 let misread =
@@ -309,7 +311,6 @@ impl Reader {
         };
         match taken {
             Ok(limit) => self.case.limits.push(limit),
-            Err(problem) if known.is_none() => self.fault(key.span().start, problem),
             Err(problem) => self.fault(value.span().start, problem),
         }
     }
@@ -328,16 +329,13 @@ impl Reader {
             in_order(table).for_each(|(key, value)| self.spread(&path, key, value));
             return;
         }
-        self.note(&place, value);
         if index_of(&path).is_none() {
-            return self.fault(
-                key.span().start,
-                Problem {
-                    field: place,
-                    ..check::unknown_key(&path)
-                },
-            );
+            return self.unknown(key, || Problem {
+                field: place,
+                ..check::unknown_key(&path)
+            });
         }
+        self.note(&place, value);
         let only = table.and_then(|table| table.iter().next().filter(|_| table.len() == 1));
         let taken = match only.map(|(shape, width)| (shape.get_ref(), scalar(width.get_ref()))) {
             Some((shape, Some(width))) => Spread::new(&path, shape, &width),
@@ -374,16 +372,25 @@ impl Reader {
         });
     }
 
+    /// Naming the key that is meant takes its time, so that is done for the first ones alone.
+    fn unknown(&mut self, key: Key<'_, '_>, problem: impl FnOnce() -> Problem) {
+        if self.faults.len() < ENOUGH {
+            self.fault(key.span().start, problem());
+        } else {
+            self.more += 1;
+        }
+    }
+
     fn fault(&mut self, at: usize, problem: Problem) {
         self.faults.push(Found::new(at, problem));
     }
 }
 
-/// A table's keys and values in the order of the text, as far as they are looked at.
+/// A table's keys and values in the order of the text.
 fn in_order<'k, 'i>(table: &'k DeTable<'i>) -> impl Iterator<Item = (Key<'k, 'i>, Value<'k, 'i>)> {
     let mut members: Vec<_> = table.iter().collect();
     members.sort_by_key(|(key, _)| key.span().start);
-    members.into_iter().take(ENOUGH)
+    members.into_iter()
 }
 
 fn is_table(name: &str) -> bool {
@@ -401,61 +408,4 @@ fn limit_by_example(quantity: &Quantity) -> String {
         "N" => "\"2500 N\"".to_owned(),
         unit => format!("\"1 {unit}\""),
     }
-}
-
-/// What others call the two gears.
-const GEARS: [&str; 8] = [
-    "pinion", "wheel", "gear", "gears", "gear1", "gear2", "gear_1", "gear_2",
-];
-
-fn unknown_at_top(name: &str) -> Problem {
-    if GEARS.contains(&name.to_lowercase().as_str()) {
-        let cause = format!("unknown key or table {}", quoted(name));
-        return Problem::new(
-            name,
-            cause,
-            "the gears are [driver] and [driven], whichever is the smaller",
-        );
-    }
-
-    let known = GROUPS
-        .iter()
-        .map(|(table, _)| *table)
-        .filter(|table| !table.is_empty())
-        .chain(["limits", "spread", "format", "title", "notes"]);
-    let elsewhere = || {
-        FIELDS
-            .iter()
-            .find(|field| field.name() == name)
-            .map(|field| format!("put it under [{}]", field.table()))
-    };
-    let mend =
-        elsewhere().unwrap_or_else(|| suggest::mend(name, known, || "take it out".to_owned()));
-    Problem::new(name, format!("unknown key or table {}", quoted(name)), mend)
-}
-
-fn unknown_in_table(table: &str, name: &str) -> Problem {
-    let here = FIELDS
-        .iter()
-        .filter(|field| field.table() == table)
-        .map(super::super::fields::Field::name);
-    let elsewhere = || {
-        FIELDS
-            .iter()
-            .find(|field| field.name() == name)
-            .map(|field| format!("it belongs under [{}]", field.table()))
-    };
-    let mend = elsewhere().unwrap_or_else(|| {
-        suggest::mend(name, here.clone(), || {
-            format!(
-                "[{table}] has {}",
-                here.clone().collect::<Vec<_>>().join(", ")
-            )
-        })
-    });
-    Problem::new(
-        &format!("{table}.{name}"),
-        format!("unknown key {}", quoted(name)),
-        mend,
-    )
 }
