@@ -1,17 +1,17 @@
-//! What the user chose for every case: marker, mouse, theme, units, ASCII; kept in a file of its
-//! own.
+//! Settings for every case: marker, mouse, theme, units and ASCII, in a file of their own.
 
 use std::env;
 use std::fs;
-use std::io::{self, Write};
-use std::path::PathBuf;
+use std::io;
+use std::path::{Path, PathBuf};
 
 use directories::ProjectDirs;
 use ratatui::symbols::Marker;
-use tempfile::NamedTempFile;
 use toml_edit::{DocumentMut, Item, Value};
 
 use super::theme::{Look, ThemeName};
+use crate::case::file::{self, SaveError};
+use crate::case::sanitize::sanitize;
 use crate::case::units::System;
 
 /// Markers by their names in the file.
@@ -24,7 +24,7 @@ const MARKERS: [(&str, Marker); 3] = [
 /// A longer file is none of ours.
 const MOST_BYTES: u64 = 64 * 1024;
 
-/// What the user chose for every case.
+/// Settings for every case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Settings {
     /// How the chart draws a point.
@@ -52,8 +52,7 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// The settings of a file's text. What it does not say, or says in words that are not known
-    /// here, is as usual.
+    /// The settings of a file's text; missing keys and unknown values become the defaults.
     #[must_use]
     pub fn parse(text: &str) -> Settings {
         let usual = Settings::default();
@@ -75,14 +74,14 @@ impl Settings {
         }
     }
 
-    /// The text of the file with these settings; all else that stands in it stays.
+    /// The text of the file with these settings; the rest of the text stays.
     ///
     /// # Errors
-    /// Where the old text is no TOML: then it is the user's to mend.
+    /// Where the old text is no TOML: the user has to fix it.
     pub fn render(&self, old: &str) -> Result<String, String> {
         let mut file: DocumentMut = old
             .parse()
-            .map_err(|_| "the settings are no TOML: mend or delete the file".to_owned())?;
+            .map_err(|_| "the settings are no TOML: fix or delete the file".to_owned())?;
         let mut set = |key: &str, new: Option<Value>| match (
             new,
             file.get_mut(key).and_then(Item::as_value_mut),
@@ -102,7 +101,7 @@ impl Settings {
         Ok(file.to_string())
     }
 
-    /// What the user kept, as usual where there is nothing to be read.
+    /// Saved settings, or the defaults if there are none.
     #[must_use]
     pub fn read() -> Settings {
         file()
@@ -110,27 +109,34 @@ impl Settings {
             .map_or_else(Settings::default, |text| Settings::parse(&text))
     }
 
-    /// Keep them: the old file or the new one, never half of one.
+    /// Writes the settings as a save writes a case: links are followed, the mode stays, and
+    /// whatever fails, the old file stays or the new one is complete.
     ///
     /// # Errors
     /// The reason, in words.
     pub fn keep(&self) -> Result<(), String> {
-        let file = file().ok_or("the system names no folder for settings")?;
-        let told = |error: io::Error| format!("{}: {error}", file.display());
-        let folder = file
-            .parent()
-            .ok_or("the system names no folder for settings")?;
-        fs::create_dir_all(folder).map_err(told)?;
+        let file = file().ok_or("HOME and XDG_CONFIG_HOME name no folder")?;
+        self.write_to(&file)
+    }
+
+    fn write_to(&self, file: &Path) -> Result<(), String> {
+        let name = || sanitize(&file.display().to_string());
+        let in_words = |error: io::Error| format!("{}: {error}", name());
+        if let Some(folder) = file.parent() {
+            fs::create_dir_all(folder).map_err(in_words)?;
+        }
         let text = self
-            .render(&old_text(&file).map_err(told)?)
-            .map_err(|reason| format!("{}: {reason}", file.display()))?;
-        let write = || {
-            let mut new = NamedTempFile::new_in(folder)?;
-            new.write_all(text.as_bytes())?;
-            new.as_file().sync_all()?;
-            new.persist(&file).map_err(|error| error.error).map(drop)
-        };
-        write().map_err(told)
+            .render(&old_text(file).map_err(in_words)?)
+            .map_err(|reason| format!("{}: {reason}", name()))?;
+        file::write(file, text.as_bytes(), true).map_err(|error| match error {
+            SaveError::ReadOnly(name) => {
+                format!("{name}: the file is read-only: make it writable (chmod u+w)")
+            }
+            SaveError::HardLinked(name, count) => format!(
+                "{name}: the file has {count} names (hard links): use a symbolic link instead"
+            ),
+            other => other.to_string(),
+        })
     }
 
     /// What the terminal is able to show, as far as the user does not want it otherwise. No setting
@@ -164,12 +170,12 @@ fn marker_of(name: &str) -> Option<Marker> {
         .map(|&(_, marker)| marker)
 }
 
-fn old_text(file: &PathBuf) -> io::Result<String> {
+fn old_text(file: &Path) -> io::Result<String> {
     match fs::metadata(file) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(String::new()),
         Err(error) => Err(error),
         Ok(about) if !about.is_file() || about.len() > MOST_BYTES => {
-            Err(io::Error::other("this is no file of settings"))
+            Err(io::Error::other("this is not a file of settings"))
         }
         Ok(_) => fs::read_to_string(file),
     }
@@ -193,6 +199,9 @@ fn file() -> Option<PathBuf> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs::Permissions;
+    use std::os::unix::fs::{PermissionsExt, symlink};
+
     use crate::tui::theme::{MONO, QUIET};
 
     #[test]
@@ -237,6 +246,45 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn a_linked_file_stays_a_link_and_its_target_keeps_its_mode() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = |name: &str| folder.path().join(name);
+        let dotfile = path("dotfile.toml");
+        fs::write(&dotfile, "# mine\n").expect("room on the disk");
+        fs::set_permissions(&dotfile, Permissions::from_mode(0o640)).expect("our own file");
+        symlink("dotfile.toml", path("settings.toml")).expect("a link");
+        let settings = Settings {
+            mouse: true,
+            ..Settings::default()
+        };
+        assert_eq!(settings.write_to(&path("settings.toml")), Ok(()));
+        assert!(path("settings.toml").is_symlink());
+        let text = fs::read_to_string(&dotfile).expect("it is there");
+        assert!(
+            text.contains("# mine") && text.contains("mouse = true"),
+            "{text}"
+        );
+        let mode = fs::metadata(&dotfile)
+            .expect("it is there")
+            .permissions()
+            .mode();
+        assert_eq!(mode & 0o7777, 0o640);
+    }
+
+    #[test]
+    fn settings_that_cannot_be_written_name_the_fix() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = |name: &str| folder.path().join(name);
+        fs::write(path("settings.toml"), "").expect("room on the disk");
+        fs::hard_link(path("settings.toml"), path("other")).expect("a link");
+        let refused = Settings::default().write_to(&path("settings.toml"));
+        assert!(refused.is_err_and(|reason| reason.ends_with("use a symbolic link instead")));
+        symlink("none/settings.toml", path("dangling")).expect("a link");
+        let refused = Settings::default().write_to(&path("dangling"));
+        assert!(refused.is_err_and(|reason| reason.contains("mkdir -p")));
     }
 
     #[test]
