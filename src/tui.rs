@@ -26,9 +26,9 @@ pub mod line;
 pub mod pane;
 pub mod pick;
 pub mod prompt;
-pub mod recovery;
 pub mod rows;
 pub mod scale;
+pub mod session;
 pub mod settings;
 pub mod solver;
 pub mod store;
@@ -56,10 +56,11 @@ use effects::{claimed, perform};
 use ending::TERMINAL_LOST;
 use events::{Event, Events};
 use jobs::Jobs;
+use session::autosave::Autosave;
+use session::journal_writer::JournalWriter;
 use settings::Settings;
 use solver::Solver;
-use store::autosave::Autosave;
-use store::journal_writer::JournalWriter;
+use store::state::State;
 use store::{Opening, Trouble};
 use terminal::Screen;
 use theme::Look;
@@ -190,10 +191,7 @@ fn session(
     }
     let trade_worker = TradeWorker::new(events.meter());
     let errands = Jobs::new(events.messenger());
-    let autosave = Autosave::new(
-        store::state::folder().as_deref(),
-        Arc::clone(journal_writer),
-    );
+    let autosave = Autosave::new(State::find(), Arc::clone(journal_writer));
     Workbench {
         app,
         screen,
@@ -298,16 +296,11 @@ impl Workbench {
                     Effect::CancelWork => self.trade_worker.stop(),
                     Effect::CancelSolve => self.solver.stop(),
                     Effect::Job(errand) => self.errands.ask(errand)?,
-                    Effect::Save(saving, next) => {
-                        let (path, result) = self.autosave.save(*saving);
-                        actions.push(Action::Saved(path, next, result));
-                    }
                     Effect::Keep(settings) => self.chosen = Some(settings),
-                    Effect::Adopt(journal) => self.autosave.adopt(journal),
                     Effect::Copy(text) => self.screen.copy(&text)?,
                     Effect::Mouse(takes) => self.screen.take_mouse(takes)?,
                     Effect::Play(plays) => self.alarm = plays.then(|| Instant::now() + TICK),
-                    other => actions.extend(perform(other)),
+                    other => actions.extend(perform(other, &mut self.autosave)),
                 }
             }
         }
@@ -319,7 +312,7 @@ impl Workbench {
         let kept = self
             .chosen
             .take()
-            .and_then(|settings| perform(Effect::Keep(settings)));
+            .and_then(|settings| perform(Effect::Keep(settings), &mut self.autosave));
         if let Some(action) = kept {
             update(&mut self.app, action);
         }

@@ -409,7 +409,7 @@ fn pipes_folders_and_devices_are_refused_at_once() {
         );
         let saved = Document::table_1().save_over(path);
         let is_told = if path.is_dir() {
-            matches!(saved, Err(SaveError::IsAFolder(_)))
+            matches!(saved, Err(SaveError::IsAFolder(..)))
         } else {
             matches!(saved, Err(SaveError::NotAFile(_)))
         };
@@ -467,7 +467,7 @@ fn a_folder_that_cannot_be_written_leaves_file_and_changes() {
     let missing = tempfile::tempdir().unwrap().path().join("gone/case.toml");
     let error = Document::table_1().save(&missing).unwrap_err();
     assert!(
-        matches!(&error, SaveError::NoFolder(_, folder) if missing.parent() == Some(Path::new(folder))),
+        matches!(&error, SaveError::NoFolder(_, folder, _) if missing.parent() == Some(Path::new(folder))),
         "{error}"
     );
     assert!(error.to_string().contains("mkdir -p"), "{error}");

@@ -56,7 +56,7 @@ fn saver() {
         "the buffer is unsaved until the file is in place"
     );
     match result {
-        Ok(()) => std::process::exit(SAVED),
+        Ok(_) => std::process::exit(SAVED),
         Err(error) => {
             assert!(!error.to_string().contains('\n'));
             // Past the harness, which would hold it back.
@@ -568,6 +568,48 @@ fn a_save_of_the_workbench_that_fails_is_told_and_the_edits_stay() {
                 "{left:?}"
             );
         }
+    }
+}
+
+#[test]
+fn a_read_error_during_a_save_is_named_and_is_no_change_on_disk() {
+    if !is_there("strace") {
+        return;
+    }
+    // The first calls on the file open and read it when the program starts.
+    for (call, step) in [("openat", 2), ("openat", 3), ("read", 9), ("read", 14)] {
+        let launch = Launch::on_table_1();
+        let case = launch.case();
+        let (trace, inject) = (
+            format!("trace={call}"),
+            format!("inject={call}:error=EIO:when={step}"),
+        );
+        let launch = launch.through(&[
+            "strace",
+            "-f",
+            "-qq",
+            "-o",
+            "/dev/null",
+            "-P",
+            case.to_str().expect("UTF-8"),
+            "-e",
+            &trace,
+            "-e",
+            &inject,
+            "--",
+        ]);
+        let mut tty = launch.start();
+        tty.wait_for("Corner contact");
+        tty.type_in("\x156 mm\x13");
+        tty.wait_for("not saved: ");
+        tty.wait_for("Input/output error");
+        assert!(!tty.shows("has changed on disk"), "{call} {step}");
+        assert!(tty.shows("*unsaved*"), "{call} {step}");
+        tty.type_in("\x13");
+        tty.wait_for("saved ");
+        tty.wait_until("the mark to go", |tty| !tty.shows("*unsaved*"));
+        tty.quit();
+        assert!(fs::read_to_string(case).is_ok_and(|text| text == new_text()));
     }
 }
 

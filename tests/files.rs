@@ -18,16 +18,15 @@ use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, SystemTime};
 
-use harness::{Desk, SMALL, TABLE_1};
+use harness::{Desk, LARGE, SMALL, TABLE_1};
 use ratatui::layout::Size;
 use tipstrike::case::file::SaveError;
 use tipstrike::case::{Document, fields};
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::actions::Effect;
 use tipstrike::tui::commands::Command as Do;
-use tipstrike::tui::effects::perform;
 use tipstrike::tui::prompt::Next;
-use tipstrike::tui::store::SaveFault;
+use tipstrike::tui::session::save::SaveFault;
 use tipstrike::tui::update::update;
 use tty::{Launch, PROGRAM};
 
@@ -184,7 +183,7 @@ fn what_is_typed_while_a_save_runs_stays_and_stays_unsaved() {
         .find(|effect| matches!(effect, Effect::Save(..)))
         .expect("a save");
     desk.keys(&["Ctrl-U", "1600 rpm"]);
-    desk.act(perform(save).expect("it tells how it went"));
+    desk.perform(save);
     assert!(desk.shows("saved ") && desk.read("case.toml").contains("1500 rpm"));
     assert!(
         desk.shows("1600 rpm") && desk.app.is_unsaved(),
@@ -193,6 +192,61 @@ fn what_is_typed_while_a_save_runs_stays_and_stays_unsaved() {
     );
     desk.keys(&["Ctrl-S"]);
     assert!(desk.read("case.toml").contains("1600 rpm") && !desk.app.is_unsaved());
+}
+
+#[test]
+fn a_deleted_file_is_created_again_with_its_mode_and_the_save_says_so() {
+    let desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    let path = desk.path("case.toml");
+    fs::set_permissions(&path, Permissions::from_mode(0o600)).expect("our own file");
+    let mut desk = Desk::at(desk.folder, "case.toml");
+    desk.act(Action::Resize(LARGE));
+    desk.fill("operation.speed", "1500 rpm");
+    fs::remove_file(&path).expect("our own file");
+    desk.keys(&["Ctrl-S"]);
+    assert!(
+        desk.shows("saved ") && desk.shows("the file was deleted, and this save created it again"),
+        "{}",
+        desk.screen()
+    );
+    let mode = fs::metadata(&path).expect("it is there").mode();
+    assert_eq!(mode & 0o7777, 0o600);
+    assert!(desk.read("case.toml").contains("1500 rpm") && !desk.app.is_unsaved());
+    desk.fill("operation.speed", "1600 rpm").keys(&["Ctrl-S"]);
+    assert!(
+        desk.shows("saved ") && !desk.shows("deleted"),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn distributions_without_effect_are_named_when_a_case_opens_and_stay_in_its_file() {
+    let text = format!("{TABLE_1}\n[spread]\n\"pair.module\" = {{ normal = \"1 um\" }}\n");
+    let mut desk = Desk::on(SMALL, "case.toml", &text);
+    desk.keys(&["Down"]);
+    assert!(desk.shows("[spread] has no effect"), "{}", desk.screen());
+    desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
+    assert_eq!(desk.read("case.toml"), text.replace("2000 rpm", "1500 rpm"));
+    for command in ["solve", "check"] {
+        let output = Command::new(PROGRAM)
+            .arg(command)
+            .arg(desk.path("case.toml"))
+            .output()
+            .expect("the program starts");
+        let words = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(
+            output.status.success() && words.lines().count() == 1,
+            "{words}"
+        );
+        assert!(
+            words.contains("case.toml: [spread] has no effect"),
+            "{words}"
+        );
+    }
+    let new = Command::new(PROGRAM).arg("new").output();
+    let new = new.expect("the program starts").stdout;
+    assert!(!String::from_utf8_lossy(&new).contains("spread"));
 }
 
 #[test]
@@ -402,6 +456,34 @@ fn what_is_no_file_is_told_without_a_terminal() {
             (Some(5), 1),
             "new {name}: {words}"
         );
+    }
+    symlink("nodir/y", path("far")).expect("a link");
+    fs::write(path("file"), "").expect("room on the disk");
+    let here = folder.path().display();
+    for (name, cause) in [
+        (
+            "far",
+            format!("there is no folder {here}/nodir: make it first (mkdir -p {here}/nodir)"),
+        ),
+        (
+            "my own/x",
+            format!("there is no folder {here}/my own: make it first (mkdir -p '{here}/my own')"),
+        ),
+        ("new/", format!("there is no folder {here}/new")),
+        ("file/x/y", format!("{here}/file is not a folder")),
+        (
+            "/",
+            "/: this is a folder: add the name of a file to it, such as /case.toml".to_owned(),
+        ),
+    ] {
+        let output = Command::new(PROGRAM)
+            .arg("new")
+            .arg(path(name))
+            .output()
+            .expect("the program starts");
+        let words = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(5), "new {name}: {words}");
+        assert!(words.contains(&cause), "new {name}: {words}");
     }
     // A link to nowhere is a name for a new file.
     let output = Command::new(PROGRAM)

@@ -17,8 +17,8 @@ use tipstrike::tui::actions::Action;
 use tipstrike::tui::app::Progress;
 use tipstrike::tui::prompt::Next;
 use tipstrike::tui::prompt::{Prompt, Question};
-use tipstrike::tui::recovery::{Access, Claim, Offer};
-use tipstrike::tui::store::SaveFault;
+use tipstrike::tui::session::recovery::{Access, Claim, Offer};
+use tipstrike::tui::session::save::SaveFault;
 use tipstrike::tui::theme::{Look, MONO};
 
 const HOLDER: &str = "process 4711 on drawing-office, since 12 min";

@@ -12,17 +12,19 @@
 mod tty;
 
 use std::fs;
-use std::os::unix::fs::symlink;
+use std::fs::Permissions;
+use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use ratatui::layout::Size;
-use tipstrike::case::journal::Journal;
 use tipstrike::case::{Document, fields};
 use tipstrike::tui::app::App;
-use tipstrike::tui::store::autosave::Autosave;
-use tipstrike::tui::store::journal_writer::JournalWriter;
+use tipstrike::tui::session::autosave::Autosave;
+use tipstrike::tui::session::journal::Journal;
+use tipstrike::tui::session::journal_writer::JournalWriter;
+use tipstrike::tui::store::state::State;
 use tipstrike::tui::theme::Look;
 
 use tty::{Launch, PATIENCE, TABLE_1, Tty, has_faults_on_demand, is_there, journals, stat};
@@ -60,7 +62,10 @@ fn bench(folder: &Path) -> (App, Autosave, Arc<JournalWriter>) {
     let document = Document::read(&path).expect("a good case");
     let app = tipstrike::tui::update::opened(document, Some(path), Look::FULL, Size::new(80, 24));
     let journal_writer = JournalWriter::open(|warning| panic!("{warning}")).expect("a thread");
-    let autosave = Autosave::new(Some(&folder.join("tipstrike")), Arc::clone(&journal_writer));
+    let autosave = Autosave::new(
+        State::choose(Some(folder.join("tipstrike")), Vec::new()),
+        Arc::clone(&journal_writer),
+    );
     (app, autosave, journal_writer)
 }
 
@@ -183,9 +188,9 @@ fn a_journal_whose_edits_are_in_the_form_stays_until_they_are_kept_anew() {
 #[test]
 fn edits_that_cannot_be_kept_are_told() {
     let folder = tempfile::tempdir().expect("a folder");
-    fs::write(folder.path().join("tipstrike"), "no folder").expect("room on the disk");
     let (mut app, mut autosave, _chest) = bench(folder.path());
     autosave.follow(&app.sheets(), Instant::now());
+    fs::write(folder.path().join("tipstrike"), "no folder").expect("room on the disk");
     write(&mut app, "pair.module", "6 mm");
     let told = autosave.follow(&app.sheets(), Instant::now());
     assert!(
@@ -193,12 +198,139 @@ fn edits_that_cannot_be_kept_are_told() {
         "{told:?}"
     );
     drop(autosave);
-    let mut homeless = Autosave::new(None, Arc::new(JournalWriter::default()));
+    let mut homeless = Autosave::new(
+        State::choose(None, Vec::new()),
+        Arc::new(JournalWriter::default()),
+    );
     let told = homeless.follow(&app.sheets(), Instant::now());
     assert!(
         matches!(&told[..], [Ok(claim)] if claim.notices[0].contains("HOME")),
         "{told:?}"
     );
+}
+
+#[test]
+fn a_case_without_a_lock_is_named_and_its_file_is_still_compared() {
+    let obstacles: [(&str, fn(&Path)); 2] = [
+        ("is a symbolic link: remove that", |lock| {
+            symlink("/nonexistent", lock).expect("a link");
+        }),
+        ("is a folder: remove that", |lock| {
+            fs::create_dir(lock).expect("our own folder")
+        }),
+    ];
+    for (cause, obstruct) in obstacles {
+        let launch = Launch::on_table_1().size(24, 200);
+        obstruct(&launch.folder.path().join(".case.toml.tipstrike"));
+        let mut tty = launch.start();
+        tty.wait_for("case.toml is not locked, so other sessions may save it too");
+        tty.wait_for(cause);
+        let mut second = again(&tty);
+        second.wait_for("case.toml is not locked");
+        tty.type_in("\x156 mm\x13");
+        tty.wait_for("saved ");
+        second.type_in("\x157 mm\x13");
+        second.wait_for("The file has changed on disk");
+        second.type_in("c\x11");
+        second.wait_for("has unsaved edits");
+        second.type_in("d");
+        second.wait_for_end();
+        tty.quit();
+        assert!(fs::read_to_string(tty.case()).is_ok_and(|text| text.contains("6 mm")));
+    }
+}
+
+#[test]
+fn a_folder_or_a_file_system_that_takes_no_locks_is_named() {
+    if !is_there("strace") {
+        return;
+    }
+    for (call, error, cause) in [
+        (
+            "openat",
+            "EROFS",
+            "its folder is read-only: save it elsewhere",
+        ),
+        (
+            "openat",
+            "EACCES",
+            "its folder is read-only: save it elsewhere",
+        ),
+        ("openat", "EIO", "Input/output error: open it only once"),
+        (
+            "flock",
+            "EOPNOTSUPP",
+            "is locked on this machine alone: Operation not supported",
+        ),
+    ] {
+        let launch = Launch::on_table_1().size(24, 200);
+        let lock = launch.folder.path().join(".case.toml.tipstrike");
+        let (trace, inject) = (
+            format!("trace={call}"),
+            format!("inject={call}:error={error}"),
+        );
+        let launch = launch.through(&[
+            "strace",
+            "-f",
+            "-qq",
+            "-o",
+            "/dev/null",
+            "-P",
+            lock.to_str().expect("UTF-8"),
+            "-e",
+            &trace,
+            "-e",
+            &inject,
+            "--",
+        ]);
+        let mut tty = launch.start();
+        tty.wait_for(cause);
+        tty.type_in("\x156 mm\x13");
+        tty.wait_for("saved ");
+        tty.quit();
+        assert!(fs::read_to_string(tty.case()).is_ok_and(|text| text.contains("6 mm")));
+    }
+}
+
+#[test]
+fn journals_keep_away_from_a_folder_that_others_may_write() {
+    let launch = Launch::on_table_1().size(24, 200);
+    let folder = Arc::clone(&launch.folder);
+    let state = folder.path().join("tipstrike");
+    let (elsewhere, run) = (folder.path().join("theirs"), folder.path().join("run"));
+    for place in [&state, &elsewhere, &run] {
+        fs::create_dir(place).expect("our own folder");
+    }
+    symlink(&elsewhere, state.join("journals")).expect("a link");
+    fs::set_permissions(&run, Permissions::from_mode(0o700)).expect("our own folder");
+    fs::set_permissions(&state, Permissions::from_mode(0o777)).expect("our own folder");
+    let run = run.to_str().expect("UTF-8");
+    let mut tty = launch.variable("XDG_RUNTIME_DIR", run).start();
+    tty.wait_for("others may write in");
+    tty.wait_for("unsaved edits are kept in");
+    tty.type_in("\x156 mm");
+    tty.wait_for("6 mm");
+    tty.send_signal("TERM");
+    tty.wait_for_end();
+    let is_empty = |place: &Path| fs::read_dir(place).is_ok_and(|mut files| files.next().is_none());
+    assert!(is_empty(&elsewhere) && !state.join("sessions").exists());
+    assert!(!state.join("last-case").exists());
+    let kept = fs::read_dir(folder.path().join("run/tipstrike/journals"));
+    assert_eq!(kept.expect("a folder").count(), 1);
+    // They are offered from there, also once the usual folder is private again.
+    fs::set_permissions(&state, Permissions::from_mode(0o700)).expect("our own folder");
+    let mut next = Launch::of(Arc::clone(&folder))
+        .argument(folder.path().join("case.toml"))
+        .variable("XDG_RUNTIME_DIR", run)
+        .start();
+    next.wait_for(OFFER);
+    assert!(!next.shows("others may write"));
+    next.type_in("\r");
+    next.wait_for("the edits are back");
+    next.type_in("\x13");
+    next.wait_for("saved ");
+    next.quit();
+    assert!(is_empty(&folder.path().join("run/tipstrike/journals")));
 }
 
 #[test]

@@ -17,11 +17,11 @@ use std::time::{Duration, Instant};
 
 use ratatui::layout::Size;
 use tipstrike::case::Document;
-use tipstrike::case::journal::Journal;
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::actions::Effect;
 use tipstrike::tui::commands::Command;
 use tipstrike::tui::rows;
+use tipstrike::tui::session::journal::Journal;
 use tipstrike::tui::theme::Look;
 use tipstrike::tui::update::{opened, update};
 use tty::{Launch, TABLE_1, Tty, journals};

@@ -3,9 +3,11 @@
 mod about;
 mod disk;
 mod edit;
+mod error;
 mod excerpt;
 mod fault;
 mod syntax;
+mod target;
 mod template;
 mod tree;
 mod unknown;
@@ -14,9 +16,11 @@ mod value;
 use std::path::PathBuf;
 
 use super::{Case, Problem};
-pub use disk::{ReadError, SaveError, followed, write};
+pub use disk::Saved;
+pub use error::{ReadError, SaveError};
 use fault::Lines;
 pub use fault::{Fault, FaultKind};
+pub use target::{followed, write};
 use tree::Places;
 
 /// The format of case files that this version reads and writes.
@@ -44,6 +48,8 @@ pub struct Document {
     is_newer: bool,
     /// The file that holds the text, links followed.
     origin: Option<PathBuf>,
+    /// Its mode when it was read or saved, for the case that it is deleted meanwhile.
+    mode: Option<u32>,
 }
 
 impl Document {
@@ -58,12 +64,7 @@ impl Document {
         let unmarked = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
         let reading = tree::read(unmarked);
         if !reading.faults.is_empty() {
-            return Err(fault::placed(
-                name,
-                unmarked,
-                reading.faults,
-                reading.more,
-            ));
+            return Err(fault::placed(name, unmarked, reading.faults, reading.more));
         }
         let marked = unmarked.len() < text.len();
         let (case, places) = (reading.case, reading.places);
@@ -77,6 +78,7 @@ impl Document {
             places,
             is_newer: false,
             origin: None,
+            mode: None,
         })
     }
 
@@ -113,6 +115,7 @@ impl Document {
             places,
             is_newer: true,
             origin: None,
+            mode: None,
         }
     }
 
@@ -137,6 +140,7 @@ impl Document {
             places,
             is_newer: false,
             origin: None,
+            mode: None,
         }
     }
 

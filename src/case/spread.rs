@@ -5,6 +5,10 @@ use super::fields::{FIELDS, Kind, index_of};
 use super::sanitize::quoted;
 use super::{check, suggest, units};
 
+/// The note for a case with distributions, since no computation reads them.
+pub const UNUSED: &str =
+    "[spread] has no effect: this version computes no tolerances; saving keeps it in the file";
+
 /// The shape of a distribution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {

@@ -1,8 +1,8 @@
-//! Cases opened for a command, with what is wrong with them said.
+//! Opens cases for a command and prints what is wrong with them.
 
 use super::{Exit, Setting, Streams};
 use crate::case::file::ReadError;
-use crate::case::{Case, Document, Problem};
+use crate::case::{Case, Document, Problem, spread};
 use crate::model::{Inputs, Refusal};
 use std::path::Path;
 
@@ -69,6 +69,9 @@ pub(super) fn changed(
                 streams.say(&on_command_line(setting, &problem));
                 Exit::Usage
             })?;
+    }
+    if !document.case.spread.is_empty() {
+        streams.say(&format!("{name}: {}", spread::UNUSED));
     }
     match document.case.inputs() {
         // Nothing waits for a report, so it is given the digits.

@@ -10,14 +10,14 @@ use super::commands::{self, Command};
 use super::jobs::{Explained, Job};
 use super::keys::{Chord, Place};
 use super::prompt::Next;
-use super::recovery::Claim;
+use super::session::recovery::Claim;
+use super::session::save::{SaveFault, Saving, Written};
 use super::settings::Settings;
 use super::solver::{Answer, Request};
 use super::store::case_search::Below;
 use super::store::folder::Listing;
 use super::store::preview::{Preview, Viewport};
 use super::store::recents::Recent;
-use super::store::{SaveFault, Saving};
 use super::trade_worker::{Measured, Measuring};
 use crate::case::Document;
 use crate::report::digest::Digest;
@@ -55,7 +55,7 @@ pub enum Action {
     /// A file was read, or its faults were found.
     Loaded(PathBuf, Result<Box<Document>, Vec<String>>),
     /// A file was written, or not; and what comes next.
-    Saved(PathBuf, Next, Result<Box<Document>, SaveFault>),
+    Saved(PathBuf, Next, Result<Box<Written>, SaveFault>),
     /// What stands in a folder.
     Listed(Box<Listing>),
     /// Which cases stand below a folder.

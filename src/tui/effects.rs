@@ -1,26 +1,29 @@
-//! Does what the state asks of the files, and says what came of it.
+//! Carries out the effects on files.
 
 use std::fs;
 
 use super::actions::{Action, Effect};
 use super::jobs::Finding;
-use super::recovery::Claim;
+use super::session::autosave::Autosave;
+use super::session::recovery::Claim;
 use super::store::{self, recents};
 
-/// Do what the state asks of the files; what is to be told about it. The other effects are not for
-/// files.
+/// Carries out an effect on files, and returns its result as an action. Ignores other effects.
 #[must_use]
-pub fn perform(effect: Effect) -> Option<Action> {
+pub fn perform(effect: Effect, autosave: &mut Autosave) -> Option<Action> {
     match effect {
         Effect::Load(path) => {
             let path = store::at_home(&path);
             let result = store::load(&path);
             Some(Action::Loaded(path, result))
         }
-        Effect::Save(mut saving, next) => {
-            saving.path = store::expanded(&saving);
-            let result = store::save(&saving);
-            Some(Action::Saved(saving.path, next, result))
+        Effect::Save(saving, next) => {
+            let (path, result) = autosave.save(*saving);
+            Some(Action::Saved(path, next, result))
+        }
+        Effect::Adopt(journal) => {
+            autosave.adopt(journal);
+            None
         }
         Effect::Remember(path) => {
             recents::add(&path);
@@ -38,7 +41,6 @@ pub fn perform(effect: Effect) -> Option<Action> {
         }
         Effect::Solve(_)
         | Effect::Job(_)
-        | Effect::Adopt(_)
         | Effect::Copy(_)
         | Effect::Mouse(_)
         | Effect::Play(_)
@@ -51,7 +53,7 @@ pub fn perform(effect: Effect) -> Option<Action> {
     }
 }
 
-/// What an errand found, as it is told.
+/// The result of a job as an action.
 #[must_use]
 pub fn told(finding: Finding) -> Action {
     match finding {
@@ -65,7 +67,7 @@ pub fn told(finding: Finding) -> Action {
     }
 }
 
-/// What the autosave has to say, as it is told.
+/// A result of the autosave as an action.
 #[must_use]
 pub fn claimed(claim: Result<Claim, String>) -> Action {
     claim.map_or_else(Action::Failed, |claim| Action::Claimed(Box::new(claim)))

@@ -7,7 +7,7 @@ use super::explanation::Explanation;
 use super::keys::Place;
 use super::line::Line;
 use super::pick::Picker;
-use super::recovery::{self, Offer};
+use super::session::recovery::{self, Offer};
 
 /// Something that lies over the form and takes the keys.
 #[derive(Debug, Clone)]

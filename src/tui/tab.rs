@@ -5,9 +5,9 @@ use std::path::PathBuf;
 
 use super::history::History;
 use super::line::Line;
-use super::recovery::{Access, OpenCase};
 use super::rows::{self, Row};
 use super::scale::Scale;
+use super::session::recovery::{Access, OpenCase};
 use super::solver::{Answer, Values};
 use super::window::Occasion;
 use crate::case::{Case, Document, Problem, fields};

@@ -5,6 +5,8 @@ use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
 
 use crossterm::event::{Event as Input, KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 use proptest::prelude::*;
@@ -21,9 +23,12 @@ use tipstrike::tui::app::App;
 use tipstrike::tui::events::{Event, take_action};
 use tipstrike::tui::jobs::{self, Job};
 use tipstrike::tui::prompt::Prompt;
+use tipstrike::tui::session::autosave::Autosave;
+use tipstrike::tui::session::journal_writer::JournalWriter;
 use tipstrike::tui::solver::{self, Request};
 use tipstrike::tui::store::preview::Viewport;
 use tipstrike::tui::store::recents;
+use tipstrike::tui::store::state::State;
 use tipstrike::tui::store::{self, case_search, folder};
 use tipstrike::tui::theme::Look;
 use tipstrike::tui::update::update;
@@ -54,7 +59,10 @@ enum Happening {
 /// A workbench in a folder of its own, and what must come of it.
 struct Bench {
     app: App,
+    autosave: Autosave,
     folder: TempDir,
+    /// The folder of state.
+    _state: TempDir,
     /// What the worker has not answered yet.
     waiting: Option<Request>,
     /// The cases to which undoing everything may lead back: every one that was opened.
@@ -227,11 +235,18 @@ impl Bench {
                 height: 24,
             },
         );
+        let home = tempfile::tempdir().expect("a folder");
+        let state = State {
+            folder: Some(home.path().to_owned()),
+            ..State::default()
+        };
         let first = app.case.clone();
         let opened = vec![first, Case::table_1(), Case::fresh()];
         Bench {
             app,
+            autosave: Autosave::new(state, Arc::new(JournalWriter::default())),
             folder,
+            _state: home,
             waiting: None,
             on_disk: opened.clone(),
             opened,
@@ -313,6 +328,9 @@ impl Bench {
                 actions.extend(self.perform(effect, was_asked));
             }
         }
+        for claim in self.autosave.follow(&self.app.sheets(), Instant::now()) {
+            update(&mut self.app, effects::claimed(claim));
+        }
     }
 
     /// What a file that was read or written says from now on.
@@ -323,8 +341,8 @@ impl Bench {
                 self.on_disk.push(document.case.clone());
                 "loaded"
             }
-            Action::Saved(_, _, Ok(document)) => {
-                self.on_disk.push(document.case.clone());
+            Action::Saved(_, _, Ok(written)) => {
+                self.on_disk.push(written.document.case.clone());
                 "saved"
             }
             Action::Loaded(..) => "not loaded",
@@ -354,10 +372,12 @@ impl Bench {
                 self.seen.insert("quit");
                 None
             }
-            Effect::Load(path) => effects::perform(Effect::Load(self.within(&path))),
+            Effect::Load(path) => {
+                effects::perform(Effect::Load(self.within(&path)), &mut self.autosave)
+            }
             Effect::Save(mut saving, next) => {
                 saving.path = self.within(&saving.path);
-                effects::perform(Effect::Save(saving, next))
+                effects::perform(Effect::Save(saving, next), &mut self.autosave)
             }
             Effect::Job(Job::Folder(base, typed)) => {
                 let mut listing =

@@ -5,7 +5,9 @@
 use std::cell::RefCell;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
+use std::time::Instant;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::Terminal;
@@ -19,8 +21,11 @@ use tipstrike::tui::actions::Effect;
 use tipstrike::tui::actions::{self, Action};
 use tipstrike::tui::app::App;
 use tipstrike::tui::jobs::{self, Job};
+use tipstrike::tui::session::autosave::Autosave;
+use tipstrike::tui::session::journal_writer::JournalWriter;
 use tipstrike::tui::settings::Settings;
 use tipstrike::tui::store::recents;
+use tipstrike::tui::store::state::State;
 use tipstrike::tui::theme::Look;
 use tipstrike::tui::trade_worker::{Measuring, measure};
 use tipstrike::tui::update::update;
@@ -42,6 +47,9 @@ pub(crate) const TABLE_1: &str = include_str!("../../cases/zhou-chen-2014.toml")
 )]
 pub(crate) struct Desk {
     pub(crate) app: App,
+    /// Saves, locks and keeps edits as in the program.
+    pub(crate) autosave: Autosave,
+    state: TempDir,
     pub(crate) folder: TempDir,
     pub(crate) has_quit: bool,
     pub(crate) has_cancelled: bool,
@@ -58,8 +66,11 @@ impl Desk {
     /// On the built-in case.
     pub(crate) fn new(size: Size) -> Desk {
         let app = update::opened(store::built_in(), None, Look::FULL, size);
+        let state = tempfile::tempdir().expect("a folder");
         Desk {
             app,
+            autosave: autosave(state.path()),
+            state,
             folder: tempfile::tempdir().expect("a folder"),
             has_quit: false,
             has_cancelled: false,
@@ -83,6 +94,16 @@ impl Desk {
             Look::FULL,
             size,
         );
+        desk
+    }
+
+    /// On a file that is in the folder already.
+    pub(crate) fn at(folder: TempDir, name: &str) -> Desk {
+        let mut desk = Desk::new(SMALL);
+        let path = folder.path().join(name);
+        let document = Document::read(&path).expect("a good case");
+        desk.app = update::opened(document, Some(path), Look::FULL, SMALL);
+        desk.folder = folder;
         desk
     }
 
@@ -149,10 +170,19 @@ impl Desk {
                         actions.extend(jobs::perform(errand, &|_| true).map(effects::told));
                     }
                     Effect::Remember(_) => (),
-                    other => actions.extend(effects::perform(other)),
+                    other => actions.extend(effects::perform(other, &mut self.autosave)),
                 }
             }
         }
+        for claim in self.autosave.follow(&self.app.sheets(), Instant::now()) {
+            update(&mut self.app, effects::claimed(claim));
+        }
+    }
+
+    /// Carry out an effect as the program does.
+    pub(crate) fn perform(&mut self, effect: Effect) {
+        let action = effects::perform(effect, &mut self.autosave);
+        self.act(action.expect("a result"));
     }
 
     /// Go to a field by its key.
@@ -251,6 +281,15 @@ fn measured(measuring: Measuring) -> Vec<Action> {
     let mut told = told.into_inner();
     told.reverse();
     told
+}
+
+/// An autosave with its state in a folder, and without a thread that writes.
+pub(crate) fn autosave(folder: &Path) -> Autosave {
+    let state = State {
+        folder: Some(folder.to_owned()),
+        ..State::default()
+    };
+    Autosave::new(state, Arc::new(JournalWriter::default()))
 }
 
 /// A file that holds a case and its name.

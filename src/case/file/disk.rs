@@ -1,98 +1,25 @@
-//! Files on disk: what is no case is refused without waiting, and a save leaves the old file or the
-//! new one.
+//! Case files on disk: reading refuses anything but a regular file, and a save leaves the old file
+//! or the new one.
 
 use std::borrow::Cow;
-use std::fs::{self, File, OpenOptions, Permissions};
-use std::io::{self, ErrorKind, Read, Write};
-use std::os::unix::fs::{MetadataExt, PermissionsExt};
-use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::fs::{self, File};
+use std::io::{self, ErrorKind, Read};
+use std::os::unix::fs::MetadataExt;
+use std::path::Path;
 
-use thiserror::Error;
-
-use super::{Document, Fault, FaultKind, MOST_BYTES, about};
+use super::error::{ReadError, SaveError, shown};
+use super::target::{followed, target_of};
+use super::{Document, Fault, FaultKind, MOST_BYTES};
 use crate::case::Case;
-use crate::case::journal::Stamp;
-use crate::case::sanitize::sanitize;
+use crate::case::stamp::Stamp;
 
-/// Symbolic links that are followed, one after the other.
-const MOST_LINKS: usize = 40;
-/// How the name of a file begins that is not yet in its place; the number of the process follows.
-const TEMPORARY: &str = ".tipstrike-";
-/// No save takes so long.
-const STALE: Duration = Duration::from_secs(60);
-
-/// Why a file cannot be opened as a case.
-#[derive(Debug, Error)]
-pub enum ReadError {
-    /// There is no such file.
-    #[error("{0}: there is no such file")]
-    NotFound(String),
-    /// It is a folder, a pipe or a device.
-    #[error("{0}: this is not a regular file")]
-    NotAFile(String),
-    /// It is longer than [`MOST_BYTES`].
-    #[error("{0}: the file is longer than 1024 KiB, so it is no case")]
-    TooLarge(String),
-    /// The system refuses to read it.
-    #[error("{0}: cannot be read: {1}")]
-    Unreadable(String, io::Error),
-    /// Its text is no valid case.
-    #[error("{}", one_a_line(.0))]
-    Bad(Vec<Fault>),
-    /// It is of a newer format.
-    #[error("{0}")]
-    NewerFormat(Fault),
-}
-
-/// Why a document was not saved. The file on disk is then as it was.
-#[derive(Debug, Error)]
-pub enum SaveError {
-    /// Someone else changed the file after it was read.
-    #[error("{0}: the file was changed by someone else since it was read")]
-    ChangedOnDisk(String),
-    /// Another file is there already.
-    #[error("{0}: there is a file of that name already")]
-    AlreadyThere(String),
-    /// It is of a newer format, of which not everything is understood.
-    #[error(
-        "{0}: this case is of a newer format, and saving it here would lose what this version does not know"
-    )]
-    NewerFormat(String),
-    /// It is a folder, a pipe or a device.
-    #[error("{0}: this is not a regular file")]
-    NotAFile(String),
-    /// It is a folder.
-    #[error("{0}: this is a folder: add the name of a file to it, such as {0}/case.toml")]
-    IsAFolder(String),
-    /// The folder of the file is not there.
-    #[error("{0}: there is no folder {1}: make it first (mkdir -p {1}), or take another name")]
-    NoFolder(String, String),
-    /// The file may not be written.
-    #[error("{0}: the file is read-only: save under another name, or make it writable (chmod u+w)")]
-    ReadOnly(String),
-    /// The file has other names, which a save would part from it.
-    #[error(
-        "{0}: the file has {1} names (hard links), which saving would part: save under another name"
-    )]
-    HardLinked(String, u64),
-    /// The system refuses to write it.
-    #[error("{0}: cannot be written: {1}: {mend}", mend = mend(.1))]
-    Unwritable(String, io::Error),
-}
-
-/// Write a file that is no case, such as a report or a template, by the way of a save: whatever
-/// happens, the old file stays or the new one is whole. `over` says whether a file of that name may
-/// be replaced.
-///
-/// # Errors
-/// Where nothing was written.
-pub fn write(path: &Path, bytes: &[u8], over: bool) -> Result<(), SaveError> {
-    let target = target_of(path)?;
-    if target.old.is_some() && !over {
-        return Err(SaveError::AlreadyThere(shown(path)));
-    }
-    target.replace(bytes, path)
+/// What a save did to the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Saved {
+    /// The file has the new text.
+    Written,
+    /// The file had been deleted, and the save created it again.
+    Recreated,
 }
 
 impl Document {
@@ -102,14 +29,16 @@ impl Document {
     /// Where the file cannot be read, or is no valid case.
     pub fn read(path: &Path) -> Result<Document, ReadError> {
         let name = shown(path);
-        let (bytes, origin) = if path == Path::new("-") {
-            (capped(io::stdin().lock(), &name)?, None)
-        } else {
-            let file = open(path, &name)?;
-            (capped(file, &name)?, followed(path).ok())
-        };
+        if path == Path::new("-") {
+            let bytes = capped(io::stdin().lock(), &name)?;
+            return Document::parse_bytes(&name, &bytes).map_err(refused);
+        }
+        let file = open(path, &name)?;
+        let mode = file.metadata().ok().map(|about| about.mode());
+        let bytes = capped(file, &name)?;
         let mut document = Document::parse_bytes(&name, &bytes).map_err(refused)?;
-        document.origin = origin;
+        document.origin = followed(path).ok();
+        document.mode = mode;
         Ok(document)
     }
 
@@ -164,7 +93,7 @@ impl Document {
     ///
     /// # Errors
     /// Where nothing was saved; the file is then as it was.
-    pub fn save(&mut self, path: &Path) -> Result<(), SaveError> {
+    pub fn save(&mut self, path: &Path) -> Result<Saved, SaveError> {
         self.write(path, false)
     }
 
@@ -172,22 +101,35 @@ impl Document {
     ///
     /// # Errors
     /// Where nothing was saved; the file is then as it was.
-    pub fn save_over(&mut self, path: &Path) -> Result<(), SaveError> {
+    pub fn save_over(&mut self, path: &Path) -> Result<Saved, SaveError> {
         self.write(path, true)
     }
 
-    fn write(&mut self, path: &Path, over: bool) -> Result<(), SaveError> {
+    fn write(&mut self, path: &Path, over: bool) -> Result<Saved, SaveError> {
+        let name = shown(path);
         if self.is_newer {
-            return Err(SaveError::NewerFormat(shown(path)));
+            return Err(SaveError::NewerFormat(name));
         }
         let target = target_of(path)?;
         if target.old.is_some() && !over {
-            self.same_as_read(&target.path, &shown(path))?;
+            self.same_as_read(&target.path, &name)?;
         }
+        let is_own = self.origin.as_ref() == Some(&target.path)
+            || self.origin.is_some() && self.name == name;
         let text = self.render();
-        target.replace(text.as_bytes(), path)?;
-        self.settle(&text, shown(path), target.path);
-        Ok(())
+        let mode = self.mode.filter(|_| is_own);
+        target.replace(text.as_bytes(), mode, path)?;
+        let is_recreated = is_own && target.old.is_none();
+        self.mode = fs::metadata(&target.path)
+            .ok()
+            .map(|about| about.mode())
+            .or(mode);
+        self.settle(&text, name, target.path);
+        Ok(if is_recreated {
+            Saved::Recreated
+        } else {
+            Saved::Written
+        })
     }
 
     /// The content decides, not the time stamp: a mere touch is no change.
@@ -195,24 +137,12 @@ impl Document {
         if self.origin.as_deref() != Some(target) {
             return Err(SaveError::AlreadyThere(name.to_owned()));
         }
-        let now = open(target, name).and_then(|file| capped(file, name));
-        match now {
+        match open(target, name).and_then(|file| capped(file, name)) {
             Ok(bytes) if bytes == self.as_read().as_bytes() => Ok(()),
+            Err(ReadError::Unreadable(name, error)) => Err(SaveError::Unreadable(name, error)),
             _ => Err(SaveError::ChangedOnDisk(name.to_owned())),
         }
     }
-}
-
-fn shown(path: &Path) -> String {
-    sanitize(&path.display().to_string())
-}
-
-fn one_a_line(faults: &[Fault]) -> String {
-    faults
-        .iter()
-        .map(ToString::to_string)
-        .collect::<Vec<_>>()
-        .join("\n")
 }
 
 fn refused(mut faults: Vec<Fault>) -> ReadError {
@@ -249,162 +179,5 @@ fn capped(source: impl Read, name: &str) -> Result<Vec<u8>, ReadError> {
         Err(ReadError::TooLarge(name.to_owned()))
     } else {
         Ok(bytes)
-    }
-}
-
-/// The path behind every symbolic link, whether or not a file is there.
-///
-/// # Errors
-/// When the folder is not there, or the links lead round and round.
-pub fn followed(path: &Path) -> io::Result<PathBuf> {
-    let mut path = path.to_owned();
-    for _ in 0..MOST_LINKS {
-        let Ok(next) = fs::read_link(&path) else {
-            let folder = fs::canonicalize(folder_of(&path))?;
-            return Ok(path
-                .file_name()
-                .map_or(folder.clone(), |name| folder.join(name)));
-        };
-        path = folder_of(&path).join(next);
-    }
-    Err(io::Error::other("too many symbolic links"))
-}
-
-fn folder_of(path: &Path) -> &Path {
-    path.parent()
-        .filter(|folder| !folder.as_os_str().is_empty())
-        .unwrap_or(Path::new("."))
-}
-
-/// A file to be written, links followed, and what is there now.
-struct Target {
-    path: PathBuf,
-    old: Option<fs::Metadata>,
-}
-
-fn target_of(path: &Path) -> Result<Target, SaveError> {
-    let name = shown(path);
-    let target = followed(path).map_err(|error| no_folder(path, error))?;
-    match fs::metadata(&target) {
-        Ok(old) => {
-            replaceable(&target, &old, &name)?;
-            Ok(Target {
-                path: target,
-                old: Some(old),
-            })
-        }
-        Err(error) if error.kind() == ErrorKind::NotFound => Ok(Target {
-            path: target,
-            old: None,
-        }),
-        Err(error) => Err(SaveError::Unwritable(name, error)),
-    }
-}
-
-fn no_folder(path: &Path, error: io::Error) -> SaveError {
-    match error.kind() {
-        ErrorKind::NotFound | ErrorKind::NotADirectory => {
-            SaveError::NoFolder(shown(path), shown(folder_of(path)))
-        }
-        _ => SaveError::Unwritable(shown(path), error),
-    }
-}
-
-fn replaceable(target: &Path, old: &fs::Metadata, name: &str) -> Result<(), SaveError> {
-    if old.is_dir() {
-        return Err(SaveError::IsAFolder(name.trim_end_matches('/').to_owned()));
-    }
-    if !old.is_file() {
-        return Err(SaveError::NotAFile(name.to_owned()));
-    }
-    if old.nlink() > 1 {
-        return Err(SaveError::HardLinked(name.to_owned(), old.nlink()));
-    }
-    let closed = OpenOptions::new().write(true).open(target).err();
-    match closed {
-        None if !old.permissions().readonly() => Ok(()),
-        Some(error) if error.kind() != ErrorKind::PermissionDenied => {
-            Err(SaveError::Unwritable(name.to_owned(), error))
-        }
-        _ => Err(SaveError::ReadOnly(name.to_owned())),
-    }
-}
-
-impl Target {
-    fn replace(&self, bytes: &[u8], path: &Path) -> Result<(), SaveError> {
-        self.write(bytes).map_err(|error| match error.kind() {
-            ErrorKind::AlreadyExists if self.old.is_none() => SaveError::AlreadyThere(shown(path)),
-            _ => SaveError::Unwritable(shown(path), error),
-        })
-    }
-
-    /// Write beside the target, then rename over it; each step is on disk before the next one.
-    fn write(&self, bytes: &[u8]) -> io::Result<()> {
-        let folder = folder_of(&self.path);
-        // A new file's mode is cut by the umask on creation.
-        let mode = Permissions::from_mode(0o666);
-        let prefix = format!("{TEMPORARY}{}-", std::process::id());
-        let mut file = tempfile::Builder::new()
-            .prefix(&prefix)
-            .permissions(mode)
-            .tempfile_in(folder)?;
-        file.write_all(bytes)?;
-        if let Some(old) = &self.old {
-            about::keep(old, &self.path, file.as_file())?;
-        }
-        file.as_file().sync_all()?;
-        match self.old {
-            Some(_) => file.persist(&self.path).map_err(|error| error.error)?,
-            // A file that someone else made meanwhile is not ours to replace.
-            None => file
-                .persist_noclobber(&self.path)
-                .map_err(|error| error.error)?,
-        };
-        // The new file is in place, whether or not the folder can be flushed.
-        let _ = File::open(folder).and_then(|folder| folder.sync_all());
-        clear(folder);
-        Ok(())
-    }
-}
-
-/// Take away what saves that were killed have left in a folder. That one cannot be taken away is no
-/// reason to fail.
-fn clear(folder: &Path) {
-    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    for entry in entries.filter(|entry| entry.file_name().to_str().is_some_and(is_left_over)) {
-        let about = entry.metadata();
-        let is_old = |about: &fs::Metadata| {
-            about
-                .modified()
-                .is_ok_and(|time| time.elapsed().is_ok_and(|age| age > STALE))
-        };
-        if about.is_ok_and(|about| about.is_file() && is_old(&about)) {
-            drop(fs::remove_file(entry.path()));
-        }
-    }
-}
-
-// Of a process that is gone. On a shared disk it may live on another machine: hence the age.
-fn is_left_over(name: &str) -> bool {
-    let process = name
-        .strip_prefix(TEMPORARY)
-        .and_then(|rest| rest.split_once('-'))
-        .and_then(|(process, _)| process.parse().ok());
-    process.is_some_and(|process: u32| !Path::new("/proc").join(process.to_string()).exists())
-}
-
-/// What to do about a file that the system does not let us write.
-fn mend(error: &io::Error) -> &'static str {
-    match error.kind() {
-        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
-            "make room on the disk, or save elsewhere"
-        }
-        ErrorKind::FileTooLarge => "raise the limit on the size of files (ulimit -f)",
-        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
-            "save into a folder that may be written"
-        }
-        ErrorKind::InvalidFilename => "take a shorter name",
-        ErrorKind::Unsupported => "save under another name",
-        _ => "save elsewhere",
     }
 }

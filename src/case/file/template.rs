@@ -101,13 +101,11 @@ pub(super) fn text(case: &Case) -> String {
         "Greatest value allowed, of any quantity of the results.",
         "impact_force = \"2500 N\"",
     ));
-    let example = "\"deviations.base_pitch\" = { normal = \"4 um\" }";
-    text.push_str(&rest(
-        &entries,
-        "spread",
-        "Distribution of any field around its value, for tolerances.",
-        example,
-    ));
+    // Nothing reads distributions yet, so a new case does not ask for them.
+    if !case.spread.is_empty() {
+        let help = "Distribution of a field around its value.";
+        text.push_str(&rest(&entries, "spread", help, ""));
+    }
     text
 }
 

@@ -1,5 +1,5 @@
-//! The cases that were open last, the latest first, in the folder of state. Only a convenience:
-//! what fails here is not told.
+//! The list of recent cases, the latest first, in the folder of state. It is a convenience, so its
+//! errors are ignored.
 
 use std::ffi::OsString;
 use std::fs;
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-use super::state;
+use super::state::{self, State};
 use crate::case::sanitize::sanitize;
 
 /// So many are remembered.
@@ -105,7 +105,7 @@ fn render(paths: &[PathBuf]) -> Vec<u8> {
 
 fn file() -> Option<PathBuf> {
     // A single path without an end is how the last case was kept before.
-    state::folder().map(|folder| folder.join("last-case"))
+    State::find().folder.map(|folder| folder.join("last-case"))
 }
 
 #[cfg(test)]

@@ -4,13 +4,14 @@ use std::path::{Path, PathBuf};
 
 use super::{baseline, recovery, solve, tabs};
 use crate::case::Document;
+use crate::case::file::Saved;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::ascii;
 use crate::tui::line::Line;
 use crate::tui::prompt::{Choice, Next, Page, Prompt, Question};
-use crate::tui::recovery::{Access, NEWER};
-use crate::tui::store::{Over, SaveFault, Saving};
+use crate::tui::session::recovery::{Access, NEWER};
+use crate::tui::session::save::{Over, SaveFault, Saving, Written};
 use crate::tui::tab::Tab;
 
 /// Leave, or ask when anything is unsaved.
@@ -126,25 +127,30 @@ pub(super) fn saved(
     app: &mut App,
     path: PathBuf,
     next: Next,
-    result: Result<Box<Document>, SaveFault>,
+    result: Result<Box<Written>, SaveFault>,
 ) -> Vec<Effect> {
     let asked = app.tab.being_saved.take();
     match result {
-        Ok(document) => {
+        Ok(written) => {
+            let Written { document, saved } = *written;
             if matches!(app.prompts.last(), Some(Prompt::SaveAs(..))) {
                 app.prompts.pop();
             }
             app.tab.saved = document.case.clone();
-            // What was typed since then is not saved, and stays.
+            // Later edits are not saved, and stay.
             let is_as_asked = asked.is_none_or(|asked| asked == app.tab.case);
             if is_as_asked && app.tab.case != document.case {
                 app.tab.case = document.case.clone();
                 app.focus_on(app.focus);
             }
             app.tab.read_line_anew();
-            app.tab.document = *document;
+            app.tab.document = document;
             app.tab.in_place_of = None;
-            app.say(format!("saved {}", path.display()));
+            let how = match saved {
+                Saved::Written => "",
+                Saved::Recreated => ": the file was deleted, and this save created it again",
+            };
+            app.say(format!("saved {}{how}", path.display()));
             app.tab.path = Some(path.clone());
             baseline::rename(app);
             let mut effects = vec![Effect::Remember(path)];
@@ -224,7 +230,7 @@ fn refuse_faulty(app: &mut App) -> bool {
         return false;
     };
     app.focus_on(field);
-    app.complain("not saved: mend what is marked with ! first");
+    app.complain("not saved: fix the fields marked with ! first");
     true
 }
 

@@ -1,12 +1,12 @@
-//! What comes of a claim: who else has the case open is told, and kept edits are offered.
+//! Claims of opened cases: shows who else has the case open, and offers unsaved edits.
 
 use super::{solve, tabs};
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::prompt::{Prompt, Question};
-use crate::tui::recovery::{Access, Claim, Offer};
+use crate::tui::session::recovery::{Access, Claim, Offer};
 
-/// A case was opened, and this was found out about it.
+/// Shows the result of opening a case.
 pub(super) fn claimed(app: &mut App, claim: Claim) {
     let Some(at) = app.tabs().position(|tab| tab.id == claim.id) else {
         return;
@@ -31,8 +31,8 @@ pub(super) fn claimed(app: &mut App, claim: Claim) {
     {
         tab.access = access;
     }
-    if let Some(notice) = notices.into_iter().next() {
-        app.complain(notice);
+    if !notices.is_empty() {
+        app.complain(notices.join("; "));
     }
     let name = app.name();
     // The latest on top.

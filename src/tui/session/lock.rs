@@ -1,9 +1,10 @@
-//! Locks that end with the process that took them, whatever ends it, and that name it to others.
+//! Locks that end with their process, however it ends, and that name their process to others.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Read, Seek, Write};
 use std::os::unix::fs::{MetadataExt, OpenOptionsExt};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use rustix::fs::OFlags;
 use toml_edit::{DocumentMut, Item, value};
@@ -12,26 +13,33 @@ use super::clock;
 
 /// More than any holder writes.
 const MOST_BYTES: u64 = 4096;
-/// A lock may be taken away between finding and taking it; so often in a row it is not.
+/// The file of a lock may vanish between opening and locking it, but not so often in a row.
 const ATTEMPTS: usize = 5;
+/// How the name of a session's file begins until it is locked.
+const UNLOCKED: &str = ".";
+/// No process needs so long between making a file and locking it.
+const STALE: Duration = Duration::from_secs(600);
 
-/// A lock that is held until this is dropped.
+/// A lock, until this is dropped.
 #[derive(Debug)]
 pub struct Lock {
     file: File,
     path: PathBuf,
 }
 
-/// What came of taking a lock.
+/// The result of taking a lock.
 #[derive(Debug)]
 pub enum Taken {
     /// It is ours.
     Ours(Lock),
+    /// It is ours as far as other processes on this machine respect its text: the file system has
+    /// no locks.
+    Unguarded(Lock, io::Error),
     /// A living process has it.
     Held(Holder),
 }
 
-/// Who holds a lock; where it does not say so, the process is 0.
+/// The holder of a lock; the process is 0 where the file does not name it.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Holder {
     /// The name of the machine.
@@ -47,16 +55,17 @@ pub struct Holder {
 }
 
 impl Lock {
-    /// Take a lock, if no living process has it. The file of a process that is gone is taken over:
-    /// the system ends a lock with its process, so that no number of a process, and no start of the
-    /// machine, has to be believed.
+    /// Takes a lock, if no living process has it. The file of an ended process is taken over: the
+    /// system ends a lock with its process, so that neither a process number nor a boot needs to be
+    /// believed.
     ///
     /// # Errors
-    /// When no file can be made there.
+    /// When the file of the lock cannot be made or is no regular file.
     pub fn take(path: &Path) -> io::Result<Taken> {
         for _ in 0..ATTEMPTS {
             let mut file = open(path)?;
-            if let Some(holder) = other_holder(&mut file) {
+            let hold = hold(&mut file);
+            if let Hold::Other(holder) = hold {
                 return Ok(Taken::Held(holder));
             }
             let mut lock = Lock {
@@ -65,19 +74,47 @@ impl Lock {
             };
             if lock.is_in_place() {
                 lock.sign();
-                return Ok(Taken::Ours(lock));
+                return Ok(match hold {
+                    Hold::Unguarded(error) => Taken::Unguarded(lock, error),
+                    _ => Taken::Ours(lock),
+                });
             }
         }
-        Err(io::Error::other("it changes all the time"))
+        Err(io::Error::other("changes all the time"))
     }
 
-    /// Whether a living process holds a lock.
+    /// A new lock under a name of its own. Its file has that name only once it is locked, so that
+    /// no other process takes it for that of an ended one.
+    ///
+    /// # Errors
+    /// When there is no room for it.
+    pub(super) fn create(folder: &Path) -> io::Result<(String, Lock)> {
+        clear(folder);
+        let hidden = tempfile::Builder::new()
+            .prefix(UNLOCKED)
+            .rand_bytes(10)
+            .tempfile_in(folder)?;
+        let name = hidden.path().file_name().unwrap_or_default();
+        let name = name.to_string_lossy().replace(UNLOCKED, "");
+        let (Taken::Ours(mut lock) | Taken::Unguarded(mut lock, _)) = Lock::take(hidden.path())?
+        else {
+            return Err(io::Error::other("the name of the session is taken"));
+        };
+        let path = folder.join(&name);
+        hidden
+            .persist_noclobber(&path)
+            .map_err(|error| error.error)?;
+        lock.path = path;
+        Ok((name, lock))
+    }
+
+    /// Whether a living process has the lock.
     #[must_use]
     pub fn is_held(path: &Path) -> bool {
-        look_at(path).is_ok_and(|mut file| other_holder(&mut file).is_some())
+        look_at(path).is_ok_and(|mut file| matches!(hold(&mut file), Hold::Other(_)))
     }
 
-    // The words only tell others who it is: a lock that cannot be signed holds all the same.
+    // The text only names the process to others: a lock without it works all the same.
     fn sign(&mut self) {
         let text = Holder::ourselves().to_text();
         let file = &mut self.file;
@@ -176,13 +213,34 @@ impl Holder {
     }
 }
 
-// Who has it, if someone has; after this it is ours if nobody has.
-fn other_holder(file: &mut File) -> Option<Holder> {
+enum Hold {
+    Ours,
+    /// The file system has no locks, and the text names no living process.
+    Unguarded(io::Error),
+    Other(Holder),
+}
+
+/// Locks the file, unless another process has.
+fn hold(file: &mut File) -> Hold {
     match file.try_lock() {
-        Ok(()) => None,
-        Err(TryLockError::WouldBlock) => Some(Holder::read(file).unwrap_or_default()),
-        // A file system without locks: the holder's own words must do.
-        Err(TryLockError::Error(_)) => Holder::read(file).filter(Holder::is_alive),
+        Ok(()) => Hold::Ours,
+        Err(TryLockError::WouldBlock) => Hold::Other(Holder::read(file).unwrap_or_default()),
+        Err(TryLockError::Error(error)) => Holder::read(file)
+            .filter(Holder::is_alive)
+            .map_or(Hold::Unguarded(error), Hold::Other),
+    }
+}
+
+/// Removes the files of processes that were killed before they could.
+fn clear(folder: &Path) {
+    let files = fs::read_dir(folder).into_iter().flatten().flatten();
+    for file in files {
+        let is_unlocked = file.file_name().to_string_lossy().starts_with(UNLOCKED);
+        let age = file.metadata().and_then(|about| about.modified());
+        let is_old = age.is_ok_and(|time| time.elapsed().is_ok_and(|age| age > STALE));
+        if (is_old || !is_unlocked) && !Lock::is_held(&file.path()) {
+            drop(fs::remove_file(file.path()));
+        }
     }
 }
 
@@ -210,17 +268,16 @@ fn look_at(path: &Path) -> io::Result<File> {
     open_with(OpenOptions::new().read(true), path)
 }
 
-// A link or a pipe under the name of a lock is none of ours, and must not be followed or waited
-// for.
+// Someone else made a link or a pipe of that name: the link is not followed, and the pipe not
+// waited for.
 fn open_with(options: &mut OpenOptions, path: &Path) -> io::Result<File> {
     let flags = OFlags::NOFOLLOW | OFlags::NONBLOCK;
-    let file = options
-        .custom_flags(flags.bits().cast_signed())
-        .open(path)?;
-    if file.metadata()?.is_file() {
-        Ok(file)
-    } else {
-        Err(io::Error::other("it is no regular file"))
+    let file = options.custom_flags(flags.bits().cast_signed()).open(path);
+    let is_link = || fs::symlink_metadata(path).is_ok_and(|about| about.is_symlink());
+    match file {
+        Err(_) if is_link() => Err(io::Error::other("is a symbolic link")),
+        Ok(file) if !file.metadata()?.is_file() => Err(io::Error::other("is not a regular file")),
+        other => other,
     }
 }
 
@@ -252,6 +309,18 @@ fn started(process: u32) -> Option<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::atomic::{AtomicBool, Ordering};
+    use std::thread;
+    use std::time::SystemTime;
+
+    /// Ends a thread whether or not the test goes well.
+    struct End<'a>(&'a AtomicBool);
+
+    impl Drop for End<'_> {
+        fn drop(&mut self) {
+            self.0.store(true, Ordering::Relaxed);
+        }
+    }
 
     fn place() -> (tempfile::TempDir, PathBuf) {
         let folder = tempfile::tempdir().expect("a folder");
@@ -262,7 +331,7 @@ mod tests {
     fn ours(path: &Path) -> Lock {
         match Lock::take(path).expect("a lock") {
             Taken::Ours(lock) => lock,
-            Taken::Held(holder) => panic!("held by {holder:?}"),
+            other => panic!("{other:?}"),
         }
     }
 
@@ -335,5 +404,45 @@ mod tests {
         );
         assert!(Lock::take(&pipe).is_err() && !Lock::is_held(&pipe));
         assert!(Lock::take(&folder.path().join("none/lock")).is_err());
+    }
+
+    #[test]
+    fn a_session_that_begins_is_never_cleared_away_by_another() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let is_over = AtomicBool::new(false);
+        thread::scope(|scope| {
+            let _end = End(&is_over);
+            scope.spawn(|| {
+                while !is_over.load(Ordering::Relaxed) {
+                    clear(folder.path());
+                }
+            });
+            for number in 0..1000 {
+                let (name, lock) = Lock::create(folder.path()).expect("a session of its own");
+                assert!(Lock::is_held(&folder.path().join(name)), "session {number}");
+                drop(lock);
+            }
+        });
+        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
+    }
+
+    #[test]
+    fn the_file_of_a_killed_session_is_cleared_away() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let old = SystemTime::now() - 2 * STALE;
+        for (name, is_old) in [("killed", false), (".killed", true), (".begins", false)] {
+            let path = folder.path().join(name);
+            let file = File::create(path).expect("room on the disk");
+            if is_old {
+                file.set_modified(old).expect("our own file");
+            }
+        }
+        clear(folder.path());
+        let left: Vec<_> = fs::read_dir(folder.path())
+            .expect("a folder")
+            .flatten()
+            .map(|entry| entry.file_name())
+            .collect();
+        assert_eq!(left, [".begins"]);
     }
 }

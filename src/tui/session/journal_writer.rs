@@ -1,5 +1,4 @@
-//! What is to be kept in journals, and the thread that writes it: the workbench never waits for a
-//! disk.
+//! The wanted journals, and the thread that writes them: the workbench never waits for a disk.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -9,13 +8,13 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 
 use super::clock;
+use super::journal::Journal;
 use super::journals::Journals;
-use crate::case::journal::Journal;
 
 /// The name of the thread that writes journals.
 pub const THREAD: &str = "journal";
 
-/// Journals as they should stand on the disk, shared by all who may have to write them.
+/// The wanted journals, shared by the threads that may have to write them.
 #[derive(Debug, Default)]
 pub struct JournalWriter {
     shelf: Mutex<Shelf>,
@@ -38,8 +37,8 @@ struct Page {
 }
 
 impl JournalWriter {
-    /// A journal_writer, and its thread, which tells when a journal cannot be written, and sleeps
-    /// until it is method for.
+    /// A writer and its thread, which sleeps until [`JournalWriter::ring`]. `tell` receives the
+    /// reason when a journal cannot be written.
     ///
     /// # Errors
     /// When the system gives no thread.
@@ -60,7 +59,7 @@ impl JournalWriter {
         Ok(journal_writer)
     }
 
-    /// What a journal should say; `None` where it should not be there.
+    /// Sets the content of a journal; `None` removes it.
     pub fn put(&self, path: &Path, journal: Option<Journal>) {
         self.shelf()
             .pages
@@ -69,17 +68,17 @@ impl JournalWriter {
             .wanted = journal;
     }
 
-    /// Have all that has changed written, by the thread.
+    /// Wakes the thread, which writes every changed journal.
     pub fn ring(&self) {
         self.shelf().is_due = true;
         self.bell.notify_all();
     }
 
-    /// Write all that has changed, here and now. Only a `lasting` journal outlives a power cut,
-    /// which takes the disk's time; any outlives the process.
+    /// Writes every changed journal now. A journal outlives the process; a `lasting` one is flushed
+    /// to the disk and outlives a power cut too.
     ///
     /// # Errors
-    /// The first one; the other journals are written all the same.
+    /// The first error; the other journals are written all the same.
     pub fn write(&self, lasting: bool) -> io::Result<()> {
         let pen = self.pen.lock().unwrap_or_else(PoisonError::into_inner);
         let changed: Vec<_> = self.shelf().changed();
@@ -111,7 +110,7 @@ impl JournalWriter {
         result
     }
 
-    /// Whether there are edits that only a journal holds.
+    /// Whether any journal has edits that no file has.
     #[must_use]
     pub fn is_needed(&self) -> bool {
         self.shelf()
@@ -130,7 +129,7 @@ impl JournalWriter {
         self.shelf.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    // Whether there is something to do, rather than an end.
+    // Returns false at the end.
     fn wait(&self) -> bool {
         let mut shelf = self.shelf();
         while !shelf.is_due && !shelf.is_closed {

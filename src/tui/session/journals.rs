@@ -1,14 +1,14 @@
-//! The folder of journals: writing them, finding those that an ended session left, setting aside
-//! what is damaged.
+//! The folder of journals: writes them, finds those of ended sessions, and sets damaged ones aside.
 
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
-use super::lock::{Lock, Taken};
-use super::state;
-use crate::case::journal::{Journal, JournalFault, MOST_BYTES, hash};
+use super::journal::{Journal, JournalFault, MOST_BYTES};
+use super::lock::Lock;
 use crate::case::sanitize::sanitize;
+use crate::case::stamp::hash;
+use crate::tui::store::state;
 
 /// What a journal's name ends with.
 const ENDING: &str = "toml";
@@ -22,17 +22,17 @@ pub(super) struct Journals {
     sessions: PathBuf,
 }
 
-/// What was found for a case.
+/// The journals of a case.
 #[derive(Debug, Default)]
 pub(super) struct Found {
-    /// Journals that nobody writes any more, the latest first.
+    /// Those of ended sessions, the latest first.
     pub(super) journals: Vec<(PathBuf, Journal)>,
-    /// What became of those that cannot be trusted, a line each.
+    /// What happened to damaged ones, one sentence each.
     pub(super) notices: Vec<String>,
 }
 
 impl Journals {
-    /// In the folder of what outlives a session.
+    /// In a folder of state.
     #[must_use]
     pub(super) fn within(state: &Path) -> Journals {
         Journals {
@@ -44,40 +44,13 @@ impl Journals {
     /// A new session: a lock that tells others that its journals are still being written.
     ///
     /// # Errors
-    /// When there is no room for it.
+    /// When there is no room for it, or another user could change the folders.
     pub(super) fn begin(&self) -> io::Result<(String, Lock)> {
-        state::make(&self.journals)?;
-        state::make(&self.sessions)?;
-        self.clear_sessions();
-        let file = tempfile::Builder::new()
-            .prefix("")
-            .rand_bytes(10)
-            .tempfile_in(&self.sessions)?;
-        let name = file
-            .path()
-            .file_name()
-            .map(|name| name.to_string_lossy().into_owned())
-            .unwrap_or_default();
-        match Lock::take(file.path())? {
-            Taken::Ours(lock) => file
-                .keep()
-                .map(|_| (name, lock))
-                .map_err(|error| error.error),
-            Taken::Held(_) => Err(io::Error::other("the name of the session is taken")),
+        for folder in [&self.journals, &self.sessions] {
+            state::make(folder)?;
+            state::require_private(folder)?;
         }
-    }
-
-    // A session that was killed could not take its own lock away.
-    fn clear_sessions(&self) {
-        let ended = |path: &PathBuf| !Lock::is_held(path);
-        let places = fs::read_dir(&self.sessions)
-            .into_iter()
-            .flatten()
-            .flatten()
-            .map(|entry| entry.path());
-        places
-            .filter(ended)
-            .for_each(|path| drop(fs::remove_file(path)));
+        Lock::create(&self.sessions)
     }
 
     /// Where a session keeps the edits of a case; `number` tells its cases without a file apart.

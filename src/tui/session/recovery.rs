@@ -1,69 +1,69 @@
-//! What keeps typed values safe, as the state sees it: who else has the case open, and edits that
-//! were kept for it.
+//! The result of opening a case: whether another session has it open, and unsaved edits of an
+//! earlier session.
 
 use std::path::{Path, PathBuf};
 
 use crate::case::changes::{self, Change};
 use crate::case::{Case, Document};
 
-/// What there is to say of a case of a newer format.
+/// The message for a case of a newer format.
 pub const NEWER: &str = "read-only: of a newer format; only what this version knows is shown";
 
 /// Whether this workbench may write the file of a case.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum Access {
-    /// It may.
+    /// It may write the file.
     #[default]
     Own,
-    /// Another session has it open, which these words name.
+    /// Another session has it open: its process, machine and age.
     Held(String),
     /// It is of a newer format, of which not everything is understood.
     Newer,
 }
 
-/// A case that is open, and what the form makes of it.
+/// An open case and its form.
 #[derive(Debug, Clone, Copy)]
 pub struct OpenCase<'a> {
-    /// Tells it from other open ones.
+    /// Different for every open case.
     pub id: usize,
     /// Its file.
     pub path: Option<&'a Path>,
     /// The text of the file.
     pub document: &'a Document,
-    /// What the form says.
+    /// The case as the form has it.
     pub case: &'a Case,
     /// Whether it is shown as open elsewhere.
     pub is_held: bool,
 }
 
-/// What was found out when a case was opened.
+/// The result of opening a case.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Claim {
-    /// Which of the open ones.
+    /// The [`OpenCase::id`].
     pub id: usize,
     /// Whether its file may be written.
     pub access: Access,
-    /// Edits that were kept for it, the latest first.
+    /// Unsaved edits of earlier sessions, the latest first.
     pub offers: Vec<Offer>,
-    /// What else there is to say, a line each.
+    /// Messages for the user, one sentence each.
     pub notices: Vec<String>,
 }
 
-/// Edits that an earlier session could not save.
+/// Unsaved edits of an earlier session.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Offer {
-    /// The journal that holds them.
+    /// Their journal.
     pub journal: PathBuf,
-    /// How long ago they were kept, in words.
+    /// How long ago the journal was written, in words.
     pub age: String,
-    /// From what the file says now to what was typed.
+    /// From the file as it is now to the typed values.
     pub changes: Vec<Change>,
     /// Whether the file was changed since they were typed.
     pub is_file_changed: bool,
 }
 
 impl Claim {
-    /// A claim with nothing to tell but the access.
+    /// A claim without offers and notices.
     #[must_use]
     pub fn of(id: usize, access: Access) -> Claim {
         Claim {
@@ -74,7 +74,7 @@ impl Claim {
         }
     }
 
-    /// Whether there is nothing in it to tell.
+    /// Whether the user need not see it.
     #[must_use]
     pub fn is_silent(&self) -> bool {
         self.access == Access::Own && self.offers.is_empty() && self.notices.is_empty()
@@ -102,7 +102,7 @@ impl Access {
     }
 }
 
-/// A change in a line: what stands there now, and what would.
+/// A change on one line: the present value and the new one.
 #[must_use]
 pub fn line(change: &Change) -> String {
     format!(
@@ -113,9 +113,9 @@ pub fn line(change: &Change) -> String {
     )
 }
 
-/// Changes in a sentence: the first ones, and how many more there are.
+/// The first changes on one line, and the number of the others.
 #[must_use]
-pub fn told(changes: &[Change]) -> String {
+pub fn summary(changes: &[Change]) -> String {
     const MOST: usize = 3;
     let first: Vec<_> = changes.iter().take(MOST).map(line).collect();
     let more = changes.len().saturating_sub(MOST);
@@ -125,13 +125,13 @@ pub fn told(changes: &[Change]) -> String {
         String::new()
     };
     if first.is_empty() {
-        "nothing that is written".to_owned()
+        "no value changes".to_owned()
     } else {
         first.join("; ") + &more
     }
 }
 
-/// A text in a line, short, and the words for none.
+/// A text cut to one short line; `(empty)` for none.
 #[must_use]
 pub fn shown(text: Option<&str>) -> String {
     const MOST: usize = 40;

@@ -1,15 +1,14 @@
-//! Edits that are not saved yet, as a text that tells by itself whether it is whole.
+//! The text of a journal: unsaved edits, with a checksum that shows whether the text is complete.
 
 use std::ffi::OsString;
-use std::hash::Hasher;
 use std::os::unix::ffi::{OsStrExt, OsStringExt};
 use std::path::{Path, PathBuf};
 
-use siphasher::sip::SipHasher24;
 use thiserror::Error;
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, TableLike, value};
 
-use super::changes::Change;
+use crate::case::changes::Change;
+use crate::case::stamp::{Stamp, hash};
 
 /// The format of journals that this version reads and writes.
 pub const FORMAT: i64 = 1;
@@ -37,15 +36,6 @@ pub struct Journal {
     pub changes: Vec<Change>,
 }
 
-/// What tells one text from another.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Stamp {
-    /// In bytes.
-    pub length: u64,
-    /// SipHash-2-4 of the bytes.
-    pub hash: u64,
-}
-
 /// Why a text is no journal to be trusted.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum JournalFault {
@@ -61,17 +51,6 @@ pub enum JournalFault {
     /// It is whole, but says something that no journal says.
     #[error("it has no valid `{0}`")]
     Misformed(&'static str),
-}
-
-impl Stamp {
-    /// The stamp of a text.
-    #[must_use]
-    pub fn of(bytes: &[u8]) -> Stamp {
-        Stamp {
-            length: bytes.len() as u64,
-            hash: hash(bytes),
-        }
-    }
 }
 
 impl Journal {
@@ -123,14 +102,6 @@ impl Journal {
         }
         toml.to_string()
     }
-}
-
-/// SipHash-2-4 with a key of zeros: the same on every machine and in every version.
-#[must_use]
-pub fn hash(bytes: &[u8]) -> u64 {
-    let mut hasher = SipHasher24::new();
-    hasher.write(bytes);
-    hasher.finish()
 }
 
 fn line_of<'t>(text: &'t str, key: &str) -> Option<(&'t str, &'t str)> {
@@ -286,11 +257,5 @@ mod tests {
             Journal::from_text("format = 1\n"),
             Err(JournalFault::NotOne)
         );
-    }
-
-    #[test]
-    fn the_hash_is_the_same_for_ever() {
-        // SipHash-2-4 (Aumasson & Bernstein 2012) of nothing, under the key of zeros.
-        assert_eq!(hash(b""), 0x1e92_4b9d_7377_00d7);
     }
 }

@@ -1,0 +1,105 @@
+//! Why a file cannot be read as a case, and why a save fails.
+
+use std::io::{self, ErrorKind};
+use std::path::Path;
+
+use thiserror::Error;
+
+use super::Fault;
+use crate::case::sanitize::sanitize;
+
+/// Why a file cannot be opened as a case.
+#[derive(Debug, Error)]
+pub enum ReadError {
+    /// There is no such file.
+    #[error("{0}: there is no such file")]
+    NotFound(String),
+    /// It is a folder, a pipe or a device.
+    #[error("{0}: this is not a regular file")]
+    NotAFile(String),
+    /// It is longer than [`MOST_BYTES`].
+    #[error("{0}: the file is longer than 1024 KiB, so it is no case")]
+    TooLarge(String),
+    /// The system refuses to read it.
+    #[error("{0}: cannot be read: {1}")]
+    Unreadable(String, io::Error),
+    /// Its text is no valid case.
+    #[error("{}", one_a_line(.0))]
+    Bad(Vec<Fault>),
+    /// It is of a newer format.
+    #[error("{0}")]
+    NewerFormat(Fault),
+}
+
+/// Why a document was not saved. The file on disk is then as it was.
+#[derive(Debug, Error)]
+pub enum SaveError {
+    /// Someone else changed the file after it was read.
+    #[error("{0}: the file was changed by someone else since it was read")]
+    ChangedOnDisk(String),
+    /// The system refuses to read the file, so that a change by someone else would go unseen.
+    #[error(
+        "{0}: cannot be read, so changes by others would go unseen: {1}: try again, or save under another name"
+    )]
+    Unreadable(String, io::Error),
+    /// Another file is there already.
+    #[error("{0}: there is a file of that name already")]
+    AlreadyThere(String),
+    /// It is of a newer format, of which not everything is understood.
+    #[error(
+        "{0}: this case is of a newer format, and saving it here would lose what this version does not know"
+    )]
+    NewerFormat(String),
+    /// It is a folder, a pipe or a device.
+    #[error("{0}: this is not a regular file")]
+    NotAFile(String),
+    /// It is a folder; the second text is a file in it, by example.
+    #[error("{0}: this is a folder: add the name of a file to it, such as {1}")]
+    IsAFolder(String, String),
+    /// The folder of the file is missing; the third text is its name as a shell reads it.
+    #[error("{0}: there is no folder {1}: make it first (mkdir -p {2}), or choose another name")]
+    NoFolder(String, String, String),
+    /// The path leads through a file as if it were a folder.
+    #[error("{0}: {1} is not a folder: choose another name")]
+    NotAFolder(String, String),
+    /// The file may not be written.
+    #[error("{0}: the file is read-only: save under another name, or make it writable (chmod u+w)")]
+    ReadOnly(String),
+    /// The file has other names, which a save would separate from it.
+    #[error(
+        "{0}: the file has {1} names (hard links), which a save would separate: save under another name"
+    )]
+    HardLinked(String, u64),
+    /// The system refuses to write it.
+    #[error("{0}: cannot be written: {1}: {mend}", mend = mend(.1))]
+    Unwritable(String, io::Error),
+}
+
+/// A path as messages show it.
+pub(super) fn shown(path: &Path) -> String {
+    sanitize(&path.display().to_string())
+}
+
+fn one_a_line(faults: &[Fault]) -> String {
+    faults
+        .iter()
+        .map(ToString::to_string)
+        .collect::<Vec<_>>()
+        .join("\n")
+}
+
+/// What to do about a file that the system does not let us write.
+fn mend(error: &io::Error) -> &'static str {
+    match error.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
+            "make room on the disk, or save elsewhere"
+        }
+        ErrorKind::FileTooLarge => "raise the limit on the size of files (ulimit -f)",
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            "save into a folder that may be written"
+        }
+        ErrorKind::InvalidFilename => "choose a shorter name",
+        ErrorKind::Unsupported => "save under another name",
+        _ => "save elsewhere",
+    }
+}

@@ -1,0 +1,227 @@
+//! The file that a save writes: links followed, its folder checked, replaced in one step.
+
+use std::fs::{self, File, OpenOptions, Permissions};
+use std::io::{self, ErrorKind, Write};
+use std::os::unix::ffi::OsStrExt;
+use std::os::unix::fs::{MetadataExt, PermissionsExt};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use super::about;
+use super::error::{SaveError, shown};
+
+/// Symbolic links that are followed, one after the other.
+const MOST_LINKS: usize = 40;
+/// How the name of a file begins that is not yet in its place; the number of the process follows.
+const TEMPORARY: &str = ".tipstrike-";
+/// No save takes so long.
+const STALE: Duration = Duration::from_secs(60);
+
+/// Write a file that is no case, such as a report or the settings, as a save does: links are
+/// followed, and whatever fails, the old file stays or the new one is complete. `over` allows
+/// replacing a file of that name.
+///
+/// # Errors
+/// Where nothing was written.
+pub fn write(path: &Path, bytes: &[u8], over: bool) -> Result<(), SaveError> {
+    let target = target_of(path)?;
+    if target.old.is_some() && !over {
+        return Err(SaveError::AlreadyThere(shown(path)));
+    }
+    target.replace(bytes, None, path)
+}
+
+/// The path behind every symbolic link, whether or not a file is there.
+///
+/// # Errors
+/// When a folder on the way is missing or cannot be read, or the links form a circle.
+pub fn followed(path: &Path) -> io::Result<PathBuf> {
+    resolve(path).map_err(|(_, error)| error)
+}
+
+/// As [`followed`]; the error comes with the path whose folder it concerns.
+fn resolve(path: &Path) -> Result<PathBuf, (PathBuf, io::Error)> {
+    let mut path = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        match fs::read_link(&path) {
+            Ok(next) => path = folder_of(&path).join(next),
+            Err(error) if is_no_link(&error) => {
+                return place_of(&path).map_err(|error| (path, error));
+            }
+            Err(error) => return Err((path, error)),
+        }
+    }
+    Err((path, io::Error::other("too many symbolic links")))
+}
+
+fn is_no_link(error: &io::Error) -> bool {
+    matches!(
+        error.kind(),
+        ErrorKind::InvalidInput | ErrorKind::NotFound | ErrorKind::NotADirectory
+    )
+}
+
+/// The path with its folder in full. The root, `.` and `..` are folders themselves.
+fn place_of(path: &Path) -> io::Result<PathBuf> {
+    match path.file_name() {
+        Some(name) => Ok(fs::canonicalize(folder_of(path))?.join(name)),
+        None => fs::canonicalize(path),
+    }
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent()
+        .filter(|folder| !folder.as_os_str().is_empty())
+        .unwrap_or(Path::new("."))
+}
+
+/// A file to be written, links followed, and what is there now.
+pub(super) struct Target {
+    pub(super) path: PathBuf,
+    pub(super) old: Option<fs::Metadata>,
+}
+
+pub(super) fn target_of(path: &Path) -> Result<Target, SaveError> {
+    let name = shown(path);
+    let target = resolve(path).map_err(|(last, error)| no_folder(path, &last, error))?;
+    match fs::metadata(&target) {
+        Ok(old) => {
+            replaceable(&target, &old, path)?;
+            Ok(Target {
+                path: target,
+                old: Some(old),
+            })
+        }
+        Err(error) if error.kind() == ErrorKind::NotFound && names_a_folder(path) => {
+            Err(no_folder(path, &path.join("file"), error))
+        }
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(Target {
+            path: target,
+            old: None,
+        }),
+        Err(error) => Err(SaveError::Unwritable(name, error)),
+    }
+}
+
+fn names_a_folder(path: &Path) -> bool {
+    path.as_os_str().as_bytes().ends_with(b"/")
+}
+
+/// Why `last`, to which the links of `path` lead, has no folder.
+fn no_folder(path: &Path, last: &Path, error: io::Error) -> SaveError {
+    let (name, folder) = (shown(path), folder_of(last));
+    if !matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) {
+        return SaveError::Unwritable(name, error);
+    }
+    let nearest = folder.ancestors().find(|place| place.exists());
+    match nearest.filter(|place| !place.is_dir()) {
+        Some(file) => SaveError::NotAFolder(name, shown(file)),
+        None => SaveError::NoFolder(name, shown(folder), for_a_shell(folder)),
+    }
+}
+
+/// The path as one word of a shell's command.
+fn for_a_shell(path: &Path) -> String {
+    let name = shown(path);
+    let is_plain = |c: char| c.is_alphanumeric() || "/._+-,=@%".contains(c);
+    if name.chars().all(is_plain) && !name.starts_with('-') {
+        name
+    } else {
+        let dashed = if name.starts_with('-') { "./" } else { "" };
+        format!("'{dashed}{}'", name.replace('\'', "'\\''"))
+    }
+}
+
+fn replaceable(target: &Path, old: &fs::Metadata, path: &Path) -> Result<(), SaveError> {
+    let name = shown(path);
+    if old.is_dir() {
+        return Err(SaveError::IsAFolder(name, shown(&path.join("case.toml"))));
+    }
+    if !old.is_file() {
+        return Err(SaveError::NotAFile(name));
+    }
+    if old.nlink() > 1 {
+        return Err(SaveError::HardLinked(name, old.nlink()));
+    }
+    let closed = OpenOptions::new().write(true).open(target).err();
+    match closed {
+        None if !old.permissions().readonly() => Ok(()),
+        Some(error) if error.kind() != ErrorKind::PermissionDenied => {
+            Err(SaveError::Unwritable(name, error))
+        }
+        _ => Err(SaveError::ReadOnly(name)),
+    }
+}
+
+impl Target {
+    /// `mode` is for a file that is not there.
+    pub(super) fn replace(
+        &self,
+        bytes: &[u8],
+        mode: Option<u32>,
+        path: &Path,
+    ) -> Result<(), SaveError> {
+        self.write(bytes, mode).map_err(|error| match error.kind() {
+            ErrorKind::AlreadyExists if self.old.is_none() => SaveError::AlreadyThere(shown(path)),
+            _ => SaveError::Unwritable(shown(path), error),
+        })
+    }
+
+    /// Write beside the target, then rename over it; each step is on disk before the next one.
+    fn write(&self, bytes: &[u8], mode: Option<u32>) -> io::Result<()> {
+        let folder = folder_of(&self.path);
+        // Others cannot read it before its own mode is set; the umask cuts that of a new file.
+        let is_new = self.old.is_none() && mode.is_none();
+        let first = Permissions::from_mode(if is_new { 0o666 } else { 0o600 });
+        let prefix = format!("{TEMPORARY}{}-", std::process::id());
+        let mut file = tempfile::Builder::new()
+            .prefix(&prefix)
+            .permissions(first)
+            .tempfile_in(folder)?;
+        file.write_all(bytes)?;
+        if let Some(old) = &self.old {
+            about::keep(old, &self.path, file.as_file())?;
+        } else if let Some(mode) = mode {
+            let mode = Permissions::from_mode(mode & 0o7777);
+            file.as_file().set_permissions(mode)?;
+        }
+        file.as_file().sync_all()?;
+        match self.old {
+            Some(_) => file.persist(&self.path).map_err(|error| error.error)?,
+            // A file that someone else made meanwhile is not ours to replace.
+            None => file
+                .persist_noclobber(&self.path)
+                .map_err(|error| error.error)?,
+        };
+        // The new file is in place, whether or not the folder can be flushed.
+        let _ = File::open(folder).and_then(|folder| folder.sync_all());
+        clear(folder);
+        Ok(())
+    }
+}
+
+/// Take away what saves that were killed have left in a folder. That one cannot be taken away is no
+/// reason to fail.
+fn clear(folder: &Path) {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    for entry in entries.filter(|entry| entry.file_name().to_str().is_some_and(is_left_over)) {
+        let about = entry.metadata();
+        let is_old = |about: &fs::Metadata| {
+            about
+                .modified()
+                .is_ok_and(|time| time.elapsed().is_ok_and(|age| age > STALE))
+        };
+        if about.is_ok_and(|about| about.is_file() && is_old(&about)) {
+            drop(fs::remove_file(entry.path()));
+        }
+    }
+}
+
+// Of a process that is gone. On a shared disk it may live on another machine: hence the age.
+fn is_left_over(name: &str) -> bool {
+    let process = name
+        .strip_prefix(TEMPORARY)
+        .and_then(|rest| rest.split_once('-'))
+        .and_then(|(process, _)| process.parse().ok());
+    process.is_some_and(|process: u32| !Path::new("/proc").join(process.to_string()).exists())
+}

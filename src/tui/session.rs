@@ -1,0 +1,10 @@
+//! What keeps typed values safe: saving, locks, journals of unsaved edits, and their recovery.
+
+pub mod autosave;
+mod clock;
+pub mod journal;
+pub mod journal_writer;
+mod journals;
+pub mod lock;
+pub mod recovery;
+pub mod save;

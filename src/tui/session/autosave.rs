@@ -1,0 +1,418 @@
+//! Follows the open cases: locks and saves them, writes their unsaved edits to journals, and finds
+//! the journals of earlier sessions.
+//!
+//! An idle workbench sleeps: there is a deadline only while a journal lacks edits.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ffi::OsString;
+use std::fs;
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use super::clock;
+use super::journal::Journal;
+use super::journal_writer::JournalWriter;
+use super::journals::{Found, Journals};
+use super::lock::{Holder, Lock, Taken};
+use super::recovery::{Access, Claim, Offer, OpenCase};
+use super::save::{SaveFault, Saving, Written};
+use crate::case::Case;
+use crate::case::changes::{self, Change};
+use crate::case::file::followed;
+use crate::case::sanitize::sanitize;
+use crate::case::spread;
+use crate::case::stamp::Stamp;
+use crate::tui::store::state::State;
+
+/// The journal is written so long after the last edit,
+const AFTER_LAST: Duration = Duration::from_millis(900);
+/// and, while typing goes on, so long after the first edit that it lacks.
+const AFTER_FIRST: Duration = Duration::from_millis(1900);
+
+/// Saves the open cases, and keeps their unsaved edits.
+#[derive(Debug)]
+pub struct Autosave {
+    journal_writer: Arc<JournalWriter>,
+    /// Where this session writes; `None` where no folder is private.
+    journals: Option<Journals>,
+    /// Where earlier sessions may have written besides.
+    others: Vec<Journals>,
+    /// What the user must know about the folder of journals, until it was shown.
+    notice: Option<String>,
+    /// The name of this session, and the lock that shows others that it lives; from the first edit
+    /// on.
+    session: Option<(String, Lock)>,
+    locks: BTreeMap<PathBuf, Lock>,
+    tracked: BTreeMap<usize, Tracked>,
+    /// Journals of earlier sessions whose edits are in the form now.
+    adopted: Vec<PathBuf>,
+    due: Option<Due>,
+}
+
+/// An open case.
+#[derive(Debug)]
+struct Tracked {
+    path: Option<PathBuf>,
+    is_held: bool,
+    /// The last edits that went to the journal.
+    noted: Option<Case>,
+    /// The stamp of the edited text.
+    stamp: Option<Stamp>,
+    journal: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Due {
+    first: Instant,
+    last: Instant,
+}
+
+impl Autosave {
+    /// Journals in a folder of state; without one, edits are not kept, and a claim says so.
+    #[must_use]
+    pub fn new(state: State, journal_writer: Arc<JournalWriter>) -> Autosave {
+        let journals = |folder: &PathBuf| Journals::within(folder);
+        Autosave {
+            journal_writer,
+            journals: state.folder.as_ref().map(journals),
+            others: state.others.iter().map(journals).collect(),
+            notice: state.notice,
+            session: None,
+            locks: BTreeMap::new(),
+            tracked: BTreeMap::new(),
+            adopted: Vec::new(),
+            due: None,
+        }
+    }
+
+    /// Takes the locks of newly opened cases and hands new edits to the journal. Returns claims of
+    /// the opened cases, and why edits cannot be kept.
+    pub fn follow(&mut self, cases: &[OpenCase<'_>], now: Instant) -> Vec<Result<Claim, String>> {
+        self.let_go(cases);
+        let claims: Vec<_> = cases.iter().filter_map(|case| self.claim(case)).collect();
+        let mut results: Vec<_> = claims.into_iter().map(Ok).collect();
+        for case in cases {
+            results.extend(self.note(case, now).err().map(Err));
+        }
+        self.drop_adopted();
+        results
+    }
+
+    /// When the journal must be written; `None` while it lacks nothing.
+    #[must_use]
+    pub fn deadline(&self) -> Option<Instant> {
+        self.due
+            .map(|due| (due.last + AFTER_LAST).min(due.first + AFTER_FIRST))
+    }
+
+    /// Has the journal written if it is time.
+    pub fn keep_if_due(&mut self, now: Instant) {
+        if self.deadline().is_some_and(|deadline| deadline <= now) {
+            self.due = None;
+            self.journal_writer.ring();
+        }
+    }
+
+    /// Writes the journal now.
+    pub fn keep(&mut self) {
+        self.due = None;
+        drop(self.journal_writer.write(false));
+    }
+
+    /// Saves a case, unless another session has its file open. The journal is written first:
+    /// however the process ends, the edits are in the file or in the journal.
+    ///
+    /// Without a lock, the comparison of the file with the text that was read still refuses to
+    /// overwrite changes of others.
+    pub fn save(&mut self, mut saving: Saving) -> (PathBuf, Result<Box<Written>, SaveFault>) {
+        self.keep();
+        saving.expand();
+        let lock = followed(&saving.path).map(|path| self.lock(&path));
+        let result = match lock {
+            Ok(Ok(Some(holder))) => Err(SaveFault::Held(holder.words(clock::now()))),
+            _ => saving.write(),
+        };
+        (saving.path, result)
+    }
+
+    /// Removes a journal of an earlier session once the journal of this one has its edits.
+    pub fn adopt(&mut self, journal: PathBuf) {
+        self.adopted.push(journal);
+    }
+
+    /// Leave, with nothing unsaved that is wanted.
+    pub fn end(mut self) {
+        self.let_go(&[]);
+        drop(self.journal_writer.write(false));
+        self.journal_writer.close();
+    }
+
+    // Forgets closed cases, and cases that were saved under another name.
+    fn let_go(&mut self, cases: &[OpenCase<'_>]) {
+        let is_open = |id: usize, case: &Tracked| {
+            cases
+                .iter()
+                .any(|open| open.id == id && open.path == case.path.as_deref())
+        };
+        for (_, case) in self
+            .tracked
+            .iter()
+            .filter(|(id, case)| !is_open(**id, case))
+        {
+            if let Some(journal) = &case.journal {
+                self.journal_writer.put(journal, None);
+                self.journal_writer.ring();
+            }
+        }
+        self.tracked.retain(|id, case| is_open(*id, case));
+        let wanted: Vec<_> = cases
+            .iter()
+            .filter_map(|open| lock_of(open.path?))
+            .collect();
+        self.locks.retain(|place, _| wanted.contains(place));
+    }
+
+    fn claim(&mut self, open: &OpenCase<'_>) -> Option<Claim> {
+        if self.tracked.contains_key(&open.id) {
+            return self.claim_again(open);
+        }
+        let lock = open.path.map_or(Ok(None), |path| self.lock(path));
+        let case = Tracked {
+            path: open.path.map(Path::to_owned),
+            is_held: matches!(lock, Ok(Some(_))),
+            noted: None,
+            stamp: None,
+            journal: None,
+        };
+        self.tracked.insert(open.id, case);
+        let claim = match lock {
+            // Edits of earlier sessions are for the session that may save them.
+            Ok(Some(holder)) => Claim::of(open.id, Access::Held(holder.words(clock::now()))),
+            Ok(None) => self.found(open, None),
+            Err(reason) => self.found(open, Some(reason)),
+        };
+        (open.is_held || !claim.is_silent()).then_some(claim)
+    }
+
+    // A save may have found that the other session has ended; or the same file was opened anew.
+    fn claim_again(&mut self, open: &OpenCase<'_>) -> Option<Claim> {
+        let is_locked = open
+            .path
+            .and_then(lock_of)
+            .is_some_and(|place| self.locks.contains_key(&place));
+        let case = self
+            .tracked
+            .get(&open.id)
+            .filter(|case| case.is_held && (is_locked || !open.is_held))?;
+        let lock = case.path.clone().map_or(Ok(None), |path| self.lock(&path));
+        let mut claim = Claim::of(open.id, Access::Own);
+        match lock {
+            Ok(None) => {}
+            Ok(Some(holder)) => claim.access = Access::Held(holder.words(clock::now())),
+            Err(reason) => claim.notices.push(reason),
+        }
+        if let Some(case) = self.tracked.get_mut(&open.id) {
+            case.is_held = claim.access != Access::Own;
+        }
+        Some(claim)
+    }
+
+    fn found(&mut self, open: &OpenCase<'_>, unlocked: Option<String>) -> Claim {
+        let mut claim = Claim::of(open.id, Access::Own);
+        claim.notices.extend(unlocked);
+        claim.notices.extend(self.notice.take());
+        let folders = || self.journals.iter().chain(&self.others);
+        for folder in folders() {
+            let Found { journals, notices } = folder.left_behind(open.path);
+            let offers = journals
+                .into_iter()
+                .filter_map(|(place, journal)| offer(open, place, &journal));
+            claim.offers.extend(offers);
+            claim.notices.extend(notices);
+        }
+        // Only when the workbench opens.
+        if self.tracked.len() == 1 && claim.offers.is_empty() {
+            let cases = folders().flat_map(Journals::cases_left_behind).collect();
+            claim.notices.extend(elsewhere(cases, open.path));
+        }
+        if !open.document.loaded().spread.is_empty() {
+            claim.notices.push(spread::UNUSED.to_owned());
+        }
+        claim
+    }
+
+    // Who has the case open, unless its lock is ours now. The error says why it has no lock.
+    fn lock(&mut self, path: &Path) -> Result<Option<Holder>, String> {
+        let Some(place) = lock_of(path).filter(|place| !self.locks.contains_key(place)) else {
+            return Ok(None);
+        };
+        match Lock::take(&place) {
+            Ok(Taken::Held(holder)) => Ok(Some(holder)),
+            Ok(Taken::Ours(lock)) => {
+                self.locks.insert(place, lock);
+                Ok(None)
+            }
+            Ok(Taken::Unguarded(lock, error)) => {
+                self.locks.insert(place, lock);
+                Err(format!(
+                    "{} is locked on this machine alone: {}: do not open it on others",
+                    name_of(path),
+                    brief(&error)
+                ))
+            }
+            Err(error) => Err(unlocked(path, &place, &error)),
+        }
+    }
+
+    // Hands new edits to the journal. The error says why they cannot be kept.
+    fn note(&mut self, open: &OpenCase<'_>, now: Instant) -> Result<(), String> {
+        let unsaved = (open.case != open.document.loaded()).then_some(open.case);
+        let Some(case) = self
+            .tracked
+            .get_mut(&open.id)
+            .filter(|case| case.noted.as_ref() != unsaved)
+        else {
+            return Ok(());
+        };
+        case.noted = unsaved.cloned();
+        if let Some(edited) = unsaved {
+            return self.put(open, edited, now);
+        }
+        case.stamp = None;
+        if let Some(journal) = case.journal.take() {
+            self.journal_writer.put(&journal, None);
+            self.journal_writer.ring();
+        }
+        Ok(())
+    }
+
+    fn put(&mut self, open: &OpenCase<'_>, edited: &Case, now: Instant) -> Result<(), String> {
+        let Some(journals) = &self.journals else {
+            return Ok(());
+        };
+        if self.session.is_none() {
+            let begun = journals
+                .begin()
+                .map_err(|error| format!("edits are not kept for a crash: {error}: save soon"));
+            self.session = Some(begun?);
+        }
+        let session = self
+            .session
+            .as_ref()
+            .map(|(session, _)| session.clone())
+            .unwrap_or_default();
+        let place = journals.place(open.path, &session, open.id);
+        if let Some(case) = self.tracked.get_mut(&open.id) {
+            let stands_on = *case.stamp.get_or_insert_with(|| open.document.stamp());
+            let changes = changes::between(open.document.loaded(), edited);
+            let journal = Journal {
+                case: case.path.clone(),
+                stands_on,
+                written: 0,
+                session,
+                changes,
+            };
+            self.journal_writer.put(&place, Some(journal));
+            case.journal = Some(place);
+        }
+        self.due = Some(Due {
+            first: self.due.map_or(now, |due| due.first),
+            last: now,
+        });
+        Ok(())
+    }
+
+    // Not before the journal of this session has their edits.
+    fn drop_adopted(&mut self) {
+        if !self.adopted.is_empty()
+            && self.journal_writer.is_needed()
+            && self.journal_writer.write(false).is_ok()
+        {
+            self.adopted
+                .drain(..)
+                .for_each(|journal| drop(fs::remove_file(journal)));
+        }
+    }
+}
+
+// Beside the case, so that other users and other machines see it as well: whoever may save there
+// may lock there.
+fn lock_of(path: &Path) -> Option<PathBuf> {
+    let mut name = OsString::from(".");
+    name.push(path.file_name()?);
+    name.push(".tipstrike");
+    Some(path.with_file_name(name))
+}
+
+/// Why a case has no lock, and the fix.
+fn unlocked(path: &Path, place: &Path, error: &io::Error) -> String {
+    let lock = name_of(place);
+    let (cause, fix) = match error.kind() {
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            ("its folder is read-only".to_owned(), "save it elsewhere")
+        }
+        ErrorKind::IsADirectory => (format!("{lock} is a folder"), "remove that"),
+        ErrorKind::Other => (format!("{lock} {error}"), "remove that"),
+        _ => (format!("{lock}: {}", brief(error)), "open it only once"),
+    };
+    let name = name_of(path);
+    format!("{name} is not locked, so other sessions may save it too: {cause}: {fix}")
+}
+
+/// The words of the system without its number of the error.
+fn brief(error: &io::Error) -> String {
+    let words = error.to_string();
+    let end = words.find(" (os error").unwrap_or(words.len());
+    words[..end].to_owned()
+}
+
+fn name_of(path: &Path) -> String {
+    sanitize(&path.file_name().unwrap_or_default().to_string_lossy())
+}
+
+// Other cases with unsaved edits of ended sessions.
+fn elsewhere(cases: Vec<Option<PathBuf>>, open: Option<&Path>) -> Option<String> {
+    let others: BTreeSet<_> = cases
+        .into_iter()
+        .filter(|case| case.as_deref() != open)
+        .collect();
+    let more = if others.len() > 1 {
+        format!(" and {} more", others.len() - 1)
+    } else {
+        String::new()
+    };
+    let first = others.into_iter().next()?;
+    let name = first.map_or("the built-in case".to_owned(), |path| {
+        path.display().to_string()
+    });
+    Some(format!(
+        "unsaved edits of {name}{more} are kept: open it to get them back"
+    ))
+}
+
+// A journal without differences from the file has nothing to offer, and is removed.
+fn offer(open: &OpenCase<'_>, place: PathBuf, journal: &Journal) -> Option<Offer> {
+    let from_now = |change: &Change| Change {
+        from: changes::text_of(open.document.loaded(), &change.key),
+        ..change.clone()
+    };
+    let changes: Vec<_> = journal
+        .changes
+        .iter()
+        .map(from_now)
+        .filter(|change| change.from != change.to)
+        .collect();
+    if changes.is_empty() {
+        drop(fs::remove_file(place));
+        return None;
+    }
+    let age = clock::age(clock::now().saturating_sub(journal.written));
+    Some(Offer {
+        journal: place,
+        age,
+        changes,
+        is_file_changed: journal.stands_on != open.document.stamp(),
+    })
+}

@@ -1,0 +1,138 @@
+//! Saving a case, and what its file says otherwise than the form.
+
+use std::path::PathBuf;
+
+use super::recovery;
+use crate::case::Document;
+use crate::case::changes::{self, Change};
+use crate::case::file::{ReadError, SaveError, Saved};
+use crate::tui::store::at_home;
+
+const ONLY_SPACING: &str = "Every field is the same: only comments or spacing differ.";
+const ALL_THE_SAME: &str = "Every field in it is as in the form.";
+
+/// A case that was written.
+#[derive(Debug, Clone)]
+pub struct Written {
+    /// The document as its file has it now.
+    pub document: Document,
+    /// What happened to the file.
+    pub saved: Saved,
+}
+
+/// Why a case was not written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum SaveFault {
+    /// A file of that name exists: how it differs from the form, one line per field.
+    Exists(Vec<String>),
+    /// Someone else changed the file since it was read: how it differs from the form, one line per
+    /// field.
+    Changed(Vec<String>),
+    /// Another session has the file open: its process, machine and age.
+    Held(String),
+    /// The reason, in words.
+    Failed(String),
+}
+
+/// A requested save.
+#[derive(Debug, Clone)]
+pub struct Saving {
+    /// The document, with the case as the form has it.
+    pub document: Document,
+    /// The file to write.
+    pub path: PathBuf,
+    /// Which content of the file the save may overwrite.
+    pub over: Over,
+}
+
+/// Which content of its file a save may overwrite.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Over {
+    /// None: an existing file stays as it is.
+    Nothing,
+    /// The one that was opened, as long as nobody else changed it.
+    Own,
+    /// Any.
+    Anything,
+}
+
+impl Saving {
+    /// Replaces `~` by the home folder, except in the path of the open file.
+    pub(super) fn expand(&mut self) {
+        if self.over != Over::Own {
+            self.path = at_home(&self.path);
+        }
+    }
+
+    /// Writes the case. The caller has the lock.
+    pub(super) fn write(&self) -> Result<Box<Written>, SaveFault> {
+        let path = &self.path;
+        // A pipe or a device is refused below, without a question.
+        if self.over == Over::Nothing && path.symlink_metadata().is_ok() && !path.is_dir() {
+            return Err(SaveFault::Exists(self.occupied()));
+        }
+        let mut document = self.document.clone();
+        let result = if self.over == Over::Anything {
+            document.save_over(path)
+        } else {
+            document.save(path)
+        };
+        match result {
+            Ok(saved) => Ok(Box::new(Written { document, saved })),
+            Err(SaveError::ChangedOnDisk(_)) => {
+                let lines = self.differences(ONLY_SPACING, |change| self.by_whom(change));
+                Err(SaveFault::Changed(lines))
+            }
+            Err(SaveError::AlreadyThere(_)) => Err(SaveFault::Exists(self.occupied())),
+            Err(other) => Err(SaveFault::Failed(other.to_string())),
+        }
+    }
+
+    /// How the file differs from the form: one line per field with a remark, or `same`.
+    fn differences(&self, same: &str, remark: impl Fn(&Change) -> String) -> Vec<String> {
+        let theirs = match Document::read(&self.path) {
+            Ok(theirs) => theirs.case,
+            Err(error) => {
+                let is_case = !matches!(error, ReadError::Bad(_) | ReadError::NewerFormat(_));
+                let error = error.to_string();
+                let first = error.lines().next().unwrap_or_default();
+                let cause = if is_case { "" } else { "It is no valid case: " };
+                return vec![format!("{cause}{first}")];
+            }
+        };
+        let lines = changes::between(&theirs, &self.document.case)
+            .into_iter()
+            .map(|change| {
+                let (there, here) = (
+                    recovery::shown(change.from.as_deref()),
+                    recovery::shown(change.to.as_deref()),
+                );
+                format!(
+                    "{}: {there} in the file, {here} here{}",
+                    changes::label(&change.key),
+                    remark(&change)
+                )
+            });
+        let lines: Vec<_> = lines.collect();
+        if lines.is_empty() {
+            vec![same.to_owned()]
+        } else {
+            lines
+        }
+    }
+
+    fn occupied(&self) -> Vec<String> {
+        self.differences(ALL_THE_SAME, |_| String::new())
+    }
+
+    /// Who changed the field since the document was read.
+    fn by_whom(&self, change: &Change) -> String {
+        let before = changes::text_of(self.document.loaded(), &change.key);
+        let by = match (before == change.from, before == change.to) {
+            (true, _) => "changed here",
+            (_, true) => "changed there",
+            (false, false) => "changed here and there",
+        };
+        format!(" ({by})")
+    }
+}
