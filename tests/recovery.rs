@@ -211,20 +211,17 @@ fn edits_that_cannot_be_kept_are_told() {
 
 #[test]
 fn a_case_without_a_lock_is_named_and_its_file_is_still_compared() {
-    let obstacles: [(&str, fn(&Path)); 2] = [
-        ("is a symbolic link: remove that", |lock| {
-            symlink("/nonexistent", lock).expect("a link");
-        }),
-        ("is a folder: remove that", |lock| {
-            fs::create_dir(lock).expect("our own folder")
-        }),
-    ];
-    for (cause, obstruct) in obstacles {
+    for cause in ["is a symbolic link", "is a folder"] {
         let launch = Launch::on_table_1().size(24, 200);
-        obstruct(&launch.folder.path().join(".case.toml.tipstrike"));
+        let lock = launch.folder.path().join(".case.toml.tipstrike");
+        let planted = match cause {
+            "is a folder" => fs::create_dir(lock),
+            _ => symlink("/nonexistent", lock),
+        };
+        planted.expect("our own folder");
         let mut tty = launch.start();
         tty.wait_for("case.toml is not locked, so other sessions may save it too");
-        tty.wait_for(cause);
+        tty.wait_for(&format!("{cause}: remove that"));
         let mut second = again(&tty);
         second.wait_for("case.toml is not locked");
         tty.type_in("\x156 mm\x13");

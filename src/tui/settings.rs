@@ -119,7 +119,7 @@ impl Settings {
         self.write_to(&file)
     }
 
-    fn write_to(&self, file: &Path) -> Result<(), String> {
+    fn write_to(self, file: &Path) -> Result<(), String> {
         let name = || sanitize(&file.display().to_string());
         let in_words = |error: io::Error| format!("{}: {error}", name());
         if let Some(folder) = file.parent() {
