@@ -86,7 +86,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 4", "Esc", "", "▸ 1 Form"),
     // Everywhere.
     ("", "F1", "", "Every edit acts at once"),
-    ("X", "Ctrl-S", "", "not saved: mend"),
+    ("X", "Ctrl-S", "", "not saved: fix"),
     ("", "Ctrl-P", "", "Commands"),
     ("", "Ctrl-O", "", "Open a case"),
     ("", "Ctrl-Q", "", "[quit]"),

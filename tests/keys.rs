@@ -239,7 +239,7 @@ fn a_faulty_form_is_not_taken_for_saved_by_any_way_to_save() {
         let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
         desk.fill("operation.speed", "fast").keys(keys);
         assert!(
-            desk.shows("not saved: mend") && desk.shows("*unsaved*"),
+            desk.shows("not saved: fix") && desk.shows("*unsaved*"),
             "{keys:?}\n{}",
             desk.screen()
         );
@@ -263,7 +263,7 @@ fn a_faulty_form_is_not_taken_for_saved_by_any_way_to_save() {
         .fill("operation.speed", "fast")
         .keys(&["Ctrl-Q", "s"]);
     assert!(
-        !desk.has_quit && desk.shows("not saved: mend") && desk.shows("[2 other.toml*]"),
+        !desk.has_quit && desk.shows("not saved: fix") && desk.shows("[2 other.toml*]"),
         "{}",
         desk.screen()
     );
