@@ -44,7 +44,7 @@ fn resolve(path: &Path) -> Result<PathBuf, (PathBuf, io::Error)> {
     let mut path = path.to_owned();
     for _ in 0..MOST_LINKS {
         match fs::read_link(&path) {
-            Ok(next) => path = folder_of(&path).join(next),
+            Ok(next) => path = path.parent().unwrap_or(&path).join(next),
             Err(error) if is_no_link(&error) => {
                 return place_of(&path).map_err(|error| (path, error));
             }
