@@ -7,6 +7,9 @@
     reason = "a test that cannot go on says why"
 )]
 
+#[path = "reference/gears.rs"]
+mod gears;
+
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;

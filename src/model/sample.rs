@@ -1,5 +1,7 @@
 //! A pair to start tests from.
 
+use super::compliance::profile::Rack;
+use super::geometry::Circles;
 use super::inputs::{Drive, Gear, Inputs};
 
 /// A standard steel pair without deviation, 10 mm wide, 100 N m at 1000 rpm.
@@ -20,5 +22,19 @@ pub(crate) fn standard_pair(driver_teeth: u32, driven_teeth: u32, module: f64) -
         drive: Drive::Torque(100.0),
         speed: 1000f64 * std::f64::consts::PI / 30.0,
         ..Inputs::default()
+    }
+}
+
+/// The circles of a gear that a rack cuts, with an addendum coefficient.
+pub(crate) fn circles(rack: &Rack, addendum: f64) -> Circles {
+    let reference = rack.module * f64::from(rack.teeth) / 2.0;
+    let base = reference * rack.pressure_angle.cos();
+    let tip = reference + rack.module * (rack.profile_shift + addendum);
+    Circles {
+        reference,
+        base,
+        tip,
+        tip_curvature: ((tip - base) * (tip + base)).max(0.0).sqrt(),
+        root: reference + rack.module * (rack.profile_shift - rack.dedendum),
     }
 }

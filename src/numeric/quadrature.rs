@@ -11,6 +11,13 @@ const TWELVE: [(f64, f64); 6] = [
     (0.981_560_634_246_719_2, 0.047_175_336_386_511_83),
 ];
 
+/// Nodes and weights of the 12-point Gauss-Legendre rule from 0 to 1.
+pub fn nodes() -> impl Iterator<Item = (f64, f64)> {
+    TWELVE
+        .into_iter()
+        .flat_map(|(node, weight)| [-node, node].map(|node| (0.5 + 0.5 * node, 0.5 * weight)))
+}
+
 /// ∫ of `f` from 0 to 1 by the 12-point Gauss-Legendre rule.
 pub fn unit_interval(f: impl Fn(f64) -> f64) -> f64 {
     TWELVE

@@ -78,13 +78,16 @@ impl Rack {
         }
     }
 
-    /// Radius of the rounding of its tip, times the module: the standard one, or what its tip has
-    /// room for.
+    /// Radius of the rounding of its tip, times the module.
     fn rounding(&self) -> f64 {
+        self.fitting(RACK_ROUNDING)
+    }
+
+    /// That rounding, or the greatest that the tip has room for; times the module.
+    fn fitting(&self, rounding: f64) -> f64 {
         let (sine, cosine) = self.pressure_angle.sin_cos();
-        RACK_ROUNDING
-            .min((PI / 4.0 * cosine - self.dedendum * sine) / (1.0 - sine))
-            .max(0.0)
+        let room = (PI / 4.0 * cosine - self.dedendum * sine) / (1.0 - sine);
+        rounding.min(room).max(0.0)
     }
 
     /// Least profile shift at which it does not undercut the tooth, h_fP* − ρ_fP* (1 − sin α) − z
@@ -97,14 +100,21 @@ impl Rack {
 }
 
 impl Profile {
-    /// The profile that a rack cuts.
+    /// The profile that a rack with the standard tip rounding cuts.
     #[must_use]
     pub fn of(rack: &Rack, circles: &Circles) -> Profile {
+        Profile::cut_by(rack, circles, RACK_ROUNDING)
+    }
+
+    /// The profile that a rack with a tip rounding of `rounding` modules cuts. A tip without room
+    /// for that rounding has the greatest possible one.
+    #[must_use]
+    pub fn cut_by(rack: &Rack, circles: &Circles, rounding: f64) -> Profile {
         let (module, alpha, shift) = (rack.module, rack.pressure_angle, rack.profile_shift);
         let half_pitch = PI / f64::from(rack.teeth);
         let (sine, cosine) = alpha.sin_cos();
         let flank_room = PI / 4.0 - rack.dedendum * sine / cosine;
-        let rounding = rack.rounding();
+        let rounding = rack.fitting(rounding);
         let mut profile = Profile {
             circles: *circles,
             base_half_angle: half_pitch / 2.0
@@ -224,6 +234,20 @@ impl Profile {
             half_thickness,
             slope: across_slope * turn_sine + up_slope * turn_cosine + turn_slope * half_thickness,
         }
+    }
+
+    /// Product of the fillet's radius and its change with the angle of the rack's normal, in m².
+    ///
+    /// # Formula
+    /// ```text
+    /// r² = l² + R² − 2 R (e sin t + h),  l = e + h/sin t
+    /// ```
+    #[must_use]
+    pub fn fillet_rise(&self, normal: f64) -> f64 {
+        let (sine, cosine) = normal.sin_cos();
+        let reach = self.rounding + self.centre_depth / sine;
+        let reach_slope = -self.centre_depth * cosine / (sine * sine);
+        reach * reach_slope - self.circles.reference * self.rounding * cosine
     }
 
     /// Where fillet and involute meet: where the rack's flank ends, or, on an undercut tooth, where

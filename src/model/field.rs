@@ -1,0 +1,216 @@
+//! Compliance of a gear's teeth and body, from plane-strain finite elements on the whole gear.
+
+mod body;
+mod boundary;
+mod element;
+mod envelope;
+mod fit;
+mod grading;
+mod harmonics;
+mod load;
+mod mesh;
+mod mode;
+mod refusal;
+mod solve;
+#[cfg(test)]
+mod tests;
+
+use std::f64::consts::PI;
+
+use super::compliance::profile::Profile;
+use boundary::Boundary;
+use fit::{Abscissa, CrossSeries, Flank, Interpolation, Series};
+use grading::Grading;
+use harmonics::{Displacements, PITCHES};
+use load::Load;
+pub use refusal::FieldRefusal;
+
+/// A gear whose field is to be computed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FieldInput {
+    /// Profile of its teeth.
+    pub profile: Profile,
+    /// Number of teeth z.
+    pub teeth: u32,
+    /// Module m, in m.
+    pub module: f64,
+    /// Bore radius r_h at which the body is clamped, in m; 0 for a gear without a bore.
+    pub bore_radius: f64,
+    /// Poisson's ratio ν.
+    pub poisson: f64,
+}
+
+/// The elastic field of a gear, for Young's modulus 1 and unit face width: a value over E is a
+/// compliance in m²/N, displacement in m for a load in N/m.
+///
+/// A load acts on a flank at a radius, along the tangent to the base circle. Displacements are
+/// along the same tangent of the tooth on which they are measured. The twist of the body about
+/// its bore is taken out; without a bore, so is the shift of the body.
+///
+/// Radii outside of [`Field::radii`] count as the nearest one inside: the patch of a load ends at
+/// the tip's corner at the latest.
+///
+/// # Source
+/// Finite elements on half a tooth pitch, as in cyclic symmetry after Thomas 1979 ("Dynamics of
+/// rotationally periodic structures").
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Field {
+    flank: Flank,
+    /// Where the surface's series is evaluated, and where the others are.
+    abscissas: [Abscissa; 2],
+    /// Module, in m.
+    module: f64,
+    poisson: f64,
+    /// Roll angle less the force's angle to the normal of the centre line, in rad.
+    base_half_angle: f64,
+    twist: Option<f64>,
+    /// Displacement at the centre of a patch of unit half width in modules.
+    surface: Series,
+    /// Displacement on the centre line under a patch of no width.
+    depth: Series,
+    /// Displacement of teeth behind the load.
+    cross: [CrossSeries; PITCHES],
+}
+
+impl Field {
+    /// The field of a gear.
+    ///
+    /// # Errors
+    /// A [`FieldRefusal`] if the gear has no tooth, flank or rim that elements can be laid on.
+    pub fn build(input: &FieldInput) -> Result<Field, FieldRefusal> {
+        Field::graded(input, &Grading::STANDARD)
+    }
+
+    fn graded(input: &FieldInput, grading: &Grading) -> Result<Field, FieldRefusal> {
+        let boundary = solve::boundary(input)?;
+        let (loads, values) = solve::without_twist(input, &boundary, grading)?;
+        Ok(Field::fitted(input, &boundary, &loads, &values))
+    }
+
+    /// The displacement under a load where the line of force meets the centre line of the tooth:
+    /// tooth and body without the contact.
+    ///
+    /// `half_width` is that of the elliptical patch, in m, and may be 0.
+    ///
+    /// # Formula
+    /// ```text
+    /// q(a) = q(0) − (1 + ν)(2 − ν)/(4π h²) a²
+    /// ```
+    /// where h is the depth of the centre line below the flank, along the force.
+    #[must_use]
+    pub fn depth(&self, radius: f64, half_width: f64) -> f64 {
+        let roll = self.flank.roll(radius);
+        let share = half_width / (self.module * self.depth_in_modules(roll));
+        self.depth.at(self.abscissas[1].at(roll)) - depth_loss(self.poisson) * share * share
+    }
+
+    /// The displacement at the centre of the elliptical patch of a load, contact included;
+    /// `half_width` is in m and above 0.
+    ///
+    /// # Formula
+    /// ```text
+    /// q(a) = q(m) + 2 (1 − ν²)/π ln(m/a)
+    /// ```
+    #[must_use]
+    pub fn surface(&self, radius: f64, half_width: f64) -> f64 {
+        let roll = self.flank.roll(radius);
+        self.surface.at(self.abscissas[0].at(roll))
+            + surface_slope(self.poisson) * (self.module / half_width).ln()
+    }
+
+    /// The displacement at radius `measured` of the tooth `pitches` ahead of the one that is
+    /// loaded at radius `loaded`; ahead is where the force pushes to, and teeth behind it are
+    /// counted below 0.
+    ///
+    /// 0 for the loaded tooth itself, and for teeth more than two pitches away.
+    #[must_use]
+    pub fn cross(&self, loaded: f64, measured: f64, pitches: i32) -> f64 {
+        let at = |radius: f64| self.abscissas[1].at(self.flank.roll(radius));
+        let series = self
+            .cross
+            .get((pitches.unsigned_abs() as usize).wrapping_sub(1));
+        series.map_or(0.0, |series| {
+            if pitches < 0 {
+                series.at(at(loaded), at(measured))
+            } else {
+                series.at(at(measured), at(loaded))
+            }
+        })
+    }
+
+    /// The radii from the junction of fillet and involute to the load next to the tip, in m.
+    #[must_use]
+    pub fn radii(&self) -> [f64; 2] {
+        self.flank.radii()
+    }
+
+    /// The displacement of all teeth by the twist of the body about its bore, which is not in the
+    /// other values; `None` without a bore.
+    #[must_use]
+    pub fn twist(&self) -> Option<f64> {
+        self.twist
+    }
+
+    /// Depth of the centre line below the flank along the force, in modules.
+    fn depth_in_modules(&self, roll: f64) -> f64 {
+        let angle = roll - self.base_half_angle;
+        self.flank.base / self.module * (roll - angle.tan())
+    }
+
+    fn fitted(
+        input: &FieldInput,
+        boundary: &Boundary,
+        loads: &[Load],
+        values: &Displacements,
+    ) -> Field {
+        /// Lengths of δ and ε, in modules, for the series of the surface and for the others.
+        const BEYOND: [[f64; 2]; 2] = [[0.1, 1.0], [0.2, 1.5]];
+        let flank = Flank {
+            base: input.module * boundary.base,
+            tip_roll: boundary.tip_roll,
+            rolls: [loads[loads.len() - 1].roll, loads[0].roll],
+        };
+        let abscissas =
+            BEYOND.map(|beyond| Abscissa::of(&flank, beyond.map(|length| length * input.module)));
+        let [steep, smooth] = abscissas.each_ref().map(|abscissa| {
+            Interpolation::new(loads.iter().map(|load| abscissa.at(load.roll)).collect())
+        });
+        let per_load = |values: &[f64], extra: &dyn Fn(&Load) -> f64| -> Vec<f64> {
+            let pairs = values.iter().zip(loads);
+            pairs.map(|(value, load)| value + extra(load)).collect()
+        };
+        let surface = per_load(&values.surface, &|load| {
+            surface_slope(input.poisson) * load.half_width.ln()
+        });
+        let depth = per_load(&values.centre, &|load| {
+            depth_loss(input.poisson) * (load.half_width / load.depth).powi(2)
+        });
+        Field {
+            flank,
+            abscissas,
+            module: input.module,
+            poisson: input.poisson,
+            base_half_angle: input.profile.base_half_angle(),
+            twist: (input.bore_radius > 0.0).then(|| {
+                let bore = input.bore_radius / input.module;
+                body::twist(boundary.base, boundary.root, bore, input.poisson)
+            }),
+            surface: steep.series(&surface),
+            depth: smooth.series(&depth),
+            cross: values
+                .cross
+                .each_ref()
+                .map(|cross| smooth.cross_series(cross)),
+        }
+    }
+}
+
+/// 2 (1 − ν²)/π.
+fn surface_slope(poisson: f64) -> f64 {
+    2.0 * (1.0 - poisson * poisson) / PI
+}
+
+/// (1 + ν)(2 − ν)/(4π).
+fn depth_loss(poisson: f64) -> f64 {
+    (1.0 + poisson) * (2.0 - poisson) / (4.0 * PI)
+}

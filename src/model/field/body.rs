@@ -1,0 +1,29 @@
+//! The part of a field that belongs to the gear's body: twist about the bore, and shift.
+
+use std::f64::consts::PI;
+
+/// Displacement of all teeth along the line of action from the body's twist about its clamped
+/// bore, for Young's modulus 1.
+///
+/// # Formula
+/// ```text
+/// r_b² (1 + ν)/(2π) (1/r_h² − 1/r_f²)
+/// ```
+///
+/// # Source
+/// A ring under shear at its rim (Timoshenko & Goodier, "Theory of Elasticity").
+pub(super) fn twist(base: f64, root: f64, bore: f64, poisson: f64) -> f64 {
+    base * base * (1.0 + poisson) / (2.0 * PI) * (root - bore) * (root + bore)
+        / (bore * root * bore * root)
+}
+
+/// Displacement of the body along the net force for each unit of ln(r_f/r_h), for Young's modulus
+/// 1.
+///
+/// # Formula
+/// ```text
+/// (3 − 4ν)(1 + ν)/(4π (1 − ν))
+/// ```
+pub(super) fn shift(poisson: f64) -> f64 {
+    (3.0 - 4.0 * poisson) * (1.0 + poisson) / (4.0 * PI * (1.0 - poisson))
+}

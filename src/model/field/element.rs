@@ -1,0 +1,116 @@
+//! Stiffness of a nine-node element in plane strain.
+
+use nalgebra::{Matrix2, Vector2};
+
+/// Stiffness of an element for Young's modulus 1 and width 1, two components a node.
+pub(super) type Stiffness = [[f64; 18]; 18];
+
+/// Places and weights of the 3-point Gauss rule on (-1, 1).
+const GAUSS: [(f64, f64); 3] = [
+    (-0.774_596_669_241_483_4, 5.0 / 9.0),
+    (0.0, 8.0 / 9.0),
+    (0.774_596_669_241_483_4, 5.0 / 9.0),
+];
+
+/// Lamé's constants for Young's modulus 1.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Material {
+    first: f64,
+    shear: f64,
+}
+
+impl Material {
+    /// λ = ν/((1 + ν)(1 − 2ν)) and μ = 1/(2 (1 + ν)).
+    pub(super) fn of(poisson: f64) -> Material {
+        Material {
+            first: poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)),
+            shear: 0.5 / (1.0 + poisson),
+        }
+    }
+}
+
+/// The quadratic shape functions of a line from −1 to 1.
+pub(super) fn line_shapes(at: f64) -> [f64; 3] {
+    [
+        0.5 * at * (at - 1.0),
+        (1.0 - at) * (1.0 + at),
+        0.5 * at * (at + 1.0),
+    ]
+}
+
+/// Their slopes.
+pub(super) fn line_slopes(at: f64) -> [f64; 3] {
+    [at - 0.5, -2.0 * at, at + 0.5]
+}
+
+/// Integrals of products of the shape functions' gradients.
+#[derive(Default)]
+struct Products {
+    xx: [[f64; 9]; 9],
+    xy: [[f64; 9]; 9],
+    yy: [[f64; 9]; 9],
+}
+
+/// Stiffness of the element, or `None` if the map folds at a point of the rule.
+pub(super) fn stiffness(places: &[Vector2<f64>; 9], material: Material) -> Option<Stiffness> {
+    let mut products = Products::default();
+    for (across, across_weight) in GAUSS {
+        for (along, along_weight) in GAUSS {
+            let (gradients, area) = gradients(places, across, along)?;
+            products.add(&gradients, across_weight * along_weight * area);
+        }
+    }
+    Some(products.stiffness(material))
+}
+
+/// Gradients of the shape functions at a point of the element, and the map's determinant.
+fn gradients(places: &[Vector2<f64>; 9], across: f64, along: f64) -> Option<([[f64; 9]; 2], f64)> {
+    let (a, da) = (line_shapes(across), line_slopes(across));
+    let (b, db) = (line_shapes(along), line_slopes(along));
+    let slopes: [Vector2<f64>; 9] = std::array::from_fn(|node| {
+        Vector2::new(da[node / 3] * b[node % 3], a[node / 3] * db[node % 3])
+    });
+    let map: Matrix2<f64> = places
+        .iter()
+        .zip(&slopes)
+        .map(|(place, slope)| slope * place.transpose())
+        .sum();
+    let determinant = map.determinant();
+    if determinant.is_nan() || determinant <= 0.0 {
+        return None;
+    }
+    let inverse = Matrix2::new(map.m22, -map.m12, -map.m21, map.m11) / determinant;
+    let gradients = slopes.map(|slope| inverse * slope);
+    Some((
+        [gradients.map(|g| g.x), gradients.map(|g| g.y)],
+        determinant,
+    ))
+}
+
+impl Products {
+    fn add(&mut self, [x, y]: &[[f64; 9]; 2], weight: f64) {
+        for row in 0..9 {
+            let (left, up) = (weight * x[row], weight * y[row]);
+            for column in 0..9 {
+                self.xx[row][column] += left * x[column];
+                self.xy[row][column] += left * y[column];
+                self.yy[row][column] += up * y[column];
+            }
+        }
+    }
+
+    fn stiffness(&self, material: Material) -> Stiffness {
+        let (first, shear) = (material.first, material.shear);
+        let normal = first + 2.0 * shear;
+        let mut stiffness = [[0.0; 18]; 18];
+        for (row, column) in (0..9).flat_map(|row| (0..9).map(move |column| (row, column))) {
+            let (xx, yy) = (self.xx[row][column], self.yy[row][column]);
+            let (xy, yx) = (self.xy[row][column], self.xy[column][row]);
+            stiffness[2 * row][2 * column] = normal * xx + shear * yy;
+            stiffness[2 * row][2 * column + 1] = first * xy + shear * yx;
+            stiffness[2 * row + 1][2 * column] = first * yx + shear * xy;
+            stiffness[2 * row + 1][2 * column + 1] = normal * yy + shear * xx;
+        }
+        stiffness
+    }
+}

@@ -1,0 +1,70 @@
+//! Why a gear has no elastic field.
+
+use thiserror::Error;
+
+const MILLIMETRE: f64 = 1e-3;
+/// Range of Poisson's ratio.
+pub(super) const POISSON: (f64, f64) = (0.0, 0.49);
+
+/// Why a gear has no field.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum FieldRefusal {
+    /// The flanks meet at or below the tip circle.
+    #[error("pointed tip: the tooth's thickness there is {:.4} mm and must be at least {:.4} mm", .thickness / MILLIMETRE, .least / MILLIMETRE)]
+    PointedTip {
+        /// Thickness at the tip circle, in m.
+        thickness: f64,
+        /// Least thickness, in m.
+        least: f64,
+    },
+    /// The undercut leaves next to no neck below the tooth.
+    #[error("undercut tooth: its neck is {:.4} mm thick and must be at least {:.4} mm", .thickness / MILLIMETRE, .least / MILLIMETRE)]
+    CutThrough {
+        /// Least thickness of the fillet, in m.
+        thickness: f64,
+        /// Least thickness, in m.
+        least: f64,
+    },
+    /// The cutting rack's flanks meet above its tip.
+    #[error("no space between the teeth: its width at the root circle is {:.4} mm", .width / MILLIMETRE)]
+    NoSpace {
+        /// Width of the space at the root circle, in m, below 0.
+        width: f64,
+    },
+    /// Next to no involute is left between fillet and tip.
+    #[error("short flank: its involute is {:.4} mm long and must be at least {:.4} mm", .length / MILLIMETRE, .least / MILLIMETRE)]
+    ShortFlank {
+        /// Arc length of the involute, in m.
+        length: f64,
+        /// Least length, in m.
+        least: f64,
+    },
+    /// The rim is too thin for the elements.
+    #[error("thin rim: it is {:.4} mm thick and must be at least {:.4} mm", .thickness / MILLIMETRE, .least / MILLIMETRE)]
+    ThinRim {
+        /// r_f − r_h, in m.
+        thickness: f64,
+        /// Least thickness, in m.
+        least: f64,
+    },
+    /// No plane strain exists in the material.
+    #[error("Poisson's ratio is {poisson} and must be between 0 and {}", POISSON.1)]
+    Poisson {
+        /// ν.
+        poisson: f64,
+    },
+    /// The outline of the tooth folds the mesh.
+    #[error("the mesh folds on this outline: element {element} of {count}")]
+    FoldedMesh {
+        /// Number of the element.
+        element: usize,
+        /// Number of elements.
+        count: usize,
+    },
+    /// Rounding errors swamp the stiffness matrix.
+    #[error("the stiffness matrix is not positive definite with {unknowns} unknowns")]
+    NotPositive {
+        /// Unknowns.
+        unknowns: usize,
+    },
+}
