@@ -9,6 +9,7 @@ mod new;
 mod progress;
 mod shell;
 mod solve;
+mod stiffness;
 mod trade;
 
 use crate::case::sanitize::sanitize;
@@ -16,7 +17,8 @@ use crate::case::suggest;
 use crate::report::fields;
 
 pub use arguments::{
-    Arguments, Check, Command, Explain, Fields, Format, Listing, New, Setting, Solve, Trading,
+    Arguments, Check, Command, Explain, Fields, Format, Listing, New, Setting, Solve, Stiffness,
+    Trading,
 };
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches};
@@ -161,6 +163,7 @@ pub fn run(command: &Command, streams: &mut Streams) -> Exit {
         Command::Check(options) => check::run(options, streams),
         Command::Explain(options) => explain::run(options, streams),
         Command::Trade(options) => trade::run(options, streams),
+        Command::Stiffness(options) => stiffness::run(options, streams),
         Command::Fields(options) => list_fields(options, streams.output.as_mut()),
         Command::New(options) => new::run(options, streams),
         Command::Completions { shell } => shell::completions(*shell, streams.output.as_mut()),

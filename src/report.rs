@@ -12,6 +12,7 @@ pub mod json;
 mod layout;
 pub mod relief;
 pub mod stations;
+pub mod stiffness;
 pub mod text;
 pub mod trade;
 pub mod verdict;

@@ -8,6 +8,7 @@ use super::Exit;
 use crate::case::{Case, EXAMPLES, Example, Problem, unknown_quantity};
 use crate::model::inputs::Method;
 use crate::model::{QUANTITIES, Quantity};
+use crate::study::stiffness::{LEAST_POINTS, MOST_POINTS};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::{Error, ErrorKind};
 use clap::{Arg, Args, Parser, Subcommand, ValueEnum, ValueHint};
@@ -27,6 +28,10 @@ const TRADE_SHAPE: &str = "Each setting is timed on this machine. Its total erro
     forces and curve from the finest setting of method dynamic. The model error is that of the finest setting of the same method; \
     the rest is numerical. Where no method finds corner contact, no setting is recommended. JSON is one object in SI units; missing \
     values are absent.";
+
+const STIFFNESS_SHAPE: &str = "The finite elements are plane strain on the whole gear. They compare the stiffness models; `solve` does \
+    not use them yet. CSV: one row per gear and radius, in SI units; an empty cell where a model does not cover the gear. JSON: one \
+    object in SI units; missing values are absent, and gaps and refusal give the reason.";
 
 /// Corner contact in spur gear pairs: where, how hard and how long an incoming tooth strikes
 #[derive(Debug, Parser)]
@@ -51,6 +56,8 @@ pub enum Command {
     Explain(Explain),
     /// Measure accuracy against run time of every method on a case, on this machine
     Trade(Trading),
+    /// Compare the tooth compliance of every model over the flank with finite elements
+    Stiffness(Stiffness),
     /// List every field of a case with its unit, range, default and meaning
     Fields(Fields),
     /// Write a commented case to start from
@@ -160,6 +167,24 @@ pub struct Trading {
     /// How to tell it
     #[arg(long, value_enum, default_value_t)]
     pub format: Listing,
+}
+
+/// The arguments of `stiffness`.
+#[derive(Debug, Args)]
+#[command(after_help = STIFFNESS_SHAPE)]
+pub struct Stiffness {
+    /// Case file; - is standard input
+    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub case: PathBuf,
+    /// Change a field of the case, such as "operation.speed=3000 rpm"
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Settings)]
+    pub settings: Vec<Setting>,
+    /// Number of radii on each flank, from the form circle to the tip
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 9, value_parser = point_count)]
+    pub points: usize,
+    /// Format of the output
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
 }
 
 /// What `fields` is asked.
@@ -375,6 +400,13 @@ fn setting(text: &str) -> Result<Setting, String> {
         .set(key.trim(), value)
         .map_err(|problem| format!("{}: {}", problem.cause, problem.mend))?;
     Ok(Setting::by(SET, key.trim(), value))
+}
+
+/// A number of radii on a flank.
+fn point_count(text: &str) -> Result<usize, String> {
+    let range = LEAST_POINTS..=MOST_POINTS;
+    let count = text.parse().ok().filter(|count| range.contains(count));
+    count.ok_or_else(|| format!("write a number from {LEAST_POINTS} to {MOST_POINTS}"))
 }
 
 /// A part of a whole: "5%" or 0.05.

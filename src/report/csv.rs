@@ -13,10 +13,19 @@ use std::io::{self, Write};
 /// What the writer refuses.
 pub fn write(report: &Report, with_header: bool, out: &mut dyn Write) -> io::Result<()> {
     let header = with_header.then(|| header(report));
+    write_rows(header.into_iter().chain(rows(report)), out)
+}
+
+/// Write rows of cells.
+///
+/// # Errors
+/// What the writer refuses.
+pub(super) fn write_rows(
+    rows: impl IntoIterator<Item = Vec<String>>,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     let mut writer = Writer::from_writer(out);
-    header
-        .into_iter()
-        .chain(rows(report))
+    rows.into_iter()
         .try_for_each(|row| writer.write_record(row))
         .map_err(io_error)?;
     writer.flush()
@@ -71,6 +80,6 @@ fn rows(report: &Report) -> Vec<Vec<String>> {
 }
 
 /// The shortest number that reads back the same; empty where there is none.
-fn cell(value: Option<f64>) -> String {
+pub(super) fn cell(value: Option<f64>) -> String {
     value.map(|value| format!("{value:?}")).unwrap_or_default()
 }

@@ -134,14 +134,23 @@ pub fn spring(
 ) -> Result<ContactSpring, Refusal> {
     let model = elasticity.contact.model();
     let (offset, slope) = (model.offset_and_slope)(elasticity, geometry, place)?;
-    let give = plane_strain_compliance(elasticity);
-    let width_per_root_force =
-        (4.0 * place.curvature_radius * give / (PI * elasticity.width)).sqrt();
     Ok(ContactSpring {
         offset,
         slope,
-        width_per_root_force,
+        width_per_root_force: width_per_root_force(elasticity, place),
     })
+}
+
+/// Hertz half-width at a force, in m, by the formula of [`ContactSpring::half_width`]; no model of
+/// the compliance enters it.
+#[must_use]
+pub fn half_width(elasticity: &Elasticity, place: &ContactPlace, force: f64) -> f64 {
+    width_per_root_force(elasticity, place) * force.sqrt()
+}
+
+fn width_per_root_force(elasticity: &Elasticity, place: &ContactPlace) -> f64 {
+    let give = plane_strain_compliance(elasticity);
+    (4.0 * place.curvature_radius * give / (PI * elasticity.width)).sqrt()
 }
 
 /// 1/E' = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂, in 1/Pa.

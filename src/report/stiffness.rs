@@ -1,0 +1,304 @@
+//! The stiffness models beside finite elements as text, CSV and JSON.
+
+use std::io::{self, Write};
+
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+use super::csv::{cell, write_rows};
+use super::json::write_line;
+use super::layout::{WIDTH, flow, item};
+use crate::case::sanitize::sanitize;
+use crate::model::inputs::ToothCompliance;
+use crate::numeric::decimal::significant;
+use crate::study::stiffness::{Comparison, FIELD, FieldPoint, GearComparison, Point};
+
+/// m²/N in a µm mm/N.
+const MICRON_MILLIMETRE: f64 = 1e-9;
+const MILLIMETRE: f64 = 1e-3;
+
+/// A comparison and its case.
+#[derive(Debug, Clone, Copy)]
+pub struct StiffnessReport<'a> {
+    /// The case's name, as the user gave it.
+    pub name: &'a str,
+    /// The case's title, empty without one.
+    pub title: &'a str,
+    /// The compliances.
+    pub comparison: &'a Comparison,
+}
+
+/// Write it for a person, 80 columns wide.
+///
+/// # Errors
+/// The errors of the writer.
+pub fn write(report: &StiffnessReport<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let mut sections = vec![heading(report), legend(report.comparison)];
+    for gear in &report.comparison.gears {
+        sections.push(gear_section(report.comparison, gear));
+    }
+    sections.push(vec![
+        "`tipstrike solve` does not use the finite elements yet.".to_owned(),
+    ]);
+    let sections: Vec<_> = sections.iter().map(|lines| lines.join("\n")).collect();
+    writeln!(out, "{}", sections.join("\n\n"))
+}
+
+fn heading(report: &StiffnessReport<'_>) -> Vec<String> {
+    let title = if report.title.is_empty() {
+        "Case without a title"
+    } else {
+        report.title
+    };
+    let mut lines = flow(sanitize(title).split_whitespace(), WIDTH);
+    let name = sanitize(report.name);
+    let words = [
+        name.as_str(),
+        "·",
+        "stiffness models against finite elements",
+    ];
+    lines.extend(flow(words, WIDTH));
+    lines
+}
+
+fn legend(comparison: &Comparison) -> Vec<String> {
+    let names: Vec<_> = comparison.models.iter().map(|model| model.name()).collect();
+    let half_width = significant(comparison.contact_half_width / MILLIMETRE, 4);
+    let notes = [
+        "Compliances in um mm/N, per unit face width.".to_owned(),
+        format!(
+            "{}: tooth without contact; in brackets the difference from FE plus twist.",
+            names.join(", ")
+        ),
+        "FE: finite elements (plane strain, whole gear), without contact. FE, surface and \
+         neighbour leave out the twist of the body."
+            .to_owned(),
+        format!(
+            "surface: FE with a contact of half-width {half_width} mm (Hertz, mesh force at the \
+             pitch point)."
+        ),
+        "neighbour: displacement of the next tooth at the same radius; by reciprocity the same \
+         ahead and behind."
+            .to_owned(),
+    ];
+    notes.iter().flat_map(|note| item("", note)).collect()
+}
+
+fn gear_section(comparison: &Comparison, gear: &GearComparison) -> Vec<String> {
+    let radius = |metres: f64| significant(metres / MILLIMETRE, 6);
+    let mut lines = vec![format!(
+        "{}: z {}, form circle {} mm, tip {} mm",
+        gear.gear,
+        gear.teeth,
+        radius(gear.form_radius),
+        radius(gear.tip_radius)
+    )];
+    if !gear.points.is_empty() {
+        lines.push(head(&comparison.models));
+        let twist = gear.twist.unwrap_or_default();
+        lines.extend(gear.points.iter().map(|point| row(point, twist)));
+    }
+    lines.extend(remarks(gear).iter().flat_map(|remark| item("  - ", remark)));
+    lines
+}
+
+fn head(models: &[ToothCompliance]) -> String {
+    let models: Vec<_> = models
+        .iter()
+        .map(|model| format!("{:>17}", model.name()))
+        .collect();
+    let models = models.concat();
+    format!(
+        "{:>8}{models}{:>10}{:>10}{:>11}",
+        "r [mm]", "FE", "surface", "neighbour"
+    )
+}
+
+fn row(point: &Point, twist: f64) -> String {
+    let whole = point.field.map(|field| field.depth + twist);
+    let models: Vec<_> = point
+        .models
+        .iter()
+        .map(|model| format!("{:>17}", with_difference(*model, whole)))
+        .collect();
+    let models = models.concat();
+    let field = |of: fn(&FieldPoint) -> f64| compliance(point.field.as_ref().map(of));
+    format!(
+        "{:>8}{models}{:>10}{:>10}{:>11}",
+        significant(point.radius / MILLIMETRE, 6),
+        field(|field| field.depth),
+        field(|field| field.surface),
+        field(|field| field.ahead)
+    )
+}
+
+fn compliance(value: Option<f64>) -> String {
+    value.map_or("-".to_owned(), |value| {
+        significant(value / MICRON_MILLIMETRE, 4)
+    })
+}
+
+fn with_difference(value: Option<f64>, reference: Option<f64>) -> String {
+    let difference = value
+        .zip(reference)
+        .map(|(value, reference)| format!(" ({:+.0} %)", 100.0 * (value / reference - 1.0)));
+    compliance(value) + &difference.unwrap_or_default()
+}
+
+/// The twist of the body, and the reasons for missing values.
+fn remarks(gear: &GearComparison) -> Vec<String> {
+    let field = match (&gear.refusal, gear.twist) {
+        (Some(_), _) => no_field(gear),
+        (None, Some(twist)) => Some(format!(
+            "twist of the body about its bore: {} um mm/N for every tooth, at every radius",
+            significant(twist / MICRON_MILLIMETRE, 4)
+        )),
+        (None, None) => {
+            Some("no bore: FE leaves out the twist and the shift of the body".to_owned())
+        }
+    };
+    let gaps = gear
+        .gaps
+        .iter()
+        .map(|gap| format!("no value by {}: {}", gap.model.name(), gap.reason));
+    field.into_iter().chain(gaps).collect()
+}
+
+/// Why a gear has no finite-element values; `None` if it has them.
+#[must_use]
+pub fn no_field(gear: &GearComparison) -> Option<String> {
+    let refusal = gear.refusal?;
+    Some(format!("no finite-element values: {refusal}"))
+}
+
+/// Write it as CSV in SI units, one row per gear and radius; a missing value is an empty cell.
+///
+/// # Errors
+/// The errors of the writer.
+pub fn write_csv(comparison: &Comparison, out: &mut dyn Write) -> io::Result<()> {
+    let models = comparison.models.iter().map(|model| column(model.name()));
+    let header = ["gear".to_owned(), "radius [m]".to_owned()]
+        .into_iter()
+        .chain(models)
+        .chain([
+            column(FIELD),
+            "contact_half_width [m]".to_owned(),
+            column("finite-element-surface"),
+            column("neighbour-ahead"),
+            column("neighbour-behind"),
+        ]);
+    let rows = comparison.gears.iter().flat_map(|gear| {
+        gear.points
+            .iter()
+            .map(|point| csv_row(comparison, gear, point))
+    });
+    write_rows(std::iter::once(header.collect()).chain(rows), out)
+}
+
+fn key(name: &str) -> String {
+    name.replace('-', "_")
+}
+
+fn column(name: &str) -> String {
+    format!("{} [m2/N]", key(name))
+}
+
+fn csv_row(comparison: &Comparison, gear: &GearComparison, point: &Point) -> Vec<String> {
+    let field = |of: fn(&FieldPoint) -> f64| cell(point.field.as_ref().map(of));
+    [gear.gear.to_owned(), cell(Some(point.radius))]
+        .into_iter()
+        .chain(point.models.iter().copied().map(cell))
+        .chain([
+            field(|field| field.depth),
+            cell(Some(comparison.contact_half_width)),
+            field(|field| field.surface),
+            field(|field| field.ahead),
+            field(|field| field.behind),
+        ])
+        .collect()
+}
+
+#[derive(Serialize)]
+struct Line<'a> {
+    case: &'a str,
+    title: &'a str,
+    version: &'static str,
+    contact_half_width: f64,
+    gears: Vec<GearLine>,
+}
+
+#[derive(Serialize)]
+struct GearLine {
+    gear: &'static str,
+    form_radius: f64,
+    tip_radius: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    twist: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refusal: Option<String>,
+    #[serde(skip_serializing_if = "Map::is_empty")]
+    gaps: Map<String, Value>,
+    points: Vec<Map<String, Value>>,
+}
+
+/// Write it as one line of JSON in SI units; a missing value is absent.
+///
+/// # Errors
+/// The errors of the writer.
+pub fn write_json(report: &StiffnessReport<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let comparison = report.comparison;
+    let line = Line {
+        case: report.name,
+        title: report.title,
+        version: env!("CARGO_PKG_VERSION"),
+        contact_half_width: comparison.contact_half_width,
+        gears: comparison
+            .gears
+            .iter()
+            .map(|gear| gear_line(comparison, gear))
+            .collect(),
+    };
+    write_line(&line, out)
+}
+
+fn gear_line(comparison: &Comparison, gear: &GearComparison) -> GearLine {
+    let gaps = gear
+        .gaps
+        .iter()
+        .map(|gap| (key(gap.model.name()), gap.reason.as_str().into()));
+    let points = gear
+        .points
+        .iter()
+        .map(|point| json_point(comparison, point));
+    GearLine {
+        gear: gear.gear,
+        form_radius: gear.form_radius,
+        tip_radius: gear.tip_radius,
+        twist: gear.twist,
+        refusal: gear.refusal.map(|refusal| refusal.to_string()),
+        gaps: gaps.collect(),
+        points: points.collect(),
+    }
+}
+
+fn json_point(comparison: &Comparison, point: &Point) -> Map<String, Value> {
+    let models = comparison
+        .models
+        .iter()
+        .zip(&point.models)
+        .filter_map(|(model, value)| Some((model.name(), (*value)?)));
+    let field = point.field.iter().flat_map(|field| {
+        [
+            (FIELD, field.depth),
+            ("finite-element-surface", field.surface),
+            ("neighbour-ahead", field.ahead),
+            ("neighbour-behind", field.behind),
+        ]
+    });
+    [("radius", point.radius)]
+        .into_iter()
+        .chain(models)
+        .chain(field)
+        .map(|(name, value)| (key(name), value.into()))
+        .collect()
+}

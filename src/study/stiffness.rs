@@ -1,0 +1,307 @@
+//! Tooth compliance over the flank of each gear, by every model and by finite elements.
+
+use crate::model::compliance::profile::Profile;
+use crate::model::compliance::tooth::{Tooth, ToothModel};
+use crate::model::compliance::{ContactPlace, ElasticGear, contact};
+use crate::model::field::{Field, FieldInput, FieldRefusal};
+use crate::model::geometry::{Circles, Geometry, geometry};
+use crate::model::impact::Masses;
+use crate::model::inputs::{Gear, ToothCompliance};
+use crate::model::{Inputs, Refusal};
+
+/// The name of the field among the models; a model of the list with this name has no column of its
+/// own.
+pub const FIELD: &str = "finite-element";
+
+/// Least number of points on a flank.
+pub const LEAST_POINTS: usize = 2;
+/// Greatest number of points on a flank.
+pub const MOST_POINTS: usize = 10_000;
+
+/// The compliances of both gears.
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    /// Hertz half-width of the contact at the pitch point under the mesh force, in m.
+    pub contact_half_width: f64,
+    /// The models in the order of [`Point::models`].
+    pub models: Vec<ToothCompliance>,
+    /// Driver and driven gear.
+    pub gears: [GearComparison; 2],
+}
+
+/// The compliances of one gear.
+#[derive(Debug, Clone)]
+pub struct GearComparison {
+    /// `driver` or `driven`.
+    pub gear: &'static str,
+    /// Number of teeth z.
+    pub teeth: u32,
+    /// Radius of the form circle, in m.
+    pub form_radius: f64,
+    /// Active tip radius, in m.
+    pub tip_radius: f64,
+    /// Displacement of every tooth by the twist of the body about its bore, in m²/N; absent for a
+    /// gear without a bore or without a field.
+    pub twist: Option<f64>,
+    /// Why the gear has no field, if it has none.
+    pub refusal: Option<FieldRefusal>,
+    /// Models without a value at one point or more.
+    pub gaps: Vec<Gap>,
+    /// From the form circle to the tip; empty if no involute is left between them.
+    pub points: Vec<Point>,
+}
+
+/// A model without a value at one point of a flank or more.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gap {
+    /// The model.
+    pub model: ToothCompliance,
+    /// The range of a model that does not cover the gear, or the first refusal.
+    pub reason: String,
+}
+
+/// The compliances of a tooth loaded at one radius, per unit width, in m²/N.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Point {
+    /// Radius of the load, in m.
+    pub radius: f64,
+    /// Tooth without contact by each model; absent if the model does not cover the gear.
+    pub models: Vec<Option<f64>>,
+    /// The same and more by finite elements.
+    pub field: Option<FieldPoint>,
+}
+
+/// Compliances from the field of a gear, without the twist of its body, in m²/N.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FieldPoint {
+    /// Tooth and body without contact.
+    pub depth: f64,
+    /// Tooth and body with the contact.
+    pub surface: f64,
+    /// Displacement of the next tooth on the side that the force pushes to, at the same radius.
+    pub ahead: f64,
+    /// The same of the tooth on the other side.
+    pub behind: f64,
+}
+
+/// Compares the models over both flanks, at `points` radii from the form circle to the tip.
+///
+/// # Errors
+/// The refusals of the geometry, and [`Refusal::BoreTooLarge`].
+pub fn compare(inputs: &Inputs, points: usize) -> Result<Comparison, Refusal> {
+    let geometry = geometry::<f64>(&inputs.shape())?;
+    Masses::of(&inputs.bodies(), &geometry)?;
+    let elasticity = inputs.elasticity();
+    let pitch_point = geometry.start + geometry.approach_length;
+    let place = ContactPlace::on_line_of_action(&geometry, pitch_point);
+    let mesh_force = inputs.torque() / geometry.driver.base;
+    let contact_half_width = contact::half_width(&elasticity, &place, mesh_force);
+    let models: Vec<_> = ToothCompliance::ALL
+        .into_iter()
+        .filter(|model| model.name() != FIELD)
+        .collect();
+    let flanks = flanks(inputs, &geometry);
+    let gears = flanks.map(|flank| flank.compare(inputs, &models, points, contact_half_width));
+    Ok(Comparison {
+        contact_half_width,
+        models,
+        gears,
+    })
+}
+
+/// One gear of the pair.
+struct Flank<'a> {
+    name: &'static str,
+    gear: &'a Gear,
+    elastic: ElasticGear,
+    circles: &'a Circles,
+    profile: Profile,
+}
+
+fn flanks<'a>(inputs: &'a Inputs, geometry: &'a Geometry) -> [Flank<'a>; 2] {
+    let elasticity = inputs.elasticity();
+    let flank = |name, gear, elastic: ElasticGear, circles| Flank {
+        name,
+        gear,
+        elastic,
+        circles,
+        profile: Profile::of(&elastic.rack, circles),
+    };
+    [
+        flank(
+            "driver",
+            &inputs.driver,
+            elasticity.driver,
+            &geometry.driver,
+        ),
+        flank(
+            "driven",
+            &inputs.driven,
+            elasticity.driven,
+            &geometry.driven,
+        ),
+    ]
+}
+
+impl Flank<'_> {
+    fn compare(
+        &self,
+        inputs: &Inputs,
+        models: &[ToothCompliance],
+        points: usize,
+        half_width: f64,
+    ) -> GearComparison {
+        let radii = self.radii(points);
+        let mut gaps = Vec::new();
+        let columns: Vec<_> = models
+            .iter()
+            .map(|&model| {
+                let (column, reason) = self.column(inputs, model, &radii);
+                gaps.extend(reason.map(|reason| Gap { model, reason }));
+                column
+            })
+            .collect();
+        let field = self.field(inputs.module);
+        let young = self.elastic.young;
+        let points = radii.iter().enumerate().map(|(index, &radius)| Point {
+            radius,
+            models: columns.iter().map(|column| column[index]).collect(),
+            field: field
+                .as_ref()
+                .ok()
+                .map(|field| field_point(field, radius, half_width, young)),
+        });
+        GearComparison {
+            gear: self.name,
+            teeth: self.gear.teeth,
+            form_radius: self.profile.form_radius(),
+            tip_radius: self.circles.tip,
+            twist: field
+                .as_ref()
+                .ok()
+                .and_then(Field::twist)
+                .map(|twist| twist / young),
+            refusal: field.as_ref().err().copied(),
+            gaps,
+            points: points.collect(),
+        }
+    }
+
+    fn field(&self, module: f64) -> Result<Field, FieldRefusal> {
+        Field::build(&FieldInput {
+            profile: self.profile,
+            teeth: self.gear.teeth,
+            module,
+            bore_radius: self.elastic.bore_radius,
+            poisson: self.elastic.poisson,
+        })
+    }
+
+    /// Radii in equal steps from the form circle to the tip.
+    fn radii(&self, points: usize) -> Vec<f64> {
+        let (form, tip) = (self.profile.form_radius(), self.circles.tip);
+        if form >= tip {
+            return Vec::new();
+        }
+        let last = points.max(LEAST_POINTS) - 1;
+        let inner = (0..last).map(|step| form + (tip - form) * step as f64 / last as f64);
+        inner.chain([tip]).collect()
+    }
+
+    /// The compliance by a model at each radius, and why it lacks one.
+    fn column(
+        &self,
+        inputs: &Inputs,
+        model: ToothCompliance,
+        radii: &[f64],
+    ) -> (Vec<Option<f64>>, Option<String>) {
+        let none = |reason: String| (vec![None; radii.len()], Some(reason));
+        if !self.is_covered(inputs, model.model()) {
+            return none(format!("covers {} only", model.model().range));
+        }
+        let tooth = match Tooth::of(model, &self.elastic, self.circles) {
+            Ok(tooth) => tooth,
+            Err(refusal) => return none(refusal.to_string()),
+        };
+        let values: Vec<_> = radii
+            .iter()
+            .map(|&radius| tooth.at(self.above_form_circle(radius)))
+            .collect();
+        let refusal = values.iter().find_map(|value| value.as_ref().err());
+        let reason = refusal.map(ToString::to_string);
+        (values.into_iter().map(Result::ok).collect(), reason)
+    }
+
+    /// Whether the model covers a pair of two such gears: its range is a property of each gear.
+    fn is_covered(&self, inputs: &Inputs, model: &ToothModel) -> bool {
+        (model.covers)(&Inputs {
+            driver: self.gear.clone(),
+            driven: self.gear.clone(),
+            ..inputs.clone()
+        })
+    }
+
+    /// A radius at which a model has a value: the form circle itself belongs to the fillet.
+    fn above_form_circle(&self, radius: f64) -> f64 {
+        const STEP: f64 = 1e-9;
+        let form = self.profile.form_radius();
+        radius.max(form + STEP * (self.circles.tip - form))
+    }
+}
+
+fn field_point(field: &Field, radius: f64, half_width: f64, young: f64) -> FieldPoint {
+    FieldPoint {
+        depth: field.depth(radius, half_width) / young,
+        surface: field.surface(radius, half_width) / young,
+        ahead: field.cross(radius, radius, 1) / young,
+        behind: field.cross(radius, radius, -1) / young,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::sample::standard_pair;
+
+    #[test]
+    fn a_model_covers_each_gear_of_a_pair_on_its_own() {
+        let mut inputs = standard_pair(20, 110, 5e-3);
+        inputs.driver.bore_radius = 20e-3;
+        inputs.driven.bore_radius = 60e-3;
+        let found = compare(&inputs, 3).unwrap();
+        let kuang_yang = |gear: &GearComparison| {
+            let values = gear.points.iter().map(|point| point.models[0]);
+            values.flatten().count()
+        };
+        assert_eq!(found.gears.each_ref().map(kuang_yang), [3, 0]);
+        assert!(found.gears[0].gaps.is_empty());
+        let [gap] = &found.gears[1].gaps[..] else {
+            panic!("{:?}", found.gears[1].gaps);
+        };
+        assert_eq!(gap.model.name(), found.models[0].name());
+    }
+
+    #[test]
+    fn compliance_falls_with_youngs_modulus_and_not_with_the_module() {
+        let mut inputs = standard_pair(20, 30, 5e-3);
+        inputs.driver.bore_radius = 20e-3;
+        inputs.driven.bore_radius = 20e-3;
+        let before = compare(&inputs, 5).unwrap();
+        inputs.module *= 2.0;
+        for gear in [&mut inputs.driver, &mut inputs.driven] {
+            gear.young /= 3.0;
+            gear.bore_radius *= 2.0;
+        }
+        let after = compare(&inputs, 5).unwrap();
+        for (before, after) in before.gears.iter().zip(&after.gears) {
+            assert_eq!(before.points.len(), 5);
+            for (before, after) in before.points.iter().zip(&after.points) {
+                let (before, after) = (before.field.unwrap(), after.field.unwrap());
+                let ratio = after.ahead / before.ahead;
+                assert!((ratio / 3.0 - 1.0).abs() < 1e-9, "{ratio}");
+            }
+            let twist = after.twist.unwrap() / before.twist.unwrap();
+            assert!((twist / 3.0 - 1.0).abs() < 1e-9, "{twist}");
+        }
+    }
+}
