@@ -8,9 +8,9 @@ use ratatui::layout::Rect;
 use ratatui::symbols::Marker;
 use tipstrike::case::Case;
 use tipstrike::model::{Stages, solve};
+use tipstrike::tui::panes::teeth::zoom::{Centre, TeethView};
+use tipstrike::tui::panes::teeth::{self, Picture};
 use tipstrike::tui::theme::Look;
-use tipstrike::tui::view::teeth::{self, Picture};
-use tipstrike::tui::zoom::{Centre, TeethView};
 
 fn pictures(criterion: &mut Criterion) {
     let inputs = Case::table_1()
@@ -45,7 +45,7 @@ fn pictures(criterion: &mut Criterion) {
         group.bench_function(name, |bencher| {
             bencher.iter(|| {
                 buffer.reset();
-                teeth::picture::draw(black_box(&picture), area, &mut buffer);
+                teeth::draw(black_box(&picture), area, &mut buffer);
             });
         });
     }

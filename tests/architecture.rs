@@ -41,7 +41,7 @@ const OUTSIDE: [&str; 10] = [
 
 /// Folders in which no file needs, by whatever way round, one that needs it. A file and its own
 /// folder count as one.
-const IN_ORDER: [&str; 11] = [
+const IN_ORDER: [&str; 14] = [
     "numeric",
     "model",
     "case",
@@ -50,6 +50,9 @@ const IN_ORDER: [&str; 11] = [
     "report/explain",
     "cli",
     "tui",
+    "tui/panes",
+    "tui/panes/chart",
+    "tui/panes/teeth",
     "tui/store",
     "tui/update",
     "tui/view",

@@ -24,12 +24,12 @@ use tipstrike::report::graphs::{GRAPHS, Graph};
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::layout;
 use tipstrike::tui::pane::Pane;
+use tipstrike::tui::panes::chart::curves::{self, Whose};
+use tipstrike::tui::panes::chart::range::Frame;
+use tipstrike::tui::panes::chart::{self, raster};
+use tipstrike::tui::panes::teeth::readings::readings;
 use tipstrike::tui::solver::Answer;
 use tipstrike::tui::theme::{Look, MONO};
-use tipstrike::tui::view::chart::curves::{self, Whose};
-use tipstrike::tui::view::chart::{self, raster};
-use tipstrike::tui::view::teeth::readings::readings;
-use tipstrike::tui::window::Frame;
 
 const HUGE: Size = Size {
     width: 240,
@@ -155,7 +155,7 @@ fn charts_are_selected_by_key_and_by_name() {
 
 #[test]
 fn static_and_dynamic_open_on_the_strike_and_0_shows_the_whole_contact() {
-    let window = |desk: &Desk| desk.app.chart.window(&desk.app.scale);
+    let window = |desk: &Desk| desk.app.charts().window();
     for method in ["static", "dynamic"] {
         let mut desk = at_method(SMALL, method);
         let (strike, whole) = (window(&desk), desk.app.scale.across);
@@ -300,9 +300,7 @@ fn a_click_moves_the_cursor_to_its_column() {
 fn zoom_is_around_the_cursor_and_ends_at_the_whole_contact() {
     let mut desk = at_method(SMALL, "static");
     desk.keys(&["0"]);
-    let (whole, window) = (chart(&desk), |desk: &Desk| {
-        desk.app.chart.window(&desk.app.scale)
-    });
+    let (whole, window) = (chart(&desk), |desk: &Desk| desk.app.charts().window());
     let all = window(&desk);
     desk.keys(&["v"]);
     let strike = window(&desk);
@@ -337,12 +335,12 @@ fn the_view_follows_the_cursor() {
     desk.keys(&["End"]);
     for _ in 0..12 {
         desk.keys(&["L"]);
-        let window = desk.app.chart.window(&desk.app.scale);
+        let window = desk.app.charts().window();
         let x = -desk.app.cursor.expect("a cursor").to_degrees();
         assert!((window.from..=window.to).contains(&x), "{x} {window:?}");
     }
     assert!(
-        desk.app.chart.frame == Frame::Opening
+        desk.app.chart.view.frame == Frame::Opening
             && desk.app.cursor.is_some_and(|cursor| cursor < -0.01)
     );
 }
@@ -381,7 +379,7 @@ fn the_axis_covers_the_results_and_the_baseline() {
             desk.fill("driven.tip_relief", relief);
             for key in ["0", "v"] {
                 desk.keys(&["Esc", "3", key]);
-                let window = desk.app.chart.window(&desk.app.scale);
+                let window = desk.app.charts().window();
                 let solution = |answer: &Answer| answer.of(answer.active).expect("solved").clone();
                 let baseline = solution(&desk.app.baseline.as_ref().expect("pinned").answer);
                 let now = solution(desk.app.answer.as_ref().expect("solved"));
@@ -415,7 +413,7 @@ fn the_readout_and_the_teeth_pane_show_the_same_numbers() {
             let answer = desk.app.answer.as_ref().expect("solved");
             let solved = (&answer.inputs, answer.of(answer.active).expect("solved"));
             let moment = ContactState::at(solved.0, solved.1, angle).expect("in sight");
-            let said = chart::readout(&desk.app, angle);
+            let said = chart::readout(&desk.app.charts(), angle);
             let told = |symbol| {
                 readings(&moment, solved, System::Metric)
                     .into_iter()
@@ -442,7 +440,7 @@ fn the_readout_and_the_teeth_pane_show_the_same_numbers() {
 #[test]
 fn a_run_covers_the_visible_part_of_the_contact() {
     let mut desk = at_method(SMALL, "static");
-    let strike = desk.app.chart.window(&desk.app.scale);
+    let strike = desk.app.charts().window();
     desk.keys(&["Space"]);
     let runs = (0..200).take_while(|_| {
         desk.act(Action::Tick);
@@ -451,7 +449,7 @@ fn a_run_covers_the_visible_part_of_the_contact() {
     assert!((40..60).contains(&runs.count()));
     let last = desk.app.cursor.expect("a cursor");
     assert!((last.to_degrees() + strike.to).abs() < 1e-9 && !desk.app.is_playing);
-    assert_eq!(desk.app.chart.window(&desk.app.scale), strike);
+    assert_eq!(desk.app.charts().window(), strike);
     desk.keys(&["0", "Home", "Space"]);
     let runs = (0..200).take_while(|_| {
         desk.act(Action::Tick);
@@ -587,16 +585,13 @@ fn assert_legends(desk: &Desk) {
     let app = &desk.app;
     let screen = desk.buffer(app.size);
     let text = chart(desk).join("\n");
-    let window = app.chart.window(&app.scale);
-    for (graph, plot) in chart::shown(app, chart_area(desk))
-        .into_iter()
-        .zip(plots(desk))
-    {
-        let curves = curves::apart(curves::curves(app, &GRAPHS[graph]));
+    let window = app.charts().window();
+    for (graph, plot) in app.charts().shown().into_iter().zip(plots(desk)) {
+        let curves = curves::apart(curves::curves(&app.charts(), &GRAPHS[graph]));
         let mut alone = Buffer::empty(screen.area);
         for curve in &curves {
             let spans = (window, app.scale.upright[graph]);
-            raster::draw(app, curve, spans, plot, &mut alone);
+            raster::draw(&app.charts(), curve, spans, plot, &mut alone);
         }
         let is_drawn = |at: &Position| alone[*at].symbol() != " ";
         for at in plot.positions().filter(is_drawn) {
@@ -738,7 +733,7 @@ fn a_key_changes_few_bytes_of_a_chart() {
             .flat_map(|method| (0..GRAPHS.len()).map(move |graph| (method, graph)))
         {
             let mut desk = at_method(size, method);
-            desk.app.graph = graph;
+            desk.app.chart.graph = graph;
             for (field, unit, digits) in [
                 ("operation.speed", " rpm", "2123.4567"),
                 ("deviations.base_pitch", " um", "16.54321"),

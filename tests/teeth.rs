@@ -30,11 +30,11 @@ use tipstrike::model::inputs::Method;
 use tipstrike::model::{self, ContactState, Inputs, Solution, Stages, contact_state};
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::ascii;
+use tipstrike::tui::panes::teeth::labels::Labels;
+use tipstrike::tui::panes::teeth::scene::Scene;
+use tipstrike::tui::panes::teeth::zoom::{Centre, Exaggeration, TeethView};
+use tipstrike::tui::panes::teeth::{self, Picture};
 use tipstrike::tui::theme::{Look, MONO};
-use tipstrike::tui::view::teeth::labels::Labels;
-use tipstrike::tui::view::teeth::scene::Scene;
-use tipstrike::tui::view::teeth::{self, Picture};
-use tipstrike::tui::zoom::{Centre, Exaggeration, TeethView};
 
 const SIZES: [(u16, u16); 3] = [(80, 18), (140, 30), (200, 60)];
 const ASCII: Look = Look {
@@ -74,7 +74,7 @@ fn picture<'a>(
 fn drawn(picture: &Picture, (width, height): (u16, u16)) -> Buffer {
     let area = Rect::new(0, 0, width, height);
     let mut buffer = Buffer::empty(area);
-    teeth::picture::draw(picture, area, &mut buffer);
+    teeth::draw(picture, area, &mut buffer);
     ascii::finish(&mut buffer, picture.look.ascii);
     buffer
 }

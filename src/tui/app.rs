@@ -8,6 +8,8 @@ use ratatui::layout::Size;
 use super::keys::Place;
 use super::layout::plan;
 use super::pane::{Pane, Panes};
+use super::panes::chart::{ChartPane, Charts};
+use super::panes::teeth::{Picture, TeethView};
 use super::prompt::Prompt;
 use super::rows;
 use super::session::recovery::{Access, NEWER, OpenCase};
@@ -15,8 +17,6 @@ use super::settings::Settings;
 use super::solver::{self, Answer, Request};
 use super::tab::{Tab, Traded};
 use super::theme::Look;
-use super::window::ChartView;
-use super::zoom::TeethView;
 use crate::case::fields::{Absent, Kind};
 use crate::case::{Case, Document, FIELDS, Problem, fields};
 use crate::model::{Stage, Stages};
@@ -49,12 +49,8 @@ pub struct App {
     pub cursor: Option<f64>,
     /// The view of the teeth pane.
     pub teeth: TeethView,
-    /// The visible roll angles of the charts.
-    pub chart: ChartView,
-    /// The chosen chart, as an index of the table.
-    pub graph: usize,
-    /// Whether the x axis of the charts is the time after E.
-    pub by_time: bool,
+    /// The state of the chart pane.
+    pub chart: ChartPane,
     /// Whether the run plays.
     pub is_playing: bool,
     /// Long work that goes on.
@@ -133,9 +129,7 @@ impl App {
             shows_cost: false,
             cursor: None,
             teeth: TeethView::default(),
-            chart: ChartView::default(),
-            graph: 0,
-            by_time: false,
+            chart: ChartPane::default(),
             is_playing: false,
             progress: None,
             measuring: None,
@@ -168,6 +162,40 @@ impl App {
     #[must_use]
     pub fn sheets(&self) -> Vec<OpenCase<'_>> {
         self.tabs().map(Tab::sheet).collect()
+    }
+
+    /// The chart pane with the results that it shows.
+    #[must_use]
+    pub fn charts(&self) -> Charts<'_> {
+        Charts {
+            pane: &self.chart,
+            scale: &self.scale,
+            answer: self.answer.as_ref(),
+            baseline: self.baseline.as_ref().map(|baseline| &baseline.answer),
+            cursor: self.cursor,
+            is_stale: self.is_stale(),
+            undone: self.undone,
+            units: self.settings.units,
+            marker: self.settings.marker,
+            look: self.look,
+            area: plan(self.size, self.panes).chart,
+        }
+    }
+
+    /// The picture of the teeth, if the active method has results.
+    #[must_use]
+    pub fn picture(&self) -> Option<Picture<'_>> {
+        let answer = self.answer.as_ref()?;
+        Some(Picture {
+            inputs: &answer.inputs,
+            solution: answer.of(answer.active)?,
+            cursor: self.cursor,
+            view: &self.teeth,
+            look: self.look,
+            marker: self.settings.marker,
+            units: self.settings.units,
+            is_stale: self.is_stale(),
+        })
     }
 
     /// Where keys go.

@@ -6,6 +6,8 @@ use tui_input::InputRequest;
 
 use super::keys::{self, Chord, Place};
 use super::pane::Pane;
+use super::panes::chart::ChartCommand;
+use super::panes::teeth::TeethCommand;
 use crate::model::inputs::Method;
 
 pub use table::BINDINGS;
@@ -57,16 +59,8 @@ pub enum Command {
     CursorTo,
     CursorAway,
     Play,
-    ChartBy(isize),
-    Chart(usize),
-    ChartZoom(i32),
-    ChartWhole,
-    ChartStrike,
-    ChartTime,
-    TeethBy(i32),
-    TeethAnew,
-    TeethCentre(isize),
-    TeethGap,
+    Chart(ChartCommand),
+    Teeth(TeethCommand),
     CycleMarker,
     ShowCost,
     CycleTheme,

@@ -6,6 +6,7 @@ use std::cmp::Reverse;
 use super::ascii::symbol;
 use super::commands::{self, Command};
 use super::line::Line;
+use super::panes::chart::ChartCommand;
 use crate::case::materials::{self, Material};
 use crate::case::{EXAMPLES, Example, FIELDS, search};
 use crate::model::{QUANTITIES, Quantity};
@@ -255,7 +256,7 @@ fn command(binding: &commands::Binding) -> Item {
 fn graph((place, graph): (usize, &Graph)) -> Item {
     let symbols: Vec<_> = graph.all_columns().map(|column| column.symbol).collect();
     Item {
-        pick: Pick::Run(Command::Chart(place)),
+        pick: Pick::Run(Command::Chart(ChartCommand::Select(place))),
         name: format!("chart: {}", graph.label.to_lowercase()),
         about: format!("Show {} over the driver's roll angle.", symbols.join(", ")),
         keys: String::new(),

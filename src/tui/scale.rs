@@ -1,8 +1,6 @@
 //! Axis ranges of the charts: round ends that stay until a curve leaves them, and ticks at
 //! multiples of 1, 2 or 5.
 
-use crate::report::graphs::GRAPHS;
-
 /// Ends of an axis that begins at 0, times a power of ten.
 const ENDS: [f64; 9] = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
 /// With this many more intervals an axis always has two ticks.
@@ -30,17 +28,6 @@ pub struct Span {
     pub from: f64,
     /// The upper end.
     pub to: f64,
-}
-
-/// The axes of the charts.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Scale {
-    /// The driver's roll angle over the whole contact, in deg after E, negative before E.
-    pub across: Span,
-    /// The driver's roll angle from D to a little after E, in the same unit.
-    pub strike: Span,
-    /// The values of each chart, in its display unit.
-    pub upright: [Span; GRAPHS.len()],
 }
 
 /// Ticks of an axis.

@@ -5,11 +5,10 @@ use std::path::PathBuf;
 
 use super::history::History;
 use super::line::Line;
+use super::panes::chart::range::{Occasion, Scale};
 use super::rows::{self, Row};
-use super::scale::Scale;
 use super::session::recovery::{Access, OpenCase};
 use super::solver::{Answer, Values};
-use super::window::Occasion;
 use crate::case::{Case, Document, Problem, fields};
 use crate::model::{Inputs, Refusal, Stages};
 use crate::study::trade::{Setting, Trade};

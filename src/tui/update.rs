@@ -205,16 +205,8 @@ fn show(app: &mut App, command: Command) {
         Command::CycleLower => panes::cycle_lower(app),
         Command::Zoom => panes::zoom(app),
         Command::StartEdit => edit::begin(app),
-        Command::ChartBy(by) => chart::step(app, by),
-        Command::Chart(graph) => chart::choose(app, graph),
-        Command::ChartZoom(steps) => chart::zoom(app, steps),
-        Command::ChartTime => chart::time_or_angle(app),
-        Command::ChartWhole => chart::whole(app),
-        Command::ChartStrike => chart::strike_or_whole(app),
-        Command::TeethBy(steps) => teeth::zoom(app, steps),
-        Command::TeethAnew => teeth::anew(app),
-        Command::TeethCentre(by) => teeth::centre_step(app, by),
-        Command::TeethGap => teeth::exaggerate_or_not(app),
+        Command::Chart(command) => chart::run(app, command),
+        Command::Teeth(command) => teeth::run(app, command),
         other => navigation::walk(app, other),
     }
 }

@@ -2,9 +2,7 @@
 
 pub mod boxes;
 pub mod browser;
-pub mod chart;
 pub mod cursor_prompt;
-pub mod cursor_range;
 pub mod digest;
 pub mod explain;
 pub mod form;
@@ -13,8 +11,6 @@ pub mod picker;
 pub mod popup;
 pub mod results;
 pub mod status;
-pub mod teeth;
-pub mod text;
 pub mod trade;
 
 use ratatui::buffer::Buffer;
@@ -26,6 +22,10 @@ use super::app::App;
 use super::ascii;
 use super::layout::{self, SMALLEST, plan};
 use super::pane::Pane;
+use super::panes::chart::{Charts, panels};
+use super::panes::teeth;
+
+pub use super::text;
 
 /// Room for a title beside the names of hidden panes.
 const LEAST_TITLE: usize = 32;
@@ -184,7 +184,30 @@ type Draw = fn(&App, Rect, &mut Buffer);
 /// The panes beside the form.
 const PANES: [(Pane, Draw); 4] = [
     (Pane::Results, results::draw),
-    (Pane::Chart, chart::draw),
-    (Pane::Teeth, teeth::draw),
+    (Pane::Chart, draw_charts),
+    (Pane::Teeth, draw_teeth),
     (Pane::Trade, trade::draw),
 ];
+
+fn draw_charts(app: &App, area: Rect, buffer: &mut Buffer) {
+    let charts = Charts {
+        area,
+        ..app.charts()
+    };
+    let title = panels::first_title(&charts, title_room(app, Pane::Chart, area.width));
+    titled(app, Pane::Chart, &title, area, buffer);
+    panels::draw(&charts, buffer);
+}
+
+fn draw_teeth(app: &App, area: Rect, buffer: &mut Buffer) {
+    let stale = if app.is_stale() { "LAST VALID, " } else { "" };
+    let centre = app.teeth.centre.name();
+    let title = format!("{stale}Teeth, true to scale, around {centre}");
+    let inner = titled(app, Pane::Teeth, &title, area, buffer);
+    if let Some(picture) = app.picture() {
+        teeth::draw(&picture, inner, buffer);
+    } else {
+        let message = "  This method has no valid results.";
+        buffer.set_stringn(inner.x, inner.y, message, inner.width.into(), Style::new());
+    }
+}

@@ -9,6 +9,8 @@ use super::{Binding, Command};
 use crate::model::inputs::Method;
 use crate::tui::keys::{ALT, CTRL, Chord, Place, SHIFT, alt, ctrl, function, key, letter, with};
 use crate::tui::pane::Pane;
+use crate::tui::panes::chart::ChartCommand as Chart;
+use crate::tui::panes::teeth::TeethCommand as Teeth;
 
 // In the status line, the palette and the help.
 const fn shown(
@@ -80,19 +82,19 @@ pub static BINDINGS: &[Binding] = &[
     listed(Place::CURSOR, &[key(KeyCode::End)], Do::CursorToE, "cursor to E", "The cursor to E, where the normal path of contact begins."),
     listed(Place::OUTSIDE, &[letter('a')], Do::CursorTo, "cursor to angle", "The cursor to a roll angle or a time, or to D, E, B, L or the peak."),
     listed(Place::CURSOR, &[letter('c')], Do::CursorAway, "cursor away", "Take the cursor away."),
-    shown(Place::CHART, &[letter('j'), key(KeyCode::Down)], Do::ChartBy(1), "next chart", "Show the next chart."),
-    listed(Place::CHART, &[letter('k'), key(KeyCode::Up)], Do::ChartBy(-1), "previous chart", "Show the previous chart."),
-    shown(Place::CHART, &[letter('+'), letter('=')], Do::ChartZoom(1), "zoom in", "Zoom the charts in, around the cursor or D."),
-    shown(Place::CHART, &[letter('-')], Do::ChartZoom(-1), "zoom out", "Zoom the charts out, at most to the whole contact."),
-    shown(Place::CHART, &[letter('0')], Do::ChartWhole, "whole contact", "Show the whole contact in the charts, from D to the last contact."),
-    shown(Place::CHART, &[letter('v')], Do::ChartStrike, "strike", "Show the charts from D to a little after E, or the whole contact."),
-    shown(Place::CHART, &[letter('t')], Do::ChartTime, "time axis", "Switch the x axis between the time after E and the roll angle before E."),
-    shown(Place::TEETH, &[letter('+'), letter('=')], Do::TeethBy(1), "closer", "Zoom the teeth in."),
-    shown(Place::TEETH, &[letter('-')], Do::TeethBy(-1), "farther", "Zoom the teeth out, at most to the whole pair."),
-    listed(Place::TEETH, &[letter('0')], Do::TeethAnew, "first view", "Show the teeth around the strike."),
-    shown(Place::TEETH, &[letter('v'), letter('j'), key(KeyCode::Down)], Do::TeethCentre(1), "view", "Show the teeth around the strike, around the pitch point, or the whole pair."),
-    told(Place::TEETH, &[letter('k'), key(KeyCode::Up)], Do::TeethCentre(-1), "Show the previous view."),
-    listed(Place::TEETH, &[letter('x')], Do::TeethGap, "gap", "Exaggerate the gap between the teeth by the factor shown, or draw it true to scale."),
+    shown(Place::CHART, &[letter('j'), key(KeyCode::Down)], Do::Chart(Chart::Step(1)), "next chart", "Show the next chart."),
+    listed(Place::CHART, &[letter('k'), key(KeyCode::Up)], Do::Chart(Chart::Step(-1)), "previous chart", "Show the previous chart."),
+    shown(Place::CHART, &[letter('+'), letter('=')], Do::Chart(Chart::Zoom(1)), "zoom in", "Zoom the charts in, around the cursor or D."),
+    shown(Place::CHART, &[letter('-')], Do::Chart(Chart::Zoom(-1)), "zoom out", "Zoom the charts out, at most to the whole contact."),
+    shown(Place::CHART, &[letter('0')], Do::Chart(Chart::Whole), "whole contact", "Show the whole contact in the charts, from D to the last contact."),
+    shown(Place::CHART, &[letter('v')], Do::Chart(Chart::Strike), "strike", "Show the charts from D to a little after E, or the whole contact."),
+    shown(Place::CHART, &[letter('t')], Do::Chart(Chart::Time), "time axis", "Switch the x axis between the time after E and the roll angle before E."),
+    shown(Place::TEETH, &[letter('+'), letter('=')], Do::Teeth(Teeth::Zoom(1)), "closer", "Zoom the teeth in."),
+    shown(Place::TEETH, &[letter('-')], Do::Teeth(Teeth::Zoom(-1)), "farther", "Zoom the teeth out, at most to the whole pair."),
+    listed(Place::TEETH, &[letter('0')], Do::Teeth(Teeth::Reset), "first view", "Show the teeth around the strike."),
+    shown(Place::TEETH, &[letter('v'), letter('j'), key(KeyCode::Down)], Do::Teeth(Teeth::Centre(1)), "view", "Show the teeth around the strike, around the pitch point, or the whole pair."),
+    told(Place::TEETH, &[letter('k'), key(KeyCode::Up)], Do::Teeth(Teeth::Centre(-1)), "Show the previous view."),
+    listed(Place::TEETH, &[letter('x')], Do::Teeth(Teeth::Gap), "gap", "Exaggerate the gap between the teeth by the factor shown, or draw it true to scale."),
     shown_in(Place::OUTSIDE, Place::COMMANDED, &[letter('/')], Do::SearchField, "search", "Find a field or a result by its name, symbol, key or a word of its help."),
     shown_in(Place::FIELD, Place::WORK, &[alt('g')], Do::Material, "material", "Give this gear, or both, a material of the catalogue."),
     shown_in(Place::RESULTS, Place::OUTSIDE, &[letter('n')], Do::Notes, "notes", "The outcome, the gauges and every note of the model in full."),

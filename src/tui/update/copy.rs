@@ -7,8 +7,9 @@ use crate::tui::app::App;
 use crate::tui::ascii;
 use crate::tui::keys::Place;
 use crate::tui::pane::Pane;
+use crate::tui::panes::chart;
 use crate::tui::rows::{self, Row};
-use crate::tui::view::{chart, results};
+use crate::tui::view::results;
 
 /// Terminals refuse more than this, or cut it.
 const MOST_BYTES: usize = 48 * 1024;
@@ -29,7 +30,7 @@ pub(super) fn value(app: &mut App) -> Vec<Effect> {
             app.complain("no cursor, so there is no reading to copy: h and l bring it");
             return Vec::new();
         };
-        let reading = chart::readout(app, cursor);
+        let reading = chart::readout(&app.charts(), cursor);
         return copy(app, reading, "the reading at the cursor");
     }
     let Some(quantity) = results::marked(app) else {

@@ -3,12 +3,12 @@
 use super::panes;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
+use crate::tui::cursor_range::{cursor_range, parse_cursor, solution};
 use crate::tui::layout;
 use crate::tui::line::Line;
 use crate::tui::pane::Pane;
+use crate::tui::panes::chart::{self, first_contact};
 use crate::tui::prompt::Prompt;
-use crate::tui::view::chart::{self, first_contact};
-use crate::tui::view::cursor_range::{cursor_range, parse_cursor, solution};
 
 /// Moves the cursor by columns towards E.
 pub(super) fn step(app: &mut App, columns: i16) -> Vec<Effect> {
@@ -54,7 +54,10 @@ pub(super) fn take_aim(app: &mut App, typed: &str) -> Vec<Effect> {
                 panes::show(app, Pane::Chart);
             }
             app.cursor = Some(angle);
-            app.say(format!("cursor at {}", chart::readout(app, angle)));
+            app.say(format!(
+                "cursor at {}",
+                chart::readout(&app.charts(), angle)
+            ));
         }
     }
     stop(app)

@@ -7,8 +7,9 @@ use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::layout;
 use crate::tui::pane::Pane;
+use crate::tui::panes::chart::{ChartCommand, panels};
+use crate::tui::panes::teeth::TeethCommand;
 use crate::tui::prompt::Prompt;
-use crate::tui::view::chart::angle_at;
 use crate::tui::view::{self, browser, explain, form, picker, popup, results, status};
 
 /// A press: onto a field, a result, the chart, the name of a case or of a pane out of sight, a line
@@ -67,7 +68,7 @@ fn in_pane(app: &mut App, pane: Pane, at: Position) -> Vec<Effect> {
         }
         Pane::Chart => {
             panes::show(app, pane);
-            if let Some(angle) = angle_at(app, area, at) {
+            if let Some(angle) = panels::angle_at(&app.charts(), at) {
                 app.cursor = Some(angle);
                 return cursor::stop(app);
             }
@@ -102,8 +103,12 @@ pub(super) fn wheel(app: &mut App, at: Position, by: isize) {
         None => match pane_at(app, at) {
             Some(Pane::Form) => app.tab.form_top = form::scrolled(app, by),
             Some(Pane::Results) => app.tab.results_top = results::scrolled(app, by),
-            Some(Pane::Chart) => chart::zoom(app, if by < 0 { 1 } else { -1 }),
-            Some(Pane::Teeth) => teeth::zoom(app, if by < 0 { 1 } else { -1 }),
+            Some(Pane::Chart) => {
+                chart::run(app, ChartCommand::Zoom(if by < 0 { 1 } else { -1 }));
+            }
+            Some(Pane::Teeth) => {
+                teeth::run(app, TeethCommand::Zoom(if by < 0 { 1 } else { -1 }));
+            }
             _ => (),
         },
     }

@@ -5,9 +5,9 @@ use ratatui::layout::{Position, Rect, Size};
 use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
-use super::cursor_range::{HOW, describe, ending, parse_cursor};
 use super::{boxes, text};
 use crate::tui::app::App;
+use crate::tui::cursor_range::{HOW, describe, ending, parse_cursor};
 use crate::tui::line::Line;
 
 /// The width at which the instruction has two lines.

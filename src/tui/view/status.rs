@@ -6,7 +6,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
-use super::{chart, results, text, trade};
+use super::{results, text, trade};
 use crate::case::fields::{self, Absent, Field, Kind};
 use crate::case::units::System;
 use crate::case::{Acting, FIELDS, Limit, materials, partial_relevance, relevance};
@@ -18,6 +18,7 @@ use crate::tui::ascii::symbol;
 use crate::tui::commands::{BINDINGS, Binding};
 use crate::tui::keys::Chord;
 use crate::tui::pane::Pane;
+use crate::tui::panes::chart;
 use crate::tui::rows::{self, Row};
 use crate::tui::tab::Tab;
 
@@ -369,7 +370,7 @@ fn at_cursor(app: &App) -> String {
         "D first contact, E and B ends of the path of contact, L last contact, d other methods' D.";
     const LINES: &str = "Solid: flanks (incoming pair bold), path of contact; dashed: line of action; dots: base circles, tip's path.";
     match app.cursor {
-        Some(cursor) => chart::readout(app, cursor),
+        Some(cursor) => chart::readout(&app.charts(), cursor),
         None if app.panes.focus == Pane::Chart => format!("{NONE} {MARKS}"),
         None => format!("{NONE} {LINES}"),
     }

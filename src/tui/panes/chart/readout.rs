@@ -1,7 +1,7 @@
 //! The values of every curve at the cursor.
 
+use super::Charts;
 use super::curves::{Curve, Whose, curves};
-use super::shown;
 use crate::case::units;
 use crate::model::Told;
 use crate::model::inputs::Method;
@@ -9,9 +9,7 @@ use crate::model::interpolate::DIGITS_BETWEEN;
 use crate::numeric::decimal::significant;
 use crate::report::graphs::{GRAPHS, Graph};
 use crate::report::stations::Row;
-use crate::tui::app::App;
 use crate::tui::ascii::symbol;
-use crate::tui::layout::plan;
 
 /// Significant digits of the time since E.
 const TIME_DIGITS: usize = 4;
@@ -21,22 +19,21 @@ const ROUNDING: f64 = 1e-9;
 
 /// The angle, the visible curves at it, and every other value of the active method.
 #[must_use]
-pub fn readout(app: &App, cursor: f64) -> String {
-    let mut parts = vec![place(app, cursor)];
-    let chart = plan(app.size, app.panes).chart;
-    let graphs = shown(app, chart);
+pub fn readout(charts: &Charts, cursor: f64) -> String {
+    let mut parts = vec![place(charts, cursor)];
+    let graphs = charts.shown();
     let chosen = if graphs.is_empty() {
-        vec![app.graph]
+        vec![charts.pane.graph]
     } else {
         graphs
     };
     let seen: Vec<String> = chosen
         .iter()
-        .filter_map(|&graph| all(app, &GRAPHS[graph], cursor))
+        .filter_map(|&graph| all(charts, &GRAPHS[graph], cursor))
         .collect();
     let rest = (0..GRAPHS.len()).filter(|graph| !chosen.contains(graph));
     let rest: Vec<String> = rest
-        .filter_map(|graph| own(app, &GRAPHS[graph], cursor))
+        .filter_map(|graph| own(charts, &GRAPHS[graph], cursor))
         .collect();
     parts.extend(seen);
     parts.extend((!rest.is_empty()).then(|| rest.join(", ")));
@@ -48,7 +45,7 @@ pub fn readout(app: &App, cursor: f64) -> String {
     }
 }
 
-fn place(app: &App, cursor: f64) -> String {
+fn place(charts: &Charts, cursor: f64) -> String {
     let (side, degrees) = (
         if cursor < 0.0 { "after" } else { "before" },
         cursor.abs().to_degrees(),
@@ -56,20 +53,17 @@ fn place(app: &App, cursor: f64) -> String {
     if degrees > 0.0 {
         format!(
             "{degrees:.4} deg of the driver {side} E{}",
-            time(app, cursor)
+            time(charts, cursor)
         )
     } else {
         "At E".to_owned()
     }
 }
 
-fn time(app: &App, cursor: f64) -> String {
-    let speed = app
-        .answer
-        .as_ref()
-        .map_or(0.0, |answer| answer.inputs.speed);
+fn time(charts: &Charts, cursor: f64) -> String {
+    let speed = charts.answer.map_or(0.0, |answer| answer.inputs.speed);
     let micros = 1e6 * cursor.abs() / speed;
-    if app.by_time && micros.is_finite() {
+    if charts.pane.by_time && micros.is_finite() {
         format!(", {} us", significant(micros, TIME_DIGITS))
     } else {
         String::new()
@@ -77,33 +71,33 @@ fn time(app: &App, cursor: f64) -> String {
 }
 
 // Every curve of a chart, the active method first.
-fn all(app: &App, graph: &Graph, cursor: f64) -> Option<String> {
-    let curves = curves(app, graph);
+fn all(charts: &Charts, graph: &Graph, cursor: f64) -> Option<String> {
+    let curves = curves(charts, graph);
     let values: Vec<String> = curves
         .iter()
         .rev()
-        .filter_map(|curve| reading(app, graph, curve, cursor))
+        .filter_map(|curve| reading(charts, graph, curve, cursor))
         .collect();
     (!values.is_empty()).then(|| values.join(", "))
 }
 
 // The active method's value alone.
-fn own(app: &App, graph: &Graph, cursor: f64) -> Option<String> {
-    let curves = curves(app, graph);
+fn own(charts: &Charts, graph: &Graph, cursor: f64) -> Option<String> {
+    let curves = curves(charts, graph);
     let own = curves
         .iter()
         .find(|curve| matches!(curve.whose, Whose::Active(_)))?;
-    reading(app, graph, own, cursor)
+    reading(charts, graph, own, cursor)
 }
 
 // The value from the same evaluation as in the teeth pane, not from the drawn line, and its number
 // of significant digits.
-fn value(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<(f64, usize)> {
+fn value(charts: &Charts, graph: &Graph, curve: &Curve, cursor: f64) -> Option<(f64, usize)> {
     let is_pinned = matches!(curve.whose, Whose::Pinned(_));
     let answer = if is_pinned {
-        &app.baseline.as_ref()?.answer
+        charts.baseline?
     } else {
-        app.answer.as_ref()?
+        charts.answer?
     };
     let method = if let Whose::Other(method) | Whose::Pinned(method) = curve.whose {
         method
@@ -130,11 +124,8 @@ fn value(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<(f64, u
 
 /// The name of the baseline's curve, with its method if that differs from the active method.
 #[must_use]
-pub fn base_name(app: &App, method: Method) -> String {
-    let is_other = app
-        .answer
-        .as_ref()
-        .is_some_and(|answer| answer.active != method);
+pub fn base_name(charts: &Charts, method: Method) -> String {
+    let is_other = charts.answer.is_some_and(|answer| answer.active != method);
     if is_other {
         format!("baseline ({})", method.name())
     } else {
@@ -142,9 +133,9 @@ pub fn base_name(app: &App, method: Method) -> String {
     }
 }
 
-fn reading(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<String> {
-    let name = |text: &'static str| symbol(text, app.look.ascii).into_owned();
-    let (value, digits) = value(app, graph, curve, cursor)?;
+fn reading(charts: &Charts, graph: &Graph, curve: &Curve, cursor: f64) -> Option<String> {
+    let name = |text: &'static str| symbol(text, charts.look.ascii).into_owned();
+    let (value, digits) = value(charts, graph, curve, cursor)?;
     let in_unit = value / units::factor(curve.unit).unwrap_or(1.0);
     let most = curve
         .pieces
@@ -157,13 +148,12 @@ fn reading(app: &App, graph: &Graph, curve: &Curve, cursor: f64) -> Option<Strin
     } else {
         value
     };
-    let (number, unit) =
-        units::system::shown(rounded, curve.column.shown, digits, app.settings.units);
+    let (number, unit) = units::system::shown(rounded, curve.column.shown, digits, charts.units);
     let number = format!("{number} {unit}").trim_end().to_owned();
     Some(match curve.whose {
         Whose::Active(_) => format!("{} {number}", name(curve.column.symbol)),
         Whose::Other(method) => format!("{} {number}", method.name()),
-        Whose::Pinned(method) => format!("{} {number}", base_name(app, method)),
+        Whose::Pinned(method) => format!("{} {number}", base_name(charts, method)),
         Whose::Bound(bound) => format!("{} {number}", name(bound)),
     })
 }

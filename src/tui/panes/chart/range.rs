@@ -1,14 +1,26 @@
-//! The visible range of roll angles: the state of the chart.
+//! The axes of the charts, and the visible range of roll angles.
 
-use super::scale::{Scale, Span};
 use crate::case::units::System;
 use crate::model::inputs::Method;
+use crate::report::graphs::GRAPHS;
+use crate::tui::scale::Span;
 
 /// The last zoom step in. Each step is √2, and the last step shows a thousandth of the frame.
 const LAST_STEP_IN: i32 = 20;
 /// Distance from the edge, as a part of the visible range, of a cursor that had left the range.
 /// Without it the charts would scroll with every step of the cursor.
 const MARGIN: f64 = 0.25;
+
+/// The axes of the charts.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Scale {
+    /// The driver's roll angle over the whole contact, in deg after E, negative before E.
+    pub across: Span,
+    /// The driver's roll angle from D to a little after E, in the same unit.
+    pub strike: Span,
+    /// The values of each chart, in its display unit.
+    pub upright: [Span; GRAPHS.len()],
+}
 
 /// The visible range of roll angles.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -5,12 +5,12 @@ use std::ops::Range;
 
 use nalgebra::{Point2, Vector2};
 
+use super::ink::Ink;
 use super::path::{Stretch, follow};
-use super::raster::Ink;
 use super::window::{Window, unit_of_length};
+use super::zoom::round_down;
 use crate::case::units::System;
 use crate::model::gear_pose::Placed;
-use crate::tui::zoom::round_down;
 
 /// The least pitch, in dots, at which teeth are drawn instead of circles.
 const LEAST_PITCH: f64 = 5.0;

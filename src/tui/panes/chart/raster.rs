@@ -7,9 +7,9 @@ use ratatui::symbols::Marker;
 use ratatui::widgets::Widget;
 use ratatui::widgets::canvas::{Canvas, Line, Points};
 
+use super::Charts;
 use super::curves::{Curve, Point, Whose};
 use crate::model::inputs::Method;
-use crate::tui::app::App;
 use crate::tui::scale::{Span, bounds};
 
 /// Marks the cells of a curve until they get its style.
@@ -19,11 +19,11 @@ const MANY: usize = 8;
 
 /// The marker of a curve.
 #[must_use]
-pub fn marker(app: &App, whose: Whose) -> Marker {
-    let plain = app.look.ascii;
+pub fn marker(charts: &Charts, whose: Whose) -> Marker {
+    let plain = charts.look.ascii;
     match whose {
         Whose::Active(_) if plain => Marker::Custom('*'),
-        Whose::Active(_) => app.settings.marker,
+        Whose::Active(_) => charts.marker,
         Whose::Other(Method::Paper) => Marker::Custom(if plain { '.' } else { '·' }),
         Whose::Other(Method::Static) => Marker::Custom(if plain { 'x' } else { '×' }),
         Whose::Other(_) => Marker::Custom(if plain { 'o' } else { '∘' }),
@@ -34,15 +34,15 @@ pub fn marker(app: &App, whose: Whose) -> Marker {
 
 /// The style of a curve.
 #[must_use]
-pub fn style(app: &App, whose: Whose) -> Style {
-    let theme = app.look.theme;
+pub fn style(charts: &Charts, whose: Whose) -> Style {
+    let theme = charts.look.theme;
     let style = match whose {
         Whose::Active(_) => theme.active,
         Whose::Other(_) => theme.other,
         Whose::Pinned(_) => theme.baseline,
         Whose::Bound(_) => theme.rule,
     };
-    if app.is_stale() {
+    if charts.is_stale {
         style.patch(theme.faint)
     } else {
         style
@@ -51,7 +51,7 @@ pub fn style(app: &App, whose: Whose) -> Style {
 
 /// Draws the visible part of a curve.
 pub fn draw(
-    app: &App,
+    charts: &Charts,
     curve: &Curve,
     (across, upright): (Span, Span),
     plot: Rect,
@@ -63,7 +63,7 @@ pub fn draw(
         .map(|piece| visible(piece, across, plot.width))
         .collect();
     let canvas = Canvas::default()
-        .marker(marker(app, curve.whose))
+        .marker(marker(charts, curve.whose))
         .x_bounds(widened(across))
         .y_bounds(widened(upright))
         .paint(|context| {
@@ -78,7 +78,7 @@ pub fn draw(
             }
         });
     canvas.render(plot, buffer);
-    let style = style(app, curve.whose);
+    let style = style(charts, curve.whose);
     for position in plot.positions() {
         if let Some(cell) = buffer.cell_mut(position) {
             finish(cell, style);

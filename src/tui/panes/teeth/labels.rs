@@ -6,8 +6,8 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
+use super::ink::Ink;
 use super::picture::Picture;
-use super::raster::Ink;
 use super::scene::Scene;
 use super::window::unit_of_length;
 use crate::case::units::System;

@@ -1,14 +1,14 @@
 //! The range of the cursor on the roll angle, and the parser of its prompt.
 
-use super::chart::axes::Ruler;
-use super::chart::curves::{Whose, curves};
-use super::chart::{self, first_contact, last_contact};
+use super::app::App;
+use super::layout::plan;
+use super::pane::Pane;
+use super::panes::chart::axes::Ruler;
+use super::panes::chart::curves::{Whose, curves};
+use super::panes::chart::{first_contact, last_contact, panels};
 use crate::case::units::{self, Dimension};
 use crate::model::Solution;
 use crate::report::graphs::GRAPHS;
-use crate::tui::app::App;
-use crate::tui::layout::plan;
-use crate::tui::pane::Pane;
 
 /// The instruction of the prompt.
 pub const HOW: &str = "Type an angle before E (1.2 deg, 20 mrad), a time after E (-80 us, 0.1 ms) \
@@ -143,7 +143,7 @@ fn place(app: &App, solution: &Solution, name: &str) -> Option<Result<f64, Strin
 
 // The angle at which the active method's curve in the chosen chart is farthest from 0.
 fn peak(app: &App) -> Option<f64> {
-    let curves = curves(app, &GRAPHS[app.graph]);
+    let curves = curves(&app.charts(), &GRAPHS[app.chart.graph]);
     let own = curves
         .iter()
         .find(|curve| matches!(curve.whose, Whose::Active(_)))?;
@@ -177,7 +177,7 @@ fn ruler(app: &App) -> Ruler {
         .answer
         .as_ref()
         .map_or(0.0, |answer| answer.inputs.speed);
-    Ruler::of(app.by_time, speed, app.chart.window(&app.scale))
+    Ruler::of(app.chart.by_time, speed, app.charts().window())
 }
 
 /// The range of the cursor in the focused pane, or in the visible pane. In a chart it is the range
@@ -194,7 +194,7 @@ pub fn cursor_range(app: &App) -> Option<Reach> {
     } else {
         start.max(-axis.from.to_radians())
     };
-    let columns = f64::from(chart::columns(app).max(2) - 1);
+    let columns = f64::from(panels::columns(&app.charts()).max(2) - 1);
     let plan = plan(app.size, app.panes);
     if app.panes.focus == Pane::Teeth || plan.chart.is_empty() && !plan.teeth.is_empty() {
         let (most, least) = (before.max(2.0 * start), end.min(-pitch));
@@ -207,7 +207,7 @@ pub fn cursor_range(app: &App) -> Option<Reach> {
             column: before / columns,
         });
     }
-    let window = app.chart.window(&app.scale);
+    let window = app.charts().window();
     let (least, shown) = if axis.is_empty() {
         (end, before)
     } else {

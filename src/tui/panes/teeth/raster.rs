@@ -2,89 +2,18 @@
 
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Rect;
-use ratatui::style::{Color, Modifier, Style};
-use ratatui::symbols::Marker;
+use ratatui::style::Color;
 use ratatui::widgets::Widget;
 use ratatui::widgets::canvas::{Canvas, Line};
 
+use super::ink::Ink;
 use super::picture::Picture;
 use super::scene::Scene;
-use crate::tui::theme::Theme;
-
-/// The kind of a stroke.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[repr(u8)]
-pub enum Ink {
-    /// Base circles and line of action.
-    Construction,
-    /// The path of contact, and the path of the tip before it.
-    Path,
-    /// The driven gear.
-    Driven,
-    /// The incoming tooth.
-    StruckDriven,
-    /// The driver.
-    Driver,
-    /// The struck tooth.
-    StruckDriver,
-    /// A point with a name.
-    Mark,
-    /// A contact of two flanks.
-    Contact,
-}
-
-impl Ink {
-    const ALL: [Ink; 8] = [
-        Ink::Construction,
-        Ink::Path,
-        Ink::Driven,
-        Ink::StruckDriven,
-        Ink::Driver,
-        Ink::StruckDriver,
-        Ink::Mark,
-        Ink::Contact,
-    ];
-
-    /// The style.
-    #[must_use]
-    pub fn style(self, theme: &Theme) -> Style {
-        match self {
-            Ink::Construction => theme.faint,
-            Ink::Path => theme.path,
-            Ink::Driven => theme.driven,
-            Ink::StruckDriven => theme.driven.add_modifier(Modifier::BOLD),
-            Ink::Driver => theme.driver,
-            Ink::StruckDriver => theme.driver.add_modifier(Modifier::BOLD),
-            Ink::Mark => theme.focus,
-            Ink::Contact => theme.active,
-        }
-    }
-
-    /// The canvas has only colours, so a colour number encodes the ink until [`draw`] styles the
-    /// cells.
-    fn number(self) -> Color {
-        Color::Indexed(self as u8)
-    }
-
-    fn of(number: Color) -> Option<Ink> {
-        Ink::ALL.into_iter().find(|ink| ink.number() == number)
-    }
-}
-
-/// How a point is drawn: fine enough for letters that run with the line where Unicode is missing.
-#[must_use]
-pub fn marker(picture: &Picture) -> Marker {
-    if picture.look.ascii {
-        Marker::Braille
-    } else {
-        picture.marker
-    }
-}
 
 /// Draw the strokes of a scene.
 pub fn draw(scene: &Scene, picture: &Picture, area: Rect, buffer: &mut Buffer) {
     let canvas = Canvas::default()
-        .marker(marker(picture))
+        .marker(picture.drawn_marker())
         .x_bounds(scene.window.across())
         .y_bounds(scene.window.upright())
         .paint(|context| {
@@ -207,13 +136,5 @@ mod tests {
         assert_eq!(drawn, r#"_--"||/\#'."#);
         assert!((1..=u8::MAX).all(|pattern| letter(pattern).is_ascii_graphic()));
         assert_eq!(letter(0), ' ');
-    }
-
-    #[test]
-    fn every_ink_has_its_own_number() {
-        for ink in Ink::ALL {
-            assert_eq!(Ink::of(ink.number()), Some(ink));
-        }
-        assert_eq!(Ink::of(Color::Reset), None);
     }
 }

@@ -1,13 +1,13 @@
 //! The curves of a chart: every method, the baseline, and the value that the curve is compared
 //! with.
 
+use super::Charts;
 use crate::case::units::{self, System};
 use crate::model::inputs::Method;
 use crate::model::spacing::Spacing;
 use crate::model::{Inputs, Solution, contact_state};
 use crate::report::graphs::Graph;
 use crate::report::stations::{Column, Row, rows};
-use crate::tui::app::App;
 use crate::tui::scale::Span;
 use crate::tui::solver::Answer;
 
@@ -48,18 +48,17 @@ pub struct Curve {
 
 /// Every curve of a chart in drawing order.
 #[must_use]
-pub fn curves(app: &App, graph: &Graph) -> Vec<Curve> {
-    let Some(answer) = &app.answer else {
+pub fn curves(charts: &Charts, graph: &Graph) -> Vec<Curve> {
+    let Some(answer) = charts.answer else {
         return Vec::new();
     };
     let drawn = Drawn {
         graph,
-        system: app.settings.units,
+        system: charts.units,
     };
-    let pinned = app
+    let pinned = charts
         .baseline
-        .as_ref()
-        .and_then(|baseline| drawn.pinned(&baseline.answer, answer.active));
+        .and_then(|baseline| drawn.pinned(baseline, answer.active));
     let others = answer
         .methods
         .iter()

@@ -4,9 +4,9 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 
+use super::Charts;
 use super::curves::{first_contact, last_contact};
 use crate::model::Solution;
-use crate::tui::app::App;
 use crate::tui::scale::{Span, Ticks};
 
 /// The least columns of the labels beside the plot.
@@ -228,20 +228,20 @@ impl Axes {
     }
 
     /// A faint line at 0 on blank cells, if the values have both signs.
-    pub fn draw_zero(&self, app: &App, buffer: &mut Buffer) {
+    pub fn draw_zero(&self, charts: &Charts, buffer: &mut Buffer) {
         if self.upright.from < 0.0 && self.upright.to > 0.0 {
             let y = self.row(0.0);
             for x in self.plot.left()..self.plot.right() {
-                put_where_free((x, y), "┄", app.look.theme.faint, buffer);
+                put_where_free((x, y), "┄", charts.look.theme.faint, buffer);
             }
         }
     }
 
     /// The marks of the contact on the axis: D of the other methods, B, the last contact L, E and
     /// D.
-    pub fn draw_marks(&self, app: &App, buffer: &mut Buffer) {
-        let Some(answer) = &app.answer else { return };
-        let theme = app.look.theme;
+    pub fn draw_marks(&self, charts: &Charts, buffer: &mut Buffer) {
+        let Some(answer) = charts.answer else { return };
+        let theme = charts.look.theme;
         let others = answer
             .methods
             .iter()
@@ -263,20 +263,20 @@ impl Axes {
     /// A dotted line on blank cells outside the legend, and a mark on the axis.
     pub fn draw_cursor(
         &self,
-        app: &App,
+        charts: &Charts,
         is_legend: impl Fn(Position) -> bool,
         buffer: &mut Buffer,
     ) {
-        let column = app
+        let column = charts
             .cursor
             .and_then(|cursor| self.column(0.0 - cursor.to_degrees()));
         let Some(x) = column else { return };
         for y in self.plot.top()..self.plot.bottom() {
             if !is_legend(Position::new(x, y)) {
-                put_where_free((x, y), "┊", app.look.theme.faint, buffer);
+                put_where_free((x, y), "┊", charts.look.theme.faint, buffer);
             }
         }
-        buffer.set_string(x, self.plot.bottom(), "▴", app.look.theme.focus);
+        buffer.set_string(x, self.plot.bottom(), "▴", charts.look.theme.focus);
     }
 
     /// The direction of time, on the axis between its ticks and marks.

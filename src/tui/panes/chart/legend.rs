@@ -8,10 +8,10 @@ use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 
+use super::Charts;
 use super::curves::{Curve, Whose};
 use super::raster;
 use super::readout::base_name;
-use crate::tui::app::App;
 use crate::tui::ascii::symbol;
 
 /// The blocks of text of a legend.
@@ -38,7 +38,7 @@ pub struct Placed {
 impl Legend {
     /// The message, if any, and the name of each curve, the active method first.
     #[must_use]
-    pub fn of(app: &App, curves: &[Curve], message: Option<&str>) -> Legend {
+    pub fn of(charts: &Charts, curves: &[Curve], message: Option<&str>) -> Legend {
         let words = |text: &str| {
             text.split(' ')
                 .map(|word| Line::raw(word.to_owned()))
@@ -49,7 +49,11 @@ impl Legend {
             gap: 1,
         });
         let names = Block {
-            pieces: curves.iter().rev().map(|curve| name(app, curve)).collect(),
+            pieces: curves
+                .iter()
+                .rev()
+                .map(|curve| name(charts, curve))
+                .collect(),
             gap: 2,
         };
         Legend {
@@ -195,20 +199,20 @@ impl Block {
     }
 }
 
-fn name(app: &App, curve: &Curve) -> Line<'static> {
+fn name(charts: &Charts, curve: &Curve) -> Line<'static> {
     let name = match curve.whose {
         Whose::Active(method) | Whose::Other(method) => method.name().to_owned(),
-        Whose::Pinned(method) => base_name(app, method),
-        Whose::Bound(name) => symbol(name, app.look.ascii).into_owned(),
+        Whose::Pinned(method) => base_name(charts, method),
+        Whose::Bound(name) => symbol(name, charts.look.ascii).into_owned(),
     };
-    let sample = match raster::marker(app, curve.whose) {
+    let sample = match raster::marker(charts, curve.whose) {
         Marker::Custom(letter) => letter.to_string(),
         Marker::Dot => "•".to_owned(),
         Marker::HalfBlock => "▀".to_owned(),
         _ => "⠒".to_owned(),
     };
     Line::from(vec![
-        Span::styled(sample, raster::style(app, curve.whose)),
+        Span::styled(sample, raster::style(charts, curve.whose)),
         Span::raw(format!(" {name}")),
     ])
 }

@@ -4,12 +4,12 @@ use nalgebra::{Point2, Vector2};
 use ratatui::layout::Size;
 use ratatui::symbols::Marker;
 
+use super::zoom::{Centre, TeethView, whole};
 use crate::case::units::System;
 use crate::model::contact_state::first_contact_point;
 use crate::model::gear_pose::on_line_of_action;
 use crate::model::{Inputs, Solution};
 use crate::tui::scale::bounds;
-use crate::tui::zoom::{Centre, TeethView, whole};
 
 /// The height of a cell over its width.
 const CELL_HEIGHT: f64 = 2.0;

@@ -3,8 +3,8 @@
 use nalgebra::Point2;
 use ratatui::layout::Size;
 
+use super::ink::Ink;
 use super::picture::Picture;
-use super::raster::{self, Ink};
 use super::strokes::{Dash, Pen, Stroke};
 use super::window::Window;
 use crate::model::ContactState;
@@ -57,7 +57,7 @@ impl Scene {
             view,
             ..
         } = *picture;
-        let window = Window::of(view, inputs, solution, size, raster::marker(picture));
+        let window = Window::of(view, inputs, solution, size, picture.drawn_marker());
         let factor = moment.map(|moment| view.factor(inputs, solution, moment));
         let angle = moment.map_or(0.0, |moment| moment.roll_angle_driver);
         let lead = moment

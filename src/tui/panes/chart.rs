@@ -1,0 +1,247 @@
+//! The chart pane: the chosen chart of the station values, and others below it where they have
+//! room.
+
+pub mod axes;
+pub mod curves;
+pub mod legend;
+pub mod panels;
+pub mod range;
+pub mod raster;
+pub mod readout;
+
+use ratatui::layout::Rect;
+use ratatui::symbols::Marker;
+
+use crate::case::units::System;
+use crate::model::Solution;
+use crate::report::graphs::GRAPHS;
+use crate::tui::scale::Span;
+use crate::tui::solver::Answer;
+use crate::tui::theme::Look;
+
+use curves::{curves, way, way_by};
+use range::{Anew, ChartView, Frame, Occasion, Scale};
+
+pub use curves::{first_contact, last_contact};
+pub use readout::readout;
+
+/// The least rows of each chart, and the greatest number of charts.
+const ROWS: u16 = 16;
+const MOST: u16 = 3;
+/// The part of the approach that the strike shows after E.
+const AFTER_E: f64 = 0.5;
+
+/// The state of the pane. It is the same for every open case.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ChartPane {
+    /// The chosen chart, as an index of the table.
+    pub graph: usize,
+    /// Whether the x axis is the time after E.
+    pub by_time: bool,
+    /// The visible roll angles.
+    pub view: ChartView,
+}
+
+/// A command of the pane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ChartCommand {
+    /// Selects the chart so many places further, wrapping around.
+    Step(isize),
+    /// Selects the chart at an index of the table.
+    Select(usize),
+    /// Zooms in by steps around the cursor, or around D without a cursor; out if negative.
+    Zoom(i32),
+    /// Shows the whole contact.
+    Whole,
+    /// Switches between the strike and the whole contact.
+    Strike,
+    /// Switches the x axis between roll angle and time.
+    Time,
+}
+
+/// The pane with the results that it shows.
+#[derive(Debug, Clone, Copy)]
+pub struct Charts<'a> {
+    /// The state of the pane.
+    pub pane: &'a ChartPane,
+    /// The axes, which belong to the case.
+    pub scale: &'a Scale,
+    /// The last valid results.
+    pub answer: Option<&'a Answer>,
+    /// The results of the baseline.
+    pub baseline: Option<&'a Answer>,
+    /// The cursor: the driver's roll angle before E, in rad.
+    pub cursor: Option<f64>,
+    /// Whether the results are older than the form.
+    pub is_stale: bool,
+    /// The first request after the last undo.
+    pub undone: u64,
+    /// The display units.
+    pub units: System,
+    /// The marker of the active curve.
+    pub marker: Marker,
+    /// The capabilities of the terminal.
+    pub look: Look,
+    /// The area of the pane with its title; empty if the pane is hidden.
+    pub area: Rect,
+}
+
+impl Charts<'_> {
+    /// The results of the active method.
+    #[must_use]
+    pub fn solution(&self) -> Option<&Solution> {
+        self.answer.and_then(|answer| answer.of(answer.active))
+    }
+
+    /// The visible roll angles, in deg after E.
+    #[must_use]
+    pub fn window(&self) -> Span {
+        self.pane.view.window(self.scale)
+    }
+
+    /// The state after a command, and a message.
+    #[must_use]
+    pub fn run(&self, command: ChartCommand) -> (ChartPane, Option<&'static str>) {
+        let mut pane = *self.pane;
+        let message = match command {
+            ChartCommand::Step(by) => {
+                pane.graph = (pane.graph + GRAPHS.len()).saturating_add_signed(by) % GRAPHS.len();
+                None
+            }
+            ChartCommand::Select(graph) => {
+                pane.graph = graph.min(GRAPHS.len() - 1);
+                None
+            }
+            ChartCommand::Zoom(steps) => {
+                pane.view = self.zoomed(steps);
+                let end = if steps > 0 {
+                    "closest zoom"
+                } else {
+                    "the charts show the whole contact"
+                };
+                (pane.view == self.pane.view).then_some(end)
+            }
+            ChartCommand::Whole => {
+                pane.view = ChartView::whole();
+                Some("the charts show the whole contact")
+            }
+            ChartCommand::Strike => {
+                pane.view = self.pane.view.strike_or_whole(self.scale);
+                Some(match pane.view.frame {
+                    Frame::Strike if self.scale.strike.is_empty() => {
+                        "no corner contact: no strike to show"
+                    }
+                    Frame::Strike => "the charts show the strike",
+                    Frame::Opening | Frame::Whole => "the charts show the whole contact",
+                })
+            }
+            ChartCommand::Time => {
+                pane.by_time = !pane.by_time;
+                Some(if pane.by_time {
+                    "x axis: time after E"
+                } else {
+                    "x axis: driver roll angle before E"
+                })
+            }
+        };
+        (pane, message)
+    }
+
+    fn zoomed(&self, steps: i32) -> ChartView {
+        let start = self.solution().and_then(first_contact);
+        let around = 0.0 - self.cursor.or(start).unwrap_or(0.0).to_degrees();
+        self.pane.view.zoomed(steps, around, self.scale)
+    }
+
+    /// The state that the axes depend on.
+    #[must_use]
+    pub fn occasion(&self) -> Occasion {
+        let view = &self.pane.view;
+        Occasion {
+            answered: self
+                .answer
+                .map(|answer| (answer.serial, answer.pending.is_some())),
+            pinned: self.baseline.map(|baseline| baseline.serial),
+            shown: (self.pane.graph, self.count(), self.units),
+            sight: (view.frame, view.zoom, view.middle.map(f64::to_bits)),
+            ground: (self.answer.map(|answer| answer.active), self.undone),
+        }
+    }
+
+    /// The axes, if they must change since an earlier occasion, with the new occasion.
+    #[must_use]
+    pub fn fitted_since(&self, before: Occasion) -> Option<(Occasion, Scale)> {
+        let mut occasion = self.occasion();
+        let anew = occasion.since(before);
+        (before != occasion).then(|| (occasion, self.fitted(anew)))
+    }
+
+    /// Axes that contain every visible curve. Keeps the present axes while they serve.
+    fn fitted(&self, anew: Anew) -> Scale {
+        let mut scale = *self.scale;
+        let Some(answer) = self.answer.filter(|_| !self.area.is_empty()) else {
+            return scale;
+        };
+        // The axis never shrinks while a method is still being solved.
+        let pinned = self
+            .baseline
+            .map(|baseline| (baseline, baseline.beside(answer.active)));
+        let way = pinned
+            .map_or(Span::NONE, |(base, method)| way_by(base, method))
+            .and(way(answer));
+        scale.across = match (answer.pending, anew.all) {
+            (Some(_), _) => scale.across.grown(way),
+            (None, true) => scale.across.anew(way),
+            (None, false) => scale.across.fitted(way),
+        };
+        let touches = [Some((answer, answer.active)), pinned];
+        let touches = touches
+            .into_iter()
+            .flatten()
+            .filter_map(|(answer, method)| first_contact(answer.of(method)?));
+        let first = touches.fold(0.0, f64::max).to_degrees();
+        let strike = Span::new(-first, AFTER_E * first);
+        scale.strike = match (strike.is_empty(), anew.all) {
+            (true, _) => Span::default(),
+            (false, true) => scale.strike.anew(strike),
+            (false, false) => scale.strike.fitted(strike),
+        };
+        let window = self.pane.view.window(&scale);
+        for graph in self.shown() {
+            let curves = curves(self, &GRAPHS[graph]);
+            let values = curves
+                .iter()
+                .map(|curve| curve.upright_within(window))
+                .fold(Span::NONE, Span::and);
+            let now = scale.upright[graph];
+            scale.upright[graph] = if anew.upright || anew.all {
+                now.anew(values)
+            } else {
+                now.fitted(values)
+            };
+        }
+        scale
+    }
+
+    /// The visible charts: the chosen chart, and below it the next charts of the active method.
+    #[must_use]
+    pub fn shown(&self) -> Vec<usize> {
+        let chosen = self.pane.graph;
+        let method = self.answer.map(|answer| answer.active);
+        let others = (1..GRAPHS.len()).map(|by| (chosen + by) % GRAPHS.len());
+        let has_curve =
+            |graph: &usize| method.is_some_and(|method| GRAPHS[*graph].column(method).is_some());
+        std::iter::once(chosen)
+            .chain(others.filter(has_curve))
+            .take(self.count())
+            .collect()
+    }
+
+    fn count(&self) -> usize {
+        if self.area.is_empty() {
+            0
+        } else {
+            usize::from((self.area.height / ROWS).clamp(1, MOST))
+        }
+    }
+}

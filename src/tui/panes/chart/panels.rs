@@ -1,0 +1,256 @@
+//! The visible charts on the screen: their places, titles and drawing.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect};
+use ratatui::style::Style;
+use ratatui::widgets::{Clear, Widget};
+use unicode_width::UnicodeWidthStr;
+
+use super::Charts;
+use super::axes::{self, Axes, Ruler};
+use super::curves::{self, Curve, Whose, curves};
+use super::legend::Legend;
+use super::raster;
+use crate::model::inputs::Method;
+use crate::model::{Outcome, Solution};
+use crate::report::absence::without_contact;
+use crate::report::graphs::{GRAPHS, Graph};
+use crate::tui::ascii::symbol;
+use crate::tui::text;
+
+/// Columns of the plot on a terminal of 80 columns.
+const USUAL_COLUMNS: u16 = 71;
+
+/// The title of the first chart, in a given room.
+#[must_use]
+pub fn first_title(charts: &Charts, room: usize) -> String {
+    let panels = panels(charts);
+    let Some((graph, axes)) = panels.first() else {
+        return "Chart".to_owned();
+    };
+    let stale = if charts.is_stale { "LAST VALID, " } else { "" };
+    let room = room.saturating_sub(stale.len());
+    format!("{stale}{}", title(charts, &GRAPHS[*graph], axes, room))
+}
+
+/// Draws the charts with their axes, below the title of the first chart.
+pub fn draw(charts: &Charts, buffer: &mut Buffer) {
+    let area = charts.area;
+    for (at, (graph, axes)) in panels(charts).iter().enumerate() {
+        let graph = &GRAPHS[*graph];
+        if at > 0 {
+            let above = Rect {
+                x: area.x,
+                y: axes.plot.y.saturating_sub(1),
+                width: area.width,
+                height: 1,
+            };
+            let room = usize::from(area.width.saturating_sub(4));
+            let title = title(charts, graph, axes, room);
+            text::titled(&title, above, charts.look.theme, buffer);
+        }
+        draw_panel(charts, graph, axes, buffer);
+    }
+}
+
+/// The columns of the visible chart, or of a usual chart if none is visible.
+#[must_use]
+pub fn columns(charts: &Charts) -> u16 {
+    let columns = panels(charts)
+        .first()
+        .map_or(0, |(_, axes)| axes.plot.width);
+    if columns > 1 { columns } else { USUAL_COLUMNS }
+}
+
+/// The driver's roll angle before E at a cell of a plot, in rad.
+#[must_use]
+pub fn angle_at(charts: &Charts, at: Position) -> Option<f64> {
+    let panels = panels(charts);
+    let (_, axes) = panels.iter().find(|(_, axes)| axes.plot.contains(at))?;
+    Some(0.0 - axes.angle(at.x).to_radians()).filter(|angle| angle.is_finite())
+}
+
+/// The visible charts from top to bottom, each with its axes below its title.
+fn panels(charts: &Charts) -> Vec<(usize, Axes)> {
+    let (shown, area) = (charts.shown(), charts.area);
+    let Some(answer) = charts.answer else {
+        return shown
+            .into_iter()
+            .map(|graph| (graph, Axes::default()))
+            .collect();
+    };
+    let height = area.height / u16::try_from(shown.len().max(1)).unwrap_or(1);
+    let window = charts.window();
+    let ruler = Ruler::of(charts.pane.by_time, answer.inputs.speed, window);
+    let uprights = shown.iter().map(|graph| charts.scale.upright[*graph]);
+    let margin = axes::margin(uprights, height.saturating_sub(3));
+    let below = |at: usize| {
+        let y = area.y + height * at as u16;
+        let height = if at + 1 == shown.len() {
+            area.bottom() - y
+        } else {
+            height
+        };
+        Rect {
+            y: y + 1,
+            height: height.saturating_sub(1),
+            ..area
+        }
+    };
+    let axes = |(at, graph): (usize, &usize)| {
+        (
+            *graph,
+            Axes::new(
+                below(at),
+                margin,
+                (window, charts.scale.upright[*graph]),
+                ruler,
+            ),
+        )
+    };
+    shown.iter().enumerate().map(axes).collect()
+}
+
+fn draw_panel(charts: &Charts, graph: &Graph, axes: &Axes, buffer: &mut Buffer) {
+    let area = charts.area;
+    let curves = curves::apart(curves(charts, graph));
+    let missing = missing(charts, graph, &curves);
+    if axes.plot.is_empty() || curves.is_empty() || charts.window().is_empty() {
+        let y = if axes.plot.is_empty() {
+            area.y + 1
+        } else {
+            axes.plot.y + axes.plot.height / 2
+        };
+        let message = missing.unwrap_or_else(|| "The pane is too small for a chart.".to_owned());
+        if y < area.bottom() {
+            buffer.set_stringn(
+                area.x + 2,
+                y,
+                text::cut(&message, usize::from(area.width.saturating_sub(3))),
+                area.width.into(),
+                Style::new(),
+            );
+        }
+        return;
+    }
+    let legend = Legend::of(charts, &curves, missing.as_deref());
+    draw_curves(charts, axes, &curves, buffer);
+    let inside = legend.inside(axes.plot, buffer);
+    let (axes, placed) = if let Some(placed) = inside {
+        (axes.clone(), placed)
+    } else {
+        let (above, lower) = axes.split(legend.height(axes.plot.width));
+        Clear.render(axes.area, buffer);
+        draw_curves(charts, &lower, &curves, buffer);
+        (lower, legend.above(above))
+    };
+    for block in &placed {
+        block.draw(buffer);
+    }
+    let is_legend = |at| placed.iter().any(|block| block.area.contains(at));
+    axes.draw_cursor(charts, is_legend, buffer);
+    axes.draw_time_direction(buffer);
+}
+
+// Everything below the legend.
+fn draw_curves(charts: &Charts, axes: &Axes, curves: &[Curve], buffer: &mut Buffer) {
+    axes.draw(buffer);
+    for curve in curves {
+        raster::draw(
+            charts,
+            curve,
+            (axes.across, axes.upright),
+            axes.plot,
+            buffer,
+        );
+    }
+    axes.draw_zero(charts, buffer);
+    axes.draw_marks(charts, buffer);
+}
+
+/// The longest title with a unit for both axes that has room, else the shortest.
+fn title(charts: &Charts, graph: &Graph, axes: &Axes, room: usize) -> String {
+    let answer = charts.answer;
+    let own = answer.and_then(|answer| graph.column(answer.active));
+    let is_free_impact = own.is_none()
+        && answer.is_some_and(|answer| answer.active.shares_load())
+        && !curves(charts, graph).is_empty();
+    let column = own.or_else(|| graph.all_columns().next());
+    let value = column.map_or_else(String::new, |column| {
+        let shown = charts.units.unit(column.shown);
+        format!(
+            "{}{}",
+            symbol(column.symbol, charts.look.ascii),
+            unit(shown, axes.beside.power)
+        )
+    });
+    let names: Vec<String> = if is_free_impact {
+        let label = graph.label.to_lowercase();
+        vec![
+            format!("Free impact, closed form: {label}"),
+            format!("Free impact: {label}"),
+        ]
+    } else {
+        vec![graph.label.to_owned()]
+    };
+    let ruler = axes.ruler;
+    let below = unit(ruler.unit, axes.below.power);
+    let titles = ruler.labels.iter().flat_map(|label| {
+        names
+            .iter()
+            .map(|name| format!("{name} {value} over {label}{below}"))
+            .collect::<Vec<_>>()
+    });
+    let titles: Vec<String> = titles.collect();
+    let fitting = titles.iter().find(|title| title.width() <= room);
+    fitting.or(titles.last()).cloned().unwrap_or_default()
+}
+
+fn unit(unit: &str, power: i32) -> String {
+    match (unit, power) {
+        ("1" | "", 0) => String::new(),
+        ("1" | "", power) => format!(" in 1e{power}"),
+        (unit, 0) => format!(" in {unit}"),
+        (unit, power) => format!(" in 1e{power} {unit}"),
+    }
+}
+
+// The reason why the active method has no curve.
+fn missing(charts: &Charts, graph: &Graph, curves: &[Curve]) -> Option<String> {
+    let Some(answer) = charts.answer else {
+        return Some("This method has no valid results.".to_owned());
+    };
+    if curves
+        .iter()
+        .any(|curve| matches!(curve.whose, Whose::Active(_)))
+    {
+        return None;
+    }
+    if charts.is_stale {
+        return Some("The charts are not redrawn while a field is invalid.".to_owned());
+    }
+    let label = graph.label.to_lowercase();
+    let active = answer.active;
+    if graph.column(active).is_none() {
+        let methods: Vec<_> = graph.methods().map(Method::name).collect();
+        return Some(format!(
+            "Method {} does not compute the {label}; {} do.",
+            active.name(),
+            methods.join(" and ")
+        ));
+    }
+    Some(answer.of(active).map_or_else(
+        || "This method has no valid results.".to_owned(),
+        |solution| nothing(solution, &label),
+    ))
+}
+
+fn nothing(solution: &Solution, label: &str) -> String {
+    match solution.outcome {
+        Outcome::NoCornerContact => format!(
+            "No corner contact: {}; no impact.",
+            without_contact(solution)
+        ),
+        Outcome::CornerContact => format!("No {label} between D and E; press n for the reason."),
+    }
+}
