@@ -408,6 +408,10 @@ pub fn unknown_quantity(field: &str, quantity: &str) -> Problem {
         !known.symbol.is_empty() && known.symbol.eq_ignore_ascii_case(quantity.trim())
     };
     if let Some(known) = QUANTITIES.iter().find(is_symbol) {
+        if known.symbol == quantity.trim() {
+            let cause = format!("{} is the symbol of {}", quoted(quantity), known.key);
+            return Problem::new(field, cause, format!("write {}", known.key));
+        }
         let cause = format!("unknown quantity {}", quoted(quantity));
         let mend = format!("did you mean {}, {}?", known.symbol, known.key);
         return Problem::new(field, cause, mend);
