@@ -96,11 +96,20 @@ pub fn write(path: &Path, bytes: &[u8], over: bool) -> Result<(), SaveError> {
 }
 
 impl Document {
-    /// Read a document from a file, or from standard input where the path is `-`.
+    /// Read a complete case from a file, or from standard input where the path is `-`.
     ///
     /// # Errors
     /// Where the file cannot be read, or is no valid case.
     pub fn read(path: &Path) -> Result<Document, ReadError> {
+        Document::read_draft(path)?.complete().map_err(refused)
+    }
+
+    /// Read a case in which required values may be missing from a file, or from standard input
+    /// where the path is `-`.
+    ///
+    /// # Errors
+    /// Where the file cannot be read, or has other faults.
+    pub fn read_draft(path: &Path) -> Result<Document, ReadError> {
         let name = shown(path);
         let (bytes, origin) = if path == Path::new("-") {
             (capped(io::stdin().lock(), &name)?, None)
@@ -108,7 +117,7 @@ impl Document {
             let file = open(path, &name)?;
             (capped(file, &name)?, followed(path).ok())
         };
-        let mut document = Document::parse_bytes(&name, &bytes).map_err(refused)?;
+        let mut document = Document::parse_draft_bytes(&name, &bytes).map_err(refused)?;
         document.origin = origin;
         Ok(document)
     }
