@@ -129,7 +129,7 @@ pub(super) fn load(path: &Path) -> Result<Box<Document>, Vec<String>> {
                 .to_owned(),
         ]);
     }
-    let document = match Document::read(path) {
+    let document = match Document::read_draft(path) {
         Err(ReadError::NewerFormat(_)) => Document::read_newer(path),
         document => document,
     };
@@ -184,7 +184,7 @@ pub(super) fn save(saving: &Saving) -> Result<Box<Document>, SaveFault> {
 
 /// What the file says otherwise than the form, a line each, with a remark; the words for nothing.
 fn differences(saving: &Saving, same: &str, remark: impl Fn(&Change) -> String) -> Vec<String> {
-    let theirs = match Document::read(&saving.path) {
+    let theirs = match Document::read_draft(&saving.path) {
         Ok(theirs) => theirs.case,
         Err(error) => {
             return error

@@ -73,8 +73,18 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         .iter()
         .map(|(graph, axes)| title(app, &GRAPHS[*graph], axes))
         .collect();
-    let stale = if app.is_stale() { "LAST VALID, " } else { "" };
-    let first = format!("{stale}{}", titles.first().map_or("Chart", String::as_str));
+    let stale = if app.shows_last_valid() {
+        "LAST VALID, "
+    } else {
+        ""
+    };
+    let first = format!(
+        "{stale}{}",
+        titles
+            .first()
+            .filter(|_| app.answer.is_some())
+            .map_or("Chart", String::as_str)
+    );
     titled(app, Pane::Chart, &first, area, buffer);
     for (at, (graph, axes)) in panels.iter().enumerate() {
         if at > 0 {
@@ -302,7 +312,7 @@ fn unit(unit: &str, power: i32) -> String {
 // Why the active method has no curve, where it has none.
 fn lack(app: &App, graph: &Graph, curves: &[Curve]) -> Option<String> {
     let Some(answer) = &app.answer else {
-        return Some("No valid results of this method.".to_owned());
+        return Some("No results yet.".to_owned());
     };
     if curves
         .iter()

@@ -21,17 +21,23 @@ use crate::tui::pane::Pane;
 pub use picture::Picture;
 
 const NOTHING: &str = "  No valid results of this method.";
+const NOT_YET: &str = "  No results yet.";
 
 /// Draw the pane.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
-    let stale = if app.is_stale() { "LAST VALID, " } else { "" };
+    let stale = if app.shows_last_valid() {
+        "LAST VALID, "
+    } else {
+        ""
+    };
     let title = format!(
         "{stale}Teeth, true to scale, around {}",
         app.teeth.centre.name()
     );
     let inner = titled(app, Pane::Teeth, &title, area, buffer);
     let Some((inputs, solution)) = solved(app) else {
-        buffer.set_stringn(inner.x, inner.y, NOTHING, inner.width.into(), Style::new());
+        let words = app.answer.as_ref().map_or(NOT_YET, |_| NOTHING);
+        buffer.set_stringn(inner.x, inner.y, words, inner.width.into(), Style::new());
         return;
     };
     let picture = Picture {
