@@ -5,6 +5,7 @@
 //! gear. SI units throughout.
 
 pub mod auto;
+pub mod budget;
 pub mod clearance;
 pub mod clearing;
 pub mod compliance;

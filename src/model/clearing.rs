@@ -1,13 +1,14 @@
 //! The least tip relief of the driven gear with which the incoming tooth does not touch before E,
 //! by each method itself.
 
-use std::cell::Cell;
+use std::cell::RefCell;
 
+use super::budget::{Meter, SEARCH_TRIES, SEARCH_WORK};
 use super::dynamic::{Approach, Settings, approach};
 use super::inputs::{Gear, Inputs, Method};
 use super::load_sharing::on_mesh;
 use super::position::printed_relief_to_clear;
-use super::static_load::lead_before_start;
+use super::static_load::{lead_before_start, places_before_start};
 use super::{Outcome, Refusal, Solution};
 
 /// No relief is sought beyond so many times what the pairs yield, the gears deviate and the flank
@@ -32,6 +33,8 @@ pub struct Clearing {
     pub withheld: Option<Refusal>,
     /// How many balances or motions were tried.
     pub runs: u32,
+    /// What they took, in units of the [budget](super::budget).
+    pub work: u64,
 }
 
 /// The least tip relief of the driven gear, beyond what it has, with which the method finds no
@@ -55,26 +58,37 @@ pub struct Clearing {
 /// contact is lost; what may lie between them is not known.
 ///
 /// # Errors
-/// [`Refusal::Stopped`] where `go_on` says no.
+/// [`Refusal::Stopped`] where `go_on` says no. A search that exceeds its [budget](super::budget)
+/// withholds the relief.
 pub fn clearing(
     inputs: &Inputs,
     solution: &Solution,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Clearing, Refusal> {
-    let runs = Cell::new(0);
+    let search = Search::new();
     let found = match (solution.outcome, inputs.method) {
         (Outcome::NoCornerContact, _) => Ok(None),
         (_, Method::Paper) => printed_relief_to_clear(&inputs.shape(), &solution.kept.deviation),
         (_, Method::Static | Method::Dynamic) => {
+            let is_in_motion = inputs.method == Method::Dynamic;
             let tried = |relief: f64| {
-                runs.set(runs.get() + 1);
-                relieved(relief, inputs, solution, go_on)
+                let tried = search
+                    .may_go_on()
+                    .then(|| relieved(relief, inputs, solution, &search.meter, go_on))
+                    .transpose();
+                match tried {
+                    Ok(Some(tried)) => Ok(search.noted(tried)),
+                    Ok(None) | Err(Refusal::MotionTooLong { .. }) => {
+                        Err(search.ended(is_in_motion))
+                    }
+                    Err(refusal) => Err(refusal),
+                }
             };
             let deviation = &solution.deviation;
             let size = deviation.combined_deflection
                 + deviation.equivalent_error.abs()
                 + inputs.driven.tip_relief;
-            least(&tried, inputs.method == Method::Static, MOST * size).map(Some)
+            least(&tried, !is_in_motion, MOST * size).map(Some)
         }
         (_, Method::Exact | Method::Auto) => Ok(Some(solution.deviation.total)),
     };
@@ -87,8 +101,53 @@ pub fn clearing(
         given: inputs.driven.tip_relief,
         relief,
         withheld,
-        runs: runs.get(),
+        runs: search.runs(),
+        work: search.meter.spent(),
     })
+}
+
+/// The reliefs that were tried, and the work of it.
+struct Search {
+    meter: Meter,
+    tries: RefCell<Vec<Tried>>,
+}
+
+impl Search {
+    fn new() -> Search {
+        Search {
+            meter: Meter::new(SEARCH_WORK),
+            tries: RefCell::new(Vec::new()),
+        }
+    }
+
+    fn runs(&self) -> u32 {
+        self.tries.borrow().len() as u32
+    }
+
+    fn may_go_on(&self) -> bool {
+        self.runs() < SEARCH_TRIES && self.meter.spend(0)
+    }
+
+    fn noted(&self, tried: Tried) -> Tried {
+        self.tries.borrow_mut().push(tried);
+        tried
+    }
+
+    /// The refusal of a search that goes no further, with the bracket that it has.
+    fn ended(&self, in_motion: bool) -> Refusal {
+        let tries = self.tries.borrow();
+        let touching = tries.iter().filter(|tried| tried.lead > 0.0);
+        let touching = touching.map(|tried| tried.relief).reduce(f64::max);
+        let clear = tries.iter().filter(|tried| {
+            tried.lead <= 0.0 && touching.is_none_or(|touching| tried.relief > touching)
+        });
+        Refusal::SearchTooLong {
+            tries: tries.len() as u32,
+            in_motion,
+            touching,
+            clear: clear.map(|tried| tried.relief).reduce(f64::min),
+        }
+    }
 }
 
 /// The incoming tooth of the pair with so much more tip relief, in m, at rest or in motion.
@@ -96,6 +155,7 @@ fn relieved(
     relief: f64,
     inputs: &Inputs,
     solution: &Solution,
+    meter: &Meter,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Tried, Refusal> {
     let driven = Gear {
@@ -107,20 +167,22 @@ fn relieved(
         ..inputs.clone()
     };
     let settings = Settings::of(inputs, solution.reduced_mass);
-    on_mesh(&relieved.mesh(), solution, |mesh| match inputs.method {
-        Method::Dynamic => {
-            let Approach { lead, contact_lost } = approach(mesh, &settings, go_on)?;
-            Ok(Tried {
-                relief,
-                lead,
-                contact_lost,
-            })
-        }
-        _ => Ok(Tried {
+    on_mesh(&relieved.mesh(), solution, |mesh| {
+        meter.spend(mesh.work());
+        let Approach { lead, contact_lost } = if inputs.method == Method::Dynamic {
+            approach(mesh, &settings, meter, go_on)?
+        } else {
+            meter.spend(places_before_start(mesh));
+            Approach {
+                lead: lead_before_start(mesh)?,
+                contact_lost: false,
+            }
+        };
+        Ok(Tried {
             relief,
-            lead: lead_before_start(mesh)?,
-            contact_lost: false,
-        }),
+            lead,
+            contact_lost,
+        })
     })
 }
 
@@ -242,6 +304,8 @@ fn closed_in(tried: Try<'_>, mut touching: Tried, mut clear: Tried) -> Result<Tr
 
 #[cfg(test)]
 mod tests {
+    use std::cell::Cell;
+
     use super::*;
 
     /// The least relief for a lead that is known, and how many tries it took.

@@ -11,9 +11,10 @@ mod tests;
 mod watch;
 
 use super::Refusal;
+use super::budget::{EVENT_WORK, MOTION_BYTES, MOTION_WORK, Meter};
 use super::inputs::Inputs;
 use super::mesh::Mesh;
-use super::spacing::Spacing;
+use super::spacing::{Resolution, Spacing};
 use super::static_load;
 use super::stations::MeshStation;
 use events::Event;
@@ -46,6 +47,8 @@ pub struct Dynamic {
     pub friction_work: Option<f64>,
     /// From the first contact through E to the last, its peaks and valleys among them.
     pub stations: Vec<MeshStation>,
+    /// Whether the stations are as close to each other as the curve needs.
+    pub resolution: Resolution,
     /// What it cost.
     pub effort: Effort,
 }
@@ -59,6 +62,8 @@ pub struct Effort {
     pub evaluations: u64,
     /// Contacts made and lost.
     pub events: u64,
+    /// All of it in units of the [budget](super::budget).
+    pub work: u64,
 }
 
 /// What a run is asked for.
@@ -129,15 +134,15 @@ impl Settings {
 ///
 /// # Errors
 /// [`Refusal::BeyondReach`] where the gears move apart further than the mesh is known,
-/// [`Refusal::TooSlow`] where the mesh swings too often on the way, [`Refusal::Stopped`] where
-/// `go_on` says no.
+/// [`Refusal::TooSlow`] where the mesh swings too often on the way, [`Refusal::MotionTooLong`] where
+/// the steps exceed the [budget](super::budget), [`Refusal::Stopped`] where `go_on` says no.
 pub fn dynamic(
     mesh: &Mesh,
     settings: &Settings,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Dynamic, Refusal> {
-    let motion = Motion::new(mesh, settings);
-    let mut run = Run::begin(&motion, settings.tolerance)?;
+    let (motion, meter) = (Motion::new(mesh, settings), Meter::new(MOTION_WORK));
+    let mut run = Run::begin(&motion, settings.tolerance, &meter)?;
     while !run.is_over() {
         if !go_on(run.part_done()) {
             return Err(Refusal::Stopped);
@@ -145,7 +150,11 @@ pub fn dynamic(
         run.cross_window()?;
         run.skip_what_repeats();
     }
-    run.watch.finish(&motion, settings.spacing, run.effort)
+    let effort = Effort {
+        work: meter.spent(),
+        ..run.effort
+    };
+    run.watch.finish(&motion, settings.spacing, effort)
 }
 
 /// How near the incoming tooth comes to a touch before E.
@@ -160,19 +169,21 @@ pub struct Approach {
 
 /// The approach of the incoming tooth to E: the run of [`dynamic`] so far, step by step the same
 /// until the tooth touches, but that the tooth stands off. So the lead grows and falls smoothly
-/// with what the flanks lack, through 0 as well.
+/// with what the flanks lack, through 0 as well. Its work is counted in `meter`.
 ///
 /// # Errors
 /// Those of [`dynamic`].
 pub fn approach(
     mesh: &Mesh,
     settings: &Settings,
+    meter: &Meter,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Approach, Refusal> {
     let motion = Motion::new(mesh, settings);
     let mut run = Run {
         lead: Some(f64::NEG_INFINITY),
-        ..Run::begin(&motion, settings.tolerance)?
+        watch: Watch::of_contact_alone(),
+        ..Run::begin(&motion, settings.tolerance, meter)?
     };
     run.ahead.retain(|&ahead| ahead != 0);
     while run
@@ -213,20 +224,24 @@ struct Run<'a> {
     laps: Laps,
     watch: Watch,
     effort: Effort,
+    meter: &'a Meter,
     /// Where the incoming tooth stands off, the most by which the driver was further ahead than its
     /// gap is wide, in m.
     lead: Option<f64>,
 }
 
 impl<'a> Run<'a> {
-    fn begin(motion: &'a Motion<'a>, tolerance: f64) -> Result<Run<'a>, Refusal> {
+    fn begin(motion: &'a Motion<'a>, tolerance: f64, meter: &'a Meter) -> Result<Run<'a>, Refusal> {
         /// Measured over the reference pairs, the peak force then keeps the tolerance with room to
         /// spare.
         const SHARE_OF_A_STEP: f64 = 0.3;
+        /// Borders that are found and sorted in the time of one series.
+        const BORDERS: usize = 8;
         let mesh = motion.mesh;
         let (start, (_, end)) = (motion.start(), mesh.ends());
         motion.check_pace(end - start)?;
         let borders = mesh.borders(start, end);
+        meter.spend((borders.len() / BORDERS) as u64);
         let inside = f64::midpoint(start, borders.get(1).copied().unwrap_or(end));
         let displacement = static_load::balance(mesh, start, inside).displacement;
         if !displacement.is_finite() {
@@ -247,6 +262,7 @@ impl<'a> Run<'a> {
             laps: Laps::new(start, tolerance),
             watch: Watch::default(),
             effort: Effort::default(),
+            meter,
             lead: None,
         })
     }
@@ -307,14 +323,11 @@ impl<'a> Run<'a> {
         touching: Touching,
         end: f64,
     ) -> Result<Touching, Refusal> {
-        const MOST_STEPS: u64 = 100_000_000;
         let course = Course::new(self.motion, window, touching);
         let (step, gaps) = course.step(self.t, &self.y, end, self.allowed)?;
         self.effort.steps += 1;
         self.effort.evaluations += TERMS as u64;
-        if self.effort.steps > MOST_STEPS {
-            return Err(Refusal::Unsettled);
-        }
+        self.count(1 + window.pairs.len() as u64)?;
         let range = step.range();
         let standing_off = self.lead.and(window.incoming());
         let event = events::first(&course, (&step, range), &gaps, (self.turned, standing_off));
@@ -334,7 +347,23 @@ impl<'a> Run<'a> {
             }
             self.watch.keep(self.motion, touching, step, range.1);
         }
-        Ok(event.map_or(touching, |event| self.turn(window, touching, event)))
+        let Some(event) = event else {
+            return Ok(touching);
+        };
+        self.count(EVENT_WORK)?;
+        Ok(self.turn(window, touching, event))
+    }
+
+    /// Counts work of the motion.
+    fn count(&self, work: u64) -> Result<(), Refusal> {
+        let is_too_large = self.watch.bytes() > MOTION_BYTES;
+        if self.meter.spend(work) && !is_too_large {
+            return Ok(());
+        }
+        Err(Refusal::MotionTooLong {
+            steps: self.effort.steps,
+            done: self.part_done(),
+        })
     }
 
     /// A pair touches or leaves.

@@ -1,6 +1,10 @@
 //! Where the model stops being right: refusals, with the value and the limit.
 
+use std::fmt;
+
 use thiserror::Error;
+
+use crate::numeric::decimal::significant;
 
 const MILLIMETRE: f64 = 1e-3;
 const MICROMETRE: f64 = 1e-6;
@@ -165,9 +169,47 @@ pub enum Refusal {
         /// The most that are followed.
         limit: f64,
     },
-    /// The steps of the motion come to no end.
+    /// The series of the motion has no numbers.
     #[error("the motion does not settle: the teeth touch and separate without end")]
     Unsettled,
+    /// The motion exceeds its budget of work.
+    #[error(
+        "the motion is too long to compute: {steps} steps, the most that the budget allows, are {:.2} % of it", 100.0 * .done
+    )]
+    MotionTooLong {
+        /// Steps.
+        steps: u64,
+        /// How much of the way they are, from 0 to 1.
+        done: f64,
+    },
+    /// A set of pairs has no room for all that may touch.
+    #[error("{pairs} tooth pairs may touch at a time, and the limit is {limit}")]
+    TooManyPairs {
+        /// Pairs.
+        pairs: usize,
+        /// The most that are followed.
+        limit: usize,
+    },
+    /// The search for the required tip relief exceeds its budget of work.
+    #[error("not found within {tries} {}: {}", if *.in_motion { "motions" } else { "balances" }, Bracket(*.touching, *.clear))]
+    SearchTooLong {
+        /// Motions or balances tried.
+        tries: u32,
+        /// Whether they are motions.
+        in_motion: bool,
+        /// The greatest additional tip relief with which the tooth touches, in m.
+        touching: Option<f64>,
+        /// The least greater one with which it does not, in m.
+        clear: Option<f64>,
+    },
+    /// The force curve needs more stations than are computed.
+    #[error(
+        "the force curve bends too often: it is computed in {limit} places, the limit, and needs more"
+    )]
+    CurveTooRough {
+        /// Places.
+        limit: usize,
+    },
     /// No relief keeps the incoming tooth from touching before E.
     #[error("the tooth touches before E even with {:.4} um more tip relief of the driven gear", .most / MICROMETRE)]
     NoClearing {
@@ -185,6 +227,29 @@ pub enum Refusal {
         /// Where q_H vanishes, in m.
         limit: f64,
     },
+}
+
+/// What a search knows of the additional tip reliefs, in m: the greatest that touches and the least
+/// that does not.
+struct Bracket(Option<f64>, Option<f64>);
+
+impl fmt::Display for Bracket {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(touching) = self.0 else {
+            return f.write_str("no additional tip relief was tried to its end");
+        };
+        f.write_str("the tooth touches before E with ")?;
+        if touching > 0.0 {
+            let touching = significant(touching / MICROMETRE, 4);
+            write!(f, "{touching} um more tip relief of the driven gear")?;
+        } else {
+            f.write_str("the given tip relief of the driven gear")?;
+        }
+        self.1.map_or(Ok(()), |clear| {
+            let clear = significant(clear / MICROMETRE, 4);
+            write!(f, ", and not with {clear} um more")
+        })
+    }
 }
 
 /// A refusal's name, the field where its mend begins, and the mend.
@@ -333,6 +398,26 @@ impl Refusal {
                 "unsettled",
                 "model.damping_ratio",
                 "give a greater damping ratio, or set model.method to static",
+            ),
+            Refusal::MotionTooLong { .. } => (
+                "motion-too-long",
+                "model.warmup_cycles",
+                "give fewer warm-up cycles or a greater damping ratio, or set model.method to static",
+            ),
+            Refusal::TooManyPairs { .. } => (
+                "too-many-pairs",
+                "pair.module",
+                "give smaller deviations, a greater module or fewer teeth",
+            ),
+            Refusal::SearchTooLong { .. } => (
+                "clearing-relief-not-found",
+                "model.warmup_cycles",
+                "give fewer warm-up cycles, a greater damping ratio or a looser tolerance",
+            ),
+            Refusal::CurveTooRough { .. } => (
+                "curve-too-rough",
+                "model.station_tolerance",
+                "give a greater station tolerance",
             ),
             Refusal::NoClearing { .. } => (
                 "no-clearing-relief",

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::dynamic::{Dynamic, Settings, dynamic};
 use super::mesh::{Mesh, MeshInputs};
 use super::request::Request;
-use super::spacing::Spacing;
+use super::spacing::{Resolution, Spacing};
 use super::stage::{Stage, Stages};
 use super::static_load::{StaticLoad, static_load};
 use super::{Outcome, Refusal, Solution};
@@ -50,6 +50,15 @@ pub(super) fn share(
             Outcome::NoCornerContact
         };
     }
+    let limited = [
+        shared.static_load.as_ref().map(|load| load.resolution),
+        shared.dynamic.as_ref().map(|dynamic| dynamic.resolution),
+    ];
+    let resolution = limited
+        .into_iter()
+        .flatten()
+        .fold(Resolution::Full, Resolution::and);
+    solution.stations_withheld = solution.stations_withheld.or(resolution.refusal());
     solution.mesh = Some(shared.mesh);
     solution.static_load = shared.static_load;
     solution.dynamic = shared.dynamic;
@@ -100,15 +109,15 @@ pub(super) fn on_mesh<T>(
     let yields =
         deviation.combined_deflection + deviation.equivalent_error.abs() + inputs.reliefs.sum();
     let mut reach = AT_FIRST * yields;
+    let mut known = solution.mesh.as_ref().map(|mesh| Arc::clone(mesh.flanks()));
     loop {
-        let mesh = Mesh::new(
-            inputs,
-            &solution.geometry,
-            solution.mesh_force,
-            deviation.equivalent_error,
-            reach,
-        )?;
-        let mesh = Arc::new(mesh);
+        let (force, error) = (solution.mesh_force, deviation.equivalent_error);
+        let geometry = &solution.geometry;
+        let mesh = Arc::new(match &known {
+            Some(flanks) => Mesh::of_flanks(inputs, geometry, flanks, (force, error), reach)?,
+            None => Mesh::new(inputs, geometry, force, error, reach)?,
+        });
+        known.get_or_insert_with(|| Arc::clone(mesh.flanks()));
         match find(&mesh) {
             Err(Refusal::BeyondReach) if !mesh.is_whole() => reach *= FURTHER,
             found => return found,

@@ -1,20 +1,20 @@
 //! Gap and stiffness of every tooth pair along the line of action: what the methods `static` and
 //! `dynamic` share.
 
-use super::Refusal;
-use super::compliance::flanks::Flanks;
-use super::compliance::{ContactPlace, Elasticity};
-use super::geometry::{Geometry, PairShape, geometry};
-use super::inputs::Inputs;
-use super::position::first_contact;
-use super::relief::{Relief, Reliefs};
-use super::tip_gap::{TipContact, angle_at_curvature, gap, tip_at};
-use crate::numeric::chebyshev::{Series, TERMS};
-use crate::numeric::polynomial::Polynomial;
-use crate::numeric::root;
+mod zones;
 
-/// No tip is followed further from its end of the path of contact, in rad.
-const LARGEST_ANGLE: f64 = 1.5;
+use std::sync::Arc;
+
+use super::Refusal;
+use super::budget::{PAIRS, TOOTH_WORK};
+use super::compliance::Elasticity;
+use super::compliance::flanks::Flanks;
+use super::geometry::{Geometry, PairShape};
+use super::inputs::Inputs;
+use super::relief::{Relief, Reliefs};
+use crate::numeric::chebyshev::TERMS;
+use crate::numeric::polynomial::Polynomial;
+use zones::{End, GAP, LEVER, SLIDING, STIFFNESS, Zone, line_zones};
 
 /// What the mesh depends on, apart from geometry, mesh force and error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -131,27 +131,10 @@ pub struct Mesh {
     pub width: f64,
     friction: f64,
     pitch_point: f64,
+    flanks: Arc<Flanks>,
     zones: Vec<Zone>,
     is_whole: bool,
-}
-
-/// A part of the way on which everything is smooth.
-#[derive(Debug, Clone, PartialEq)]
-struct Zone {
-    from: f64,
-    to: f64,
-    /// The four values of [`Place`].
-    series: Series<4>,
-}
-
-/// The pair as seen from one end of its path of contact: the run-in, or by swapped gears the
-/// run-out.
-struct End {
-    inputs: MeshInputs,
-    geometry: Geometry,
-    flanks: Flanks,
-    /// −1 where s falls with the distance from the path of contact.
-    side: f64,
+    work: u64,
 }
 
 impl Mesh {
@@ -169,7 +152,8 @@ impl Mesh {
     /// keeps its flank's own radius of curvature, or that of its edge where the case gives one.
     ///
     /// # Errors
-    /// A [`Refusal`] where no compliance can be computed, or the run-out interferes.
+    /// A [`Refusal`] where no compliance can be computed, the run-out interferes, or more pairs may
+    /// touch at a time than the [budget](super::budget) allows.
     pub fn new(
         inputs: &MeshInputs,
         geometry: &Geometry,
@@ -177,12 +161,31 @@ impl Mesh {
         error: f64,
         reach: f64,
     ) -> Result<Mesh, Refusal> {
+        let flanks = Arc::new(Flanks::new(&inputs.elasticity, geometry)?);
+        let mesh = Mesh::of_flanks(inputs, geometry, &flanks, (force, error), reach)?;
+        Ok(Mesh {
+            work: mesh.work + TOOTH_WORK * flanks.evaluations() as u64,
+            ..mesh
+        })
+    }
+
+    /// The same with the compliance of the teeth computed before: reliefs, load and reach leave it
+    /// alone.
+    ///
+    /// # Errors
+    /// Those of [`Mesh::new`].
+    pub(super) fn of_flanks(
+        inputs: &MeshInputs,
+        geometry: &Geometry,
+        flanks: &Arc<Flanks>,
+        (force, error): (f64, f64),
+        reach: f64,
+    ) -> Result<Mesh, Refusal> {
         let relief = Relief::of(&inputs.reliefs, geometry);
-        let flanks = Flanks::new(&inputs.elasticity, geometry)?;
         let run_in = End {
             inputs: *inputs,
             geometry: *geometry,
-            flanks: flanks.clone(),
+            flanks: Flanks::clone(flanks),
             side: -1.0,
         };
         let run_out = run_in.swapped()?;
@@ -191,9 +194,10 @@ impl Mesh {
         let (after, is_whole_after) = run_out.angle_of_reach(reach);
         let mut zones = Vec::new();
         run_in.zones(&relief, force, before, 0.0, &mut zones)?;
-        line_zones(inputs, geometry, (&flanks, &relief), force, &mut zones)?;
+        line_zones(inputs, geometry, (flanks, &relief), force, &mut zones)?;
         run_out.zones(&relief, force, after, length, &mut zones)?;
         zones.sort_by(|one, other| one.from.total_cmp(&other.from));
+        check_pairs(geometry, &zones)?;
         let levers = zones
             .iter()
             .flat_map(|zone| [zone.from, zone.to].map(|s| zone.series.one(LEVER, s)));
@@ -219,9 +223,25 @@ impl Mesh {
             width: inputs.elasticity.width,
             friction,
             pitch_point: geometry.approach_length,
+            work: zones
+                .iter()
+                .map(|zone| zone.series.evaluations() as u64)
+                .sum(),
+            flanks: Arc::clone(flanks),
             zones,
             is_whole: is_whole_before && is_whole_after,
         })
+    }
+
+    /// The compliance of its teeth.
+    pub(super) fn flanks(&self) -> &Arc<Flanks> {
+        &self.flanks
+    }
+
+    /// What it took to compute, in units of the [budget](super::budget).
+    #[must_use]
+    pub fn work(&self) -> u64 {
+        self.work
     }
 
     /// From where to where the incoming pair's gap is known, in m.
@@ -395,198 +415,16 @@ impl Mesh {
     }
 }
 
-const STIFFNESS: usize = 0;
-const GAP: usize = 1;
-const LEVER: usize = 2;
-const SLIDING: usize = 3;
-
-/// Zones from one border to the next, over which the four functions of `f` are smooth, to thirteen
-/// digits of their sizes; a gap grows from `edge`, with as many digits as the way from there has.
-fn push_zones(
-    borders: &mut Vec<f64>,
-    (size, edge): ([f64; 4], f64),
-    f: &impl Fn(f64) -> Result<[f64; 4], Refusal>,
-    zones: &mut Vec<Zone>,
-) -> Result<(), Refusal> {
-    const REST: f64 = 1e-13;
-    let rest = |from: f64, to: f64| {
-        let mut rest = size.map(|size| REST * size);
-        rest[GAP] += 16.0 * f64::EPSILON * (from - edge).abs().max((to - edge).abs());
-        rest
-    };
-    borders.sort_by(f64::total_cmp);
-    let whole = borders.last().copied().unwrap_or(0.0) - borders.first().copied().unwrap_or(0.0);
-    borders.dedup_by(|one, other| *one - *other <= 1e-9 * whole);
-    for ends in borders.windows(2) {
-        let (from, to) = (ends[0], ends[1]);
-        zones.push(Zone {
-            from,
-            to,
-            series: Series::of(from, to, &rest, f)?,
+/// Refuse more pairs at a time than the methods follow.
+fn check_pairs(geometry: &Geometry, zones: &[Zone]) -> Result<(), Refusal> {
+    let length =
+        zones.last().map_or(0.0, |zone| zone.to) - zones.first().map_or(0.0, |zone| zone.from);
+    let pairs = 1 + (length / geometry.base_pitch) as usize;
+    if pairs > PAIRS {
+        return Err(Refusal::TooManyPairs {
+            pairs,
+            limit: PAIRS,
         });
     }
     Ok(())
-}
-
-/// The zones of the line of action.
-fn line_zones(
-    inputs: &MeshInputs,
-    geometry: &Geometry,
-    (flanks, relief): (&Flanks, &Relief),
-    force: f64,
-    zones: &mut Vec<Zone>,
-) -> Result<(), Refusal> {
-    let length = geometry.end - geometry.start;
-    let rest = geometry.tangent_length - geometry.start;
-    let speeds = inputs.speed + inputs.driven_speed();
-    let at = |s: f64| {
-        let along = geometry.start + s;
-        let place = ContactPlace::on_line_of_action(geometry, along);
-        let compliance = flanks.pair_at_load(
-            &inputs.elasticity,
-            geometry,
-            &place,
-            (along, rest - s),
-            force,
-        )?;
-        Ok([
-            inputs.elasticity.width / compliance,
-            relief.at(along, rest - s),
-            along / geometry.driver.base,
-            speeds * (geometry.approach_length - s),
-        ])
-    };
-    let pitch_point = [geometry.approach_length];
-    let driver_ends = relief
-        .ends_on_driver()
-        .map(|curvature| curvature - geometry.start);
-    let driven_ends = relief.ends_on_driven().map(|curvature| rest - curvature);
-    let mut borders: Vec<f64> = driver_ends.chain(driven_ends).chain(pitch_point).collect();
-    borders.retain(|&border| border > 0.0 && border < length);
-    borders.extend([0.0, length]);
-    let stiffness = at(0.5 * length)?[STIFFNESS];
-    push_zones(
-        &mut borders,
-        ([stiffness, relief.most(), 1.0, speeds * length], 0.0),
-        &at,
-        zones,
-    )
-}
-
-impl End {
-    /// The other end, with the gears swapped: there the driver's tip meets the driven flank.
-    fn swapped(&self) -> Result<End, Refusal> {
-        let inputs = self.inputs.swapped();
-        let geometry = geometry(&inputs.shape).map_err(|refusal| match refusal {
-            Refusal::Interference { start } => Refusal::InterferenceAtEnd { start },
-            other => other,
-        })?;
-        Ok(End {
-            inputs,
-            geometry,
-            flanks: self.flanks.swapped(),
-            side: 1.0,
-        })
-    }
-
-    /// The angle up to which gaps below `reach` stand, and whether the tip's circle ends there.
-    fn angle_of_reach(&self, reach: f64) -> (f64, bool) {
-        let circle = angle_at_curvature(&self.geometry, self.geometry.end);
-        let whole = if circle.is_finite() {
-            circle.min(LARGEST_ANGLE)
-        } else {
-            LARGEST_ANGLE
-        };
-        match first_contact(&self.geometry, reach) {
-            Ok(angle) if angle < whole => (angle, false),
-            _ => (whole, true),
-        }
-    }
-
-    /// The zones from the end of the path of contact at `edge` to the angle `reach`.
-    fn zones(
-        &self,
-        relief: &Relief,
-        force: f64,
-        reach: f64,
-        edge: f64,
-        zones: &mut Vec<Zone>,
-    ) -> Result<(), Refusal> {
-        let base = self.geometry.driven.base;
-        let angle_of = |s: f64| (self.side * (s - edge) / base).max(0.0);
-        let at = |s: f64| self.at(relief, force, angle_of(s));
-        let turns = self
-            .angles_of_relief_ends(relief)
-            .chain(self.angle_of_rolling(reach));
-        let mut borders: Vec<f64> = turns
-            .filter(|&angle| angle > 0.0 && angle < reach)
-            .collect();
-        borders.extend([0.0, reach]);
-        for border in &mut borders {
-            *border = edge + self.side * base * *border;
-        }
-        let (start, end) = (at(edge)?, at(edge + self.side * base * reach)?);
-        let size = |function: usize| start[function].abs().max(end[function].abs());
-        push_zones(
-            &mut borders,
-            ([start[STIFFNESS], 0.0, size(LEVER), size(SLIDING)], edge),
-            &at,
-            zones,
-        )
-    }
-
-    /// The four values at an angle from the end of the path of contact.
-    fn at(&self, relief: &Relief, force: f64, angle: f64) -> Result<[f64; 4], Refusal> {
-        let tip = tip_at(&self.geometry, angle);
-        let place = ContactPlace::at_tip(self.inputs.tip_radii[1], &self.geometry, &tip);
-        let arms = (tip.curvature_driver, self.geometry.driven.tip_curvature);
-        let compliance = self.flanks.pair_at_load(
-            &self.inputs.elasticity,
-            &self.geometry,
-            &place,
-            arms,
-            force,
-        )?;
-        let sliding = self.inputs.driven_speed() * tip.sliding_arm;
-        let (relief, lever) = if self.side < 0.0 {
-            (
-                relief.at(tip.curvature_driver, self.geometry.driven.tip_curvature),
-                tip.curvature_driver / self.geometry.driver.base,
-            )
-        } else {
-            (
-                relief.at(self.geometry.driven.tip_curvature, tip.curvature_driver),
-                self.lever_of_tip(&tip),
-            )
-        };
-        Ok([
-            self.inputs.elasticity.width / compliance,
-            gap(&self.geometry, &tip) + relief,
-            lever,
-            -self.side * sliding,
-        ])
-    }
-
-    /// After B the driver's own arm is that of its tip.
-    fn lever_of_tip(&self, tip: &TipContact) -> f64 {
-        tip.normal_length_driven / self.geometry.driven.base
-    }
-
-    fn angles_of_relief_ends(&self, relief: &Relief) -> impl Iterator<Item = f64> {
-        let ends: Vec<f64> = if self.side < 0.0 {
-            relief.ends_on_driver().collect()
-        } else {
-            relief.ends_on_driven().collect()
-        };
-        let geometry = self.geometry;
-        ends.into_iter()
-            .filter(move |&end| end > geometry.start)
-            .map(move |end| angle_at_curvature(&geometry, end))
-    }
-
-    /// Where the tip all but rolls: there friction turns round.
-    fn angle_of_rolling(&self, reach: f64) -> Option<f64> {
-        let sliding = |angle: f64| tip_at(&self.geometry, angle).sliding_arm;
-        (sliding(0.0) * sliding(reach) < 0.0).then(|| root::between(0.0, reach, sliding))
-    }
 }

@@ -133,6 +133,14 @@ impl Relief {
         ends(&self.driven)
     }
 
+    /// By how much the rounding of a radius of curvature changes what both flanks lack, in m: a steep
+    /// relief is known no better.
+    #[must_use]
+    pub fn rounding(&self) -> f64 {
+        let ramps = self.driver.iter().chain(&self.driven);
+        ramps.map(Ramp::rounding).sum()
+    }
+
     /// The most that both flanks may lack together, in m.
     #[must_use]
     pub fn most(&self) -> f64 {
@@ -152,6 +160,12 @@ fn ends(ramps: &[Ramp; 2]) -> impl Iterator<Item = f64> {
 }
 
 impl Ramp {
+    /// See [`Relief::rounding`]; a parabola is twice as steep as its chord.
+    fn rounding(&self) -> f64 {
+        let radius = self.full.abs().max(self.none.abs());
+        2.0 * self.amount * f64::EPSILON * radius / (self.full - self.none).abs()
+    }
+
     fn at(&self, curvature: f64, shape: ReliefShape) -> f64 {
         let left = ((curvature - self.none) / (self.full - self.none)).clamp(0.0, 1.0);
         match shape {

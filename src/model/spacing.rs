@@ -2,6 +2,7 @@
 
 mod refine;
 
+use super::Refusal;
 use super::inputs::Inputs;
 use refine::Look;
 
@@ -29,11 +30,18 @@ impl Spacing {
 
     /// What `at` gives at the stations from the first of `ends` to the last, both among them. `at`
     /// gives the height of the curve as well. Between two of the ends it should turn once at most:
-    /// those in between are looked at, and are stations only where the curve needs them.
-    pub fn stations<T>(self, ends: &[f64], peak: f64, at: impl FnMut(f64) -> (f64, T)) -> Vec<T> {
+    /// those in between are looked at, in no more places than `most`, and are stations only where the
+    /// curve needs them.
+    pub fn stations<T>(
+        self,
+        ends: &[f64],
+        peak: f64,
+        most: usize,
+        at: impl FnMut(f64) -> (f64, T),
+    ) -> (Vec<T>, Resolution) {
         let mut found = Vec::with_capacity(self.count().map_or(0, |count| count + 1));
-        self.walk(ends, peak, at, |value| found.push(value));
-        found
+        let resolution = self.walk(ends, peak, most, at, |value| found.push(value));
+        (found, resolution)
     }
 
     /// Intervals, where their number is given.
@@ -46,18 +54,25 @@ impl Spacing {
     }
 
     /// The same, each given to `keep` in its turn.
+    #[must_use]
     pub fn walk<T>(
         self,
         ends: &[f64],
         peak: f64,
+        most: usize,
         mut at: impl FnMut(f64) -> (f64, T),
         keep: impl FnMut(T),
-    ) {
+    ) -> Resolution {
         let (Some(&from), Some(&to)) = (ends.first(), ends.last()) else {
-            return;
+            return Resolution::Full;
         };
         match self {
-            Spacing::AsNeeded(part) => Look::along(ends, part * peak, at).needed().for_each(keep),
+            Spacing::AsNeeded(part) => {
+                let look = Look::along(ends, part * peak, most, at);
+                let resolution = look.resolution();
+                look.needed().for_each(keep);
+                resolution
+            }
             Spacing::Even(count) => {
                 let count = count.max(1);
                 let place = |step| {
@@ -68,7 +83,39 @@ impl Spacing {
                     }
                 };
                 (0..=count).map(|step| at(place(step)).1).for_each(keep);
+                Resolution::Full
             }
+        }
+    }
+}
+
+/// Whether the stations are as close to each other as the curve needs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Resolution {
+    /// They are.
+    Full,
+    /// The curve is computed in this many places, as the [budget](super::budget) allows, and needs
+    /// more.
+    Limited(usize),
+}
+
+impl Resolution {
+    /// That of two parts of a curve.
+    #[must_use]
+    pub fn and(self, other: Resolution) -> Resolution {
+        if self == Resolution::Full {
+            other
+        } else {
+            self
+        }
+    }
+
+    /// Why stations are missing, where some are.
+    #[must_use]
+    pub fn refusal(self) -> Option<Refusal> {
+        match self {
+            Resolution::Full => None,
+            Resolution::Limited(limit) => Some(Refusal::CurveTooRough { limit }),
         }
     }
 }
@@ -79,8 +126,12 @@ mod tests {
 
     type Curve = fn(f64) -> f64;
 
+    const MOST: usize = 40_000;
+
     fn places(spacing: Spacing, ends: &[f64], f: impl Fn(f64) -> f64) -> Vec<f64> {
-        spacing.stations(ends, 1.0, |place| (f(place), place))
+        spacing
+            .stations(ends, 1.0, MOST, |place| (f(place), place))
+            .0
     }
 
     /// The greatest distance of the curve from the straight lines between the places.
@@ -167,6 +218,32 @@ mod tests {
             1.0 - (x - 0.3).powi(2)
         });
         assert!(found.contains(&0.3), "{found:?}");
+    }
+
+    #[test]
+    fn a_curve_that_bends_without_end_takes_no_more_places_than_its_budget() {
+        let rough = |x: f64| (1e9 * x).sin();
+        for ends in [
+            vec![0.0, 2.0],
+            (0..=100_000).map(|end| 2e-5 * f64::from(end)).collect(),
+        ] {
+            let mut looks = 0;
+            let at = |place: f64| {
+                looks += 1;
+                (rough(place), place)
+            };
+            let (found, resolution) = Spacing::AsNeeded(1e-9).stations(&ends, 1.0, MOST, at);
+            assert_eq!(resolution, Resolution::Limited(MOST));
+            assert!(looks <= MOST, "{looks} for {} ends", ends.len());
+            assert_eq!((found[0], found[found.len() - 1]), (0.0, 2.0));
+        }
+        let curve = |x: f64| (x.sin(), x);
+        assert_eq!(
+            Spacing::AsNeeded(1e-3)
+                .stations(&[0.0, 2.0], 1.0, MOST, curve)
+                .1,
+            Resolution::Full
+        );
     }
 
     #[test]

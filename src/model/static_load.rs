@@ -1,8 +1,9 @@
 //! The method `static`: the load shared by every pair in contact, without inertia.
 
 use super::Refusal;
+use super::budget::CURVE_WORK;
 use super::mesh::{Mesh, Pair};
-use super::spacing::Spacing;
+use super::spacing::{Resolution, Spacing};
 use super::stations::MeshStation;
 use crate::numeric::root;
 
@@ -27,6 +28,8 @@ pub struct StaticLoad {
     pub pitch_jump: Option<f64>,
     /// From the first contact through E to the last.
     pub stations: Vec<MeshStation>,
+    /// Whether the stations are as close to each other as the curve needs.
+    pub resolution: Resolution,
 }
 
 /// The balance at a position of the mesh.
@@ -82,6 +85,7 @@ pub fn static_load(mesh: &Mesh, spacing: Spacing) -> Result<StaticLoad, Refusal>
         .map(|&s| (s, balance(mesh, s, s)))
         .collect();
     let peak_force = peak(mesh, &balances, |balance| balance.force);
+    let (stations, resolution) = stations(mesh, contact, peak_force, spacing);
     Ok(StaticLoad {
         first_contact_angle: (contact.first < 0.0).then(|| -contact.first / mesh.base_radii.1),
         last_contact_angle: (contact.last > mesh.length)
@@ -91,7 +95,8 @@ pub fn static_load(mesh: &Mesh, spacing: Spacing) -> Result<StaticLoad, Refusal>
         transmission_error: peak(mesh, &balances, |balance| balance.displacement)
             + peak(mesh, &balances, |balance| -balance.displacement),
         pitch_jump: pitch_jump(mesh),
-        stations: stations(mesh, contact, peak_force, spacing),
+        stations,
+        resolution,
     })
 }
 
@@ -106,6 +111,7 @@ impl StaticLoad {
             transmission_error: 0.0,
             pitch_jump: None,
             stations: Vec::new(),
+            resolution: Resolution::Full,
         }
     }
 }
@@ -177,6 +183,14 @@ pub fn lead_before_start(mesh: &Mesh) -> Result<f64, Refusal> {
     } else {
         Err(Refusal::BeyondReach)
     }
+}
+
+/// The places at which the pairs are looked at for it.
+#[must_use]
+pub fn places_before_start(mesh: &Mesh) -> u64 {
+    let (from, _) = mesh.ends();
+    let pairs = mesh.standing(0.0).count();
+    (grid(mesh, from, 0.0).len() * pairs) as u64
 }
 
 fn leads(mesh: &Mesh, places: &[f64]) -> Vec<(f64, f64)> {
@@ -275,9 +289,15 @@ fn pitch_jump(mesh: &Mesh) -> Option<f64> {
 }
 
 /// Stations from the first contact to E and from there to the last.
-fn stations(mesh: &Mesh, contact: Contact, peak: f64, spacing: Spacing) -> Vec<MeshStation> {
+fn stations(
+    mesh: &Mesh,
+    contact: Contact,
+    peak: f64,
+    spacing: Spacing,
+) -> (Vec<MeshStation>, Resolution) {
+    let most = CURVE_WORK / mesh.standing(0.0).count().max(1);
     MeshStation::through_start(contact.first, contact.last, |from, to| {
-        spacing.stations(&[from, to], peak, |s| {
+        spacing.stations(&[from, to], peak, most, |s| {
             let balance = balance(mesh, s, s);
             (
                 balance.force,

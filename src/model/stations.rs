@@ -1,11 +1,12 @@
 //! The force over roll angle, from D to E.
 
+use super::budget::{CURVE_WORK, IMPACT_WORK};
 use super::compliance::{ContactPlace, Teeth};
 use super::geometry::Geometry;
 use super::impact::{ImpactInputs, Masses, impact};
 use super::mesh::Mesh;
 use super::position::Position;
-use super::spacing::Spacing;
+use super::spacing::{Resolution, Spacing};
 use super::tip_gap::{gap_without, tip_at};
 use super::{Refusal, velocity};
 
@@ -69,14 +70,14 @@ impl MeshStation {
     pub(super) fn through_start(
         first: f64,
         last: f64,
-        mut stations: impl FnMut(f64, f64) -> Vec<MeshStation>,
-    ) -> Vec<MeshStation> {
+        mut stations: impl FnMut(f64, f64) -> (Vec<MeshStation>, Resolution),
+    ) -> (Vec<MeshStation>, Resolution) {
         if first >= 0.0 {
             return stations(first, last);
         }
-        let mut before = stations(first, 0.0);
-        before.extend(stations(0.0, last).into_iter().skip(1));
-        before
+        let ((mut all, before), (after_start, after)) = (stations(first, 0.0), stations(0.0, last));
+        all.extend(after_start.into_iter().skip(1));
+        (all, before.and(after))
     }
 
     /// The station at which the incoming pair stands `s` after E.
@@ -135,16 +136,17 @@ pub fn stations(
             station,
         )
     };
-    spacing.walk(
+    let resolution = spacing.walk(
         &[position.approach_angle_driven, 0.0],
         peak,
+        CURVE_WORK / IMPACT_WORK,
         at,
         |station| match station {
             Ok(station) => found.push(station),
             Err(refusal) => refused = refused.or(Some(refusal)),
         },
     );
-    (found, refused)
+    (found, refused.or(resolution.refusal()))
 }
 
 /// The impact as if it happened at the driven gear's angle `angle` before E, in rad.

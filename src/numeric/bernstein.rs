@@ -8,6 +8,9 @@ use super::root;
 const SIDE_BY_SIDE: usize = 4;
 /// A part of the way is halved no further: two changes that are nearer to each other are none.
 const MOST_HALVINGS: u32 = 30;
+/// Parts of the way that one search looks at: those around every root of a polynomial of 32 terms,
+/// halved as often as that. A polynomial that is nothing but rounding has changes everywhere.
+const MOST_PARTS: u32 = 32 * 2 * MOST_HALVINGS;
 
 /// Σ b_i C(N−1, i) t^i (1−t)^(N−1−i): on the way from 0 to 1 it lies between the least and the
 /// greatest b.
@@ -105,6 +108,7 @@ pub fn first_fall<const N: usize>(polynomial: &Polynomial<N>) -> Option<f64> {
         polynomial,
         floor: 0.0,
         sign: &mut sign,
+        rest: MOST_PARTS,
         found: &mut |at| first.replace(at).is_some(),
     };
     search.within(&form, 0.0, 1.0, MOST_HALVINGS);
@@ -128,6 +132,7 @@ pub fn sign_changes<const N: usize>(polynomial: &Polynomial<N>) -> Vec<f64> {
             polynomial,
             floor: ROUNDING * high.max(-low),
             sign: &mut sign,
+            rest: MOST_PARTS,
             found: &mut keep,
         };
         search.within(&form, 0.0, 1.0, MOST_HALVINGS);
@@ -142,6 +147,8 @@ struct Search<'a, const N: usize> {
     floor: f64,
     /// The last sign, 0 where there was none yet.
     sign: &'a mut i8,
+    /// Parts that it may still look at.
+    rest: u32,
     /// Says whether to go on.
     found: &'a mut dyn FnMut(f64) -> bool,
 }
@@ -149,12 +156,13 @@ struct Search<'a, const N: usize> {
 impl<const N: usize> Search<'_, N> {
     /// Look at the part of the way; whether to go on after it.
     fn within(&mut self, form: &Bernstein<N>, from: f64, to: f64, halvings: u32) -> bool {
+        self.rest = self.rest.saturating_sub(1);
         let (at_once, inside, last) = self.changes(form);
         let go_on = match (at_once, inside) {
             (false, 0) => true,
             (true, 0) => (self.found)(from),
             (false, 1) => (self.found)(root::between(from, to, |t| self.polynomial.at(t))),
-            _ if halvings == 0 => last == *self.sign || (self.found)(to),
+            _ if halvings == 0 || self.rest == 0 => last == *self.sign || (self.found)(to),
             _ => {
                 let (left, right) = form.halves();
                 let middle = f64::midpoint(from, to);
@@ -237,6 +245,30 @@ mod tests {
         assert_eq!(first_fall(&with_roots::<12>(1.0, &[-1.0, -0.1])), None);
         let late = first_fall(&with_roots::<12>(1.0, &[0.999, 1.5])).unwrap();
         assert!((late - 0.999).abs() < 1e-12, "{late}");
+    }
+
+    #[test]
+    fn a_polynomial_of_nothing_but_rounding_is_searched_in_so_many_parts() {
+        // Equal sums of terms of either sign: what is left of them at any place is rounding.
+        let rough = with_roots::<32>(1e-16, &[0.5; 31]);
+        let parts = |polynomial: &Polynomial<32>, floor: f64| {
+            let (mut sign, mut changes) = (1, 0);
+            let mut search = Search {
+                polynomial,
+                floor,
+                sign: &mut sign,
+                rest: MOST_PARTS,
+                found: &mut |_| {
+                    changes += 1;
+                    true
+                },
+            };
+            search.within(&Bernstein::of(polynomial), 0.0, 1.0, u32::MAX);
+            MOST_PARTS - search.rest
+        };
+        assert!(parts(&rough, 0.0) <= MOST_PARTS);
+        let planted: Vec<f64> = (1..=11).map(|root| f64::from(root) / 12.0).collect();
+        assert!(parts(&with_roots::<32>(1.0, &planted), 0.0) < MOST_PARTS / 4);
     }
 
     #[test]

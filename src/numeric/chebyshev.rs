@@ -16,6 +16,9 @@ const MOST_HALVINGS: u32 = 30;
 /// Nor are there more pieces: a function that rounding has made rough would take them without end.
 const MOST_PIECES: usize = 128;
 
+/// No piece is halved that is narrower over its place: the places of its points would be rounding.
+const NARROWEST: f64 = 256.0 * f64::EPSILON;
+
 /// `N` functions on one interval, each a polynomial on every piece of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series<const N: usize> {
@@ -58,7 +61,7 @@ impl<const N: usize> Series<N> {
         Ok(Series { pieces })
     }
 
-    /// The values of the first `M` functions at `x`; outside the interval its end pieces go on.
+    /// The values of the first `M` functions at `x`, which may be beyond the interval by rounding.
     #[must_use]
     pub fn at<const M: usize>(&self, x: f64) -> [f64; M] {
         self.piece(x).map_or([f64::NAN; M], |piece| {
@@ -116,6 +119,13 @@ impl<const N: usize> Series<N> {
             .map_or(f64::INFINITY, |piece| piece.to)
     }
 
+    /// How often the functions were computed to find the pieces.
+    #[must_use]
+    pub fn evaluations(&self) -> usize {
+        // Whatever is halved, there is one piece less before.
+        TERMS * (2 * self.pieces.len()).saturating_sub(1)
+    }
+
     /// The integral of one function over the whole interval.
     #[must_use]
     pub fn integral(&self, function: usize) -> f64 {
@@ -147,9 +157,11 @@ impl<const N: usize> Series<N> {
 }
 
 impl<const N: usize> Piece<N> {
-    /// `x` on the piece, from −1 to 1.
+    /// `x` on the piece, from −1 to 1. A place beyond an end is there by its rounding: on a piece as
+    /// narrow as that, the polynomial is not followed further.
     fn inner(&self, x: f64) -> f64 {
-        ((x - self.from) - (self.to - x)) / (self.to - self.from)
+        const BEYOND: f64 = 1.0 + 1e-3;
+        (((x - self.from) - (self.to - x)) / (self.to - self.from)).clamp(-BEYOND, BEYOND)
     }
 }
 
@@ -163,7 +175,12 @@ fn halve<const N: usize, E>(
 ) -> Result<(), E> {
     let terms = interpolate(from, to, f)?;
     let middle = f64::midpoint(from, to);
-    if halvings == 0 || pieces.len() >= MOST_PIECES || has_settled(&terms, &rest(from, to)) {
+    let is_narrow = to - from <= NARROWEST * from.abs().max(to.abs());
+    if halvings == 0
+        || is_narrow
+        || pieces.len() >= MOST_PIECES
+        || has_settled(&terms, &rest(from, to))
+    {
         pieces.push(Piece {
             from,
             to,
@@ -334,6 +351,22 @@ mod tests {
                 assert!((distance.at(part) - at.abs()).abs() < 1e-6, "{at}");
             }
             x += length;
+        }
+    }
+
+    #[test]
+    fn a_place_beside_a_piece_as_narrow_as_rounding_has_the_value_of_its_end() {
+        let (from, to) = (1.0, 1.0 + 4.0 * f64::EPSILON);
+        assert_eq!(series(from, to, |x| [(1e20 * x).sin()]).pieces.len(), 1);
+        let found = series(from, to, |x| [x, (1e20 * x).sin()]);
+        for beside in [from - 100.0 * f64::EPSILON, to + 100.0 * f64::EPSILON] {
+            let [line, rough] = found.at(beside);
+            assert!(
+                (line - 1.0).abs() < 1e-13 && rough.abs() < 2.0,
+                "{line} {rough}"
+            );
+            let [rough] = found.local(1, (beside, 0.0), f64::EPSILON);
+            assert!(rough.at(0.0).abs() < 2.0, "{rough:?}");
         }
     }
 

@@ -12,7 +12,7 @@ use crate::numeric::chebyshev::Series;
 const REST: f64 = 3e-14;
 
 /// Tooth compliances q₁ and q₂ over the distance of the load point from N₁ and N₂.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Flanks {
     driver: Series<1>,
     driven: Series<1>,
@@ -41,6 +41,12 @@ impl Flanks {
                 geometry.driven.tip_curvature,
             )?,
         })
+    }
+
+    /// How often the compliance of a tooth was computed.
+    #[must_use]
+    pub fn evaluations(&self) -> usize {
+        self.driver.evaluations() + self.driven.evaluations()
     }
 
     /// The same flanks with the gears swapped.

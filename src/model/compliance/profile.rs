@@ -110,12 +110,26 @@ impl Profile {
     /// for that rounding has the greatest possible one.
     #[must_use]
     pub fn cut_by(rack: &Rack, circles: &Circles, rounding: f64) -> Profile {
+        let flank = Profile::without_junction(rack, circles, rounding);
+        Profile {
+            junction: flank.find_junction(rack.pressure_angle),
+            ..flank
+        }
+    }
+
+    /// The same without the search for the junction, to read the involute alone.
+    #[must_use]
+    pub(super) fn of_flank(rack: &Rack, circles: &Circles) -> Profile {
+        Profile::without_junction(rack, circles, RACK_ROUNDING)
+    }
+
+    fn without_junction(rack: &Rack, circles: &Circles, rounding: f64) -> Profile {
         let (module, alpha, shift) = (rack.module, rack.pressure_angle, rack.profile_shift);
         let half_pitch = PI / f64::from(rack.teeth);
         let (sine, cosine) = alpha.sin_cos();
         let flank_room = PI / 4.0 - rack.dedendum * sine / cosine;
         let rounding = rack.fitting(rounding);
-        let mut profile = Profile {
+        Profile {
             circles: *circles,
             base_half_angle: half_pitch / 2.0
                 + 2.0 * shift * alpha.tan() / f64::from(rack.teeth)
@@ -129,9 +143,7 @@ impl Profile {
                 roll: 0.0,
                 undercut: false,
             },
-        };
-        profile.junction = profile.find_junction(alpha);
-        profile
+        }
     }
 
     /// Half of the pitch angle π/z, in rad.

@@ -35,7 +35,7 @@ pub(super) fn first(
         }
         let sign = if touches { 1.0 } else { -1.0 };
         let kept: Polynomial<TERMS> = step.ahead.plus(-1.0, gap).scaled(sign);
-        let begins_at_0 = turned.has(pair) && is_rounding(&kept);
+        let begins_at_0 = turned.has(pair) && (kept.0[0] < 0.0 || is_rounding(&kept));
         let part = if begins_at_0 {
             first_fall(&kept.over_argument())
         } else {

@@ -6,6 +6,7 @@ use nalgebra::Vector2;
 
 use super::Settings;
 use crate::model::Refusal;
+use crate::model::budget::MOTION_SWINGS;
 use crate::model::mesh::Mesh;
 
 /// Displacement of the driver ahead in m, and its rate in m/s.
@@ -100,12 +101,11 @@ impl<'a> Motion<'a> {
 
     /// Refuse a way on which the mesh swings too often.
     pub(super) fn check_pace(&self, way: f64) -> Result<(), Refusal> {
-        const MOST: f64 = 1e6;
         let swings = self.time(way) * self.frequency / TAU;
-        if swings > MOST {
+        if swings > MOTION_SWINGS {
             Err(Refusal::TooSlow {
                 swings,
-                limit: MOST,
+                limit: MOTION_SWINGS,
             })
         } else {
             Ok(())

@@ -56,7 +56,7 @@ impl Swing {
     }
 
     /// The greatest force, in N.
-    fn peak(&self) -> f64 {
+    pub(super) fn peak(&self) -> f64 {
         let ends = [0.0, 1.0];
         self.turns
             .iter()
@@ -66,15 +66,11 @@ impl Swing {
     }
 }
 
-/// The greatest force of some swings, in N.
-pub(super) fn peak(swings: &[Swing]) -> f64 {
-    swings.iter().map(Swing::peak).fold(0.0, f64::max)
-}
-
-/// When the force is least for the first time after its first peak, or the contact is lost.
-pub(super) fn end_of_first_impact(swings: &[Swing]) -> Option<f64> {
+/// When the force is least for the first time after its first peak, or the contact is lost; `peak`
+/// is the greatest force of all swings, in N.
+pub(super) fn end_of_first_impact(swings: impl Iterator<Item = Swing>, peak: f64) -> Option<f64> {
     const ROUNDING: f64 = 1e-12;
-    let none = ROUNDING * peak(swings);
+    let none = ROUNDING * peak;
     let (mut has_fallen, mut last) = (false, None);
     for swing in swings {
         let is_apart = |last: f64| swing.begin - last > ROUNDING * swing.begin.abs();

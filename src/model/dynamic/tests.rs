@@ -36,8 +36,8 @@ fn struck(adjust: impl FnOnce(&mut Inputs)) -> (Mesh, Settings) {
     (mesh, settings)
 }
 
-fn ran<'a>(motion: &'a Motion<'a>, settings: &Settings) -> Run<'a> {
-    let mut run = Run::begin(motion, settings.tolerance).unwrap();
+fn ran<'a>(motion: &'a Motion<'a>, settings: &Settings, meter: &'a Meter) -> Run<'a> {
+    let mut run = Run::begin(motion, settings.tolerance, meter).unwrap();
     while !run.is_over() {
         run.cross_window().unwrap();
     }
@@ -110,13 +110,29 @@ fn energies_balance_to_the_tolerance() {
             inputs.driven.tip_relief = 5e-6;
         });
         let motion = Motion::new(&mesh, &settings);
-        let run = ran(&motion, &settings);
+        let meter = Meter::new(MOTION_WORK);
+        let run = ran(&motion, &settings, &meter);
         let (unexplained, turned_over) = run.watch.energies(&motion, &mesh);
         let told = format!(
             "damping {damping_ratio}, friction {friction}: {unexplained:e} of {turned_over:e} J"
         );
         assert!(unexplained < 1e-9 * turned_over, "{told}");
     }
+}
+
+/// A motion ends with the work that it is given, and the refusal has its steps and its part.
+#[test]
+fn a_motion_that_exceeds_its_work_is_refused_with_what_is_done() {
+    let (mesh, settings) = struck(|_| ());
+    let meter = Meter::new(300);
+    let refused = approach(&mesh, &settings, &meter, &|_| true).unwrap_err();
+    let Refusal::MotionTooLong { steps, done } = refused else {
+        panic!("{refused}");
+    };
+    assert!(steps > 20 && done > 0.0 && done < 1.0, "{refused}");
+    assert!(meter.spent() < 300 + 64, "{}", meter.spent());
+    let sentence = format!("{steps} steps, the most that the budget allows");
+    assert!(refused.to_string().contains(&sentence), "{refused}");
 }
 
 impl Watch {

@@ -2,26 +2,38 @@
 
 use std::cell::Cell;
 
-use super::motion::{Motion, Touching, Window};
+use super::motion::{Motion, State, Touching, Window};
 use super::step::{Course, Step};
 use super::swing::{self, Swing};
 use super::{Dynamic, Effort};
 use crate::model::Refusal;
-use crate::model::spacing::Spacing;
+use crate::model::budget::{CURVE_WORK, TURNS};
+use crate::model::spacing::{Resolution, Spacing};
 use crate::model::stations::MeshStation;
 
-/// A step of the run while the incoming pair may touch.
+/// A step of the run.
 struct Record {
-    window: usize,
     touching: Touching,
     step: Step,
+}
+
+/// The steps of a window in which the incoming pair may touch.
+struct Passage {
+    window: Window,
+    /// The incoming pair's place in the window.
+    incoming: usize,
+    records: Vec<Record>,
 }
 
 /// Records of a run.
 #[derive(Default)]
 pub(super) struct Watch {
-    windows: Vec<Window>,
-    records: Vec<Record>,
+    passages: Vec<Passage>,
+    /// Whether the steps now belong to the last of them.
+    is_passing: bool,
+    /// Whether steps are not kept.
+    forgets: bool,
+    bytes: usize,
     touches: Vec<f64>,
     leaves: Vec<f64>,
     most_ahead: f64,
@@ -30,10 +42,37 @@ pub(super) struct Watch {
     looks: Cell<u64>,
 }
 
+/// How the incoming tooth's force rose and fell in a run.
+struct Swings {
+    /// Its greatest force, in N.
+    peak: f64,
+    /// Its greatest force before E, in N.
+    peak_before_start: f64,
+    /// When it neither grew nor fell, in s.
+    turns: Vec<f64>,
+}
+
 impl Watch {
+    /// One that keeps no steps and sees only whether contact is lost.
+    pub(super) fn of_contact_alone() -> Watch {
+        Watch {
+            forgets: true,
+            ..Watch::default()
+        }
+    }
+
     /// From now on the steps belong to this window.
     pub(super) fn enter(&mut self, window: &Window) {
-        self.windows.push(window.clone());
+        self.is_passing = !self.forgets && window.incoming().is_some();
+        if let Some(incoming) = window.incoming().filter(|_| self.is_passing) {
+            self.passages.pop_if(|last| last.records.is_empty());
+            self.bytes += size_of::<Passage>() + size_of_val(&*window.pairs);
+            self.passages.push(Passage {
+                window: window.clone(),
+                incoming,
+                records: Vec::new(),
+            });
+        }
     }
 
     /// Keep a step, in which the driver is never more than `most` ahead.
@@ -41,14 +80,15 @@ impl Watch {
         self.most_ahead = self.most_ahead.max(most);
         let has_begun = motion.place(step.t) >= -motion.mesh.base_pitch * (1.0 + f64::EPSILON);
         self.contact_lost |= has_begun && touching.is_none();
-        let window = self.windows.len() - 1;
-        if self.windows[window].incoming().is_some() {
-            self.records.push(Record {
-                window,
-                touching,
-                step,
-            });
+        if let Some(passage) = self.passages.last_mut().filter(|_| self.is_passing) {
+            self.bytes += size_of::<Record>();
+            passage.records.push(Record { touching, step });
         }
+    }
+
+    /// What the kept steps take, in bytes.
+    pub(super) fn bytes(&self) -> usize {
+        self.bytes
     }
 
     /// Whether no pair at all touched at some moment since one base pitch before E.
@@ -68,17 +108,15 @@ impl Watch {
     /// Whether the incoming pair has left for good: past B, apart, and further apart than the
     /// driver ever was ahead.
     pub(super) fn is_over(&self, motion: &Motion<'_>) -> bool {
-        let Some(record) = self.records.last() else {
+        let last = |passage| Some((passage, Passage::records(passage).last()?));
+        let Some((passage, record)) = self.passages.iter().rev().find_map(last) else {
             return false;
         };
         let t = record.step.end();
-        let Some(incoming) = self.windows[record.window].incoming() else {
-            return false;
-        };
-        let apart = self.course(motion, record).gap(incoming, t) - record.step.state(1.0)[0];
+        let gap = passage.course(motion, record).gap(passage.incoming, t);
         motion.place(t) > motion.mesh.length
             && self.touches.len() == self.leaves.len()
-            && apart > 2.0 * self.most_ahead
+            && gap - record.step.state(1.0)[0] > 2.0 * self.most_ahead
     }
 
     /// What the incoming tooth carried.
@@ -98,24 +136,26 @@ impl Watch {
             Some((motion.place(t) - mesh.length) / mesh.base_radii.0).filter(|&angle| angle > 0.0)
         };
         let swings = self.swings(motion);
-        let peak_force = swing::peak(&swings);
-        let before = swings.partition_point(Swing::is_before_start);
+        let end = || swing::end_of_first_impact(self.each_swing(motion), swings.peak);
+        let (stations, resolution) = first
+            .zip(last)
+            .map_or((Vec::new(), Resolution::Full), |contact| {
+                self.stations(motion, &swings, contact, spacing)
+            });
         Ok(Dynamic {
             first_contact_angle: early.map(|first| -motion.place(first) / mesh.base_radii.1),
             last_contact_angle: last.and_then(after_end),
-            peak_approach_force: swing::peak(&swings[..before]),
-            peak_force,
-            impact_duration: early
-                .and_then(|first| swing::end_of_first_impact(&swings).map(|end| end - first)),
+            peak_approach_force: swings.peak_before_start,
+            peak_force: swings.peak,
+            impact_duration: early.and_then(|first| end().map(|end| end - first)),
             least_gap: early
                 .is_none()
                 .then(|| -self.lead(motion))
                 .filter(|gap| gap.is_finite()),
             contact_lost: self.contact_lost,
             friction_work: (mesh.friction() > 0.0).then(|| self.friction_work(motion)),
-            stations: first.zip(last).map_or_else(Vec::new, |(first, last)| {
-                self.stations(motion, &swings, (first, last), spacing)
-            }),
+            stations,
+            resolution,
             effort: Effort {
                 evaluations: effort.evaluations + self.looks.get(),
                 ..effort
@@ -123,15 +163,21 @@ impl Watch {
         })
     }
 
-    fn course<'a>(&'a self, motion: &'a Motion<'a>, record: &Record) -> Course<'a> {
-        Course::new(motion, &self.windows[record.window], record.touching)
+    /// Every kept step with its passage, in order.
+    fn records(&self) -> impl Iterator<Item = (&Passage, &Record)> + Clone {
+        let of = |passage| {
+            Passage::records(passage)
+                .iter()
+                .map(move |record| (passage, record))
+        };
+        self.passages.iter().flat_map(of)
     }
 
     /// Show every kept step, with what acts in it.
     #[cfg(test)]
     pub(super) fn each_step(&self, motion: &Motion<'_>, mut show: impl FnMut(&Course<'_>, &Step)) {
-        for record in &self.records {
-            show(&self.course(motion, record), &record.step);
+        for (passage, record) in self.records() {
+            show(&passage.course(motion, record), &record.step);
         }
     }
 
@@ -141,33 +187,44 @@ impl Watch {
         &'a self,
         motion: &'a Motion<'a>,
     ) -> impl Iterator<Item = (Course<'a>, usize, &'a Step)> {
-        self.records.iter().filter_map(move |record| {
-            let incoming = self.windows[record.window]
-                .incoming()
-                .filter(|&pair| record.touching.has(pair))?;
-            Some((self.course(motion, record), incoming, &record.step))
-        })
+        self.records()
+            .filter(|(passage, record)| record.touching.has(passage.incoming))
+            .map(|(passage, record)| {
+                let course = passage.course(motion, record);
+                (course, passage.incoming, &record.step)
+            })
     }
 
     /// The most by which the driver is further ahead before E than the gap of an incoming tooth
     /// that does not touch is wide, in m.
     fn lead(&self, motion: &Motion<'_>) -> f64 {
-        let before = self.records.iter().filter(|record| record.step.t < 0.0);
-        before.fold(f64::NEG_INFINITY, |lead, record| {
-            let Some(incoming) = self.windows[record.window].incoming() else {
-                return lead;
-            };
-            let [_, gap] = self
-                .course(motion, record)
-                .spring_along(incoming, &record.step);
+        let before = self.records().filter(|(_, record)| record.step.t < 0.0);
+        before.fold(f64::NEG_INFINITY, |lead, (passage, record)| {
+            let course = passage.course(motion, record);
+            let [_, gap] = course.spring_along(passage.incoming, &record.step);
             record.step.most_beyond(&gap, lead)
         })
     }
 
-    fn swings(&self, motion: &Motion<'_>) -> Vec<Swing> {
+    fn each_swing<'a>(&'a self, motion: &'a Motion<'a>) -> impl Iterator<Item = Swing> {
         self.carried(motion)
             .map(|(course, incoming, step)| Swing::of(step, &course.force_along(incoming, step)))
-            .collect()
+    }
+
+    fn swings(&self, motion: &Motion<'_>) -> Swings {
+        let mut swings = Swings {
+            peak: 0.0,
+            peak_before_start: 0.0,
+            turns: Vec::new(),
+        };
+        for swing in self.each_swing(motion) {
+            swings.peak = swings.peak.max(swing.peak());
+            if swing.is_before_start() {
+                swings.peak_before_start = swings.peak;
+            }
+            swings.turns.extend(swing.turns());
+        }
+        swings
     }
 
     /// ∫ μ F |ΔVτ| dt of the incoming tooth, in J.
@@ -184,45 +241,50 @@ impl Watch {
     fn stations(
         &self,
         motion: &Motion<'_>,
-        swings: &[Swing],
+        swings: &Swings,
         (first, last): (f64, f64),
         spacing: Spacing,
-    ) -> Vec<MeshStation> {
-        let peak = swing::peak(swings);
-        let turns: Vec<f64> = swings.iter().flat_map(Swing::turns).collect();
+    ) -> (Vec<MeshStation>, Resolution) {
+        let (peak, turns) = (swings.peak, &*swings.turns);
         let is_given = spacing.count().is_some();
-        let found = |from: f64, to: f64| {
+        let (stations, resolution) = MeshStation::through_start(first, last, |from, to| {
             let ends = if is_given {
                 vec![from, to]
             } else {
-                self.ends(motion, &turns, (from, to))
+                self.ends(motion, turns, (from, to))
             };
-            spacing.stations(&ends, peak, |t| {
-                let station = self.station(motion, t);
-                (station.map_or(f64::NAN, |station| station.force), station)
-            })
-        };
-        let stations = MeshStation::through_start(first, last, |from, to| {
-            found(from, to).into_iter().flatten().collect()
+            let (times, resolution) = spacing.stations(&ends, peak, CURVE_WORK, |t| {
+                self.looks.set(self.looks.get() + 1);
+                // Heights decide where their number is not given.
+                let moment = (!is_given).then(|| self.moment(motion, t)).flatten();
+                (moment.map_or(f64::NAN, |moment| moment.force(t)), t)
+            });
+            let stations = times.into_iter().filter_map(|t| self.station(motion, t));
+            (stations.collect(), resolution)
         });
         if is_given {
-            self.with_turns(motion, &turns, stations)
-        } else {
-            stations
+            let most = turns.len().min(TURNS);
+            let turns_resolution = if most < turns.len() {
+                Resolution::Limited(TURNS)
+            } else {
+                Resolution::Full
+            };
+            let stations = self.with_turns(motion, &turns[..most], stations);
+            return (stations, resolution.and(turns_resolution));
         }
+        (stations, resolution)
     }
 
     /// The times between which the force is smooth, turns nowhere, and no swing has room to hide
     /// in.
     fn ends(&self, motion: &Motion<'_>, turns: &[f64], (from, to): (f64, f64)) -> Vec<f64> {
-        let is_other = |pair: &&[Record]| {
-            (pair[0].window, pair[0].touching) != (pair[1].window, pair[1].touching)
-        };
         let bends = self
-            .records
-            .windows(2)
-            .filter(is_other)
-            .map(|pair| pair[1].step.t);
+            .records()
+            .zip(self.records().skip(1))
+            .filter(|((passage, record), (next, other))| {
+                !std::ptr::eq(*passage, *next) || record.touching != other.touching
+            })
+            .map(|(_, (_, other))| other.step.t);
         let mut knots: Vec<f64> = turns
             .iter()
             .copied()
@@ -245,39 +307,37 @@ impl Watch {
         &self,
         motion: &Motion<'_>,
         turns: &[f64],
-        mut stations: Vec<MeshStation>,
+        stations: Vec<MeshStation>,
     ) -> Vec<MeshStation> {
         const BESIDE: f64 = 0.02;
+        let mut all = Vec::with_capacity(stations.len());
+        let mut rest = stations.into_iter().peekable();
         for &turn in turns {
-            let time = |at: usize| stations.get(at).and_then(|station| station.time);
-            let after =
-                stations.partition_point(|station| station.time.is_some_and(|time| time < turn));
-            let ends = after.checked_sub(1).and_then(time).zip(time(after));
+            let is_before = |station: &MeshStation| station.time.is_some_and(|time| time < turn);
+            while let Some(station) = rest.next_if(is_before) {
+                all.push(station);
+            }
+            let time = |station: Option<&MeshStation>| station.and_then(|station| station.time);
+            let ends = time(all.last()).zip(time(rest.peek()));
             let is_apart =
                 |(from, to): (f64, f64)| (turn - from).min(to - turn) > BESIDE * (to - from);
             if ends.is_some_and(is_apart) {
-                stations.splice(after..after, self.station(motion, turn));
+                self.looks.set(self.looks.get() + 1);
+                all.extend(self.station(motion, turn));
             }
         }
-        stations
+        all.extend(rest);
+        all.shrink_to_fit();
+        all
     }
 
     fn station(&self, motion: &Motion<'_>, t: f64) -> Option<MeshStation> {
-        self.looks.set(self.looks.get() + 1);
-        let next = self.records.partition_point(|record| record.step.t <= t);
-        let record = self.records.get(next.saturating_sub(1))?;
-        let course = self.course(motion, record);
-        let state = record.step.state((t - record.step.t) / record.step.length);
-        let incoming = self.windows[record.window].incoming()?;
-        let force = if record.touching.has(incoming) {
-            course.force(incoming, t, state[0]).max(0.0)
-        } else {
-            0.0
-        };
+        let moment = self.moment(motion, t)?;
+        let Moment { course, state, .. } = &moment;
         let station = MeshStation::at(
             motion.mesh,
             motion.place(t),
-            force,
+            moment.force(t),
             course.total(t, state[0]),
             state[0],
             Some(t),
@@ -286,5 +346,49 @@ impl Watch {
             rate: Some(state[1]),
             ..station
         })
+    }
+
+    /// What the kept steps say of a time.
+    fn moment<'a>(&'a self, motion: &'a Motion<'a>, t: f64) -> Option<Moment<'a>> {
+        let begins = |record: &Record| record.step.t <= t;
+        let has_begun = |passage: &Passage| passage.records.first().is_some_and(begins);
+        let next = self.passages.partition_point(has_begun);
+        let passage = self.passages.get(next.saturating_sub(1))?;
+        let next = passage.records.partition_point(begins);
+        let Record { touching, step } = passage.records.get(next.saturating_sub(1))?;
+        Some(Moment {
+            course: Course::new(motion, &passage.window, *touching),
+            incoming: passage.incoming,
+            state: step.state((t - step.t) / step.length),
+        })
+    }
+}
+
+/// The motion at a time.
+struct Moment<'a> {
+    course: Course<'a>,
+    /// The incoming pair's place in the window.
+    incoming: usize,
+    state: State,
+}
+
+impl Moment<'_> {
+    /// Force of the incoming tooth, in N.
+    fn force(&self, t: f64) -> f64 {
+        if self.course.touches(self.incoming) {
+            self.course.force(self.incoming, t, self.state[0]).max(0.0)
+        } else {
+            0.0
+        }
+    }
+}
+
+impl Passage {
+    fn records(&self) -> &[Record] {
+        &self.records
+    }
+
+    fn course<'a>(&'a self, motion: &'a Motion<'a>, record: &Record) -> Course<'a> {
+        Course::new(motion, &self.window, record.touching)
     }
 }

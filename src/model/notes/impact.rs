@@ -25,6 +25,7 @@ pub(super) fn withheld(_: &Inputs, solution: &Solution) -> Option<Note> {
 pub(super) fn stations_left_out(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let refusal = solution.stations_withheld?;
     let message = match inputs.stations {
+        _ if solution.method.shares_load() => refusal.to_string(),
         Some(count) => format!(
             "{} of {} stations are omitted: {refusal}",
             count + 1 - solution.stations.len(),

@@ -1,16 +1,21 @@
 //! A curve looked at more closely where it is bent, and the fewest of those places that tell it.
 
+use super::Resolution;
+
 /// Of what is allowed: what may lie between two places that were looked at, and what may be left
 /// out of those.
 const BETWEEN: f64 = 0.2;
 const LEFT_OUT: f64 = 1.0 - BETWEEN;
 /// No piece is halved more often.
 const MOST_HALVINGS: u32 = 16;
+/// Places of a piece before it is halved.
+const PLACES: usize = 4;
 
 /// A curve looked at in some places, in their order.
 pub(super) struct Look<T> {
     samples: Vec<Sample<T>>,
     allowed: f64,
+    resolution: Resolution,
 }
 
 struct Sample<T> {
@@ -29,8 +34,13 @@ struct Part {
 
 impl<T> Look<T> {
     /// Look at the curve between each two of the ends, until what lies between two looks is known
-    /// well enough.
-    pub(super) fn along(ends: &[f64], allowed: f64, at: impl FnMut(f64) -> (f64, T)) -> Look<T> {
+    /// well enough, in no more places than `most`.
+    pub(super) fn along(
+        ends: &[f64],
+        allowed: f64,
+        most: usize,
+        at: impl FnMut(f64) -> (f64, T),
+    ) -> Look<T> {
         // Two halves: a single part that is alike on both sides could hide its bends.
         let halves = [
             ends[0],
@@ -38,18 +48,29 @@ impl<T> Look<T> {
             ends[ends.len() - 1],
         ];
         let ends = if ends.len() == 2 { &halves } else { ends };
+        let limited = Resolution::Limited(most);
+        let fewer = fewer(ends, most / PLACES - 1);
+        let ends = fewer.as_deref().unwrap_or(ends);
         let mut looking = Looking {
             at,
             samples: Vec::new(),
             allowed,
+            rest: most.saturating_sub(1 + PLACES * (ends.len() - 1)),
+            resolution: if fewer.is_some() {
+                limited
+            } else {
+                Resolution::Full
+            },
+            limited,
         };
         let mut height = looking.sample(ends[0]);
         for pair in ends.windows(2) {
             height = looking.piece((pair[0], height), pair[1]);
         }
+        let resolution = looking.resolution;
         let mut samples = looking.samples;
         let is_forward = ends[0] <= ends[ends.len() - 1];
-        samples.sort_by(|one, other| {
+        samples.sort_unstable_by(|one, other| {
             let (one, other) = if is_forward {
                 (one, other)
             } else {
@@ -60,7 +81,13 @@ impl<T> Look<T> {
         Look {
             samples,
             allowed: LEFT_OUT * allowed,
+            resolution,
         }
+    }
+
+    /// Whether what lies between two looks is known well enough everywhere.
+    pub(super) fn resolution(&self) -> Resolution {
+        self.resolution
     }
 
     /// Both ends, the highest place, and between them no more than are needed. Heights that are no
@@ -115,11 +142,24 @@ impl<T> Look<T> {
     }
 }
 
+/// Every so many of the ends and the last, where they leave more than `most` pieces.
+fn fewer(ends: &[f64], most: usize) -> Option<Vec<f64>> {
+    let pieces = ends.len() - 1;
+    (pieces > most).then(|| {
+        let inner = ends[..pieces].iter().step_by(pieces.div_ceil(most));
+        inner.chain(ends.last()).copied().collect()
+    })
+}
+
 /// A look on its way.
 struct Looking<T, F> {
     at: F,
     samples: Vec<Sample<T>>,
     allowed: f64,
+    /// Places beyond those of the pieces.
+    rest: usize,
+    resolution: Resolution,
+    limited: Resolution,
 }
 
 impl<T, F: FnMut(f64) -> (f64, T)> Looking<T, F> {
@@ -156,6 +196,11 @@ impl<T, F: FnMut(f64) -> (f64, T)> Looking<T, F> {
         if halvings == 0 || !is_bent {
             return;
         }
+        if self.rest < PLACES {
+            self.resolution = self.limited;
+            return;
+        }
+        self.rest -= PLACES;
         let Part {
             from,
             to,

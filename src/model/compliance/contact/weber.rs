@@ -88,11 +88,11 @@ fn weber(
         )
     };
     let driver = depth(
-        &Profile::of(&elasticity.driver.rack, &geometry.driver),
+        &Profile::of_flank(&elasticity.driver.rack, &geometry.driver),
         place.radius_driver,
     )?;
     let driven = depth(
-        &Profile::of(&elasticity.driven.rack, &geometry.driven),
+        &Profile::of_flank(&elasticity.driven.rack, &geometry.driven),
         place.radius_driven,
     )?;
     let (first, second) = (

@@ -1,0 +1,241 @@
+//! The zones of a mesh: on the line of action, and beyond both its ends, where a tip is in contact.
+
+use super::MeshInputs;
+use crate::model::Refusal;
+use crate::model::compliance::ContactPlace;
+use crate::model::compliance::flanks::Flanks;
+use crate::model::geometry::{Geometry, geometry};
+use crate::model::position::first_contact;
+use crate::model::relief::Relief;
+use crate::model::tip_gap::{TipContact, angle_at_curvature, gap, tip_at};
+use crate::numeric::chebyshev::Series;
+use crate::numeric::root;
+
+/// No tip is followed further from its end of the path of contact, in rad.
+const LARGEST_ANGLE: f64 = 1.5;
+
+pub(super) const STIFFNESS: usize = 0;
+pub(super) const GAP: usize = 1;
+pub(super) const LEVER: usize = 2;
+pub(super) const SLIDING: usize = 3;
+
+/// A part of the way on which everything is smooth.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Zone {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    /// The four values of [`Place`](super::Place).
+    pub(super) series: Series<4>,
+}
+
+/// The pair as seen from one end of its path of contact: the run-in, or by swapped gears the
+/// run-out.
+pub(super) struct End {
+    pub(super) inputs: MeshInputs,
+    pub(super) geometry: Geometry,
+    pub(super) flanks: Flanks,
+    /// −1 where s falls with the distance from the path of contact.
+    pub(super) side: f64,
+}
+
+/// Zones from one border to the next, over which the four functions of `f` are smooth, to thirteen
+/// digits of their sizes; a gap grows from `edge`, with as many digits as the way from there and the
+/// relief have.
+fn push_zones(
+    borders: &mut Vec<f64>,
+    (size, edge, relief): ([f64; 4], f64, &Relief),
+    f: &impl Fn(f64) -> Result<[f64; 4], Refusal>,
+    zones: &mut Vec<Zone>,
+) -> Result<(), Refusal> {
+    const REST: f64 = 1e-13;
+    let relief_rounding = relief.rounding();
+    let rest = |from: f64, to: f64| {
+        let mut rest = size.map(|size| REST * size);
+        rest[GAP] += 16.0 * f64::EPSILON * (from - edge).abs().max((to - edge).abs());
+        rest[GAP] = rest[GAP].max(relief_rounding);
+        rest
+    };
+    borders.sort_by(f64::total_cmp);
+    let whole = borders.last().copied().unwrap_or(0.0) - borders.first().copied().unwrap_or(0.0);
+    borders.dedup_by(|one, other| *one - *other <= 1e-9 * whole);
+    for ends in borders.windows(2) {
+        let (from, to) = (ends[0], ends[1]);
+        zones.push(Zone {
+            from,
+            to,
+            series: Series::of(from, to, &rest, f)?,
+        });
+    }
+    Ok(())
+}
+
+/// The zones of the line of action.
+pub(super) fn line_zones(
+    inputs: &MeshInputs,
+    geometry: &Geometry,
+    (flanks, relief): (&Flanks, &Relief),
+    force: f64,
+    zones: &mut Vec<Zone>,
+) -> Result<(), Refusal> {
+    let length = geometry.end - geometry.start;
+    let rest = geometry.tangent_length - geometry.start;
+    let speeds = inputs.speed + inputs.driven_speed();
+    let at = |s: f64| {
+        let along = geometry.start + s;
+        let place = ContactPlace::on_line_of_action(geometry, along);
+        let compliance = flanks.pair_at_load(
+            &inputs.elasticity,
+            geometry,
+            &place,
+            (along, rest - s),
+            force,
+        )?;
+        Ok([
+            inputs.elasticity.width / compliance,
+            relief.at(along, rest - s),
+            along / geometry.driver.base,
+            speeds * (geometry.approach_length - s),
+        ])
+    };
+    let pitch_point = [geometry.approach_length];
+    let driver_ends = relief
+        .ends_on_driver()
+        .map(|curvature| curvature - geometry.start);
+    let driven_ends = relief.ends_on_driven().map(|curvature| rest - curvature);
+    let mut borders: Vec<f64> = driver_ends.chain(driven_ends).chain(pitch_point).collect();
+    borders.retain(|&border| border > 0.0 && border < length);
+    borders.extend([0.0, length]);
+    let stiffness = at(0.5 * length)?[STIFFNESS];
+    push_zones(
+        &mut borders,
+        (
+            [stiffness, relief.most(), 1.0, speeds * length],
+            0.0,
+            relief,
+        ),
+        &at,
+        zones,
+    )
+}
+
+impl End {
+    /// The other end, with the gears swapped: there the driver's tip meets the driven flank.
+    pub(super) fn swapped(&self) -> Result<End, Refusal> {
+        let inputs = self.inputs.swapped();
+        let geometry = geometry(&inputs.shape).map_err(|refusal| match refusal {
+            Refusal::Interference { start } => Refusal::InterferenceAtEnd { start },
+            other => other,
+        })?;
+        Ok(End {
+            inputs,
+            geometry,
+            flanks: self.flanks.swapped(),
+            side: 1.0,
+        })
+    }
+
+    /// The angle up to which gaps below `reach` stand, and whether the tip's circle ends there.
+    pub(super) fn angle_of_reach(&self, reach: f64) -> (f64, bool) {
+        let circle = angle_at_curvature(&self.geometry, self.geometry.end);
+        let whole = if circle.is_finite() {
+            circle.min(LARGEST_ANGLE)
+        } else {
+            LARGEST_ANGLE
+        };
+        match first_contact(&self.geometry, reach) {
+            Ok(angle) if angle < whole => (angle, false),
+            _ => (whole, true),
+        }
+    }
+
+    /// The zones from the end of the path of contact at `edge` to the angle `reach`.
+    pub(super) fn zones(
+        &self,
+        relief: &Relief,
+        force: f64,
+        reach: f64,
+        edge: f64,
+        zones: &mut Vec<Zone>,
+    ) -> Result<(), Refusal> {
+        let base = self.geometry.driven.base;
+        let angle_of = |s: f64| (self.side * (s - edge) / base).max(0.0);
+        let at = |s: f64| self.at(relief, force, angle_of(s));
+        let turns = self
+            .angles_of_relief_ends(relief)
+            .chain(self.angle_of_rolling(reach));
+        let mut borders: Vec<f64> = turns
+            .filter(|&angle| angle > 0.0 && angle < reach)
+            .collect();
+        borders.extend([0.0, reach]);
+        for border in &mut borders {
+            *border = edge + self.side * base * *border;
+        }
+        let (start, end) = (at(edge)?, at(edge + self.side * base * reach)?);
+        let size = |function: usize| start[function].abs().max(end[function].abs());
+        push_zones(
+            &mut borders,
+            (
+                [start[STIFFNESS], 0.0, size(LEVER), size(SLIDING)],
+                edge,
+                relief,
+            ),
+            &at,
+            zones,
+        )
+    }
+
+    /// The four values at an angle from the end of the path of contact.
+    fn at(&self, relief: &Relief, force: f64, angle: f64) -> Result<[f64; 4], Refusal> {
+        let tip = tip_at(&self.geometry, angle);
+        let place = ContactPlace::at_tip(self.inputs.tip_radii[1], &self.geometry, &tip);
+        let arms = (tip.curvature_driver, self.geometry.driven.tip_curvature);
+        let compliance = self.flanks.pair_at_load(
+            &self.inputs.elasticity,
+            &self.geometry,
+            &place,
+            arms,
+            force,
+        )?;
+        let sliding = self.inputs.driven_speed() * tip.sliding_arm;
+        let (relief, lever) = if self.side < 0.0 {
+            (
+                relief.at(tip.curvature_driver, self.geometry.driven.tip_curvature),
+                tip.curvature_driver / self.geometry.driver.base,
+            )
+        } else {
+            (
+                relief.at(self.geometry.driven.tip_curvature, tip.curvature_driver),
+                self.lever_of_tip(&tip),
+            )
+        };
+        Ok([
+            self.inputs.elasticity.width / compliance,
+            gap(&self.geometry, &tip) + relief,
+            lever,
+            -self.side * sliding,
+        ])
+    }
+
+    /// After B the driver's own arm is that of its tip.
+    fn lever_of_tip(&self, tip: &TipContact) -> f64 {
+        tip.normal_length_driven / self.geometry.driven.base
+    }
+
+    fn angles_of_relief_ends(&self, relief: &Relief) -> impl Iterator<Item = f64> {
+        let ends: Vec<f64> = if self.side < 0.0 {
+            relief.ends_on_driver().collect()
+        } else {
+            relief.ends_on_driven().collect()
+        };
+        let geometry = self.geometry;
+        ends.into_iter()
+            .filter(move |&end| end > geometry.start)
+            .map(move |end| angle_at_curvature(&geometry, end))
+    }
+
+    /// Where the tip all but rolls: there friction turns round.
+    fn angle_of_rolling(&self, reach: f64) -> Option<f64> {
+        let sliding = |angle: f64| tip_at(&self.geometry, angle).sliding_arm;
+        (sliding(0.0) * sliding(reach) < 0.0).then(|| root::between(0.0, reach, sliding))
+    }
+}
