@@ -89,7 +89,7 @@ fn what_cannot_be_is_said_and_the_line_stays() {
     );
     desk.keys(&["Esc", "a", "D", "Enter"]);
     assert!(
-        desk.shows("no corner contact: there is no D"),
+        desk.shows("no corner contact, no first contact D"),
         "{}",
         desk.screen()
     );

@@ -259,14 +259,14 @@ fn zoom_goes_to_the_strike_around_the_cursor_and_back_to_the_whole() {
     assert!(window(&desk).length() < all.length());
     desk.keys(&["0", "c"]);
     assert_eq!(chart(&desk), whole);
-    assert!(desk.keys(&["-"]).shows("this is all of it"));
+    assert!(desk.keys(&["-"]).shows("the whole range is visible"));
     desk.act(Action::Wheel(
         Position::new(20, chart_area(&desk).y + 2),
         -3,
     ));
     assert!(window(&desk).length() < all.length(), "the wheel zooms");
     desk.keys(&["+"; 30]);
-    assert!(desk.shows("this is the closest"));
+    assert!(desk.shows("the zoom is at its maximum"));
 }
 
 #[test]

@@ -28,7 +28,7 @@ use tipstrike::tui::theme::Look;
 use tty::{Launch, PATIENCE, TABLE_1, Tty, has_faults_on_demand, is_there, journals, stat};
 
 const SECOND: Duration = Duration::from_secs(1);
-const OFFER: &str = "Unsaved edits were kept";
+const OFFER: &str = "Unsaved edits found";
 
 /// The workbench on Table 1, ready for keys; the module is focused.
 fn opened() -> Tty {

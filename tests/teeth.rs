@@ -340,13 +340,13 @@ fn keys_change_what_is_in_sight_and_zero_brings_it_back() {
     assert_eq!(desk.screen(), at_first);
     desk.keys(&["-"; 12]);
     assert!(
-        desk.shows("this is all of it") && desk.shows("O1"),
+        desk.shows("the whole range is visible") && desk.shows("O1"),
         "{}",
         desk.screen()
     );
     desk.keys(&["+"; 40]);
     assert!(
-        desk.shows("this is the closest") && desk.shows("um "),
+        desk.shows("the zoom is at its maximum") && desk.shows("um "),
         "{}",
         desk.screen()
     );

@@ -55,7 +55,7 @@ pub struct App {
     pub chart: ChartView,
     /// The chart, by its place in the table; until the workbench is left.
     pub graph: usize,
-    /// Whether the charts tell the time after E in place of the roll angle before it; until the
+    /// Whether x axis: time after E in place of the roll angle before it; until the
     /// workbench is left.
     pub by_time: bool,
     /// Whether the cursor runs by itself.

@@ -22,9 +22,9 @@ pub(super) fn choose(app: &mut App, graph: usize) {
 pub(super) fn time_or_angle(app: &mut App) {
     app.by_time = !app.by_time;
     app.say(if app.by_time {
-        "the charts tell the time after E"
+        "x axis: time after E"
     } else {
-        "the charts tell the roll angle before E"
+        "x axis: driver roll angle before E"
     });
 }
 
@@ -38,9 +38,9 @@ pub(super) fn zoom(app: &mut App, steps: i32) {
     let view = app.chart.zoomed(steps, around, &app.scale);
     if view == app.chart {
         app.say(if steps > 0 {
-            "this is the closest"
+            "the zoom is at its maximum"
         } else {
-            "this is all of it"
+            "the whole range is visible"
         });
     }
     app.chart = view;
@@ -56,7 +56,7 @@ pub(super) fn strike_or_whole(app: &mut App) {
     app.chart = app.chart.strike_or_whole();
     app.say(match app.chart.frame {
         Frame::Strike if app.scale.strike.is_empty() => {
-            "no corner contact: there is no strike to look at"
+            "no corner contact: there is no strike to show"
         }
         Frame::Strike => "the charts around the strike",
         Frame::Whole => "the charts over the whole contact",

@@ -15,7 +15,7 @@ use crate::tui::view::cursor_range::{cursor_range, parse_cursor, solution};
 pub(super) fn step(app: &mut App, columns: i16) -> Vec<Effect> {
     match cursor_range(app) {
         Some(reach) => app.cursor = Some(reach.moved(app.cursor, columns)),
-        None => app.complain("no valid results to point at"),
+        None => app.complain("no valid results for the cursor"),
     }
     stop(app)
 }
@@ -24,7 +24,7 @@ pub(super) fn step(app: &mut App, columns: i16) -> Vec<Effect> {
 pub(super) fn to_start(app: &mut App) -> Vec<Effect> {
     match solution(app).and_then(first_contact) {
         Some(angle) => app.cursor = Some(angle),
-        None => app.complain("no corner contact: there is no D"),
+        None => app.complain("no corner contact, no first contact D"),
     }
     stop(app)
 }
@@ -34,7 +34,7 @@ pub(super) fn ask(app: &mut App) {
     if cursor_range(app).is_some() {
         app.prompts.push(Prompt::Aim(Line::default()));
     } else {
-        app.complain("no valid results to point at");
+        app.complain("no valid results for the cursor");
     }
 }
 

@@ -8,12 +8,12 @@ use crate::tui::zoom::{Exaggeration, TeethView};
 pub(super) fn zoom(app: &mut App, steps: i32) {
     match solved(app).map(|(inputs, solution)| app.teeth.zoomed(steps, inputs, solution)) {
         Some(view) if view == app.teeth => app.say(if steps > 0 {
-            "this is the closest"
+            "the zoom is at its maximum"
         } else {
-            "this is all of it"
+            "the whole range is visible"
         }),
         Some(view) => app.teeth = view,
-        None => app.complain("no valid results to look at"),
+        None => app.complain("no valid results to show"),
     }
 }
 
@@ -32,7 +32,7 @@ pub(super) fn centre_step(app: &mut App, by: isize) {
 pub(super) fn exaggerate_or_not(app: &mut App) {
     app.teeth = app.teeth.exaggerated_or_not();
     app.say(match app.teeth.exaggeration {
-        Exaggeration::Fitted => "the gap is drawn wider by the factor that is told",
-        Exaggeration::True => "the gap is drawn as it is",
+        Exaggeration::Fitted => "the gap is drawn enlarged by the printed factor",
+        Exaggeration::True => "the gap is drawn true to scale",
     });
 }

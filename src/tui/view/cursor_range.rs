@@ -69,8 +69,8 @@ impl Reach {
 /// # Errors
 /// In words, where none is or the cursor cannot stand there.
 pub fn parse_cursor(app: &App, typed: &str) -> Result<f64, String> {
-    let solution = solution(app).ok_or("no valid results to point at")?;
-    let reach = cursor_range(app).ok_or("no valid results to point at")?;
+    let solution = solution(app).ok_or("no valid results for the cursor")?;
+    let reach = cursor_range(app).ok_or("no valid results for the cursor")?;
     let angle = match place(app, solution, typed.trim()) {
         Some(place) => place?,
         None => measured(app, typed)?,
@@ -129,7 +129,10 @@ fn place(app: &App, solution: &Solution, name: &str) -> Option<Result<f64, Strin
     let geometry = &solution.geometry;
     let found = |angle: Option<f64>, why: &str| angle.ok_or_else(|| why.to_owned());
     Some(match name.to_lowercase().as_str() {
-        "d" => found(first_contact(solution), "no corner contact: there is no D"),
+        "d" => found(
+            first_contact(solution),
+            "no corner contact, no first contact D",
+        ),
         "e" => Ok(0.0),
         "b" => Ok((geometry.start - geometry.end) / geometry.driver.base),
         "l" => found(
