@@ -27,8 +27,9 @@ use super::panes::teeth;
 
 pub use super::text;
 
-/// Room for a title beside the names of hidden panes.
-const LEAST_TITLE: usize = 32;
+/// The least columns of a title beside the keys of hidden panes, and beside their names.
+const LEAST_TITLE: usize = 16;
+const TITLE_BESIDE_NAMES: usize = 32;
 
 /// Draw the whole screen; the place of the cursor, where there is one.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
@@ -116,7 +117,7 @@ fn hidden(app: &App, pane: Pane, width: u16) -> String {
         .map(|pane| format!(" {} {} ", pane.number(), pane.name()))
         .collect();
     let named = named.concat();
-    if named.width() + LEAST_TITLE <= width.into() {
+    if named.width() + TITLE_BESIDE_NAMES <= width.into() {
         return named;
     }
     plan.hidden()
