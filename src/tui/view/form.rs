@@ -169,14 +169,13 @@ fn group_title(app: &App, index: usize) -> String {
     )
 }
 
-// An unfinished value is explained in the hint until the field is left. A missing value needs no
-// reason: the field itself shows that it is required.
+// What is merely unfinished is told beside the form until the field is left.
 fn reasons(app: &App, field: usize, width: u16) -> impl Iterator<Item = String> {
-    let has_reason = !app.is_unfinished(field) && !app.lacks(field);
+    let is_unfinished = app.is_unfinished(field);
     let own = app
         .problems
         .iter()
-        .filter(move |(at, _)| *at == field && has_reason);
+        .filter(move |(at, _)| *at == field && !is_unfinished);
     own.flat_map(move |(_, problem)| {
         let lines = text::wrap(
             &format!("{}: {}", problem.cause, problem.mend),
@@ -509,7 +508,7 @@ fn draw_text(
         return cursor;
     }
     let shown = written.map_or(unwritten.into(), ascii::printable);
-    let faint = if written.is_none() && !app.lacks(index) {
+    let faint = if written.is_none() {
         app.look.theme.faint
     } else {
         style
