@@ -23,6 +23,7 @@ use crate::case::{Case, units};
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Note, QUANTITIES, Quantity, Refusal, Solution, Stage, Stages};
 use crate::numeric::decimal::significant;
+#[cfg(any(feature = "cli", feature = "tui"))]
 pub(crate) use layout::with_units;
 
 /// A value as a person reads it.

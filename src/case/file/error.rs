@@ -17,7 +17,7 @@ pub enum ReadError {
     /// It is a folder, a pipe or a device.
     #[error("{0}: this is not a regular file")]
     NotAFile(String),
-    /// It is longer than [`MOST_BYTES`].
+    /// It is longer than [`MOST_BYTES`](super::MOST_BYTES).
     #[error("{0}: the file is longer than 1024 KiB, so it is no case")]
     TooLarge(String),
     /// The system refuses to read it.

@@ -22,7 +22,7 @@ impl Flanks {
     /// Both flanks, from the far end of the path of contact to the tip.
     ///
     /// # Errors
-    /// Those of the teeth, see [`super::teeth`].
+    /// Those of the teeth, see [`Teeth`](super::Teeth).
     pub fn new(elasticity: &Elasticity, geometry: &Geometry) -> Result<Flanks, Refusal> {
         let of = |gear: &ElasticGear, circles: &Circles, from: f64, to: f64| {
             let tooth = Tooth::of(elasticity.tooth, gear, circles)?;
