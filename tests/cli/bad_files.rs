@@ -1,0 +1,454 @@
+//! Every bad file is refused at the right place, with the cause and the mend, all faults in one
+//! run.
+use tipstrike::case::Document;
+use tipstrike::case::file::{Fault, FaultKind, MOST_BYTES};
+
+const GOOD: &str = include_str!("../../cases/zhou-chen-2014.toml");
+
+fn faults(text: &str) -> Vec<Fault> {
+    Document::parse("bad.toml", text).err().unwrap_or_default()
+}
+
+fn printed(faults: &[Fault]) -> String {
+    faults
+        .iter()
+        .map(Fault::to_string)
+        .collect::<Vec<_>>()
+        .join("\n")
+}
+
+/// A fault as a row expects it: line, column, field, part of the cause, part of the mend.
+type Row<'r> = (usize, usize, &'r str, &'r str, &'r str);
+
+#[track_caller]
+fn expect(text: &str, rows: &[Row<'_>]) {
+    let found = faults(text);
+    assert_eq!(found.len(), rows.len(), "{text:?}\n{}", printed(&found));
+    for (fault, &(line, column, field, cause, mend)) in found.iter().zip(rows) {
+        let shown = printed(&found);
+        assert_eq!(
+            (fault.line, fault.column, fault.field.as_str()),
+            (line, column, field),
+            "{text:?}\n{shown}"
+        );
+        assert!(fault.cause.contains(cause), "cause {cause:?} of {shown}");
+        assert!(fault.mend.contains(mend), "mend {mend:?} of {shown}");
+    }
+}
+
+const MODULE: &str = "module = \"5 mm\"";
+
+/// A line of the good case, what stands in its place, how many lines below and in which column the
+/// fault is, its field, a part of its cause and a part of its mend.
+type OneLine = (
+    &'static str,
+    &'static str,
+    usize,
+    usize,
+    &'static str,
+    &'static str,
+    &'static str,
+);
+
+#[rustfmt::skip]
+const ONE_BAD_LINE: &[OneLine] = &[
+    // values with units
+    (MODULE, "module = 5", 0, 10, "pair.module", "bare number where a length", "\"5 mm\""),
+    (MODULE, "module = 5.0", 0, 10, "pair.module", "bare number", "\"5.0 mm\""),
+    (MODULE, "module = \"5\"", 0, 10, "pair.module", "bare number", "\"5 mm\""),
+    (MODULE, "module = \"4,5 mm\"", 0, 10, "pair.module", "comma", "write 4.5, not 4,5"),
+    (MODULE, "module = \"−5 mm\"", 0, 10, "pair.module", "not the minus sign", "write -5 mm"),
+    (MODULE, "module = \"1e-400 mm\"", 0, 10, "pair.module", "too near to zero", "write 0"),
+    (MODULE, "module = \"1e400 mm\"", 0, 10, "pair.module", "too large", "smaller"),
+    (MODULE, "module = \"nan mm\"", 0, 10, "pair.module", "not a finite number", "20 mm"),
+    (MODULE, "module = \"inf mm\"", 0, 10, "pair.module", "not a finite number", "20 mm"),
+    (MODULE, "module = nan", 0, 10, "pair.module", "not a finite number", "20 mm"),
+    (MODULE, "module = -inf", 0, 10, "pair.module", "not a finite number", "20 mm"),
+    (MODULE, "module = \"16 kg\"", 0, 10, "pair.module", "unit of mass, not of length", "use one of mm"),
+    (MODULE, "module = \"5 mmm\"", 0, 10, "pair.module", "unknown unit `mmm`", "did you mean mm?"),
+    (MODULE, "module = \"mm\"", 0, 10, "pair.module", "does not begin with a number", "20 mm"),
+    (MODULE, "module = \"\"", 0, 10, "pair.module", "no value", "module = \"5 mm\""),
+    (MODULE, "module = \"five mm\"", 0, 10, "pair.module", "does not begin with a number", "20 mm"),
+    (MODULE, "module = \"5 mm wide\"", 0, 10, "pair.module", "unknown unit", "use one of"),
+    (MODULE, "module = \"0 mm\"", 0, 10, "pair.module", "below the limit of 0.05 mm", "from 0.05 to 50 mm"),
+    (MODULE, "module = \"51 mm\"", 0, 10, "pair.module", "above the limit of 50 mm", "from 0.05 to 50 mm"),
+    (MODULE, "module = [\"5 mm\"]", 0, 10, "pair.module", "an array", "module = \"5 mm\""),
+    (MODULE, "module = { value = \"5 mm\" }", 0, 10, "pair.module", "a table", "module = \"5 mm\""),
+    (MODULE, "module = 1979-05-27", 0, 10, "pair.module", "a date", "module = \"5 mm\""),
+    (MODULE, "module = true", 0, 10, "pair.module", "true or false", "module = \"5 mm\""),
+    ("pressure_angle = \"20 deg\"", "pressure_angle = \"20 mm\"", 0, 18, "pair.pressure_angle", "length, not of angle", "deg"),
+    ("pressure_angle = \"20 deg\"", "pressure_angle = \"20 grad\"", 0, 18, "pair.pressure_angle", "unknown unit", "rad"),
+    ("face_width = \"8 mm\"", "face_width = \"-8 mm\"", 0, 14, "driver.face_width", "below the limit", "from 0.1"),
+    ("power = \"15 kW\"", "power = \"15 kNm\"", 0, 9, "operation.power", "torque, not of power", "kW"),
+    ("speed = \"2000 rpm\"", "speed = \"2000 Hz\"", 0, 9, "operation.speed", "unknown unit `Hz`", "use one of rpm"),
+    ("young = \"205 GPa\"", "young = \"205 gpa\"", 0, 9, "driver.young", "unknown unit `gpa`", "did you mean GPa?"),
+    // bare numbers
+    ("teeth = 20", "teeth = 20.5", 0, 9, "driver.teeth", "not a whole number", "such as 20"),
+    ("teeth = 20", "teeth = -20", 0, 9, "driver.teeth", "below the limit of 5", "from 5 to 1000"),
+    ("teeth = 20", "teeth = \"20\"", 0, 9, "driver.teeth", "quotes", "without quotes"),
+    ("teeth = 20", "teeth = 1e400", 0, 9, "driver.teeth", "too large", "whole number"),
+    ("teeth = 20", "teeth = 20 mm", 0, 9, "driver.teeth", "unit `mm`", "write 20"),
+    ("teeth = 20", "teeth = 020", 0, 9, "driver.teeth", "not how TOML writes", "write 20"),
+    ("poisson = 0.3", "poisson = 0,3", 0, 11, "driver.poisson", "comma", "write 0.3, not 0,3"),
+    ("poisson = 0.3", "poisson = .3", 0, 11, "driver.poisson", "not how TOML writes", "write 0.3"),
+    ("poisson = 0.3", "poisson = \"0.3\"", 0, 11, "driver.poisson", "quotes", "without quotes"),
+    ("poisson = 0.3", "poisson = inf", 0, 11, "driver.poisson", "not a finite number", "0.5"),
+    ("poisson = 0.3", "poisson = 1e-400", 0, 11, "driver.poisson", "too near to zero", "write 0"),
+    ("poisson = 0.3", "poisson = −0.3", 0, 11, "driver.poisson", "not the minus sign", "write -0.3"),
+    ("stations = 64", "stations = 0", 0, 12, "model.stations", "below the limit of 1", "from 1 to 10000"),
+    ("teeth = 20", "teeth = twenty", 0, 9, "driver.teeth", "does not begin with a number", "whole number, such as 20"),
+    ("poisson = 0.3", "poisson = \"30 %\"", 0, 11, "driver.poisson", "quotes", "write poisson = 0.3, without quotes"),
+    ("stations = 64", "stations = \"many\"", 0, 12, "model.stations", "quotes", "write stations = "),
+    ("young = \"205 GPa\"", "young = \"205000\"", 0, 9, "driver.young", "bare number", "\"205000 MPa\""),
+    (MODULE, "module = “5 mm”", 0, 10, "pair.module", "not the straight ones", "\"5 mm\""),
+    (MODULE, "module: \"5 mm\"", 0, 7, "pair.module", "`:` stands where `=` is due", "module = \"5 mm\""),
+    // words and choices
+    ("method = \"exact\"", "method = \"exat\"", 0, 10, "model.method", "unknown choice `exat`", "did you mean exact?"),
+    ("method = \"exact\"", "method = \"dinamic\"", 0, 10, "model.method", "unknown choice `dinamic`", "did you mean dynamic?"),
+    ("method = \"exact\"", "method = 2", 0, 10, "model.method", "a number stands where a text in quotes", "\"exact\""),
+    ("method = \"exact\"", "method = exact", 0, 10, "model.method", "not in quotes", "write \"exact\""),
+    ("title = \"Zhou & Chen 2014, Table 1\"", "title = [1]", 0, 9, "title", "an array", "title = "),
+    // keys and tables
+    (MODULE, "modul = \"5 mm\"\nmodule = \"5 mm\"", 0, 1, "pair.modul", "unknown key `modul`", "did you mean module?"),
+    (MODULE, "module = \"5 mm\"\nteeth = 20", 1, 1, "pair.teeth", "unknown key `teeth`", "belongs under [driver]"),
+    (MODULE, "module = \"5 mm\"\nmodule = \"6 mm\"", 1, 1, "pair.module", "there twice", "keep one"),
+    ("[limits]", "[lmits]", 0, 2, "lmits", "unknown key or table", "did you mean limits?"),
+    ("[limits]", "[limits]\n[limits]", 1, 2, "limits", "there twice", "under one header"),
+    ("impact_force = \"2500 N\"", "impact_forse = \"2500 N\"", 0, 1, "limits.impact_forse", "unknown quantity", "did you mean impact_force?"),
+    ("impact_force = \"2500 N\"", "F_S = \"2500 N\"", 0, 1, "limits.F_S", "symbol of impact_force", "write impact_force"),
+    ("impact_force = \"2500 N\"", "dynamic_contact_lost = false", 0, 24, "limits.dynamic_contact_lost", "true or false", "dynamic_contact_lost = 0"),
+    ("impact_force = \"2500 N\"", "normal_velocity = [1]", 0, 19, "limits.normal_velocity", "an array", "normal_velocity = \"1 m/s\""),
+    ("impact_force = \"2500 N\"", "impact_force = 2500", 0, 16, "limits.impact_force", "bare number", "\"2500 N\""),
+    ("impact_force = \"2500 N\"", "impact_force = \"2500 mm\"", 0, 16, "limits.impact_force", "length, not of force", "use one of N"),
+    ("impact_force = \"2500 N\"", "dynamic_factor = \"1.5 N\"", 0, 18, "limits.dynamic_factor", "quotes", "without quotes"),
+    ("impact_force = \"2500 N\"", "[spread]\n\"driver.teet\" = { normal = \"1 um\" }", 1, 1, "spread.\"driver.teet\"", "unknown key", "driver.teeth"),
+    ("impact_force = \"2500 N\"", "[spread]\n\"pair.module\" = { norml = \"1 um\" }", 1, 17, "spread.\"pair.module\"", "unknown distribution", "normal"),
+    ("impact_force = \"2500 N\"", "[spread]\n\"pair.module\" = \"1 um\"", 1, 17, "spread.\"pair.module\"", "no distribution", "normal"),
+    ("impact_force = \"2500 N\"", "[spread]\n\"pair.module\" = { normal = \"1 kg\" }", 1, 17, "spread.\"pair.module\"", "mass, not of length", "mm"),
+    ("impact_force = \"2500 N\"", "[spread]\n\"pair.module\" = { normal = 1 }", 1, 17, "spread.\"pair.module\"", "bare number", "\"1 mm\""),
+    // one field against another
+    ("bore_radius = \"20 mm\"", "bore_radius = \"50 mm\"", 0, 15, "driver.bore_radius", "root circle's 43.75 mm", "radius (not a diameter)"),
+    ("power = \"15 kW\"", "power = \"15 kW\"\ntorque = \"71.6 N m\"", 1, 10, "operation.torque", "both given", "take one"),
+    // TOML itself
+    (MODULE, "module = 5 mm", 0, 10, "pair.module", "not in quotes", "write \"5 mm\""),
+    (MODULE, "module = 4,5 mm", 0, 10, "pair.module", "comma", "write 4.5"),
+    (MODULE, "module =", 0, 9, "pair.module", "no value", "module = \"5 mm\""),
+    (MODULE, "module = \"5 mm", 0, 15, "pair.module", "string", "close the string"),
+    (MODULE, "module", 0, 7, "toml", "no value", "key = value"),
+    (MODULE, "module = \"5\" mm", 0, 14, "pair.module", "unexpected", "# comment"),
+    (MODULE, "module = \"5\\q mm\"", 0, 13, "pair.module", "escape", "backslash"),
+    (MODULE, "module = \"5 \u{1b}[2Jmm\"", 0, 13, "pair.module", r"control character `\u{1b}`", "take it out"),
+    (MODULE, "module = \"5 \\u001b[2Jmm\"", 0, 10, "pair.module", r"unknown unit `\u{1b}[2Jmm`", "use one of"),
+    (MODULE, "mod\u{1b}ule = \"5 mm\"\nmodule = \"5 mm\"", 0, 4, "toml", "control character", "take it out"),
+    (MODULE, "\u{202e}x = 1\nmodule = \"5 mm\"", 0, 1, "toml", "invalid unquoted key", "letters, digits"),
+    (MODULE, "\"\u{202e}x\" = 1\nmodule = \"5 mm\"", 0, 1, "pair.\u{202e}x", r"unknown key `\u{202e}x`", "module"),
+    (MODULE, "mod\0ule = 1\nmodule = \"5 mm\"", 0, 4, "toml", r"control character `\u{0}`", "take it out"),
+];
+
+#[test]
+fn one_bad_line() {
+    for &(line, bad, down, column, field, cause, mend) in ONE_BAD_LINE {
+        let at = GOOD
+            .find(line)
+            .unwrap_or_else(|| panic!("the good case has no {line}"));
+        let number = GOOD[..at].matches('\n').count() + 1 + down;
+        expect(
+            &GOOD.replacen(line, bad, 1),
+            &[(number, column, field, cause, mend)],
+        );
+    }
+}
+
+/// The good case without the lines of one table.
+fn without(table: &str) -> String {
+    let mut inside = false;
+    let keep = |line: &&str| {
+        inside = if line.starts_with('[') {
+            line.trim() == format!("[{table}]")
+        } else {
+            inside
+        };
+        !inside
+    };
+    GOOD.split_inclusive('\n').filter(keep).collect()
+}
+
+#[test]
+fn what_is_missing_is_told_at_its_table_or_at_the_end() {
+    expect(
+        &GOOD.replace("teeth = 20\n", ""),
+        &[
+            (
+                14,
+                1,
+                "driver.teeth",
+                "missing",
+                "add teeth = 20 to [driver]",
+            ),
+            (
+                25,
+                1,
+                "driven.teeth",
+                "missing",
+                "add teeth = 20 to [driven]",
+            ),
+        ],
+    );
+    expect(
+        &GOOD.replace("power = \"15 kW\"\n", ""),
+        &[(42, 1, "operation.power", "neither", "power = \"15 kW\"")],
+    );
+    expect(
+        &without("driven"),
+        &[
+            (43, 1, "driven.teeth", "missing", "to [driven]"),
+            (
+                43,
+                1,
+                "driven.face_width",
+                "missing",
+                "face_width = \"8 mm\" to [driven]",
+            ),
+        ],
+    );
+    expect(
+        &GOOD.replace("format = 1\n", ""),
+        &[(1, 1, "format", "missing", "format = 1")],
+    );
+}
+
+#[test]
+fn a_file_with_nothing_in_it_lacks_all_that_a_case_needs() {
+    for text in ["", "\u{feff}", "\n\n", "# a comment"] {
+        let found = faults(text);
+        let fields: Vec<&str> = found.iter().map(|fault| fault.field.as_str()).collect();
+        let needed = [
+            "format",
+            "pair.module",
+            "driver.teeth",
+            "driver.face_width",
+            "driven.teeth",
+            "driven.face_width",
+        ];
+        assert_eq!(fields[..6], needed, "{text:?}");
+        assert_eq!(
+            fields[6..],
+            ["operation.power", "operation.speed"],
+            "{text:?}"
+        );
+    }
+}
+
+#[test]
+fn all_faults_come_in_one_run_in_the_order_of_the_places() {
+    let text = GOOD
+        .replacen(MODULE, "module = 5 mm", 1)
+        .replacen("teeth = 20", "teeth = 20.5", 1)
+        .replacen("poisson = 0.3", "poison = 0.3", 1)
+        .replacen("speed = \"2000 rpm\"", "speed = \"2000", 1)
+        .replacen("method = \"exact\"", "method = \"papr\"", 1);
+    expect(
+        &text,
+        &[
+            (11, 10, "pair.module", "not in quotes", "write \"5 mm\""),
+            (15, 9, "driver.teeth", "not a whole number", "20"),
+            (
+                21,
+                1,
+                "driver.poison",
+                "unknown key",
+                "did you mean poisson?",
+            ),
+            (
+                44,
+                14,
+                "operation.speed",
+                "invalid basic string",
+                "close the string",
+            ),
+            (
+                47,
+                10,
+                "model.method",
+                "unknown choice",
+                "did you mean paper?",
+            ),
+        ],
+    );
+}
+
+#[test]
+fn faults_of_one_field_do_not_hide_those_between_others() {
+    let text = GOOD
+        .replacen("young = \"205 GPa\"", "young = 205", 1)
+        .replacen("bore_radius = \"20 mm\"", "bore_radius = \"60 mm\"", 1);
+    expect(
+        &text,
+        &[
+            (19, 15, "driver.bore_radius", "root circle", "radius"),
+            (20, 9, "driver.young", "bare number", "\"205 GPa\""),
+        ],
+    );
+}
+
+#[test]
+fn columns_count_characters_and_lines_end_in_either_way() {
+    let text = GOOD.replacen("base_pitch = \"16 um\"", "\"bäse·pitch\" = 1", 1);
+    expect(
+        &text,
+        &[(39, 1, "deviations.bäse·pitch", "unknown key", "")],
+    );
+    let windows = GOOD.replace('\n', "\r\n").replacen(MODULE, "module = 5", 1);
+    expect(
+        &windows,
+        &[(11, 10, "pair.module", "bare number", "\"5 mm\"")],
+    );
+    let marked = format!("\u{feff}{}", GOOD.replacen("format = 1", "format = 0", 1));
+    expect(
+        &marked,
+        &[(6, 10, "format", "no known format", "format = 1")],
+    );
+    let inline = "format = 1\npair = { modul = \"5 mm\" }\n".to_owned()
+        + &without("pair").replace("format = 1\n", "");
+    expect(
+        &inline,
+        &[
+            (
+                2,
+                8,
+                "pair.module",
+                "missing",
+                "module = \"5 mm\" to [pair]",
+            ),
+            (2, 10, "pair.modul", "unknown key", "did you mean module?"),
+        ],
+    );
+}
+
+#[test]
+fn tables_of_the_wrong_kind() {
+    expect(
+        &GOOD.replace("[driver]", "[[driver]]"),
+        &[(14, 1, "driver", "an array", "[driver]")],
+    );
+    let text = GOOD
+        .replacen("format = 1", "format = 1\npair = 5", 1)
+        .replace("[pair]", "[par]");
+    expect(
+        &text,
+        &[
+            (7, 8, "pair", "a number", "[pair]"),
+            (11, 2, "par", "unknown key or table", "did you mean pair?"),
+        ],
+    );
+    expect(
+        &GOOD.replace("[pair]", "[pair"),
+        &[(10, 6, "toml", "unclosed table", "]")],
+    );
+    expect(
+        &GOOD.replacen("format = 1", "format = 1\nteeth = 3", 1),
+        &[(7, 1, "teeth", "unknown key", "put it under [driver]")],
+    );
+}
+
+#[test]
+fn a_newer_format_is_told_apart_and_alone() {
+    let found = faults(&GOOD.replacen("format = 1", "format = 2", 1).replacen(
+        MODULE,
+        "modulus = 5",
+        1,
+    ));
+    assert_eq!(found.len(), 1, "{}", printed(&found));
+    assert_eq!(
+        (found[0].kind, found[0].line, found[0].column),
+        (FaultKind::NewerFormat, 6, 10)
+    );
+    assert!(found[0].mend.contains("newer tipstrike"));
+    let text = faults(&GOOD.replacen("format = 1", "format = \"1\"", 1));
+    assert_eq!((text.len(), text[0].kind), (1, FaultKind::Bad));
+}
+
+#[test]
+fn no_depth_and_no_length_is_too_much() {
+    let deep = GOOD.replacen(MODULE, &format!("module = {}", "[".repeat(5000)), 1);
+    assert_eq!(
+        (faults(&deep)[0].line, faults(&deep)[0].field.as_str()),
+        (11, "pair.module")
+    );
+    let keys = GOOD.replacen(MODULE, &format!("{}x = 1", "a.".repeat(5000)), 1);
+    assert!(!faults(&keys).is_empty());
+    let long = format!("{GOOD}#{}", "x".repeat(MOST_BYTES));
+    expect(
+        &long,
+        &[(1, 1, "toml", "longer than 1024 KiB", "case file")],
+    );
+    let most = format!("{GOOD}#{}", "x".repeat(MOST_BYTES - GOOD.len() - 1));
+    assert!(faults(&most).is_empty());
+}
+
+#[test]
+fn a_flood_of_faults_is_cut() {
+    let found = faults(&format!("{GOOD}[pair.x]\n{}", "? = 1\n".repeat(100_000)));
+    assert_eq!(found.len(), 101);
+    assert_eq!(found[100].cause, "and 99900 more faults");
+    for (line, table, first) in [
+        ("a = 1", "", "toml"),
+        ("a# = 1", "", "a0"),
+        ("a# = 1", "[pair]\n", "pair.a0"),
+        ("a# = 1", "[limits]\n", "limits.a0"),
+        ("a# = 1", "[spread]\n", "spread.\"a0\""),
+        ("[a#]", "", "a0"),
+        ("a#", "", "toml"),
+    ] {
+        let flood: Vec<_> = (0..50_000)
+            .map(|number| line.replace('#', &number.to_string()))
+            .collect();
+        let found = faults(&format!("format = 1\n{table}{}\n", flood.join("\n")));
+        assert_eq!(found.len(), 101, "{line}");
+        let is_first = |fault: &&Fault| first == "toml" || fault.field == first;
+        assert!(
+            found.iter().any(|fault| is_first(&fault)),
+            "{line}: {}",
+            found[0]
+        );
+        let more = found[100]
+            .cause
+            .split(' ')
+            .nth(1)
+            .and_then(|more| more.parse().ok());
+        let more: usize = more.expect("a number");
+        assert!((49_899..=49_901).contains(&more), "{line}: {}", found[100]);
+    }
+}
+
+#[test]
+fn long_and_hostile_names_are_shown_short_and_visible() {
+    let key = format!("\"{}\\u001b[2J\" = 1", "k".repeat(1000));
+    let found = faults(&GOOD.replacen(MODULE, &format!("{key}\n{MODULE}"), 1));
+    let shown = printed(&found);
+    assert!(shown.len() < 400, "{shown}");
+    let named = Document::parse("\u{1b}]0;x\u{7}.toml", "")
+        .map(|_| ())
+        .unwrap_err();
+    assert!(
+        named
+            .iter()
+            .all(|fault| !fault.to_string().contains(char::is_control)),
+        "{}",
+        printed(&named)
+    );
+}
+
+#[test]
+fn bytes_that_are_no_text_are_placed() {
+    let mut bytes = GOOD.as_bytes().to_vec();
+    let at = GOOD.find("5 mm\"").unwrap_or(0) + "5 ".len();
+    bytes[at] = 0xff;
+    let found = Document::parse_bytes("bad.toml", &bytes)
+        .map(|_| ())
+        .unwrap_err();
+    assert_eq!(
+        found[0].to_string(),
+        "bad.toml:11:13: toml: byte 0xff is not UTF-8 text: save the file as UTF-8"
+    );
+}

@@ -1,0 +1,648 @@
+//! Case files are read, edited and saved without loss: bytes, comments, modes, links and what
+//! others wrote.
+
+// A test may stop at what it did not expect.
+use std::fs;
+use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
+
+use proptest::prelude::*;
+use tipstrike::case::fields::{Kind, index_of};
+use tipstrike::case::file::{MOST_BYTES, ReadError, SaveError};
+use tipstrike::case::{Case, Document, FIELDS, Limit, Spread};
+use tipstrike::model::Stages;
+
+const TABLE_1: &str = include_str!("../../cases/zhou-chen-2014.toml");
+
+fn cases() -> Vec<(PathBuf, String)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+    let mut paths: Vec<PathBuf> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .collect();
+    paths.retain(|path| path.extension().is_some_and(|ending| ending == "toml"));
+    paths.sort();
+    assert!(paths.len() >= 8);
+    paths
+        .into_iter()
+        .map(|path| (path.clone(), fs::read_to_string(path).unwrap()))
+        .collect()
+}
+
+fn parsed(text: &str) -> Document {
+    Document::parse("case.toml", text).unwrap_or_else(|faults| panic!("{}", faults[0]))
+}
+
+fn write(document: &mut Document, key: &str, text: &str) {
+    document.case.write(index_of(key).unwrap(), text);
+}
+
+/// Table 1 in a folder of its own.
+fn on_disk() -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("case.toml");
+    fs::write(&path, TABLE_1).unwrap();
+    (folder, path)
+}
+
+/// A document read from the path, with a change to save.
+fn changed(path: &Path) -> Document {
+    let mut document = Document::read(path).unwrap();
+    write(&mut document, "pair.module", "6 mm");
+    document
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn every_case_is_valid_says_its_source_and_has_limits() {
+    for (path, text) in cases() {
+        let document = Document::read(&path).unwrap_or_else(|error| panic!("{error}"));
+        assert!(document.case.inputs().is_ok(), "{}", path.display());
+        assert!(!document.case.limits.is_empty(), "{}", path.display());
+        assert!(
+            text.starts_with("# ") && text.contains("ssumed") || text.contains("econstructed"),
+            "{}",
+            path.display()
+        );
+    }
+}
+
+#[test]
+fn the_collection_has_what_its_files_say() {
+    let solved = |name: &str| {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("cases")
+            .join(name);
+        let inputs = Document::read(&path).unwrap().case.inputs().unwrap();
+        let solution = tipstrike::model::solve(&inputs, Stages::CLOSED_FORM).unwrap();
+        (inputs, solution)
+    };
+    let (_, fzg) = solved("fzg-type-c.toml");
+    assert!(
+        (fzg.geometry.driver.tip * 2e3 - 82.46).abs() < 1e-4,
+        "{}",
+        fzg.geometry.driver.tip
+    );
+    assert!(
+        (fzg.geometry.driven.tip * 2e3 - 118.36).abs() < 1e-4,
+        "{}",
+        fzg.geometry.driven.tip
+    );
+    let (nasa, _) = solved("nasa-lewis-28-28.toml");
+    assert!((nasa.module - 3.175e-3).abs() < 1e-15 && (nasa.torque() - 71.75).abs() < 0.01);
+    let (speed_up, _) = solved("hydro-speed-up.toml");
+    assert!(speed_up.ratio() < 1.0);
+    let (_, relieved) = solved("tip-relief-enough.toml");
+    assert_eq!(relieved.outcome.name(), "no-corner-contact");
+    let (_, long) = solved("high-contact-ratio.toml");
+    assert!(long.geometry.contact_ratio > 2.0);
+}
+
+#[test]
+fn a_document_that_is_not_changed_keeps_every_byte() {
+    for (path, text) in cases() {
+        let windows = text.replace('\n', "\r\n");
+        let variants = [
+            text.clone(),
+            windows.clone(),
+            text.trim_end().to_owned(),
+            format!("\u{feff}{text}"),
+            format!("\u{feff}{windows}"),
+        ];
+        for variant in variants {
+            let document = parsed(&variant);
+            assert!(!document.is_changed());
+            assert_eq!(document.render(), variant, "{}", path.display());
+        }
+    }
+}
+
+#[test]
+fn a_changed_value_changes_nothing_else() {
+    for (from, key, to, line) in [
+        (
+            "base_pitch = \"16 um\" # normal",
+            "deviations.base_pitch",
+            "18 µm",
+            "base_pitch = \"18 µm\" # normal",
+        ),
+        ("teeth = 20\n", "driver.teeth", "23", "teeth = 23\n"),
+        (
+            "title = \"Zhou & Chen 2014, Table 1\"",
+            "title",
+            "a \"b\" \\ c",
+            "title = 'a \"b\" \\ c'",
+        ),
+        (
+            "profile_shift = 0.0",
+            "driver.profile_shift",
+            ".5",
+            "profile_shift = 0.5",
+        ),
+        (
+            "impact_force = \"2500 N\"",
+            "limits.impact_force",
+            "3 kN",
+            "impact_force = \"3 kN\"",
+        ),
+    ] {
+        for line_end in ["\n", "\r\n"] {
+            let text = TABLE_1.replace('\n', line_end);
+            let (from, line) = (from.replace('\n', line_end), line.replace('\n', line_end));
+            let mut document = parsed(&text);
+            document.case.set(key, to).unwrap();
+            assert!(document.is_changed());
+            assert_eq!(document.render(), text.replacen(&from, &line, 1), "{key}");
+        }
+    }
+}
+
+#[test]
+fn a_title_of_two_lines_keeps_the_comments_of_a_file_with_other_line_ends() {
+    let text = TABLE_1
+        .replace("title = \"Zhou & Chen 2014, Table 1\"", "title = \"a\\nb\"")
+        .replace('\n', "\r\n");
+    let mut document = parsed(&text);
+    document.case.set("driver.teeth", "23").unwrap();
+    assert_eq!(
+        document.render(),
+        text.replacen("teeth = 20", "teeth = 23", 1)
+    );
+    document.case.write(index_of("title").unwrap(), "c\nd");
+    let expected = text
+        .replacen("teeth = 20", "teeth = 23", 1)
+        .replace("title = \"a\\nb\"", "title = \"c\\nd\"");
+    assert_eq!(document.render(), expected);
+}
+
+#[test]
+fn a_field_that_is_taken_out_goes_with_its_own_comment_only() {
+    let mut document = parsed(TABLE_1);
+    write(&mut document, "model.deflection", "");
+    let line = "deflection = \"24.7 um\" # as the paper takes it from its reference 20\n";
+    assert_eq!(document.render(), TABLE_1.replace(line, ""));
+    document.case.set("limits.impact_force", "").unwrap();
+    assert_eq!(
+        document.render(),
+        TABLE_1
+            .replace(line, "")
+            .replace("impact_force = \"2500 N\"\n", "")
+    );
+}
+
+#[test]
+fn a_new_field_goes_to_its_place_in_its_table() {
+    let mut document = parsed(TABLE_1);
+    write(&mut document, "pair.centre_distance", "101 mm");
+    write(&mut document, "operation.friction_coefficient", "0.06");
+    document
+        .case
+        .set("limits.normal_velocity", "2 m/s")
+        .unwrap();
+    let expected = TABLE_1
+        .replace("\"20 deg\"\n", "\"20 deg\"\ncentre_distance = \"101 mm\"\n")
+        .replace(
+            "\"2000 rpm\"\n",
+            "\"2000 rpm\"\nfriction_coefficient = 0.06\n",
+        )
+        .replace("\"2500 N\"\n", "\"2500 N\"\nnormal_velocity = \"2 m/s\"\n");
+    assert_eq!(document.render(), expected);
+}
+
+#[test]
+fn a_new_table_goes_to_the_end_whatever_ends_the_file() {
+    let short = TABLE_1.split("[limits]").next().unwrap().trim_end();
+    for (text, line_end) in [
+        (short.to_owned(), "\n"),
+        (format!("{short}\n"), "\n"),
+        (format!("{short}\n").replace('\n', "\r\n"), "\r\n"),
+    ] {
+        let mut document = parsed(&text);
+        document.case.set("limits.impact_force", "1 kN").unwrap();
+        let added = format!("{line_end}[limits]{line_end}impact_force = \"1 kN\"{line_end}");
+        let kept = if text.ends_with('\n') {
+            text.clone()
+        } else {
+            format!("{text}{line_end}")
+        };
+        assert_eq!(document.render(), kept + &added);
+    }
+}
+
+#[test]
+fn other_layouts_of_the_same_case_are_edited_in_place() {
+    let inline = "format = 1\npair = { module = \"5 mm\" } # both\ndriver = { teeth = 20, face_width = \"8 mm\" }\n\
+        driven.teeth = 20\n  driven.face_width = \"8 mm\" # dotted\n[operation]\nspeed = \"2000 rpm\"\ntorque = \"70 N m\"";
+    let mut document = parsed(inline);
+    write(&mut document, "pair.pressure_angle", "22 deg");
+    write(&mut document, "driver.teeth", "21");
+    write(&mut document, "driven.young", "200 GPa");
+    write(&mut document, "operation.friction_coefficient", "0.1");
+    let expected = "format = 1\npair = { module = \"5 mm\" , pressure_angle = \"22 deg\" } # both\n\
+        driver = { teeth = 21, face_width = \"8 mm\" }\n\
+        driven.teeth = 20\n  driven.face_width = \"8 mm\" # dotted\ndriven.young = \"200 GPa\"\n\
+        [operation]\nspeed = \"2000 rpm\"\ntorque = \"70 N m\"\nfriction_coefficient = 0.1\n";
+    assert_eq!(document.render(), expected);
+    assert_eq!(parsed(&document.render()).case, document.case);
+}
+
+#[test]
+fn a_new_document_is_a_commented_text_with_every_field() {
+    let document = Document::new(Case::table_1());
+    let text = document.render();
+    assert_eq!(parsed(&text).case, Case::table_1());
+    for field in &FIELDS {
+        let line = |line: &str| {
+            line.trim_start_matches("# ")
+                .starts_with(&format!("{} = ", field.name()))
+        };
+        assert!(text.lines().any(line), "{}", field.key);
+        assert!(text.contains(field.help), "{}", field.key);
+    }
+}
+
+#[test]
+fn a_field_that_a_new_document_shows_as_a_comment_is_written_into_its_table() {
+    let mut document = Document::new(Case::table_1());
+    write(&mut document, "pair.centre_distance", "101 mm");
+    let text = document.render();
+    let pair = text
+        .split("[pair]")
+        .nth(1)
+        .and_then(|rest| rest.split("\n[").next())
+        .unwrap_or_default();
+    assert!(
+        pair.contains("\ncentre_distance = \"101 mm\"\n")
+            && pair.contains("# centre_distance = \"100 mm\"\n"),
+        "{text}"
+    );
+    assert_eq!(parsed(&text).case, document.case);
+}
+
+#[test]
+fn what_is_not_valid_is_saved_as_typed() {
+    let mut document = parsed(TABLE_1);
+    write(&mut document, "driver.teeth", "twenty");
+    write(&mut document, "pair.module", "5");
+    let expected = TABLE_1
+        .replacen("teeth = 20", "teeth = \"twenty\"", 1)
+        .replace("\"5 mm\"", "\"5\"");
+    assert_eq!(document.render(), expected);
+}
+
+#[test]
+fn a_refusal_of_the_model_is_placed() {
+    let document = parsed(TABLE_1);
+    assert_eq!(document.place("driven.addendum"), (29, 12));
+    assert_eq!(document.place("pair.centre_distance"), (10, 1));
+    assert_eq!(document.place("limits.impact_force"), (54, 16));
+}
+
+#[test]
+fn a_save_replaces_the_file_and_keeps_its_mode() {
+    for mode in [0o600, 0o644, 0o664] {
+        let (folder, path) = on_disk();
+        fs::set_permissions(&path, fs::Permissions::from_mode(mode)).unwrap();
+        let mut document = changed(&path);
+        document.save(&path).unwrap();
+        assert!(!document.is_changed());
+        assert_eq!(
+            fs::read_to_string(&path).unwrap(),
+            TABLE_1.replace("\"5 mm\"", "\"6 mm\"")
+        );
+        assert_eq!(fs::metadata(&path).unwrap().mode() & 0o777, mode);
+        assert_eq!(names(folder.path()), ["case.toml"]);
+        write(&mut document, "pair.module", "7 mm");
+        document.save(&path).unwrap();
+        assert_eq!(
+            fs::read_to_string(&path).unwrap(),
+            TABLE_1.replace("\"5 mm\"", "\"7 mm\"")
+        );
+    }
+}
+
+#[test]
+fn a_new_file_has_the_mode_of_any_new_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let (saved, plain) = (
+        folder.path().join("saved.toml"),
+        folder.path().join("plain"),
+    );
+    fs::write(&plain, "").unwrap();
+    let mut document = Document::table_1();
+    document.save(&saved).unwrap();
+    assert_eq!(
+        fs::metadata(&saved).unwrap().mode(),
+        fs::metadata(&plain).unwrap().mode()
+    );
+    assert_eq!(
+        document.path(),
+        Some(fs::canonicalize(&saved).unwrap().as_path())
+    );
+}
+
+#[test]
+fn a_chain_of_links_stays_and_its_end_is_written() {
+    let (folder, path) = on_disk();
+    let (first, second) = (
+        folder.path().join("first.toml"),
+        folder.path().join("second.toml"),
+    );
+    symlink("second.toml", &first).unwrap();
+    symlink(&path, &second).unwrap();
+    changed(&first).save(&first).unwrap();
+    assert!(
+        fs::symlink_metadata(&first).unwrap().is_symlink()
+            && fs::symlink_metadata(&second).unwrap().is_symlink()
+    );
+    assert!(fs::read_to_string(&path).unwrap().contains("6 mm"));
+    let dangling = folder.path().join("dangling.toml");
+    symlink("new.toml", &dangling).unwrap();
+    Document::table_1().save(&dangling).unwrap();
+    assert_eq!(
+        fs::read_to_string(folder.path().join("new.toml")).unwrap(),
+        TABLE_1
+    );
+    symlink("loop.toml", folder.path().join("loop.toml")).unwrap();
+    assert!(matches!(
+        Document::table_1().save(&folder.path().join("loop.toml")),
+        Err(SaveError::Unwritable(..))
+    ));
+}
+
+#[test]
+fn a_file_with_two_names_is_refused() {
+    let (folder, path) = on_disk();
+    fs::hard_link(&path, folder.path().join("other.toml")).unwrap();
+    let error = changed(&path).save(&path).unwrap_err();
+    assert!(error.to_string().contains("2 names"), "{error}");
+    assert_eq!(fs::read_to_string(&path).unwrap(), TABLE_1);
+}
+
+#[test]
+fn pipes_folders_and_devices_are_refused_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = folder.path().join("pipe");
+    assert!(
+        std::process::Command::new("mkfifo")
+            .arg(&pipe)
+            .status()
+            .unwrap()
+            .success()
+    );
+    for path in [pipe.as_path(), folder.path(), Path::new("/dev/zero")] {
+        assert!(
+            matches!(Document::read(path), Err(ReadError::NotAFile(_))),
+            "{}",
+            path.display()
+        );
+        let saved = Document::table_1().save_over(path);
+        let is_told = if path.is_dir() {
+            matches!(saved, Err(SaveError::IsAFolder(..)))
+        } else {
+            matches!(saved, Err(SaveError::NotAFile(_)))
+        };
+        assert!(is_told, "{}: {saved:?}", path.display());
+    }
+    assert_eq!(names(folder.path()), ["pipe"]);
+}
+
+#[test]
+fn what_cannot_be_read_is_told_apart() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    fs::write(path("bad.toml"), TABLE_1.replace("5 mm", "5")).unwrap();
+    fs::write(
+        path("newer.toml"),
+        TABLE_1.replace("format = 1", "format = 2"),
+    )
+    .unwrap();
+    fs::write(path("large.toml"), vec![b'#'; MOST_BYTES + 1]).unwrap();
+    assert!(matches!(
+        Document::read(&path("none.toml")),
+        Err(ReadError::NotFound(_))
+    ));
+    assert!(matches!(
+        Document::read(&path("none/none.toml")),
+        Err(ReadError::NotFound(_))
+    ));
+    assert!(matches!(
+        Document::read(&path("newer.toml")),
+        Err(ReadError::NewerFormat(_))
+    ));
+    assert!(matches!(
+        Document::read(&path("large.toml")),
+        Err(ReadError::TooLarge(_))
+    ));
+    let Err(ReadError::Bad(faults)) = Document::read(&path("bad.toml")) else {
+        panic!("a bad file was read")
+    };
+    let start = format!("{}:11:10: pair.module: ", path("bad.toml").display());
+    assert!(faults[0].to_string().starts_with(&start), "{}", faults[0]);
+}
+
+#[test]
+fn a_read_only_file_is_refused_and_left_as_it_is() {
+    let (folder, path) = on_disk();
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o444)).unwrap();
+    let error = changed(&path).save(&path).unwrap_err();
+    assert!(matches!(error, SaveError::ReadOnly(_)), "{error}");
+    assert_eq!(fs::read_to_string(&path).unwrap(), TABLE_1);
+    assert_eq!(names(folder.path()), ["case.toml"]);
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_leaves_file_and_changes() {
+    let missing = tempfile::tempdir().unwrap().path().join("gone/case.toml");
+    let error = Document::table_1().save(&missing).unwrap_err();
+    assert!(
+        matches!(&error, SaveError::NoFolder(_, folder, _) if missing.parent() == Some(Path::new(folder))),
+        "{error}"
+    );
+    assert!(error.to_string().contains("mkdir -p"), "{error}");
+    // A folder without a place to write, for every user: the system's own.
+    let mut document = Document::table_1();
+    write(&mut document, "pair.module", "6 mm");
+    assert!(document.save(Path::new("/proc/case.toml")).is_err());
+    assert!(document.is_changed());
+}
+
+#[test]
+fn what_someone_else_wrote_is_not_overwritten_unasked() {
+    let (folder, path) = on_disk();
+    let mut document = changed(&path);
+    let (time, same_length) = (
+        fs::metadata(&path).unwrap().modified().unwrap(),
+        TABLE_1.replace("15 kW", "16 kW"),
+    );
+    fs::write(&path, &same_length).unwrap();
+    fs::File::options()
+        .write(true)
+        .open(&path)
+        .unwrap()
+        .set_modified(time)
+        .unwrap();
+    assert!(matches!(
+        document.save(&path),
+        Err(SaveError::ChangedOnDisk(_))
+    ));
+    assert_eq!(fs::read_to_string(&path).unwrap(), same_length);
+    assert!(document.is_changed());
+    document.save_over(&path).unwrap();
+    assert!(fs::read_to_string(&path).unwrap().contains("15 kW"));
+    assert_eq!(names(folder.path()), ["case.toml"]);
+}
+
+#[test]
+fn a_touch_or_a_new_inode_with_the_same_bytes_does_not_stop_a_save() {
+    let (_folder, path) = on_disk();
+    let mut document = changed(&path);
+    let earlier = SystemTime::now() - Duration::from_secs(86400);
+    fs::File::options()
+        .write(true)
+        .open(&path)
+        .unwrap()
+        .set_modified(earlier)
+        .unwrap();
+    document.save(&path).unwrap();
+    write(&mut document, "pair.module", "7 mm");
+    let copy = path.with_extension("copy");
+    fs::copy(&path, &copy).unwrap();
+    fs::rename(&copy, &path).unwrap();
+    document.save(&path).unwrap();
+    write(&mut document, "pair.module", "8 mm");
+    fs::remove_file(&path).unwrap();
+    document.save(&path).unwrap();
+    assert!(fs::read_to_string(&path).unwrap().contains("8 mm"));
+}
+
+#[test]
+fn another_file_of_that_name_is_not_overwritten_unasked() {
+    let (folder, path) = on_disk();
+    let other = folder.path().join("other.toml");
+    fs::write(&other, "mine").unwrap();
+    let mut document = changed(&path);
+    assert!(matches!(
+        document.save(&other),
+        Err(SaveError::AlreadyThere(_))
+    ));
+    assert_eq!(fs::read_to_string(&other).unwrap(), "mine");
+    document.save_over(&other).unwrap();
+    assert_eq!(
+        document.path(),
+        Some(fs::canonicalize(&other).unwrap().as_path())
+    );
+    assert_eq!(names(folder.path()), ["case.toml", "other.toml"]);
+}
+
+#[test]
+fn hostile_names_are_shown_and_not_obeyed() {
+    let error = Document::read(Path::new("/none/\u{1b}]0;x\u{7}.toml"))
+        .unwrap_err()
+        .to_string();
+    assert!(!error.contains(char::is_control), "{error:?}");
+}
+
+/// A text that the field takes: a value from its range, or its example.
+fn valid_text(field: usize) -> BoxedStrategy<String> {
+    let known = &FIELDS[field];
+    match known.kind {
+        Kind::Text => "[^\\p{C}]{1,20}".boxed(),
+        Kind::Count(from, to, _) => (from..=to).prop_map(|count| count.to_string()).boxed(),
+        Kind::Choice(names, _) => prop::sample::select(names).prop_map(str::to_owned).boxed(),
+        Kind::Number(_, range, _) => (0.0..=1.0)
+            .prop_map(move |share: f64| {
+                let value = range.from * (1.0 - share) + range.to * share;
+                format!("{value} {}", range.unit).trim_end().to_owned()
+            })
+            .boxed(),
+    }
+}
+
+/// Table 1 with some fields written anew and some taken out, valid or nearly so.
+fn any_case() -> impl Strategy<Value = Case> {
+    let change = (0..FIELDS.len()).prop_flat_map(|field| {
+        let text = prop_oneof![3 => valid_text(field), 1 => Just(String::new())];
+        (Just(field), text)
+    });
+    (prop::collection::vec(change, 0..12), any::<bool>()).prop_map(|(changes, spread)| {
+        let mut case = Case::table_1();
+        for (field, text) in &changes {
+            case.write(*field, text);
+        }
+        if spread {
+            case.limits
+                .push(Limit::new("dynamic_factor", "1.5").unwrap());
+            case.spread
+                .push(Spread::new("pair.module", "normal", "4 um").unwrap());
+        }
+        case
+    })
+}
+
+/// TOML as people mistype it: lines of the good case, mixed, cut and broken.
+fn nearly_toml() -> impl Strategy<Value = String> {
+    let line = prop::sample::select(TABLE_1.lines().collect::<Vec<_>>()).prop_map(str::to_owned);
+    let broken = (
+        line.clone(),
+        any::<prop::sample::Index>(),
+        "[\\[\\]{}=\"'.,#\\\\a-c0-9 \\n\\r]{0,4}",
+    )
+        .prop_map(|(line, at, noise)| {
+            let at = line
+                .char_indices()
+                .map(|(at, _)| at)
+                .nth(at.index(line.chars().count().max(1)))
+                .unwrap_or(0);
+            format!("{}{noise}{}", &line[..at], &line[at..])
+        });
+    prop::collection::vec(prop_oneof![line, broken], 0..40).prop_map(|lines| lines.join("\n"))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 512, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn no_bytes_make_the_reader_panic(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
+        let _ = Document::parse_bytes("any", &bytes);
+    }
+
+    #[test]
+    fn no_text_makes_the_reader_panic_and_every_fault_is_one_safe_line(text in nearly_toml()) {
+        for fault in Document::parse("any", &text).err().unwrap_or_default() {
+            let shown = fault.to_string();
+            prop_assert!(!shown.contains(char::is_control), "{:?}", shown);
+            prop_assert!(fault.line <= text.lines().count() + 1, "{}", shown);
+        }
+    }
+
+    #[test]
+    fn a_case_written_and_read_again_is_the_same(case in any_case()) {
+        prop_assume!(case.inputs().is_ok());
+        prop_assert_eq!(&parsed(&Document::new(case.clone()).render()).case, &case);
+        for (_, text) in cases() {
+            let mut document = parsed(&text);
+            document.case = case.clone();
+            prop_assert_eq!(&parsed(&document.render()).case, &case);
+        }
+    }
+
+    #[test]
+    fn the_comments_of_a_file_outlive_any_change_of_values(case in any_case()) {
+        let mut document = parsed(TABLE_1);
+        document.case = case;
+        let text = document.render();
+        for comment in TABLE_1.lines().filter(|line| line.starts_with('#')) {
+            prop_assert!(text.contains(comment), "{}", comment);
+        }
+    }
+}

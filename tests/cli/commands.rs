@@ -1,0 +1,1145 @@
+//! The built program from a script's side: what goes in, what comes out, and how it ends.
+// A test may stop at what it did not expect.
+
+use serde_json::Value;
+use std::fs;
+use std::io::{BufRead, BufReader, Write};
+use std::process::{Command, Output, Stdio};
+use tipstrike::case::EXAMPLES;
+
+const TABLE_1: &str = "cases/zhou-chen-2014.toml";
+
+fn program(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_tipstrike"));
+    command
+        .args(arguments)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .stdin(Stdio::null());
+    command
+}
+
+fn run(arguments: &[&str]) -> Output {
+    program(arguments).output().unwrap()
+}
+
+fn run_with_input(arguments: &[&str], input: &str) -> Output {
+    let mut child = program(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    child
+        .stdin
+        .take()
+        .unwrap()
+        .write_all(input.as_bytes())
+        .unwrap();
+    child.wait_with_output().unwrap()
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().unwrap()
+}
+
+fn out(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+fn err(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// Standard output of a run that must succeed in silence.
+fn told(arguments: &[&str]) -> String {
+    let output = run(arguments);
+    assert_eq!(
+        (code(&output), err(&output).as_str()),
+        (0, ""),
+        "{arguments:?}"
+    );
+    out(&output)
+}
+
+fn json(arguments: &[&str]) -> Value {
+    serde_json::from_str(&told(arguments)).unwrap()
+}
+
+/// A copy of Table 1 with something changed, in a folder of its own.
+fn changed(from: &str, to: &str) -> (tempfile::TempDir, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let text = fs::read_to_string(TABLE_1).unwrap();
+    assert!(text.contains(from));
+    let path = folder.path().join("case.toml");
+    fs::write(&path, text.replacen(from, to, 1)).unwrap();
+    let path = path.to_str().unwrap().to_owned();
+    (folder, path)
+}
+
+#[test]
+fn a_solve_is_told_for_a_person() {
+    let page = told(&["solve", TABLE_1]);
+    assert!(page.starts_with("Zhou & Chen 2014, Table 1\n"), "{page}");
+    assert!(
+        page.contains("Corner contact: θ_1 = 1.36628 deg before E; impact force 2191.0 N."),
+        "{page}"
+    );
+    assert!(
+        page.contains("Other method: paper 84.649 N at θ_1 = 0.0525747 deg."),
+        "{page}"
+    );
+    assert!(!page.contains("Stations"), "{page}");
+    assert!(told(&["solve", TABLE_1, "--stations", "4"]).contains("Stations from D to E"));
+}
+
+#[test]
+fn json_has_the_promised_shape() {
+    let solved = json(&["solve", TABLE_1, "--format", "json"]);
+    assert_eq!(solved["case"], TABLE_1);
+    assert_eq!(solved["title"], "Zhou & Chen 2014, Table 1");
+    assert_eq!(solved["format"], 1);
+    assert_eq!(solved["version"], env!("CARGO_PKG_VERSION"));
+    assert_eq!(
+        (&solved["method"], &solved["outcome"]),
+        (&"exact".into(), &"corner-contact".into())
+    );
+    let force = &solved["quantities"]["impact_force"];
+    assert!((force["value"].as_f64().unwrap() - 2191.016).abs() < 5e-4);
+    assert_eq!(force["unit"], "N");
+    let stages = solved["stages"].as_array().unwrap();
+    assert_eq!(stages[0], "geometry");
+    assert!(stages.contains(&"stations".into()) && stages.contains(&"clearing-relief".into()));
+    assert!(
+        solved["notes"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .all(|note| note["code"].is_string() && note["message"].is_string())
+    );
+}
+
+#[test]
+fn json_stations_run_from_d_to_e() {
+    let solved = json(&["solve", TABLE_1, "--format", "json", "--stations", "10"]);
+    let stations = solved["stations"].as_array().unwrap();
+    assert_eq!(stations.len(), 11);
+    let force = |station: &Value| station["impact_force"].as_f64().unwrap();
+    assert!((force(&stations[0]) - 2191.016).abs() < 5e-4);
+    assert!((force(&stations[9]) - 219.977).abs() < 5e-4);
+    assert!(force(&stations[10]).abs() < f64::MIN_POSITIVE);
+    assert_eq!(
+        stations[0]["roll_angle_driven"],
+        solved["quantities"]["approach_angle_driven"]["value"]
+    );
+    let without = json(&[
+        "solve",
+        TABLE_1,
+        "--format",
+        "json",
+        "--only",
+        "impact_force",
+    ]);
+    assert_eq!(without.get("stations"), None);
+}
+
+#[test]
+fn what_does_not_exist_is_absent_and_the_outcome_says_why() {
+    let on_time = [
+        "--set",
+        "deviations.base_pitch=0 um",
+        "--set",
+        "model.deflection=0 um",
+    ];
+    let solved = json(&[&["solve", TABLE_1, "--format", "json"], &on_time[..]].concat());
+    assert_eq!(solved["outcome"], "no-corner-contact");
+    assert_eq!(solved["quantities"].get("impact_force"), None);
+    assert_eq!(solved["quantities"]["total_deviation"]["value"], 0.0);
+    assert!(
+        told(&[&["solve", TABLE_1], &on_time[..]].concat())
+            .contains("No corner contact: no contact before E, Δ = 0 um")
+    );
+}
+
+#[test]
+fn the_outcome_is_the_methods_own_whatever_is_asked_for() {
+    // Between the relief that stops it by the printed equations, 61.8 um, and Δ = 0 by Eq. 1 as
+    // printed, 66.9 um.
+    let relieved = [
+        "--set",
+        "driven.tip_relief=64 um",
+        "--method",
+        "paper",
+        "--format",
+        "json",
+    ];
+    for only in [
+        &[][..],
+        &["--only", "total_deviation"],
+        &["--only", "base_pitch"],
+    ] {
+        let solved = json(&[&["solve", TABLE_1], &relieved[..], only].concat());
+        assert_eq!(solved["outcome"], "no-corner-contact", "{only:?}");
+    }
+}
+
+#[test]
+fn only_what_is_asked_for_is_computed_and_told() {
+    let solved = json(&[
+        "solve",
+        TABLE_1,
+        "--only",
+        "approach_angle_driven",
+        "--format",
+        "json",
+    ]);
+    assert_eq!(
+        solved["stages"],
+        serde_json::json!(["geometry", "load", "masses", "deviation", "position"])
+    );
+    assert_eq!(
+        solved["quantities"]
+            .as_object()
+            .unwrap()
+            .keys()
+            .collect::<Vec<_>>(),
+        ["approach_angle_driven"]
+    );
+    let solved = json(&[
+        "solve",
+        TABLE_1,
+        "--only",
+        "stick_limit,contact_ratio",
+        "--format",
+        "json",
+    ]);
+    assert_eq!(
+        solved["stages"].as_array().unwrap().last().unwrap(),
+        "velocity"
+    );
+    assert_eq!(solved["quantities"].as_object().unwrap().len(), 2);
+}
+
+#[test]
+fn an_unknown_quantity_is_wrong_usage_and_the_right_name_is_near() {
+    let output = run(&["solve", TABLE_1, "--only", "impact_forc"]);
+    assert_eq!((code(&output), out(&output).as_str()), (2, ""));
+    assert!(
+        err(&output).contains("did you mean impact_force?"),
+        "{}",
+        err(&output)
+    );
+}
+
+#[test]
+fn csv_has_a_row_a_case_with_units_in_the_header() {
+    let table = told(&[
+        "solve",
+        TABLE_1,
+        TABLE_1,
+        "--only",
+        "impact_force,contact_ratio",
+        "--format",
+        "csv",
+    ]);
+    let mut reader = csv::Reader::from_reader(table.as_bytes());
+    assert_eq!(
+        reader.headers().unwrap(),
+        &[
+            "case",
+            "method",
+            "outcome",
+            "impact_force [N]",
+            "contact_ratio [1]"
+        ][..]
+    );
+    let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+    assert_eq!(rows.len(), 2);
+    assert_eq!(
+        (&rows[0][0], &rows[0][1], &rows[0][2]),
+        (TABLE_1, "exact", "corner-contact")
+    );
+    assert!((rows[0][3].parse::<f64>().unwrap() - 2191.016).abs() < 5e-4);
+}
+
+#[test]
+fn csv_with_stations_has_a_row_a_station() {
+    let table = told(&["solve", TABLE_1, "--stations", "10", "--format", "csv"]);
+    let lines: Vec<&str> = table.lines().collect();
+    assert_eq!(lines.len(), 12);
+    assert!(
+        lines[0].starts_with("case,roll_angle_driver [rad],"),
+        "{}",
+        lines[0]
+    );
+    assert!(lines[11].ends_with(",0.0"), "{}", lines[11]);
+}
+
+#[test]
+fn settings_and_method_change_the_case() {
+    let value = |arguments: &[&str]| {
+        let common = [
+            "solve",
+            TABLE_1,
+            "--format",
+            "json",
+            "--only",
+            "impact_force",
+        ];
+        json(&[&common[..], arguments].concat())["quantities"]["impact_force"]["value"]
+            .as_f64()
+            .unwrap()
+    };
+    assert!((value(&["--method", "paper"]) - 84.649).abs() < 5e-4);
+    assert!((value(&["--set", "model.method=paper"]) - 84.649).abs() < 5e-4);
+    assert!(value(&["--set", "operation.speed=4000 rpm"]) > 4000.0);
+}
+
+#[test]
+fn a_wrong_setting_is_told_with_its_mend() {
+    for (setting, mend) in [
+        ("pair.modul=5 mm", "pair.module"),
+        ("pair.module", "KEY=VALUE"),
+        ("pair.module=5", "5 mm"),
+        ("pair.module=5 kg", "mm"),
+        ("driver.teeth=2", "5"),
+    ] {
+        let output = run(&["solve", TABLE_1, "--set", setting]);
+        assert_eq!((code(&output), out(&output).as_str()), (2, ""), "{setting}");
+        assert!(err(&output).contains(mend), "{setting}: {}", err(&output));
+    }
+}
+
+#[test]
+fn standard_input_is_a_case() {
+    let text = fs::read_to_string(TABLE_1).unwrap();
+    let output = run_with_input(&["solve", "-", "--format", "json"], &text);
+    assert_eq!((code(&output), err(&output).as_str()), (0, ""));
+    assert_eq!(
+        serde_json::from_str::<Value>(&out(&output)).unwrap()["case"],
+        "-"
+    );
+}
+
+#[test]
+fn several_cases_are_an_object_a_line_and_a_bad_one_stops_no_other() {
+    let (_folder, bad) = changed("teeth = 20", "teeth = \"many\"");
+    let output = run(&[
+        "solve",
+        &bad,
+        "no-such-file.toml",
+        TABLE_1,
+        TABLE_1,
+        "--format",
+        "json",
+    ]);
+    assert_eq!(code(&output), 5);
+    assert_eq!(
+        out(&output)
+            .lines()
+            .filter(|line| serde_json::from_str::<Value>(line).is_ok())
+            .count(),
+        2
+    );
+    assert!(err(&output).contains("case.toml:"), "{}", err(&output));
+    assert!(
+        err(&output).contains("no-such-file.toml"),
+        "{}",
+        err(&output)
+    );
+}
+
+#[test]
+fn every_fault_of_a_bad_case_has_its_place_on_one_line() {
+    let (_folder, path) = changed(
+        "module = \"5 mm\"\npressure_angle = \"20 deg\"",
+        "module = 5\npressure_angel = \"20 deg\"",
+    );
+    for format in ["text", "json", "csv"] {
+        let output = run(&["solve", &path, "--format", format]);
+        assert_eq!((code(&output), out(&output).as_str()), (3, ""));
+        let errors = err(&output);
+        assert_eq!(errors.lines().count(), 2, "{errors}");
+        assert!(
+            errors
+                .lines()
+                .all(|line| line.starts_with(&format!("{path}:1"))),
+            "{errors}"
+        );
+    }
+}
+
+#[test]
+fn a_refusal_of_the_model_has_the_place_of_its_field() {
+    let (_folder, path) = changed("addendum = 1.0", "addendum = 0.3");
+    let output = run(&[
+        "solve",
+        &path,
+        "--set",
+        "driven.addendum=0.3",
+        "--set",
+        "model.deflection=",
+        "--format",
+        "json",
+    ]);
+    assert_eq!((code(&output), out(&output).as_str()), (3, ""));
+    assert!(
+        err(&output).contains("--set driven.addendum=0.3: "),
+        "{}",
+        err(&output)
+    );
+    let (_folder, path) = changed(
+        "module = \"5 mm\"",
+        "module = \"5 mm\"\ncentre_distance = \"80 mm\"",
+    );
+    let output = run(&["solve", &path]);
+    assert_eq!((code(&output), out(&output).as_str()), (3, ""));
+    assert!(
+        err(&output).starts_with(&format!("{path}:12:")),
+        "{}",
+        err(&output)
+    );
+    assert!(
+        err(&output).contains(": pair.centre_distance: "),
+        "{}",
+        err(&output)
+    );
+}
+
+#[test]
+fn a_force_outside_a_formulas_range_is_withheld_with_a_note() {
+    let beyond = ["--set", "driver.teeth=120", "--set", "driven.teeth=120"];
+    let solved = json(&[&["solve", TABLE_1, "--format", "json"], &beyond[..]].concat());
+    assert!(
+        solved["quantities"]["approach_angle_driven"]["value"]
+            .as_f64()
+            .unwrap()
+            > 0.0
+    );
+    assert_eq!(solved["quantities"].get("impact_force"), None);
+    assert_eq!(solved["notes"][0]["code"], "teeth-outside-fit");
+    let output = run(&[&["solve", TABLE_1, "--only", "impact_force"], &beyond[..]].concat());
+    assert_eq!((code(&output), out(&output).as_str()), (3, ""));
+    assert!(
+        err(&output).contains("outside the Kuang-Yang fit"),
+        "{}",
+        err(&output)
+    );
+}
+
+#[test]
+fn each_limit_has_its_line_whether_or_not_another_can_be_computed() {
+    let (_folder, path) = changed("teeth = 20", "teeth = 120");
+    let limits =
+        "[limits]\ncontact_ratio = 1.5\nimpact_force = \"2500 N\"\nnormal_velocity = \"90 m/s\"\n";
+    fs::write(
+        &path,
+        fs::read_to_string(&path)
+            .unwrap()
+            .replace("[limits]\nimpact_force = \"2500 N\"", limits),
+    )
+    .unwrap();
+    let output = run(&["check", &path]);
+    let told = out(&output);
+    let lines: Vec<&str> = told.lines().collect();
+    assert_eq!((code(&output), lines.len()), (3, 3), "{lines:?}");
+    assert!(
+        lines[0].starts_with(&format!("EXCEEDED {path}: contact_ratio 1."))
+            && lines[0].contains("> 1.5"),
+        "{}",
+        lines[0]
+    );
+    assert!(
+        lines[1].starts_with(&format!(
+            "unknown {path}: impact_force cannot be computed: tooth number outside"
+        )),
+        "{}",
+        lines[1]
+    );
+    assert!(lines[1].ends_with("(limit 2500 N)"), "{}", lines[1]);
+    assert!(
+        lines[2].starts_with(&format!("ok {path}: normal_velocity ")),
+        "{}",
+        lines[2]
+    );
+    assert_eq!(err(&output).lines().count(), 1, "{}", err(&output));
+    assert!(
+        err(&output).contains("outside the Kuang-Yang fit"),
+        "{}",
+        err(&output)
+    );
+}
+
+#[test]
+fn a_refused_case_says_of_each_limit_that_it_cannot_be_computed() {
+    let (_folder, path) = changed(
+        "module = \"5 mm\"",
+        "module = \"5 mm\"\ncentre_distance = \"80 mm\"",
+    );
+    let output = run(&["check", &path]);
+    assert_eq!(code(&output), 3);
+    let expected = format!(
+        "unknown {path}: impact_force cannot be computed: the centre distance jams the mesh"
+    );
+    assert!(out(&output).starts_with(&expected), "{}", out(&output));
+    assert!(
+        err(&output).contains(": pair.centre_distance: "),
+        "{}",
+        err(&output)
+    );
+}
+
+#[test]
+fn a_newer_format_and_a_missing_file_have_codes_of_their_own() {
+    let (_folder, newer) = changed("format = 1", "format = 2");
+    let output = run(&["solve", &newer]);
+    assert_eq!((code(&output), out(&output).as_str()), (4, ""));
+    assert!(err(&output).contains("format"), "{}", err(&output));
+    for missing in ["no-such-file.toml", "cases"] {
+        let output = run(&["check", missing]);
+        assert_eq!((code(&output), out(&output).as_str()), (5, ""), "{missing}");
+        assert_eq!(err(&output).lines().count(), 1, "{}", err(&output));
+    }
+}
+
+#[test]
+fn a_check_is_a_verdict_a_line() {
+    assert_eq!(
+        told(&["check", TABLE_1]),
+        format!("ok {TABLE_1}: impact_force 2191.0 N <= 2500 N (88 %)\n")
+    );
+    let (_folder, strict) = changed(
+        "impact_force = \"2500 N\"",
+        "impact_force = \"2 kN\"\ncontact_ratio = 1.7",
+    );
+    let output = run(&["check", &strict, TABLE_1]);
+    assert_eq!((code(&output), err(&output).as_str()), (1, ""));
+    let lines: Vec<String> = out(&output).lines().map(str::to_owned).collect();
+    assert_eq!(
+        lines[0],
+        format!("EXCEEDED {strict}: impact_force 2191.0 N > 2 kN (110 %)")
+    );
+    assert!(lines[1].starts_with("ok "), "{}", lines[1]);
+    let (_folder, free) = changed("[limits]\nimpact_force = \"2500 N\"", "");
+    assert_eq!(told(&["check", &free]), format!("ok {free}: no limits\n"));
+}
+
+#[test]
+fn json_says_which_quantities_are_of_the_free_impact() {
+    for (method, of) in [
+        ("exact", Value::Null),
+        ("static", "free-impact".into()),
+        ("dynamic", "free-impact".into()),
+    ] {
+        let quantities =
+            &json(&["solve", TABLE_1, "--format", "json", "--method", method])["quantities"];
+        for key in [
+            "impact_force",
+            "impact_duration",
+            "normal_velocity",
+            "friction_ratio",
+        ] {
+            assert_eq!(quantities[key]["of"], of, "{method} {key}");
+        }
+        for key in [
+            "mesh_force",
+            "total_deviation",
+            "contact_ratio",
+            "static_peak_force",
+            "dynamic_peak_force",
+        ] {
+            assert_eq!(quantities[key]["of"], Value::Null, "{method} {key}");
+        }
+    }
+}
+
+#[test]
+fn what_a_method_resolves_itself_stands_before_the_free_impact() {
+    for (method, first) in [
+        ("static", "static: force at E"),
+        ("dynamic", "dynamic: peak before E"),
+    ] {
+        let text = told(&["solve", TABLE_1, "--method", method]);
+        let (own, free) = text
+            .split_once("Free impact at D, closed form: first contact D")
+            .unwrap();
+        assert!(
+            own.contains(first) && free.contains("F_S      impact force"),
+            "{text}"
+        );
+        assert!(
+            free.contains("ok        impact_force 2011.2 N <= 2500 N (80 %) for the free impact; "),
+            "{text}"
+        );
+        let page = told(&["explain", "impact_force", TABLE_1, "--method", method]);
+        assert!(page.contains("This is the free impact; "), "{page}");
+        assert!(
+            !page.contains(&format!("{method} 2011.2 N"))
+                && page.contains("exact with the deflection that"),
+            "{page}"
+        );
+    }
+    assert!(!told(&["solve", TABLE_1]).contains("Free impact"));
+}
+
+#[test]
+fn the_relief_that_is_told_stops_it_and_a_little_less_does_not() {
+    const CASE: &str = "cases/nasa-lewis-28-28.toml";
+    for (method, given) in ["paper", "exact", "static", "dynamic"]
+        .into_iter()
+        .flat_map(|method| [(method, 0.0), (method, 3.7)])
+    {
+        let with = |relief: f64, format: &'static str| {
+            let set = format!("driven.tip_relief={relief:.6} um");
+            vec![
+                "solve".to_owned(),
+                CASE.into(),
+                "--method".into(),
+                method.into(),
+                "--set".into(),
+                set,
+                "--format".into(),
+                format.into(),
+            ]
+        };
+        let run =
+            |options: Vec<String>| told(&options.iter().map(String::as_str).collect::<Vec<_>>());
+        let text = run(with(given, "text"))
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ");
+        let sentence = text
+            .split(". ")
+            .find(|sentence| sentence.contains(" at the driven tip: "))
+            .unwrap_or_else(|| panic!("{method}: {text}"));
+        let mut figures = sentence
+            .split([' ', ','])
+            .skip_while(|word| *word != method);
+        let told: f64 = figures.nth(1).unwrap_or_default().parse().unwrap();
+        for (part, outcome) in [(1.0, "no-corner-contact"), (0.99, "corner-contact")] {
+            let solved: Value =
+                serde_json::from_str(&run(with(given + told * part, "json"))).unwrap();
+            assert_eq!(
+                solved["outcome"], outcome,
+                "{method} from {given}: {sentence}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_page_of_a_result_by_auto_says_which_tolerance_was_taken() {
+    let page = told(&["explain", "dynamic_peak_force", TABLE_1, "--method", "auto"]);
+    let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(page.contains("method dynamic, chosen by auto"), "{page}");
+    assert!(
+        page.contains("at most 1e-3 (chosen by auto for model.within = 0.05; model.tolerance = 1e-6 is not used)"),
+        "{page}"
+    );
+    assert!(
+        page.contains("model.within = ") && !page.contains("model.tolerance = 1e-6,"),
+        "{page}"
+    );
+    let given = told(&[
+        "explain",
+        "dynamic_peak_force",
+        TABLE_1,
+        "--method",
+        "dynamic",
+    ]);
+    assert!(given.contains("at most model.tolerance = 1e-6"), "{given}");
+}
+
+#[test]
+fn a_limit_is_tried_on_another_method_and_on_a_changed_field() {
+    let dynamic = told(&["check", TABLE_1, "--method", "dynamic"]);
+    let beside = "for the free impact; dynamic finds dynamic_peak_approach_force 1410.8 N, which has no limit of its own";
+    let held = format!("ok {TABLE_1}: impact_force 2011.2 N <= 2500 N (80 %) {beside}\n");
+    assert_eq!(dynamic, held);
+    let by_auto = told(&["check", TABLE_1, "--method", "auto"]);
+    assert_eq!(
+        by_auto, dynamic,
+        "the name means the same whatever the method"
+    );
+    let (_folder, own) = changed(
+        "impact_force = \"2500 N\"",
+        "dynamic_peak_approach_force = \"2500 N\"\ncontact_ratio = 1.7",
+    );
+    let own = told(&["check", &own, "--method", "dynamic"]);
+    assert!(
+        !own.contains("free impact")
+            && own.contains("dynamic_peak_approach_force 1410.8 N <= 2500 N (56 %)\n"),
+        "{own}"
+    );
+    let relieved = told(&["check", TABLE_1, "--set", "driven.tip_relief=60 um"]);
+    assert_eq!(
+        relieved,
+        format!("ok {TABLE_1}: impact_force does not occur: no corner contact (limit 2500 N)\n")
+    );
+}
+
+#[test]
+fn a_bad_case_outranks_an_exceeded_limit() {
+    let (_folder, strict) = changed("\"2500 N\"", "\"2 N\"");
+    let (_other, bad) = changed("teeth = 20", "teeth = 0");
+    let output = run(&["check", &bad, &strict]);
+    assert_eq!(code(&output), 3);
+    assert!(out(&output).starts_with("EXCEEDED "), "{}", out(&output));
+}
+
+#[test]
+fn a_limit_holds_where_no_tooth_strikes() {
+    let (_folder, path) = changed("base_pitch = \"16 um\"", "base_pitch = \"-50 um\"");
+    assert_eq!(
+        told(&["check", &path]),
+        format!("ok {path}: impact_force does not occur: no corner contact (limit 2500 N)\n")
+    );
+}
+
+#[test]
+fn no_control_of_a_file_or_a_name_reaches_the_terminal() {
+    let (folder, _) = changed("format", "format");
+    let text = fs::read_to_string(TABLE_1).unwrap();
+    let hostile = text.replace(
+        "title = \"Zhou",
+        "title = \"\\u001b[2J\\u009b\\u007f\\u202E\\u200b Zhou",
+    );
+    let path = folder.path().join("\u{1b}[31m\u{202e}.toml");
+    fs::write(&path, &hostile).unwrap();
+    let path = path.to_str().unwrap();
+    let broken = folder.path().join("\u{1b}]0;\u{7}.toml");
+    fs::write(&broken, hostile.replace("teeth", "te\u{1b}eth")).unwrap();
+    let runs: [&[&str]; 9] = [
+        &["solve", path],
+        &["solve", path, "--format", "json"],
+        &["solve", path, "--format", "csv"],
+        &["check", path],
+        &["explain", "impact_force", path],
+        &["explain", "impact_force", path, "--format", "json"],
+        &["solve", broken.to_str().unwrap()],
+        &["solve", "no-such\u{9b}file"],
+        &["solve", TABLE_1, "--\u{1b}[2J"],
+    ];
+    for arguments in runs {
+        let output = run(arguments);
+        let shown = out(&output) + &err(&output);
+        let raw = shown
+            .chars()
+            .find(|&c| c.is_control() && c != '\n' || ('\u{200b}'..='\u{202e}').contains(&c));
+        assert_eq!(raw, None, "{arguments:?}: {shown}");
+    }
+    let solved = json(&["solve", path, "--format", "json"]);
+    assert_eq!(solved["case"], path);
+    assert!(
+        solved["title"]
+            .as_str()
+            .unwrap()
+            .starts_with("\u{1b}[2J\u{9b}\u{7f}\u{202e}")
+    );
+}
+
+#[test]
+fn a_new_case_solves() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("new.toml");
+    let path = path.to_str().unwrap();
+    assert_eq!(told(&["new", path]), "");
+    let text = fs::read_to_string(path).unwrap();
+    assert_eq!(told(&["new"]), text);
+    let output = run_with_input(&["solve", "-"], &text);
+    assert_eq!((code(&output), err(&output).as_str()), (0, ""));
+    let solved = out(&output);
+    assert!(
+        solved.contains("New case")
+            && solved.contains("Corner contact")
+            && !solved.contains("Limits"),
+        "{solved}"
+    );
+    let weaker = out(&run_with_input(
+        &[
+            "solve",
+            "-",
+            "--set",
+            "operation.power=5 kW",
+            "--only",
+            "impact_force",
+        ],
+        &text,
+    ));
+    let given = out(&run_with_input(
+        &["solve", "-", "--only", "impact_force"],
+        &text,
+    ));
+    assert_ne!(weaker, given, "the load makes the deflection");
+    assert!(!text.contains("grade 7"), "{text}");
+}
+
+#[test]
+fn a_quantity_is_known_by_a_symbol_of_its_own() {
+    let of = |name: &str| told(&["explain", name]);
+    assert_eq!(of("F_S"), of("impact_force"));
+    assert_eq!(
+        told(&["solve", TABLE_1, "--only", "F_S"]),
+        told(&["solve", TABLE_1, "--only", "impact_force"])
+    );
+    let page = told(&[
+        "solve",
+        TABLE_1,
+        "--method",
+        "dynamic",
+        "--only",
+        "F_d,max,F_st,E,Δf_0",
+    ]);
+    let rows = [
+        "F_d,max dynamic: peak force",
+        "F_st,E  static: force at E",
+        "Δf_0    error without",
+    ];
+    assert!(rows.iter().all(|row| page.contains(row)), "{page}");
+}
+
+#[test]
+fn the_angle_of_the_verdict_is_a_row_of_the_table() {
+    for (method, symbol, label) in [
+        ("exact", "θ_1", "driver angle before E"),
+        ("static", "θ_st", "static: driver before E"),
+        ("dynamic", "θ_d", "dynamic: driver before E"),
+    ] {
+        let page = told(&["solve", TABLE_1, "--method", method]);
+        let start = format!("Corner contact: {symbol} = ");
+        let (_, rest) = page.split_once(&start).unwrap_or_else(|| panic!("{page}"));
+        let (angle, _) = rest.split_once(" before E").unwrap();
+        let row = page.lines().find(|line| line.contains(label)).unwrap();
+        assert!(
+            row.contains(&format!(" {symbol} ")) && row.contains(angle),
+            "{row}"
+        );
+    }
+}
+
+#[test]
+fn one_method_governs_and_the_others_follow_in_a_line() {
+    let solve = |options: &[&str]| {
+        let page = told(&[&["solve", TABLE_1, "--method", "dynamic"], options].concat());
+        page.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let page = solve(&[]);
+    for line in [
+        "peak force 1410.8 N before E, 2003.0 N overall.",
+        "Relief needed at the driven tip: dynamic 38.9, static 40.1, exact 47.4 um.",
+        "Free impact with the given deflection: exact 2191.0 N at θ_1 = 1.36628 deg; paper 84.649 N",
+    ] {
+        assert!(page.contains(line), "{line}: {page}");
+    }
+    let differing = solve(&["--set", "driven.tip_relief=39 um"]);
+    let line = "static and exact find corner contact; dynamic governs: the case selects it, and it includes inertia.";
+    assert!(differing.contains(line), "{differing}");
+    assert!(!page.contains("governs"), "{page}");
+}
+
+#[test]
+fn a_new_case_overwrites_nothing() {
+    let (_folder, path) = changed("format", "format");
+    let before = fs::read(&path).unwrap();
+    let output = run(&["new", &path]);
+    assert_eq!((code(&output), out(&output).as_str()), (5, ""));
+    assert_eq!(fs::read(&path).unwrap(), before);
+}
+
+#[test]
+fn a_new_case_begins_with_an_example_wherever_the_program_stands() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let path = path.to_str().unwrap();
+    let elsewhere = |arguments: &[&str]| {
+        program(arguments)
+            .current_dir(folder.path())
+            .output()
+            .unwrap()
+    };
+    let listed = out(&elsewhere(&["new", "--list"]));
+    for example in EXAMPLES {
+        let text = fs::read_to_string(format!(
+            concat!(env!("CARGO_MANIFEST_DIR"), "/cases/{}.toml"),
+            example.name
+        ))
+        .unwrap();
+        assert_eq!(
+            out(&elsewhere(&["new", "--from", example.name])),
+            text,
+            "the very file"
+        );
+        assert!(listed.contains(example.name));
+    }
+    assert!(
+        listed.contains("strikes with 2191.0 N; limit met")
+            && listed.contains("no corner contact; 2 limits met"),
+        "{listed}"
+    );
+    assert_eq!(code(&elsewhere(&["new", "--from", "fzg-type-c", path])), 0);
+    assert!(told(&["solve", path]).contains("FZG type C"));
+    let again = elsewhere(&["new", "--from", "fzg-type-c", path]);
+    assert!(code(&again) == 5 && err(&again).contains("it exists already"));
+    let slip = elsewhere(&["new", "--from", "fzg-type"]);
+    assert!(
+        code(&slip) == 2 && err(&slip).contains("fzg-type-c"),
+        "{}",
+        err(&slip)
+    );
+    assert_eq!(code(&elsewhere(&["new", "--list", path])), 2);
+}
+
+#[test]
+fn the_fields_are_listed_for_people_and_for_scripts() {
+    let table = told(&["fields"]);
+    assert!(table.lines().all(|line| line.chars().count() <= 100));
+    assert!(
+        table
+            .lines()
+            .any(|line| line.starts_with("pair.module ") && line.contains("0.05..50")),
+        "{table}"
+    );
+    let lines = told(&["fields", "--format", "json"]);
+    let fields: Vec<Value> = lines
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    assert_eq!(fields.len(), tipstrike::case::FIELDS.len());
+    assert!(told(&["fields", "--results"]).contains("impact_force "));
+}
+
+#[test]
+fn a_quantity_is_explained_for_people_and_for_scripts() {
+    let page = told(&["explain", "impact_force"]);
+    assert!(
+        page.starts_with("impact force, F_S (Eq. 57)\nF_S = 2191.0 N\n"),
+        "{page}"
+    );
+    assert!(page.contains("F_S = ΔV_n √(b M/q_s)"), "{page}");
+    assert_eq!(
+        told(&["explain", "impact_force", TABLE_1])
+            .lines()
+            .skip(3)
+            .collect::<Vec<_>>(),
+        page.lines().skip(3).collect::<Vec<_>>()
+    );
+    let paper = json(&[
+        "explain",
+        "approach_angle_driver",
+        TABLE_1,
+        "--method",
+        "paper",
+        "--format",
+        "json",
+    ]);
+    assert_eq!(
+        (&paper["key"], &paper["method"]),
+        (&"approach_angle_driver".into(), &"paper".into())
+    );
+    assert_eq!(paper["derivation"][0]["formula"], "ε_e + ε_d");
+    assert_eq!(
+        paper["derivation"][0]["numbers"],
+        "0.02720673 deg + 0.02536797 deg"
+    );
+    assert_eq!(
+        (
+            &paper["validity"][0]["inside"],
+            &paper["corrections"][0]["equation"]
+        ),
+        (&false.into(), &"Eqs. 7-20".into())
+    );
+    let faster = json(&[
+        "explain",
+        "normal_velocity",
+        "--set",
+        "operation.speed=4000 rpm",
+        "--format",
+        "json",
+    ]);
+    let effect = faster["sensitivity"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .find(|effect| effect["key"] == "operation.speed")
+        .unwrap();
+    assert_eq!(
+        (&effect["text"], &effect["change"]),
+        (&"4000 rpm".into(), &"+1.00 %".into())
+    );
+    let on_time = told(&["explain", "impact_force", "cases/tip-relief-enough.toml"]);
+    assert!(on_time.contains("No value: no corner contact"), "{on_time}");
+    assert!(told(&["fields", "--results"]).ends_with(
+        "`tipstrike explain KEY [CASE]` shows how one is found, with the numbers of a case.\n"
+    ));
+}
+
+#[test]
+fn what_cannot_be_explained_is_refused_as_a_solve_is() {
+    for (arguments, exit, says) in [
+        (
+            &["explain", "impact_forc"][..],
+            2,
+            "did you mean impact_force?",
+        ),
+        (&["explain"], 2, "QUANTITY"),
+        (
+            &["explain", "impact_force", "--set", "pair.modul=5 mm"],
+            2,
+            "pair.module",
+        ),
+        (
+            &[
+                "explain",
+                "impact_force",
+                "--set",
+                "pair.centre_distance=80 mm",
+            ],
+            3,
+            "pair.centre_distance",
+        ),
+        (
+            &["explain", "impact_force", "no-such-file.toml"],
+            5,
+            "no-such-file.toml",
+        ),
+    ] {
+        let output = run(arguments);
+        assert_eq!(
+            (code(&output), out(&output).as_str()),
+            (exit, ""),
+            "{arguments:?}"
+        );
+        assert!(
+            err(&output).contains(says),
+            "{arguments:?}: {}",
+            err(&output)
+        );
+    }
+}
+
+#[test]
+fn a_trade_names_the_cheapest_setting_that_will_do() {
+    let page = told(&["trade", TABLE_1]);
+    assert!(
+        page.contains("Reference: dynamic with 4096 stations and tolerance 1e-12"),
+        "{page}"
+    );
+    assert!(
+        page.lines()
+            .last()
+            .unwrap()
+            .starts_with("Within 5.0 %: dynamic with"),
+        "{page}"
+    );
+    let traded = json(&["trade", TABLE_1, "--within", "40%", "--format", "json"]);
+    assert_eq!(
+        (&traded["case"], &traded["within"]),
+        (&TABLE_1.into(), &0.4.into())
+    );
+    assert_eq!(traded["recommended"]["method"], "static");
+    let own: Vec<&Value> = traded["settings"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|one| one["current"] == true)
+        .collect();
+    assert_eq!(
+        (own.len(), &own[0]["method"], &own[0]["stations"]),
+        (1, &"exact".into(), &64.into())
+    );
+}
+
+#[test]
+fn a_trade_that_cannot_be_made_says_why() {
+    for within in ["0", "-5%", "five", "nan"] {
+        let output = run(&["trade", TABLE_1, "--within", within]);
+        assert_eq!((code(&output), out(&output).as_str()), (2, ""), "{within}");
+    }
+    assert_eq!(code(&run(&["trade", "no-such-file.toml"])), 5);
+    assert_eq!(code(&run(&["trade"])), 2);
+    let (_folder, path) = changed(
+        "module = \"5 mm\"",
+        "module = \"5 mm\"\ncentre_distance = \"50 mm\"",
+    );
+    let refused = run(&["trade", &path]);
+    assert_eq!((code(&refused), out(&refused).as_str()), (3, ""));
+    assert!(
+        err(&refused).contains("centre_distance"),
+        "{}",
+        err(&refused)
+    );
+}
+
+#[test]
+fn every_shell_has_completions_and_the_manual_a_name() {
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        assert!(
+            told(&["completions", shell]).contains("tipstrike"),
+            "{shell}"
+        );
+    }
+    let page = told(&["man"]);
+    assert!(page.contains(".SH NAME\ntipstrike"), "{page}");
+    assert!(page.contains(".SH \"EXIT STATUS\""), "{page}");
+    assert!(told(&["man", "solve"]).contains("stations"));
+    assert_eq!(code(&run(&["man", "nonsense"])), 2);
+}
+
+#[test]
+fn help_and_version_are_results_and_wrong_usage_is_not() {
+    assert!(told(&["--version"]).starts_with("tipstrike "));
+    assert!(told(&["--help"]).contains("completions"));
+    assert!(told(&["solve", "--help"]).contains("--only"));
+    for wrong in [
+        &["solve"][..],
+        &["solve", TABLE_1, "--stations", "0"],
+        &["solve", TABLE_1, "--method", "guess"],
+        &["--wrong"],
+    ] {
+        let output = run(wrong);
+        assert_eq!((code(&output), out(&output).as_str()), (2, ""), "{wrong:?}");
+        assert!(!err(&output).is_empty());
+    }
+}
+
+#[test]
+fn a_reader_that_goes_away_ends_the_program_quietly() {
+    let mut child = program(&["solve", TABLE_1, "--stations", "10000", "--format", "csv"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut first = String::new();
+    BufReader::new(child.stdout.take().unwrap())
+        .read_line(&mut first)
+        .unwrap();
+    assert!(first.starts_with("case,"));
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((code(&output), err(&output).as_str()), (0, ""));
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn an_output_that_cannot_be_written_is_no_success() {
+    let full = fs::OpenOptions::new()
+        .write(true)
+        .open("/dev/full")
+        .unwrap();
+    let output = program(&["solve", TABLE_1]).stdout(full).output().unwrap();
+    assert_eq!(code(&output), 5);
+    assert!(err(&output).contains("standard output"), "{}", err(&output));
+}
+
+#[test]
+fn no_colour_and_no_escape_is_written_anywhere() {
+    for arguments in [&["--help"][..], &["solve", "--help"], &["solve"], &["man"]] {
+        let output = program(arguments)
+            .env("CLICOLOR_FORCE", "1")
+            .env_remove("NO_COLOR")
+            .output()
+            .unwrap();
+        assert!(
+            !(out(&output) + &err(&output)).contains('\u{1b}'),
+            "{arguments:?}"
+        );
+    }
+}

@@ -1,0 +1,432 @@
+//! Every quantity explains itself, and what the explanation prints is true.
+// A test may stop at what it did not expect.
+
+mod evaluate;
+mod formula;
+
+use evaluate::{evaluate, factor};
+use formula::Tree;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::LazyLock;
+use tipstrike::case::{Case, EXAMPLES};
+use tipstrike::model::{QUANTITIES, Quantity, Stage, Stages, solve};
+use tipstrike::report::explain::{CORRECTIONS, How, Page, Work, explain, lines, render};
+
+type Settings = &'static [(&'static str, &'static str)];
+
+/// Settings that turn a case into one with other formulas.
+const VARIANTS: [Settings; 8] = [
+    &[],
+    &[("model.method", "paper")],
+    &[("model.deflection", "")],
+    &[
+        ("model.tooth_compliance", "beam"),
+        ("model.contact_compliance", "weber"),
+        ("model.deflection", ""),
+    ],
+    &[
+        ("model.contact_compliance", "constant"),
+        ("driven.tip_radius", "0.3 mm"),
+        ("model.accurate", "true"),
+    ],
+    &[
+        ("operation.torque", "40 lbf ft"),
+        ("driven.tip_relief", "2 um"),
+        ("deviations.backlash", "1 um"),
+    ],
+    &[
+        ("operation.speed", "1.5 rad/s"),
+        ("operation.friction_coefficient", "0.07"),
+        ("driven.tip_chamfer", "0.01 in"),
+    ],
+    &[
+        ("deviations.base_pitch", "-0.3 um"),
+        ("driver.profile_shift", "-0.02"),
+        ("model.method", "paper"),
+    ],
+];
+
+struct Explained {
+    name: String,
+    pages: Vec<Page>,
+}
+
+fn cases() -> Vec<(String, Case)> {
+    EXAMPLES
+        .iter()
+        .map(|example| {
+            (
+                format!("cases/{}.toml", example.name),
+                example.document().case,
+            )
+        })
+        .collect()
+}
+
+/// The pages of a case once the settings have changed it; none where the model refuses it.
+fn explained(name: &str, case: &Case, settings: &[(&str, &str)]) -> Option<Explained> {
+    let mut case = case.clone();
+    for (key, value) in settings {
+        case.set(key, value).unwrap();
+    }
+    let inputs = case.inputs().unwrap();
+    let solution = solve(&inputs, Stages::ALL.with(Stage::Clearing)).ok()?;
+    let pages = QUANTITIES
+        .iter()
+        .map(|quantity| explain(quantity, &case, &inputs, &solution))
+        .collect();
+    Some(Explained {
+        name: format!("{name} {settings:?}"),
+        pages,
+    })
+}
+
+static EXPLAINED: LazyLock<Vec<Explained>> = LazyLock::new(|| {
+    let cases = cases();
+    let variants = cases
+        .iter()
+        .flat_map(|(name, case)| VARIANTS.iter().map(move |settings| (name, case, settings)));
+    let closed = variants.filter_map(|(name, case, settings)| explained(name, case, settings));
+    closed
+        .chain([shared("static"), shared("dynamic")])
+        .collect()
+});
+
+/// The pages of the values that Table 1 has only in this method.
+fn shared(method: &str) -> Explained {
+    let mut case = Case::table_1();
+    case.set("model.method", method).unwrap();
+    let inputs = case.inputs().unwrap();
+    let solution = solve(&inputs, Stages::EVERY).unwrap();
+    let own = QUANTITIES.iter().filter(|quantity| match quantity.stage {
+        Stage::Mesh | Stage::Static => method == "static",
+        Stage::Dynamic => quantity.key.contains("first_contact"),
+        _ => false,
+    });
+    let pages = own.map(|quantity| explain(quantity, &case, &inputs, &solution));
+    Explained {
+        name: format!("Table 1, {method}"),
+        pages: pages.collect(),
+    }
+}
+
+fn every_page(mut look: impl FnMut(&str, &Page)) {
+    EXPLAINED
+        .iter()
+        .for_each(|case| case.pages.iter().for_each(|page| look(&case.name, page)));
+}
+
+fn page(case: &str, key: &str, settings: &[(&str, &str)]) -> Page {
+    let (name, case) = cases()
+        .into_iter()
+        .find(|(name, _)| name.contains(case))
+        .unwrap();
+    let case = explained(&name, &case, settings).unwrap();
+    case.pages
+        .into_iter()
+        .find(|page| page.quantity.key == key)
+        .unwrap()
+}
+
+/// One unit of the last digit that a page shows of a value, in the shown unit.
+fn last_place(work: &Work) -> f64 {
+    let shown: f64 = work.shown.as_ref().unwrap().number.parse().unwrap();
+    let magnitude = format!("{shown:e}").split('e').nth(1).unwrap().to_owned();
+    let digits = i32::try_from(work.digits).unwrap();
+    10f64.powi(magnitude.parse::<i32>().unwrap() + 1 - digits)
+}
+
+/// What is printed behind the last equals sign, in its unit, and what the numbers before it make.
+fn printed(work: &Work) -> Option<(f64, f64)> {
+    let (numbers, shown) = (work.numbers.as_ref()?, work.shown.as_ref()?);
+    let unit = factor(shown.unit).unwrap_or_else(|| panic!("{shown}"));
+    Some((shown.number.parse().unwrap(), evaluate(numbers) / unit))
+}
+
+#[test]
+fn the_printed_numbers_make_the_printed_value() {
+    let mut checked = 0;
+    every_page(|name, page| {
+        for work in &page.derivation {
+            let Some((shown, found)) = printed(work) else {
+                continue;
+            };
+            // The terms of a difference of close numbers have ten digits.
+            let lost = if work.formula.contains(" - ") {
+                1e-4
+            } else {
+                0.0
+            };
+            let agree = (found - shown).abs() <= last_place(work).max(lost * shown.abs());
+            assert!(
+                agree,
+                "{name}, {}: {} = {:?} makes {found}, not {shown}",
+                page.quantity.key, work.symbol, work.numbers
+            );
+            checked += 1;
+        }
+    });
+    assert!(checked > 10_000, "{checked}");
+}
+
+#[test]
+fn every_formula_gives_the_value_of_the_solver() {
+    let mut checked = 0;
+    every_page(|name, page| {
+        let steps = page.derivation.iter().map(|work| (work.symbol, work.value));
+        let leaves = page.leaves.iter().map(|leaf| (leaf.symbol, leaf.value));
+        let values: BTreeMap<&str, f64> = steps
+            .chain(leaves)
+            .filter_map(|(symbol, value)| Some((symbol, value?)))
+            .collect();
+        for work in page
+            .derivation
+            .iter()
+            .filter(|work| work.how == How::Equals)
+        {
+            let Some(value) = work.value else { continue };
+            let tree = Tree::read(&work.formula).unwrap_or_else(|| panic!("{}", work.formula));
+            let found = tree.value(&|symbol| values.get(symbol).copied());
+            let found = found.unwrap_or_else(|| panic!("{name}: {}", work.formula));
+            assert!(
+                (found - value).abs() <= 1e-6 * value.abs() + 1e-18,
+                "{name}, {}: {} = {} gives {found}, the solver {value}",
+                page.quantity.key,
+                work.symbol,
+                work.formula
+            );
+            checked += 1;
+        }
+    });
+    assert!(checked > 10_000, "{checked}");
+}
+
+#[test]
+fn every_value_with_a_formula_is_shown_with_its_numbers() {
+    every_page(|name, page| {
+        for work in page
+            .derivation
+            .iter()
+            .filter(|work| work.how == How::Equals && work.shown.is_some())
+        {
+            assert!(
+                work.numbers.is_some(),
+                "{name}, {}: {} = {}",
+                page.quantity.key,
+                work.symbol,
+                work.formula
+            );
+        }
+        for work in page
+            .derivation
+            .iter()
+            .filter(|work| work.how == How::Solves && work.shown.is_some())
+        {
+            assert_eq!(
+                work.residual.as_deref(),
+                Some("both sides agree within 1e-12 of either"),
+                "{name}, {}",
+                work.symbol
+            );
+        }
+    });
+}
+
+#[test]
+fn every_quantity_is_explained_in_all_its_parts() {
+    every_page(|name, page| {
+        let Quantity { key, symbol, .. } = page.quantity;
+        assert!(
+            [page.meaning, page.source, page.assumptions]
+                .iter()
+                .all(|part| part.ends_with('.')),
+            "{key}"
+        );
+        assert_eq!(
+            page.derivation.first().map(|work| work.symbol),
+            Some(*symbol),
+            "{key}"
+        );
+        assert_eq!(
+            page.value.is_some(),
+            page.missing.is_none(),
+            "{name}, {key}"
+        );
+        assert_eq!(
+            page.value.is_some(),
+            !page.accuracy.is_empty(),
+            "{name}, {key}"
+        );
+        assert!(
+            page.missing.is_some() || !page.effects.is_empty(),
+            "{name}, {key}"
+        );
+        let given = page.derivation[0].how == How::Described;
+        let sides = !page.derivation[0].formula.is_empty()
+            && (given || page.derivation.len() + page.leaves.len() > 1);
+        assert!(sides, "{name}, {key}");
+    });
+}
+
+#[test]
+fn every_equation_that_is_cited_is_one() {
+    let mut cited_errors = BTreeSet::new();
+    every_page(|_, page| {
+        cited_errors.extend(page.corrections.iter().map(|row| row.equation));
+        let equation = page.quantity.equation;
+        let cited = [page.source, page.meaning, page.assumptions];
+        let named = if let [number] = equations(equation)[..] {
+            equations(page.source).contains(&number)
+        } else {
+            let head = equation.split(' ').next().unwrap();
+            equation == "by the method" || cited.iter().any(|part| part.contains(head))
+        };
+        assert!(
+            named,
+            "{}: {equation} in {}",
+            page.quantity.key, page.source
+        );
+        for text in cited {
+            assert!(
+                equations(text)
+                    .iter()
+                    .all(|number| (1..=64).contains(number)),
+                "{text}"
+            );
+        }
+    });
+    let table: BTreeSet<&str> = CORRECTIONS.iter().map(|row| row.equation).collect();
+    assert_eq!(cited_errors, table);
+    for row in CORRECTIONS {
+        let known = equations(row.equation)
+            .iter()
+            .all(|number| (1..=64).contains(number));
+        assert!(
+            known && !row.error.is_empty() && !row.used.is_empty(),
+            "{}",
+            row.equation
+        );
+    }
+}
+
+/// The numbers behind every "Eq." and "Eqs." of a text, ranges in full.
+fn equations(text: &str) -> Vec<u32> {
+    let lists = text
+        .match_indices("Eq")
+        .filter_map(|(at, _)| text[at + 2..].trim_start_matches('s').strip_prefix(". "));
+    let end = |rest: &str| {
+        rest.find(|c: char| !c.is_ascii_digit() && !"-, and".contains(c))
+            .unwrap_or(rest.len())
+    };
+    let words = lists.flat_map(|rest| {
+        rest[..end(rest)]
+            .split([',', ' '])
+            .filter(|word| !word.is_empty())
+    });
+    words.filter_map(span).flatten().collect()
+}
+
+/// The numbers of "7" or of "7-20".
+fn span(word: &str) -> Option<std::ops::RangeInclusive<u32>> {
+    let (from, to) = word.split_once('-').unwrap_or((word, word));
+    Some(from.parse().ok()?..=to.parse().ok()?)
+}
+
+#[test]
+fn no_line_is_wider_than_asked_for() {
+    for (name, case) in cases() {
+        for page in explained(&name, &case, &[]).unwrap().pages {
+            for width in [38, 58, 80, 100] {
+                let lines = lines(&page, &name, width);
+                let wide = lines.iter().find(|line| line.text.chars().count() > width);
+                assert_eq!(wide, None, "{width}, {name}, {}", page.quantity.key);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_step_of_a_field_does_what_a_solve_says() {
+    let page = page("zhou", "impact_force", &[]);
+    let of = |key: &str| {
+        page.effects
+            .iter()
+            .find(|effect| effect.key == key)
+            .unwrap()
+    };
+    let more = explained("", &Case::table_1(), &[("deviations.base_pitch", "17 um")]).unwrap();
+    let force = more
+        .pages
+        .iter()
+        .find(|page| page.quantity.key == "impact_force")
+        .unwrap()
+        .value
+        .unwrap();
+    let share = 100.0 * (force / page.value.unwrap() - 1.0);
+    assert_eq!(of("deviations.base_pitch").change, format!("+{share:.2} %"));
+    assert_eq!(of("deviations.base_pitch").text, "16 um");
+    assert_eq!(
+        (
+            of("model.method").step.as_str(),
+            of("model.method").change.as_str()
+        ),
+        ("", "")
+    );
+    assert!(page.effects.iter().all(|effect| !["title", "operation.torque", "driver.tip_relief"].contains(&effect.key)));
+}
+
+#[test]
+fn a_quantity_without_a_value_says_why() {
+    let relieved = page("tip-relief-enough", "impact_force", &[]);
+    assert!(
+        relieved
+            .missing
+            .unwrap()
+            .starts_with("No value: no corner contact")
+    );
+    let withheld = page(
+        "zhou",
+        "impact_force",
+        &[("driver.teeth", "120"), ("driven.teeth", "120")],
+    );
+    assert!(
+        withheld
+            .missing
+            .unwrap()
+            .contains("outside the Kuang-Yang fit")
+    );
+}
+
+#[test]
+fn pages_read_as_they_did() {
+    let samples: [(&str, &str, Settings); 14] = [
+        ("zhou", "impact_force", &[]),
+        ("zhou", "approach_angle_driven", &[]),
+        (
+            "zhou",
+            "approach_angle_driver",
+            &[("model.method", "paper")],
+        ),
+        ("zhou", "friction_ratio", &[("model.method", "paper")]),
+        ("zhou", "impact_duration_printed", &[]),
+        ("zhou", "closed_gap", &[("model.method", "paper")]),
+        ("fzg", "contact_ratio", &[]),
+        ("fzg", "pair_compliance", &[]),
+        ("fzg", "reduced_mass", &[]),
+        ("mill", "working_pressure_angle", &[]),
+        ("nasa", "mesh_force", &[]),
+        ("high-contact", "combined_deflection", &[]),
+        ("hydro", "impact_force_low", &[]),
+        ("tip-relief", "normal_velocity", &[]),
+    ];
+    for (case, key, settings) in samples {
+        let method = settings
+            .first()
+            .map(|(_, method)| format!("_{method}"))
+            .unwrap_or_default();
+        insta::assert_snapshot!(
+            format!("{case}_{key}{method}"),
+            render(&page(case, key, settings), case)
+        );
+    }
+}

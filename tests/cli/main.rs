@@ -1,0 +1,17 @@
+//! The commands: case files, errors, output.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a test that cannot go on says why, and prints its figures"
+)]
+
+mod bad_files;
+mod case_files;
+mod commands;
+mod explain;
+mod meaning;
+mod reports;
+mod stiffness_command;

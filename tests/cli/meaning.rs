@@ -1,0 +1,497 @@
+//! What a result, a verdict and a hint mean: one thing in a method, and where a method means
+//! another it says so.
+use serde_json::Value;
+use std::process::{Command, Output, Stdio};
+use tipstrike::case::fields::{Kind, index_of};
+use tipstrike::case::{Acting, Case, EXAMPLES, FIELDS, partial_relevance, relevance};
+use tipstrike::model::{self, Quantity, Solution};
+use tipstrike::report::{shown, value};
+
+const TABLE_1: &str = "cases/zhou-chen-2014.toml";
+const METHODS: [&str; 5] = ["paper", "exact", "static", "dynamic", "auto"];
+
+fn run(arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_tipstrike"));
+    command
+        .args(arguments)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .stdin(Stdio::null())
+        .output()
+        .unwrap()
+}
+
+fn told(arguments: &[&str]) -> String {
+    String::from_utf8(run(arguments).stdout).unwrap()
+}
+
+/// The one line with which a command refuses, and its exit code.
+fn refused(arguments: &[&str]) -> (i32, String) {
+    let output = run(arguments);
+    let line = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(line.lines().count(), 1, "{line}");
+    (output.status.code().unwrap(), line.trim_end().to_owned())
+}
+
+/// The text of a solve of Table 1 with reliefs, without its line ends.
+fn relieved(method: &str, command: &[&str]) -> String {
+    let reliefs = [
+        "--method",
+        method,
+        "--set",
+        "driven.tip_relief=10 um",
+        "--set",
+        "driver.root_relief=5 um",
+    ];
+    told(&[command, &reliefs].concat())
+        .split_whitespace()
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+#[test]
+fn the_modification_is_told_in_every_method_and_means_the_same() {
+    for method in METHODS {
+        let page = relieved(method, &["solve", TABLE_1]);
+        assert!(
+            page.contains("e_m modification at run-in -15.000 um Eq. 1"),
+            "{method}: {page}"
+        );
+    }
+}
+
+#[test]
+fn an_equivalent_error_without_the_reliefs_is_called_so() {
+    for (method, row) in [
+        ("paper", "Δf equivalent error 12.021 um"),
+        ("exact", "Δf equivalent error 7.6274 um"),
+        ("static", "Δf_0 error without reliefs 22.627 um"),
+        ("dynamic", "Δf_0 error without reliefs 22.627 um"),
+    ] {
+        let page = relieved(method, &["solve", TABLE_1]);
+        assert!(page.contains(row), "{method}: {page}");
+    }
+    let of = |method| -> Value {
+        let line = told(&[
+            "solve",
+            TABLE_1,
+            "--method",
+            method,
+            "--only",
+            "equivalent_error",
+            "--format",
+            "json",
+        ]);
+        serde_json::from_str::<Value>(&line).unwrap()["quantities"]["equivalent_error"]["of"]
+            .clone()
+    };
+    assert_eq!(
+        (of("exact"), of("static")),
+        (Value::Null, "deviations-without-reliefs".into())
+    );
+    let page = relieved("static", &["explain", "equivalent_error"]);
+    assert!(page.contains("Δf_0 = (2 f_pb - j_bn)/√2"), "{page}");
+    assert!(
+        page.contains("Methods: ") == page.contains("paper 22.6"),
+        "{page}"
+    );
+    assert!(
+        !page.contains("exact 7.6"),
+        "two definitions stand side by side: {page}"
+    );
+    let page = relieved("static", &["explain", "total_deviation"]);
+    assert!(page.contains("Δ = Δf_0 + e_m + δ"), "{page}");
+}
+
+#[test]
+fn an_explanation_says_what_holds_in_its_method() {
+    let strikes = "Above 0 the tip strikes before E";
+    for (method, holds) in [
+        ("paper", false),
+        ("exact", true),
+        ("static", false),
+        ("dynamic", false),
+        ("auto", false),
+    ] {
+        assert_eq!(
+            relieved(method, &["explain", "total_deviation"]).contains(strikes),
+            holds,
+            "{method}"
+        );
+    }
+    let in_full = "Relief reduces it by its full amount";
+    for (method, holds) in [("paper", false), ("exact", true), ("static", false)] {
+        assert_eq!(
+            relieved(method, &["explain", "equivalent_error"]).contains(in_full),
+            holds,
+            "{method}"
+        );
+    }
+    let deflects = "It deflects the teeth";
+    assert!(
+        !relieved("exact", &["explain", "mesh_force"]).contains(deflects),
+        "the deflection is given"
+    );
+    assert!(relieved("static", &["explain", "mesh_force"]).contains(deflects));
+}
+
+#[test]
+fn a_limit_that_has_no_value_is_not_held_and_says_why() {
+    let output = run(&["check", TABLE_1, "--set", "limits.dynamic_peak_force=2 kN"]);
+    let page = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        page.contains(
+            "unknown cases/zhou-chen-2014.toml: dynamic_peak_force has no value (limit 2 kN): "
+        ),
+        "{page}"
+    );
+    assert!(
+        page.contains("method exact does not compute it, only dynamic and auto do"),
+        "{page}"
+    );
+    // Nothing strikes: a limit on the impact holds, one on the motion is not known.
+    let relieved = ["check", TABLE_1, "--set", "driven.tip_relief=80 um"];
+    assert_eq!(run(&relieved).status.code(), Some(0));
+    assert_eq!(
+        run(&[&relieved[..], &["--set", "limits.dynamic_peak_force=2 kN"]].concat())
+            .status
+            .code(),
+        Some(1)
+    );
+}
+
+#[test]
+fn a_verdict_names_what_to_limit_for_the_force_of_the_method() {
+    let limit = [
+        "check",
+        TABLE_1,
+        "--method",
+        "dynamic",
+        "--set",
+        "limits.impact_force=2.1 kN",
+    ];
+    let page = told(&limit);
+    let own = " for the free impact; dynamic finds dynamic_peak_approach_force 1410.8 N, which has no limit of its own\n";
+    assert!(page.ends_with(own), "{page}");
+    let line: Value =
+        serde_json::from_str(&told(&[&limit[..], &["--format", "json"]].concat())).unwrap();
+    assert_eq!(
+        (&line["standing"], &line["of"]),
+        (&"within".into(), &"free-impact".into())
+    );
+    assert_eq!(line["own"]["quantity"], "dynamic_peak_approach_force");
+    assert!((line["own"]["value"].as_f64().unwrap() - 1410.76).abs() < 0.1);
+    let both = told(
+        &[
+            &limit[..],
+            &["--set", "limits.dynamic_peak_approach_force=1400 N"],
+        ]
+        .concat(),
+    );
+    assert!(
+        both.contains(
+            "EXCEEDED cases/zhou-chen-2014.toml: dynamic_peak_approach_force 1410.8 N > 1400 N"
+        ),
+        "{both}"
+    );
+    assert!(!both.contains("no limit of its own"), "{both}");
+}
+
+#[test]
+fn a_hint_offers_the_usual_unit_and_names_the_command_line() {
+    let set = |text: &str| refused(&["solve", TABLE_1, "--set", text]);
+    let (code, line) = set("operation.power=15");
+    assert_eq!(
+        (code, line.ends_with("write \"15 kW\"")),
+        (2, true),
+        "{line}"
+    );
+    assert!(line.contains("--set operation.power=15: "), "{line}");
+    let (_, line) = set("deviations.base_pitch=48 mu");
+    assert!(line.contains("did you mean um?"), "{line}");
+    let (code, line) = set("pair.centre_distance=80 mm");
+    assert_eq!(code, 3);
+    assert!(
+        line.starts_with(
+            "cases/zhou-chen-2014.toml, --set pair.centre_distance=80 mm: the centre distance jams"
+        ),
+        "{line}"
+    );
+    let (_, line) = set("driver.bore_radius=44 mm");
+    assert!(
+        line.starts_with("cases/zhou-chen-2014.toml, --set driver.bore_radius=44 mm: "),
+        "{line}"
+    );
+    // The line of the file is the place where another field is wrong beside the one that was set.
+    let (_, line) = set("driver.teeth=5");
+    assert!(
+        line.starts_with("cases/zhou-chen-2014.toml:")
+            && line.ends_with("(with --set driver.teeth=5)"),
+        "{line}"
+    );
+}
+
+#[test]
+fn a_quantity_is_found_by_its_symbol_and_after_a_slip() {
+    for command in [
+        ["solve", TABLE_1, "--only"],
+        ["explain", "--method", "exact"],
+    ] {
+        let asked = |name| refused(&[&command[..], &[name]].concat());
+        let (code, line) = asked("f_s");
+        assert_eq!(
+            (
+                code,
+                line.ends_with("unknown quantity `f_s`: did you mean F_S, impact_force?")
+            ),
+            (2, true),
+            "{line}"
+        );
+        assert!(
+            asked("impact_forces")
+                .1
+                .ends_with("did you mean impact_force?")
+        );
+        assert!(
+            asked("impact_force normal_velocity")
+                .1
+                .ends_with("put commas between names")
+        );
+        assert!(
+            asked("colour")
+                .1
+                .ends_with("`tipstrike fields --results` lists every quantity")
+        );
+    }
+}
+
+#[test]
+fn a_command_line_that_cannot_be_meant_is_told_in_a_line() {
+    for (arguments, exit, says) in [
+        (
+            &["slove", TABLE_1][..],
+            2,
+            "error: slove: there is no such command: did you mean solve?",
+        ),
+        (
+            &["improve", TABLE_1],
+            2,
+            "error: improve: there is no such command: `tipstrike help` lists the commands",
+        ),
+        (
+            &["solve", TABLE_1, "--only", "impact_force,"],
+            2,
+            "error: --only: no quantity is named: name one, such as impact_force",
+        ),
+        (
+            &[
+                "solve",
+                TABLE_1,
+                "--set",
+                "operation.power=15 kW",
+                "--set",
+                "operation.torque=70 N m",
+            ],
+            2,
+            "--set operation.torque=70 N m: operation.power is set as well: leave one of them out",
+        ),
+        (
+            &["solve", TABLE_1, "--set", "driver.young=205000"],
+            2,
+            "error: --set driver.young=205000: 205000 is a bare number",
+        ),
+        (
+            &["solve", TABLE_1, "--set", "pair.centre_distance=200 mm"],
+            3,
+            "cases/zhou-chen-2014.toml, --set pair.centre_distance=200 mm: the tips do not reach each other",
+        ),
+    ] {
+        let (code, line) = refused(arguments);
+        assert!(
+            code == exit && line.starts_with(says),
+            "{arguments:?}: {code} {line}"
+        );
+    }
+    assert!(
+        refused(&["solve", TABLE_1, "--set", "driver.young=205000"])
+            .1
+            .ends_with("write \"205000 MPa\"")
+    );
+    let negative = run(&["solve", TABLE_1, "--stations", "-1"]);
+    assert!(
+        String::from_utf8(negative.stderr)
+            .unwrap()
+            .contains("`-1` is below the limit of 1")
+    );
+}
+
+#[test]
+fn the_printed_equations_say_what_they_miss() {
+    let page = relieved("paper", &["solve", TABLE_1]);
+    assert!(
+        page.contains("the printed equations leave the gap open: at D the tip has closed 0.0"),
+        "{page}"
+    );
+    assert!(!relieved("exact", &["solve", TABLE_1]).contains("leave the gap open"));
+    let page = told(&["solve", "cases/mill-coarse-slow.toml", "--method", "paper"]);
+    assert!(
+        page.contains("Eq. 32 describes two spheres") && !page.contains("lacks Hertz"),
+        "{page}"
+    );
+    let page = told(&["solve", "cases/turbo-fine-fast.toml", "--method", "paper"]);
+    assert!(
+        page.contains("the friction ratio is not computed: the triangle of Eq. 34 does not close"),
+        "{page}"
+    );
+    // 60 um of relief count as 42 um as printed: the tooth strikes by the printed equations alone.
+    let page = told(&[
+        "solve",
+        TABLE_1,
+        "--method",
+        "paper",
+        "--set",
+        "driven.tip_relief=60 um",
+    ]);
+    let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        page.contains(
+            "exact finds no corner contact; paper governs: the case selects it. Relief to add at the driven tip: "
+        ),
+        "{page}"
+    );
+    assert!(
+        page.contains("Other method: exact no corner contact, Δ = -12.673 um."),
+        "{page}"
+    );
+}
+
+/// What a person looks at first, by method.
+fn headlines(solution: &Solution) -> Vec<String> {
+    let keys: &[&str] = match solution.method.name() {
+        "static" => &[
+            "static_force_at_start",
+            "static_peak_force",
+            "static_first_contact_angle",
+            "static_transmission_error",
+        ],
+        "dynamic" => &[
+            "dynamic_peak_approach_force",
+            "dynamic_peak_force",
+            "dynamic_first_contact_angle",
+        ],
+        _ => &[
+            "impact_force",
+            "impact_duration",
+            "approach_angle_driven",
+            "friction_ratio",
+            "normal_velocity",
+        ],
+    };
+    let told = |key: &&str| {
+        let quantity = Quantity::find(key).unwrap();
+        value(quantity, solution).map_or_else(
+            || "none".to_owned(),
+            |value| shown(quantity, value).to_string(),
+        )
+    };
+    std::iter::once(solution.outcome.name().to_owned())
+        .chain(keys.iter().map(told))
+        .collect()
+}
+
+/// Every number of every case that changes none of the results that a person looks at says why, in
+/// each method.
+#[test]
+fn a_field_that_moves_nothing_says_why() {
+    let mut silent = Vec::new();
+    for (method, example) in METHODS[..4].iter().flat_map(|method| {
+        EXAMPLES
+            .iter()
+            .take(3)
+            .map(move |example| (method, example))
+    }) {
+        let mut case = example.document().case;
+        case.set("model.method", method).unwrap();
+        let inputs = case.inputs().unwrap();
+        let solve = |case: &Case| {
+            model::solve(&case.inputs().ok()?, case.inputs().ok()?.method.stages()).ok()
+        };
+        let Some(before) = solve(&case) else { continue };
+        for (index, field) in FIELDS.iter().enumerate() {
+            let Kind::Number(..) = field.kind else {
+                continue;
+            };
+            let (Some(now), Some(text)) = (case.value(index), case.effective(index)) else {
+                continue;
+            };
+            if relevance(index, &inputs) != Acting::Yes
+                || partial_relevance(index, &inputs).is_some()
+                || now == 0.0
+            {
+                continue;
+            }
+            let unit = text.split_once(' ').map_or("", |(_, unit)| unit);
+            let more = now * 1.1 / tipstrike::case::units::factor(unit).unwrap();
+            let mut changed = case.clone();
+            let is_silent = changed
+                .set(field.key, format!("{more} {unit}").trim())
+                .is_ok()
+                && solve(&changed).is_some_and(|after| headlines(&after) == headlines(&before));
+            if is_silent {
+                silent.push(format!("{} of {} at {method}", field.key, example.name));
+            }
+        }
+    }
+    assert_eq!(silent, [""; 0], "these move nothing and do not say why");
+    assert!(index_of("operation.power").is_some_and(|power| {
+        partial_relevance(power, &Case::table_1().inputs().unwrap())
+            .is_some_and(|why| why.contains("with the deflection given"))
+    }));
+}
+
+#[test]
+fn a_given_deflection_is_said_to_keep_the_load_out() {
+    let note = "the deflection of 24.70 um is given: power and torque change only F_0";
+    for (method, says) in [
+        ("paper", true),
+        ("exact", true),
+        ("static", false),
+        ("dynamic", false),
+    ] {
+        assert_eq!(
+            relieved(method, &["solve", TABLE_1]).contains(note),
+            says,
+            "{method}"
+        );
+    }
+    assert!(
+        !relieved("exact", &["solve", TABLE_1, "--set", "model.deflection="]).contains("is given")
+    );
+}
+
+#[test]
+fn no_result_has_more_places_than_digits() {
+    let wide = [
+        "--set",
+        "driver.face_width=300 mm",
+        "--set",
+        "driven.face_width=300 mm",
+        "--set",
+        "operation.power=2 MW",
+    ];
+    let page = told(&[&["solve", TABLE_1, "--set", "model.deflection="][..], &wide].concat());
+    assert!(
+        page.contains("F_0      mesh force                203.24 kN"),
+        "{page}"
+    );
+    let places = |word: &str| {
+        word.trim_start_matches('-')
+            .bytes()
+            .take_while(u8::is_ascii_digit)
+            .count()
+    };
+    assert!(
+        page.split_whitespace().all(|word| places(word) < 6),
+        "{page}"
+    );
+}

@@ -1,0 +1,348 @@
+//! Frozen rows: pairs, their quantities to 22 digits, and how each reacts to a change of the
+//! inputs.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::thread;
+
+use serde_json::Value;
+use tipstrike::model::inputs::{ContactCompliance, Drive, Method, ToothCompliance};
+use tipstrike::model::{Inputs, QUANTITIES};
+
+use crate::envelope::{self, Corner, Random};
+use crate::oracle::{self, number};
+
+/// How many rows of each corner of the envelope are frozen.
+const COUNTS: [(Corner, usize); 8] = [
+    (Corner::Anywhere, 180),
+    (Corner::Fit, 240),
+    (Corner::StartNearTangent, 70),
+    (Corner::StartNearPitch, 70),
+    (Corner::FlatAngle, 70),
+    (Corner::ShortPath, 70),
+    (Corner::SlidingNearZero, 70),
+    (Corner::Cancelling, 70),
+];
+
+/// A pair and what the oracle says of it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Row {
+    pub(crate) corner: Corner,
+    pub(crate) inputs: Inputs,
+    /// 22 digits, by quantity.
+    pub(crate) answers: BTreeMap<String, String>,
+    /// By quantity: its relative change over a relative change of the inputs, summed over them.
+    pub(crate) conditions: BTreeMap<String, f64>,
+}
+
+impl Row {
+    /// The pair's row; `None` where the oracle finds no corner contact.
+    pub(crate) fn of(corner: Corner, inputs: Inputs) -> Option<Row> {
+        let (answers, conditions) = oracle::answers_with_conditions(&inputs)?;
+        let short = |condition: f64| format!("{condition:.2e}").parse().expect("a number");
+        Some(Row {
+            corner,
+            inputs,
+            answers: answers
+                .iter()
+                .map(|(&key, value)| (key.to_owned(), number::printed(value)))
+                .collect(),
+            conditions: conditions
+                .into_iter()
+                .map(|(key, condition)| (key.to_owned(), short(condition)))
+                .collect(),
+        })
+    }
+
+    /// A quantity as a double.
+    pub(crate) fn answer(&self, key: &str) -> Option<f64> {
+        Some(self.answers.get(key)?.parse().expect("a number"))
+    }
+
+    /// How far a found value is off, relatively; from 0, absolutely.
+    pub(crate) fn off(&self, key: &str, found: f64) -> f64 {
+        off(found, &number::decimal(&self.answers[key]))
+    }
+}
+
+/// How far a found value is off, relatively; from 0, absolutely. What is not finite is off by 1 at
+/// least.
+pub(crate) fn off(found: f64, answer: &number::Big) -> f64 {
+    if !found.is_finite() {
+        return f64::INFINITY;
+    }
+    if number::rounded(answer) == 0.0 {
+        return found.abs();
+    }
+    number::rounded(&((number::big(found) - answer) / answer)).abs()
+}
+
+fn path() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/core/accuracy/rows.json")
+}
+
+/// The frozen rows.
+pub(crate) fn frozen() -> Vec<Row> {
+    let text = std::fs::read_to_string(path()).expect("the frozen rows");
+    let file: Value = serde_json::from_str(&text).expect("JSON");
+    let keys: Vec<&str> = file["quantities"]
+        .as_array()
+        .expect("keys")
+        .iter()
+        .filter_map(Value::as_str)
+        .collect();
+    file["rows"]
+        .as_array()
+        .expect("rows")
+        .iter()
+        .map(|row| read(row, &keys))
+        .collect()
+}
+
+/// Make the rows anew, on two threads, and freeze them.
+pub(crate) fn regenerate() {
+    let rows: Vec<Row> = thread::scope(|scope| {
+        let (first, second) = COUNTS.split_at(2);
+        let other = scope.spawn(|| {
+            second
+                .iter()
+                .flat_map(|&(corner, count)| rows_of(corner, count))
+                .collect::<Vec<_>>()
+        });
+        let mut rows: Vec<Row> = first
+            .iter()
+            .flat_map(|&(corner, count)| rows_of(corner, count))
+            .collect();
+        rows.extend(other.join().expect("the other half"));
+        rows
+    });
+    std::fs::write(path(), written(&rows)).expect("the rows are written");
+}
+
+/// The first rows of a corner, always the same.
+pub(crate) fn rows_of(corner: Corner, count: usize) -> Vec<Row> {
+    let mut random = Random::new(corner as u64 + 1);
+    let pairs = std::iter::repeat_with(|| envelope::pair(&mut random, corner));
+    pairs
+        .filter_map(|inputs| Row::of(corner, inputs))
+        .take(count)
+        .collect()
+}
+
+fn written(rows: &[Row]) -> String {
+    let keys: Vec<&str> = QUANTITIES.iter().map(|quantity| quantity.key).collect();
+    let names: Vec<&str> = FIELDS.iter().map(|field| field.0).collect();
+    let lines: Vec<String> = rows.iter().map(|row| written_row(row, &keys)).collect();
+    format!(
+        "{{\"fields\": {},\n\"quantities\": {},\n\"rows\": [\n{}\n]}}\n",
+        serde_json::to_string(&names).expect("JSON"),
+        serde_json::to_string(&keys).expect("JSON"),
+        lines.join(",\n")
+    )
+}
+
+fn written_row(row: &Row, keys: &[&str]) -> String {
+    let mut inputs = row.inputs.clone();
+    let fields: Vec<Option<String>> = FIELDS
+        .iter()
+        .map(|(_, slot)| slot(&mut inputs).written())
+        .collect();
+    let answers: Vec<Option<&String>> = keys.iter().map(|&key| row.answers.get(key)).collect();
+    let conditions: Vec<Option<f64>> = keys
+        .iter()
+        .map(|&key| row.conditions.get(key).copied())
+        .collect();
+    serde_json::json!([
+        format!("{:?}", row.corner),
+        choices(&row.inputs),
+        fields,
+        answers,
+        conditions
+    ])
+    .to_string()
+}
+
+fn read(row: &Value, keys: &[&str]) -> Row {
+    let text = |value: &Value| value.as_str().map(str::to_owned);
+    let corner = Corner::ALL
+        .into_iter()
+        .find(|corner| Some(format!("{corner:?}")) == text(&row[0]))
+        .expect("a corner");
+    let mut inputs = chosen(row[1].as_str().expect("choices"));
+    for ((_, slot), value) in FIELDS.iter().zip(row[2].as_array().expect("fields")) {
+        slot(&mut inputs).read(value.as_str());
+    }
+    let listed = |values: &Value| {
+        keys.iter()
+            .map(|&key| key.to_owned())
+            .zip(values.as_array().expect("values").clone())
+    };
+    Row {
+        corner,
+        inputs,
+        answers: listed(&row[3])
+            .filter_map(|(key, value)| Some((key, text(&value)?)))
+            .collect(),
+        conditions: listed(&row[4])
+            .filter_map(|(key, value)| Some((key, value.as_f64()?)))
+            .collect(),
+    }
+}
+
+/// A place in the inputs.
+enum LatestRequest<'a> {
+    Count(&'a mut u32),
+    Number(&'a mut f64),
+    Perhaps(&'a mut Option<f64>),
+}
+
+impl LatestRequest<'_> {
+    fn written(self) -> Option<String> {
+        match self {
+            LatestRequest::Count(count) => Some(count.to_string()),
+            LatestRequest::Number(number) => Some(format!("{number:e}")),
+            LatestRequest::Perhaps(perhaps) => perhaps.map(|number| format!("{number:e}")),
+        }
+    }
+
+    fn read(self, text: Option<&str>) {
+        let number = text.map(|text| text.parse::<f64>().expect("a number"));
+        match self {
+            LatestRequest::Count(count) => *count = number.expect("a count") as u32,
+            LatestRequest::Number(place) => *place = number.expect("a number"),
+            LatestRequest::Perhaps(place) => *place = number,
+        }
+    }
+}
+
+/// A number of the inputs: its name and its place.
+type Field = (&'static str, fn(&mut Inputs) -> LatestRequest<'_>);
+
+/// Every number of the inputs that differs between rows.
+const FIELDS: [Field; 30] = [
+    ("module", |i| LatestRequest::Number(&mut i.module)),
+    ("pressure_angle", |i| {
+        LatestRequest::Number(&mut i.pressure_angle)
+    }),
+    ("centre_distance", |i| {
+        LatestRequest::Perhaps(&mut i.centre_distance)
+    }),
+    ("drive", |i| match &mut i.drive {
+        Drive::Power(drive) | Drive::Torque(drive) => LatestRequest::Number(drive),
+    }),
+    ("speed", |i| LatestRequest::Number(&mut i.speed)),
+    ("base_pitch_deviation", |i| {
+        LatestRequest::Number(&mut i.base_pitch_deviation)
+    }),
+    ("deflection", |i| LatestRequest::Perhaps(&mut i.deflection)),
+    ("driver.teeth", |i| {
+        LatestRequest::Count(&mut i.driver.teeth)
+    }),
+    ("driver.profile_shift", |i| {
+        LatestRequest::Number(&mut i.driver.profile_shift)
+    }),
+    ("driver.addendum", |i| {
+        LatestRequest::Number(&mut i.driver.addendum)
+    }),
+    ("driver.face_width", |i| {
+        LatestRequest::Number(&mut i.driver.face_width)
+    }),
+    ("driver.bore_radius", |i| {
+        LatestRequest::Number(&mut i.driver.bore_radius)
+    }),
+    ("driver.young", |i| {
+        LatestRequest::Number(&mut i.driver.young)
+    }),
+    ("driver.poisson", |i| {
+        LatestRequest::Number(&mut i.driver.poisson)
+    }),
+    ("driver.density", |i| {
+        LatestRequest::Number(&mut i.driver.density)
+    }),
+    ("driver.root_relief", |i| {
+        LatestRequest::Number(&mut i.driver.root_relief)
+    }),
+    ("driver.tip_chamfer", |i| {
+        LatestRequest::Number(&mut i.driver.tip_chamfer)
+    }),
+    ("driver.tip_radius", |i| {
+        LatestRequest::Perhaps(&mut i.driver.tip_radius)
+    }),
+    ("driven.teeth", |i| {
+        LatestRequest::Count(&mut i.driven.teeth)
+    }),
+    ("driven.profile_shift", |i| {
+        LatestRequest::Number(&mut i.driven.profile_shift)
+    }),
+    ("driven.addendum", |i| {
+        LatestRequest::Number(&mut i.driven.addendum)
+    }),
+    ("driven.face_width", |i| {
+        LatestRequest::Number(&mut i.driven.face_width)
+    }),
+    ("driven.bore_radius", |i| {
+        LatestRequest::Number(&mut i.driven.bore_radius)
+    }),
+    ("driven.young", |i| {
+        LatestRequest::Number(&mut i.driven.young)
+    }),
+    ("driven.poisson", |i| {
+        LatestRequest::Number(&mut i.driven.poisson)
+    }),
+    ("driven.density", |i| {
+        LatestRequest::Number(&mut i.driven.density)
+    }),
+    ("driven.tip_relief", |i| {
+        LatestRequest::Number(&mut i.driven.tip_relief)
+    }),
+    ("driven.tip_chamfer", |i| {
+        LatestRequest::Number(&mut i.driven.tip_chamfer)
+    }),
+    ("driven.tip_radius", |i| {
+        LatestRequest::Perhaps(&mut i.driven.tip_radius)
+    }),
+    ("backlash", |i| LatestRequest::Number(&mut i.backlash)),
+];
+
+/// What is chosen from a list, in words.
+fn choices(inputs: &Inputs) -> String {
+    let drive = if matches!(inputs.drive, Drive::Power(_)) {
+        "power"
+    } else {
+        "torque"
+    };
+    let tooth = inputs
+        .tooth_compliance
+        .map_or("by-range", ToothCompliance::name);
+    format!(
+        "{} {drive} {tooth} {}",
+        inputs.method.name(),
+        inputs.contact_compliance.name()
+    )
+}
+
+/// Inputs with these choices and no numbers yet.
+fn chosen(choices: &str) -> Inputs {
+    let words: Vec<&str> = choices.split(' ').collect();
+    let named = |contact: &ContactCompliance| contact.name() == words[3];
+    Inputs {
+        drive: if words[1] == "power" {
+            Drive::Power(0.0)
+        } else {
+            Drive::Torque(0.0)
+        },
+        method: Method::ALL
+            .into_iter()
+            .find(|method| method.name() == words[0])
+            .expect("a method"),
+        tooth_compliance: ToothCompliance::ALL
+            .into_iter()
+            .find(|tooth| tooth.name() == words[2]),
+        contact_compliance: ContactCompliance::ALL
+            .into_iter()
+            .find(named)
+            .expect("a contact compliance"),
+        stations: Some(8),
+        ..Inputs::default()
+    }
+}

@@ -1,0 +1,215 @@
+//! The method `auto` takes what a trade would recommend, at about its cost.
+//!
+//! `TIPSTRIKE_PAIRS=600 cargo test --test core auto:: -- --nocapture` looks at 600 pairs in place of 60.
+use crate::pairs;
+use crate::table;
+
+use std::time::Instant;
+
+use tipstrike::model::inputs::Method;
+use tipstrike::model::{Inputs, Refusal, Solution, Stages, auto, solve};
+use tipstrike::study::trade::{Answer, METHODS, Patience, Question, Subject, stages, trade};
+
+/// What is good enough.
+const WITHINS: [f64; 4] = [0.01, 0.05, 0.2, 0.5];
+
+fn by_choice(inputs: &Inputs, within: f64) -> Inputs {
+    Inputs {
+        method: Method::Auto,
+        within,
+        stations: None,
+        ..inputs.clone()
+    }
+}
+
+/// A solve with what a trade needs to know, or why there is none.
+fn solved(inputs: &Inputs) -> Result<Solution, Refusal> {
+    let solution = solve(inputs, stages(inputs.method))?;
+    solution
+        .withheld
+        .or(solution.stations_withheld)
+        .map_or(Ok(solution), Err)
+}
+
+/// Evaluations of the motion, and stages that ran.
+fn counts(solution: &Solution) -> (f64, f64) {
+    let evaluations = solution
+        .dynamic
+        .as_ref()
+        .map_or(0, |dynamic| dynamic.effort.evaluations);
+    (evaluations as f64, solution.ran.iter().count() as f64)
+}
+
+#[test]
+fn over_the_cases_it_takes_the_method_that_a_trade_recommends_at_its_cost() {
+    let mut dearer = Vec::new();
+    for (path, within) in table::cases()
+        .into_iter()
+        .flat_map(|path| WITHINS.map(|within| (path.clone(), within)))
+    {
+        let inputs = by_choice(&table::inputs(&path), within);
+        let question = Question {
+            within,
+            patience: Patience::ONCE,
+        };
+        let trade = trade(&inputs, &question, &|| true, &mut |_| ()).expect("a trade");
+        let best = &trade.settings[trade.cheapest.expect("one qualifies")];
+        let recommended = best.setting.method;
+        let chosen = solved(&inputs).expect("a solution");
+        let name = format!(
+            "{} within {within}",
+            path.file_stem().expect("a name").to_string_lossy()
+        );
+        let place = |method| METHODS.iter().position(|&one| one == method);
+        assert!(
+            place(chosen.method) >= place(recommended),
+            "{name}: {:?} for {recommended:?}",
+            chosen.choice
+        );
+        if chosen.method != recommended {
+            dearer.push(name);
+            continue;
+        }
+        let named = best.setting.inputs(&inputs);
+        let ((evaluations, stages), (named_evaluations, named_stages)) =
+            (counts(&chosen), counts(&solved(&named).unwrap()));
+        // The choice itself is made of the closed form, which takes microseconds where the others
+        // take milliseconds.
+        let closed_form = Stages::CLOSED_FORM.iter().count() as f64;
+        assert!(
+            stages <= 1.5 * named_stages + closed_form + 1.0,
+            "{name}: {stages} for {named_stages}"
+        );
+        let ratio = least_time(&inputs) / least_time(&named);
+        let evaluated = if named_evaluations > 0.0 {
+            evaluations / named_evaluations
+        } else {
+            1.0
+        };
+        println!(
+            "{name}: {}, {ratio:.2} times its time, {evaluated:.2} times its evaluations",
+            recommended.name()
+        );
+        assert!(
+            evaluated <= 1.5,
+            "{name}: {evaluations} for {named_evaluations}"
+        );
+        if ratio > 1.5 {
+            println!("WARNING: {name} takes {ratio:.2} times as long by choice");
+        }
+    }
+    println!("a dearer method than recommended: {dearer:?}");
+    assert!(dearer.len() <= 3, "{dearer:?}");
+}
+
+fn least_time(inputs: &Inputs) -> f64 {
+    let time = |_| {
+        let begun = Instant::now();
+        assert!(solved(inputs).is_ok());
+        begun.elapsed().as_secs_f64()
+    };
+    (0..20).map(time).fold(f64::INFINITY, f64::min)
+}
+
+/// Greatest difference from `dynamic` at 1e-8.
+fn off(inputs: &Inputs, method: Method, truth: &Answer) -> Option<f64> {
+    let answer = Answer::of(
+        &solved(&Inputs {
+            method,
+            stations: Some(512),
+            ..inputs.clone()
+        })
+        .ok()?,
+    );
+    Some(
+        Subject::ALL
+            .into_iter()
+            .filter_map(|subject| answer.off(truth, subject))
+            .fold(0.0, f64::max),
+    )
+}
+
+#[test]
+fn over_other_pairs_it_is_never_wrong_and_seldom_takes_more_than_it_needs() {
+    let count: u64 =
+        std::env::var("TIPSTRIKE_PAIRS").map_or(60, |count| count.parse().expect("a count"));
+    let mut agreed = [0; WITHINS.len()];
+    let (mut looked_at, mut wrong) = (0, Vec::new());
+    for number in 0..count {
+        let inputs = pairs::numbered(number);
+        let fine = Inputs {
+            method: Method::Dynamic,
+            tolerance: 1e-8,
+            stations: Some(512),
+            ..inputs.clone()
+        };
+        let Ok(truth) = solved(&fine) else { continue };
+        let truth = Answer::of(&truth);
+        let errors = auto::METHODS.map(|method| {
+            if method == Method::Dynamic {
+                Some(0.0)
+            } else {
+                off(&inputs, method, &truth)
+            }
+        });
+        looked_at += 1;
+        for (within, agreed) in WITHINS.into_iter().zip(&mut agreed) {
+            let chosen = solved(&by_choice(&inputs, within)).expect("a solution");
+            let is_within = |at: usize| errors[at].is_some_and(|off| off <= within);
+            let at = auto::METHODS
+                .iter()
+                .position(|&method| method == chosen.method)
+                .expect("one of them");
+            if !is_within(at) {
+                wrong.push(format!(
+                    "{number} within {within}: {:?} is off by {:?}",
+                    chosen.choice, errors[at]
+                ));
+            }
+            *agreed += usize::from((0..at).all(|cheaper| !is_within(cheaper)));
+        }
+    }
+    println!(
+        "the cheapest method within {WITHINS:?} for {agreed:?} of {looked_at} pairs; for the others a dearer one"
+    );
+    assert!(wrong.is_empty(), "not good enough: {wrong:#?}");
+    assert!(
+        agreed.iter().all(|&agreed| 5 * agreed >= 4 * looked_at),
+        "{agreed:?} of {looked_at}"
+    );
+}
+
+#[test]
+fn first_contact_and_peaks_converge_with_the_tolerance() {
+    for number in 0..40 {
+        let inputs = Inputs {
+            method: Method::Dynamic,
+            stations: Some(1),
+            ..pairs::numbered(number)
+        };
+        let at = |tolerance| {
+            solved(&Inputs {
+                tolerance,
+                ..inputs.clone()
+            })
+            .map(|solution| solution.dynamic.expect("the method"))
+        };
+        let (Ok(coarse), Ok(fine)) = (at(1e-5), at(1e-9)) else {
+            continue;
+        };
+        let near = |coarse: f64, fine: f64| (coarse - fine).abs() <= 1e-3 * fine.abs();
+        assert!(
+            near(coarse.peak_force, fine.peak_force),
+            "{number}: {} {}",
+            coarse.peak_force,
+            fine.peak_force
+        );
+        let peaks = (coarse.peak_approach_force, fine.peak_approach_force);
+        assert!(near(peaks.0, peaks.1), "{number}: before E {peaks:?}");
+        let angles = coarse.first_contact_angle.zip(fine.first_contact_angle);
+        assert!(
+            angles.is_none_or(|(coarse, fine)| near(coarse, fine)),
+            "{number}: first contact {angles:?}"
+        );
+    }
+}

@@ -1,0 +1,398 @@
+//! Every solve ends within its budget of work, however extreme a valid case is.
+//!
+//! `TIPSTRIKE_PAIRS=1000000 cargo test --release --test core budget:: -- --nocapture` draws a million cases
+//! in place of 2,000 and prints the costliest of them, by their counted work and by their time.
+use crate::envelope;
+
+use std::collections::BTreeMap;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use envelope::Random;
+use tipstrike::case::fields::{AUTO, Absent, FIELDS, Kind, Range, index_of};
+use tipstrike::case::{Case, Document};
+use tipstrike::model::budget::{MOTION_WORK, SEARCH_TRIES, SEARCH_WORK};
+use tipstrike::model::inputs::Method;
+use tipstrike::model::{Inputs, QUANTITIES, Refusal, Solution, Stage, Stages, notes, solve};
+
+/// Heap that one solve may take, in bytes.
+const MOST_BYTES: u64 = 64 << 20;
+
+/// Work beyond the budget of a search: it ends after the mesh or the step that exceeds it.
+const MARGIN: u64 = 100_000;
+
+/// Cases that are printed of each kind.
+const PRINTED: usize = 20;
+
+/// Fields that move away from the ordinary pair.
+const MOVED: [usize; 7] = [1, 2, 3, 5, 8, 15, 45];
+
+fn cases() -> u64 {
+    std::env::var("TIPSTRIKE_PAIRS").map_or(2000, |cases| cases.parse().expect("a count"))
+}
+
+/// Everything that `solve` prints, and the stations.
+fn every_quantity() -> Stages {
+    QUANTITIES
+        .iter()
+        .fold(Stages::STATIONS, |stages, quantity| {
+            stages.and(Stages::of(quantity.stage))
+        })
+}
+
+/// One valid case of a numbered sequence, the same on every machine.
+fn drawn(number: u64) -> Case {
+    let mut random = Random::new(number + 1);
+    loop {
+        let case = attempt(&mut random, number);
+        if case.inputs().is_ok() {
+            return case;
+        }
+    }
+}
+
+/// Table 1 with some fields anywhere in their ranges. Choices are drawn in every case, and the
+/// methods take turns.
+fn attempt(random: &mut Random, number: u64) -> Case {
+    let mut case = Case::fresh();
+    let is_choice = |field: &usize| matches!(FIELDS[*field].kind, Kind::Choice(..));
+    let (choices, mut others): (Vec<usize>, Vec<usize>) = (0..FIELDS.len())
+        .filter(|&field| !matches!(FIELDS[field].kind, Kind::Text))
+        .partition(is_choice);
+    for _ in 0..random.one_of(&MOVED).min(others.len()) {
+        let at = random.even(0.0, others.len() as f64) as usize;
+        move_field(&mut case, others.swap_remove(at), random);
+    }
+    for field in choices {
+        move_field(&mut case, field, random);
+    }
+    let method = Method::ALL[(number % Method::ALL.len() as u64) as usize];
+    case.set("model.method", method.name()).expect("a method");
+    case
+}
+
+fn move_field(case: &mut Case, field: usize, random: &mut Random) {
+    let known = &FIELDS[field];
+    let text = match known.kind {
+        Kind::Text => return,
+        Kind::Choice(names, _) => random.one_of(names).to_owned(),
+        Kind::Count(..) if known.takes_auto() && random.chance(0.25) => AUTO.to_owned(),
+        Kind::Count(from, to, _) => {
+            let count = anywhere(f64::from(from), f64::from(to), random).round() as u32;
+            count.clamp(from, to).to_string()
+        }
+        Kind::Number(_, Range { from, to, unit }, _) => {
+            format!("{:e} {unit}", anywhere(from, to, random))
+                .trim_end()
+                .to_owned()
+        }
+    };
+    case.write(field, &text);
+    if let Absent::Either(other) = known.absent
+        && let Some(other) = index_of(other)
+    {
+        case.write(other, "");
+    }
+}
+
+/// An end of a range, or anywhere in it with every decade as likely; of a range about 0, twelve
+/// decades of either sign.
+fn anywhere(from: f64, to: f64, random: &mut Random) -> f64 {
+    const DECADES: f64 = 1e-12;
+    let of = |end: f64, random: &mut Random| {
+        end.signum() * random.decades(DECADES * end.abs(), end.abs())
+    };
+    match random.one_of(&[0, 1, 2, 2]) {
+        0 => from,
+        1 => to,
+        _ if from > 0.0 => random.decades(from, to),
+        _ if from < 0.0 && random.chance(0.5) => of(from, random),
+        _ => of(to, random),
+    }
+}
+
+/// What a solve took and found.
+#[derive(Debug, Clone)]
+struct Taken {
+    number: u64,
+    outcome: String,
+    work: u64,
+    time: Duration,
+    bytes: u64,
+}
+
+/// Solve a case within its budget; its answer or refusal has numbers alone.
+fn taken(name: &str, number: u64, inputs: &Inputs) -> Taken {
+    let begun = Instant::now();
+    let mut solved = Err(Refusal::Stopped);
+    let info = allocation_counter::measure(|| solved = solve(inputs, every_quantity()));
+    let time = begun.elapsed();
+    let bytes = info.bytes_max;
+    assert!(bytes <= MOST_BYTES, "{name}: {bytes} bytes");
+    Taken {
+        number,
+        outcome: outcome(name, inputs, &solved),
+        work: match &solved {
+            Ok(solution) => work(name, solution),
+            Err(Refusal::MotionTooLong { .. }) => MOTION_WORK,
+            Err(_) => 0,
+        },
+        time,
+        bytes,
+    }
+}
+
+/// The work of a solution, every part of it within its budget.
+fn work(name: &str, solution: &Solution) -> u64 {
+    let mesh = solution.mesh.as_ref().map_or(0, |mesh| mesh.work());
+    let motion = solution
+        .dynamic
+        .as_ref()
+        .map_or(0, |dynamic| dynamic.effort.work);
+    assert!(motion <= MOTION_WORK, "{name}: {motion} of the motion");
+    assert!(mesh <= MARGIN, "{name}: {mesh} of the mesh");
+    let search = solution.clearing.map_or(0, |clearing| {
+        assert!(
+            clearing.runs <= SEARCH_TRIES,
+            "{name}: {} tries",
+            clearing.runs
+        );
+        clearing.work
+    });
+    assert!(
+        search <= SEARCH_WORK + MARGIN,
+        "{name}: {search} of the search"
+    );
+    mesh + motion + search
+}
+
+/// The outcome in a few words, from an answer in which every number is one.
+fn outcome(name: &str, inputs: &Inputs, solved: &Result<Solution, Refusal>) -> String {
+    let sound = |sentence: &str| {
+        let mut words = sentence.split(|letter: char| !letter.is_alphanumeric());
+        let is_none = |word| matches!(word, "NaN" | "inf" | "infinity");
+        assert!(!words.any(is_none), "{name}: {sentence}");
+    };
+    match solved {
+        Err(refusal) => {
+            sound(&format!("{refusal} {}", refusal.mend()));
+            format!("refused: {}", refusal.code())
+        }
+        Ok(solution) => {
+            for quantity in QUANTITIES {
+                let value = (quantity.value)(solution);
+                assert!(
+                    value.is_none_or(f64::is_finite),
+                    "{name}: {} {value:?}",
+                    quantity.key
+                );
+            }
+            for note in notes(inputs, solution) {
+                sound(&note.message);
+            }
+            let relief = solution.clearing.and_then(|clearing| clearing.withheld);
+            let stations = solution.stations_withheld;
+            let withheld = [relief, stations].into_iter().flatten();
+            let codes = withheld.map(|refusal| format!(", {}", refusal.code()));
+            format!("{}{}", solution.outcome.name(), codes.collect::<String>())
+        }
+    }
+}
+
+/// What some cases took: how often each outcome is, and the costliest.
+#[derive(Default)]
+struct Summary {
+    outcomes: BTreeMap<String, u64>,
+    by_work: Vec<Taken>,
+    by_time: Vec<Taken>,
+    by_bytes: Vec<Taken>,
+}
+
+impl Summary {
+    fn with(mut self, taken: &Taken) -> Summary {
+        *self.outcomes.entry(taken.outcome.clone()).or_default() += 1;
+        keep(&mut self.by_work, taken, |taken| taken.work);
+        keep(&mut self.by_time, taken, |taken| taken.time);
+        keep(&mut self.by_bytes, taken, |taken| taken.bytes);
+        self
+    }
+
+    fn and(self, other: Summary) -> Summary {
+        let mut all = self;
+        for (outcome, count) in other.outcomes {
+            *all.outcomes.entry(outcome).or_default() += count;
+        }
+        other
+            .by_work
+            .iter()
+            .for_each(|taken| keep(&mut all.by_work, taken, |taken| taken.work));
+        other
+            .by_time
+            .iter()
+            .for_each(|taken| keep(&mut all.by_time, taken, |taken| taken.time));
+        other
+            .by_bytes
+            .iter()
+            .for_each(|taken| keep(&mut all.by_bytes, taken, |taken| taken.bytes));
+        all
+    }
+
+    fn print(&self) {
+        for (outcome, count) in &self.outcomes {
+            println!("{count:8} {outcome}");
+        }
+        let costliest = [
+            ("work", &self.by_work),
+            ("time", &self.by_time),
+            ("memory", &self.by_bytes),
+        ];
+        for (name, costliest) in costliest {
+            println!("\nmost {name}");
+            for taken in costliest {
+                let (time, kilobytes) = (taken.time.as_secs_f64(), taken.bytes / 1000);
+                println!(
+                    "{:9} units {time:7.3} s {kilobytes:6} kB  {}: {}",
+                    taken.work,
+                    taken.outcome,
+                    moved(taken.number)
+                );
+            }
+        }
+    }
+}
+
+/// Keep a case among those of the greatest size.
+fn keep<T: Ord>(kept: &mut Vec<Taken>, taken: &Taken, size: impl Fn(&Taken) -> T) {
+    let at = kept.partition_point(|other| size(other) >= size(taken));
+    if at < PRINTED {
+        kept.insert(at, taken.clone());
+        kept.truncate(PRINTED);
+    }
+}
+
+/// What differs from Table 1 in a drawn case.
+fn moved(number: u64) -> String {
+    let (case, fresh) = (drawn(number), Case::fresh());
+    let moved = (0..FIELDS.len()).filter(|&field| case.text(field) != fresh.text(field));
+    let written = |field: usize| {
+        let text = case.text(field).unwrap_or("-");
+        format!("{} = {text}", FIELDS[field].key)
+    };
+    moved.map(written).collect::<Vec<_>>().join(", ")
+}
+
+#[test]
+fn a_valid_case_however_extreme_ends_within_its_budget() {
+    let threads = thread::available_parallelism().map_or(1, usize::from) as u64;
+    let share = move |first: u64| {
+        (first..cases())
+            .step_by(threads as usize)
+            .fold(Summary::default(), |summary, number| {
+                let inputs = drawn(number).inputs().expect("a valid case");
+                summary.with(&taken(&format!("case {number}"), number, &inputs))
+            })
+    };
+    let shares: Vec<_> = (0..threads)
+        .map(|first| thread::spawn(move || share(first)))
+        .collect();
+    let summary = shares
+        .into_iter()
+        .map(|share| share.join().expect("no panic"))
+        .fold(Summary::default(), Summary::and);
+    summary.print();
+    let [answered, refused] = ["c", "refused"].map(|start| {
+        let of = summary
+            .outcomes
+            .iter()
+            .filter(|(outcome, _)| outcome.starts_with(start));
+        of.map(|(_, count)| count).sum::<u64>()
+    });
+    assert!(
+        5 * answered > cases() && 5 * refused > cases(),
+        "{answered} and {refused}"
+    );
+}
+
+/// Cases that once took more than 20 s, as a random search drew them: with their outcome, and the
+/// required additional tip relief in um.
+const SLOW: [(&str, &str, &str); 13] = [
+    ("1210-dynamic", "corner-contact", "22.628"),
+    ("1738-dynamic", "corner-contact", "22.628"),
+    ("1895-auto", "corner-contact", "22.628"),
+    ("2171-auto", "corner-contact, clearing-relief-not-found", ""),
+    ("2506-dynamic", "corner-contact", "22.628"),
+    ("2822-dynamic", "corner-contact", "22.627"),
+    ("3071-auto", "corner-contact", "22.628"),
+    ("3502-dynamic", "corner-contact", "22.627"),
+    ("3598-dynamic", "corner-contact", "39.436"),
+    ("363-auto", "corner-contact", "22.628"),
+    ("3938-dynamic", "corner-contact", "22.628"),
+    ("4063-auto", "corner-contact", "22.628"),
+    ("739-auto", "corner-contact", "22.628"),
+];
+
+#[test]
+fn cases_that_took_more_than_20_s_end_within_their_budget() {
+    for (name, expected, relief) in SLOW {
+        let path = format!("{}/tests/slow/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(path).expect("a file");
+        let document = Document::parse(name, &text).expect("a case");
+        let inputs = document.case.inputs().expect("a valid case");
+        assert_eq!(taken(name, 0, &inputs).outcome, expected, "{name}");
+        let solution = solve(&inputs, Stages::of(Stage::Clearing)).expect("a solution");
+        let found = solution.clearing.and_then(|clearing| clearing.relief);
+        let shown = found.map_or(String::new(), |relief| format!("{:.3}", 1e6 * relief));
+        assert_eq!(shown, relief, "{name}");
+    }
+}
+
+/// Contact and its loss alternate where a relief ends, when the load deflects the teeth less than
+/// the gap is known.
+#[test]
+fn next_to_no_load_and_next_to_no_relief_length_take_an_ordinary_search() {
+    for (key, value) in [
+        ("operation.power", "1e-2 W"),
+        ("operation.power", "1e-6 W"),
+        ("operation.power", "1e-12 W"),
+        ("driven.tip_relief_length", "0.0001 mm"),
+    ] {
+        let mut case = Case::table_1();
+        case.set(key, value).expect("a field");
+        case.set("model.method", "dynamic").expect("a field");
+        let inputs = case.inputs().expect("a valid case");
+        let solution = solve(&inputs, Stages::EVERY).expect("a solution");
+        let clearing = solution.clearing.expect("the stage ran");
+        assert!(clearing.relief.is_some(), "{key} {value}: {clearing:?}");
+        assert!(
+            clearing.work < SEARCH_WORK / 2,
+            "{key} {value}: {clearing:?}"
+        );
+    }
+}
+
+#[test]
+fn a_search_that_exceeds_its_budget_prints_its_bracket_and_keeps_the_other_results() {
+    let mut case = Case::table_1();
+    for (key, value) in [
+        ("model.method", "dynamic"),
+        ("model.warmup_cycles", "10000"),
+        ("model.damping_ratio", "0"),
+    ] {
+        case.set(key, value).expect("a field");
+    }
+    let inputs = case.inputs().expect("a valid case");
+    let solution = solve(&inputs, Stages::EVERY).expect("a solution");
+    assert!(
+        solution
+            .dynamic
+            .is_some_and(|dynamic| dynamic.peak_force > 0.0)
+    );
+    let refusal = solution
+        .clearing
+        .and_then(|clearing| clearing.withheld)
+        .expect("a refusal");
+    assert_eq!(refusal.code(), "clearing-relief-not-found");
+    let sentence = refusal.to_string();
+    assert!(sentence.starts_with("not found within ") && sentence.contains(" motions: "));
+    assert!(sentence.contains("touches before E with "), "{sentence}");
+}

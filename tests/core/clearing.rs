@@ -1,0 +1,333 @@
+//! The least tip relief that stops the corner contact: with it the method finds none, with a little
+//! less it does.
+//!
+//! `TIPSTRIKE_PAIRS=600 cargo test --test core clearing:: -- --nocapture` looks at 600 pairs in place of
+//! 40.
+use crate::pairs;
+
+use tipstrike::case::EXAMPLES;
+use tipstrike::case::units::{Dimension, System, parse};
+use tipstrike::model::inputs::{Gear, Method, ReliefShape};
+use tipstrike::model::{Inputs, Outcome, Solution, Stage, Stages, auto, solve};
+use tipstrike::report::relief::relief as told;
+
+const METHODS: [Method; 4] = [
+    Method::Paper,
+    Method::Exact,
+    Method::Static,
+    Method::Dynamic,
+];
+
+fn examples() -> impl Iterator<Item = (&'static str, Inputs)> {
+    EXAMPLES.iter().map(|example| {
+        (
+            example.name,
+            example.document().case.inputs().expect("a valid case"),
+        )
+    })
+}
+
+/// Pairs as they are built, some of them near resonance, hardly damped, or with a relief that
+/// reaches far.
+fn built(number: u64) -> Inputs {
+    let mut inputs = pairs::numbered(number);
+    match number % 5 {
+        1 => inputs.damping_ratio = 0.01,
+        2 => inputs.driven.tip_relief = 0.3 * inputs.base_pitch_deviation,
+        3 => inputs.driven.tip_relief_length = Some(4.0 * inputs.module),
+        4 => std::mem::swap(&mut inputs.driver, &mut inputs.driven),
+        _ => {}
+    }
+    inputs
+}
+
+fn pairs_to_look_at() -> u64 {
+    std::env::var("TIPSTRIKE_PAIRS").map_or(40, |count| count.parse().expect("a count"))
+}
+
+/// Whole enough to tell outcome and least relief.
+fn solved(inputs: &Inputs) -> Option<Solution> {
+    solve(inputs, Stages::of(Stage::Clearing).with(Stage::Position)).ok()
+}
+
+/// What the method itself says of the pair with another tip relief of the driven gear.
+fn strikes(inputs: &Inputs, tip_relief: f64) -> bool {
+    let relieved = Inputs {
+        driven: Gear {
+            tip_relief,
+            ..inputs.driven.clone()
+        },
+        ..inputs.clone()
+    };
+    let stages = inputs.method.stages().within(
+        Stages::of(Stage::Dynamic)
+            .with(Stage::Position)
+            .and(Stages::of(Stage::Static)),
+    );
+    solve(&relieved, stages).expect("a solution").outcome == Outcome::CornerContact
+}
+
+/// Whether the answer keeps what it promises: none where the tooth does not strike, else the end of
+/// striking.
+fn assert_kept(name: &str, inputs: &Inputs, solution: &Solution) {
+    let clearing = solution.clearing.expect("the stage ran");
+    let given = inputs.driven.tip_relief;
+    if solution.outcome == Outcome::NoCornerContact {
+        assert_eq!((clearing.relief, clearing.withheld), (None, None), "{name}");
+        return;
+    }
+    let relief = clearing
+        .relief
+        .unwrap_or_else(|| panic!("{name}: {:?}", clearing.withheld));
+    assert!(
+        !strikes(inputs, given + relief * (1.0 + 1e-9) + 1e-18),
+        "{name}: {relief:e} does not stop it"
+    );
+    let less = (relief * (1.0 - 1e-4)).min(relief - 2e-12).max(0.0);
+    assert!(
+        strikes(inputs, given + less),
+        "{name}: less than {relief:e} stops it"
+    );
+}
+
+/// Whether small causes have large effects in the motion.
+fn rattles(solution: &Solution) -> bool {
+    solution
+        .dynamic
+        .as_ref()
+        .is_some_and(|dynamic| dynamic.contact_lost)
+}
+
+#[test]
+fn the_least_relief_stops_it_and_less_does_not_whatever_its_shape_and_length() {
+    let mut striking = [0; METHODS.len()];
+    for (name, inputs) in examples() {
+        let pitch = solve(&inputs, Stages::of(Stage::Geometry))
+            .expect("a geometry")
+            .geometry
+            .base_pitch;
+        let lengths = [None, Some(0.3 * pitch), Some(1.3 * pitch)];
+        for (method, striking) in METHODS.into_iter().zip(&mut striking) {
+            for (shape, length) in ReliefShape::ALL
+                .into_iter()
+                .flat_map(|shape| lengths.map(|length| (shape, length)))
+            {
+                let driven = Gear {
+                    tip_relief_length: length,
+                    ..inputs.driven.clone()
+                };
+                let inputs = Inputs {
+                    method,
+                    relief_shape: shape,
+                    driven,
+                    ..inputs.clone()
+                };
+                let solution = solved(&inputs).expect("a solution");
+                assert_kept(
+                    &format!("{name}, {}, {shape:?} over {length:?}", method.name()),
+                    &inputs,
+                    &solution,
+                );
+                *striking += u32::from(solution.outcome == Outcome::CornerContact);
+            }
+        }
+    }
+    assert!(striking.iter().all(|&count| count >= 12), "{striking:?}");
+}
+
+#[test]
+fn over_pairs_as_they_are_built_it_keeps_what_it_promises_and_greater_reliefs_stop_it_too() {
+    let (mut runs, mut looked_at, mut returned) = (0, 0, 0);
+    for number in 0..pairs_to_look_at() {
+        for method in METHODS {
+            let inputs = Inputs {
+                method,
+                ..built(number)
+            };
+            let Some(solution) = solved(&inputs) else {
+                continue;
+            };
+            if rattles(&solution) {
+                continue;
+            }
+            let name = format!("pair {number}, {}", method.name());
+            assert_kept(&name, &inputs, &solution);
+            let Some(relief) = solution.clearing.and_then(|clearing| clearing.relief) else {
+                continue;
+            };
+            let with = |part: f64| strikes(&inputs, inputs.driven.tip_relief + part * relief);
+            assert!(
+                [1.05, 1.25, 1.5, 2.0].into_iter().all(|part| !with(part)),
+                "{name}: more than {relief:e} does not"
+            );
+            let between = (1..=8).any(|step| with(1.0 + 0.11 * f64::from(step)));
+            assert!(
+                method == Method::Dynamic || !between,
+                "{name}: more than {relief:e} does not"
+            );
+            if method == Method::Dynamic {
+                looked_at += 1;
+                returned += u32::from(between);
+                runs += solution.clearing.map_or(0, |clearing| clearing.runs);
+            }
+        }
+    }
+    println!(
+        "{looked_at} pairs in motion, {runs} motions tried, contact again with more relief in {returned}"
+    );
+    assert!(
+        looked_at >= 12 && runs <= 14 * looked_at,
+        "{runs} motions for {looked_at} pairs"
+    );
+    assert!(
+        20 * returned <= looked_at,
+        "{returned} of {looked_at} touch again"
+    );
+}
+
+/// Where the gears rattle small causes have large effects: what was tried holds, and no more is
+/// said.
+#[test]
+fn where_contact_is_lost_the_relief_found_and_fifty_greater_ones_stop_it() {
+    let mut looked_at = 0;
+    for number in [9, 28, 88] {
+        let inputs = Inputs {
+            method: Method::Dynamic,
+            ..pairs::numbered(number)
+        };
+        let solution = solved(&inputs).expect("a solution");
+        assert!(rattles(&solution), "pair {number}");
+        let Some(relief) = solution.clearing.and_then(|clearing| clearing.relief) else {
+            continue;
+        };
+        looked_at += 1;
+        let tried = (0..=50).map(|step| 1.0 + 0.02 * f64::from(step));
+        let touching: Vec<f64> = tried
+            .filter(|part| strikes(&inputs, inputs.driven.tip_relief + part * relief))
+            .collect();
+        assert!(
+            touching.len() <= 1,
+            "pair {number}: {relief:e} and {touching:?} times as much"
+        );
+    }
+    assert!(looked_at >= 2, "{looked_at}");
+}
+
+/// The additional and the total relief of a sentence, each with its unit.
+fn figures(sentence: &str) -> (String, Option<String>) {
+    let (before, total) = match sentence.split_once("; total ") {
+        Some((before, total)) => (before, Some(total.to_owned())),
+        None => (sentence, None),
+    };
+    let words: Vec<&str> = before.split(' ').collect();
+    (words[words.len() - 2..].join(" "), total)
+}
+
+#[test]
+fn the_required_relief_prevents_contact_when_it_is_typed_in() {
+    let mut looked_at = 0;
+    for (number, method) in
+        (0..pairs_to_look_at()).flat_map(|number| METHODS.map(|method| (number, method)))
+    {
+        for given in [0.0, 1e-6, 3.217e-6] {
+            let mut inputs = Inputs {
+                method,
+                ..pairs::numbered(number)
+            };
+            inputs.driven.tip_relief = given;
+            let Some(solution) = solved(&inputs).filter(|solution| !rattles(solution)) else {
+                continue;
+            };
+            for system in System::ALL {
+                let Some(words) = told(&solution, &[], system) else {
+                    continue;
+                };
+                let read = |text: &str| {
+                    parse(text, Dimension::Length, "")
+                        .unwrap_or_else(|error| panic!("{words:?}: {error:?}"))
+                };
+                let (more, total) = figures(&words[0]);
+                let in_all = total.as_deref().map(read);
+                let sum = given + read(&more);
+                for relief in in_all.into_iter().chain([sum]) {
+                    assert!(
+                        !strikes(&inputs, relief),
+                        "pair {number}, {}, from {given:e}: {words:?}",
+                        method.name()
+                    );
+                    looked_at += 1;
+                }
+            }
+        }
+    }
+    assert!(looked_at > 300, "{looked_at}");
+}
+
+#[test]
+fn a_rest_that_decides_in_the_last_digits_is_told_as_it_is() {
+    let table_1 = examples()
+        .find(|(name, _)| name.contains("zhou"))
+        .expect("Table 1")
+        .1;
+    let whole = solved(&table_1).expect("a solution").deviation.total;
+    for rest in [1e-15, 1e-12, 1e-9, 1e-6, 0.05 * table_1.module] {
+        let mut inputs = table_1.clone();
+        if rest < whole {
+            inputs.driven.tip_relief = whole - rest;
+        } else {
+            inputs.deflection = Some(rest);
+        }
+        let solution = solved(&inputs).expect("a solution");
+        let relief = solution.clearing.and_then(|clearing| clearing.relief);
+        assert_eq!(relief, Some(solution.deviation.total), "{rest:e}");
+        assert!(solution.deviation.total > 0.99 * rest - 1e-20);
+    }
+}
+
+#[test]
+fn auto_tells_the_relief_of_the_method_that_it_took() {
+    let mut taken = Vec::new();
+    for (name, inputs) in examples() {
+        let chosen = solved(&Inputs {
+            method: Method::Auto,
+            ..inputs.clone()
+        })
+        .expect("a solution");
+        let own = solved(&auto::taken(&inputs, chosen.method)).expect("a solution");
+        let relief = |solution: &Solution| solution.clearing.expect("the stage ran").relief;
+        assert_eq!(relief(&chosen), relief(&own), "{name}");
+        assert_eq!(chosen.outcome, own.outcome, "{name}");
+        taken.push(chosen.method);
+    }
+    assert!(taken.contains(&Method::Dynamic), "{taken:?}");
+}
+
+#[test]
+fn it_is_sought_where_it_is_asked_for_and_nowhere_else() {
+    for (name, inputs) in examples() {
+        for method in METHODS {
+            let inputs = Inputs {
+                method,
+                ..inputs.clone()
+            };
+            let without =
+                solve(&inputs, Stages::EVERY.without(Stage::Clearing)).expect("a solution");
+            assert!(
+                without.clearing.is_none() && !without.ran.has(Stage::Clearing),
+                "{name}"
+            );
+            let alone = solve(&inputs, Stages::of(Stage::Clearing)).expect("a solution");
+            assert!(
+                !alone.ran.has(Stage::Friction) && !alone.ran.has(Stage::Stations),
+                "{name}"
+            );
+            let runs = alone.clearing.expect("the stage ran").runs;
+            let most = if method == Method::Dynamic { 16 } else { 6 };
+            assert!(
+                runs == 0 || method.shares_load() && runs <= most,
+                "{name}, {}: {runs} tries",
+                method.name()
+            );
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! The computation core and the case: figures, properties, speed against accuracy, and the architecture.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a test that cannot go on says why, and prints its figures"
+)]
+
+#[path = "../oracle/envelope.rs"]
+mod envelope;
+#[path = "../reference/gears.rs"]
+mod gears;
+#[path = "../oracle/mod.rs"]
+mod oracle;
+#[path = "../trade/pairs.rs"]
+mod pairs;
+#[path = "../support/mod.rs"]
+mod support;
+#[path = "../trade/table.rs"]
+mod table;
+
+mod accuracy;
+mod allocation;
+mod architecture;
+mod auto;
+mod budget;
+mod clearing;
+mod mesh;
+mod motion;
+mod properties;
+mod reference;
+mod relevance;
+mod stiffness;
+mod trade;

@@ -1,0 +1,500 @@
+//! What must hold for every pair of the envelope.
+//!
+//! `TIPSTRIKE_PAIRS=1000000 cargo test --release --test core properties::` looks at a million pairs in
+//! place of 100,000.
+use crate::envelope;
+
+use std::collections::BTreeMap;
+use std::thread;
+
+use envelope::{Corner, Random, pair};
+use tipstrike::model::inputs::{ContactCompliance, Drive, Gear, Method, ToothCompliance};
+use tipstrike::model::{
+    Inputs, Outcome, QUANTITIES, Quantity, Refusal, Solution, Stage, Stages, geometry, notes, solve,
+};
+
+fn pairs() -> u64 {
+    std::env::var("TIPSTRIKE_PAIRS").map_or(100_000, |pairs| pairs.parse().expect("a count"))
+}
+
+/// One pair of a numbered sequence, the same on every machine and whatever thread asks for it.
+fn numbered(number: u64) -> Inputs {
+    let mut random = Random::new(number + 1);
+    let corner = Corner::ALL[(number % Corner::ALL.len() as u64) as usize];
+    let mut inputs = pair(&mut random, corner);
+    inputs.tooth_compliance = random.one_of(&[
+        None,
+        Some(ToothCompliance::KUANG_YANG),
+        Some(ToothCompliance::BEAM),
+    ]);
+    inputs.accurate = random.chance(0.25);
+    inputs
+}
+
+/// The first `count` pairs for which `wanted` has an answer, with it.
+fn some<T>(count: usize, wanted: impl Fn(Inputs) -> Option<T>) -> Vec<T> {
+    (0..)
+        .filter_map(|number| wanted(numbered(number)))
+        .take(count)
+        .collect()
+}
+
+fn value(solution: &Solution, key: &str) -> Option<f64> {
+    (Quantity::find(key).expect("a quantity").value)(solution)
+}
+
+/// What became of a pair: its outcome, or the refusal's name.
+fn verdict(solved: &Result<Solution, Refusal>) -> String {
+    match solved {
+        Err(refusal) => refusal.code().to_owned(),
+        Ok(solution) => solution
+            .withheld
+            .map_or(solution.outcome.name().to_owned(), |refusal| {
+                format!("withheld: {}", refusal.code())
+            }),
+    }
+}
+
+/// Whether every number in a sentence is one.
+fn is_sound(sentence: &str) -> bool {
+    !sentence
+        .split(|letter: char| !letter.is_alphanumeric())
+        .any(|word| matches!(word, "NaN" | "inf" | "infinity"))
+}
+
+/// No quantity, station, note or refusal holds what is not a number; a pair's verdict.
+fn examined(number: u64) -> String {
+    let inputs = numbered(number);
+    let wanted = if number.is_multiple_of(16) {
+        Stages::ALL
+    } else {
+        Stages::CLOSED_FORM.and(Stages::of(Stage::Stations))
+    };
+    let solved = solve(&inputs, wanted);
+    match &solved {
+        Err(refusal) => assert!(is_sound(&refusal.to_string()), "{refusal}: {inputs:?}"),
+        Ok(solution) => examine(&inputs, solution),
+    }
+    verdict(&solved)
+}
+
+fn examine(inputs: &Inputs, solution: &Solution) {
+    for quantity in QUANTITIES {
+        let sound = (quantity.value)(solution).is_none_or(f64::is_finite);
+        assert!(sound, "{} is not finite: {inputs:?}", quantity.key);
+    }
+    for key in [
+        "normal_velocity",
+        "impact_force",
+        "pair_compliance",
+        "impact_duration",
+        "effective_mass",
+        "hertz_half_width",
+    ] {
+        assert!(
+            value(solution, key).is_none_or(|value| value > 0.0),
+            "{key} is not above 0: {inputs:?}"
+        );
+    }
+    for station in &solution.stations {
+        let forces = [
+            station.normal_velocity,
+            station.sliding_velocity,
+            station.impact_force,
+        ];
+        let places = [
+            station.roll_angle_driver,
+            station.roll_angle_driven,
+            station.radius_driver,
+        ];
+        assert!(
+            forces.into_iter().chain(places).all(f64::is_finite),
+            "{station:?}: {inputs:?}"
+        );
+    }
+    for note in notes(inputs, solution) {
+        assert!(is_sound(&note.message), "{}: {inputs:?}", note.message);
+    }
+    let struck = solution.outcome == Outcome::CornerContact;
+    assert_eq!(struck, solution.position.is_some(), "{inputs:?}");
+    let complete = solution.impact.is_some() && !solution.stations.is_empty();
+    assert_eq!(
+        struck && !complete,
+        solution.withheld.is_some(),
+        "{inputs:?}"
+    );
+}
+
+#[test]
+fn every_pair_is_solved_or_refused_by_name() {
+    let threads = thread::available_parallelism().map_or(1, |count| count.get() as u64);
+    let count_of = |first: u64| {
+        let mut verdicts = BTreeMap::<String, u64>::new();
+        (first..pairs())
+            .step_by(threads as usize)
+            .for_each(|number| *verdicts.entry(examined(number)).or_default() += 1);
+        verdicts
+    };
+    let mut verdicts = BTreeMap::<String, u64>::new();
+    thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads)
+            .map(|first| scope.spawn(move || count_of(first)))
+            .collect();
+        for worker in workers {
+            worker
+                .join()
+                .expect("no panic")
+                .into_iter()
+                .for_each(|(verdict, count)| *verdicts.entry(verdict).or_default() += count);
+        }
+    });
+    println!("{verdicts:#?}");
+    assert!(verdicts["corner-contact"] > pairs() * 2 / 5, "{verdicts:?}");
+}
+
+/// The default path against the accurate one, which the accuracy tests hold against the oracle.
+#[test]
+fn default_path_is_nowhere_worse_than_1e_9() {
+    let mut worst = (0.0, String::new());
+    for number in 0..pairs() / 5 {
+        let inputs = Inputs {
+            accurate: false,
+            ..numbered(number)
+        };
+        let solved = solve(&inputs, Stages::CLOSED_FORM);
+        let precise = solve(
+            &Inputs {
+                accurate: true,
+                ..inputs.clone()
+            },
+            Stages::CLOSED_FORM,
+        );
+        assert_eq!(verdict(&solved), verdict(&precise), "{inputs:?}");
+        let (Ok(solved), Ok(precise)) = (solved, precise) else {
+            continue;
+        };
+        for quantity in QUANTITIES {
+            let (Some(found), Some(expected)) =
+                ((quantity.value)(&solved), (quantity.value)(&precise))
+            else {
+                continue;
+            };
+            let off = if expected == 0.0 {
+                found.abs()
+            } else {
+                (found / expected - 1.0).abs()
+            };
+            if off > worst.0 {
+                worst = (off, format!("{}: {inputs:?}", quantity.key));
+            }
+        }
+    }
+    println!("worst {:e}: {}", worst.0, worst.1);
+    assert!(worst.0 < 1e-9, "{:e}: {}", worst.0, worst.1);
+}
+
+/// Lengths times `length`, times times `time`, forces times `length`² so that every stress stays.
+fn scaled(inputs: &Inputs, length: f64, time: f64) -> Inputs {
+    let gear = |gear: &Gear| Gear {
+        face_width: gear.face_width * length,
+        bore_radius: gear.bore_radius * length,
+        density: gear.density * (time / length).powi(2),
+        tip_relief: gear.tip_relief * length,
+        root_relief: gear.root_relief * length,
+        tip_relief_length: gear.tip_relief_length.map(|of| of * length),
+        tip_chamfer: gear.tip_chamfer * length,
+        tip_radius: gear.tip_radius.map(|radius| radius * length),
+        ..gear.clone()
+    };
+    Inputs {
+        module: inputs.module * length,
+        centre_distance: inputs.centre_distance.map(|distance| distance * length),
+        driver: gear(&inputs.driver),
+        driven: gear(&inputs.driven),
+        base_pitch_deviation: inputs.base_pitch_deviation * length,
+        backlash: inputs.backlash * length,
+        drive: match inputs.drive {
+            Drive::Power(power) => Drive::Power(power * length.powi(3) / time),
+            Drive::Torque(torque) => Drive::Torque(torque * length.powi(3)),
+        },
+        speed: inputs.speed / time,
+        deflection: inputs.deflection.map(|deflection| deflection * length),
+        ..inputs.clone()
+    }
+}
+
+/// What a unit becomes.
+fn factor(unit: &str, length: f64, time: f64) -> f64 {
+    match unit {
+        "m" => length,
+        "s" => time,
+        "m/s" => length / time,
+        "N" => length.powi(2),
+        "kg" => length * time.powi(2),
+        "J" => length.powi(3),
+        "m2/N" | "1" | "rad" => 1.0,
+        _ => panic!("no factor for {unit}"),
+    }
+}
+
+#[test]
+fn quantities_scale_with_the_units() {
+    let checked = some(2_000, |inputs| {
+        let plain = solve(&inputs, Stages::CLOSED_FORM).ok()?;
+        for (length, time) in [(8.0, 1.0), (1.0, 0.25), (0.0625, 0.0625), (2.0, 32.0)] {
+            let large = solve(&scaled(&inputs, length, time), Stages::CLOSED_FORM)
+                .expect("as much a solution");
+            for quantity in QUANTITIES {
+                let (was, is) = ((quantity.value)(&plain), (quantity.value)(&large));
+                let expected = was.map(|was| was * factor(quantity.unit, length, time));
+                let off = is.zip(expected).map(|(is, expected)| {
+                    if expected == 0.0 {
+                        is.abs()
+                    } else {
+                        (is / expected - 1.0).abs()
+                    }
+                });
+                assert_eq!(
+                    was.is_some(),
+                    is.is_some(),
+                    "{} times {length}, {time}: {inputs:?}",
+                    quantity.key
+                );
+                assert!(
+                    off.unwrap_or(0.0) < 1e-11,
+                    "{} {was:?} {is:?} times {length}, {time}: {inputs:?}",
+                    quantity.key
+                );
+            }
+        }
+        plain.impact
+    });
+    assert_eq!(checked.len(), 2_000);
+}
+
+/// Run-out is run-in of the pair the other way round: what lies after the pitch point here lies
+/// before it there.
+#[test]
+fn swapped_gears_mirror_the_path_of_contact() {
+    some(5_000, |inputs| {
+        let swapped = Inputs {
+            driver: inputs.driven.clone(),
+            driven: inputs.driver.clone(),
+            ..inputs.clone()
+        };
+        let here = geometry::geometry::<f64>(&inputs.shape()).ok()?;
+        let there = geometry::geometry::<f64>(&swapped.shape()).ok()?;
+        let close =
+            |found: f64, expected: f64| (found - expected).abs() <= 1e-13 * here.tangent_length;
+        assert!(
+            close(there.start, here.tangent_length - here.end),
+            "{inputs:?}"
+        );
+        assert!(
+            close(there.end, here.tangent_length - here.start),
+            "{inputs:?}"
+        );
+        assert!(
+            close(
+                there.approach_length,
+                here.end - here.start - here.approach_length
+            ),
+            "{inputs:?}"
+        );
+        assert!(
+            close(
+                there.contact_ratio * there.base_pitch,
+                here.contact_ratio * here.base_pitch
+            ),
+            "{inputs:?}"
+        );
+        Some(())
+    });
+}
+
+/// Eq. 55 adds the two materials, and Eq. 56 knows steel alone.
+#[test]
+fn swapped_materials_strike_alike_in_the_fit() {
+    some(1_000, |inputs| {
+        let fit = Inputs {
+            tooth_compliance: Some(ToothCompliance::KUANG_YANG),
+            ..inputs
+        };
+        if fit.contact_compliance == ContactCompliance::WEBER {
+            return None;
+        }
+        let mut swapped = fit.clone();
+        (swapped.driver.young, swapped.driven.young) = (fit.driven.young, fit.driver.young);
+        (swapped.driver.poisson, swapped.driven.poisson) = (fit.driven.poisson, fit.driver.poisson);
+        let here = solve(&fit, Stages::CLOSED_FORM).ok()?.impact?;
+        let there = solve(&swapped, Stages::CLOSED_FORM)
+            .expect("as much a solution")
+            .impact;
+        assert_eq!(Some(here), there, "{fit:?}");
+        Some(())
+    });
+}
+
+/// The pair with a deviation of `total`, all of it a given deflection.
+fn deviating(inputs: &Inputs, total: f64) -> Inputs {
+    let mut inputs = Inputs {
+        base_pitch_deviation: 0.0,
+        backlash: 0.0,
+        deflection: Some(total),
+        ..inputs.clone()
+    };
+    inputs.driven.tip_relief = 0.0;
+    inputs.driver.root_relief = 0.0;
+    inputs
+}
+
+#[test]
+fn angle_velocity_and_force_rise_with_the_deviation() {
+    const STEPS: i32 = 60;
+    let keys = ["approach_angle_driven", "normal_velocity", "impact_force"];
+    some(500, |inputs| {
+        let mut last = [0.0; 3];
+        let mut solved = None;
+        for step in 0..STEPS {
+            let inputs = deviating(&inputs, 1e-15 * 1.6f64.powi(step));
+            let Ok(solution) = solve(&inputs, Stages::CLOSED_FORM) else {
+                break;
+            };
+            for (key, last) in keys.into_iter().zip(&mut last) {
+                let Some(value) = value(&solution, key) else {
+                    continue;
+                };
+                assert!(
+                    value > *last,
+                    "{key} falls from {last:e} to {value:e}: {inputs:?}"
+                );
+                *last = value;
+            }
+            solved = solution.impact.or(solved);
+        }
+        solved
+    });
+}
+
+/// S(u) = Δ closes, and S is the integral of what its slope says.
+#[test]
+fn gap_rises_with_the_angle() {
+    use tipstrike::model::position::{gap_by_quadrature, tip_at};
+    some(2_000, |inputs| {
+        let solution = solve(
+            &Inputs {
+                method: Method::Exact,
+                ..inputs.clone()
+            },
+            Stages::CLOSED_FORM,
+        )
+        .ok()?;
+        let angle = solution.position?.approach_angle_driven;
+        let gap = |part: f64| {
+            gap_by_quadrature(
+                &solution.geometry,
+                &tip_at(&solution.geometry, part * angle),
+            )
+        };
+        let gaps: Vec<f64> = (1..=16).map(|part| gap(f64::from(part) / 16.0)).collect();
+        assert!(gaps[0] > 0.0 && gaps.is_sorted(), "{gaps:?}: {inputs:?}");
+        Some(())
+    });
+}
+
+#[test]
+fn vanishing_deviation_meets_no_corner_contact_without_a_jump() {
+    some(1_000, |inputs| {
+        let exact = Inputs {
+            method: Method::Exact,
+            ..inputs
+        };
+        let at = |total: f64| solve(&deviating(&exact, total), Stages::CLOSED_FORM);
+        let solution = at(1e-18).ok()?;
+        let (force, angle) = (
+            value(&solution, "impact_force")?,
+            value(&solution, "approach_angle_driven")?,
+        );
+        for exponent in [-20, -30, -60, -120, -200] {
+            let small =
+                at(10f64.powi(exponent)).unwrap_or_else(|refusal| panic!("{refusal}: {exact:?}"));
+            let shrunk = 10f64.powi(exponent + 18);
+            let ratio = value(&small, "approach_angle_driven").expect("an angle") / angle;
+            let expected = 0.9 * shrunk.powf(2.0 / 3.0)..=1.1 * shrunk.sqrt();
+            assert!(
+                expected.contains(&ratio),
+                "u shrinks to {ratio:e} at 1e{exponent} m: {exact:?}"
+            );
+            assert!(
+                value(&small, "impact_force").expect("a force") < 10.0 * force * shrunk.cbrt(),
+                "{exact:?}"
+            );
+        }
+        for none in [0.0, -0.0, -1e-300, -1e-6] {
+            let solution = at(none).expect("an outcome");
+            assert_eq!(
+                (solution.outcome, solution.position),
+                (Outcome::NoCornerContact, None),
+                "{exact:?}"
+            );
+        }
+        Some(())
+    });
+}
+
+#[test]
+fn stations_fall_to_zero_at_the_end_and_stay_when_doubled() {
+    some(1_000, |inputs| {
+        let with = |stations| {
+            solve(
+                &Inputs {
+                    stations,
+                    ..inputs.clone()
+                },
+                Stages::ALL,
+            )
+            .ok()
+        };
+        let (coarse, fine) = (with(Some(8))?, with(Some(16))?);
+        for (solution, whole) in [(&coarse, 9), (&fine, 17)] {
+            let missing = solution.impact.is_some() && solution.stations.len() < whole;
+            assert_eq!(missing, solution.stations_withheld.is_some(), "{inputs:?}");
+        }
+        if fine
+            .stations_withheld
+            .or(coarse.stations_withheld)
+            .is_some()
+            || coarse.stations.is_empty()
+        {
+            return None;
+        }
+        let (coarse, fine) = (coarse.stations, fine.stations);
+        assert_eq!((coarse.len(), fine.len()), (9, 17));
+        assert!(
+            fine.windows(2)
+                .all(|pair| pair[0].impact_force > pair[1].impact_force),
+            "{inputs:?}"
+        );
+        assert_eq!(fine[16].impact_force, 0.0);
+        assert!(coarse.iter().eq(fine.iter().step_by(2)), "{inputs:?}");
+        Some(())
+    });
+}
+
+#[test]
+fn same_bits_on_one_thread_and_on_many() {
+    const PAIRS: u64 = 400;
+    let solved = |number: u64| format!("{:?}", solve(&numbered(number), Stages::ALL));
+    let alone: Vec<String> = (0..PAIRS).map(solved).collect();
+    thread::scope(|scope| {
+        let workers: Vec<_> = (0..4)
+            .map(|first| {
+                scope.spawn(move || (first..PAIRS).step_by(4).map(solved).collect::<Vec<_>>())
+            })
+            .collect();
+        for (first, worker) in workers.into_iter().enumerate() {
+            let found = worker.join().expect("no panic");
+            assert!(found.iter().eq(alone.iter().skip(first).step_by(4)));
+        }
+    });
+}

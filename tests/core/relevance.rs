@@ -1,0 +1,233 @@
+//! What the form says of each field, whether it acts, is what the model does when the field
+//! changes.
+use std::collections::BTreeSet;
+
+use tipstrike::case::fields::{Field, Kind, index_of};
+use tipstrike::case::{Acting, Case, EXAMPLES, FIELDS, relevance};
+use tipstrike::model::{self, QUANTITIES, Solution, Stage, Stages};
+
+/// Every case of the house, and Table 1 with what the others leave out, so that whatever can act
+/// does.
+fn samples() -> Vec<Case> {
+    let mut found: Vec<Case> = EXAMPLES
+        .iter()
+        .map(|example| example.document().case)
+        .collect();
+    let changed = |changes: &[(&str, &str)]| {
+        let mut case = Case::table_1();
+        for (key, text) in changes {
+            case.set(key, text).expect("a change that fits");
+        }
+        case
+    };
+    let relieved = [
+        ("driver.tip_relief", "10 um"),
+        ("driver.root_relief", "4 um"),
+        ("driven.tip_relief", "5 um"),
+        ("driven.root_relief", "3 um"),
+        ("driver.tip_relief_length", "3 mm"),
+        ("driven.tip_relief_length", "3 mm"),
+    ];
+    found.push(changed(&[
+        ("model.deflection", ""),
+        ("model.tooth_compliance", ""),
+        ("operation.friction_coefficient", "0.06"),
+    ]));
+    found.push(changed(&[
+        ("model.tooth_compliance", "beam"),
+        ("model.contact_compliance", "weber"),
+        ("model.deflection", ""),
+    ]));
+    found.push(changed(&[
+        ("driven.tip_radius", "0.4 mm"),
+        ("driver.tip_radius", "0.4 mm"),
+        ("operation.torque", "70 N m"),
+    ]));
+    found.push(changed(
+        &[&relieved[..], &[("pair.centre_distance", "100.2 mm")]].concat(),
+    ));
+    found.push(changed(&[
+        ("model.stations", "auto"),
+        ("model.contact_compliance", "constant"),
+        ("driven.tip_radius", "0.4 mm"),
+    ]));
+    found
+}
+
+/// Other texts that the field takes: near what holds in it, and across its range.
+fn others(field: &Field, index: usize, case: &Case) -> Vec<String> {
+    match field.kind {
+        Kind::Text => vec!["other words".to_owned()],
+        Kind::Choice(names, _) => names.iter().map(|name| (*name).to_owned()).collect(),
+        Kind::Count(..) => [1, 10, -1]
+            .into_iter()
+            .filter_map(|by| case.stepped(index, by))
+            .collect(),
+        Kind::Number(_, range, _) => {
+            let factor = tipstrike::case::units::factor(range.unit).unwrap();
+            let near = [1.02, 0.98, 1.3]
+                .map(|times| case.value(index).map(|value| value / factor * times));
+            let across = [1e-5, 1e-3, 0.02, 0.3]
+                .map(|part| Some(range.from + (range.to - range.from) * part));
+            let text = |value: f64| format!("{value} {}", range.unit).trim_end().to_owned();
+            near.into_iter()
+                .chain(across)
+                .flatten()
+                .filter(|value| (range.from..=range.to).contains(value))
+                .map(text)
+                .collect()
+        }
+    }
+}
+
+/// As far as the method goes, without the motion in time, which takes long.
+fn solve(case: &Case) -> Option<Solution> {
+    let shares = case.inputs().ok()?.method.shares_load();
+    let wanted = if shares {
+        Stages::of(Stage::Static).and(Stages::ALL)
+    } else {
+        Stages::ALL
+    };
+    model::solve(&case.inputs().ok()?, wanted).ok()
+}
+
+/// Every quantity to the last bit, and every station.
+fn told(solution: &Solution) -> (Vec<Option<u64>>, String) {
+    let quantities = QUANTITIES
+        .iter()
+        .map(|quantity| (quantity.value)(solution).map(f64::to_bits))
+        .collect();
+    (
+        quantities,
+        format!("{:?} {:?}", solution.outcome, solution.stations),
+    )
+}
+
+/// Hold every field of every sample, or but the idle ones, against the model in a method; the
+/// fields that were said to act and those that did.
+fn hold(
+    method: &str,
+    samples: &[Case],
+    but_idle: bool,
+) -> (BTreeSet<&'static str>, BTreeSet<&'static str>) {
+    let (mut said, mut found) = (BTreeSet::new(), BTreeSet::new());
+    for case in samples {
+        let mut case = case.clone();
+        case.set("model.method", method).unwrap();
+        let (Ok(inputs), Some(before)) = (case.inputs(), solve(&case)) else {
+            continue;
+        };
+        for (index, field) in FIELDS.iter().enumerate() {
+            let acting = relevance(index, &inputs);
+            if acting == Acting::Yes {
+                said.insert(field.key);
+            }
+            if acting == Acting::Yes && (but_idle || found.contains(field.key)) {
+                continue;
+            }
+            for text in others(field, index, &case) {
+                let mut changed = case.clone();
+                if changed.set(field.key, &text).is_err()
+                    || solve(&changed).is_none_or(|after| told(&after) == told(&before))
+                {
+                    continue;
+                }
+                found.insert(field.key);
+                let given = case.text(index).is_some();
+                assert!(
+                    acting == Acting::Yes || !given,
+                    "method {method}: {} is said to be {acting:?}; {text} changes something",
+                    field.key
+                );
+            }
+        }
+    }
+    (said, found)
+}
+
+#[test]
+fn what_acts_is_what_changes_a_result() {
+    for method in ["paper", "exact"] {
+        let (said, found) = hold(method, &samples(), false);
+        let idle: Vec<_> = said.difference(&found).collect();
+        assert!(
+            idle.is_empty(),
+            "method {method}: said to act, and no change of it changes anything: {idle:?}"
+        );
+        let more: Vec<_> = found.difference(&said).collect();
+        assert!(
+            more.is_empty(),
+            "method {method}: said not to act, and it does: {more:?}"
+        );
+    }
+}
+
+#[test]
+fn what_is_idle_where_the_load_is_shared_changes_nothing() {
+    let mut few = Case::table_1();
+    few.set("model.stations", "4").unwrap();
+    hold("static", &[few], true);
+}
+
+#[test]
+fn the_reason_is_a_short_sentence_and_not_a_makeshift() {
+    for method in ["paper", "exact", "static", "dynamic", "auto"] {
+        let mut case = Case::table_1();
+        case.set("model.method", method).unwrap();
+        for (index, field) in FIELDS.iter().enumerate() {
+            let (Acting::No(why) | Acting::Beside(why)) = relevance(index, &case.inputs_so_far())
+            else {
+                continue;
+            };
+            assert!(
+                (10..=130).contains(&why.len()) && why.is_ascii() && !why.ends_with('.'),
+                "{why}"
+            );
+            assert!(
+                !why.starts_with("nothing that"),
+                "{method}: {} has no reason of its own",
+                field.key
+            );
+        }
+    }
+}
+
+#[test]
+fn each_method_has_its_idle_fields() {
+    let idle = |method: &str, key: &str| {
+        let mut case = Case::table_1();
+        case.set("model.method", method).unwrap();
+        relevance(index_of(key).unwrap(), &case.inputs().unwrap()) != Acting::Yes
+    };
+    for (key, methods) in [
+        ("driver.tip_relief", &["paper", "exact"][..]),
+        ("driven.tip_relief", &[]),
+        ("driver.tip_relief_length", &["paper", "exact"]),
+        ("model.deflection", &["static", "dynamic"]),
+        ("model.damping_ratio", &["paper", "exact", "static"]),
+        ("model.within", &["paper", "exact", "static", "dynamic"]),
+        ("operation.friction_coefficient", &["paper", "exact"]),
+        ("driver.density", &[]),
+    ] {
+        let found: Vec<&str> = ["paper", "exact", "static", "dynamic", "auto"]
+            .into_iter()
+            .filter(|method| idle(method, key))
+            .collect();
+        assert_eq!(found, methods, "{key}");
+    }
+}
+
+#[test]
+fn a_case_that_is_not_valid_is_told_as_far_as_it_can_be_read() {
+    let mut case = Case::table_1();
+    case.write(index_of("pair.module").unwrap(), "five");
+    let inputs = case.inputs_so_far();
+    assert!(matches!(
+        relevance(index_of("driver.tip_relief").unwrap(), &inputs),
+        Acting::No(_)
+    ));
+    assert_eq!(
+        relevance(index_of("driven.tip_relief").unwrap(), &inputs),
+        Acting::Yes
+    );
+}

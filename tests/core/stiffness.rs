@@ -1,0 +1,197 @@
+//! Pair stiffness held against published values: ISO 6336-1 method B, and what open codes give.
+use crate::support;
+
+use support::standard_pair;
+use tipstrike::model::Inputs;
+use tipstrike::model::compliance::tooth::beam;
+use tipstrike::model::compliance::{ContactPlace, pair_at_load};
+use tipstrike::model::geometry::{Geometry, geometry};
+use tipstrike::model::inputs::{ContactCompliance, Gear, ToothCompliance};
+
+/// Load of ISO 6336-1's linear range, in N/m.
+const LINE_LOAD: f64 = 300e3;
+
+/// Single stiffness c' of ISO 6336-1 method B for a solid disc and the standard rack, in N/(µm mm).
+fn iso_single_stiffness(inputs: &Inputs) -> f64 {
+    const DEDENDUM: f64 = 1.25;
+    let (z1, z2) = (
+        f64::from(inputs.driver.teeth),
+        f64::from(inputs.driven.teeth),
+    );
+    let (x1, x2) = (inputs.driver.profile_shift, inputs.driven.profile_shift);
+    let linear = 0.04723 + 0.15551 / z1 + 0.25791 / z2
+        - 0.00635 * x1
+        - 0.11654 * x1 / z1
+        - 0.00193 * x2
+        - 0.24188 * x2 / z2;
+    let flexibility = linear + 0.00529 * x1 * x1 + 0.00182 * x2 * x2;
+    let rack =
+        (1.0 + 0.5 * (1.2 - DEDENDUM)) * (1.0 - 0.02 * (20.0 - inputs.pressure_angle.to_degrees()));
+    0.8 * rack / flexibility
+}
+
+/// A pair with bores of a third of the root radius, as for a disc on its shaft.
+fn pair((z1, x1): (u32, f64), (z2, x2): (u32, f64)) -> Inputs {
+    let mut inputs = standard_pair(z1, z2, 5e-3);
+    (inputs.driver.profile_shift, inputs.driven.profile_shift) = (x1, x2);
+    let module = inputs.module;
+    let bore =
+        |gear: &Gear| module * (f64::from(gear.teeth) / 2.0 - 1.25 + gear.profile_shift) / 3.0;
+    inputs.driver.bore_radius = bore(&inputs.driver);
+    inputs.driven.bore_radius = bore(&inputs.driven);
+    inputs
+}
+
+/// Six pairs and more: FZG type C, equal, unequal and shifted ones.
+fn pairs() -> Vec<Inputs> {
+    vec![
+        pair((16, 0.1817), (24, 0.1715)),
+        pair((20, 0.0), (20, 0.0)),
+        pair((28, 0.0), (28, 0.0)),
+        pair((20, 0.0), (60, 0.0)),
+        pair((40, 0.0), (40, 0.0)),
+        pair((25, 0.3), (100, -0.3)),
+        pair((60, 0.0), (90, 0.0)),
+    ]
+}
+
+/// Stiffness of the pair at a place, in N/(µm mm).
+fn stiffness(
+    inputs: &Inputs,
+    model: ToothCompliance,
+    contact: ContactCompliance,
+    along: impl Fn(&Geometry) -> f64,
+) -> f64 {
+    let inputs = Inputs {
+        tooth_compliance: Some(model),
+        contact_compliance: contact,
+        ..inputs.clone()
+    };
+    let geometry = geometry(&inputs.shape()).expect("a meshing pair");
+    let place = ContactPlace::on_line_of_action(&geometry, along(&geometry));
+    1e-9 / pair_at_load(
+        &inputs.elasticity(),
+        &geometry,
+        &place,
+        LINE_LOAD * inputs.common_width(),
+    )
+    .expect("a compliance")
+}
+
+fn at_pitch(geometry: &Geometry) -> f64 {
+    geometry.start + geometry.approach_length
+}
+
+fn at_end(geometry: &Geometry) -> f64 {
+    geometry.start
+}
+
+/// The table of the README: `cargo test --test core stiffness:: -- --nocapture`.
+#[test]
+fn single_stiffness_agrees_with_iso_6336_within_a_quarter() {
+    println!("| pair | ISO 6336-1 c' | kuang-yang | beam |\n|---|---|---|---|");
+    for inputs in pairs() {
+        let iso = iso_single_stiffness(&inputs);
+        let ours = ToothCompliance::ALL
+            .map(|model| stiffness(&inputs, model, ContactCompliance::LOGARITHMIC, at_pitch));
+        let percent = ours.map(|value| 100.0 * (value / iso - 1.0));
+        let (driver, driven) = (&inputs.driver, &inputs.driven);
+        println!(
+            "| z {}/{}, x {}/{} | {iso:.2} | {:.2} ({:+.0} %) | {:.2} ({:+.0} %) |",
+            driver.teeth,
+            driven.teeth,
+            driver.profile_shift,
+            driven.profile_shift,
+            ours[0],
+            percent[0],
+            ours[1],
+            percent[1]
+        );
+        assert!(
+            percent.iter().all(|percent| percent.abs() < 25.0),
+            "z {}/{}: {percent:?} %",
+            driver.teeth,
+            driven.teeth
+        );
+    }
+}
+
+#[test]
+fn iso_value_of_the_standard_pair() {
+    let iso = iso_single_stiffness(&pair((20, 0.0), (20, 0.0)));
+    assert!((iso - 11.487).abs() < 5e-4, "{iso}");
+}
+
+/// What open codes give for z 20/20, m 5 mm: 6.9 to 7.9 at the path's end and 8.9 to 10.3 at the
+/// pitch point; Kuang and Yang with the constant contact term 8.30 and 11.97. The band of the
+/// stiffness is 20 %.
+#[test]
+fn equal_pair_agrees_with_open_codes() {
+    let inputs = pair((20, 0.0), (20, 0.0));
+    let constant = |model, place: fn(&Geometry) -> f64| {
+        stiffness(&inputs, model, ContactCompliance::CONSTANT, place)
+    };
+    for (place, published, open) in [
+        (at_end as fn(&Geometry) -> f64, 8.30, 6.9..=7.9),
+        (at_pitch, 11.97, 8.9..=10.3),
+    ] {
+        let fit = constant(ToothCompliance::KUANG_YANG, place);
+        assert!(
+            (fit - published).abs() < 0.02,
+            "kuang-yang {fit}, published {published}"
+        );
+        let beam = constant(ToothCompliance::BEAM, place);
+        let nearest = beam.clamp(*open.start(), *open.end());
+        assert!(
+            (beam / nearest - 1.0).abs() < 0.2,
+            "beam {beam}, open codes {open:?}"
+        );
+    }
+}
+
+#[test]
+fn a_tooth_is_stiffer_the_nearer_to_its_root_the_load_stands() {
+    for inputs in pairs() {
+        let geometry = geometry::<f64>(&inputs.shape()).expect("a meshing pair");
+        let (tip, base) = (geometry.driver.tip, geometry.driver.base);
+        let loads = [1.0, 0.8, 0.6, 0.4, 0.2]
+            .map(|part| geometry.driver.base.max(geometry.driver.root) + part * (tip - base) * 0.9);
+        let found = loads
+            .map(|radius| beam::tooth(&inputs.elasticity().driver, &geometry.driver, radius).ok());
+        let given: Vec<f64> = found.into_iter().flatten().collect();
+        assert!(
+            given.len() >= 3 && given.is_sorted_by(|a, b| a > b),
+            "z {}: {given:?}",
+            inputs.driver.teeth
+        );
+    }
+}
+
+#[test]
+fn young_poisson_and_bore_enter() {
+    let plain = pair((30, 0.0), (30, 0.0));
+    let beam = |change: &dyn Fn(&mut Inputs)| {
+        let mut inputs = plain.clone();
+        change(&mut inputs);
+        let geometry = geometry::<f64>(&inputs.shape()).expect("a meshing pair");
+        beam::tooth(
+            &inputs.elasticity().driver,
+            &geometry.driver,
+            geometry.driver.tip,
+        )
+        .expect("a compliance")
+    };
+    let before = beam(&|_| ());
+    assert!(
+        (beam(&|inputs| inputs.driver.young /= 2.0) / before - 2.0).abs() < 1e-12,
+        "compliance goes as 1/E"
+    );
+    assert!(
+        beam(&|inputs| inputs.driver.poisson = 0.4) > before,
+        "a lower shear modulus gives way"
+    );
+    assert!(
+        beam(&|inputs| inputs.driver.bore_radius *= 0.6) > before,
+        "a smaller bore lets the body wind up"
+    );
+}

@@ -1,0 +1,423 @@
+//! Speed against accuracy: what the trade promises, and the stored errors of the cases in `cases/`.
+//!
+//! `TIPSTRIKE_REGENERATE=1 cargo bench --bench trade` makes the stored table, the lines of docs/speed.md
+//! and its picture anew.
+use crate::table;
+
+use std::cell::Cell;
+
+use serde_json::Value;
+use tipstrike::case::Case;
+use tipstrike::model::inputs::Method;
+use tipstrike::model::{Inputs, Refusal, Stage, Stages, solve};
+use tipstrike::report::trade::{Told, write, write_json};
+use tipstrike::study::trade::{
+    METHODS, Measured, Patience, Question, STATIONS, Setting, Subject, Trade, greatest, trade,
+};
+
+fn table_1() -> Inputs {
+    Case::table_1()
+        .inputs()
+        .expect("the built-in case is valid")
+}
+
+fn traded(inputs: &Inputs, within: f64) -> Trade {
+    let question = Question {
+        within,
+        patience: Patience::ONCE,
+    };
+    trade(inputs, &question, &|| true, &mut |_| ()).unwrap_or_else(|refusal| panic!("{refusal}"))
+}
+
+fn of<'a>(trade: &'a Trade, setting: &Setting) -> &'a Measured {
+    trade
+        .settings
+        .iter()
+        .find(|measured| measured.setting == *setting)
+        .unwrap_or_else(|| panic!("no {setting}"))
+}
+
+fn numerical(measured: &Measured, subject: Subject) -> f64 {
+    let figures = measured
+        .found
+        .as_ref()
+        .unwrap_or_else(|refusal| panic!("{}: {refusal}", measured.setting));
+    figures.numerical[subject as usize].unwrap_or_else(|| panic!("no {}", subject.label()))
+}
+
+fn json(trade: &Trade) -> Value {
+    let mut out = Vec::new();
+    write_json(
+        &Told {
+            name: "case.toml",
+            title: "a title",
+            trade,
+        },
+        &mut out,
+    )
+    .expect("memory");
+    serde_json::from_slice(&out).expect("JSON")
+}
+
+fn text(trade: &Trade) -> String {
+    let mut out = Vec::new();
+    write(
+        &Told {
+            name: "case.toml",
+            title: "a title",
+            trade,
+        },
+        &mut out,
+    )
+    .expect("memory");
+    String::from_utf8(out).expect("text")
+}
+
+#[test]
+fn table_1_within_five_percent_needs_the_method_dynamic() {
+    let trade = traded(&table_1(), 0.05);
+    let best = trade.recommended().expect("one qualifies");
+    assert_eq!(best.setting.method, Method::Dynamic, "{}", best.setting);
+    assert!(best.qualifies && best.total().unwrap() <= 0.05);
+    for measured in &trade.settings {
+        let dynamic = measured
+            .found
+            .as_ref()
+            .is_ok_and(|figures| figures.method == Method::Dynamic);
+        assert!(dynamic || !measured.qualifies, "{}", measured.setting);
+    }
+    assert!(
+        text(&trade)
+            .lines()
+            .last()
+            .unwrap()
+            .starts_with("Within 5.0 %: dynamic with"),
+        "{}",
+        text(&trade)
+    );
+}
+
+#[test]
+fn two_ways_to_the_reference_agree() {
+    for path in table::cases() {
+        let inputs = table::inputs(&path);
+        let Ok(reference) = traded(&inputs, 0.05).reference else {
+            continue;
+        };
+        let off = greatest(&reference.disagreement.expect("a second way")).expect("a difference");
+        assert!(off < 1e-9, "{}: {off:e}", path.display());
+    }
+}
+
+#[test]
+fn nothing_qualifies_within_what_no_setting_reaches() {
+    let trade = traded(&table_1(), 1e-15);
+    assert!(trade.recommended().is_none());
+    assert!(text(&trade).ends_with("%: none\n"));
+    assert!(json(&trade).get("recommended").is_none());
+}
+
+#[test]
+fn no_setting_of_the_front_is_worse_than_another_in_both() {
+    let trade = traded(&table_1(), 0.05);
+    let points: Vec<(f64, f64, bool)> = trade
+        .settings
+        .iter()
+        .filter_map(|one| Some((one.total()?, one.seconds(), one.is_on_front)))
+        .collect();
+    assert!(points.iter().filter(|point| point.2).count() >= 3);
+    for point in &points {
+        let beaten = points.iter().any(|other| {
+            other.0 <= point.0 && other.1 <= point.1 && (other.0, other.1) != (point.0, point.1)
+        });
+        assert_eq!(beaten, !point.2, "{point:?}");
+    }
+}
+
+#[test]
+fn errors_fall_with_stations_and_tolerance() {
+    let trade = traded(&table_1(), 0.05);
+    for method in METHODS {
+        let off = |stations| {
+            numerical(
+                of(
+                    &trade,
+                    &Setting {
+                        stations: Some(stations),
+                        ..Setting::usual(method)
+                    },
+                ),
+                Subject::Curve,
+            )
+        };
+        for pair in STATIONS.windows(2) {
+            assert!(
+                off(pair[1]) < off(pair[0]),
+                "{method:?} {pair:?}: {:e} {:e}",
+                off(pair[0]),
+                off(pair[1])
+            );
+        }
+        assert!(off(1024) < 0.02 * off(8), "{method:?}");
+    }
+    let off = |tolerance| {
+        let setting = Setting {
+            tolerance: Some(tolerance),
+            ..Setting::usual(Method::Dynamic)
+        };
+        numerical(of(&trade, &setting), Subject::PeakApproachForce)
+    };
+    // A coarse one may by chance be as good as a finer one: its steps end at the same borders.
+    for exponent in 3..=10 {
+        let tolerance = table::tidy(10f64.powi(-exponent));
+        assert!(
+            off(tolerance) < 0.1 * tolerance,
+            "{tolerance:e}: {:e}",
+            off(tolerance)
+        );
+    }
+    assert!(
+        off(1e-10) < 1e-4 * off(1e-3),
+        "{:e} {:e}",
+        off(1e-10),
+        off(1e-3)
+    );
+}
+
+#[test]
+fn what_a_method_has_not_does_not_count_and_what_it_needs_does() {
+    let trade = traded(&table_1(), 0.05);
+    for measured in &trade.settings {
+        let figures = measured.found.as_ref().unwrap();
+        let has_ratio = figures.numerical[Subject::FrictionRatio as usize].is_some();
+        assert_eq!(
+            has_ratio,
+            matches!(figures.method, Method::Paper | Method::Exact),
+            "{}",
+            measured.setting
+        );
+        assert_eq!(figures.total[Subject::FrictionRatio as usize], None);
+        assert_eq!(
+            figures.total[Subject::Duration as usize].is_some(),
+            figures.method != Method::Static
+        );
+        assert!(measured.total().is_some());
+    }
+}
+
+#[test]
+fn the_cases_own_setting_is_there_and_marked() {
+    let inputs = Inputs {
+        method: Method::Dynamic,
+        stations: Some(77),
+        tolerance: 3e-5,
+        ..table_1()
+    };
+    let trade = traded(&inputs, 0.05);
+    let own: Vec<&Measured> = trade
+        .settings
+        .iter()
+        .filter(|measured| measured.is_current)
+        .collect();
+    assert_eq!(own.len(), 1);
+    assert_eq!(own[0].setting, Setting::of(&inputs));
+    assert_eq!(trade.planned, trade.settings.len());
+}
+
+#[test]
+fn no_corner_contact_by_both_is_agreement() {
+    let inputs = table::inputs(
+        &table::cases()
+            .into_iter()
+            .find(|path| path.ends_with("tip-relief-enough.toml"))
+            .unwrap(),
+    );
+    let trade = traded(&inputs, 0.05);
+    let exact = of(&trade, &Setting::usual(Method::Exact));
+    assert_eq!(
+        exact.found.as_ref().unwrap().total[Subject::FirstContact as usize],
+        Some(0.0)
+    );
+    assert!(exact.qualifies, "{:?}", exact.total());
+    let says = "No method finds corner contact: no setting is recommended.\n";
+    assert!(text(&trade).ends_with(says), "{}", text(&trade));
+    assert!(trade.recommended().is_none() && json(&trade).get("recommended").is_none());
+    assert!(!text(&traded(&table_1(), 0.05)).contains("No method finds"));
+}
+
+#[test]
+fn a_method_that_refuses_is_listed_with_its_reason() {
+    let mut case = Case::table_1();
+    for (key, value) in [
+        ("operation.power", "2 W"),
+        ("operation.speed", "0.002 rpm"),
+        ("model.deflection", "24.7 um"),
+    ] {
+        case.set(key, value).unwrap();
+    }
+    let trade = traded(&case.inputs().unwrap(), 0.05);
+    assert!(
+        matches!(trade.reference, Err(Refusal::TooSlow { .. })),
+        "{:?}",
+        trade.reference
+    );
+    let dynamic = of(&trade, &Setting::usual(Method::Dynamic));
+    assert!(dynamic.found.is_err() && !dynamic.qualifies && !dynamic.is_on_front);
+    assert!(trade.recommended().is_none());
+    let (text, json) = (text(&trade), json(&trade));
+    assert!(
+        text.contains("No reference: method dynamic refuses the case"),
+        "{text}"
+    );
+    assert!(json["no_reference"].is_string() && json.get("reference").is_none());
+    let refused: Vec<&Value> = json["settings"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|one| one["refusal"].is_string())
+        .collect();
+    assert!(!refused.is_empty() && refused.iter().all(|one| one.get("seconds").is_none()));
+}
+
+#[test]
+fn a_trade_is_told_as_it_goes_and_stops_when_told() {
+    let (seen, asked) = (Cell::new(0), Cell::new(0u32));
+    let question = Question {
+        within: 0.05,
+        patience: Patience::ONCE,
+    };
+    let go_on = || {
+        asked.set(asked.get() + 1);
+        seen.get() < 5
+    };
+    let stopped = trade(&table_1(), &question, &go_on, &mut |sofar| {
+        assert!(sofar.settings.len() <= sofar.planned);
+        seen.set(sofar.settings.len());
+    });
+    assert_eq!((stopped.err(), seen.get()), (Some(Refusal::Stopped), 5));
+    assert!(asked.get() > 5);
+    let never = trade(&table_1(), &question, &|| false, &mut |_| {
+        panic!("nothing is measured")
+    });
+    assert_eq!(never.err(), Some(Refusal::Stopped));
+}
+
+#[test]
+fn json_has_every_setting_with_its_errors() {
+    let trade = traded(&table_1(), 0.05);
+    let told = json(&trade);
+    assert_eq!(
+        (&told["case"], &told["title"], &told["within"]),
+        (&"case.toml".into(), &"a title".into(), &0.05.into())
+    );
+    assert_eq!(told["reference"]["tolerance"], 1e-12);
+    assert!(
+        told["reference"]["quantities"]["dynamic_peak_force"]
+            .as_f64()
+            .unwrap()
+            > 1000.0
+    );
+    assert!(
+        told["reference"]["disagreement"]["peak_force"]
+            .as_f64()
+            .unwrap()
+            < 1e-9
+    );
+    let settings = told["settings"].as_array().unwrap();
+    assert_eq!(settings.len(), trade.settings.len());
+    for setting in settings {
+        for key in [
+            "method",
+            "stations",
+            "accurate",
+            "seconds",
+            "spread",
+            "errors",
+            "total",
+            "pareto",
+            "qualifies",
+        ] {
+            assert!(setting.get(key).is_some(), "{key}: {setting}");
+        }
+        let dynamic = setting["method"] == "dynamic";
+        assert_eq!(setting.get("tolerance").is_some(), dynamic, "{setting}");
+        let total = setting["errors"]["curve"]["total"].as_f64().unwrap();
+        assert!(
+            setting["errors"]["curve"]["model"].is_number()
+                && total <= setting["total"].as_f64().unwrap()
+        );
+    }
+    assert_eq!(told["recommended"]["method"], "dynamic");
+    assert_eq!(told["recommended"]["qualifies"], true);
+}
+
+#[test]
+fn the_page_is_eighty_columns_wide() {
+    for line in text(&traded(&table_1(), 0.05)).lines() {
+        assert!(line.chars().count() <= 80, "{line}");
+    }
+}
+
+/// Twice as many cycles or stations cost twice as many evaluations, but for what a run costs
+/// anyway; cycles only as long as they differ.
+#[test]
+fn cost_grows_linearly_with_cycles_and_stations() {
+    let evaluations = |damping_ratio, cycles, stations| {
+        let inputs = Inputs {
+            method: Method::Dynamic,
+            warmup_cycles: cycles,
+            stations: Some(stations),
+            deflection: None,
+            ..table_1()
+        };
+        let solution = solve(
+            &Inputs {
+                damping_ratio,
+                ..inputs
+            },
+            Stages::of(Stage::Dynamic),
+        )
+        .expect("a solution");
+        solution.dynamic.expect("the method").effort.evaluations as f64
+    };
+    let slope = |from: f64, to: f64, steps: f64| (to - from) / steps;
+    let (few, some, many) = (
+        evaluations(0.0, 20, 64),
+        evaluations(0.0, 40, 64),
+        evaluations(0.0, 160, 64),
+    );
+    let ratio = slope(some, many, 120.0) / slope(few, some, 20.0);
+    assert!(
+        (0.8..1.25).contains(&ratio),
+        "a cycle costs {ratio} times as much later on: {few} {some} {many}"
+    );
+    let (few, many) = (evaluations(0.07, 20, 64), evaluations(0.07, 1000, 64));
+    assert!(
+        many < 1.1 * few,
+        "a cycle that repeats costs nothing: {few} {many}"
+    );
+    let (few, some, many) = (
+        evaluations(0.07, 20, 64),
+        evaluations(0.07, 20, 128),
+        evaluations(0.07, 20, 1024),
+    );
+    let ratio = slope(some, many, 896.0) / slope(few, some, 64.0);
+    assert!(
+        (0.9..1.1).contains(&ratio),
+        "a station costs {ratio} times as much later on: {few} {some} {many}"
+    );
+}
+
+#[test]
+fn the_page_on_speed_has_the_stored_table() {
+    let readme = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/speed.md"))
+        .expect("docs/speed.md");
+    for line in table::Table::of_docs() {
+        assert!(readme.contains(&line), "docs/speed.md lacks: {line}");
+    }
+}
+
+#[test]
+fn stored_errors_hold_within_a_factor_of_two() {
+    table::Table::stored().holds(&table::Table::made(&Patience::ONCE));
+}

@@ -1,0 +1,137 @@
+//! While long work runs, a key is echoed as soon as ever, and Esc ends the work.
+use crate::tty;
+
+use std::fs;
+use std::time::{Duration, Instant};
+
+use tty::{Launch, PATIENCE, TABLE_1, Tty, stat};
+
+const KEYS: usize = 40;
+const PART: Duration = Duration::from_millis(1);
+/// The promises are 5 ms for a key and 100 ms for Esc; a busy machine may take its time, but not
+/// that of the work.
+const MOST_FOR_A_KEY: Duration = Duration::from_millis(60);
+const MOST_FOR_ESC: Duration = Duration::from_millis(600);
+
+/// A case whose solve takes about as long as its budget allows: slow gears under the same load,
+/// without damping, so that nothing comes to rest and every cycle is run.
+fn slow_case() -> String {
+    let slow = [
+        (
+            "method = \"exact\"",
+            "method = \"dynamic\"\ntolerance = 1e-12\nwarmup_cycles = 20\ndamping_ratio = 0.0",
+        ),
+        ("speed = \"2000 rpm\"", "speed = \"1 rpm\""),
+        ("power = \"15 kW\"", "power = \"7.5 W\""),
+    ];
+    slow.into_iter()
+        .fold(TABLE_1.to_owned(), |text, (from, to)| {
+            assert!(text.contains(from), "{from}");
+            text.replacen(from, to, 1)
+        })
+}
+
+/// How long a key takes to its echo, of the slowest but a few.
+fn echo(tty: &mut Tty) -> Duration {
+    let mut times: Vec<_> = (0..KEYS)
+        .map(|at| echo_of(tty, ["a", "b", "c"][at % 3]))
+        .collect();
+    times.sort();
+    times[KEYS * 95 / 100]
+}
+
+fn echo_of(tty: &mut Tty, key: &str) -> Duration {
+    let before = tty.screen().cursor_position();
+    let start = Instant::now();
+    tty.type_in(key);
+    while tty.screen().cursor_position() == before {
+        assert!(
+            start.elapsed() < PATIENCE,
+            "no echo:\n{}",
+            tty.screen().contents()
+        );
+        tty.take_output(PART);
+    }
+    start.elapsed()
+}
+
+/// In the title, on which nothing depends; the cursor moves with each key until the line is full.
+fn open(text: &str) -> Tty {
+    let launch = Launch::on_table_1().size(40, 240);
+    fs::write(launch.case(), text).expect("room on the disk");
+    let mut tty = launch.start();
+    tty.wait_for("F1 help");
+    tty.type_in("\x1b[1;5H\x15");
+    tty.settle(Duration::from_millis(150));
+    tty
+}
+
+fn leave(mut tty: Tty) {
+    tty.type_in("\x11");
+    tty.wait_for("Discard");
+    tty.type_in("d");
+    assert_eq!(tty.wait_for_end().exit_code(), 0);
+    tty.assert_restored();
+}
+
+#[test]
+fn keys_are_echoed_while_a_solve_runs() {
+    let mut idle = open(TABLE_1);
+    let quiet = echo(&mut idle);
+    leave(idle);
+    let mut busy = open(&slow_case());
+    let solving = echo(&mut busy);
+    println!(
+        "a key is echoed within {quiet:.1?}, while a solve runs within {solving:.1?} (95 of 100)"
+    );
+    assert!(
+        busy.shows("exact"),
+        "the closed form stands for what is not solved yet"
+    );
+    assert!(solving <= MOST_FOR_A_KEY, "{solving:.1?}");
+    leave(busy);
+}
+
+#[test]
+fn a_solve_that_takes_long_shows_how_far_it_is_and_esc_ends_it() {
+    let mut tty = open(&slow_case());
+    tty.wait_for("solving dynamic; Esc cancels");
+    let start = Instant::now();
+    tty.type_in("\x1b");
+    tty.wait_for("method dynamic is stopped: the closed form stands until the next edit");
+    println!(
+        "Esc ends the solve within {:.1?}, of which 50 ms are for what an escape sequence may take",
+        start.elapsed()
+    );
+    assert!(start.elapsed() <= MOST_FOR_ESC, "{:.1?}", start.elapsed());
+    tty.settle(Duration::from_millis(100));
+    let ticks = || stat(tty.id()).map(|words| (words[11].clone(), words[12].clone()));
+    let before = ticks();
+    std::thread::sleep(Duration::from_millis(300));
+    assert_eq!(ticks(), before, "nothing is solved any more");
+    tty.type_in("i7");
+    tty.wait_for("solving dynamic; Esc cancels");
+    leave(tty);
+}
+
+#[test]
+fn esc_ends_long_work_and_keys_are_echoed_meanwhile() {
+    let mut tty = open(TABLE_1);
+    tty.type_in("x");
+    let mut slowest = Duration::ZERO;
+    for _ in 0..3 {
+        tty.type_in("\x1b");
+        tty.settle(Duration::from_millis(150));
+        tty.type_in("5m");
+        tty.wait_for("Esc cancels");
+        let start = Instant::now();
+        tty.type_in("\x1b");
+        tty.wait_until("the work to end", |tty| !tty.shows("Esc cancels"));
+        slowest = slowest.max(start.elapsed());
+    }
+    println!(
+        "Esc ends the measurement within {slowest:.1?}, of which 50 ms are for what an escape sequence may take"
+    );
+    assert!(slowest <= MOST_FOR_ESC, "{slowest:.1?}");
+    leave(tty);
+}

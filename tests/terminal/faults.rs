@@ -1,0 +1,645 @@
+//! Saves under injected faults: at every step that can fail or be the last, the old file or the new
+//! one is there, whole.
+use crate::tty;
+
+use std::env;
+use std::fs;
+use std::io::Write;
+use std::os::unix::fs::{MetadataExt, PermissionsExt};
+use std::os::unix::process::ExitStatusExt;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::sync::LazyLock;
+
+use tempfile::TempDir;
+use tipstrike::case::{Document, fields};
+
+use tty::{Launch, PROGRAM, TABLE_1, is_there, skip};
+
+/// Every call by which a file is made, filled and put into its place.
+const CALLS: &str = "openat,write,fsync,fdatasync,fchmod,fchown,flistxattr,llistxattr,lgetxattr,fsetxattr,rename,renameat,renameat2,link,linkat,unlink,close,ftruncate";
+/// More steps than any save has; the loop ends before, when nothing is hit any more.
+const MOST_STEPS: usize = 100;
+/// Where the save to be disturbed finds its file.
+const TARGET: &str = "TIPSTRIKE_SAVE_TARGET";
+/// An attribute that the case has, where the file system knows such.
+const MARK: &str = "user.tipstrike.test";
+const SAVED: i32 = 0;
+const REFUSED: i32 = 5;
+
+/// Not a test of its own: the process whose calls are made to fail. It edits the case, saves it,
+/// and says how that went.
+#[test]
+fn saver() {
+    let Some(path) = env::var_os(TARGET).map(std::path::PathBuf::from) else {
+        return;
+    };
+    let Ok(mut document) = Document::read(&path) else {
+        std::process::exit(REFUSED)
+    };
+    document
+        .case
+        .write(fields::index_of("pair.module").expect("a field"), "6 mm");
+    let result = document.save(&path);
+    assert_eq!(
+        document.is_changed(),
+        result.is_err(),
+        "the buffer is unsaved until the file is in place"
+    );
+    match result {
+        Ok(_) => std::process::exit(SAVED),
+        Err(error) => {
+            assert!(!error.to_string().contains('\n'));
+            // Past the harness, which would hold it back.
+            std::io::stderr()
+                .write_all(error.to_string().as_bytes())
+                .expect("someone reads");
+            std::process::exit(REFUSED)
+        }
+    }
+}
+
+/// The command that saves, without the words of the test harness.
+fn saver_command(wrapper: &[&str], target: &Path) -> Command {
+    let own = env::current_exe().expect("a path");
+    let own = own.to_str().expect("a name in UTF-8");
+    let words: Vec<&str> = wrapper
+        .iter()
+        .copied()
+        .chain([
+            own,
+            "--exact",
+            "faults::saver",
+            "--test-threads=1",
+            "--quiet",
+        ])
+        .collect();
+    let mut command = Command::new(words[0]);
+    command
+        .args(&words[1..])
+        .env(TARGET, target)
+        .env("RUST_BACKTRACE", "0")
+        .env_remove("LD_LIBRARY_PATH")
+        .stdin(Stdio::null());
+    command
+}
+
+fn folder_with_case() -> (TempDir, std::path::PathBuf) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("case.toml");
+    fs::write(&path, TABLE_1).expect("room on the disk");
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o640)).expect("our own file");
+    if let Err(error) = xattr::set(&path, MARK, b"1") {
+        skip(&format!("attributes of files: {error}"));
+    }
+    (folder, path)
+}
+
+fn mark(path: &Path) -> Option<Vec<u8>> {
+    xattr::get(path, MARK).ok().flatten()
+}
+
+/// What a fresh case has: nothing, where the file system knows no attributes.
+fn mark_of_a_case() -> Option<Vec<u8>> {
+    static FRESH: LazyLock<Option<Vec<u8>>> = LazyLock::new(|| mark(&folder_with_case().1));
+    FRESH.clone()
+}
+
+fn new_text() -> String {
+    TABLE_1.replace("\"5 mm\"", "\"6 mm\"")
+}
+
+/// The old file or the new one, whole, with its mode; which of them, where the saver said how it
+/// went.
+#[track_caller]
+fn assert_old_or_new(path: &Path, code: Option<i32>, fault: &str) {
+    let text = fs::read_to_string(path).expect("the file is there");
+    let is_old = text == TABLE_1;
+    assert!(
+        is_old || text == new_text(),
+        "{fault}: half a file: {text:?}"
+    );
+    let mode = fs::metadata(path)
+        .expect("it is there")
+        .permissions()
+        .mode();
+    assert_eq!(mode & 0o7777, 0o640, "{fault}");
+    assert_eq!(mark(path), mark_of_a_case(), "{fault}");
+    match code {
+        Some(SAVED) => assert!(!is_old, "{fault}: said to be saved, and is not"),
+        Some(REFUSED) => assert!(is_old, "{fault}: said to be refused, and is saved"),
+        _ => {}
+    }
+}
+
+/// Make the N-th call of every kind fail or be the last, N rising until none is hit; how many were.
+fn under_every_fault(fault: &str, run: impl Fn(&[&str]) -> Output) -> usize {
+    let mut hits = 0;
+    for call in made(&run) {
+        for step in 1.. {
+            assert!(step <= MOST_STEPS, "{fault} is hit for ever");
+            let inject = format!("inject={call}:{fault}:when={step}");
+            let (output, log) = traced(&["-e", &format!("trace={call}"), "-e", &inject], &run);
+            let is_injected = log.contains("(INJECTED)");
+            if !is_injected && output.status.success() {
+                break;
+            }
+            hits += 1;
+            assert!(
+                is_injected || output.status.signal().is_some(),
+                "{fault}: it fails unhurt: {output:?}"
+            );
+        }
+    }
+    hits
+}
+
+/// Which of the calls are made when nothing fails.
+fn made(run: &impl Fn(&[&str]) -> Output) -> Vec<&'static str> {
+    let (output, log) = traced(&["-e", &format!("trace={CALLS}")], run);
+    assert!(output.status.success(), "{output:?}");
+    assert!(
+        ["openat(", "write(", "fsync(", "rename"]
+            .iter()
+            .all(|call| log.contains(call)),
+        "not the calls of a save: {log}"
+    );
+    // The bytes are on the disk before the name leads to them, and the name is before all is said
+    // to be done.
+    let calls: Vec<_> = log
+        .lines()
+        .filter(|line| line.contains("fsync(") || line.contains("rename"))
+        .collect();
+    let at = calls
+        .iter()
+        .position(|line| line.contains("rename"))
+        .expect("a name");
+    assert!(
+        calls[..at].iter().any(|line| line.contains("fsync(")),
+        "not on the disk before it is in place: {log}"
+    );
+    assert!(
+        calls[at..].iter().any(|line| line.contains("fsync(")),
+        "its name is not on the disk: {log}"
+    );
+    CALLS
+        .split(',')
+        .filter(|call| log.contains(&format!(" {call}(")))
+        .collect()
+}
+
+fn traced(options: &[&str], run: &impl Fn(&[&str]) -> Output) -> (Output, String) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let log = folder.path().join("log");
+    let place = log.to_str().expect("a name in UTF-8");
+    let output = run(&[
+        &["strace", "-f", "-qq", "--signal=none", "-o", place],
+        options,
+        &["--"],
+    ]
+    .concat());
+    (
+        output,
+        fs::read_to_string(&log).expect("strace tells what it does"),
+    )
+}
+
+fn error_of(fault: &str) -> bool {
+    fault.starts_with("error")
+}
+
+const FAULTS: [&str; 6] = [
+    "error=ENOSPC",
+    "error=EIO",
+    "error=EDQUOT",
+    "error=EROFS",
+    "error=EINTR",
+    "signal=KILL",
+];
+
+#[test]
+fn a_save_leaves_the_old_file_or_the_new_one_at_every_fault() {
+    if !is_there("strace") {
+        return;
+    }
+    for fault in FAULTS {
+        let steps = under_every_fault(fault, |strace| {
+            let (_folder, path) = folder_with_case();
+            let output = saver_command(strace, &path)
+                .output()
+                .expect("strace starts");
+            assert_old_or_new(
+                &path,
+                output.status.code().filter(|_| error_of(fault)),
+                fault,
+            );
+            output
+        });
+        println!("a save, {fault}: {steps} steps");
+        assert!(steps >= 12, "{fault}: a save has more than {steps} steps");
+    }
+}
+
+#[test]
+fn a_new_case_is_there_whole_or_not_at_all_at_every_fault() {
+    if !is_there("strace") {
+        return;
+    }
+    let whole = Command::new(PROGRAM)
+        .arg("new")
+        .output()
+        .expect("the program starts")
+        .stdout;
+    for fault in FAULTS {
+        let steps = under_every_fault(fault, |strace| {
+            let folder = tempfile::tempdir().expect("a folder");
+            let path = folder.path().join("new.toml");
+            let mut command = Command::new(strace[0]);
+            command
+                .args(&strace[1..])
+                .args([PROGRAM, "new"])
+                .arg(&path)
+                .env_remove("LD_LIBRARY_PATH");
+            let output = command.output().expect("strace starts");
+            match fs::read(&path) {
+                Ok(text) => assert_eq!(text, whole, "{fault}: half a file"),
+                Err(_) => assert!(
+                    !output.status.success(),
+                    "{fault}: said to be written, and is not there"
+                ),
+            }
+            let left = fs::read_dir(folder.path()).expect("a folder").count();
+            assert!(
+                !error_of(fault) || left <= usize::from(path.exists()),
+                "{fault}: a file is left over"
+            );
+            output
+        });
+        println!("new, {fault}: {steps} steps");
+        assert!(steps >= 15, "{fault}: it has more than {steps} steps");
+    }
+}
+
+#[test]
+fn a_limit_on_the_size_of_files_is_told_and_leaves_the_old_file() {
+    if !is_there("prlimit") {
+        return;
+    }
+    // With the signal of that limit ignored, as under many job systems, and with it.
+    for (ignored, shell) in [
+        (true, r#"trap '' XFSZ; exec "$@""#),
+        (false, r#"exec "$@""#),
+    ] {
+        for most in [0, 1, 500] {
+            let (folder, path) = folder_with_case();
+            let limit = format!("--fsize={most}");
+            let output = saver_command(&["sh", "-c", shell, "sh", "prlimit", &limit], &path)
+                .output()
+                .expect("sh starts");
+            let code = output.status.code();
+            assert!(!ignored || code == Some(REFUSED), "{most}: {output:?}");
+            assert_old_or_new(&path, code, "file size limit");
+            assert_eq!(fs::read_to_string(&path).expect("it is there"), TABLE_1);
+            let new = folder.path().join("new.toml");
+            let output = Command::new("sh")
+                .args(["-c", shell, "sh", "prlimit", &limit, PROGRAM, "new"])
+                .arg(&new)
+                .output();
+            let output = output.expect("sh starts");
+            assert_eq!(
+                output.status.code(),
+                Some(REFUSED),
+                "the program ignores the signal itself: {output:?}"
+            );
+            let words = String::from_utf8_lossy(&output.stderr).into_owned();
+            assert!(
+                words.contains("new.toml: cannot be written") && words.lines().count() == 1,
+                "{words}"
+            );
+            assert!(!new.exists());
+        }
+    }
+}
+
+#[test]
+fn a_full_disk_is_told_and_leaves_the_old_file() {
+    let script = r#"mount -t tmpfs -o size=16k none "$0" && cp "$1" "$0/case.toml" && chmod 640 "$0/case.toml" || exit 9
+        head -c 100k /dev/zero >"$0/filler" 2>/dev/null
+        "$2" --exact faults::saver --test-threads=1 --quiet; saved=$?
+        "$3" new "$0/new.toml"; made=$?
+        cmp "$0/case.toml" "$1" && test ! -e "$0/new.toml" && echo same $saved $made"#;
+    let may = Command::new("unshare")
+        .args(["-rm", "mount", "-t", "tmpfs", "none", "/mnt"])
+        .output();
+    if !may.as_ref().is_ok_and(|output| output.status.success()) {
+        return skip("no mounts without privileges here (unshare -rm)");
+    }
+    let (folder, path) = folder_with_case();
+    let disk = folder.path().join("disk");
+    fs::create_dir(&disk).expect("a folder");
+    let own = env::current_exe().expect("a path");
+    let mut command = Command::new("unshare");
+    command
+        .args(["-rm", "sh", "-c", script])
+        .args([&disk, &path, &own])
+        .arg(PROGRAM);
+    let output = command
+        .env(TARGET, disk.join("case.toml"))
+        .env("RUST_BACKTRACE", "0")
+        .output()
+        .expect("unshare starts");
+    let words = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(words.contains(&format!("same {REFUSED} 5")), "{output:?}");
+    assert!(
+        String::from_utf8_lossy(&output.stderr).contains("make room on the disk"),
+        "{output:?}"
+    );
+}
+
+#[test]
+fn a_folder_that_may_not_be_written_leaves_the_old_file() {
+    let (folder, path) = folder_with_case();
+    fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o555)).expect("our own folder");
+    // Who may write everywhere is made to be nobody; the folder and the file are nobody's too,
+    // then.
+    let is_root = fs::File::create(folder.path().join("probe")).is_ok();
+    let wrapper: &[&str] = if is_root {
+        &[
+            "setpriv",
+            "--reuid=65534",
+            "--regid=65534",
+            "--clear-groups",
+            "--inh-caps=-all",
+            "--",
+        ]
+    } else {
+        &[]
+    };
+    if is_root {
+        let status = Command::new("chown")
+            .arg("-R")
+            .arg("65534:65534")
+            .arg(folder.path())
+            .status()
+            .expect("chown is there");
+        if !is_there("setpriv") || !status.success() {
+            return;
+        }
+    }
+    let output = saver_command(wrapper, &path).output().expect("it starts");
+    let code = output.status.code();
+    if code != Some(REFUSED) && code != Some(SAVED) {
+        skip(&format!("the test cannot be started as nobody: {output:?}"));
+    } else {
+        assert_eq!(code, Some(REFUSED), "{output:?}");
+        assert_old_or_new(&path, code, "closed folder");
+    }
+    fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o755)).expect("our own folder");
+}
+
+/// An access list as the system keeps it: version 2, then tag, permissions and who, 8 bytes each.
+fn access_list(entries: &[(u16, u16, u32)]) -> Vec<u8> {
+    let bytes = |&(tag, may, who): &(u16, u16, u32)| {
+        [
+            &tag.to_le_bytes()[..],
+            &may.to_le_bytes(),
+            &who.to_le_bytes(),
+        ]
+        .concat()
+    };
+    [
+        2_u32.to_le_bytes().to_vec(),
+        entries.iter().flat_map(bytes).collect(),
+    ]
+    .concat()
+}
+
+#[test]
+fn access_lists_and_attributes_stay_and_none_comes_from_the_folder() {
+    const LIST: &str = "system.posix_acl_access";
+    const OF_NEW_FILES: &str = "system.posix_acl_default";
+    const NOBODY_IN_PARTICULAR: u32 = u32::MAX;
+    let entries = |group: u16| {
+        let own = [(1, 6, NOBODY_IN_PARTICULAR), (2, 4, 65534)];
+        let others = [
+            (4, group, NOBODY_IN_PARTICULAR),
+            (16, 4, NOBODY_IN_PARTICULAR),
+            (32, 0, NOBODY_IN_PARTICULAR),
+        ];
+        access_list(&[&own[..], &others].concat())
+    };
+    let (folder, path) = folder_with_case();
+    let save = |path: &Path| {
+        let output = saver_command(&[], path).output().expect("it starts");
+        assert_eq!(output.status.code(), Some(SAVED), "{output:?}");
+        assert_eq!(fs::read_to_string(path).expect("it is there"), new_text());
+    };
+    if let Err(error) = xattr::set(&path, LIST, &entries(0)) {
+        return skip(&format!("access lists: {error}"));
+    }
+    let list = xattr::get(&path, LIST).expect("a list").expect("a list");
+    save(&path);
+    assert_eq!(
+        xattr::get(&path, LIST).expect("a list"),
+        Some(list),
+        "the group may not what only the mask allows"
+    );
+    assert_eq!(mark(&path), mark_of_a_case());
+    assert_eq!(
+        fs::metadata(&path)
+            .expect("it is there")
+            .permissions()
+            .mode()
+            & 0o7777,
+        0o640
+    );
+    // A folder that opens its new files to others does not open an old one.
+    let plain = folder.path().join("plain.toml");
+    fs::write(&plain, TABLE_1).expect("room on the disk");
+    xattr::set(folder.path(), OF_NEW_FILES, &entries(4)).expect("a list for new files");
+    save(&plain);
+    assert_eq!(xattr::get(&plain, LIST).expect("no list"), None);
+}
+
+#[test]
+fn a_file_of_someone_else_keeps_its_owner_or_is_left_alone() {
+    let nobody = [
+        "setpriv",
+        "--reuid=65534",
+        "--regid=65534",
+        "--clear-groups",
+        "--inh-caps=-all",
+        "--bounding-set=-all",
+        "--",
+    ];
+    if !is_there("setpriv")
+        || !Command::new(nobody[0])
+            .args(&nobody[1..])
+            .arg("true")
+            .status()
+            .is_ok_and(|status| status.success())
+    {
+        return skip("nobody cannot be made of us here");
+    }
+    // Where all may write: in a folder that lets each rename all, and in one that lets each rename
+    // but his own.
+    for (folder_mode, told) in [(0o777, "belongs to user 0"), (0o1777, "belongs to user 0")] {
+        let (folder, path) = folder_with_case();
+        fs::set_permissions(folder.path(), fs::Permissions::from_mode(folder_mode))
+            .expect("our own folder");
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o666)).expect("our own file");
+        let output = saver_command(&nobody, &path).output().expect("it starts");
+        let words = String::from_utf8_lossy(&output.stderr).into_owned();
+        if ![Some(SAVED), Some(REFUSED)].contains(&output.status.code()) {
+            return skip(&format!("the test cannot be started as nobody: {output:?}"));
+        }
+        assert_eq!(output.status.code(), Some(REFUSED), "{words}");
+        assert!(
+            words.contains(told) && words.contains("save under another name"),
+            "{words}"
+        );
+        assert_eq!(fs::read_to_string(&path).expect("it is there"), TABLE_1);
+        let left = fs::read_dir(folder.path()).expect("a folder").count();
+        assert_eq!(left, 1, "nothing is left beside it");
+    }
+    // Who may give files away does.
+    let (_folder, path) = folder_with_case();
+    std::os::unix::fs::chown(&path, Some(65534), Some(65534)).expect("we may");
+    assert_eq!(
+        saver_command(&[], &path)
+            .output()
+            .expect("it starts")
+            .status
+            .code(),
+        Some(SAVED)
+    );
+    let about = fs::metadata(&path).expect("it is there");
+    assert_eq!(
+        (about.uid(), about.gid(), about.mode() & 0o7777),
+        (65534, 65534, 0o640)
+    );
+}
+
+#[test]
+fn a_save_of_the_workbench_that_fails_is_told_and_the_edits_stay() {
+    if !is_there("strace") {
+        return;
+    }
+    for call in ["fsync", "fchmod", "rename,renameat,renameat2"] {
+        for fault in ["error=ENOSPC", "error=EIO"] {
+            let inject = format!("inject={call}:{fault}");
+            let trace = format!("trace={call}");
+            let launch = Launch::on_table_1().through(&[
+                "strace",
+                "-f",
+                "-qq",
+                "-o",
+                "/dev/null",
+                "-e",
+                &trace,
+                "-e",
+                &inject,
+                "--",
+            ]);
+            let mut tty = launch.start();
+            tty.wait_for("Corner contact");
+            tty.type_in("\x156 mm\x13");
+            tty.wait_for("not saved: ");
+            assert!(tty.shows("*unsaved*"), "{call} {fault}");
+            assert_eq!(
+                fs::read_to_string(tty.case()).expect("it is there"),
+                TABLE_1
+            );
+            tty.type_in("\x11");
+            tty.wait_for("has unsaved edits");
+            tty.type_in("d");
+            assert_eq!(tty.wait_for_end().exit_code(), 0);
+            let left: Vec<_> = fs::read_dir(tty.folder.path())
+                .expect("a folder")
+                .flatten()
+                .map(|entry| entry.file_name())
+                .collect();
+            assert!(
+                left.iter()
+                    .all(|name| !name.to_string_lossy().starts_with(".tipstrike")),
+                "{left:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_read_error_during_a_save_is_named_and_is_no_change_on_disk() {
+    if !is_there("strace") {
+        return;
+    }
+    // The first calls on the file open and read it when the program starts.
+    for (call, step) in [("openat", 2), ("openat", 3), ("read", 9), ("read", 14)] {
+        let launch = Launch::on_table_1();
+        let case = launch.case();
+        let (trace, inject) = (
+            format!("trace={call}"),
+            format!("inject={call}:error=EIO:when={step}"),
+        );
+        let launch = launch.through(&[
+            "strace",
+            "-f",
+            "-qq",
+            "-o",
+            "/dev/null",
+            "-P",
+            case.to_str().expect("UTF-8"),
+            "-e",
+            &trace,
+            "-e",
+            &inject,
+            "--",
+        ]);
+        let mut tty = launch.start();
+        tty.wait_for("Corner contact");
+        tty.type_in("\x156 mm\x13");
+        tty.wait_for("not saved: ");
+        tty.wait_for("Input/output error");
+        assert!(!tty.shows("has changed on disk"), "{call} {step}");
+        assert!(tty.shows("*unsaved*"), "{call} {step}");
+        tty.type_in("\x13");
+        tty.wait_for("saved ");
+        tty.wait_until("the mark to go", |tty| !tty.shows("*unsaved*"));
+        tty.quit();
+        assert!(fs::read_to_string(case).is_ok_and(|text| text == new_text()));
+    }
+}
+
+#[test]
+fn an_output_that_is_full_is_told_and_one_that_is_closed_is_not() {
+    for command in [
+        "new",
+        "fields",
+        "man",
+        "completions bash",
+        "solve case.toml",
+        "solve --format json case.toml",
+    ] {
+        let (folder, _) = folder_with_case();
+        let run = |shell: &str| {
+            let line = format!("{PROGRAM} {command} {shell}");
+            Command::new("bash")
+                .args(["-c", &line])
+                .current_dir(folder.path())
+                .output()
+                .expect("bash starts")
+        };
+        let full = run(">/dev/full");
+        let words = String::from_utf8_lossy(&full.stderr).into_owned();
+        assert_eq!(full.status.code(), Some(5), "{command}: {words}");
+        assert!(
+            words.contains("standard output: cannot be written") && words.lines().count() == 1,
+            "{command}: {words}"
+        );
+        for reader in ["head -c 1 >/dev/null", "true"] {
+            let closed = run(&format!("| {reader}; exit ${{PIPESTATUS[0]}}"));
+            assert_eq!(closed.status.code(), Some(0), "{command} | {reader}");
+            assert!(closed.stderr.is_empty(), "{command} | {reader}: {closed:?}");
+        }
+    }
+}

@@ -1,0 +1,540 @@
+//! Files as they come: changed by someone else, linked, closed, no files at all; nothing is lost
+//! and nothing waits.
+use crate::harness;
+use crate::tty;
+
+use std::fs::{self, File, Permissions};
+use std::io::ErrorKind;
+use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
+use std::path::Path;
+use std::process::Command;
+use std::time::{Duration, SystemTime};
+
+use harness::{Desk, LARGE, SMALL, TABLE_1};
+use ratatui::layout::Size;
+use tipstrike::case::file::SaveError;
+use tipstrike::case::{Document, fields};
+use tipstrike::tui::actions::Action;
+use tipstrike::tui::actions::Effect;
+use tipstrike::tui::commands::Command as Do;
+use tipstrike::tui::prompt::Next;
+use tipstrike::tui::session::save::SaveFault;
+use tipstrike::tui::update::update;
+use tty::{Launch, PROGRAM};
+
+fn edited() -> Desk {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.fill("operation.speed", "1500 rpm");
+    desk
+}
+
+/// What someone else makes of the file: the same size and time, an older time, another file in its
+/// place.
+fn meddle(desk: &Desk, how: &str, text: &str) {
+    let path = desk.path("case.toml");
+    let time = fs::metadata(&path)
+        .and_then(|old| old.modified())
+        .expect("a file");
+    match how {
+        "replaced" => {
+            desk.write("other", text);
+            fs::rename(desk.path("other"), &path).expect("the same folder");
+        }
+        _ => fs::write(&path, text).expect("room on the disk"),
+    }
+    let time = match how {
+        "same time" | "replaced" => time,
+        "older" => time - Duration::from_secs(86400),
+        _ => SystemTime::now(),
+    };
+    File::options()
+        .write(true)
+        .open(&path)
+        .and_then(|file| file.set_modified(time))
+        .expect("our own file");
+}
+
+#[test]
+fn a_file_that_someone_else_changed_is_refused_and_what_differs_is_shown() {
+    for how in ["same time", "older", "newer", "replaced"] {
+        let mut desk = edited();
+        // As long as the old text.
+        meddle(
+            &desk,
+            how,
+            &TABLE_1
+                .replace("2000 rpm", "2100 rpm")
+                .replace("\"5 mm\"", "\"6 mm\""),
+        );
+        desk.keys(&["Ctrl-S"]);
+        assert!(desk.shows("has changed on disk"), "{how}");
+        assert!(
+            desk.shows("module: 6 mm in the file, 5 mm here (changed there)"),
+            "{how}\n{}",
+            desk.screen()
+        );
+        assert!(
+            desk.shows("speed: 2100 rpm in the file, 1500 rpm here (changed here"),
+            "{how}\n{}",
+            desk.screen()
+        );
+        assert!(
+            desk.shows("[  Reload  ] [  Save as  ] [  Overwrite  ] [> Cancel <]"),
+            "{how}\n{}",
+            desk.screen()
+        );
+        assert!(
+            desk.read("case.toml").contains("2100 rpm") && desk.app.is_unsaved(),
+            "{how}"
+        );
+    }
+}
+
+#[test]
+fn then_it_is_reloaded_saved_elsewhere_overwritten_or_left() {
+    let theirs = TABLE_1.replace("2000 rpm", "2100 rpm");
+    for (keys, there, unsaved) in [
+        (&["r"][..], "2100 rpm", false),
+        (&["o"], "1500 rpm", false),
+        (&["c"], "2100 rpm", true),
+        (
+            &["s", "Ctrl-U", "DIR/other.toml", "Enter"],
+            "2100 rpm",
+            false,
+        ),
+    ] {
+        let mut desk = edited();
+        meddle(&desk, "newer", &theirs);
+        let folder = desk.folder.path().display().to_string();
+        let keys: Vec<_> = keys.iter().map(|key| key.replace("DIR", &folder)).collect();
+        desk.keys(&["Ctrl-S"])
+            .keys(&keys.iter().map(String::as_str).collect::<Vec<_>>());
+        assert!(desk.read("case.toml").contains(there), "{keys:?}");
+        assert_eq!(desk.app.is_unsaved(), unsaved, "{keys:?}");
+        assert_eq!(desk.path("other.toml").exists(), keys[0] == "s", "{keys:?}");
+        assert!(desk.app.prompts.is_empty(), "{keys:?}");
+    }
+}
+
+#[test]
+fn a_save_that_fails_changes_nothing_and_nothing_comes_after_it() {
+    let faults = [
+        SaveFault::Exists(Vec::new()),
+        SaveFault::Changed(vec!["speed".to_owned()]),
+        SaveFault::Held("process 1 on another machine for 3 s".to_owned()),
+        SaveFault::Failed("no room".to_owned()),
+    ];
+    let nexts = [
+        Next::Stay,
+        Next::Quit,
+        Next::Close,
+        Next::SaveRest,
+        Next::Load("other.toml".into()),
+    ];
+    for (fault, next) in faults
+        .iter()
+        .flat_map(|fault| nexts.iter().map(move |next| (fault, next)))
+    {
+        let mut desk = edited();
+        let before = desk.app.tab.clone();
+        let failed = Action::Saved(desk.path("other.toml"), next.clone(), Err(fault.clone()));
+        assert!(
+            update(&mut desk.app, failed).is_empty(),
+            "{fault:?} {next:?}"
+        );
+        let after = &desk.app.tab;
+        assert_eq!(
+            (&after.path, &after.case, &after.saved),
+            (&before.path, &before.case, &before.saved),
+            "{fault:?} {next:?}"
+        );
+        assert_eq!(
+            after.document.stamp(),
+            before.document.stamp(),
+            "{fault:?} {next:?}"
+        );
+        assert!(
+            after.is_unsaved() && desk.app.tabs().count() == 1,
+            "{fault:?} {next:?}"
+        );
+        desk.keys(&["Esc", "Esc", "Ctrl-Q"]);
+        assert!(
+            desk.shows("has unsaved edits") && !desk.has_quit,
+            "{fault:?} {next:?}\n{}",
+            desk.screen()
+        );
+    }
+}
+
+#[test]
+fn what_is_typed_while_a_save_runs_stays_and_stays_unsaved() {
+    let mut desk = edited();
+    let effects = update(&mut desk.app, Action::Do(Do::Save));
+    let save = effects
+        .into_iter()
+        .find(|effect| matches!(effect, Effect::Save(..)))
+        .expect("a save");
+    desk.keys(&["Ctrl-U", "1600 rpm"]);
+    desk.perform(save);
+    assert!(desk.shows("saved ") && desk.read("case.toml").contains("1500 rpm"));
+    assert!(
+        desk.shows("1600 rpm") && desk.app.is_unsaved(),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Ctrl-S"]);
+    assert!(desk.read("case.toml").contains("1600 rpm") && !desk.app.is_unsaved());
+}
+
+#[test]
+fn a_deleted_file_is_created_again_with_its_mode_and_the_save_says_so() {
+    let desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    let path = desk.path("case.toml");
+    fs::set_permissions(&path, Permissions::from_mode(0o600)).expect("our own file");
+    let mut desk = Desk::at(desk.folder, "case.toml");
+    desk.act(Action::Resize(LARGE));
+    desk.fill("operation.speed", "1500 rpm");
+    fs::remove_file(&path).expect("our own file");
+    desk.keys(&["Ctrl-S"]);
+    assert!(
+        desk.shows("saved ") && desk.shows("the file was deleted, and this save created it again"),
+        "{}",
+        desk.screen()
+    );
+    let mode = fs::metadata(&path).expect("it is there").mode();
+    assert_eq!(mode & 0o7777, 0o600);
+    assert!(desk.read("case.toml").contains("1500 rpm") && !desk.app.is_unsaved());
+    desk.fill("operation.speed", "1600 rpm").keys(&["Ctrl-S"]);
+    assert!(
+        desk.shows("saved ") && !desk.shows("deleted"),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn distributions_without_effect_are_named_when_a_case_opens_and_stay_in_its_file() {
+    let text = format!("{TABLE_1}\n[spread]\n\"pair.module\" = {{ normal = \"1 um\" }}\n");
+    let mut desk = Desk::on(SMALL, "case.toml", &text);
+    desk.keys(&["Down"]);
+    assert!(desk.shows("[spread] has no effect"), "{}", desk.screen());
+    desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
+    assert_eq!(desk.read("case.toml"), text.replace("2000 rpm", "1500 rpm"));
+    for command in ["solve", "check"] {
+        let output = Command::new(PROGRAM)
+            .arg(command)
+            .arg(desk.path("case.toml"))
+            .output()
+            .expect("the program starts");
+        let words = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(
+            output.status.success() && words.lines().count() == 1,
+            "{words}"
+        );
+        assert!(
+            words.contains("case.toml: [spread] has no effect"),
+            "{words}"
+        );
+    }
+    let new = Command::new(PROGRAM).arg("new").output();
+    let new = new.expect("the program starts").stdout;
+    assert!(!String::from_utf8_lossy(&new).contains("spread"));
+}
+
+#[test]
+fn after_a_save_under_another_name_the_case_is_the_new_file() {
+    let mut desk = edited();
+    let new = desk.path("new.toml").display().to_string();
+    desk.keys(&["F2", "Ctrl-U", &new, "Enter"]);
+    assert!(
+        desk.shows("saved ") && desk.app.short_name() == "new.toml",
+        "{}",
+        desk.screen()
+    );
+    desk.fill("operation.speed", "1600 rpm").keys(&["Ctrl-S"]);
+    assert!(desk.read("new.toml").contains("1600 rpm") && desk.read("case.toml") == TABLE_1);
+}
+
+#[test]
+fn the_mend_of_a_failed_save_is_on_the_smallest_screen() {
+    let mut desk = edited();
+    desk.act(Action::Resize(Size::new(60, 16)));
+    let path = desk.path("case.toml");
+    let full = SaveError::Unwritable("folder/case.toml".to_owned(), ErrorKind::StorageFull.into());
+    desk.act(Action::Saved(
+        path,
+        Next::Stay,
+        Err(SaveFault::Failed(full.to_string())),
+    ));
+    assert!(
+        desk.shows("not saved: folder/case.toml") && desk.shows("save elsewhere"),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn other_comments_and_no_case_at_all_are_told_as_such() {
+    for (text, told) in [
+        (
+            format!("{TABLE_1}# mine\n"),
+            "only comments or spacing differ",
+        ),
+        (TABLE_1.replace("\"5 mm\"", "5"), "no valid case"),
+        (String::new(), "no valid case"),
+        ("\u{1b}[2J\u{9b}".to_owned(), "no valid case"),
+    ] {
+        let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+        meddle(&desk, "newer", &text);
+        desk.keys(&["Ctrl-S"]);
+        assert!(desk.shows(told), "{told}\n{}", desk.screen());
+    }
+}
+
+#[test]
+fn a_mere_touch_does_not_ask() {
+    for how in ["same time", "older", "newer", "replaced"] {
+        let mut desk = edited();
+        meddle(&desk, how, TABLE_1);
+        desk.keys(&["Ctrl-S"]);
+        assert!(
+            desk.shows("saved ") && desk.read("case.toml").contains("1500 rpm"),
+            "{how}\n{}",
+            desk.screen()
+        );
+    }
+}
+
+#[test]
+fn after_a_save_the_form_says_what_the_file_says() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    for (key, text) in [
+        ("driver.teeth", " 21  "),
+        ("operation.speed", " 1500  rpm "),
+        ("title", " a \t"),
+        ("pair.module", "5.5 mm "),
+    ] {
+        desk.fill(key, text).keys(&["Ctrl-S"]);
+        assert!(
+            desk.shows("saved ") && !desk.app.is_unsaved(),
+            "{key}\n{}",
+            desk.screen()
+        );
+        let file = Document::read(&desk.path("case.toml")).expect("a good case");
+        assert!(desk.app.case == file.case, "{key}");
+        let field = fields::index_of(key).expect("a field");
+        assert_eq!(
+            desk.app.tab.input.value(),
+            file.case.text(field).unwrap_or_default(),
+            "{key}"
+        );
+    }
+    assert_eq!(
+        desk.app
+            .case
+            .text(fields::index_of("driver.teeth").expect("a field")),
+        Some("21")
+    );
+}
+
+#[test]
+fn links_and_modes_stay_and_hard_links_are_refused() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    fs::create_dir(desk.path("sub")).expect("a folder");
+    symlink("../case.toml", desk.path("sub/one.toml")).expect("a link");
+    symlink("sub/one.toml", desk.path("two.toml")).expect("a link");
+    fs::set_permissions(desk.path("case.toml"), Permissions::from_mode(0o604))
+        .expect("our own file");
+    desk.keys(&["Ctrl-O", "two", "Enter"])
+        .fill("operation.speed", "1500 rpm")
+        .keys(&["Ctrl-S"]);
+    assert!(desk.shows("saved "), "{}", desk.screen());
+    for link in ["two.toml", "sub/one.toml"] {
+        assert!(
+            fs::symlink_metadata(desk.path(link))
+                .expect("it is there")
+                .is_symlink(),
+            "{link}"
+        );
+    }
+    assert!(desk.read("case.toml").contains("1500 rpm"));
+    assert_eq!(
+        fs::metadata(desk.path("case.toml"))
+            .expect("it is there")
+            .mode()
+            & 0o7777,
+        0o604
+    );
+    fs::hard_link(desk.path("case.toml"), desk.path("hard.toml")).expect("a link");
+    desk.fill("operation.speed", "1600 rpm").keys(&["Ctrl-S"]);
+    assert!(
+        desk.shows("2 names (hard links)") && desk.app.is_unsaved(),
+        "{}",
+        desk.screen()
+    );
+    assert!(desk.read("hard.toml").contains("1500 rpm"));
+}
+
+#[test]
+fn what_is_no_file_is_told_by_the_workbench() {
+    for (name, told) in [
+        ("pipe.toml", "not a regular file"),
+        ("folder.toml", "this is a folder"),
+        ("loop.toml", "cannot be"),
+    ] {
+        let mut desk = edited();
+        assert!(
+            Command::new("mkfifo")
+                .arg(desk.path("pipe.toml"))
+                .status()
+                .is_ok_and(|status| status.success())
+        );
+        fs::create_dir(desk.path("folder.toml")).expect("a folder");
+        symlink("loop.toml", desk.path("loop.toml")).expect("a link");
+        let path = desk.path(name).display().to_string();
+        desk.keys(&["F2", "Ctrl-U", &path, "Enter"]);
+        if desk.shows("The file exists") {
+            desk.keys(&["o"]);
+        }
+        assert!(
+            desk.shows("not saved: ") && desk.shows(told),
+            "{name}\n{}",
+            desk.screen()
+        );
+        assert!(desk.app.is_unsaved(), "{name}");
+        if name != "folder.toml" {
+            desk.keys(&["Esc", "Esc", "Ctrl-O", "d", "Ctrl-U", &path, "Enter"]);
+            assert!(desk.shows("cannot be opened"), "{name}\n{}", desk.screen());
+        }
+    }
+}
+
+#[test]
+fn what_is_no_file_is_told_without_a_terminal() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    assert!(
+        Command::new("mkfifo")
+            .arg(path("pipe"))
+            .status()
+            .is_ok_and(|status| status.success())
+    );
+    symlink("loop", path("loop")).expect("a link");
+    symlink("nowhere", path("dangling")).expect("a link");
+    for name in ["pipe", "loop", "dangling", "none", ".", "none/case.toml"] {
+        for command in ["solve", "check"] {
+            let output = Command::new(PROGRAM)
+                .arg(command)
+                .arg(path(name))
+                .output()
+                .expect("the program starts");
+            let words = String::from_utf8_lossy(&output.stderr).into_owned();
+            assert_eq!(output.status.code(), Some(5), "{command} {name}: {words}");
+            assert!(
+                output.stdout.is_empty() && words.lines().count() == 1,
+                "{command} {name}: {words}"
+            );
+        }
+    }
+    for name in ["pipe", "loop", ".", "none/case.toml"] {
+        let output = Command::new(PROGRAM)
+            .arg("new")
+            .arg(path(name))
+            .output()
+            .expect("the program starts");
+        let words = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(
+            (output.status.code(), words.lines().count()),
+            (Some(5), 1),
+            "new {name}: {words}"
+        );
+    }
+    symlink("nodir/y", path("far")).expect("a link");
+    fs::write(path("file"), "").expect("room on the disk");
+    let here = folder.path().display();
+    for (name, cause) in [
+        (
+            "far",
+            format!("there is no folder {here}/nodir: make it first (mkdir -p {here}/nodir)"),
+        ),
+        (
+            "my own/x",
+            format!("there is no folder {here}/my own: make it first (mkdir -p '{here}/my own')"),
+        ),
+        ("new/", format!("there is no folder {here}/new")),
+        ("file/x/y", format!("{here}/file is not a folder")),
+        (
+            "/",
+            "/: this is a folder: add the name of a file to it, such as /case.toml".to_owned(),
+        ),
+    ] {
+        let output = Command::new(PROGRAM)
+            .arg("new")
+            .arg(path(name))
+            .output()
+            .expect("the program starts");
+        let words = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(5), "new {name}: {words}");
+        assert!(words.contains(&cause), "new {name}: {words}");
+    }
+    // A link to nowhere is a name for a new file.
+    let output = Command::new(PROGRAM)
+        .arg("new")
+        .arg(path("dangling"))
+        .output()
+        .expect("the program starts");
+    assert!(output.status.success() && path("nowhere").is_file());
+}
+
+#[test]
+fn a_path_to_save_to_is_mended_where_it_can_be() {
+    let mut desk = edited();
+    let path = |name: &str| desk.folder.path().join(name).display().to_string();
+    let (folder, missing, good) = (path("."), path("none/such/case.toml"), path("good.toml"));
+    desk.keys(&["F2", "Ctrl-U", &folder, "Enter"]);
+    assert!(
+        desk.shows("this is a folder: add the name of a file"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Ctrl-U", &missing, "Enter"]);
+    assert!(desk.shows("there is no folder"), "{}", desk.screen());
+    assert!(
+        desk.app
+            .message
+            .as_ref()
+            .is_some_and(|message| message.text.contains("mkdir -p"))
+    );
+    desk.keys(&["Ctrl-U", &good, "Enter"]);
+    assert!(
+        desk.shows("saved ") && Path::new(&good).is_file(),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn a_tilde_is_the_home_folder_where_paths_are_typed() {
+    let launch = Launch::on_table_1();
+    let home = launch.folder.path().join("home");
+    fs::create_dir(&home).expect("a folder");
+    fs::write(
+        home.join("there.toml"),
+        TABLE_1.replace("2000 rpm", "2100 rpm"),
+    )
+    .expect("room on the disk");
+    let mut tty = launch
+        .variable("HOME", home.to_str().expect("UTF-8"))
+        .start();
+    tty.wait_for("Corner contact");
+    tty.type_in("\x1bs\x15~/mine.toml\r");
+    tty.wait_for("saved ");
+    assert!(home.join("mine.toml").is_file());
+    tty.type_in("\x0f\x15~/");
+    tty.wait_for("there.toml");
+    tty.type_in("there\r");
+    tty.wait_for("opened ");
+    tty.wait_for("home/there.toml");
+    tty.quit();
+    assert!(!tty.folder.path().join("~").exists());
+}

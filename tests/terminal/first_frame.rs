@@ -1,0 +1,80 @@
+//! The first frame comes as soon as an editor's, and a headless solve is not to be waited for.
+use crate::tty;
+
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use tty::{Launch, PROGRAM, is_there};
+
+/// Start a program on a terminal of its own; how long until its screen shows the text, and how many
+/// bytes that took.
+fn first_frame(launch: Launch, text: &str) -> (Duration, usize) {
+    let start = Instant::now();
+    let mut tty = launch.size(40, 120).start();
+    tty.written = Some(Vec::new());
+    tty.wait_for(text);
+    (start.elapsed(), tty.written.as_ref().map_or(0, Vec::len))
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+#[test]
+fn the_first_frame_comes_within_two_and_a_half_times_vims() {
+    const PAIRS: usize = 15;
+    const MOST: f64 = 2.5;
+    const MOST_BYTES: usize = 9000;
+    if !is_there("vim") {
+        return;
+    }
+    let (mut ratios, mut times) = (Vec::new(), Vec::new());
+    for _ in 0..PAIRS {
+        let (ours, bytes) = first_frame(Launch::on_table_1(), "F1 help");
+        let launch = Launch::on_table_1();
+        let (vims, _) = first_frame(
+            launch.instead("vim").argument("-u").argument("NONE"),
+            "format = 1",
+        );
+        println!("tipstrike {ours:.1?}, vim -u NONE {vims:.1?}, {bytes} bytes");
+        assert!(bytes <= MOST_BYTES, "the first frame takes {bytes} bytes");
+        ratios.push(ours.as_secs_f64() / vims.as_secs_f64());
+        times.push(ours.as_secs_f64() * 1e3);
+    }
+    let (ratio, time) = (median(ratios), median(times));
+    println!("median {time:.1} ms, {ratio:.2} times vim's");
+    assert!(
+        ratio <= MOST,
+        "the first frame takes {ratio:.2} times vim's"
+    );
+}
+
+#[test]
+fn a_headless_solve_is_soon_done() {
+    const PAIRS: usize = 15;
+    /// Of what it takes to start a program that does nothing; the promise is 10 ms.
+    const MOST: f64 = 10.0;
+    let launch = Launch::on_table_1();
+    let case = launch.case();
+    let run = |program: &str, words: &[&str]| {
+        let start = Instant::now();
+        let status = Command::new(program)
+            .args(words)
+            .arg(&case)
+            .stdout(Stdio::null())
+            .status();
+        assert!(status.is_ok_and(|status| status.success()), "{program}");
+        start.elapsed().as_secs_f64()
+    };
+    let times: Vec<_> = (0..PAIRS)
+        .map(|_| (run(PROGRAM, &["solve"]), run("true", &[])))
+        .collect();
+    let ratio = median(times.iter().map(|(ours, nothing)| ours / nothing).collect());
+    let time = median(times.iter().map(|(ours, _)| ours * 1e3).collect());
+    println!("solve: median {time:.1} ms, {ratio:.1} times `true`");
+    assert!(
+        ratio <= MOST,
+        "a solve takes {ratio:.1} times what a program takes that does nothing"
+    );
+}

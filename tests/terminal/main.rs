@@ -1,0 +1,27 @@
+//! The program in a real terminal: signals, saves, recovery, floods.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a test that cannot go on says why, and prints its figures"
+)]
+#![cfg(all(feature = "cli", feature = "tui"))]
+
+#[path = "../harness/mod.rs"]
+mod harness;
+#[path = "../tty/mod.rs"]
+mod tty;
+
+mod busy;
+mod editors;
+mod faults;
+mod files;
+mod first_frame;
+mod hostile;
+mod pty;
+mod recovery;
+mod screen;
+mod soak;
+mod trade_terminal;

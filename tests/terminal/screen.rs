@@ -1,0 +1,525 @@
+//! What the workbench writes, keeps awake and leaves behind on a real terminal: every way out,
+//! every kind, counted bytes.
+use crate::tty;
+
+use std::fs;
+use std::time::{Duration, Instant};
+
+use tty::{Launch, PATIENCE, TABLE_1, Tty, cells, has_faults_on_demand, is_there, journals};
+
+/// Nothing more comes when nothing came for so long.
+const QUIET: Duration = Duration::from_millis(150);
+
+fn opened(launch: Launch) -> Tty {
+    let mut tty = launch.start();
+    tty.wait_for("quit");
+    tty.settle(QUIET);
+    tty
+}
+
+#[test]
+fn a_panic_of_the_screen_gives_the_terminal_back_and_keeps_what_was_typed() {
+    if !has_faults_on_demand() {
+        return;
+    }
+    let mut tty = opened(Launch::on_table_1().variable("TIPSTRIKE_FAULT", "screen"));
+    tty.type_in("\x151.25 in");
+    tty.wait_for("1.25 in");
+    tty.type_in("\x0c");
+    assert_eq!(tty.wait_for_end().exit_code(), 101);
+    tty.assert_restored();
+    assert!(
+        tty.shows("a fault of the program") && tty.shows("unsaved edits are kept"),
+        "{}",
+        tty.screen().contents()
+    );
+    assert!(
+        fs::read_to_string(&journals(tty.folder.path())[0])
+            .is_ok_and(|kept| kept.contains("1.25 in"))
+    );
+}
+
+#[test]
+fn a_panic_of_the_worker_is_told_and_the_workbench_lives_on() {
+    if !has_faults_on_demand() {
+        return;
+    }
+    let mut tty = opened(Launch::on_table_1().variable("TIPSTRIKE_FAULT", "solver"));
+    tty.type_in("\x156 mm");
+    tty.wait_for("the solver failed");
+    assert!(tty.screen().alternate_screen(), "the screen is still ours");
+    tty.type_in("\x157 mm\x13");
+    let case = tty.case();
+    tty.wait_until("the save", |_| {
+        fs::read_to_string(&case).is_ok_and(|text| text.contains("\"7 mm\""))
+    });
+    tty.wait_until("the mark to go", |tty| !tty.shows("*unsaved*"));
+    tty.quit();
+    tty.assert_restored();
+}
+
+#[test]
+fn a_shell_stops_it_and_brings_it_back() {
+    if !is_there("bash") {
+        return;
+    }
+    let launch = Launch::on_table_1().variable("PS1", "ready> ");
+    let case = launch.case();
+    let mut tty = Launch::of(launch.folder.clone())
+        .variable("PS1", "ready> ")
+        .instead("bash")
+        .argument("--norc")
+        .argument("-i")
+        .start();
+    tty.wait_for("ready>");
+    let ours = tty.modes();
+    for _ in 0..2 {
+        tty.type_in(format!("{} {}\r", tty::PROGRAM, case.display()));
+        tty.wait_until("the workbench", |tty| {
+            tty.screen().alternate_screen() && tty.shows("quit")
+        });
+        let taken = tty.modes();
+        for by_key in [false, true] {
+            if by_key {
+                tty.type_in("\x1bz");
+            } else {
+                tty.send_to_program("TSTP");
+            }
+            tty.wait_until("the shell", |tty| {
+                !tty.screen().alternate_screen() && tty.shows("Stopped")
+            });
+            tty.settle(QUIET);
+            assert_eq!(tty.modes(), ours, "the shell has its modes");
+            assert!(!tty.screen().hide_cursor() && !tty.screen().application_cursor());
+            tty.type_in("fg\r");
+            tty.wait_until("the workbench", |tty| {
+                tty.screen().alternate_screen() && tty.shows("quit")
+            });
+            tty.settle(QUIET);
+            assert_eq!(tty.modes(), taken, "the workbench has its modes");
+        }
+        // A stop of which nobody tells it, so that the shell writes over its picture.
+        tty.send_to_program("STOP");
+        tty.wait_for("Stopped");
+        tty.settle(QUIET);
+        tty.type_in("fg\r");
+        tty.wait_until("a new picture", |tty| {
+            tty.screen().alternate_screen() && tty.shows("quit") && !tty.shows("Stopped")
+        });
+        tty.settle(QUIET);
+        assert_eq!(tty.modes(), taken, "the workbench has its modes");
+        tty.type_in("\x11");
+        tty.wait_until("the shell", |tty| !tty.screen().alternate_screen());
+        tty.settle(QUIET);
+        assert_eq!(tty.modes(), ours);
+    }
+    tty.type_in("exit\r");
+    tty.wait_for_end();
+}
+
+#[test]
+fn a_shell_ends_a_stopped_workbench_without_bringing_it_back() {
+    if !is_there("bash") {
+        return;
+    }
+    let launch = Launch::on_table_1();
+    let case = launch.case();
+    for stop in ["TSTP", "STOP"] {
+        let mut tty = Launch::of(launch.folder.clone())
+            .variable("PS1", "ready> ")
+            .instead("bash")
+            .argument("--norc")
+            .argument("-i")
+            .start();
+        tty.wait_for("ready>");
+        let ours = tty.modes();
+        tty.type_in(format!("{} {}\r", tty::PROGRAM, case.display()));
+        tty.wait_until("the workbench", |tty| {
+            tty.screen().alternate_screen() && tty.shows("quit")
+        });
+        tty.settle(QUIET);
+        tty.send_to_program(stop);
+        tty.wait_for("Stopped");
+        tty.type_in("kill %1\r");
+        // The shell reports an end with its next prompt.
+        tty.wait_until("its end", |tty| {
+            tty.type_in("\r");
+            tty.settle(QUIET);
+            tty.shows("Terminated") && !tty.screen().alternate_screen()
+        });
+        assert_eq!(tty.modes(), ours, "{stop}: the shell has its modes");
+        tty.type_in("exit\r");
+        tty.wait_for_end();
+    }
+}
+
+#[test]
+fn a_terminal_that_takes_nothing_more_does_not_hold_it() {
+    let mut tty = opened(Launch::on_table_1());
+    tty.type_in("\x151.25 in");
+    tty.wait_for("1.25 in");
+    // Nobody reads: once the terminal's own room is full, a write waits for ever.
+    tty.stall();
+    tty.send_signal("TERM");
+    let start = Instant::now();
+    while !tty.has_ended() {
+        assert!(
+            start.elapsed() < PATIENCE,
+            "it waits for a terminal that takes nothing more"
+        );
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    println!("gone after {:.1?}", start.elapsed());
+    let kept = journals(tty.folder.path());
+    assert!(
+        fs::read_to_string(&kept[0]).is_ok_and(|text| text.contains("1.25 in")),
+        "{kept:?}"
+    );
+}
+
+#[test]
+fn a_stuck_workbench_ended_by_a_signal_leaves_no_modes_behind() {
+    if !has_faults_on_demand() {
+        return;
+    }
+    let mut tty = opened(Launch::on_table_1().variable("TIPSTRIKE_FAULT", "stuck screen"));
+    tty.type_in("\x0c");
+    tty.settle(QUIET);
+    tty.send_signal("TERM");
+    assert_eq!(tty.wait_for_end().signal(), Some("Terminated"));
+    tty.assert_restored();
+}
+
+#[test]
+fn a_slow_line_is_not_flooded_and_the_way_out_stays_open() {
+    const PACE: usize = 6000;
+    const KEYS: usize = 3000;
+    let mut tty = opened(Launch::on_table_1().size(40, 120));
+    let before = resident(tty.id());
+    tty.written = Some(Vec::new());
+    tty.set_pace(PACE);
+    // More pictures than the system's own queue for the line holds, each key apart.
+    let keys = [&b"\x0c"[..], b"\x1b[B", b"\x0c", b"\x1b[A"];
+    for key in (0..KEYS).map(|at| keys[at % keys.len()]) {
+        tty.type_in(key);
+        tty.take_output(Duration::from_micros(500));
+    }
+    let grown = resident(tty.id()).saturating_sub(before);
+    let start = Instant::now();
+    tty.type_in("\x11");
+    while !tty.has_ended() {
+        assert!(start.elapsed() < PATIENCE, "it hears nothing any more");
+        tty.take_output(Duration::from_millis(5));
+    }
+    let left = start.elapsed();
+    tty.set_pace(0);
+    assert_eq!(tty.wait_for_end().exit_code(), 0);
+    let written = tty.written.as_ref().map_or(0, Vec::len);
+    println!(
+        "{KEYS} keys at {PACE} bytes/s: {written} bytes, {grown} KiB more, gone {left:.1?} after the last key"
+    );
+    // A picture a key would be 9 MB; 64 KiB wait in the system, and one more picture and the line's
+    // own share are on their way.
+    assert!(written <= 200 << 10, "{written} bytes");
+    assert!(grown <= 2 << 10, "{grown} KiB");
+    tty.assert_restored();
+}
+
+#[test]
+fn a_storm_of_sizes_ends_in_the_right_picture() {
+    let mut tty = opened(Launch::on_table_1());
+    let sizes: Vec<_> = (0..400u16)
+        .map(|at| (at * 7 % 61, at * 13 % 201))
+        .chain([(24, 80)])
+        .collect();
+    tty.pour(vec![b"\t".repeat(200)], &sizes);
+    tty.settle(QUIET);
+    tty.wait_for("Corner contact");
+    let plain = opened(Launch::on_table_1());
+    let line = |tty: &Tty| {
+        tty.screen()
+            .contents()
+            .lines()
+            .next()
+            .map(|line| line.split_whitespace().count())
+    };
+    assert_eq!(line(&tty), line(&plain));
+    tty.quit();
+    tty.assert_restored();
+}
+
+#[test]
+fn every_kind_of_terminal_gets_what_it_can_show() {
+    for term in [
+        "xterm",
+        "xterm-256color",
+        "screen",
+        "tmux-256color",
+        "vt100",
+        "linux",
+    ] {
+        for locale in ["C.UTF-8", "C", "POSIX", "de_DE.ISO-8859-1"] {
+            for colour in ["", "1"] {
+                let launch = Launch::on_table_1()
+                    .variable("TERM", term)
+                    .variable("LC_ALL", locale)
+                    .variable("NO_COLOR", colour);
+                let mut tty = launch.start();
+                tty.wait_for("quit");
+                let screen = tty.screen();
+                let is_ascii = screen.contents().is_ascii();
+                assert_eq!(
+                    is_ascii,
+                    ["linux", "vt100"].contains(&term) || locale != "C.UTF-8",
+                    "{term} {locale}"
+                );
+                let cells = (0..24)
+                    .flat_map(|row| (0..80).filter_map(move |column| screen.cell(row, column)));
+                let plain = vt100::Color::Default;
+                let coloured = cells
+                    .filter(|cell| (cell.fgcolor(), cell.bgcolor()) != (plain, plain))
+                    .count();
+                assert_eq!(
+                    coloured == 0,
+                    !colour.is_empty(),
+                    "{term} {locale} NO_COLOR={colour:?}: {coloured}"
+                );
+                tty.quit();
+            }
+        }
+    }
+    for term in ["dumb", ""] {
+        let mut tty = Launch::on_table_1().variable("TERM", term).start();
+        tty.written = Some(Vec::new());
+        assert_eq!(tty.wait_for_end().exit_code(), 2);
+        let words = tty.written.clone().unwrap_or_default();
+        assert!(!words.contains(&0x1b), "{words:?}");
+    }
+}
+
+#[test]
+fn a_flood_and_a_long_paste_cost_little_and_press_nothing() {
+    let mut tty = opened(Launch::on_table_1());
+    tty.written = Some(Vec::new());
+    let start = Instant::now();
+    tty.pour(vec![b"7".repeat(100_000)], &[]);
+    tty.settle(QUIET);
+    let written = tty.written.as_ref().map_or(0, Vec::len);
+    println!(
+        "100,000 keys: {written} bytes out, {:.0?} with {QUIET:?} of quiet",
+        start.elapsed()
+    );
+    assert!(written <= 64 << 10, "{written} bytes");
+    // Into a question, a megabyte of every button's letter.
+    tty.type_in("\x11");
+    tty.wait_for("Discard");
+    tty.pour(
+        vec![
+            b"\x1b[200~".to_vec(),
+            b"dscyn\r \x11\x03".repeat(1 << 17),
+            b"\x1b[201~".to_vec(),
+        ],
+        &[],
+    );
+    tty.settle(QUIET);
+    assert!(
+        !tty.has_ended() && tty.shows("Discard"),
+        "a paste presses no button:\n{}",
+        tty.screen().contents()
+    );
+    tty.type_in("d");
+    assert_eq!(tty.wait_for_end().exit_code(), 0);
+    assert_eq!(
+        fs::read_to_string(tty.case()).expect("it is there"),
+        TABLE_1
+    );
+}
+
+#[test]
+fn a_reply_that_nobody_asked_for_and_an_unfinished_sequence_leave_the_keys_alive() {
+    for stray in [
+        &b"\x1b[?2026;2$y"[..],
+        b"\x1b[<",
+        b"\x1b[1;",
+        b"\x1b[1111",
+        b"\x1b[M ",
+        b"\x1bP1$r0",
+        b"\x1b]11;rgb:00",
+        b"\x1b[200~",
+    ] {
+        let mut tty = opened(Launch::on_table_1());
+        tty.type_in(stray);
+        tty.settle(QUIET);
+        let is_paste = stray.ends_with(b"~");
+        if is_paste {
+            tty.type_in("\x1b");
+            tty.settle(QUIET);
+        }
+        tty.type_in("\x15");
+        tty.type_in("1.25 in");
+        tty.wait_for("1.25 in");
+        // A control character need not wait for the end of a sequence.
+        let stray = if is_paste { b"" } else { stray };
+        tty.type_in([stray, b"\x11"].concat());
+        tty.wait_for("Discard");
+        tty.type_in("d");
+        assert_eq!(tty.wait_for_end().exit_code(), 0, "{stray:?}");
+    }
+}
+
+#[test]
+fn a_paste_without_an_end_ends_after_a_silence() {
+    let mut tty = opened(Launch::on_table_1());
+    tty.type_in("\x15\x1b[200~1.25 in");
+    tty.wait_for("1.25 in");
+    tty.type_in("\x11");
+    tty.wait_for("Discard");
+    tty.type_in("d");
+    assert_eq!(tty.wait_for_end().exit_code(), 0);
+}
+
+#[test]
+fn an_old_picture_in_the_alternate_screen_is_cleared() {
+    let mut tty = Launch::on_table_1().start();
+    tty.written = Some(Vec::new());
+    tty.wait_for("quit");
+    tty.settle(QUIET);
+    // The terminal after a lost connection: full of the old picture, with a background to erase
+    // with, and in the alternate screen already, which is then not cleared by entering it.
+    let mut old = vt100::Parser::new(cells(24), cells(80), 0);
+    old.process("\x1b[44mX".repeat(24 * 80).as_bytes());
+    let written = String::from_utf8(tty.written.clone().unwrap_or_default()).expect("words");
+    old.process(written.replace("\x1b[?1049h", "").as_bytes());
+    assert_eq!(old.screen().contents(), tty.screen().contents());
+    assert_eq!(
+        old.screen().contents_formatted(),
+        tty.screen().contents_formatted()
+    );
+    tty.quit();
+}
+
+#[test]
+fn the_largest_terminal_costs_little_memory() {
+    let mut tty = opened(Launch::on_table_1());
+    for (rows, columns) in [(3000, 3000), (u16::MAX, u16::MAX)] {
+        tty.resize(rows, columns);
+        tty.wait_for("Corner contact");
+        tty.settle(QUIET);
+        let resident = resident(tty.id());
+        println!("{columns}x{rows}: {resident} KiB");
+        assert!(resident <= 150 << 10, "{columns}x{rows}: {resident} KiB");
+        let outside = tty.screen().rows(1000, 200).any(|row| !row.is_empty());
+        let below = tty.screen().rows(0, 1200).skip(500);
+        assert!(!outside && below.into_iter().all(|row| row.is_empty()));
+    }
+    tty.resize(24, 80);
+    tty.settle(QUIET);
+    tty.wait_for("Corner contact");
+    tty.quit();
+}
+
+#[test]
+fn a_title_of_combining_marks_does_not_flood_the_terminal() {
+    let launch = Launch::on_table_1();
+    let title = format!("title = \"e{}", "\u{301}".repeat(400_000));
+    let text = TABLE_1.replacen("title = \"", &title, 1);
+    fs::write(launch.case(), text).expect("room on the disk");
+    let mut tty = launch.start();
+    tty.written = Some(Vec::new());
+    tty.wait_for("quit");
+    tty.settle(QUIET);
+    tty.type_in("7");
+    tty.settle(QUIET);
+    let written = tty.written.as_ref().map_or(0, Vec::len);
+    println!("{written} bytes");
+    assert!(written <= 12 << 10, "{written} bytes");
+}
+
+#[test]
+fn nothing_wakes_an_idle_workbench_and_it_is_small() {
+    const IDLE: Duration = Duration::from_secs(3);
+    let mut tty = opened(Launch::on_table_1());
+    tty.settle(Duration::from_millis(500));
+    let before = wake_ups(tty.id());
+    assert!(before > 0, "/proc tells of wake-ups");
+    assert_eq!(tty.take_output(IDLE), 0, "it writes while idle");
+    assert_eq!(wake_ups(tty.id()) - before, 0, "it wakes while idle");
+    let resident = resident(tty.id());
+    println!("{resident} KiB resident");
+    assert!(resident <= 30 << 10, "{resident} KiB");
+    tty.quit();
+}
+
+/// How often all its threads were put on a processor.
+fn wake_ups(process: u32) -> u64 {
+    let tasks = fs::read_dir(format!("/proc/{process}/task"))
+        .expect("it runs")
+        .flatten();
+    let switches = |text: String| {
+        number_after(&text, "\nvoluntary_ctxt_switches:")
+            + number_after(&text, "nonvoluntary_ctxt_switches:")
+    };
+    tasks
+        .filter_map(|task| fs::read_to_string(task.path().join("status")).ok())
+        .map(switches)
+        .sum()
+}
+
+fn resident(process: u32) -> u64 {
+    number_after(
+        &fs::read_to_string(format!("/proc/{process}/status")).expect("it runs"),
+        "VmRSS:",
+    )
+}
+
+fn number_after(text: &str, name: &str) -> u64 {
+    let rest = text.split_once(name).map_or("", |(_, rest)| rest);
+    rest.split_whitespace()
+        .next()
+        .and_then(|number| number.parse().ok())
+        .unwrap_or(0)
+}
+
+#[test]
+fn a_typed_digit_costs_few_bytes() {
+    for (rows, columns) in [(24, 80), (40, 120)] {
+        let mut tty = opened(Launch::on_table_1().size(rows, columns));
+        // In a field that the results do not depend on, the field alone is written.
+        tty.type_in("\x1b[1;5H\x1b[B\x15");
+        tty.settle(QUIET);
+        // The first key of a visit also puts the mark of unsaved edits into the header.
+        let first = each_key(&mut tty, "0")[0];
+        let alone = largest(each_key(&mut tty, "123456789"));
+        tty.type_in("\x1b[1;5H\x1b[B\x1b[B\x155.");
+        tty.settle(QUIET);
+        let whole = largest(each_key(&mut tty, "00123456789123456789"));
+        println!(
+            "{columns}x{rows}: {alone} bytes for a field alone ({first} with the mark), {whole} with results and chart"
+        );
+        assert!(
+            alone <= 120,
+            "{columns}x{rows}: {alone} bytes for a field alone"
+        );
+        assert!(
+            first <= 600 && whole <= 600,
+            "{columns}x{rows}: {whole} bytes with results and chart"
+        );
+        tty.type_in("\x11");
+        tty.wait_for("Discard");
+        tty.type_in("d");
+        tty.wait_for_end();
+    }
+}
+
+fn each_key(tty: &mut Tty, keys: &str) -> Vec<usize> {
+    let one = |key: char| {
+        tty.type_in(key.to_string());
+        tty.settle(QUIET)
+    };
+    keys.chars().map(one).collect()
+}
+
+fn largest(counts: Vec<usize>) -> usize {
+    println!("{counts:?}");
+    counts.into_iter().max().unwrap_or(0)
+}

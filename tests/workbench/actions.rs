@@ -1,0 +1,314 @@
+//! Every line of the table of actions: keys in, screen out. A line without a test here fails.
+use crate::harness;
+
+use std::collections::BTreeSet;
+
+use harness::{Desk, LARGE, TABLE_1, time_evenly};
+use tipstrike::tui::commands::BINDINGS;
+
+/// Keys before, the key, keys after, and what is then on the screen, or asked of the world, that is
+/// not without the key. `:name` calls a command by the palette.
+#[rustfmt::skip]
+const ACTIONS: &[(&str, &str, &str, &str)] = &[
+    // In the form, outside its fields.
+    ("Esc", "Enter", "7", "module               7 mm"),
+    ("Esc", "/", "", "Go to a field"),
+    ("Esc", "j", "", "α pressure angle,"),
+    ("Esc G", "k", "", "▸       accurate"),
+    ("Esc", "l", "", "z1 number of teeth,"),
+    ("Esc", "h", "", "title. A name"),
+    ("Esc", "g", "", "title. A name"),
+    ("Esc", "G", "", "The greatest value that impact force may take"),
+    ("Ctrl-U 2 Space m m Down Down Down", "Alt-E", "", "rh1 bore radius,"),
+    // In the results.
+    ("Esc 2", "Enter", "", "impact force, F_S (Eq. 57)"),
+    ("Esc 2", "n", "", "Outcome, gauges, notes"),
+    ("Esc 2", "Alt-L", "", "ok impact_force 2191.0 N <= 2500 N (88 %)"),
+    ("Esc 2", "l", "", "ΔC_a2 additional tip relief, no touch before E"),
+    ("Esc 2 l", "h", "", "2 Results 1 to 16 of 3"),
+    ("Esc 2", "j", "", "T_S impact duration, by the method"),
+    ("Esc 2 j j", "k", "", "T_S impact duration, by the method"),
+    ("Esc 2", "G", "", "(impulse_ratio)."),
+    ("Esc 2 G", "g", "", "F_S impact force, Eq. 57"),
+    // Error against time.
+    ("Esc 5 m", "Enter", "", "; u undoes"),
+    ("Esc 5", "m", "", "Within 5.0 %: dynamic with"),
+    ("Esc 5 m h", "l", "", "] within 5.0 %"),
+    ("Esc 5 m", "h", "", "] not within 5.0 %"),
+    // Chart and teeth.
+    ("Esc 3", "Space", "", "[ticks]"),
+    ("Esc 3 l l", "h", "", "1.3663 deg of the driver before E: F_S 2191.0 N"),
+    ("Esc 3", "l", "", "1.3663 deg of the driver before E: F_S 2191.0 N"),
+    ("Esc 3 l L", "H", "", "1.3663 deg of the driver before E: F_S 2191.0 N"),
+    ("Esc 3 l", "L", "", "1.1636 deg of the driver before E"),
+    ("Esc 3 l l l", "Home", "", "1.3663 deg of the driver before E: F_S 2191.0 N"),
+    ("Esc 3", "a", "peak", "= 1.3663 deg (113.9 us) before E"),
+    ("Esc 3", "End", "", "At E: F_S 0 N"),
+    ("Esc 3 l", "c", "", "No cursor"),
+    ("Esc 3", "j", "", "▸ 3 Gap S in um over driver roll angle"),
+    ("Esc 3 j j", "k", "", "▸ 3 Gap S in um over driver roll angle"),
+    ("Esc 3", "+", "", " 1.2           1.0           0.8 "),
+    ("Esc 3 + +", "-", "", " 1.2           1.0           0.8 "),
+    ("Esc 3 + +", "0", "", " 0.2        0 "),
+    ("Esc 3", "v", "", "the charts show the strike"),
+    ("Esc 3", "t", "", "Force F_S in N over time after E in us"),
+    ("Esc 4", "+", "", "⡄ 5 mm"),
+    ("Esc 4 +", "-", "", "⡄ 10 mm"),
+    ("Esc 4 + +", "0", "", "⡄ 10 mm"),
+    ("Esc 4", "v", "", "view: the pitch point"),
+    ("Esc 4", "k", "", "view: the pair"),
+    ("Esc 4", "x", "", "gap drawn true to scale"),
+    // Outside a field, in every pane.
+    ("Esc 3", ":", "", "Commands"),
+    ("Esc 3", "q", "", "[quit]"),
+    ("Esc 3", "?", "", "Every edit acts at once"),
+    ("Esc", "Tab", "", "▸ 2 Results"),
+    ("Esc", "BackTab", "", "▸ 5"),
+    ("X Esc", "u", "", "module               5 mm "),
+    ("Esc", "b", "", "baseline: case.toml as it is now"),
+    ("Esc", "y", "", "[copied 5 mm]"),
+    ("Esc", "Y", "", "impact_force\t2191.0"),
+    ("Esc 3", "z", "", "  2500 ┤"),
+    ("Esc 3", "1", "", "▸ 1 Form"),
+    ("Esc", "2", "", "▸ 2 Results"),
+    ("Esc", "3", "", "▸ 3"),
+    ("Esc", "4", "", "▸ 4"),
+    ("Esc", "5", "", "▸ 5"),
+    ("Esc", "%", "", "stages in"),
+    ("Esc 4", "Esc", "", "▸ 1 Form"),
+    // Everywhere.
+    ("", "F1", "", "Every edit acts at once"),
+    ("X", "Ctrl-S", "", "not saved: fix"),
+    ("", "Ctrl-P", "", "Commands"),
+    ("", "Ctrl-O", "", "Open a case"),
+    ("", "Ctrl-Q", "", "[quit]"),
+    ("", "Esc", "", "Enter edit"),
+    ("", "Ctrl-T", "", "method static"),
+    ("", ":method_paper", "", "method paper"),
+    ("Ctrl-T", ":method_exact", "", "method exact"),
+    ("", ":method_static", "", "method static"),
+    ("", ":method_dynamic", "", "method dynamic"),
+    ("", ":method_auto", "", "method auto"),
+    ("X", "Ctrl-Z", "", "module               5 mm "),
+    ("", "F5", "", "No benchmark yet"),
+    ("Esc 4", "F9", "", "⡄ 5 mm"),
+    ("", "F4", "", "μ_stick  stick limit"),
+    ("F4", "F3", "", "θ_1      driver angle b"),
+    ("", "F2", "", "Save as"),
+    ("", "Ctrl-N", "", "a new case, beginning with the values of Table 1"),
+    ("", "Alt-N", "", "New from an example"),
+    ("", "Alt-R", "", "Recent cases"),
+    ("Ctrl-N", "Ctrl-PageDown", "", "[1 case.toml]"),
+    ("Ctrl-N", "Ctrl-PageUp", "", "[1 case.toml]"),
+    ("Ctrl-N", "Alt-W", "", "closed new case"),
+    ("Ctrl-N", "Alt-1", "", "[1 case.toml]"),
+    ("Ctrl-N Alt-1", "Alt-2", "", "[2 new case]"),
+    ("X Ctrl-Z", "Ctrl-Y", "", "redo: module: 5 mm -> X"),
+    ("", "Alt-B", "", "baseline: case.toml as it is now"),
+    ("", "F8", "", "chart in halfblock"),
+    ("", ":theme", "", "theme contrast"),
+    ("", ":ascii", "", "drawn in ASCII"),
+    ("", ":units", "", "492.56"),
+    ("", ":mouse", "", "[mouse]"),
+    ("", "Ctrl-L", "", "[redrawn]"),
+    ("", "Alt-Z", "", "[suspended]"),
+    ("", "Alt-G", "", "Material of both gears"),
+    ("", "Alt-L", "", "Hold to a limit"),
+    // In a field.
+    ("", "Shift-Up", "", "module               6 mm"),
+    ("", "Shift-Down", "", "4 mm"),
+    ("", "Alt-Up", "", "module               15 mm"),
+    ("Shift-Up Alt-Up", "Alt-Down", "", "module               6 mm"),
+    ("", "Down", "", "α pressure angle,"),
+    ("Down", "Up", "", "m module,"),
+    ("", "PageDown", "", "z1 number of teeth,"),
+    ("", "PageUp", "", "title. A name"),
+    ("Esc 3", "Ctrl-Home", "", "title. A name"),
+    ("", "Ctrl-End", "", "The greatest value that impact force may take"),
+    // In a field of names.
+    ("METHOD", "Right", "", "‹ static ›"),
+    ("METHOD", "Left", "", "‹ paper ›"),
+    ("METHOD Right", "Backspace", "", "‹ (exact) ›"),
+    ("METHOD", "?", "", "Every edit acts at once"),
+    // In prompts.
+    ("Ctrl-O", "Tab", "", "│ DIR/case.toml"),
+    ("Ctrl-O sub/", "Alt-Up", "", "▸ sub/"),
+    ("Ctrl-O", "Alt-R", "", "▸ other.toml  in "),
+    ("X Ctrl-Q", "Tab", "", "[> Save <]"),
+    ("X Ctrl-Q", "BackTab", "", "[> Discard <]"),
+    ("Ctrl-P", "Down", "", "▸ explain "),
+    ("Ctrl-P Down Down", "Up", "", "▸ explain "),
+    ("Ctrl-P", "Tab", "", "▸ explain "),
+    ("Ctrl-P Down Down", "BackTab", "", "▸ explain "),
+    ("Esc 2 j j Enter j j", "j", "", "m     pair.module"),
+    ("Esc 2 j j Enter j j", "k", "", "│ θ_1 = 1.36628 deg"),
+    ("Esc 2 j j Enter", "PageDown", "", "pair.centre_distance = no backlash"),
+    ("Esc 2 j j Enter", "Space", "", "pair.centre_distance = no backlash"),
+    ("Esc 2 j j Enter PageDown PageDown", "PageUp", "", "│ θ_1 = 1.36628 deg"),
+    ("Ctrl-P units", "Enter", "", "492.56"),
+    ("F1", "Enter", "", "▸ 1 Form"),
+    ("Ctrl-P", "Esc", "", "▸ 1 Form"),
+    ("", "Ctrl-C", "", "Ctrl-C again quits"),
+    // In an explanation.
+    ("Esc 2 j j Enter", "Tab", "", "▸pair.module"),
+    ("Esc 2 j j Enter", "BackTab", "", "▸model.accurate"),
+    ("Esc 2 j j Enter Tab Tab Tab", "Enter", "", "z1 number of teeth,"),
+    ("Esc 2 j j Enter", "q", "", "▸ 2 Results"),
+    // In a line of text.
+    ("End", "Left", "X", "5 mXm"),
+    ("Home", "Right", "X", "5X mm"),
+    ("End", "Ctrl-Left", "X", "5 Xmm"),
+    ("Home", "Ctrl-Right", "X", "5 Xmm"),
+    ("", "Home", "X", "X5 mm"),
+    ("Home", "End", "X", "5 mmX"),
+    ("End", "Backspace", "X", "5 mX"),
+    ("Home", "Delete", "", "module                mm"),
+    ("", "Ctrl-W", "X", "5 X"),
+    ("Home Right", "Ctrl-K", "X", "module               5X    "),
+    ("End", "Ctrl-U", "X", " X "),
+];
+
+fn bench() -> Desk {
+    let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
+    std::fs::create_dir(desk.path("sub")).expect("a folder");
+    desk.recents = vec![desk.write("other.toml", &TABLE_1.replace("2000 rpm", "900 rpm"))];
+    desk
+}
+
+fn press(desk: &mut Desk, keys: &str) {
+    for key in keys.split_whitespace() {
+        match key.strip_prefix(':').filter(|name| !name.is_empty()) {
+            Some(name) => desk.keys(&["Esc", ":", &name.replace('_', " "), "Enter"]),
+            None if key == "METHOD" => desk.go_to("model.method"),
+            None => desk.keys(&[key]),
+        };
+        if key == "m"
+            && desk
+                .app
+                .traded
+                .as_ref()
+                .is_some_and(|traded| traded.trade.is_some())
+        {
+            time_evenly(desk);
+        }
+    }
+}
+
+/// The screen, and what was asked of the world.
+fn out(desk: &Desk) -> String {
+    let flags = [
+        (desk.has_quit, "[quit]"),
+        (desk.has_mouse, "[mouse]"),
+        (desk.ticks, "[ticks]"),
+        (desk.has_redrawn, "[redrawn]"),
+        (desk.is_suspended, "[suspended]"),
+    ];
+    let flags = flags
+        .into_iter()
+        .filter(|(is_set, _)| *is_set)
+        .map(|(_, name)| name);
+    let copied = desk
+        .copied
+        .as_ref()
+        .map(|text| format!("[copied {text}]"))
+        .unwrap_or_default();
+    format!("{}\n{}{copied}", desk.screen(), flags.collect::<String>())
+}
+
+/// The line of the table that a key calls there.
+fn called(desk: &Desk, key: &str) -> Option<usize> {
+    if let Some(name) = key.strip_prefix(':').filter(|name| !name.is_empty()) {
+        return BINDINGS.iter().position(|binding| {
+            binding.name == name.replace('_', " ") && binding.chords.is_empty()
+        });
+    }
+    let key = if key == "BackTab" { "Shift-Tab" } else { key };
+    let place = desk.app.place();
+    BINDINGS.iter().position(|binding| {
+        binding.places.meets(place) && binding.chords.iter().any(|chord| chord.name() == key)
+    })
+}
+
+#[test]
+fn every_key_does_what_its_line_says() {
+    let (mut covered, mut wrong) = (BTreeSet::new(), Vec::new());
+    for (before, key, after, says) in ACTIONS {
+        let (mut with, mut without) = (bench(), bench());
+        press(&mut with, before);
+        covered.insert(
+            called(&with, key).unwrap_or_else(|| panic!("{key} after {before:?} calls nothing")),
+        );
+        press(&mut with, key);
+        press(&mut with, after);
+        press(&mut without, before);
+        press(&mut without, after);
+        let (with, without) = (out(&with), out(&without));
+        if !with.contains(says) || without.contains(says) {
+            let new: Vec<&str> = with
+                .lines()
+                .filter(|line| !without.contains(line))
+                .collect();
+            let (first, last) = (new.iter().take(3), new.iter().rev().take(4));
+            let told: Vec<_> = first
+                .chain(last)
+                .map(|line| line.chars().take(90).collect::<String>())
+                .collect();
+            wrong.push(format!(
+                "{key} after {before:?} is to bring {says:?}; it brings:\n{}",
+                told.join("\n")
+            ));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+    let missing: Vec<String> = (0..BINDINGS.len())
+        .filter(|at| !covered.contains(at) && !BINDINGS[*at].sentence.is_empty())
+        .map(|at| {
+            format!(
+                "{} {}: {}",
+                BINDINGS[at].keys(),
+                BINDINGS[at].name,
+                BINDINGS[at].sentence
+            )
+        })
+        .collect();
+    assert!(
+        missing.is_empty(),
+        "no test has these lines of the table:\n{}",
+        missing.join("\n")
+    );
+}
+
+#[test]
+fn the_help_has_every_key_with_its_sentence() {
+    let lines = tipstrike::tui::view::help::lines();
+    for binding in BINDINGS
+        .iter()
+        .filter(|binding| !binding.sentence.is_empty())
+    {
+        let keys = if binding.chords.is_empty() {
+            format!(":{}", binding.name)
+        } else {
+            binding.keys()
+        };
+        let stands = |line: &String| {
+            line.trim_start()
+                .strip_prefix(&keys)
+                .is_some_and(|rest| rest.trim_start() == binding.sentence)
+        };
+        assert!(lines.iter().any(stands), "{keys}: {}", binding.sentence);
+    }
+}
+
+#[test]
+fn the_cases_by_their_numbers() {
+    let mut desk = bench();
+    desk.keys(&[
+        "Ctrl-N", "X", "Ctrl-N", "X", "Ctrl-N", "X", "Ctrl-N", "X", "Ctrl-N", "X", "Ctrl-N", "X",
+        "Ctrl-N", "X", "Ctrl-N", "X",
+    ]);
+    assert_eq!(desk.app.tabs().count(), 9);
+    for number in 1..=9 {
+        desk.keys(&[&format!("Alt-{number}")]);
+        assert!(desk.shows(&format!("[{number} ")), "{}", desk.screen());
+    }
+}

@@ -1,0 +1,149 @@
+//! A number typed into a field of the form without its unit takes the unit that the field shows.
+use crate::harness;
+
+use harness::{Desk, LARGE, SMALL, TABLE_1};
+use tipstrike::case::fields::index_of;
+use tipstrike::case::units::System;
+
+fn text<'d>(desk: &'d Desk, key: &str) -> &'d str {
+    desk.app
+        .case
+        .text(index_of(key).unwrap())
+        .unwrap_or_default()
+}
+
+#[test]
+fn a_bare_number_is_completed_while_it_is_typed_and_written_with_its_unit() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.fill("deviations.base_pitch", "48");
+    assert!(
+        desk.shows("Unit added: um.") && desk.shows("base pitch deviation 48 um"),
+        "{}",
+        desk.screen()
+    );
+    assert!(
+        !desk.shows("LAST VALID") && !desk.shows("2191.0"),
+        "the results are those of 48 um"
+    );
+    assert_eq!(
+        (desk.app.input.value(), text(&desk, "deviations.base_pitch")),
+        ("48", "48 um")
+    );
+    desk.keys(&["Down"]);
+    assert!(
+        desk.shows("base pitch deviation 48 um") && !desk.shows("Unit added"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Ctrl-S"]);
+    assert_eq!(desk.read("case.toml"), TABLE_1.replace("16 um", "48 um"));
+    desk.keys(&["Up", "Esc"]);
+    assert_eq!(
+        desk.app.input.value(),
+        "48 um",
+        "a line that is left is the case's"
+    );
+}
+
+#[test]
+fn on_the_way_to_a_value_no_error_flickers() {
+    for (key, whole) in [
+        ("deviations.base_pitch", "48 um"),
+        ("operation.power", "20 hp"),
+        ("operation.speed", "209.44 rad/s"),
+        ("pair.pressure_angle", "22.5 deg"),
+        ("pair.module", "0.2 in"),
+        ("driver.face_width", "8000 um"),
+        ("driver.teeth", "24"),
+        ("driver.profile_shift", "-0.05"),
+        ("driver.density", "7.85 g/cm3"),
+        ("limits.impact_force", "2.5 kN"),
+    ] {
+        let mut desk = Desk::new(SMALL);
+        match key.strip_prefix("limits.") {
+            None => drop(desk.fill(key, "")),
+            Some(_) => drop(desk.keys(&["Ctrl-End", "Ctrl-U"])),
+        }
+        for letter in whole.chars() {
+            desk.keys(&[&letter.to_string()]);
+            let typed = desk.app.input.value().to_owned();
+            assert!(!desk.shows("  ! "), "{typed}:\n{}", desk.screen());
+        }
+        assert!(
+            !desk.shows("Not yet:") && !desk.shows("LAST VALID"),
+            "{key}:\n{}",
+            desk.screen()
+        );
+    }
+}
+
+#[test]
+fn the_unit_is_the_one_that_was_written_else_the_one_that_is_shown() {
+    let mut desk = Desk::on(LARGE, "case.toml", &TABLE_1.replace("15 kW", "20 hp"));
+    desk.fill("operation.power", "25");
+    assert_eq!(text(&desk, "operation.power"), "25 hp");
+    desk.keys(&["Backspace", "Backspace", "3"]);
+    assert_eq!(text(&desk, "operation.power"), "3 hp");
+    desk.fill("driver.tip_radius", "0.2");
+    assert_eq!(text(&desk, "driver.tip_radius"), "0.2 mm");
+    desk.app.settings.units = System::Inch;
+    desk.fill("driven.tip_radius", "0.02");
+    assert!(desk.shows("Unit added: in."));
+    assert_eq!(text(&desk, "driven.tip_radius"), "0.02 in");
+    desk.fill("pair.module", "4");
+    assert_eq!(text(&desk, "pair.module"), "4 mm", "it was written in mm");
+}
+
+#[test]
+fn a_unit_is_never_guessed_against_what_is_typed() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.fill("deviations.base_pitch", "48 m");
+    assert!(
+        desk.shows("Not yet: 48 m is above the limit of"),
+        "{}",
+        desk.screen()
+    );
+    assert_eq!(text(&desk, "deviations.base_pitch"), "48 m");
+    desk.keys(&["Down"]);
+    assert!(
+        desk.shows("! 48 m is above the limit of"),
+        "once it is left it is wrong:\n{}",
+        desk.screen()
+    );
+    desk.keys(&["Ctrl-S"]);
+    assert!(desk.shows("not saved"));
+    desk.fill("driver.young", "200 M");
+    assert_eq!(text(&desk, "driver.young"), "200 M", "MPa or Mpsi");
+    assert!(desk.shows("Not yet: unknown unit M"), "{}", desk.screen());
+    desk.fill("driver.poisson", "0.9");
+    assert!(
+        desk.shows("! 0.9 is above the limit of 0.499"),
+        "no digit mends it:\n{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn what_says_the_same_is_no_edit() {
+    let mut desk = Desk::new(SMALL);
+    desk.go_to("deviations.base_pitch")
+        .keys(&["End", "Backspace", "Backspace", "Backspace"]);
+    assert_eq!(desk.app.input.value(), "16");
+    assert!(!desk.app.is_unsaved());
+    desk.keys(&["Ctrl-Z"]);
+    assert!(desk.shows("nothing to undo"));
+}
+
+#[test]
+fn steps_copies_and_limits_know_the_unit_of_a_bare_number() {
+    let mut desk = Desk::new(SMALL);
+    desk.fill("deviations.base_pitch", "48").keys(&["Shift-Up"]);
+    assert_eq!(
+        (desk.app.input.value(), text(&desk, "deviations.base_pitch")),
+        ("49 um", "49 um")
+    );
+    desk.keys(&["Ctrl-U", "50", "Esc", "y"]);
+    assert_eq!(desk.copied.as_deref(), Some("50 um"));
+    desk.keys(&["Ctrl-End", "i", "Ctrl-U", "2200"]);
+    assert_eq!(desk.app.case.limits[0].text, "2200 N");
+}

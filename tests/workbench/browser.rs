@@ -1,0 +1,579 @@
+//! The browser of files: folders, previews with their verdict, recent cases; whatever a folder
+//! holds, nothing waits for it.
+use crate::harness;
+
+use std::ffi::OsStr;
+use std::fs;
+use std::os::unix::ffi::OsStrExt;
+use std::os::unix::fs::symlink;
+use std::process::Command;
+use std::sync::mpsc::channel;
+use std::time::Duration;
+
+use harness::{Desk, LARGE, SMALL, TABLE_1, name};
+use insta::assert_snapshot;
+use tipstrike::tui::actions::Effect;
+use tipstrike::tui::actions::{self, Action};
+use tipstrike::tui::ascii::is_safe;
+use tipstrike::tui::jobs::{Finding, Job, Jobs};
+use tipstrike::tui::store::{case_search, folder};
+use tipstrike::tui::theme::{Look, MONO};
+use tipstrike::tui::update::update;
+
+/// Five cases and a folder; the second one is open.
+fn shelf(desk: &mut Desk) {
+    for (file, text) in [
+        ("a-strikes.toml", TABLE_1.to_owned()),
+        ("b-exceeds.toml", TABLE_1.replace("2500 N", "2000 N")),
+        (
+            "c-relieved.toml",
+            TABLE_1.replace("tip_relief = \"0 um\"", "tip_relief = \"80 um\""),
+        ),
+        (
+            "d-bad.toml",
+            TABLE_1
+                .replace("\"5 mm\"", "\"5 kg\"")
+                .replace("teeth = 20\n", "teth = 20\n"),
+        ),
+        (
+            "e-newer.toml",
+            TABLE_1.replacen("format = 1", "format = 2", 1),
+        ),
+        (
+            "f-refused.toml",
+            TABLE_1.replace("addendum = 1.0", "addendum = 1.9"),
+        ),
+        ("note.txt", String::new()),
+    ] {
+        desk.write(file, &text);
+    }
+    fs::create_dir(desk.path("sub")).expect("a folder");
+    desk.write("sub/deep.toml", TABLE_1);
+}
+
+fn desk_before_a_shelf(size: ratatui::layout::Size) -> Desk {
+    let mut desk = Desk::on(size, "case.toml", TABLE_1);
+    shelf(&mut desk);
+    desk
+}
+
+/// What the marked one is said to hold, on one line.
+fn preview(desk: &Desk) -> String {
+    let screen = desk.screen();
+    let right = screen
+        .lines()
+        .filter_map(|line| line.split('│').nth(2))
+        .map(str::trim)
+        .filter(|line| !line.is_empty());
+    right.collect::<Vec<_>>().join(" ")
+}
+
+fn marked(desk: &Desk) -> String {
+    let screen = desk.screen();
+    let line = screen
+        .lines()
+        .find_map(|line| line.split_once("│ ▸ "))
+        .map(|(_, rest)| rest.to_owned());
+    line.unwrap_or_default()
+        .split('│')
+        .next()
+        .unwrap_or_default()
+        .trim()
+        .to_owned()
+}
+
+#[test]
+fn the_case_under_the_cursor_is_told_with_its_verdict() {
+    let mut desk = desk_before_a_shelf(LARGE);
+    desk.keys(&["Ctrl-O"]);
+    assert_eq!(
+        marked(&desk),
+        "case.toml",
+        "the present case, among the others"
+    );
+    for (file, told) in [
+        (
+            "a-str",
+            &[
+                "Zhou & Chen 2014, Table 1",
+                "z 20/20, m 5 mm, α 20 deg, b 8 mm",
+                "15 kW at 2000 rpm",
+                "method exact",
+            ][..],
+        ),
+        (
+            "a-str",
+            &[
+                "Corner contact: θ_1 = 1.36628 deg before E; impact force 2191.0 N.",
+                "ok impact_force 2191.0 N <= 2500 N",
+            ],
+        ),
+        (
+            "b-exc",
+            &["EXCEEDED impact_force 2191.0 N > 2000 N (110 %)"],
+        ),
+        (
+            "c-rel",
+            &[
+                "No corner contact: no contact before E, Δ = ",
+                "ok impact_force does not occur: no corner contact",
+            ],
+        ),
+        (
+            "d-bad",
+            &["It cannot be opened:", "11:10: pair.module", "teth"],
+        ),
+        (
+            "e-new",
+            &[
+                "Of a newer format: it opens read-only.",
+                "Corner contact: θ_1 = 1.36628 deg",
+            ],
+        ),
+        ("f-ref", &["Not solved: ", "unknown impact_force"]),
+        ("sub", &["A folder with 1 case, 0 folders."]),
+    ] {
+        desk.keys(&["Ctrl-U", file]);
+        for told in told {
+            assert!(
+                preview(&desk).contains(told),
+                "{file}: {told}\n{}",
+                desk.screen()
+            );
+        }
+    }
+    desk.keys(&["Esc", "Ctrl-P", "units", "Enter", "Ctrl-O", "a-str"]);
+    assert!(
+        preview(&desk).contains("492.56 lbf"),
+        "in the units of the results"
+    );
+}
+
+#[test]
+fn folders_are_entered_and_left_and_the_mark_is_where_one_came_from() {
+    let mut desk = desk_before_a_shelf(SMALL);
+    desk.keys(&["Ctrl-O", "sub", "Enter"]);
+    assert_eq!(marked(&desk), "deep.toml");
+    desk.keys(&["Backspace"]);
+    assert_eq!(marked(&desk), "sub/");
+    desk.keys(&["Tab", "Alt-Up"]);
+    assert_eq!(marked(&desk), "sub/");
+    desk.keys(&["Enter", "Up", "Enter"]);
+    assert_eq!(marked(&desk), "sub/", "../ leads up as well");
+    desk.keys(&["x", "Backspace"]);
+    assert!(
+        desk.shows("a-strikes.toml"),
+        "a letter is deleted before the folder is left"
+    );
+    for _ in 0..40 {
+        desk.keys(&["Alt-Up"]);
+    }
+    assert!(
+        desk.screen()
+            .lines()
+            .nth(2)
+            .is_some_and(|line| line.contains("│ / ")),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn paths_are_typed_or_pasted_and_the_home_folder_is_a_tilde() {
+    let mut desk = desk_before_a_shelf(LARGE);
+    let deep = desk.path("sub/deep.toml");
+    desk.keys(&["Ctrl-O"])
+        .act(Action::Paste(name(&deep).to_owned()));
+    assert_eq!(marked(&desk), "deep.toml");
+    desk.keys(&["Enter"]);
+    assert!(desk.shows("opened ") && desk.app.short_name() == "deep.toml");
+    desk.keys(&["Ctrl-O", "../a-str", "Enter"]);
+    assert!(
+        desk.app.short_name() == "a-strikes.toml",
+        "a path begins in the folder that is shown"
+    );
+    let home = std::env::var("HOME").expect("a home folder");
+    let home = fs::canonicalize(home).expect("it is there");
+    for typed in ["~", "~/"] {
+        desk.keys(&["Ctrl-O", typed]);
+        assert!(
+            desk.shows(&format!("│ {} ", home.display())),
+            "{typed}\n{}",
+            desk.screen()
+        );
+        desk.keys(&["Esc"]);
+    }
+}
+
+#[test]
+fn the_entry_that_is_called_what_is_typed_is_marked_before_those_that_contain_it() {
+    let mut desk = desk_before_a_shelf(SMALL);
+    desk.write("a-case.toml", TABLE_1);
+    desk.keys(&["Ctrl-O", "case.toml"]);
+    assert_eq!(marked(&desk), "case.toml");
+    desk.keys(&["Ctrl-U", "DEEP"]);
+    assert_eq!(marked(&desk), "sub/deep.toml", "what is below is found too");
+    desk.write(".hidden.toml", TABLE_1);
+    desk.keys(&["Esc", "Ctrl-O"]);
+    assert!(!desk.shows("hidden"));
+    desk.keys(&[".hi"]);
+    assert_eq!(
+        marked(&desk),
+        ".hidden.toml",
+        "hidden ones are there where their dot is typed"
+    );
+}
+
+#[test]
+fn recent_cases_stand_on_the_same_page_and_missing_ones_are_said_to_be() {
+    let mut desk = desk_before_a_shelf(SMALL);
+    desk.recents = vec![
+        desk.path("a-strikes.toml"),
+        desk.path("gone.toml"),
+        desk.path("sub/deep.toml"),
+    ];
+    desk.keys(&["Ctrl-O"]);
+    assert!(
+        desk.shows("Recent cases")
+            && desk.shows("gone.toml  (missing)")
+            && desk.shows("deep.toml  in sub/")
+    );
+    desk.keys(&["Alt-R", "Down"]);
+    assert!(preview(&desk).contains("There is no such file any more."));
+    desk.keys(&["Enter"]);
+    assert!(desk.shows("gone.toml cannot be opened") && desk.shows("there is no such file"));
+    desk.keys(&["Esc", "Alt-R"]);
+    assert!(!desk.shows("There is no such file"), "back in the folder");
+    desk.keys(&["deep", "Enter"]);
+    assert_eq!(
+        desk.app.short_name(),
+        "deep.toml",
+        "what is typed finds recent cases too"
+    );
+}
+
+#[test]
+fn names_that_no_terminal_should_see_are_shown_as_text_and_open() {
+    let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
+    let names: [&[u8]; 4] = [
+        b"z1 \x1b[2J\x07.toml",
+        "z2 \u{202e}lmot\u{200b}.toml".as_bytes(),
+        b"z3 \xff\xfe.toml",
+        b"z4\nline\tend.toml",
+    ];
+    for name in names {
+        fs::write(desk.folder.path().join(OsStr::from_bytes(name)), TABLE_1)
+            .expect("any bytes are a name");
+    }
+    fs::create_dir(desk.folder.path().join(OsStr::from_bytes(b"z5 \xff\x1b"))).expect("a folder");
+    fs::write(
+        desk.folder
+            .path()
+            .join(OsStr::from_bytes(b"z5 \xff\x1b/in.toml")),
+        TABLE_1,
+    )
+    .expect("a case in it");
+    for start in ["z1", "z2", "z3", "z4"] {
+        desk.keys(&["Ctrl-O", start]);
+        assert!(
+            preview(&desk).contains("Corner contact: θ_1 = 1.36628 deg"),
+            "{start}\n{}",
+            desk.screen()
+        );
+        assert!(
+            desk.screen()
+                .chars()
+                .all(|letter| letter == '\n' || is_safe(letter)),
+            "{start}"
+        );
+        desk.keys(&["Enter"]);
+        assert!(desk.shows("opened "), "{start}\n{}", desk.screen());
+        assert!(
+            desk.screen()
+                .chars()
+                .all(|letter| letter == '\n' || is_safe(letter)),
+            "{start}"
+        );
+    }
+    desk.keys(&["Ctrl-O", "z5", "Enter"]);
+    assert_eq!(marked(&desk), "in.toml", "{}", desk.screen());
+    desk.keys(&["Enter"]);
+    assert!(desk.shows("opened "), "{}", desk.screen());
+}
+
+#[test]
+fn what_is_no_case_is_refused_in_words() {
+    let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
+    let pipe = desk.path("p-pipe.toml");
+    assert!(
+        Command::new("mkfifo")
+            .arg(&pipe)
+            .status()
+            .is_ok_and(|status| status.success())
+    );
+    symlink("l-loop.toml", desk.path("l-loop.toml")).expect("a link");
+    fs::write(desk.path("m-long.toml"), vec![b'x'; (1 << 20) + 1]).expect("room");
+    fs::write(desk.path("n-zeroes.toml"), vec![0; 1 << 20]).expect("room");
+    fs::write(desk.path("o-words.toml"), "no case at all\n".repeat(60_000)).expect("room");
+    fs::write(desk.path("q-empty.toml"), "").expect("room");
+    for (file, told) in [
+        ("p-pipe", "this is not a regular file"),
+        ("l-loop", "cannot be read"),
+        ("m-long", "longer than 1024 KiB"),
+        ("n-zero", "1:1"),
+        ("o-words", "1:"),
+        ("q-empty", "format"),
+    ] {
+        desk.keys(&["Ctrl-O", file]);
+        assert!(
+            preview(&desk).contains("It cannot be opened:") && preview(&desk).contains(told),
+            "{file}\n{}",
+            desk.screen()
+        );
+        desk.keys(&["Enter"]);
+        assert!(
+            desk.shows(" cannot be opened ") && desk.shows(told),
+            "{file}\n{}",
+            desk.screen()
+        );
+        desk.keys(&["Esc", "Esc"]);
+    }
+    desk.keys(&["Ctrl-O", "nowhere/"]);
+    assert!(
+        desk.shows("This folder cannot be read: No such") && desk.shows("file or directory"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Ctrl-U", "case.toml/"]);
+    assert!(
+        desk.shows("This folder cannot be read: Not a"),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn a_folder_of_ten_thousand_is_read_once_and_a_key_asks_for_one_preview_at_most() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    for number in 0..10_000 {
+        fs::write(desk.path(&format!("{number:05}.toml")), "").expect("room");
+    }
+    desk.keys(&["Ctrl-O"]);
+    assert!(desk.shows("00000.toml") || desk.shows("case.toml"));
+    let mut asked = Vec::new();
+    let keys = ["PageDown", "Down", "Down", "9", "9", "9", "Backspace", "Up"];
+    for key in keys {
+        let event = harness::event(key);
+        let action = actions::of_key(event, desk.app.place()).expect("a key of the browser");
+        asked.extend(update(&mut desk.app, action));
+        desk.screen();
+    }
+    let previews = asked
+        .iter()
+        .filter(|effect| matches!(effect, Effect::Job(Job::Preview(..))))
+        .count();
+    let searches = asked
+        .iter()
+        .filter(|effect| matches!(effect, Effect::Job(Job::Below(..))))
+        .count();
+    assert!(
+        previews + searches == asked.len() && previews <= keys.len() && searches == 1,
+        "{asked:?}"
+    );
+    assert!(desk.shows("99"), "{}", desk.screen());
+}
+
+#[test]
+fn while_a_folder_is_read_keys_are_taken_and_a_late_answer_is_dropped() {
+    let mut desk = desk_before_a_shelf(SMALL);
+    let press = |desk: &mut Desk, key: &str| {
+        let action = actions::of_key(harness::event(key), desk.app.place()).expect("a key");
+        update(&mut desk.app, action)
+    };
+    let effects = press(&mut desk, "Ctrl-O");
+    let Some(Effect::Job(Job::Folder(base, typed))) = effects.into_iter().next() else {
+        panic!("it asks for the folder")
+    };
+    let late = folder::list(base, typed);
+    assert!(desk.shows("reading ..."));
+    for letter in ["s", "u", "b", "/"] {
+        press(&mut desk, letter);
+    }
+    update(&mut desk.app, Action::Listed(Box::new(late)));
+    assert!(
+        desk.shows("reading ...") && !desk.shows("a-strikes.toml"),
+        "that was another folder"
+    );
+    press(&mut desk, "Esc");
+    assert!(desk.app.prompts.is_empty());
+}
+
+#[test]
+fn the_threads_answer_and_the_latest_wish_counts() {
+    let (sender, told) = channel();
+    let mut errands = Jobs::new(move |action| sender.send(action).is_ok());
+    let folder = tempfile::tempdir().expect("a folder");
+    for name in ["one", "two", "three"] {
+        fs::create_dir(folder.path().join(name)).expect("a folder");
+        errands
+            .ask(Job::Folder(folder.path().to_owned(), format!("{name}/")))
+            .expect("a thread");
+    }
+    let mut last = String::new();
+    while last != "three/" {
+        let Ok(Finding::Folder(listing)) = told.recv_timeout(Duration::from_secs(20)) else {
+            panic!("an answer comes")
+        };
+        assert!(listing.entries.is_ok());
+        last = listing.asked.1;
+    }
+    errands
+        .ask(Job::Examples(tipstrike::case::units::System::Metric))
+        .expect("a thread");
+    assert!(
+        matches!(told.recv_timeout(Duration::from_secs(20)), Ok(Finding::Examples(digests)) if digests.len() >= 8)
+    );
+}
+
+#[test]
+fn a_new_case_begins_with_an_example_and_has_no_file() {
+    let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
+    desk.keys(&["Alt-N"]);
+    assert!(
+        desk.shows("New from an example")
+            && desk.shows("▸ zhou-chen-2014")
+            && desk.shows("impact force 2191.0 N.")
+    );
+    desk.keys(&["Down"]);
+    assert!(
+        preview(&desk).contains("FZG type C test gears")
+            && preview(&desk).contains("impact force 3346.5 N.")
+    );
+    desk.keys(&["relief", "Enter"]);
+    assert!(
+        desk.shows("2 new case from tip-reli")
+            && desk.shows("No corner contact")
+            && desk.app.tabs().count() == 2
+    );
+    assert!(desk.app.path.is_none() && !desk.app.is_unsaved());
+    desk.fill("operation.speed", "1234 rpm").keys(&["Ctrl-S"]);
+    assert!(desk.shows("Save as") && desk.shows("case.toml"));
+    let path = desk.path("mine.toml");
+    desk.keys(&["Ctrl-U", name(&path), "Enter"]);
+    let saved = desk.read("mine.toml");
+    assert!(
+        saved.starts_with("# A pair whose tip relief is larger") && saved.contains("1234 rpm"),
+        "comments stay"
+    );
+}
+
+#[test]
+fn the_screens() {
+    for (size, look) in [
+        ("80x24", Look::FULL),
+        ("140x45", Look::FULL),
+        (
+            "ascii",
+            Look {
+                theme: &MONO,
+                ascii: true,
+            },
+        ),
+    ] {
+        let mut desk = desk_before_a_shelf(if size == "140x45" { LARGE } else { SMALL });
+        desk.app.look = look;
+        desk.recents = vec![desk.path("sub/deep.toml"), desk.path("sub/gone.toml")];
+        for (screen, keys) in [
+            ("browser", &["Ctrl-O", "b-exc"][..]),
+            ("browser_of_a_bad_file", &["Ctrl-U", "d-bad"]),
+            ("recents", &["Ctrl-U", "Alt-R"]),
+            ("examples", &["Esc", "Alt-N", "Down", "Down"]),
+        ] {
+            desk.keys(keys);
+            assert_snapshot!(format!("{screen}_{size}"), harness::without_folder(&desk));
+        }
+    }
+}
+
+#[test]
+fn what_is_typed_is_looked_for_below_the_folder_and_among_the_examples() {
+    let mut desk = desk_before_a_shelf(LARGE);
+    fs::create_dir_all(desk.path("sub/gearbox/stage 2")).expect("folders");
+    fs::create_dir_all(desk.path(".hidden/x")).expect("folders");
+    desk.write(
+        "sub/gearbox/stage 2/Pinion.toml",
+        &TABLE_1.replace("2000 rpm", "777 rpm"),
+    );
+    desk.write(".hidden/x/pinion.toml", TABLE_1);
+    symlink(desk.folder.path(), desk.path("sub/round and round")).expect("a link");
+    desk.keys(&["Ctrl-O", "pinion"]);
+    assert_eq!(
+        marked(&desk),
+        "sub/gearbox/stage 2/Pinion.toml",
+        "{}",
+        desk.screen()
+    );
+    assert!(
+        preview(&desk).contains("777 rpm") && !desk.shows("hidden"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Enter"]);
+    assert_eq!(
+        desk.app.path.as_deref(),
+        Some(desk.path("sub/gearbox/stage 2/Pinion.toml").as_path())
+    );
+    desk.keys(&["Ctrl-O", "fzg"]);
+    assert_eq!(marked(&desk), "fzg-type-c  (example)", "{}", desk.screen());
+    assert!(preview(&desk).contains("FZG"), "{}", desk.screen());
+    desk.keys(&["Enter"]);
+    assert!(
+        desk.app.prompts.is_empty() && desk.shows("a new case, beginning with fzg-type-c"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Ctrl-O", "no such"]);
+    assert!(desk.shows("Nothing here or below."), "{}", desk.screen());
+}
+
+#[test]
+fn a_search_below_is_bounded_and_asked_once_for_a_folder() {
+    let mut desk = desk_before_a_shelf(SMALL);
+    let deep = "1/2/3/4/5/6/7/8";
+    fs::create_dir_all(desk.path(deep)).expect("folders");
+    desk.write("1/2/3/near.toml", TABLE_1);
+    desk.write(&format!("{deep}/far.toml"), TABLE_1);
+    let below = case_search::find(desk.folder.path().to_owned(), String::new(), &|_| true)
+        .expect("it is wanted");
+    let names: Vec<&str> = below.cases.iter().map(|case| case.name.as_str()).collect();
+    assert_eq!(
+        (names, below.is_cut),
+        (vec!["sub/deep.toml", "1/2/3/near.toml"], true)
+    );
+    assert_eq!(
+        case_search::find(desk.folder.path().to_owned(), String::new(), &|_| false),
+        None
+    );
+    assert_eq!(
+        case_search::find("/no/such/folder".into(), String::new(), &|_| true)
+            .expect("wanted")
+            .cases,
+        []
+    );
+    desk.keys(&["Ctrl-O"]);
+    let mut asked = 0;
+    for letter in "near".chars() {
+        let effects = update(&mut desk.app, Action::Insert(letter));
+        asked += effects
+            .iter()
+            .filter(|effect| matches!(effect, Effect::Job(Job::Below(..))))
+            .count();
+    }
+    assert_eq!(asked, 1);
+    assert!(desk.shows("Looking below ..."), "{}", desk.screen());
+    desk.act(Action::Found(Box::new(case_search::Below {
+        cases: Vec::new(),
+        ..below
+    })));
+    assert!(desk.shows("Nothing here or below."), "{}", desk.screen());
+}

@@ -1,0 +1,757 @@
+//! The charts: snapshots, keys, properties over random cases, and bytes written per key.
+use crate::harness;
+
+use std::fs;
+
+use harness::{Desk, LARGE, SMALL, TABLE_1};
+use insta::assert_snapshot;
+use proptest::prelude::*;
+use ratatui::backend::{Backend, CrosstermBackend};
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect, Size};
+use tipstrike::case::units::System;
+use tipstrike::model::{ContactState, Outcome};
+use tipstrike::report::graphs::{GRAPHS, Graph};
+use tipstrike::tui::actions::Action;
+use tipstrike::tui::layout;
+use tipstrike::tui::pane::Pane;
+use tipstrike::tui::panes::chart::curves::{self, Whose};
+use tipstrike::tui::panes::chart::range::Frame;
+use tipstrike::tui::panes::chart::{self, raster};
+use tipstrike::tui::panes::teeth::readings::readings;
+use tipstrike::tui::solver::Answer;
+use tipstrike::tui::theme::{Look, MONO};
+
+const HUGE: Size = Size {
+    width: 240,
+    height: 70,
+};
+const MIDDLE: Size = Size {
+    width: 120,
+    height: 40,
+};
+const TINY: Size = Size {
+    width: 60,
+    height: 16,
+};
+
+/// Table 1 with a method, the chart pane focused.
+fn at_method(size: Size, method: &str) -> Desk {
+    let mut desk = Desk::on(
+        size,
+        "case.toml",
+        &TABLE_1.replace("\"exact\"", &format!("\"{method}\"")),
+    );
+    // The first frame does not wait for a slow method; an edit does.
+    desk.fill("title", "a");
+    desk.keys(&["Esc", "3"]);
+    desk
+}
+
+fn chart_area(desk: &Desk) -> Rect {
+    layout::plan(desk.app.size, desk.app.panes).area(Pane::Chart)
+}
+
+/// The lines of the chart pane.
+fn chart(desk: &Desk) -> Vec<String> {
+    let area = chart_area(desk);
+    let buffer = desk.buffer(desk.app.size);
+    let cell = |x, y| buffer.cell((x, y)).map_or(" ", |cell| cell.symbol());
+    area.rows()
+        .map(|row| {
+            row.columns()
+                .map(|at| cell(at.x, at.y))
+                .collect::<String>()
+                .trim_end()
+                .to_owned()
+        })
+        .collect()
+}
+
+/// Every chart of the method, one below the other.
+fn album(desk: &mut Desk) -> String {
+    let mut pages = Vec::new();
+    for _ in 0..GRAPHS.len() {
+        pages.extend(chart(desk));
+        desk.keys(&["j"]);
+    }
+    pages.join("\n")
+}
+
+#[test]
+fn a_chart_opened_while_a_field_is_invalid_says_so() {
+    let mut desk = Desk::on(TINY, "case.toml", TABLE_1);
+    desk.keys(&["x", "Esc", "3"]);
+    let text = chart(&desk).join("\n");
+    assert!(
+        text.contains("LAST VALID")
+            && text.contains("The charts are not redrawn while a field is invalid."),
+        "{text}"
+    );
+}
+
+#[test]
+fn every_chart() {
+    for method in ["exact", "static", "dynamic"] {
+        assert_snapshot!(
+            format!("{method}_80x24"),
+            album(&mut at_method(SMALL, method))
+        );
+    }
+    assert_snapshot!("dynamic_140x45", album(&mut at_method(LARGE, "dynamic")));
+    let mut whole = at_method(SMALL, "dynamic");
+    assert_snapshot!("dynamic_whole_80x24", album(whole.keys(&["0"])));
+    assert_snapshot!("static_60x16", album(&mut at_method(TINY, "static")));
+    let mut desk = at_method(SMALL, "dynamic");
+    desk.app.look = Look {
+        theme: &MONO,
+        ascii: true,
+    };
+    assert_snapshot!("dynamic_ascii", album(desk.keys(&["l"])));
+    let mut huge = at_method(HUGE, "static");
+    assert_snapshot!("static_240x70", chart(huge.keys(&["b", "l"])).join("\n"));
+}
+
+fn assert_title(desk: &Desk, graph: &Graph) {
+    let title = &chart(desk)[0].to_lowercase();
+    let label = graph.label.to_lowercase();
+    assert!(title.contains(&label), "{label}\n{}", desk.screen());
+}
+
+#[test]
+fn charts_are_selected_by_key_and_by_name() {
+    let mut desk = at_method(SMALL, "static");
+    for graph in GRAPHS.iter().chain([&GRAPHS[0]]) {
+        assert_title(&desk, graph);
+        desk.keys(&["j"]);
+    }
+    desk.keys(&["Up", "k"]);
+    assert_title(&desk, &GRAPHS[GRAPHS.len() - 1]);
+    for graph in &GRAPHS {
+        desk.keys(&[
+            "1",
+            ":",
+            "chart: ",
+            &graph.label.to_lowercase(),
+            "Enter",
+            "3",
+        ]);
+        assert_title(&desk, graph);
+    }
+    assert_eq!(
+        desk.kept, None,
+        "the chart is no setting: a session starts with the force"
+    );
+}
+
+#[test]
+fn static_and_dynamic_open_on_the_strike_and_0_shows_the_whole_contact() {
+    let window = |desk: &Desk| desk.app.charts().window();
+    for method in ["static", "dynamic"] {
+        let mut desk = at_method(SMALL, method);
+        let (strike, whole) = (window(&desk), desk.app.scale.across);
+        assert!(strike.length() < 0.2 * whole.length(), "{strike:?}");
+        assert!(strike.from < -1.25 && strike.to > 0.0, "{strike:?}");
+        assert_eq!(window(desk.keys(&["0"])), whole);
+        assert_eq!(window(desk.keys(&["j", "0"])), whole);
+        assert_eq!(window(desk.keys(&["v"])), strike);
+        assert_eq!(window(desk.keys(&["v"])), whole);
+
+        let mut desk = at_method(SMALL, method);
+        desk.fill("driven.tip_relief", "80 um");
+        assert_eq!(window(&desk), desk.app.scale.across, "there is no strike");
+        desk.fill("driven.tip_relief", "0 um");
+        assert!(window(&desk).length() < 0.2 * whole.length());
+    }
+    let desk = at_method(SMALL, "exact");
+    assert_eq!(window(&desk), desk.app.scale.across, "from D to E");
+}
+
+#[test]
+fn the_axis_shows_the_direction_of_time_and_the_title_its_quantity() {
+    for method in ["exact", "static"] {
+        let mut desk = at_method(SMALL, method);
+        for key in ["0", "v", "+", "l", "t", "0", "v"] {
+            desk.keys(&[key]);
+            let lines = chart(&desk);
+            let axis = lines.iter().find(|line| line.contains('└'));
+            assert!(
+                axis.is_some_and(|axis| axis.contains("time ->")),
+                "{method} {key}\n{}",
+                desk.screen()
+            );
+        }
+    }
+    let mut desk = at_method(LARGE, "static");
+    assert!(desk.shows("Force F in N over driver roll angle before E in deg "));
+    desk.keys(&["t"]);
+    assert!(desk.shows("Force F in N over time after E in us "));
+}
+
+#[test]
+fn a_chart_of_the_free_impact_says_so_in_its_title() {
+    for (method, is_free) in [("exact", false), ("static", true), ("dynamic", true)] {
+        let mut desk = at_method(SMALL, method);
+        for graph in &GRAPHS {
+            let label = graph.label.to_lowercase();
+            let closed_form = ["impact energy", "driver contact radius"];
+            assert_eq!(
+                desk.shows(&format!("3 Free impact: {label} "))
+                    || desk.shows(&format!("3 Free impact, closed form: {label} ")),
+                is_free && closed_form.contains(&label.as_str()),
+                "{}",
+                desk.screen()
+            );
+            desk.keys(&["j"]);
+        }
+    }
+}
+
+#[test]
+fn a_chart_names_the_methods_that_have_the_curve() {
+    let mut desk = at_method(SMALL, "exact");
+    desk.keys(&[":", "chart: load", "Enter"]);
+    assert!(desk.shows("Method exact does not compute the load share; static and dynamic do."));
+    let mut desk = at_method(LARGE, "static");
+    desk.keys(&[":", "chart: impact", "Enter"]);
+    assert!(
+        desk.shows("Method static does not compute the impact energy; paper and exact do."),
+        "{}",
+        desk.screen()
+    );
+    assert!(desk.shows("∘"), "those of the others are drawn");
+}
+
+#[test]
+fn the_axis_ends_at_the_last_contact_for_static_and_dynamic() {
+    for (method, ends) in [("exact", false), ("static", true), ("dynamic", true)] {
+        let mut desk = at_method(SMALL, method);
+        desk.keys(&["0"]);
+        let axis = chart(&desk)
+            .into_iter()
+            .find(|line| line.contains('└'))
+            .expect("an axis");
+        assert!(axis.contains('D') && axis.contains('E'), "{axis}");
+        assert_eq!(
+            (axis.contains('B'), axis.contains('L')),
+            (ends, ends),
+            "{axis}"
+        );
+        assert_eq!(desk.app.scale.across.to > 0.0, ends);
+    }
+}
+
+#[test]
+fn the_cursor_moves_beyond_e_and_the_readout_shows_every_value() {
+    let mut desk = at_method(SMALL, "dynamic");
+    desk.keys(&["0", "End", "L"]);
+    let cursor = desk.app.cursor.expect("a cursor");
+    assert!(
+        cursor < 0.0 && desk.shows("deg of the driver after E: F "),
+        "{}",
+        desk.screen()
+    );
+    for symbol in ["S ", "ΔV_τ ", "F/ΣF ", "q_s ", "x "] {
+        assert!(desk.shows(symbol), "{symbol}\n{}", desk.screen());
+    }
+    desk.keys(&["L"; 9]);
+    let end = desk.app.cursor.expect("a cursor");
+    desk.keys(&["L"]);
+    assert_eq!(desk.app.cursor, Some(end), "the axis ends here");
+    desk.keys(&["4"]);
+    assert!(desk.shows("after E"), "the teeth pane has the same cursor");
+    let mut desk = at_method(SMALL, "static");
+    desk.keys(&["Home", "LL"]);
+    assert!(
+        desk.shows(" N, exact "),
+        "the readout has every visible curve\n{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn a_click_moves_the_cursor_to_its_column() {
+    let mut desk = at_method(SMALL, "static");
+    let area = chart_area(&desk);
+    for x in [8, 9, 40, 78] {
+        desk.act(Action::Click(Position::new(x, area.y + 2)));
+        let axis = area.bottom() - 2;
+        assert_eq!(
+            desk.buffer(SMALL)
+                .cell((x, axis))
+                .map(|cell| cell.symbol().to_owned())
+                .as_deref(),
+            Some("▴"),
+            "{x}"
+        );
+    }
+}
+
+#[test]
+fn zoom_is_around_the_cursor_and_ends_at_the_whole_contact() {
+    let mut desk = at_method(SMALL, "static");
+    desk.keys(&["0"]);
+    let (whole, window) = (chart(&desk), |desk: &Desk| desk.app.charts().window());
+    let all = window(&desk);
+    desk.keys(&["v"]);
+    let strike = window(&desk);
+    assert!(
+        strike.length() < 0.2 * all.length() && strike.from < -1.25 && strike.to > 0.0,
+        "{strike:?}"
+    );
+    desk.keys(&["v"]);
+    assert_eq!(window(&desk), all);
+    desk.keys(&["End", "++"]);
+    assert!(
+        (window(&desk).length() / all.length() - 0.5).abs() < 1e-9 && window(&desk).covers(strike),
+        "around E"
+    );
+    desk.keys(&["-"]);
+    assert!(window(&desk).length() < all.length());
+    desk.keys(&["0", "c"]);
+    assert_eq!(chart(&desk), whole);
+    assert!(desk.keys(&["-"]).shows("the charts show the whole contact"));
+    desk.act(Action::Wheel(
+        Position::new(20, chart_area(&desk).y + 2),
+        -3,
+    ));
+    assert!(window(&desk).length() < all.length(), "the wheel zooms");
+    desk.keys(&["+"; 30]);
+    assert!(desk.shows("closest zoom"));
+}
+
+#[test]
+fn the_view_follows_the_cursor() {
+    let mut desk = at_method(SMALL, "static");
+    desk.keys(&["End"]);
+    for _ in 0..12 {
+        desk.keys(&["L"]);
+        let window = desk.app.charts().window();
+        let x = -desk.app.cursor.expect("a cursor").to_degrees();
+        assert!((window.from..=window.to).contains(&x), "{x} {window:?}");
+    }
+    assert!(
+        desk.app.chart.view.frame == Frame::Opening
+            && desk.app.cursor.is_some_and(|cursor| cursor < -0.01)
+    );
+}
+
+#[test]
+fn the_time_axis_shows_the_same_curve() {
+    let mut desk = at_method(SMALL, "dynamic");
+    let angle = chart(&desk);
+    desk.keys(&["t"]);
+    let time = chart(&desk);
+    assert!(
+        time[0].contains("over time after E in us")
+            && angle[0].contains("over driver roll angle before E in deg"),
+        "{}",
+        time[0]
+    );
+    assert_eq!(
+        angle[1..angle.len() - 2],
+        time[1..time.len() - 2],
+        "the curves do not move"
+    );
+    desk.keys(&["l"]);
+    assert!(desk.shows(" us: F "), "{}", desk.screen());
+    assert_eq!(desk.kept, None, "the x axis is no setting");
+    desk.keys(&["c", "t"]);
+    assert_eq!(chart(&desk), angle);
+}
+
+#[test]
+fn the_axis_covers_the_results_and_the_baseline() {
+    for method in ["paper", "exact", "static", "dynamic"] {
+        for relief in ["46 um", "48 um", "80 um"] {
+            let mut desk = at_method(SMALL, method);
+            desk.keys(&["b"]);
+            let pinned = desk.app.scale;
+            desk.fill("driven.tip_relief", relief);
+            for key in ["0", "v"] {
+                desk.keys(&["Esc", "3", key]);
+                let window = desk.app.charts().window();
+                let solution = |answer: &Answer| answer.of(answer.active).expect("solved").clone();
+                let baseline = solution(&desk.app.baseline.as_ref().expect("pinned").answer);
+                let now = solution(desk.app.answer.as_ref().expect("solved"));
+                for first in [&baseline, &now]
+                    .into_iter()
+                    .filter_map(chart::first_contact)
+                {
+                    assert!(
+                        window.from <= -first.to_degrees(),
+                        "{method} {relief} {key}: {window:?} {first}"
+                    );
+                }
+            }
+            // A baseline of the method paper has the curve of that method alone, not of exact.
+            assert!(
+                method == "paper" || desk.app.scale.across == pinned.across,
+                "{method} {relief}: the axis stays while it serves"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_readout_and_the_teeth_pane_show_the_same_numbers() {
+    for method in ["paper", "exact", "static", "dynamic"] {
+        let mut desk = at_method(LARGE, method);
+        desk.keys(&["Home", "lllll"]);
+        for _ in 0..6 {
+            desk.keys(&["l"]);
+            let angle = desk.app.cursor.expect("a cursor");
+            let answer = desk.app.answer.as_ref().expect("solved");
+            let solved = (&answer.inputs, answer.of(answer.active).expect("solved"));
+            let moment = ContactState::at(solved.0, solved.1, angle).expect("in sight");
+            let said = chart::readout(&desk.app.charts(), angle);
+            let told = |symbol| {
+                readings(&moment, solved, System::Metric)
+                    .into_iter()
+                    .find(|reading| reading.symbol == symbol && reading.number.is_some())
+                    .map(|one| one.to_string())
+            };
+            for symbol in ["F_S", "F", "S", "ΔV_n", "ΔV_τ", "x", "F/ΣF", "q_s", "E_k"] {
+                if let Some(told) = told(symbol) {
+                    let alone = format!(" {told}");
+                    let same = said
+                        .split([':', ',', ';'])
+                        .any(|part| part.trim_end_matches('.') == alone);
+                    assert!(same, "{method}: {told} in {said}");
+                }
+            }
+            assert!(
+                told("S").is_some() && (told("F_S").is_some() || told("F").is_some()),
+                "{method}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_run_covers_the_visible_part_of_the_contact() {
+    let mut desk = at_method(SMALL, "static");
+    let strike = desk.app.charts().window();
+    desk.keys(&["Space"]);
+    let runs = (0..200).take_while(|_| {
+        desk.act(Action::Tick);
+        desk.ticks
+    });
+    assert!((40..60).contains(&runs.count()));
+    let last = desk.app.cursor.expect("a cursor");
+    assert!((last.to_degrees() + strike.to).abs() < 1e-9 && !desk.app.is_playing);
+    assert_eq!(desk.app.charts().window(), strike);
+    desk.keys(&["0", "Home", "Space"]);
+    let runs = (0..200).take_while(|_| {
+        desk.act(Action::Tick);
+        desk.ticks
+    });
+    assert!((40..60).contains(&runs.count()));
+    let last = desk.app.cursor.expect("a cursor");
+    assert!(last < -0.4 && !desk.app.is_playing, "{last}");
+}
+
+#[test]
+fn the_baseline_is_drawn_in_the_same_chart() {
+    let mut desk = at_method(SMALL, "static");
+    desk.keys(&["b", "1"]).fill("operation.power", "12 kW");
+    desk.keys(&["Esc", "3"]);
+    for _ in 0..3 {
+        assert!(desk.shows("+ baseline"), "{}", desk.screen());
+        desk.keys(&["j", "j"]);
+    }
+    desk.keys(&["jjj", "l", "L"]);
+    assert!(desk.shows("baseline "), "{}", desk.screen());
+}
+
+#[test]
+fn a_large_pane_shows_several_charts() {
+    let desk = at_method(HUGE, "static");
+    let lines = chart(&desk).join("\n");
+    assert!(
+        lines.contains("3 Force F in N over driver roll angle before E in deg")
+            && lines.contains("─ Gap S in um"),
+        "{lines}"
+    );
+    let mut desk = at_method(LARGE, "exact");
+    assert!(!desk.shows("─ Gap S in um"));
+    desk.keys(&["z"]);
+    assert!(desk.shows("─ Gap S in um"), "{}", desk.screen());
+}
+
+#[test]
+fn a_hidden_chart_is_not_computed() {
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["F5"]);
+    let fitted = desk.app.scale;
+    desk.fill("operation.speed", "9000 rpm");
+    assert_eq!(desk.app.scale, fitted, "no curve is computed");
+    assert!(
+        !desk
+            .app
+            .answer
+            .as_ref()
+            .expect("results")
+            .methods
+            .iter()
+            .any(|(method, _)| method.shares_load())
+    );
+    desk.keys(&["Esc", "3"]);
+    assert_ne!(desk.app.scale, fitted);
+}
+
+/// The numbers on the axes of a chart: below it, and beside it.
+fn labels(desk: &Desk) -> (Vec<f64>, Vec<f64>) {
+    let lines = chart(desk);
+    let Some(axis) = lines.iter().position(|line| line.contains('└')) else {
+        return (Vec::new(), Vec::new());
+    };
+    let number = |text: &str| {
+        text.parse::<f64>()
+            .unwrap_or_else(|_| panic!("{text} is no number\n{}", desk.screen()))
+    };
+    let below = lines
+        .get(axis + 1)
+        .map_or("", String::as_str)
+        .split_whitespace()
+        .map(number)
+        .collect();
+    let beside = lines[..axis]
+        .iter()
+        .filter_map(|line| line.split_once('┤'))
+        .map(|(label, _)| number(label.trim()));
+    (below, beside.collect())
+}
+
+fn assert_round(numbers: &[f64], desk: &Desk) {
+    let steps: Vec<f64> = numbers
+        .windows(2)
+        .map(|pair| (pair[1] - pair[0]).abs())
+        .collect();
+    for step in &steps {
+        let digit = step / 10f64.powf((step * (1.0 + 1e-6)).log10().floor());
+        assert!(
+            [1.0, 2.0, 5.0]
+                .iter()
+                .any(|round| (digit - round).abs() < 1e-6),
+            "{numbers:?}\n{}",
+            desk.screen()
+        );
+        assert!(
+            (step - steps[0]).abs() < 1e-6 * step,
+            "{numbers:?}\n{}",
+            desk.screen()
+        );
+    }
+}
+
+/// The plots of the visible charts, from top to bottom, found by their axes.
+fn plots(desk: &Desk) -> Vec<Rect> {
+    let area = chart_area(desk);
+    let lines = chart(desk);
+    let column = |line: &str, letter| line.chars().position(|found| found == letter);
+    let mut plots = Vec::new();
+    for (bottom, line) in lines.iter().enumerate() {
+        let Some(left) = column(line, '└') else {
+            continue;
+        };
+        let is_side = |line: &&String| {
+            let side = line.chars().nth(left);
+            side.is_some_and(|side| "│┤".contains(side))
+        };
+        let height = lines[..bottom].iter().rev().take_while(is_side).count();
+        let x = area.x + left as u16 + 1;
+        plots.push(Rect {
+            x,
+            y: area.y + (bottom - height) as u16,
+            width: area.right() - 1 - x,
+            height: height as u16,
+        });
+    }
+    plots
+}
+
+/// Every curve is drawn whole, and every curve is named, with no dash or dot of a line in its name.
+fn assert_legends(desk: &Desk) {
+    let app = &desk.app;
+    let screen = desk.buffer(app.size);
+    let text = chart(desk).join("\n");
+    let window = app.charts().window();
+    for (graph, plot) in app.charts().shown().into_iter().zip(plots(desk)) {
+        let curves = curves::apart(curves::curves(&app.charts(), &GRAPHS[graph]));
+        let mut alone = Buffer::empty(screen.area);
+        for curve in &curves {
+            let spans = (window, app.scale.upright[graph]);
+            raster::draw(&app.charts(), curve, spans, plot, &mut alone);
+        }
+        let is_drawn = |at: &Position| alone[*at].symbol() != " ";
+        for at in plot.positions().filter(is_drawn) {
+            assert_eq!(alone[at].symbol(), screen[at].symbol(), "{at}\n{text}");
+        }
+        for curve in &curves {
+            let name = match curve.whose {
+                Whose::Active(method) => format!("⠒ {}", method.name()),
+                Whose::Other(method) => method.name().to_owned(),
+                Whose::Pinned(_) => "+ baseline".to_owned(),
+                Whose::Bound(symbol) => format!("╌ {symbol}"),
+            };
+            assert!(text.contains(&name), "{name} is missing\n{text}");
+        }
+    }
+}
+
+#[test]
+fn a_legend_never_covers_a_curve() {
+    for method in ["exact", "static", "dynamic"] {
+        let mut desk = at_method(SMALL, method);
+        desk.keys(&["b"]).fill("operation.power", "12 kW");
+        assert_charts(&mut desk);
+        desk.keys(&["1"]).fill("driven.tip_relief", "80 um");
+        assert_charts(&mut desk);
+    }
+}
+
+/// Every chart at several sizes: no panic, no invalid number, round ticks, different labels, and
+/// legends clear of curves.
+fn assert_charts(desk: &mut Desk) {
+    desk.keys(&["Esc", "3"]);
+    for (size, keys) in [(SMALL, "0"), (TINY, "v"), (LARGE, "+"), (HUGE, "t")] {
+        desk.act(Action::Resize(size));
+        desk.keys(&[keys, "l"]);
+        for _ in &GRAPHS {
+            let screen = desk.screen();
+            assert!(
+                !["NaN", "inf ", "n/a"]
+                    .iter()
+                    .any(|none| screen.contains(none)),
+                "{screen}"
+            );
+            assert_legends(desk);
+            if size.height < HUGE.height {
+                let (below, beside) = labels(desk);
+                assert_round(&below, desk);
+                assert_round(&beside, desk);
+            }
+            desk.keys(&["j"]);
+        }
+    }
+    desk.act(Action::Resize(SMALL));
+}
+
+#[test]
+fn every_example_is_drawn_at_every_method() {
+    for entry in fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/cases"))
+        .expect("the cases")
+        .flatten()
+    {
+        let path = entry.path();
+        if path.extension().is_none_or(|ending| ending != "toml") {
+            continue;
+        }
+        let mut desk = Desk::on(
+            SMALL,
+            "case.toml",
+            &fs::read_to_string(&path).expect("a case"),
+        );
+        for _ in 0..4 {
+            desk.keys(&["Ctrl-T"]);
+            assert_charts(&mut desk);
+            let solution = desk
+                .app
+                .answer
+                .as_ref()
+                .and_then(|answer| answer.of(answer.active))
+                .expect("results");
+            let (method, strikes) = (solution.method, solution.outcome == Outcome::CornerContact);
+            let is_drawn = chart(desk.keys(&[":", "chart: force", "Enter", "0"]))
+                .iter()
+                .any(|line| line.contains('└'));
+            assert!(is_drawn || !strikes, "{} {:?}", path.display(), method);
+        }
+    }
+}
+
+#[test]
+fn random_cases_are_drawn() {
+    let sizes = (12..150u32, 12..150u32, -1.3..1.69f64, -9.0..-3.5f64);
+    let loads = (0.0..6.0f64, 0.0..4.5f64, 0..3usize);
+    let config = ProptestConfig {
+        cases: 24,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    };
+    proptest!(config, |((z1, z2, module, deviation) in sizes, (power, speed, method) in loads)| {
+        let text = TABLE_1
+            .replacen("teeth = 20", &format!("teeth = {z1}"), 1)
+            .replacen("teeth = 20", &format!("teeth = {z2}"), 1)
+            .replace("\"5 mm\"", &format!("\"{:e} mm\"", 10f64.powf(module)))
+            .replace("\"16 um\"", &format!("\"{:e} mm\"", 10f64.powf(deviation + 3.0)))
+            .replace("bore_radius = \"20 mm\"\n", "")
+            .replace("deflection =", "# deflection =")
+            .replace("\"15 kW\"", &format!("\"{:e} W\"", 10f64.powf(power)))
+            .replace("\"2000 rpm\"", &format!("\"{:e} rpm\"", 10f64.powf(speed)))
+            .replace("method = \"exact\"", &format!("method = \"{}\"", ["paper", "exact", "static"][method]));
+        assert_charts(&mut Desk::on(SMALL, "case.toml", &text));
+    });
+}
+
+/// The bytes that change one picture of the chart into another.
+fn bytes(before: &Buffer, after: &Buffer, area: Rect) -> usize {
+    let mut written = Vec::new();
+    let changes = before
+        .diff(after)
+        .into_iter()
+        .filter(|(x, y, _)| area.contains(Position::new(*x, *y)));
+    CrosstermBackend::new(&mut written)
+        .draw(changes)
+        .expect("room in memory");
+    written.len()
+}
+
+/// The bytes that a key writes into the chart.
+fn cost(desk: &mut Desk, key: &str) -> usize {
+    let before = desk.buffer(desk.app.size);
+    desk.keys(&[key]);
+    bytes(&before, &desk.buffer(desk.app.size), chart_area(desk))
+}
+
+#[test]
+fn a_key_changes_few_bytes_of_a_chart() {
+    for (size, most) in [(SMALL, 1400), (MIDDLE, 3000)] {
+        let mut all = Vec::new();
+        for (method, graph) in ["exact", "static", "dynamic"]
+            .iter()
+            .flat_map(|method| (0..GRAPHS.len()).map(move |graph| (method, graph)))
+        {
+            let mut desk = at_method(size, method);
+            desk.app.chart.graph = graph;
+            for (field, unit, digits) in [
+                ("operation.speed", " rpm", "2123.4567"),
+                ("deviations.base_pitch", " um", "16.54321"),
+                ("operation.power", " kW", "15.01234"),
+            ] {
+                desk.fill(field, unit).keys(&["Home"]);
+                let keys = digits
+                    .chars()
+                    .map(|digit| digit.to_string())
+                    .chain(["Backspace".to_owned()]);
+                all.extend(keys.map(|key| cost(&mut desk, &key)));
+            }
+            desk.keys(&["Esc", "3", "l"]);
+            all.extend(
+                ["l"; 12]
+                    .into_iter()
+                    .chain(["L"])
+                    .map(|key| cost(&mut desk, key)),
+            );
+        }
+        all.sort_unstable();
+        let late = all[all.len() * 95 / 100];
+        println!(
+            "chart at {size}: median {} bytes, 95 % {late}, most {}",
+            all[all.len() / 2],
+            all[all.len() - 1]
+        );
+        assert!(late <= most, "{late} bytes at {size}");
+    }
+}

@@ -1,0 +1,254 @@
+//! Results that explain themselves: Enter shows the page of `tipstrike explain`, and from its
+//! fields one goes to the form.
+use crate::harness;
+
+use std::process::Command;
+
+use harness::{Desk, LARGE, SMALL, TABLE_1};
+use insta::assert_snapshot;
+use tipstrike::case::EXAMPLES;
+use tipstrike::tui::actions::Action;
+use tipstrike::tui::ascii::written_out;
+use tipstrike::tui::explanation::Explanation;
+use tipstrike::tui::prompt::Prompt;
+use tipstrike::tui::theme::{Look, MONO};
+use tipstrike::tui::view::{explain, results};
+
+/// The lines inside the box on the screen.
+fn in_box(desk: &Desk) -> Vec<String> {
+    let screen = desk.screen();
+    let lines = screen
+        .lines()
+        .filter(|line| line.ends_with(['█', '│']) || line.contains("│ ") || line.contains("█ "));
+    let inside = |line: &str| {
+        Some(
+            line.split_once("│ ")?
+                .1
+                .trim_end_matches(['│', '█', ' '])
+                .to_owned(),
+        )
+    };
+    lines.filter_map(inside).collect()
+}
+
+/// The whole page, scrolled through line by line.
+fn read_through(desk: &mut Desk) -> Vec<String> {
+    let mut page = in_box(desk);
+    loop {
+        let before = desk.screen();
+        desk.keys(&["Down"]);
+        if desk.screen() == before {
+            return page;
+        }
+        page.extend(in_box(desk).pop());
+    }
+}
+
+fn of(desk: &Desk) -> &Explanation {
+    match desk.app.prompts.last() {
+        Some(Prompt::Explain(explanation)) => explanation,
+        other => panic!("no explanation: {other:?}"),
+    }
+}
+
+fn told(arguments: &[&str]) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_tipstrike"))
+        .args(arguments)
+        .output()
+        .expect("it runs");
+    String::from_utf8(output.stdout).expect("text")
+}
+
+fn words(text: &str) -> Vec<&str> {
+    text.split_whitespace().collect()
+}
+
+#[test]
+fn the_page_of_every_result_is_that_of_the_command_and_can_be_read_through() {
+    for (method, pages) in [("exact", 34), ("dynamic", 40)] {
+        let mut desk = Desk::on(
+            SMALL,
+            "case.toml",
+            &TABLE_1.replace("method = \"exact\"", &format!("method = \"{method}\"")),
+        );
+        let path = desk.path("case.toml").display().to_string();
+        let count = results::count(&desk.app);
+        assert!(count >= pages, "{method}: {count}");
+        // Of the slow method every sixth: the text is the same, and each takes a dozen solves.
+        for row in (0..count).step_by(if method == "dynamic" { 6 } else { 1 }) {
+            desk.app.tab.row = row;
+            desk.keys(&["Esc", "2", "Enter"]);
+            let key = of(&desk).quantity.key;
+            let page = read_through(&mut desk)
+                .join("\n")
+                .replace("DIR", &desk.folder.path().display().to_string());
+            let command = told(&["explain", key, &path]);
+            assert_eq!(words(&page), words(&command), "{key}");
+            desk.keys(&["Esc"]);
+        }
+    }
+}
+
+#[test]
+fn from_the_fields_behind_a_result_one_goes_to_the_form() {
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Esc", "2", "Enter"]);
+    let fields = of(&desk).fields();
+    assert!(fields.len() > 20 && fields[0] == "pair.module");
+    for (at, key) in fields.iter().enumerate() {
+        desk.keys(&["Tab"]);
+        assert!(
+            desk.shows(&format!("▸{key}")),
+            "{at} {key}\n{}",
+            desk.screen()
+        );
+    }
+    desk.keys(&["Tab"]);
+    assert_eq!(of(&desk).field(), Some("pair.module"), "round and round");
+    desk.keys(&["BackTab", "BackTab"]);
+    let wanted = of(&desk).field().expect("one is marked");
+    desk.keys(&["Enter"]);
+    assert!(desk.app.prompts.is_empty());
+    assert_eq!(tipstrike::case::FIELDS[desk.app.focus].key, wanted);
+    desk.keys(&["Esc", "2", "Enter", "Enter"]);
+    assert_eq!(
+        of(&desk).field(),
+        Some("pair.module"),
+        "Enter marks the first one before it goes there"
+    );
+}
+
+#[test]
+fn a_page_that_is_being_written_says_so_and_a_late_one_is_dropped() {
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Esc", "2"]);
+    let event = harness::event("Enter");
+    let action = tipstrike::tui::actions::of_key(event, desk.app.place()).expect("a key");
+    let effects = tipstrike::tui::update::update(&mut desk.app, action);
+    assert!(desk.shows("being computed") && of(&desk).quantity.key == "impact_force");
+    desk.keys(&["Esc", "j", "Enter"]);
+    let before = desk.screen();
+    for effect in effects {
+        let tipstrike::tui::actions::Effect::Job(errand) = effect else {
+            continue;
+        };
+        let late = tipstrike::tui::jobs::perform(errand, &|_| true).expect("an answer");
+        desk.act(tipstrike::tui::effects::told(late));
+    }
+    assert_eq!(desk.screen(), before);
+}
+
+#[test]
+fn what_the_model_refuses_and_what_is_invalid_is_told_in_words() {
+    let mut desk = Desk::new(SMALL);
+    desk.fill("driven.addendum", "1.9")
+        .keys(&["Esc", "2", "Enter"]);
+    assert!(
+        desk.shows("Not solved: ") && desk.shows("Correction: "),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Esc", "1"])
+        .fill("driven.addendum", "x")
+        .keys(&["Esc", "2", "Enter"]);
+    assert!(
+        desk.shows("these are the last valid results"),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn the_page_says_which_units_it_is_in() {
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Esc", "2", "Enter"]);
+    assert!(!desk.shows("inch"));
+    desk.keys(&["Esc", ":", "units", "Enter", "2", "Enter"]);
+    assert!(
+        desk.shows("492.56 lbf in inch units; this page is in metric ones."),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn every_letter_of_every_page_has_its_like_in_ascii() {
+    for example in EXAMPLES {
+        let mut desk = Desk::on(LARGE, "case.toml", example.text);
+        desk.app.look = Look {
+            theme: &MONO,
+            ascii: true,
+        };
+        for row in 0..results::count(&desk.app) {
+            desk.app.tab.row = row;
+            desk.keys(&["Esc", "2", "Enter"]);
+            let page = of(&desk)
+                .page
+                .as_ref()
+                .expect("it is written")
+                .as_ref()
+                .expect("it is explained");
+            let page = tipstrike::report::explain::render(page, "case");
+            let strange: Vec<_> = page
+                .lines()
+                .map(written_out)
+                .filter(|line| !line.is_ascii())
+                .collect();
+            assert!(
+                strange.is_empty(),
+                "{} of {}: {strange:?}",
+                of(&desk).quantity.key,
+                example.name
+            );
+            desk.keys(&["Esc"]);
+        }
+    }
+}
+
+#[test]
+fn it_scrolls_no_farther_than_its_end_at_any_size() {
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Esc", "2", "Enter", "PageDown", "Tab"]);
+    for (width, height) in [
+        (0, 0),
+        (1, 1),
+        (60, 16),
+        (61, 17),
+        (80, 24),
+        (200, 60),
+        (300, 100),
+    ] {
+        desk.act(Action::Resize(ratatui::layout::Size { width, height }));
+        desk.keys(&["PageDown", "PageDown", "Down", "Tab", "PageUp"]);
+        desk.screen();
+    }
+    let Some(Prompt::Explain(mut page)) = desk.app.prompts.last().cloned() else {
+        panic!("it is open")
+    };
+    explain::scroll(&mut page, isize::MAX, SMALL, false);
+    let end = page.top;
+    explain::scroll(&mut page, 1, SMALL, false);
+    assert_eq!(page.top, end);
+}
+
+#[test]
+fn the_screens() {
+    for (size, look) in [
+        ("80x24", Look::FULL),
+        ("140x45", Look::FULL),
+        (
+            "ascii",
+            Look {
+                theme: &MONO,
+                ascii: true,
+            },
+        ),
+    ] {
+        let mut desk = Desk::new(if size == "140x45" { LARGE } else { SMALL });
+        desk.app.look = look;
+        desk.keys(&["Esc", "2", "Enter"]);
+        assert_snapshot!(format!("page_{size}"), desk.screen());
+        desk.keys(&["Tab", "Tab"]);
+        assert_snapshot!(format!("fields_{size}"), desk.screen());
+    }
+}

@@ -1,0 +1,220 @@
+//! What makes the form a pleasure: steps, conversions, materials, limits, inch units, what does not
+//! act.
+use crate::harness;
+
+use harness::{Desk, LARGE, SMALL, TABLE_1};
+use tipstrike::case::fields::index_of;
+
+fn text<'d>(desk: &'d Desk, key: &str) -> &'d str {
+    desk.app
+        .case
+        .text(index_of(key).unwrap())
+        .unwrap_or_default()
+}
+
+/// A line of the screen that holds this text.
+fn line(desk: &Desk, text: &str) -> String {
+    let screen = desk.screen();
+    screen
+        .lines()
+        .find(|line| line.contains(text))
+        .unwrap_or_else(|| panic!("{text} is not on\n{screen}"))
+        .to_owned()
+}
+
+#[test]
+fn a_value_steps_inside_a_field_and_outside() {
+    let mut desk = Desk::new(SMALL);
+    desk.go_to("deviations.base_pitch");
+    desk.keys(&["Shift-Up"]);
+    assert_eq!(text(&desk, "deviations.base_pitch"), "17 um");
+    desk.keys(&["Alt-Down"]);
+    assert_eq!(text(&desk, "deviations.base_pitch"), "7 um");
+    desk.keys(&["Esc", "+", "=", "-", ">", "<"]);
+    assert_eq!(
+        text(&desk, "deviations.base_pitch"),
+        "7 um",
+        "a letter that is typed unseen changes no value"
+    );
+    assert!(desk.shows("< is no command in Form"), "{}", desk.screen());
+    desk.keys(&["Alt-Up", "Shift-Down"]);
+    assert_eq!(text(&desk, "deviations.base_pitch"), "16 um");
+    desk.keys(&["Shift-Up"]);
+    assert_eq!(text(&desk, "deviations.base_pitch"), "17 um");
+    desk.keys(&["u"]);
+    assert_ne!(text(&desk, "deviations.base_pitch"), "17 um");
+}
+
+#[test]
+fn a_step_where_there_is_none_says_so_and_changes_nothing() {
+    let mut desk = Desk::new(SMALL);
+    desk.go_to("model.deflection").keys(&["Ctrl-U"]);
+    desk.keys(&["Shift-Up"]);
+    assert!(desk.shows("combined deflection has no step here"));
+    desk.go_to("title");
+    desk.keys(&["Shift-Down"]);
+    assert_eq!(text(&desk, "title"), "Zhou & Chen 2014, Table 1");
+}
+
+#[test]
+fn a_value_in_another_unit_is_told_in_the_usual_one() {
+    let mut desk = Desk::new(SMALL);
+    desk.fill("operation.power", "20 hp");
+    assert!(desk.shows("= 14.914 kW."), "{}", desk.screen());
+    desk.go_to("operation.speed");
+    assert!(desk.shows("= 209.44 rad/s."));
+}
+
+#[test]
+fn what_the_method_does_without_is_marked_and_says_why() {
+    let mut desk = Desk::new(SMALL);
+    desk.go_to("driver.root_relief");
+    let idle = line(&desk, "Ca1");
+    assert!(idle.starts_with("- Ca1"), "{idle}");
+    desk.go_to("driver.tip_relief");
+    assert!(desk.shows("Does not act: at run-in the driven tip meets the driver's root"));
+}
+
+#[test]
+fn a_material_fills_three_fields_at_once_and_undo_takes_it_back() {
+    let mut desk = Desk::new(LARGE);
+    desk.go_to("driven.teeth").keys(&["Alt-G"]);
+    assert!(desk.shows("Material of the driven gear"));
+    desk.keys(&["42cr", "Enter"]);
+    assert!(
+        desk.shows("driven: E 210 GPa, ν 0.3, ρ 7720 kg/m3 from 42CrMo4"),
+        "{}",
+        desk.screen()
+    );
+    assert_eq!(
+        (text(&desk, "driven.young"), text(&desk, "driven.density")),
+        ("210 GPa", "7720 kg/m3")
+    );
+    assert_eq!(text(&desk, "driver.young"), "205 GPa");
+    assert!(desk.shows("Driven (gear 2), 42CrMo4"), "{}", desk.screen());
+    desk.go_to("driven.density");
+    assert!(
+        line(&desk, " *E2 ").contains("210 GPa") && line(&desk, "▸*ρ2 ").contains("7720 kg/m3"),
+        "{}",
+        desk.screen()
+    );
+    assert!(
+        line(&desk, "  ν2 ").contains("0.3"),
+        "what stayed is not marked:\n{}",
+        desk.screen()
+    );
+    desk.go_to("driven.young");
+    assert!(
+        desk.shows("42CrMo4: Deutsche Edelstahlwerke"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Ctrl-Z"]);
+    assert!(!desk.app.is_unsaved());
+    assert!(!desk.shows(" *E2 "), "{}", desk.screen());
+    desk.go_to("pair.module").keys(&["Alt-G", "PEEK", "Enter"]);
+    assert!(desk.shows("both gears: E 4 GPa"), "{}", desk.screen());
+    assert_eq!(
+        (text(&desk, "driver.young"), text(&desk, "driven.young")),
+        ("4 GPa", "4 GPa")
+    );
+}
+
+#[test]
+fn limits_are_a_group_of_the_form_with_their_verdicts() {
+    let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
+    desk.keys(&["Ctrl-End"]);
+    assert!(line(&desk, "impact force         2500 N").contains("ok 88 %"));
+    desk.keys(&["Ctrl-U", "2 kN"]);
+    assert!(
+        line(&desk, "2 kN").contains("EXCEEDED 110 %"),
+        "{}",
+        desk.screen()
+    );
+    assert!(desk.shows("2191.0 N !"), "the result is marked too");
+    desk.keys(&["Shift-Up"]);
+    desk.keys(&["Ctrl-S"]);
+    assert_eq!(desk.read("case.toml"), TABLE_1.replace("2500 N", "3 kN"));
+}
+
+#[test]
+fn a_limit_begins_with_what_the_result_is_and_goes_when_it_is_emptied() {
+    let mut desk = Desk::new(LARGE);
+    desk.keys(&["Alt-L", "normal_vel", "Enter"]);
+    assert!(
+        line(&desk, "ok 100 %").contains("0.82107 m/s"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Ctrl-U"]);
+    assert!(desk.shows("(no limit)"));
+    desk.keys(&["0.8"]);
+    assert!(
+        desk.shows("Unit added: m/s.") && desk.shows("0.8 m/s"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&[" m/s", "Ctrl-U", "Up"]);
+    assert!(
+        !desk.shows("(no limit)") && !desk.app.is_unsaved(),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn a_limit_that_is_no_value_is_not_saved() {
+    let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
+    desk.keys(&["Ctrl-End", "Ctrl-U", "much", "Ctrl-Home", "Ctrl-S"]);
+    assert!(desk.shows("not saved"));
+    assert_eq!(desk.read("case.toml"), TABLE_1);
+    assert_eq!(
+        desk.app.input.value(),
+        "much",
+        "the focus is on what must be mended"
+    );
+}
+
+#[test]
+fn inch_units_are_shown_and_the_case_stays_as_it_is_written() {
+    let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
+    desk.keys(&["Esc", ":", "units", "Enter"]);
+    assert!(
+        desk.shows("492.56 lbf") && desk.shows("thou"),
+        "{}",
+        desk.screen()
+    );
+    assert!(desk.shows("5 mm") && !desk.app.is_unsaved());
+    desk.go_to("pair.module");
+    assert!(
+        desk.shows("= 0.19685 in. m module, about 0.00197 to 1.97 in"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Esc", ":", "units", "Enter"]);
+    assert!(desk.shows("2191.0 N"));
+}
+
+#[test]
+fn a_form_speaks_of_labels_and_not_of_files() {
+    let mut desk = Desk::new(LARGE);
+    desk.fill("operation.speed", "fast");
+    assert!(
+        desk.shows("such as 20 rpm") && !desk.shows("\"20 rpm\""),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn a_search_finds_a_field_by_its_greek_letter_and_its_meaning() {
+    let mut desk = Desk::new(SMALL);
+    for (typed, key) in [
+        ("alpha", "pair.pressure_angle"),
+        ("fpb", "deviations.base_pitch"),
+        ("coulomb", "operation.friction_coefficient"),
+    ] {
+        desk.keys(&["Esc", "/", typed, "Enter"]);
+        assert_eq!(desk.app.focus, index_of(key).unwrap(), "{typed}");
+    }
+}

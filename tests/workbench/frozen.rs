@@ -1,0 +1,99 @@
+//! Old cases open for ever and keep their bytes; newer ones are shown and never written; saves
+//! leave no litter.
+use crate::harness;
+
+use std::fs;
+use std::path::Path;
+use std::time::{Duration, SystemTime};
+
+use harness::{Desk, SMALL, TABLE_1};
+use tipstrike::case::Document;
+use tipstrike::tui::actions::Effect;
+
+#[test]
+fn every_frozen_case_opens_and_an_untouched_save_keeps_its_bytes() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/frozen");
+    let frozen: Vec<_> = fs::read_dir(folder)
+        .expect("a folder")
+        .flatten()
+        .map(|entry| entry.path())
+        .collect();
+    assert!(frozen.len() >= 8);
+    let own = tempfile::tempdir().expect("a folder");
+    for path in frozen {
+        let bytes = fs::read(&path).expect("it is there");
+        let copy = own.path().join(path.file_name().expect("a name"));
+        fs::write(&copy, &bytes).expect("room on the disk");
+        let mut document = Document::read(&copy).unwrap_or_else(|fault| panic!("{fault}"));
+        assert!(document.case.inputs().is_ok(), "{}", path.display());
+        document
+            .save(&copy)
+            .unwrap_or_else(|fault| panic!("{fault}"));
+        assert!(
+            fs::read(&copy).expect("it is there") == bytes,
+            "{}",
+            path.display()
+        );
+    }
+}
+
+#[test]
+fn a_newer_format_is_shown_and_never_written() {
+    let newer = TABLE_1.replacen("format = 1", "format = 2\nnew_key = \"kept\"", 1);
+    let mut desk = Desk::new(SMALL);
+    let path = desk.write("newer.toml", &newer);
+    desk.perform(Effect::Load(path.clone()));
+    assert!(
+        desk.shows("*read-only*") && desk.shows("newer format"),
+        "{}",
+        desk.screen()
+    );
+    assert!(desk.shows("5 mm"), "what this version knows is shown");
+    desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
+    assert!(
+        desk.shows("not saved: ") && desk.app.is_unsaved(),
+        "{}",
+        desk.screen()
+    );
+    let other = desk.path("other.toml").display().to_string();
+    desk.keys(&["F2", "Ctrl-U", &other, "Enter"]);
+    assert!(
+        desk.shows("not saved: ") && !desk.path("other.toml").exists(),
+        "{}",
+        desk.screen()
+    );
+    assert_eq!(desk.read("newer.toml"), newer);
+    // Nor is a text without any sense a newer case.
+    let path = desk.write("none.toml", "format = 2\n\u{1b}[2J");
+    desk.perform(Effect::Load(path));
+}
+
+#[test]
+fn a_save_takes_away_what_a_killed_one_left_and_nothing_else() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    let dead = u32::MAX / 4;
+    let ours = std::process::id();
+    let old = SystemTime::now() - Duration::from_secs(3600);
+    let names = [
+        format!(".tipstrike-{dead}-abc"),
+        format!(".tipstrike-{dead}-new"),
+        format!(".tipstrike-{ours}-abc"),
+        ".tipstrike-x".into(),
+    ];
+    for name in &names {
+        let path = desk.write(name, "left");
+        if !name.ends_with("new") {
+            fs::File::options()
+                .write(true)
+                .open(path)
+                .and_then(|file| file.set_modified(old))
+                .expect("our own file");
+        }
+    }
+    desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
+    assert!(desk.shows("saved "), "{}", desk.screen());
+    assert_eq!(
+        names.map(|name| desk.path(&name).exists()),
+        [false, true, true, true]
+    );
+}

@@ -1,0 +1,664 @@
+//! Keys in, screen and files out: editing, saving, opening, leaving.
+use crate::harness;
+
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+
+use harness::{Desk, LARGE, SMALL, TABLE_1, name};
+use tipstrike::model::Stages;
+use tipstrike::tui::actions::Action;
+use tipstrike::tui::solver::Request;
+
+#[test]
+fn every_keystroke_that_leaves_a_valid_value_changes_the_results() {
+    let mut desk = Desk::new(SMALL);
+    let force = |desk: &Desk| {
+        let line = desk
+            .screen()
+            .lines()
+            .find(|line| line.contains("F_S   "))
+            .map(str::to_owned);
+        line.expect("the impact force is in sight")
+    };
+    assert!(force(&desk).contains("2191"));
+    desk.go_to("operation.speed").keys(&["Home", "Delete", "1"]);
+    let slower = force(&desk);
+    assert!(!slower.contains("2191"), "{slower}");
+    desk.keys(&["Backspace", "2"]);
+    assert!(force(&desk).contains("2191"));
+}
+
+#[test]
+fn an_invalid_value_keeps_the_last_valid_results_and_says_so() {
+    let mut desk = Desk::new(SMALL);
+    desk.fill("operation.speed", "2000 rpx");
+    assert!(desk.shows("LAST VALID"));
+    assert!(desk.shows("2191"));
+    assert!(desk.shows("! "));
+    desk.keys(&["Backspace", "m"]);
+    assert!(!desk.shows("LAST VALID"));
+}
+
+#[test]
+fn the_method_is_a_field_and_a_key() {
+    let mut desk = Desk::new(SMALL);
+    assert!(desk.shows("▸exact"));
+    desk.go_to("model.method").keys(&["Left"]);
+    assert!(desk.shows("▸paper"));
+    assert!(desk.shows("‹ paper ›"));
+    desk.keys(&["Space"]);
+    assert!(desk.shows("▸exact"));
+    desk.go_to("pair.module")
+        .keys(&["Ctrl-T", "Ctrl-T", "Ctrl-T", "Ctrl-T"]);
+    assert!(desk.shows("▸paper"));
+    assert!(desk.shows("5 mm"));
+}
+
+#[test]
+fn undo_goes_back_a_field_and_redo_forward() {
+    let mut desk = Desk::new(SMALL);
+    desk.fill("operation.speed", "1500 rpm")
+        .keys(&["Tab", "0.1", "Ctrl-Z"]);
+    assert!(
+        desk.shows("undo: friction coefficient: 0.1 -> (empty)"),
+        "{}",
+        desk.screen()
+    );
+    assert!(desk.shows("1500 rpm"));
+    desk.keys(&["Ctrl-Z"]);
+    assert!(
+        desk.shows("2000 rpm") && desk.shows("undo: speed: 1500 rpm -> 2000 rpm"),
+        "{}",
+        desk.screen()
+    );
+    assert!(!desk.app.is_unsaved());
+    desk.keys(&["Ctrl-Y"]);
+    assert!(desk.shows("1500 rpm"));
+    desk.keys(&["Ctrl-Z", "Ctrl-Z"]);
+    assert!(desk.shows("nothing to undo"));
+}
+
+#[test]
+fn the_method_that_is_switched_through_is_one_step_of_undo() {
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["6", "Ctrl-T", "Ctrl-T", "Ctrl-T"]);
+    assert!(
+        desk.shows("method auto") && desk.shows("6 mm"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Ctrl-Z"]);
+    assert!(
+        desk.shows("▸exact") && desk.shows("6 mm") && desk.shows(": auto -> "),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Ctrl-T", "7", "Ctrl-Z"]);
+    assert!(
+        desk.shows("▸static") && desk.shows("6 mm"),
+        "what is typed after it is a step of its own\n{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn what_no_value_begins_with_is_a_command_in_a_field_of_a_value() {
+    let mut desk = Desk::new(LARGE);
+    for (keys, told) in [
+        (&["/power", "Enter", "16"][..], "16 kW"),
+        (
+            &["Ctrl-U", ":undo", "Enter"],
+            "undo: power: (empty) -> 15 kW",
+        ),
+        (&["/method", "Enter", ":theme", "Enter"], "theme contrast"),
+        (
+            &["Alt-L", "impact_force", "Enter", "/"],
+            "Go to a field or a result",
+        ),
+    ] {
+        assert!(desk.keys(keys).shows(told), "{keys:?}\n{}", desk.screen());
+    }
+    desk.keys(&["Esc"]).go_to("pair.module").keys(&["End", "/"]);
+    assert!(desk.shows("5 mm/") && desk.shows("! "), "{}", desk.screen());
+    desk.keys(&["Ctrl-Z"]).go_to("title").keys(&["/:"]);
+    assert!(
+        desk.shows("/:") && desk.app.prompts.is_empty(),
+        "a title is of any letters\n{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn the_notes_are_told_from_every_pane() {
+    for pane in ["1", "2", "3", "4", "5"] {
+        let mut desk = Desk::new(LARGE);
+        assert!(
+            desk.keys(&["Esc", pane, "n"])
+                .shows("Outcome, gauges, notes"),
+            "{pane}\n{}",
+            desk.screen()
+        );
+    }
+}
+
+#[test]
+fn what_is_copied_of_chart_and_teeth_is_the_reading_at_the_cursor() {
+    for pane in ["3", "4"] {
+        let mut desk = Desk::new(LARGE);
+        desk.keys(&["Esc", pane, "y"]);
+        assert!(
+            desk.shows("no reading to copy") && desk.copied.is_none(),
+            "{}",
+            desk.screen()
+        );
+        desk.keys(&["l", "y"]);
+        let copied = desk.copied.clone().unwrap_or_default();
+        assert!(
+            copied.starts_with("1.3663 deg of the driver before E: ")
+                && copied.contains("F_S 2191.0 N"),
+            "{copied}"
+        );
+        assert!(
+            desk.shows("copied 1.3663 deg of the driver before E"),
+            "{}",
+            desk.screen()
+        );
+    }
+}
+
+#[test]
+fn a_left_out_field_shows_what_holds() {
+    let mut desk = Desk::new(SMALL);
+    desk.fill("model.deflection", "");
+    assert!(desk.shows("(from the load)"));
+    desk.keys(&["30 um"]);
+    assert!(desk.shows("30 um"));
+}
+
+#[test]
+fn a_save_keeps_comments_and_order_and_takes_the_mark_away() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.fill("operation.speed", "1500 rpm");
+    assert!(desk.shows("*unsaved*"));
+    desk.keys(&["Ctrl-S"]);
+    assert!(!desk.shows("*unsaved*"));
+    assert!(desk.shows("saved "));
+    assert_eq!(
+        desk.read("case.toml"),
+        TABLE_1.replace("2000 rpm", "1500 rpm")
+    );
+}
+
+#[test]
+fn the_built_in_case_asks_for_a_name_and_an_existing_file_for_leave() {
+    let mut desk = Desk::new(SMALL);
+    let taken = desk.write("taken.toml", "not yours");
+    desk.keys(&["Ctrl-S", "Ctrl-U", name(&taken), "Enter"]);
+    assert!(desk.shows("is there already"));
+    desk.keys(&["Esc", "Backspace"]);
+    assert_eq!(desk.read("taken.toml"), "not yours");
+    desk.keys(&["Ctrl-U", name(&desk.path("new.toml")), "Enter"]);
+    assert_eq!(desk.read("new.toml"), TABLE_1);
+    assert!(desk.shows("new.toml"));
+    desk.keys(&["F2", "Ctrl-U", name(&taken), "Enter", "o"]);
+    assert_eq!(desk.read("taken.toml"), TABLE_1);
+}
+
+#[test]
+fn a_faulty_form_is_not_saved() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.fill("operation.speed", "fast")
+        .keys(&["Ctrl-Home", "Ctrl-S"]);
+    assert!(desk.shows("not saved"));
+    assert_eq!(desk.read("case.toml"), TABLE_1);
+    assert_eq!(
+        desk.app.case.text(desk.app.focus),
+        Some("fast"),
+        "the focus is on what must be mended"
+    );
+}
+
+#[test]
+fn a_faulty_form_is_not_taken_for_saved_by_any_way_to_save() {
+    for keys in [
+        &["Ctrl-S"][..],
+        &["F2"],
+        &["Alt-S"],
+        &["Ctrl-Q", "s"],
+        &["Alt-W", "s"],
+        &["Ctrl-P", "save as", "Enter"],
+    ] {
+        let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+        desk.fill("operation.speed", "fast").keys(keys);
+        assert!(
+            desk.shows("not saved: fix") && desk.shows("*unsaved*"),
+            "{keys:?}\n{}",
+            desk.screen()
+        );
+        assert!(
+            desk.app.is_unsaved() && desk.app.prompts.is_empty() && !desk.has_quit,
+            "{keys:?}"
+        );
+        assert_eq!(desk.app.case.text(desk.app.focus), Some("fast"), "{keys:?}");
+        desk.keys(&["Ctrl-Q"]);
+        assert!(
+            desk.shows("has unsaved edits") && !desk.has_quit,
+            "{keys:?}"
+        );
+        assert_eq!(desk.read("case.toml"), TABLE_1, "{keys:?}");
+    }
+    // Of several cases, the faulty one stops the leaving; the others are saved.
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.fill("operation.speed", "1500 rpm");
+    let other = desk.write("other.toml", TABLE_1);
+    desk.keys(&["Ctrl-O", "Ctrl-U", name(&other), "Enter"])
+        .fill("operation.speed", "fast")
+        .keys(&["Ctrl-Q", "s"]);
+    assert!(
+        !desk.has_quit && desk.shows("not saved: fix") && desk.shows("[2 other.toml*]"),
+        "{}",
+        desk.screen()
+    );
+    assert!(desk.read("case.toml").contains("1500 rpm") && desk.read("other.toml") == TABLE_1);
+}
+
+#[test]
+fn a_file_that_cannot_be_written_is_told_and_nothing_is_lost() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.fill("operation.speed", "1500 rpm");
+    fs::remove_file(desk.path("case.toml")).expect("it was there");
+    fs::create_dir(desk.path("case.toml")).expect("a folder in its place");
+    desk.keys(&["Ctrl-S"]);
+    assert!(desk.shows("not saved"));
+    assert!(desk.shows("*unsaved*"));
+}
+
+#[test]
+fn a_file_that_someone_else_changed_is_not_overwritten_unasked() {
+    let theirs = TABLE_1.replace("15 kW", "20 kW");
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.fill("operation.speed", "1500 rpm");
+    desk.write("case.toml", &theirs);
+    desk.keys(&["Ctrl-S"]);
+    assert!(desk.shows("changed on disk"));
+    desk.keys(&["Enter"]);
+    assert_eq!(desk.read("case.toml"), theirs, "Enter alone cancels");
+    desk.keys(&["Ctrl-S", "r"]);
+    assert!(desk.go_to("operation.power").shows("20 kW"));
+    assert!(desk.go_to("operation.speed").shows("2000 rpm") && !desk.app.is_unsaved());
+    desk.fill("operation.speed", "1200 rpm");
+    desk.write("case.toml", TABLE_1);
+    desk.keys(&["Ctrl-S", "o"]);
+    assert_eq!(
+        desk.read("case.toml"),
+        theirs.replace("2000 rpm", "1200 rpm")
+    );
+}
+
+#[test]
+fn a_mere_touch_asks_nothing() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.fill("operation.speed", "1500 rpm");
+    desk.write("case.toml", TABLE_1);
+    desk.keys(&["Ctrl-S"]);
+    assert!(!desk.app.is_unsaved());
+}
+
+#[test]
+fn opening_lists_the_folder_filters_as_you_type_and_opens() {
+    let mut desk = Desk::on(SMALL, "one.toml", TABLE_1);
+    desk.write("two.toml", &TABLE_1.replace("2000 rpm", "900 rpm"));
+    desk.write("note.txt", "no case");
+    desk.keys(&["Ctrl-O"]);
+    assert!(desk.shows("two.toml") && desk.shows("▸ one.toml") && !desk.shows("note.txt"));
+    desk.keys(&["tw"]);
+    assert!(desk.shows("▸ two.toml"));
+    desk.keys(&["Enter"]);
+    assert!(desk.shows("opened "));
+    assert!(desk.go_to("operation.speed").shows("900 rpm"));
+}
+
+#[test]
+fn folders_are_walked_with_enter_and_tab_takes_a_name_over() {
+    let mut desk = Desk::on(SMALL, "one.toml", TABLE_1);
+    fs::create_dir(desk.path("sub")).expect("a folder");
+    desk.write("sub/deep.toml", &TABLE_1.replace("2000 rpm", "900 rpm"));
+    desk.keys(&["Ctrl-O", "sub", "Enter"]);
+    assert!(desk.shows("▸ deep.toml"));
+    desk.keys(&["Tab", "Enter"]);
+    assert!(desk.go_to("operation.speed").shows("900 rpm"));
+}
+
+#[test]
+fn a_bad_file_shows_every_fault_at_its_place_and_loses_nothing() {
+    let mut desk = Desk::on(LARGE, "good.toml", TABLE_1);
+    desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
+    desk.write(
+        "bad.toml",
+        &TABLE_1
+            .replace("5 mm", "5 kg")
+            .replace("poisson = 0.3", "poison = 0.3"),
+    );
+    desk.keys(&["Ctrl-O", "bad", "Enter"]);
+    assert!(desk.shows("bad.toml cannot be opened"));
+    assert!(desk.shows("pair.module") && desk.shows("poison"));
+    desk.keys(&["Esc", "Esc"]);
+    assert!(desk.go_to("operation.speed").shows("1500 rpm"));
+    assert!(desk.shows("good.toml"));
+}
+
+#[test]
+fn a_file_that_is_not_there_is_told() {
+    let mut desk = Desk::on(SMALL, "one.toml", TABLE_1);
+    desk.keys(&["Ctrl-O", "nowhere.toml", "Enter"]);
+    assert!(desk.shows("no such file"));
+}
+
+#[test]
+fn edits_are_not_lost_unasked() {
+    for (keys, leaves, on_disk) in [
+        (&["Ctrl-Q", "Esc"][..], false, "2000 rpm"),
+        (&["Ctrl-Q", "c"], false, "2000 rpm"),
+        (&["Ctrl-C", "Ctrl-C"], false, "2000 rpm"),
+        (&["Ctrl-Q", "d"], true, "2000 rpm"),
+        (&["Ctrl-Q", "Enter"], false, "2000 rpm"),
+        (&["Ctrl-Q", "Left", "Enter"], true, "2000 rpm"),
+        (&["Ctrl-Q", "Right", "Enter"], true, "1500 rpm"),
+        (&["Alt-W", "my-quiet-pair", "Enter"], false, "2000 rpm"),
+        (&["Ctrl-N", "7", "Ctrl-Q", "Enter"], false, "2000 rpm"),
+        (&["Ctrl-O", "Esc", "Ctrl-Q", "s"], true, "1500 rpm"),
+    ] {
+        let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+        desk.fill("operation.speed", "1500 rpm").keys(keys);
+        assert_eq!(desk.has_quit, leaves, "{keys:?}");
+        assert!(desk.read("case.toml").contains(on_disk), "{keys:?}");
+        assert!(
+            leaves || keys.contains(&"Ctrl-N") || desk.shows("1500 rpm"),
+            "{keys:?}"
+        );
+    }
+}
+
+#[test]
+fn without_edits_ctrl_q_leaves_at_once_and_ctrl_c_the_second_time() {
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Ctrl-C"]);
+    assert!(
+        !desk.has_quit && desk.app.prompts.is_empty() && desk.shows("Ctrl-C again quits"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Down", "Ctrl-C"]);
+    assert!(!desk.has_quit, "another key between them");
+    desk.keys(&["Ctrl-C"]);
+    assert!(desk.has_quit);
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Ctrl-Q"]);
+    assert!(desk.has_quit);
+}
+
+#[test]
+fn escape_never_destroys() {
+    let mut desk = Desk::new(SMALL);
+    desk.fill("operation.speed", "1500 rpm")
+        .keys(&["Esc", "Esc", "Esc"]);
+    assert!(desk.shows("1500 rpm") && desk.app.is_unsaved() && !desk.has_quit);
+}
+
+#[test]
+fn a_paste_never_presses_a_button_and_brings_no_control_character() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.fill("operation.speed", "")
+        .act(Action::Paste("15\u{1b}[2J00\n rpm\u{202e}\r".to_owned()));
+    assert_eq!(
+        desk.app.case.text(desk.app.focus),
+        Some("15[2J00 rpm"),
+        "of its lines one is made"
+    );
+    desk.keys(&["Ctrl-Q"]).act(Action::Paste("d".to_owned()));
+    assert!(!desk.has_quit && desk.shows("has unsaved edits"));
+}
+
+#[test]
+fn a_long_paste_is_cut_and_quick() {
+    let mut desk = Desk::new(SMALL);
+    desk.fill("title", "")
+        .act(Action::Paste("x".repeat(1 << 20)));
+    assert_eq!(desk.app.input.value().len(), 4096);
+    desk.screen();
+}
+
+#[test]
+fn backspace_may_arrive_as_ctrl_h() {
+    let mut desk = Desk::new(SMALL);
+    desk.go_to("operation.speed")
+        .keys(&["End", "Ctrl-H", "Ctrl-H", "Ctrl-H", "rpm"]);
+    assert!(!desk.app.is_unsaved());
+}
+
+#[test]
+fn a_late_answer_is_dropped() {
+    let mut desk = Desk::new(SMALL);
+    let inputs = desk.app.case.inputs().expect("Table 1 is valid");
+    let late = Request {
+        serial: desk.app.serial,
+        case: desk.app.case.clone(),
+        inputs,
+        stages: Stages::EVERY,
+    };
+    desk.fill("operation.speed", "500 rpm");
+    let screen = desk.screen();
+    desk.act(Action::Solved(Box::new(tipstrike::tui::solver::answer(
+        &late,
+    ))));
+    assert_eq!(desk.screen(), screen);
+}
+
+#[test]
+fn the_chart_keeps_its_axes_until_the_curve_leaves_them() {
+    let mut desk = Desk::new(SMALL);
+    let scale = desk.app.scale;
+    desk.fill("operation.speed", "2100 rpm");
+    assert_eq!(desk.app.scale, scale);
+    desk.fill("operation.speed", "9000 rpm");
+    assert!(desk.app.scale.upright[0].to > scale.upright[0].to);
+}
+
+#[test]
+fn every_field_can_be_reached_and_every_line_of_the_results() {
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Ctrl-Home"]);
+    let labels = tipstrike::case::FIELDS.iter().map(|field| field.label);
+    for label in labels {
+        assert!(desk.shows(label), "{label}\n{}", desk.screen());
+        desk.keys(&["Down"]);
+    }
+    assert!(!desk.shows(" κ "));
+    desk.keys(&["F4"; 13]);
+    assert!(desk.shows(" κ "), "{}", desk.screen());
+}
+
+#[test]
+fn a_saved_file_keeps_its_mode() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    fs::set_permissions(desk.path("case.toml"), fs::Permissions::from_mode(0o640))
+        .expect("our own file");
+    desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
+    let mode = fs::metadata(desk.path("case.toml"))
+        .expect("it is there")
+        .permissions()
+        .mode();
+    assert_eq!(mode & 0o777, 0o640);
+}
+
+#[test]
+fn a_failed_solve_is_told_and_the_results_are_marked() {
+    let mut desk = Desk::new(SMALL);
+    desk.act(Action::SolverFailed(desk.app.serial));
+    assert!(desk.shows("solver failed") && desk.shows("LAST VALID"));
+    desk.fill("operation.speed", "1500 rpm");
+    assert!(!desk.shows("solver failed") && !desk.shows("LAST VALID"));
+}
+
+#[test]
+fn what_is_typed_takes_the_place_of_the_value_and_a_move_keeps_it() {
+    for (keys, text) in [
+        (&["1500"][..], "1500 rpm"),
+        (&["Enter", "Up", "1500"], "1500 rpm"),
+        (&["End", "x"], "2000 rpmx"),
+        (&["Home", "1"], "12000 rpm"),
+        (&["Delete", "900"], "900 rpm"),
+        (&["Esc", "Enter", "700"], "700 rpm"),
+        (&["Esc", "/", "speed", "Enter", "800"], "800 rpm"),
+    ] {
+        let mut desk = Desk::new(SMALL);
+        desk.go_to("operation.speed").keys(keys);
+        let speed = tipstrike::case::fields::index_of("operation.speed").expect("a field");
+        assert_eq!(
+            desk.app.case.text(speed),
+            Some(text),
+            "{keys:?}\n{}",
+            desk.screen()
+        );
+    }
+}
+
+#[test]
+fn a_letter_that_is_no_command_is_told_as_such() {
+    for (pane, letter, told) in [
+        (
+            "1",
+            "7",
+            "7 is no command in Form: Enter edits the field, ? lists the keys",
+        ),
+        ("2", "x", "x is no command in Results: ? lists the keys"),
+        (
+            "5",
+            "Space",
+            "Space is no command in Trade: ? lists the keys",
+        ),
+    ] {
+        let mut desk = Desk::new(SMALL);
+        desk.keys(&["Esc", pane, letter]);
+        assert!(desk.shows(told), "{}", desk.screen());
+    }
+}
+
+#[test]
+fn undo_tells_what_it_took_back() {
+    let mut desk = Desk::new(SMALL);
+    desk.go_to("driven.tip_relief").keys(&["48", "Esc", "u"]);
+    assert!(
+        desk.shows("undo: driven tip relief: 48 um -> 0 um"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Ctrl-R"]);
+    assert!(
+        desk.shows("redo: driven tip relief: 0 um -> 48 um"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Alt-G", "34crnimo", "Enter", "u"]);
+    assert!(
+        desk.shows("undo: driven Young's modulus: ") && desk.shows("density: "),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Esc", "2", "Alt-L", "Esc", "u"]);
+    assert!(desk.shows("undo: limits."), "{}", desk.screen());
+}
+
+#[test]
+fn the_baseline_is_called_as_the_file_that_it_was_saved_to() {
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Alt-B"]);
+    assert!(
+        desk.shows("for this session") && desk.shows("against built-in"),
+        "{}",
+        desk.screen()
+    );
+    let path = desk.path("whine.toml");
+    desk.keys(&["F2", "Ctrl-U", name(&path), "Enter"]);
+    assert!(desk.shows("against whine.toml"), "{}", desk.screen());
+    let path = desk.path("quiet.toml");
+    desk.fill("driven.tip_relief", "48")
+        .keys(&["F2", "Ctrl-U", name(&path), "Enter"]);
+    assert!(
+        desk.app.short_name() == "quiet.toml" && desk.shows("against whine.toml"),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn a_baseline_of_other_values_than_were_saved_keeps_its_name() {
+    let mut desk = Desk::new(LARGE);
+    let path = desk.path("quiet.toml");
+    desk.keys(&["Alt-B"])
+        .fill("driven.tip_relief", "48")
+        .keys(&["F2", "Ctrl-U", name(&path), "Enter"]);
+    assert!(
+        desk.app.short_name() == "quiet.toml" && desk.shows("against built-in"),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn results_are_found_as_fields_are() {
+    for (keys, told) in [
+        (&["Esc", "/", "fs", "Enter"][..], "F_S impact force, Eq. 57"),
+        (&["Esc", "2", "/", "friction", "Enter"], "f friction ratio"),
+        (
+            &["Esc", ":", "sliding_velocity", "Enter"],
+            "sliding velocity",
+        ),
+        (&["Ctrl-P", "tip relief", "Enter"], "▸ Ca2   tip relief"),
+        (&["/relief", "Enter", "48"], "▸*Ca2   tip relief"),
+        (
+            &["Ctrl-P", "driven tip relief", "Enter", "48"],
+            "▸*Ca2   tip relief",
+        ),
+    ] {
+        let mut desk = Desk::new(LARGE);
+        desk.keys(keys);
+        assert!(
+            desk.app.prompts.is_empty() && desk.shows(told),
+            "{keys:?}\n{}",
+            desk.screen()
+        );
+    }
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Esc", "/", "dynamic_peak_force"]);
+    assert!(
+        !desk.shows("dynamic_peak_force, "),
+        "no result of another method:\n{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn what_no_digit_mends_is_wrong_at_once() {
+    for (typed, told) in [
+        ("-48", "! -48 um is below"),
+        ("48 mm", "! 48 mm is above"),
+        (
+            "48 um1",
+            "! 1 stands after the unit: write all digits before um",
+        ),
+        ("-", "Not yet: "),
+    ] {
+        let mut desk = Desk::new(LARGE);
+        desk.fill("driven.tip_relief", typed);
+        assert!(desk.shows(told), "{typed}\n{}", desk.screen());
+    }
+}
+
+#[test]
+fn a_text_as_long_as_may_be_gives_way_to_what_is_typed() {
+    let mut desk = Desk::new(SMALL);
+    desk.fill("title", "").act(Action::Paste("x".repeat(5000)));
+    desk.keys(&["Down", "Up", "short"]);
+    assert_eq!(desk.app.case.text(desk.app.focus), Some("short"));
+}

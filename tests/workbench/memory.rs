@@ -1,0 +1,88 @@
+//! What an open case, an edit and a measurement keep: no more than they say.
+use crate::harness;
+
+use harness::{Desk, LARGE, SMALL};
+use tipstrike::model::inputs::Method;
+
+/// Bytes that are kept after this, once for each of so many times.
+fn kept(times: usize, mut run: impl FnMut(usize)) -> f64 {
+    let info = allocation_counter::measure(|| (0..times).for_each(&mut run));
+    info.bytes_current as f64 / times as f64
+}
+
+#[test]
+fn an_edit_keeps_what_it_changed_and_undo_has_no_end() {
+    const EDITS: usize = 5000;
+    let mut desk = Desk::new(SMALL);
+    let edit = |desk: &mut Desk, text: &str| {
+        desk.keys(&["Ctrl-U", text, "Down", "Up"]);
+    };
+    edit(&mut desk, "6 mm");
+    let bytes = kept(EDITS, |number| {
+        edit(&mut desk, if number % 2 == 0 { "5 mm" } else { "6 mm" });
+    });
+    println!("an edit: {bytes:.0} bytes");
+    assert!(bytes < 100.0, "{bytes}");
+    (0..=EDITS).for_each(|_| {
+        desk.keys(&["Ctrl-Z"]);
+    });
+    assert!(!desk.app.is_unsaved(), "back at the first one");
+    assert!(desk.keys(&["Ctrl-Z"]).shows("nothing to undo"));
+}
+
+#[test]
+fn an_open_case_keeps_little_and_a_closed_one_nothing() {
+    const CASES: usize = 32;
+    let mut desk = Desk::new(LARGE);
+    let mut tell = |method: Method, most: f64| {
+        let whole = allocation_counter::measure(|| {
+            let bytes = kept(CASES, |_| {
+                desk.keys(&["Ctrl-N"]).fill("operation.speed", "1500 rpm");
+                while desk
+                    .app
+                    .answer
+                    .as_ref()
+                    .is_none_or(|answer| answer.active != method)
+                {
+                    desk.keys(&["Ctrl-T"]);
+                }
+            });
+            println!(
+                "an open case, method {}: {:.1} kB",
+                method.name(),
+                bytes / 1e3
+            );
+            assert!(bytes < most, "{method:?}: {bytes}");
+            (0..CASES).for_each(|_| {
+                desk.keys(&["Alt-W", "d"]);
+            });
+        });
+        assert_eq!(desk.app.tabs().count(), 1);
+        // The list of cases has its room, and the first one its results.
+        println!(
+            "after closing them: {:.1} kB",
+            whole.bytes_current as f64 / 1e3
+        );
+        assert!(whole.bytes_current < 400_000, "{}", whole.bytes_current);
+    };
+    tell(Method::Exact, 40e3);
+    tell(Method::Static, 80e3);
+    tell(Method::Dynamic, 140e3);
+}
+
+#[test]
+fn a_measurement_keeps_its_figures_and_no_curve() {
+    let mut desk = Desk::new(LARGE);
+    desk.keys(&["Esc", "5", "z"]);
+    let bytes = kept(1, |_| {
+        desk.keys(&["m"]);
+    });
+    assert!(
+        desk.app
+            .traded
+            .as_ref()
+            .is_some_and(|traded| traded.trade.is_some())
+    );
+    println!("a measurement: {:.1} kB", bytes / 1e3);
+    assert!(bytes < 30e3, "{bytes}");
+}

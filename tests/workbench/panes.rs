@@ -1,0 +1,269 @@
+//! Keys in, screen out: what stands in results, chart and teeth while a case is worked on.
+use crate::harness;
+
+use harness::{Desk, LARGE, SMALL, TABLE_1};
+use ratatui::layout::Size;
+
+const TINY: Size = Size {
+    width: 60,
+    height: 16,
+};
+
+#[test]
+fn beside_last_valid_results_stands_why_they_are_and_a_key_that_goes_there() {
+    for size in [TINY, SMALL, LARGE] {
+        let mut desk = Desk::new(size);
+        desk.fill("pair.module", "2 mm").keys(&["Down", "Down"]);
+        let told = desk.screen().replace('\n', " ");
+        assert!(
+            told.contains("! rh1 bore radius") && told.contains("1 more") && told.contains("Alt-E"),
+            "{}",
+            desk.screen()
+        );
+        desk.keys(&["Alt-E"]);
+        assert_eq!(desk.app.case.text(desk.app.focus), Some("20 mm"));
+        assert!(desk.shows("rh1 bore radius, "), "{}", desk.screen());
+        desk.keys(&["Alt-E"]);
+        assert!(desk.shows("rh2 bore radius, "), "{}", desk.screen());
+        desk.fill("pair.module", "5 mm").keys(&["Alt-E"]);
+        assert!(
+            desk.shows("no field is wrong") && !desk.shows("! rh"),
+            "{}",
+            desk.screen()
+        );
+    }
+}
+
+#[test]
+fn the_mark_in_the_results_stays_with_its_quantity() {
+    let mut desk = Desk::new(SMALL);
+    let marked =
+        |desk: &Desk| tipstrike::tui::view::results::marked(&desk.app).map(|quantity| quantity.key);
+    desk.keys(&["Esc", "2", "j", "j", "j", "j", "j", "j", "j"]);
+    assert_eq!(marked(&desk), Some("base_pitch"));
+    let is_in_sight = |desk: &Desk| desk.shows("▸p_b ");
+    desk.keys(&["j", "k", "Ctrl-T"]);
+    assert!(
+        marked(&desk) == Some("base_pitch") && is_in_sight(&desk),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Ctrl-T", "Ctrl-T", "Ctrl-T", "Ctrl-T"]);
+    assert!(
+        marked(&desk) == Some("base_pitch") && is_in_sight(&desk),
+        "{}",
+        desk.screen()
+    );
+    // What is gone comes back marked.
+    desk.keys(&["g", "j", "j"]);
+    assert_eq!(marked(&desk), Some("approach_angle_driver"));
+    desk.fill("driven.tip_relief", "80 um");
+    assert!(
+        desk.app.row == 0 && desk.app.results_top == 0,
+        "{}",
+        desk.screen()
+    );
+    desk.fill("driven.tip_relief", "0 um");
+    assert_eq!(marked(&desk), Some("approach_angle_driver"));
+}
+
+#[test]
+fn the_top_of_the_results_is_shown_where_nothing_was_marked() {
+    let mut desk = Desk::new(SMALL);
+    for (relief, first) in [("80 um", "Δ  "), ("0 um", "F_S  ")] {
+        desk.fill("driven.tip_relief", relief);
+        let screen = desk.screen();
+        let below_heading = screen
+            .lines()
+            .skip_while(|line| !line.contains("▸exact"))
+            .nth(1)
+            .expect("a first row");
+        assert!(below_heading.contains(first), "{screen}");
+    }
+}
+
+#[test]
+fn the_baseline_is_drawn_by_the_method_in_force() {
+    let mut desk = Desk::new(LARGE);
+    desk.keys(&["Alt-B"])
+        .fill("operation.speed", "1900 rpm")
+        .keys(&["Ctrl-T", "Ctrl-T", "Ctrl-T", "Ctrl-T", "Esc", "3", "Home"]);
+    let told = |desk: &Desk| {
+        desk.screen()
+            .lines()
+            .find(|line| line.contains("before E: F_S"))
+            .expect("a readout")
+            .to_owned()
+    };
+    assert!(
+        told(&desk).contains("F_S 80.39") && told(&desk).contains("baseline 84.6"),
+        "{}",
+        told(&desk)
+    );
+    desk.keys(&["Ctrl-T", "Ctrl-T", "3", "Home"]);
+    assert!(desk.shows("baseline (exact)"), "{}", desk.screen());
+}
+
+#[test]
+fn the_mark_of_a_change_stands_apart_behind_the_unit() {
+    for size in [SMALL, LARGE] {
+        let mut desk = Desk::new(size);
+        desk.fill("operation.speed", "1900 rpm");
+        assert!(desk.shows("2081.0 N ←"), "{}", desk.screen());
+        desk.keys(&["Esc", ":", "ascii", "Enter"]);
+        assert!(desk.shows("2081.0 N <"), "{}", desk.screen());
+    }
+}
+
+#[test]
+fn no_mark_touches_a_unit_and_no_name_is_cut_where_there_is_room() {
+    let size = Size {
+        width: 240,
+        height: 70,
+    };
+    let mut desk = Desk::on(size, "case.toml", TABLE_1);
+    desk.keys(&["Esc", "b"]).fill("operation.speed", "1900 rpm");
+    desk.keys(&["Esc"]);
+    assert!(desk.shows(" um mm/N ← "), "{}", desk.screen());
+    desk.keys(&["Esc", "b", "Ctrl-T", "Ctrl-T"]);
+    assert!(
+        desk.shows("m x'' + ΣF = F0") && !desk.shows("ΣF…") && !desk.shows("no touch b…"),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn the_angle_of_the_verdict_has_the_symbol_of_its_row_in_ascii_too() {
+    let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
+    desk.keys(&["Esc", ":", "ascii", "Enter", "Ctrl-T", "Ctrl-T"]);
+    assert!(
+        desk.shows("Corner contact: theta_d = 1.27924 deg") && desk.shows(" theta_d  "),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn the_closed_forms_beside_another_method_are_called_free_impact() {
+    for (size, heading) in [
+        (LARGE, "free impact: paper     exact"),
+        (SMALL, "free: exact"),
+    ] {
+        let mut desk = Desk::on(size, "case.toml", TABLE_1);
+        assert!(!desk.shows("free"), "{}", desk.screen());
+        desk.keys(&["Ctrl-T"]);
+        assert!(desk.shows(heading), "{}", desk.screen());
+    }
+}
+
+#[test]
+fn the_verdict_in_motion_has_the_overall_peak_at_every_size() {
+    for (size, words) in [
+        (TINY, "2003.0 N overall"),
+        (SMALL, "2003.0 N overall."),
+        (LARGE, "2003.0 N"),
+    ] {
+        let mut desk = Desk::on(size, "case.toml", TABLE_1);
+        desk.keys(&["Ctrl-T", "Ctrl-T"]);
+        assert!(desk.shows(words), "{}", desk.screen());
+        let is_unit_alone = |line: &str| {
+            ["N", "um", "deg"].contains(&line.split('│').nth(1).unwrap_or_default().trim())
+        };
+        assert!(
+            !desk.screen().lines().any(is_unit_alone),
+            "{}",
+            desk.screen()
+        );
+    }
+}
+
+#[test]
+fn values_have_their_units_beside_the_baseline_on_the_smallest_screen() {
+    let mut desk = Desk::new(TINY);
+    assert!(
+        desk.shows("(no backlash)"),
+        "the value has the room rather than the label: {}",
+        desk.screen()
+    );
+    desk.keys(&["Alt-B"]).fill("operation.speed", "1900 rpm");
+    assert!(
+        desk.shows("2081.0 N ←") && desk.shows("-5.0") && desk.shows("▸exact"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Ctrl-T"]);
+    assert!(
+        desk.shows("▸static vs exact baseline") && desk.shows("F_st,max"),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn a_hint_beside_a_message_ends_with_a_sentence() {
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Down", "Ctrl-T"]);
+    let screen = desk.screen();
+    let hint = screen
+        .lines()
+        .find(|line| line.contains("= 0.34907 rad."))
+        .expect("a hint");
+    assert!(
+        desk.shows("method static") && hint.trim_end().ends_with("(else 20 deg)."),
+        "{screen}"
+    );
+}
+
+#[test]
+fn a_limit_of_a_long_name_is_told_by_its_symbol() {
+    let text = TABLE_1.replace(
+        "impact_force = \"2500 N\"",
+        "dynamic_peak_force = \"2500 N\"",
+    );
+    let mut desk = Desk::on(
+        SMALL,
+        "case.toml",
+        &text.replace("method = \"exact\"", "method = \"dynamic\""),
+    );
+    desk.keys(&["Esc", "1", "G"]);
+    assert!(
+        desk.shows("F_d,max <= 2500 N") && desk.shows(" 80 %"),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn what_rounding_leaves_of_zero_is_zero_in_the_teeth() {
+    let mut desk = Desk::new(LARGE);
+    for _ in 0..3 {
+        desk.keys(&["Esc", "4", "End"]);
+        assert!(
+            desk.shows("S 0 um") && desk.shows("ΔV_n 0 m/s") && !desk.shows("e-1"),
+            "{}",
+            desk.screen()
+        );
+        desk.keys(&["Ctrl-T"]);
+    }
+}
+
+#[test]
+fn an_axis_fits_the_visible_part_of_its_curves() {
+    let mut desk = Desk::new(LARGE);
+    desk.keys(&["Ctrl-T", "Esc", ":", "sliding velocity", "Enter", "3", "0"]);
+    let axis = |desk: &Desk| desk.app.scale.upright[desk.app.chart.graph];
+    assert!(
+        axis(&desk).from < 0.0 && axis(&desk).to > 0.0,
+        "the whole contact has both signs: {:?}",
+        axis(&desk)
+    );
+    desk.keys(&["v"]);
+    assert!(
+        axis(&desk).from >= 0.0,
+        "the strike has one sign: {:?}",
+        axis(&desk)
+    );
+    desk.keys(&["v"]);
+    assert!(axis(&desk).from < 0.0, "{:?}", axis(&desk));
+}

@@ -1,0 +1,113 @@
+//! The mouse, where the user wants it: a press marks, a second one does what Enter does.
+use crate::harness;
+
+use harness::{Desk, LARGE, SMALL, TABLE_1};
+use ratatui::layout::{Position, Size};
+use tipstrike::tui::actions::Action;
+
+/// Press the first letter of a word.
+fn press(desk: &mut Desk, word: &str) {
+    let screen = desk.screen();
+    let found = screen
+        .lines()
+        .enumerate()
+        .find_map(|(y, line)| Some((y, line[..line.find(word)?].chars().count())));
+    let (y, x) = found.unwrap_or_else(|| panic!("{word} is not on\n{screen}"));
+    desk.act(Action::Click(Position::new(x as u16, y as u16)));
+}
+
+#[test]
+fn the_name_of_a_pane_out_of_sight_brings_it() {
+    for size in [SMALL, Size::new(60, 24)] {
+        let mut desk = Desk::new(size);
+        for (name, title) in [
+            ("4 Teeth", "▸ 4 Teeth"),
+            ("5 Trade", "▸ 5 "),
+            ("3 Chart", "▸ 3 "),
+        ] {
+            press(&mut desk, name);
+            assert!(desk.shows(title), "{name}\n{}", desk.screen());
+        }
+        desk.keys(&["Ctrl-P"]);
+        desk.act(Action::Click(Position::new(size.width - 5, 13)));
+        assert!(
+            desk.shows("Commands"),
+            "a press beside a list changes nothing"
+        );
+    }
+}
+
+#[test]
+fn a_first_press_marks_a_line_of_a_list_and_a_second_takes_it() {
+    for size in [SMALL, LARGE] {
+        let mut desk = Desk::on(size, "case.toml", TABLE_1);
+        desk.keys(&["Ctrl-P", "m"]);
+        press(&mut desk, "marker ");
+        assert!(desk.shows("▸ marker"), "{}", desk.screen());
+        press(&mut desk, "marker ");
+        assert!(desk.shows("chart in halfblock"), "{}", desk.screen());
+        desk.keys(&["Alt-G"]);
+        press(&mut desk, "18CrNiMo7-6");
+        press(&mut desk, "18CrNiMo7-6");
+        assert!(
+            desk.app.prompts.is_empty() && desk.shows("from 18CrNiMo7-6"),
+            "{}",
+            desk.screen()
+        );
+        desk.write("other.toml", &TABLE_1.replace("2000 rpm", "900 rpm"));
+        desk.recents = vec![desk.path("other.toml")];
+        desk.keys(&["Ctrl-O"]);
+        press(&mut desk, "other.toml  in");
+        assert!(desk.shows("▸ other.toml  in"), "{}", desk.screen());
+        press(&mut desk, "   other.toml ");
+        assert!(desk.shows("│ ▸ other.toml "), "{}", desk.screen());
+        press(&mut desk, "▸ other.toml ");
+        assert!(desk.shows("opened "), "{}", desk.screen());
+    }
+}
+
+#[test]
+fn a_button_and_the_name_of_a_case_are_pressed() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.keys(&["Ctrl-N", "7"]);
+    press(&mut desk, "1 case.toml");
+    assert!(desk.shows("[1 case.toml]"), "{}", desk.screen());
+    press(&mut desk, "2 new case");
+    assert!(desk.shows("[2 new case*]"), "{}", desk.screen());
+    for (button, leaves) in [("Cancel", false), ("Discard", true)] {
+        desk.keys(&["Ctrl-Q"]);
+        press(&mut desk, button);
+        assert!(
+            desk.app.prompts.is_empty() && desk.has_quit == leaves,
+            "{button}"
+        );
+    }
+    desk.keys(&["Ctrl-Q"]);
+    desk.act(Action::Click(Position::new(1, 1)));
+    assert!(
+        desk.shows("[> Cancel <]"),
+        "a press beside the buttons presses none"
+    );
+}
+
+#[test]
+fn a_press_goes_to_a_field_and_a_second_one_types_into_it() {
+    let mut desk = Desk::new(LARGE);
+    press(&mut desk, "number of teeth");
+    assert!(
+        desk.shows("▸ z1") && !desk.app.has_line(),
+        "{}",
+        desk.screen()
+    );
+    press(&mut desk, "number of teeth");
+    desk.type_in("25");
+    assert!(desk.shows("number of teeth      25"), "{}", desk.screen());
+    press(&mut desk, "impact duration");
+    assert!(desk.shows("▸T_S"), "{}", desk.screen());
+    press(&mut desk, "impact duration");
+    assert!(
+        desk.shows("impact duration, by the method, T_S") || !desk.app.prompts.is_empty(),
+        "{}",
+        desk.screen()
+    );
+}

@@ -1,0 +1,213 @@
+//! What lies over the panes and stands around them, as a person sees it: at 80x24, at 140x45 and in
+//! ASCII.
+use crate::harness;
+
+use harness::{Desk, LARGE, SMALL, TABLE_1, without_folder};
+use insta::assert_snapshot;
+use tipstrike::case::Change;
+use tipstrike::tui::actions::Action;
+use tipstrike::tui::app::Progress;
+use tipstrike::tui::prompt::Next;
+use tipstrike::tui::prompt::{Prompt, Question};
+use tipstrike::tui::session::recovery::{Access, Claim, Offer};
+use tipstrike::tui::session::save::SaveFault;
+use tipstrike::tui::theme::{Look, MONO};
+
+const HOLDER: &str = "process 4711 on drawing-office, since 12 min";
+
+/// What is done to come to a screen.
+type Way = fn(&mut Desk);
+
+const SCREENS: &[(&str, Way)] = &[
+    ("materials", |desk| {
+        desk.keys(&["Esc", "l", "Alt-G", "18cr"]);
+    }),
+    ("aim", |desk| {
+        desk.keys(&["Esc", "a", "0.6"]);
+    }),
+    ("unit_added", |desk| {
+        desk.fill("deviations.base_pitch", "48");
+    }),
+    ("unfinished", |desk| {
+        desk.fill("deviations.base_pitch", "48 m");
+    }),
+    ("commands", |desk| {
+        desk.keys(&["Ctrl-P"]);
+    }),
+    ("limits_to_pick", |desk| {
+        desk.keys(&["Alt-L", "dyn"]);
+    }),
+    ("limits", |desk| {
+        desk.keys(&["Esc", "2", "Alt-L", "2000 N"]);
+    }),
+    ("inch_units", |desk| {
+        desk.keys(&[":", "Backspace", "Esc", ":", "units", "Enter", "2"]);
+    }),
+    ("converted", |desk| {
+        desk.fill("operation.power", "20 hp");
+    }),
+    ("progress", |desk| {
+        desk.act(Action::Progress(Some(Progress {
+            what: "trade".to_owned(),
+            part: 0.37,
+        })));
+    }),
+    ("changed_on_disk", |desk| {
+        desk.fill("operation.speed", "1500 rpm");
+        desk.write(
+            "case.toml",
+            &TABLE_1
+                .replace("2000 rpm", "2100 rpm")
+                .replace("\"5 mm\"", "\"6 mm\""),
+        );
+        desk.keys(&["Ctrl-S"]);
+    }),
+    ("exists", |desk| {
+        let taken = desk.write("taken.toml", TABLE_1);
+        desk.keys(&["F2", "Ctrl-U", harness::name(&taken), "Enter"]);
+    }),
+    ("save_as", |desk| {
+        desk.keys(&["F2", "Home", "Ctrl-K", "~/mine.toml"]);
+    }),
+    ("read_only", |desk| {
+        let claim = Claim::of(desk.app.tab.id, Access::Held(HOLDER.to_owned()));
+        desk.act(Action::Claimed(Box::new(claim)));
+        desk.fill("operation.speed", "1500 rpm");
+    }),
+    ("held", |desk| {
+        let path = desk.path("case.toml");
+        desk.act(Action::Saved(
+            path,
+            Next::Stay,
+            Err(SaveFault::Held(HOLDER.to_owned())),
+        ));
+    }),
+    ("recovery", |desk| {
+        let change = |key: &str, from: &str, to: &str| Change {
+            key: key.to_owned(),
+            from: Some(from.to_owned()),
+            to: Some(to.to_owned()),
+        };
+        let changes = vec![
+            change("operation.speed", "2000 rpm", "1500 rpm"),
+            change("driven.tip_relief", "0 um", "48 um"),
+        ];
+        let offer = Offer {
+            journal: desk.path("journal"),
+            age: "3 min".to_owned(),
+            changes,
+            is_file_changed: true,
+        };
+        desk.app
+            .prompts
+            .push(Prompt::Ask(Question::recover("case.toml", offer)));
+    }),
+    ("quit", |desk| {
+        desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-Q"]);
+    }),
+    ("close_unsaved", |desk| {
+        desk.fill("operation.speed", "1500 rpm").keys(&["Alt-W"]);
+    }),
+    ("quit_several", |desk| {
+        desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-N"]);
+        desk.fill("title", "another").keys(&["Ctrl-Q"]);
+    }),
+    ("help", |desk| {
+        desk.keys(&["F1"]);
+    }),
+    ("notes", |desk| {
+        desk.keys(&["Ctrl-T", "Esc", "2", "n"]);
+    }),
+    ("results_alone", |desk| {
+        desk.keys(&["Ctrl-T", "Esc", "2", "z"]);
+    }),
+    ("refused", |desk| {
+        desk.fill("driven.addendum", "1.9");
+    }),
+    ("in_place_of", |desk| {
+        desk.app.tab.in_place_of = Some("gone.toml".into());
+    }),
+];
+
+#[test]
+fn the_screens() {
+    for (name, way) in SCREENS {
+        for (size, look) in [
+            ("80x24", Look::FULL),
+            ("140x45", Look::FULL),
+            (
+                "ascii",
+                Look {
+                    theme: &MONO,
+                    ascii: true,
+                },
+            ),
+        ] {
+            let mut desk = Desk::on(
+                if size == "140x45" { LARGE } else { SMALL },
+                "case.toml",
+                TABLE_1,
+            );
+            desk.app.look = look;
+            way(&mut desk);
+            let screen = without_folder(&desk);
+            assert!(size != "ascii" || screen.is_ascii(), "{name}: {screen}");
+            assert_snapshot!(format!("{name}_{size}"), screen);
+        }
+    }
+}
+
+#[test]
+fn a_name_that_is_typed_takes_the_place_of_the_one_that_is_offered() {
+    for (keys, file) in [
+        (&["whine48"][..], "whine48.toml"),
+        (&["Backspace", "whine48"], "whine48.toml"),
+        (&["Right", "2"], "case2.toml"),
+        (&["Left", "my-"], "my-case.toml"),
+        (&["End", ".old"], "case.toml.old"),
+    ] {
+        let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+        desk.keys(&["F2"]).keys(keys).keys(&["Enter"]);
+        assert!(
+            desk.path(file).is_file() && desk.shows("saved "),
+            "{keys:?} {file}\n{}",
+            desk.screen()
+        );
+    }
+}
+
+#[test]
+fn what_would_be_written_over_is_told() {
+    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
+    desk.write("other.toml", &TABLE_1.replace("2000 rpm", "900 rpm"));
+    desk.keys(&["F2", "other", "Enter"]);
+    assert!(
+        desk.shows("speed: 900 rpm in the file, 2000 rpm here"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&[
+        "Esc",
+        "Ctrl-U",
+        harness::name(&desk.path("case.toml")),
+        "Enter",
+    ]);
+    assert!(
+        desk.shows("saved "),
+        "its own file is not asked about: {}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn an_angle_that_is_refused_gives_way_to_what_is_typed_next() {
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Esc", "a", "0,5", "Enter"]);
+    assert!(desk.shows("write 0.5, not 0,5"), "{}", desk.screen());
+    desk.keys(&["0.5", "Enter"]);
+    assert!(
+        desk.app.prompts.is_empty() && desk.shows("0.5000 deg of the driver before E"),
+        "{}",
+        desk.screen()
+    );
+}

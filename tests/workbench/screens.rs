@@ -1,0 +1,253 @@
+//! The screens, as a person sees them: at 80x24, with room at 140x45, and at every size.
+use crate::harness;
+
+use harness::{Desk, LARGE, SMALL, TABLE_1, without_folder};
+use insta::assert_snapshot;
+use ratatui::layout::Size;
+use tipstrike::model::inputs::Method;
+use tipstrike::tui::actions::Action;
+use tipstrike::tui::theme::{Look, MONO};
+use tipstrike::tui::view::results;
+
+const TINY: Size = Size {
+    width: 60,
+    height: 16,
+};
+
+#[test]
+fn the_opening_screen() {
+    assert_snapshot!("opening_80x24", Desk::new(SMALL).screen());
+    assert_snapshot!("opening_140x45", Desk::new(LARGE).screen());
+}
+
+#[test]
+fn an_invalid_value_shows_its_reason_under_the_field_and_the_last_valid_results() {
+    for (name, size) in [("invalid_80x24", SMALL), ("invalid_140x45", LARGE)] {
+        let mut desk = Desk::new(size);
+        desk.fill("pair.module", "5 kg");
+        assert_snapshot!(name, desk.screen());
+    }
+}
+
+#[test]
+fn the_method_paper_beside_exact() {
+    for (name, size) in [("paper_80x24", SMALL), ("paper_140x45", LARGE)] {
+        let mut desk = Desk::new(size);
+        desk.keys(&["Ctrl-T"]);
+        assert_snapshot!(name, desk.screen());
+    }
+}
+
+#[test]
+fn no_corner_contact_is_a_result() {
+    for (name, size) in [
+        ("no_corner_contact_80x24", SMALL),
+        ("no_corner_contact_140x45", LARGE),
+    ] {
+        let mut desk = Desk::new(size);
+        desk.fill("driven.tip_relief", "80 um");
+        assert_snapshot!(name, desk.screen());
+    }
+}
+
+/// Table 1 in motion, where the closed form stands beside what the method resolves itself.
+fn in_motion(size: Size) -> Desk {
+    let mut desk = Desk::new(size);
+    desk.fill("model.method", "dynamic");
+    desk.keys(&["Esc", "2"]);
+    desk
+}
+
+#[test]
+fn what_the_method_resolves_itself_stands_first() {
+    for (name, size) in [
+        ("in_motion_80x24", SMALL),
+        ("in_motion_140x45", LARGE),
+        ("in_motion_60x16", TINY),
+    ] {
+        assert_snapshot!(name, in_motion(size).screen());
+    }
+    let mut desk = in_motion(SMALL);
+    desk.app.look = Look {
+        theme: &MONO,
+        ascii: true,
+    };
+    assert_snapshot!("in_motion_ascii", desk.screen());
+}
+
+#[test]
+fn every_quantity_comes_in_sight_whole_and_the_title_shows_which_rows_are() {
+    for size in [TINY, SMALL, LARGE] {
+        let mut desk = in_motion(size);
+        let (count, mut rows) = (results::count(&desk.app), Vec::new());
+        for row in 0..count {
+            assert_eq!(desk.app.row, row);
+            let marked = results::marked(&desk.app).expect("a quantity");
+            let symbol = format!("▸{} ", marked.symbol_in(Method::Dynamic));
+            assert!(desk.shows(&symbol), "{size}: {symbol}\n{}", desk.screen());
+            rows.push(marked.key);
+            desk.keys(&["j"]);
+        }
+        rows.dedup();
+        assert_eq!(rows.len(), count, "{size}");
+        let shows_position = |desk: &Desk| {
+            let (first, lines) = (desk.app.results_top + 1, count + 1);
+            let last = desk.app.results_top + results::page(&desk.app);
+            desk.shows(&format!("2 Results {first} to {last} of {lines}"))
+                || size == TINY && first > 1 && desk.shows("2 Results ↑ ")
+                || size == TINY && last < lines && desk.shows("2 Results ↓ ")
+        };
+        assert!(shows_position(&desk), "{size}: {}", desk.screen());
+        desk.keys(&["g"]);
+        assert!(shows_position(&desk), "{size}: {}", desk.screen());
+    }
+}
+
+#[test]
+fn what_the_model_refuses_stands_over_the_last_valid_results() {
+    let mut desk = Desk::new(SMALL);
+    desk.fill("driven.addendum", "1.9");
+    assert_snapshot!("refused_80x24", desk.screen());
+}
+
+#[test]
+fn the_help() {
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["F1"]);
+    assert_snapshot!("help_80x24", desk.screen());
+    desk.act(Action::Resize(LARGE));
+    assert_snapshot!("help_140x45", desk.screen());
+}
+
+#[test]
+fn the_open_prompt_and_a_bad_file() {
+    let mut desk = Desk::on(SMALL, "table-1.toml", TABLE_1);
+    desk.write("another.toml", TABLE_1);
+    desk.write(
+        "bad.toml",
+        &TABLE_1
+            .replace("5 mm", "5 kg")
+            .replace("teeth = 20\n", "teth = 20\n"),
+    );
+    desk.keys(&["Ctrl-O"]);
+    assert_snapshot!("open_80x24", without_folder(&desk));
+    desk.keys(&["bad", "Enter"]);
+    assert_snapshot!("faults_80x24", without_folder(&desk));
+}
+
+#[test]
+fn the_questions() {
+    let mut desk = Desk::on(SMALL, "table-1.toml", TABLE_1);
+    desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-Q"]);
+    assert_snapshot!("quit_80x24", without_folder(&desk));
+}
+
+#[test]
+fn plain_ascii_where_the_terminal_has_nothing_else() {
+    for (name, size) in [("ascii_80x24", SMALL), ("ascii_140x45", LARGE)] {
+        let mut desk = Desk::new(size);
+        desk.app.look = Look {
+            theme: &MONO,
+            ascii: true,
+        };
+        let screen = desk.screen();
+        assert!(screen.is_ascii());
+        assert_snapshot!(name, screen);
+    }
+}
+
+#[test]
+fn a_terminal_too_small_says_so_and_keeps_the_state() {
+    let mut desk = Desk::new(SMALL);
+    desk.fill("operation.speed", "1500 rpm");
+    let before = desk.screen();
+    desk.act(Action::Resize(Size::new(40, 10)));
+    assert_snapshot!("too_small_40x10", desk.screen());
+    for (width, height) in [
+        (59, 16),
+        (60, 15),
+        (20, 5),
+        (10, 3),
+        (5, 1),
+        (4, 4),
+        (1, 1),
+        (0, 0),
+    ] {
+        desk.act(Action::Resize(Size::new(width, height)));
+        assert_snapshot!(format!("too_small_{width}x{height}"), desk.screen());
+    }
+    desk.act(Action::Resize(SMALL));
+    assert_eq!(desk.screen(), before);
+}
+
+#[test]
+fn the_chart_alone_and_the_form_without_it() {
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["F9"]);
+    assert!(!desk.shows("driver angle before E in deg"));
+    desk.keys(&["F9", "Esc", "3", "z"]);
+    assert_snapshot!("chart_80x24", desk.screen());
+}
+
+#[test]
+fn no_size_is_a_trouble() {
+    let openings: [&[&str]; 14] = [
+        &[],
+        &["Ctrl-P", "th"],
+        &["Esc", "3", "l", "z"],
+        &["Esc", "4", "Space"],
+        &["Esc", "2", "G", "b"],
+        &["Ctrl-N", "Ctrl-U", "Alt-1"],
+        &["Ctrl-U", "5 kg"],
+        &["F1", "PageDown"],
+        &["Ctrl-O"],
+        &["F2"],
+        &["Ctrl-U", "Ctrl-Q"],
+        &["F5", "F8"],
+        &["F5", "F5"],
+        &["Ctrl-End", "F4", "F4", "Ctrl-T"],
+    ];
+    for keys in openings {
+        let mut desk = Desk::new(SMALL);
+        desk.keys(keys);
+        for size in sizes() {
+            desk.act(Action::Resize(size));
+            desk.screen();
+            desk.app.look.ascii = !desk.app.look.ascii;
+        }
+    }
+}
+
+#[test]
+fn no_hostile_character_of_a_file_reaches_the_screen() {
+    let hostile = "\\u001B[2J\\u009B31m\\u202Edesrever\\u200B\\nnewline";
+    let text = TABLE_1
+        .replace("Zhou & Chen 2014, Table 1", hostile)
+        .replace("face width reconstructed", hostile);
+    let mut desk = Desk::on(LARGE, "hos\u{202e}tile\u{1b}[31m.toml", &text);
+    for keys in [
+        &[][..],
+        &["Ctrl-Home"],
+        &["Down"],
+        &["Ctrl-O"],
+        &["Esc", "F2"],
+        &["Esc", "x", "Ctrl-Q"],
+    ] {
+        let screen = desk.keys(keys).screen();
+        let bad = screen
+            .chars()
+            .find(|letter| *letter != '\n' && !tipstrike::tui::ascii::is_safe(*letter));
+        assert_eq!(bad, None, "after {keys:?}");
+    }
+    assert!(desk.keys(&["Esc", "Ctrl-Home"]).shows("desrever"));
+}
+
+fn sizes() -> impl Iterator<Item = Size> {
+    let widths = [0, 1, 2, 3, 7, 20, 40, 59, 60, 61, 75, 80, 100, 200];
+    let heights = [0, 1, 2, 3, 5, 10, 15, 16, 17, 20, 24, 35, 80];
+    widths.into_iter().flat_map(move |width| {
+        heights
+            .into_iter()
+            .map(move |height| Size { width, height })
+    })
+}

@@ -1,0 +1,640 @@
+//! The teeth pane: snapshots, keys, and properties over pairs, zooms, angles, sizes and terminals.
+#[allow(dead_code, reason = "each test file uses its own part")]
+use crate::envelope;
+
+use crate::harness;
+
+use std::fs;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use envelope::{Corner, Random, pair};
+use harness::{Desk, LARGE, SMALL};
+use insta::assert_snapshot;
+use ratatui::buffer::{Buffer, Cell};
+use ratatui::layout::{Rect, Size};
+use ratatui::symbols::Marker;
+use tipstrike::case::Document;
+use tipstrike::case::units::System;
+use tipstrike::model::inputs::Method;
+use tipstrike::model::{self, ContactState, Inputs, Solution, Stages, contact_state};
+use tipstrike::tui::actions::Action;
+use tipstrike::tui::ascii;
+use tipstrike::tui::panes::teeth::labels::Labels;
+use tipstrike::tui::panes::teeth::scene::Scene;
+use tipstrike::tui::panes::teeth::zoom::{Centre, Exaggeration, TeethView};
+use tipstrike::tui::panes::teeth::{self, Picture};
+use tipstrike::tui::theme::{Look, MONO};
+
+const SIZES: [(u16, u16); 3] = [(80, 18), (140, 30), (200, 60)];
+const ASCII: Look = Look {
+    theme: &MONO,
+    ascii: true,
+};
+
+fn solved(case: &str) -> (Inputs, Solution) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("cases")
+        .join(case);
+    let inputs = Document::read(&path).unwrap().case.inputs().unwrap();
+    let solution = model::solve(&inputs, Stages::ALL).unwrap();
+    (inputs, solution)
+}
+
+fn picture<'a>(
+    (inputs, solution): &'a (Inputs, Solution),
+    view: &'a TeethView,
+    part: f64,
+) -> Picture<'a> {
+    let cursor = solution
+        .position
+        .map(|position| part * position.approach_angle_driver);
+    Picture {
+        inputs,
+        solution,
+        cursor,
+        view,
+        look: Look::FULL,
+        marker: Marker::Braille,
+        units: System::Metric,
+        is_stale: false,
+    }
+}
+
+fn drawn(picture: &Picture, (width, height): (u16, u16)) -> Buffer {
+    let area = Rect::new(0, 0, width, height);
+    let mut buffer = Buffer::empty(area);
+    teeth::draw(picture, area, &mut buffer);
+    ascii::finish(&mut buffer, picture.look.ascii);
+    buffer
+}
+
+fn screen(picture: &Picture, size: (u16, u16)) -> String {
+    let buffer = drawn(picture, size);
+    let rows = buffer.content.chunks(size.0.max(1).into());
+    rows.map(|row| {
+        row.iter()
+            .map(Cell::symbol)
+            .collect::<String>()
+            .trim_end()
+            .to_owned()
+    })
+    .collect::<Vec<_>>()
+    .join("\n")
+}
+
+#[test]
+fn the_strike_at_every_size() {
+    let table_1 = solved("zhou-chen-2014.toml");
+    for size in SIZES {
+        let view = TeethView::default();
+        assert_snapshot!(
+            format!("strike_{}x{}", size.0, size.1),
+            screen(&picture(&table_1, &view, 1.0), size)
+        );
+    }
+    assert_snapshot!(
+        "strike_60x8",
+        screen(&picture(&table_1, &TeethView::default(), 1.0), (60, 8))
+    );
+}
+
+#[test]
+fn the_approach_from_before_d_to_after_e() {
+    let table_1 = solved("zhou-chen-2014.toml");
+    for (name, part) in [
+        ("before_d", 1.5),
+        ("between_d_and_e", 0.5),
+        ("after_e", -2.0),
+    ] {
+        assert_snapshot!(
+            name,
+            screen(&picture(&table_1, &TeethView::default(), part), (100, 30))
+        );
+    }
+}
+
+#[test]
+fn the_path_of_contact_and_the_whole_pair() {
+    let table_1 = solved("zhou-chen-2014.toml");
+    for (name, centre) in [
+        ("path_of_contact", Centre::PitchPoint),
+        ("whole_pair", Centre::Pair),
+    ] {
+        let view = TeethView {
+            centre,
+            ..TeethView::default()
+        };
+        assert_snapshot!(name, screen(&picture(&table_1, &view, 1.0), (120, 36)));
+    }
+    let turbo = solved("turbo-fine-fast.toml");
+    let view = TeethView {
+        centre: Centre::Pair,
+        ..TeethView::default()
+    };
+    assert_snapshot!(
+        "whole_pair_of_fine_teeth",
+        screen(&picture(&turbo, &view, 1.0), (100, 30))
+    );
+}
+
+#[test]
+fn no_corner_contact_shows_the_flanks_apart() {
+    let relieved = solved("tip-relief-enough.toml");
+    assert_snapshot!(
+        "no_corner_contact",
+        screen(&picture(&relieved, &TeethView::default(), 1.0), (100, 30))
+    );
+}
+
+#[test]
+fn other_markers_and_ascii_draw_the_same_picture() {
+    let table_1 = solved("zhou-chen-2014.toml");
+    let view = TeethView::default();
+    let plain = picture(&table_1, &view, 1.5);
+    let ascii = screen(
+        &Picture {
+            look: ASCII,
+            ..plain
+        },
+        (80, 24),
+    );
+    assert!(ascii.is_ascii());
+    assert_snapshot!("ascii", ascii);
+    for (name, marker) in [("half_block", Marker::HalfBlock), ("dot", Marker::Dot)] {
+        assert_snapshot!(name, screen(&Picture { marker, ..plain }, (80, 24)));
+    }
+}
+
+#[test]
+fn the_cursor_turns_the_gears_and_shows_the_values_of_the_solution() {
+    let table_1 = solved("zhou-chen-2014.toml");
+    let view = TeethView::default();
+    let at_d = screen(&picture(&table_1, &view, 1.0), (140, 30));
+    for value in [
+        "1.3663 deg",
+        "O1J 47.8915 mm",
+        "ΔV_n 0.82106 m/s",
+        "ΔV_τ 5.2227 m/s",
+        "F_S 2191.0 N",
+        "S 47.327 um",
+        "open 0 um",
+    ] {
+        assert!(at_d.contains(value), "no {value} in\n{at_d}");
+    }
+    let without = Picture {
+        cursor: None,
+        ..picture(&table_1, &view, 1.0)
+    };
+    assert_eq!(
+        screen(&without, (140, 30)),
+        at_d,
+        "without a cursor D is shown"
+    );
+    let before = screen(&picture(&table_1, &view, 1.5), (140, 30));
+    assert!(
+        before.contains("F_S –") && before.contains("open 58.13 um"),
+        "{before}"
+    );
+    let rows_that_differ = at_d
+        .lines()
+        .zip(before.lines())
+        .filter(|(one, other)| one != other)
+        .count();
+    assert!(rows_that_differ > 10, "the gears stand still");
+}
+
+#[test]
+fn static_and_dynamic_show_their_own_first_contact_and_force() {
+    for (method, told) in [
+        (Method::Static, ["F ", "x "]),
+        (Method::Dynamic, ["t ", "F/ΣF "]),
+    ] {
+        let (mut inputs, _) = solved("zhou-chen-2014.toml");
+        inputs.method = method;
+        let solution = model::solve(&inputs, Stages::EVERY).unwrap();
+        let (angle, solved) = (
+            contact_state::first_contact(&solution).unwrap(),
+            (inputs, solution),
+        );
+        let view = TeethView::default();
+        let at = |part: f64| {
+            screen(
+                &Picture {
+                    cursor: Some(part * angle * solved.0.ratio()),
+                    ..picture(&solved, &view, 1.0)
+                },
+                (200, 40),
+            )
+        };
+        let exact = angle.to_degrees();
+        assert!(
+            at(1.0).contains(&format!("u {exact:.4}")),
+            "{method:?}: no {exact} in\n{}",
+            at(1.0)
+        );
+        for word in told {
+            assert!(
+                at(0.5).contains(word)
+                    && at(1.5).contains(&format!("{word}–"))
+                    && !at(0.5).contains(&format!("{word}–")),
+                "{method:?}: {word}\n{}",
+                at(1.5)
+            );
+        }
+        for part in [3.0, 1.5, 0.9, 0.0, -5.0, -13.0, -20.0] {
+            assert!(!at(part).contains("n/a"), "{}", at(part));
+        }
+    }
+}
+
+#[test]
+fn the_factor_is_shown_and_decreases_to_one() {
+    let table_1 = solved("zhou-chen-2014.toml");
+    let shown = |view: TeethView| screen(&picture(&table_1, &view, 1.2), (100, 30));
+    assert!(shown(TeethView::default()).contains("gap x20"));
+    assert!(shown(TeethView::default().exaggerated_or_not()).contains("gap x1"));
+    assert!(
+        shown(TeethView {
+            zoom: 10,
+            ..TeethView::default()
+        })
+        .contains("gap x1"),
+        "a large gap is drawn true to scale"
+    );
+    let far = screen(&picture(&table_1, &TeethView::default(), 3.0), (100, 30));
+    let factor: f64 = far
+        .split("gap x")
+        .nth(1)
+        .and_then(|rest| rest.split_whitespace().next())
+        .unwrap()
+        .parse()
+        .unwrap();
+    let opening: f64 = far
+        .split("open ")
+        .nth(1)
+        .and_then(|rest| rest.split_whitespace().next())
+        .unwrap()
+        .parse()
+        .unwrap();
+    assert!(
+        (factor * opening / 1500.0 - 1.0).abs() < 0.02,
+        "{factor} x {opening} um is not 0.3 modules"
+    );
+}
+
+#[test]
+fn zoom_ends_at_the_whole_pair_and_at_a_micrometre() {
+    let (inputs, solution) = solved("zhou-chen-2014.toml");
+    for centre in [Centre::Strike, Centre::PitchPoint, Centre::Pair] {
+        let view = TeethView {
+            centre,
+            ..TeethView::default()
+        };
+        let out = view.zoomed(-1000, &inputs, &solution);
+        assert_eq!(out.zoomed(-1, &inputs, &solution), out);
+        let extent = out.extent(&inputs, &solution);
+        assert!((0.2..0.4).contains(&extent), "{centre:?}: {extent} m");
+        let closest = view.zoomed(i32::MAX, &inputs, &solution);
+        assert!(closest.extent(&inputs, &solution) < 1e-3, "{centre:?}");
+        assert_eq!(
+            closest.zoomed(-1, &inputs, &solution).zoom,
+            closest.zoom - 1
+        );
+    }
+}
+
+#[test]
+fn keys_change_the_view_and_0_resets_it() {
+    let mut desk = Desk::new(LARGE);
+    desk.keys(&["Esc", "4"]);
+    let at_first = desk.screen();
+    for (keys, told) in [
+        (&["+"][..], "Teeth, true to scale, around the strike"),
+        (&["=", "="], "Teeth, true to scale"),
+        (&["-"], "Teeth, true to scale"),
+        (&["v"], "around the pitch point"),
+        (&["v"], "around the pair"),
+        (&["v", "x"], "gap x1 "),
+    ] {
+        let before = desk.screen();
+        desk.keys(keys);
+        assert!(
+            desk.shows(told) && desk.screen() != before,
+            "{keys:?}\n{}",
+            desk.screen()
+        );
+    }
+    desk.keys(&["0"]);
+    assert_eq!(desk.screen(), at_first);
+    desk.keys(&["-"; 12]);
+    assert!(
+        desk.shows("the teeth pane shows the whole pair") && desk.shows("O1"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["+"; 40]);
+    assert!(
+        desk.shows("closest zoom") && desk.shows("um "),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn a_run_starts_before_d_and_ends_at_e() {
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Esc", "4", "z", "Space"]);
+    assert!(desk.ticks && !desk.shows("open 0 um"), "{}", desk.screen());
+    let mut screens = vec![desk.screen()];
+    while desk.ticks {
+        desk.act(Action::Tick);
+        screens.push(desk.screen());
+    }
+    let closed = screens
+        .iter()
+        .position(|screen| screen.contains("open 0 um"))
+        .expect("it closes");
+    assert!(
+        (10..30).contains(&closed),
+        "closed after {closed} of {} pictures",
+        screens.len()
+    );
+    assert!(
+        screens[closed..]
+            .iter()
+            .all(|screen| screen.contains("open 0 um"))
+    );
+    assert!(
+        screens.windows(2).all(|pair| pair[0] != pair[1]),
+        "a picture repeats"
+    );
+    assert!(desk.app.cursor == Some(0.0) && desk.shows("θ_1 0 deg"));
+}
+
+#[test]
+fn the_pane_on_the_screen() {
+    let mut desk = Desk::new(LARGE);
+    desk.keys(&["Esc", "4"]);
+    assert_snapshot!("pane_140x45", desk.screen());
+    desk.keys(&["z"]);
+    assert_snapshot!("pane_alone_140x45", desk.screen());
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Esc", "4"]);
+    assert_snapshot!("pane_80x24", desk.screen());
+}
+
+/// Solved pairs of the whole envelope, some by static.
+fn some_pairs(count: u64) -> impl Iterator<Item = (Inputs, Solution, Random)> {
+    (0..count).filter_map(|number| {
+        let mut random = Random::new(number + 1);
+        let corner = Corner::ALL[(number % Corner::ALL.len() as u64) as usize];
+        let mut inputs = pair(&mut random, corner);
+        if number % 48 == 1 {
+            inputs.method = Method::Static;
+        }
+        let solution =
+            model::solve(&inputs, Stages::CLOSED_FORM.and(inputs.method.stages())).ok()?;
+        Some((inputs, solution, random))
+    })
+}
+
+fn any_view(random: &mut Random) -> TeethView {
+    let centre = random.one_of(&[
+        Centre::Strike,
+        Centre::Strike,
+        Centre::PitchPoint,
+        Centre::Pair,
+    ]);
+    let exaggeration = random.one_of(&[
+        Exaggeration::Fitted,
+        Exaggeration::Fitted,
+        Exaggeration::True,
+    ]);
+    TeethView {
+        centre,
+        zoom: random.one_of(&[
+            0,
+            0,
+            0,
+            -1,
+            -3,
+            -8,
+            -40,
+            2,
+            5,
+            9,
+            14,
+            20,
+            60,
+            i32::MIN,
+            i32::MAX,
+        ]),
+        exaggeration,
+    }
+}
+
+fn any_cursor(solution: &Solution, random: &mut Random) -> Option<f64> {
+    let contact = solution
+        .position
+        .map_or(0.01, |position| position.approach_angle_driver);
+    let part = random.even(-3.0, 4.0);
+    random.one_of(&[
+        None,
+        Some(0.0),
+        Some(part * contact),
+        Some(part * contact),
+        Some(part),
+        Some(1e300),
+        Some(-1e300),
+        Some(f64::NAN),
+    ])
+}
+
+/// The greatest number of strokes of a picture of a given size. It depends on the dots along the
+/// edges and in the area, not on the number of teeth.
+fn most_strokes(size: Size) -> usize {
+    300 + 16 * usize::from(size.width + 2 * size.height)
+}
+
+#[test]
+fn every_pair_zoom_angle_and_size_gives_a_valid_picture() {
+    const WIDTHS: [u16; 10] = [0, 1, 2, 5, 11, 20, 40, 80, 140, 200];
+    const HEIGHTS: [u16; 10] = [0, 1, 2, 3, 5, 8, 16, 24, 45, 60];
+    let (mut drawn_pairs, mut most) = (0, (0.0, String::new()));
+    for (inputs, solution, mut random) in some_pairs(6_000) {
+        for _ in 0..4 {
+            let view = any_view(&mut random);
+            let cursor = any_cursor(&solution, &mut random);
+            let look = random.one_of(&[Look::FULL, Look::FULL, ASCII]);
+            let marker = random.one_of(&[
+                Marker::Braille,
+                Marker::Braille,
+                Marker::HalfBlock,
+                Marker::Dot,
+            ]);
+            let is_stale = random.chance(0.2);
+            let picture = Picture {
+                inputs: &inputs,
+                solution: &solution,
+                cursor,
+                view: &view,
+                look,
+                marker,
+                units: random.one_of(&System::ALL),
+                is_stale,
+            };
+            let size = (random.one_of(&WIDTHS), random.one_of(&HEIGHTS));
+            let told = || format!("{view:?} {cursor:?} {size:?} {marker:?} {look:?} {inputs:?}");
+            let screen = screen(&picture, size);
+            assert!(
+                !["NaN", "inf", "n/a"].iter().any(|bad| screen.contains(bad)),
+                "{screen}\n{}",
+                told()
+            );
+            assert!(!look.ascii || screen.is_ascii(), "{screen}\n{}", told());
+            let share = examine(&picture, Size::new(size.0.max(12), size.1.max(4)), &told);
+            if share > most.0 {
+                most = (share, told());
+            }
+        }
+        drawn_pairs += 1;
+    }
+    println!(
+        "{drawn_pairs} pairs; most strokes {:.2} of what is allowed: {}",
+        most.0, most.1
+    );
+    assert!(drawn_pairs > 4_000, "only {drawn_pairs}");
+}
+
+/// Every stroke is finite and visible, and no two words overlap. Returns the share of the allowed
+/// strokes.
+fn examine(picture: &Picture, size: Size, told: &dyn Fn() -> String) -> f64 {
+    let moment = ContactState::at(picture.inputs, picture.solution, picture.angle());
+    let scene = Scene::of(picture, moment.as_ref(), size);
+    let ([left, right], [low, high]) = (scene.window.across(), scene.window.upright());
+    assert!(
+        left < right && low < high && (right - left).is_finite() && (high - low).is_finite(),
+        "{}",
+        told()
+    );
+    let margin = 1e-6 * (right - left) + scene.window.dot + scene.window.dot_height();
+    for stroke in &scene.strokes {
+        for point in [stroke.from, stroke.to] {
+            let in_sight = (left - margin..=right + margin).contains(&point.x)
+                && (low - margin..=high + margin).contains(&point.y);
+            assert!(
+                in_sight,
+                "{stroke:?} out of {left}..{right}, {low}..{high}: {}",
+                told()
+            );
+        }
+    }
+    let area = Rect::new(0, 0, size.width, size.height);
+    let words = Labels::new(area).draw(&scene, picture, &mut Buffer::empty(area));
+    for (number, word) in words.iter().enumerate() {
+        assert!(
+            words[..number].iter().all(|other| !other.intersects(*word)),
+            "{words:?}: {}",
+            told()
+        );
+    }
+    let share = scene.strokes.len() as f64 / most_strokes(size) as f64;
+    assert!(share <= 1.0, "{} strokes: {}", scene.strokes.len(), told());
+    share
+}
+
+/// Sizes of the picture alone on usual terminals, and beside other panes.
+const PLOTS: [(u16, u16); 5] = [(60, 9), (80, 6), (56, 15), (80, 17), (238, 62)];
+
+#[test]
+fn words_cover_no_line_where_there_is_room() {
+    let (mut words_in_all, mut covering) = (0, Vec::new());
+    for case in fs::read_dir("cases")
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+    {
+        let solved = solved(&case);
+        for centre in [Centre::Strike, Centre::PitchPoint, Centre::Pair] {
+            for zoom in [-6, -3, -1, 0, 1, 2, 4, 8, 14] {
+                for ((width, height), look) in PLOTS
+                    .into_iter()
+                    .flat_map(|size| [Look::FULL, ASCII].map(|look| (size, look)))
+                {
+                    let view = TeethView {
+                        centre,
+                        zoom,
+                        ..TeethView::default()
+                    };
+                    let picture = Picture {
+                        look,
+                        ..picture(&solved, &view, 1.0)
+                    };
+                    let moment =
+                        ContactState::at(picture.inputs, picture.solution, picture.angle());
+                    let area = Rect::new(0, 0, width, height);
+                    let scene = Scene::of(&picture, moment.as_ref(), area.as_size());
+                    let mut buffer = Buffer::empty(area);
+                    teeth::raster::draw(&scene, &picture, area, &mut buffer);
+                    let drawn = buffer.clone();
+                    let words = Labels::new(area).draw(&scene, &picture, &mut buffer);
+                    // The second rectangle is the scale bar.
+                    for word in words
+                        .iter()
+                        .enumerate()
+                        .filter(|(at, _)| *at != 1)
+                        .map(|(_, word)| word)
+                    {
+                        words_in_all += 1;
+                        if word.positions().any(|at| drawn[at].symbol() != " ") {
+                            covering.push(format!(
+                                "{case} {centre:?} {zoom} {width}x{height} {word:?}"
+                            ));
+                        }
+                    }
+                    let factor = scene.factor.map(|_| "gap x");
+                    let text = buffer.content.iter().map(Cell::symbol).collect::<String>();
+                    assert!(
+                        factor.is_none_or(|factor| text.contains(factor)),
+                        "{case} {centre:?} {zoom} {width}x{height}"
+                    );
+                }
+            }
+        }
+    }
+    println!(
+        "{} of {words_in_all} words lie on a line: {covering:#?}",
+        covering.len()
+    );
+    assert!(
+        200 * covering.len() <= words_in_all,
+        "{} of {words_in_all}: {covering:#?}",
+        covering.len()
+    );
+}
+
+/// Prints the wall time. The test of the strokes is the limit.
+#[test]
+fn a_picture_has_few_strokes() {
+    for (case, centre) in [
+        ("zhou-chen-2014.toml", Centre::Strike),
+        ("zhou-chen-2014.toml", Centre::Pair),
+        ("turbo-fine-fast.toml", Centre::Pair),
+    ] {
+        let solved = solved(case);
+        let view = TeethView {
+            centre,
+            ..TeethView::default()
+        };
+        let mut times: Vec<Duration> = (0..101)
+            .map(|step| {
+                let picture = picture(&solved, &view, 2.0 - f64::from(step) / 50.0);
+                let start = Instant::now();
+                drawn(&picture, (200, 60));
+                start.elapsed()
+            })
+            .collect();
+        times.sort();
+        println!("{case} {centre:?} at 200x60: median {:?}", times[50]);
+    }
+}

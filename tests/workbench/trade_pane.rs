@@ -1,0 +1,354 @@
+//! The pane of error against time: measuring, stopping, walking along the settings, taking one.
+use crate::harness;
+
+use crossterm::event::KeyCode;
+use harness::{Desk, LARGE, SMALL, TABLE_1, time_evenly};
+use insta::assert_snapshot;
+use ratatui::layout::Size;
+use tipstrike::model::inputs::Method;
+use tipstrike::study::trade::Setting;
+use tipstrike::tui::actions::Action;
+use tipstrike::tui::actions::Effect;
+use tipstrike::tui::app::Progress;
+use tipstrike::tui::layout::plan;
+use tipstrike::tui::theme::{Look, MONO};
+use tipstrike::tui::trade_worker::{End, Measured, Measuring};
+use tipstrike::tui::update::update;
+
+fn measured(size: Size) -> Desk {
+    let mut desk = Desk::on(size, "case.toml", TABLE_1);
+    desk.keys(&["Esc", "5", "z", "m"]);
+    desk
+}
+
+fn own(desk: &Desk) -> Setting {
+    Setting::of(&desk.app.case.inputs().expect("a valid form"))
+}
+
+/// The effects of a key, not performed.
+fn asked(desk: &mut Desk, key: &str) -> Vec<Effect> {
+    let letter = || KeyCode::Char(key.chars().next().expect("a key")).into();
+    let event = harness::named(key).unwrap_or_else(letter);
+    let action = tipstrike::tui::actions::of_key(event, desk.app.place()).expect("an action");
+    update(&mut desk.app, action)
+}
+
+#[test]
+fn nothing_is_measured_until_it_is_asked_for() {
+    let mut desk = Desk::new(LARGE);
+    desk.keys(&["Esc", "5", "z"]);
+    assert!(desk.shows("No benchmark yet: m runs"), "{}", desk.screen());
+    desk.keys(&["Right", "Enter"]);
+    assert!(
+        desk.shows("nothing is measured yet: m measures"),
+        "{}",
+        desk.screen()
+    );
+    assert!(desk.app.traded.is_none());
+}
+
+#[test]
+fn without_corner_contact_no_setting_is_recommended() {
+    let case = include_str!("../../cases/tip-relief-enough.toml");
+    let mut desk = Desk::on(LARGE, "case.toml", case);
+    desk.keys(&["Esc", "5", "z", "m"]);
+    assert!(
+        desk.shows("No method finds corner contact: no setting is recommended"),
+        "{}",
+        desk.screen()
+    );
+    let traded = desk.app.traded.as_ref().expect("a measurement");
+    assert_eq!(traded.marked, None);
+}
+
+#[test]
+fn m_measures_and_the_cheapest_that_will_do_is_marked() {
+    let desk = measured(LARGE);
+    let traded = desk.app.traded.as_ref().expect("a measurement");
+    assert_eq!(traded.marked.expect("a mark").method, Method::Dynamic);
+    assert!(
+        desk.shows("Within 5.0 %: dynamic with"),
+        "{}",
+        desk.screen()
+    );
+    assert!(
+        desk.shows("(e)") && (desk.shows("[D]") || desk.shows("[d]")),
+        "{}",
+        desk.screen()
+    );
+    assert!(desk.shows("P") && desk.shows("1 ms") && desk.app.progress.is_none());
+}
+
+#[test]
+fn the_method_that_the_others_are_held_against_has_no_error_of_its_own() {
+    let desk = measured(LARGE);
+    assert!(
+        desk.shows("model: the reference") && !desk.shows("model 0 %"),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn arrows_walk_from_the_quickest_to_the_slowest() {
+    let mut desk = measured(LARGE);
+    let seconds = |desk: &Desk| {
+        let traded = desk.app.traded.as_ref().unwrap();
+        let marked = traded.marked.unwrap();
+        traded
+            .trade
+            .as_ref()
+            .unwrap()
+            .settings
+            .iter()
+            .find(|one| one.setting == marked)
+            .unwrap()
+            .seconds()
+    };
+    for _ in 0..100 {
+        desk.keys(&["Left"]);
+    }
+    let mut last = seconds(&desk);
+    for _ in 0..10 {
+        desk.keys(&["l"]);
+        assert!(seconds(&desk) >= last);
+        last = seconds(&desk);
+    }
+    assert!(desk.shows("not within 5.0 %"), "{}", desk.screen());
+}
+
+#[test]
+fn enter_makes_the_marked_setting_the_cases_and_undo_takes_it_back() {
+    let mut desk = measured(LARGE);
+    let before = own(&desk);
+    let marked = desk.app.traded.as_ref().unwrap().marked.unwrap();
+    desk.keys(&["Enter"]);
+    assert_eq!(own(&desk), marked);
+    assert_eq!(desk.app.answer.as_ref().unwrap().active, Method::Dynamic);
+    assert!(
+        desk.shows(&format!("method {marked}; u undoes")),
+        "{}",
+        desk.screen()
+    );
+    assert!(!desk.shows("OUTDATED"), "a setting makes no other case");
+    desk.keys(&["u"]);
+    assert_eq!(own(&desk), before);
+}
+
+#[test]
+fn another_case_makes_the_measurement_one_of_before() {
+    let mut desk = measured(LARGE);
+    desk.keys(&["z"]);
+    desk.fill("operation.speed", "1500 rpm");
+    desk.keys(&["Esc", "5", "z"]);
+    assert!(desk.shows("OUTDATED, m runs it again"), "{}", desk.screen());
+    desk.keys(&["m"]);
+    assert!(!desk.shows("OUTDATED"), "{}", desk.screen());
+}
+
+#[test]
+fn esc_stops_a_measurement_and_what_was_measured_stays() {
+    let mut desk = Desk::new(LARGE);
+    desk.keys(&["Esc", "5", "z"]);
+    let effects = asked(&mut desk, "m");
+    let serial = match &effects[..] {
+        [Effect::Measure(measuring)] => {
+            let Measuring { serial, .. } = **measuring;
+            serial
+        }
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(
+        desk.app.progress,
+        Some(Progress {
+            what: "measuring".to_owned(),
+            part: 0.0
+        })
+    );
+    assert!(matches!(asked(&mut desk, "Esc")[..], [Effect::CancelWork]));
+    update(
+        &mut desk.app,
+        Action::Measured(Box::new(Measured {
+            serial,
+            trade: None,
+            end: Some(End::Stopped),
+        })),
+    );
+    assert!(desk.app.progress.is_none() && desk.shows("the measurement is stopped"));
+}
+
+#[test]
+fn a_measurement_out_of_sight_stops() {
+    let mut desk = Desk::new(SMALL);
+    desk.keys(&["Esc", "5"]);
+    assert!(matches!(asked(&mut desk, "m")[..], [Effect::Measure(_)]));
+    assert!(
+        asked(&mut desk, "2")
+            .iter()
+            .all(|effect| !matches!(effect, Effect::CancelWork)),
+        "it is in sight"
+    );
+    assert!(
+        matches!(asked(&mut desk, "3")[..], [Effect::CancelWork]),
+        "the chart takes its place"
+    );
+}
+
+#[test]
+fn what_a_later_measurement_overtook_changes_nothing() {
+    let mut desk = Desk::new(LARGE);
+    desk.keys(&["Esc", "5", "z"]);
+    let first = asked(&mut desk, "m");
+    let second = asked(&mut desk, "m");
+    let serials = [&first, &second].map(|effects| match &effects[..] {
+        [Effect::Measure(measuring)] => measuring.serial,
+        other => panic!("{other:?}"),
+    });
+    assert!(serials[0] < serials[1]);
+    let late = Measured {
+        serial: serials[0],
+        trade: None,
+        end: Some(End::Stopped),
+    };
+    update(&mut desk.app, Action::Measured(Box::new(late)));
+    assert!(desk.app.progress.is_some(), "the second goes on");
+    let failed = Measured {
+        serial: serials[1],
+        trade: None,
+        end: Some(End::Failed("no mesh".to_owned())),
+    };
+    update(&mut desk.app, Action::Measured(Box::new(failed)));
+    assert!(desk.app.progress.is_none() && desk.shows("nothing is measured: no mesh"));
+}
+
+#[test]
+fn a_measurement_ends_although_its_case_was_closed() {
+    let mut desk = Desk::new(LARGE);
+    desk.keys(&["Ctrl-N", "Esc", "5"]);
+    let serial = match &asked(&mut desk, "m")[..] {
+        [Effect::Measure(measuring)] => measuring.serial,
+        other => panic!("{other:?}"),
+    };
+    desk.keys(&["Alt-W"]);
+    assert!(
+        desk.app.progress.is_some() && desk.has_cancelled,
+        "{}",
+        desk.screen()
+    );
+    update(
+        &mut desk.app,
+        Action::Measured(Box::new(Measured {
+            serial,
+            trade: None,
+            end: Some(End::Stopped),
+        })),
+    );
+    assert!(
+        desk.app.progress.is_none() && desk.app.measuring.is_none(),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn an_invalid_form_is_not_measured() {
+    let mut desk = Desk::new(LARGE);
+    desk.fill("pair.module", "x");
+    desk.keys(&["Esc", "5"]);
+    assert!(asked(&mut desk, "m").is_empty());
+    assert!(desk.shows("the form is not valid"));
+}
+
+#[test]
+fn it_is_drawn_at_every_size() {
+    let mut desk = measured(SMALL);
+    for width in (0..=150).step_by(7) {
+        for height in 0..=50 {
+            let screen = desk.screen_at(Size { width, height });
+            assert!(
+                !screen.contains("NaN") && !screen.contains("inf"),
+                "{screen}"
+            );
+        }
+    }
+    desk.keys(&["Tab", "BackTab", "Right", "Left"]);
+    assert!(
+        desk.shows("1 ms") || desk.shows("100 us"),
+        "{}",
+        desk.screen()
+    );
+}
+
+fn timed(size: Size) -> Desk {
+    let mut desk = measured(size);
+    time_evenly(&mut desk);
+    desk.app.message = None;
+    desk
+}
+
+#[test]
+fn the_pane_as_it_looks() {
+    for (name, size) in [("80x24", SMALL), ("140x45", LARGE)] {
+        let desk = timed(size);
+        assert_snapshot!(format!("alone_{name}"), desk.screen());
+    }
+    let mut desk = timed(SMALL);
+    desk.app.look = Look {
+        theme: &MONO,
+        ascii: true,
+    };
+    assert!(desk.screen().is_ascii());
+    assert_snapshot!("alone_ascii", desk.screen());
+    desk.keys(&["z"]);
+    assert_snapshot!("beside_the_others_ascii", desk.screen());
+}
+
+#[test]
+fn every_mark_stands_on_its_side_of_the_error_that_will_do() {
+    let sizes = [(60, 16), (80, 24), (80, 30), (140, 45), (240, 70)];
+    for (width, height) in sizes {
+        let mut desk = timed(SMALL);
+        desk.app.size = Size { width, height };
+        let area = plan(desk.app.size, desk.app.panes).trade;
+        let screen = desk.screen();
+        let rows: Vec<Vec<char>> = screen
+            .lines()
+            .map(|line| line.chars().skip(area.x.into()).collect())
+            .collect();
+        let pane = &rows[usize::from(area.y) + 1..usize::from(area.bottom())];
+        let level = pane
+            .iter()
+            .position(|row| row.iter().filter(|&&cell| cell == '╌').count() > 9)
+            .expect("a line");
+        let line: String = pane[level].iter().collect();
+        assert!(
+            line.contains("5.0 %┤") && !line.contains(char::is_alphabetic),
+            "{width}x{height}: {line}"
+        );
+        let axis = pane
+            .iter()
+            .position(|row| row.contains(&'└'))
+            .expect("an axis");
+        let letters = |rows: &[Vec<char>]| -> Vec<char> {
+            let plot = rows.iter().flat_map(|row| {
+                row.iter()
+                    .skip_while(|cell| !"│┤".contains(**cell))
+                    .copied()
+            });
+            plot.filter(|cell| "pesdaPESDA".contains(*cell)).collect()
+        };
+        // On Table 1 the closed forms and the load at rest are farther off than 5 %.
+        let (above, below) = (
+            letters(&pane[usize::from(level > 5)..level]),
+            letters(&pane[level + 1..axis]),
+        );
+        assert!(
+            above.iter().all(|letter| "pesPES".contains(*letter)) && !above.is_empty(),
+            "{width}x{height}:\n{screen}"
+        );
+        assert!(
+            below.iter().all(|letter| "daDA".contains(*letter)) && !below.is_empty(),
+            "{width}x{height}:\n{screen}"
+        );
+    }
+}
