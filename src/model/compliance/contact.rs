@@ -7,7 +7,7 @@ mod weber;
 
 use std::f64::consts::PI;
 
-use super::list::{help_bytes, help_length, text};
+use super::list::listed;
 use super::{ContactPlace, ElasticGear, Elasticity};
 use crate::model::Refusal;
 use crate::model::explanation::{Context, Step};
@@ -180,54 +180,7 @@ fn place_at_d(context: &Context) -> Option<ContactPlace> {
     ))
 }
 
-impl ContactCompliance {
-    /// Every model, in the order of the list.
-    pub const ALL: [ContactCompliance; MODELS.len()] = {
-        let mut all = [ContactCompliance::named(MODELS[0].name); MODELS.len()];
-        let mut at = 0;
-        while at < MODELS.len() {
-            all[at] = ContactCompliance::named(MODELS[at].name);
-            at += 1;
-        }
-        all
-    };
-
-    /// The names in a case file.
-    pub const NAMES: [&str; MODELS.len()] = {
-        let mut names = [""; MODELS.len()];
-        let mut at = 0;
-        while at < MODELS.len() {
-            names[at] = MODELS[at].name;
-            at += 1;
-        }
-        names
-    };
-
-    /// One sentence on each model, for the form.
-    pub const HELP: &'static str = text(&help_bytes::<HELP_LENGTH>(
-        &ContactCompliance::NAMES,
-        &HELPS,
-    ));
-
-    /// The model of that name.
-    #[must_use]
-    pub fn model(self) -> &'static ContactModel {
-        let named = |model: &&'static ContactModel| model.name == self.name();
-        MODELS.into_iter().find(named).unwrap_or(MODELS[0])
-    }
-}
-
-const HELPS: [&str; MODELS.len()] = {
-    let mut helps = [""; MODELS.len()];
-    let mut at = 0;
-    while at < MODELS.len() {
-        helps[at] = MODELS[at].help;
-        at += 1;
-    }
-    helps
-};
-
-const HELP_LENGTH: usize = help_length(&ContactCompliance::NAMES, &HELPS);
+listed!(ContactCompliance, ContactModel);
 
 #[cfg(test)]
 mod tests {

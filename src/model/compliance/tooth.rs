@@ -5,7 +5,7 @@ pub mod beam;
 pub mod kuang_yang;
 
 use super::ElasticGear;
-use super::list::{help_bytes, help_length, text};
+use super::list::listed;
 use crate::model::Refusal;
 use crate::model::explanation::{Context, Finding, Step};
 use crate::model::geometry::{Circles, Geometry};
@@ -129,52 +129,7 @@ pub fn model_of(inputs: &Inputs) -> ToothCompliance {
     inputs.tooth_compliance.unwrap_or_else(by_range)
 }
 
-impl ToothCompliance {
-    /// Every model, in the order of the list.
-    pub const ALL: [ToothCompliance; MODELS.len()] = {
-        let mut all = [ToothCompliance::named(MODELS[0].name); MODELS.len()];
-        let mut at = 0;
-        while at < MODELS.len() {
-            all[at] = ToothCompliance::named(MODELS[at].name);
-            at += 1;
-        }
-        all
-    };
-
-    /// The names in a case file.
-    pub const NAMES: [&str; MODELS.len()] = {
-        let mut names = [""; MODELS.len()];
-        let mut at = 0;
-        while at < MODELS.len() {
-            names[at] = MODELS[at].name;
-            at += 1;
-        }
-        names
-    };
-
-    /// One sentence on each model, for the form.
-    pub const HELP: &'static str =
-        text(&help_bytes::<HELP_LENGTH>(&ToothCompliance::NAMES, &HELPS));
-
-    /// The model of that name.
-    #[must_use]
-    pub fn model(self) -> &'static ToothModel {
-        let named = |model: &&'static ToothModel| model.name == self.name();
-        MODELS.into_iter().find(named).unwrap_or(MODELS[0])
-    }
-}
-
-const HELPS: [&str; MODELS.len()] = {
-    let mut helps = [""; MODELS.len()];
-    let mut at = 0;
-    while at < MODELS.len() {
-        helps[at] = MODELS[at].help;
-        at += 1;
-    }
-    helps
-};
-
-const HELP_LENGTH: usize = help_length(&ToothCompliance::NAMES, &HELPS);
+listed!(ToothCompliance, ToothModel);
 
 #[cfg(test)]
 mod tests {
