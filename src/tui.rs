@@ -8,6 +8,7 @@
 pub mod actions;
 pub mod app;
 pub mod ascii;
+pub mod benchmark;
 pub mod browser;
 pub mod capped_backend;
 pub mod commands;
@@ -21,7 +22,6 @@ pub mod history;
 mod input;
 pub mod jobs;
 pub mod keys;
-pub mod latest_request;
 pub mod layout;
 pub mod line;
 pub mod pane;
@@ -38,9 +38,9 @@ pub mod tab;
 pub mod terminal;
 pub mod text;
 pub mod theme;
-pub mod trade_worker;
 pub mod update;
 pub mod view;
+pub mod worker;
 
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -56,17 +56,15 @@ use app::App;
 use effects::{claimed, perform};
 use ending::TERMINAL_LOST;
 use events::{Event, Events};
-use jobs::Jobs;
 use session::autosave::Autosave;
 use session::journal_writer::JournalWriter;
 use settings::Settings;
-use solver::Solver;
 use store::state::State;
 use store::{Opening, Trouble};
 use terminal::Screen;
 use theme::Look;
-use trade_worker::TradeWorker;
 use update::update;
+use worker::Workers;
 
 const NO_TERMINAL: u8 = 2;
 const PANICKED: u8 = 101;
@@ -78,9 +76,7 @@ struct Workbench {
     app: App,
     screen: Screen,
     events: Events,
-    solver: Solver,
-    trade_worker: TradeWorker,
-    errands: Jobs,
+    workers: Workers,
     autosave: Autosave,
     /// When the next picture of what plays is due.
     alarm: Option<Instant>,
@@ -150,7 +146,10 @@ pub fn run(case: Option<PathBuf>) -> ExitCode {
 // the terminal in our modes.
 fn begin(events: &Events) -> io::Result<Arc<JournalWriter>> {
     let signals = ending::hold_signals()?;
-    let journal_writer = JournalWriter::open(events.warner())?;
+    let send = events.action_sender();
+    let journal_writer = JournalWriter::open(move |reason| {
+        send(Action::Failed(reason));
+    })?;
     let last_words = Arc::clone(&journal_writer);
     ending::listen(signals, &events.sender(), move || {
         drop(last_words.write(false));
@@ -186,20 +185,16 @@ fn session(
         report(&mut app, trouble);
     }
     screen.draw(&app)?;
-    let solver = Solver::start(events.teller())?;
+    let workers = Workers::start(Arc::new(events.action_sender()))?;
     if let Some(request) = app.unanswered() {
-        solver.ask(request);
+        workers.solve(request);
     }
-    let trade_worker = TradeWorker::new(events.meter());
-    let errands = Jobs::new(events.messenger());
     let autosave = Autosave::new(State::find(), Arc::clone(journal_writer));
     Workbench {
         app,
         screen,
         events,
-        solver,
-        trade_worker,
-        errands,
+        workers,
         autosave,
         alarm: None,
         chosen: None,
@@ -292,11 +287,11 @@ impl Workbench {
                         self.screen.clear()?;
                     }
                     Effect::Suspend => self.suspend()?,
-                    Effect::Solve(request) => self.solver.ask(*request),
-                    Effect::Measure(measuring) => self.trade_worker.begin(*measuring)?,
-                    Effect::CancelWork => self.trade_worker.stop(),
-                    Effect::CancelSolve => self.solver.stop(),
-                    Effect::Job(errand) => self.errands.ask(errand)?,
+                    Effect::Solve(request) => self.workers.solve(*request),
+                    Effect::Measure(measuring) => self.workers.measure(*measuring)?,
+                    Effect::CancelWork => self.workers.stop_benchmark(),
+                    Effect::CancelSolve => self.workers.stop_solve(),
+                    Effect::Job(job) => self.workers.job(job)?,
                     Effect::Keep(settings) => self.chosen = Some(settings),
                     Effect::Copy(text) => self.screen.copy(&text)?,
                     Effect::Mouse(takes) => self.screen.take_mouse(takes)?,

@@ -6,6 +6,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 use ratatui::layout::{Position, Size};
 
 use super::app::Progress;
+use super::benchmark::{Measured, Measuring};
 use super::commands::{self, Command};
 use super::jobs::{Explained, Job};
 use super::keys::{Chord, Place};
@@ -18,7 +19,6 @@ use super::store::case_search::Below;
 use super::store::folder::Listing;
 use super::store::preview::{Preview, Viewport};
 use super::store::recents::Recent;
-use super::trade_worker::{Measured, Measuring};
 use crate::case::Document;
 use crate::report::digest::Digest;
 

@@ -3,7 +3,6 @@
 use std::fs;
 
 use super::actions::{Action, Effect};
-use super::jobs::Finding;
 use super::session::autosave::Autosave;
 use super::session::recovery::Claim;
 use super::store::{self, recents};
@@ -50,20 +49,6 @@ pub fn perform(effect: Effect, autosave: &mut Autosave) -> Option<Action> {
         | Effect::Redraw
         | Effect::Suspend
         | Effect::Quit => None,
-    }
-}
-
-/// The result of a job as an action.
-#[must_use]
-pub fn told(finding: Finding) -> Action {
-    match finding {
-        Finding::Folder(listing) => Action::Listed(listing),
-        Finding::Below(below) => Action::Found(below),
-        Finding::Preview(sight, preview) => Action::Previewed(sight, preview),
-        Finding::Recents(recents) => Action::Recents(recents),
-        Finding::Examples(digests) => Action::Examples(digests),
-        Finding::Explained(explained) => Action::Explained(explained),
-        Finding::Failed(reason) => Action::Failed(reason),
     }
 }
 

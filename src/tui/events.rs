@@ -10,12 +10,8 @@ use crossterm::event::{Event as Input, MouseButton, MouseEvent, MouseEventKind};
 use ratatui::layout::Position;
 
 use super::actions::{self, Action};
-use super::effects::told;
 use super::input;
-use super::jobs::Finding;
 use super::keys::Place;
-use super::solver::Reply;
-use super::trade_worker::Measured;
 
 /// Something from outside.
 #[derive(Debug, Clone)]
@@ -24,14 +20,8 @@ pub enum Event {
     Input(Input),
     /// A signal of that number.
     Signal(i32),
-    /// From the worker.
-    Reply(Reply),
-    /// From the trade_worker.
-    Measured(Box<Measured>),
-    /// From the autosave of unsaved edits, which cannot keep them.
-    Warned(String),
-    /// From an errand.
-    Found(Box<Finding>),
+    /// From a worker, or from the journal, which cannot be written.
+    Action(Action),
     /// Time for the next picture of what plays.
     Tick,
     /// The terminal is gone.
@@ -83,28 +73,10 @@ impl Events {
         self.sender.clone()
     }
 
-    /// A way for the autosave to tell what goes wrong.
-    pub fn warner(&self) -> impl Fn(String) + Send + 'static {
+    /// Sends actions as events.
+    pub fn action_sender(&self) -> impl Fn(Action) -> bool + Send + Sync + 'static {
         let sender = self.sender.clone();
-        move |text| drop(sender.send(Event::Warned(text)))
-    }
-
-    /// A way for errands to tell what they found.
-    pub fn messenger(&self) -> impl Fn(Finding) -> bool + Send + Sync + 'static {
-        let sender = self.sender.clone();
-        move |finding| sender.send(Event::Found(Box::new(finding))).is_ok()
-    }
-
-    /// A way for the worker to tell its replies.
-    pub fn teller(&self) -> impl Fn(Reply) -> bool + Send + Sync + 'static {
-        let sender = self.sender.clone();
-        move |reply| sender.send(Event::Reply(reply)).is_ok()
-    }
-
-    /// A way for the trade_worker to tell what is known.
-    pub fn meter(&self) -> impl Fn(Measured) -> bool + Send + Sync + 'static {
-        let sender = self.sender.clone();
-        move |measured| sender.send(Event::Measured(Box::new(measured))).is_ok()
+        move |action| sender.send(Event::Action(action)).is_ok()
     }
 
     /// Wait for something, and take all that has come with it: a tick when nothing came before the
@@ -151,12 +123,7 @@ pub fn take_action(
             action => Some(action),
         },
         Event::Input(Input::Paste(text)) => Some(Action::Paste(text)),
-        Event::Reply(Reply::Solved(answer)) => Some(Action::Solved(answer)),
-        Event::Reply(Reply::Solving(serial, part)) => Some(Action::Solving(serial, part)),
-        Event::Measured(measured) => Some(Action::Measured(measured)),
-        Event::Reply(Reply::Failed(serial)) => Some(Action::SolverFailed(serial)),
-        Event::Warned(text) => Some(Action::Failed(text)),
-        Event::Found(found) => Some(told(*found)),
+        Event::Action(action) => Some(action),
         Event::Input(Input::Mouse(mouse)) => of_mouse(mouse),
         Event::Tick => Some(Action::Tick),
         Event::Input(_) | Event::Signal(_) | Event::Lost => None,

@@ -21,7 +21,7 @@ use tipstrike::tui::actions::Action;
 use tipstrike::tui::actions::Effect;
 use tipstrike::tui::app::App;
 use tipstrike::tui::events::{Event, take_action};
-use tipstrike::tui::jobs::{self, Job};
+use tipstrike::tui::jobs::Job;
 use tipstrike::tui::prompt::Prompt;
 use tipstrike::tui::session::autosave::Autosave;
 use tipstrike::tui::session::journal_writer::JournalWriter;
@@ -32,7 +32,7 @@ use tipstrike::tui::store::state::State;
 use tipstrike::tui::store::{self, case_search, folder};
 use tipstrike::tui::theme::Look;
 use tipstrike::tui::update::update;
-use tipstrike::tui::{effects, rows, update, view};
+use tipstrike::tui::{effects, rows, update, view, worker};
 
 use crate::values::{HOSTILE, field_and_text};
 use crate::{hold, is_hostile, texts};
@@ -211,7 +211,7 @@ fn ctrl(letter: char) -> KeyEvent {
 }
 
 fn done(errand: Job) -> Option<Action> {
-    jobs::perform(errand, &|_| true).map(effects::told)
+    worker::jobs::perform(errand, &|_| true)
 }
 
 impl Bench {

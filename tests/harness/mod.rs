@@ -6,7 +6,6 @@ use std::cell::RefCell;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
@@ -20,15 +19,18 @@ use tipstrike::study::trade::{Patience, Time};
 use tipstrike::tui::actions::Effect;
 use tipstrike::tui::actions::{self, Action};
 use tipstrike::tui::app::App;
-use tipstrike::tui::jobs::{self, Job};
+use tipstrike::tui::benchmark::Measuring;
+use tipstrike::tui::jobs::Job;
 use tipstrike::tui::session::autosave::Autosave;
 use tipstrike::tui::session::journal_writer::JournalWriter;
 use tipstrike::tui::settings::Settings;
 use tipstrike::tui::store::recents;
 use tipstrike::tui::store::state::State;
 use tipstrike::tui::theme::Look;
-use tipstrike::tui::trade_worker::{Measuring, measure};
 use tipstrike::tui::update::update;
+use tipstrike::tui::worker::jobs;
+use tipstrike::tui::worker::latest::Running;
+use tipstrike::tui::worker::measuring::measure;
 use tipstrike::tui::{effects, solver, store, update, view};
 
 pub(crate) const SMALL: Size = Size {
@@ -167,7 +169,7 @@ impl Desk {
                         actions.push(Action::Recents(recents::looked_at(self.recents.clone())));
                     }
                     Effect::Job(errand) => {
-                        actions.extend(jobs::perform(errand, &|_| true).map(effects::told));
+                        actions.extend(jobs::perform(errand, &|_| true));
                     }
                     Effect::Remember(_) => (),
                     other => actions.extend(effects::perform(other, &mut self.autosave)),
@@ -266,21 +268,19 @@ pub(crate) fn time_evenly(desk: &mut Desk) {
 }
 
 fn measured(measuring: Measuring) -> Vec<Action> {
-    let told = RefCell::new(Vec::new());
-    measure(
-        &Measuring {
-            patience: Patience::ONCE,
-            ..measuring
-        },
-        &AtomicBool::new(false),
-        &|measured| {
-            told.borrow_mut().push(Action::Measured(Box::new(measured)));
-            true
-        },
-    );
-    let mut told = told.into_inner();
-    told.reverse();
-    told
+    let sent = RefCell::new(Vec::new());
+    let once = Measuring {
+        patience: Patience::ONCE,
+        ..measuring
+    };
+    let running = Running {
+        is_wanted: &|| true,
+        send: &|action| sent.borrow_mut().push(action),
+    };
+    measure(&once, running);
+    let mut sent = sent.into_inner();
+    sent.reverse();
+    sent
 }
 
 /// An autosave with its state in a folder, and without a thread that writes.

@@ -7,6 +7,7 @@ use std::fs;
 use std::os::unix::ffi::OsStrExt;
 use std::os::unix::fs::symlink;
 use std::process::Command;
+use std::sync::Arc;
 use std::sync::mpsc::channel;
 use std::time::Duration;
 
@@ -15,10 +16,11 @@ use insta::assert_snapshot;
 use tipstrike::tui::actions::Effect;
 use tipstrike::tui::actions::{self, Action};
 use tipstrike::tui::ascii::is_safe;
-use tipstrike::tui::jobs::{Finding, Job, Jobs};
+use tipstrike::tui::jobs::Job;
 use tipstrike::tui::store::{case_search, folder};
 use tipstrike::tui::theme::{Look, MONO};
 use tipstrike::tui::update::update;
+use tipstrike::tui::worker::Workers;
 
 /// Five cases and a folder; the second one is open.
 fn shelf(desk: &mut Desk) {
@@ -411,27 +413,28 @@ fn while_a_folder_is_read_keys_are_taken_and_a_late_answer_is_dropped() {
 #[test]
 fn the_threads_answer_and_the_latest_wish_counts() {
     let (sender, told) = channel();
-    let mut errands = Jobs::new(move |action| sender.send(action).is_ok());
+    let mut workers =
+        Workers::start(Arc::new(move |action| sender.send(action).is_ok())).expect("a thread");
     let folder = tempfile::tempdir().expect("a folder");
     for name in ["one", "two", "three"] {
         fs::create_dir(folder.path().join(name)).expect("a folder");
-        errands
-            .ask(Job::Folder(folder.path().to_owned(), format!("{name}/")))
+        workers
+            .job(Job::Folder(folder.path().to_owned(), format!("{name}/")))
             .expect("a thread");
     }
     let mut last = String::new();
     while last != "three/" {
-        let Ok(Finding::Folder(listing)) = told.recv_timeout(Duration::from_secs(20)) else {
+        let Ok(Action::Listed(listing)) = told.recv_timeout(Duration::from_secs(20)) else {
             panic!("an answer comes")
         };
         assert!(listing.entries.is_ok());
         last = listing.asked.1;
     }
-    errands
-        .ask(Job::Examples(tipstrike::case::units::System::Metric))
+    workers
+        .job(Job::Examples(tipstrike::case::units::System::Metric))
         .expect("a thread");
     assert!(
-        matches!(told.recv_timeout(Duration::from_secs(20)), Ok(Finding::Examples(digests)) if digests.len() >= 8)
+        matches!(told.recv_timeout(Duration::from_secs(20)), Ok(Action::Examples(digests)) if digests.len() >= 8)
     );
 }
 

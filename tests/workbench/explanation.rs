@@ -132,8 +132,8 @@ fn a_page_that_is_being_written_says_so_and_a_late_one_is_dropped() {
         let tipstrike::tui::actions::Effect::Job(errand) = effect else {
             continue;
         };
-        let late = tipstrike::tui::jobs::perform(errand, &|_| true).expect("an answer");
-        desk.act(tipstrike::tui::effects::told(late));
+        let late = tipstrike::tui::worker::jobs::perform(errand, &|_| true).expect("an answer");
+        desk.act(late);
     }
     assert_eq!(desk.screen(), before);
 }

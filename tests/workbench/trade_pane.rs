@@ -10,9 +10,9 @@ use tipstrike::study::trade::Setting;
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::actions::Effect;
 use tipstrike::tui::app::Progress;
+use tipstrike::tui::benchmark::{End, Measured, Measuring};
 use tipstrike::tui::layout::plan;
 use tipstrike::tui::theme::{Look, MONO};
-use tipstrike::tui::trade_worker::{End, Measured, Measuring};
 use tipstrike::tui::update::update;
 
 fn measured(size: Size) -> Desk {

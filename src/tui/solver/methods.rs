@@ -34,7 +34,7 @@ fn answer_while(request: &Request, go_on: &dyn Fn() -> bool) -> Answer {
 /// The answers of the closed forms, of the method of the case and of the load at rest below its
 /// inertia; of a method that takes its time for it without the least relief. None where `go_on`,
 /// which may show what stands at once, says no.
-pub(super) fn solved(
+pub(in crate::tui) fn solved(
     evaluator: &mut Evaluator,
     request: &Request,
     begun: Instant,
@@ -84,7 +84,7 @@ pub(super) fn solved(
 
 /// The answer with the least relief, where that was asked for and is still to come; none where
 /// `go_on` says no.
-pub(super) fn cleared(
+pub(in crate::tui) fn cleared(
     evaluator: &mut Evaluator,
     request: &Request,
     mut answer: Answer,
@@ -171,4 +171,33 @@ fn stages_run(methods: &[(Method, Result<Solution, Refusal>)]) -> usize {
 
 fn micros(begun: Instant) -> u64 {
     u64::try_from(begun.elapsed().as_micros()).unwrap_or(u64::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Case;
+    use crate::model::Stages;
+
+    #[test]
+    fn the_method_of_the_case_is_active_and_auto_gives_its_choice() {
+        for (method, active) in [
+            (Method::Paper, Method::Paper),
+            (Method::Static, Method::Static),
+            (Method::Auto, Method::Dynamic),
+        ] {
+            let case = Case::table_1();
+            let mut inputs = case.inputs().expect("Table 1 is valid");
+            inputs.method = method;
+            let asked = Request {
+                serial: 1,
+                inputs,
+                case,
+                stages: Stages::EVERY,
+            };
+            let found = answer(&asked);
+            assert_eq!((found.active, found.pending), (active, None));
+            assert!(found.of(active).is_some() && found.of(Method::Exact).is_some());
+        }
+    }
 }

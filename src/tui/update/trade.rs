@@ -5,10 +5,10 @@ use crate::report::trade::conclusion;
 use crate::study::trade::{Patience, Setting};
 use crate::tui::actions::Effect;
 use crate::tui::app::{App, Progress};
+use crate::tui::benchmark::{End, Measured, Measuring};
 use crate::tui::layout;
 use crate::tui::pane::Pane;
 use crate::tui::tab::Traded;
-use crate::tui::trade_worker::{End, Measured, Measuring};
 use crate::tui::view::trade::ordered;
 
 /// The work that the progress tells of.

@@ -1,0 +1,81 @@
+//! Long work, each kind in a thread of its own: solving, the benchmark, and jobs.
+
+pub mod jobs;
+pub mod latest;
+pub mod measuring;
+pub mod solving;
+
+use std::io;
+
+use latest::{Send, Worker};
+
+use super::benchmark::Measuring;
+use super::jobs::Job;
+use super::solver::Request;
+
+/// The threads. Those of the benchmark and the jobs start with their first request.
+pub struct Workers {
+    send: Send,
+    solver: Worker<Request>,
+    benchmark: Option<Worker<Measuring>>,
+    jobs: [Option<Worker<Job>>; Job::KINDS],
+}
+
+impl Workers {
+    /// Starts the solver.
+    ///
+    /// # Errors
+    /// When the system gives no thread.
+    pub fn start(send: Send) -> io::Result<Workers> {
+        Ok(Workers {
+            solver: solving::start(Send::clone(&send))?,
+            benchmark: None,
+            jobs: [const { None }; Job::KINDS],
+            send,
+        })
+    }
+
+    /// Solves, in place of a request that has not begun.
+    pub fn solve(&self, request: Request) {
+        self.solver.request(request);
+    }
+
+    /// Stops the solve that runs.
+    pub fn stop_solve(&self) {
+        self.solver.stop_running();
+    }
+
+    /// Measures, in place of a benchmark that runs.
+    ///
+    /// # Errors
+    /// When the system gives no thread.
+    pub fn measure(&mut self, measuring: Measuring) -> io::Result<()> {
+        let worker = match &self.benchmark {
+            Some(worker) => worker,
+            None => self
+                .benchmark
+                .insert(measuring::start(Send::clone(&self.send))?),
+        };
+        worker.request(measuring);
+        Ok(())
+    }
+
+    /// Stops the benchmark.
+    pub fn stop_benchmark(&self) {
+        self.benchmark.iter().for_each(Worker::stop);
+    }
+
+    /// Does a job, in place of one of its kind that has not begun.
+    ///
+    /// # Errors
+    /// When the system gives no thread.
+    pub fn job(&mut self, job: Job) -> io::Result<()> {
+        let (kind, name) = job.kind();
+        let worker = match &self.jobs[kind] {
+            Some(worker) => worker,
+            None => self.jobs[kind].insert(jobs::start(name, Send::clone(&self.send))?),
+        };
+        worker.request(job);
+        Ok(())
+    }
+}

@@ -1,0 +1,79 @@
+//! Does the jobs, each kind in a thread of its own.
+
+use std::io;
+
+use super::latest::{Send, Worker};
+use crate::case::units::System;
+use crate::case::{Case, EXAMPLES};
+use crate::model::{self, Stages};
+use crate::report::digest::Digest;
+use crate::report::explain;
+use crate::tui::actions::Action;
+use crate::tui::jobs::{Asked, Explained, Job};
+use crate::tui::store::{case_search, folder, preview, recents};
+
+/// Starts the worker of a kind of jobs.
+///
+/// # Errors
+/// When the system gives no thread.
+pub fn start(name: &'static str, send: Send) -> io::Result<Worker<Job>> {
+    Worker::start(
+        name,
+        send,
+        |job: &Job, running| {
+            if let Some(action) = perform(job.clone(), &|_| (running.is_wanted)()) {
+                (running.send)(action);
+            }
+        },
+        |job| {
+            let (_, name) = job.kind();
+            Action::Failed(format!("a fault of the program: {name} cannot be shown"))
+        },
+    )
+}
+
+/// Does a job. Returns `None` if `go_on` says that it is not wanted any more.
+#[must_use]
+pub fn perform(job: Job, go_on: &dyn Fn(f64) -> bool) -> Option<Action> {
+    Some(match job {
+        Job::Folder(base, typed) => Action::Listed(Box::new(folder::list(base, typed))),
+        Job::Below(base, typed) => Action::Found(Box::new(case_search::find(base, typed, go_on)?)),
+        Job::Preview(sight, system) => {
+            let preview = preview::of(&sight, system, go_on)?;
+            Action::Previewed(sight, Box::new(preview))
+        }
+        Job::Recents => Action::Recents(recents::looked_at(recents::list())),
+        Job::Examples(system) => Action::Examples(examples(system, go_on)?),
+        Job::Explain(asked) => Action::Explained(Box::new(explained(*asked))),
+    })
+}
+
+fn examples(system: System, go_on: &dyn Fn(f64) -> bool) -> Option<Vec<Digest>> {
+    let digest = |case: &Case| match case.inputs() {
+        Ok(inputs) => Digest::solve(case, &inputs, system, go_on),
+        Err(_) => Some(Digest::default()),
+    };
+    EXAMPLES
+        .iter()
+        .map(|example| digest(&example.document().case))
+        .collect()
+}
+
+// As `tipstrike explain` does it.
+fn explained(asked: Asked) -> Explained {
+    let Asked {
+        quantity,
+        case,
+        inputs,
+    } = asked;
+    let page = match model::solve(&inputs, Stages::of(quantity.stage)) {
+        Ok(solution) => Ok(Box::new(explain::explain(
+            quantity, &case, &inputs, &solution,
+        ))),
+        Err(refusal) => Err(format!(
+            "Not solved: {refusal}. Correction: {}.",
+            refusal.mend()
+        )),
+    };
+    Explained { quantity, page }
+}

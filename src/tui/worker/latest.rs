@@ -1,0 +1,230 @@
+//! A thread that serves the latest request: a later one replaces one that has not begun, and what
+//! runs can see that it is no longer wanted. A fault in the work never ends the workbench.
+
+use std::io;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread;
+
+use crate::tui::actions::Action;
+use crate::tui::fault;
+
+/// Sends an action to the workbench. Returns false once nobody receives it.
+pub type Send = Arc<dyn Fn(Action) -> bool + std::marker::Send + Sync>;
+
+/// The thread. It ends when this is dropped.
+#[derive(Debug)]
+pub struct Worker<R> {
+    requests: Arc<LatestRequest<R>>,
+}
+
+/// The request that runs, as the work sees it.
+#[derive(Clone, Copy)]
+pub struct Running<'a> {
+    /// Whether nobody has stopped the request, and no later one has come.
+    pub is_wanted: &'a dyn Fn() -> bool,
+    /// Sends an action, an intermediate result among them.
+    pub send: &'a dyn Fn(Action),
+}
+
+impl<R: std::marker::Send + 'static> Worker<R> {
+    /// Starts the thread. `work` serves a request and sends its results; `failed` is sent in their
+    /// place if it panics.
+    ///
+    /// # Errors
+    /// When the system gives no thread.
+    pub fn start(
+        name: &'static str,
+        send: Send,
+        mut work: impl FnMut(&R, Running<'_>) + std::marker::Send + 'static,
+        failed: fn(&R) -> Action,
+    ) -> io::Result<Worker<R>> {
+        let requests = Arc::new(LatestRequest::default());
+        let theirs: Arc<LatestRequest<R>> = Arc::clone(&requests);
+        let serve = move || {
+            let send = |action| {
+                if !send(action) {
+                    theirs.close();
+                }
+            };
+            while let Some(request) = theirs.take() {
+                let running = Running {
+                    is_wanted: &|| theirs.is_wanted(),
+                    send: &send,
+                };
+                let done = catch_unwind(AssertUnwindSafe(|| {
+                    fault::on_demand(name);
+                    work(&request, running);
+                }));
+                if done.is_err() {
+                    send(failed(&request));
+                }
+            }
+        };
+        thread::Builder::new().name(name.to_owned()).spawn(serve)?;
+        Ok(Worker { requests })
+    }
+
+    /// Requests work, in place of a request that has not begun.
+    pub fn request(&self, request: R) {
+        self.requests.put(request);
+    }
+
+    /// Stops the request that runs. One that has not begun runs after it.
+    pub fn stop_running(&self) {
+        self.requests.tray().is_stopped = true;
+    }
+
+    /// Stops every request made so far. One that has not begun still runs, and sees that it is not
+    /// wanted.
+    pub fn stop(&self) {
+        let mut tray = self.requests.tray();
+        (tray.is_stopped, tray.is_next_stopped) = (true, true);
+    }
+}
+
+impl<R> Drop for Worker<R> {
+    fn drop(&mut self) {
+        self.requests.close();
+    }
+}
+
+#[derive(Debug)]
+struct LatestRequest<R> {
+    tray: Mutex<Tray<R>>,
+    bell: Condvar,
+}
+
+#[derive(Debug)]
+struct Tray<R> {
+    next: Option<R>,
+    is_next_stopped: bool,
+    /// Whether the request that was taken is not wanted any more.
+    is_stopped: bool,
+    is_closed: bool,
+}
+
+impl<R> Default for LatestRequest<R> {
+    fn default() -> LatestRequest<R> {
+        LatestRequest {
+            tray: Mutex::new(Tray {
+                next: None,
+                is_next_stopped: false,
+                is_stopped: false,
+                is_closed: false,
+            }),
+            bell: Condvar::new(),
+        }
+    }
+}
+
+impl<R> LatestRequest<R> {
+    fn put(&self, request: R) {
+        let mut tray = self.tray();
+        (tray.next, tray.is_next_stopped) = (Some(request), false);
+        self.bell.notify_one();
+    }
+
+    fn close(&self) {
+        self.tray().is_closed = true;
+        self.bell.notify_one();
+    }
+
+    // Sleeps until there is a request; `None` once there will be none.
+    fn take(&self) -> Option<R> {
+        let mut tray = self.tray();
+        loop {
+            if tray.is_closed {
+                return None;
+            }
+            if let Some(request) = tray.next.take() {
+                tray.is_stopped = tray.is_next_stopped;
+                return Some(request);
+            }
+            tray = self.bell.wait(tray).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+
+    fn is_wanted(&self) -> bool {
+        let tray = self.tray();
+        tray.next.is_none() && !tray.is_stopped && !tray.is_closed
+    }
+
+    fn tray(&self) -> MutexGuard<'_, Tray<R>> {
+        self.tray.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc::{Receiver, Sender, channel};
+
+    use super::*;
+
+    /// A worker that begins each request when the test says so, and sends its number back where it
+    /// is wanted. Request 0 panics.
+    fn worker() -> (Worker<u64>, Receiver<u64>, Sender<()>, Receiver<Action>) {
+        let (begun, has_begun) = channel();
+        let (go, gate) = channel::<()>();
+        let (sender, actions) = channel();
+        let work = move |request: &u64, running: Running<'_>| {
+            begun.send(*request).expect("the test listens");
+            gate.recv().expect("the test goes on");
+            assert!(*request != 0, "planted");
+            if (running.is_wanted)() {
+                (running.send)(Action::Solving(*request, 1.0));
+            }
+        };
+        let send: Send = Arc::new(move |action| sender.send(action).is_ok());
+        let failed = |_: &u64| Action::SolverFailed(0);
+        let worker = Worker::start("test", send, work, failed).expect("a thread");
+        (worker, has_begun, go, actions)
+    }
+
+    fn is_answer(action: &Action, to: u64) -> bool {
+        matches!(action, Action::Solving(request, _) if *request == to)
+    }
+
+    #[test]
+    fn the_latest_request_wins() {
+        let (worker, has_begun, go, actions) = worker();
+        worker.request(1);
+        assert_eq!(has_begun.recv(), Ok(1));
+        (2..=9).for_each(|request| worker.request(request));
+        (0..2).for_each(|_| go.send(()).expect("the worker listens"));
+        assert_eq!(has_begun.recv(), Ok(9));
+        assert!(is_answer(&actions.recv().expect("an answer"), 9));
+    }
+
+    #[test]
+    fn a_panic_is_reported_and_the_next_request_is_served() {
+        let (worker, _begun, go, actions) = worker();
+        for (request, is_expected) in [(0, false), (2, true)] {
+            worker.request(request);
+            go.send(()).expect("the worker listens");
+            let action = actions.recv().expect("an answer");
+            assert_eq!(is_answer(&action, 2), is_expected);
+            assert_eq!(matches!(action, Action::SolverFailed(0)), !is_expected);
+        }
+    }
+
+    #[test]
+    fn a_stop_ends_what_runs_and_on_demand_what_waits() {
+        let (worker, has_begun, go, actions) = worker();
+        worker.request(1);
+        assert_eq!(has_begun.recv(), Ok(1));
+        worker.request(2);
+        worker.stop_running();
+        (0..2).for_each(|_| go.send(()).expect("the worker listens"));
+        assert!(is_answer(&actions.recv().expect("an answer"), 2));
+        worker.request(3);
+        assert_eq!((has_begun.recv(), has_begun.recv()), (Ok(2), Ok(3)));
+        worker.request(4);
+        worker.stop();
+        (0..2).for_each(|_| go.send(()).expect("the worker listens"));
+        assert_eq!(has_begun.recv(), Ok(4));
+        worker.request(5);
+        go.send(()).expect("the worker listens");
+        assert!(is_answer(&actions.recv().expect("an answer"), 5));
+    }
+}

@@ -1,0 +1,156 @@
+//! The worker that solves: a slow method gives way to a later request, and shows the closed form
+//! meanwhile.
+
+use std::cell::Cell;
+use std::io;
+use std::time::{Duration, Instant};
+
+use super::latest::{Running, Send, Worker};
+use crate::case::Evaluator;
+use crate::model::Stage;
+use crate::tui::actions::Action;
+use crate::tui::solver::{Answer, PATIENCE, Request, cleared, solved};
+
+/// A solve that takes longer shows its progress,
+const LONG: Duration = Duration::from_secs(1);
+/// and again after so long.
+const STEP: Duration = Duration::from_millis(200);
+
+/// Starts the worker.
+///
+/// # Errors
+/// When the system gives no thread.
+pub fn start(send: Send) -> io::Result<Worker<Request>> {
+    let mut evaluator = Evaluator::default();
+    Worker::start(
+        "solver",
+        send,
+        move |request: &Request, running| {
+            if let Some(answer) = solve(&mut evaluator, request, running) {
+                (running.send)(Action::Solved(Box::new(answer)));
+            }
+        },
+        |request| Action::SolverFailed(request.serial),
+    )
+}
+
+// Sends earlier answers of a solve that takes its time, and returns the last one.
+fn solve(evaluator: &mut Evaluator, request: &Request, running: Running<'_>) -> Option<Answer> {
+    let begun = Instant::now();
+    let (waiting, next_progress) = (Cell::new(Some(begun + PATIENCE)), Cell::new(begun + LONG));
+    let go_on = |part: f64, at_once: &dyn Fn() -> Answer| {
+        let now = Instant::now();
+        if waiting.get().is_some_and(|until| now > until) {
+            waiting.set(None);
+            (running.send)(Action::Solved(Box::new(at_once())));
+        } else if now > next_progress.get() {
+            next_progress.set(now + STEP);
+            (running.send)(Action::Solving(request.serial, part));
+        }
+        (running.is_wanted)()
+    };
+    let answer = solved(evaluator, request, begun, &go_on)?;
+    if answer.lacks(Stage::Clearing) && answer.strikes() {
+        (running.send)(Action::Solved(Box::new(answer.clone())));
+    }
+    cleared(evaluator, request, answer, begun, &|_| {
+        (running.is_wanted)()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+    use std::sync::mpsc::{Receiver, channel};
+
+    use super::*;
+    use crate::case::Case;
+    use crate::model::Stages;
+    use crate::model::inputs::Method;
+
+    fn request(serial: u64) -> Request {
+        let case = Case::table_1();
+        Request {
+            serial,
+            inputs: case.inputs().expect("Table 1 is valid"),
+            case,
+            stages: Stages::EVERY,
+        }
+    }
+
+    fn started() -> (Worker<Request>, Receiver<Action>) {
+        let (sender, actions) = channel();
+        let worker = start(Arc::new(move |action| sender.send(action).is_ok()));
+        (worker.expect("a thread"), actions)
+    }
+
+    #[test]
+    fn a_slow_method_gives_way_to_a_later_request_and_shows_the_closed_form_meanwhile() {
+        let (solver, replies) = started();
+        let mut slow = request(1);
+        (
+            slow.inputs.method,
+            slow.inputs.tolerance,
+            slow.inputs.warmup_cycles,
+        ) = (Method::Dynamic, 1e-12, 10_000);
+        // Nothing comes to rest.
+        slow.inputs.damping_ratio = 0.0;
+        solver.request(slow);
+        let first = replies.recv().expect("an answer");
+        assert!(
+            matches!(&first, Action::Solved(answer) if answer.pending == Some(Method::Dynamic) && answer.active == Method::Exact)
+        );
+        solver.request(request(2));
+        let second = replies.recv().expect("an answer");
+        assert!(
+            matches!(&second, Action::Solved(answer) if answer.serial == 2 && answer.pending.is_none()),
+            "{second:?}"
+        );
+    }
+
+    #[test]
+    fn the_least_relief_follows_an_answer_that_stands_already_and_then_nothing() {
+        let (solver, replies) = started();
+        for (serial, method, expected) in [
+            (1, Method::Exact, vec![true]),
+            (2, Method::Static, vec![false, true]),
+            (3, Method::Auto, vec![false, true]),
+        ] {
+            let mut asked = request(serial);
+            asked.inputs.method = method;
+            solver.request(asked);
+            let mut told = Vec::new();
+            while told.last() != Some(&true) {
+                let Ok(Action::Solved(answer)) = replies.recv() else {
+                    continue;
+                };
+                // An answer too many to the request before would stand here.
+                assert_eq!(answer.serial, serial);
+                let clearing = answer
+                    .of(answer.active)
+                    .and_then(|solution| solution.clearing);
+                if answer.pending.is_none() {
+                    assert_eq!(clearing.is_none(), answer.lacks(Stage::Clearing));
+                    told.push(clearing.is_some_and(|clearing| clearing.relief.is_some()));
+                }
+            }
+            assert_eq!(told, expected, "{}", method.name());
+        }
+    }
+
+    #[test]
+    fn the_relief_at_rest_is_known_while_that_in_motion_is_sought() {
+        let (solver, replies) = started();
+        let mut asked = request(1);
+        asked.inputs.method = Method::Dynamic;
+        solver.request(asked);
+        let first = replies.iter().find_map(|reply| match reply {
+            Action::Solved(answer) if answer.pending.is_none() => Some(answer),
+            _ => None,
+        });
+        let answer = first.expect("an answer");
+        let relief = |method| answer.of(method).and_then(|solution| solution.clearing);
+        assert!(answer.lacks(Stage::Clearing) && relief(Method::Dynamic).is_none());
+        assert!(relief(Method::Static).is_some_and(|clearing| clearing.relief.is_some()));
+    }
+}
