@@ -22,6 +22,7 @@ pub mod words;
 
 use std::sync::Arc;
 
+use crate::model::inputs::Method;
 use crate::model::{Inputs, QUANTITIES, Quantity};
 pub use changes::Change;
 pub use check::{Problem, unknown_quantity};
@@ -97,24 +98,28 @@ impl Case {
         Document::table_1().case
     }
 
-    /// The values of Table 1 to begin a case with: nothing that is said of that pair alone, and the
-    /// load makes the deflection.
+    /// A new case: only the method is chosen, and the required values are missing.
     #[must_use]
     pub fn fresh() -> Case {
-        let mut case = Case {
-            limits: Vec::new(),
-            ..Case::table_1()
-        };
-        for (key, text) in [
-            ("title", "New case"),
-            ("notes", ""),
-            ("model.deflection", ""),
-        ] {
-            if let Some(field) = fields::index_of(key) {
-                case.write(field, text);
-            }
+        let mut case = Case::empty();
+        if let Some(method) = fields::index_of("model.method") {
+            case.write(method, Method::Auto.name());
         }
         case
+    }
+
+    /// Whether the field is required and its value is missing. Of two fields that exclude each
+    /// other, both are required while neither has a value.
+    #[must_use]
+    pub fn lacks(&self, field: usize) -> bool {
+        let is_empty = |field: usize| self.text(field).is_none();
+        match FIELDS[field].absent {
+            fields::Absent::Refused => is_empty(field),
+            fields::Absent::Either(other) => {
+                is_empty(field) && fields::index_of(other).is_none_or(is_empty)
+            }
+            fields::Absent::Default(_) | fields::Absent::Without(_) => false,
+        }
     }
 
     /// What stands in the field, as written; `None` where the case leaves it out.

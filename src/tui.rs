@@ -163,6 +163,7 @@ fn session(
     mut screen: Screen,
     journal_writer: &Arc<JournalWriter>,
 ) -> io::Result<End> {
+    let is_last_case = case.is_none();
     let Opening {
         document,
         path,
@@ -179,6 +180,7 @@ fn session(
         settings,
         ..App::new(document, path, look, screen.size()?)
     };
+    app.tab.is_last_case = is_last_case && app.path.is_some();
     update::settle(&mut app);
     screen.take_mouse(settings.mouse)?;
     if let Some(trouble) = trouble {

@@ -65,16 +65,7 @@ pub fn label(key: &str) -> String {
     let Some(field) = fields::index_of(key).map(|index| &FIELDS[index]) else {
         return key.to_owned();
     };
-    let is_alone = FIELDS
-        .iter()
-        .filter(|other| other.label == field.label)
-        .count()
-        == 1;
-    if is_alone {
-        field.label.to_owned()
-    } else {
-        format!("{} {}", field.table(), field.label)
-    }
+    field.full_label()
 }
 
 impl Case {

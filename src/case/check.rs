@@ -106,8 +106,8 @@ pub(super) fn put(case: &Case, field: usize, inputs: &mut Inputs) -> Result<(), 
         (Some(text), _) | (None, Absent::Default(text)) => put_text(known, field, text, inputs),
         (None, Absent::Refused) => Err(Problem::new(
             known.key,
-            "this field is missing",
-            format!("add {}", addition(known)),
+            "a required value is missing",
+            format!("write {}", addition(known)),
         )),
         (None, Absent::Without(_) | Absent::Either(_)) => Ok(()),
     }
@@ -124,11 +124,11 @@ pub(super) fn assignment(field: &Field) -> String {
     format!("{} = {value}", field.name())
 }
 
-/// The assignment and the table that it goes to.
+/// The assignment and the table to which it belongs.
 fn addition(field: &Field) -> String {
     match field.table() {
         "" => assignment(field),
-        table => format!("{} to [{table}]", assignment(field)),
+        table => format!("{} under [{table}]", assignment(field)),
     }
 }
 
@@ -151,7 +151,7 @@ fn misfit(case: &Case, field: usize) -> Option<Problem> {
             Some(Problem::new(
                 known.key,
                 cause,
-                format!("add {}", addition(known)),
+                format!("write {}", addition(known)),
             ))
         }
         (Some(_), Some(_)) if field > other => {

@@ -75,6 +75,15 @@ impl Field {
         self.key.split_once('.').map_or("", |(table, _)| table)
     }
 
+    /// The label, with the gear where both gears have such a field: `driven tip relief`.
+    #[must_use]
+    pub fn full_label(&self) -> String {
+        match self.table() {
+            gear @ ("driver" | "driven") => format!("{gear} {}", self.label),
+            _ => self.label.to_owned(),
+        }
+    }
+
     /// The key within its table.
     #[must_use]
     pub fn name(&self) -> &'static str {

@@ -53,17 +53,25 @@ pub struct Document {
 }
 
 impl Document {
-    /// Read a document from its text; `name` stands in front of each fault.
+    /// Read a complete case from its text; each fault begins with `name`.
     ///
     /// # Errors
-    /// Everything that is wrong with the text, in the order of the places.
+    /// Every fault of the text, and every required value that is missing, sorted by place.
     pub fn parse(name: &str, text: &str) -> Result<Document, Vec<Fault>> {
+        Document::parse_draft(name, text).and_then(Document::complete)
+    }
+
+    /// Read a case in which required values may be missing: [`Case::inputs`] then names them.
+    ///
+    /// # Errors
+    /// Every fault of the text, sorted by place.
+    pub fn parse_draft(name: &str, text: &str) -> Result<Document, Vec<Fault>> {
         if text.len() > MOST_BYTES {
             return Err(vec![fault::too_large(name)]);
         }
         let unmarked = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
         let reading = tree::read(unmarked);
-        if !reading.faults.is_empty() {
+        if !reading.is_draft() {
             return Err(fault::placed(name, unmarked, reading.faults, reading.more));
         }
         let marked = unmarked.len() < text.len();
@@ -82,17 +90,28 @@ impl Document {
         })
     }
 
-    /// Read a document from bytes that may not be text.
+    /// Read a complete case from bytes that may not be text.
     ///
     /// # Errors
     /// As [`Document::parse`], and at the first byte that is not UTF-8.
     pub fn parse_bytes(name: &str, bytes: &[u8]) -> Result<Document, Vec<Fault>> {
+        Document::parse_draft_bytes(name, bytes).and_then(Document::complete)
+    }
+
+    fn parse_draft_bytes(name: &str, bytes: &[u8]) -> Result<Document, Vec<Fault>> {
         if bytes.len() > MOST_BYTES {
             return Err(vec![fault::too_large(name)]);
         }
         match std::str::from_utf8(bytes) {
-            Ok(text) => Document::parse(name, text),
+            Ok(text) => Document::parse_draft(name, text),
             Err(error) => Err(vec![fault::not_text(name, bytes, error.valid_up_to())]),
+        }
+    }
+
+    fn complete(self) -> Result<Document, Vec<Fault>> {
+        match self.case.inputs() {
+            Ok(_) => Ok(self),
+            Err(problems) => Err(self.faults(problems)),
         }
     }
 
@@ -191,6 +210,17 @@ impl Document {
         Fault::new(&self.name, self.place(&problem.field), problem)
     }
 
+    /// Such problems at their places in the file, sorted by place.
+    #[must_use]
+    pub(crate) fn faults(&self, problems: Vec<Problem>) -> Vec<Fault> {
+        let mut faults: Vec<Fault> = problems
+            .into_iter()
+            .map(|problem| self.fault(problem))
+            .collect();
+        faults.sort_by_key(|fault| (fault.line, fault.column));
+        faults
+    }
+
     /// Take the text that was saved for the one that was read, and the case as it says it: a number
     /// may have been typed with spaces around it, which no file keeps.
     fn settle(&mut self, text: &str, name: String, origin: PathBuf) {
@@ -198,7 +228,7 @@ impl Document {
             .unwrap_or(text)
             .clone_into(&mut self.text);
         let reading = tree::read(&self.text);
-        if reading.faults.is_empty() {
+        if reading.is_draft() {
             self.case = reading.case;
         }
         self.loaded = self.case.clone();

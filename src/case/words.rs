@@ -84,10 +84,10 @@ fn with_labels(sentence: String) -> String {
     })
 }
 
-/// The advice to add a line to a file as the advice to write the value.
+/// The advice to write a line under a table of a file as the advice to write the value.
 fn written(sentence: &str) -> Option<String> {
-    let (_, value) = sentence.strip_prefix("add ")?.split_once(" = ")?;
-    let value = value.split_once(" to [").map_or(value, |(value, _)| value);
+    let (_, assignment) = sentence.strip_prefix("write ")?.split_once(" = ")?;
+    let (value, _) = assignment.split_once(" under [")?;
     Some(format!("write {value}, for example"))
 }
 
@@ -117,12 +117,12 @@ mod tests {
             (
                 "pair.module",
                 "",
-                "this field is missing: write 5 mm, for example",
+                "a required value is missing: write 5 mm, for example",
             ),
             (
                 "driver.teeth",
                 "",
-                "this field is missing: write 20, for example",
+                "a required value is missing: write 20, for example",
             ),
             (
                 "pair.module",

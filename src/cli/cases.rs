@@ -39,7 +39,7 @@ pub(super) fn open(
     settings: &[Setting],
     streams: &mut Streams,
 ) -> Result<Opened, Exit> {
-    let document = Document::read(path).map_err(|error| unread(&error, streams))?;
+    let document = Document::read_draft(path).map_err(|error| unread(&error, streams))?;
     changed(path.display().to_string(), document, settings, streams)
 }
 
@@ -104,13 +104,14 @@ fn unread(error: &ReadError, streams: &mut Streams) -> Exit {
     }
 }
 
-/// What the settings put out of order.
+/// Report what is missing from the file, and what the settings make inconsistent.
 fn unfit(
     document: &Document,
-    problems: Vec<Problem>,
+    mut problems: Vec<Problem>,
     settings: &[Setting],
     streams: &mut Streams,
 ) -> Exit {
+    problems.sort_by_key(|problem| document.place(&problem.field));
     for problem in problems {
         streams.say(&placed(document, problem, settings));
     }

@@ -1,4 +1,4 @@
-//! A commented case to start from: every field with its help, or one of the examples.
+//! Writes a new case with every field and its help, or one of the examples.
 
 use super::{Exit, New, Streams};
 use crate::case::file::{self, SaveError};

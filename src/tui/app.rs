@@ -39,6 +39,8 @@ pub struct App {
     pub panes: Panes,
     /// Whether letters go into the focused field while the form has the focus.
     pub is_editing: bool,
+    /// The case before the last key, where that key was a digit which started a new value.
+    pub before_digit: Option<Case>,
     /// Results to hold the others against.
     pub baseline: Option<Baseline>,
     /// Whether the results are to be pinned as soon as all of them are there.
@@ -124,6 +126,7 @@ impl App {
             last_serial: 0,
             panes: Panes::default(),
             is_editing: true,
+            before_digit: None,
             baseline: None,
             is_pinning: false,
             shows_cost: false,
@@ -173,7 +176,7 @@ impl App {
             answer: self.answer.as_ref(),
             baseline: self.baseline.as_ref().map(|baseline| &baseline.answer),
             cursor: self.cursor,
-            is_stale: self.is_stale(),
+            is_stale: self.shows_last_valid(),
             undone: self.undone,
             units: self.settings.units,
             marker: self.settings.marker,
@@ -216,7 +219,7 @@ impl App {
         self.panes.focus == Pane::Form && self.is_editing
     }
 
-    /// Whether the focused row is one of a value, and what is typed would replace all of it.
+    /// Whether the focused row has a value rather than words, and typing would replace all of it.
     fn is_fresh(&self) -> bool {
         let Tab {
             case, focus, input, ..
@@ -224,6 +227,18 @@ impl App {
         let is_words =
             rows::field(case, *focus).is_some_and(|field| matches!(field.kind, Kind::Text));
         !is_words && input.kept() == 0
+    }
+
+    /// Whether a key would be the first of an edit that replaces the text of the focused row.
+    pub(super) fn starts_anew(&self) -> bool {
+        let Tab {
+            focus,
+            input,
+            history,
+            ..
+        } = &self.tab;
+        let is_in_line = self.prompts.is_empty() && self.has_line();
+        is_in_line && input.kept() == 0 && !history.is_visited(*focus)
     }
 
     /// What completes the text that is typed into the focused field: its unit, or the rest of it.
@@ -247,6 +262,20 @@ impl App {
     pub fn is_unfinished(&self, row: usize) -> bool {
         let is_typed = self.has_line() && self.focus == row;
         is_typed && rows::is_unfinished(&self.tab.case, row, self.tab.input.value())
+    }
+
+    /// Whether the row is a required field whose value is missing.
+    #[must_use]
+    pub fn lacks(&self, row: usize) -> bool {
+        row < FIELDS.len() && self.tab.case.lacks(row)
+    }
+
+    /// How many required values are missing, where nothing else is wrong.
+    #[must_use]
+    pub fn missing(&self) -> Option<usize> {
+        let count = self.problems.len();
+        let is_draft = self.problems.iter().all(|(row, _)| self.lacks(*row));
+        Some(count).filter(|_| is_draft)
     }
 
     /// The stages of a solve whose results are in sight.
@@ -378,19 +407,20 @@ impl App {
     }
 }
 
-/// What holds where the case is silent, in a person's words.
+/// The words for a required value that is missing.
+const REQUIRED: &str = "(required)";
+
+/// The words for an empty field: its default, or that a value is required.
 #[must_use]
 pub fn unwritten(case: &Case, field: usize) -> String {
     match FIELDS[field].absent {
         Absent::Default("") => String::new(),
         Absent::Default(text) | Absent::Without(text) => format!("({text})"),
-        Absent::Refused => "(needed)".to_owned(),
-        Absent::Either(other) => {
-            let other = fields::index_of(other).filter(|&other| case.text(other).is_some());
-            other.map_or_else(
-                || "(needed)".to_owned(),
-                |other| format!("(by {})", FIELDS[other].label),
-            )
-        }
+        Absent::Refused => REQUIRED.to_owned(),
+        Absent::Either(other) => match fields::index_of(other) {
+            Some(other) if case.text(other).is_some() => format!("(by {})", FIELDS[other].label),
+            Some(other) if other < field => format!("(or {})", FIELDS[other].label),
+            _ => REQUIRED.to_owned(),
+        },
     }
 }

@@ -29,6 +29,7 @@ pub enum Command {
     FolderUp,
     New,
     Example,
+    BuiltIn,
     NextTab,
     PreviousTab,
     Tab(usize),
@@ -146,6 +147,19 @@ pub fn keys_of(command: Command) -> String {
         .filter(|keys| !keys.is_empty())
         .collect::<Vec<_>>()
         .join(", ")
+}
+
+/// The first key that calls the command outside prompts; its name in the palette where it has none.
+#[must_use]
+pub fn key_of(command: Command) -> String {
+    let keys = keys_of(command);
+    match keys.split(", ").next() {
+        Some(key) if !key.is_empty() => key.to_owned(),
+        _ => BINDINGS
+            .iter()
+            .find(|binding| binding.command == command)
+            .map_or_else(String::new, |binding| format!(":{}", binding.name)),
+    }
 }
 
 fn is_listed(binding: &Binding) -> bool {

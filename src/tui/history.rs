@@ -48,6 +48,19 @@ impl History {
             .map(|(case, _)| case)
     }
 
+    /// Whether a row was edited in this visit.
+    pub(super) fn is_visited(&self, row: usize) -> bool {
+        self.visited == Some(row)
+    }
+
+    /// Drops the state before this visit where the case is in that state again.
+    pub(super) fn forget_visit(&mut self, case: &Case) {
+        if self.before_visit() == Some(case) {
+            self.past.pop();
+        }
+        self.visited = None;
+    }
+
     /// The next edit begins a state of its own.
     pub(super) fn end_visit(&mut self) {
         self.visited = None;

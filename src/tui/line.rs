@@ -1,20 +1,24 @@
-//! A line of text that is edited, of which a part may be selected: what is typed then stands in its
-//! place.
+//! A line of text with a cursor and a selection, which typing replaces.
 
 use std::ops::{Deref, Range};
 
 use tui_input::{Input, InputRequest, StateChanged};
 
-/// A line of text, the cursor in it and what is selected.
+/// The ending of a case file.
+pub const CASE_ENDING: &str = ".toml";
+
+/// A line of text with a cursor and a selection.
 #[derive(Debug, Clone, Default)]
 pub struct Line {
     input: Input,
     /// In characters, and never empty.
     selected: Option<Range<usize>>,
+    /// The ending of a path whose stem is typed anew; `None` for a line that is not a path.
+    ending: Option<String>,
 }
 
 impl Line {
-    /// A text that what is typed replaces.
+    /// A text that typing replaces.
     #[must_use]
     pub fn whole(text: impl Into<String>) -> Line {
         let mut line = Line::from(text.into());
@@ -22,7 +26,8 @@ impl Line {
         line
     }
 
-    /// A path of which what is typed replaces the name, but for its ending.
+    /// A path of which typing replaces the file stem and keeps folder and extension. A typed path
+    /// from the root or from home replaces the folder too, and a typed extension the old one.
     #[must_use]
     pub fn named(path: impl Into<String>) -> Line {
         let path = path.into();
@@ -34,18 +39,19 @@ impl Line {
         let place = |at: usize| path[..at].chars().count();
         let selected = place(name)..place(end);
         Line {
+            ending: Some(path[end..].to_owned()),
             input: Input::new(path).with_cursor(selected.end),
             selected: Some(selected).filter(|part| !part.is_empty()),
         }
     }
 
-    /// What is selected, in characters.
+    /// The selection, in characters.
     #[must_use]
     pub fn selected(&self) -> Option<Range<usize>> {
         self.selected.clone()
     }
 
-    /// How many bytes stay when something is typed.
+    /// How many bytes typing keeps.
     #[must_use]
     pub fn kept(&self) -> usize {
         let is_selected = |at: &usize| self.selected.as_ref().is_some_and(|part| part.contains(at));
@@ -56,15 +62,14 @@ impl Line {
             .sum()
     }
 
-    /// Select the text, the cursor at its end.
+    /// Selects the text and moves the cursor to its end.
     pub fn select_all(&mut self) {
         let length = self.input.value().chars().count();
         self.input.handle(InputRequest::GoToEnd);
         self.selected = (length > 0).then_some(0..length);
     }
 
-    /// A key that moves in the line or deletes from it: the selected part goes as one, and a move
-    /// lets go of it.
+    /// Moves in the line or deletes from it. A deletion removes the selection, a move clears it.
     pub fn handle(&mut self, request: InputRequest) -> Option<StateChanged> {
         use InputRequest::{DeleteNextChar, DeletePrevChar, GoToNextChar, GoToPrevChar};
         let Some(part) = self.selected.take() else {
@@ -84,11 +89,28 @@ impl Line {
         }
     }
 
-    /// Text that is typed or pasted.
+    /// Inserts text that is typed or pasted.
     pub fn insert(&mut self, typed: &str) {
         let here = self.input.cursor();
-        let part = self.selected.take().unwrap_or(here..here);
+        let mut part = self.selected.take().unwrap_or(here..here);
+        if self.ending.is_some() && !part.is_empty() && typed.starts_with(['/', '~']) {
+            part.start = 0;
+        }
         self.put(part, typed);
+        self.drop_repeated_ending();
+    }
+
+    // The kept ending goes where the typed name has one of its own.
+    fn drop_repeated_ending(&mut self) {
+        let Some(ending) = self.ending.as_deref().filter(|ending| !ending.is_empty()) else {
+            return;
+        };
+        let cursor = self.input.cursor();
+        let typed: String = self.input.value().chars().take(cursor).collect();
+        let is_rest = self.input.value().strip_prefix(&typed) == Some(ending);
+        if is_rest && (typed.ends_with(ending) || typed.ends_with(CASE_ENDING)) {
+            self.input = Input::new(typed).with_cursor(cursor);
+        }
     }
 
     // One splice, where a character at a time would cost the square of a long paste.
@@ -123,6 +145,7 @@ impl From<String> for Line {
         Line {
             input: Input::new(text),
             selected: None,
+            ending: None,
         }
     }
 }
@@ -170,6 +193,29 @@ mod tests {
         assert_eq!(typed(Line::whole("5 mm"), &[]), "x");
         assert_eq!(typed(Line::whole("5 mm"), &[DeletePrevWord]), "5 x");
         assert_eq!(typed(Line::from("5 mm"), &[]), "5 mmx");
+    }
+
+    #[test]
+    fn a_typed_extension_replaces_the_kept_one() {
+        for (path, typed, text) in [
+            ("case.toml", "pair.toml", "pair.toml"),
+            ("a/case.toml", "pair.v2.toml", "a/pair.v2.toml"),
+            ("a/case.toml", "pair.v2", "a/pair.v2.toml"),
+            ("a/case.txt", "pair.toml", "a/pair.toml"),
+            ("a/case.txt", "pair.txt", "a/pair.txt"),
+            ("a/case", "pair.toml", "a/pair.toml"),
+            ("a/case.toml", "/b/pair.toml", "/b/pair.toml"),
+            ("a/case.toml", "~/pair", "~/pair.toml"),
+            ("a/case.toml", "b/pair", "a/b/pair.toml"),
+        ] {
+            let mut pasted = Line::named(path);
+            pasted.insert(typed);
+            let mut letters = Line::named(path);
+            for letter in typed.chars() {
+                letters.insert(letter.encode_utf8(&mut [0; 4]));
+            }
+            assert_eq!((pasted.value(), letters.value()), (text, text), "{path}");
+        }
     }
 
     #[test]

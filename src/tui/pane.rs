@@ -71,6 +71,15 @@ impl Pane {
         self as usize + 1
     }
 
+    /// The pane of a number.
+    #[must_use]
+    pub fn of_digit(digit: char) -> Option<Pane> {
+        let number = digit.to_digit(10)?;
+        Pane::ALL
+            .into_iter()
+            .find(|pane| pane.number() == number as usize)
+    }
+
     /// Whether it shares the lower area.
     #[must_use]
     pub const fn is_lower(self) -> bool {

@@ -147,6 +147,15 @@ pub fn label(case: &Case, at: usize) -> &'static str {
     }
 }
 
+/// The label of a row, with the gear where both gears have such a field.
+#[must_use]
+pub fn full_label(case: &Case, at: usize) -> String {
+    field(case, at).map_or_else(
+        || format!("limit of {}", label(case, at)),
+        Field::full_label,
+    )
+}
+
 /// The symbol in the field's writing; empty where there is none.
 #[must_use]
 pub fn symbol(case: &Case, at: usize) -> &'static str {

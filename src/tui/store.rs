@@ -84,7 +84,7 @@ pub(super) fn load(path: &Path) -> Result<Box<Document>, Vec<String>> {
                 .to_owned(),
         ]);
     }
-    let document = match Document::read(path) {
+    let document = match Document::read_draft(path) {
         Err(ReadError::NewerFormat(_)) => Document::read_newer(path),
         document => document,
     };

@@ -26,6 +26,8 @@ pub struct Tab {
     pub example: Option<&'static str>,
     /// Whether it was begun as a new case.
     pub is_new: bool,
+    /// Whether it was opened as the last case, which nobody named.
+    pub is_last_case: bool,
     /// The case in the form.
     pub case: Case,
     /// The case as the file has it.
@@ -137,6 +139,7 @@ impl Tab {
             path,
             example: None,
             is_new: false,
+            is_last_case: false,
             in_place_of: None,
             focus,
             history: History::default(),
@@ -166,16 +169,28 @@ impl Tab {
         self.case != self.saved
     }
 
-    /// Whether it is the built-in case as it came, so that another may take its place.
+    /// Whether nobody asked for it or edited it, so that another case may replace it.
     #[must_use]
     pub fn is_untouched(&self) -> bool {
-        self.path.is_none() && !self.is_unsaved()
+        (self.path.is_none() || self.is_last_case) && !self.is_unsaved()
+    }
+
+    /// Whether it is the built-in Table 1, with or without edits.
+    #[must_use]
+    pub fn is_built_in(&self) -> bool {
+        self.path.is_none() && self.example.is_none() && !self.is_new
     }
 
     /// Whether the results are not those of what the form says now.
     #[must_use]
     pub fn is_stale(&self) -> bool {
         !self.problems.is_empty() || self.refusal.is_some() || self.has_failed
+    }
+
+    /// Whether the results in sight are those of an earlier state of the form.
+    #[must_use]
+    pub fn shows_last_valid(&self) -> bool {
+        self.is_stale() && self.answer.is_some()
     }
 
     /// What the form makes of its file.

@@ -30,6 +30,7 @@ use ratatui::layout::Size;
 use super::actions::{Action, Effect};
 use super::app::App;
 use super::commands::Command;
+use super::keys::Place;
 use super::pane::Pane;
 use super::pick::{List, Picker};
 use super::prompt::{Next, Page, Prompt};
@@ -54,6 +55,9 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
             return files::quit(app);
         }
         app.message = None;
+        app.before_digit = app.before_digit.take().filter(|_| {
+            matches!(action, Action::Do(Command::Leave)) && app.place().meets(Place::FORM)
+        });
     }
     let cursor = app.cursor;
     let mut effects = happen(app, action);
@@ -139,6 +143,7 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::Example => catalogue::examples(app),
         Command::Explain => page::explain(app),
         Command::New => solve(tabs::fresh(app)),
+        Command::BuiltIn => solve(tabs::built_in(app)),
         Command::CloseTab => files::close(app),
         Command::Quit => files::quit(app),
         Command::Cancel => cancel::cancel(app),

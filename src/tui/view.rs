@@ -27,9 +27,10 @@ use super::panes::teeth;
 
 pub use super::text;
 
-/// The least columns of a title beside the keys of hidden panes, and beside their names.
-const LEAST_TITLE: usize = 16;
-const TITLE_BESIDE_NAMES: usize = 32;
+/// Room for a title beside the names of hidden panes.
+const LEAST_TITLE: usize = 32;
+/// Stands before the number of a pane while a field takes the digits.
+const LEAVE: &str = "Esc ";
 
 /// Draw the whole screen; the place of the cursor, where there is one.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
@@ -47,7 +48,17 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
 #[must_use]
 pub fn title_room(app: &App, pane: Pane, width: u16) -> usize {
     let hidden = hidden(app, pane, width);
-    room_beside(&hidden, width).saturating_sub(4 + "0 ".len())
+    room_beside(&hidden, width).saturating_sub(4 + key(app, pane).len())
+}
+
+// The keys that go to a pane, with a space behind them: in a field Esc comes first, since a digit
+// is part of the value there. None for the form while one of its fields is edited.
+fn key(app: &App, pane: Pane) -> String {
+    match (app.has_line(), pane) {
+        (false, _) => format!("{} ", pane.number()),
+        (true, Pane::Form) => String::new(),
+        (true, _) => format!("{LEAVE}{} ", pane.number()),
+    }
 }
 
 // The hidden ones are named at the right end, before one cell of the rule.
@@ -66,7 +77,7 @@ pub fn titled(app: &App, pane: Pane, title: &str, area: Rect, buffer: &mut Buffe
     let room = room_beside(&hidden, area.width);
     let has_focus = app.panes.focus == pane && app.prompts.is_empty();
     let title = text::cut(
-        &format!("{} {title}", pane.number()),
+        &format!("{}{title}", key(app, pane)),
         room.saturating_sub(4),
     );
     let inner = text::titled(&title, area, app.look.theme, buffer);
@@ -112,18 +123,29 @@ fn hidden(app: &App, pane: Pane, width: u16) -> String {
     if plan.names_hidden() != Some(pane) {
         return String::new();
     }
-    let named: Vec<_> = plan
+    let leave = if app.has_line() {
+        format!(" {}", LEAVE.trim_end())
+    } else {
+        String::new()
+    };
+    let names = plan
         .hidden()
-        .map(|pane| format!(" {} {} ", pane.number(), pane.name()))
-        .collect();
-    let named = named.concat();
-    if named.width() + TITLE_BESIDE_NAMES <= width.into() {
+        .map(|pane| format!(" {} {} ", pane.number(), pane.name()));
+    let named: String = std::iter::once(leave.clone()).chain(names).collect();
+    if named.width() + LEAST_TITLE <= width.into() {
         return named;
     }
-    plan.hidden()
+    let numbers: String = plan
+        .hidden()
         .map(|pane| format!(" {}", pane.number()))
         .chain([" ".to_owned()])
-        .collect()
+        .collect();
+    let in_full = leave + &numbers;
+    if room_beside(&in_full, width) > LEAST_TITLE {
+        in_full
+    } else {
+        numbers
+    }
 }
 
 // The most that fits whole.
@@ -201,14 +223,22 @@ fn draw_charts(app: &App, area: Rect, buffer: &mut Buffer) {
 }
 
 fn draw_teeth(app: &App, area: Rect, buffer: &mut Buffer) {
-    let stale = if app.is_stale() { "LAST VALID, " } else { "" };
+    let stale = if app.shows_last_valid() {
+        "LAST VALID, "
+    } else {
+        ""
+    };
     let centre = app.teeth.centre.name();
     let title = format!("{stale}Teeth, true to scale, around {centre}");
     let inner = titled(app, Pane::Teeth, &title, area, buffer);
     if let Some(picture) = app.picture() {
         teeth::draw(&picture, inner, buffer);
     } else {
-        let message = "  This method has no valid results.";
+        let message = if app.answer.is_some() {
+            "  This method has no valid results."
+        } else {
+            "  No results yet."
+        };
         buffer.set_stringn(inner.x, inner.y, message, inner.width.into(), Style::new());
     }
 }

@@ -67,7 +67,7 @@ const ONE_BAD_LINE: &[OneLine] = &[
     (MODULE, "module = \"16 kg\"", 0, 10, "pair.module", "unit of mass, not of length", "use one of mm"),
     (MODULE, "module = \"5 mmm\"", 0, 10, "pair.module", "unknown unit `mmm`", "did you mean mm?"),
     (MODULE, "module = \"mm\"", 0, 10, "pair.module", "does not begin with a number", "20 mm"),
-    (MODULE, "module = \"\"", 0, 10, "pair.module", "no value", "module = \"5 mm\""),
+    (MODULE, "module = \"\"", 0, 10, "pair.module", "missing", "module = \"5 mm\" under [pair]"),
     (MODULE, "module = \"five mm\"", 0, 10, "pair.module", "does not begin with a number", "20 mm"),
     (MODULE, "module = \"5 mm wide\"", 0, 10, "pair.module", "unknown unit", "use one of"),
     (MODULE, "module = \"0 mm\"", 0, 10, "pair.module", "below the limit of 0.05 mm", "from 0.05 to 50 mm"),
@@ -174,7 +174,7 @@ fn without(table: &str) -> String {
 }
 
 #[test]
-fn what_is_missing_is_told_at_its_table_or_at_the_end() {
+fn a_missing_value_is_reported_at_its_key_its_table_or_the_end() {
     expect(
         &GOOD.replace("teeth = 20\n", ""),
         &[
@@ -183,14 +183,14 @@ fn what_is_missing_is_told_at_its_table_or_at_the_end() {
                 1,
                 "driver.teeth",
                 "missing",
-                "add teeth = 20 to [driver]",
+                "write teeth = 20 under [driver]",
             ),
             (
                 25,
                 1,
                 "driven.teeth",
                 "missing",
-                "add teeth = 20 to [driven]",
+                "write teeth = 20 under [driven]",
             ),
         ],
     );
@@ -201,13 +201,13 @@ fn what_is_missing_is_told_at_its_table_or_at_the_end() {
     expect(
         &without("driven"),
         &[
-            (43, 1, "driven.teeth", "missing", "to [driven]"),
+            (43, 1, "driven.teeth", "missing", "under [driven]"),
             (
                 43,
                 1,
                 "driven.face_width",
                 "missing",
-                "face_width = \"8 mm\" to [driven]",
+                "face_width = \"8 mm\" under [driven]",
             ),
         ],
     );
@@ -318,7 +318,7 @@ fn columns_count_characters_and_lines_end_in_either_way() {
                 8,
                 "pair.module",
                 "missing",
-                "module = \"5 mm\" to [pair]",
+                "module = \"5 mm\" under [pair]",
             ),
             (2, 10, "pair.modul", "unknown key", "did you mean module?"),
         ],

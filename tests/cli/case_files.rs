@@ -271,6 +271,44 @@ fn a_new_document_is_a_commented_text_with_every_field() {
 }
 
 #[test]
+fn a_draft_takes_its_values_in_their_places_and_may_be_saved_half_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("draft.toml");
+    let mut draft = Document::new(Case::fresh());
+    draft.save(&path).unwrap();
+    assert!(Document::read(&path).is_err());
+    write(&mut draft, "driven.teeth", "40");
+    write(&mut draft, "operation.torque", "70 N m");
+    draft.save(&path).unwrap();
+    let text = fs::read_to_string(&path).unwrap();
+    assert!(
+        text.contains("\nteeth = 40  # required, such as 20\n")
+            && text.contains("\nteeth = \"\"  # required, such as 20\n"),
+        "{text}"
+    );
+    let mut again = Document::read_draft(&path).unwrap();
+    assert_eq!((&again.case, again.render()), (&draft.case, text));
+    let missing = again.case.inputs().unwrap_err();
+    let keys: Vec<&str> = missing.iter().map(|one| one.field.as_str()).collect();
+    assert_eq!(
+        keys,
+        [
+            "pair.module",
+            "driver.teeth",
+            "driver.face_width",
+            "driven.face_width",
+            "operation.speed"
+        ]
+    );
+    write(&mut again, "pair.module", "wide");
+    again.save(&path).unwrap();
+    assert!(
+        Document::read_draft(&path).is_err(),
+        "a wrong value is no missing value"
+    );
+}
+
+#[test]
 fn a_field_that_a_new_document_shows_as_a_comment_is_written_into_its_table() {
     let mut document = Document::new(Case::table_1());
     write(&mut document, "pair.centre_distance", "101 mm");

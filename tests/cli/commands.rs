@@ -737,40 +737,71 @@ fn no_control_of_a_file_or_a_name_reaches_the_terminal() {
     );
 }
 
+/// The values that a case requires, by key.
+const REQUIRED: [(&str, &str); 7] = [
+    ("pair.module", "4 mm"),
+    ("driver.teeth", "17"),
+    ("driver.face_width", "20 mm"),
+    ("driven.teeth", "40"),
+    ("driven.face_width", "22 mm"),
+    ("operation.power", "5 kW"),
+    ("operation.speed", "1500 rpm"),
+];
+
 #[test]
-fn a_new_case_solves() {
+fn a_new_case_names_its_missing_values_until_they_are_written() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("new.toml");
     let path = path.to_str().unwrap();
     assert_eq!(told(&["new", path]), "");
-    let text = fs::read_to_string(path).unwrap();
+    let mut text = fs::read_to_string(path).unwrap();
     assert_eq!(told(&["new"]), text);
-    let output = run_with_input(&["solve", "-"], &text);
-    assert_eq!((code(&output), err(&output).as_str()), (0, ""));
-    let solved = out(&output);
+    assert!(text.contains("\nmethod = \"auto\"\n"), "{text}");
+    let output = run(&["solve", path]);
+    assert_eq!((code(&output), out(&output).as_str()), (3, ""));
+    let missing = err(&output);
+    assert_eq!(missing.lines().count(), REQUIRED.len(), "{missing}");
+    for ((key, value), fault) in REQUIRED.iter().zip(missing.lines()) {
+        let (table, name) = key.split_once('.').unwrap();
+        let empty = format!("{name} = \"\"  # required");
+        let line = fault[path.len() + 1..].split(':').next().unwrap();
+        let line: usize = line.parse().unwrap();
+        assert!(
+            text.lines().nth(line - 1).unwrap().starts_with(&empty)
+                && fault.contains(&format!(": {key}: "))
+                && fault.contains(&format!("write {name} = "))
+                && fault.ends_with(&format!(" under [{table}]")),
+            "{fault}\n{text}"
+        );
+        let value = if name == "teeth" {
+            (*value).to_owned()
+        } else {
+            format!("\"{value}\"")
+        };
+        text = text.replacen(&empty, &format!("{name} = {value}  # required"), 1);
+    }
+    let solved = run_with_input(&["solve", "-"], &text);
+    assert_eq!((code(&solved), err(&solved).as_str()), (0, ""));
+    assert!(out(&solved).contains("orner contact"), "{}", out(&solved));
+}
+
+#[test]
+fn settings_complete_a_new_case() {
+    let text = told(&["new"]);
+    let settings = REQUIRED.map(|(key, value)| format!("{key}={value}"));
+    let mut words = vec!["solve", "-"];
+    for setting in &settings {
+        words.extend(["--set", setting]);
+    }
+    let solved = run_with_input(&words, &text);
+    assert_eq!((code(&solved), err(&solved).as_str()), (0, ""));
+    words.truncate(words.len() - 2);
+    let incomplete = run_with_input(&words, &text);
+    let missing = err(&incomplete);
     assert!(
-        solved.contains("New case")
-            && solved.contains("Corner contact")
-            && !solved.contains("Limits"),
-        "{solved}"
+        code(&incomplete) == 3 && missing.lines().count() == 1 && missing.contains("speed"),
+        "{missing}"
     );
-    let weaker = out(&run_with_input(
-        &[
-            "solve",
-            "-",
-            "--set",
-            "operation.power=5 kW",
-            "--only",
-            "impact_force",
-        ],
-        &text,
-    ));
-    let given = out(&run_with_input(
-        &["solve", "-", "--only", "impact_force"],
-        &text,
-    ));
-    assert_ne!(weaker, given, "the load makes the deflection");
-    assert!(!text.contains("grade 7"), "{text}");
 }
 
 #[test]

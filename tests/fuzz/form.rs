@@ -75,7 +75,13 @@ struct Bench {
 
 #[test]
 fn whatever_is_typed_the_form_stays_sound_and_the_screen_safe() {
-    let text = prop_oneof![texts::written(), texts::mutated(), Just(String::new())];
+    let draft = Document::new(Case::fresh()).render();
+    let text = prop_oneof![
+        texts::written(),
+        texts::mutated(),
+        Just(draft),
+        Just(String::new())
+    ];
     let seen = RefCell::new(BTreeSet::new());
     hold(
         400,
@@ -220,7 +226,7 @@ impl Bench {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("case.toml");
         fs::write(&path, text).expect("room on the disk");
-        let read = Document::read(&path).ok();
+        let read = Document::read_draft(&path).ok();
         let path = read.is_some().then_some(path);
         let look = Look {
             ascii,

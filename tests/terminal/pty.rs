@@ -175,7 +175,7 @@ fn the_last_case_is_opened_again_and_a_broken_one_is_told() {
     tty.type_in("\x11");
     tty.wait_for_end();
     let mut tty = Launch::of(tty.folder.clone()).start();
-    tty.wait_for("case.toml");
+    tty.wait_for("case.toml (last case; Alt-T: Table 1)");
     tty.type_in("\x11");
     tty.wait_for_end();
     fs::write(tty.case(), "no case").expect("room on the disk");

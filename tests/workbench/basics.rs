@@ -10,6 +10,7 @@ use insta::assert_snapshot;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 use ratatui::symbols::Marker;
+use tipstrike::case::fields;
 use tipstrike::model::inputs::Method;
 use tipstrike::model::{Stage, Stages};
 use tipstrike::tui::actions::Effect;
@@ -43,6 +44,105 @@ fn three_cases(size: Size) -> Desk {
         }
     }
     desk
+}
+
+#[test]
+fn a_new_case_marks_its_required_fields_and_shows_the_defaults_of_the_others() {
+    let mut desk = Desk::new(LARGE);
+    desk.keys(&["Ctrl-N"]);
+    for line in [
+        "! 7 required values are missing (Alt-E)",
+        "▸ m     module               (required)",
+        "! z1    number of teeth      (required)",
+        "  α     pressure angle       (20 deg)",
+        "Required, such as 5 mm.",
+    ] {
+        assert!(desk.shows(line), "{line}\n{}", desk.screen());
+    }
+    assert!(!desk.shows("LAST VALID") && !desk.app.is_unsaved());
+    for (at, value) in ["4", "17", "20", "40", "22", "5 kW", "1500"]
+        .iter()
+        .enumerate()
+    {
+        assert_eq!(desk.app.problems.len(), 7 - at);
+        desk.keys(&[value, "Alt-E"]);
+    }
+    let text = |key| desk.app.case.text(fields::index_of(key).expect("a field"));
+    assert_eq!(text("driven.teeth"), Some("40"));
+    assert_eq!(
+        (text("model.method"), text("model.within")),
+        (Some("auto"), None)
+    );
+    assert!(desk.app.answer.is_some() && desk.app.problems.is_empty());
+}
+
+#[test]
+fn a_case_with_missing_values_opens_is_saved_and_opens_again() {
+    let mut desk = Desk::new(SMALL);
+    let path = desk.path("pair.toml");
+    let path = path.to_str().expect("a name in UTF-8");
+    desk.keys(&["Ctrl-N", "4", "Ctrl-S", "Ctrl-U", path, "Enter"]);
+    assert!(
+        desk.shows("; 6 required values are missing") && !desk.app.is_unsaved(),
+        "{}",
+        desk.screen()
+    );
+    assert!(
+        desk.read("pair.toml")
+            .contains("\nmodule = \"4 mm\"  # required")
+    );
+    desk.keys(&["Alt-W", "Ctrl-O", "Ctrl-U", path]);
+    assert!(
+        desk.shows("Required values are missing:") && desk.shows("the driver's number of teeth"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Enter"]);
+    assert!(
+        desk.shows("! 6 required values are missing"),
+        "{}",
+        desk.screen()
+    );
+    desk.go_to("driver.teeth").keys(&["17.5", "Ctrl-S"]);
+    assert!(
+        desk.shows("not saved: fix the fields marked with ! first"),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
+fn the_first_line_names_the_last_case_and_the_key_of_table_1() {
+    for (size, name) in [
+        (
+            SMALL,
+            "a case with a name that leaves no room for its title",
+        ),
+        (LARGE, "pair"),
+    ] {
+        let mut desk = Desk::on(size, &format!("{name}.toml"), TABLE_1);
+        desk.app.tab.is_last_case = true;
+        let first = |desk: &Desk| desk.screen().lines().next().unwrap_or_default().to_owned();
+        assert!(
+            first(&desk).contains("(last case; Alt-T: Table 1)"),
+            "{}",
+            desk.screen()
+        );
+        desk.keys(&["Alt-T"]);
+        assert!(
+            first(&desk).starts_with("tipstrike  built-in Table 1"),
+            "{}",
+            desk.screen()
+        );
+    }
+    let mut desk = Desk::on(SMALL, "pair.toml", TABLE_1);
+    assert!(!desk.shows("last case"));
+    desk.keys(&["Alt-T", "Ctrl-PageUp", "Alt-T"]);
+    assert!(
+        desk.shows("1 pair.toml [2 built-in Table 1]"),
+        "{}",
+        desk.screen()
+    );
 }
 
 #[test]
@@ -682,7 +782,7 @@ fn recent_cases_are_a_key_away() {
 fn torque_takes_the_place_of_power_and_gives_it_back() {
     let mut desk = Desk::new(SMALL);
     desk.fill("operation.torque", "7");
-    let told = "power 15 kW is given up: the torque stands in its place";
+    let told = "power 15 kW replaced by the torque";
     assert!(desk.shows(told), "{}", desk.screen());
     desk.keys(&["0 N m"]);
     assert!(
@@ -817,25 +917,6 @@ fn the_screens() {
     );
     assert_snapshot!("opening_240x70", Desk::new(HUGE).screen());
     assert_snapshot!("opening_60x16", Desk::new(TINY).screen());
-}
-
-#[test]
-fn a_new_case_has_nothing_of_another_but_its_values() {
-    let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
-    desk.keys(&["Ctrl-N"]);
-    let text = desk.app.tab.document.render();
-    assert!(
-        text.contains("title = \"New case\"") && !text.contains("grade 7"),
-        "{text}"
-    );
-    assert!(
-        desk.app.case.limits.is_empty() && desk.app.case.inputs().unwrap().deflection.is_none()
-    );
-    assert!(
-        desk.shows("the load makes the deflection"),
-        "{}",
-        desk.screen()
-    );
 }
 
 #[test]

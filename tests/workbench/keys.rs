@@ -214,7 +214,7 @@ fn a_faulty_form_is_not_saved() {
     assert_eq!(
         desk.app.case.text(desk.app.focus),
         Some("fast"),
-        "the focus is on what must be mended"
+        "the focus is on the wrong field"
     );
 }
 
@@ -524,6 +524,61 @@ fn what_is_typed_takes_the_place_of_the_value_and_a_move_keeps_it() {
 }
 
 #[test]
+fn escape_takes_back_the_first_digit_and_the_digit_then_shows_its_pane() {
+    for size in [SMALL, LARGE] {
+        let mut desk = Desk::new(size);
+        let before = desk.app.case.clone();
+        assert!(desk.shows("Esc 2 Results"), "{}", desk.screen());
+        desk.keys(&["2"]);
+        let announced = "module: 2 replaces 5 mm. Esc restores 5 mm; then 2 shows Results";
+        assert!(desk.shows(announced), "{}", desk.screen());
+        desk.keys(&["Esc"]);
+        assert_eq!(desk.app.case, before);
+        assert!(
+            desk.shows("module is 5 mm again") && desk.shows(" 2 Results"),
+            "{}",
+            desk.screen()
+        );
+        desk.keys(&["2"]);
+        assert!(desk.shows("▸ 2 Results"), "{}", desk.screen());
+        desk.keys(&["u"]);
+        assert!(desk.shows("nothing to undo"), "{}", desk.screen());
+    }
+}
+
+#[test]
+fn escape_keeps_every_other_edit() {
+    for (field, keys, text) in [
+        ("pair.module", &["12", "Esc"][..], "12 mm"),
+        ("pair.module", &["2", "Backspace", "3", "Esc"], "3 mm"),
+        ("pair.module", &["Shift-Up", "2", "Esc"], "2 mm"),
+        ("pair.module", &["End", "Backspace", "Esc"], "5 m"),
+        ("pair.module", &["2", "Ctrl-P", "Esc", "Esc"], "2 mm"),
+        ("title", &["a", "Esc"], "a"),
+    ] {
+        let mut desk = Desk::new(SMALL);
+        desk.go_to(field).keys(keys);
+        let at = tipstrike::case::fields::index_of(field).expect("a field");
+        assert_eq!(desk.app.case.text(at), Some(text), "{keys:?}");
+    }
+    let mut desk = Desk::new(SMALL);
+    desk.go_to("operation.torque").keys(&["7"]);
+    assert!(
+        desk.shows("power 15 kW replaced by the torque. torque: 7 starts a value. Esc removes 7"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Esc"]);
+    assert_eq!(desk.app.case, desk.app.saved);
+    desk.go_to("model.method").keys(&["Enter", "3"]);
+    assert!(
+        desk.shows("no choice begins with 3. Esc leaves the field; then 3 shows Chart"),
+        "{}",
+        desk.screen()
+    );
+}
+
+#[test]
 fn a_letter_that_is_no_command_is_told_as_such() {
     for (pane, letter, told) in [
         (
@@ -572,7 +627,7 @@ fn undo_tells_what_it_took_back() {
 #[test]
 fn the_baseline_is_called_as_the_file_that_it_was_saved_to() {
     let mut desk = Desk::new(SMALL);
-    desk.keys(&["Alt-B"]);
+    desk.keys(&["Esc", "Alt-B"]);
     assert!(
         desk.shows("for this session") && desk.shows("against built-in"),
         "{}",
@@ -583,7 +638,7 @@ fn the_baseline_is_called_as_the_file_that_it_was_saved_to() {
     assert!(desk.shows("against whine.toml"), "{}", desk.screen());
     let path = desk.path("quiet.toml");
     desk.fill("driven.tip_relief", "48")
-        .keys(&["F2", "Ctrl-U", name(&path), "Enter"]);
+        .keys(&["F2", "Ctrl-U", name(&path), "Enter", "Esc"]);
     assert!(
         desk.app.short_name() == "quiet.toml" && desk.shows("against whine.toml"),
         "{}",

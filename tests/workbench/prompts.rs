@@ -165,6 +165,8 @@ fn a_name_that_is_typed_takes_the_place_of_the_one_that_is_offered() {
         (&["Right", "2"], "case2.toml"),
         (&["Left", "my-"], "my-case.toml"),
         (&["End", ".old"], "case.toml.old"),
+        (&["pair.toml"], "pair.toml"),
+        (&["pair.v2"], "pair.v2.toml"),
     ] {
         let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
         desk.keys(&["F2"]).keys(keys).keys(&["Enter"]);

@@ -223,8 +223,8 @@ fn what_a_later_measurement_overtook_changes_nothing() {
 
 #[test]
 fn a_measurement_ends_although_its_case_was_closed() {
-    let mut desk = Desk::new(LARGE);
-    desk.keys(&["Ctrl-N", "Esc", "5"]);
+    let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
+    desk.keys(&["Alt-T", "Esc", "5"]);
     let serial = match &asked(&mut desk, "m")[..] {
         [Effect::Measure(measuring)] => measuring.serial,
         other => panic!("{other:?}"),

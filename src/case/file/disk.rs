@@ -23,20 +23,29 @@ pub enum Saved {
 }
 
 impl Document {
-    /// Read a document from a file, or from standard input where the path is `-`.
+    /// Read a complete case from a file, or from standard input where the path is `-`.
     ///
     /// # Errors
     /// Where the file cannot be read, or is no valid case.
     pub fn read(path: &Path) -> Result<Document, ReadError> {
+        Document::read_draft(path)?.complete().map_err(refused)
+    }
+
+    /// Read a case in which required values may be missing from a file, or from standard input
+    /// where the path is `-`.
+    ///
+    /// # Errors
+    /// Where the file cannot be read, or has other faults.
+    pub fn read_draft(path: &Path) -> Result<Document, ReadError> {
         let name = shown(path);
         if path == Path::new("-") {
             let bytes = capped(io::stdin().lock(), &name)?;
-            return Document::parse_bytes(&name, &bytes).map_err(refused);
+            return Document::parse_draft_bytes(&name, &bytes).map_err(refused);
         }
         let file = open(path, &name)?;
         let mode = file.metadata().ok().map(|about| about.mode());
         let bytes = capped(file, &name)?;
-        let mut document = Document::parse_bytes(&name, &bytes).map_err(refused)?;
+        let mut document = Document::parse_draft_bytes(&name, &bytes).map_err(refused)?;
         document.origin = followed(path).ok();
         document.mode = mode;
         Ok(document)

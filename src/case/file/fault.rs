@@ -83,6 +83,8 @@ pub(super) struct Found {
     pub(super) at: usize,
     pub(super) problem: Problem,
     pub(super) kind: FaultKind,
+    /// Whether it is a required value that is missing.
+    pub(super) is_missing: bool,
 }
 
 impl Found {
@@ -91,6 +93,7 @@ impl Found {
             at,
             problem,
             kind: FaultKind::Bad,
+            is_missing: false,
         }
     }
 }

@@ -88,11 +88,14 @@ pub(super) fn text(case: &Case) -> String {
         if !table.is_empty() {
             let _ = write!(text, "\n# {title}\n[{table}]\n");
         }
-        for field in FIELDS.iter().filter(|field| field.table() == table) {
-            let written = entries
-                .iter()
-                .find(|entry| entry.table == table && entry.name == field.name());
-            text.push_str(&described(field, written));
+        for (index, field) in FIELDS.iter().enumerate() {
+            if field.table() == table {
+                let written = entries
+                    .iter()
+                    .find(|entry| entry.table == table && entry.name == field.name());
+                let line = written.map_or_else(|| unwritten(case, index), Entry::line);
+                text.push_str(&described(field, &line));
+            }
         }
     }
     text.push_str(&rest(
@@ -109,7 +112,7 @@ pub(super) fn text(case: &Case) -> String {
     text
 }
 
-fn described(field: &Field, written: Option<&Entry>) -> String {
+fn described(field: &Field, line: &str) -> String {
     let symbol = if field.symbol.is_empty() {
         String::new()
     } else {
@@ -125,8 +128,22 @@ fn described(field: &Field, written: Option<&Entry>) -> String {
         Absent::Without(words) => format!(" Left out: {words}."),
         _ => String::new(),
     };
-    let line = written.map_or_else(|| format!("# {}", check::assignment(field)), Entry::line);
     format!("# {symbol}{}{range}{absent}\n{line}\n", field.help)
+}
+
+/// A field without a value: an empty one where it is required, else an example as a comment.
+fn unwritten(case: &Case, index: usize) -> String {
+    let field = &FIELDS[index];
+    let (name, assignment) = (field.name(), check::assignment(field));
+    let example = assignment.split_once(" = ").map_or("", |(_, value)| value);
+    let other = check::partner(index);
+    if !case.lacks(index) || other.is_some_and(|other| other < index) {
+        return format!("# {assignment}");
+    }
+    let unless = other.map_or_else(String::new, |other| {
+        format!(" unless {} is given", FIELDS[other].name())
+    });
+    format!("{name} = \"\"  # required{unless}, such as {example}")
 }
 
 fn rest(entries: &[Entry], table: &str, help: &str, example: &str) -> String {

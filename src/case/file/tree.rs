@@ -10,7 +10,7 @@ use super::fault::{FaultKind, Found};
 use super::unknown::{unknown_at_top, unknown_in_table};
 use super::value::{bare_number, flag, kind_of, measure, misplaced, scalar, untaken, words};
 use super::{FORMAT, syntax};
-use crate::case::fields::{AUTO, FIELDS, GROUPS, Kind, index_of};
+use crate::case::fields::{AUTO, Absent, FIELDS, Field, GROUPS, Kind, index_of};
 use crate::case::spread;
 use crate::case::units::ParseError;
 use crate::case::{Case, Limit, Problem, Spread, check};
@@ -72,6 +72,13 @@ pub(super) struct Reading {
     pub(super) faults: Vec<Found>,
     /// How many faults there are besides.
     pub(super) more: usize,
+}
+
+impl Reading {
+    /// Whether the text is a case in which nothing but required values may be missing.
+    pub(super) fn is_draft(&self) -> bool {
+        self.faults.iter().all(|found| found.is_missing)
+    }
 }
 
 /// Read what is understood of a text of a newer format. What is wrong with it is for a newer
@@ -193,6 +200,7 @@ impl Reader {
                     at,
                     problem,
                     kind: FaultKind::NewerFormat,
+                    is_missing: false,
                 });
                 return FaultKind::NewerFormat;
             }
@@ -261,6 +269,7 @@ impl Reader {
         };
         let empty = |text: &String| text.is_empty() && !matches!(known.kind, Kind::Text);
         match written {
+            _ if is_required(known) && value.get_ref().as_str() == Some("") => {}
             Ok(text) if empty(&text) => {
                 self.wrongly(
                     field,
@@ -361,7 +370,12 @@ impl Reader {
         self.wrong.extend(lost);
         let (_, problems) = check::read(&self.case, &self.wrong);
         for problem in problems {
-            self.fault(self.places.offset(&problem.field), problem);
+            let is_missing = index_of(&problem.field).is_some_and(|field| self.case.lacks(field));
+            let found = Found::new(self.places.offset(&problem.field), problem);
+            self.faults.push(Found {
+                is_missing,
+                ..found
+            });
         }
     }
 
@@ -384,6 +398,11 @@ impl Reader {
     fn fault(&mut self, at: usize, problem: Problem) {
         self.faults.push(Found::new(at, problem));
     }
+}
+
+/// Whether an empty string is a value that is still missing.
+fn is_required(field: &Field) -> bool {
+    matches!(field.absent, Absent::Refused | Absent::Either(_))
 }
 
 /// A table's keys and values in the order of the text.

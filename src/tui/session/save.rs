@@ -90,7 +90,7 @@ impl Saving {
 
     /// How the file differs from the form: one line per field with a remark, or `same`.
     fn differences(&self, same: &str, remark: impl Fn(&Change) -> String) -> Vec<String> {
-        let theirs = match Document::read(&self.path) {
+        let theirs = match Document::read_draft(&self.path) {
             Ok(theirs) => theirs.case,
             Err(error) => {
                 let is_case = !matches!(error, ReadError::Bad(_) | ReadError::NewerFormat(_));

@@ -27,6 +27,8 @@ pub enum Viewport {
 pub enum Preview {
     /// A case, and whether it is of a newer format.
     Case(Digest, bool),
+    /// The required values that are missing from a case.
+    Draft(Vec<String>),
     /// What is wrong with it, the first of them, and how many more there are.
     Faults(Vec<String>, usize),
     /// A folder with so many cases and folders.
@@ -73,6 +75,10 @@ fn of_document(
         Ok(inputs) => {
             let digest = Digest::solve(&document.case, &inputs, system, go_on)?;
             Some(Preview::Case(digest, document.is_newer()))
+        }
+        Err(problems) if !document.is_newer() => {
+            let fields = problems.iter().map(|problem| problem.for_form().field);
+            Some(Preview::Draft(fields.collect()))
         }
         Err(problems) => {
             let faults = problems

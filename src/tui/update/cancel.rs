@@ -1,6 +1,6 @@
 //! What Esc and Ctrl-C end: what is topmost first.
 
-use super::{cursor, files, panes};
+use super::{cursor, edit, files, panes};
 use crate::model::Stage;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
@@ -14,6 +14,9 @@ pub(super) const LEAVING: &str = "nothing runs and nothing is unsaved: Ctrl-C ag
 pub(super) fn leave(app: &mut App) -> Vec<Effect> {
     if app.prompts.pop().is_some() {
         return Vec::new();
+    }
+    if let Some(case) = app.before_digit.take() {
+        return edit::take_back(app, case);
     }
     let stopped = stop(app);
     if !stopped.is_empty() {

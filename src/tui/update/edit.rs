@@ -12,6 +12,7 @@ use crate::tui::app::App;
 use crate::tui::line::Line;
 use crate::tui::pane::Pane;
 use crate::tui::prompt::Prompt;
+use crate::tui::session::recovery;
 use crate::tui::update::{browse, files};
 use crate::tui::{ascii, rows};
 
@@ -28,7 +29,46 @@ pub(super) fn insert(app: &mut App, letter: char) -> Vec<Effect> {
     if app.prompts.is_empty() && app.has_line() && !names(app).is_empty() {
         return choose_by_letter(app, letter);
     }
-    paste(app, letter.encode_utf8(&mut [0; 4]))
+    let before = (letter.is_ascii_digit() && app.starts_anew()).then(|| app.case.clone());
+    let effects = paste(app, letter.encode_utf8(&mut [0; 4]));
+    if let Some(before) = before {
+        announce(app, letter, &before);
+        app.before_digit = Some(before);
+    }
+    effects
+}
+
+// Outside a field the same digit shows a pane.
+fn announce(app: &mut App, digit: char, before: &Case) {
+    let earlier = app.message.take();
+    let earlier = earlier.map_or_else(String::new, |message| message.text + ". ");
+    let label = rows::full_label(&app.case, app.focus);
+    let edit = match rows::text(before, app.focus) {
+        Some(text) => {
+            let text = recovery::shown(Some(text));
+            format!("{label}: {digit} replaces {text}. Esc restores {text}")
+        }
+        None => format!("{label}: {digit} starts a value. Esc removes {digit}"),
+    };
+    let pane = Pane::of_digit(digit).map_or_else(String::new, |pane| {
+        format!("; then {digit} shows {}", pane.name())
+    });
+    app.say(format!("{earlier}{edit}{pane}"));
+}
+
+/// Esc after the digit that started a new value: the field has its value again and is left.
+pub(super) fn take_back(app: &mut App, case: Case) -> Vec<Effect> {
+    let focus = app.focus;
+    app.tab.history.forget_visit(&case);
+    app.is_editing = false;
+    let effects = solve(app.replace_case(case, focus));
+    let text = rows::text(&app.case, focus).map(|text| recovery::shown(Some(text)));
+    app.say(format!(
+        "{} is {} again",
+        rows::full_label(&app.case, focus),
+        text.unwrap_or_else(|| "empty".to_owned())
+    ));
+    effects
 }
 
 /// Text pasted: into a line of text and nowhere else, what controls a terminal left out. Of several
@@ -125,7 +165,7 @@ pub(super) fn step(app: &mut App, by: i32) -> Vec<Effect> {
     let Some(text) = rows::stepped(&app.case, app.focus, by) else {
         app.say(format!(
             "{} has no step here",
-            rows::label(&app.case, app.focus)
+            rows::full_label(&app.case, app.focus)
         ));
         return Vec::new();
     };
@@ -145,7 +185,15 @@ fn choose_by_letter(app: &mut App, letter: char) -> Vec<Effect> {
     let name = names(app)
         .iter()
         .find(|name| name.starts_with(letter.to_ascii_lowercase()));
-    name.map_or_else(Vec::new, |name| set(app, app.focus, name))
+    match (name, Pane::of_digit(letter)) {
+        (Some(name), _) => return set(app, app.focus, name),
+        (None, Some(pane)) => app.say(format!(
+            "no choice begins with {letter}. Esc leaves the field; then {letter} shows {}",
+            pane.name()
+        )),
+        (None, None) => (),
+    }
+    Vec::new()
 }
 
 /// Take a name, in any field of names.
@@ -215,9 +263,7 @@ fn take_turns(app: &mut App, field: usize, other: usize) {
     let (this, that) = (FIELDS[field].label, FIELDS[other].label);
     if app.case.text(field).is_some() {
         app.tab.case.write(other, "");
-        app.say(format!(
-            "{that} {before} is given up: the {this} stands in its place"
-        ));
+        app.say(format!("{that} {before} replaced by the {this}"));
     } else if app.case.text(other).is_none() {
         app.tab.case.write(other, &before);
         app.say(format!("{that} {before} is back"));

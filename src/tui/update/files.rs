@@ -8,7 +8,7 @@ use crate::case::file::Saved;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::ascii;
-use crate::tui::line::Line;
+use crate::tui::line::{CASE_ENDING, Line};
 use crate::tui::prompt::{Choice, Next, Page, Prompt, Question};
 use crate::tui::session::recovery::{Access, NEWER};
 use crate::tui::session::save::{Over, SaveFault, Saving, Written};
@@ -145,12 +145,17 @@ pub(super) fn saved(
             }
             app.tab.read_line_anew();
             app.tab.document = document;
-            app.tab.in_place_of = None;
+            (app.tab.in_place_of, app.tab.is_last_case) = (None, false);
             let how = match saved {
                 Saved::Written => "",
                 Saved::Recreated => ": the file was deleted, and this save created it again",
             };
-            app.say(format!("saved {}{how}", path.display()));
+            let missing = match app.problems.len() {
+                0 => String::new(),
+                1 => "; 1 required value is missing".to_owned(),
+                count => format!("; {count} required values are missing"),
+            };
+            app.say(format!("saved {}{how}{missing}", path.display()));
             app.tab.path = Some(path.clone());
             baseline::rename(app);
             let mut effects = vec![Effect::Remember(path)];
@@ -224,9 +229,10 @@ fn place_of(app: &App, path: &Path) -> Option<usize> {
     app.tabs().position(|tab| tab.path.as_deref() == Some(path))
 }
 
-// What would be saved could not be opened again.
+// A file with wrong values could not be opened again; one in which values are missing can.
 fn refuse_faulty(app: &mut App) -> bool {
-    let Some(&(field, _)) = app.problems.first() else {
+    let wrong = app.problems.iter().find(|(row, _)| !app.lacks(*row));
+    let Some(&(field, _)) = wrong else {
         return false;
     };
     app.focus_on(field);
@@ -248,7 +254,7 @@ fn saving(app: &mut App, path: PathBuf, over: Over, next: Next) -> Effect {
     )
 }
 
-// A case has an ending, so that it is found among the cases of its folder.
+// The list of cases in a folder shows only names with the ending.
 fn named(name: &str) -> PathBuf {
     let last = name.rsplit('/').next().unwrap_or_default();
     let is_place = matches!(last, "" | "." | ".." | "~");
@@ -256,7 +262,7 @@ fn named(name: &str) -> PathBuf {
     PathBuf::from(if is_place || has_ending {
         name.to_owned()
     } else {
-        format!("{name}.toml")
+        format!("{name}{CASE_ENDING}")
     })
 }
 

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use crate::case::{Case, Document, Example};
 use crate::model::Stages;
 use crate::tui::app::App;
+use crate::tui::commands::{Command, key_of};
 use crate::tui::pane::Pane;
 use crate::tui::solver::Request;
 use crate::tui::store;
@@ -57,7 +58,18 @@ pub(super) fn show(app: &mut App, document: Document, path: PathBuf) -> Option<R
     request
 }
 
-/// Begin with the values of the built-in case in a tab of its own.
+/// Show the built-in case, in a tab of its own where another case is in use.
+pub(super) fn built_in(app: &mut App) -> Option<Request> {
+    let at = app.tabs().position(Tab::is_built_in);
+    if let Some(at) = at {
+        go_to(app, at);
+        return None;
+    }
+    let replaces = app.is_untouched();
+    put(app, Tab::new(store::built_in(), None), replaces)
+}
+
+/// Start an empty case in a tab of its own.
 pub(super) fn fresh(app: &mut App) -> Option<Request> {
     let replaces = app.is_untouched();
     let request = put(
@@ -68,11 +80,16 @@ pub(super) fn fresh(app: &mut App) -> Option<Request> {
         },
         replaces,
     );
-    app.say("a new case, beginning with the values of Table 1; the load makes the deflection");
+    let missing = app.problems.len();
+    app.say(format!(
+        "new case: {missing} required fields are empty, the others show their defaults; \
+         {} starts from an example",
+        key_of(Command::Example)
+    ));
     request
 }
 
-/// Begin a case with an example, in a tab of its own.
+/// Start a case from an example, in a tab of its own.
 pub(super) fn begin(app: &mut App, example: &'static Example) -> Option<Request> {
     let replaces = app.is_untouched();
     let request = put(

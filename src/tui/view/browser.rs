@@ -262,6 +262,15 @@ fn told(preview: &Preview, width: usize, theme: &Theme) -> Vec<(String, Style)> 
                 Style::new(),
             )]
         }
+        Preview::Draft(fields) => {
+            let head = text::wrap("Required values are missing:", width)
+                .into_iter()
+                .map(|line| (line, theme.note));
+            let fields = fields
+                .iter()
+                .map(|field| (text::cut(field, width), Style::new()));
+            head.chain(fields).collect()
+        }
         Preview::Faults(faults, more) => {
             let head = text::wrap("It cannot be opened:", width)
                 .into_iter()

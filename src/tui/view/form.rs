@@ -169,13 +169,14 @@ fn group_title(app: &App, index: usize) -> String {
     )
 }
 
-// What is merely unfinished is told beside the form until the field is left.
+// An unfinished value is explained in the hint until the field is left. A missing value needs no
+// reason: the field itself shows that it is required.
 fn reasons(app: &App, field: usize, width: u16) -> impl Iterator<Item = String> {
-    let is_unfinished = app.is_unfinished(field);
+    let has_reason = !app.is_unfinished(field) && !app.lacks(field);
     let own = app
         .problems
         .iter()
-        .filter(move |(at, _)| *at == field && !is_unfinished);
+        .filter(move |(at, _)| *at == field && has_reason);
     own.flat_map(move |(_, problem)| {
         let lines = text::wrap(
             &format!("{}: {}", problem.cause, problem.mend),
@@ -508,7 +509,7 @@ fn draw_text(
         return cursor;
     }
     let shown = written.map_or(unwritten.into(), ascii::printable);
-    let faint = if written.is_none() {
+    let faint = if written.is_none() && !app.lacks(index) {
         app.look.theme.faint
     } else {
         style

@@ -18,7 +18,7 @@ use crate::model::{Note, Quantity, Solution};
 use crate::report::{self, Shown, digest};
 use crate::tui::app::App;
 use crate::tui::ascii::symbol;
-use crate::tui::commands::{Command, keys_of};
+use crate::tui::commands::{Command, key_of};
 use crate::tui::layout::plan;
 use crate::tui::pane::Pane;
 use crate::tui::rows;
@@ -252,7 +252,7 @@ fn lines_before(app: &App, area: Rect) -> usize {
 
 // As much of it as has room, so that nothing is cut.
 fn title(app: &App, rows: usize, room: usize) -> String {
-    let name = if app.is_stale() {
+    let name = if app.shows_last_valid() {
         "Results: LAST VALID"
     } else {
         "Results"
@@ -280,7 +280,11 @@ fn title(app: &App, rows: usize, room: usize) -> String {
                 answer.cost.stages, answer.cost.micros
             )
         });
-    let short = if app.is_stale() { "LAST VALID" } else { name };
+    let short = if app.shows_last_valid() {
+        "LAST VALID"
+    } else {
+        name
+    };
     let [position, numbers, arrows] = position(app, rows);
     let titles = [
         format!("{name}{position}{against}{pending}{cost}"),
@@ -427,8 +431,10 @@ fn wrong(app: &App) -> Option<String> {
     } else {
         String::new()
     };
-    let key = keys_of(Command::NextFault);
-    let key = key.split(',').next().unwrap_or_default();
+    let key = key_of(Command::NextFault);
+    if let Some(missing) = app.missing().filter(|&missing| missing > 1) {
+        return Some(format!("! {missing} required values are missing ({key})"));
+    }
     Some(format!(
         "! {}: {}{more} ({key})",
         name.trim_start(),

@@ -15,7 +15,7 @@ use crate::numeric::decimal::shortest;
 use crate::report::verdict::verdicts;
 use crate::tui::app::{App, Progress};
 use crate::tui::ascii::symbol;
-use crate::tui::commands::{BINDINGS, Binding};
+use crate::tui::commands::{BINDINGS, Binding, Command, key_of};
 use crate::tui::keys::Chord;
 use crate::tui::pane::Pane;
 use crate::tui::panes::chart;
@@ -147,9 +147,15 @@ pub fn about(field: &Field, ascii: bool, units: System) -> String {
 }
 
 fn only_case(app: &App, width: u16) -> Vec<Span<'static>> {
+    let last = if app.is_last_case {
+        format!(" (last case; {}: Table 1)", key_of(Command::BuiltIn))
+    } else {
+        String::new()
+    };
     let mark = [
         if app.is_unsaved() { " *unsaved*" } else { "" },
         app.access.mark(),
+        &last,
     ]
     .concat();
     let room = usize::from(width).saturating_sub(11 + mark.width());
@@ -291,6 +297,10 @@ fn focused(app: &App) -> String {
 // The unit that a number typed without one takes, or why it is no value yet. That it stays as it is
 // while digits are typed spares bytes.
 fn typed(app: &App) -> Option<String> {
+    if app.lacks(app.focus) {
+        let example = rows::field(&app.case, app.focus).map_or("", Field::example);
+        return Some(format!("Required, such as {example}."));
+    }
     if app.is_unfinished(app.focus)
         && let Some((_, problem)) = app.problems.iter().find(|(at, _)| *at == app.focus)
     {

@@ -25,7 +25,7 @@ const USUAL_COLUMNS: u16 = 71;
 #[must_use]
 pub fn first_title(charts: &Charts, room: usize) -> String {
     let panels = panels(charts);
-    let Some((graph, axes)) = panels.first() else {
+    let Some((graph, axes)) = panels.first().filter(|_| charts.answer.is_some()) else {
         return "Chart".to_owned();
     };
     let stale = if charts.is_stale { "LAST VALID, " } else { "" };
@@ -218,7 +218,7 @@ fn unit(unit: &str, power: i32) -> String {
 // The reason why the active method has no curve.
 fn missing(charts: &Charts, graph: &Graph, curves: &[Curve]) -> Option<String> {
     let Some(answer) = charts.answer else {
-        return Some("This method has no valid results.".to_owned());
+        return Some("No results yet.".to_owned());
     };
     if curves
         .iter()
