@@ -75,12 +75,19 @@ impl Field {
         self.key.split_once('.').map_or("", |(table, _)| table)
     }
 
+    /// Whether it describes one of the gears.
+    #[must_use]
+    pub fn is_of_gear(&self) -> bool {
+        matches!(self.table(), "driver" | "driven")
+    }
+
     /// The label, with the gear where both gears have such a field: `driven tip relief`.
     #[must_use]
     pub fn full_label(&self) -> String {
-        match self.table() {
-            gear @ ("driver" | "driven") => format!("{gear} {}", self.label),
-            _ => self.label.to_owned(),
+        if self.is_of_gear() {
+            format!("{} {}", self.table(), self.label)
+        } else {
+            self.label.to_owned()
         }
     }
 

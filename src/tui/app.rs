@@ -197,7 +197,7 @@ impl App {
             look: self.look,
             marker: self.settings.marker,
             units: self.settings.units,
-            is_stale: self.is_stale(),
+            is_stale: self.shows_last_valid(),
         })
     }
 

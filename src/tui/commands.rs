@@ -136,6 +136,35 @@ pub fn commands() -> impl Iterator<Item = &'static Binding> {
         .map(|(_, binding)| binding)
 }
 
+/// How a command relates to the focused pane and field.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Scope {
+    /// It belongs to the pane.
+    Own,
+    /// It works in every pane.
+    Everywhere,
+    /// It belongs to another pane.
+    Elsewhere,
+}
+
+/// The scope of a command where keys go to `place` and `pane` has the focus.
+#[must_use]
+pub fn scope(command: Command, place: Place, pane: Pane) -> Scope {
+    let is_of_some = |places: Place| !places.holds(Place::OUTSIDE);
+    let scope = |binding: &Binding| {
+        let is_shown_here = binding.footer.meets(pane.place()) && is_of_some(binding.footer);
+        match binding.places {
+            places if is_of_some(places) && !places.meets(place) => Scope::Elsewhere,
+            places if is_of_some(places) || is_shown_here => Scope::Own,
+            _ => Scope::Everywhere,
+        }
+    };
+    let bound = BINDINGS
+        .iter()
+        .filter(|binding| is_listed(binding) && binding.command == command);
+    bound.map(scope).min().unwrap_or(Scope::Everywhere)
+}
+
 /// Every key that calls the command outside prompts, as a person reads it.
 #[must_use]
 pub fn keys_of(command: Command) -> String {

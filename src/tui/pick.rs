@@ -1,48 +1,62 @@
-//! Lists that are filtered by what is typed: the palette of commands, the fields, materials,
-//! limits, examples.
+//! Lists that typing filters: the palette of commands, the fields, materials, limits, examples.
 
 use std::cmp::Reverse;
 
-use super::ascii::symbol;
 use super::commands::{self, Command};
 use super::line::Line;
-use super::panes::chart::ChartCommand;
-use crate::case::materials::{self, Material};
-use crate::case::{EXAMPLES, Example, FIELDS, search};
+use crate::case::{EXAMPLES, FIELDS, materials, search};
 use crate::model::{QUANTITIES, Quantity};
 use crate::report::digest::Digest;
-use crate::report::graphs::{GRAPHS, Graph};
+use crate::report::graphs::GRAPHS;
 
-/// A name must be this like what is typed to be offered when nothing contains it.
+mod item;
+
+use item::{
+    DESCRIBED, command, example, field, graph, of_material, quantity, rank, result,
+};
+pub use item::{Item, Pick};
+
+/// The least similarity of a name that is offered when no name contains the typed words.
 const LIKENESS: f64 = 0.75;
-/// How far behind a line stands that merely tells of a word.
-const TOLD: usize = 100;
-/// The least score for each word of a field or a result that is called so.
-const CALLED: u32 = 65;
-/// By so much a field that makes no difference fits less: behind its like, yet before others where
-/// its very symbol is typed.
+/// The least score per word of a field or a result whose name matches.
+const NAMED: u32 = 65;
+/// Fields without effect lose so much: they follow similar fields, but a typed symbol still finds
+/// them first.
 const IDLE: u32 = 9;
-/// Of fields that fit alike the one that is meant most often.
+/// The most frequent choice among fields that match equally.
 const FOREMOST: &str = "driven.tip_relief";
-/// What is longer is like no name, and would take long to compare.
+/// Longer texts are not compared with names.
 const LONGEST_NAME: usize = 64;
 
 /// A list under a line of text.
 #[derive(Debug, Clone)]
 pub struct Picker {
-    /// What is listed.
+    /// The contents.
     pub list: List,
-    /// What is typed.
+    /// The typed text.
     pub input: Line,
-    /// The marked one of those that fit.
+    /// The selected one of the matching lines.
     pub marked: usize,
-    /// The results that may be gone to, by their keys, and whether they come before the fields.
-    pub results: (Vec<&'static str>, bool),
-    /// The fields that make no difference in the case.
-    pub idle: Vec<usize>,
+    /// The focused pane and field, and what the case offers there.
+    pub context: Context,
 }
 
-/// What is listed.
+/// The focused pane and field, and what the case offers there: it decides the order of a list.
+#[derive(Debug, Clone, Default)]
+pub struct Context {
+    /// The results that exist, by their keys.
+    pub results: Vec<&'static str>,
+    /// Whether results come before fields that match equally.
+    pub are_results_first: bool,
+    /// The fields without effect in the case.
+    pub idle: Vec<usize>,
+    /// Commands of the focused pane and field, which come first.
+    pub own: Vec<Command>,
+    /// Commands of other panes, which come last.
+    pub elsewhere: Vec<Command>,
+}
+
+/// The contents of a list.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum List {
     /// Every command.
@@ -51,40 +65,10 @@ pub enum List {
     Places,
     /// Every material, for these gears.
     Materials(&'static [&'static str]),
-    /// Every quantity that may be held to a limit.
+    /// Every quantity that may have a limit.
     Limits,
     /// The examples, each with its digest as soon as it is there.
     Examples(Vec<Digest>),
-}
-
-/// What is picked.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Pick {
-    /// Run a command.
-    Run(Command),
-    /// Go to a field.
-    Go(usize),
-    /// Go to a result, by its key.
-    Show(&'static str),
-    /// Make the gears of a material.
-    Make(&'static [&'static str], &'static Material),
-    /// Hold a quantity to a limit.
-    Limit(&'static str),
-    /// Begin a case with an example.
-    Begin(&'static Example),
-}
-
-/// A line of a list.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Item {
-    /// What Enter does.
-    pub pick: Pick,
-    /// By what it is called.
-    pub name: String,
-    /// What more there is to say.
-    pub about: String,
-    /// Its keys.
-    pub keys: String,
 }
 
 impl Picker {
@@ -95,28 +79,20 @@ impl Picker {
             list,
             input: Line::default(),
             marked: 0,
-            results: (Vec::new(), false),
-            idle: Vec::new(),
+            context: Context::default(),
         }
     }
 
-    /// The whole list, with these results, by their keys, and whether they come before the fields;
-    /// and the fields that make no difference, which come after those that do.
+    /// The whole list, in the order of a context.
     #[must_use]
-    pub fn over(
-        list: List,
-        results: Vec<&'static str>,
-        are_first: bool,
-        idle: Vec<usize>,
-    ) -> Picker {
+    pub fn over(list: List, context: Context) -> Picker {
         Picker {
-            results: (results, are_first),
-            idle,
+            context,
             ..Picker::new(list)
         }
     }
 
-    /// In a few words.
+    /// The title.
     #[must_use]
     pub fn title(&self) -> &'static str {
         match self.list {
@@ -125,17 +101,17 @@ impl Picker {
             List::Materials(["driver"]) => "Material of the driver",
             List::Materials(["driven"]) => "Material of the driven gear",
             List::Materials(_) => "Material of both gears",
-            List::Limits => "Hold to a limit",
-            List::Examples(_) => "New from an example",
+            List::Limits => "Set a limit on a result",
+            List::Examples(_) => "New case from an example",
         }
     }
 
-    /// The lines in which every typed word occurs, those that begin with it first; else those that
-    /// are most like it.
+    /// The lines in which every typed word occurs, matches in the name first; else the lines with
+    /// the most similar names.
     #[must_use]
     pub fn fitting(&self) -> Vec<Item> {
         if self.list == List::Places {
-            return self.places().into_iter().map(|(_, item)| item).collect();
+            return self.places().into_iter().map(|place| place.item).collect();
         }
         let typed = self.input.value().to_lowercase();
         let words: Vec<&str> = typed.split_whitespace().collect();
@@ -160,64 +136,73 @@ impl Picker {
                 .collect();
         }
         fitting.sort_by_key(|(rank, _)| *rank);
-        // What is called so comes before what is merely told with that word.
-        let (called, told): (Vec<_>, Vec<_>) =
-            fitting.into_iter().partition(|(rank, _)| *rank < TOLD);
-        let commands = |found: Vec<(usize, &Item)>| {
-            found
-                .into_iter()
-                .map(|(_, item)| item.clone())
-                .collect::<Vec<_>>()
-        };
-        let is_called = |(score, _): &(u32, Item)| *score >= CALLED * words.len() as u32;
-        let (called_places, told_places): (Vec<_>, Vec<_>) =
-            places.into_iter().partition(is_called);
-        let places =
-            |found: Vec<(u32, Item)>| found.into_iter().map(|(_, item)| item).collect::<Vec<_>>();
-        [
-            commands(called),
-            places(called_places),
-            commands(told),
-            places(told_places),
-        ]
-        .concat()
+        // Matches in the name rank before matches in the description.
+        let (named, described): (Vec<_>, Vec<_>) =
+            fitting.into_iter().partition(|(rank, _)| *rank < DESCRIBED);
+        let is_named = |place: &Place| place.score >= NAMED * words.len() as u32;
+        let (named_places, described_places): (Vec<_>, Vec<_>) =
+            places.into_iter().partition(is_named);
+        let command = |(_, item): (usize, &Item)| item.clone();
+        let place = |place: Place| place.item;
+        let named = named.into_iter().map(command);
+        let described = described.into_iter().map(command);
+        named
+            .chain(named_places.into_iter().map(place))
+            .chain(described)
+            .chain(described_places.into_iter().map(place))
+            .collect()
     }
 
-    // The fields and the results that fit, the best first of each, with their scores.
-    fn places(&self) -> Vec<(u32, Item)> {
+    // The matching fields and results, the best first. Without a typed word the order of form and
+    // results stays.
+    fn places(&self) -> Vec<Place> {
         let typed = self.input.value();
-        let (known, are_first) = &self.results;
-        let mut fields = search::search(typed);
-        fields.sort_by_key(|&(at, score)| self.rank_of_field(at, score));
-        let fields: Vec<_> = fields
+        let Context {
+            results,
+            are_results_first,
+            idle,
+            ..
+        } = &self.context;
+        let words = typed.split_whitespace().count();
+        let more_words = |label: &str| label.split_whitespace().count().saturating_sub(words);
+        let fields = search::search(typed).into_iter().map(|(at, score)| {
+            let loss = if idle.contains(&at) { IDLE } else { 0 };
+            let order = (more_words(FIELDS[at].label), *are_results_first);
+            let is_later = FIELDS[at].key != FOREMOST;
+            let rank = (Reverse(score.saturating_sub(loss)), order, is_later);
+            Place::new(score, rank, field(at))
+        });
+        let known = |quantity: &&'static Quantity| results.contains(&quantity.key);
+        let found = search::search_results(typed)
             .into_iter()
-            .map(|(at, score)| (score, field(at)))
-            .collect();
-        let results = search::search_results(typed)
-            .into_iter()
-            .map(|(at, score)| (score, &QUANTITIES[at]));
-        let results = results.filter(|(_, quantity)| known.contains(&quantity.key));
-        let results = results
-            .map(|(score, quantity)| (score, result(quantity)))
-            .collect();
-        if *are_first {
-            [results, fields].concat()
+            .filter_map(|(at, score)| Some((score, Some(&QUANTITIES[at]).filter(known)?)));
+        let found = found.map(|(score, quantity)| {
+            let order = (more_words(quantity.label), !are_results_first);
+            let rank = (Reverse(score), order, true);
+            Place::new(score, rank, result(quantity))
+        });
+        let mut places: Vec<Place> = if *are_results_first {
+            found.chain(fields).collect()
         } else {
-            [fields, results].concat()
+            fields.chain(found).collect()
+        };
+        if words > 0 {
+            places.sort_by_key(|place| place.rank);
+        }
+        places
+    }
+
+    // The order in which commands are listed.
+    fn distance(&self, command: Command) -> usize {
+        let Context { own, elsewhere, .. } = &self.context;
+        if own.contains(&command) {
+            0
+        } else {
+            1 + usize::from(elsewhere.contains(&command))
         }
     }
 
-    // Of what fits alike that comes first which makes a difference in the case. Without a word the
-    // order of the form stays.
-    fn rank_of_field(&self, at: usize, score: u32) -> (Reverse<u32>, bool) {
-        let loss = if self.idle.contains(&at) { IDLE } else { 0 };
-        (
-            Reverse(score.saturating_sub(loss)),
-            score > 0 && FIELDS[at].key != FOREMOST,
-        )
-    }
-
-    /// Move the mark, as far as there are lines.
+    /// Moves the selection, as far as there are lines.
     pub fn mark(&mut self, by: isize) {
         let last = self.fitting().len().saturating_sub(1);
         self.marked = self.marked.saturating_add_signed(by).min(last);
@@ -225,10 +210,12 @@ impl Picker {
 
     fn items(&self) -> Vec<Item> {
         match &self.list {
-            List::Commands => commands::commands()
-                .map(command)
-                .chain(GRAPHS.iter().enumerate().map(graph))
-                .collect(),
+            List::Commands => {
+                let mut listed: Vec<_> = commands::commands().collect();
+                listed.sort_by_key(|binding| self.distance(binding.command));
+                let charts = GRAPHS.iter().enumerate().map(graph);
+                listed.into_iter().map(command).chain(charts).collect()
+            }
             List::Places => Vec::new(),
             List::Materials(gears) => materials::all()
                 .iter()
@@ -244,118 +231,21 @@ impl Picker {
     }
 }
 
-fn command(binding: &commands::Binding) -> Item {
-    Item {
-        pick: Pick::Run(binding.command),
-        name: binding.name.to_owned(),
-        about: binding.sentence.to_owned(),
-        keys: commands::keys_of(binding.command),
-    }
+/// A field or a result that matches.
+struct Place {
+    score: u32,
+    rank: Rank,
+    item: Item,
 }
 
-fn graph((place, graph): (usize, &Graph)) -> Item {
-    let symbols: Vec<_> = graph.all_columns().map(|column| column.symbol).collect();
-    Item {
-        pick: Pick::Run(Command::Chart(ChartCommand::Select(place))),
-        name: format!("chart: {}", graph.label.to_lowercase()),
-        about: format!("Show {} over the driver's roll angle.", symbols.join(", ")),
-        keys: String::new(),
-    }
-}
+/// The score, then how many words of the label are not typed, then the kind that the focused pane
+/// prefers, then the more frequent choice.
+type Rank = (Reverse<u32>, (usize, bool), bool);
 
-fn field(index: usize) -> Item {
-    let field = &FIELDS[index];
-    Item {
-        pick: Pick::Go(index),
-        name: field.key.to_owned(),
-        about: format!("{} {}. {}", field.symbol, field.label, field.help)
-            .trim_start()
-            .to_owned(),
-        keys: String::new(),
+impl Place {
+    fn new(score: u32, rank: Rank, item: Item) -> Place {
+        Place { score, rank, item }
     }
-}
-
-fn of_material(gears: &'static [&'static str], material: &'static Material) -> Item {
-    let Material {
-        name,
-        group,
-        young,
-        poisson,
-        density,
-        source,
-        ..
-    } = material;
-    Item {
-        pick: Pick::Make(gears, material),
-        name: name.clone(),
-        about: format!("{young}, {poisson}, {density}, {group}; {source}"),
-        keys: String::new(),
-    }
-}
-
-fn result(quantity: &'static Quantity) -> Item {
-    let Quantity {
-        key,
-        symbol,
-        label,
-        equation,
-        ..
-    } = quantity;
-    let about = format!("{symbol} {}, a result; {equation}", label.trim_start());
-    Item {
-        pick: Pick::Show(key),
-        name: (*key).to_owned(),
-        about,
-        keys: String::new(),
-    }
-}
-
-fn quantity(quantity: &'static Quantity) -> Item {
-    Item {
-        pick: Pick::Limit(quantity.key),
-        name: quantity.key.to_owned(),
-        about: format!("{} {}", quantity.symbol, quantity.label.trim_start()),
-        keys: String::new(),
-    }
-}
-
-fn example(example: &'static Example, digest: Option<&Digest>) -> Item {
-    let about = digest.map_or_else(String::new, |digest| {
-        format!("{}: {}", digest.title, digest.verdict())
-    });
-    Item {
-        pick: Pick::Begin(example),
-        name: example.name.to_owned(),
-        about,
-        keys: String::new(),
-    }
-}
-
-// The less the better; none where a word does not occur. Symbols may be typed as a bare keyboard
-// can.
-fn rank(item: &Item, words: &[&str]) -> Option<usize> {
-    let name = item.name.to_lowercase();
-    let about = item.about.to_lowercase();
-    let written_out = symbol(&item.about, true).to_lowercase();
-    let rank_of = |word: &&str| {
-        let begins = name
-            .split(['.', '_', ' ', '/'])
-            .any(|part| part.starts_with(*word));
-        let occurs = about.contains(*word) || written_out.contains(*word);
-        match (
-            name.starts_with(*word),
-            begins,
-            name.contains(*word),
-            occurs,
-        ) {
-            (true, ..) => Some(0),
-            (_, true, ..) => Some(1),
-            (_, _, true, _) => Some(2),
-            (.., true) => Some(TOLD),
-            _ => None,
-        }
-    };
-    words.iter().map(rank_of).sum()
 }
 
 #[cfg(test)]
@@ -396,7 +286,14 @@ mod tests {
             let results = QUANTITIES.iter().map(|quantity| quantity.key).collect();
             let picker = Picker {
                 input: typed.into(),
-                ..Picker::over(List::Commands, results, true, Vec::new())
+                ..Picker::over(
+                    List::Commands,
+                    Context {
+                        results,
+                        are_results_first: true,
+                        ..Context::default()
+                    },
+                )
             };
             let found = picker
                 .fitting()
@@ -423,7 +320,7 @@ mod tests {
     }
 
     #[test]
-    fn what_acts_comes_before_what_does_not_but_a_symbol_is_what_it_says() {
+    fn fields_with_effect_come_first_unless_a_symbol_is_typed() {
         let idle: Vec<_> = (0..FIELDS.len())
             .filter(|&at| FIELDS[at].key.starts_with("driver.tip_relief"))
             .collect();
@@ -435,14 +332,60 @@ mod tests {
         ] {
             let picker = Picker {
                 input: typed.into(),
-                ..Picker::over(List::Places, Vec::new(), false, idle.clone())
+                ..Picker::over(
+                    List::Places,
+                    Context {
+                        idle: idle.clone(),
+                        ..Context::default()
+                    },
+                )
             };
             assert_eq!(picker.fitting()[0].name, key, "{typed}");
         }
     }
 
     #[test]
-    fn the_whole_list_stands_while_nothing_is_typed() {
+    fn a_field_comes_before_a_result_with_a_longer_name() {
+        for are_results_first in [false, true] {
+            let context = Context {
+                results: QUANTITIES.iter().map(|quantity| quantity.key).collect(),
+                are_results_first,
+                ..Context::default()
+            };
+            for (typed, name) in [
+                ("tip rel", "driven.tip_relief"),
+                ("impact force", "impact_force"),
+                (
+                    "combined deflection",
+                    ["model.deflection", "combined_deflection"][usize::from(are_results_first)],
+                ),
+            ] {
+                for list in [List::Commands, List::Places] {
+                    let picker = Picker {
+                        input: typed.into(),
+                        ..Picker::over(list, context.clone())
+                    };
+                    assert_eq!(picker.fitting()[0].name, name, "{typed}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_list_of_fields_names_the_gear() {
+        let items = Picker::new(List::Places).fitting();
+        for gear in ["driver", "driven"] {
+            let own = items.iter().filter(|item| item.name.starts_with(gear));
+            assert!(own.clone().count() > 10);
+            for item in own {
+                let (_, label) = item.about.split_once(' ').unwrap();
+                assert!(label.starts_with(&format!("{gear} ")), "{}", item.about);
+            }
+        }
+    }
+
+    #[test]
+    fn the_whole_list_is_shown_while_nothing_is_typed() {
         let all = Picker::new(List::Commands).fitting();
         assert_eq!(all.len(), commands::commands().count() + GRAPHS.len());
         assert_eq!(Picker::new(List::Places).fitting().len(), FIELDS.len());

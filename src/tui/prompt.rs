@@ -156,7 +156,7 @@ impl Question {
         Question {
             title: "The file exists",
             text: format!(
-                "{} is there already. Overwrite puts the form in its place.",
+                "{} exists. Overwrite replaces it with the form.",
                 path.display()
             ),
             details,
@@ -178,7 +178,7 @@ impl Question {
         Question {
             title: "The file has changed on disk",
             text: format!(
-                "{} is not what was opened here. Reload loses the edits of the form.",
+                "{} was changed after it was opened here. Reload discards the edits in the form.",
                 path.display()
             ),
             details,
@@ -201,7 +201,7 @@ impl Question {
         Question {
             title: "Open elsewhere",
             text: format!(
-                "{} is not saved, since another session has it open: {holder}.",
+                "{} is not saved: another session has it open: {holder}.",
                 path.display()
             ),
             details: Vec::new(),
@@ -222,9 +222,9 @@ impl Question {
             ""
         };
         Question {
-            title: "Unsaved edits were kept",
+            title: "Unsaved edits found",
             text: format!(
-                "Edits of {name} that were not saved, kept {} ago.{changed} In the file now -> as typed:",
+                "Edits of {name} that were not saved, {} old.{changed} In the file now -> as typed:",
                 offer.age
             ),
             details: offer.changes.iter().map(recovery::line).collect(),

@@ -29,15 +29,16 @@ use ratatui::layout::Size;
 
 use super::actions::{Action, Effect};
 use super::app::App;
-use super::commands::Command;
+use super::commands::{self, Command, Scope};
 use super::keys::Place;
 use super::pane::Pane;
-use super::pick::{List, Picker};
+use super::pick::{Context, List, Picker};
 use super::prompt::{Next, Page, Prompt};
+use super::rows;
 use super::solver::Request;
 use super::theme::Look;
 use super::view;
-use crate::case::{Acting, Document, FIELDS, changes, fields, relevance};
+use crate::case::{Acting, Document, FIELDS, Field, changes, fields, relevance};
 use crate::model::inputs::Method;
 
 /// Change the state by what happened, and say what is to be done about it.
@@ -216,18 +217,49 @@ fn show(app: &mut App, command: Command) {
     }
 }
 
-// A list in which the results that there are can be found.
+// A list in the order of the focused pane and field.
 fn find(app: &mut App, list: List) {
-    let results = view::results::listed(app)
-        .map(|quantity| quantity.key)
-        .collect();
-    let are_first = app.panes.focus == Pane::Results;
     let inputs = app.case.inputs_so_far();
-    let idle = (0..FIELDS.len())
-        .filter(|&field| matches!(relevance(field, &inputs), Acting::No(_)))
-        .collect();
-    app.prompts
-        .push(Prompt::Pick(Picker::over(list, results, are_first, idle)));
+    let idle = |field: &usize| matches!(relevance(*field, &inputs), Acting::No(_));
+    let of_scope = |scope: Scope| {
+        let commands = commands::commands().map(|binding| binding.command);
+        commands
+            .filter(|&command| scope_of(app, command) == scope)
+            .collect()
+    };
+    let context = Context {
+        results: view::results::listed(app)
+            .map(|quantity| quantity.key)
+            .collect(),
+        are_results_first: app.panes.focus == Pane::Results,
+        idle: (0..FIELDS.len()).filter(idle).collect(),
+        own: of_scope(Scope::Own),
+        elsewhere: of_scope(Scope::Elsewhere),
+    };
+    app.prompts.push(Prompt::Pick(Picker::over(list, context)));
+}
+
+// The scope of a command; in the form, the focused row decides too.
+fn scope_of(app: &App, command: Command) -> Scope {
+    let scope = commands::scope(command, app.place(), app.panes.focus);
+    if app.panes.focus != Pane::Form {
+        return scope;
+    }
+    let field = rows::field(&app.case, app.focus);
+    let is_own = match command {
+        Command::Step(by) => rows::stepped(&app.case, app.focus, by).is_some(),
+        Command::Material => field.is_some_and(Field::is_of_gear),
+        Command::ToggleMethod | Command::Method(_) => {
+            field.is_some_and(|field| field.key == "model.method")
+        }
+        Command::Limit => field.is_none(),
+        _ => return scope,
+    };
+    if is_own {
+        Scope::Own
+    } else {
+        Scope::Everywhere
+    }
 }
 
 fn solver_failed(app: &mut App, serial: u64) {

@@ -21,7 +21,7 @@ use tipstrike::tui::theme::Look;
 use tty::{Launch, PATIENCE, TABLE_1, Tty, has_faults_on_demand, is_there, journals, stat};
 
 const SECOND: Duration = Duration::from_secs(1);
-const OFFER: &str = "Unsaved edits were kept";
+const OFFER: &str = "Unsaved edits found";
 
 /// The workbench on Table 1, ready for keys; the module is focused.
 fn opened() -> Tty {
@@ -527,7 +527,11 @@ fn edits_of_the_built_in_case_are_kept_too() {
     fs::write(&other, TABLE_1).expect("room on the disk");
     let mut tty = Launch::of(Arc::clone(&folder)).argument(&other).start();
     tty.wait_for("unsaved edits of the built-in case are kept");
+    // A new case has no file either, but is another case.
     tty.type_in("\x0e");
+    tty.wait_for("required fields are empty");
+    assert!(!tty.shows(OFFER));
+    tty.type_in("\x1bt");
     tty.wait_for(OFFER);
     tty.type_in("l");
     tty.wait_until("the question to go", |tty| !tty.shows(OFFER));

@@ -443,7 +443,7 @@ fn a_new_case_begins_with_an_example_and_has_no_file() {
     let mut desk = Desk::on(LARGE, "case.toml", TABLE_1);
     desk.keys(&["Alt-N"]);
     assert!(
-        desk.shows("New from an example")
+        desk.shows("New case from an example")
             && desk.shows("▸ zhou-chen-2014")
             && desk.shows("impact force 2191.0 N.")
     );
@@ -531,7 +531,7 @@ fn what_is_typed_is_looked_for_below_the_folder_and_among_the_examples() {
     assert!(preview(&desk).contains("FZG"), "{}", desk.screen());
     desk.keys(&["Enter"]);
     assert!(
-        desk.app.prompts.is_empty() && desk.shows("a new case, beginning with fzg-type-c"),
+        desk.app.prompts.is_empty() && desk.shows("new case from fzg-type-c; it has no file yet"),
         "{}",
         desk.screen()
     );

@@ -36,7 +36,11 @@ fn a_value_steps_inside_a_field_and_outside() {
         "7 um",
         "a letter that is typed unseen changes no value"
     );
-    assert!(desk.shows("< is no command in Form"), "{}", desk.screen());
+    assert!(
+        desk.shows("< is not a command in Form"),
+        "{}",
+        desk.screen()
+    );
     desk.keys(&["Alt-Up", "Shift-Down"]);
     assert_eq!(text(&desk, "deviations.base_pitch"), "16 um");
     desk.keys(&["Shift-Up"]);
@@ -72,7 +76,7 @@ fn what_the_method_does_without_is_marked_and_says_why() {
     let idle = line(&desk, "Ca1");
     assert!(idle.starts_with("- Ca1"), "{idle}");
     desk.go_to("driver.tip_relief");
-    assert!(desk.shows("Does not act: at run-in the driven tip meets the driver's root"));
+    assert!(desk.shows("Not used: at run-in the driven tip meets the driver's root"));
 }
 
 #[test]

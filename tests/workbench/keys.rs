@@ -134,7 +134,7 @@ fn the_notes_are_told_from_every_pane() {
         let mut desk = Desk::new(LARGE);
         assert!(
             desk.keys(&["Esc", pane, "n"])
-                .shows("Outcome, gauges, notes"),
+                .shows("Outcome, limits, notes"),
             "{pane}\n{}",
             desk.screen()
         );
@@ -147,7 +147,7 @@ fn what_is_copied_of_chart_and_teeth_is_the_reading_at_the_cursor() {
         let mut desk = Desk::new(LARGE);
         desk.keys(&["Esc", pane, "y"]);
         assert!(
-            desk.shows("no reading to copy") && desk.copied.is_none(),
+            desk.shows("no value to copy") && desk.copied.is_none(),
             "{}",
             desk.screen()
         );
@@ -194,7 +194,7 @@ fn the_built_in_case_asks_for_a_name_and_an_existing_file_for_leave() {
     let mut desk = Desk::new(SMALL);
     let taken = desk.write("taken.toml", "not yours");
     desk.keys(&["Ctrl-S", "Ctrl-U", name(&taken), "Enter"]);
-    assert!(desk.shows("is there already"));
+    assert!(desk.shows("exists. Overwrite"));
     desk.keys(&["Esc", "Backspace"]);
     assert_eq!(desk.read("taken.toml"), "not yours");
     desk.keys(&["Ctrl-U", name(&desk.path("new.toml")), "Enter"]);
@@ -584,13 +584,13 @@ fn a_letter_that_is_no_command_is_told_as_such() {
         (
             "1",
             "7",
-            "7 is no command in Form: Enter edits the field, ? lists the keys",
+            "7 is not a command in Form: Enter edits the field, ? lists the keys",
         ),
-        ("2", "x", "x is no command in Results: ? lists the keys"),
+        ("2", "x", "x is not a command in Results: ? lists the keys"),
         (
             "5",
             "Space",
-            "Space is no command in Trade: ? lists the keys",
+            "Space is not a command in Trade: ? lists the keys",
         ),
     ] {
         let mut desk = Desk::new(SMALL);

@@ -1,8 +1,10 @@
 //! What an open case, an edit and a measurement keep: no more than they say.
 use crate::harness;
 
-use harness::{Desk, LARGE, SMALL};
+use harness::{Desk, LARGE, SMALL, TABLE_1};
+use tipstrike::case::Document;
 use tipstrike::model::inputs::Method;
+use tipstrike::tui::actions::Action;
 
 /// Bytes that are kept after this, once for each of so many times.
 fn kept(times: usize, mut run: impl FnMut(usize)) -> f64 {
@@ -36,8 +38,11 @@ fn an_open_case_keeps_little_and_a_closed_one_nothing() {
     let mut desk = Desk::new(LARGE);
     let mut tell = |method: Method, most: f64| {
         let whole = allocation_counter::measure(|| {
-            let bytes = kept(CASES, |_| {
-                desk.keys(&["Ctrl-N"]).fill("operation.speed", "1500 rpm");
+            let bytes = kept(CASES, |number| {
+                let path = desk.write(&format!("{number}.toml"), TABLE_1);
+                let document = Document::read(&path).unwrap();
+                desk.act(Action::Loaded(path, Ok(Box::new(document))));
+                desk.fill("operation.speed", "1500 rpm");
                 while desk
                     .app
                     .answer

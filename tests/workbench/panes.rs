@@ -22,12 +22,12 @@ fn beside_last_valid_results_stands_why_they_are_and_a_key_that_goes_there() {
         );
         desk.keys(&["Alt-E"]);
         assert_eq!(desk.app.case.text(desk.app.focus), Some("20 mm"));
-        assert!(desk.shows("rh1 bore radius, "), "{}", desk.screen());
+        assert!(desk.shows("rh1 driver bore radius, "), "{}", desk.screen());
         desk.keys(&["Alt-E"]);
-        assert!(desk.shows("rh2 bore radius, "), "{}", desk.screen());
+        assert!(desk.shows("rh2 driven bore radius, "), "{}", desk.screen());
         desk.fill("pair.module", "5 mm").keys(&["Alt-E"]);
         assert!(
-            desk.shows("no field is wrong") && !desk.shows("! rh"),
+            desk.shows("no field has an error") && !desk.shows("! rh"),
             "{}",
             desk.screen()
         );

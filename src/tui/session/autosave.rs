@@ -24,7 +24,7 @@ use crate::case::file::followed;
 use crate::case::sanitize::sanitize;
 use crate::case::spread;
 use crate::case::stamp::Stamp;
-use crate::tui::store::state::State;
+use crate::tui::store::{self, state::State};
 
 /// The journal is written so long after the last edit,
 const AFTER_LAST: Duration = Duration::from_millis(900);
@@ -224,8 +224,9 @@ impl Autosave {
         claim.notices.extend(unlocked);
         claim.notices.extend(self.notice.take());
         let folders = || self.journals.iter().chain(&self.others);
+        let stamp = open.document.stamp();
         for folder in folders() {
-            let Found { journals, notices } = folder.left_behind(open.path);
+            let Found { journals, notices } = folder.left_behind(open.path, stamp);
             let offers = journals
                 .into_iter()
                 .filter_map(|(place, journal)| offer(open, place, &journal));
@@ -234,8 +235,9 @@ impl Autosave {
         }
         // Only when the workbench opens.
         if self.tracked.len() == 1 && claim.offers.is_empty() {
-            let cases = folders().flat_map(Journals::cases_left_behind).collect();
-            claim.notices.extend(elsewhere(cases, open.path));
+            let all = folders().flat_map(Journals::all_left_behind);
+            let others = all.filter(|journal| !journal.is_of(open.path, stamp));
+            claim.notices.extend(elsewhere(others));
         }
         if !open.document.loaded().spread.is_empty() {
             claim.notices.push(spread::UNUSED.to_owned());
@@ -372,23 +374,24 @@ fn name_of(path: &Path) -> String {
     sanitize(&path.file_name().unwrap_or_default().to_string_lossy())
 }
 
-// Other cases with unsaved edits of ended sessions.
-fn elsewhere(cases: Vec<Option<PathBuf>>, open: Option<&Path>) -> Option<String> {
-    let others: BTreeSet<_> = cases
-        .into_iter()
-        .filter(|case| case.as_deref() != open)
+// Names other cases with unsaved edits of ended sessions.
+fn elsewhere(journals: impl Iterator<Item = Journal>) -> Option<String> {
+    let built_in = store::built_in().stamp();
+    let cases: BTreeSet<String> = journals
+        .map(|journal| match journal.case {
+            Some(path) => path.display().to_string(),
+            None if journal.stands_on == built_in => "the built-in case".to_owned(),
+            None => "a new case".to_owned(),
+        })
         .collect();
-    let more = if others.len() > 1 {
-        format!(" and {} more", others.len() - 1)
+    let more = if cases.len() > 1 {
+        format!(" and {} more", cases.len() - 1)
     } else {
         String::new()
     };
-    let first = others.into_iter().next()?;
-    let name = first.map_or("the built-in case".to_owned(), |path| {
-        path.display().to_string()
-    });
+    let first = cases.into_iter().next()?;
     Some(format!(
-        "unsaved edits of {name}{more} are kept: open it to get them back"
+        "unsaved edits of {first}{more} are kept: open it to get them back"
     ))
 }
 

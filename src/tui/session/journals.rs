@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use super::journal::{Journal, JournalFault, MOST_BYTES};
 use super::lock::Lock;
 use crate::case::sanitize::sanitize;
-use crate::case::stamp::hash;
+use crate::case::stamp::{Stamp, hash};
 use crate::tui::store::state;
 
 /// What a journal's name ends with.
@@ -74,14 +74,14 @@ impl Journals {
         file.persist(path).map(drop).map_err(|error| error.error)
     }
 
-    /// The journals of a case whose sessions have ended. What cannot be trusted is set aside and
-    /// never deleted.
+    /// The journals of a case whose sessions have ended. A case without a file is recognised by the
+    /// stamp of its text. Damaged journals are set aside, never deleted.
     #[must_use]
-    pub(super) fn left_behind(&self, case: Option<&Path>) -> Found {
+    pub(super) fn left_behind(&self, case: Option<&Path>, stamp: Stamp) -> Found {
         let mut found = Found::default();
         for path in self.named(&stem(case)) {
             match read(&path) {
-                Ok(journal) if journal.case.as_deref() != case || self.is_written(&journal) => {}
+                Ok(journal) if !journal.is_of(case, stamp) || self.is_written(&journal) => {}
                 Ok(journal) => found.journals.push((path, journal)),
                 Err(Untrusted::Unread(error)) => {
                     found.notices.push(format!(
@@ -98,20 +98,13 @@ impl Journals {
         found
     }
 
-    /// The cases, in words, for which an ended session left edits.
-    #[must_use]
-    pub(super) fn cases_left_behind(&self) -> Vec<Option<PathBuf>> {
+    /// The journals of every case that ended sessions left behind.
+    pub(super) fn all_left_behind(&self) -> impl Iterator<Item = Journal> {
         let journals = self
             .named("")
             .into_iter()
             .filter_map(|path| read(&path).ok());
-        let mut cases: Vec<_> = journals
-            .filter(|journal| !self.is_written(journal))
-            .map(|journal| journal.case)
-            .collect();
-        cases.sort();
-        cases.dedup();
-        cases
+        journals.filter(|journal| !self.is_written(journal))
     }
 
     fn is_written(&self, journal: &Journal) -> bool {

@@ -7,7 +7,7 @@ pub(super) fn toggle(app: &mut App) {
     if let Some(baseline) = app.baseline.take() {
         app.say(format!("baseline {} unpinned", baseline.name));
     } else if app.is_stale() || app.answer.is_none() {
-        app.complain("there are no valid results to pin: mend the form first");
+        app.complain("there are no valid results to pin: fix the form first");
     } else {
         app.is_pinning = true;
         pin(app);

@@ -70,7 +70,7 @@ fn stop(app: &mut App) -> Vec<Effect> {
             .and_then(|answer| answer.pending.take())
         {
             app.say(format!(
-                "method {} is stopped: the closed form stands until the next edit",
+                "method {} is stopped; the closed form is shown until the next edit",
                 method.name()
             ));
         }
@@ -90,6 +90,6 @@ fn stop_seeking(app: &mut App) -> Option<Effect> {
         .as_mut()
         .filter(|answer| answer.strikes() && answer.lacks(Stage::Clearing))?;
     answer.asked = answer.stages;
-    app.say("the relief that stops it is not sought further, until the next edit");
+    app.say("the search for the required relief is stopped until the next edit");
     Some(Effect::CancelSolve)
 }

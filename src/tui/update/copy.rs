@@ -22,12 +22,12 @@ pub(super) fn value(app: &mut App) -> Vec<Effect> {
             Row::Field(field) => app.case.effective(field).unwrap_or_default().to_owned(),
             Row::Limit(limit) => limit.text.clone(),
         };
-        let label = rows::label(&app.case, app.focus);
-        return copy(app, text, label);
+        let label = rows::full_label(&app.case, app.focus);
+        return copy(app, text, &label);
     }
     if Place::CURSOR.meets(app.panes.focus.place()) {
         let Some(cursor) = app.cursor else {
-            app.complain("no cursor, so there is no reading to copy: h and l bring it");
+            app.complain("no cursor and no value to copy: h and l show the cursor");
             return Vec::new();
         };
         let reading = chart::readout(&app.charts(), cursor);

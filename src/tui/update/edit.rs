@@ -266,7 +266,7 @@ fn take_turns(app: &mut App, field: usize, other: usize) {
         app.say(format!("{that} {before} replaced by the {this}"));
     } else if app.case.text(other).is_none() {
         app.tab.case.write(other, &before);
-        app.say(format!("{that} {before} is back"));
+        app.say(format!("{that} {before} restored"));
     }
 }
 

@@ -41,7 +41,7 @@ fn fault(app: &mut App) {
         .or_else(|| rows().min())
     {
         Some(row) => field(app, row),
-        None => app.say("no field is wrong"),
+        None => app.say("no field has an error"),
     }
 }
 

@@ -55,7 +55,7 @@ pub(super) fn toggle_ascii(app: &mut App) -> Vec<Effect> {
 pub(super) fn cycle_units(app: &mut App) -> Vec<Effect> {
     app.settings.units = app.settings.units.other();
     app.say(format!(
-        "results, hints, charts and teeth in {} units; the case stays as it is written",
+        "results, hints, charts and teeth in {} units; the file keeps its own units",
         app.settings.units.name()
     ));
     keep(app)
@@ -65,9 +65,9 @@ pub(super) fn cycle_units(app: &mut App) -> Vec<Effect> {
 pub(super) fn toggle_mouse(app: &mut App) -> Vec<Effect> {
     app.settings.mouse = !app.settings.mouse;
     app.say(if app.settings.mouse {
-        "the mouse is the workbench's; most terminals still select text with Shift held"
+        "the workbench uses the mouse; most terminals still select text with Shift held"
     } else {
-        "the mouse is the terminal's"
+        "the terminal uses the mouse"
     });
     let mut effects = keep(app);
     effects.push(Effect::Mouse(app.settings.mouse));

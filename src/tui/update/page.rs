@@ -19,7 +19,7 @@ pub(super) fn explain(app: &mut App) -> Vec<Effect> {
     };
     let Ok(inputs) = app.case.inputs() else {
         app.complain(
-            "these are the last valid results: mend what is marked with ! to have one explained",
+            "these are the last valid results: fix the fields marked with ! to explain a result",
         );
         return Vec::new();
     };
@@ -49,10 +49,10 @@ pub(super) fn explain(app: &mut App) -> Vec<Effect> {
 pub(super) fn notes(app: &mut App) {
     let lines = results::told(app);
     if lines.is_empty() {
-        app.complain("there are no results to tell of");
+        app.complain("there are no results to show");
     } else {
         app.prompts
-            .push(Prompt::Read(Page::new("Outcome, gauges, notes", lines)));
+            .push(Prompt::Read(Page::new("Outcome, limits, notes", lines)));
     }
 }
 

@@ -65,7 +65,7 @@ pub(super) fn show_result(app: &mut App, key: &str) {
     show(app, Pane::Results);
 }
 
-/// A letter that is no command in the focused pane is told as such, with what may have been meant.
+/// A letter that is not a command in the focused pane is told as such, with what may have been meant.
 pub(super) fn stray(app: &mut App, letter: char) {
     let name = if letter == ' ' {
         "Space".to_owned()
@@ -78,7 +78,7 @@ pub(super) fn stray(app: &mut App, letter: char) {
         ""
     };
     app.say(format!(
-        "{} is no command in {}: {meant}? lists the keys",
+        "{} is not a command in {}: {meant}? lists the keys",
         ascii::printable(&name),
         app.panes.focus.name()
     ));

@@ -57,10 +57,10 @@ pub(super) fn recover(app: &mut App, offer: &Offer) -> Vec<Effect> {
     let mut effects = solve(app.replace_case(case, app.focus));
     if let Some(problem) = refused.first() {
         app.complain(format!(
-            "not all of it is back, and the journal stays: {problem}"
+            "some edits are not restored, and the journal stays: {problem}"
         ));
     } else {
-        app.say("the edits are back, not saved yet");
+        app.say("the edits are restored, not saved yet");
         effects.push(Effect::Adopt(offer.journal.clone()));
     }
     effects

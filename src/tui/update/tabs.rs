@@ -35,7 +35,7 @@ pub(super) fn go_to(app: &mut App, at: usize) {
 pub(super) fn step(app: &mut App, by: isize) {
     let count = app.others.len() + 1;
     if count == 1 {
-        app.say("one case is open");
+        app.say("only one case is open");
     }
     go_to(
         app,
@@ -101,7 +101,7 @@ pub(super) fn begin(app: &mut App, example: &'static Example) -> Option<Request>
         replaces,
     );
     app.say(format!(
-        "a new case, beginning with {}; it has no file yet",
+        "new case from {}; it has no file yet",
         example.name
     ));
     request

@@ -94,7 +94,7 @@ pub(super) fn measured(app: &mut App, measured: Measured) {
     match end {
         _ if !is_shown => (),
         End::Whole => app.say(recommended.unwrap_or_default()),
-        End::Stopped => app.say("the measurement is stopped; what was measured stays"),
+        End::Stopped => app.say("the measurement is stopped; its results stay"),
         End::Failed(reason) => app.complain(format!("nothing is measured: {reason}")),
     }
 }
@@ -124,7 +124,7 @@ pub(super) fn step(app: &mut App, by: isize) {
 pub(super) fn take(app: &mut App) -> Vec<Effect> {
     let Some(setting) = app.tab.traded.as_ref().and_then(|traded| traded.marked) else {
         app.say(if app.traded.is_some() {
-            "no setting is marked: the arrow keys mark one"
+            "no setting is selected: the arrow keys select one"
         } else {
             "nothing is measured yet: m measures"
         });

@@ -2,35 +2,29 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
-use ratatui::style::{Modifier, Style};
+use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
 use super::{text, titled};
 use crate::case::fields::{GROUPS, Kind};
-use crate::case::{Acting, FIELDS, Limit, materials, relevance};
-use crate::model::{Inputs, Quantity};
-use crate::report::verdict::verdict;
+use crate::case::{Acting, FIELDS, materials, relevance};
+use crate::model::Inputs;
 use crate::tui::app::{self, App};
 use crate::tui::ascii::{self, symbol};
 use crate::tui::layout::plan;
 use crate::tui::pane::Pane;
 use crate::tui::rows;
 
-const MARK: u16 = 2;
-/// Stands before a field that the chosen method does without.
+mod limit;
+mod line;
+
+use limit::draw_limit;
+use line::{MARK, SYMBOL, draw_mark, draw_name, draw_text, label_width};
+
+/// The mark of a field without effect.
 const IDLE: &str = "-";
-/// Stands before a field that is not as the file has it.
-const EDITED: &str = "*";
-const SYMBOL: u16 = 6;
-const LABEL: u16 = 20;
-const VALUE: u16 = 15;
-/// On a narrow screen the label gets some of the value's room.
-const NARROW_VALUE: u16 = 11;
-/// So much of a label stays where there is a symbol and the value needs the room.
+/// The least width of a label beside a symbol.
 const LEAST_LABEL: u16 = 6;
-/// Stands before a limit whose quantity is told by its symbol alone.
-const AT_MOST: &str = " <= ";
-const WHOLE: u16 = MARK + SYMBOL + LABEL + 1 + VALUE;
 
 /// A line of the form.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -272,138 +266,6 @@ fn draw_field(
     draw_value(app, index, value, style, buffer)
 }
 
-/// Behind a verdict on the free impact: what the method itself finds is above the limit.
-const ABOVE_BESIDE: &str = " (!)";
-
-// The limit as it is written, and how the result stands to it.
-fn draw_limit(
-    app: &App,
-    index: usize,
-    limit: &Limit,
-    line: Rect,
-    buffer: &mut Buffer,
-) -> Option<Position> {
-    let theme = app.look.theme;
-    let style = if app.focus == index {
-        theme.focus
-    } else {
-        Style::new()
-    };
-    draw_mark(app, index, line, buffer);
-    let name = Rect {
-        x: line.x + MARK,
-        width: line.width.saturating_sub(MARK),
-        ..line
-    };
-    let symbol = Quantity::find(limit.quantity).map_or("", |quantity| quantity.symbol);
-    let symbol = self::symbol(symbol, app.look.ascii);
-    let label = rows::label(&app.case, index);
-    let (words, of_word) = standing(app, limit);
-    let usual = label_width(name);
-    let needed = limit.text.width() + words.get(1).map_or(0, |word| word.width() + 2);
-    let is_whole = symbol.width() < SYMBOL.into()
-        && label.width() <= usual.into()
-        && usize::from(MARK + SYMBOL + 1) + label.width() + needed <= line.width.into();
-    let offset = if is_whole {
-        draw_name(&symbol, label, name, usual, style, buffer)
-    } else {
-        let brief = format!("{symbol}{AT_MOST}");
-        buffer.set_stringn(name.x, name.y, &brief, name.width.into(), style);
-        (MARK + brief.width() as u16).min(line.width)
-    };
-    let left = usize::from(line.width - offset).saturating_sub(limit.text.width() + 2);
-    // The label gives up what it does not need, so that the verdict stands in a word rather than a
-    // sign.
-    let spare = if is_whole {
-        usize::from(usual).saturating_sub(label.width())
-    } else {
-        0
-    };
-    let in_words = words
-        .iter()
-        .take(2)
-        .find(|word| word.width() <= left + spare);
-    let word = in_words
-        .or_else(|| words.iter().find(|word| word.width() <= left))
-        .cloned()
-        .unwrap_or_default();
-    let offset = offset - word.width().saturating_sub(left).min(spare) as u16;
-    let room = line.width.saturating_sub(offset);
-    let width = word.width() as u16;
-    buffer.set_string(line.right() - width, line.y, &word, of_word);
-    let value = Rect {
-        x: line.x + offset,
-        width: room.saturating_sub(width + u16::from(width > 0)),
-        ..line
-    };
-    draw_text(
-        app,
-        index,
-        Some(&limit.text)
-            .filter(|text| !text.is_empty())
-            .map(String::as_str),
-        "(no limit)",
-        value,
-        style,
-        buffer,
-    )
-}
-
-// How the last valid result stands to the limit, in words, in fewer and by a sign alone, and their
-// style.
-fn standing(app: &App, limit: &Limit) -> (Vec<String>, Style) {
-    let theme = app.look.theme;
-    let is_told = !app.is_stale() && !limit.text.is_empty();
-    let solution = app
-        .answer
-        .as_ref()
-        .and_then(|answer| answer.of(answer.active))
-        .filter(|_| is_told);
-    let Some(verdict) = solution.map(|solution| verdict(limit, solution)) else {
-        return (Vec::new(), Style::new());
-    };
-    let is_above_beside = verdict.is_exceeded_beside();
-    let style = if verdict.standing.holds() && !is_above_beside {
-        theme.note
-    } else {
-        theme.problem
-    };
-    let part = verdict
-        .part()
-        .map_or_else(String::new, |part| format!(" {:.0} %", 100.0 * part));
-    let beside = if is_above_beside { ABOVE_BESIDE } else { "" };
-    let word = verdict.standing.word();
-    let sign = if verdict.standing.holds() { word } else { "!" };
-    (
-        vec![
-            format!("{word}{part}{beside}"),
-            format!("{word}{beside}"),
-            format!("{sign}{part}{beside}"),
-            sign.to_owned(),
-        ],
-        style,
-    )
-}
-
-fn draw_mark(app: &App, index: usize, line: Rect, buffer: &mut Buffer) {
-    let theme = app.look.theme;
-    if rows::differs(&app.case, &app.saved, index) {
-        buffer.set_stringn(
-            line.x + 1,
-            line.y,
-            EDITED,
-            usize::from(line.width > 1),
-            theme.note,
-        );
-    }
-    // The reason stands below the line and has a mark of its own.
-    if app.focus == index {
-        buffer.set_stringn(line.x, line.y, "▸", 1, theme.focus);
-    } else if app.problems.iter().any(|(at, _)| *at == index) {
-        buffer.set_stringn(line.x, line.y, "!", 1, theme.problem);
-    }
-}
-
 // By how much a value that is not edited is wider than its room.
 fn longer(app: &App, index: usize, room: u16) -> u16 {
     let shown = app.case.text(index).map_or_else(
@@ -422,37 +284,6 @@ fn longer(app: &App, index: usize, room: u16) -> u16 {
 fn draw_words(label: &str, area: Rect, style: Style, buffer: &mut Buffer) -> u16 {
     buffer.set_stringn(area.x, area.y, label, SYMBOL.into(), style);
     MARK + SYMBOL
-}
-
-// So much room labels have beside values of the usual width.
-fn label_width(area: Rect) -> u16 {
-    let value = if area.width + MARK < WHOLE {
-        NARROW_VALUE
-    } else {
-        VALUE
-    };
-    LABEL.min(area.width.saturating_sub(SYMBOL + 1 + value))
-}
-
-// Symbol and label; how far into the line they go.
-fn draw_name(
-    symbol: &str,
-    label: &str,
-    area: Rect,
-    width: u16,
-    style: Style,
-    buffer: &mut Buffer,
-) -> u16 {
-    let name = text::cut(symbol, usize::from(SYMBOL) - 1);
-    buffer.set_stringn(area.x, area.y, name, SYMBOL.into(), style);
-    buffer.set_stringn(
-        area.x + SYMBOL,
-        area.y,
-        text::cut(label, width.into()),
-        width.into(),
-        style,
-    );
-    MARK + SYMBOL + width + 1
 }
 
 fn draw_value(
@@ -480,40 +311,3 @@ fn draw_value(
     draw_text(app, index, written, &unwritten, area, style, buffer)
 }
 
-// What is written in a row, as a line to edit where it is edited, else the words for what is not.
-fn draw_text(
-    app: &App,
-    index: usize,
-    written: Option<&str>,
-    unwritten: &str,
-    area: Rect,
-    style: Style,
-    buffer: &mut Buffer,
-) -> Option<Position> {
-    let width = usize::from(area.width);
-    let is_edited = app.focus == index && app.has_line();
-    if is_edited && written.is_some() {
-        let cursor = text::edited(
-            &app.input,
-            area,
-            style.add_modifier(Modifier::UNDERLINED),
-            buffer,
-        );
-        text::ending(
-            app.ending().as_deref(),
-            app.input.value().width(),
-            area,
-            app.look.theme,
-            buffer,
-        );
-        return cursor;
-    }
-    let shown = written.map_or(unwritten.into(), ascii::printable);
-    let faint = if written.is_none() && !app.lacks(index) {
-        app.look.theme.faint
-    } else {
-        style
-    };
-    buffer.set_stringn(area.x, area.y, text::cut(&shown, width), width, faint);
-    is_edited.then_some(Position::new(area.x, area.y))
-}

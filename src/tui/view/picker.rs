@@ -193,12 +193,6 @@ fn draw_examples(
 
 fn say_if_none(items: &[Item], area: Rect, theme: &Theme, buffer: &mut Buffer) {
     if items.is_empty() && !area.is_empty() {
-        buffer.set_stringn(
-            area.x,
-            area.y,
-            "(nothing here fits)",
-            area.width.into(),
-            theme.faint,
-        );
+        buffer.set_stringn(area.x, area.y, "No match.", area.width.into(), theme.faint);
     }
 }

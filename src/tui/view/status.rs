@@ -123,7 +123,7 @@ pub fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
 /// What a field is, in its own words.
 #[must_use]
 pub fn about(field: &Field, ascii: bool, units: System) -> String {
-    let name = [symbol(field.symbol, ascii).as_ref(), field.label].join(" ");
+    let name = [symbol(field.symbol, ascii).as_ref(), &field.full_label()].join(" ");
     let bounds = match field.kind {
         Kind::Text => String::new(),
         Kind::Number(_, range, _) if units.unit(range.unit) == range.unit => format!(
@@ -320,9 +320,9 @@ fn about_field(app: &App, index: usize) -> String {
     let inputs = app.case.inputs_so_far();
     let idle = match relevance(index, &inputs) {
         Acting::No(why) | Acting::Beside(why) if !matches!(field.kind, Kind::Text) => {
-            Some(format!("Does not act: {why}."))
+            Some(format!("Not used: {why}."))
         }
-        _ => partial_relevance(index, &inputs).map(|why| format!("Acts in part: {why}.")),
+        _ => partial_relevance(index, &inputs).map(|why| format!("Limited effect: {why}.")),
     };
     let about = about(field, app.look.ascii, app.settings.units);
     [
@@ -375,9 +375,8 @@ fn about_limit(app: &App, limit: &Limit) -> String {
 }
 
 fn at_cursor(app: &App) -> String {
-    const NONE: &str = "No cursor: h and l place it, Space runs it.";
-    const MARKS: &str =
-        "D first contact, E and B ends of the path of contact, L last contact, d other methods' D.";
+    const NONE: &str = "No cursor: h and l show it, Space plays it.";
+    const MARKS: &str = "D first contact, E and B ends of the path of contact, L last contact, d another method's D.";
     const LINES: &str = "Solid: flanks (incoming pair bold), path of contact; dashed: line of action; dots: base circles, tip's path.";
     match app.cursor {
         Some(cursor) => chart::readout(&app.charts(), cursor),

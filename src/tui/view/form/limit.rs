@@ -1,0 +1,130 @@
+//! A limit as a line of the form, with its verdict.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect};
+use ratatui::style::Style;
+use unicode_width::UnicodeWidthStr;
+
+use super::line::{MARK, SYMBOL, draw_mark, draw_name, draw_text, label_width};
+use crate::case::Limit;
+use crate::model::Quantity;
+use crate::report::verdict::verdict;
+use crate::tui::app::App;
+use crate::tui::ascii;
+use crate::tui::rows;
+
+/// Between the symbol of a quantity and its limit, where the label has no room.
+const AT_MOST: &str = " <= ";
+
+/// The sign of a free impact within the limit while the impact of the method exceeds it.
+const ABOVE_BESIDE: &str = " (!)";
+
+// The limit as it is written, and how the result stands to it.
+pub(super) fn draw_limit(
+    app: &App,
+    index: usize,
+    limit: &Limit,
+    line: Rect,
+    buffer: &mut Buffer,
+) -> Option<Position> {
+    let theme = app.look.theme;
+    let style = if app.focus == index {
+        theme.focus
+    } else {
+        Style::new()
+    };
+    draw_mark(app, index, line, buffer);
+    let name = Rect {
+        x: line.x + MARK,
+        width: line.width.saturating_sub(MARK),
+        ..line
+    };
+    let symbol = Quantity::find(limit.quantity).map_or("", |quantity| quantity.symbol);
+    let symbol = ascii::symbol(symbol, app.look.ascii);
+    let label = rows::label(&app.case, index);
+    let (words, of_word) = standing(app, limit);
+    let usual = label_width(name);
+    let needed = limit.text.width() + words.get(1).map_or(0, |word| word.width() + 2);
+    let is_whole = symbol.width() < SYMBOL.into()
+        && label.width() <= usual.into()
+        && usize::from(MARK + SYMBOL + 1) + label.width() + needed <= line.width.into();
+    let offset = if is_whole {
+        draw_name(&symbol, label, name, usual, style, buffer)
+    } else {
+        let brief = format!("{symbol}{AT_MOST}");
+        buffer.set_stringn(name.x, name.y, &brief, name.width.into(), style);
+        (MARK + brief.width() as u16).min(line.width)
+    };
+    let left = usize::from(line.width - offset).saturating_sub(limit.text.width() + 2);
+    // The label gives up what it does not need, so that the verdict stands in a word rather than a
+    // sign.
+    let spare = if is_whole {
+        usize::from(usual).saturating_sub(label.width())
+    } else {
+        0
+    };
+    let in_words = words
+        .iter()
+        .take(2)
+        .find(|word| word.width() <= left + spare);
+    let word = in_words
+        .or_else(|| words.iter().find(|word| word.width() <= left))
+        .cloned()
+        .unwrap_or_default();
+    let offset = offset - word.width().saturating_sub(left).min(spare) as u16;
+    let room = line.width.saturating_sub(offset);
+    let width = word.width() as u16;
+    buffer.set_string(line.right() - width, line.y, &word, of_word);
+    let value = Rect {
+        x: line.x + offset,
+        width: room.saturating_sub(width + u16::from(width > 0)),
+        ..line
+    };
+    draw_text(
+        app,
+        index,
+        Some(&limit.text)
+            .filter(|text| !text.is_empty())
+            .map(String::as_str),
+        "(no limit)",
+        value,
+        style,
+        buffer,
+    )
+}
+
+// How the last valid result stands to the limit, in words, in fewer and by a sign alone, and their
+// style.
+fn standing(app: &App, limit: &Limit) -> (Vec<String>, Style) {
+    let theme = app.look.theme;
+    let is_told = !app.is_stale() && !limit.text.is_empty();
+    let solution = app
+        .answer
+        .as_ref()
+        .and_then(|answer| answer.of(answer.active))
+        .filter(|_| is_told);
+    let Some(verdict) = solution.map(|solution| verdict(limit, solution)) else {
+        return (Vec::new(), Style::new());
+    };
+    let is_above_beside = verdict.is_exceeded_beside();
+    let style = if verdict.standing.holds() && !is_above_beside {
+        theme.note
+    } else {
+        theme.problem
+    };
+    let part = verdict
+        .part()
+        .map_or_else(String::new, |part| format!(" {:.0} %", 100.0 * part));
+    let beside = if is_above_beside { ABOVE_BESIDE } else { "" };
+    let word = verdict.standing.word();
+    let sign = if verdict.standing.holds() { word } else { "!" };
+    (
+        vec![
+            format!("{word}{part}{beside}"),
+            format!("{word}{beside}"),
+            format!("{sign}{part}{beside}"),
+            sign.to_owned(),
+        ],
+        style,
+    )
+}

@@ -1,0 +1,109 @@
+//! The parts of a line of the form: its mark, its name and its text.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect};
+use ratatui::style::{Modifier, Style};
+use unicode_width::UnicodeWidthStr;
+
+use crate::tui::app::App;
+use crate::tui::ascii;
+use crate::tui::rows;
+use crate::tui::view::text;
+
+pub(super) const MARK: u16 = 2;
+/// The mark of a field that differs from the file.
+const EDITED: &str = "*";
+pub(super) const SYMBOL: u16 = 6;
+const LABEL: u16 = 20;
+const VALUE: u16 = 15;
+/// The width of a value on a narrow screen.
+const NARROW_VALUE: u16 = 11;
+const WHOLE: u16 = MARK + SYMBOL + LABEL + 1 + VALUE;
+
+pub(super) fn draw_mark(app: &App, index: usize, line: Rect, buffer: &mut Buffer) {
+    let theme = app.look.theme;
+    if rows::differs(&app.case, &app.saved, index) {
+        buffer.set_stringn(
+            line.x + 1,
+            line.y,
+            EDITED,
+            usize::from(line.width > 1),
+            theme.note,
+        );
+    }
+    // The reason stands below the line and has a mark of its own.
+    if app.focus == index {
+        buffer.set_stringn(line.x, line.y, "▸", 1, theme.focus);
+    } else if app.problems.iter().any(|(at, _)| *at == index) {
+        buffer.set_stringn(line.x, line.y, "!", 1, theme.problem);
+    }
+}
+
+// So much room labels have beside values of the usual width.
+pub(super) fn label_width(area: Rect) -> u16 {
+    let value = if area.width + MARK < WHOLE {
+        NARROW_VALUE
+    } else {
+        VALUE
+    };
+    LABEL.min(area.width.saturating_sub(SYMBOL + 1 + value))
+}
+
+// Symbol and label; how far into the line they go.
+pub(super) fn draw_name(
+    symbol: &str,
+    label: &str,
+    area: Rect,
+    width: u16,
+    style: Style,
+    buffer: &mut Buffer,
+) -> u16 {
+    let name = text::cut(symbol, usize::from(SYMBOL) - 1);
+    buffer.set_stringn(area.x, area.y, name, SYMBOL.into(), style);
+    buffer.set_stringn(
+        area.x + SYMBOL,
+        area.y,
+        text::cut(label, width.into()),
+        width.into(),
+        style,
+    );
+    MARK + SYMBOL + width + 1
+}
+
+// What is written in a row, as a line to edit where it is edited, else the words for what is not.
+pub(super) fn draw_text(
+    app: &App,
+    index: usize,
+    written: Option<&str>,
+    unwritten: &str,
+    area: Rect,
+    style: Style,
+    buffer: &mut Buffer,
+) -> Option<Position> {
+    let width = usize::from(area.width);
+    let is_edited = app.focus == index && app.has_line();
+    if is_edited && written.is_some() {
+        let cursor = text::edited(
+            &app.input,
+            area,
+            style.add_modifier(Modifier::UNDERLINED),
+            buffer,
+        );
+        text::ending(
+            app.ending().as_deref(),
+            app.input.value().width(),
+            area,
+            app.look.theme,
+            buffer,
+        );
+        return cursor;
+    }
+    let shown = written.map_or(unwritten.into(), ascii::printable);
+    let faint = if written.is_none() && !app.lacks(index) {
+        app.look.theme.faint
+    } else {
+        style
+    };
+    buffer.set_stringn(area.x, area.y, text::cut(&shown, width), width, faint);
+    is_edited.then_some(Position::new(area.x, area.y))
+}
