@@ -314,7 +314,7 @@ fn journals_keep_away_from_a_folder_that_others_may_write() {
     next.wait_for(OFFER);
     assert!(!next.shows("others may write"));
     next.type_in("\r");
-    next.wait_for("the edits are back");
+    next.wait_for("the edits are restored");
     next.type_in("\x13");
     next.wait_for("saved ");
     next.quit();
@@ -360,7 +360,7 @@ fn kill_9_after_two_seconds_loses_nothing() {
     assert!(!next.shows("*unsaved*"), "nothing is taken over unasked");
     next.type_in("\r");
     next.wait_for("*unsaved*");
-    assert!(next.shows("1.25 in") && next.shows("the edits are back"));
+    assert!(next.shows("1.25 in") && next.shows("the edits are restored"));
     next.type_in("\x1a");
     next.wait_until("the edits to be undone", |tty| !tty.shows("*unsaved*"));
     next.type_in("\x19\x13");
