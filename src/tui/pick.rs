@@ -11,9 +11,7 @@ use crate::report::graphs::GRAPHS;
 
 mod item;
 
-use item::{
-    DESCRIBED, command, example, field, graph, of_material, quantity, rank, result,
-};
+use item::{DESCRIBED, command, example, field, graph, of_material, quantity, rank, result};
 pub use item::{Item, Pick};
 
 /// The least similarity of a name that is offered when no name contains the typed words.

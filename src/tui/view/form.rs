@@ -310,4 +310,3 @@ fn draw_value(
     }
     draw_text(app, index, written, &unwritten, area, style, buffer)
 }
-
