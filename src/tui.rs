@@ -61,6 +61,7 @@ use session::journal_writer::JournalWriter;
 use settings::Settings;
 use store::state::State;
 use store::{Opening, Trouble};
+use tab::Origin;
 use terminal::Screen;
 use theme::Look;
 use update::update;
@@ -180,7 +181,9 @@ fn session(
         settings,
         ..App::new(document, path, look, screen.size()?)
     };
-    app.tab.is_last_case = is_last_case && app.path.is_some();
+    if is_last_case && app.path.is_some() {
+        app.tab.origin = Origin::LastCase;
+    }
     update::settle(&mut app);
     screen.take_mouse(settings.mouse)?;
     if let Some(trouble) = trouble {

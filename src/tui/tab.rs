@@ -22,12 +22,8 @@ pub struct Tab {
     pub document: Document,
     /// Where it was read from, or last saved to.
     pub path: Option<PathBuf>,
-    /// The example that it began with, where it did.
-    pub example: Option<&'static str>,
-    /// Whether it was begun as a new case.
-    pub is_new: bool,
-    /// Whether it was opened as the last case, which nobody named.
-    pub is_last_case: bool,
+    /// Where the case comes from.
+    pub origin: Origin,
     /// The case in the form.
     pub case: Case,
     /// The case as the file has it.
@@ -81,6 +77,19 @@ pub struct Tab {
     pub results_top: usize,
     /// The quantity that was marked and is none of the present results: the mark goes back to it.
     pub lost: Option<&'static str>,
+}
+
+/// Where a case comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Origin {
+    /// The file that the user named; the built-in case where it has no path.
+    Given,
+    /// The file of the last session, which the user did not name.
+    LastCase,
+    /// Started empty.
+    New,
+    /// Started from the example of that name.
+    Example(&'static str),
 }
 
 /// Error and time of every setting, on the case as it was then.
@@ -137,9 +146,7 @@ impl Tab {
             case,
             document,
             path,
-            example: None,
-            is_new: false,
-            is_last_case: false,
+            origin: Origin::Given,
             in_place_of: None,
             focus,
             history: History::default(),
@@ -172,13 +179,13 @@ impl Tab {
     /// Whether nobody asked for it or edited it, so that another case may replace it.
     #[must_use]
     pub fn is_untouched(&self) -> bool {
-        (self.path.is_none() || self.is_last_case) && !self.is_unsaved()
+        (self.path.is_none() || self.origin == Origin::LastCase) && !self.is_unsaved()
     }
 
     /// Whether it is the built-in Table 1, with or without edits.
     #[must_use]
     pub fn is_built_in(&self) -> bool {
-        self.path.is_none() && self.example.is_none() && !self.is_new
+        self.path.is_none() && self.origin == Origin::Given
     }
 
     /// Whether the results are not those of what the form says now.
@@ -214,11 +221,11 @@ impl Tab {
     /// The name of the case in the title and in questions.
     #[must_use]
     pub fn name(&self) -> String {
-        match (&self.path, self.example) {
+        match (&self.path, self.origin) {
             (Some(path), _) => path.display().to_string(),
-            (None, Some(example)) => format!("new case from {example}"),
-            (None, None) if self.is_new => "new case".to_owned(),
-            (None, None) => "built-in Table 1".to_owned(),
+            (None, Origin::Example(example)) => format!("new case from {example}"),
+            (None, Origin::New) => "new case".to_owned(),
+            (None, Origin::Given | Origin::LastCase) => "built-in Table 1".to_owned(),
         }
     }
 

@@ -22,6 +22,7 @@ use tipstrike::tui::pick::Item;
 use tipstrike::tui::prompt::Prompt;
 use tipstrike::tui::settings::Settings;
 use tipstrike::tui::solver::Answer;
+use tipstrike::tui::tab::Origin;
 use tipstrike::tui::theme::{CONTRAST, Look, MONO};
 use tipstrike::tui::update::update;
 use tipstrike::tui::view;
@@ -154,7 +155,7 @@ fn the_first_line_names_the_last_case_and_the_key_of_table_1() {
         (LARGE, "pair"),
     ] {
         let mut desk = Desk::on(size, &format!("{name}.toml"), TABLE_1);
-        desk.app.tab.is_last_case = true;
+        desk.app.tab.origin = Origin::LastCase;
         let first = |desk: &Desk| desk.screen().lines().next().unwrap_or_default().to_owned();
         assert!(
             first(&desk).contains("(last case; Alt-T: Table 1)"),

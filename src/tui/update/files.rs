@@ -12,7 +12,7 @@ use crate::tui::line::{CASE_ENDING, Line};
 use crate::tui::prompt::{Choice, Next, Page, Prompt, Question};
 use crate::tui::session::recovery::{Access, NEWER};
 use crate::tui::session::save::{Over, SaveFault, Saving, Written};
-use crate::tui::tab::Tab;
+use crate::tui::tab::{Origin, Tab};
 
 /// Leave, or ask when anything is unsaved.
 pub(super) fn quit(app: &mut App) -> Vec<Effect> {
@@ -145,7 +145,7 @@ pub(super) fn saved(
             }
             app.tab.read_line_anew();
             app.tab.document = document;
-            (app.tab.in_place_of, app.tab.is_last_case) = (None, false);
+            (app.tab.in_place_of, app.tab.origin) = (None, Origin::Given);
             let how = match saved {
                 Saved::Written => "",
                 Saved::Recreated => ": the file was deleted, and this save created it again",

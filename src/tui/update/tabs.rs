@@ -9,7 +9,7 @@ use crate::tui::commands::{Command, key_of};
 use crate::tui::pane::Pane;
 use crate::tui::solver::Request;
 use crate::tui::store;
-use crate::tui::tab::Tab;
+use crate::tui::tab::{Origin, Tab};
 
 /// Go to the case of that place; a place that does not exist changes nothing.
 pub(super) fn go_to(app: &mut App, at: usize) {
@@ -75,7 +75,7 @@ pub(super) fn fresh(app: &mut App) -> Option<Request> {
     let request = put(
         app,
         Tab {
-            is_new: true,
+            origin: Origin::New,
             ..Tab::new(Document::new(Case::fresh()), None)
         },
         replaces,
@@ -95,7 +95,7 @@ pub(super) fn begin(app: &mut App, example: &'static Example) -> Option<Request>
     let request = put(
         app,
         Tab {
-            example: Some(example.name),
+            origin: Origin::Example(example.name),
             ..Tab::new(example.document(), None)
         },
         replaces,

@@ -20,7 +20,7 @@ use crate::tui::keys::Chord;
 use crate::tui::pane::Pane;
 use crate::tui::panes::chart;
 use crate::tui::rows::{self, Row};
-use crate::tui::tab::Tab;
+use crate::tui::tab::{Origin, Tab};
 
 /// What the header begins with.
 const HEAD: &str = "tipstrike";
@@ -147,7 +147,7 @@ pub fn about(field: &Field, ascii: bool, units: System) -> String {
 }
 
 fn only_case(app: &App, width: u16) -> Vec<Span<'static>> {
-    let last = if app.is_last_case {
+    let last = if app.origin == Origin::LastCase {
         format!(" (last case; {}: Table 1)", key_of(Command::BuiltIn))
     } else {
         String::new()
