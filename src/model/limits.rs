@@ -229,6 +229,9 @@ pub enum Refusal {
     },
 }
 
+/// Digits that tell any two numbers apart.
+const MOST_DIGITS: usize = 17;
+
 /// What a search knows of the additional tip reliefs, in m: the greatest that touches and the least
 /// that does not.
 struct Bracket(Option<f64>, Option<f64>);
@@ -239,16 +242,22 @@ impl fmt::Display for Bracket {
             return f.write_str("no additional tip relief was tried to its end");
         };
         f.write_str("the tooth touches before E with ")?;
+        let shown = |digits| {
+            let shown = |relief: f64| significant(relief / MICROMETRE, digits);
+            (shown(touching), self.1.map(shown))
+        };
+        // So many digits that the ends of a narrow bracket differ.
+        let (touching_shown, clear) = (4..MOST_DIGITS)
+            .map(shown)
+            .find(|(touching, clear)| clear.as_ref() != Some(touching))
+            .unwrap_or_else(|| shown(MOST_DIGITS));
         if touching > 0.0 {
-            let touching = significant(touching / MICROMETRE, 4);
+            let touching = touching_shown;
             write!(f, "{touching} um more tip relief of the driven gear")?;
         } else {
             f.write_str("the given tip relief of the driven gear")?;
         }
-        self.1.map_or(Ok(()), |clear| {
-            let clear = significant(clear / MICROMETRE, 4);
-            write!(f, ", and not with {clear} um more")
-        })
+        clear.map_or(Ok(()), |clear| write!(f, ", and not with {clear} um more"))
     }
 }
 

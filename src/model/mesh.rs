@@ -197,7 +197,7 @@ impl Mesh {
         line_zones(inputs, geometry, (flanks, &relief), force, &mut zones)?;
         run_out.zones(&relief, force, after, length, &mut zones)?;
         zones.sort_by(|one, other| one.from.total_cmp(&other.from));
-        check_pairs(geometry, &zones)?;
+        check_pairs(length_of(&zones) / geometry.base_pitch)?;
         let levers = zones
             .iter()
             .flat_map(|zone| [zone.from, zone.to].map(|s| zone.series.one(LEVER, s)));
@@ -415,11 +415,15 @@ impl Mesh {
     }
 }
 
-/// Refuse more pairs at a time than the methods follow.
-fn check_pairs(geometry: &Geometry, zones: &[Zone]) -> Result<(), Refusal> {
-    let length =
-        zones.last().map_or(0.0, |zone| zone.to) - zones.first().map_or(0.0, |zone| zone.from);
-    let pairs = 1 + (length / geometry.base_pitch) as usize;
+/// Length of the line of action over which a pair may touch, in m.
+fn length_of(zones: &[Zone]) -> f64 {
+    zones.last().map_or(0.0, |zone| zone.to) - zones.first().map_or(0.0, |zone| zone.from)
+}
+
+/// Refuses more pairs at a time than the methods follow. The pairs may touch over so many base
+/// pitches.
+fn check_pairs(pitches: f64) -> Result<(), Refusal> {
+    let pairs = 1 + pitches as usize;
     if pairs > PAIRS {
         return Err(Refusal::TooManyPairs {
             pairs,
@@ -427,4 +431,20 @@ fn check_pairs(geometry: &Geometry, zones: &[Zone]) -> Result<(), Refusal> {
         });
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_pairs_than_a_set_of_pairs_can_name_are_refused() {
+        assert_eq!(check_pairs(63.9), Ok(()));
+        let refusal = check_pairs(64.0).unwrap_err();
+        assert_eq!(refusal.code(), "too-many-pairs");
+        assert_eq!(
+            refusal.to_string(),
+            "65 tooth pairs may touch at a time, and the limit is 64"
+        );
+    }
 }

@@ -1,7 +1,7 @@
 //! The method `static`: the load shared by every pair in contact, without inertia.
 
 use super::Refusal;
-use super::budget::CURVE_WORK;
+use super::budget::{CURVE_WORK, STATIONS};
 use super::mesh::{Mesh, Pair};
 use super::spacing::{Resolution, Spacing};
 use super::stations::MeshStation;
@@ -295,7 +295,7 @@ fn stations(
     peak: f64,
     spacing: Spacing,
 ) -> (Vec<MeshStation>, Resolution) {
-    let most = CURVE_WORK / mesh.standing(0.0).count().max(1);
+    let most = STATIONS.min(CURVE_WORK / mesh.standing(0.0).count().max(1));
     MeshStation::through_start(contact.first, contact.last, |from, to| {
         spacing.stations(&[from, to], peak, most, |s| {
             let balance = balance(mesh, s, s);

@@ -366,11 +366,8 @@ impl App {
     /// What the worker shall solve because the first picture could not wait for it.
     pub(super) fn unanswered(&mut self) -> Option<Request> {
         let asked = self.tab.asked;
-        let waits = self
-            .tab
-            .answer
-            .as_ref()
-            .is_some_and(|answer| answer.pending.is_some() || answer.stages != asked);
+        let is_partial = |answer: &Answer| answer.stages != asked;
+        let waits = !self.tab.is_settled || self.tab.answer.as_ref().is_some_and(is_partial);
         if waits { self.request() } else { None }
     }
 

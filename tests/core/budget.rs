@@ -354,6 +354,14 @@ fn cases_that_took_more_than_20_s_end_within_their_budget() {
     }
 }
 
+/// The case that took most memory of 120,000: a long motion whose curve needs many stations.
+#[test]
+fn the_case_with_the_longest_curve_stays_within_the_memory_of_a_solve() {
+    let number = 112_869;
+    let inputs = drawn(number).inputs().expect("a valid case");
+    taken("case 112869", number, &inputs);
+}
+
 /// Contact and its loss alternate where a relief ends, when the load deflects the teeth less than
 /// the gap is known.
 #[test]
@@ -403,4 +411,35 @@ fn a_search_that_exceeds_its_budget_prints_its_bracket_and_keeps_the_other_resul
     let sentence = refusal.to_string();
     assert!(sentence.starts_with("not found within ") && sentence.contains(" motions: "));
     assert!(sentence.contains("touches before E with "), "{sentence}");
+}
+
+#[test]
+fn a_motion_whose_steps_need_more_memory_than_a_solve_may_take_is_refused() {
+    let mut case = Case::table_1();
+    for (key, value) in [
+        ("model.method", "dynamic"),
+        ("operation.power", ""),
+        ("operation.torque", "71.6 N m"),
+        ("operation.speed", "0.25 rpm"),
+    ] {
+        case.write(index_of(key).expect("a field"), value);
+    }
+    let inputs = case.inputs().expect("a valid case");
+    let outcome = taken("0.25 rpm", 0, &inputs).outcome;
+    assert_eq!(outcome, "refused: motion-too-long");
+}
+
+#[test]
+fn a_narrow_bracket_is_printed_with_ends_that_differ() {
+    let refusal = Refusal::SearchTooLong {
+        tries: 400,
+        in_motion: true,
+        touching: Some(22.628_104_1e-6),
+        clear: Some(22.628_104_9e-6),
+    };
+    assert_eq!(
+        refusal.to_string(),
+        "not found within 400 motions: the tooth touches before E with 22.628104 um more tip \
+         relief of the driven gear, and not with 22.628105 um more"
+    );
 }

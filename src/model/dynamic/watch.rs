@@ -7,9 +7,13 @@ use super::step::{Course, Step};
 use super::swing::{self, Swing};
 use super::{Dynamic, Effort};
 use crate::model::Refusal;
-use crate::model::budget::{CURVE_WORK, TURNS};
+use crate::model::budget::{CURVE_WORK, STATIONS, TURNS};
 use crate::model::spacing::{Resolution, Spacing};
 use crate::model::stations::MeshStation;
+
+/// Times the contents of a list, its room at most while it grows: twice the contents in the new
+/// place and once in the old.
+const GROWTH: usize = 3;
 
 /// A step of the run.
 struct Record {
@@ -66,7 +70,7 @@ impl Watch {
         self.is_passing = !self.forgets && window.incoming().is_some();
         if let Some(incoming) = window.incoming().filter(|_| self.is_passing) {
             self.passages.pop_if(|last| last.records.is_empty());
-            self.bytes += size_of::<Passage>() + size_of_val(&*window.pairs);
+            self.bytes += GROWTH * size_of::<Passage>() + size_of_val(&*window.pairs);
             self.passages.push(Passage {
                 window: window.clone(),
                 incoming,
@@ -81,12 +85,11 @@ impl Watch {
         let has_begun = motion.place(step.t) >= -motion.mesh.base_pitch * (1.0 + f64::EPSILON);
         self.contact_lost |= has_begun && touching.is_none();
         if let Some(passage) = self.passages.last_mut().filter(|_| self.is_passing) {
-            self.bytes += size_of::<Record>();
-            passage.records.push(Record { touching, step });
+            self.bytes += passage.keep(Record { touching, step });
         }
     }
 
-    /// What the kept steps take, in bytes.
+    /// Room of the kept steps, in bytes, with the room that lists take beyond their contents.
     pub(super) fn bytes(&self) -> usize {
         self.bytes
     }
@@ -98,6 +101,7 @@ impl Watch {
 
     /// The incoming pair touches or leaves.
     pub(super) fn turn(&mut self, t: f64, touches: bool) {
+        self.bytes += GROWTH * size_of::<f64>();
         if touches {
             self.touches.push(t);
         } else {
@@ -259,8 +263,10 @@ impl Watch {
                 let moment = (!is_given).then(|| self.moment(motion, t)).flatten();
                 (moment.map_or(f64::NAN, |moment| moment.force(t)), t)
             });
-            let stations = times.into_iter().filter_map(|t| self.station(motion, t));
-            (stations.collect(), resolution)
+            let (times, thinned) = at_most(STATIONS, times);
+            let mut stations = Vec::with_capacity(times.len());
+            stations.extend(times.into_iter().filter_map(|t| self.station(motion, t)));
+            (stations, resolution.and(thinned))
         });
         if is_given {
             let most = turns.len().min(TURNS);
@@ -364,6 +370,16 @@ impl Watch {
     }
 }
 
+/// So many of the times, evenly chosen, the first and the last among them.
+fn at_most(most: usize, times: Vec<f64>) -> (Vec<f64>, Resolution) {
+    if times.len() <= most {
+        return (times, Resolution::Full);
+    }
+    let last = times.len() - 1;
+    let chosen = (0..most).map(|at| times[at * last / (most - 1)]);
+    (chosen.collect(), Resolution::Limited(most))
+}
+
 /// The motion at a time.
 struct Moment<'a> {
     course: Course<'a>,
@@ -384,6 +400,18 @@ impl Moment<'_> {
 }
 
 impl Passage {
+    /// Keeps a step. The list grows by a quarter, so that its old and its new room together stay
+    /// below 2.25 times the budget. Returns the bytes by which it grew.
+    fn keep(&mut self, record: Record) -> usize {
+        const LEAST: usize = 16;
+        let room = self.records.capacity();
+        if self.records.len() == room {
+            self.records.reserve_exact((room / 4).max(LEAST));
+        }
+        self.records.push(record);
+        (self.records.capacity() - room) * size_of::<Record>()
+    }
+
     fn records(&self) -> &[Record] {
         &self.records
     }
