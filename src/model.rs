@@ -27,6 +27,7 @@ pub mod mesh;
 pub mod notes;
 pub mod outline;
 pub mod position;
+pub mod profile;
 pub mod quantities;
 pub mod relief;
 pub mod request;

@@ -6,6 +6,7 @@ mod tests;
 
 use super::FIELDS;
 use super::fields::Kind;
+use crate::model::compliance::model_of;
 use crate::model::{Inputs, Quantity, Stage, Stages};
 use table::{ROWS, Row};
 
@@ -52,8 +53,13 @@ pub fn is_read(field: usize, inputs: &Inputs) -> bool {
 fn with_other_values(field: usize, inputs: &Inputs) -> Vec<Inputs> {
     /// Shares of the range, both unlike a value that a person types.
     const SHARES: [f64; 2] = [0.381_966, 0.618_034];
+    // Every stage that reads the model of the teeth reads what decides its range as well.
+    let held = Inputs {
+        tooth_compliance: Some(model_of(inputs)),
+        ..inputs.clone()
+    };
     let with = move |put: &dyn Fn(&mut Inputs)| {
-        let mut other = inputs.clone();
+        let mut other = held.clone();
         put(&mut other);
         other
     };

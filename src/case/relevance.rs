@@ -5,7 +5,7 @@ use super::dependencies::is_read;
 use super::fields::FIELDS;
 use super::{Case, check};
 use crate::model::Inputs;
-use crate::model::compliance::model_of;
+use crate::model::compliance::{contact_of, model_of};
 use crate::model::inputs::{Drive, Method};
 
 /// Whether what stands in a field makes a difference to the results.
@@ -53,6 +53,11 @@ const REASONS: &[Reason] = &[
         keys: &["driver.tip_radius", "driven.tip_radius"],
         when: by_constant_contact,
         why: "the contact compliance of this case does not depend on curvature",
+    },
+    Reason {
+        keys: &["model.contact_compliance"],
+        when: |inputs| contact_of(inputs).is_none(),
+        why: "the tooth compliance of this case includes the contact",
     },
     Reason {
         keys: &["model.deflection"],
@@ -148,7 +153,7 @@ const PARTS: &[Reason] = &[
         keys: &["driver.dedendum", "driven.dedendum"],
         when: |inputs| {
             let tooth = model_of(inputs).model().reads;
-            let contact = inputs.contact_compliance.model().reads;
+            let contact = contact_of(inputs).map_or(&[][..], |contact| contact.model().reads);
             !tooth.iter().chain(contact).any(|&read| read == "profile")
         },
         why: "the tooth compliance does not read the root: only the stiffness spread changes, which tries the other models too",
@@ -176,7 +181,7 @@ fn by_impact(inputs: &Inputs) -> bool {
 }
 
 fn by_constant_contact(inputs: &Inputs) -> bool {
-    !inputs.contact_compliance.model().reads_half_width
+    contact_of(inputs).is_some_and(|contact| !contact.model().reads_half_width)
 }
 
 impl Case {

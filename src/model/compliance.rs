@@ -5,17 +5,17 @@
 pub mod contact;
 pub mod flanks;
 mod list;
-pub mod profile;
 pub mod tooth;
 
 use super::Refusal;
-use super::geometry::Geometry;
+use super::geometry::{GearShape, Geometry};
 use super::inputs::{ContactCompliance, Gear, Inputs, ToothCompliance};
 use super::tip_gap::TipContact;
-use profile::Rack;
+use super::profile::Rack;
+use contact::{ContactLaw, ContactSpring};
 use tooth::Tooth;
 
-pub use tooth::model_of;
+pub use tooth::{contact_of, model_of};
 
 /// Elasticity of a pair: all that its compliances read beside its geometry.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,6 +37,8 @@ pub struct Elasticity {
 pub struct ElasticGear {
     /// The rack that cuts the profile.
     pub rack: Rack,
+    /// Shape of the gear.
+    pub shape: GearShape,
     /// Bore radius r_h, in m.
     pub bore_radius: f64,
     /// Young's modulus E, in Pa.
@@ -45,19 +47,29 @@ pub struct ElasticGear {
     pub poisson: f64,
 }
 
+impl ElasticGear {
+    /// A gear of the pair.
+    #[must_use]
+    pub fn of(inputs: &Inputs, gear: &Gear) -> ElasticGear {
+        ElasticGear {
+            rack: Rack::of(inputs, gear),
+            shape: gear.shape(),
+            bore_radius: gear.bore_radius,
+            young: gear.young,
+            poisson: gear.poisson,
+        }
+    }
+}
+
 impl Inputs {
     /// Elasticity of the pair.
     #[must_use]
     pub fn elasticity(&self) -> Elasticity {
-        let gear = |gear: &Gear| ElasticGear {
-            rack: Rack::of(self, gear),
-            bore_radius: gear.bore_radius,
-            young: gear.young,
-            poisson: gear.poisson,
-        };
+        let gear = |gear: &Gear| ElasticGear::of(self, gear);
         Elasticity {
             tooth: model_of(self),
-            contact: self.contact_compliance,
+            // A contact model that is not used is the same as any other.
+            contact: contact_of(self).unwrap_or(ContactCompliance::ALL[0]),
             driver: gear(&self.driver),
             driven: gear(&self.driven),
             width: self.common_width(),
@@ -152,13 +164,38 @@ impl<'a> Teeth<'a> {
         })
     }
 
+    /// The contact's parts of driver and driven gear at a place; `None` for a model without contact.
+    ///
+    /// # Errors
+    /// A [`Refusal`] outside the range of the model.
+    pub fn contacts(&self, place: &ContactPlace) -> Result<[Option<ContactLaw>; 2], Refusal> {
+        Ok([
+            self.driver.contact(place.radius_driver)?,
+            self.driven.contact(place.radius_driven)?,
+        ])
+    }
+
+    /// The contact at a place: that of the teeth's model if it includes the contact, else that of
+    /// the case's contact model.
+    ///
+    /// # Errors
+    /// A [`Refusal`] outside the range of the models.
+    pub fn spring(&self, place: &ContactPlace) -> Result<ContactSpring, Refusal> {
+        match self.contacts(place)? {
+            [Some(driver), Some(driven)] => {
+                let teeth = self.at(place)?.sum();
+                Ok(contact::own_spring(self.elasticity, place, teeth, driver + driven))
+            }
+            _ => contact::spring(self.elasticity, self.geometry, place),
+        }
+    }
+
     /// Compliance of the pair at a place under a given force, in m²/N.
     ///
     /// # Errors
     /// A [`Refusal`] outside the range of the models.
     pub fn pair_at_load(&self, place: &ContactPlace, force: f64) -> Result<f64, Refusal> {
-        let spring = contact::spring(self.elasticity, self.geometry, place)?;
-        let contact = spring.compliance(force)?;
+        let contact = self.spring(place)?.compliance(force)?;
         Ok(self.at(place)?.sum() + contact)
     }
 }

@@ -2,6 +2,7 @@
 
 mod body;
 mod boundary;
+pub mod cache;
 mod element;
 mod envelope;
 mod fit;
@@ -10,20 +11,19 @@ mod harmonics;
 mod load;
 mod mesh;
 mod mode;
-mod refusal;
 mod solve;
 #[cfg(test)]
 mod tests;
 
 use std::f64::consts::PI;
 
-use super::compliance::profile::Profile;
+pub use super::limits::field::FieldRefusal;
+use super::profile::Profile;
 use boundary::Boundary;
 use fit::{Abscissa, CrossSeries, Flank, Interpolation, Series};
 use grading::Grading;
 use harmonics::{Displacements, PITCHES};
 use load::Load;
-pub use refusal::FieldRefusal;
 
 /// A gear whose field is to be computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -81,6 +81,14 @@ impl Field {
         Field::graded(input, &Grading::STANDARD)
     }
 
+    /// Whether elements can be laid on the gear, without solving for their displacements.
+    ///
+    /// # Errors
+    /// Those of [`Field::build`], but for [`FieldRefusal::NotPositive`].
+    pub fn check(input: &FieldInput) -> Result<(), FieldRefusal> {
+        solve::check(input, &Grading::STANDARD)
+    }
+
     fn graded(input: &FieldInput, grading: &Grading) -> Result<Field, FieldRefusal> {
         let boundary = solve::boundary(input)?;
         let (loads, values) = solve::without_twist(input, &boundary, grading)?;
@@ -116,6 +124,17 @@ impl Field {
         let roll = self.flank.roll(radius);
         self.surface.at(self.abscissas[0].at(roll))
             + surface_slope(self.poisson) * (self.module / half_width).ln()
+    }
+
+    /// What the displacement under a patch loses for each unit of ln a.
+    ///
+    /// # Formula
+    /// ```text
+    /// 2 (1 − ν²)/π
+    /// ```
+    #[must_use]
+    pub fn surface_slope(&self) -> f64 {
+        surface_slope(self.poisson)
     }
 
     /// The displacement at radius `measured` of the tooth `pitches` ahead of the one that is

@@ -40,23 +40,30 @@ pub struct GearShape {
     pub tip_chamfer: f64,
 }
 
+impl Gear {
+    /// Shape of the gear.
+    #[must_use]
+    pub fn shape(&self) -> GearShape {
+        GearShape {
+            teeth: self.teeth,
+            profile_shift: self.profile_shift,
+            addendum: self.addendum,
+            dedendum: self.dedendum,
+            tip_chamfer: self.tip_chamfer,
+        }
+    }
+}
+
 impl Inputs {
     /// Shape of the pair.
     #[must_use]
     pub fn shape(&self) -> PairShape {
-        let shape = |gear: &Gear| GearShape {
-            teeth: gear.teeth,
-            profile_shift: gear.profile_shift,
-            addendum: gear.addendum,
-            dedendum: gear.dedendum,
-            tip_chamfer: gear.tip_chamfer,
-        };
         PairShape {
             module: self.module,
             pressure_angle: self.pressure_angle,
             centre_distance: self.centre_distance,
-            driver: shape(&self.driver),
-            driven: shape(&self.driven),
+            driver: self.driver.shape(),
+            driven: self.driven.shape(),
         }
     }
 
@@ -134,8 +141,8 @@ pub struct Geometry<T = f64> {
 /// driven tip would touch the driver below its base circle.
 pub fn geometry<T: Real>(shape: &PairShape) -> Result<Geometry<T>, Refusal> {
     let alpha: T = shape.pressure_angle.into();
-    let driver = circles(shape, &shape.driver, alpha)?;
-    let driven = circles(shape, &shape.driven, alpha)?;
+    let driver: Circles<T> = circles(shape.module, shape.pressure_angle, &shape.driver)?;
+    let driven: Circles<T> = circles(shape.module, shape.pressure_angle, &shape.driven)?;
     let base_sum = driver.base + driven.base;
     let (centre_distance, tangent) = working_tangent(shape, alpha, base_sum)?;
     let tangent_length = base_sum * tangent;
@@ -191,16 +198,23 @@ fn turned<T: Real>(angle: T) -> Rotation2<T> {
     Rotation2::from_matrix_unchecked(Matrix2::new(cosine, -sine, sine, cosine))
 }
 
-/// Circles of one gear.
-fn circles<T: Real>(shape: &PairShape, gear: &GearShape, alpha: T) -> Result<Circles<T>, Refusal> {
-    let module: T = shape.module.into();
+/// Circles of one gear, cut by a rack of a module in m and a pressure angle in rad.
+///
+/// # Errors
+/// [`Refusal::PointedRack`] and [`Refusal::TipInsideBase`].
+pub fn circles<T: Real>(
+    module: f64,
+    pressure_angle: f64,
+    gear: &GearShape,
+) -> Result<Circles<T>, Refusal> {
+    let (module, alpha): (T, T) = (module.into(), pressure_angle.into());
     let (half, two): (T, T) = (0.5.into(), 2.0.into());
     let shift: T = gear.profile_shift.into();
     let reference = module * T::count(gear.teeth) * half;
     let base = reference * alpha.sine_cosine().1;
     let height = module * (shift + gear.addendum.into()) - gear.tip_chamfer.into();
     let half_sine = (alpha * half).sine_cosine().0;
-    let most_dedendum = std::f64::consts::FRAC_PI_4 / shape.pressure_angle.tan();
+    let most_dedendum = std::f64::consts::FRAC_PI_4 / pressure_angle.tan();
     if gear.dedendum >= most_dedendum {
         return Err(Refusal::PointedRack {
             dedendum: gear.dedendum,

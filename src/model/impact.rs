@@ -2,8 +2,9 @@
 
 use std::f64::consts::PI;
 
-use super::compliance::contact::{plane_strain_compliance, spring};
-use super::compliance::{ContactPlace, Elasticity};
+use super::compliance::Elasticity;
+use super::compliance::contact::{ContactSpring, plane_strain_compliance};
+use super::position::reduced_curvature;
 use super::geometry::{Circles, Geometry};
 use super::inputs::{Gear, Inputs, Method};
 use super::tip_gap::TipContact;
@@ -176,11 +177,9 @@ pub fn impact(
     geometry: &Geometry,
     masses: &Masses,
     tip: &TipContact,
-    teeth: &TeethCompliance,
+    (teeth, spring): (&TeethCompliance, &ContactSpring),
     velocity: &Velocity,
 ) -> Result<Impact, Refusal> {
-    let place = ContactPlace::at_tip(inputs.tip_radius, geometry, tip);
-    let spring = spring(&inputs.elasticity, geometry, &place)?;
     let width = inputs.elasticity.width;
     let effective_mass = masses.effective(geometry, tip);
     let (force, pair_compliance) = spring.impact(
@@ -190,7 +189,7 @@ pub fn impact(
     let duration_printed = printed_duration(
         masses.reduced(),
         velocity.normal,
-        place.curvature_radius,
+        reduced_curvature(inputs.tip_radius, geometry, tip),
         plane_strain_compliance(&inputs.elasticity),
     );
     let duration_spring = PI * (effective_mass * pair_compliance / width).sqrt();

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::compliance::profile::Profile;
+use super::profile::Profile;
 use crate::numeric::quadrature;
 
 /// Relative tolerance of the integrals.

@@ -1,10 +1,13 @@
 //! Where the model stops being right: refusals, with the value and the limit.
 
+pub mod field;
+
 use std::fmt;
 
 use thiserror::Error;
 
 use crate::numeric::decimal::significant;
+use field::FieldRefusal;
 
 const MILLIMETRE: f64 = 1e-3;
 const MICROMETRE: f64 = 1e-6;
@@ -139,6 +142,14 @@ pub enum Refusal {
         radius: f64,
         /// Radius of the form circle, in m.
         form: f64,
+    },
+    /// The gear has no elastic field.
+    #[error("no finite elements for the gear with {teeth} teeth: {reason}")]
+    NoField {
+        /// z.
+        teeth: u32,
+        /// Why.
+        reason: FieldRefusal,
     },
     /// The driver's tip would touch the driven gear below its base circle.
     #[error("interference at the end of contact: N2B is {:.4} mm and must be above 0", .start / MILLIMETRE)]
@@ -382,6 +393,11 @@ impl Refusal {
                 "below-form-circle",
                 "driven.addendum",
                 "shorten the driven addendum, or give the driver more profile shift",
+            ),
+            Refusal::NoField { .. } => (
+                "no-field",
+                "model.tooth_compliance",
+                "set model.tooth_compliance to beam, or leave it out",
             ),
             Refusal::InterferenceAtEnd { .. } => (
                 "interference-at-end",

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Point2, Vector2};
 
-use super::compliance::profile::{Profile, Rack, Section};
+use super::profile::{Profile, Rack, Section};
 use super::geometry::Circles;
 use super::inputs::{Gear, Inputs};
 

@@ -1,6 +1,6 @@
 //! A pair to start tests from.
 
-use super::compliance::profile::Rack;
+use super::profile::Rack;
 use super::geometry::Circles;
 use super::inputs::{Drive, Gear, Inputs};
 

@@ -384,7 +384,11 @@ impl Solving<'_> {
         let (Some(velocity), Some(teeth)) = (solution.velocity, solution.compliance) else {
             return Ok(());
         };
-        let struck = || impact::impact(&strike, &geometry, &masses, tip, &teeth, &velocity);
+        let struck = || {
+            let spring = compliance::Teeth::of(&strike.elasticity, &geometry)?.spring(&place())?;
+            let elastic = (&teeth, &spring);
+            impact::impact(&strike, &geometry, &masses, tip, elastic, &velocity)
+        };
         let Some(impact) = self.stage(solution, Stage::Impact, |s| s.impact, struck)? else {
             return Ok(());
         };

@@ -163,8 +163,10 @@ pub fn station(
     let tip = tip_at(geometry, angle);
     let velocity = velocity::velocity(inputs.speed / geometry.ratio, &tip);
     let struck = if angle > 0.0 {
-        let teeth = teeth.at(&ContactPlace::at_tip(inputs.tip_radius, geometry, &tip))?;
-        Some(impact(inputs, geometry, masses, &tip, &teeth, &velocity)?)
+        let place = ContactPlace::at_tip(inputs.tip_radius, geometry, &tip);
+        let (teeth, spring) = (teeth.at(&place)?, teeth.spring(&place)?);
+        let elastic = (&teeth, &spring);
+        Some(impact(inputs, geometry, masses, &tip, elastic, &velocity)?)
     } else {
         None
     };

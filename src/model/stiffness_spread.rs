@@ -1,4 +1,4 @@
-//! How far the impact force depends on the choice of stiffness model.
+//! How far the impact force depends on the choice of stiffness models.
 
 use super::compliance::contact::{self, ContactModel};
 use super::compliance::tooth::{self, ToothModel};
@@ -13,14 +13,76 @@ pub struct Band {
     pub high: f64,
 }
 
+/// A model of the teeth with a model of the contact.
+#[derive(Debug, Clone, Copy)]
+pub struct StiffnessModels {
+    /// Model of the teeth.
+    pub tooth: &'static ToothModel,
+    /// Model of the contact; `None` if the model of the teeth includes the contact.
+    pub contact: Option<&'static ContactModel>,
+}
+
+impl StiffnessModels {
+    /// Every model of the teeth with every model of the contact that it needs.
+    pub fn all() -> impl Iterator<Item = StiffnessModels> {
+        tooth::MODELS.into_iter().flat_map(|tooth| {
+            let own = tooth.has_contact.then_some(None);
+            let others = contact::MODELS.map(Some);
+            let others = others.into_iter().filter(|_| !tooth.has_contact);
+            own.into_iter()
+                .chain(others)
+                .map(move |contact| StiffnessModels { tooth, contact })
+        })
+    }
+
+    /// Those whose model of the teeth covers the pair.
+    pub fn covering(inputs: &Inputs) -> impl Iterator<Item = StiffnessModels> {
+        let covers = tooth::MODELS.map(|model| (model.covers)(inputs));
+        let covering = move |models: &StiffnessModels| {
+            let all = tooth::MODELS.iter().zip(covers);
+            all.into_iter()
+                .any(|(model, covers)| covers && model.name == models.tooth.name)
+        };
+        StiffnessModels::all().filter(covering)
+    }
+
+    /// The inputs with these models.
+    #[must_use]
+    pub fn in_place_of(&self, inputs: &Inputs) -> Inputs {
+        let contact = self.contact.map_or(inputs.contact_compliance, |contact| {
+            ContactCompliance::named(contact.name)
+        });
+        Inputs {
+            tooth_compliance: Some(ToothCompliance::named(self.tooth.name)),
+            contact_compliance: contact,
+            ..inputs.clone()
+        }
+    }
+
+    /// The symbol of the impact force by these models.
+    #[must_use]
+    pub fn symbol(&self) -> String {
+        let contact = self.contact.map_or(String::new(), |contact| format!(",{}", contact.index));
+        format!("F_{}{contact}", self.tooth.index)
+    }
+
+    /// The names of the models.
+    #[must_use]
+    pub fn names(&self) -> String {
+        let contact = self
+            .contact
+            .map_or(String::new(), |contact| format!(" and {}", contact.name));
+        format!("{}{contact}", self.tooth.name)
+    }
+}
+
 /// The band of the impact force over every tooth and contact compliance that covers the pair, and
 /// the case's own, with the deflection of each where the case does not give one: `force` by the
 /// case's own, the others by `solved`, which has none where a model gives no answer.
 #[must_use]
 pub fn band(inputs: &Inputs, force: f64, solved: impl Fn(&Inputs) -> Option<f64>) -> Band {
-    covering(inputs)
-        .map(|(tooth, contact)| with(inputs, tooth, contact))
-        .filter_map(|chosen| solved(&chosen))
+    StiffnessModels::covering(inputs)
+        .filter_map(|models| solved(&models.in_place_of(inputs)))
         .fold(
             Band {
                 low: force,
@@ -31,30 +93,4 @@ pub fn band(inputs: &Inputs, force: f64, solved: impl Fn(&Inputs) -> Option<f64>
                 high: band.high.max(force),
             },
         )
-}
-
-/// Every tooth model that covers the pair, with every contact model.
-pub fn covering(
-    inputs: &Inputs,
-) -> impl Iterator<Item = (&'static ToothModel, &'static ContactModel)> + use<'_> {
-    let teeth = tooth::MODELS
-        .into_iter()
-        .filter(|model| (model.covers)(inputs));
-    teeth.flat_map(|tooth| contact::MODELS.map(|contact| (tooth, contact)))
-}
-
-/// The inputs with these models.
-#[must_use]
-pub fn with(inputs: &Inputs, tooth: &ToothModel, contact: &ContactModel) -> Inputs {
-    Inputs {
-        tooth_compliance: Some(ToothCompliance::named(tooth.name)),
-        contact_compliance: ContactCompliance::named(contact.name),
-        ..inputs.clone()
-    }
-}
-
-/// The symbol of the impact force by these models.
-#[must_use]
-pub fn symbol(tooth: &ToothModel, contact: &ContactModel) -> String {
-    format!("F_{},{}", tooth.index, contact.index)
 }

@@ -1,6 +1,6 @@
 //! Tooth compliance over the flank of each gear, by every model and by finite elements.
 
-use crate::model::compliance::profile::Profile;
+use crate::model::profile::Profile;
 use crate::model::compliance::tooth::{Tooth, ToothModel};
 use crate::model::compliance::{ContactPlace, ElasticGear, contact};
 use crate::model::field::{Field, FieldInput, FieldRefusal};

@@ -1,7 +1,7 @@
 //! The elastic field and the inertia of single gears.
 
 use serde_json::Value;
-use tipstrike::model::compliance::profile::{Profile, Rack};
+use tipstrike::model::profile::{Profile, Rack};
 use tipstrike::model::field::{Field, FieldInput};
 use tipstrike::model::geometry::Circles;
 use tipstrike::model::inertia::polar_moment;

@@ -3,11 +3,11 @@
 use std::sync::LazyLock;
 
 use crate::model::compliance::contact::{self, ContactModel};
-use crate::model::compliance::model_of;
+use crate::model::compliance::{contact_of, model_of};
 use crate::model::compliance::tooth::{self, ToothModel};
 use crate::model::inputs::Inputs;
 use crate::model::quantities::conditions::{
-    always, auto, edges_read, free_impact, half_width_read, may_move, may_share_load,
+    always, auto, contact_read, edges_read, free_impact, half_width_read, may_move, may_share_load,
 };
 use crate::model::{QUANTITIES, Quantity};
 
@@ -35,7 +35,9 @@ impl When {
         match self {
             When::Is(condition) => condition(inputs),
             When::Tooth(model) => model_of(inputs).name() == model.name,
-            When::Contact(model) => inputs.contact_compliance.name() == model.name,
+            When::Contact(model) => {
+                contact_of(inputs).is_some_and(|contact| contact.name() == model.name)
+            }
         }
     }
 }
@@ -127,7 +129,8 @@ static TABLE: &[Row] = &[
     part("tooth_stiffness", always, &["tooth_method", "pair.module", "*.teeth", "*.profile_shift", "base_circle_driver", "base_circle_driven"]),
     part("profile", always, &["pair.pressure_angle", "root_circles", "base_circle_driver", "base_circle_driven"]),
     part("materials", always, &["*.young", "*.poisson"]),
-    part("contact_stiffness", always, &["model.contact_compliance", "materials"]),
+    part("contact_stiffness", always, &["tooth_method", "materials"]),
+    part("contact_stiffness", contact_read, &["model.contact_compliance"]),
     part("contact_stiffness", half_width_read, &["*.face_width"]),
 
     part("end_of_flank", always, &["approach_angle_driven", "end_of_contact"]),

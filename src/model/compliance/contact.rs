@@ -6,6 +6,7 @@ mod logarithmic;
 mod weber;
 
 use std::f64::consts::PI;
+use std::ops::Add;
 
 use super::list::listed;
 use super::{ContactPlace, ElasticGear, Elasticity};
@@ -40,12 +41,34 @@ pub struct ContactModel {
 /// See [`ContactModel::offset_and_slope`].
 type OffsetAndSlope = fn(&Elasticity, &Geometry, &ContactPlace) -> Result<(f64, f64), Refusal>;
 
-/// The compliance of a contact as its half-width a grows: q_H = offset − slope ln a.
+/// The compliance of a contact as its half-width grows with the force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactSpring {
-    offset: f64,
-    slope: f64,
+    law: ContactLaw,
+    /// What q_H must exceed.
+    least: f64,
     width_per_root_force: f64,
+}
+
+/// A contact compliance over the half-width a of the contact, q_H = offset − slope ln(a/1 m), per
+/// unit width, in m²/N.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactLaw {
+    /// q_H at a half-width of 1 m.
+    pub offset: f64,
+    /// What q_H loses for each unit of ln a.
+    pub slope: f64,
+}
+
+impl Add for ContactLaw {
+    type Output = ContactLaw;
+
+    fn add(self, other: ContactLaw) -> ContactLaw {
+        ContactLaw {
+            offset: self.offset + other.offset,
+            slope: self.slope + other.slope,
+        }
+    }
 }
 
 impl ContactSpring {
@@ -66,15 +89,17 @@ impl ContactSpring {
     /// Contact compliance q_H at a force, in m²/N.
     ///
     /// # Errors
-    /// [`Refusal::HertzWidthTooLarge`] where the formula gives none above 0.
+    /// [`Refusal::HertzWidthTooLarge`] where the formula gives none above 0; where the model of the
+    /// teeth includes the contact, where the pair's compliance is not above 0.
     pub fn compliance(&self, force: f64) -> Result<f64, Refusal> {
         let half_width = self.half_width(force);
-        let compliance = if self.slope > 0.0 {
-            self.offset - self.slope * half_width.ln()
+        let ContactLaw { offset, slope } = self.law;
+        let compliance = if slope > 0.0 {
+            offset - slope * half_width.ln()
         } else {
-            self.offset
+            offset
         };
-        if compliance > 0.0 {
+        if compliance > self.least {
             Ok(compliance)
         } else {
             Err(self.too_wide(half_width))
@@ -95,15 +120,16 @@ impl ContactSpring {
         const STEPS: usize = 50;
         const SETTLED: f64 = 1e-8;
         let stiffest = momentum / teeth.sqrt();
-        let at_stiffest = teeth + self.offset - self.slope * self.half_width(stiffest).ln();
-        let compliance_at = |logarithm: f64| at_stiffest - 0.5 * self.slope * logarithm;
+        let ContactLaw { offset, slope } = self.law;
+        let at_stiffest = teeth + offset - slope * self.half_width(stiffest).ln();
+        let compliance_at = |logarithm: f64| at_stiffest - 0.5 * slope * logarithm;
         let (mut logarithm, mut compliance) = (0.0, at_stiffest);
         for _ in 0..STEPS {
-            if compliance <= 0.5 * self.slope {
+            if compliance <= 0.5 * slope {
                 break;
             }
             let residual = logarithm + 0.5 * (compliance / teeth).ln();
-            let step = residual / (1.0 - 0.25 * self.slope / compliance);
+            let step = residual / (1.0 - 0.25 * slope / compliance);
             logarithm -= step;
             compliance = compliance_at(logarithm);
             if step.abs() <= SETTLED {
@@ -118,7 +144,7 @@ impl ContactSpring {
     fn too_wide(&self, half_width: f64) -> Refusal {
         Refusal::HertzWidthTooLarge {
             half_width,
-            limit: (self.offset / self.slope).exp(),
+            limit: ((self.law.offset - self.least) / self.law.slope).exp(),
         }
     }
 }
@@ -135,10 +161,26 @@ pub fn spring(
     let model = elasticity.contact.model();
     let (offset, slope) = (model.offset_and_slope)(elasticity, geometry, place)?;
     Ok(ContactSpring {
-        offset,
-        slope,
+        law: ContactLaw { offset, slope },
+        least: 0.0,
         width_per_root_force: width_per_root_force(elasticity, place),
     })
+}
+
+/// The contact of teeth whose model includes it: `teeth` is their compliance without contact, in
+/// m²/N.
+#[must_use]
+pub fn own_spring(
+    elasticity: &Elasticity,
+    place: &ContactPlace,
+    teeth: f64,
+    law: ContactLaw,
+) -> ContactSpring {
+    ContactSpring {
+        law,
+        least: -teeth,
+        width_per_root_force: width_per_root_force(elasticity, place),
+    }
 }
 
 /// Hertz half-width at a force, in m, by the formula of [`ContactSpring::half_width`]; no model of
@@ -193,8 +235,8 @@ mod tests {
     fn force_settles_whatever_its_size() {
         let (offset, slope) = (1e-11, 3e-12);
         let spring = ContactSpring {
-            offset,
-            slope,
+            law: ContactLaw { offset, slope },
+            least: 0.0,
             width_per_root_force: 1e-6,
         };
         for teeth in [1e-13, 7e-12, 3e-11, 1e-9] {

@@ -1,8 +1,9 @@
 //! Compliance of the teeth along the flanks that the path of contact uses, computed once and then
 //! cheap.
 
+use super::contact::ContactLaw;
 use super::tooth::Tooth;
-use super::{ContactPlace, ElasticGear, Elasticity, contact};
+use super::{ContactPlace, Elasticity, contact};
 use crate::model::Refusal;
 use crate::model::geometry::{Circles, Geometry};
 use crate::numeric::chebyshev::Series;
@@ -11,11 +12,48 @@ use crate::numeric::chebyshev::Series;
 /// use it allow.
 const REST: f64 = 3e-14;
 
-/// Tooth compliances q₁ and q₂ over the distance of the load point from N₁ and N₂.
+/// Tooth compliances q₁ and q₂ and the contact's parts of both gears over the distance of the load
+/// point from N₁ and N₂.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Flanks {
-    driver: Series<1>,
-    driven: Series<1>,
+    driver: Flank,
+    driven: Flank,
+    /// What q_H loses for each unit of ln a, if the model of the teeth includes the contact.
+    slope: Option<f64>,
+}
+
+const TOOTH: usize = 0;
+const OFFSET: usize = 1;
+
+/// One flank: its tooth compliance, and the offset of its contact.
+#[derive(Debug, Clone, PartialEq)]
+struct Flank {
+    series: Series<2>,
+    /// Distance from which the compliance is the same up to the tip, in m.
+    last: f64,
+}
+
+impl Flank {
+    fn of(
+        tooth: &Tooth,
+        circles: &Circles,
+        (from, to): (f64, f64),
+    ) -> Result<Flank, Refusal> {
+        let (base, radius) = (circles.base, tooth.last_radius());
+        let last = ((radius - base) * (radius + base)).sqrt().min(to);
+        let at = |curvature: f64| {
+            let radius = base.hypot(curvature);
+            let contact = tooth.contact(radius)?.map_or(0.0, |contact| contact.offset);
+            Ok([tooth.at(radius)?, contact])
+        };
+        let rest = REST * at(to)?[TOOTH];
+        let series = Series::of(from.min(last), last, &|_, _| [rest; 2], &at)?;
+        Ok(Flank { series, last })
+    }
+
+    fn at(&self, curvature: f64) -> [f64; 2] {
+        self.series.at(curvature.min(self.last))
+    }
 }
 
 impl Flanks {
@@ -24,29 +62,39 @@ impl Flanks {
     /// # Errors
     /// Those of the teeth, see [`Teeth`](super::Teeth).
     pub fn new(elasticity: &Elasticity, geometry: &Geometry) -> Result<Flanks, Refusal> {
-        let of = |gear: &ElasticGear, circles: &Circles, from: f64, to: f64| {
-            let tooth = Tooth::of(elasticity.tooth, gear, circles)?;
-            let at = |curvature: f64| tooth.at(circles.base.hypot(curvature)).map(|found| [found]);
-            let rest = REST * at(to)?[0];
-            Series::of(from, to, &|_, _| [rest], &at)
-        };
+        let tooth = |gear, circles| Tooth::of(elasticity.tooth, gear, circles);
         let (start, end) = (geometry.start, geometry.end);
+        let (driver, driven) = (
+            tooth(&elasticity.driver, &geometry.driver)?,
+            tooth(&elasticity.driven, &geometry.driven)?,
+        );
+        let contacts = [
+            driver.contact(geometry.driver.tip)?,
+            driven.contact(geometry.driven.tip)?,
+        ];
         let lowest = geometry.tangent_length - end;
+        let highest = geometry.driven.tip_curvature;
         Ok(Flanks {
-            driver: of(&elasticity.driver, &geometry.driver, start, end)?,
-            driven: of(
-                &elasticity.driven,
-                &geometry.driven,
-                lowest,
-                geometry.driven.tip_curvature,
-            )?,
+            driver: Flank::of(&driver, &geometry.driver, (start, end))?,
+            driven: Flank::of(&driven, &geometry.driven, (lowest, highest))?,
+            slope: match contacts {
+                [Some(driver), Some(driven)] => Some(driver.slope + driven.slope),
+                _ => None,
+            },
         })
     }
 
     /// How often the compliance of a tooth was computed.
     #[must_use]
     pub fn evaluations(&self) -> usize {
-        self.driver.evaluations() + self.driven.evaluations()
+        self.driver.series.evaluations() + self.driven.series.evaluations()
+    }
+
+    /// Distances from N₁ and N₂ at which the compliances bend: from there to the tip they are the
+    /// same.
+    #[must_use]
+    pub fn bends(&self) -> [f64; 2] {
+        [self.driver.last, self.driven.last]
     }
 
     /// The same flanks with the gears swapped.
@@ -55,6 +103,7 @@ impl Flanks {
         Flanks {
             driver: self.driven.clone(),
             driven: self.driver.clone(),
+            slope: self.slope,
         }
     }
 
@@ -71,8 +120,16 @@ impl Flanks {
         (driver, driven): (f64, f64),
         force: f64,
     ) -> Result<f64, Refusal> {
-        let contact = contact::spring(elasticity, geometry, place)?.compliance(force)?;
-        Ok(self.driver.one(0, driver) + self.driven.one(0, driven) + contact)
+        let (driver, driven) = (self.driver.at(driver), self.driven.at(driven));
+        let teeth = driver[TOOTH] + driven[TOOTH];
+        let spring = match self.slope {
+            Some(slope) => {
+                let offset = driver[OFFSET] + driven[OFFSET];
+                contact::own_spring(elasticity, place, teeth, ContactLaw { offset, slope })
+            }
+            None => contact::spring(elasticity, geometry, place)?,
+        };
+        Ok(teeth + spring.compliance(force)?)
     }
 }
 

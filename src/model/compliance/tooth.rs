@@ -2,17 +2,19 @@
 //! [`MODELS`].
 
 pub mod beam;
+pub mod finite_element;
 pub mod kuang_yang;
 
 use super::ElasticGear;
+use super::contact::ContactLaw;
 use super::list::listed;
 use crate::model::Refusal;
 use crate::model::explanation::{Context, Finding, Step};
 use crate::model::geometry::{Circles, Geometry};
-use crate::model::inputs::{Inputs, ToothCompliance};
+use crate::model::inputs::{ContactCompliance, Inputs, ToothCompliance};
 
 /// Every model; where a case names none, the first that covers the pair is used.
-pub const MODELS: [&ToothModel; 2] = [&kuang_yang::MODEL, &beam::MODEL];
+pub const MODELS: [&ToothModel; 3] = [&kuang_yang::MODEL, &beam::MODEL, &finite_element::MODEL];
 
 /// A model of the compliance of one tooth.
 #[derive(Debug)]
@@ -38,14 +40,16 @@ pub struct ToothModel {
     /// The keys of fields, `*` for both gears, and the values of the dependency table that the
     /// compliance reads beyond the load point, the module, tooth numbers and profile shifts.
     pub reads: &'static [&'static str],
-    /// q_1, q_2 and the steps before them.
+    /// Whether the model includes the contact, so that the case's contact compliance is not used.
+    pub has_contact: bool,
+    /// q_1, q_2 and the steps before them; q_H as well if the model includes the contact.
     pub steps: &'static [Step],
     /// The compliance itself.
     pub compliance: Compliance,
 }
 
 type ByRadius = fn(&ElasticGear, &Circles, f64) -> Result<f64, Refusal>;
-type Build = fn(&ElasticGear, &Circles) -> Result<Box<dyn AtRadius>, Refusal>;
+type Build = fn(&ElasticGear, &Circles) -> Result<Box<dyn LoadedTooth>, Refusal>;
 
 /// Computes the compliance of one tooth, contact excluded, per unit width, in m²/N.
 #[derive(Debug, Clone, Copy)]
@@ -56,13 +60,34 @@ pub enum Compliance {
     PerGear(Build),
 }
 
-/// What a [`Compliance::PerGear`] builds.
-pub trait AtRadius: Send + Sync {
-    /// Compliance of the tooth loaded at a radius, in m²/N.
+/// The teeth of one gear under a load, built by a [`Compliance::PerGear`].
+pub trait LoadedTooth: Send + Sync {
+    /// Compliance of the tooth loaded at a radius, contact excluded, in m²/N.
     ///
     /// # Errors
     /// A [`Refusal`] outside the range of the model.
     fn at(&self, radius: f64) -> Result<f64, Refusal>;
+
+    /// The contact's part of the tooth loaded at a radius; `None` for a model without contact.
+    ///
+    /// # Errors
+    /// A [`Refusal`] outside the range of the model.
+    fn contact(&self, _radius: f64) -> Result<Option<ContactLaw>, Refusal> {
+        Ok(None)
+    }
+
+    /// See [`Tooth::neighbour`]; 0 for a model of single teeth.
+    ///
+    /// # Errors
+    /// A [`Refusal`] outside the range of the model.
+    fn neighbour(&self, _loaded: f64, _measured: f64, _pitches: i32) -> Result<f64, Refusal> {
+        Ok(0.0)
+    }
+
+    /// Radius in m from which the compliance is the same up to the tip; infinite if there is none.
+    fn last_radius(&self) -> f64 {
+        f64::INFINITY
+    }
 }
 
 /// One tooth of a gear, ready for any load point.
@@ -74,7 +99,7 @@ pub struct Tooth<'a> {
 
 enum Serves {
     AtRadius(ByRadius),
-    Built(Box<dyn AtRadius>),
+    Built(Box<dyn LoadedTooth>),
 }
 
 impl<'a> Tooth<'a> {
@@ -116,6 +141,42 @@ impl<'a> Tooth<'a> {
             Serves::Built(built) => built.at(radius),
         }
     }
+
+    /// The contact's part of the tooth loaded at a radius; `None` for a model without contact.
+    ///
+    /// # Errors
+    /// A [`Refusal`] outside the range of the model.
+    pub fn contact(&self, radius: f64) -> Result<Option<ContactLaw>, Refusal> {
+        match &self.serves {
+            Serves::AtRadius(_) => Ok(None),
+            Serves::Built(built) => built.contact(radius),
+        }
+    }
+
+    /// Displacement of another tooth's flank at radius `measured`, along its own line of force, for
+    /// a load of 1 N/m on this tooth at radius `loaded`, in m²/N. The other tooth is `pitches` ahead,
+    /// to the side that the force pushes to; teeth behind count below 0.
+    ///
+    /// The twist of the body about its bore is left out; without a bore, so is its shift. 0 for a
+    /// model of single teeth, for the loaded tooth itself, and for teeth more than two pitches away.
+    ///
+    /// # Errors
+    /// A [`Refusal`] outside the range of the model.
+    pub fn neighbour(&self, loaded: f64, measured: f64, pitches: i32) -> Result<f64, Refusal> {
+        match &self.serves {
+            Serves::AtRadius(_) => Ok(0.0),
+            Serves::Built(built) => built.neighbour(loaded, measured, pitches),
+        }
+    }
+
+    /// Radius in m from which the compliance is the same up to the tip; infinite if there is none.
+    #[must_use]
+    pub fn last_radius(&self) -> f64 {
+        match &self.serves {
+            Serves::AtRadius(_) => f64::INFINITY,
+            Serves::Built(built) => built.last_radius(),
+        }
+    }
 }
 
 /// The tooth compliance of a pair: the choice of the case, else the first model of the list that
@@ -127,6 +188,13 @@ pub fn model_of(inputs: &Inputs) -> ToothCompliance {
         ToothCompliance::named(covering.next().unwrap_or(MODELS[0]).name)
     };
     inputs.tooth_compliance.unwrap_or_else(by_range)
+}
+
+/// The contact compliance of a pair; `None` if the tooth compliance includes the contact.
+#[must_use]
+pub fn contact_of(inputs: &Inputs) -> Option<ContactCompliance> {
+    let has_contact = model_of(inputs).model().has_contact;
+    (!has_contact).then_some(inputs.contact_compliance)
 }
 
 listed!(ToothCompliance, ToothModel);
@@ -143,7 +211,7 @@ mod tests {
 
     struct Field(f64);
 
-    impl AtRadius for Field {
+    impl LoadedTooth for Field {
         fn at(&self, radius: f64) -> Result<f64, Refusal> {
             Ok(self.0 * radius)
         }

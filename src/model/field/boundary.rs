@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use nalgebra::Vector2;
 
 use super::{FieldInput, FieldRefusal};
-use crate::model::compliance::profile::Profile;
+use crate::model::profile::Profile;
 
 /// Points of the table of the fillet.
 const FILLET_STEPS: usize = 128;

@@ -63,6 +63,16 @@ pub(super) fn stiffness(places: &[Vector2<f64>; 9], material: Material) -> Optio
     Some(products.stiffness(material))
 }
 
+/// Whether the map folds at a point of the rule.
+pub(super) fn folds(places: &[Vector2<f64>; 9]) -> bool {
+    let points = GAUSS.map(|(place, _)| place);
+    points.iter().any(|&across| {
+        points
+            .iter()
+            .any(|&along| gradients(places, across, along).is_none())
+    })
+}
+
 /// Gradients of the shape functions at a point of the element, and the map's determinant.
 fn gradients(places: &[Vector2<f64>; 9], across: f64, along: f64) -> Option<([[f64; 9]; 2], f64)> {
     let (a, da) = (line_shapes(across), line_slopes(across));

@@ -10,8 +10,8 @@ use super::harmonics::{self, Displacements};
 use super::load::Load;
 use super::mesh::{self, Mesh};
 use super::mode::{self, Mode};
-use super::refusal::POISSON;
 use super::{FieldInput, FieldRefusal};
+use crate::model::limits::field::POISSON;
 
 /// Least thickness of the rim, in modules.
 const LEAST_RIM: f64 = 1e-3;
@@ -34,6 +34,41 @@ pub(super) fn boundary(input: &FieldInput) -> Result<Boundary, FieldRefusal> {
     Ok(boundary)
 }
 
+/// Refuses a gear on whose outline the elements fold.
+pub(super) fn check(input: &FieldInput, grading: &Grading) -> Result<(), FieldRefusal> {
+    let boundary = boundary(input)?;
+    let bore = input.bore_radius / input.module;
+    let bores = if is_extrapolated(bore, &boundary) {
+        RATIOS.map(|ratio| boundary.root / ratio).to_vec()
+    } else {
+        vec![bore]
+    };
+    for bore in bores {
+        let mesh = Mesh::of(&boundary, bore, grading);
+        let elements = mesh.elements.iter();
+        let folds = |nodes: &mesh::Nodes| element::folds(&nodes.map(|node| mesh.places[node]));
+        if let Some((element, _)) = elements.enumerate().find(|(_, nodes)| folds(nodes)) {
+            return Err(folded(element, &mesh));
+        }
+    }
+    Ok(())
+}
+
+fn folded(element: usize, mesh: &Mesh) -> FieldRefusal {
+    FieldRefusal::FoldedMesh {
+        element,
+        count: mesh.elements.len(),
+    }
+}
+
+/// r_f/r_h of the bores from which a smaller one is extrapolated.
+const RATIOS: [f64; 2] = [5.0, 7.0];
+
+/// Whether the field of a bore in modules is extrapolated from larger bores.
+fn is_extrapolated(bore: f64, boundary: &Boundary) -> bool {
+    bore * RATIOS[1] < boundary.root
+}
+
 /// The displacements with the body's twist taken out, without a bore its shift as well.
 ///
 /// A small bore is as good as none but for twist and shift, up to the square of its radius: it is
@@ -43,10 +78,8 @@ pub(super) fn without_twist(
     boundary: &Boundary,
     grading: &Grading,
 ) -> Result<(Vec<Load>, Displacements), FieldRefusal> {
-    /// r_f/r_h of the bores from which a smaller one is extrapolated.
-    const RATIOS: [f64; 2] = [5.0, 7.0];
     let bore = input.bore_radius / input.module;
-    if bore * RATIOS[1] >= boundary.root {
+    if !is_extrapolated(bore, boundary) {
         return solved(input, boundary, bore, grading);
     }
     let (loads, mut far) = solved(input, boundary, boundary.root / RATIOS[0], grading)?;
@@ -137,10 +170,7 @@ fn stiffnesses(
     let stiffness = |(index, nodes): (usize, &mesh::Nodes)| {
         let places = nodes.map(|node| mesh.places[node]);
         let mut stiffness =
-            element::stiffness(&places, material).ok_or(FieldRefusal::FoldedMesh {
-                element: index,
-                count: mesh.elements.len(),
-            })?;
+            element::stiffness(&places, material).ok_or_else(|| folded(index, mesh))?;
         let is_on_cut = nodes.map(|node| cut.contains(&node));
         mode::turn(&mut stiffness, is_on_cut, boundary.half_pitch);
         Ok(stiffness)

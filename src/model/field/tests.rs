@@ -1,7 +1,7 @@
 //! The field against closed forms, itself on finer meshes, and gears of every kind.
 
 use super::*;
-use crate::model::compliance::profile::Rack;
+use crate::model::profile::Rack;
 use crate::model::sample::circles;
 use nalgebra::Vector2;
 use serde_json::Value;

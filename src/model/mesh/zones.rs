@@ -102,7 +102,10 @@ pub(super) fn line_zones(
         .ends_on_driver()
         .map(|curvature| curvature - geometry.start);
     let driven_ends = relief.ends_on_driven().map(|curvature| rest - curvature);
-    let mut borders: Vec<f64> = driver_ends.chain(driven_ends).chain(pitch_point).collect();
+    let [driver_bend, driven_bend] = flanks.bends();
+    let bends = [driver_bend - geometry.start, rest - driven_bend];
+    let ends = driver_ends.chain(driven_ends);
+    let mut borders: Vec<f64> = ends.chain(bends).chain(pitch_point).collect();
     borders.retain(|&border| border > 0.0 && border < length);
     borders.extend([0.0, length]);
     let stiffness = at(0.5 * length)?[STIFFNESS];
@@ -162,7 +165,8 @@ impl End {
         let at = |s: f64| self.at(relief, force, angle_of(s));
         let turns = self
             .angles_of_relief_ends(relief)
-            .chain(self.angle_of_rolling(reach));
+            .chain(self.angle_of_rolling(reach))
+            .chain([angle_at_curvature(&self.geometry, self.flanks.bends()[0])]);
         let mut borders: Vec<f64> = turns
             .filter(|&angle| angle > 0.0 && angle < reach)
             .collect();

@@ -1,7 +1,7 @@
 //! Notes on the geometry of the pair.
 
 use super::{Note, four};
-use crate::model::compliance::profile::{Profile, Rack};
+use crate::model::profile::{Profile, Rack};
 use crate::model::geometry::Circles;
 use crate::model::inputs::Gear;
 use crate::model::{Inputs, Solution};

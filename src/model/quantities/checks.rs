@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::model::compliance::model_of;
-use crate::model::compliance::profile::{Profile, Rack};
+use crate::model::profile::{Profile, Rack};
 use crate::model::explanation::{Context, Finding, four, micro, mm};
 
 /// No interference at the start of contact.

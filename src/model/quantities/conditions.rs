@@ -1,5 +1,6 @@
 //! Conditions on the inputs, by which rows choose formulas, words and what a value reads.
 
+use crate::model::compliance::contact_of;
 use crate::model::inputs::{Drive, Inputs, Method};
 
 /// In every case.
@@ -104,10 +105,16 @@ pub fn edge_given(inputs: &Inputs) -> bool {
     inputs.driven.tip_radius.is_some()
 }
 
+/// A contact compliance of its own: that of the teeth does not include the contact.
+#[must_use]
+pub fn contact_read(inputs: &Inputs) -> bool {
+    contact_of(inputs).is_some()
+}
+
 /// The contact compliance depends on load and curvature.
 #[must_use]
 pub fn half_width_read(inputs: &Inputs) -> bool {
-    inputs.contact_compliance.model().reads_half_width
+    contact_of(inputs).is_none_or(|contact| contact.model().reads_half_width)
 }
 
 /// The edge of a tip changes the compliance off the line of action.

@@ -7,7 +7,7 @@ use super::conditions::{
 use super::{Quantity, Variant, checks};
 use crate::model::Context;
 use crate::model::Stage::{Clearing, Deviation};
-use crate::model::compliance::{ContactPlace, Teeth, contact};
+use crate::model::compliance::{ContactPlace, Teeth};
 use crate::model::explanation::Formula::{Cases, Difference, Found, Given, Made, Text, Words};
 use crate::model::explanation::{Step, step};
 
@@ -313,8 +313,9 @@ fn teeth_ahead(k: &Context) -> Option<[f64; 2]> {
 }
 
 fn contact_ahead(k: &Context) -> Option<f64> {
-    let spring =
-        contact::spring(&k.inputs.elasticity(), &k.solution.geometry, &place(k, 1)?).ok()?;
+    let elasticity = k.inputs.elasticity();
+    let teeth = Teeth::of(&elasticity, &k.solution.geometry).ok()?;
+    let spring = teeth.spring(&place(k, 1)?).ok()?;
     spring.compliance(k.solution.mesh_force).ok()
 }
 

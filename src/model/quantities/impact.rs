@@ -3,12 +3,11 @@
 use super::conditions::{always, half_width_read, not_paper, paper, shared_load};
 use super::{Quantity, Variant, checks};
 use crate::model::Stage::{Band, Impact, Load};
-use crate::model::compliance::contact::{ContactModel, plane_strain_compliance};
-use crate::model::compliance::tooth::ToothModel;
+use crate::model::compliance::contact::plane_strain_compliance;
 use crate::model::explanation::Formula::{Cases, Made, Text};
 use crate::model::explanation::{Context, Step, step};
 use crate::model::impact::HERTZ_PREFACTOR;
-use crate::model::stiffness_spread::{covering, symbol, with};
+use crate::model::stiffness_spread::StiffnessModels;
 use crate::model::{self, Inputs, Stages};
 
 const SPRING: &str = "The effective mass strikes the pair at D as a mass strikes a spring, without \
@@ -373,17 +372,17 @@ pub(super) const TABLE: &[Quantity] = &[
 
 /// The least or the greatest of the force of the case and the forces of all models in range.
 fn over_models(k: &Context, choice: &str) -> String {
-    let forces = covering(k.inputs)
-        .filter(|(tooth, contact)| spread_force(k.inputs, tooth, contact).is_some())
-        .map(|(tooth, contact)| symbol(tooth, contact));
+    let forces = StiffnessModels::covering(k.inputs)
+        .filter(|models| spread_force(k.inputs, models).is_some())
+        .map(|models| models.symbol());
     let all: Vec<String> = std::iter::once("F_S".to_owned()).chain(forces).collect();
     format!("{choice}({})", all.join(", "))
 }
 
-/// The impact force by a tooth model and a contact model, in N.
+/// The impact force by other stiffness models, in N.
 #[must_use]
-pub fn spread_force(inputs: &Inputs, tooth: &ToothModel, contact: &ContactModel) -> Option<f64> {
-    let solution = model::solve(&with(inputs, tooth, contact), Stages::of(Impact)).ok()?;
+pub fn spread_force(inputs: &Inputs, models: &StiffnessModels) -> Option<f64> {
+    let solution = model::solve(&models.in_place_of(inputs), Stages::of(Impact)).ok()?;
     Some(solution.impact?.force)
 }
 

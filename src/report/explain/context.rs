@@ -6,12 +6,10 @@ use std::sync::LazyLock;
 use super::substitution::{Term, with_unit};
 use crate::case::fields::Kind;
 use crate::case::{Case, FIELDS, units};
-use crate::model::compliance::contact::{self, ContactModel};
-use crate::model::compliance::model_of;
-use crate::model::compliance::tooth::{self, ToothModel};
+use crate::model::compliance::{contact_of, model_of};
 use crate::model::explanation::{Context, Formula, Step};
 use crate::model::quantities::{spread_force, steps};
-use crate::model::stiffness_spread::{covering, symbol};
+use crate::model::stiffness_spread::StiffnessModels;
 use crate::model::{QUANTITIES, Quantity};
 use crate::report::value;
 
@@ -51,23 +49,16 @@ pub(super) enum Source {
 pub(super) struct Force {
     pub(super) symbol: String,
     pub(super) meaning: String,
-    tooth: &'static ToothModel,
-    contact: &'static ContactModel,
+    models: StiffnessModels,
 }
 
 static FORCES: LazyLock<Vec<Force>> = LazyLock::new(|| {
-    let force = |tooth: &'static ToothModel, contact: &'static ContactModel| Force {
-        symbol: symbol(tooth, contact),
-        meaning: format!("by {} and {}", tooth.name, contact.name),
-        tooth,
-        contact,
+    let force = |models: StiffnessModels| Force {
+        symbol: models.symbol(),
+        meaning: format!("by {}", models.names()),
+        models,
     };
-    let pairs = tooth::MODELS
-        .into_iter()
-        .flat_map(|tooth| contact::MODELS.map(|contact| (tooth, contact)));
-    pairs
-        .map(|(tooth, contact)| force(tooth, contact))
-        .collect()
+    StiffnessModels::all().map(force).collect()
 });
 
 impl Known<'_> {
@@ -97,8 +88,8 @@ impl Known<'_> {
     /// A step that the case does not give in a field, as the torque may be.
     fn step(&self, symbol: &str) -> Option<&'static Step> {
         let inputs = self.context.inputs;
-        let models = model_of(inputs).model().steps.iter();
-        let models = models.chain(inputs.contact_compliance.model().steps);
+        let contact = contact_of(inputs).map_or(&[][..], |contact| contact.model().steps);
+        let models = model_of(inputs).model().steps.iter().chain(contact);
         let is_given = |step: &Step| matches!(step.formula.resolved(inputs), Formula::Given(_));
         steps()
             .chain(models)
@@ -112,10 +103,8 @@ impl Known<'_> {
             Source::Step(step) => (step.value)(&self.context),
             Source::Force(force) => {
                 let inputs = self.context.inputs;
-                let covers = covering(inputs).any(|(tooth, _)| tooth.name == force.tooth.name);
-                covers
-                    .then(|| spread_force(inputs, force.tooth, force.contact))
-                    .flatten()
+                let covers = (force.models.tooth.covers)(inputs);
+                covers.then(|| spread_force(inputs, &force.models)).flatten()
             }
             Source::Field(field) => self.case.value(field),
         };

@@ -2,7 +2,7 @@
 
 use super::context::Known;
 use crate::model::inputs::Method;
-use crate::model::stiffness_spread::{covering, with};
+use crate::model::stiffness_spread::StiffnessModels;
 use crate::model::{self, Inputs, Quantity, Stage, Stages};
 use crate::report::{shown, value, value_as_in};
 
@@ -82,8 +82,8 @@ pub(super) fn value_of(quantity: &Quantity, inputs: &Inputs) -> Option<f64> {
 /// The quantity by every stiffness model that covers the pair.
 fn over_models(quantity: &Quantity, own: f64, known: &Known) -> Option<String> {
     let inputs = known.context.inputs;
-    let found = covering(inputs)
-        .filter_map(|(tooth, contact)| value_of(quantity, &with(inputs, tooth, contact)));
+    let found = StiffnessModels::covering(inputs)
+        .filter_map(|models| value_of(quantity, &models.in_place_of(inputs)));
     let (least, most) = found.fold((own, own), |(least, most), value| {
         (least.min(value), most.max(value))
     });

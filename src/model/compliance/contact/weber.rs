@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::{ContactModel, at_impact, give, place_at_d};
 use crate::model::Refusal;
-use crate::model::compliance::profile::{Profile, Rack};
+use crate::model::profile::{Profile, Rack};
 use crate::model::compliance::{ContactPlace, ElasticGear, Elasticity};
 use crate::model::explanation::Formula::{Text, Words};
 use crate::model::explanation::Step;

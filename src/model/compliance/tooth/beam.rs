@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::{Compliance, ToothModel};
 use crate::model::Refusal;
 use crate::model::compliance::ElasticGear;
-use crate::model::compliance::profile::{Profile, Rack, Section};
+use crate::model::profile::{Profile, Rack, Section};
 use crate::model::explanation::Formula::Words;
 use crate::model::explanation::{Context, Finding, Step, four};
 use crate::model::geometry::{Circles, Geometry};
@@ -24,6 +24,7 @@ pub const MODEL: ToothModel = ToothModel {
     outside,
     chosen: "tooth-compliance-beam",
     reads: &["profile", "*.bore_radius", "*.young", "*.poisson"],
+    has_contact: false,
     steps: STEPS,
     compliance: Compliance::AtRadius(tooth),
 };

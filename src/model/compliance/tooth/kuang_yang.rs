@@ -28,6 +28,7 @@ pub const MODEL: ToothModel = ToothModel {
     outside,
     chosen: "tooth-compliance-kuang-yang",
     reads: &[],
+    has_contact: false,
     steps: STEPS,
     compliance: Compliance::AtRadius(tooth),
 };

@@ -119,7 +119,7 @@ impl Profile {
 
     /// The same without the search for the junction, to read the involute alone.
     #[must_use]
-    pub(super) fn of_flank(rack: &Rack, circles: &Circles) -> Profile {
+    pub(in crate::model) fn of_flank(rack: &Rack, circles: &Circles) -> Profile {
         Profile::without_junction(rack, circles, RACK_ROUNDING)
     }
 

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 const MILLIMETRE: f64 = 1e-3;
 /// Range of Poisson's ratio.
-pub(super) const POISSON: (f64, f64) = (0.0, 0.49);
+pub(in crate::model) const POISSON: (f64, f64) = (0.0, 0.49);
 
 /// Why a gear has no field.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]

@@ -1,0 +1,213 @@
+//! Tooth compliance from the elastic field of the gear, by finite elements.
+
+use std::sync::Arc;
+
+use super::{Compliance, LoadedTooth, ToothModel};
+use crate::model::Refusal;
+use crate::model::compliance::contact::ContactLaw;
+use crate::model::compliance::{ContactPlace, ElasticGear, Teeth};
+use crate::model::explanation::Formula::{Text, Words};
+use crate::model::explanation::{Context, Finding, Step};
+use crate::model::field::Field;
+use crate::model::field::cache::FieldGear;
+use crate::model::geometry::{Circles, Geometry};
+use crate::model::inputs::{Inputs, ToothCompliance};
+
+/// The row of the list.
+pub const MODEL: ToothModel = ToothModel {
+    name: "finite-element",
+    index: "fe",
+    help: "plane strain of the whole gear, contact and neighbouring teeth included",
+    range: "any gear whose teeth have a tip, a neck and an involute, with a rim below them",
+    covers,
+    range_reads: &[
+        "profile",
+        "tip_circle_driver",
+        "tip_circle_driven",
+        "*.bore_radius",
+        "*.poisson",
+    ],
+    check,
+    outside,
+    chosen: "tooth-compliance-finite-element",
+    reads: &[
+        "profile",
+        "tip_circle_driver",
+        "tip_circle_driven",
+        "*.bore_radius",
+        "*.young",
+        "*.poisson",
+        "*.face_width",
+    ],
+    has_contact: true,
+    steps: STEPS,
+    compliance: Compliance::PerGear(build),
+};
+
+impl ToothCompliance {
+    /// Finite elements of the whole gear in plane strain.
+    pub const FINITE_ELEMENT: ToothCompliance = ToothCompliance::named(MODEL.name);
+}
+
+#[rustfmt::skip]
+const STEPS: &[Step] = &[
+    Step {
+        symbol: "q_1",
+        meaning: "driver loaded at O1D, contact left out",
+        unit: "um mm/N",
+        formula: Words(FORMULA),
+        value: |k| Some(k.solution.compliance?.driver),
+    },
+    Step {
+        symbol: "q_2",
+        meaning: "driven gear loaded at its tip, contact left out",
+        unit: "um mm/N",
+        formula: Words(FORMULA),
+        value: |k| Some(k.solution.compliance?.driven),
+    },
+    Step {
+        symbol: "q_H",
+        meaning: "contact at the impact force: surface less centre line",
+        unit: "um mm/N",
+        formula: Text("q_H1 + q_H2 + 2 ln(m/a_H)/(π E')"),
+        value: |k| teeth(k, |teeth, place| {
+            teeth.spring(place).ok()?.compliance(k.solution.impact?.force).ok()
+        }),
+    },
+    Step {
+        symbol: "q_H1",
+        meaning: "contact of the driver at O1D for a half-width of one module",
+        unit: "um mm/N",
+        formula: Words(CONTACT),
+        value: |k| teeth(k, |teeth, place| at_one_module(k, teeth.contacts(place).ok()?[0]?)),
+    },
+    Step {
+        symbol: "q_H2",
+        meaning: "contact of the driven tip for a half-width of one module",
+        unit: "um mm/N",
+        formula: Words(CONTACT),
+        value: |k| teeth(k, |teeth, place| at_one_module(k, teeth.contacts(place).ok()?[1]?)),
+    },
+];
+
+const FORMULA: &str = "finite elements of the whole gear in plane strain, clamped at the bore: the \
+    displacement of the tooth's centre line along the force, less the twist of the body about the bore \
+    r_b² (1 + ν)/(2π E) (1/r_h² - 1/r_f²), and without a bore less its shift";
+
+const CONTACT: &str = "displacement of the flank under an elliptical pressure less that of the centre \
+    line, by the same finite elements; any other half-width adds 2 (1 - ν²)/(π E) ln(m/a)";
+
+/// A value of the pair at D.
+fn teeth(k: &Context, value: impl Fn(&Teeth, &ContactPlace) -> Option<f64>) -> Option<f64> {
+    let (elasticity, geometry) = (k.inputs.elasticity(), &k.solution.geometry);
+    let tip = k.solution.position?.contact;
+    let place = ContactPlace::at_tip(k.inputs.driven.tip_radius, geometry, &tip);
+    value(&Teeth::of(&elasticity, geometry).ok()?, &place)
+}
+
+fn at_one_module(k: &Context, law: ContactLaw) -> Option<f64> {
+    Some(law.offset - law.slope * k.inputs.module.ln())
+}
+
+/// Why the first of the gears without a field has none.
+fn refusal(inputs: &Inputs) -> Option<Refusal> {
+    let gears = [&inputs.driver, &inputs.driven].map(|gear| ElasticGear::of(inputs, gear));
+    gears.iter().find_map(|gear| field_gear(gear).check().err())
+}
+
+fn covers(inputs: &Inputs) -> bool {
+    refusal(inputs).is_none()
+}
+
+fn check(context: &Context) -> Option<Finding> {
+    let refusal = refusal(context.inputs);
+    let here = refusal.map_or("both gears have a field".to_owned(), |found| found.to_string());
+    Finding::new(
+        format!("finite elements: {}", MODEL.range),
+        here,
+        refusal.is_none(),
+    )
+}
+
+fn outside(inputs: &Inputs, _: &Geometry) -> Option<(&'static str, String)> {
+    refusal(inputs).map(|refusal| ("no-field", refusal.to_string()))
+}
+
+fn field_gear(gear: &ElasticGear) -> FieldGear {
+    FieldGear {
+        rack: gear.rack,
+        shape: gear.shape,
+        bore_radius: gear.bore_radius,
+        poisson: gear.poisson,
+    }
+}
+
+/// The teeth of one gear in its elastic field.
+///
+/// # Formula
+/// ```text
+/// q(r; a) = q(r) + q_H(r; m) + 2 (1 − ν²)/(π E) ln(m/a)
+/// ```
+/// where q is the displacement of the tooth's centre line along a force at radius r, and q_H the
+/// flank's beyond it under an elliptical pressure over ± a.
+///
+/// # Source
+/// [`Field`]: finite elements on half a pitch of the whole gear, in plane strain.
+///
+/// # Valid for
+/// A flank above the form circle. A load within its half-width of the tip's corner counts as the
+/// nearest one whose pressure ends at the corner.
+///
+/// # Errors
+/// [`Refusal::NoField`] if the gear has no field.
+fn build(gear: &ElasticGear, _: &Circles) -> Result<Box<dyn LoadedTooth>, Refusal> {
+    Ok(Box::new(FieldTooth {
+        field: field_gear(gear).field()?,
+        module: gear.rack.module,
+        young: gear.young,
+    }))
+}
+
+/// The teeth of one gear in its elastic field.
+struct FieldTooth {
+    field: Arc<Field>,
+    module: f64,
+    young: f64,
+}
+
+impl FieldTooth {
+    fn check(&self, radius: f64) -> Result<(), Refusal> {
+        let [form, _] = self.field.radii();
+        if radius < form {
+            return Err(Refusal::BelowFormCircle { radius, form });
+        }
+        Ok(())
+    }
+}
+
+impl LoadedTooth for FieldTooth {
+    fn at(&self, radius: f64) -> Result<f64, Refusal> {
+        self.check(radius)?;
+        Ok(self.field.depth(radius, 0.0) / self.young)
+    }
+
+    fn contact(&self, radius: f64) -> Result<Option<ContactLaw>, Refusal> {
+        self.check(radius)?;
+        let contact = self.field.surface(radius, self.module) - self.field.depth(radius, 0.0);
+        let slope = self.field.surface_slope();
+        Ok(Some(ContactLaw {
+            offset: (contact + slope * self.module.ln()) / self.young,
+            slope: slope / self.young,
+        }))
+    }
+
+    fn neighbour(&self, loaded: f64, measured: f64, pitches: i32) -> Result<f64, Refusal> {
+        self.check(loaded)?;
+        self.check(measured)?;
+        Ok(self.field.cross(loaded, measured, pitches) / self.young)
+    }
+
+    fn last_radius(&self) -> f64 {
+        self.field.radii()[1]
+    }
+}

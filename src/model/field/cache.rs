@@ -1,0 +1,104 @@
+//! Fields of recent gears, shared by all solves: a gear's field depends on the gear alone and takes
+//! thousands of times as long to build as to read.
+
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use super::{Field, FieldInput, FieldRefusal};
+use crate::model::Refusal;
+use crate::model::geometry::{GearShape, circles};
+use crate::model::profile::{Profile, Rack};
+
+/// Most gears that are kept; the one that was read longest ago gives way.
+const MOST: usize = 64;
+
+/// All that the field of a gear depends on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FieldGear {
+    /// The rack that cuts the profile.
+    pub rack: Rack,
+    /// Shape of the gear.
+    pub shape: GearShape,
+    /// Bore radius r_h, in m; 0 without a bore.
+    pub bore_radius: f64,
+    /// Poisson's ratio ν.
+    pub poisson: f64,
+}
+
+impl FieldGear {
+    /// The field of the gear, built if no recent solve has built it.
+    ///
+    /// # Errors
+    /// [`Refusal::NoField`] if the gear has none, and the refusals of its circles.
+    pub fn field(&self) -> Result<Arc<Field>, Refusal> {
+        let entry = self.entry();
+        // The list is free while a field is built: other gears need not wait.
+        let build = || {
+            let field = Field::build(&self.input()?).map_err(|reason| self.refusal(reason))?;
+            Ok(Arc::new(field))
+        };
+        entry.field.get_or_init(build).clone()
+    }
+
+    /// Whether the gear has a field, without building it.
+    ///
+    /// # Errors
+    /// Those of [`FieldGear::field`].
+    pub fn check(&self) -> Result<(), Refusal> {
+        let check = || Field::check(&self.input()?).map_err(|reason| self.refusal(reason));
+        *self.entry().check.get_or_init(check)
+    }
+
+    /// Whether the field of the gear is built.
+    #[must_use]
+    pub fn is_built(&self) -> bool {
+        self.entry().field.get().is_some()
+    }
+
+    fn input(&self) -> Result<FieldInput, Refusal> {
+        let (module, alpha) = (self.rack.module, self.rack.pressure_angle);
+        let circles = circles(module, alpha, &self.shape)?;
+        Ok(FieldInput {
+            profile: Profile::of(&self.rack, &circles),
+            teeth: self.rack.teeth,
+            module,
+            bore_radius: self.bore_radius,
+            poisson: self.poisson,
+        })
+    }
+
+    fn refusal(&self, reason: FieldRefusal) -> Refusal {
+        Refusal::NoField {
+            teeth: self.rack.teeth,
+            reason,
+        }
+    }
+
+    fn entry(&self) -> Arc<Entry> {
+        let mut entries = RECENT.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(at) = entries.iter().rposition(|entry| entry.gear == *self) {
+            let last = entries.len() - 1;
+            entries[at..=last].rotate_left(1);
+            return Arc::clone(&entries[last]);
+        }
+        if entries.len() == MOST {
+            entries.remove(0);
+        }
+        let entry = Arc::new(Entry {
+            gear: *self,
+            check: OnceLock::new(),
+            field: OnceLock::new(),
+        });
+        entries.push(Arc::clone(&entry));
+        entry
+    }
+}
+
+/// A gear and its field, once they are asked for.
+struct Entry {
+    gear: FieldGear,
+    check: OnceLock<Result<(), Refusal>>,
+    field: OnceLock<Result<Arc<Field>, Refusal>>,
+}
+
+/// Recent gears, the one that was read last at the end.
+static RECENT: Mutex<Vec<Arc<Entry>>> = Mutex::new(Vec::new());
