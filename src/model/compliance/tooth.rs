@@ -5,6 +5,8 @@ pub mod beam;
 pub mod finite_element;
 pub mod kuang_yang;
 
+use std::sync::Arc;
+
 use super::ElasticGear;
 use super::contact::ContactLaw;
 use super::list::listed;
@@ -49,7 +51,7 @@ pub struct ToothModel {
 }
 
 type ByRadius = fn(&ElasticGear, &Circles, f64) -> Result<f64, Refusal>;
-type Build = fn(&ElasticGear, &Circles) -> Result<Box<dyn LoadedTooth>, Refusal>;
+type Build = fn(&ElasticGear, &Circles) -> Result<Arc<dyn LoadedTooth>, Refusal>;
 
 /// Computes the compliance of one tooth, contact excluded, per unit width, in m²/N.
 #[derive(Debug, Clone, Copy)]
@@ -66,21 +68,31 @@ pub trait LoadedTooth: Send + Sync {
     ///
     /// # Errors
     /// A [`Refusal`] outside the range of the model.
-    fn at(&self, radius: f64) -> Result<f64, Refusal>;
+    fn at(&self, gear: &ElasticGear, radius: f64) -> Result<f64, Refusal>;
 
     /// The contact's part of the tooth loaded at a radius; `None` for a model without contact.
     ///
     /// # Errors
     /// A [`Refusal`] outside the range of the model.
-    fn contact(&self, _radius: f64) -> Result<Option<ContactLaw>, Refusal> {
+    fn contact(
+        &self,
+        _gear: &ElasticGear,
+        _radius: f64,
+    ) -> Result<Option<ContactLaw>, Refusal> {
         Ok(None)
     }
 
-    /// See [`Tooth::neighbour`]; 0 for a model of single teeth.
+    /// See [`Tooth::neighbour`], with the radii of load and displacement; 0 for a model of single
+    /// teeth.
     ///
     /// # Errors
     /// A [`Refusal`] outside the range of the model.
-    fn neighbour(&self, _loaded: f64, _measured: f64, _pitches: i32) -> Result<f64, Refusal> {
+    fn neighbour(
+        &self,
+        _gear: &ElasticGear,
+        _radii: [f64; 2],
+        _pitches: i32,
+    ) -> Result<f64, Refusal> {
         Ok(0.0)
     }
 
@@ -99,7 +111,7 @@ pub struct Tooth<'a> {
 
 enum Serves {
     AtRadius(ByRadius),
-    Built(Box<dyn LoadedTooth>),
+    Built(Arc<dyn LoadedTooth>),
 }
 
 impl<'a> Tooth<'a> {
@@ -138,7 +150,7 @@ impl<'a> Tooth<'a> {
     pub fn at(&self, radius: f64) -> Result<f64, Refusal> {
         match &self.serves {
             Serves::AtRadius(of) => of(self.gear, self.circles, radius),
-            Serves::Built(built) => built.at(radius),
+            Serves::Built(built) => built.at(self.gear, radius),
         }
     }
 
@@ -149,7 +161,7 @@ impl<'a> Tooth<'a> {
     pub fn contact(&self, radius: f64) -> Result<Option<ContactLaw>, Refusal> {
         match &self.serves {
             Serves::AtRadius(_) => Ok(None),
-            Serves::Built(built) => built.contact(radius),
+            Serves::Built(built) => built.contact(self.gear, radius),
         }
     }
 
@@ -165,7 +177,7 @@ impl<'a> Tooth<'a> {
     pub fn neighbour(&self, loaded: f64, measured: f64, pitches: i32) -> Result<f64, Refusal> {
         match &self.serves {
             Serves::AtRadius(_) => Ok(0.0),
-            Serves::Built(built) => built.neighbour(loaded, measured, pitches),
+            Serves::Built(built) => built.neighbour(self.gear, [loaded, measured], pitches),
         }
     }
 
@@ -212,7 +224,7 @@ mod tests {
     struct Field(f64);
 
     impl LoadedTooth for Field {
-        fn at(&self, radius: f64) -> Result<f64, Refusal> {
+        fn at(&self, _: &ElasticGear, radius: f64) -> Result<f64, Refusal> {
             Ok(self.0 * radius)
         }
     }
@@ -221,7 +233,7 @@ mod tests {
     fn an_object_of_a_gear_is_built_once_for_every_load_point() {
         let build = Compliance::PerGear(|gear, _| {
             BUILT.fetch_add(1, Ordering::Relaxed);
-            Ok(Box::new(Field(1.0 / gear.young)))
+            Ok(Arc::new(Field(1.0 / gear.young)))
         });
         let inputs = standard_pair(20, 30, 5e-3);
         let geometry = geometry::<f64>(&inputs.shape()).unwrap();

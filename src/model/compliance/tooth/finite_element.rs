@@ -160,54 +160,48 @@ fn field_gear(gear: &ElasticGear) -> FieldGear {
 ///
 /// # Errors
 /// [`Refusal::NoField`] if the gear has no field.
-fn build(gear: &ElasticGear, _: &Circles) -> Result<Box<dyn LoadedTooth>, Refusal> {
-    Ok(Box::new(FieldTooth {
-        field: field_gear(gear).field()?,
-        module: gear.rack.module,
-        young: gear.young,
-    }))
+fn build(gear: &ElasticGear, _: &Circles) -> Result<Arc<dyn LoadedTooth>, Refusal> {
+    Ok(field_gear(gear).field()?)
 }
 
-/// The teeth of one gear in its elastic field.
-struct FieldTooth {
-    field: Arc<Field>,
-    module: f64,
-    young: f64,
-}
-
-impl FieldTooth {
-    fn check(&self, radius: f64) -> Result<(), Refusal> {
-        let [form, _] = self.field.radii();
-        if radius < form {
-            return Err(Refusal::BelowFormCircle { radius, form });
-        }
-        Ok(())
+/// Refuses a load below the form circle.
+fn check_radius(field: &Field, radius: f64) -> Result<(), Refusal> {
+    let [form, _] = field.radii();
+    if radius < form {
+        return Err(Refusal::BelowFormCircle { radius, form });
     }
+    Ok(())
 }
 
-impl LoadedTooth for FieldTooth {
-    fn at(&self, radius: f64) -> Result<f64, Refusal> {
-        self.check(radius)?;
-        Ok(self.field.depth(radius, 0.0) / self.young)
+impl LoadedTooth for Field {
+    fn at(&self, gear: &ElasticGear, radius: f64) -> Result<f64, Refusal> {
+        check_radius(self, radius)?;
+        Ok(self.depth(radius, 0.0) / gear.young)
     }
 
-    fn contact(&self, radius: f64) -> Result<Option<ContactLaw>, Refusal> {
-        self.check(radius)?;
-        let contact = self.field.surface(radius, self.module) - self.field.depth(radius, 0.0);
-        let slope = self.field.surface_slope();
+    fn contact(&self, gear: &ElasticGear, radius: f64) -> Result<Option<ContactLaw>, Refusal> {
+        check_radius(self, radius)?;
+        let module = gear.rack.module;
+        let contact = self.surface(radius, module) - self.depth(radius, 0.0);
+        let slope = self.surface_slope();
         Ok(Some(ContactLaw {
-            offset: (contact + slope * self.module.ln()) / self.young,
-            slope: slope / self.young,
+            offset: (contact + slope * module.ln()) / gear.young,
+            slope: slope / gear.young,
         }))
     }
 
-    fn neighbour(&self, loaded: f64, measured: f64, pitches: i32) -> Result<f64, Refusal> {
-        self.check(loaded)?;
-        self.check(measured)?;
-        Ok(self.field.cross(loaded, measured, pitches) / self.young)
+    fn neighbour(
+        &self,
+        gear: &ElasticGear,
+        [loaded, measured]: [f64; 2],
+        pitches: i32,
+    ) -> Result<f64, Refusal> {
+        check_radius(self, loaded)?;
+        check_radius(self, measured)?;
+        Ok(self.cross(loaded, measured, pitches) / gear.young)
     }
 
     fn last_radius(&self) -> f64 {
-        self.field.radii()[1]
+        self.radii()[1]
     }
 }
