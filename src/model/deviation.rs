@@ -26,6 +26,10 @@ pub struct DeviationInputs {
 }
 
 /// Where the combined deflection comes from.
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a box would allocate in every closed-form solve"
+)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Deflection {
     /// The case gives it, in m.

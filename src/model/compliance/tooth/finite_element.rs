@@ -119,6 +119,10 @@ fn covers(inputs: &Inputs) -> bool {
     refusal(inputs).is_none()
 }
 
+#[expect(
+    clippy::unnecessary_wraps,
+    reason = "every model of the list has one signature"
+)]
 fn check(context: &Context) -> Option<Finding> {
     let refusal = refusal(context.inputs);
     let here = refusal.map_or("both gears have a field".to_owned(), |found| found.to_string());
