@@ -10,8 +10,8 @@ pub mod tooth;
 use super::Refusal;
 use super::geometry::{GearShape, Geometry};
 use super::inputs::{ContactCompliance, Gear, Inputs, ToothCompliance};
-use super::tip_gap::TipContact;
 use super::profile::Rack;
+use super::tip_gap::TipContact;
 use contact::{ContactLaw, ContactSpring};
 use tooth::Tooth;
 
@@ -184,7 +184,12 @@ impl<'a> Teeth<'a> {
         match self.contacts(place)? {
             [Some(driver), Some(driven)] => {
                 let teeth = self.at(place)?.sum();
-                Ok(contact::own_spring(self.elasticity, place, teeth, driver + driven))
+                Ok(contact::own_spring(
+                    self.elasticity,
+                    place,
+                    teeth,
+                    driver + driven,
+                ))
             }
             _ => contact::spring(self.elasticity, self.geometry, place),
         }

@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 
 use super::compliance::Elasticity;
 use super::compliance::contact::{ContactSpring, plane_strain_compliance};
-use super::position::reduced_curvature;
 use super::geometry::{Circles, Geometry};
 use super::inputs::{Gear, Inputs, Method};
+use super::position::reduced_curvature;
 use super::tip_gap::TipContact;
 use super::{Refusal, TeethCompliance, Velocity};
 use crate::numeric::Real;

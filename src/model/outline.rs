@@ -4,9 +4,9 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Point2, Vector2};
 
-use super::profile::{Profile, Rack, Section};
 use super::geometry::Circles;
 use super::inputs::{Gear, Inputs};
+use super::profile::{Profile, Rack, Section};
 
 /// The outline of a tooth in a frame whose x axis is the tooth's centre line, from the gear's
 /// centre.

@@ -1,8 +1,8 @@
 //! A pair to start tests from.
 
-use super::profile::Rack;
 use super::geometry::Circles;
 use super::inputs::{Drive, Gear, Inputs};
+use super::profile::Rack;
 
 /// A standard steel pair without deviation, 10 mm wide, 100 N m at 1000 rpm.
 pub(crate) fn standard_pair(driver_teeth: u32, driven_teeth: u32, module: f64) -> Inputs {

@@ -62,7 +62,9 @@ impl StiffnessModels {
     /// The symbol of the impact force by these models.
     #[must_use]
     pub fn symbol(&self) -> String {
-        let contact = self.contact.map_or(String::new(), |contact| format!(",{}", contact.index));
+        let contact = self
+            .contact
+            .map_or(String::new(), |contact| format!(",{}", contact.index));
         format!("F_{}{contact}", self.tooth.index)
     }
 

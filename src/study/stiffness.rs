@@ -1,12 +1,12 @@
 //! Tooth compliance over the flank of each gear, by every model and by finite elements.
 
-use crate::model::profile::Profile;
 use crate::model::compliance::tooth::{Tooth, ToothModel};
 use crate::model::compliance::{ContactPlace, ElasticGear, contact};
 use crate::model::field::{Field, FieldInput, FieldRefusal};
 use crate::model::geometry::{Circles, Geometry, geometry};
 use crate::model::impact::Masses;
 use crate::model::inputs::{Gear, ToothCompliance};
+use crate::model::profile::Profile;
 use crate::model::{Inputs, Refusal};
 
 /// The name of the field among the models; a model of the list with this name has no column of its

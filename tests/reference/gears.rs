@@ -1,10 +1,10 @@
 //! The elastic field and the inertia of single gears.
 
 use serde_json::Value;
-use tipstrike::model::profile::{Profile, Rack};
 use tipstrike::model::field::{Field, FieldInput};
 use tipstrike::model::geometry::Circles;
 use tipstrike::model::inertia::polar_moment;
+use tipstrike::model::profile::{Profile, Rack};
 
 const MILLIMETRE: f64 = 1e-3;
 

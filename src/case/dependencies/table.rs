@@ -3,8 +3,8 @@
 use std::sync::LazyLock;
 
 use crate::model::compliance::contact::{self, ContactModel};
-use crate::model::compliance::{contact_of, model_of};
 use crate::model::compliance::tooth::{self, ToothModel};
+use crate::model::compliance::{contact_of, model_of};
 use crate::model::inputs::Inputs;
 use crate::model::quantities::conditions::{
     always, auto, contact_read, edges_read, free_impact, half_width_read, may_move, may_share_load,

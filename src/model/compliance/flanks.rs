@@ -34,11 +34,7 @@ struct Flank {
 }
 
 impl Flank {
-    fn of(
-        tooth: &Tooth,
-        circles: &Circles,
-        (from, to): (f64, f64),
-    ) -> Result<Flank, Refusal> {
+    fn of(tooth: &Tooth, circles: &Circles, (from, to): (f64, f64)) -> Result<Flank, Refusal> {
         let (base, radius) = (circles.base, tooth.last_radius());
         let last = ((radius - base) * (radius + base)).sqrt().min(to);
         let at = |curvature: f64| {

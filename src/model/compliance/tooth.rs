@@ -74,11 +74,7 @@ pub trait LoadedTooth: Send + Sync {
     ///
     /// # Errors
     /// A [`Refusal`] outside the range of the model.
-    fn contact(
-        &self,
-        _gear: &ElasticGear,
-        _radius: f64,
-    ) -> Result<Option<ContactLaw>, Refusal> {
+    fn contact(&self, _gear: &ElasticGear, _radius: f64) -> Result<Option<ContactLaw>, Refusal> {
         Ok(None)
     }
 

@@ -1,9 +1,9 @@
 //! Notes on the geometry of the pair.
 
 use super::{Note, four};
-use crate::model::profile::{Profile, Rack};
 use crate::model::geometry::Circles;
 use crate::model::inputs::Gear;
+use crate::model::profile::{Profile, Rack};
 use crate::model::{Inputs, Solution};
 
 const MILLI: f64 = 1e3;

@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::model::compliance::model_of;
-use crate::model::profile::{Profile, Rack};
 use crate::model::explanation::{Context, Finding, four, micro, mm};
+use crate::model::profile::{Profile, Rack};
 
 /// No interference at the start of contact.
 pub(super) fn start(k: &Context) -> Option<Finding> {

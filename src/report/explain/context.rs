@@ -104,7 +104,9 @@ impl Known<'_> {
             Source::Force(force) => {
                 let inputs = self.context.inputs;
                 let covers = (force.models.tooth.covers)(inputs);
-                covers.then(|| spread_force(inputs, &force.models)).flatten()
+                covers
+                    .then(|| spread_force(inputs, &force.models))
+                    .flatten()
             }
             Source::Field(field) => self.case.value(field),
         };

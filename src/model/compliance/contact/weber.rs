@@ -4,12 +4,12 @@ use std::f64::consts::PI;
 
 use super::{ContactModel, at_impact, give, place_at_d};
 use crate::model::Refusal;
-use crate::model::profile::{Profile, Rack};
 use crate::model::compliance::{ContactPlace, ElasticGear, Elasticity};
 use crate::model::explanation::Formula::{Text, Words};
 use crate::model::explanation::Step;
 use crate::model::geometry::Geometry;
 use crate::model::inputs::ContactCompliance;
+use crate::model::profile::{Profile, Rack};
 
 /// The row of the list.
 #[rustfmt::skip]

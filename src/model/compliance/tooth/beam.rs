@@ -5,11 +5,11 @@ use std::f64::consts::FRAC_PI_2;
 use super::{Compliance, ToothModel};
 use crate::model::Refusal;
 use crate::model::compliance::ElasticGear;
-use crate::model::profile::{Profile, Rack, Section};
 use crate::model::explanation::Formula::Words;
 use crate::model::explanation::{Context, Finding, Step, four};
 use crate::model::geometry::{Circles, Geometry};
 use crate::model::inputs::{Gear, Inputs, ToothCompliance};
+use crate::model::profile::{Profile, Rack, Section};
 use crate::numeric::quadrature;
 
 /// The row of the list.

@@ -125,7 +125,9 @@ fn covers(inputs: &Inputs) -> bool {
 )]
 fn check(context: &Context) -> Option<Finding> {
     let refusal = refusal(context.inputs);
-    let here = refusal.map_or("both gears have a field".to_owned(), |found| found.to_string());
+    let here = refusal.map_or("both gears have a field".to_owned(), |found| {
+        found.to_string()
+    });
     Finding::new(
         format!("finite elements: {}", MODEL.range),
         here,
