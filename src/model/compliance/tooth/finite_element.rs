@@ -79,14 +79,14 @@ const STEPS: &[Step] = &[
         meaning: "contact of the driver at O1D for a half-width of one module",
         unit: "um mm/N",
         formula: Words(CONTACT),
-        value: |k| teeth(k, |teeth, place| at_one_module(k, teeth.contacts(place).ok()?[0]?)),
+        value: |k| teeth(k, |teeth, place| Some(at_one_module(k, teeth.contacts(place).ok()?[0]?))),
     },
     Step {
         symbol: "q_H2",
         meaning: "contact of the driven tip for a half-width of one module",
         unit: "um mm/N",
         formula: Words(CONTACT),
-        value: |k| teeth(k, |teeth, place| at_one_module(k, teeth.contacts(place).ok()?[1]?)),
+        value: |k| teeth(k, |teeth, place| Some(at_one_module(k, teeth.contacts(place).ok()?[1]?))),
     },
 ];
 
@@ -105,8 +105,8 @@ fn teeth(k: &Context, value: impl Fn(&Teeth, &ContactPlace) -> Option<f64>) -> O
     value(&Teeth::of(&elasticity, geometry).ok()?, &place)
 }
 
-fn at_one_module(k: &Context, law: ContactLaw) -> Option<f64> {
-    Some(law.offset - law.slope * k.inputs.module.ln())
+fn at_one_module(k: &Context, law: ContactLaw) -> f64 {
+    law.offset - law.slope * k.inputs.module.ln()
 }
 
 /// Why the first of the gears without a field has none.
@@ -119,10 +119,6 @@ fn covers(inputs: &Inputs) -> bool {
     refusal(inputs).is_none()
 }
 
-#[expect(
-    clippy::unnecessary_wraps,
-    reason = "every model of the list has one signature"
-)]
 fn check(context: &Context) -> Option<Finding> {
     let refusal = refusal(context.inputs);
     let here = refusal.map_or("both gears have a field".to_owned(), |found| {
