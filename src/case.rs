@@ -25,7 +25,7 @@ use std::sync::Arc;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, QUANTITIES, Quantity};
 pub use changes::Change;
-pub use check::{Problem, unknown_quantity};
+pub use check::{Problem, field_range, field_value, misfit_between, unknown_key, unknown_quantity};
 pub use evaluate::Evaluator;
 pub use examples::{EXAMPLES, Example};
 pub use fields::{FIELDS, Field};

@@ -7,9 +7,13 @@ mod check;
 mod explain;
 mod new;
 mod progress;
+mod seek;
 mod shell;
+mod sink;
 mod solve;
 mod stiffness;
+mod sweep;
+mod tolerance;
 mod trade;
 
 use crate::case::sanitize::sanitize;
@@ -17,8 +21,8 @@ use crate::case::suggest;
 use crate::report::fields;
 
 pub use arguments::{
-    Arguments, Check, Command, Explain, Fields, Format, Listing, New, Setting, Solve, Stiffness,
-    Trading,
+    Arguments, Check, Command, Explain, Fields, Format, Listing, New, RowFormat, Running, Seek,
+    Setting, Solve, Stiffness, Sweep, Tolerance, Trading,
 };
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches};
@@ -164,6 +168,9 @@ pub fn run(command: &Command, streams: &mut Streams) -> Exit {
         Command::Explain(options) => explain::run(options, streams),
         Command::Trade(options) => trade::run(options, streams),
         Command::Stiffness(options) => stiffness::run(options, streams),
+        Command::Sweep(options) => sweep::run(options, streams),
+        Command::Seek(options) => seek::run(options, streams),
+        Command::Tolerance(options) => tolerance::run(options, streams),
         Command::Fields(options) => list_fields(options, streams.output.as_mut()),
         Command::New(options) => new::run(options, streams),
         Command::Completions { shell } => shell::completions(*shell, streams.output.as_mut()),

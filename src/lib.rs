@@ -26,7 +26,7 @@
 //! | [`numeric`] | root finding, series and quadrature, without a word of gears |
 //! | [`model`] | the computation: one stage per file, without files, threads or printing |
 //! | [`case`](mod@case) | the case file: fields, units, reading, checking, saving |
-//! | [`study`] | many solves: speed against accuracy |
+//! | [`study`] | many solves of one case: sweeps, crossings, tolerances, speed against accuracy |
 //! | [`report`] | results as text, JSON, CSV and explanations |
 //! | [`cli`] | the commands |
 //! | [`tui`] | the workbench; the only module that sees a terminal |
@@ -38,7 +38,7 @@
 //!
 //! [Guide](docs::guide), [methods and limits](docs::methods), [numerical
 //! accuracy](docs::accuracy), [speed](docs::speed), [scripting](docs::scripting),
-//! [contributing](docs::contributing).
+//! [studies](docs::studies), [contributing](docs::contributing).
 //!
 //! [`Solution`]: model::Solution
 
@@ -69,6 +69,9 @@ pub mod docs {
 
     #[doc = include_str!("../docs/scripting.md")]
     pub mod scripting {}
+
+    #[doc = include_str!("../docs/studies.md")]
+    pub mod studies {}
 
     #[doc = include_str!("../CONTRIBUTING.md")]
     pub mod contributing {}

@@ -21,6 +21,7 @@ pub mod impact;
 pub mod inertia;
 pub mod inputs;
 pub mod interpolate;
+pub mod iso_1328;
 pub mod limits;
 pub mod load_sharing;
 pub mod mesh;

@@ -11,9 +11,12 @@ pub mod groups;
 pub mod json;
 mod layout;
 pub mod relief;
+pub mod seek;
 pub mod stations;
 pub mod stiffness;
+pub mod sweep;
 pub mod text;
+pub mod tolerance;
 pub mod trade;
 pub mod verdict;
 
@@ -21,7 +24,7 @@ use crate::case::fields::index_of;
 use crate::case::units::System;
 use crate::case::{Case, units};
 use crate::model::inputs::Method;
-use crate::model::{self, Inputs, Note, QUANTITIES, Quantity, Refusal, Solution, Stage, Stages};
+use crate::model::{self, Inputs, Note, QUANTITIES, Quantity, Refusal, Solution, Stages};
 use crate::numeric::decimal::significant;
 #[cfg(any(feature = "cli", feature = "tui"))]
 pub(crate) use layout::with_units;
@@ -108,7 +111,10 @@ impl Report {
         inputs: Inputs,
         selection: Selection,
     ) -> Result<Report, Refusal> {
-        let solution = model::solve(&inputs, selection.stages().and(deciding(inputs.method)))?;
+        let solution = model::solve(
+            &inputs,
+            selection.stages().and(inputs.method.deciding_stages()),
+        )?;
         Ok(Report::of(name, case, inputs, solution, selection))
     }
 
@@ -156,17 +162,6 @@ impl Report {
         self.selection
             .quantities()
             .filter_map(|quantity| Some((quantity, value(quantity, &self.solution)?)))
-    }
-}
-
-/// The stages that decide whether the tooth strikes, beyond those that every solve has.
-fn deciding(method: Method) -> Stages {
-    match method {
-        Method::Exact => Stages::NONE,
-        // The printed equations bring a tooth in on time whose deviation is above 0 yet.
-        Method::Paper => Stages::of(Stage::Position),
-        Method::Static => Stages::of(Stage::Static),
-        Method::Dynamic | Method::Auto => Stages::of(Stage::Dynamic),
     }
 }
 
@@ -219,9 +214,7 @@ pub fn shown_with(quantity: &Quantity, value: f64, unit: &'static str) -> Shown 
 /// A quantity's value in SI where there is one: finite, and zero without a sign.
 #[must_use]
 pub fn value(quantity: &Quantity, solution: &Solution) -> Option<f64> {
-    (quantity.value)(solution)
-        .filter(|value| value.is_finite())
-        .map(|value| value + 0.0)
+    quantity.finite_value(solution)
 }
 
 /// A quantity's value in SI as another method defines the quantity, so that the two may be held

@@ -1,4 +1,16 @@
 //! Many solves of one case, for what a single one cannot tell.
 
+pub mod axis;
+pub mod batch;
+pub mod condition;
+pub mod design;
+pub mod distribution;
+pub mod headline;
+pub mod refusals;
+pub mod seek;
+pub mod sobol;
+pub mod statistics;
 pub mod stiffness;
+pub mod sweep;
+pub mod tolerance;
 pub mod trade;

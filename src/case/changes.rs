@@ -111,12 +111,10 @@ fn texts(case: &Case) -> Vec<(String, String)> {
         .limits
         .iter()
         .map(|limit| (format!("limits.{}", limit.quantity), limit.text.clone()));
-    let spreads = case.spread.iter().map(|held| {
-        (
-            spread::place(held.field),
-            format!("{} {}", held.shape.name(), held.text),
-        )
-    });
+    let spreads = case
+        .spread
+        .iter()
+        .map(|held| (spread::place(held.field), held.in_words()));
     fields.chain(limits).chain(spreads).collect()
 }
 

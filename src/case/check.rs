@@ -2,12 +2,12 @@
 
 use std::sync::LazyLock;
 
-use super::fields::{AUTO, Absent, FIELDS, Field, Kind, Range, index_of};
+use super::fields::{AUTO, Absent, FIELDS, Field, Kind, Range, Value, index_of};
 use super::sanitize::{quoted, sanitize};
 use super::units::{self, Dimension, ParseError};
 use super::{Case, Limit, suggest};
 use crate::model::inputs::Gear;
-use crate::model::{Inputs, QUANTITIES, Quantity};
+use crate::model::{Inputs, QUANTITIES, Quantity, Refusal};
 use crate::numeric::decimal::shortest;
 
 /// What is wrong at one place: the cause and the mend.
@@ -51,6 +51,12 @@ impl std::fmt::Display for Problem {
 }
 
 impl std::error::Error for Problem {}
+
+impl From<&Refusal> for Problem {
+    fn from(refusal: &Refusal) -> Problem {
+        Problem::new(refusal.field(), refusal.to_string(), refusal.mend())
+    }
+}
 
 /// The greatest ratio of tooth numbers, either way.
 const MOST_RATIO: f64 = 50.0;
@@ -163,15 +169,40 @@ fn misfit(case: &Case, field: usize) -> Option<Problem> {
 }
 
 fn put_text(known: &Field, field: usize, text: &str, inputs: &mut Inputs) -> Result<(), Problem> {
-    match known.kind {
-        Kind::Text => {}
-        Kind::Number(dimension, range, put) => {
-            put(inputs, number(known, field, text, dimension, range)?);
-        }
-        Kind::Count(from, to, put) => put(inputs, count(known, text, from, to)?),
-        Kind::Choice(names, put) => put(inputs, choice(known, text, names)?),
-    }
+    known.put(read_value(known, field, text)?, inputs);
     Ok(())
+}
+
+/// The value of a field from its text, checked against the field's own range.
+///
+/// # Errors
+/// Where the text is no value of the field, or is outside its range.
+pub fn field_value(field: usize, text: &str) -> Result<Value, Problem> {
+    read_value(&FIELDS[field], field, text)
+}
+
+fn read_value(known: &Field, field: usize, text: &str) -> Result<Value, Problem> {
+    match known.kind {
+        Kind::Text => Ok(Value::Text),
+        Kind::Number(dimension, range, _) => {
+            number(known, field, text, dimension, range).map(Value::Number)
+        }
+        Kind::Count(from, to, _) => count(known, text, from, to).map(Value::Count),
+        Kind::Choice(names, _) => choice(known, text, names).map(Value::Choice),
+    }
+}
+
+/// The first rule between fields that these inputs break. [`Case::inputs`] reports the same for a
+/// case that says so.
+#[must_use]
+pub fn misfit_between(inputs: &Inputs) -> Option<Problem> {
+    together(inputs, |_| true).into_iter().next()
+}
+
+/// The least and the greatest value of a number field, in SI.
+#[must_use]
+pub fn field_range(field: usize) -> (f64, f64) {
+    ENDS[field]
 }
 
 /// The ends of every range in SI, read like a value so that the ends themselves are inside.
@@ -386,7 +417,8 @@ fn ratio_beyond(inputs: &Inputs) -> Option<Problem> {
 }
 
 /// The refusal of a key that no field has.
-pub(super) fn unknown_key(key: &str) -> Problem {
+#[must_use]
+pub fn unknown_key(key: &str) -> Problem {
     let known = FIELDS.iter().map(|field| field.key);
     let name = key.rsplit('.').next().unwrap_or(key);
     let same_name = FIELDS

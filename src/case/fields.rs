@@ -38,6 +38,19 @@ pub enum Kind {
     Choice(&'static [&'static str], fn(&mut Inputs, usize)),
 }
 
+/// A value of a field, in SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Value {
+    /// Of a field of words, which no model reads.
+    Text,
+    /// Of a number.
+    Number(f64),
+    /// Of a whole number.
+    Count(u32),
+    /// Of a choice, by its place in the list.
+    Choice(usize),
+}
+
 /// What stands in place of a number that the program finds itself.
 pub const AUTO: &str = "auto";
 
@@ -99,6 +112,16 @@ impl Field {
 }
 
 impl Field {
+    /// Puts a value of this field into a model's inputs.
+    pub fn put(&self, value: Value, inputs: &mut Inputs) {
+        match (self.kind, value) {
+            (Kind::Number(_, _, put), Value::Number(value)) => put(inputs, value),
+            (Kind::Count(_, _, put), Value::Count(value)) => put(inputs, value),
+            (Kind::Choice(_, put), Value::Choice(value)) => put(inputs, value),
+            _ => {}
+        }
+    }
+
     /// Whether it takes true or false.
     #[must_use]
     pub fn is_flag(&self) -> bool {

@@ -20,7 +20,7 @@ pub use disk::Saved;
 pub use error::{ReadError, SaveError};
 use fault::Lines;
 pub use fault::{Fault, FaultKind};
-pub use target::{followed, write};
+pub use target::{Draft, followed, write};
 use tree::Places;
 
 /// The format of case files that this version reads and writes.

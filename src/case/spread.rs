@@ -1,26 +1,37 @@
 //! How a field is spread around its value, for tolerances.
 
 use super::Problem;
-use super::fields::{FIELDS, Kind, index_of};
+use super::fields::{FIELDS, Field, Kind, index_of};
 use super::sanitize::quoted;
+use super::units::Dimension;
 use super::{check, suggest, units};
+use crate::model::iso_1328;
 
-/// The note for a case with distributions, since no computation reads them.
-pub const UNUSED: &str =
-    "[spread] has no effect: this version computes no tolerances; saving keeps it in the file";
-
-/// The shape of a distribution.
+/// The shape of a distribution around the value of a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
     /// Gaussian; the width is the standard deviation.
     Normal,
     /// Equally likely everywhere; the width is half the span.
     Uniform,
+    /// Most likely at the value, falling to 0 in straight lines; the width is half the span.
+    Triangular,
+    /// Gaussian, cut off at three standard deviations; the width is half the span.
+    Truncated,
+    /// The base pitch deviation that a flank tolerance class of ISO 1328-1 allows, truncated as
+    /// above; the width is the class.
+    Grade,
 }
 
 impl Shape {
     /// Every shape.
-    pub const ALL: [Shape; 2] = [Shape::Normal, Shape::Uniform];
+    pub const ALL: [Shape; 5] = [
+        Shape::Normal,
+        Shape::Uniform,
+        Shape::Triangular,
+        Shape::Truncated,
+        Shape::Grade,
+    ];
 
     /// The name in a case file.
     #[must_use]
@@ -28,6 +39,9 @@ impl Shape {
         match self {
             Shape::Normal => "normal",
             Shape::Uniform => "uniform",
+            Shape::Triangular => "triangular",
+            Shape::Truncated => "truncated",
+            Shape::Grade => "grade",
         }
     }
 }
@@ -41,7 +55,7 @@ pub struct Spread {
     pub shape: Shape,
     /// Its width as the user wrote it.
     pub text: String,
-    /// Its width in SI.
+    /// Its width in SI; the class of a grade.
     pub width: f64,
 }
 
@@ -67,15 +81,11 @@ impl Spread {
             ));
         };
         let shape = named(&place, shape)?;
-        let width = units::parse(text, dimension, field.usual_unit())
-            .map_err(|misread| Problem::of(&place, misread))?;
-        if width < 0.0 {
-            return Err(Problem::new(
-                &place,
-                format!("the width {} is below 0", quoted(text)),
-                "write a width of 0 or more",
-            ));
-        }
+        let width = if shape == Shape::Grade {
+            grade(&place, field, text)?
+        } else {
+            width(&place, dimension, field, text)?
+        };
         Ok(Spread {
             field: field.key,
             shape,
@@ -83,6 +93,51 @@ impl Spread {
             width,
         })
     }
+
+    /// The distribution as a person reads it, such as "normal 4 um".
+    #[must_use]
+    pub fn in_words(&self) -> String {
+        format!("{} {}", self.shape.name(), self.text)
+    }
+}
+
+fn width(place: &str, dimension: Dimension, field: &Field, text: &str) -> Result<f64, Problem> {
+    let width = units::parse(text, dimension, field.usual_unit())
+        .map_err(|misread| Problem::of(place, misread))?;
+    if width > 0.0 {
+        return Ok(width);
+    }
+    Err(Problem::new(
+        place,
+        format!("the width {} is not above 0", quoted(text)),
+        "write a width above 0, or take the distribution out",
+    ))
+}
+
+/// The class of a grade, for a base pitch deviation alone.
+fn grade(place: &str, field: &Field, text: &str) -> Result<f64, Problem> {
+    if field.name() != "base_pitch" {
+        return Err(Problem::new(
+            place,
+            format!(
+                "a grade gives a base pitch deviation, and {} is none",
+                field.key
+            ),
+            "use normal, uniform, triangular or truncated",
+        ));
+    }
+    let class = text.trim().parse().ok();
+    class
+        .filter(|class| iso_1328::CLASSES.contains(class))
+        .map(f64::from)
+        .ok_or_else(|| {
+            let (from, to) = (iso_1328::CLASSES.start(), iso_1328::CLASSES.end());
+            Problem::new(
+                place,
+                format!("{} is no flank tolerance class", quoted(text)),
+                format!("write a whole number from {from} to {to}"),
+            )
+        })
 }
 
 /// The name under which problems of a field's spread stand.
@@ -96,7 +151,8 @@ fn named(place: &str, name: &str) -> Result<Shape, Problem> {
         .find(|shape| shape.name() == name)
         .ok_or_else(|| {
             let known = Shape::ALL.into_iter().map(Shape::name);
-            let mend = suggest::mend(name, known, || "use normal or uniform".to_owned());
+            let all: Vec<&str> = known.clone().collect();
+            let mend = suggest::mend(name, known, || format!("use one of {}", all.join(", ")));
             Problem::new(
                 place,
                 format!("unknown distribution {}", quoted(name)),

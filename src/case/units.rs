@@ -67,6 +67,15 @@ impl Dimension {
         name_of(self)
     }
 
+    /// The SI unit; empty for the bare number.
+    #[must_use]
+    pub fn si_unit(self) -> &'static str {
+        let mut units = units_of(self).iter();
+        units
+            .find(|unit| matches!(unit.scale, Scale::Ten(0)))
+            .map_or("", |unit| unit.symbol)
+    }
+
     /// The symbols of its units, those in common use first.
     pub fn symbols(self) -> impl Iterator<Item = &'static str> {
         units_of(self).iter().map(|unit| unit.symbol)
@@ -131,6 +140,14 @@ pub fn parse(text: &str, dimension: Dimension, usual: &str) -> Result<f64, Parse
         Scale::Times(factor, rest) => times(number::shifted(number, 0), factor, rest),
     };
     number::held(number, value)
+}
+
+/// The number and the unit of a text such as "16 um", as written; an empty unit for a bare number.
+///
+/// # Errors
+/// Where the text is not one number with at most one unit.
+pub fn split<'t>(text: &'t str, usual: &str) -> Result<(&'t str, &'t str), ParseError> {
+    number::split(text.trim(), usual)
 }
 
 /// The shortest text in that unit which [`parse`] reads back as the same value, or as near as the

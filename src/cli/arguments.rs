@@ -4,6 +4,8 @@
     reason = "the help names tables of the case file, such as [limits]"
 )]
 
+mod studies;
+
 use super::Exit;
 use crate::case::{Case, EXAMPLES, Example, Problem, unknown_quantity};
 use crate::model::inputs::Method;
@@ -15,6 +17,7 @@ use clap::{Arg, Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
 use std::ffi::OsStr;
 use std::path::PathBuf;
+pub use studies::{RowFormat, Running, Seek, Sweep, Tolerance};
 
 const CSV_SHAPE: &str = "CSV is in SI units: a row a case with a column a quantity, such as `impact_force [N]`; with --stations \
     instead a row a station. JSON is an object a case, one a line, in SI units; what does not exist is absent.";
@@ -58,6 +61,12 @@ pub enum Command {
     Trade(Trading),
     /// Compare the tooth compliance of every model over the flank with finite elements
     Stiffness(Stiffness),
+    /// Solve a case over a range of one or more fields, as a table
+    Sweep(Sweep),
+    /// Sample the distributions of [spread]: percentiles, probabilities, ranking of the fields
+    Tolerance(Tolerance),
+    /// Find every value of a field at which a condition on the results changes
+    Seek(Seek),
     /// List every field of a case with its unit, range, default and meaning
     Fields(Fields),
     /// Write a commented case to start from

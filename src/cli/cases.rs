@@ -2,7 +2,7 @@
 
 use super::{Exit, Setting, Streams};
 use crate::case::file::ReadError;
-use crate::case::{Case, Document, Problem, spread};
+use crate::case::{Case, Document, Problem};
 use crate::model::{Inputs, Refusal};
 use std::path::Path;
 
@@ -19,17 +19,13 @@ pub(super) struct Opened {
 impl Opened {
     /// Say why the model refuses the case, at the field where the mend begins.
     pub(super) fn refused(&self, refusal: &Refusal, streams: &mut Streams) -> Exit {
-        let (field, cause, mend) = (
-            refusal.field().to_owned(),
-            refusal.to_string(),
-            refusal.mend().to_owned(),
-        );
-        streams.say(&placed(
-            &self.document,
-            Problem { field, cause, mend },
-            &self.settings,
-        ));
+        self.report_problem(refusal.into(), streams);
         Exit::BadCase
+    }
+
+    /// Report a problem of the case at its place.
+    pub(super) fn report_problem(&self, problem: Problem, streams: &mut Streams) {
+        streams.say(&placed(&self.document, problem, &self.settings));
     }
 }
 
@@ -41,6 +37,20 @@ pub(super) fn open(
 ) -> Result<Opened, Exit> {
     let document = Document::read_draft(path).map_err(|error| unread(&error, streams))?;
     changed(path.display().to_string(), document, settings, streams)
+}
+
+/// Why a field cannot be set: a study varies it.
+pub(super) fn set_and_varied(settings: &[Setting], varied: &[&str]) -> Option<String> {
+    let is_varied = |setting: &&Setting| {
+        varied
+            .iter()
+            .any(|key| *key == setting.key || Case::are_exclusive(key, &setting.key))
+    };
+    let setting = settings.iter().find(is_varied)?;
+    let written = setting.written();
+    Some(format!(
+        "{written}: --vary replaces this value: leave one of them out"
+    ))
 }
 
 /// A document as it is once the settings have changed what they name.
@@ -69,9 +79,6 @@ pub(super) fn changed(
                 streams.say(&on_command_line(setting, &problem));
                 Exit::Usage
             })?;
-    }
-    if !document.case.spread.is_empty() {
-        streams.say(&format!("{name}: {}", spread::UNUSED));
     }
     match document.case.inputs() {
         // Nothing waits for a report, so it is given the digits.

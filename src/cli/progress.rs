@@ -1,6 +1,7 @@
 //! What goes on while a command takes long: a progress bar on the error stream, where that is a
 //! terminal, and Ctrl-C.
 
+use crate::study::batch::{Control, Stopped};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use signal_hook::consts::SIGINT;
 use std::cell::Cell;
@@ -34,8 +35,18 @@ impl Bar {
         }
     }
 
-    /// So many are done of so many.
-    pub(super) fn stands_at(&self, done: usize, of: usize) {
+    /// The same with the rate.
+    pub(super) fn with_rate(what: &'static str) -> Bar {
+        let bar = Bar::new(what);
+        let template = "{bar:30} {human_pos}/{human_len} {msg}, {per_sec:.0}, {eta} left";
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.shown.set_style(style.progress_chars("=> "));
+        }
+        bar
+    }
+
+    /// Shows how many are done of how many.
+    pub(super) fn set(&self, done: usize, of: usize) {
         if !self.is_up.get() {
             if self.begun.elapsed() < QUIET || !io::stderr().is_terminal() {
                 return;
@@ -83,5 +94,47 @@ impl Interrupt {
     /// End as a program that Ctrl-C ends, without a word: who called it then knows.
     pub(super) fn end() {
         drop(signal_hook::low_level::emulate_default_handler(SIGINT));
+    }
+}
+
+/// A study that runs: its threads, its bar and Ctrl-C.
+pub(super) struct Running {
+    bar: Bar,
+    interrupt: Interrupt,
+    jobs: Option<usize>,
+}
+
+impl Running {
+    /// A study of so many threads, whose points have this name.
+    pub(super) fn new(what: &'static str, jobs: Option<u16>) -> Running {
+        Running {
+            bar: Bar::with_rate(what),
+            interrupt: Interrupt::heeded(),
+            jobs: jobs.map(usize::from),
+        }
+    }
+
+    /// Runs a part of the study, and shows its progress.
+    pub(super) fn run<T>(
+        &self,
+        study: impl FnOnce(&Control) -> Result<T, Stopped>,
+    ) -> Result<T, Stopped> {
+        let interrupt = &self.interrupt;
+        let done = study(&Control {
+            jobs: self.jobs,
+            go_on: &|| interrupt.go_on(),
+            progress: &|done, of| self.bar.set(done, of),
+        });
+        if done.is_err() && !self.interrupt.go_on() {
+            self.bar.clear_after_interrupt();
+        } else {
+            self.bar.clear();
+        }
+        done
+    }
+
+    /// Ends the program as Ctrl-C does.
+    pub(super) fn end() {
+        Interrupt::end();
     }
 }

@@ -21,7 +21,7 @@ pub(super) fn run(options: &Trading, streams: &mut Streams) -> io::Result<Exit> 
     let (bar, interrupt) = (Bar::new("settings"), Interrupt::heeded());
     let (done, planned) = (Cell::new(0), Cell::new(1));
     let go_on = || {
-        bar.stands_at(done.get(), planned.get());
+        bar.set(done.get(), planned.get());
         interrupt.go_on()
     };
     let mut told = |sofar: &Trade| {

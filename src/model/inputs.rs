@@ -116,6 +116,18 @@ impl Method {
         }
     }
 
+    /// The stages that decide whether the tooth strikes, beyond those that every solve has.
+    #[must_use]
+    pub fn deciding_stages(self) -> Stages {
+        match self {
+            Method::Exact => Stages::NONE,
+            // The printed equations bring a tooth in on time whose deviation is above 0 yet.
+            Method::Paper => Stages::of(Stage::Position),
+            Method::Static => Stages::of(Stage::Static),
+            Method::Dynamic | Method::Auto => Stages::of(Stage::Dynamic),
+        }
+    }
+
     /// The name in a case file.
     #[must_use]
     pub fn name(self) -> &'static str {

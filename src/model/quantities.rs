@@ -90,6 +90,14 @@ impl Variant {
 }
 
 impl Quantity {
+    /// The value in SI where there is one: finite, and zero without a sign.
+    #[must_use]
+    pub fn finite_value(&self, solution: &Solution) -> Option<f64> {
+        (self.value)(solution)
+            .filter(|value| value.is_finite())
+            .map(|value| value + 0.0)
+    }
+
     /// Whether it is true (1) or false (0).
     #[must_use]
     pub fn is_flag(&self) -> bool {

@@ -23,8 +23,9 @@ struct Line<'a> {
     notes: Vec<Remark<'a>>,
 }
 
+/// A value and its unit.
 #[derive(Serialize)]
-struct Measured {
+pub(super) struct Measured {
     value: Value,
     unit: &'static str,
     /// What it is of, where that is not what the method resolves.
@@ -37,6 +38,17 @@ struct Measured {
 enum Value {
     Number(f64),
     Flag(bool),
+}
+
+impl Measured {
+    /// A value of a quantity in SI.
+    pub(super) fn new(quantity: &Quantity, value: f64) -> Measured {
+        Measured {
+            value: Value::of(quantity, value),
+            unit: quantity.unit,
+            of: None,
+        }
+    }
 }
 
 impl Value {
@@ -68,9 +80,8 @@ impl Serialize for Quantities<'_> {
             _ => None,
         };
         let measured = |quantity: &Quantity, value| Measured {
-            value: Value::of(quantity, value),
-            unit: quantity.unit,
             of: of(quantity),
+            ..Measured::new(quantity, value)
         };
         serializer.collect_map(
             self.0

@@ -15,3 +15,4 @@ mod explain;
 mod meaning;
 mod reports;
 mod stiffness_command;
+mod studies;

@@ -33,4 +33,5 @@ mod properties;
 mod reference;
 mod relevance;
 mod stiffness;
+mod studies;
 mod trade;

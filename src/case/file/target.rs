@@ -7,6 +7,8 @@ use std::os::unix::fs::{MetadataExt, PermissionsExt};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use tempfile::NamedTempFile;
+
 use super::about;
 use super::error::{SaveError, shown};
 
@@ -169,16 +171,26 @@ impl Target {
 
     /// Write beside the target, then rename over it; each step is on disk before the next one.
     fn write(&self, bytes: &[u8], mode: Option<u32>) -> io::Result<()> {
-        let folder = folder_of(&self.path);
+        let mut file = self.begin(mode)?;
+        file.write_all(bytes)?;
+        self.finish(file, mode)
+    }
+
+    /// A file beside the target.
+    fn begin(&self, mode: Option<u32>) -> io::Result<NamedTempFile> {
         // Others cannot read it before its own mode is set; the umask cuts that of a new file.
         let is_new = self.old.is_none() && mode.is_none();
         let first = Permissions::from_mode(if is_new { 0o666 } else { 0o600 });
         let prefix = format!("{TEMPORARY}{}-", std::process::id());
-        let mut file = tempfile::Builder::new()
+        tempfile::Builder::new()
             .prefix(&prefix)
             .permissions(first)
-            .tempfile_in(folder)?;
-        file.write_all(bytes)?;
+            .tempfile_in(folder_of(&self.path))
+    }
+
+    /// Put the complete file into the place of the target.
+    fn finish(&self, file: NamedTempFile, mode: Option<u32>) -> io::Result<()> {
+        let folder = folder_of(&self.path);
         if let Some(old) = &self.old {
             about::keep(old, &self.path, file.as_file())?;
         } else if let Some(mode) = mode {
@@ -197,6 +209,55 @@ impl Target {
         let _ = File::open(folder).and_then(|folder| folder.sync_all());
         clear(folder);
         Ok(())
+    }
+}
+
+/// A file that takes its place, or that of an older one, only once it is complete. Dropped before,
+/// it leaves nothing behind.
+pub struct Draft {
+    target: Target,
+    file: NamedTempFile,
+    name: String,
+}
+
+impl Draft {
+    /// Begins a file.
+    ///
+    /// # Errors
+    /// Where a file cannot be written there.
+    pub fn create(path: &Path) -> Result<Draft, SaveError> {
+        let (target, name) = (target_of(path)?, shown(path));
+        match target.begin(None) {
+            Ok(file) => Ok(Draft { target, file, name }),
+            Err(error) => Err(SaveError::Unwritable(name, error)),
+        }
+    }
+
+    /// Puts the complete file into its place.
+    ///
+    /// # Errors
+    /// Where the system refuses; the older file then stays as it was.
+    pub fn finish(self) -> Result<(), SaveError> {
+        let Draft { target, file, name } = self;
+        target
+            .finish(file, None)
+            .map_err(|error| SaveError::Unwritable(name, error))
+    }
+
+    /// The error of a write that failed, with the name of the file.
+    #[must_use]
+    pub fn unwritable(&self, error: io::Error) -> SaveError {
+        SaveError::Unwritable(self.name.clone(), error)
+    }
+}
+
+impl Write for Draft {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
     }
 }
 

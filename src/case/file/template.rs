@@ -68,7 +68,13 @@ pub(super) fn entries(case: &Case) -> Vec<Entry> {
             }
         });
     let spread = case.spread.iter().map(|spread| {
-        let value = format!("{{ {} = {} }}", spread.shape.name(), string(&spread.text));
+        let bare = units::parse(&spread.text, Dimension::Number, "").is_ok();
+        let width = if bare {
+            number(&spread.text)
+        } else {
+            string(&spread.text)
+        };
+        let value = format!("{{ {} = {width} }}", spread.shape.name());
         Entry {
             table: "spread",
             name: format!("\"{}\"", spread.field),
@@ -104,11 +110,12 @@ pub(super) fn text(case: &Case) -> String {
         "Greatest value allowed, of any quantity of the results.",
         "impact_force = \"2500 N\"",
     ));
-    // Nothing reads distributions yet, so a new case does not ask for them.
-    if !case.spread.is_empty() {
-        let help = "Distribution of a field around its value.";
-        text.push_str(&rest(&entries, "spread", help, ""));
-    }
+    text.push_str(&rest(
+        &entries,
+        "spread",
+        "Distribution of a field around its value, for tolerance.",
+        "\"deviations.base_pitch\" = { normal = \"4 um\" }",
+    ));
     text
 }
 

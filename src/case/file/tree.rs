@@ -351,7 +351,7 @@ impl Reader {
             _ => Err(Problem::new(
                 &place,
                 "this is no distribution",
-                "write { normal = \"4 um\" } or { uniform = \"4 um\" }",
+                "write { normal = \"4 um\" }, or uniform, triangular, truncated or grade in its place",
             )),
         };
         match taken {

@@ -22,7 +22,6 @@ use crate::case::Case;
 use crate::case::changes::{self, Change};
 use crate::case::file::followed;
 use crate::case::sanitize::sanitize;
-use crate::case::spread;
 use crate::case::stamp::Stamp;
 use crate::tui::store::{self, state::State};
 
@@ -238,9 +237,6 @@ impl Autosave {
             let all = folders().flat_map(Journals::all_left_behind);
             let others = all.filter(|journal| !journal.is_of(open.path, stamp));
             claim.notices.extend(elsewhere(others));
-        }
-        if !open.document.loaded().spread.is_empty() {
-            claim.notices.push(spread::UNUSED.to_owned());
         }
         claim
     }

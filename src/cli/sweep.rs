@@ -1,0 +1,125 @@
+//! A case solved over a grid of varied fields.
+
+use super::cases::{self, Opened};
+use super::progress::Running;
+use super::sink::{Failure, Sink, overwrites};
+use super::{Exit, Streams, Sweep};
+use crate::case::{Acting, partial_relevance, relevance};
+use crate::model::Quantity;
+use crate::model::inputs::Method;
+use crate::report::sweep::SweepTable;
+use crate::study::axis::Axis;
+use crate::study::batch::{Batch, Points, solve_all};
+use crate::study::headline::{distinct, headline};
+use crate::study::refusals::Refusals;
+use crate::study::sweep::Grid;
+use std::io;
+
+pub(super) fn run(options: &Sweep, streams: &mut Streams) -> io::Result<Exit> {
+    let grid = match Grid::parse(&options.vary, &options.points, options.log) {
+        Ok(grid) => grid,
+        Err((text, problem)) => {
+            streams.say(&format!(
+                "--vary {text}: {}: {}",
+                problem.cause, problem.mend
+            ));
+            return Ok(Exit::Usage);
+        }
+    };
+    let out = options.running.out.as_deref();
+    if let Some(refusal) = overwrites(out, &[&options.case]) {
+        streams.say(&refusal);
+        return Ok(Exit::Usage);
+    }
+    let settings = options.changes.settings();
+    let keys: Vec<&str> = grid.axes.iter().map(Axis::key).collect();
+    if let Some(refusal) = cases::set_and_varied(&settings, &keys) {
+        streams.say(&refusal);
+        return Ok(Exit::Usage);
+    }
+    let opened = match cases::open(&options.case, &settings, streams) {
+        Ok(opened) => opened,
+        Err(exit) => return Ok(exit),
+    };
+    for sentence in idle(&grid, &opened) {
+        streams.say(&sentence);
+    }
+    let quantities = quantities(options, &grid, &opened);
+    let table = SweepTable {
+        grid: &grid,
+        quantities: &quantities,
+        format: options.format.into(),
+    };
+    let refusals = match write(options, &opened, &table, streams) {
+        Ok(refusals) => refusals,
+        Err(failure) => return failure.report(streams),
+    };
+    for refused in &refusals.0 {
+        let sentence = table.refused(refused, grid.count());
+        streams.say(&format!("{}: {sentence}", opened.name));
+    }
+    Ok(if refusals.total() == grid.count() {
+        Exit::BadCase
+    } else {
+        Exit::Done
+    })
+}
+
+/// The varied fields that change no result.
+fn idle(grid: &Grid, opened: &Opened) -> Vec<String> {
+    let mut inputs = opened.inputs.clone();
+    if grid.methods(&inputs).len() > 1 || grid.put(0, &mut inputs).is_err() {
+        return Vec::new();
+    }
+    let told = |axis: &Axis| match relevance(axis.field, &inputs) {
+        Acting::Yes => partial_relevance(axis.field, &inputs)
+            .map(|why| format!("{}: {}: {why}", opened.name, axis.key())),
+        Acting::No(why) | Acting::Beside(why) => {
+            let (name, key) = (&opened.name, axis.key());
+            Some(format!("{name}: {key} changes no quantity: {why}"))
+        }
+    };
+    grid.axes.iter().filter_map(told).collect()
+}
+
+/// The quantities that the user names, else the headline of every method of the grid.
+fn quantities(options: &Sweep, grid: &Grid, opened: &Opened) -> Vec<&'static Quantity> {
+    if !options.only.is_empty() {
+        return distinct(options.only.iter().flatten().copied());
+    }
+    let methods: Vec<Method> = grid.methods(&opened.inputs);
+    headline(&opened.document.case, &methods)
+}
+
+/// Solves the points and writes their rows as they arrive.
+fn write(
+    options: &Sweep,
+    opened: &Opened,
+    table: &SweepTable,
+    streams: &mut Streams,
+) -> Result<Refusals, Failure> {
+    let out = options.running.out.as_deref();
+    let mut sink = Sink::open(out, streams.output.as_mut()).map_err(Failure::File)?;
+    let batch = Batch {
+        inputs: &opened.inputs,
+        points: table.grid,
+        quantities: table.quantities,
+    };
+    let running = Running::new("points", options.running.jobs);
+    let mut refusals = Refusals::default();
+    let mut written = table.begin(&mut sink);
+    let mut take = |rows| {
+        refusals.count(&rows);
+        written = table.write(&rows, &mut sink);
+        written.is_ok()
+    };
+    let solved =
+        running.run(|control| solve_all(&batch, 0..table.grid.count(), control, &mut take));
+    written.map_err(|error| sink.failure(error))?;
+    if solved.is_err() {
+        drop(sink);
+        Running::end();
+        return Err(Failure::Stream(io::ErrorKind::Interrupted.into()));
+    }
+    sink.finish().map(|()| refusals)
+}

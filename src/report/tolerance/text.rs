@@ -1,0 +1,192 @@
+//! A tolerance study as a page for a person.
+
+use std::io::{self, Write};
+
+use super::ToleranceReport;
+use crate::case::fields::FIELDS;
+use crate::case::sanitize::sanitize;
+use crate::case::units::System;
+use crate::report::{shown_with, unit_beside};
+use crate::study::sobol::Indices;
+use crate::study::statistics::{Estimate, Figures, PERCENTILES};
+use crate::study::tolerance::{Exceedance, OfQuantity, Summary};
+
+/// Characters of the longest bar of a histogram.
+const LONGEST_BAR: usize = 40;
+
+pub(super) fn write(report: &ToleranceReport, out: &mut dyn Write) -> io::Result<()> {
+    let summary = report.study.summary(report.samples);
+    head(report, &summary, out)?;
+    spread(report, out)?;
+    probabilities(&summary, out)?;
+    for of in &summary.quantities {
+        writeln!(out)?;
+        quantity(report, of, out)?;
+    }
+    Ok(())
+}
+
+fn head(report: &ToleranceReport, summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
+    let design = &report.study.design;
+    let title = crate::case::fields::index_of("title").and_then(|field| report.case.text(field));
+    writeln!(out, "{}", sanitize(title.unwrap_or(report.name)))?;
+    let refused = design.samples - summary.solved;
+    let refused = if refused == 0 {
+        String::new()
+    } else {
+        format!(", {refused} refused")
+    };
+    let (samples, seed, method) = (design.samples, design.seed, report.method);
+    writeln!(
+        out,
+        "{samples} samples{refused}, seed {seed}, method {method}"
+    )
+}
+
+fn spread(report: &ToleranceReport, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "\nSpread")?;
+    let width = key_width(report);
+    for held in &report.case.spread {
+        let field = crate::case::fields::index_of(held.field);
+        let value = field.and_then(|field| report.case.effective(field));
+        let (value, words) = (
+            sanitize(value.unwrap_or_default()),
+            sanitize(&held.in_words()),
+        );
+        writeln!(out, "  {:width$}  {value}, {words}", held.field)?;
+    }
+    Ok(())
+}
+
+fn key_width(report: &ToleranceReport) -> usize {
+    let fields = report.study.design.distributions.iter();
+    let keys = fields.map(|distribution| FIELDS[distribution.field].key.len());
+    keys.max().unwrap_or(0)
+}
+
+fn probabilities(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
+    let named =
+        |limit: &Exceedance| format!("{} > {}", limit.quantity.key, sanitize(&limit.limit.text));
+    let contact = ("corner contact".to_owned(), summary.contact);
+    let limits = summary
+        .limits
+        .iter()
+        .map(|limit| (named(limit), limit.probability));
+    let rows: Vec<(String, Option<Estimate>)> = std::iter::once(contact).chain(limits).collect();
+    let width = rows
+        .iter()
+        .map(|(name, _)| name.chars().count())
+        .max()
+        .unwrap_or(0);
+    writeln!(out, "\nProbability (95 % interval)")?;
+    for (name, probability) in rows {
+        match probability {
+            Some(Estimate { value, from, to }) => writeln!(
+                out,
+                "  {name:width$}  {} ({} to {})",
+                percent(value),
+                percent(from),
+                percent(to)
+            )?,
+            None => writeln!(out, "  {name:width$}  unknown: no sample has a value")?,
+        }
+    }
+    Ok(())
+}
+
+fn percent(part: f64) -> String {
+    format!("{:.3} %", 100.0 * part)
+}
+
+fn quantity(report: &ToleranceReport, of: &OfQuantity, out: &mut dyn Write) -> io::Result<()> {
+    let OfQuantity { quantity, .. } = of;
+    let heading = format!("{} {} ({})", quantity.label, quantity.symbol, quantity.key);
+    let Some(figures) = &of.figures else {
+        return writeln!(out, "{heading}: no sample has a value");
+    };
+    writeln!(out, "{heading}, {} values", figures.count)?;
+    let ends = [figures.range.0, figures.range.1].into_iter();
+    let unit = unit_beside(quantity, ends, System::Metric);
+    let told = |value: f64| shown_with(quantity, value, unit).to_string();
+    let mut row = |name: &str, estimate: &Estimate| {
+        let [value, from, to] = [estimate.value, estimate.from, estimate.to].map(told);
+        writeln!(out, "  {name:<6}{value:>14} ({from} to {to})")
+    };
+    for (percent, estimate) in PERCENTILES.iter().zip(&figures.percentiles) {
+        row(&format!("P{percent}"), estimate)?;
+    }
+    row("mean", &figures.mean)?;
+    writeln!(out, "  standard deviation {}", told(figures.deviation))?;
+    histogram(figures, &told, out)?;
+    ranking(report, of, out)
+}
+
+fn histogram(
+    figures: &Figures,
+    told: &dyn Fn(f64) -> String,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let most = figures.histogram.iter().copied().max().unwrap_or(0).max(1);
+    let (from, to) = figures.range;
+    let step = (to - from) / figures.histogram.len() as f64;
+    let lower: Vec<String> = (0..figures.histogram.len())
+        .map(|bin| told(from + step * bin as f64))
+        .collect();
+    let width = lower
+        .iter()
+        .map(|text| text.chars().count())
+        .max()
+        .unwrap_or(0);
+    for (count, lower) in figures.histogram.iter().zip(lower) {
+        let length = (count * LONGEST_BAR).div_ceil(most);
+        let bar = "#".repeat(length);
+        let gap = if bar.is_empty() { "" } else { " " };
+        writeln!(out, "  {lower:>width$} | {bar}{gap}{count}")?;
+    }
+    Ok(())
+}
+
+fn ranking(report: &ToleranceReport, of: &OfQuantity, out: &mut dyn Write) -> io::Result<()> {
+    let design = &report.study.design;
+    if design.ranked == 0 {
+        return Ok(());
+    }
+    let Some(indices) = &of.indices else {
+        let reason = if of.ranked == 0 {
+            "no sample of the ranking has every value"
+        } else {
+            "the values do not vary"
+        };
+        return writeln!(out, "  no ranking: {reason}");
+    };
+    let width = key_width(report);
+    writeln!(
+        out,
+        "  {:width$}  {:>18}{:>18}",
+        "part of the variance", "first-order", "total"
+    )?;
+    let mut rows: Vec<(&str, &Indices)> = design
+        .distributions
+        .iter()
+        .map(|distribution| FIELDS[distribution.field].key)
+        .zip(indices)
+        .collect();
+    rows.sort_by(|(_, one), (_, other)| other.total.value.total_cmp(&one.total.value));
+    for (key, Indices { first_order, total }) in rows {
+        let [first_order, total] = [first_order, total].map(index);
+        writeln!(out, "  {key:width$}  {first_order:>18}{total:>18}")?;
+    }
+    if of.ranked < design.ranked {
+        let (left, all) = (design.ranked - of.ranked, design.ranked);
+        writeln!(
+            out,
+            "  {left} of {all} samples of the ranking lack a value, so it is approximate"
+        )?;
+    }
+    Ok(())
+}
+
+fn index(estimate: &Estimate) -> String {
+    let half = 0.5 * (estimate.to - estimate.from);
+    format!("{:.3} +- {half:.3}", estimate.value)
+}

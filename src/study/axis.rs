@@ -1,0 +1,382 @@
+//! A varied field: its values as a user writes them, and as the model reads them.
+
+use crate::case::fields::{FIELDS, Field, Kind, Value, index_of};
+use crate::case::units::{self, Dimension};
+use crate::case::{Problem, field_value, unknown_key};
+use crate::model::Inputs;
+use crate::numeric::decimal::shortest;
+
+/// Number of points of a range where none is given.
+pub const USUAL_POINTS: usize = 101;
+
+/// The most points of one range.
+pub const MOST_POINTS: usize = 1_000_000;
+
+/// A varied field and its values, in order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    /// The place in [`FIELDS`].
+    pub field: usize,
+    /// The unit in which the user gave the values; empty for a bare number or a choice.
+    pub unit: String,
+    /// The values.
+    pub points: Vec<AxisPoint>,
+}
+
+/// One value of a varied field.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AxisPoint {
+    /// The value in the unit of the axis, or the name of a choice.
+    pub text: String,
+    /// The number in the unit of the axis; `None` for a choice.
+    pub number: Option<f64>,
+    value: Value,
+}
+
+/// How the points of a range are distributed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Sampling {
+    /// Number of points; without it [`USUAL_POINTS`], or every whole number.
+    pub points: Option<usize>,
+    /// Equal ratios instead of equal steps.
+    pub is_log: bool,
+}
+
+impl AxisPoint {
+    /// Puts the value into a model's inputs.
+    pub fn put(&self, field: usize, inputs: &mut Inputs) {
+        FIELDS[field].put(self.value, inputs);
+    }
+}
+
+impl Axis {
+    /// The axis of a text such as `operation.speed=500..3000 rpm` or `driven.teeth=20,30,40`.
+    ///
+    /// # Errors
+    /// Where the field does not exist or has no such values, the range is reversed or empty, or the
+    /// points do not fit it.
+    pub fn parse(text: &str, sampling: Sampling) -> Result<Axis, Problem> {
+        let (field, values) = assignment(text)?;
+        if is_range(values) {
+            return AxisRange::of(field, values)?.axis(sampling);
+        }
+        list(field, values)
+    }
+
+    /// Whether a text gives a range, so that the number of points applies to it.
+    #[must_use]
+    pub fn is_range(text: &str) -> bool {
+        text.split_once('=')
+            .is_some_and(|(_, values)| is_range(values))
+    }
+
+    /// The key of the field.
+    #[must_use]
+    pub fn key(&self) -> &'static str {
+        FIELDS[self.field].key
+    }
+
+    /// The value at a place with its unit, as `--set` takes it.
+    #[must_use]
+    pub fn with_unit(&self, at: usize) -> String {
+        with_unit(&self.points[at].text, &self.unit)
+    }
+}
+
+/// A range of a varied field, in the unit in which the user gave it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AxisRange {
+    /// The place in [`FIELDS`].
+    pub field: usize,
+    /// The unit; empty for a bare number.
+    pub unit: String,
+    /// The start of the range, in that unit.
+    pub from: f64,
+    /// The end of the range, in that unit.
+    pub to: f64,
+}
+
+impl AxisRange {
+    /// The range of a text such as `operation.speed=500..3000 rpm`.
+    ///
+    /// # Errors
+    /// As [`Axis::parse`], and where the text is no range of a number field.
+    pub fn parse(text: &str) -> Result<AxisRange, Problem> {
+        let (field, values) = assignment(text)?;
+        let known = &FIELDS[field];
+        if !is_range(values) {
+            return Err(problem(
+                known,
+                "this is no range",
+                format!("write {}=FROM..TO", known.key),
+            ));
+        }
+        if matches!(known.kind, Kind::Count(..)) {
+            return Err(problem(
+                known,
+                "a whole number has no crossing between its values",
+                format!("use sweep --vary '{}={values}'", known.key),
+            ));
+        }
+        AxisRange::of(field, values)
+    }
+
+    fn of(field: usize, values: &str) -> Result<AxisRange, Problem> {
+        let known = &FIELDS[field];
+        if let Kind::Choice(names, _) = known.kind {
+            let list = names.join(",");
+            return Err(problem(
+                known,
+                "a choice has no range",
+                format!("write a list, such as {}={list}", known.key),
+            ));
+        }
+        let (from, to) = values.split_once("..").unwrap_or((values, ""));
+        let unit = unit_of(known, [from, to])?;
+        let [from, to] = [number_in(field, from, &unit)?, number_in(field, to, &unit)?];
+        if from < to {
+            return Ok(AxisRange {
+                field,
+                unit,
+                from,
+                to,
+            });
+        }
+        let [first, last] = [from, to].map(|end| with_unit(&shortest(end), &unit));
+        let (cause, fix) = if from > to {
+            (
+                format!("the range is reversed: {first} is above {last}"),
+                format!("write {}={last}..{first}", known.key),
+            )
+        } else {
+            (
+                "the range is empty: both ends are equal".to_owned(),
+                format!("write {}={first} for one value", known.key),
+            )
+        };
+        Err(problem(known, cause, fix))
+    }
+
+    /// The value at a number in the unit of the range.
+    ///
+    /// # Errors
+    /// Where the field does not take the value.
+    pub fn at(&self, number: f64) -> Result<AxisPoint, Problem> {
+        let text = shortest(number);
+        let value = field_value(self.field, &with_unit(&text, &self.unit))?;
+        Ok(AxisPoint {
+            text,
+            number: Some(number),
+            value,
+        })
+    }
+
+    /// The points of the range.
+    ///
+    /// # Errors
+    /// Where the number of points is below 2 or does not fit whole numbers, or where equal ratios
+    /// begin at 0 or below.
+    pub fn axis(&self, sampling: Sampling) -> Result<Axis, Problem> {
+        let known = &FIELDS[self.field];
+        let count = match known.kind {
+            Kind::Count(..) => self.whole_numbers(sampling)?,
+            _ => sampling.points.unwrap_or(USUAL_POINTS),
+        };
+        if !(2..=MOST_POINTS).contains(&count) {
+            return Err(problem(
+                known,
+                format!("a range cannot have {count} points"),
+                format!("write --points with a number from 2 to {MOST_POINTS}"),
+            ));
+        }
+        if sampling.is_log && self.from <= 0.0 {
+            return Err(problem(
+                known,
+                format!(
+                    "--log needs a start above 0, and {} is not",
+                    with_unit(&shortest(self.from), &self.unit)
+                ),
+                "start the range above 0, or leave --log out",
+            ));
+        }
+        let numbers = (0..count).map(|index| self.number(index, count, sampling.is_log));
+        Ok(Axis {
+            field: self.field,
+            unit: self.unit.clone(),
+            points: numbers
+                .map(|number| self.at(number))
+                .collect::<Result<_, _>>()?,
+        })
+    }
+
+    fn number(&self, index: usize, count: usize, is_log: bool) -> f64 {
+        let last = count - 1;
+        match index {
+            0 => self.from,
+            _ if index == last => self.to,
+            _ if is_log => {
+                let part = index as f64 / last as f64;
+                rounded(self.from * (self.to / self.from).powf(part))
+            }
+            _ => rounded(self.from + (self.to - self.from) * index as f64 / last as f64),
+        }
+    }
+
+    /// The number of points that fall on whole numbers.
+    fn whole_numbers(&self, sampling: Sampling) -> Result<usize, Problem> {
+        let known = &FIELDS[self.field];
+        if sampling.is_log {
+            return Err(problem(
+                known,
+                "--log gives no whole numbers",
+                format!("write a list, such as {}=20,40,80", known.key),
+            ));
+        }
+        let span = (self.to - self.from) as usize;
+        let count = sampling.points.unwrap_or(span + 1);
+        if count < 2 || span.is_multiple_of(count - 1) {
+            return Ok(count);
+        }
+        Err(problem(
+            known,
+            format!("{count} points do not fall on whole numbers"),
+            format!(
+                "leave --points out for all {} values, or write a list",
+                span + 1
+            ),
+        ))
+    }
+}
+
+/// Rounded to 15 digits, so that a step of a tenth reads as one.
+fn rounded(number: f64) -> f64 {
+    format!("{number:.14e}").parse().unwrap_or(number)
+}
+
+/// A number and its unit, as a case file has them.
+#[must_use]
+pub fn with_unit(number: &str, unit: &str) -> String {
+    if unit.is_empty() {
+        number.to_owned()
+    } else {
+        format!("{number} {unit}")
+    }
+}
+
+fn problem(field: &Field, cause: impl Into<String>, mend: impl Into<String>) -> Problem {
+    Problem {
+        field: field.key.to_owned(),
+        cause: cause.into(),
+        mend: mend.into(),
+    }
+}
+
+/// The field of a text `KEY=VALUES` and the values.
+fn assignment(text: &str) -> Result<(usize, &str), Problem> {
+    let Some((key, values)) = text.split_once('=') else {
+        return Err(Problem {
+            field: text.to_owned(),
+            cause: "no values are given".to_owned(),
+            mend: "write KEY=FROM..TO or KEY=A,B,C, such as 'operation.speed=500..3000 rpm'"
+                .to_owned(),
+        });
+    };
+    let field = index_of(key.trim()).ok_or_else(|| unknown_key(key.trim()))?;
+    let known = &FIELDS[field];
+    match known.kind {
+        Kind::Text => Err(problem(
+            known,
+            format!("{} is a text and has no values to vary", known.key),
+            "vary a field with a value; `tipstrike fields` lists every key",
+        )),
+        _ => Ok((field, values.trim())),
+    }
+}
+
+fn is_range(values: &str) -> bool {
+    values.contains("..")
+}
+
+/// The values of a list.
+fn list(field: usize, values: &str) -> Result<Axis, Problem> {
+    let known = &FIELDS[field];
+    let items: Vec<&str> = values.split(',').map(str::trim).collect();
+    if matches!(known.kind, Kind::Choice(..)) {
+        let point = |name: &&str| -> Result<AxisPoint, Problem> {
+            Ok(AxisPoint {
+                text: (*name).to_owned(),
+                number: None,
+                value: field_value(field, name)?,
+            })
+        };
+        return Ok(Axis {
+            field,
+            unit: String::new(),
+            points: items.iter().map(point).collect::<Result<_, _>>()?,
+        });
+    }
+    let unit = unit_of(known, items.iter().copied())?;
+    let point = |item: &&str| -> Result<AxisPoint, Problem> {
+        let number = number_in(field, item, &unit)?;
+        let text = shortest(number);
+        let value = field_value(field, &with_unit(&text, &unit))?;
+        Ok(AxisPoint {
+            text,
+            number: Some(number),
+            value,
+        })
+    };
+    let points = items.iter().map(point).collect::<Result<_, _>>()?;
+    Ok(Axis {
+        field,
+        unit,
+        points,
+    })
+}
+
+/// The first unit that the values give, for those without one.
+fn unit_of<'t>(
+    field: &Field,
+    values: impl IntoIterator<Item = &'t str>,
+) -> Result<String, Problem> {
+    for value in values {
+        let (_, unit) = units::split(value, field.usual_unit()).map_err(|error| Problem {
+            field: field.key.to_owned(),
+            cause: error.cause,
+            mend: error.mend,
+        })?;
+        if !unit.is_empty() {
+            return Ok(unit.to_owned());
+        }
+    }
+    Ok(String::new())
+}
+
+/// The number of a value in a unit; a bare number is in that unit already.
+fn number_in(field: usize, value: &str, unit: &str) -> Result<f64, Problem> {
+    let known = &FIELDS[field];
+    let (number, own) = units::split(value, known.usual_unit()).unwrap_or((value, ""));
+    let is_bare = own.is_empty();
+    let text = if is_bare {
+        with_unit(number, unit)
+    } else {
+        value.trim().to_owned()
+    };
+    let taken = field_value(field, &text)?;
+    let in_unit = |si: f64| {
+        let converted = units::text(si, unit);
+        units::split(&converted, "")
+            .ok()
+            .and_then(|(number, _)| number.parse().ok())
+            .unwrap_or(si)
+    };
+    Ok(match taken {
+        Value::Number(si) if !is_bare && own != unit => in_unit(si),
+        Value::Number(_) => units::parse(number, Dimension::Number, "").unwrap_or_default(),
+        Value::Count(count) => f64::from(count),
+        Value::Text | Value::Choice(_) => 0.0,
+    })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,365 @@
+//! Points of a study solved in parallel; their rows arrive in order.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
+use std::time::Duration;
+
+use crate::case::{Evaluator, Problem, misfit_between};
+use crate::model::{Inputs, Outcome, Quantity, Refusal, Stages};
+
+/// How often the progress is reported.
+const TICK: Duration = Duration::from_millis(50);
+
+/// The most points of a chunk. A chunk is the work that a thread takes at once.
+const LONGEST_CHUNK: usize = 1024;
+
+/// Chunks per thread, so that no thread waits long for another.
+const CHUNKS_PER_JOB: usize = 32;
+
+/// The points of a study.
+pub trait Points: Sync {
+    /// How many points there are.
+    fn count(&self) -> usize;
+
+    /// Puts the values of a point into inputs that hold the case or another point.
+    ///
+    /// # Errors
+    /// Where a field does not take its value.
+    fn put(&self, index: usize, inputs: &mut Inputs) -> Result<(), Problem>;
+}
+
+/// A study: one case, its points, and the quantities to compute at each.
+#[derive(Clone, Copy)]
+pub struct Batch<'a> {
+    /// The case.
+    pub inputs: &'a Inputs,
+    /// The points.
+    pub points: &'a dyn Points,
+    /// The quantities; no others are computed.
+    pub quantities: &'a [&'static Quantity],
+}
+
+/// How a study runs and how its user follows it.
+#[derive(Clone, Copy)]
+pub struct Control<'a> {
+    /// Number of threads; without it one per core.
+    pub jobs: Option<usize>,
+    /// Whether to go on. Every thread asks at every point and during a long solve.
+    pub go_on: &'a (dyn Fn() -> bool + Sync),
+    /// Receives the number of points solved and their total, about twenty times a second.
+    pub progress: &'a dyn Fn(usize, usize),
+}
+
+impl Control<'static> {
+    /// All cores, to the end, without progress.
+    pub const PLAIN: Control<'static> = Control {
+        jobs: None,
+        go_on: &|| true,
+        progress: &|_, _| {},
+    };
+}
+
+/// How a point ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PointOutcome {
+    /// The model solved it.
+    Solved(Outcome),
+    /// The case or the model refuses it.
+    Refused,
+}
+
+impl PointOutcome {
+    /// Every outcome.
+    pub const ALL: [PointOutcome; 3] = [
+        PointOutcome::Solved(Outcome::CornerContact),
+        PointOutcome::Solved(Outcome::NoCornerContact),
+        PointOutcome::Refused,
+    ];
+
+    /// The name in a report.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            PointOutcome::Solved(outcome) => outcome.name(),
+            PointOutcome::Refused => "refused",
+        }
+    }
+}
+
+/// Consecutive points with their results.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Rows {
+    /// Index of the first point.
+    pub first: usize,
+    /// How each point ended.
+    pub outcomes: Vec<PointOutcome>,
+    /// Values in SI, point by point; NaN stands for no value.
+    values: Vec<f64>,
+    /// Index and reason of each refused point.
+    pub refusals: Vec<(usize, Problem)>,
+}
+
+impl Rows {
+    /// No rows yet, from this point on.
+    #[must_use]
+    pub fn starting_at(first: usize) -> Rows {
+        Rows {
+            first,
+            ..Rows::default()
+        }
+    }
+
+    /// Adds a row with the values of every quantity.
+    pub fn push(&mut self, outcome: PointOutcome, values: impl IntoIterator<Item = Option<f64>>) {
+        self.outcomes.push(outcome);
+        let values = values.into_iter().map(|value| value.unwrap_or(f64::NAN));
+        self.values.extend(values);
+    }
+
+    /// The indices of the points.
+    #[must_use]
+    pub fn range(&self) -> Range<usize> {
+        self.first..self.first + self.outcomes.len()
+    }
+
+    /// The values of a row in the order of the quantities.
+    pub fn values(&self, row: usize) -> impl Iterator<Item = Option<f64>> {
+        let width = self
+            .values
+            .len()
+            .checked_div(self.outcomes.len())
+            .unwrap_or(0);
+        let cells = &self.values[row * width..(row + 1) * width];
+        cells
+            .iter()
+            .map(|&value| Some(value).filter(|value| !value.is_nan()))
+    }
+
+    /// Why a row was refused.
+    #[must_use]
+    pub fn refusal(&self, row: usize) -> Option<&Problem> {
+        let index = self.first + row;
+        let at = self.refusals.binary_search_by_key(&index, |(at, _)| *at);
+        at.ok().map(|at| &self.refusals[at].1)
+    }
+}
+
+/// The study was stopped before its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stopped;
+
+/// Solves the points of a range and hands their rows to `take` in order, as soon as they are ready.
+/// Neither the number of threads nor the order in which they finish changes a row. `take` returns
+/// whether to go on.
+///
+/// # Errors
+/// [`Stopped`] where [`Control::go_on`] or `take` says no.
+pub fn solve_all(
+    batch: &Batch,
+    range: Range<usize>,
+    control: &Control,
+    take: &mut dyn FnMut(Rows) -> bool,
+) -> Result<(), Stopped> {
+    let jobs = jobs(control.jobs);
+    let chunk = (range.len() / (jobs * CHUNKS_PER_JOB)).clamp(1, LONGEST_CHUNK);
+    let shared = Shared {
+        batch: *batch,
+        range,
+        chunk,
+        next: AtomicUsize::new(0),
+        done: AtomicUsize::new(0),
+        stopped: AtomicBool::new(false),
+        go_on: control.go_on,
+    };
+    let (send, receive) = mpsc::channel();
+    std::thread::scope(|scope| {
+        for _ in 0..jobs.min(shared.chunks()) {
+            let (shared, send) = (&shared, send.clone());
+            scope.spawn(move || work(shared, &send));
+        }
+        drop(send);
+        collect(&shared, &receive, control, take)
+    })
+}
+
+/// The number of threads of a study.
+#[must_use]
+pub fn jobs(wanted: Option<usize>) -> usize {
+    let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    wanted.unwrap_or_else(cores).max(1)
+}
+
+/// What the threads of a study share.
+struct Shared<'a> {
+    batch: Batch<'a>,
+    range: Range<usize>,
+    chunk: usize,
+    next: AtomicUsize,
+    done: AtomicUsize,
+    stopped: AtomicBool,
+    go_on: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl Shared<'_> {
+    fn chunks(&self) -> usize {
+        self.range.len().div_ceil(self.chunk)
+    }
+
+    fn goes_on(&self) -> bool {
+        !self.stopped.load(Ordering::Relaxed) && (self.go_on)()
+    }
+
+    fn points(&self, chunk: usize) -> Range<usize> {
+        let first = self.range.start + chunk * self.chunk;
+        first..(first + self.chunk).min(self.range.end)
+    }
+}
+
+/// Puts the chunks in order and follows the progress.
+fn collect(
+    shared: &Shared,
+    receive: &Receiver<(usize, Rows)>,
+    control: &Control,
+    take: &mut dyn FnMut(Rows) -> bool,
+) -> Result<(), Stopped> {
+    let (mut early, mut next) = (BTreeMap::new(), 0);
+    while next < shared.chunks() {
+        match receive.recv_timeout(TICK) {
+            Ok((chunk, rows)) => drop(early.insert(chunk, rows)),
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => return Err(Stopped),
+        }
+        while let Some(rows) = early.remove(&next) {
+            next += 1;
+            if !take(rows) {
+                shared.stopped.store(true, Ordering::Relaxed);
+                return Err(Stopped);
+            }
+        }
+        (control.progress)(shared.done.load(Ordering::Relaxed), shared.range.len());
+        if !shared.goes_on() {
+            shared.stopped.store(true, Ordering::Relaxed);
+            return Err(Stopped);
+        }
+    }
+    Ok(())
+}
+
+/// One thread: takes chunks until none is left.
+fn work(shared: &Shared, send: &Sender<(usize, Rows)>) {
+    let mut solver = PointSolver::new(shared.batch);
+    loop {
+        let chunk = shared.next.fetch_add(1, Ordering::Relaxed);
+        if chunk >= shared.chunks() {
+            return;
+        }
+        let points = shared.points(chunk);
+        let mut rows = Rows::starting_at(points.start);
+        rows.values
+            .reserve(points.len() * shared.batch.quantities.len());
+        for index in points {
+            match solver.solve(index, &mut rows, &|| shared.goes_on()) {
+                Ok(()) => drop(shared.done.fetch_add(1, Ordering::Relaxed)),
+                Err(Stopped) => return,
+            }
+        }
+        if send.send((chunk, rows)).is_err() {
+            return;
+        }
+    }
+}
+
+/// Solves points one after the other; a stage whose inputs are equal keeps its result.
+struct PointSolver<'a> {
+    batch: Batch<'a>,
+    inputs: Inputs,
+    evaluator: Evaluator,
+    wanted: Stages,
+}
+
+impl<'a> PointSolver<'a> {
+    fn new(batch: Batch<'a>) -> PointSolver<'a> {
+        let stages = batch.quantities.iter();
+        PointSolver {
+            inputs: batch.inputs.clone(),
+            evaluator: Evaluator::default(),
+            wanted: stages.fold(Stages::NONE, |stages, quantity| {
+                stages.and(Stages::of(quantity.stage))
+            }),
+            batch,
+        }
+    }
+
+    /// Adds the row of a point.
+    fn solve(
+        &mut self,
+        index: usize,
+        rows: &mut Rows,
+        go_on: &dyn Fn() -> bool,
+    ) -> Result<(), Stopped> {
+        if !go_on() {
+            return Err(Stopped);
+        }
+        let problem = match self.point(index, rows, go_on) {
+            Ok(None) => return Ok(()),
+            Ok(Some(refusal)) => Problem::from(&refusal),
+            Err(Unsolved::Stopped) => return Err(Stopped),
+            Err(Unsolved::Refused(problem)) => problem,
+        };
+        let none = self.batch.quantities.iter().map(|_| None);
+        rows.push(PointOutcome::Refused, none);
+        rows.refusals.push((index, problem));
+        Ok(())
+    }
+
+    /// Adds the row of a solved point, or returns the reason why a quantity has no value.
+    fn point(
+        &mut self,
+        index: usize,
+        rows: &mut Rows,
+        go_on: &dyn Fn() -> bool,
+    ) -> Result<Option<Refusal>, Unsolved> {
+        self.batch.points.put(index, &mut self.inputs)?;
+        if let Some(problem) = misfit_between(&self.inputs) {
+            return Err(problem.into());
+        }
+        let method = self.inputs.method;
+        let wanted = self.wanted.and(method.deciding_stages());
+        let solution = self
+            .evaluator
+            .solve(&self.inputs, method, wanted, &|_| go_on())?;
+        let values = || {
+            let all = self.batch.quantities.iter();
+            all.map(|quantity| quantity.finite_value(&solution))
+        };
+        // As a plain solve does with a quantity that is named.
+        if solution.withheld.is_some() && values().any(|value| value.is_none()) {
+            return Ok(solution.withheld);
+        }
+        rows.push(PointOutcome::Solved(solution.outcome), values());
+        Ok(None)
+    }
+}
+
+/// Why a point has no solution.
+enum Unsolved {
+    Refused(Problem),
+    Stopped,
+}
+
+impl From<Problem> for Unsolved {
+    fn from(problem: Problem) -> Unsolved {
+        Unsolved::Refused(problem)
+    }
+}
+
+impl From<Refusal> for Unsolved {
+    fn from(refusal: Refusal) -> Unsolved {
+        match refusal {
+            Refusal::Stopped => Unsolved::Stopped,
+            refused => Unsolved::Refused(Problem::from(&refused)),
+        }
+    }
+}

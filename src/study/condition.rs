@@ -1,0 +1,304 @@
+//! A condition on a result, such as `impact_force<=2500 N`, and whether a point meets it.
+
+use super::batch::{PointOutcome, Rows};
+use crate::case::sanitize::quoted;
+use crate::case::{Limit, Problem, unknown_quantity};
+use crate::model::inputs::Method;
+use crate::model::{Outcome, Quantity};
+
+/// How a quantity compares with its limit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Relation {
+    /// At most the limit.
+    AtMost,
+    /// Below the limit.
+    Below,
+    /// At least the limit.
+    AtLeast,
+    /// Above the limit.
+    Above,
+}
+
+impl Relation {
+    /// Every sign, the longer ones first.
+    const SIGNS: [(&'static str, Relation); 4] = [
+        ("<=", Relation::AtMost),
+        (">=", Relation::AtLeast),
+        ("<", Relation::Below),
+        (">", Relation::Above),
+    ];
+
+    fn is_met(self, value: f64, limit: f64) -> bool {
+        match self {
+            Relation::AtMost => value <= limit,
+            Relation::Below => value < limit,
+            Relation::AtLeast => value >= limit,
+            Relation::Above => value > limit,
+        }
+    }
+
+    /// Whether a quantity that does not occur is within the limit.
+    fn is_met_without_value(self) -> bool {
+        matches!(self, Relation::AtMost | Relation::Below)
+    }
+}
+
+/// A condition on the result of a point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Condition {
+    /// As the user wrote it.
+    pub text: String,
+    kind: Kind,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Kind {
+    Outcome(Outcome),
+    Compared(&'static str, Relation, f64),
+}
+
+/// Whether a point meets the condition.
+#[derive(Debug, Clone, PartialEq)]
+pub enum State {
+    /// It does.
+    Met,
+    /// It does not.
+    NotMet,
+    /// The point is refused, or the quantity has no value for another reason than no contact.
+    Unknown(Problem),
+}
+
+impl State {
+    /// Whether two states are the same answer, whatever the reason.
+    #[must_use]
+    pub fn is_like(&self, other: &State) -> bool {
+        std::mem::discriminant(self) == std::mem::discriminant(other)
+    }
+}
+
+impl Condition {
+    /// The condition of a text such as `impact_force<=2500 N` or `outcome=no-corner-contact`.
+    ///
+    /// # Errors
+    /// Where the quantity, the sign, the value or the outcome is unknown.
+    pub fn parse(text: &str) -> Result<Condition, Problem> {
+        let sign = Relation::SIGNS
+            .into_iter()
+            .filter_map(|(sign, relation)| Some((text.find(sign)?, sign, relation)))
+            .min_by_key(|(at, sign, _)| (*at, std::cmp::Reverse(sign.len())));
+        let kind = match (sign, text.split_once('=')) {
+            (Some((at, sign, relation)), _) => {
+                compared(&text[..at], relation, &text[at + sign.len()..])?
+            }
+            (None, Some((name, value))) if name.trim() == "outcome" => outcome(value.trim())?,
+            (None, Some((name, value))) => flag(name, value)?,
+            (None, None) => {
+                return Err(problem(
+                    text,
+                    "this is no condition",
+                    "write QUANTITY<=VALUE, such as 'impact_force<=2500 N', or outcome=no-corner-contact",
+                ));
+            }
+        };
+        let text = text.trim().to_owned();
+        Ok(Condition { text, kind })
+    }
+
+    /// The quantity that the condition reads; `None` for the outcome.
+    #[must_use]
+    pub fn quantity(&self) -> Option<&'static Quantity> {
+        match self.kind {
+            Kind::Outcome(_) => None,
+            Kind::Compared(key, ..) => Quantity::find(key),
+        }
+    }
+
+    /// Checks that a method computes the quantity.
+    ///
+    /// # Errors
+    /// Where another method does.
+    pub fn check(&self, method: Method) -> Result<(), Problem> {
+        let missing = self
+            .quantity()
+            .filter(|quantity| !method.stages().has(quantity.stage));
+        let Some(quantity) = missing else {
+            return Ok(());
+        };
+        let others = Method::ALL.into_iter().map(Method::name);
+        let computes = |name: &&str| {
+            let method = Method::ALL
+                .into_iter()
+                .find(|method| method.name() == *name);
+            method.is_some_and(|method| method.stages().has(quantity.stage))
+        };
+        let others: Vec<&str> = others.filter(computes).collect();
+        let cause = format!("method {} does not compute {}", method.name(), quantity.key);
+        let fix = format!("use --method with one of {}", others.join(", "));
+        Err(problem(quantity.key, cause, fix))
+    }
+
+    /// Whether a row meets the condition; its first value is that of the quantity.
+    #[must_use]
+    pub fn state(&self, rows: &Rows, row: usize) -> State {
+        let outcome = match rows.outcomes[row] {
+            PointOutcome::Solved(outcome) => outcome,
+            PointOutcome::Refused => {
+                let refused = || problem(&self.text, "the point is refused", "solve it alone");
+                return State::Unknown(rows.refusal(row).cloned().unwrap_or_else(refused));
+            }
+        };
+        let is_met = match self.kind {
+            Kind::Outcome(wanted) => outcome == wanted,
+            Kind::Compared(key, relation, limit) => {
+                match (rows.values(row).next().flatten(), is_without(key, outcome)) {
+                    (Some(value), _) => relation.is_met(value, limit),
+                    (None, true) => relation.is_met_without_value(),
+                    (None, false) => {
+                        return State::Unknown(problem(
+                            key,
+                            format!("{key} has no value here"),
+                            "solve the point alone for the reason",
+                        ));
+                    }
+                }
+            }
+        };
+        if is_met { State::Met } else { State::NotMet }
+    }
+
+    /// The distance of a value from the limit, above 0 where the condition is met.
+    #[must_use]
+    pub fn margin(&self, value: f64) -> Option<f64> {
+        match self.kind {
+            Kind::Outcome(_) => None,
+            Kind::Compared(_, Relation::AtMost | Relation::Below, limit) => Some(limit - value),
+            Kind::Compared(_, Relation::AtLeast | Relation::Above, limit) => Some(value - limit),
+        }
+    }
+}
+
+/// Whether a quantity is missing because no tooth strikes.
+fn is_without(key: &str, outcome: Outcome) -> bool {
+    outcome == Outcome::NoCornerContact
+        || Quantity::find(key).is_some_and(Quantity::is_of_free_impact)
+}
+
+fn compared(name: &str, relation: Relation, value: &str) -> Result<Kind, Problem> {
+    let quantity = named(name)?;
+    let limit = Limit::new(quantity.key, value.trim())?;
+    Ok(Kind::Compared(quantity.key, relation, limit.value))
+}
+
+fn named(name: &str) -> Result<&'static Quantity, Problem> {
+    Quantity::named(name.trim()).ok_or_else(|| unknown_quantity(name, name))
+}
+
+fn outcome(name: &str) -> Result<Kind, Problem> {
+    let outcomes = [Outcome::CornerContact, Outcome::NoCornerContact];
+    let found = outcomes.into_iter().find(|outcome| outcome.name() == name);
+    found.map(Kind::Outcome).ok_or_else(|| {
+        let names = outcomes.map(Outcome::name).join(" or ");
+        problem(
+            "outcome",
+            format!("unknown outcome {}", quoted(name)),
+            format!("write {names}"),
+        )
+    })
+}
+
+fn flag(name: &str, value: &str) -> Result<Kind, Problem> {
+    let quantity = named(name)?;
+    let key = quantity.key;
+    if !quantity.is_flag() {
+        return Err(problem(
+            key,
+            format!("{key} is a measured value and equals no number exactly"),
+            format!("write {key}<={}", value.trim()),
+        ));
+    }
+    match value.trim() {
+        "true" | "yes" => Ok(Kind::Compared(key, Relation::AtLeast, 1.0)),
+        "false" | "no" => Ok(Kind::Compared(key, Relation::AtMost, 0.0)),
+        other => Err(problem(
+            key,
+            format!("{} is neither true nor false", quoted(other)),
+            format!("write {key}=true or {key}=false"),
+        )),
+    }
+}
+
+fn problem(field: &str, cause: impl Into<String>, mend: impl Into<String>) -> Problem {
+    Problem {
+        field: field.to_owned(),
+        cause: cause.into(),
+        mend: mend.into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_condition_compares_a_quantity_or_an_outcome() {
+        for (text, kind) in [
+            (
+                "impact_force<=2.5 kN",
+                Kind::Compared("impact_force", Relation::AtMost, 2500.0),
+            ),
+            (
+                "F_S < 2500 N",
+                Kind::Compared("impact_force", Relation::Below, 2500.0),
+            ),
+            (
+                "contact_ratio>=1.4",
+                Kind::Compared("contact_ratio", Relation::AtLeast, 1.4),
+            ),
+            (
+                "contact_ratio>1.4",
+                Kind::Compared("contact_ratio", Relation::Above, 1.4),
+            ),
+            (
+                "outcome=no-corner-contact",
+                Kind::Outcome(Outcome::NoCornerContact),
+            ),
+            (
+                "dynamic_contact_lost=false",
+                Kind::Compared("dynamic_contact_lost", Relation::AtMost, 0.0),
+            ),
+        ] {
+            assert_eq!(Condition::parse(text).unwrap().kind, kind, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_bad_condition_gets_its_cause_and_fix() {
+        for (text, part) in [
+            (
+                "impact_force",
+                "this is no condition: write QUANTITY<=VALUE",
+            ),
+            ("impact_forc<=2500 N", "did you mean impact_force?"),
+            ("impact_force<=2500", "2500 is a bare number"),
+            ("impact_force<=2500 mm", "unit of length"),
+            (
+                "impact_force=2500 N",
+                "equals no number exactly: write impact_force<=2500 N",
+            ),
+            (
+                "outcome=contact",
+                "write corner-contact or no-corner-contact",
+            ),
+            ("dynamic_contact_lost=maybe", "neither true nor false"),
+        ] {
+            let told = Condition::parse(text).unwrap_err().to_string();
+            assert!(told.contains(part), "{text}: {told}");
+        }
+        let condition = Condition::parse("dynamic_peak_force<=1 kN").unwrap();
+        let told = condition.check(Method::Exact).unwrap_err().to_string();
+        assert!(
+            told.contains("use --method with one of dynamic, auto"),
+            "{told}"
+        );
+    }
+}

@@ -1,0 +1,140 @@
+//! The samples of a tolerance study: each a pure function of the seed and its number.
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+
+use super::batch::Points;
+use super::distribution::Distribution;
+use crate::case::fields::FIELDS;
+use crate::case::{Problem, field_range};
+use crate::model::Inputs;
+
+/// The samples, and after them the points of the ranking.
+///
+/// The ranking takes the first samples a second time. For each of them it has a second, independent
+/// sample b, and for each field a sample that has the value of b in this field alone.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Design {
+    /// Seed of the samples.
+    pub seed: u64,
+    /// The spread fields.
+    pub distributions: Vec<Distribution>,
+    /// Number of samples.
+    pub samples: usize,
+    /// How many of them have points of the ranking.
+    pub ranked: usize,
+}
+
+/// What a point of a design is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Member {
+    /// The sample of that number.
+    Sample(usize),
+    /// The second sample of that number.
+    Second(usize),
+    /// The sample of that number with the value of the second one in a field.
+    Swapped(usize, usize),
+}
+
+impl Design {
+    /// What a point is.
+    #[must_use]
+    pub fn member(&self, index: usize) -> Member {
+        let Some(rest) = index.checked_sub(self.samples) else {
+            return Member::Sample(index);
+        };
+        let each = self.distributions.len() + 1;
+        match (rest / each, rest % each) {
+            (number, 0) => Member::Second(number),
+            (number, field) => Member::Swapped(number, field - 1),
+        }
+    }
+
+    /// The index of a point.
+    #[must_use]
+    pub fn index(&self, member: Member) -> usize {
+        let first = |number| self.samples + number * (self.distributions.len() + 1);
+        match member {
+            Member::Sample(number) => number,
+            Member::Second(number) => first(number),
+            Member::Swapped(number, field) => first(number) + 1 + field,
+        }
+    }
+
+    /// The values of a point in SI, in the order of the distributions.
+    pub fn values(&self, index: usize) -> impl Iterator<Item = f64> {
+        let member = self.member(index);
+        let (number, swapped) = match member {
+            Member::Sample(number) | Member::Second(number) => (number, None),
+            Member::Swapped(number, field) => (number, Some(field)),
+        };
+        let is_second = matches!(member, Member::Second(_));
+        let mut stream = stream(self.seed, number);
+        self.distributions
+            .iter()
+            .enumerate()
+            .map(move |(field, distribution)| {
+                let parts = [part(&mut stream), part(&mut stream)];
+                let second = is_second || swapped == Some(field);
+                distribution.quantile(parts[usize::from(second)])
+            })
+    }
+
+    /// A point as settings, such as `deviations.base_pitch = 1.6e-5 m`.
+    #[must_use]
+    pub fn point(&self, index: usize) -> String {
+        let values = self.distributions.iter().zip(self.values(index));
+        let settings: Vec<String> = values
+            .map(|(distribution, value)| {
+                let unit = distribution.unit();
+                format!(
+                    "{} = {}",
+                    distribution.key(),
+                    super::axis::with_unit(&format!("{value:?}"), unit)
+                )
+            })
+            .collect();
+        settings.join(", ")
+    }
+}
+
+impl Points for Design {
+    fn count(&self) -> usize {
+        self.samples + self.ranked * (self.distributions.len() + 1)
+    }
+
+    fn put(&self, index: usize, inputs: &mut Inputs) -> Result<(), Problem> {
+        for (distribution, value) in self.distributions.iter().zip(self.values(index)) {
+            let (from, to) = field_range(distribution.field);
+            if value < from || value > to {
+                return Err(outside(distribution.field));
+            }
+            distribution.put(value, inputs);
+        }
+        Ok(())
+    }
+}
+
+fn outside(field: usize) -> Problem {
+    let known = &FIELDS[field];
+    Problem {
+        field: known.key.to_owned(),
+        cause: format!("the sample is outside the range {}", known.range_text()),
+        mend: "use a narrower distribution".to_owned(),
+    }
+}
+
+/// The random numbers of a sample.
+fn stream(seed: u64, number: usize) -> ChaCha8Rng {
+    let mut key = [0; 32];
+    key[..8].copy_from_slice(&seed.to_le_bytes());
+    let mut stream = ChaCha8Rng::from_seed(key);
+    stream.set_stream(number as u64);
+    stream
+}
+
+/// A number above 0 and below 1, from 53 random bits.
+fn part(stream: &mut ChaCha8Rng) -> f64 {
+    const STEPS: f64 = (1_u64 << 53) as f64;
+    ((stream.next_u64() >> 11) as f64 + 0.5) / STEPS
+}

@@ -1,0 +1,238 @@
+//! The distribution of a field around its value, as quantiles.
+
+use statrs::distribution::{ContinuousCDF, Normal};
+
+use super::axis::with_unit;
+use crate::case::fields::{FIELDS, Kind, Value, index_of};
+use crate::case::spread::Shape;
+use crate::case::{Case, Problem, Spread, field_range, units};
+use crate::model::Inputs;
+use crate::model::inputs::Gear;
+use crate::model::iso_1328::base_pitch_tolerance;
+
+/// Standard deviations at which a truncated normal distribution ends.
+const CUT: f64 = 3.0;
+
+/// Standard deviations of a normal distribution that a field must allow. Of a million samples less
+/// than one is beyond them.
+const ALLOWED: f64 = 5.0;
+
+/// A distribution of a field around its value, in SI.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Distribution {
+    /// The place in [`FIELDS`].
+    pub field: usize,
+    /// The value of the field.
+    pub centre: f64,
+    /// Standard deviation of a normal distribution, else half the span.
+    pub width: f64,
+    /// The shape; of a grade, [`Shape::Truncated`].
+    pub shape: Shape,
+}
+
+impl Distribution {
+    /// The distribution of a `[spread]` entry of a case.
+    ///
+    /// # Errors
+    /// Where the field has no value to spread around, or the distribution leaves its range.
+    pub fn of(spread: &Spread, case: &Case, inputs: &Inputs) -> Result<Distribution, Problem> {
+        let refused = |cause: String, mend: String| Problem {
+            field: format!("spread.\"{}\"", spread.field),
+            cause,
+            mend,
+        };
+        let found = index_of(spread.field)
+            .and_then(|field| Some((field, case.value(field)?)))
+            .filter(|_| !is_replaced(spread.field, case));
+        let Some((field, centre)) = found else {
+            let cause = format!("{} has no value to spread around", spread.field);
+            return Err(refused(cause, format!("give {} a value", spread.field)));
+        };
+        let (shape, width) = match spread.shape {
+            Shape::Grade => (Shape::Truncated, allowed_deviation(spread, inputs)),
+            shape => (shape, spread.width),
+        };
+        let distribution = Distribution {
+            field,
+            centre,
+            width,
+            shape,
+        };
+        match distribution.beyond() {
+            None => Ok(distribution),
+            Some(end) => Err(refused(
+                format!(
+                    "{} reaches {}, outside the field's range",
+                    spread.in_words(),
+                    end
+                ),
+                format!(
+                    "keep {} within {}; truncated ends at its width",
+                    spread.field,
+                    FIELDS[field].range_text()
+                ),
+            )),
+        }
+    }
+
+    /// The end of the distribution that its field does not allow.
+    fn beyond(&self) -> Option<String> {
+        let reach = match self.shape {
+            Shape::Normal => ALLOWED * self.width,
+            _ => self.width,
+        };
+        let (from, to) = field_range(self.field);
+        let slack = 1e-12 * from.abs().max(to.abs());
+        let end = [self.centre - reach, self.centre + reach]
+            .into_iter()
+            .find(|&end| end < from - slack || end > to + slack)?;
+        let unit = FIELDS[self.field].usual_unit();
+        let value = end / units::factor(unit).unwrap_or(1.0);
+        let rounded = crate::numeric::decimal::significant(value, 6);
+        let by = match self.shape {
+            Shape::Normal => format!(" at {ALLOWED} standard deviations"),
+            _ => String::new(),
+        };
+        Some(with_unit(&rounded, unit) + &by)
+    }
+
+    /// The value below which a part of all samples are, for a part above 0 and below 1.
+    #[must_use]
+    pub fn quantile(&self, part: f64) -> f64 {
+        let Distribution { centre, width, .. } = *self;
+        match self.shape {
+            Shape::Normal => centre + width * normal_quantile(part),
+            Shape::Uniform => centre + width * (2.0 * part - 1.0),
+            Shape::Triangular if part < 0.5 => centre - width * (1.0 - (2.0 * part).sqrt()),
+            Shape::Triangular => centre + width * (1.0 - (2.0 * (1.0 - part)).sqrt()),
+            Shape::Truncated | Shape::Grade => {
+                let tail = Normal::standard().cdf(-CUT);
+                let inside = tail + part * (1.0 - 2.0 * tail);
+                let offset = width / CUT * normal_quantile(inside);
+                centre + offset.clamp(-width, width)
+            }
+        }
+    }
+
+    /// Puts a value into a model's inputs.
+    pub fn put(&self, value: f64, inputs: &mut Inputs) {
+        FIELDS[self.field].put(Value::Number(value), inputs);
+    }
+
+    /// The SI unit of the field; empty for a bare number.
+    #[must_use]
+    pub fn unit(&self) -> &'static str {
+        match FIELDS[self.field].kind {
+            Kind::Number(dimension, ..) => dimension.si_unit(),
+            _ => "",
+        }
+    }
+
+    /// The key of the field.
+    #[must_use]
+    pub fn key(&self) -> &'static str {
+        FIELDS[self.field].key
+    }
+}
+
+fn normal_quantile(part: f64) -> f64 {
+    Normal::standard().inverse_cdf(part)
+}
+
+/// Whether the case gives another field in place of this one.
+fn is_replaced(key: &str, case: &Case) -> bool {
+    index_of(key).is_some_and(|field| case.effective(field).is_none())
+}
+
+/// The base pitch deviation that a class allows: of the gear in the key, or of the larger one.
+fn allowed_deviation(spread: &Spread, inputs: &Inputs) -> f64 {
+    let diameter = |gear: &Gear| inputs.module * f64::from(gear.teeth);
+    let (driver, driven) = (diameter(&inputs.driver), diameter(&inputs.driven));
+    let diameter = match spread.field.split_once('.') {
+        Some(("driver", _)) => driver,
+        Some(("driven", _)) => driven,
+        _ => driver.max(driven),
+    };
+    let class = spread.width as u32;
+    base_pitch_tolerance(class, inputs.module, diameter, inputs.pressure_angle)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn distribution(shape: Shape) -> Distribution {
+        Distribution {
+            field: index_of("deviations.base_pitch").unwrap(),
+            centre: 16e-6,
+            width: 4e-6,
+            shape,
+        }
+    }
+
+    #[test]
+    fn quantiles_are_those_of_the_shapes() {
+        for (shape, quantiles) in [
+            (Shape::Normal, [9.42058549, 16.0, 22.57941451]),
+            (Shape::Uniform, [12.4, 16.0, 19.6]),
+            (Shape::Triangular, [13.26491106, 16.0, 18.73508894]),
+            // By Python's statistics.NormalDist, with 4/3 um of standard deviation.
+            (Shape::Truncated, [13.82241824, 16.0, 18.17758176]),
+        ] {
+            for (part, wanted) in [0.05, 0.5, 0.95].into_iter().zip(quantiles) {
+                let found = 1e6 * distribution(shape).quantile(part);
+                assert!((found - wanted).abs() < 1e-8, "{}: {found}", shape.name());
+            }
+        }
+    }
+
+    #[test]
+    fn bounded_shapes_stay_within_their_span() {
+        for shape in [Shape::Uniform, Shape::Triangular, Shape::Truncated] {
+            for part in [f64::MIN_POSITIVE, 1e-17, 0.3, 1.0 - f64::EPSILON / 2.0] {
+                let value = distribution(shape).quantile(part);
+                assert!(
+                    (12e-6..=20e-6).contains(&value),
+                    "{}: {value}",
+                    shape.name()
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_grade_is_the_deviation_of_iso_1328_of_the_larger_gear() {
+        let case = Case::table_1();
+        let spread = Spread::new("deviations.base_pitch", "grade", "7").unwrap();
+        let found = Distribution::of(&spread, &case, &case.inputs().unwrap()).unwrap();
+        let allowed = 14e-6 * 20_f64.to_radians().cos();
+        assert!((found.width - allowed).abs() < 1e-18 && found.shape == Shape::Truncated);
+    }
+
+    #[test]
+    fn a_spread_that_leaves_the_range_or_has_no_value_is_refused() {
+        let mut case = Case::table_1();
+        case.set("driven.tip_relief", "10 um").unwrap();
+        let refusal = |key, shape, width| {
+            let spread = Spread::new(key, shape, width).unwrap();
+            let found = Distribution::of(&spread, &case, &case.inputs().unwrap());
+            found.map_err(|problem| problem.to_string())
+        };
+        let told = refusal("driven.tip_relief", "uniform", "12 um").unwrap_err();
+        assert!(
+            told.starts_with("spread.\"driven.tip_relief\": uniform 12 um reaches -2.00000 um"),
+            "{told}"
+        );
+        let told = refusal("driven.tip_relief", "normal", "3 um").unwrap_err();
+        assert!(
+            told.contains("-5.00000 um at 5 standard deviations"),
+            "{told}"
+        );
+        assert!(refusal("driven.tip_relief", "truncated", "10 um").is_ok());
+        let told = refusal("operation.torque", "normal", "1 N m").unwrap_err();
+        assert!(
+            told.contains("operation.torque has no value to spread around"),
+            "{told}"
+        );
+    }
+}

@@ -1,0 +1,310 @@
+//! Tolerances: the results of a case whose fields are spread around their values.
+
+use super::batch::{Batch, Control, PointOutcome, Points, Rows, Stopped, solve_all};
+use super::condition::State;
+use super::design::{Design, Member};
+use super::distribution::Distribution;
+use super::headline::{distinct, headline};
+use super::refusals::Refusals;
+use super::sobol::{Indices, Ranked, indices};
+use super::statistics::{Estimate, Figures, figures, probability};
+use crate::case::{Case, Limit, Problem};
+use crate::model::{Inputs, Outcome, Quantity};
+
+/// Number of samples where none is given.
+pub const USUAL_SAMPLES: usize = 10_000;
+
+/// The most samples of a study.
+pub const MOST_SAMPLES: usize = 100_000_000;
+
+/// Samples of the ranking where no number is given.
+pub const USUAL_RANKED: usize = 4096;
+
+/// Bins of a histogram.
+const BINS: usize = 12;
+
+/// A tolerance study: the samples and the wanted quantities.
+#[derive(Debug, Clone)]
+pub struct Tolerance {
+    /// The points.
+    pub design: Design,
+    /// The quantities; those of the limits are among them.
+    pub quantities: Vec<&'static Quantity>,
+    /// The limits of the case.
+    pub limits: Vec<Limit>,
+}
+
+/// The size of a tolerance study.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Size {
+    /// Number of samples.
+    pub samples: usize,
+    /// Seed of the samples.
+    pub seed: u64,
+    /// How many samples rank the fields; without it [`USUAL_RANKED`], or all if they are fewer.
+    pub ranked: Option<usize>,
+}
+
+impl Tolerance {
+    /// The study of a case with `[spread]`. Without `only` the quantities are the headline.
+    ///
+    /// # Errors
+    /// Where the case has no distributions, or one of them has no value or leaves its field's range.
+    pub fn of(
+        case: &Case,
+        inputs: &Inputs,
+        only: &[&'static Quantity],
+        size: Size,
+    ) -> Result<Tolerance, Problem> {
+        if case.spread.is_empty() {
+            return Err(Problem {
+                field: "spread".to_owned(),
+                cause: "the case has no distributions".to_owned(),
+                mend: "add [spread] with a line such as \"deviations.base_pitch\" = { normal = \"4 um\" }"
+                    .to_owned(),
+            });
+        }
+        let distributions = case
+            .spread
+            .iter()
+            .map(|spread| Distribution::of(spread, case, inputs))
+            .collect::<Result<Vec<_>, _>>()?;
+        // A single field causes all of the spread.
+        let ranked = match size.ranked {
+            _ if distributions.len() == 1 => 0,
+            Some(wanted) => wanted.min(size.samples),
+            None => USUAL_RANKED.min(size.samples),
+        };
+        let limits: Vec<Limit> = case
+            .limits
+            .iter()
+            .filter(|limit| !limit.text.is_empty())
+            .cloned()
+            .collect();
+        let limited = limits
+            .iter()
+            .filter_map(|limit| Quantity::find(limit.quantity));
+        let quantities = if only.is_empty() {
+            headline(case, &[inputs.method])
+        } else {
+            distinct(only.iter().copied().chain(limited))
+        };
+        Ok(Tolerance {
+            design: Design {
+                seed: size.seed,
+                distributions,
+                samples: size.samples,
+                ranked,
+            },
+            quantities,
+            limits,
+        })
+    }
+
+    /// Solves every point.
+    ///
+    /// # Errors
+    /// [`Stopped`] where its user stops it.
+    pub fn run(&self, inputs: &Inputs, control: &Control) -> Result<Samples, Stopped> {
+        let mut samples = Samples::of(self);
+        let batch = Batch {
+            inputs,
+            points: &self.design,
+            quantities: &self.quantities,
+        };
+        solve_all(&batch, 0..self.design.count(), control, &mut |rows| {
+            samples.add(&rows);
+            true
+        })?;
+        Ok(samples)
+    }
+
+    /// The figures of the results.
+    #[must_use]
+    pub fn summary(&self, samples: &Samples) -> Summary {
+        let count = self.design.samples;
+        let outcomes = &samples.outcomes[..count];
+        let is = |wanted| {
+            outcomes
+                .iter()
+                .filter(|&&outcome| outcome == wanted)
+                .count()
+        };
+        let strikes = is(PointOutcome::Solved(Outcome::CornerContact));
+        let refused = is(PointOutcome::Refused);
+        Summary {
+            solved: count - refused,
+            contact: probability(strikes, count - refused),
+            limits: self
+                .limits
+                .iter()
+                .filter_map(|limit| self.exceedance(limit, samples))
+                .collect(),
+            quantities: (0..self.quantities.len())
+                .map(|at| self.quantity(at, samples))
+                .collect(),
+        }
+    }
+
+    fn exceedance(&self, limit: &Limit, samples: &Samples) -> Option<Exceedance> {
+        let quantity = Quantity::find(limit.quantity)?;
+        let at = self
+            .quantities
+            .iter()
+            .position(|known| known.key == quantity.key)?;
+        let (mut above, mut known) = (0, 0);
+        for sample in 0..self.design.samples {
+            match limit_state(
+                quantity,
+                limit,
+                samples.outcomes[sample],
+                samples.value(at, sample),
+            ) {
+                Some(State::NotMet) => (above, known) = (above + 1, known + 1),
+                Some(_) => known += 1,
+                None => {}
+            }
+        }
+        Some(Exceedance {
+            quantity,
+            limit: limit.clone(),
+            known,
+            probability: probability(above, known),
+        })
+    }
+
+    fn quantity(&self, at: usize, samples: &Samples) -> OfQuantity {
+        let column = &samples.columns[at][..self.design.samples];
+        let mut values: Vec<f64> = column
+            .iter()
+            .copied()
+            .filter(|value| !value.is_nan())
+            .collect();
+        let ranked = self.ranked(at, samples);
+        OfQuantity {
+            quantity: self.quantities[at],
+            figures: figures(&mut values, BINS),
+            ranked: ranked.len(),
+            indices: indices(&ranked),
+        }
+    }
+
+    /// The samples of the ranking of which every point has a value.
+    fn ranked(&self, at: usize, samples: &Samples) -> Vec<Ranked> {
+        let value = |member| samples.value(at, self.design.index(member));
+        let fields = 0..self.design.distributions.len();
+        let of = |number| {
+            let swapped = fields
+                .clone()
+                .map(|field| value(Member::Swapped(number, field)));
+            Some(Ranked {
+                first: value(Member::Sample(number))?,
+                second: value(Member::Second(number))?,
+                swapped: swapped.collect::<Option<_>>()?,
+            })
+        };
+        (0..self.design.ranked).filter_map(of).collect()
+    }
+}
+
+/// Whether a sample meets a limit; `None` where it is refused or has no value for another reason
+/// than no contact.
+fn limit_state(
+    quantity: &Quantity,
+    limit: &Limit,
+    outcome: PointOutcome,
+    value: Option<f64>,
+) -> Option<State> {
+    let PointOutcome::Solved(outcome) = outcome else {
+        return None;
+    };
+    match value {
+        Some(value) if value > limit.value => Some(State::NotMet),
+        Some(_) => Some(State::Met),
+        None if outcome == Outcome::NoCornerContact || quantity.is_of_free_impact() => {
+            Some(State::Met)
+        }
+        None => None,
+    }
+}
+
+/// The results of every point of a study.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Samples {
+    /// How each point ended.
+    pub outcomes: Vec<PointOutcome>,
+    /// The refused points.
+    pub refusals: Refusals,
+    /// A column for each quantity, in SI; NaN stands for no value.
+    columns: Vec<Vec<f64>>,
+}
+
+impl Samples {
+    /// No results yet.
+    #[must_use]
+    pub fn of(study: &Tolerance) -> Samples {
+        let count = study.design.count();
+        let column = |_: &&Quantity| Vec::with_capacity(count);
+        Samples {
+            outcomes: Vec::with_capacity(count),
+            refusals: Refusals::default(),
+            columns: study.quantities.iter().map(column).collect(),
+        }
+    }
+
+    /// Adds the next rows.
+    pub fn add(&mut self, rows: &Rows) {
+        self.outcomes.extend(&rows.outcomes);
+        self.refusals.count(rows);
+        for row in 0..rows.outcomes.len() {
+            for (column, value) in self.columns.iter_mut().zip(rows.values(row)) {
+                column.push(value.unwrap_or(f64::NAN));
+            }
+        }
+    }
+
+    /// The value of a quantity at a point, in SI.
+    #[must_use]
+    pub fn value(&self, quantity: usize, index: usize) -> Option<f64> {
+        Some(self.columns[quantity][index]).filter(|value| !value.is_nan())
+    }
+}
+
+/// The figures of a tolerance study.
+#[derive(Debug, Clone)]
+pub struct Summary {
+    /// Number of samples that the model solved.
+    pub solved: usize,
+    /// Probability of corner contact among them.
+    pub contact: Option<Estimate>,
+    /// The limits, in the order of the case.
+    pub limits: Vec<Exceedance>,
+    /// The quantities.
+    pub quantities: Vec<OfQuantity>,
+}
+
+/// How often a limit is exceeded.
+#[derive(Debug, Clone)]
+pub struct Exceedance {
+    /// The limited quantity.
+    pub quantity: &'static Quantity,
+    /// The limit.
+    pub limit: Limit,
+    /// Number of samples that can be compared with it.
+    pub known: usize,
+    /// Probability of exceeding it.
+    pub probability: Option<Estimate>,
+}
+
+/// The figures of one quantity.
+#[derive(Debug, Clone)]
+pub struct OfQuantity {
+    /// The quantity.
+    pub quantity: &'static Quantity,
+    /// The figures of its values; `None` without a value.
+    pub figures: Option<Figures>,
+    /// Number of samples that rank the fields.
+    pub ranked: usize,
+    /// The indices of each spread field; `None` where nothing varies or nothing was ranked.
+    pub indices: Option<Vec<Indices>>,
+}

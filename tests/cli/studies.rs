@@ -1,0 +1,398 @@
+//! The studies from a script's side: their tables, errors and files.
+
+use std::fs;
+use std::os::unix::process::ExitStatusExt;
+use std::process::{Command, Output, Stdio};
+use std::time::Duration;
+
+use serde_json::Value;
+
+const TABLE_1: &str = "cases/zhou-chen-2014.toml";
+
+fn command(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_tipstrike"));
+    command
+        .args(arguments)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .stdin(Stdio::null());
+    command
+}
+
+fn printed(arguments: &[&str]) -> (i32, String, String) {
+    let Output {
+        status,
+        stdout,
+        stderr,
+    } = command(arguments).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (status.code().unwrap(), text(stdout), text(stderr))
+}
+
+/// Standard output of a study that must succeed in silence.
+fn told(arguments: &[&str]) -> String {
+    let (code, text, errors) = printed(arguments);
+    assert_eq!((code, errors.as_str()), (0, ""), "{arguments:?}");
+    text
+}
+
+fn lines(text: &str) -> Vec<Value> {
+    text.lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect()
+}
+
+#[test]
+fn a_sweep_is_a_table_with_the_varied_fields_in_their_own_units() {
+    let text = told(&[
+        "sweep",
+        TABLE_1,
+        "--vary",
+        "operation.speed=1000..2000 rpm",
+        "--points",
+        "3",
+        "--only",
+        "F_S,contact_ratio",
+    ]);
+    let rows: Vec<&str> = text.lines().collect();
+    assert_eq!(
+        rows[0],
+        "operation.speed [rpm],impact_force [N],contact_ratio [1],outcome"
+    );
+    assert_eq!(rows.len(), 4);
+    assert!(rows[1].starts_with("1000,") && rows[2].starts_with("1500,"));
+    assert!(rows[3].starts_with("2000,2191.016153322617,1.55"), "{text}");
+    assert!(rows[3].ends_with(",corner-contact"));
+}
+
+#[test]
+fn a_sweep_shows_the_gap_of_no_contact_as_empty_cells() {
+    let arguments = ["sweep", TABLE_1, "--vary", "driven.tip_relief=0,60 um"];
+    let text = told(&arguments);
+    assert_eq!(text.lines().nth(2), Some("60,,no-corner-contact"));
+    let json = lines(&told(&[&arguments[..], &["--format", "json"]].concat()));
+    assert_eq!(json[1]["outcome"], "no-corner-contact");
+    assert_eq!(json[1]["quantities"], serde_json::json!({}));
+    assert_eq!(json[1]["varied"]["driven.tip_relief"]["unit"], "um");
+    assert_eq!(json[0]["quantities"]["impact_force"]["unit"], "N");
+}
+
+#[test]
+fn refused_points_are_counted_and_named() {
+    let arguments = ["sweep", TABLE_1, "--vary", "driver.bore_radius=40,50,60 mm"];
+    let (code, text, errors) = printed(&arguments);
+    assert_eq!(code, 0);
+    assert_eq!(text.lines().nth(2), Some("50,,refused"));
+    assert!(
+        errors.starts_with(
+            "cases/zhou-chen-2014.toml: 2 of 3 points refused, the first at \
+             driver.bore_radius = 50 mm: driver.bore_radius: the bore radius 50 mm is not below"
+        ),
+        "{errors}"
+    );
+    let (_, text, _) = printed(&[&arguments[..], &["--format", "json"]].concat());
+    let refusal = &lines(&text)[2]["refusal"];
+    assert_eq!(refusal["field"], "driver.bore_radius");
+    assert!(refusal["cause"].is_string() && refusal["fix"].is_string());
+    let (code, _, _) = printed(&["sweep", TABLE_1, "--vary", "driver.bore_radius=50,60 mm"]);
+    assert_eq!(code, 3);
+}
+
+#[test]
+fn a_bad_sweep_gets_place_cause_and_fix() {
+    let vary = |text: &'static str| vec!["sweep", TABLE_1, "--vary", text];
+    let with = |text, more: &[&'static str]| [vary(text).as_slice(), more].concat();
+    for (arguments, part) in [
+        (
+            vary("operation.sped=1..2 rpm"),
+            "--vary operation.sped=1..2 rpm: unknown key",
+        ),
+        (
+            vary("operation.speed=30..5 rpm"),
+            "the range is reversed: 30 rpm is above 5 rpm",
+        ),
+        (vary("title=a..b"), "title is a text"),
+        (
+            vary("driven.tip_relief=-5..5 um"),
+            "below the limit of 0 um",
+        ),
+        (
+            with("operation.speed=1..2 rpm", &["--points", "0"]),
+            "cannot have 0 points",
+        ),
+        (
+            with("operation.speed=1..2 rpm", &["--points", "x"]),
+            "write a whole number",
+        ),
+        (
+            with(
+                "operation.speed=1..2 rpm",
+                &["--vary", "operation.speed=3..4 rpm"],
+            ),
+            "varied twice",
+        ),
+        (
+            with(
+                "operation.power=1..2 kW",
+                &["--vary", "operation.torque=3..4 N m"],
+            ),
+            "exclude",
+        ),
+        (
+            with(
+                "operation.speed=1..2 rpm",
+                &["--set", "operation.speed=3 rpm"],
+            ),
+            "--vary replaces",
+        ),
+        (
+            with("operation.speed=1..2 rpm", &["--only", "force"]),
+            "unknown quantity",
+        ),
+        (with("operation.speed=1..2 rpm", &["--jobs", "0"]), "--jobs"),
+        (
+            with("operation.speed=1..2 rpm", &["--out", TABLE_1]),
+            "choose another name",
+        ),
+    ] {
+        let (code, text, errors) = printed(&arguments);
+        assert_eq!((code, text.as_str()), (2, ""), "{arguments:?}: {errors}");
+        assert!(errors.contains(part), "{arguments:?}: {errors}");
+    }
+}
+
+#[test]
+fn a_varied_field_without_effect_is_named() {
+    let arguments = [
+        "sweep",
+        TABLE_1,
+        "--vary",
+        "model.damping_ratio=0..1",
+        "--points",
+        "2",
+    ];
+    let (code, _, errors) = printed(&arguments);
+    assert_eq!(code, 0);
+    assert!(errors.contains("model.damping_ratio changes no quantity: only the method dynamic"));
+}
+
+#[test]
+fn a_file_has_the_same_bytes_as_standard_output_for_any_number_of_jobs() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("rows.csv");
+    let arguments = ["sweep", TABLE_1, "--vary", "operation.speed=500..9000 rpm"];
+    let stream = told(&arguments);
+    for jobs in ["1", "3"] {
+        let to_file = ["--jobs", jobs, "--out", path.to_str().unwrap()];
+        assert_eq!(told(&[&arguments[..], &to_file].concat()), "");
+        assert_eq!(fs::read_to_string(&path).unwrap(), stream);
+    }
+    let missing = folder.path().join("missing/rows.csv");
+    let to_nowhere = ["--out", missing.to_str().unwrap()];
+    let (code, _, errors) = printed(&[&arguments[..], &to_nowhere].concat());
+    assert!(
+        code == 5 && errors.contains("there is no folder"),
+        "{errors}"
+    );
+}
+
+#[test]
+fn ctrl_c_ends_a_study_and_leaves_no_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("rows.csv");
+    let mut child = command(&[
+        "sweep", TABLE_1, "--method", "dynamic", "--points", "1000000",
+    ])
+    .args(["--vary", "operation.speed=500..9000 rpm", "--out"])
+    .arg(&path)
+    .spawn()
+    .unwrap();
+    // The draft of the file shows that the study runs.
+    while fs::read_dir(folder.path()).unwrap().next().is_none() {
+        std::thread::sleep(Duration::from_millis(5));
+        assert!(child.try_wait().unwrap().is_none());
+    }
+    std::thread::sleep(Duration::from_millis(100));
+    let id = child.id().to_string();
+    let sent = Command::new("kill").args(["-INT", &id]).status().unwrap();
+    assert!(sent.success());
+    assert_eq!(child.wait().unwrap().signal(), Some(2));
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn a_search_prints_its_crossing_with_bracket_and_segments() {
+    let arguments = [
+        "seek",
+        TABLE_1,
+        "--vary",
+        "deviations.base_pitch=0..40 um",
+        "--until",
+        "impact_force<=2000 N",
+    ];
+    let text = told(&arguments);
+    insta::assert_snapshot!("seek_zhou", text);
+    let found = &lines(&told(&[&arguments[..], &["--format", "json"]].concat()))[0];
+    assert_eq!(found["answer"], "crossings");
+    assert_eq!(
+        (&found["unit"], &found["vary"]),
+        (&"um".into(), &"deviations.base_pitch".into())
+    );
+    let bracket = &found["crossings"][0];
+    let [from, to] = ["from", "to"].map(|end| bracket[end]["at"].as_f64().unwrap());
+    assert!(from < to && to - from <= 1e-9 * to);
+    assert_eq!(bracket["from"]["state"], "met");
+    assert_eq!(found["segments"][1]["state"], "not-met");
+    let never = [
+        "--vary",
+        "driven.tip_relief=0..20 um",
+        "--until",
+        "impact_force<9 N",
+    ];
+    assert!(told(&[&["seek", TABLE_1], &never[..]].concat()).ends_with("\n  never\n"));
+}
+
+#[test]
+fn a_bad_search_gets_place_cause_and_fix() {
+    for (vary, until, part) in [
+        (
+            "operation.speed=1..2 rpm",
+            "impact_forc<=1 N",
+            "--until impact_forc<=1 N: unknown",
+        ),
+        (
+            "operation.speed=1..2 rpm",
+            "dynamic_peak_force<=1 N",
+            "method exact does not compute",
+        ),
+        (
+            "operation.speed=1,2 rpm",
+            "impact_force<=1 N",
+            "this is no range",
+        ),
+        (
+            "driver.teeth=18..30",
+            "impact_force<=1 N",
+            "use sweep --vary 'driver.teeth=18..30'",
+        ),
+    ] {
+        let (code, _, errors) = printed(&["seek", TABLE_1, "--vary", vary, "--until", until]);
+        assert!(
+            code == 2 && errors.contains(part),
+            "{vary} {until}: {errors}"
+        );
+    }
+}
+
+/// Table 1 with distributions, in a folder of its own.
+fn with_spread(lines: &str) -> (tempfile::TempDir, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("case.toml");
+    let text = fs::read_to_string(TABLE_1).unwrap();
+    fs::write(&path, format!("{text}\n[spread]\n{lines}\n")).unwrap();
+    let path = path.to_str().unwrap().to_owned();
+    (folder, path)
+}
+
+#[test]
+fn a_tolerance_study_prints_percentiles_probabilities_and_the_ranking() {
+    let (_folder, case) = with_spread(
+        "\"deviations.base_pitch\" = { normal = \"3 um\" }\n\
+         \"operation.speed\" = { uniform = \"50 rpm\" }\n\
+         \"driven.tip_relief\" = { truncated = \"4 um\" }",
+    );
+    let arguments = [
+        "tolerance",
+        &case,
+        "--set",
+        "driven.tip_relief=8 um",
+        "--samples",
+        "2000",
+        "--seed",
+        "7",
+    ];
+    let text = told(&arguments);
+    insta::assert_snapshot!("tolerance_zhou", text);
+    assert!(text.lines().all(|line| line.chars().count() <= 80));
+    let found = &lines(&told(&[&arguments[..], &["--format", "json"]].concat()))[0];
+    let force = &found["quantities"]["impact_force"];
+    assert_eq!(
+        (&found["solved"], &force["ranked"]),
+        (&2000.into(), &2000.into())
+    );
+    let ranking = force["ranking"].as_array().unwrap();
+    let total: f64 = ranking
+        .iter()
+        .map(|share| share["total"]["value"].as_f64().unwrap())
+        .sum();
+    assert!((total - 1.0).abs() < 0.05, "{total}");
+    let rows = told(&[&arguments[..], &["--format", "csv", "--ranking", "100"]].concat());
+    assert_eq!(
+        rows.lines().next(),
+        Some(
+            "sample,set,deviations.base_pitch [m],operation.speed [rad/s],driven.tip_relief [m],\
+             impact_force [N],outcome"
+        )
+    );
+    assert_eq!(rows.lines().count(), 1 + 2000 + 400);
+}
+
+#[test]
+fn a_bad_distribution_gets_place_cause_and_fix() {
+    for (lines, code, part) in [
+        (
+            "\"title\" = { normal = \"1 um\" }",
+            3,
+            "title cannot be spread",
+        ),
+        (
+            "\"driven.teeth\" = { normal = 1 }",
+            3,
+            "driven.teeth cannot be spread",
+        ),
+        (
+            "\"pair.module\" = { normal = \"0 mm\" }",
+            3,
+            "is not above 0",
+        ),
+        (
+            "\"pair.module\" = { grade = 7 }",
+            3,
+            "a grade gives a base pitch deviation",
+        ),
+        (
+            "\"deviations.base_pitch\" = { grade = 12 }",
+            3,
+            "from 1 to 11",
+        ),
+        (
+            "\"pair.module\" = { triangle = \"1 mm\" }",
+            3,
+            "did you mean triangular?",
+        ),
+        (
+            "\"driven.tip_relief\" = { uniform = \"1 um\" }",
+            3,
+            "outside the field's range",
+        ),
+        (
+            "\"operation.torque\" = { uniform = \"1 N m\" }",
+            3,
+            "has no value to spread around",
+        ),
+    ] {
+        let (_folder, case) = with_spread(lines);
+        let (ended, _, errors) = printed(&["tolerance", &case]);
+        assert!(ended == code && errors.contains(part), "{lines}: {errors}");
+        assert!(errors.contains("case.toml:"), "{errors}");
+    }
+    let (code, _, errors) = printed(&["tolerance", TABLE_1]);
+    assert!(
+        code == 3 && errors.contains("the case has no distributions"),
+        "{errors}"
+    );
+    let (code, _, errors) = printed(&["tolerance", TABLE_1, "--samples", "1"]);
+    assert!(
+        code == 2 && errors.contains("write a number from 2"),
+        "{errors}"
+    );
+}

@@ -1,0 +1,450 @@
+//! Studies against plain solves: every row is one, whatever the threads.
+
+use tipstrike::case::spread::Shape;
+use tipstrike::case::{Case, Spread};
+use tipstrike::model::inputs::Method;
+use tipstrike::model::{Inputs, Outcome, QUANTITIES, Quantity, Stage, Stages, solve};
+use tipstrike::study::axis::AxisRange;
+use tipstrike::study::batch::{Batch, Control, PointOutcome, Points, Rows, Stopped, solve_all};
+use tipstrike::study::condition::{Condition, State};
+use tipstrike::study::design::{Design, Member};
+use tipstrike::study::distribution::Distribution;
+use tipstrike::study::seek::{Found, seek};
+use tipstrike::study::sobol::{Indices, Ranked, indices};
+use tipstrike::study::statistics::Estimate;
+use tipstrike::study::sweep::Grid;
+use tipstrike::study::tolerance::{Samples, Size, Tolerance};
+
+/// Every quantity but the required relief, whose search takes its time.
+fn quick_quantities() -> Vec<&'static Quantity> {
+    let is_quick = |quantity: &&Quantity| quantity.stage != Stage::Clearing;
+    QUANTITIES.iter().filter(is_quick).collect()
+}
+
+fn grid(texts: &[&str], points: usize) -> Grid {
+    let texts: Vec<String> = texts.iter().map(|text| (*text).to_owned()).collect();
+    Grid::parse(&texts, &[points], false).unwrap()
+}
+
+fn solved(inputs: &Inputs, grid: &Grid, jobs: usize, quantities: &[&'static Quantity]) -> Rows {
+    let batch = Batch {
+        inputs,
+        points: grid,
+        quantities,
+    };
+    let control = Control {
+        jobs: Some(jobs),
+        ..Control::PLAIN
+    };
+    let mut all = Rows::starting_at(0);
+    solve_all(&batch, 0..grid.count(), &control, &mut |rows| {
+        for row in 0..rows.outcomes.len() {
+            all.push(rows.outcomes[row], rows.values(row));
+        }
+        all.refusals.extend(rows.refusals);
+        true
+    })
+    .unwrap();
+    all
+}
+
+/// The row of a plain solve of the case with the settings of a point.
+fn plain(case: &Case, grid: &Grid, index: usize, quantities: &[&'static Quantity]) -> Rows {
+    let mut case = case.clone();
+    for (axis, at) in grid.places(index) {
+        case.set(axis.key(), &axis.with_unit(at)).unwrap();
+    }
+    let mut row = Rows::starting_at(0);
+    let inputs = case.inputs().map_err(|mut problems| problems.remove(0));
+    let wanted = |method: Method| {
+        let stages = quantities.iter().map(|quantity| Stages::of(quantity.stage));
+        stages.fold(method.deciding_stages(), Stages::and)
+    };
+    let solution = inputs.and_then(|inputs| {
+        solve(&inputs, wanted(inputs.method)).map_err(|refusal| (&refusal).into())
+    });
+    let values = |solution| {
+        let all = quantities.iter();
+        all.map(move |quantity| quantity.finite_value(solution))
+    };
+    match solution {
+        Ok(solution) if solution.withheld.is_none() => {
+            row.push(PointOutcome::Solved(solution.outcome), values(&solution));
+        }
+        Ok(_) => row.push(PointOutcome::Refused, quantities.iter().map(|_| None)),
+        Err(problem) => {
+            row.push(PointOutcome::Refused, quantities.iter().map(|_| None));
+            row.refusals.push((index, problem));
+        }
+    }
+    row
+}
+
+#[test]
+fn every_row_of_a_sweep_is_a_plain_solve_to_the_last_bit() {
+    let mut case = Case::table_1();
+    case.set("model.deflection", "").unwrap();
+    let quantities = quick_quantities();
+    let grids: [&[&str]; 5] = [
+        &["operation.speed=50..9000 rpm"],
+        &["driven.tip_relief=0..70 um", "operation.power=1,15 kW"],
+        &["pair.module=4..6 mm", "deviations.base_pitch=-10..40 um"],
+        &[
+            "driver.bore_radius=10..50 mm",
+            "driver.profile_shift=-0.2,0.3",
+        ],
+        &[
+            "operation.torque=5..300 N m",
+            "model.damping_ratio=0.02,0.1",
+        ],
+    ];
+    for method in Method::ALL {
+        case.set("model.method", method.name()).unwrap();
+        let inputs = case.inputs().unwrap();
+        for texts in grids {
+            let grid = grid(texts, 4);
+            let rows = solved(&inputs, &grid, 1, &quantities);
+            for index in 0..grid.count() {
+                let plain = plain(&case, &grid, index, &quantities);
+                let place = format!("{} at {}", method.name(), grid.point(index));
+                assert_eq!(rows.outcomes[index], plain.outcomes[0], "{place}");
+                let bits = |rows: &Rows, row| {
+                    let values = rows.values(row).map(|value| value.map(f64::to_bits));
+                    values.collect::<Vec<_>>()
+                };
+                assert_eq!(bits(&rows, index), bits(&plain, 0), "{place}");
+            }
+        }
+    }
+}
+
+#[test]
+fn rows_do_not_depend_on_the_number_of_threads() {
+    let inputs = Case::table_1().inputs().unwrap();
+    let grid = grid(
+        &["driven.tip_relief=0..80 um", "driver.bore_radius=30..50 mm"],
+        60,
+    );
+    let quantities = [Quantity::find("impact_force").unwrap()];
+    let one = solved(&inputs, &grid, 1, &quantities);
+    let outcomes = [Outcome::CornerContact, Outcome::NoCornerContact].map(PointOutcome::Solved);
+    for outcome in outcomes.into_iter().chain([PointOutcome::Refused]) {
+        assert!(one.outcomes.contains(&outcome), "{}", outcome.name());
+    }
+    for jobs in [2, 5] {
+        let other = solved(&inputs, &grid, jobs, &quantities);
+        let cells = |rows: &Rows| {
+            let all = (0..grid.count()).flat_map(|row| rows.values(row).collect::<Vec<_>>());
+            all.map(|value| value.map(f64::to_bits)).collect::<Vec<_>>()
+        };
+        assert_eq!(cells(&one), cells(&other));
+        assert_eq!(
+            (&one.outcomes, &one.refusals),
+            (&other.outcomes, &other.refusals)
+        );
+    }
+}
+
+#[test]
+fn a_study_stops_when_its_user_or_its_reader_says_so() {
+    let inputs = Case::table_1().inputs().unwrap();
+    let grid = grid(&["operation.speed=1..9000 rpm"], 100_000);
+    let batch = Batch {
+        inputs: &inputs,
+        points: &grid,
+        quantities: &[],
+    };
+    let mut rows = 0;
+    let by_reader = solve_all(&batch, 0..grid.count(), &Control::PLAIN, &mut |arrived| {
+        rows += arrived.outcomes.len();
+        false
+    });
+    assert_eq!(by_reader, Err(Stopped));
+    assert!(0 < rows && rows < grid.count());
+    let control = Control {
+        go_on: &|| false,
+        ..Control::PLAIN
+    };
+    let by_user = solve_all(&batch, 0..grid.count(), &control, &mut |_| true);
+    assert_eq!(by_user, Err(Stopped));
+}
+
+fn sought(inputs: &Inputs, range: &str, condition: &str) -> Found {
+    let range = AxisRange::parse(range).unwrap();
+    let condition = Condition::parse(condition).unwrap();
+    seek(inputs, &range, &condition, 41, &Control::PLAIN).unwrap()
+}
+
+#[test]
+fn a_crossing_is_located_to_1e_9_and_agrees_with_plain_solves() {
+    let case = Case::table_1();
+    let found = sought(
+        &case.inputs().unwrap(),
+        "deviations.base_pitch=0..40 um",
+        "impact_force<=2000 N",
+    );
+    let [crossing] = &found.crossings[..] else {
+        panic!("one crossing: {:?}", found.crossings)
+    };
+    let (lower, upper) = (&crossing.lower, &crossing.upper);
+    assert_eq!((&lower.state, &upper.state), (&State::Met, &State::NotMet));
+    assert!(upper.at - lower.at <= 1e-9 * upper.at && lower.at < upper.at);
+    for sample in [lower, upper] {
+        let mut case = case.clone();
+        case.set("deviations.base_pitch", &format!("{} um", sample.at))
+            .unwrap();
+        let solution = solve(&case.inputs().unwrap(), Stages::of(Stage::Impact)).unwrap();
+        let force = solution.impact.unwrap().force;
+        assert_eq!(Some(force.to_bits()), sample.value.map(f64::to_bits));
+    }
+}
+
+#[test]
+fn never_always_and_unknown_are_answers_of_a_search() {
+    let inputs = Case::table_1().inputs().unwrap();
+    let states = |range, condition| {
+        let segments = sought(&inputs, range, condition).segments;
+        segments
+            .into_iter()
+            .map(|segment| segment.state)
+            .collect::<Vec<_>>()
+    };
+    let relief = "driven.tip_relief=0..20 um";
+    assert_eq!(states(relief, "impact_force<=9 kN"), [State::Met]);
+    assert_eq!(states(relief, "impact_force<=9 N"), [State::NotMet]);
+    assert_eq!(states(relief, "outcome=no-corner-contact"), [State::NotMet]);
+    // Without contact there is no force above a limit, and none below it either.
+    let beyond = "driven.tip_relief=60..90 um";
+    assert_eq!(states(beyond, "impact_force<=9 N"), [State::Met]);
+    assert_eq!(states(beyond, "impact_force>9 N"), [State::NotMet]);
+    let bore = states("driver.bore_radius=45..60 mm", "impact_force<=9 kN");
+    assert!(matches!(bore[..], [State::Unknown(_)]), "{bore:?}");
+}
+
+#[test]
+fn the_end_of_contact_is_where_the_deviation_vanishes() {
+    let inputs = Case::table_1().inputs().unwrap();
+    let found = sought(
+        &inputs,
+        "driven.tip_relief=0..90 um",
+        "outcome=no-corner-contact",
+    );
+    let solution = solve(&inputs, Stages::of(Stage::Deviation)).unwrap();
+    let end = solution.deviation.total * 1e6;
+    assert_eq!(found.crossings.len(), 1);
+    assert!((found.crossings[0].upper.at / end - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn every_crossing_is_found_although_the_quantity_turns_back_between_points_of_the_scan() {
+    // The dynamic peak has a narrow resonance at 3312 rpm.
+    let mut case = Case::table_1();
+    case.set("model.method", "dynamic").unwrap();
+    case.set("model.warmup_cycles", "3").unwrap();
+    let inputs = case.inputs().unwrap();
+    let grid = grid(&["operation.speed=3000..3600 rpm"], 401);
+    let quantities = [Quantity::find("dynamic_peak_force").unwrap()];
+    let rows = solved(&inputs, &grid, 2, &quantities);
+    let peaks: Vec<f64> = (0..grid.count())
+        .filter_map(|row| rows.values(row).next().flatten())
+        .collect();
+    let most = peaks.iter().copied().fold(0.0, f64::max);
+    let limit = 0.999_99 * most;
+    let found = sought(
+        &inputs,
+        "operation.speed=3000..3600 rpm",
+        &format!("dynamic_peak_force<={limit} N"),
+    );
+    assert!(
+        found.crossings.len() == 2,
+        "{} of {most} N",
+        found.crossings.len()
+    );
+}
+
+/// A design with uniform fields between -pi and pi, as the test functions of the literature have.
+fn uniform_design(fields: usize, samples: usize) -> Design {
+    let distribution = Distribution {
+        field: 0,
+        centre: 0.0,
+        width: std::f64::consts::PI,
+        shape: Shape::Uniform,
+    };
+    Design {
+        seed: 7,
+        distributions: vec![distribution; fields],
+        samples,
+        ranked: samples,
+    }
+}
+
+fn ranked(design: &Design, function: impl Fn(&[f64]) -> f64) -> Vec<Indices> {
+    let value = |member| {
+        let values: Vec<f64> = design.values(design.index(member)).collect();
+        function(&values)
+    };
+    let fields = design.distributions.len();
+    let samples: Vec<Ranked> = (0..design.ranked)
+        .map(|number| Ranked {
+            first: value(Member::Sample(number)),
+            second: value(Member::Second(number)),
+            swapped: (0..fields)
+                .map(|field| value(Member::Swapped(number, field)))
+                .collect(),
+        })
+        .collect();
+    indices(&samples).unwrap()
+}
+
+fn assert_within(estimate: Estimate, exact: f64, name: &str) {
+    // Twice the 95 % interval: nearly four standard errors.
+    let half = estimate.to - estimate.from;
+    assert!(half < 0.1, "{name}: {estimate:?}");
+    assert!(
+        (estimate.value - exact).abs() <= half,
+        "{name}: {estimate:?}, exact {exact}"
+    );
+}
+
+#[test]
+fn the_indices_of_the_ishigami_function_are_those_of_the_literature() {
+    let function =
+        |x: &[f64]| x[0].sin() + 7.0 * x[1].sin().powi(2) + 0.1 * x[2].powi(4) * x[0].sin();
+    let found = ranked(&uniform_design(3, 16_384), function);
+    for (field, (first, total)) in [(0.3139, 0.5576), (0.4424, 0.4424), (0.0, 0.2437)]
+        .into_iter()
+        .enumerate()
+    {
+        assert_within(found[field].first_order, first, "first-order");
+        assert_within(found[field].total, total, "total");
+    }
+}
+
+#[test]
+fn the_indices_of_a_linear_model_are_the_squares_of_its_factors() {
+    let factors = [1.0, 2.0, 0.5, 0.0];
+    let function = |x: &[f64]| x.iter().zip(factors).map(|(x, a)| a * x).sum::<f64>();
+    let whole: f64 = factors.iter().map(|a| a * a).sum();
+    for (found, factor) in ranked(&uniform_design(4, 8192), function)
+        .iter()
+        .zip(factors)
+    {
+        assert_within(found.first_order, factor * factor / whole, "first-order");
+        assert_within(found.total, factor * factor / whole, "total");
+    }
+    assert_eq!(
+        indices(&[Ranked {
+            first: 1.0,
+            second: 1.0,
+            swapped: vec![1.0]
+        }]),
+        None
+    );
+}
+
+fn spread_case(lines: &[(&str, &str, &str)]) -> Case {
+    let mut case = Case::table_1();
+    case.set("model.deflection", "").unwrap();
+    for (field, shape, width) in lines {
+        case.spread.push(Spread::new(field, shape, width).unwrap());
+    }
+    case
+}
+
+fn toleranced(case: &Case, samples: usize, seed: u64, jobs: usize) -> (Tolerance, Samples) {
+    let inputs = case.inputs().unwrap();
+    let size = Size {
+        samples,
+        seed,
+        ranked: Some(samples / 4),
+    };
+    let study = Tolerance::of(case, &inputs, &[], size).unwrap();
+    let control = Control {
+        jobs: Some(jobs),
+        ..Control::PLAIN
+    };
+    let found = study.run(&inputs, &control).unwrap();
+    (study, found)
+}
+
+#[test]
+fn the_percentiles_of_a_monotone_case_are_those_of_the_transformed_distribution() {
+    let case = spread_case(&[("deviations.base_pitch", "normal", "2 um")]);
+    let (study, samples) = toleranced(&case, 4000, 3, 2);
+    let summary = study.summary(&samples);
+    let of = &summary.quantities[0];
+    assert_eq!(of.quantity.key, "impact_force");
+    let figures = of.figures.as_ref().unwrap();
+    for (part, found) in [0.05, 0.5, 0.95].into_iter().zip(figures.percentiles) {
+        let mut inputs = case.inputs().unwrap();
+        let distribution = &study.design.distributions[0];
+        distribution.put(distribution.quantile(part), &mut inputs);
+        let exact = solve(&inputs, Stages::of(Stage::Impact))
+            .unwrap()
+            .impact
+            .unwrap()
+            .force;
+        assert!(found.to / found.from < 1.03);
+        assert!(
+            (found.value - exact).abs() < found.to - found.from,
+            "{part}: {found:?}, {exact}"
+        );
+    }
+}
+
+#[test]
+fn a_sample_depends_on_seed_and_number_alone() {
+    let case = spread_case(&[
+        ("deviations.base_pitch", "truncated", "9 um"),
+        ("operation.power", "uniform", "3 kW"),
+        ("driven.young", "triangular", "9 GPa"),
+    ]);
+    let (study, one) = toleranced(&case, 600, 7, 1);
+    let (_, three) = toleranced(&case, 600, 7, 3);
+    let (longer, more) = toleranced(&case, 900, 7, 2);
+    let (_, other) = toleranced(&case, 600, 8, 2);
+    let bits = |samples: &Samples, at| samples.value(0, at).map(f64::to_bits);
+    for at in 0..study.design.count() {
+        assert_eq!(bits(&one, at), bits(&three, at));
+        let same = longer.design.index(study.design.member(at));
+        assert_eq!(bits(&one, at), bits(&more, same));
+    }
+    assert_ne!(bits(&one, 0), bits(&other, 0));
+}
+
+#[test]
+fn every_sample_is_a_plain_solve_of_its_settings() {
+    let case = spread_case(&[
+        ("deviations.base_pitch", "grade", "7"),
+        ("operation.speed", "uniform", "100 rpm"),
+        ("driver.profile_shift", "normal", "0.01"),
+    ]);
+    let (study, samples) = toleranced(&case, 40, 1, 2);
+    for index in 0..study.design.count() {
+        let mut case = case.clone();
+        for setting in study.design.point(index).split(", ") {
+            let (key, value) = setting.split_once(" = ").unwrap();
+            case.set(key, value).unwrap();
+        }
+        let force = solve(&case.inputs().unwrap(), Stages::of(Stage::Impact)).unwrap();
+        let force = force.impact.map(|impact| impact.force.to_bits());
+        assert_eq!(force, samples.value(0, index).map(f64::to_bits), "{index}");
+    }
+}
+
+#[test]
+fn probabilities_count_contact_and_limits_and_leave_refused_samples_out() {
+    let mut case = spread_case(&[("driven.tip_relief", "uniform", "20 um")]);
+    case.set("driven.tip_relief", "48 um").unwrap();
+    case.set("model.deflection", "24.7 um").unwrap();
+    case.set_limit("impact_force", "500 N").unwrap();
+    let (study, samples) = toleranced(&case, 3000, 1, 2);
+    let summary = study.summary(&samples);
+    let found = summary.contact.unwrap();
+    // Contact ends at a relief of 47.33 um of 28 to 68 um.
+    assert_within(found, 0.4832, "contact");
+    let limit = &summary.limits[0];
+    assert_eq!((limit.known, summary.solved), (3000, 3000));
+    assert!(limit.probability.unwrap().value < found.value);
+    assert!(summary.quantities[0].figures.as_ref().unwrap().count < 3000);
+}
