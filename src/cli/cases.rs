@@ -1,6 +1,7 @@
 //! Opens cases for a command and prints what is wrong with them.
 
 use super::{Exit, Setting, Streams};
+use crate::case::fields::FIELDS;
 use crate::case::file::ReadError;
 use crate::case::{Case, Document, Problem};
 use crate::model::{Inputs, Refusal};
@@ -36,6 +37,24 @@ pub(super) fn open(
     streams: &mut Streams,
 ) -> Result<Opened, Exit> {
     let document = Document::read_draft(path).map_err(|error| unread(&error, streams))?;
+    changed(path.display().to_string(), document, settings, streams)
+}
+
+/// Read a case whose missing values may be among those that a study varies, each given as the place
+/// of its field and one of its values.
+pub(super) fn open_varied(
+    path: &Path,
+    settings: &[Setting],
+    varied: &[(usize, String)],
+    streams: &mut Streams,
+) -> Result<Opened, Exit> {
+    let mut document = Document::read_draft(path).map_err(|error| unread(&error, streams))?;
+    for (field, value) in varied {
+        if document.case.effective(*field).is_none() {
+            // A value that does not fit is reported with its point.
+            drop(document.case.set(FIELDS[*field].key, value));
+        }
+    }
     changed(path.display().to_string(), document, settings, streams)
 }
 

@@ -5,8 +5,9 @@ use super::progress::Running;
 use super::sink::{Failure, Sink, overwrites};
 use super::{Exit, Listing, Seek, Streams};
 use crate::case::fields::{FIELDS, index_of};
+use crate::numeric::decimal::shortest;
 use crate::report::seek::SeekReport;
-use crate::study::axis::AxisRange;
+use crate::study::axis::{AxisRange, with_unit};
 use crate::study::condition::Condition;
 use crate::study::seek::{Found, Unfound, seek};
 use std::io;
@@ -28,7 +29,8 @@ pub(super) fn run(options: &Seek, streams: &mut Streams) -> io::Result<Exit> {
         streams.say(&refusal);
         return Ok(Exit::Usage);
     }
-    let opened = match cases::open(&options.case, &settings, streams) {
+    let first = (range.field, with_unit(&shortest(range.from), &range.unit));
+    let opened = match cases::open_varied(&options.case, &settings, &[first], streams) {
         Ok(opened) => opened,
         Err(exit) => return Ok(exit),
     };

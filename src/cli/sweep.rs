@@ -37,7 +37,9 @@ pub(super) fn run(options: &Sweep, streams: &mut Streams) -> io::Result<Exit> {
         streams.say(&refusal);
         return Ok(Exit::Usage);
     }
-    let opened = match cases::open(&options.case, &settings, streams) {
+    let first = grid.axes.iter().map(|axis| (axis.field, axis.with_unit(0)));
+    let first: Vec<(usize, String)> = first.collect();
+    let opened = match cases::open_varied(&options.case, &settings, &first, streams) {
         Ok(opened) => opened,
         Err(exit) => return Ok(exit),
     };

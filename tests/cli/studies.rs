@@ -176,6 +176,22 @@ fn a_varied_field_without_effect_is_named() {
 }
 
 #[test]
+fn a_varied_field_may_be_missing_in_the_case() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("case.toml");
+    let text = fs::read_to_string(TABLE_1).unwrap();
+    assert!(text.contains("speed = \"2000 rpm\"\n"));
+    fs::write(&path, text.replace("speed = \"2000 rpm\"\n", "")).unwrap();
+    let arguments = [
+        "sweep",
+        path.to_str().unwrap(),
+        "--vary",
+        "operation.speed=2000 rpm",
+    ];
+    assert!(told(&arguments).ends_with("2000,2191.016153322617,corner-contact\n"));
+}
+
+#[test]
 fn a_file_has_the_same_bytes_as_standard_output_for_any_number_of_jobs() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("rows.csv");
