@@ -8,7 +8,7 @@ use std::path::Path;
 /// Where the results of a study go.
 pub(super) enum Sink<'a> {
     Stream(&'a mut dyn Write),
-    File(BufWriter<Draft>),
+    File(Box<BufWriter<Draft>>),
 }
 
 impl<'a> Sink<'a> {
@@ -18,7 +18,9 @@ impl<'a> Sink<'a> {
         stream: &'a mut dyn Write,
     ) -> Result<Sink<'a>, SaveError> {
         match out.filter(|path| *path != Path::new("-")) {
-            Some(path) => Draft::create(path).map(|draft| Sink::File(BufWriter::new(draft))),
+            Some(path) => {
+                Draft::create(path).map(|draft| Sink::File(Box::new(BufWriter::new(draft))))
+            }
             None => Ok(Sink::Stream(stream)),
         }
     }

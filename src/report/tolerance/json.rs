@@ -24,7 +24,7 @@ struct Line<'a> {
     spread: Vec<Distribution<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     corner_contact: Option<Interval>,
-    limits: Vec<Limit<'a>>,
+    limits: Vec<Compared<'a>>,
     quantities: serde_json::Map<String, serde_json::Value>,
 }
 
@@ -47,7 +47,7 @@ struct Distribution<'a> {
 }
 
 #[derive(Serialize)]
-struct Limit<'a> {
+struct Compared<'a> {
     quantity: &'static str,
     limit: &'a str,
     samples: usize,
@@ -173,8 +173,8 @@ fn spread<'a>(report: &ToleranceReport<'a>) -> Vec<Distribution<'a>> {
         .collect()
 }
 
-fn limit(exceedance: &Exceedance) -> Limit<'_> {
-    Limit {
+fn limit(exceedance: &Exceedance) -> Compared<'_> {
+    Compared {
         quantity: exceedance.quantity.key,
         limit: &exceedance.limit.text,
         samples: exceedance.known,
