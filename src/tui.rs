@@ -181,7 +181,7 @@ fn session(
         settings,
         ..App::new(document, path, look, screen.size()?)
     };
-    if is_last_case && app.path.is_some() {
+    if is_last_case && app.tab.path.is_some() {
         app.tab.origin = Origin::LastCase;
     }
     update::settle(&mut app);

@@ -1,6 +1,5 @@
 //! The state of the workbench: plain data, changed by `update` alone.
 
-use std::ops::Deref;
 use std::path::PathBuf;
 
 use ratatui::layout::Size;
@@ -21,7 +20,7 @@ use crate::case::fields::{Absent, Kind};
 use crate::case::{Case, Document, FIELDS, Problem, fields};
 use crate::model::{Stage, Stages};
 
-/// Everything that the screen shows. What is read of the current case is read as if it stood here.
+/// Everything that the screen shows.
 #[derive(Debug, Clone)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own")]
 pub struct App {
@@ -106,14 +105,6 @@ pub struct Message {
     pub is_fault: bool,
 }
 
-impl Deref for App {
-    type Target = Tab;
-
-    fn deref(&self) -> &Tab {
-        &self.tab
-    }
-}
-
 impl App {
     /// A document that was just opened, solved at once so that the first frame is whole.
     #[must_use]
@@ -143,7 +134,7 @@ impl App {
             settings: Settings::default(),
             look,
         };
-        if app.access == Access::Newer {
+        if app.tab.access == Access::Newer {
             app.complain(NEWER);
         }
         app.follow();
@@ -172,12 +163,12 @@ impl App {
     pub fn charts(&self) -> Charts<'_> {
         Charts {
             pane: &self.chart,
-            scale: &self.scale,
-            answer: self.answer.as_ref(),
+            scale: &self.tab.scale,
+            answer: self.tab.answer.as_ref(),
             baseline: self.baseline.as_ref().map(|baseline| &baseline.answer),
             cursor: self.cursor,
-            is_stale: self.shows_last_valid(),
-            undone: self.undone,
+            is_stale: self.tab.shows_last_valid(),
+            undone: self.tab.undone,
             units: self.settings.units,
             marker: self.settings.marker,
             look: self.look,
@@ -188,7 +179,7 @@ impl App {
     /// The picture of the teeth, if the active method has results.
     #[must_use]
     pub fn picture(&self) -> Option<Picture<'_>> {
-        let answer = self.answer.as_ref()?;
+        let answer = self.tab.answer.as_ref()?;
         Some(Picture {
             inputs: &answer.inputs,
             solution: answer.of(answer.active)?,
@@ -197,7 +188,7 @@ impl App {
             look: self.look,
             marker: self.settings.marker,
             units: self.settings.units,
-            is_stale: self.shows_last_valid(),
+            is_stale: self.tab.shows_last_valid(),
         })
     }
 
@@ -260,7 +251,7 @@ impl App {
     /// Whether what is wrong in a row is merely that it is being typed.
     #[must_use]
     pub fn is_unfinished(&self, row: usize) -> bool {
-        let is_typed = self.has_line() && self.focus == row;
+        let is_typed = self.has_line() && self.tab.focus == row;
         is_typed && rows::is_unfinished(&self.tab.case, row, self.tab.input.value())
     }
 
@@ -273,8 +264,8 @@ impl App {
     /// How many required values are missing, where nothing else is wrong.
     #[must_use]
     pub fn missing(&self) -> Option<usize> {
-        let count = self.problems.len();
-        let is_draft = self.problems.iter().all(|(row, _)| self.lacks(*row));
+        let count = self.tab.problems.len();
+        let is_draft = self.tab.problems.iter().all(|(row, _)| self.lacks(*row));
         Some(count).filter(|_| is_draft)
     }
 

@@ -111,6 +111,7 @@ pub fn ending(app: &App, typed: &str) -> Option<String> {
 #[must_use]
 pub fn describe(app: &App, angle: f64) -> String {
     let speed = app
+        .tab
         .answer
         .as_ref()
         .map_or(0.0, |answer| answer.inputs.speed);
@@ -160,6 +161,7 @@ fn measured(app: &App, typed: &str) -> Result<f64, String> {
     let whole = [typed, &ending(app, typed).unwrap_or_default()].concat();
     let angle = units::parse(&whole, Dimension::Angle, "deg");
     let speed = app
+        .tab
         .answer
         .as_ref()
         .map_or(0.0, |answer| answer.inputs.speed);
@@ -174,6 +176,7 @@ fn measured(app: &App, typed: &str) -> Result<f64, String> {
 
 fn ruler(app: &App) -> Ruler {
     let speed = app
+        .tab
         .answer
         .as_ref()
         .map_or(0.0, |answer| answer.inputs.speed);
@@ -188,7 +191,7 @@ pub fn cursor_range(app: &App) -> Option<Reach> {
     let pitch = solution.geometry.base_pitch / solution.geometry.driver.base;
     let start = first_contact(solution).unwrap_or(0.0);
     let end = last_contact(solution).unwrap_or(0.0).min(0.0);
-    let axis = app.scale.across;
+    let axis = app.tab.scale.across;
     let before = if axis.is_empty() {
         start.max(pitch / 10.0)
     } else {
@@ -236,7 +239,8 @@ pub fn cursor_range(app: &App) -> Option<Reach> {
 /// The active method's results.
 #[must_use]
 pub fn solution(app: &App) -> Option<&Solution> {
-    app.answer
+    app.tab
+        .answer
         .as_ref()
         .and_then(|answer| answer.of(answer.active))
 }

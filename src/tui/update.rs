@@ -219,7 +219,7 @@ fn show(app: &mut App, command: Command) {
 
 // A list in the order of the focused pane and field.
 fn find(app: &mut App, list: List) {
-    let inputs = app.case.inputs_so_far();
+    let inputs = app.tab.case.inputs_so_far();
     let idle = |field: &usize| matches!(relevance(*field, &inputs), Acting::No(_));
     let of_scope = |scope: Scope| {
         let commands = commands::commands().map(|binding| binding.command);
@@ -245,9 +245,9 @@ fn scope_of(app: &App, command: Command) -> Scope {
     if app.panes.focus != Pane::Form {
         return scope;
     }
-    let field = rows::field(&app.case, app.focus);
+    let field = rows::field(&app.tab.case, app.tab.focus);
     let is_own = match command {
-        Command::Step(by) => rows::stepped(&app.case, app.focus, by).is_some(),
+        Command::Step(by) => rows::stepped(&app.tab.case, app.tab.focus, by).is_some(),
         Command::Material => field.is_some_and(Field::is_of_gear),
         Command::ToggleMethod | Command::Method(_) => {
             field.is_some_and(|field| field.key == "model.method")
@@ -267,7 +267,7 @@ fn solver_failed(app: &mut App, serial: u64) {
         return;
     };
     (tab.has_failed, tab.is_settled, tab.solving) = (true, true, None);
-    if app.serial == serial {
+    if app.tab.serial == serial {
         app.is_pinning = false;
         app.complain(
             "a fault of the program: the solver failed on this; undo or change the last edit",
@@ -303,7 +303,7 @@ fn set_method(app: &mut App, method: Option<Method>) -> Vec<Effect> {
         Some(method) => edit::set(app, field, method.name()),
         None => edit::choose(app, field, &names, 1),
     };
-    let waits = if app.is_stale() {
+    let waits = if app.tab.is_stale() {
         ", solved when every field is right"
     } else {
         ""

@@ -223,7 +223,7 @@ fn draw_charts(app: &App, area: Rect, buffer: &mut Buffer) {
 }
 
 fn draw_teeth(app: &App, area: Rect, buffer: &mut Buffer) {
-    let stale = if app.shows_last_valid() {
+    let stale = if app.tab.shows_last_valid() {
         "LAST VALID, "
     } else {
         ""
@@ -234,7 +234,7 @@ fn draw_teeth(app: &App, area: Rect, buffer: &mut Buffer) {
     if let Some(picture) = app.picture() {
         teeth::draw(&picture, inner, buffer);
     } else {
-        let message = if app.answer.is_some() {
+        let message = if app.tab.answer.is_some() {
             "  This method has no valid results."
         } else {
             "  No results yet."

@@ -246,7 +246,7 @@ impl Bench {
             folder: Some(home.path().to_owned()),
             ..State::default()
         };
-        let first = app.case.clone();
+        let first = app.tab.case.clone();
         let opened = vec![first, Case::table_1(), Case::fresh()];
         Bench {
             app,
@@ -307,8 +307,8 @@ impl Bench {
             Prompt::Read(_) | Prompt::Explain(_) => "page",
             Prompt::Pick(_) => "pick",
         });
-        let invalid = (!self.app.problems.is_empty()).then_some("invalid");
-        let refused = self.app.refusal.is_some().then_some("refused");
+        let invalid = (!self.app.tab.problems.is_empty()).then_some("invalid");
+        let refused = self.app.tab.refusal.is_some().then_some("refused");
         self.seen
             .extend([prompt, invalid, refused].into_iter().flatten());
     }
@@ -362,7 +362,7 @@ impl Bench {
         match effect {
             Effect::Solve(request) => {
                 assert_eq!(
-                    self.app.case.inputs().as_ref(),
+                    self.app.tab.case.inputs().as_ref(),
                     Ok(&request.inputs),
                     "only what is valid reaches the model"
                 );
@@ -449,9 +449,9 @@ impl Bench {
 
     fn assert_sound(&self) {
         let app = &self.app;
-        if rows::names(&app.case, app.focus).is_empty() {
-            let line = [app.input.value(), &app.ending().unwrap_or_default()].concat();
-            let is_words = rows::field(&app.case, app.focus)
+        if rows::names(&app.tab.case, app.tab.focus).is_empty() {
+            let line = [app.tab.input.value(), &app.ending().unwrap_or_default()].concat();
+            let is_words = rows::field(&app.tab.case, app.tab.focus)
                 .is_some_and(|field| matches!(field.kind, Kind::Text));
             // While a number is typed, its unit may be the field's, and blanks may stand around it.
             let said = if is_words || !app.has_line() {
@@ -461,19 +461,19 @@ impl Bench {
             };
             assert_eq!(
                 said,
-                rows::text(&app.case, app.focus).unwrap_or_default(),
+                rows::text(&app.tab.case, app.tab.focus).unwrap_or_default(),
                 "the line is the row's"
             );
         }
-        assert_eq!(app.problems.is_empty(), app.case.inputs().is_ok());
+        assert_eq!(app.tab.problems.is_empty(), app.tab.case.inputs().is_ok());
         assert!(
             app.tabs().all(|tab| self.on_disk.contains(&tab.saved)),
             "the mark tells whether the file differs"
         );
-        let inputs = app.case.inputs().ok();
-        if let (Some(inputs), Some(answer), false) = (inputs, &app.answer, app.is_stale()) {
+        let inputs = app.tab.case.inputs().ok();
+        if let (Some(inputs), Some(answer), false) = (inputs, &app.tab.answer, app.tab.is_stale()) {
             assert_eq!(
-                answer.serial, app.serial,
+                answer.serial, app.tab.serial,
                 "the results are those of the form"
             );
             let chosen = inputs.method == Method::Auto || answer.pending.is_some();
@@ -516,7 +516,7 @@ impl Bench {
             && self.app.prompts.is_empty()
             && self.app.others.is_empty()
         {
-            assert_eq!(is_marked, self.app.is_unsaved());
+            assert_eq!(is_marked, self.app.tab.is_unsaved());
         }
     }
 
@@ -527,15 +527,15 @@ impl Bench {
             self.app.prompts.len()
         ]);
         self.repeat(ctrl('y'), "nothing to redo");
-        let last = self.app.case.clone();
+        let last = self.app.tab.case.clone();
         self.repeat(ctrl('z'), "nothing to undo");
         assert!(
-            self.opened.contains(&self.app.case),
+            self.opened.contains(&self.app.tab.case),
             "undoing everything leads back"
         );
         self.assert_sound();
         self.repeat(ctrl('y'), "nothing to redo");
-        assert_eq!(self.app.case, last, "redoing everything leads forward");
+        assert_eq!(self.app.tab.case, last, "redoing everything leads forward");
     }
 
     fn repeat(&mut self, key: KeyEvent, end: &str) {

@@ -84,7 +84,7 @@ fn a_file_that_someone_else_changed_is_refused_and_what_differs_is_shown() {
             desk.screen()
         );
         assert!(
-            desk.read("case.toml").contains("2100 rpm") && desk.app.is_unsaved(),
+            desk.read("case.toml").contains("2100 rpm") && desk.app.tab.is_unsaved(),
             "{how}"
         );
     }
@@ -110,7 +110,7 @@ fn then_it_is_reloaded_saved_elsewhere_overwritten_or_left() {
         desk.keys(&["Ctrl-S"])
             .keys(&keys.iter().map(String::as_str).collect::<Vec<_>>());
         assert!(desk.read("case.toml").contains(there), "{keys:?}");
-        assert_eq!(desk.app.is_unsaved(), unsaved, "{keys:?}");
+        assert_eq!(desk.app.tab.is_unsaved(), unsaved, "{keys:?}");
         assert_eq!(desk.path("other.toml").exists(), keys[0] == "s", "{keys:?}");
         assert!(desk.app.prompts.is_empty(), "{keys:?}");
     }
@@ -178,12 +178,12 @@ fn what_is_typed_while_a_save_runs_stays_and_stays_unsaved() {
     desk.perform(save);
     assert!(desk.shows("saved ") && desk.read("case.toml").contains("1500 rpm"));
     assert!(
-        desk.shows("1600 rpm") && desk.app.is_unsaved(),
+        desk.shows("1600 rpm") && desk.app.tab.is_unsaved(),
         "{}",
         desk.screen()
     );
     desk.keys(&["Ctrl-S"]);
-    assert!(desk.read("case.toml").contains("1600 rpm") && !desk.app.is_unsaved());
+    assert!(desk.read("case.toml").contains("1600 rpm") && !desk.app.tab.is_unsaved());
 }
 
 #[test]
@@ -203,7 +203,7 @@ fn a_deleted_file_is_created_again_with_its_mode_and_the_save_says_so() {
     );
     let mode = fs::metadata(&path).expect("it is there").mode();
     assert_eq!(mode & 0o7777, 0o600);
-    assert!(desk.read("case.toml").contains("1500 rpm") && !desk.app.is_unsaved());
+    assert!(desk.read("case.toml").contains("1500 rpm") && !desk.app.tab.is_unsaved());
     desk.fill("operation.speed", "1600 rpm").keys(&["Ctrl-S"]);
     assert!(
         desk.shows("saved ") && !desk.shows("deleted"),
@@ -240,7 +240,7 @@ fn after_a_save_under_another_name_the_case_is_the_new_file() {
     let new = desk.path("new.toml").display().to_string();
     desk.keys(&["F2", "Ctrl-U", &new, "Enter"]);
     assert!(
-        desk.shows("saved ") && desk.app.short_name() == "new.toml",
+        desk.shows("saved ") && desk.app.tab.short_name() == "new.toml",
         "{}",
         desk.screen()
     );
@@ -309,12 +309,12 @@ fn after_a_save_the_form_says_what_the_file_says() {
     ] {
         desk.fill(key, text).keys(&["Ctrl-S"]);
         assert!(
-            desk.shows("saved ") && !desk.app.is_unsaved(),
+            desk.shows("saved ") && !desk.app.tab.is_unsaved(),
             "{key}\n{}",
             desk.screen()
         );
         let file = Document::read(&desk.path("case.toml")).expect("a good case");
-        assert!(desk.app.case == file.case, "{key}");
+        assert!(desk.app.tab.case == file.case, "{key}");
         let field = fields::index_of(key).expect("a field");
         assert_eq!(
             desk.app.tab.input.value(),
@@ -324,6 +324,7 @@ fn after_a_save_the_form_says_what_the_file_says() {
     }
     assert_eq!(
         desk.app
+            .tab
             .case
             .text(fields::index_of("driver.teeth").expect("a field")),
         Some("21")
@@ -361,7 +362,7 @@ fn links_and_modes_stay_and_hard_links_are_refused() {
     fs::hard_link(desk.path("case.toml"), desk.path("hard.toml")).expect("a link");
     desk.fill("operation.speed", "1600 rpm").keys(&["Ctrl-S"]);
     assert!(
-        desk.shows("2 names (hard links)") && desk.app.is_unsaved(),
+        desk.shows("2 names (hard links)") && desk.app.tab.is_unsaved(),
         "{}",
         desk.screen()
     );
@@ -394,7 +395,7 @@ fn what_is_no_file_is_told_by_the_workbench() {
             "{name}\n{}",
             desk.screen()
         );
-        assert!(desk.app.is_unsaved(), "{name}");
+        assert!(desk.app.tab.is_unsaved(), "{name}");
         if name != "folder.toml" {
             desk.keys(&["Esc", "Esc", "Ctrl-O", "d", "Ctrl-U", &path, "Enter"]);
             assert!(desk.shows("cannot be opened"), "{name}\n{}", desk.screen());

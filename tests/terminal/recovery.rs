@@ -117,7 +117,7 @@ fn a_journal_is_there_as_long_as_there_are_unsaved_edits() {
         journal.changes[0].to.as_deref(),
         Some("no \u{1b}[2J number")
     );
-    app.tab.case = app.saved.clone();
+    app.tab.case = app.tab.saved.clone();
     autosave.follow(&app.sheets(), Instant::now());
     autosave.keep();
     assert!(journals(folder.path()).is_empty());

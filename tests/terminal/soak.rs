@@ -314,7 +314,7 @@ fn values_of_file(path: &Path) -> Vec<String> {
         Look::FULL,
         Size::new(80, 24),
     );
-    let lines = 0..rows::count(&app.case);
+    let lines = 0..rows::count(&app.tab.case);
     let copied = lines.filter_map(|line| {
         app.tab.focus = line;
         let effects = update(&mut app, Action::Do(Command::CopyValue));

@@ -186,6 +186,7 @@ fn press(desk: &mut Desk, keys: &str) {
         if key == "m"
             && desk
                 .app
+                .tab
                 .traded
                 .as_ref()
                 .is_some_and(|traded| traded.trade.is_some())

@@ -7,6 +7,7 @@ use tipstrike::case::units::System;
 
 fn text<'d>(desk: &'d Desk, key: &str) -> &'d str {
     desk.app
+        .tab
         .case
         .text(index_of(key).unwrap())
         .unwrap_or_default()
@@ -26,7 +27,10 @@ fn a_bare_number_is_completed_while_it_is_typed_and_written_with_its_unit() {
         "the results are those of 48 um"
     );
     assert_eq!(
-        (desk.app.input.value(), text(&desk, "deviations.base_pitch")),
+        (
+            desk.app.tab.input.value(),
+            text(&desk, "deviations.base_pitch")
+        ),
         ("48", "48 um")
     );
     desk.keys(&["Down"]);
@@ -39,7 +43,7 @@ fn a_bare_number_is_completed_while_it_is_typed_and_written_with_its_unit() {
     assert_eq!(desk.read("case.toml"), TABLE_1.replace("16 um", "48 um"));
     desk.keys(&["Up", "Esc"]);
     assert_eq!(
-        desk.app.input.value(),
+        desk.app.tab.input.value(),
         "48 um",
         "a line that is left is the case's"
     );
@@ -66,7 +70,7 @@ fn on_the_way_to_a_value_no_error_flickers() {
         }
         for letter in whole.chars() {
             desk.keys(&[&letter.to_string()]);
-            let typed = desk.app.input.value().to_owned();
+            let typed = desk.app.tab.input.value().to_owned();
             assert!(!desk.shows("  ! "), "{typed}:\n{}", desk.screen());
         }
         assert!(
@@ -128,8 +132,8 @@ fn what_says_the_same_is_no_edit() {
     let mut desk = Desk::new(SMALL);
     desk.go_to("deviations.base_pitch")
         .keys(&["End", "Backspace", "Backspace", "Backspace"]);
-    assert_eq!(desk.app.input.value(), "16");
-    assert!(!desk.app.is_unsaved());
+    assert_eq!(desk.app.tab.input.value(), "16");
+    assert!(!desk.app.tab.is_unsaved());
     desk.keys(&["Ctrl-Z"]);
     assert!(desk.shows("nothing to undo"));
 }
@@ -139,11 +143,14 @@ fn steps_copies_and_limits_know_the_unit_of_a_bare_number() {
     let mut desk = Desk::new(SMALL);
     desk.fill("deviations.base_pitch", "48").keys(&["Shift-Up"]);
     assert_eq!(
-        (desk.app.input.value(), text(&desk, "deviations.base_pitch")),
+        (
+            desk.app.tab.input.value(),
+            text(&desk, "deviations.base_pitch")
+        ),
         ("49 um", "49 um")
     );
     desk.keys(&["Ctrl-U", "50", "Esc", "y"]);
     assert_eq!(desk.copied.as_deref(), Some("50 um"));
     desk.keys(&["Ctrl-End", "i", "Ctrl-U", "2200"]);
-    assert_eq!(desk.app.case.limits[0].text, "2200 N");
+    assert_eq!(desk.app.tab.case.limits[0].text, "2200 N");
 }

@@ -62,21 +62,26 @@ fn a_new_case_marks_its_required_fields_and_shows_the_defaults_of_the_others() {
     ] {
         assert!(desk.shows(line), "{line}\n{}", desk.screen());
     }
-    assert!(!desk.shows("LAST VALID") && !desk.app.is_unsaved());
+    assert!(!desk.shows("LAST VALID") && !desk.app.tab.is_unsaved());
     for (at, value) in ["4", "17", "20", "40", "22", "5 kW", "1500"]
         .iter()
         .enumerate()
     {
-        assert_eq!(desk.app.problems.len(), 7 - at);
+        assert_eq!(desk.app.tab.problems.len(), 7 - at);
         desk.keys(&[value, "Alt-E"]);
     }
-    let text = |key| desk.app.case.text(fields::index_of(key).expect("a field"));
+    let text = |key| {
+        desk.app
+            .tab
+            .case
+            .text(fields::index_of(key).expect("a field"))
+    };
     assert_eq!(text("driven.teeth"), Some("40"));
     assert_eq!(
         (text("model.method"), text("model.within")),
         (Some("auto"), None)
     );
-    assert!(desk.app.answer.is_some() && desk.app.problems.is_empty());
+    assert!(desk.app.tab.answer.is_some() && desk.app.tab.problems.is_empty());
 }
 
 #[test]
@@ -86,7 +91,7 @@ fn a_case_with_missing_values_opens_is_saved_and_opens_again() {
     let path = path.to_str().expect("a name in UTF-8");
     desk.keys(&["Ctrl-N", "4", "Ctrl-S", "Ctrl-U", path, "Enter"]);
     assert!(
-        desk.shows("; 6 required values are missing") && !desk.app.is_unsaved(),
+        desk.shows("; 6 required values are missing") && !desk.app.tab.is_unsaved(),
         "{}",
         desk.screen()
     );
@@ -197,7 +202,7 @@ fn a_field_takes_text_until_esc_leaves_it() {
     desk.keys(&["Ctrl-R"]);
     assert!(desk.shows("21 deg"));
     desk.keys(&["Enter", "End", "Backspace"]);
-    assert_eq!(desk.app.input.value(), "21 de", "Enter edits again");
+    assert_eq!(desk.app.tab.input.value(), "21 de", "Enter edits again");
 }
 
 #[test]
@@ -214,6 +219,7 @@ fn hjkl_and_the_arrows_are_alike_outside_a_field() {
             Desk::new(SMALL)
                 .keys(&["Esc", "j", "l", "j", key])
                 .app
+                .tab
                 .focus
         };
         assert_eq!(focus(letter), focus(arrow), "{letter}");
@@ -239,7 +245,7 @@ fn tab_goes_round_the_panes_and_letters_are_never_text_there() {
             desk.screen()
         );
         desk.keys(&["xwv0"]).act(Action::Paste("999".to_owned()));
-        assert!(!desk.app.is_unsaved());
+        assert!(!desk.app.tab.is_unsaved());
     }
     desk.keys(&["BackTab"]);
     assert_eq!(desk.app.panes.focus, Pane::Trade);
@@ -282,7 +288,7 @@ fn f5_switches_the_lower_area_and_names_what_is_hidden() {
 #[test]
 fn what_is_not_in_sight_is_not_computed() {
     let mut desk = Desk::new(SMALL);
-    let stages = |desk: &Desk| desk.app.answer.as_ref().expect("a result").stages;
+    let stages = |desk: &Desk| desk.app.tab.answer.as_ref().expect("a result").stages;
     assert!(stages(&desk).has(Stage::Stations));
     desk.keys(&["F5"]).fill("operation.speed", "1500 rpm");
     assert!(!stages(&desk).has(Stage::Stations) && stages(&desk).has(Stage::Friction));
@@ -300,10 +306,10 @@ fn the_palette_finds_and_runs_every_command() {
     desk.keys(&["Ctrl-P", "method"]);
     assert!(desk.shows("▸ method") && desk.shows("Ctrl-T, F6"));
     desk.keys(&["Enter"]);
-    assert!(desk.shows("method static") && desk.app.is_unsaved());
+    assert!(desk.shows("method static") && desk.app.tab.is_unsaved());
     desk.keys(&["Esc", ":", "undo", "Enter"]);
     assert!(
-        !desk.app.is_unsaved(),
+        !desk.app.tab.is_unsaved(),
         "a change by the palette is undone like any other"
     );
     desk.keys(&[":", "xyzzy", "Enter"]);
@@ -343,7 +349,7 @@ fn a_field_is_found_by_its_name_or_symbol() {
     desk.keys(&["Esc", "/", "speed", "Enter"]);
     assert!(desk.shows("n1 speed, "));
     desk.keys(&["/", "ca2", "Enter", "i", "Ctrl-U", "3 um"]);
-    assert_eq!(desk.app.case.text(desk.app.focus), Some("3 um"));
+    assert_eq!(desk.app.tab.case.text(desk.app.tab.focus), Some("3 um"));
 }
 
 #[test]
@@ -442,7 +448,7 @@ fn a_request_that_another_case_put_aside_is_asked_for_again() {
     desk.keys(&["Alt-1"]).go_to("operation.speed");
     update(&mut desk.app, Action::Do(Command::ToggleMethod));
     desk.keys(&["Alt-2", "Alt-1"]);
-    assert!(desk.shows("▸static") && desk.app.is_settled);
+    assert!(desk.shows("▸static") && desk.app.tab.is_settled);
 }
 
 #[test]
@@ -720,6 +726,7 @@ fn the_least_relief_has_a_place_until_it_is_there() {
     assert!(matches!(effects[..], [Effect::CancelSolve]) && stopped.message.is_some());
     assert!(
         stopped
+            .tab
             .answer
             .as_ref()
             .is_some_and(|answer| !answer.lacks(Stage::Clearing)),
@@ -784,9 +791,9 @@ fn the_mouse_is_off_until_it_is_asked_for_and_then_points() {
             .is_some_and(|cursor| (cursor.to_degrees() - 1.5).abs() < 1e-9)
     );
     desk.act(Action::Wheel(Position::new(10, 7), 3));
-    assert_eq!(desk.app.form_top, 3);
+    assert_eq!(desk.app.tab.form_top, 3);
     desk.act(Action::Wheel(Position::new(50, 10), 3));
-    assert_eq!(desk.app.results_top, 3);
+    assert_eq!(desk.app.tab.results_top, 3);
 }
 
 #[test]
@@ -810,7 +817,7 @@ fn recent_cases_are_a_key_away() {
         desk.write("early.toml", TABLE_1),
     ];
     desk.keys(&["Alt-R", "early", "Enter"]);
-    assert!(desk.shows("opened") && desk.app.short_name() == "early.toml");
+    assert!(desk.shows("opened") && desk.app.tab.short_name() == "early.toml");
 }
 
 #[test]
@@ -825,11 +832,11 @@ fn torque_takes_the_place_of_power_and_gives_it_back() {
         "as long as it is typed\n{}",
         desk.screen()
     );
-    assert!(!desk.shows("both given") && desk.app.problems.is_empty());
+    assert!(!desk.shows("both given") && desk.app.tab.problems.is_empty());
     desk.keys(&["Ctrl-U"]);
-    assert!(desk.shows("power 15 kW restored") && desk.app.problems.is_empty());
+    assert!(desk.shows("power 15 kW restored") && desk.app.tab.problems.is_empty());
     desk.keys(&["70 N m", "Ctrl-Z"]);
-    assert!(!desk.app.is_unsaved(), "both changes are one step");
+    assert!(!desk.app.tab.is_unsaved(), "both changes are one step");
 }
 
 /// Wall time is of the machine and gates nothing; what others do on it is kept out by the best of

@@ -188,10 +188,10 @@ fn paths_are_typed_or_pasted_and_the_home_folder_is_a_tilde() {
         .act(Action::Paste(name(&deep).to_owned()));
     assert_eq!(marked(&desk), "deep.toml");
     desk.keys(&["Enter"]);
-    assert!(desk.shows("opened ") && desk.app.short_name() == "deep.toml");
+    assert!(desk.shows("opened ") && desk.app.tab.short_name() == "deep.toml");
     desk.keys(&["Ctrl-O", "../a-str", "Enter"]);
     assert!(
-        desk.app.short_name() == "a-strikes.toml",
+        desk.app.tab.short_name() == "a-strikes.toml",
         "a path begins in the folder that is shown"
     );
     let home = std::env::var("HOME").expect("a home folder");
@@ -248,7 +248,7 @@ fn recent_cases_stand_on_the_same_page_and_missing_ones_are_said_to_be() {
     assert!(!desk.shows("There is no such file"), "back in the folder");
     desk.keys(&["deep", "Enter"]);
     assert_eq!(
-        desk.app.short_name(),
+        desk.app.tab.short_name(),
         "deep.toml",
         "what is typed finds recent cases too"
     );
@@ -458,7 +458,7 @@ fn a_new_case_begins_with_an_example_and_has_no_file() {
             && desk.shows("No corner contact")
             && desk.app.tabs().count() == 2
     );
-    assert!(desk.app.path.is_none() && !desk.app.is_unsaved());
+    assert!(desk.app.tab.path.is_none() && !desk.app.tab.is_unsaved());
     desk.fill("operation.speed", "1234 rpm").keys(&["Ctrl-S"]);
     assert!(desk.shows("Save as") && desk.shows("case.toml"));
     let path = desk.path("mine.toml");
@@ -523,7 +523,7 @@ fn what_is_typed_is_looked_for_below_the_folder_and_among_the_examples() {
     );
     desk.keys(&["Enter"]);
     assert_eq!(
-        desk.app.path.as_deref(),
+        desk.app.tab.path.as_deref(),
         Some(desk.path("sub/gearbox/stage 2/Pinion.toml").as_path())
     );
     desk.keys(&["Ctrl-O", "fzg"]);

@@ -149,7 +149,7 @@ fn static_and_dynamic_open_on_the_strike_and_0_shows_the_whole_contact() {
     let window = |desk: &Desk| desk.app.charts().window();
     for method in ["static", "dynamic"] {
         let mut desk = at_method(SMALL, method);
-        let (strike, whole) = (window(&desk), desk.app.scale.across);
+        let (strike, whole) = (window(&desk), desk.app.tab.scale.across);
         assert!(strike.length() < 0.2 * whole.length(), "{strike:?}");
         assert!(strike.from < -1.25 && strike.to > 0.0, "{strike:?}");
         assert_eq!(window(desk.keys(&["0"])), whole);
@@ -159,12 +159,16 @@ fn static_and_dynamic_open_on_the_strike_and_0_shows_the_whole_contact() {
 
         let mut desk = at_method(SMALL, method);
         desk.fill("driven.tip_relief", "80 um");
-        assert_eq!(window(&desk), desk.app.scale.across, "there is no strike");
+        assert_eq!(
+            window(&desk),
+            desk.app.tab.scale.across,
+            "there is no strike"
+        );
         desk.fill("driven.tip_relief", "0 um");
         assert!(window(&desk).length() < 0.2 * whole.length());
     }
     let desk = at_method(SMALL, "exact");
-    assert_eq!(window(&desk), desk.app.scale.across, "from D to E");
+    assert_eq!(window(&desk), desk.app.tab.scale.across, "from D to E");
 }
 
 #[test]
@@ -237,7 +241,7 @@ fn the_axis_ends_at_the_last_contact_for_static_and_dynamic() {
             (ends, ends),
             "{axis}"
         );
-        assert_eq!(desk.app.scale.across.to > 0.0, ends);
+        assert_eq!(desk.app.tab.scale.across.to > 0.0, ends);
     }
 }
 
@@ -366,14 +370,14 @@ fn the_axis_covers_the_results_and_the_baseline() {
         for relief in ["46 um", "48 um", "80 um"] {
             let mut desk = at_method(SMALL, method);
             desk.keys(&["b"]);
-            let pinned = desk.app.scale;
+            let pinned = desk.app.tab.scale;
             desk.fill("driven.tip_relief", relief);
             for key in ["0", "v"] {
                 desk.keys(&["Esc", "3", key]);
                 let window = desk.app.charts().window();
                 let solution = |answer: &Answer| answer.of(answer.active).expect("solved").clone();
                 let baseline = solution(&desk.app.baseline.as_ref().expect("pinned").answer);
-                let now = solution(desk.app.answer.as_ref().expect("solved"));
+                let now = solution(desk.app.tab.answer.as_ref().expect("solved"));
                 for first in [&baseline, &now]
                     .into_iter()
                     .filter_map(chart::first_contact)
@@ -386,7 +390,7 @@ fn the_axis_covers_the_results_and_the_baseline() {
             }
             // A baseline of the method paper has the curve of that method alone, not of exact.
             assert!(
-                method == "paper" || desk.app.scale.across == pinned.across,
+                method == "paper" || desk.app.tab.scale.across == pinned.across,
                 "{method} {relief}: the axis stays while it serves"
             );
         }
@@ -401,7 +405,7 @@ fn the_readout_and_the_teeth_pane_show_the_same_numbers() {
         for _ in 0..6 {
             desk.keys(&["l"]);
             let angle = desk.app.cursor.expect("a cursor");
-            let answer = desk.app.answer.as_ref().expect("solved");
+            let answer = desk.app.tab.answer.as_ref().expect("solved");
             let solved = (&answer.inputs, answer.of(answer.active).expect("solved"));
             let moment = ContactState::at(solved.0, solved.1, angle).expect("in sight");
             let said = chart::readout(&desk.app.charts(), angle);
@@ -483,12 +487,13 @@ fn a_large_pane_shows_several_charts() {
 fn a_hidden_chart_is_not_computed() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["F5"]);
-    let fitted = desk.app.scale;
+    let fitted = desk.app.tab.scale;
     desk.fill("operation.speed", "9000 rpm");
-    assert_eq!(desk.app.scale, fitted, "no curve is computed");
+    assert_eq!(desk.app.tab.scale, fitted, "no curve is computed");
     assert!(
         !desk
             .app
+            .tab
             .answer
             .as_ref()
             .expect("results")
@@ -497,7 +502,7 @@ fn a_hidden_chart_is_not_computed() {
             .any(|(method, _)| method.shares_load())
     );
     desk.keys(&["Esc", "3"]);
-    assert_ne!(desk.app.scale, fitted);
+    assert_ne!(desk.app.tab.scale, fitted);
 }
 
 /// The numbers on the axes of a chart: below it, and beside it.
@@ -581,7 +586,7 @@ fn assert_legends(desk: &Desk) {
         let curves = curves::apart(curves::curves(&app.charts(), &GRAPHS[graph]));
         let mut alone = Buffer::empty(screen.area);
         for curve in &curves {
-            let spans = (window, app.scale.upright[graph]);
+            let spans = (window, app.tab.scale.upright[graph]);
             raster::draw(&app.charts(), curve, spans, plot, &mut alone);
         }
         let is_drawn = |at: &Position| alone[*at].symbol() != " ";
@@ -658,6 +663,7 @@ fn every_example_is_drawn_at_every_method() {
             assert_charts(&mut desk);
             let solution = desk
                 .app
+                .tab
                 .answer
                 .as_ref()
                 .and_then(|answer| answer.of(answer.active))

@@ -7,6 +7,7 @@ use tipstrike::case::fields::index_of;
 
 fn text<'d>(desk: &'d Desk, key: &str) -> &'d str {
     desk.app
+        .tab
         .case
         .text(index_of(key).unwrap())
         .unwrap_or_default()
@@ -114,7 +115,7 @@ fn a_material_fills_three_fields_at_once_and_undo_takes_it_back() {
         desk.screen()
     );
     desk.keys(&["Ctrl-Z"]);
-    assert!(!desk.app.is_unsaved());
+    assert!(!desk.app.tab.is_unsaved());
     assert!(!desk.shows(" *E2 "), "{}", desk.screen());
     desk.go_to("pair.module").keys(&["Alt-G", "PEEK", "Enter"]);
     assert!(desk.shows("both gears: E 4 GPa"), "{}", desk.screen());
@@ -160,7 +161,7 @@ fn a_limit_begins_with_what_the_result_is_and_goes_when_it_is_emptied() {
     );
     desk.keys(&[" m/s", "Ctrl-U", "Up"]);
     assert!(
-        !desk.shows("(no limit)") && !desk.app.is_unsaved(),
+        !desk.shows("(no limit)") && !desk.app.tab.is_unsaved(),
         "{}",
         desk.screen()
     );
@@ -173,7 +174,7 @@ fn a_limit_that_is_no_value_is_not_saved() {
     assert!(desk.shows("not saved"));
     assert_eq!(desk.read("case.toml"), TABLE_1);
     assert_eq!(
-        desk.app.input.value(),
+        desk.app.tab.input.value(),
         "much",
         "the focus is on what must be mended"
     );
@@ -188,7 +189,7 @@ fn inch_units_are_shown_and_the_case_stays_as_it_is_written() {
         "{}",
         desk.screen()
     );
-    assert!(desk.shows("5 mm") && !desk.app.is_unsaved());
+    assert!(desk.shows("5 mm") && !desk.app.tab.is_unsaved());
     desk.go_to("pair.module");
     assert!(
         desk.shows("= 0.19685 in. m module, about 0.00197 to 1.97 in"),
@@ -219,6 +220,6 @@ fn a_search_finds_a_field_by_its_greek_letter_and_its_meaning() {
         ("coulomb", "operation.friction_coefficient"),
     ] {
         desk.keys(&["Esc", "/", typed, "Enter"]);
-        assert_eq!(desk.app.focus, index_of(key).unwrap(), "{typed}");
+        assert_eq!(desk.app.tab.focus, index_of(key).unwrap(), "{typed}");
     }
 }

@@ -51,7 +51,7 @@ fn a_newer_format_is_shown_and_never_written() {
     assert!(desk.shows("5 mm"), "what this version knows is shown");
     desk.fill("operation.speed", "1500 rpm").keys(&["Ctrl-S"]);
     assert!(
-        desk.shows("not saved: ") && desk.app.is_unsaved(),
+        desk.shows("not saved: ") && desk.app.tab.is_unsaved(),
         "{}",
         desk.screen()
     );

@@ -71,7 +71,7 @@ fn undo_goes_back_a_field_and_redo_forward() {
         "{}",
         desk.screen()
     );
-    assert!(!desk.app.is_unsaved());
+    assert!(!desk.app.tab.is_unsaved());
     desk.keys(&["Ctrl-Y"]);
     assert!(desk.shows("1500 rpm"));
     desk.keys(&["Ctrl-Z", "Ctrl-Z"]);
@@ -212,7 +212,7 @@ fn a_faulty_form_is_not_saved() {
     assert!(desk.shows("not saved"));
     assert_eq!(desk.read("case.toml"), TABLE_1);
     assert_eq!(
-        desk.app.case.text(desk.app.focus),
+        desk.app.tab.case.text(desk.app.tab.focus),
         Some("fast"),
         "the focus is on the wrong field"
     );
@@ -236,10 +236,14 @@ fn a_faulty_form_is_not_taken_for_saved_by_any_way_to_save() {
             desk.screen()
         );
         assert!(
-            desk.app.is_unsaved() && desk.app.prompts.is_empty() && !desk.has_quit,
+            desk.app.tab.is_unsaved() && desk.app.prompts.is_empty() && !desk.has_quit,
             "{keys:?}"
         );
-        assert_eq!(desk.app.case.text(desk.app.focus), Some("fast"), "{keys:?}");
+        assert_eq!(
+            desk.app.tab.case.text(desk.app.tab.focus),
+            Some("fast"),
+            "{keys:?}"
+        );
         desk.keys(&["Ctrl-Q"]);
         assert!(
             desk.shows("has unsaved edits") && !desk.has_quit,
@@ -285,7 +289,7 @@ fn a_file_that_someone_else_changed_is_not_overwritten_unasked() {
     assert_eq!(desk.read("case.toml"), theirs, "Enter alone cancels");
     desk.keys(&["Ctrl-S", "r"]);
     assert!(desk.go_to("operation.power").shows("20 kW"));
-    assert!(desk.go_to("operation.speed").shows("2000 rpm") && !desk.app.is_unsaved());
+    assert!(desk.go_to("operation.speed").shows("2000 rpm") && !desk.app.tab.is_unsaved());
     desk.fill("operation.speed", "1200 rpm");
     desk.write("case.toml", TABLE_1);
     desk.keys(&["Ctrl-S", "o"]);
@@ -301,7 +305,7 @@ fn a_mere_touch_asks_nothing() {
     desk.fill("operation.speed", "1500 rpm");
     desk.write("case.toml", TABLE_1);
     desk.keys(&["Ctrl-S"]);
-    assert!(!desk.app.is_unsaved());
+    assert!(!desk.app.tab.is_unsaved());
 }
 
 #[test]
@@ -402,7 +406,7 @@ fn escape_never_destroys() {
     let mut desk = Desk::new(SMALL);
     desk.fill("operation.speed", "1500 rpm")
         .keys(&["Esc", "Esc", "Esc"]);
-    assert!(desk.shows("1500 rpm") && desk.app.is_unsaved() && !desk.has_quit);
+    assert!(desk.shows("1500 rpm") && desk.app.tab.is_unsaved() && !desk.has_quit);
 }
 
 #[test]
@@ -411,7 +415,7 @@ fn a_paste_never_presses_a_button_and_brings_no_control_character() {
     desk.fill("operation.speed", "")
         .act(Action::Paste("15\u{1b}[2J00\n rpm\u{202e}\r".to_owned()));
     assert_eq!(
-        desk.app.case.text(desk.app.focus),
+        desk.app.tab.case.text(desk.app.tab.focus),
         Some("15[2J00 rpm"),
         "of its lines one is made"
     );
@@ -424,7 +428,7 @@ fn a_long_paste_is_cut_and_quick() {
     let mut desk = Desk::new(SMALL);
     desk.fill("title", "")
         .act(Action::Paste("x".repeat(1 << 20)));
-    assert_eq!(desk.app.input.value().len(), 4096);
+    assert_eq!(desk.app.tab.input.value().len(), 4096);
     desk.screen();
 }
 
@@ -433,16 +437,16 @@ fn backspace_may_arrive_as_ctrl_h() {
     let mut desk = Desk::new(SMALL);
     desk.go_to("operation.speed")
         .keys(&["End", "Ctrl-H", "Ctrl-H", "Ctrl-H", "rpm"]);
-    assert!(!desk.app.is_unsaved());
+    assert!(!desk.app.tab.is_unsaved());
 }
 
 #[test]
 fn a_late_answer_is_dropped() {
     let mut desk = Desk::new(SMALL);
-    let inputs = desk.app.case.inputs().expect("Table 1 is valid");
+    let inputs = desk.app.tab.case.inputs().expect("Table 1 is valid");
     let late = Request {
-        serial: desk.app.serial,
-        case: desk.app.case.clone(),
+        serial: desk.app.tab.serial,
+        case: desk.app.tab.case.clone(),
         inputs,
         stages: Stages::EVERY,
     };
@@ -457,11 +461,11 @@ fn a_late_answer_is_dropped() {
 #[test]
 fn the_chart_keeps_its_axes_until_the_curve_leaves_them() {
     let mut desk = Desk::new(SMALL);
-    let scale = desk.app.scale;
+    let scale = desk.app.tab.scale;
     desk.fill("operation.speed", "2100 rpm");
-    assert_eq!(desk.app.scale, scale);
+    assert_eq!(desk.app.tab.scale, scale);
     desk.fill("operation.speed", "9000 rpm");
-    assert!(desk.app.scale.upright[0].to > scale.upright[0].to);
+    assert!(desk.app.tab.scale.upright[0].to > scale.upright[0].to);
 }
 
 #[test]
@@ -494,7 +498,7 @@ fn a_saved_file_keeps_its_mode() {
 #[test]
 fn a_failed_solve_is_told_and_the_results_are_marked() {
     let mut desk = Desk::new(SMALL);
-    desk.act(Action::SolverFailed(desk.app.serial));
+    desk.act(Action::SolverFailed(desk.app.tab.serial));
     assert!(desk.shows("solver failed") && desk.shows("LAST VALID"));
     desk.fill("operation.speed", "1500 rpm");
     assert!(!desk.shows("solver failed") && !desk.shows("LAST VALID"));
@@ -515,7 +519,7 @@ fn what_is_typed_takes_the_place_of_the_value_and_a_move_keeps_it() {
         desk.go_to("operation.speed").keys(keys);
         let speed = tipstrike::case::fields::index_of("operation.speed").expect("a field");
         assert_eq!(
-            desk.app.case.text(speed),
+            desk.app.tab.case.text(speed),
             Some(text),
             "{keys:?}\n{}",
             desk.screen()
@@ -527,13 +531,13 @@ fn what_is_typed_takes_the_place_of_the_value_and_a_move_keeps_it() {
 fn escape_takes_back_the_first_digit_and_the_digit_then_shows_its_pane() {
     for size in [SMALL, LARGE] {
         let mut desk = Desk::new(size);
-        let before = desk.app.case.clone();
+        let before = desk.app.tab.case.clone();
         assert!(desk.shows("Esc 2 Results"), "{}", desk.screen());
         desk.keys(&["2"]);
         let announced = "module: 2 replaces 5 mm. Esc restores 5 mm; then 2 shows Results";
         assert!(desk.shows(announced), "{}", desk.screen());
         desk.keys(&["Esc"]);
-        assert_eq!(desk.app.case, before);
+        assert_eq!(desk.app.tab.case, before);
         assert!(
             desk.shows("module is 5 mm again") && desk.shows(" 2 Results"),
             "{}",
@@ -559,7 +563,7 @@ fn escape_keeps_every_other_edit() {
         let mut desk = Desk::new(SMALL);
         desk.go_to(field).keys(keys);
         let at = tipstrike::case::fields::index_of(field).expect("a field");
-        assert_eq!(desk.app.case.text(at), Some(text), "{keys:?}");
+        assert_eq!(desk.app.tab.case.text(at), Some(text), "{keys:?}");
     }
     let mut desk = Desk::new(SMALL);
     desk.go_to("operation.torque").keys(&["7"]);
@@ -569,7 +573,7 @@ fn escape_keeps_every_other_edit() {
         desk.screen()
     );
     desk.keys(&["Esc"]);
-    assert_eq!(desk.app.case, desk.app.saved);
+    assert_eq!(desk.app.tab.case, desk.app.tab.saved);
     desk.go_to("model.method").keys(&["Enter", "3"]);
     assert!(
         desk.shows("no choice begins with 3. Esc leaves the field; then 3 shows Chart"),
@@ -640,7 +644,7 @@ fn the_baseline_is_called_as_the_file_that_it_was_saved_to() {
     desk.fill("driven.tip_relief", "48")
         .keys(&["F2", "Ctrl-U", name(&path), "Enter", "Esc"]);
     assert!(
-        desk.app.short_name() == "quiet.toml" && desk.shows("against whine.toml"),
+        desk.app.tab.short_name() == "quiet.toml" && desk.shows("against whine.toml"),
         "{}",
         desk.screen()
     );
@@ -654,7 +658,7 @@ fn a_baseline_of_other_values_than_were_saved_keeps_its_name() {
         .fill("driven.tip_relief", "48")
         .keys(&["F2", "Ctrl-U", name(&path), "Enter"]);
     assert!(
-        desk.app.short_name() == "quiet.toml" && desk.shows("against built-in"),
+        desk.app.tab.short_name() == "quiet.toml" && desk.shows("against built-in"),
         "{}",
         desk.screen()
     );
@@ -715,5 +719,5 @@ fn a_text_as_long_as_may_be_gives_way_to_what_is_typed() {
     let mut desk = Desk::new(SMALL);
     desk.fill("title", "").act(Action::Paste("x".repeat(5000)));
     desk.keys(&["Down", "Up", "short"]);
-    assert_eq!(desk.app.case.text(desk.app.focus), Some("short"));
+    assert_eq!(desk.app.tab.case.text(desk.app.tab.focus), Some("short"));
 }

@@ -28,7 +28,7 @@ fn an_edit_keeps_what_it_changed_and_undo_has_no_end() {
     (0..=EDITS).for_each(|_| {
         desk.keys(&["Ctrl-Z"]);
     });
-    assert!(!desk.app.is_unsaved(), "back at the first one");
+    assert!(!desk.app.tab.is_unsaved(), "back at the first one");
     assert!(desk.keys(&["Ctrl-Z"]).shows("nothing to undo"));
 }
 
@@ -45,6 +45,7 @@ fn an_open_case_keeps_little_and_a_closed_one_nothing() {
                 desk.fill("operation.speed", "1500 rpm");
                 while desk
                     .app
+                    .tab
                     .answer
                     .as_ref()
                     .is_none_or(|answer| answer.active != method)
@@ -84,6 +85,7 @@ fn a_measurement_keeps_its_figures_and_no_curve() {
     });
     assert!(
         desk.app
+            .tab
             .traded
             .as_ref()
             .is_some_and(|traded| traded.trade.is_some())

@@ -21,7 +21,7 @@ fn beside_last_valid_results_stands_why_they_are_and_a_key_that_goes_there() {
             desk.screen()
         );
         desk.keys(&["Alt-E"]);
-        assert_eq!(desk.app.case.text(desk.app.focus), Some("20 mm"));
+        assert_eq!(desk.app.tab.case.text(desk.app.tab.focus), Some("20 mm"));
         assert!(desk.shows("rh1 driver bore radius, "), "{}", desk.screen());
         desk.keys(&["Alt-E"]);
         assert!(desk.shows("rh2 driven bore radius, "), "{}", desk.screen());
@@ -59,7 +59,7 @@ fn the_mark_in_the_results_stays_with_its_quantity() {
     assert_eq!(marked(&desk), Some("approach_angle_driver"));
     desk.fill("driven.tip_relief", "80 um");
     assert!(
-        desk.app.row == 0 && desk.app.results_top == 0,
+        desk.app.tab.row == 0 && desk.app.tab.results_top == 0,
         "{}",
         desk.screen()
     );
@@ -252,7 +252,7 @@ fn what_rounding_leaves_of_zero_is_zero_in_the_teeth() {
 fn an_axis_fits_the_visible_part_of_its_curves() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Ctrl-T", "Esc", ":", "sliding velocity", "Enter", "3", "0"]);
-    let axis = |desk: &Desk| desk.app.scale.upright[desk.app.chart.graph];
+    let axis = |desk: &Desk| desk.app.tab.scale.upright[desk.app.chart.graph];
     assert!(
         axis(&desk).from < 0.0 && axis(&desk).to > 0.0,
         "the whole contact has both signs: {:?}",

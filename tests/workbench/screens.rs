@@ -81,7 +81,7 @@ fn every_quantity_comes_in_sight_whole_and_the_title_shows_which_rows_are() {
         let mut desk = in_motion(size);
         let (count, mut rows) = (results::count(&desk.app), Vec::new());
         for row in 0..count {
-            assert_eq!(desk.app.row, row);
+            assert_eq!(desk.app.tab.row, row);
             let marked = results::marked(&desk.app).expect("a quantity");
             let symbol = format!("▸{} ", marked.symbol_in(Method::Dynamic));
             assert!(desk.shows(&symbol), "{size}: {symbol}\n{}", desk.screen());
@@ -91,8 +91,8 @@ fn every_quantity_comes_in_sight_whole_and_the_title_shows_which_rows_are() {
         rows.dedup();
         assert_eq!(rows.len(), count, "{size}");
         let shows_position = |desk: &Desk| {
-            let (first, lines) = (desk.app.results_top + 1, count + 1);
-            let last = desk.app.results_top + results::page(&desk.app);
+            let (first, lines) = (desk.app.tab.results_top + 1, count + 1);
+            let last = desk.app.tab.results_top + results::page(&desk.app);
             desk.shows(&format!("2 Results {first} to {last} of {lines}"))
                 || size == TINY && first > 1 && desk.shows("2 Results ↑ ")
                 || size == TINY && last < lines && desk.shows("2 Results ↓ ")

@@ -22,7 +22,7 @@ fn measured(size: Size) -> Desk {
 }
 
 fn own(desk: &Desk) -> Setting {
-    Setting::of(&desk.app.case.inputs().expect("a valid form"))
+    Setting::of(&desk.app.tab.case.inputs().expect("a valid form"))
 }
 
 /// The effects of a key, not performed.
@@ -44,7 +44,7 @@ fn nothing_is_measured_until_it_is_asked_for() {
         "{}",
         desk.screen()
     );
-    assert!(desk.app.traded.is_none());
+    assert!(desk.app.tab.traded.is_none());
 }
 
 #[test]
@@ -57,14 +57,14 @@ fn without_corner_contact_no_setting_is_recommended() {
         "{}",
         desk.screen()
     );
-    let traded = desk.app.traded.as_ref().expect("a measurement");
+    let traded = desk.app.tab.traded.as_ref().expect("a measurement");
     assert_eq!(traded.marked, None);
 }
 
 #[test]
 fn m_measures_and_the_cheapest_that_will_do_is_marked() {
     let desk = measured(LARGE);
-    let traded = desk.app.traded.as_ref().expect("a measurement");
+    let traded = desk.app.tab.traded.as_ref().expect("a measurement");
     assert_eq!(traded.marked.expect("a mark").method, Method::Dynamic);
     assert!(
         desk.shows("Within 5.0 %: dynamic with"),
@@ -93,7 +93,7 @@ fn the_method_that_the_others_are_held_against_has_no_error_of_its_own() {
 fn arrows_walk_from_the_quickest_to_the_slowest() {
     let mut desk = measured(LARGE);
     let seconds = |desk: &Desk| {
-        let traded = desk.app.traded.as_ref().unwrap();
+        let traded = desk.app.tab.traded.as_ref().unwrap();
         let marked = traded.marked.unwrap();
         traded
             .trade
@@ -121,10 +121,13 @@ fn arrows_walk_from_the_quickest_to_the_slowest() {
 fn enter_makes_the_marked_setting_the_cases_and_undo_takes_it_back() {
     let mut desk = measured(LARGE);
     let before = own(&desk);
-    let marked = desk.app.traded.as_ref().unwrap().marked.unwrap();
+    let marked = desk.app.tab.traded.as_ref().unwrap().marked.unwrap();
     desk.keys(&["Enter"]);
     assert_eq!(own(&desk), marked);
-    assert_eq!(desk.app.answer.as_ref().unwrap().active, Method::Dynamic);
+    assert_eq!(
+        desk.app.tab.answer.as_ref().unwrap().active,
+        Method::Dynamic
+    );
     assert!(
         desk.shows(&format!("method {marked}; u undoes")),
         "{}",

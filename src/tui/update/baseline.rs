@@ -6,7 +6,7 @@ use crate::tui::app::{App, Baseline};
 pub(super) fn toggle(app: &mut App) {
     if let Some(baseline) = app.baseline.take() {
         app.say(format!("baseline {} unpinned", baseline.name));
-    } else if app.is_stale() || app.answer.is_none() {
+    } else if app.tab.is_stale() || app.tab.answer.is_none() {
         app.complain("there are no valid results to pin: fix the form first");
     } else {
         app.is_pinning = true;
@@ -17,18 +17,19 @@ pub(super) fn toggle(app: &mut App) {
 /// Pin the results that were asked for as soon as all of them are there.
 pub(super) fn pin(app: &mut App) {
     let Some(answer) = app
+        .tab
         .answer
         .as_ref()
         .filter(|answer| app.is_pinning && answer.stages == crate::model::Stages::EVERY)
     else {
         return;
     };
-    let (name, is_file) = (app.short_name(), app.path.is_some());
+    let (name, is_file) = (app.tab.short_name(), app.tab.path.is_some());
     let baseline = Baseline {
         tab: app.tab.id,
         name,
         is_file,
-        case: app.case.clone(),
+        case: app.tab.case.clone(),
         answer: answer.clone(),
     };
     let words = format!("baseline: {} as it is now, for this session", baseline.name);
@@ -40,7 +41,7 @@ pub(super) fn pin(app: &mut App) {
 /// A case that had no file when it was pinned is called as the file that these values were saved
 /// to.
 pub(super) fn rename(app: &mut App) {
-    let (tab, name) = (app.tab.id, app.short_name());
+    let (tab, name) = (app.tab.id, app.tab.short_name());
     let saved = &app.tab.saved;
     let is_it = |baseline: &&mut Baseline| {
         baseline.tab == tab && !baseline.is_file && baseline.case == *saved

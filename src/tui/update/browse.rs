@@ -14,7 +14,7 @@ use crate::tui::store::recents::Recent;
 
 /// Ask for a file to open, from the folder of the present case or from the recent ones.
 pub(super) fn open(app: &mut App, prefers_recents: bool) -> Vec<Effect> {
-    let browser = Browser::beside(app.path.as_deref(), prefers_recents);
+    let browser = Browser::beside(app.tab.path.as_deref(), prefers_recents);
     let effects = vec![list(&browser), Effect::Job(Job::Recents)];
     app.prompts.push(Prompt::Browse(Box::new(browser)));
     effects

@@ -20,7 +20,7 @@ use crate::tui::view::results;
 
 /// Ask for the material of the gear whose field is focused, else of both.
 pub(super) fn materials(app: &mut App) {
-    let gears: &[&str] = match rows::row(&app.case, app.focus) {
+    let gears: &[&str] = match rows::row(&app.tab.case, app.tab.focus) {
         Row::Field(field) if FIELDS[field].table() == "driver" => &["driver"],
         Row::Field(field) if FIELDS[field].table() == "driven" => &["driven"],
         _ => &["driver", "driven"],
@@ -49,7 +49,7 @@ pub(super) fn digested(app: &mut App, found: Vec<Digest>) {
 
 /// Make the gears of a material: one edit, which undo takes back.
 pub(super) fn make(app: &mut App, gears: &[&str], material: &Material) -> Vec<Effect> {
-    let mut case = app.case.clone();
+    let mut case = app.tab.case.clone();
     let made = gears
         .iter()
         .try_for_each(|gear| materials::apply(&mut case, gear, material));
@@ -57,7 +57,7 @@ pub(super) fn make(app: &mut App, gears: &[&str], material: &Material) -> Vec<Ef
         app.complain(problem.for_form().to_string());
         return Vec::new();
     }
-    let is_other = case != app.case;
+    let is_other = case != app.tab.case;
     let effects = edit::replace(app, case);
     let whose = if let [gear] = gears {
         gear
@@ -101,21 +101,22 @@ pub(super) fn limit(app: &mut App) -> Vec<Effect> {
 /// Go to the limit of a quantity; a new one begins with what the quantity is now.
 pub(super) fn hold(app: &mut App, quantity: &'static Quantity) -> Vec<Effect> {
     let mut effects = Vec::new();
-    if rows::of_limit(&app.case, quantity.key).is_none() {
-        let mut case = app.case.clone();
+    if rows::of_limit(&app.tab.case, quantity.key).is_none() {
+        let mut case = app.tab.case.clone();
         case.write_limit(quantity.key, &beginning(app, quantity));
         effects = edit::replace(app, case);
     }
     app.panes.focus = Pane::Form;
     app.is_editing = true;
-    let row = rows::of_limit(&app.case, quantity.key).or_else(|| index_of("model.method"));
-    app.focus_on(row.unwrap_or(app.focus));
+    let row = rows::of_limit(&app.tab.case, quantity.key).or_else(|| index_of("model.method"));
+    app.focus_on(row.unwrap_or(app.tab.focus));
     effects
 }
 
 // The quantity's value as it is shown, rounded up so that it holds.
 fn beginning(app: &App, quantity: &'static Quantity) -> String {
     let value = app
+        .tab
         .answer
         .as_ref()
         .and_then(|answer| report::value(quantity, answer.of(answer.active)?));

@@ -18,11 +18,11 @@ const MOST_BYTES: usize = 48 * 1024;
 /// marked result.
 pub(super) fn value(app: &mut App) -> Vec<Effect> {
     if app.panes.focus == Pane::Form {
-        let text = match rows::row(&app.case, app.focus) {
-            Row::Field(field) => app.case.effective(field).unwrap_or_default().to_owned(),
+        let text = match rows::row(&app.tab.case, app.tab.focus) {
+            Row::Field(field) => app.tab.case.effective(field).unwrap_or_default().to_owned(),
             Row::Limit(limit) => limit.text.clone(),
         };
-        let label = rows::full_label(&app.case, app.focus);
+        let label = rows::full_label(&app.tab.case, app.tab.focus);
         return copy(app, text, &label);
     }
     if Place::CURSOR.meets(app.panes.focus.place()) {
@@ -38,6 +38,7 @@ pub(super) fn value(app: &mut App) -> Vec<Effect> {
         return Vec::new();
     };
     let value = app
+        .tab
         .answer
         .as_ref()
         .and_then(|answer| report::value(quantity, answer.of(answer.active)?));
@@ -50,9 +51,10 @@ pub(super) fn value(app: &mut App) -> Vec<Effect> {
 /// Every result of the active method, a line each: key, value in SI, unit.
 pub(super) fn results(app: &mut App) -> Vec<Effect> {
     let solution = app
+        .tab
         .answer
         .as_ref()
-        .filter(|_| !app.is_stale())
+        .filter(|_| !app.tab.is_stale())
         .and_then(|answer| answer.of(answer.active));
     let Some(solution) = solution else {
         app.complain("there are no valid results to copy");

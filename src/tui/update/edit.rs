@@ -29,7 +29,7 @@ pub(super) fn insert(app: &mut App, letter: char) -> Vec<Effect> {
     if app.prompts.is_empty() && app.has_line() && !names(app).is_empty() {
         return choose_by_letter(app, letter);
     }
-    let before = (letter.is_ascii_digit() && app.starts_anew()).then(|| app.case.clone());
+    let before = (letter.is_ascii_digit() && app.starts_anew()).then(|| app.tab.case.clone());
     let effects = paste(app, letter.encode_utf8(&mut [0; 4]));
     if let Some(before) = before {
         announce(app, letter, &before);
@@ -42,8 +42,8 @@ pub(super) fn insert(app: &mut App, letter: char) -> Vec<Effect> {
 fn announce(app: &mut App, digit: char, before: &Case) {
     let earlier = app.message.take();
     let earlier = earlier.map_or_else(String::new, |message| message.text + ". ");
-    let label = rows::full_label(&app.case, app.focus);
-    let edit = match rows::text(before, app.focus) {
+    let label = rows::full_label(&app.tab.case, app.tab.focus);
+    let edit = match rows::text(before, app.tab.focus) {
         Some(text) => {
             let text = recovery::shown(Some(text));
             format!("{label}: {digit} replaces {text}. Esc restores {text}")
@@ -58,14 +58,14 @@ fn announce(app: &mut App, digit: char, before: &Case) {
 
 /// Esc after the digit that started a new value: the field has its value again and is left.
 pub(super) fn take_back(app: &mut App, case: Case) -> Vec<Effect> {
-    let focus = app.focus;
+    let focus = app.tab.focus;
     app.tab.history.forget_visit(&case);
     app.is_editing = false;
     let effects = solve(app.replace_case(case, focus));
-    let text = rows::text(&app.case, focus).map(|text| recovery::shown(Some(text)));
+    let text = rows::text(&app.tab.case, focus).map(|text| recovery::shown(Some(text)));
     app.say(format!(
         "{} is {} again",
-        rows::full_label(&app.case, focus),
+        rows::full_label(&app.tab.case, focus),
         text.unwrap_or_else(|| "empty".to_owned())
     ));
     effects
@@ -141,7 +141,7 @@ pub(super) fn begin(app: &mut App) {
 
 /// Take the next or the previous of the names of the focused field.
 pub(super) fn cycle(app: &mut App, by: isize) -> Vec<Effect> {
-    choose(app, app.focus, names(app), by)
+    choose(app, app.tab.focus, names(app), by)
 }
 
 /// Take a name beside the present one, in any field of names.
@@ -157,15 +157,15 @@ pub(super) fn choose(app: &mut App, field: usize, names: &[&str], by: isize) -> 
 
 /// The names that the focused row offers.
 fn names(app: &App) -> &'static [&'static str] {
-    rows::names(&app.case, app.focus)
+    rows::names(&app.tab.case, app.tab.focus)
 }
 
 /// Move the value of the focused row by so many units of its last digit.
 pub(super) fn step(app: &mut App, by: i32) -> Vec<Effect> {
-    let Some(text) = rows::stepped(&app.case, app.focus, by) else {
+    let Some(text) = rows::stepped(&app.tab.case, app.tab.focus, by) else {
         app.say(format!(
             "{} has no step here",
-            rows::full_label(&app.case, app.focus)
+            rows::full_label(&app.tab.case, app.tab.focus)
         ));
         return Vec::new();
     };
@@ -175,7 +175,7 @@ pub(super) fn step(app: &mut App, by: i32) -> Vec<Effect> {
 
 /// The name that holds in a field of names.
 pub(super) fn chosen(app: &App, field: usize) -> &str {
-    match (app.case.text(field), FIELDS[field].absent) {
+    match (app.tab.case.text(field), FIELDS[field].absent) {
         (Some(text), _) | (None, Absent::Default(text)) => text,
         _ => "",
     }
@@ -186,7 +186,7 @@ fn choose_by_letter(app: &mut App, letter: char) -> Vec<Effect> {
         .iter()
         .find(|name| name.starts_with(letter.to_ascii_lowercase()));
     match (name, Pane::of_digit(letter)) {
-        (Some(name), _) => return set(app, app.focus, name),
+        (Some(name), _) => return set(app, app.tab.focus, name),
         (None, Some(pane)) => app.say(format!(
             "no choice begins with {letter}. Esc leaves the field; then {letter} shows {}",
             pane.name()
@@ -203,7 +203,7 @@ pub(super) fn set(app: &mut App, field: usize, name: &str) -> Vec<Effect> {
     }
     app.tab.before_edit(field);
     app.tab.case.write(field, name);
-    if field == app.focus {
+    if field == app.tab.focus {
         app.tab.input = name.into();
     }
     checked(app)
@@ -211,24 +211,24 @@ pub(super) fn set(app: &mut App, field: usize, name: &str) -> Vec<Effect> {
 
 /// Put another case into the form as one edit of its own.
 pub(super) fn replace(app: &mut App, case: Case) -> Vec<Effect> {
-    if case == app.case {
+    if case == app.tab.case {
         return Vec::new();
     }
     app.tab.history.end_visit();
-    let focus = app.focus;
+    let focus = app.tab.focus;
     app.tab.before_edit(focus);
     solve(app.replace_case(case, focus))
 }
 
 fn write(app: &mut App) -> Vec<Effect> {
-    let focus = app.focus;
+    let focus = app.tab.focus;
     let text = completed(app);
-    let is_other = rows::text(&app.case, focus).unwrap_or_default() != text;
+    let is_other = rows::text(&app.tab.case, focus).unwrap_or_default() != text;
     if is_other {
         app.tab.before_edit(focus);
         rows::write(&mut app.tab.case, focus, &text);
     }
-    if let Some(Absent::Either(other)) = rows::field(&app.case, focus).map(|field| field.absent)
+    if let Some(Absent::Either(other)) = rows::field(&app.tab.case, focus).map(|field| field.absent)
         && let Some(other) = index_of(other)
     {
         take_turns(app, focus, other);
@@ -239,8 +239,8 @@ fn write(app: &mut App) -> Vec<Effect> {
 // What is typed, a number with its unit; blanks around a number are none of it.
 fn completed(app: &App) -> String {
     let text = [app.tab.input.value(), &app.ending().unwrap_or_default()].concat();
-    let is_words =
-        rows::field(&app.case, app.focus).is_some_and(|field| matches!(field.kind, Kind::Text));
+    let is_words = rows::field(&app.tab.case, app.tab.focus)
+        .is_some_and(|field| matches!(field.kind, Kind::Text));
     if is_words {
         text
     } else {
@@ -261,10 +261,10 @@ fn take_turns(app: &mut App, field: usize, other: usize) {
         return;
     };
     let (this, that) = (FIELDS[field].label, FIELDS[other].label);
-    if app.case.text(field).is_some() {
+    if app.tab.case.text(field).is_some() {
         app.tab.case.write(other, "");
         app.say(format!("{that} {before} replaced by the {this}"));
-    } else if app.case.text(other).is_none() {
+    } else if app.tab.case.text(other).is_none() {
         app.tab.case.write(other, &before);
         app.say(format!("{that} {before} restored"));
     }

@@ -27,7 +27,7 @@ pub(super) fn quit(app: &mut App) -> Vec<Effect> {
         [only] => {
             tabs::go_to(app, only);
             app.prompts
-                .push(Prompt::Ask(Question::unsaved(&app.name(), &Next::Quit)));
+                .push(Prompt::Ask(Question::unsaved(&app.tab.name(), &Next::Quit)));
             Vec::new()
         }
         _ => {
@@ -44,9 +44,11 @@ pub(super) fn quit(app: &mut App) -> Vec<Effect> {
 
 /// Close the current case, or ask when it is unsaved.
 pub(super) fn close(app: &mut App) -> Vec<Effect> {
-    if app.is_unsaved() {
-        app.prompts
-            .push(Prompt::Ask(Question::unsaved(&app.name(), &Next::Close)));
+    if app.tab.is_unsaved() {
+        app.prompts.push(Prompt::Ask(Question::unsaved(
+            &app.tab.name(),
+            &Next::Close,
+        )));
         return Vec::new();
     }
     go(app, Next::Close)
@@ -57,7 +59,7 @@ pub(super) fn save(app: &mut App, next: Next) -> Vec<Effect> {
     if refuse_faulty(app) {
         return Vec::new();
     }
-    match app.path.clone() {
+    match app.tab.path.clone() {
         Some(path) => vec![saving(app, path, Over::Own, next)],
         None => ask_where(app, next),
     }
@@ -69,6 +71,7 @@ pub(super) fn ask_where(app: &mut App, next: Next) -> Vec<Effect> {
         return Vec::new();
     }
     let path = app
+        .tab
         .path
         .as_ref()
         .map_or_else(|| "case.toml".to_owned(), |path| path.display().to_string());
@@ -107,10 +110,10 @@ pub(super) fn loaded(
             app.prompts.clear();
             let mut effects = vec![Effect::Remember(path.clone())];
             effects.extend(solve(tabs::show(app, *document, path)));
-            if app.access == Access::Newer {
+            if app.tab.access == Access::Newer {
                 app.complain(NEWER);
             } else {
-                app.say(format!("opened {}", ascii::printable(&app.name())));
+                app.say(format!("opened {}", ascii::printable(&app.tab.name())));
             }
             effects
         }
@@ -141,7 +144,7 @@ pub(super) fn saved(
             let is_as_asked = asked.is_none_or(|asked| asked == app.tab.case);
             if is_as_asked && app.tab.case != document.case {
                 app.tab.case = document.case.clone();
-                app.focus_on(app.focus);
+                app.focus_on(app.tab.focus);
             }
             app.tab.read_line_anew();
             app.tab.document = document;
@@ -150,7 +153,7 @@ pub(super) fn saved(
                 Saved::Written => "",
                 Saved::Recreated => ": the file was deleted, and this save created it again",
             };
-            let missing = match app.problems.len() {
+            let missing = match app.tab.problems.len() {
                 0 => String::new(),
                 1 => "; 1 required value is missing".to_owned(),
                 count => format!("; {count} required values are missing"),
@@ -203,7 +206,10 @@ pub(super) fn open(app: &mut App, path: PathBuf) -> Vec<Effect> {
     };
     app.prompts.clear();
     tabs::go_to(app, at);
-    app.say(format!("{} is open already", ascii::printable(&app.name())));
+    app.say(format!(
+        "{} is open already",
+        ascii::printable(&app.tab.name())
+    ));
     Vec::new()
 }
 
@@ -220,7 +226,7 @@ fn is_open_as_another(app: &mut App, document: &Document, path: &Path) -> bool {
     app.say(format!(
         "{} is open already, as {}",
         ascii::printable(&path.display().to_string()),
-        ascii::printable(&app.name())
+        ascii::printable(&app.tab.name())
     ));
     true
 }
@@ -231,7 +237,7 @@ fn place_of(app: &App, path: &Path) -> Option<usize> {
 
 // A file with wrong values could not be opened again; one in which values are missing can.
 fn refuse_faulty(app: &mut App) -> bool {
-    let wrong = app.problems.iter().find(|(row, _)| !app.lacks(*row));
+    let wrong = app.tab.problems.iter().find(|(row, _)| !app.lacks(*row));
     let Some(&(field, _)) = wrong else {
         return false;
     };
@@ -241,9 +247,9 @@ fn refuse_faulty(app: &mut App) -> bool {
 }
 
 fn saving(app: &mut App, path: PathBuf, over: Over, next: Next) -> Effect {
-    let mut document = app.document.clone();
-    document.case = app.case.clone();
-    app.tab.being_saved = Some(app.case.clone());
+    let mut document = app.tab.document.clone();
+    document.case = app.tab.case.clone();
+    app.tab.being_saved = Some(app.tab.case.clone());
     Effect::Save(
         Box::new(Saving {
             document,
@@ -272,7 +278,7 @@ pub(super) fn save_under(app: &mut App, name: &str, next: Next) -> Vec<Effect> {
         app.complain("a file needs a name");
         return Vec::new();
     }
-    let is_own = app.path.as_deref() == Some(Path::new(name));
+    let is_own = app.tab.path.as_deref() == Some(Path::new(name));
     let (path, over) = if is_own {
         (PathBuf::from(name), Over::Own)
     } else {

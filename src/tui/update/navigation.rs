@@ -34,9 +34,9 @@ fn field(app: &mut App, field: usize) {
 
 // Round and round those that are wrong.
 fn fault(app: &mut App) {
-    let rows = || app.problems.iter().map(|(row, _)| *row);
+    let rows = || app.tab.problems.iter().map(|(row, _)| *row);
     match rows()
-        .filter(|&row| row > app.focus)
+        .filter(|&row| row > app.tab.focus)
         .min()
         .or_else(|| rows().min())
     {
@@ -49,7 +49,7 @@ fn step(app: &mut App, by: isize) {
     match app.prompts.last_mut() {
         None if app.panes.focus == Pane::Results => mark(app, by),
         None if app.panes.focus == Pane::Trade => trade::step(app, by),
-        None => app.focus_on(app.focus.saturating_add_signed(by)),
+        None => app.focus_on(app.tab.focus.saturating_add_signed(by)),
         Some(Prompt::Browse(browser)) => browser.mark(by),
         Some(Prompt::Pick(picker)) => picker.mark(by),
         Some(Prompt::Ask(question)) => question.mark(by),
@@ -67,7 +67,7 @@ fn leap(app: &mut App, by: isize) {
         .max(1);
     match app.prompts.last_mut() {
         None if app.panes.focus == Pane::Results => turn(app, by * page(app)),
-        None => app.focus_on(group_beside(&app.case, app.focus, by)),
+        None => app.focus_on(group_beside(&app.tab.case, app.tab.focus, by)),
         Some(Prompt::Browse(browser)) => browser.mark(by * page_of_prompt),
         Some(Prompt::Pick(picker)) => picker.mark(by * page_of_prompt),
         Some(Prompt::Read(text)) => popup::scroll(text, by * page_of_prompt, app.size),
@@ -88,10 +88,10 @@ fn mark(app: &mut App, by: isize) {
 fn turn(app: &mut App, by: isize) {
     let top = results::scrolled(app, by);
     let last = top + results::page(app).saturating_sub(1);
-    let row = if top == app.results_top {
-        app.row.saturating_add_signed(by)
+    let row = if top == app.tab.results_top {
+        app.tab.row.saturating_add_signed(by)
     } else {
-        app.row.clamp(top, last)
+        app.tab.row.clamp(top, last)
     };
     app.tab.results_top = top;
     app.tab.row = row.min(results::count(app).saturating_sub(1));

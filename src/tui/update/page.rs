@@ -17,13 +17,14 @@ pub(super) fn explain(app: &mut App) -> Vec<Effect> {
         app.complain("there are no results to explain");
         return Vec::new();
     };
-    let Ok(inputs) = app.case.inputs() else {
+    let Ok(inputs) = app.tab.case.inputs() else {
         app.complain(
             "these are the last valid results: fix the fields marked with ! to explain a result",
         );
         return Vec::new();
     };
     let solution = app
+        .tab
         .answer
         .as_ref()
         .and_then(|answer| answer.of(answer.active));
@@ -35,12 +36,12 @@ pub(super) fn explain(app: &mut App) -> Vec<Effect> {
     });
     app.prompts.push(Prompt::Explain(Explanation::new(
         quantity,
-        app.name(),
+        app.tab.name(),
         value,
     )));
     vec![Effect::Job(Job::Explain(Box::new(Asked {
         quantity,
-        case: app.case.clone(),
+        case: app.tab.case.clone(),
         inputs,
     })))]
 }

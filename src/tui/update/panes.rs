@@ -61,7 +61,7 @@ pub(super) fn go_to(app: &mut App, field: usize) {
 /// Go to a result, by its key.
 pub(super) fn show_result(app: &mut App, key: &str) {
     let row = results::listed(app).position(|quantity| quantity.key == key);
-    app.tab.row = row.unwrap_or(app.row);
+    app.tab.row = row.unwrap_or(app.tab.row);
     show(app, Pane::Results);
 }
 

@@ -80,13 +80,13 @@ fn in_pane(app: &mut App, pane: Pane, at: Position) -> Vec<Effect> {
 
 // The first press goes to a field, the second one types into it.
 fn in_form(app: &mut App, field: Option<usize>) -> Vec<Effect> {
-    let is_marked = app.panes.focus == Pane::Form && field == Some(app.focus);
+    let is_marked = app.panes.focus == Pane::Form && field == Some(app.tab.focus);
     match field {
         Some(_) if is_marked && app.has_line() => app.tab.input.select_all(),
         Some(_) if is_marked => edit::begin(app),
         _ => {
             panes::show(app, Pane::Form);
-            app.focus_on(field.unwrap_or(app.focus));
+            app.focus_on(field.unwrap_or(app.tab.focus));
         }
     }
     Vec::new()

@@ -34,7 +34,7 @@ pub(super) fn claimed(app: &mut App, claim: Claim) {
     if !notices.is_empty() {
         app.complain(notices.join("; "));
     }
-    let name = app.name();
+    let name = app.tab.name();
     // The latest on top.
     app.prompts.extend(
         offers
@@ -46,7 +46,7 @@ pub(super) fn claimed(app: &mut App, claim: Claim) {
 
 /// The kept edits go into the form; undo takes them out again.
 pub(super) fn recover(app: &mut App, offer: &Offer) -> Vec<Effect> {
-    let mut case = app.case.clone();
+    let mut case = app.tab.case.clone();
     let refused: Vec<_> = offer
         .changes
         .iter()
@@ -54,7 +54,7 @@ pub(super) fn recover(app: &mut App, offer: &Offer) -> Vec<Effect> {
         .collect();
     app.tab.history.end_visit();
     app.tab.before_edit(app.tab.focus);
-    let mut effects = solve(app.replace_case(case, app.focus));
+    let mut effects = solve(app.replace_case(case, app.tab.focus));
     if let Some(problem) = refused.first() {
         app.complain(format!(
             "some edits are not restored, and the journal stays: {problem}"

@@ -25,7 +25,7 @@ pub(super) fn go_to(app: &mut App, at: usize) {
         .insert(if at > now { now } else { now - 1 }, before);
     app.place_of_tab = at;
     // A request of another case may have been put aside for a later one.
-    if !app.is_settled {
+    if !app.tab.is_settled {
         app.tab.asked = Stages::NONE;
     }
     app.follow();
@@ -50,11 +50,11 @@ pub(super) fn show(app: &mut App, document: Document, path: PathBuf) -> Option<R
     if let Some(own) = own {
         go_to(app, own);
     }
-    let replaces = own.is_some() || app.is_untouched();
-    let before = own.map(|_| app.id);
+    let replaces = own.is_some() || app.tab.is_untouched();
+    let before = own.map(|_| app.tab.id);
     let request = put(app, Tab::new(document, Some(path)), replaces);
     // The same file read anew is still the same one that is open.
-    app.tab.id = before.unwrap_or(app.id);
+    app.tab.id = before.unwrap_or(app.tab.id);
     request
 }
 
@@ -65,13 +65,13 @@ pub(super) fn built_in(app: &mut App) -> Option<Request> {
         go_to(app, at);
         return None;
     }
-    let replaces = app.is_untouched();
+    let replaces = app.tab.is_untouched();
     put(app, Tab::new(store::built_in(), None), replaces)
 }
 
 /// Start an empty case in a tab of its own.
 pub(super) fn fresh(app: &mut App) -> Option<Request> {
-    let replaces = app.is_untouched();
+    let replaces = app.tab.is_untouched();
     let request = put(
         app,
         Tab {
@@ -80,7 +80,7 @@ pub(super) fn fresh(app: &mut App) -> Option<Request> {
         },
         replaces,
     );
-    let missing = app.problems.len();
+    let missing = app.tab.problems.len();
     app.say(format!(
         "new case: {missing} required fields are empty, the others show their defaults; \
          {} starts from an example",
@@ -91,7 +91,7 @@ pub(super) fn fresh(app: &mut App) -> Option<Request> {
 
 /// Start a case from an example, in a tab of its own.
 pub(super) fn begin(app: &mut App, example: &'static Example) -> Option<Request> {
-    let replaces = app.is_untouched();
+    let replaces = app.tab.is_untouched();
     let request = put(
         app,
         Tab {
@@ -109,7 +109,7 @@ pub(super) fn begin(app: &mut App, example: &'static Example) -> Option<Request>
 
 /// Close the current case; the last one leaves the built-in case behind.
 pub(super) fn close(app: &mut App) -> Option<Request> {
-    let name = app.name();
+    let name = app.tab.name();
     if app.others.is_empty() {
         let request = put(app, Tab::new(store::built_in(), None), true);
         app.say(format!("closed {name}: this is the built-in Table 1"));
@@ -124,7 +124,7 @@ pub(super) fn close(app: &mut App) -> Option<Request> {
 }
 
 fn put(app: &mut App, tab: Tab, replaces: bool) -> Option<Request> {
-    let focus = app.focus;
+    let focus = app.tab.focus;
     app.last_id += 1;
     let before = std::mem::replace(
         &mut app.tab,

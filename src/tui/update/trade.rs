@@ -16,7 +16,7 @@ const MEASURING: &str = "measuring";
 
 /// Measure every method on the case in the form.
 pub(super) fn measure(app: &mut App) -> Vec<Effect> {
-    let Ok(inputs) = app.case.inputs() else {
+    let Ok(inputs) = app.tab.case.inputs() else {
         app.complain("the form is not valid: nothing can be measured");
         return Vec::new();
     };
@@ -123,16 +123,16 @@ pub(super) fn step(app: &mut App, by: isize) {
 /// The marked setting becomes the case's.
 pub(super) fn take(app: &mut App) -> Vec<Effect> {
     let Some(setting) = app.tab.traded.as_ref().and_then(|traded| traded.marked) else {
-        app.say(if app.traded.is_some() {
+        app.say(if app.tab.traded.is_some() {
             "no setting is selected: the arrow keys select one"
         } else {
             "nothing is measured yet: m measures"
         });
         return Vec::new();
     };
-    let mut case = app.case.clone();
+    let mut case = app.tab.case.clone();
     setting.apply(&mut case);
-    let is_other = case != app.case;
+    let is_other = case != app.tab.case;
     let effects = edit::replace(app, case);
     app.say(format!(
         "method {setting}{}",

@@ -43,11 +43,11 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     if inner.is_empty() {
         return None;
     }
-    let inputs = app.case.inputs_so_far();
+    let inputs = app.tab.case.inputs_so_far();
     let mut cursor = None;
     for (row, y) in rows
         .iter()
-        .skip(app.form_top)
+        .skip(app.tab.form_top)
         .zip(inner.top()..inner.bottom())
     {
         let line = Rect {
@@ -59,7 +59,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
         cursor = draw_row(app, &inputs, row, line, buffer).or(cursor);
     }
     scroll_bar(
-        app.form_top,
+        app.tab.form_top,
         rows.len(),
         Rect {
             x: inner.right() - 1,
@@ -77,13 +77,13 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
 pub fn top_for(app: &App) -> usize {
     let area = plan(app.size, app.panes).form;
     if area.is_empty() {
-        return app.form_top;
+        return app.tab.form_top;
     }
     let height = usize::from(area.height.saturating_sub(1)).max(1);
     let rows = rows(app, area.width);
     let focused = rows
         .iter()
-        .position(|row| *row == Row::Line(app.focus))
+        .position(|row| *row == Row::Line(app.tab.focus))
         .unwrap_or(0);
     let reasons = rows[focused + 1..]
         .iter()
@@ -96,14 +96,14 @@ pub fn top_for(app: &App) -> usize {
         .min(rows.len())
         .saturating_sub(height);
     let most = rows.len().saturating_sub(height);
-    app.form_top.max(least).min(first.max(least)).min(most)
+    app.tab.form_top.max(least).min(first.max(least)).min(most)
 }
 
 /// The field on a cell, where there is one.
 #[must_use]
 pub fn field_at(app: &App, area: Rect, at: Position) -> Option<usize> {
     let line = usize::from(at.y.checked_sub(area.y + 1)?);
-    match rows(app, area.width).get(app.form_top + line)? {
+    match rows(app, area.width).get(app.tab.form_top + line)? {
         Row::Line(index) => Some(*index),
         Row::Group(_) | Row::Reason(_) => None,
     }
@@ -116,7 +116,7 @@ pub fn scrolled(app: &App, by: isize) -> usize {
     let most = rows(app, area.width)
         .len()
         .saturating_sub(area.height.saturating_sub(1).into());
-    app.form_top.saturating_add_signed(by).min(most)
+    app.tab.form_top.saturating_add_signed(by).min(most)
 }
 
 /// A bar whose thumb shows which part of the lines is in sight.
@@ -134,9 +134,9 @@ pub fn scroll_bar(top: usize, lines: usize, area: Rect, buffer: &mut Buffer) {
 }
 
 fn rows(app: &App, width: u16) -> Vec<Row> {
-    let count = rows::count(&app.case);
-    let groups = rows::groups(&app.case);
-    let mut lines = Vec::with_capacity(count + groups.len() + app.problems.len());
+    let count = rows::count(&app.tab.case);
+    let groups = rows::groups(&app.tab.case);
+    let mut lines = Vec::with_capacity(count + groups.len() + app.tab.problems.len());
     for index in 0..count {
         if groups.contains(&index) {
             lines.push(Row::Group(index));
@@ -149,14 +149,14 @@ fn rows(app: &App, width: u16) -> Vec<Row> {
 
 // The title of a group; of a gear also its material, where that is known.
 fn group_title(app: &App, index: usize) -> String {
-    let Some(field) = rows::field(&app.case, index) else {
+    let Some(field) = rows::field(&app.tab.case, index) else {
         return "Limits".to_owned();
     };
     let title = GROUPS
         .iter()
         .find(|(table, _)| *table == field.table())
         .map_or("", |(_, title)| title);
-    let material = materials::name_of_gear(&app.case, field.table());
+    let material = materials::name_of_gear(&app.tab.case, field.table());
     material.map_or_else(
         || title.to_owned(),
         |material| format!("{title}, {material}"),
@@ -168,6 +168,7 @@ fn group_title(app: &App, index: usize) -> String {
 fn reasons(app: &App, field: usize, width: u16) -> impl Iterator<Item = String> {
     let has_reason = !app.is_unfinished(field) && !app.lacks(field);
     let own = app
+        .tab
         .problems
         .iter()
         .filter(move |(at, _)| *at == field && has_reason);
@@ -207,7 +208,7 @@ fn draw_row(
             );
             None
         }
-        Row::Line(index) => match rows::row(&app.case, *index) {
+        Row::Line(index) => match rows::row(&app.tab.case, *index) {
             rows::Row::Field(field) => draw_field(app, inputs, field, line, buffer),
             rows::Row::Limit(limit) => draw_limit(app, *index, limit, line, buffer),
         },
@@ -224,7 +225,7 @@ fn draw_field(
     let field = &FIELDS[index];
     let theme = app.look.theme;
     let is_idle = matches!(relevance(index, inputs), Acting::No(_));
-    let style = match (app.focus == index, is_idle) {
+    let style = match (app.tab.focus == index, is_idle) {
         (true, _) => theme.focus,
         (false, true) => theme.faint,
         (false, false) => Style::new(),
@@ -268,11 +269,11 @@ fn draw_field(
 
 // By how much a value that is not edited is wider than its room.
 fn longer(app: &App, index: usize, room: u16) -> u16 {
-    let shown = app.case.text(index).map_or_else(
-        || app::unwritten(&app.case, index),
+    let shown = app.tab.case.text(index).map_or_else(
+        || app::unwritten(&app.tab.case, index),
         |text| ascii::printable(text).into_owned(),
     );
-    let is_edited = app.focus == index && app.has_line() && app.case.text(index).is_some();
+    let is_edited = app.tab.focus == index && app.has_line() && app.tab.case.text(index).is_some();
     if is_edited {
         0
     } else {
@@ -293,9 +294,9 @@ fn draw_value(
     style: Style,
     buffer: &mut Buffer,
 ) -> Option<Position> {
-    let unwritten = app::unwritten(&app.case, index);
-    let written = app.case.text(index);
-    let is_edited = app.focus == index && app.has_line();
+    let unwritten = app::unwritten(&app.tab.case, index);
+    let written = app.tab.case.text(index);
+    let is_edited = app.tab.focus == index && app.has_line();
     if is_edited && matches!(FIELDS[index].kind, Kind::Choice(..)) {
         let shown = written.map_or(unwritten, |text| ascii::printable(text).into_owned());
         let width = usize::from(area.width);

@@ -57,7 +57,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         area,
         buffer,
     );
-    let Some(answer) = &app.answer else {
+    let Some(answer) = &app.tab.answer else {
         draw_lines(&parts.head, inner, buffer);
         return;
     };
@@ -67,7 +67,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         ..inner
     };
     let table = table::lines(app, answer, inner.width.into());
-    let quantities = table.rows.iter().skip(app.results_top).take(parts.rows);
+    let quantities = table.rows.iter().skip(app.tab.results_top).take(parts.rows);
     let lines: Vec<Line<'static>> = parts
         .head
         .into_iter()
@@ -77,8 +77,8 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         .collect();
     draw_lines(&lines, inner, buffer);
     if app.panes.focus == Pane::Results
-        && let Some(line) = line_of(app, app.row)
-            .checked_sub(app.results_top)
+        && let Some(line) = line_of(app, app.tab.row)
+            .checked_sub(app.tab.results_top)
             .filter(|&line| line < parts.rows)
     {
         let y = area.y + (lines_before(app, area) + line) as u16;
@@ -88,7 +88,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
 
 /// The quantities in their order.
 pub fn listed(app: &App) -> impl Iterator<Item = &'static Quantity> {
-    app.answer.iter().flat_map(table::order)
+    app.tab.answer.iter().flat_map(table::order)
 }
 
 /// How many quantities there are.
@@ -106,7 +106,7 @@ pub fn page(app: &App) -> usize {
 /// The marked quantity.
 #[must_use]
 pub fn marked(app: &App) -> Option<&'static Quantity> {
-    table::order(app.answer.as_ref()?).nth(app.row)
+    table::order(app.tab.answer.as_ref()?).nth(app.tab.row)
 }
 
 /// Where a quantity stands in the results of a tab.
@@ -143,9 +143,10 @@ pub fn place_of(tab: &Tab, key: Option<&str>) -> Option<Listed> {
 #[must_use]
 pub fn top_for(app: &App) -> usize {
     let rows = page(app).max(1);
-    let line = line_of(app, app.row);
+    let line = line_of(app, app.tab.row);
     let least = (line + 1).saturating_sub(rows);
-    app.results_top
+    app.tab
+        .results_top
         .clamp(least, line.max(least))
         .min(line_count(app).saturating_sub(rows))
 }
@@ -153,7 +154,8 @@ pub fn top_for(app: &App) -> usize {
 /// The first line to be shown after so many lines downwards.
 #[must_use]
 pub fn scrolled(app: &App, by: isize) -> usize {
-    app.results_top
+    app.tab
+        .results_top
         .saturating_add_signed(by)
         .min(line_count(app).saturating_sub(page(app)))
 }
@@ -161,7 +163,7 @@ pub fn scrolled(app: &App, by: isize) -> usize {
 /// The value of the marked quantity beside that of the baseline, where one is pinned.
 #[must_use]
 pub fn compared(app: &App, quantity: &Quantity) -> Option<String> {
-    table::compared(app, app.answer.as_ref()?, quantity)
+    table::compared(app, app.tab.answer.as_ref()?, quantity)
 }
 
 /// The place of the quantity on a cell, where there is one.
@@ -169,13 +171,14 @@ pub fn compared(app: &App, quantity: &Quantity) -> Option<String> {
 pub fn row_at(app: &App, area: Rect, at: Position) -> Option<usize> {
     let line = usize::from(at.y - area.y).checked_sub(lines_before(app, area))?;
     let in_sight = line < parts(app, area).rows;
-    table::row_of(app.answer.as_ref()?, app.results_top + line)
+    table::row_of(app.tab.answer.as_ref()?, app.tab.results_top + line)
         .filter(|&row| in_sight && row < count(app))
 }
 
 // The line of a quantity, by their places.
 fn line_of(app: &App, row: usize) -> usize {
-    app.answer
+    app.tab
+        .answer
         .as_ref()
         .map_or(row, |answer| table::line_of(answer, row))
 }
@@ -188,8 +191,8 @@ fn line_count(app: &App) -> usize {
 
 // Which lines of the table are in sight, where some are not; in words, in numbers, in arrows.
 fn position(app: &App, rows: usize) -> [String; 3] {
-    let (lines, first) = (line_count(app), app.results_top + 1);
-    let last = (app.results_top + rows).min(lines);
+    let (lines, first) = (line_count(app), app.tab.results_top + 1);
+    let last = (app.tab.results_top + rows).min(lines);
     if rows == 0 || rows >= lines {
         return Default::default();
     }
@@ -215,7 +218,7 @@ pub fn sentence(app: &App, solution: &Solution) -> String {
 /// The outcome, the gauges and the notes in full, a line each.
 #[must_use]
 pub fn told(app: &App) -> Vec<String> {
-    let Some(answer) = &app.answer else {
+    let Some(answer) = &app.tab.answer else {
         return Vec::new();
     };
     let outcome = answer
@@ -252,7 +255,7 @@ fn lines_before(app: &App, area: Rect) -> usize {
 
 // As much of it as has room, so that nothing is cut.
 fn title(app: &App, rows: usize, room: usize) -> String {
-    let name = if app.shows_last_valid() {
+    let name = if app.tab.shows_last_valid() {
         "Results: LAST VALID"
     } else {
         "Results"
@@ -268,7 +271,7 @@ fn title(app: &App, rows: usize, room: usize) -> String {
     } else {
         ""
     };
-    let answer = app.answer.as_ref();
+    let answer = app.tab.answer.as_ref();
     let pending = answer
         .and_then(|answer| answer.pending)
         .map_or_else(String::new, |method| format!(", {} to come", method.name()));
@@ -280,7 +283,7 @@ fn title(app: &App, rows: usize, room: usize) -> String {
                 answer.cost.stages, answer.cost.micros
             )
         });
-    let short = if app.shows_last_valid() {
+    let short = if app.tab.shows_last_valid() {
         "LAST VALID"
     } else {
         name
@@ -310,7 +313,7 @@ fn parts(app: &App, area: Rect) -> Parts {
     let height = usize::from(area.height.saturating_sub(1));
     let mut head = banner(app, width);
     let (mut gauges, mut notes) = (Vec::new(), Vec::new());
-    if let Some(answer) = &app.answer {
+    if let Some(answer) = &app.tab.answer {
         head.extend(outcome(app, answer, width, height < LOW));
         gauges = gauges::gauges(app, answer)
             .iter()
@@ -335,13 +338,14 @@ fn parts(app: &App, area: Rect) -> Parts {
     if rows_beside(&gauge_lines, &note_lines) < ENOUGH_ROWS {
         gauge_lines = gauges.iter().map(|gauge| text::cut(gauge, width)).collect();
         note_lines = app
+            .tab
             .answer
             .iter()
             .filter_map(|answer| shortened(&answer.notes, width))
             .collect();
     }
     let room_for_head = height.saturating_sub(1 + LEAST_ROWS + note_lines.len());
-    let faint = if app.is_stale() {
+    let faint = if app.tab.is_stale() {
         app.look.theme.faint
     } else {
         Style::new()
@@ -400,7 +404,7 @@ fn banner(app: &App, width: usize) -> Vec<Line<'static>> {
             .into_iter()
             .map(move |line| Line::styled(line, style))
     };
-    let Some(refusal) = &app.refusal else {
+    let Some(refusal) = &app.tab.refusal else {
         return wrong(app)
             .into_iter()
             .flat_map(|wrong| said(wrong, theme.problem))
@@ -418,14 +422,14 @@ fn banner(app: &App, width: usize) -> Vec<Line<'static>> {
 // The first field that is wrong, in the order of the form, why, how many more are, and the key that
 // goes there.
 fn wrong(app: &App) -> Option<String> {
-    let (row, problem) = app.problems.iter().min_by_key(|(row, _)| *row)?;
-    let symbol = rows::symbol(&app.case, *row);
+    let (row, problem) = app.tab.problems.iter().min_by_key(|(row, _)| *row)?;
+    let symbol = rows::symbol(&app.tab.case, *row);
     let name = format!(
         "{} {}",
         self::symbol(symbol, app.look.ascii),
-        rows::label(&app.case, *row)
+        rows::label(&app.tab.case, *row)
     );
-    let fields: BTreeSet<usize> = app.problems.iter().map(|(row, _)| *row).collect();
+    let fields: BTreeSet<usize> = app.tab.problems.iter().map(|(row, _)| *row).collect();
     let more = if fields.len() > 1 {
         format!("; {} more", fields.len() - 1)
     } else {
@@ -446,7 +450,7 @@ fn outcome(app: &App, answer: &Answer, width: usize, is_low: bool) -> Vec<Line<'
     let Some(solution) = answer.of(answer.active) else {
         return Vec::new();
     };
-    let style = if app.is_stale() {
+    let style = if app.tab.is_stale() {
         app.look.theme.faint
     } else {
         app.look.theme.focus

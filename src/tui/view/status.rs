@@ -147,28 +147,33 @@ pub fn about(field: &Field, ascii: bool, units: System) -> String {
 }
 
 fn only_case(app: &App, width: u16) -> Vec<Span<'static>> {
-    let last = if app.origin == Origin::LastCase {
+    let last = if app.tab.origin == Origin::LastCase {
         format!(" (last case; {}: Table 1)", key_of(Command::BuiltIn))
     } else {
         String::new()
     };
     let mark = [
-        if app.is_unsaved() { " *unsaved*" } else { "" },
-        app.access.mark(),
+        if app.tab.is_unsaved() {
+            " *unsaved*"
+        } else {
+            ""
+        },
+        app.tab.access.mark(),
         &last,
     ]
     .concat();
     let room = usize::from(width).saturating_sub(11 + mark.width());
     let instead = app
+        .tab
         .in_place_of
         .as_ref()
         .map(|path| format!(", for {} cannot be opened", path.display()));
     let name = text::cut(
-        &format!("{}{}", app.name(), instead.unwrap_or_default()),
+        &format!("{}{}", app.tab.name(), instead.unwrap_or_default()),
         room,
     );
     let title = fields::index_of("title")
-        .and_then(|title| app.case.text(title))
+        .and_then(|title| app.tab.case.text(title))
         .unwrap_or_default();
     let left = usize::from(width).saturating_sub(11 + name.width() + mark.width() + 3);
     let title = if title.is_empty() || left <= 8 {
@@ -263,7 +268,7 @@ fn window(names: &[String], middle: usize, width: usize) -> (usize, usize) {
 fn focused(app: &App) -> String {
     match app.panes.focus {
         Pane::Form => {
-            let about = match rows::row(&app.case, app.focus) {
+            let about = match rows::row(&app.tab.case, app.tab.focus) {
                 Row::Field(field) => about_field(app, field),
                 Row::Limit(limit) => about_limit(app, limit),
             };
@@ -275,6 +280,7 @@ fn focused(app: &App) -> String {
         }
         Pane::Results => results::marked(app).map_or_else(String::new, |quantity| {
             let method = app
+                .tab
                 .answer
                 .as_ref()
                 .map_or(Method::Exact, |answer| answer.active);
@@ -297,27 +303,28 @@ fn focused(app: &App) -> String {
 // The unit that a number typed without one takes, or why it is no value yet. That it stays as it is
 // while digits are typed spares bytes.
 fn typed(app: &App) -> Option<String> {
-    if app.lacks(app.focus) {
-        let example = rows::field(&app.case, app.focus).map_or("", Field::example);
+    if app.lacks(app.tab.focus) {
+        let example = rows::field(&app.tab.case, app.tab.focus).map_or("", Field::example);
         return Some(format!("Required, such as {example}."));
     }
-    if app.is_unfinished(app.focus)
-        && let Some((_, problem)) = app.problems.iter().find(|(at, _)| *at == app.focus)
+    if app.is_unfinished(app.tab.focus)
+        && let Some((_, problem)) = app.tab.problems.iter().find(|(at, _)| *at == app.tab.focus)
     {
         return Some(format!("Not yet: {}: {}.", problem.cause, problem.mend));
     }
     app.ending()?;
-    rows::written_unit(&app.case, app.focus).map(|unit| format!("Unit added: {unit}."))
+    rows::written_unit(&app.tab.case, app.tab.focus).map(|unit| format!("Unit added: {unit}."))
 }
 
 // What is typed in another unit, why it does not act, what it is.
 fn about_field(app: &App, index: usize) -> String {
     let field = &FIELDS[index];
     let converted = app
+        .tab
         .case
         .text(index)
         .and_then(|text| field.converted(text, app.settings.units));
-    let inputs = app.case.inputs_so_far();
+    let inputs = app.tab.case.inputs_so_far();
     let idle = match relevance(index, &inputs) {
         Acting::No(why) | Acting::Beside(why) if !matches!(field.kind, Kind::Text) => {
             Some(format!("Not used: {why}."))
@@ -340,7 +347,7 @@ fn about_field(app: &App, index: usize) -> String {
 // Where the value is from, where it is that of a material.
 fn material(app: &App, field: &Field) -> Option<String> {
     let is_of_material = matches!(field.name(), "young" | "poisson" | "density");
-    match materials::of_gear(&app.case, field.table())[..] {
+    match materials::of_gear(&app.tab.case, field.table())[..] {
         [material] if is_of_material => Some(format!("{}: {}.", material.name, material.source)),
         _ => None,
     }
@@ -348,12 +355,13 @@ fn material(app: &App, field: &Field) -> Option<String> {
 
 fn about_limit(app: &App, limit: &Limit) -> String {
     let solution = app
+        .tab
         .answer
         .as_ref()
         .and_then(|answer| answer.of(answer.active))
-        .filter(|_| !app.is_stale());
+        .filter(|_| !app.tab.is_stale());
     let of_case = |solution| {
-        verdicts(&app.case, solution)
+        verdicts(&app.tab.case, solution)
             .into_iter()
             .find(|verdict| verdict.limit.quantity == limit.quantity)
     };
@@ -370,7 +378,7 @@ fn about_limit(app: &App, limit: &Limit) -> String {
     format!(
         "{}The greatest value that {} may take; empty: none.",
         told.unwrap_or_default(),
-        rows::label(&app.case, app.focus)
+        rows::label(&app.tab.case, app.tab.focus)
     )
 }
 
@@ -388,11 +396,12 @@ fn at_cursor(app: &App) -> String {
 // A solve that takes its time.
 fn solving(app: &App) -> Option<Progress> {
     let method = app
+        .tab
         .answer
         .as_ref()
         .and_then(|answer| answer.pending)
         .map_or("", Method::name);
-    app.solving.map(|part| Progress {
+    app.tab.solving.map(|part| Progress {
         what: format!("solving {method}"),
         part,
     })

@@ -29,11 +29,12 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         return;
     }
     let traded = app
+        .tab
         .traded
         .as_ref()
         .and_then(|traded| Some((traded, traded.trade.as_ref()?)));
     let Some((traded, trade)) = traded.filter(|(_, trade)| !trade.settings.is_empty()) else {
-        let words = if app.traded.is_some() {
+        let words = if app.tab.traded.is_some() {
             "Computing the reference."
         } else {
             INVITATION
@@ -61,8 +62,9 @@ pub fn ordered(trade: &Trade) -> Vec<&Measured> {
 }
 
 fn title(app: &App) -> String {
-    let stale = app.traded.as_ref().is_some_and(|traded| {
-        app.case
+    let stale = app.tab.traded.as_ref().is_some_and(|traded| {
+        app.tab
+            .case
             .inputs()
             .map_or(true, |inputs| traded.is_stale(&inputs))
     });
@@ -171,6 +173,7 @@ fn fitting(told: &[String], area: Rect) -> String {
 #[must_use]
 pub fn signs(app: &App) -> String {
     let within = app
+        .tab
         .traded
         .as_ref()
         .and_then(|traded| traded.trade.as_ref())
@@ -185,7 +188,11 @@ pub fn signs(app: &App) -> String {
 }
 
 fn own(app: &App) -> Option<Setting> {
-    app.case.inputs().ok().map(|inputs| Setting::of(&inputs))
+    app.tab
+        .case
+        .inputs()
+        .ok()
+        .map(|inputs| Setting::of(&inputs))
 }
 
 fn write(words: &str, area: Rect, buffer: &mut Buffer) {

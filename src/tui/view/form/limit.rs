@@ -28,7 +28,7 @@ pub(super) fn draw_limit(
     buffer: &mut Buffer,
 ) -> Option<Position> {
     let theme = app.look.theme;
-    let style = if app.focus == index {
+    let style = if app.tab.focus == index {
         theme.focus
     } else {
         Style::new()
@@ -41,7 +41,7 @@ pub(super) fn draw_limit(
     };
     let symbol = Quantity::find(limit.quantity).map_or("", |quantity| quantity.symbol);
     let symbol = ascii::symbol(symbol, app.look.ascii);
-    let label = rows::label(&app.case, index);
+    let label = rows::label(&app.tab.case, index);
     let (words, of_word) = standing(app, limit);
     let usual = label_width(name);
     let needed = limit.text.width() + words.get(1).map_or(0, |word| word.width() + 2);
@@ -97,8 +97,9 @@ pub(super) fn draw_limit(
 // style.
 fn standing(app: &App, limit: &Limit) -> (Vec<String>, Style) {
     let theme = app.look.theme;
-    let is_told = !app.is_stale() && !limit.text.is_empty();
+    let is_told = !app.tab.is_stale() && !limit.text.is_empty();
     let solution = app
+        .tab
         .answer
         .as_ref()
         .and_then(|answer| answer.of(answer.active))

@@ -22,7 +22,7 @@ const WHOLE: u16 = MARK + SYMBOL + LABEL + 1 + VALUE;
 
 pub(super) fn draw_mark(app: &App, index: usize, line: Rect, buffer: &mut Buffer) {
     let theme = app.look.theme;
-    if rows::differs(&app.case, &app.saved, index) {
+    if rows::differs(&app.tab.case, &app.tab.saved, index) {
         buffer.set_stringn(
             line.x + 1,
             line.y,
@@ -32,9 +32,9 @@ pub(super) fn draw_mark(app: &App, index: usize, line: Rect, buffer: &mut Buffer
         );
     }
     // The reason stands below the line and has a mark of its own.
-    if app.focus == index {
+    if app.tab.focus == index {
         buffer.set_stringn(line.x, line.y, "▸", 1, theme.focus);
-    } else if app.problems.iter().any(|(at, _)| *at == index) {
+    } else if app.tab.problems.iter().any(|(at, _)| *at == index) {
         buffer.set_stringn(line.x, line.y, "!", 1, theme.problem);
     }
 }
@@ -81,17 +81,17 @@ pub(super) fn draw_text(
     buffer: &mut Buffer,
 ) -> Option<Position> {
     let width = usize::from(area.width);
-    let is_edited = app.focus == index && app.has_line();
+    let is_edited = app.tab.focus == index && app.has_line();
     if is_edited && written.is_some() {
         let cursor = text::edited(
-            &app.input,
+            &app.tab.input,
             area,
             style.add_modifier(Modifier::UNDERLINED),
             buffer,
         );
         text::ending(
             app.ending().as_deref(),
-            app.input.value().width(),
+            app.tab.input.value().width(),
             area,
             app.look.theme,
             buffer,

@@ -127,7 +127,7 @@ pub(super) fn lines(app: &App, answer: &Answer, width: usize) -> Table {
         .map(|quantity| Cells::of(app, answer, quantity))
         .collect();
     let columns = Columns::of(app, answer, &cells, width);
-    let faint = if app.is_stale() {
+    let faint = if app.tab.is_stale() {
         app.look.theme.faint
     } else {
         Style::new()
@@ -207,8 +207,9 @@ fn methods(answer: &Answer) -> Vec<Method> {
 
 // Above its limit, or changed.
 fn mark(app: &App, answer: &Answer, quantity: &Quantity) -> &'static str {
-    let solution = answer.of(answer.active).filter(|_| !app.is_stale());
+    let solution = answer.of(answer.active).filter(|_| !app.tab.is_stale());
     let limit = app
+        .tab
         .case
         .limits
         .iter()
@@ -225,7 +226,7 @@ fn mark(app: &App, answer: &Answer, quantity: &Quantity) -> &'static str {
 
 // Whether this visit of a field changed what is shown of the quantity.
 fn is_changed(app: &App, answer: &Answer, quantity: &Quantity) -> bool {
-    let Some(earlier) = app.earlier.as_ref().filter(|_| !app.is_stale()) else {
+    let Some(earlier) = app.tab.earlier.as_ref().filter(|_| !app.tab.is_stale()) else {
         return false;
     };
     let at = QUANTITIES
