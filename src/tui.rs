@@ -8,6 +8,7 @@
 pub mod actions;
 pub mod app;
 pub mod ascii;
+pub mod baseline;
 pub mod benchmark;
 pub mod browser;
 pub mod capped_backend;
@@ -18,6 +19,8 @@ mod ending;
 pub mod events;
 pub mod explanation;
 mod fault;
+mod header;
+pub mod help;
 pub mod history;
 mod input;
 pub mod jobs;

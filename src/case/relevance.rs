@@ -3,7 +3,7 @@
 
 use super::dependencies::is_read;
 use super::fields::FIELDS;
-use super::{Case, check};
+use super::{Case, Problem, check};
 use crate::model::Inputs;
 use crate::model::compliance::{contact_of, model_of};
 use crate::model::inputs::{Drive, Method};
@@ -185,10 +185,11 @@ fn by_constant_contact(inputs: &Inputs) -> bool {
 }
 
 impl Case {
-    /// The inputs as far as the case can be read: enough to tell which fields act in it.
+    /// The inputs as far as the case can be read, which is enough for the relevance of its fields,
+    /// and everything that is wrong with the case, in the order of the fields.
     #[must_use]
-    pub fn inputs_so_far(&self) -> Inputs {
-        check::read(self, &[]).0
+    pub fn read(&self) -> (Inputs, Vec<Problem>) {
+        check::read(self, &[])
     }
 }
 

@@ -4,20 +4,27 @@ use std::path::PathBuf;
 
 use ratatui::layout::Size;
 
+use super::baseline::Baseline;
+use super::benchmark::Traded;
+use super::commands::{Command, key_of};
 use super::keys::Place;
-use super::layout::plan;
+use super::layout::{Plan, plan};
 use super::pane::{Pane, Panes};
 use super::panes::chart::{ChartPane, Charts};
+use super::panes::form::Form;
+use super::panes::results::Results;
 use super::panes::teeth::{Picture, TeethView};
+use super::panes::title::Title;
+use super::panes::trade::TradePane;
 use super::prompt::Prompt;
 use super::rows;
 use super::session::recovery::{Access, NEWER, OpenCase};
 use super::settings::Settings;
 use super::solver::{self, Answer, Request};
-use super::tab::{Tab, Traded};
+use super::tab::Tab;
 use super::theme::Look;
-use crate::case::fields::{Absent, Kind};
-use crate::case::{Case, Document, FIELDS, Problem, fields};
+use crate::case::fields::Kind;
+use crate::case::{Case, Document, Problem};
 use crate::model::{Stage, Stages};
 
 /// Everything that the screen shows.
@@ -70,21 +77,6 @@ pub struct App {
     pub settings: Settings,
     /// What the terminal is able to show.
     pub look: Look,
-}
-
-/// Results to hold the others against.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Baseline {
-    /// The tab in which it was, for as long as that is open.
-    pub tab: usize,
-    /// The name of the case.
-    pub name: String,
-    /// Whether that is the name of a file.
-    pub is_file: bool,
-    /// The case.
-    pub case: Case,
-    /// Its results.
-    pub answer: Answer,
 }
 
 /// Long work that goes on.
@@ -158,6 +150,88 @@ impl App {
         self.tabs().map(Tab::sheet).collect()
     }
 
+    /// The areas of the screen.
+    #[must_use]
+    pub fn plan(&self) -> Plan {
+        plan(self.size, self.panes)
+    }
+
+    /// The title line of a pane.
+    #[must_use]
+    pub fn title(&self, pane: Pane) -> Title {
+        let plan = self.plan();
+        let hidden = if plan.names_hidden() == Some(pane) {
+            plan.hidden().collect()
+        } else {
+            Vec::new()
+        };
+        Title {
+            pane,
+            has_focus: self.panes.focus == pane && self.prompts.is_empty(),
+            is_editing: self.has_line(),
+            hidden,
+            theme: self.look.theme,
+        }
+    }
+
+    /// The form with the case in it.
+    #[must_use]
+    pub fn form(&self) -> Form<'_> {
+        let tab = &self.tab;
+        Form {
+            case: &tab.case,
+            saved: &tab.saved,
+            inputs: &tab.inputs_so_far,
+            problems: &tab.problems,
+            answer: tab.answer.as_ref(),
+            is_stale: tab.is_stale(),
+            focus: tab.focus,
+            line: self.has_line().then_some(&tab.input),
+            ending: self.ending(),
+            top: tab.form_top,
+            look: self.look,
+            title: self.title(Pane::Form),
+            area: self.plan().form,
+        }
+    }
+
+    /// The results pane with the results that it shows.
+    #[must_use]
+    pub fn results(&self) -> Results<'_> {
+        let tab = &self.tab;
+        Results {
+            state: tab.results,
+            answer: tab.answer.as_ref(),
+            baseline: self.baseline.as_ref(),
+            earlier: tab.earlier.as_ref(),
+            refusal: tab.refusal.as_ref(),
+            problems: &tab.problems,
+            missing: self.missing(),
+            case: &tab.case,
+            is_stale: tab.is_stale(),
+            shows_last_valid: tab.shows_last_valid(),
+            shows_cost: self.shows_cost,
+            is_focused: self.panes.focus == Pane::Results,
+            next_fault: key_of(Command::NextFault),
+            units: self.settings.units,
+            look: self.look,
+            title: self.title(Pane::Results),
+            area: self.plan().results,
+        }
+    }
+
+    /// The trade pane with the benchmark that it shows.
+    #[must_use]
+    pub fn trade(&self) -> TradePane<'_> {
+        TradePane {
+            traded: self.tab.traded.as_ref(),
+            inputs: self.tab.inputs(),
+            look: self.look,
+            title: self.title(Pane::Trade),
+            area: self.plan().trade,
+        }
+    }
+
     /// The chart pane with the results that it shows.
     #[must_use]
     pub fn charts(&self) -> Charts<'_> {
@@ -172,7 +246,7 @@ impl App {
             units: self.settings.units,
             marker: self.settings.marker,
             look: self.look,
-            area: plan(self.size, self.panes).chart,
+            area: self.plan().chart,
         }
     }
 
@@ -248,24 +322,15 @@ impl App {
         if self.has_line() { typed() } else { None }
     }
 
-    /// Whether what is wrong in a row is merely that it is being typed.
-    #[must_use]
-    pub fn is_unfinished(&self, row: usize) -> bool {
-        let is_typed = self.has_line() && self.tab.focus == row;
-        is_typed && rows::is_unfinished(&self.tab.case, row, self.tab.input.value())
-    }
-
-    /// Whether the row is a required field whose value is missing.
-    #[must_use]
-    pub fn lacks(&self, row: usize) -> bool {
-        row < FIELDS.len() && self.tab.case.lacks(row)
-    }
-
     /// How many required values are missing, where nothing else is wrong.
     #[must_use]
     pub fn missing(&self) -> Option<usize> {
         let count = self.tab.problems.len();
-        let is_draft = self.tab.problems.iter().all(|(row, _)| self.lacks(*row));
+        let is_draft = self
+            .tab
+            .problems
+            .iter()
+            .all(|(row, _)| rows::lacks(&self.tab.case, *row));
         Some(count).filter(|_| is_draft)
     }
 
@@ -275,7 +340,7 @@ impl App {
         if self.is_pinning {
             return Stages::EVERY;
         }
-        let plan = plan(self.size, self.panes);
+        let plan = self.plan();
         let seen = Pane::ALL
             .into_iter()
             .filter(|&pane| !plan.area(pane).is_empty());
@@ -326,32 +391,29 @@ impl App {
     /// Check the form; when it is valid, what the worker shall solve.
     pub(super) fn request(&mut self) -> Option<Request> {
         let stages = self.wanted();
-        match self.tab.case.inputs() {
-            Ok(inputs) => {
-                self.last_serial += 1;
-                let tab = &mut self.tab;
-                (tab.serial, tab.asked, tab.is_settled, tab.solving) =
-                    (self.last_serial, stages, false, None);
-                tab.problems.clear();
-                Some(Request {
-                    serial: tab.serial,
-                    case: tab.case.clone(),
-                    inputs,
-                    stages,
-                })
-            }
-            Err(problems) => {
-                self.tab.refusal = None;
-                let (case, focus) = (&self.tab.case, self.tab.focus);
-                let place_of =
-                    |problem: &Problem| rows::of_key(case, &problem.field).unwrap_or(focus);
-                self.tab.problems = problems
-                    .into_iter()
-                    .map(|problem| (place_of(&problem), problem.for_form()))
-                    .collect();
-                None
-            }
+        let (inputs, problems) = self.tab.case.read();
+        self.tab.inputs_so_far = inputs.clone();
+        if problems.is_empty() {
+            self.last_serial += 1;
+            let tab = &mut self.tab;
+            (tab.serial, tab.asked, tab.is_settled, tab.solving) =
+                (self.last_serial, stages, false, None);
+            tab.problems.clear();
+            return Some(Request {
+                serial: tab.serial,
+                case: tab.case.clone(),
+                inputs,
+                stages,
+            });
         }
+        self.tab.refusal = None;
+        let (case, focus) = (&self.tab.case, self.tab.focus);
+        let place_of = |problem: &Problem| rows::of_key(case, &problem.field).unwrap_or(focus);
+        self.tab.problems = problems
+            .into_iter()
+            .map(|problem| (place_of(&problem), problem.for_form()))
+            .collect();
+        None
     }
 
     /// What the worker shall solve because the first picture could not wait for it.
@@ -392,23 +454,5 @@ impl App {
         std::iter::once(&mut self.tab)
             .chain(&mut self.others)
             .find(|tab| tab.serial == serial)
-    }
-}
-
-/// The words for a required value that is missing.
-const REQUIRED: &str = "(required)";
-
-/// The words for an empty field: its default, or that a value is required.
-#[must_use]
-pub fn unwritten(case: &Case, field: usize) -> String {
-    match FIELDS[field].absent {
-        Absent::Default("") => String::new(),
-        Absent::Default(text) | Absent::Without(text) => format!("({text})"),
-        Absent::Refused => REQUIRED.to_owned(),
-        Absent::Either(other) => match fields::index_of(other) {
-            Some(other) if case.text(other).is_some() => format!("(by {})", FIELDS[other].label),
-            Some(other) if other < field => format!("(or {})", FIELDS[other].label),
-            _ => REQUIRED.to_owned(),
-        },
     }
 }

@@ -1,7 +1,7 @@
 //! A benchmark of every method on a case: error against time.
 
 use crate::model::Inputs;
-use crate::study::trade::{Patience, Trade};
+use crate::study::trade::{Patience, Setting, Trade};
 
 /// A measurement that is asked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,4 +34,42 @@ pub enum End {
     Stopped,
     /// The model refuses the case, or the program failed.
     Failed(String),
+}
+
+/// Error and time of every setting, on the case as it was then.
+#[derive(Debug, Clone)]
+pub struct Traded {
+    /// The measurement's.
+    pub serial: u64,
+    /// The pair as it was then.
+    pub inputs: Inputs,
+    /// What is measured so far.
+    pub trade: Option<Trade>,
+    /// The setting on which the mark stands.
+    pub marked: Option<Setting>,
+}
+
+impl Traded {
+    /// Whether the case is another one by now, but for the setting.
+    #[must_use]
+    pub fn is_stale(&self, inputs: &Inputs) -> bool {
+        let Inputs {
+            method,
+            tolerance,
+            within,
+            stations,
+            station_tolerance,
+            accurate,
+            ..
+        } = inputs.clone();
+        Inputs {
+            method,
+            tolerance,
+            within,
+            stations,
+            station_tolerance,
+            accurate,
+            ..self.inputs.clone()
+        } != *inputs
+    }
 }

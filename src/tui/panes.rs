@@ -2,4 +2,8 @@
 //! nothing of the other panes or of the workbench.
 
 pub mod chart;
+pub mod form;
+pub mod results;
 pub mod teeth;
+pub mod title;
+pub mod trade;

@@ -1,6 +1,6 @@
 //! The rows of the form that take the focus: the fields, and after them the limits of the case.
 
-use crate::case::fields::{Field, Kind, index_of};
+use crate::case::fields::{Absent, Field, Kind, index_of};
 use crate::case::units::{self, System};
 use crate::case::{Case, FIELDS, Limit, Measure, step};
 use crate::model::Quantity;
@@ -173,4 +173,28 @@ pub fn groups(case: &Case) -> Vec<usize> {
         Row::Limit(_) => at == FIELDS.len(),
     };
     (0..count(case)).filter(|&at| begins(at)).collect()
+}
+
+/// Whether a row is a required field whose value is missing.
+#[must_use]
+pub fn lacks(case: &Case, at: usize) -> bool {
+    at < FIELDS.len() && case.lacks(at)
+}
+
+/// The words for a required value that is missing.
+const REQUIRED: &str = "(required)";
+
+/// The words for an empty field: its default, or that a value is required.
+#[must_use]
+pub fn unwritten(case: &Case, field: usize) -> String {
+    match FIELDS[field].absent {
+        Absent::Default("") => String::new(),
+        Absent::Default(text) | Absent::Without(text) => format!("({text})"),
+        Absent::Refused => REQUIRED.to_owned(),
+        Absent::Either(other) => match index_of(other) {
+            Some(other) if case.text(other).is_some() => format!("(by {})", FIELDS[other].label),
+            Some(other) if other < field => format!("(or {})", FIELDS[other].label),
+            _ => REQUIRED.to_owned(),
+        },
+    }
 }

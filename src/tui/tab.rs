@@ -3,15 +3,16 @@
 
 use std::path::PathBuf;
 
+use super::benchmark::Traded;
 use super::history::History;
 use super::line::Line;
 use super::panes::chart::range::{Occasion, Scale};
+use super::panes::results::ResultsState;
 use super::rows::{self, Row};
 use super::session::recovery::{Access, OpenCase};
 use super::solver::{Answer, Values};
 use crate::case::{Case, Document, Problem, fields};
 use crate::model::{Inputs, Refusal, Stages};
-use crate::study::trade::{Setting, Trade};
 
 /// An open case.
 #[derive(Debug, Clone)]
@@ -43,6 +44,8 @@ pub struct Tab {
     pub written_unit: Option<String>,
     /// States to go back to.
     pub history: History,
+    /// The case as far as it can be read; read anew for each request.
+    pub inputs_so_far: Inputs,
     /// What is wrong in the form.
     pub problems: Vec<(usize, Problem)>,
     /// The request that the form stands for. No two tabs share one.
@@ -71,12 +74,8 @@ pub struct Tab {
     pub form_top: usize,
     /// What was measured of error and time.
     pub traded: Option<Traded>,
-    /// The marked line among the quantities.
-    pub row: usize,
-    /// The first line of the quantities that is shown.
-    pub results_top: usize,
-    /// The quantity that was marked and is none of the present results: the mark goes back to it.
-    pub lost: Option<&'static str>,
+    /// Selection and scrolling of the results.
+    pub results: ResultsState,
 }
 
 /// Where a case comes from.
@@ -92,44 +91,6 @@ pub enum Origin {
     Example(&'static str),
 }
 
-/// Error and time of every setting, on the case as it was then.
-#[derive(Debug, Clone)]
-pub struct Traded {
-    /// The measurement's.
-    pub serial: u64,
-    /// The pair as it was then.
-    pub inputs: Inputs,
-    /// What is measured so far.
-    pub trade: Option<Trade>,
-    /// The setting on which the mark stands.
-    pub marked: Option<Setting>,
-}
-
-impl Traded {
-    /// Whether the case is another one by now, but for the setting.
-    #[must_use]
-    pub fn is_stale(&self, inputs: &Inputs) -> bool {
-        let Inputs {
-            method,
-            tolerance,
-            within,
-            stations,
-            station_tolerance,
-            accurate,
-            ..
-        } = inputs.clone();
-        Inputs {
-            method,
-            tolerance,
-            within,
-            stations,
-            station_tolerance,
-            accurate,
-            ..self.inputs.clone()
-        } != *inputs
-    }
-}
-
 impl Tab {
     /// A document that was just opened, unsolved.
     #[must_use]
@@ -143,6 +104,7 @@ impl Tab {
             written_unit: rows::written_unit(&case, focus),
             saved: case.clone(),
             being_saved: None,
+            inputs_so_far: case.read().0,
             case,
             document,
             path,
@@ -164,10 +126,14 @@ impl Tab {
             fitted: Occasion::default(),
             form_top: 0,
             traded: None,
-            row: 0,
-            results_top: 0,
-            lost: None,
+            results: ResultsState::default(),
         }
+    }
+
+    /// The inputs, if the form is valid.
+    #[must_use]
+    pub fn inputs(&self) -> Option<&Inputs> {
+        self.problems.is_empty().then_some(&self.inputs_so_far)
     }
 
     /// Whether the form differs from the file.

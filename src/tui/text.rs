@@ -211,6 +211,20 @@ fn width_of(letter: char) -> usize {
     letter.width().unwrap_or(0)
 }
 
+/// A bar whose thumb shows which part of the lines is in sight.
+pub fn scroll_bar(top: usize, lines: usize, area: Rect, buffer: &mut Buffer) {
+    let height = usize::from(area.height);
+    let is_thumb = |row: usize| {
+        let from = top * height / lines.max(1);
+        let size = (height * height).div_ceil(lines.max(1)).max(1);
+        lines > height && (from..from + size).contains(&row)
+    };
+    for (row, y) in (area.top()..area.bottom()).enumerate() {
+        let bar = if is_thumb(row) { "█" } else { "│" };
+        buffer.set_string(area.x, y, bar, Style::new());
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -30,14 +30,15 @@ use ratatui::layout::Size;
 use super::actions::{Action, Effect};
 use super::app::App;
 use super::commands::{self, Command, Scope};
+use super::help;
 use super::keys::Place;
 use super::pane::Pane;
+use super::panes::{form, results};
 use super::pick::{Context, List, Picker};
 use super::prompt::{Next, Page, Prompt};
 use super::rows;
 use super::solver::Request;
 use super::theme::Look;
-use super::view;
 use crate::case::{Acting, Document, FIELDS, Field, changes, fields, relevance};
 use crate::model::inputs::Method;
 
@@ -77,8 +78,8 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
 /// the charts.
 pub fn settle(app: &mut App) {
     if mem::take(&mut app.needs_scroll) {
-        app.tab.form_top = view::form::top_for(app);
-        app.tab.results_top = view::results::top_for(app);
+        app.tab.form_top = form::top_for(&app.form());
+        app.tab.results.top = results::top_for(&app.results());
     }
     chart::fit(app);
 }
@@ -193,7 +194,7 @@ fn show(app: &mut App, command: Command) {
     match command {
         Command::Help => app
             .prompts
-            .push(Prompt::Read(Page::new("Help", view::help::lines()))),
+            .push(Prompt::Read(Page::new("Help", help::lines()))),
         Command::Palette => find(app, List::Commands),
         Command::SearchField => find(app, List::Places),
         Command::Material => catalogue::materials(app),
@@ -219,8 +220,8 @@ fn show(app: &mut App, command: Command) {
 
 // A list in the order of the focused pane and field.
 fn find(app: &mut App, list: List) {
-    let inputs = app.tab.case.inputs_so_far();
-    let idle = |field: &usize| matches!(relevance(*field, &inputs), Acting::No(_));
+    let inputs = &app.tab.inputs_so_far;
+    let idle = |field: &usize| matches!(relevance(*field, inputs), Acting::No(_));
     let of_scope = |scope: Scope| {
         let commands = commands::commands().map(|binding| binding.command);
         commands
@@ -228,7 +229,7 @@ fn find(app: &mut App, list: List) {
             .collect()
     };
     let context = Context {
-        results: view::results::listed(app)
+        results: results::listed(&app.results())
             .map(|quantity| quantity.key)
             .collect(),
         are_results_first: app.panes.focus == Pane::Results,

@@ -175,7 +175,7 @@ fn the_reason_is_a_short_sentence_and_not_a_makeshift() {
         let mut case = Case::table_1();
         case.set("model.method", method).unwrap();
         for (index, field) in FIELDS.iter().enumerate() {
-            let (Acting::No(why) | Acting::Beside(why)) = relevance(index, &case.inputs_so_far())
+            let (Acting::No(why) | Acting::Beside(why)) = relevance(index, &case.read().0)
             else {
                 continue;
             };
@@ -221,7 +221,7 @@ fn each_method_has_its_idle_fields() {
 fn a_case_that_is_not_valid_is_told_as_far_as_it_can_be_read() {
     let mut case = Case::table_1();
     case.write(index_of("pair.module").unwrap(), "five");
-    let inputs = case.inputs_so_far();
+    let inputs = case.read().0;
     assert!(matches!(
         relevance(index_of("driver.tip_relief").unwrap(), &inputs),
         Acting::No(_)

@@ -282,7 +282,7 @@ fn every_key_does_what_its_line_says() {
 
 #[test]
 fn the_help_has_every_key_with_its_sentence() {
-    let lines = tipstrike::tui::view::help::lines();
+    let lines = tipstrike::tui::help::lines();
     for binding in BINDINGS
         .iter()
         .filter(|binding| !binding.sentence.is_empty())

@@ -793,7 +793,7 @@ fn the_mouse_is_off_until_it_is_asked_for_and_then_points() {
     desk.act(Action::Wheel(Position::new(10, 7), 3));
     assert_eq!(desk.app.tab.form_top, 3);
     desk.act(Action::Wheel(Position::new(50, 10), 3));
-    assert_eq!(desk.app.tab.results_top, 3);
+    assert_eq!(desk.app.tab.results.top, 3);
 }
 
 #[test]

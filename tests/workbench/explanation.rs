@@ -10,9 +10,10 @@ use tipstrike::case::EXAMPLES;
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::ascii::written_out;
 use tipstrike::tui::explanation::Explanation;
+use tipstrike::tui::panes::results;
 use tipstrike::tui::prompt::Prompt;
 use tipstrike::tui::theme::{Look, MONO};
-use tipstrike::tui::view::{explain, results};
+use tipstrike::tui::view::explain;
 
 /// The lines inside the box on the screen.
 fn in_box(desk: &Desk) -> Vec<String> {
@@ -72,11 +73,11 @@ fn the_page_of_every_result_is_that_of_the_command_and_can_be_read_through() {
             &TABLE_1.replace("method = \"exact\"", &format!("method = \"{method}\"")),
         );
         let path = desk.path("case.toml").display().to_string();
-        let count = results::count(&desk.app);
+        let count = results::count(&desk.app.results());
         assert!(count >= pages, "{method}: {count}");
         // Of the slow method every sixth: the text is the same, and each takes a dozen solves.
         for row in (0..count).step_by(if method == "dynamic" { 6 } else { 1 }) {
-            desk.app.tab.row = row;
+            desk.app.tab.results.row = row;
             desk.keys(&["Esc", "2", "Enter"]);
             let key = of(&desk).quantity.key;
             let page = read_through(&mut desk)
@@ -179,8 +180,8 @@ fn every_letter_of_every_page_has_its_like_in_ascii() {
             theme: &MONO,
             ascii: true,
         };
-        for row in 0..results::count(&desk.app) {
-            desk.app.tab.row = row;
+        for row in 0..results::count(&desk.app.results()) {
+            desk.app.tab.results.row = row;
             desk.keys(&["Esc", "2", "Enter"]);
             let page = of(&desk)
                 .page

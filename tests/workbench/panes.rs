@@ -37,8 +37,9 @@ fn beside_last_valid_results_stands_why_they_are_and_a_key_that_goes_there() {
 #[test]
 fn the_mark_in_the_results_stays_with_its_quantity() {
     let mut desk = Desk::new(SMALL);
-    let marked =
-        |desk: &Desk| tipstrike::tui::view::results::marked(&desk.app).map(|quantity| quantity.key);
+    let marked = |desk: &Desk| {
+        tipstrike::tui::panes::results::marked(&desk.app.results()).map(|quantity| quantity.key)
+    };
     desk.keys(&["Esc", "2", "j", "j", "j", "j", "j", "j", "j"]);
     assert_eq!(marked(&desk), Some("base_pitch"));
     let is_in_sight = |desk: &Desk| desk.shows("▸p_b ");
@@ -59,7 +60,7 @@ fn the_mark_in_the_results_stays_with_its_quantity() {
     assert_eq!(marked(&desk), Some("approach_angle_driver"));
     desk.fill("driven.tip_relief", "80 um");
     assert!(
-        desk.app.tab.row == 0 && desk.app.tab.results_top == 0,
+        desk.app.tab.results.row == 0 && desk.app.tab.results.top == 0,
         "{}",
         desk.screen()
     );

@@ -6,8 +6,8 @@ use insta::assert_snapshot;
 use ratatui::layout::Size;
 use tipstrike::model::inputs::Method;
 use tipstrike::tui::actions::Action;
+use tipstrike::tui::panes::results;
 use tipstrike::tui::theme::{Look, MONO};
-use tipstrike::tui::view::results;
 
 const TINY: Size = Size {
     width: 60,
@@ -79,10 +79,10 @@ fn what_the_method_resolves_itself_stands_first() {
 fn every_quantity_comes_in_sight_whole_and_the_title_shows_which_rows_are() {
     for size in [TINY, SMALL, LARGE] {
         let mut desk = in_motion(size);
-        let (count, mut rows) = (results::count(&desk.app), Vec::new());
+        let (count, mut rows) = (results::count(&desk.app.results()), Vec::new());
         for row in 0..count {
-            assert_eq!(desk.app.tab.row, row);
-            let marked = results::marked(&desk.app).expect("a quantity");
+            assert_eq!(desk.app.tab.results.row, row);
+            let marked = results::marked(&desk.app.results()).expect("a quantity");
             let symbol = format!("▸{} ", marked.symbol_in(Method::Dynamic));
             assert!(desk.shows(&symbol), "{size}: {symbol}\n{}", desk.screen());
             rows.push(marked.key);
@@ -91,8 +91,8 @@ fn every_quantity_comes_in_sight_whole_and_the_title_shows_which_rows_are() {
         rows.dedup();
         assert_eq!(rows.len(), count, "{size}");
         let shows_position = |desk: &Desk| {
-            let (first, lines) = (desk.app.tab.results_top + 1, count + 1);
-            let last = desk.app.tab.results_top + results::page(&desk.app);
+            let (first, lines) = (desk.app.tab.results.top + 1, count + 1);
+            let last = desk.app.tab.results.top + results::page(&desk.app.results());
             desk.shows(&format!("2 Results {first} to {last} of {lines}"))
                 || size == TINY && first > 1 && desk.shows("2 Results ↑ ")
                 || size == TINY && last < lines && desk.shows("2 Results ↓ ")

@@ -1,6 +1,7 @@
 //! The baseline: results that are pinned, and held against all others.
 
-use crate::tui::app::{App, Baseline};
+use crate::tui::app::App;
+use crate::tui::baseline::Baseline;
 
 /// Pin the results of the current case, or let go of those that are pinned.
 pub(super) fn toggle(app: &mut App) {

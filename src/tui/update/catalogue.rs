@@ -13,10 +13,10 @@ use crate::tui::app::App;
 use crate::tui::ascii::symbol;
 use crate::tui::jobs::Job;
 use crate::tui::pane::Pane;
+use crate::tui::panes::results;
 use crate::tui::pick::{List, Picker};
 use crate::tui::prompt::Prompt;
 use crate::tui::rows::{self, Row};
-use crate::tui::view::results;
 
 /// Ask for the material of the gear whose field is focused, else of both.
 pub(super) fn materials(app: &mut App) {
@@ -91,7 +91,9 @@ fn told(app: &App, material: &Material) -> String {
 
 /// Hold the marked result to a limit where the results have the focus, else ask which.
 pub(super) fn limit(app: &mut App) -> Vec<Effect> {
-    if let Some(quantity) = results::marked(app).filter(|_| app.panes.focus == Pane::Results) {
+    if let Some(quantity) =
+        results::marked(&app.results()).filter(|_| app.panes.focus == Pane::Results)
+    {
         return hold(app, quantity);
     }
     app.prompts.push(Prompt::Pick(Picker::new(List::Limits)));

@@ -8,8 +8,8 @@ use crate::tui::ascii;
 use crate::tui::keys::Place;
 use crate::tui::pane::Pane;
 use crate::tui::panes::chart;
+use crate::tui::panes::results;
 use crate::tui::rows::{self, Row};
-use crate::tui::view::results;
 
 /// Terminals refuse more than this, or cut it.
 const MOST_BYTES: usize = 48 * 1024;
@@ -33,7 +33,7 @@ pub(super) fn value(app: &mut App) -> Vec<Effect> {
         let reading = chart::readout(&app.charts(), cursor);
         return copy(app, reading, "the reading at the cursor");
     }
-    let Some(quantity) = results::marked(app) else {
+    let Some(quantity) = results::marked(&app.results()) else {
         app.complain("there are no results to copy");
         return Vec::new();
     };

@@ -10,6 +10,7 @@ use crate::tui::app::App;
 use crate::tui::ascii;
 use crate::tui::line::{CASE_ENDING, Line};
 use crate::tui::prompt::{Choice, Next, Page, Prompt, Question};
+use crate::tui::rows;
 use crate::tui::session::recovery::{Access, NEWER};
 use crate::tui::session::save::{Over, SaveFault, Saving, Written};
 use crate::tui::tab::{Origin, Tab};
@@ -237,7 +238,11 @@ fn place_of(app: &App, path: &Path) -> Option<usize> {
 
 // A file with wrong values could not be opened again; one in which values are missing can.
 fn refuse_faulty(app: &mut App) -> bool {
-    let wrong = app.tab.problems.iter().find(|(row, _)| !app.lacks(*row));
+    let wrong = app
+        .tab
+        .problems
+        .iter()
+        .find(|(row, _)| !rows::lacks(&app.tab.case, *row));
     let Some(&(field, _)) = wrong else {
         return false;
     };

@@ -5,9 +5,10 @@ use crate::case::Case;
 use crate::tui::app::App;
 use crate::tui::commands::Command;
 use crate::tui::pane::Pane;
+use crate::tui::panes::results;
 use crate::tui::prompt::Prompt;
 use crate::tui::rows;
-use crate::tui::view::{boxes, explain, popup, results};
+use crate::tui::view::{boxes, explain, popup};
 
 /// A command that moves a focus or a mark; others change nothing.
 pub(super) fn walk(app: &mut App, command: Command) {
@@ -79,27 +80,17 @@ fn leap(app: &mut App, by: isize) {
 }
 
 fn mark(app: &mut App, by: isize) {
-    let last = results::count(app).saturating_sub(1);
-    app.tab.row = app.tab.row.saturating_add_signed(by).min(last);
+    app.tab.results = app.results().stepped(by);
     app.follow();
 }
 
-// The lines in sight go by, and the mark with them where it would be left behind.
 fn turn(app: &mut App, by: isize) {
-    let top = results::scrolled(app, by);
-    let last = top + results::page(app).saturating_sub(1);
-    let row = if top == app.tab.results_top {
-        app.tab.row.saturating_add_signed(by)
-    } else {
-        app.tab.row.clamp(top, last)
-    };
-    app.tab.results_top = top;
-    app.tab.row = row.min(results::count(app).saturating_sub(1));
+    app.tab.results = app.results().turned(by);
     app.follow();
 }
 
 fn page(app: &App) -> isize {
-    results::page(app).max(2).cast_signed() - 1
+    results::page(&app.results()).max(2).cast_signed() - 1
 }
 
 // The first field of the next group, of this one, or of the one before.

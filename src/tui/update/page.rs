@@ -8,16 +8,17 @@ use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::explanation::Explanation;
 use crate::tui::jobs::{Asked, Explained, Job};
+use crate::tui::panes::results;
 use crate::tui::prompt::{Page, Prompt};
-use crate::tui::view::{explain, results};
+use crate::tui::view::explain;
 
 /// Open the page on the marked result.
 pub(super) fn explain(app: &mut App) -> Vec<Effect> {
-    let Some(quantity) = results::marked(app) else {
+    let Some(quantity) = results::marked(&app.results()) else {
         app.complain("there are no results to explain");
         return Vec::new();
     };
-    let Ok(inputs) = app.tab.case.inputs() else {
+    let Some(inputs) = app.tab.inputs().cloned() else {
         app.complain(
             "these are the last valid results: fix the fields marked with ! to explain a result",
         );
@@ -48,7 +49,7 @@ pub(super) fn explain(app: &mut App) -> Vec<Effect> {
 
 /// Open a page with all that stands above and below the results, however little room they have.
 pub(super) fn notes(app: &mut App) {
-    let lines = results::told(app);
+    let lines = results::told(&app.results());
     if lines.is_empty() {
         app.complain("there are no results to show");
     } else {

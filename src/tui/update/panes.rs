@@ -5,7 +5,7 @@ use crate::tui::app::App;
 use crate::tui::ascii;
 use crate::tui::layout;
 use crate::tui::pane::Pane;
-use crate::tui::view::results;
+use crate::tui::panes::results;
 
 /// Go to a pane, and bring it into sight. In the form, letters stay commands until a field is
 /// entered.
@@ -60,8 +60,8 @@ pub(super) fn go_to(app: &mut App, field: usize) {
 
 /// Go to a result, by its key.
 pub(super) fn show_result(app: &mut App, key: &str) {
-    let row = results::listed(app).position(|quantity| quantity.key == key);
-    app.tab.row = row.unwrap_or(app.tab.row);
+    let row = results::listed(&app.results()).position(|quantity| quantity.key == key);
+    app.tab.results.row = row.unwrap_or(app.tab.results.row);
     show(app, Pane::Results);
 }
 

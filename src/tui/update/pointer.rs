@@ -5,12 +5,13 @@ use ratatui::layout::Position;
 use super::{chart, cursor, edit, page, panes, prompts, tabs, teeth};
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
-use crate::tui::layout;
+use crate::tui::header;
 use crate::tui::pane::Pane;
 use crate::tui::panes::chart::{ChartCommand, panels};
 use crate::tui::panes::teeth::TeethCommand;
+use crate::tui::panes::{form, results};
 use crate::tui::prompt::Prompt;
-use crate::tui::view::{self, browser, explain, form, picker, popup, results, status};
+use crate::tui::view::{browser, explain, picker, popup};
 
 /// A press: onto a field, a result, the chart, the name of a case or of a pane out of sight, a line
 /// of a list, a button. A second press on what is marked does what Enter does.
@@ -43,10 +44,10 @@ fn mark(marked: &mut usize, line: usize) -> bool {
 }
 
 fn in_panes(app: &mut App, at: Position) -> Vec<Effect> {
-    let plan = layout::plan(app.size, app.panes);
-    if let Some(tab) = status::tab_at(app, plan.header, at) {
+    let plan = app.plan();
+    if let Some(tab) = header::tab_at(app, plan.header, at) {
         tabs::go_to(app, tab);
-    } else if let Some(pane) = view::named_at(app, at) {
+    } else if let Some(pane) = hidden_at(app, at) {
         panes::show(app, pane);
     } else if let Some(pane) = pane_at(app, at) {
         return in_pane(app, pane, at);
@@ -55,14 +56,13 @@ fn in_panes(app: &mut App, at: Position) -> Vec<Effect> {
 }
 
 fn in_pane(app: &mut App, pane: Pane, at: Position) -> Vec<Effect> {
-    let area = layout::plan(app.size, app.panes).area(pane);
     let had_focus = app.panes.focus == pane;
     match pane {
-        Pane::Form => return in_form(app, form::field_at(app, area, at)),
+        Pane::Form => return in_form(app, form::field_at(&app.form(), at)),
         Pane::Results => {
             panes::show(app, pane);
-            let row = results::row_at(app, area, at);
-            if row.is_some_and(|row| mark(&mut app.tab.row, row) && had_focus) {
+            let row = results::row_at(&app.results(), at);
+            if row.is_some_and(|row| mark(&mut app.tab.results.row, row) && had_focus) {
                 return page::explain(app);
             }
         }
@@ -101,8 +101,8 @@ pub(super) fn wheel(app: &mut App, at: Position, by: isize) {
         Some(Prompt::Pick(picker)) => picker.mark(by),
         Some(Prompt::Ask(_) | Prompt::SaveAs(..) | Prompt::Aim(_)) => (),
         None => match pane_at(app, at) {
-            Some(Pane::Form) => app.tab.form_top = form::scrolled(app, by),
-            Some(Pane::Results) => app.tab.results_top = results::scrolled(app, by),
+            Some(Pane::Form) => app.tab.form_top = form::scrolled(&app.form(), by),
+            Some(Pane::Results) => app.tab.results.top = results::scrolled(&app.results(), by),
             Some(Pane::Chart) => {
                 chart::run(app, ChartCommand::Zoom(if by < 0 { 1 } else { -1 }));
             }
@@ -114,8 +114,14 @@ pub(super) fn wheel(app: &mut App, at: Position, by: isize) {
     }
 }
 
+fn hidden_at(app: &App, at: Position) -> Option<Pane> {
+    let plan = app.plan();
+    let owner = plan.names_hidden()?;
+    app.title(owner).hidden_at(plan.area(owner), at)
+}
+
 fn pane_at(app: &App, at: Position) -> Option<Pane> {
-    let plan = layout::plan(app.size, app.panes);
+    let plan = app.plan();
     Pane::ALL
         .into_iter()
         .find(|&pane| plan.area(pane).contains(at))

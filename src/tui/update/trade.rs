@@ -2,21 +2,20 @@
 
 use super::edit;
 use crate::report::trade::conclusion;
-use crate::study::trade::{Patience, Setting};
+use crate::study::trade::Patience;
 use crate::tui::actions::Effect;
 use crate::tui::app::{App, Progress};
-use crate::tui::benchmark::{End, Measured, Measuring};
+use crate::tui::benchmark::{End, Measured, Measuring, Traded};
 use crate::tui::layout;
 use crate::tui::pane::Pane;
-use crate::tui::tab::Traded;
-use crate::tui::view::trade::ordered;
+use crate::tui::panes::trade::stepped;
 
 /// The work that the progress tells of.
 const MEASURING: &str = "measuring";
 
 /// Measure every method on the case in the form.
 pub(super) fn measure(app: &mut App) -> Vec<Effect> {
-    let Ok(inputs) = app.tab.case.inputs() else {
+    let Some(inputs) = app.tab.inputs().cloned() else {
         app.complain("the form is not valid: nothing can be measured");
         return Vec::new();
     };
@@ -101,23 +100,9 @@ pub(super) fn measured(app: &mut App, measured: Measured) {
 
 /// So many settings further, in the order of their times.
 pub(super) fn step(app: &mut App, by: isize) {
-    let Some(traded) = app.tab.traded.as_mut() else {
-        return;
-    };
-    let settings: Vec<Setting> = traded
-        .trade
-        .iter()
-        .flat_map(ordered)
-        .map(|measured| measured.setting)
-        .collect();
-    let Some(last) = settings.len().checked_sub(1) else {
-        return;
-    };
-    let now = traded
-        .marked
-        .and_then(|marked| settings.iter().position(|setting| *setting == marked));
-    let next = now.map_or(0, |now| now.saturating_add_signed(by).min(last));
-    traded.marked = Some(settings[next]);
+    if let Some(traded) = app.tab.traded.as_mut() {
+        traded.marked = stepped(traded, by).or(traded.marked);
+    }
 }
 
 /// The marked setting becomes the case's.

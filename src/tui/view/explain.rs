@@ -5,7 +5,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Rect, Size};
 use ratatui::style::Style;
 
-use super::{boxes, form, text as words};
+use super::{boxes, text as words};
 use crate::report::explain::{Kind, Line, lines};
 use crate::tui::ascii::written_out;
 use crate::tui::explanation::Explanation;
@@ -53,7 +53,7 @@ pub fn draw(explanation: &Explanation, screen: Rect, look: Look, buffer: &mut Bu
         }
     }
     if lines.len() > usize::from(inner.height) {
-        form::scroll_bar(
+        words::scroll_bar(
             explanation.top,
             lines.len(),
             Rect {

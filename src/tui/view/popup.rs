@@ -8,7 +8,7 @@ use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
 use super::boxes::{WIDEST, frame, inside, room};
-use super::{browser, cursor_prompt, explain, form, picker, text};
+use super::{browser, cursor_prompt, explain, picker, text};
 use crate::tui::app::App;
 use crate::tui::prompt::{Page, Prompt, Question};
 use crate::tui::theme::Theme;
@@ -106,7 +106,7 @@ fn draw_page(page: &Page, screen: Rect, theme: &Theme, buffer: &mut Buffer) {
         buffer.set_stringn(inner.x, y, line, inner.width.into(), Style::new());
     }
     if lines.len() > usize::from(inner.height) {
-        form::scroll_bar(
+        text::scroll_bar(
             page.top,
             lines.len(),
             Rect {

@@ -1,13 +1,13 @@
 //! The lines around the panes: the open cases, what is focused, the keys.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
-use super::{results, text, trade};
-use crate::case::fields::{self, Absent, Field, Kind};
+use super::text;
+use crate::case::fields::{Absent, Field, Kind};
 use crate::case::units::System;
 use crate::case::{Acting, FIELDS, Limit, materials, partial_relevance, relevance};
 use crate::model::inputs::Method;
@@ -15,32 +15,14 @@ use crate::numeric::decimal::shortest;
 use crate::report::verdict::verdicts;
 use crate::tui::app::{App, Progress};
 use crate::tui::ascii::symbol;
-use crate::tui::commands::{BINDINGS, Binding, Command, key_of};
+use crate::tui::commands::{BINDINGS, Binding};
 use crate::tui::keys::Chord;
 use crate::tui::pane::Pane;
-use crate::tui::panes::chart;
+use crate::tui::panes::{chart, results, trade};
 use crate::tui::rows::{self, Row};
-use crate::tui::tab::{Origin, Tab};
 
-/// What the header begins with.
-const HEAD: &str = "tipstrike";
-/// Stands before the open cases where there are others before them.
-const BEFORE: &str = "‹ ";
-/// A longer name of a case is cut where there are several.
-const LONGEST_NAME: usize = 24;
 /// Cells of a bar of progress.
 const BAR: usize = 20;
-
-/// The open cases, the current one with its path and title, and which of them are unsaved.
-pub fn header(app: &App, area: Rect, buffer: &mut Buffer) {
-    let mut spans = vec![Span::styled(HEAD, app.look.theme.title), Span::raw("  ")];
-    if app.others.is_empty() {
-        spans.extend(only_case(app, area.width));
-    } else {
-        spans.extend(tabs(app, area.width));
-    }
-    Line::from(spans).render(area, buffer);
-}
 
 /// A message, or the progress of long work; else what is focused.
 pub fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
@@ -146,125 +128,6 @@ pub fn about(field: &Field, ascii: bool, units: System) -> String {
     format!("{}{bounds}{absent}. {}", name.trim_start(), field.help)
 }
 
-fn only_case(app: &App, width: u16) -> Vec<Span<'static>> {
-    let last = if app.tab.origin == Origin::LastCase {
-        format!(" (last case; {}: Table 1)", key_of(Command::BuiltIn))
-    } else {
-        String::new()
-    };
-    let mark = [
-        if app.tab.is_unsaved() {
-            " *unsaved*"
-        } else {
-            ""
-        },
-        app.tab.access.mark(),
-        &last,
-    ]
-    .concat();
-    let room = usize::from(width).saturating_sub(11 + mark.width());
-    let instead = app
-        .tab
-        .in_place_of
-        .as_ref()
-        .map(|path| format!(", for {} cannot be opened", path.display()));
-    let name = text::cut(
-        &format!("{}{}", app.tab.name(), instead.unwrap_or_default()),
-        room,
-    );
-    let title = fields::index_of("title")
-        .and_then(|title| app.tab.case.text(title))
-        .unwrap_or_default();
-    let left = usize::from(width).saturating_sub(11 + name.width() + mark.width() + 3);
-    let title = if title.is_empty() || left <= 8 {
-        String::new()
-    } else {
-        format!("   {}", text::cut(title, left))
-    };
-    vec![
-        Span::raw(name),
-        Span::styled(mark, app.look.theme.note),
-        Span::raw(title),
-    ]
-}
-
-/// The place of the open case whose name stands on a cell, where there is one.
-#[must_use]
-pub fn tab_at(app: &App, area: Rect, at: Position) -> Option<usize> {
-    if app.others.is_empty() || !area.contains(at) {
-        return None;
-    }
-    let names: Vec<String> = app
-        .tabs()
-        .enumerate()
-        .map(|(at, tab)| tab_name(at, tab))
-        .collect();
-    let (from, to) = window(
-        &names,
-        app.place_of_tab,
-        usize::from(area.width).saturating_sub(15),
-    );
-    let mut right =
-        usize::from(area.x) + HEAD.width() + 2 + if from > 0 { BEFORE.width() } else { 0 };
-    (from..to).find(|&tab| {
-        let left = right;
-        right += names[tab].width() + 2;
-        (left..right).contains(&at.x.into())
-    })
-}
-
-// The open cases by their numbers, as many around the current one as have room; a mark at the end
-// where others are.
-fn tabs(app: &App, width: u16) -> Vec<Span<'static>> {
-    let names: Vec<String> = app
-        .tabs()
-        .enumerate()
-        .map(|(at, tab)| tab_name(at, tab))
-        .collect();
-    let (from, to) = window(
-        &names,
-        app.place_of_tab,
-        usize::from(width).saturating_sub(15),
-    );
-    let mut spans = vec![Span::raw(if from > 0 { BEFORE } else { "" })];
-    for (at, name) in names.iter().enumerate().take(to).skip(from) {
-        if at == app.place_of_tab {
-            spans.push(Span::styled(format!("[{name}]"), app.look.theme.key));
-        } else {
-            spans.push(Span::raw(format!(" {name} ")));
-        }
-    }
-    spans.push(Span::raw(if to < names.len() { " ›" } else { "" }));
-    spans
-}
-
-fn tab_name(at: usize, tab: &Tab) -> String {
-    format!(
-        "{} {}{}{}",
-        at + 1,
-        text::cut(&tab.short_name(), LONGEST_NAME),
-        if tab.is_unsaved() { "*" } else { "" },
-        tab.access.mark()
-    )
-}
-
-// The first and the last but one of the names that have room, grown from the one in the middle.
-fn window(names: &[String], middle: usize, width: usize) -> (usize, usize) {
-    let size = |at: usize| names.get(at).map_or(0, |name| name.width() + 2);
-    let (mut from, mut to, mut used) = (middle, middle + 1, size(middle));
-    loop {
-        if to < names.len() && used + size(to) <= width {
-            used += size(to);
-            to += 1;
-        } else if from > 0 && used + size(from - 1) <= width {
-            from -= 1;
-            used += size(from);
-        } else {
-            return (from, to);
-        }
-    }
-}
-
 fn focused(app: &App) -> String {
     match app.panes.focus {
         Pane::Form => {
@@ -278,7 +141,7 @@ fn focused(app: &App) -> String {
                 .collect::<Vec<_>>()
                 .join(" ")
         }
-        Pane::Results => results::marked(app).map_or_else(String::new, |quantity| {
+        Pane::Results => results::marked(&app.results()).map_or_else(String::new, |quantity| {
             let method = app
                 .tab
                 .answer
@@ -291,23 +154,23 @@ fn focused(app: &App) -> String {
                 symbol(quantity.equation, app.look.ascii),
                 quantity.key
             );
-            let compared = results::compared(app, quantity)
+            let compared = results::compared(&app.results(), quantity)
                 .map_or_else(String::new, |compared| format!("{compared} "));
             compared + &about
         }),
         Pane::Chart | Pane::Teeth => at_cursor(app),
-        Pane::Trade => trade::signs(app),
+        Pane::Trade => trade::signs(&app.trade()),
     }
 }
 
 // The unit that a number typed without one takes, or why it is no value yet. That it stays as it is
 // while digits are typed spares bytes.
 fn typed(app: &App) -> Option<String> {
-    if app.lacks(app.tab.focus) {
+    if rows::lacks(&app.tab.case, app.tab.focus) {
         let example = rows::field(&app.tab.case, app.tab.focus).map_or("", Field::example);
         return Some(format!("Required, such as {example}."));
     }
-    if app.is_unfinished(app.tab.focus)
+    if app.form().is_unfinished(app.tab.focus)
         && let Some((_, problem)) = app.tab.problems.iter().find(|(at, _)| *at == app.tab.focus)
     {
         return Some(format!("Not yet: {}: {}.", problem.cause, problem.mend));
@@ -324,12 +187,12 @@ fn about_field(app: &App, index: usize) -> String {
         .case
         .text(index)
         .and_then(|text| field.converted(text, app.settings.units));
-    let inputs = app.tab.case.inputs_so_far();
-    let idle = match relevance(index, &inputs) {
+    let inputs = &app.tab.inputs_so_far;
+    let idle = match relevance(index, inputs) {
         Acting::No(why) | Acting::Beside(why) if !matches!(field.kind, Kind::Text) => {
             Some(format!("Not used: {why}."))
         }
-        _ => partial_relevance(index, &inputs).map(|why| format!("Limited effect: {why}.")),
+        _ => partial_relevance(index, inputs).map(|why| format!("Limited effect: {why}.")),
     };
     let about = about(field, app.look.ascii, app.settings.units);
     [

@@ -13,17 +13,17 @@ use ratatui::text::Line;
 use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
-use super::{text, title_room, titled};
-use crate::model::{Note, Quantity, Solution};
+use super::title::Title;
+use crate::case::units::System;
+use crate::case::{Case, Problem};
+use crate::model::{Note, Quantity, Refusal, Solution};
 use crate::report::{self, Shown, digest};
-use crate::tui::app::App;
 use crate::tui::ascii::symbol;
-use crate::tui::commands::{Command, key_of};
-use crate::tui::layout::plan;
-use crate::tui::pane::Pane;
+use crate::tui::baseline::Baseline;
 use crate::tui::rows;
-use crate::tui::solver::Answer;
-use crate::tui::tab::Tab;
+use crate::tui::solver::{Answer, Values};
+use crate::tui::text;
+use crate::tui::theme::Look;
 
 /// So many quantities are to be in sight before gauges and notes get more than a line each.
 const ENOUGH_ROWS: usize = 8;
@@ -37,6 +37,58 @@ const NOTE: &str = "Note: ";
 const LOW: usize = 20;
 const NARROW: usize = 30;
 
+/// The state of the pane. Each open case has its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct ResultsState {
+    /// The selected line among the quantities.
+    pub row: usize,
+    /// The first visible line of the quantities.
+    pub top: usize,
+    /// The quantity that was selected and is none of the present results: the selection returns to
+    /// it.
+    pub lost: Option<&'static str>,
+}
+
+/// The pane with the results that it shows.
+#[derive(Debug, Clone)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a state of its own")]
+pub struct Results<'a> {
+    /// The state of the pane.
+    pub state: ResultsState,
+    /// The last valid results.
+    pub answer: Option<&'a Answer>,
+    /// The pinned results.
+    pub baseline: Option<&'a Baseline>,
+    /// The values before the last edit.
+    pub earlier: Option<&'a Values>,
+    /// Why the model refuses the case.
+    pub refusal: Option<&'a Refusal>,
+    /// The rows of the form that are wrong.
+    pub problems: &'a [(usize, Problem)],
+    /// How many required values are missing, if nothing else is wrong.
+    pub missing: Option<usize>,
+    /// The case in the form.
+    pub case: &'a Case,
+    /// Whether the results are older than the form.
+    pub is_stale: bool,
+    /// Whether the title says so.
+    pub shows_last_valid: bool,
+    /// Whether the title shows the cost of the solve.
+    pub shows_cost: bool,
+    /// Whether the pane has the focus.
+    pub is_focused: bool,
+    /// The key that goes to the next wrong row.
+    pub next_fault: String,
+    /// The display units.
+    pub units: System,
+    /// The capabilities of the terminal.
+    pub look: Look,
+    /// The title line.
+    pub title: Title,
+    /// The area of the pane with its title; empty if the pane is hidden.
+    pub area: Rect,
+}
+
 /// What stands in the pane, from its top to its bottom.
 struct Parts {
     /// The refusal, the outcome, the gauges.
@@ -48,16 +100,12 @@ struct Parts {
 }
 
 /// Draw the results.
-pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
-    let parts = parts(app, area);
-    let inner = titled(
-        app,
-        Pane::Results,
-        &title(app, parts.rows, title_room(app, Pane::Results, area.width)),
-        area,
-        buffer,
-    );
-    let Some(answer) = &app.tab.answer else {
+pub fn draw(pane: &Results<'_>, buffer: &mut Buffer) {
+    let area = pane.area;
+    let parts = parts(pane);
+    let words = title(pane, parts.rows, pane.title.room(area.width));
+    let inner = pane.title.draw(&words, area, buffer);
+    let Some(answer) = pane.answer else {
         draw_lines(&parts.head, inner, buffer);
         return;
     };
@@ -66,8 +114,8 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         width: inner.width.saturating_sub(1),
         ..inner
     };
-    let table = table::lines(app, answer, inner.width.into());
-    let quantities = table.rows.iter().skip(app.tab.results_top).take(parts.rows);
+    let table = table::lines(pane, answer, inner.width.into());
+    let quantities = table.rows.iter().skip(pane.state.top).take(parts.rows);
     let lines: Vec<Line<'static>> = parts
         .head
         .into_iter()
@@ -76,37 +124,37 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         .chain(parts.notes)
         .collect();
     draw_lines(&lines, inner, buffer);
-    if app.panes.focus == Pane::Results
-        && let Some(line) = line_of(app, app.tab.row)
-            .checked_sub(app.tab.results_top)
+    if pane.is_focused
+        && let Some(line) = line_of(pane, pane.state.row)
+            .checked_sub(pane.state.top)
             .filter(|&line| line < parts.rows)
     {
-        let y = area.y + (lines_before(app, area) + line) as u16;
-        buffer.set_stringn(area.x, y, "▸", 1, app.look.theme.focus);
+        let y = area.y + (lines_before(pane) + line) as u16;
+        buffer.set_stringn(area.x, y, "▸", 1, pane.look.theme.focus);
     }
 }
 
 /// The quantities in their order.
-pub fn listed(app: &App) -> impl Iterator<Item = &'static Quantity> {
-    app.tab.answer.iter().flat_map(table::order)
+pub fn listed<'a>(pane: &Results<'a>) -> impl Iterator<Item = &'static Quantity> + use<'a> {
+    pane.answer.into_iter().flat_map(table::order)
 }
 
 /// How many quantities there are.
 #[must_use]
-pub fn count(app: &App) -> usize {
-    listed(app).count()
+pub fn count(pane: &Results<'_>) -> usize {
+    listed(pane).count()
 }
 
 /// How many of them are in sight.
 #[must_use]
-pub fn page(app: &App) -> usize {
-    parts(app, plan(app.size, app.panes).results).rows
+pub fn page(pane: &Results<'_>) -> usize {
+    parts(pane).rows
 }
 
 /// The marked quantity.
 #[must_use]
-pub fn marked(app: &App) -> Option<&'static Quantity> {
-    table::order(app.tab.answer.as_ref()?).nth(app.tab.row)
+pub fn marked(pane: &Results<'_>) -> Option<&'static Quantity> {
+    table::order(pane.answer?).nth(pane.state.row)
 }
 
 /// Where a quantity stands in the results of a tab.
@@ -122,12 +170,11 @@ pub struct Listed {
     pub has_value: bool,
 }
 
-/// Where a quantity stands in the results of a tab, by its key; else the marked one.
+/// Where a quantity stands in an answer, by its key; else the selected one.
 #[must_use]
-pub fn place_of(tab: &Tab, key: Option<&str>) -> Option<Listed> {
-    let answer = tab.answer.as_ref()?;
+pub fn place_of(answer: &Answer, state: ResultsState, key: Option<&str>) -> Option<Listed> {
     let is_meant = |(row, quantity): &(usize, &Quantity)| {
-        key.map_or(*row == tab.row, |key| quantity.key == key)
+        key.map_or(*row == state.row, |key| quantity.key == key)
     };
     let (row, quantity) = table::order(answer).enumerate().find(is_meant)?;
     let has_value = answer.of(answer.active).and_then(quantity.value).is_some();
@@ -139,60 +186,114 @@ pub fn place_of(tab: &Tab, key: Option<&str>) -> Option<Listed> {
     })
 }
 
+/// The state with a new answer: the selection stays on the quantity that was selected in the answer
+/// before, and on its line of the screen. Where nothing was selected, and while the quantity is gone
+/// or has no value any more, the top is shown.
+#[must_use]
+pub fn followed(state: ResultsState, before: Option<Listed>, answer: &Answer) -> ResultsState {
+    let selected = before.filter(|_| state.row > 0);
+    let Some(key) = selected.map(|selected| selected.key).or(state.lost) else {
+        return state;
+    };
+    let had_value = selected.is_none_or(|selected| selected.has_value);
+    let now = place_of(answer, state, Some(key)).filter(|now| now.has_value || !had_value);
+    let Some(now) = now else {
+        return ResultsState {
+            lost: Some(key),
+            ..ResultsState::default()
+        };
+    };
+    let above = selected.map_or(0, |selected| selected.line.saturating_sub(state.top));
+    ResultsState {
+        row: now.row,
+        top: now.line.saturating_sub(above),
+        lost: None,
+    }
+}
+
+impl Results<'_> {
+    /// The state with the selection so many quantities further.
+    #[must_use]
+    pub fn stepped(&self, by: isize) -> ResultsState {
+        ResultsState {
+            row: self.state.row.saturating_add_signed(by).min(self.last()),
+            ..self.state
+        }
+    }
+
+    /// The state so many lines further, the selection moved along where it would be left behind.
+    #[must_use]
+    pub fn turned(&self, by: isize) -> ResultsState {
+        let top = scrolled(self, by);
+        let last = top + page(self).saturating_sub(1);
+        let row = if top == self.state.top {
+            self.state.row.saturating_add_signed(by)
+        } else {
+            self.state.row.clamp(top, last)
+        };
+        ResultsState {
+            row: row.min(self.last()),
+            top,
+            ..self.state
+        }
+    }
+
+    fn last(&self) -> usize {
+        count(self).saturating_sub(1)
+    }
+}
+
 /// The first line to be shown, so that the marked quantity is in sight.
 #[must_use]
-pub fn top_for(app: &App) -> usize {
-    let rows = page(app).max(1);
-    let line = line_of(app, app.tab.row);
+pub fn top_for(pane: &Results<'_>) -> usize {
+    let rows = page(pane).max(1);
+    let line = line_of(pane, pane.state.row);
     let least = (line + 1).saturating_sub(rows);
-    app.tab
-        .results_top
+    pane.state
+        .top
         .clamp(least, line.max(least))
-        .min(line_count(app).saturating_sub(rows))
+        .min(line_count(pane).saturating_sub(rows))
 }
 
 /// The first line to be shown after so many lines downwards.
 #[must_use]
-pub fn scrolled(app: &App, by: isize) -> usize {
-    app.tab
-        .results_top
+pub fn scrolled(pane: &Results<'_>, by: isize) -> usize {
+    pane.state
+        .top
         .saturating_add_signed(by)
-        .min(line_count(app).saturating_sub(page(app)))
+        .min(line_count(pane).saturating_sub(page(pane)))
 }
 
 /// The value of the marked quantity beside that of the baseline, where one is pinned.
 #[must_use]
-pub fn compared(app: &App, quantity: &Quantity) -> Option<String> {
-    table::compared(app, app.tab.answer.as_ref()?, quantity)
+pub fn compared(pane: &Results<'_>, quantity: &Quantity) -> Option<String> {
+    table::compared(pane, pane.answer?, quantity)
 }
 
 /// The place of the quantity on a cell, where there is one.
 #[must_use]
-pub fn row_at(app: &App, area: Rect, at: Position) -> Option<usize> {
-    let line = usize::from(at.y - area.y).checked_sub(lines_before(app, area))?;
-    let in_sight = line < parts(app, area).rows;
-    table::row_of(app.tab.answer.as_ref()?, app.tab.results_top + line)
-        .filter(|&row| in_sight && row < count(app))
+pub fn row_at(pane: &Results<'_>, at: Position) -> Option<usize> {
+    let line = usize::from(at.y - pane.area.y).checked_sub(lines_before(pane))?;
+    let in_sight = line < parts(pane).rows;
+    table::row_of(pane.answer?, pane.state.top + line).filter(|&row| in_sight && row < count(pane))
 }
 
 // The line of a quantity, by their places.
-fn line_of(app: &App, row: usize) -> usize {
-    app.tab
-        .answer
-        .as_ref()
+fn line_of(pane: &Results<'_>, row: usize) -> usize {
+    pane.answer
         .map_or(row, |answer| table::line_of(answer, row))
 }
 
-fn line_count(app: &App) -> usize {
-    count(app)
+fn line_count(pane: &Results<'_>) -> usize {
+    count(pane)
         .checked_sub(1)
-        .map_or(0, |last| line_of(app, last) + 1)
+        .map_or(0, |last| line_of(pane, last) + 1)
 }
 
 // Which lines of the table are in sight, where some are not; in words, in numbers, in arrows.
-fn position(app: &App, rows: usize) -> [String; 3] {
-    let (lines, first) = (line_count(app), app.tab.results_top + 1);
-    let last = (app.tab.results_top + rows).min(lines);
+fn position(pane: &Results<'_>, rows: usize) -> [String; 3] {
+    let (lines, first) = (line_count(pane), pane.state.top + 1);
+    let last = (pane.state.top + rows).min(lines);
     if rows == 0 || rows >= lines {
         return Default::default();
     }
@@ -210,21 +311,21 @@ fn position(app: &App, rows: usize) -> [String; 3] {
 
 /// The outcome of a solve, in a sentence.
 #[must_use]
-pub fn sentence(app: &App, solution: &Solution) -> String {
-    let sentence = digest::sentence(solution, app.settings.units);
-    symbol(&sentence, app.look.ascii).into_owned()
+pub fn sentence(pane: &Results<'_>, solution: &Solution) -> String {
+    let sentence = digest::sentence(solution, pane.units);
+    symbol(&sentence, pane.look.ascii).into_owned()
 }
 
 /// The outcome, the gauges and the notes in full, a line each.
 #[must_use]
-pub fn told(app: &App) -> Vec<String> {
-    let Some(answer) = &app.tab.answer else {
+pub fn told(pane: &Results<'_>) -> Vec<String> {
+    let Some(answer) = pane.answer else {
         return Vec::new();
     };
     let outcome = answer
         .of(answer.active)
-        .map(|solution| sentence(app, solution));
-    let gauges = gauges::gauges(app, answer)
+        .map(|solution| sentence(pane, solution));
+    let gauges = gauges::gauges(pane, answer)
         .into_iter()
         .map(gauges::Gauge::in_full);
     let notes = answer
@@ -249,20 +350,19 @@ fn draw_lines(lines: &[Line<'static>], area: Rect, buffer: &mut Buffer) {
 }
 
 // Title, head and heading.
-fn lines_before(app: &App, area: Rect) -> usize {
-    parts(app, area).head.len() + 2
+fn lines_before(pane: &Results<'_>) -> usize {
+    parts(pane).head.len() + 2
 }
 
 // As much of it as has room, so that nothing is cut.
-fn title(app: &App, rows: usize, room: usize) -> String {
-    let name = if app.tab.shows_last_valid() {
+fn title(pane: &Results<'_>, rows: usize, room: usize) -> String {
+    let name = if pane.shows_last_valid {
         "Results: LAST VALID"
     } else {
         "Results"
     };
-    let name_of_base = app
+    let name_of_base = pane
         .baseline
-        .as_ref()
         .map(|baseline| format!(", against {}", baseline.name));
     let against = name_of_base.as_deref().unwrap_or_default();
     let begun = text::cut(against, room.saturating_sub(name.width()));
@@ -271,24 +371,24 @@ fn title(app: &App, rows: usize, room: usize) -> String {
     } else {
         ""
     };
-    let answer = app.tab.answer.as_ref();
+    let answer = pane.answer;
     let pending = answer
         .and_then(|answer| answer.pending)
         .map_or_else(String::new, |method| format!(", {} to come", method.name()));
     let cost = answer
-        .filter(|_| app.shows_cost)
+        .filter(|_| pane.shows_cost)
         .map_or_else(String::new, |answer| {
             format!(
                 ", {} stages in {} us",
                 answer.cost.stages, answer.cost.micros
             )
         });
-    let short = if app.tab.shows_last_valid() {
+    let short = if pane.shows_last_valid {
         "LAST VALID"
     } else {
         name
     };
-    let [position, numbers, arrows] = position(app, rows);
+    let [position, numbers, arrows] = position(pane, rows);
     let titles = [
         format!("{name}{position}{against}{pending}{cost}"),
         format!("{name}{numbers}{against}{pending}{cost}"),
@@ -308,14 +408,15 @@ fn title(app: &App, rows: usize, room: usize) -> String {
 }
 
 // With room every gauge and note is told in full, else each in a line, and the notes in one.
-fn parts(app: &App, area: Rect) -> Parts {
+fn parts(pane: &Results<'_>) -> Parts {
+    let area = pane.area;
     let width = usize::from(area.width.saturating_sub(1));
     let height = usize::from(area.height.saturating_sub(1));
-    let mut head = banner(app, width);
+    let mut head = banner(pane, width);
     let (mut gauges, mut notes) = (Vec::new(), Vec::new());
-    if let Some(answer) = &app.tab.answer {
-        head.extend(outcome(app, answer, width, height < LOW));
-        gauges = gauges::gauges(app, answer)
+    if let Some(answer) = pane.answer {
+        head.extend(outcome(pane, answer, width, height < LOW));
+        gauges = gauges::gauges(pane, answer)
             .iter()
             .map(|gauge| gauge.fitting(width))
             .collect();
@@ -337,16 +438,15 @@ fn parts(app: &App, area: Rect) -> Parts {
     let (mut gauge_lines, mut note_lines) = (whole(&gauges), whole(&notes));
     if rows_beside(&gauge_lines, &note_lines) < ENOUGH_ROWS {
         gauge_lines = gauges.iter().map(|gauge| text::cut(gauge, width)).collect();
-        note_lines = app
-            .tab
+        note_lines = pane
             .answer
-            .iter()
+            .into_iter()
             .filter_map(|answer| shortened(&answer.notes, width))
             .collect();
     }
     let room_for_head = height.saturating_sub(1 + LEAST_ROWS + note_lines.len());
-    let faint = if app.tab.is_stale() {
-        app.look.theme.faint
+    let faint = if pane.is_stale {
+        pane.look.theme.faint
     } else {
         Style::new()
     };
@@ -357,7 +457,7 @@ fn parts(app: &App, area: Rect) -> Parts {
     );
     head.truncate(room_for_head);
     let rows = height.saturating_sub(head.len() + 1 + note_lines.len());
-    let style = app.look.theme.note.patch(faint);
+    let style = pane.look.theme.note.patch(faint);
     Parts {
         head,
         rows,
@@ -397,15 +497,15 @@ fn shortened(notes: &[Note], width: usize) -> Option<String> {
     })
 }
 
-fn banner(app: &App, width: usize) -> Vec<Line<'static>> {
-    let theme = app.look.theme;
+fn banner(pane: &Results<'_>, width: usize) -> Vec<Line<'static>> {
+    let theme = pane.look.theme;
     let said = |text: String, style: Style| {
         text::wrap(&text, width)
             .into_iter()
             .map(move |line| Line::styled(line, style))
     };
-    let Some(refusal) = &app.tab.refusal else {
-        return wrong(app)
+    let Some(refusal) = pane.refusal else {
+        return wrong(pane)
             .into_iter()
             .flat_map(|wrong| said(wrong, theme.problem))
             .collect();
@@ -421,22 +521,22 @@ fn banner(app: &App, width: usize) -> Vec<Line<'static>> {
 
 // The first field that is wrong, in the order of the form, why, how many more are, and the key that
 // goes there.
-fn wrong(app: &App) -> Option<String> {
-    let (row, problem) = app.tab.problems.iter().min_by_key(|(row, _)| *row)?;
-    let symbol = rows::symbol(&app.tab.case, *row);
+fn wrong(pane: &Results<'_>) -> Option<String> {
+    let (row, problem) = pane.problems.iter().min_by_key(|(row, _)| *row)?;
+    let symbol = rows::symbol(pane.case, *row);
     let name = format!(
         "{} {}",
-        self::symbol(symbol, app.look.ascii),
-        rows::label(&app.tab.case, *row)
+        self::symbol(symbol, pane.look.ascii),
+        rows::label(pane.case, *row)
     );
-    let fields: BTreeSet<usize> = app.tab.problems.iter().map(|(row, _)| *row).collect();
+    let fields: BTreeSet<usize> = pane.problems.iter().map(|(row, _)| *row).collect();
     let more = if fields.len() > 1 {
         format!("; {} more", fields.len() - 1)
     } else {
         String::new()
     };
-    let key = key_of(Command::NextFault);
-    if let Some(missing) = app.missing().filter(|&missing| missing > 1) {
+    let key = &pane.next_fault;
+    if let Some(missing) = pane.missing.filter(|&missing| missing > 1) {
         return Some(format!("! {missing} required values are missing ({key})"));
     }
     Some(format!(
@@ -446,19 +546,19 @@ fn wrong(app: &App) -> Option<String> {
     ))
 }
 
-fn outcome(app: &App, answer: &Answer, width: usize, is_low: bool) -> Vec<Line<'static>> {
+fn outcome(pane: &Results<'_>, answer: &Answer, width: usize, is_low: bool) -> Vec<Line<'static>> {
     let Some(solution) = answer.of(answer.active) else {
         return Vec::new();
     };
-    let style = if app.tab.is_stale() {
-        app.look.theme.faint
+    let style = if pane.is_stale {
+        pane.look.theme.faint
     } else {
-        app.look.theme.focus
+        pane.look.theme.focus
     };
     let words = if is_low && width < NARROW {
-        digest::short(solution, app.settings.units)
+        digest::short(solution, pane.units)
     } else {
-        sentence(app, solution)
+        sentence(pane, solution)
     };
     let lines = text::wrap(&words, width);
     lines
@@ -467,6 +567,6 @@ fn outcome(app: &App, answer: &Answer, width: usize, is_low: bool) -> Vec<Line<'
         .collect()
 }
 
-fn shown_in(app: &App, quantity: &Quantity, value: f64) -> Shown {
-    report::shown_in(quantity, value, app.settings.units)
+fn shown_in(pane: &Results<'_>, quantity: &Quantity, value: f64) -> Shown {
+    report::shown_in(quantity, value, pane.units)
 }

@@ -5,10 +5,10 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::{Modifier, Style};
 use unicode_width::UnicodeWidthStr;
 
-use crate::tui::app::App;
+use super::Form;
 use crate::tui::ascii;
 use crate::tui::rows;
-use crate::tui::view::text;
+use crate::tui::text;
 
 pub(super) const MARK: u16 = 2;
 /// The mark of a field that differs from the file.
@@ -20,9 +20,9 @@ const VALUE: u16 = 15;
 const NARROW_VALUE: u16 = 11;
 const WHOLE: u16 = MARK + SYMBOL + LABEL + 1 + VALUE;
 
-pub(super) fn draw_mark(app: &App, index: usize, line: Rect, buffer: &mut Buffer) {
-    let theme = app.look.theme;
-    if rows::differs(&app.tab.case, &app.tab.saved, index) {
+pub(super) fn draw_mark(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut Buffer) {
+    let theme = pane.look.theme;
+    if rows::differs(pane.case, pane.saved, index) {
         buffer.set_stringn(
             line.x + 1,
             line.y,
@@ -32,9 +32,9 @@ pub(super) fn draw_mark(app: &App, index: usize, line: Rect, buffer: &mut Buffer
         );
     }
     // The reason stands below the line and has a mark of its own.
-    if app.tab.focus == index {
+    if pane.focus == index {
         buffer.set_stringn(line.x, line.y, "▸", 1, theme.focus);
-    } else if app.tab.problems.iter().any(|(at, _)| *at == index) {
+    } else if pane.problems.iter().any(|(at, _)| *at == index) {
         buffer.set_stringn(line.x, line.y, "!", 1, theme.problem);
     }
 }
@@ -72,7 +72,7 @@ pub(super) fn draw_name(
 
 // What is written in a row, as a line to edit where it is edited, else the words for what is not.
 pub(super) fn draw_text(
-    app: &App,
+    pane: &Form<'_>,
     index: usize,
     written: Option<&str>,
     unwritten: &str,
@@ -81,29 +81,25 @@ pub(super) fn draw_text(
     buffer: &mut Buffer,
 ) -> Option<Position> {
     let width = usize::from(area.width);
-    let is_edited = app.tab.focus == index && app.has_line();
-    if is_edited && written.is_some() {
-        let cursor = text::edited(
-            &app.tab.input,
-            area,
-            style.add_modifier(Modifier::UNDERLINED),
-            buffer,
-        );
+    let line = pane.line.filter(|_| pane.focus == index);
+    if let Some(line) = line.filter(|_| written.is_some()) {
+        let style = style.add_modifier(Modifier::UNDERLINED);
+        let cursor = text::edited(line, area, style, buffer);
         text::ending(
-            app.ending().as_deref(),
-            app.tab.input.value().width(),
+            pane.ending.as_deref(),
+            line.value().width(),
             area,
-            app.look.theme,
+            pane.look.theme,
             buffer,
         );
         return cursor;
     }
     let shown = written.map_or(unwritten.into(), ascii::printable);
-    let faint = if written.is_none() && !app.lacks(index) {
-        app.look.theme.faint
+    let faint = if written.is_none() && !pane.lacks(index) {
+        pane.look.theme.faint
     } else {
         style
     };
     buffer.set_stringn(area.x, area.y, text::cut(&shown, width), width, faint);
-    is_edited.then_some(Position::new(area.x, area.y))
+    line.is_some().then_some(Position::new(area.x, area.y))
 }

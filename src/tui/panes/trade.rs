@@ -4,14 +4,15 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 
-use super::{text, titled};
+use super::title::Title;
+use crate::model::Inputs;
 use crate::model::inputs::Method;
 use crate::report::trade::plot::{Axis, shown, time};
 use crate::report::trade::{NO_CONTACT, parts, percent, summary};
 use crate::study::trade::{METHODS, Measured, Setting, Trade};
-use crate::tui::app::App;
-use crate::tui::pane::Pane;
-use crate::tui::tab::Traded;
+use crate::tui::benchmark::Traded;
+use crate::tui::text;
+use crate::tui::theme::Look;
 
 /// Columns of a number beside the vertical axis.
 const LABEL: u16 = 9;
@@ -22,19 +23,32 @@ const LEVEL: &str = "╌";
 const INVITATION: &str = "No benchmark yet: m runs every method with its settings on this case for a few seconds. Esc stops the \
     benchmark and keeps its results. Enter then applies the selected setting to the case.";
 
+/// The pane with the benchmark that it shows.
+#[derive(Debug, Clone)]
+pub struct TradePane<'a> {
+    /// The benchmark of the open case.
+    pub traded: Option<&'a Traded>,
+    /// The case in the form, if it is valid.
+    pub inputs: Option<&'a Inputs>,
+    /// The capabilities of the terminal.
+    pub look: Look,
+    /// The title line.
+    pub title: Title,
+    /// The area of the pane with its title; empty if the pane is hidden.
+    pub area: Rect,
+}
+
 /// Draw the pane.
-pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
-    let inner = titled(app, Pane::Trade, &title(app), area, buffer);
+pub fn draw(pane: &TradePane<'_>, buffer: &mut Buffer) {
+    let inner = pane.title.draw(title(pane), pane.area, buffer);
     if inner.is_empty() {
         return;
     }
-    let traded = app
-        .tab
+    let traded = pane
         .traded
-        .as_ref()
         .and_then(|traded| Some((traded, traded.trade.as_ref()?)));
     let Some((traded, trade)) = traded.filter(|(_, trade)| !trade.settings.is_empty()) else {
-        let words = if app.tab.traded.is_some() {
+        let words = if pane.traded.is_some() {
             "Computing the reference."
         } else {
             INVITATION
@@ -42,11 +56,11 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         return write(words, inner, buffer);
     };
     let (legend, plot, words) = split(inner);
-    draw_legend(app, trade, legend, buffer);
+    draw_legend(pane, trade, legend, buffer);
     if plot.height >= 3 && plot.width >= 20 {
-        draw_plot(app, traded, trade, plot, buffer);
+        draw_plot(pane, traded, trade, plot, buffer);
     }
-    write(&fitting(&told(app, traded, trade), words), words, buffer);
+    write(&fitting(&told(pane, traded, trade), words), words, buffer);
 }
 
 /// The settings that have an error and a time, the quicker ones first.
@@ -61,19 +75,30 @@ pub fn ordered(trade: &Trade) -> Vec<&Measured> {
     found
 }
 
-fn title(app: &App) -> String {
-    let stale = app.tab.traded.as_ref().is_some_and(|traded| {
-        app.tab
-            .case
-            .inputs()
-            .map_or(true, |inputs| traded.is_stale(&inputs))
-    });
-    let stale = if stale {
-        "OUTDATED, m runs it again: "
+/// The setting so many places from the selected one, in the order of their times.
+#[must_use]
+pub fn stepped(traded: &Traded, by: isize) -> Option<Setting> {
+    let settings: Vec<Setting> = traded
+        .trade
+        .iter()
+        .flat_map(ordered)
+        .map(|measured| measured.setting)
+        .collect();
+    let last = settings.len().checked_sub(1)?;
+    let now = traded
+        .marked
+        .and_then(|marked| settings.iter().position(|setting| *setting == marked));
+    let next = now.map_or(0, |now| now.saturating_add_signed(by).min(last));
+    Some(settings[next])
+}
+
+fn title(pane: &TradePane<'_>) -> &'static str {
+    let is_stale = |traded: &Traded| pane.inputs.is_none_or(|inputs| traded.is_stale(inputs));
+    if pane.traded.is_some_and(is_stale) {
+        "OUTDATED, m runs it again: Accuracy against run time, both logarithmic"
     } else {
-        ""
-    };
-    format!("{stale}Accuracy against run time, both logarithmic")
+        "Accuracy against run time, both logarithmic"
+    }
 }
 
 /// The rooms of the legend, of the plot with its axes, and of the words below it.
@@ -100,7 +125,7 @@ fn split(inner: Rect) -> (Rect, Rect, Rect) {
 }
 
 /// The marked setting in words, what matters most first; else how far the measurement is.
-fn told(app: &App, traded: &Traded, trade: &Trade) -> Vec<String> {
+fn told(pane: &TradePane<'_>, traded: &Traded, trade: &Trade) -> Vec<String> {
     let marked = traded.marked.and_then(|marked| {
         trade
             .settings
@@ -136,7 +161,7 @@ fn told(app: &App, traded: &Traded, trade: &Trade) -> Vec<String> {
         "not within"
     };
     let qualifies = format!(" {qualifies} {} %", percent(trade.within));
-    let own = (own(app) == Some(measured.setting)).then(|| "; setting of the case".to_owned());
+    let own = (own(pane) == Some(measured.setting)).then(|| "; setting of the case".to_owned());
     let front = measured
         .is_on_front
         .then(|| "; no other setting is both faster and more accurate".to_owned());
@@ -171,11 +196,9 @@ fn fitting(told: &[String], area: Rect) -> String {
 
 /// What the signs in the pane mean.
 #[must_use]
-pub fn signs(app: &App) -> String {
-    let within = app
-        .tab
+pub fn signs(pane: &TradePane<'_>) -> String {
+    let within = pane
         .traded
-        .as_ref()
         .and_then(|traded| traded.trade.as_ref())
         .map(|trade| percent(trade.within));
     let level = within.map_or_else(String::new, |within| {
@@ -187,12 +210,8 @@ pub fn signs(app: &App) -> String {
     )
 }
 
-fn own(app: &App) -> Option<Setting> {
-    app.tab
-        .case
-        .inputs()
-        .ok()
-        .map(|inputs| Setting::of(&inputs))
+fn own(pane: &TradePane<'_>) -> Option<Setting> {
+    pane.inputs.map(Setting::of)
 }
 
 fn write(words: &str, area: Rect, buffer: &mut Buffer) {
@@ -206,8 +225,8 @@ fn write(words: &str, area: Rect, buffer: &mut Buffer) {
 }
 
 /// A method's letter, with its colour.
-fn mark(app: &App, method: Method) -> (char, Style) {
-    let theme = app.look.theme;
+fn mark(pane: &TradePane<'_>, method: Method) -> (char, Style) {
+    let theme = pane.look.theme;
     match method {
         Method::Paper => ('p', theme.faint),
         Method::Exact => ('e', theme.other),
@@ -218,9 +237,9 @@ fn mark(app: &App, method: Method) -> (char, Style) {
 }
 
 /// What the letters mean, a word each, and then their writing.
-fn draw_legend(app: &App, trade: &Trade, area: Rect, buffer: &mut Buffer) {
+fn draw_legend(pane: &TradePane<'_>, trade: &Trade, area: Rect, buffer: &mut Buffer) {
     let methods = METHODS.into_iter().chain([Method::Auto]);
-    let words = methods.map(|method| (method.name().to_owned(), mark(app, method).1));
+    let words = methods.map(|method| (method.name().to_owned(), mark(pane, method).1));
     let within = format!("{LEVEL}{LEVEL} within {} %", percent(trade.within));
     let writing = [
         "CAPITAL on the front".to_owned(),
@@ -239,7 +258,13 @@ fn draw_legend(app: &App, trade: &Trade, area: Rect, buffer: &mut Buffer) {
     }
 }
 
-fn draw_plot(app: &App, traded: &Traded, trade: &Trade, area: Rect, buffer: &mut Buffer) {
+fn draw_plot(
+    pane: &TradePane<'_>,
+    traded: &Traded,
+    trade: &Trade,
+    area: Rect,
+    buffer: &mut Buffer,
+) {
     let field = Rect {
         x: area.x + LABEL + 1,
         width: area.width - LABEL - 2,
@@ -267,12 +292,12 @@ fn draw_plot(app: &App, traded: &Traded, trade: &Trade, area: Rect, buffer: &mut
         .filter_map(|measured| measured.total())
         .collect();
     let rows = Rows::of(up, trade.within, &errors, field);
-    draw_axes(app, &across, &rows, field, buffer);
+    draw_axes(pane, &across, &rows, field, buffer);
     buffer.set_string(
         field.x,
         rows.level,
         LEVEL.repeat(field.width.into()),
-        app.look.theme.rule,
+        pane.look.theme.rule,
     );
     let place = |measured: &Measured| {
         Some((
@@ -285,8 +310,8 @@ fn draw_plot(app: &App, traded: &Traded, trade: &Trade, area: Rect, buffer: &mut
         .filter(|measured| measured.is_on_front)
         .filter_map(|one| place(one))
         .collect();
-    draw_front(app, &front, field, buffer);
-    let own = own(app);
+    draw_front(pane, &front, field, buffer);
+    let own = own(pane);
     // What is marked and what is the case's own lie on top.
     let weight = |measured: &Measured| {
         (
@@ -298,7 +323,7 @@ fn draw_plot(app: &App, traded: &Traded, trade: &Trade, area: Rect, buffer: &mut
     found.sort_by_key(|measured| weight(measured));
     for measured in found {
         if let Some(at) = place(measured) {
-            draw_mark(app, measured, weight(measured), at, field, buffer);
+            draw_mark(pane, measured, weight(measured), at, field, buffer);
         }
     }
 }
@@ -343,9 +368,9 @@ impl Rows {
 }
 
 /// The stairs under which no setting lies: the best error that is to be had by a time.
-fn draw_front(app: &App, front: &[(u16, u16)], field: Rect, buffer: &mut Buffer) {
+fn draw_front(pane: &TradePane<'_>, front: &[(u16, u16)], field: Rect, buffer: &mut Buffer) {
     let mut dot = |x: u16, y: u16| {
-        buffer.set_string(x, y, "·", app.look.theme.note);
+        buffer.set_string(x, y, "·", pane.look.theme.note);
     };
     for (at, &(x, y)) in front.iter().enumerate() {
         let next = front.get(at + 1).copied().unwrap_or((field.right() - 1, y));
@@ -356,15 +381,15 @@ fn draw_front(app: &App, front: &[(u16, u16)], field: Rect, buffer: &mut Buffer)
 
 /// The method's letter, a capital on the front; in brackets where it is marked or the case's own.
 fn draw_mark(
-    app: &App,
+    pane: &TradePane<'_>,
     measured: &Measured,
     (is_marked, is_own, is_on_front): (bool, bool, bool),
     (x, y): (u16, u16),
     field: Rect,
     buffer: &mut Buffer,
 ) {
-    let theme = app.look.theme;
-    let (letter, style) = mark(app, measured.setting.method);
+    let theme = pane.look.theme;
+    let (letter, style) = mark(pane, measured.setting.method);
     let letter = if is_on_front {
         letter.to_ascii_uppercase()
     } else {
@@ -384,8 +409,8 @@ fn draw_mark(
     buffer.set_string(x, y, mark, style);
 }
 
-fn draw_axes(app: &App, across: &Axis, rows: &Rows, field: Rect, buffer: &mut Buffer) {
-    let rule = app.look.theme.rule;
+fn draw_axes(pane: &TradePane<'_>, across: &Axis, rows: &Rows, field: Rect, buffer: &mut Buffer) {
+    let rule = pane.look.theme.rule;
     let axis = field.bottom();
     for y in field.top()..axis {
         buffer.set_string(field.x - 1, y, "│", rule);

@@ -5,15 +5,16 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
-use super::{text, titled};
+use super::title::Title;
 use crate::case::fields::{GROUPS, Kind};
-use crate::case::{Acting, FIELDS, materials, relevance};
+use crate::case::{Acting, Case, FIELDS, Problem, materials, relevance};
 use crate::model::Inputs;
-use crate::tui::app::{self, App};
 use crate::tui::ascii::{self, symbol};
-use crate::tui::layout::plan;
-use crate::tui::pane::Pane;
+use crate::tui::line::Line as Text;
 use crate::tui::rows;
+use crate::tui::solver::Answer;
+use crate::tui::text;
+use crate::tui::theme::Look;
 
 mod limit;
 mod line;
@@ -26,6 +27,50 @@ const IDLE: &str = "-";
 /// The least width of a label beside a symbol.
 const LEAST_LABEL: u16 = 6;
 
+/// The form with the case in it.
+#[derive(Debug, Clone)]
+pub struct Form<'a> {
+    /// The case in the form.
+    pub case: &'a Case,
+    /// The case in the file.
+    pub saved: &'a Case,
+    /// The case as far as it can be read.
+    pub inputs: &'a Inputs,
+    /// The wrong rows.
+    pub problems: &'a [(usize, Problem)],
+    /// The last valid results.
+    pub answer: Option<&'a Answer>,
+    /// Whether they are older than the form.
+    pub is_stale: bool,
+    /// The focused row.
+    pub focus: usize,
+    /// Its text while it is edited.
+    pub line: Option<&'a Text>,
+    /// The completion of that text.
+    pub ending: Option<String>,
+    /// The first visible line.
+    pub top: usize,
+    /// The capabilities of the terminal.
+    pub look: Look,
+    /// The title line.
+    pub title: Title,
+    /// The area of the pane with its title; empty if the pane is hidden.
+    pub area: Rect,
+}
+
+impl Form<'_> {
+    /// Whether the value of a row is wrong only because it is being typed.
+    #[must_use]
+    pub fn is_unfinished(&self, row: usize) -> bool {
+        let line = self.line.filter(|_| self.focus == row);
+        line.is_some_and(|line| rows::is_unfinished(self.case, row, line.value()))
+    }
+
+    fn lacks(&self, row: usize) -> bool {
+        rows::lacks(self.case, row)
+    }
+}
+
 /// A line of the form.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Row {
@@ -37,29 +82,25 @@ enum Row {
 }
 
 /// Draw the form; where the cursor stands.
-pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
-    let rows = rows(app, area.width);
-    let inner = titled(app, Pane::Form, "Form", area, buffer);
+pub fn draw(pane: &Form<'_>, buffer: &mut Buffer) -> Option<Position> {
+    let area = pane.area;
+    let rows = rows(pane, area.width);
+    let inner = pane.title.draw("Form", area, buffer);
     if inner.is_empty() {
         return None;
     }
-    let inputs = app.tab.case.inputs_so_far();
     let mut cursor = None;
-    for (row, y) in rows
-        .iter()
-        .skip(app.tab.form_top)
-        .zip(inner.top()..inner.bottom())
-    {
+    for (row, y) in rows.iter().skip(pane.top).zip(inner.top()..inner.bottom()) {
         let line = Rect {
             y,
             height: 1,
             width: inner.width - 1,
             ..inner
         };
-        cursor = draw_row(app, &inputs, row, line, buffer).or(cursor);
+        cursor = draw_row(pane, row, line, buffer).or(cursor);
     }
-    scroll_bar(
-        app.tab.form_top,
+    text::scroll_bar(
+        pane.top,
         rows.len(),
         Rect {
             x: inner.right() - 1,
@@ -74,16 +115,16 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
 /// The first line to be shown, so that the focused field is in sight with its reason and, at the
 /// top, its group.
 #[must_use]
-pub fn top_for(app: &App) -> usize {
-    let area = plan(app.size, app.panes).form;
+pub fn top_for(pane: &Form<'_>) -> usize {
+    let area = pane.area;
     if area.is_empty() {
-        return app.tab.form_top;
+        return pane.top;
     }
     let height = usize::from(area.height.saturating_sub(1)).max(1);
-    let rows = rows(app, area.width);
+    let rows = rows(pane, area.width);
     let focused = rows
         .iter()
-        .position(|row| *row == Row::Line(app.tab.focus))
+        .position(|row| *row == Row::Line(pane.focus))
         .unwrap_or(0);
     let reasons = rows[focused + 1..]
         .iter()
@@ -96,14 +137,15 @@ pub fn top_for(app: &App) -> usize {
         .min(rows.len())
         .saturating_sub(height);
     let most = rows.len().saturating_sub(height);
-    app.tab.form_top.max(least).min(first.max(least)).min(most)
+    pane.top.max(least).min(first.max(least)).min(most)
 }
 
 /// The field on a cell, where there is one.
 #[must_use]
-pub fn field_at(app: &App, area: Rect, at: Position) -> Option<usize> {
+pub fn field_at(pane: &Form<'_>, at: Position) -> Option<usize> {
+    let area = pane.area;
     let line = usize::from(at.y.checked_sub(area.y + 1)?);
-    match rows(app, area.width).get(app.tab.form_top + line)? {
+    match rows(pane, area.width).get(pane.top + line)? {
         Row::Line(index) => Some(*index),
         Row::Group(_) | Row::Reason(_) => None,
     }
@@ -111,52 +153,38 @@ pub fn field_at(app: &App, area: Rect, at: Position) -> Option<usize> {
 
 /// The first line to be shown after so many lines downwards.
 #[must_use]
-pub fn scrolled(app: &App, by: isize) -> usize {
-    let area = plan(app.size, app.panes).form;
-    let most = rows(app, area.width)
+pub fn scrolled(pane: &Form<'_>, by: isize) -> usize {
+    let area = pane.area;
+    let most = rows(pane, area.width)
         .len()
         .saturating_sub(area.height.saturating_sub(1).into());
-    app.tab.form_top.saturating_add_signed(by).min(most)
+    pane.top.saturating_add_signed(by).min(most)
 }
 
-/// A bar whose thumb shows which part of the lines is in sight.
-pub fn scroll_bar(top: usize, lines: usize, area: Rect, buffer: &mut Buffer) {
-    let height = usize::from(area.height);
-    let is_thumb = |row: usize| {
-        let from = top * height / lines.max(1);
-        let size = (height * height).div_ceil(lines.max(1)).max(1);
-        lines > height && (from..from + size).contains(&row)
-    };
-    for (row, y) in (area.top()..area.bottom()).enumerate() {
-        let bar = if is_thumb(row) { "█" } else { "│" };
-        buffer.set_string(area.x, y, bar, Style::new());
-    }
-}
-
-fn rows(app: &App, width: u16) -> Vec<Row> {
-    let count = rows::count(&app.tab.case);
-    let groups = rows::groups(&app.tab.case);
-    let mut lines = Vec::with_capacity(count + groups.len() + app.tab.problems.len());
+fn rows(pane: &Form<'_>, width: u16) -> Vec<Row> {
+    let count = rows::count(pane.case);
+    let groups = rows::groups(pane.case);
+    let mut lines = Vec::with_capacity(count + groups.len() + pane.problems.len());
     for index in 0..count {
         if groups.contains(&index) {
             lines.push(Row::Group(index));
         }
         lines.push(Row::Line(index));
-        lines.extend(reasons(app, index, width).map(Row::Reason));
+        lines.extend(reasons(pane, index, width).map(Row::Reason));
     }
     lines
 }
 
 // The title of a group; of a gear also its material, where that is known.
-fn group_title(app: &App, index: usize) -> String {
-    let Some(field) = rows::field(&app.tab.case, index) else {
+fn group_title(pane: &Form<'_>, index: usize) -> String {
+    let Some(field) = rows::field(pane.case, index) else {
         return "Limits".to_owned();
     };
     let title = GROUPS
         .iter()
         .find(|(table, _)| *table == field.table())
         .map_or("", |(_, title)| title);
-    let material = materials::name_of_gear(&app.tab.case, field.table());
+    let material = materials::name_of_gear(pane.case, field.table());
     material.map_or_else(
         || title.to_owned(),
         |material| format!("{title}, {material}"),
@@ -165,10 +193,9 @@ fn group_title(app: &App, index: usize) -> String {
 
 // An unfinished value is explained in the hint until the field is left. A missing value needs no
 // reason: the field itself shows that it is required.
-fn reasons(app: &App, field: usize, width: u16) -> impl Iterator<Item = String> {
-    let has_reason = !app.is_unfinished(field) && !app.lacks(field);
-    let own = app
-        .tab
+fn reasons(pane: &Form<'_>, field: usize, width: u16) -> impl Iterator<Item = String> {
+    let has_reason = !pane.is_unfinished(field) && !pane.lacks(field);
+    let own = pane
         .problems
         .iter()
         .filter(move |(at, _)| *at == field && has_reason);
@@ -184,17 +211,11 @@ fn reasons(app: &App, field: usize, width: u16) -> impl Iterator<Item = String> 
     })
 }
 
-fn draw_row(
-    app: &App,
-    inputs: &Inputs,
-    row: &Row,
-    line: Rect,
-    buffer: &mut Buffer,
-) -> Option<Position> {
-    let theme = app.look.theme;
+fn draw_row(pane: &Form<'_>, row: &Row, line: Rect, buffer: &mut Buffer) -> Option<Position> {
+    let theme = pane.look.theme;
     match row {
         Row::Group(index) => {
-            let title = text::cut(&group_title(app, *index), line.width.into());
+            let title = text::cut(&group_title(pane, *index), line.width.into());
             buffer.set_stringn(line.x, line.y, title, line.width.into(), theme.title);
             None
         }
@@ -208,24 +229,18 @@ fn draw_row(
             );
             None
         }
-        Row::Line(index) => match rows::row(&app.tab.case, *index) {
-            rows::Row::Field(field) => draw_field(app, inputs, field, line, buffer),
-            rows::Row::Limit(limit) => draw_limit(app, *index, limit, line, buffer),
+        Row::Line(index) => match rows::row(pane.case, *index) {
+            rows::Row::Field(field) => draw_field(pane, field, line, buffer),
+            rows::Row::Limit(limit) => draw_limit(pane, *index, limit, line, buffer),
         },
     }
 }
 
-fn draw_field(
-    app: &App,
-    inputs: &Inputs,
-    index: usize,
-    line: Rect,
-    buffer: &mut Buffer,
-) -> Option<Position> {
+fn draw_field(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut Buffer) -> Option<Position> {
     let field = &FIELDS[index];
-    let theme = app.look.theme;
-    let is_idle = matches!(relevance(index, inputs), Acting::No(_));
-    let style = match (app.tab.focus == index, is_idle) {
+    let theme = pane.look.theme;
+    let is_idle = matches!(relevance(index, pane.inputs), Acting::No(_));
+    let style = match (pane.focus == index, is_idle) {
         (true, _) => theme.focus,
         (false, true) => theme.faint,
         (false, false) => Style::new(),
@@ -233,7 +248,7 @@ fn draw_field(
     if is_idle {
         buffer.set_stringn(line.x, line.y, IDLE, 1, style);
     }
-    draw_mark(app, index, line, buffer);
+    draw_mark(pane, index, line, buffer);
     let name = Rect {
         x: line.x + MARK,
         width: line.width.saturating_sub(MARK),
@@ -248,10 +263,10 @@ fn draw_field(
         } else {
             label.min(LEAST_LABEL)
         };
-        let over = longer(app, index, line.width - (MARK + SYMBOL + usual + 1))
+        let over = longer(pane, index, line.width - (MARK + SYMBOL + usual + 1))
             .min(usual.saturating_sub(least));
         draw_name(
-            &symbol(field.symbol, app.look.ascii),
+            &symbol(field.symbol, pane.look.ascii),
             field.label,
             name,
             usual - over,
@@ -264,16 +279,16 @@ fn draw_field(
         width: line.width.saturating_sub(offset),
         ..line
     };
-    draw_value(app, index, value, style, buffer)
+    draw_value(pane, index, value, style, buffer)
 }
 
 // By how much a value that is not edited is wider than its room.
-fn longer(app: &App, index: usize, room: u16) -> u16 {
-    let shown = app.tab.case.text(index).map_or_else(
-        || app::unwritten(&app.tab.case, index),
+fn longer(pane: &Form<'_>, index: usize, room: u16) -> u16 {
+    let shown = pane.case.text(index).map_or_else(
+        || rows::unwritten(pane.case, index),
         |text| ascii::printable(text).into_owned(),
     );
-    let is_edited = app.tab.focus == index && app.has_line() && app.tab.case.text(index).is_some();
+    let is_edited = pane.focus == index && pane.line.is_some() && pane.case.text(index).is_some();
     if is_edited {
         0
     } else {
@@ -288,15 +303,15 @@ fn draw_words(label: &str, area: Rect, style: Style, buffer: &mut Buffer) -> u16
 }
 
 fn draw_value(
-    app: &App,
+    pane: &Form<'_>,
     index: usize,
     area: Rect,
     style: Style,
     buffer: &mut Buffer,
 ) -> Option<Position> {
-    let unwritten = app::unwritten(&app.tab.case, index);
-    let written = app.tab.case.text(index);
-    let is_edited = app.tab.focus == index && app.has_line();
+    let unwritten = rows::unwritten(pane.case, index);
+    let written = pane.case.text(index);
+    let is_edited = pane.focus == index && pane.line.is_some();
     if is_edited && matches!(FIELDS[index].kind, Kind::Choice(..)) {
         let shown = written.map_or(unwritten, |text| ascii::printable(text).into_owned());
         let width = usize::from(area.width);
@@ -309,5 +324,5 @@ fn draw_value(
         );
         return None;
     }
-    draw_text(app, index, written, &unwritten, area, style, buffer)
+    draw_text(pane, index, written, &unwritten, area, style, buffer)
 }

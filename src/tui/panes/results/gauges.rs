@@ -5,8 +5,8 @@ use crate::model::inputs::Method;
 use crate::model::{Outcome, Quantity, Solution, Stage};
 use crate::report;
 use crate::report::comparison::differing;
-use crate::tui::app::App;
 use crate::tui::ascii::symbol;
+use crate::tui::panes::results::Results;
 use crate::tui::solver::Answer;
 
 /// A statement in full, and then in fewer and fewer words.
@@ -23,12 +23,12 @@ impl Gauge {
     }
 }
 
-pub(super) fn gauges(app: &App, answer: &Answer) -> Vec<Gauge> {
+pub(super) fn gauges(pane: &Results<'_>, answer: &Answer) -> Vec<Gauge> {
     let Some(solution) = answer.of(answer.active) else {
         return Vec::new();
     };
     let ratios = (!solution.method.shares_load())
-        .then(|| ratios(answer, app.look.ascii))
+        .then(|| ratios(answer, pane.look.ascii))
         .flatten();
     // The printed equations are no other opinion on the pair.
     let others: Vec<&Solution> = (answer.methods.iter().rev())
@@ -36,8 +36,8 @@ pub(super) fn gauges(app: &App, answer: &Answer) -> Vec<Gauge> {
         .filter_map(|(_, found)| found.as_ref().ok())
         .collect();
     let differing = other_outcomes(answer, solution, &others);
-    let relief = relief(app, answer, solution, &others);
-    [differing, relief, band(app, solution), ratios]
+    let relief = relief(pane, answer, solution, &others);
+    [differing, relief, band(pane, solution), ratios]
         .into_iter()
         .flatten()
         .collect()
@@ -50,8 +50,13 @@ fn other_outcomes(answer: &Answer, solution: &Solution, others: &[&Solution]) ->
 }
 
 // The required relief; a place is kept for it while the worker still looks for it.
-fn relief(app: &App, answer: &Answer, solution: &Solution, others: &[&Solution]) -> Option<Gauge> {
-    let (units, given) = (app.settings.units, answer.inputs.driven.tip_relief);
+fn relief(
+    pane: &Results<'_>,
+    answer: &Answer,
+    solution: &Solution,
+    others: &[&Solution],
+) -> Option<Gauge> {
+    let (units, given) = (pane.units, answer.inputs.driven.tip_relief);
     let is_to_come = answer.strikes() && answer.lacks(Stage::Clearing);
     let pending = || report::relief::pending(solution.method, given, others, units);
     report::relief::relief(solution, others, units)
@@ -60,18 +65,14 @@ fn relief(app: &App, answer: &Answer, solution: &Solution, others: &[&Solution])
 }
 
 // How far the force depends on the stiffness model.
-fn band(app: &App, solution: &Solution) -> Option<Gauge> {
+fn band(pane: &Results<'_>, solution: &Solution) -> Option<Gauge> {
     if solution.outcome == Outcome::NoCornerContact {
         return None;
     }
     let (band, force) = (solution.band?, solution.impact?.force);
     let percent = |end: f64| 100.0 * (end / force - 1.0) + 0.0;
     let quantity = Quantity::find("impact_force_low")?;
-    let unit = report::unit_beside(
-        quantity,
-        [band.low, band.high].into_iter(),
-        app.settings.units,
-    );
+    let unit = report::unit_beside(quantity, [band.low, band.high].into_iter(), pane.units);
     let (low, high) = (
         report::shown_with(quantity, band.low, unit).number,
         report::shown_with(quantity, band.high, unit),

@@ -5,11 +5,11 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
+use super::Form;
 use super::line::{MARK, SYMBOL, draw_mark, draw_name, draw_text, label_width};
 use crate::case::Limit;
 use crate::model::Quantity;
 use crate::report::verdict::verdict;
-use crate::tui::app::App;
 use crate::tui::ascii;
 use crate::tui::rows;
 
@@ -21,28 +21,28 @@ const ABOVE_BESIDE: &str = " (!)";
 
 // The limit as it is written, and how the result stands to it.
 pub(super) fn draw_limit(
-    app: &App,
+    pane: &Form<'_>,
     index: usize,
     limit: &Limit,
     line: Rect,
     buffer: &mut Buffer,
 ) -> Option<Position> {
-    let theme = app.look.theme;
-    let style = if app.tab.focus == index {
+    let theme = pane.look.theme;
+    let style = if pane.focus == index {
         theme.focus
     } else {
         Style::new()
     };
-    draw_mark(app, index, line, buffer);
+    draw_mark(pane, index, line, buffer);
     let name = Rect {
         x: line.x + MARK,
         width: line.width.saturating_sub(MARK),
         ..line
     };
     let symbol = Quantity::find(limit.quantity).map_or("", |quantity| quantity.symbol);
-    let symbol = ascii::symbol(symbol, app.look.ascii);
-    let label = rows::label(&app.tab.case, index);
-    let (words, of_word) = standing(app, limit);
+    let symbol = ascii::symbol(symbol, pane.look.ascii);
+    let label = rows::label(pane.case, index);
+    let (words, of_word) = standing(pane, limit);
     let usual = label_width(name);
     let needed = limit.text.width() + words.get(1).map_or(0, |word| word.width() + 2);
     let is_whole = symbol.width() < SYMBOL.into()
@@ -81,7 +81,7 @@ pub(super) fn draw_limit(
         ..line
     };
     draw_text(
-        app,
+        pane,
         index,
         Some(&limit.text)
             .filter(|text| !text.is_empty())
@@ -95,13 +95,11 @@ pub(super) fn draw_limit(
 
 // How the last valid result stands to the limit, in words, in fewer and by a sign alone, and their
 // style.
-fn standing(app: &App, limit: &Limit) -> (Vec<String>, Style) {
-    let theme = app.look.theme;
-    let is_told = !app.tab.is_stale() && !limit.text.is_empty();
-    let solution = app
-        .tab
+fn standing(pane: &Form<'_>, limit: &Limit) -> (Vec<String>, Style) {
+    let theme = pane.look.theme;
+    let is_told = !pane.is_stale && !limit.text.is_empty();
+    let solution = pane
         .answer
-        .as_ref()
         .and_then(|answer| answer.of(answer.active))
         .filter(|_| is_told);
     let Some(verdict) = solution.map(|solution| verdict(limit, solution)) else {

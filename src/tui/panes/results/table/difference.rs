@@ -5,9 +5,9 @@ use crate::case::units::system::counted;
 use crate::model::Quantity;
 use crate::model::inputs::Method;
 use crate::report;
-use crate::tui::app::App;
+use crate::tui::panes::results::Results;
+use crate::tui::panes::results::shown_in;
 use crate::tui::solver::Answer;
-use crate::tui::view::results::shown_in;
 
 /// Below this part of the baseline a difference is rounding.
 const NO_DIFFERENCE: f64 = 5e-6;
@@ -19,14 +19,14 @@ pub(super) const WIDTH: usize = UNCHANGED.len();
 // The active method's value against the same method's of the baseline, in percent, or the value of
 // the baseline.
 pub(super) fn difference(
-    app: &App,
+    pane: &Results<'_>,
     answer: &Answer,
     quantity: &Quantity,
     unit: &str,
     room: usize,
 ) -> String {
     let now = value(answer, answer.active, quantity);
-    match (now, base(app, answer, quantity).and_then(|(_, base)| base)) {
+    match (now, base(pane, answer, quantity).and_then(|(_, base)| base)) {
         (Some(now), Some(base)) => against(now, base).unwrap_or_else(|| was(base, unit, room)),
         (Some(_), None) => "was none".to_owned(),
         (None, Some(base)) => was(base, unit, room),
@@ -47,16 +47,16 @@ fn was(base: f64, unit: &str, room: usize) -> String {
 
 /// The quantity's value and that of the baseline, with the method of the latter where it is
 /// another.
-pub(in crate::tui::view::results) fn compared(
-    app: &App,
+pub(in crate::tui::panes::results) fn compared(
+    pane: &Results<'_>,
     answer: &Answer,
     quantity: &Quantity,
 ) -> Option<String> {
-    let (method, base) = base(app, answer, quantity)?;
+    let (method, base) = base(pane, answer, quantity)?;
     let told = |value: Option<f64>| {
         value.map_or_else(
             || "none".to_owned(),
-            |value| shown_in(app, quantity, value).to_string(),
+            |value| shown_in(pane, quantity, value).to_string(),
         )
     };
     let whose = if method == answer.active {
@@ -72,8 +72,8 @@ pub(in crate::tui::view::results) fn compared(
 }
 
 // The method and the value of the baseline.
-fn base(app: &App, answer: &Answer, quantity: &Quantity) -> Option<(Method, Option<f64>)> {
-    let base = &app.baseline.as_ref()?.answer;
+fn base(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> Option<(Method, Option<f64>)> {
+    let base = &pane.baseline?.answer;
     let method = base.beside(answer.active);
     Some((
         method,

@@ -16,8 +16,8 @@ use crate::model::{Outcome, QUANTITIES, Quantity, Solution, Stages};
 use crate::report;
 use crate::report::groups::{self, FREE_IMPACT};
 use crate::report::verdict::{Standing, verdict};
-use crate::tui::app::App;
 use crate::tui::ascii::symbol;
+use crate::tui::panes::results::Results;
 use crate::tui::solver::Answer;
 use columns::Columns;
 
@@ -122,17 +122,17 @@ pub(super) fn row_of(answer: &Answer, line: usize) -> Option<usize> {
 }
 
 /// The whole table in that width.
-pub(super) fn lines(app: &App, answer: &Answer, width: usize) -> Table {
+pub(super) fn lines(pane: &Results<'_>, answer: &Answer, width: usize) -> Table {
     let cells: Vec<Cells> = order(answer)
-        .map(|quantity| Cells::of(app, answer, quantity))
+        .map(|quantity| Cells::of(pane, answer, quantity))
         .collect();
-    let columns = Columns::of(app, answer, &cells, width);
-    let faint = if app.tab.is_stale() {
-        app.look.theme.faint
+    let columns = Columns::of(pane, answer, &cells, width);
+    let faint = if pane.is_stale {
+        pane.look.theme.faint
     } else {
         Style::new()
     };
-    let line = |cells| columns.line(app, answer, cells).patch_style(faint);
+    let line = |cells| columns.line(pane, answer, cells).patch_style(faint);
     let mut rows: Vec<Line<'static>> = cells.iter().map(line).collect();
     if let Some(above) = above_heading(answer) {
         let titles = [format!("{FREE_IMPACT}:"), "Free impact:".to_owned()];
@@ -140,11 +140,11 @@ pub(super) fn lines(app: &App, answer: &Answer, width: usize) -> Table {
         let title = text::cut(fits.unwrap_or(&titles[1]), width);
         rows.insert(
             above,
-            Line::styled(title, app.look.theme.title).patch_style(faint),
+            Line::styled(title, pane.look.theme.title).patch_style(faint),
         );
     }
     Table {
-        heading: columns.heading(app, answer).patch_style(faint),
+        heading: columns.heading(pane, answer).patch_style(faint),
         rows,
     }
 }
@@ -163,24 +163,20 @@ pub(super) struct Cells {
 }
 
 impl Cells {
-    fn of(app: &App, answer: &Answer, quantity: &'static Quantity) -> Cells {
+    fn of(pane: &Results<'_>, answer: &Answer, quantity: &'static Quantity) -> Cells {
         let methods = methods(answer);
         let values: Vec<Option<f64>> = methods
             .iter()
             .map(|&method| value(answer, method, quantity))
             .collect();
-        let unit = report::unit_beside(
-            quantity,
-            values.iter().copied().flatten(),
-            app.settings.units,
-        );
+        let unit = report::unit_beside(quantity, values.iter().copied().flatten(), pane.units);
         let shown = |value: f64| report::shown_with(quantity, value, unit);
         let number =
             |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| shown(value).number);
         let has_value = values.iter().rev().copied().flatten().next();
         Cells {
             quantity,
-            symbol: symbol(quantity.symbol_in(answer.active), app.look.ascii).into_owned(),
+            symbol: symbol(quantity.symbol_in(answer.active), pane.look.ascii).into_owned(),
             label: quantity.label_in(answer.active),
             numbers: methods
                 .into_iter()
@@ -188,7 +184,7 @@ impl Cells {
                 .collect(),
             unit: has_value.map_or("", |value| shown(value).unit),
             common: unit,
-            mark: mark(app, answer, quantity),
+            mark: mark(pane, answer, quantity),
         }
     }
 
@@ -206,10 +202,9 @@ fn methods(answer: &Answer) -> Vec<Method> {
 }
 
 // Above its limit, or changed.
-fn mark(app: &App, answer: &Answer, quantity: &Quantity) -> &'static str {
-    let solution = answer.of(answer.active).filter(|_| !app.tab.is_stale());
-    let limit = app
-        .tab
+fn mark(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> &'static str {
+    let solution = answer.of(answer.active).filter(|_| !pane.is_stale);
+    let limit = pane
         .case
         .limits
         .iter()
@@ -219,14 +214,14 @@ fn mark(app: &App, answer: &Answer, quantity: &Quantity) -> &'static str {
         .is_some_and(|(limit, solution)| verdict(limit, solution).standing == Standing::Exceeded);
     match is_exceeded {
         true => "!",
-        false if is_changed(app, answer, quantity) => CHANGED,
+        false if is_changed(pane, answer, quantity) => CHANGED,
         false => " ",
     }
 }
 
 // Whether this visit of a field changed what is shown of the quantity.
-fn is_changed(app: &App, answer: &Answer, quantity: &Quantity) -> bool {
-    let Some(earlier) = app.tab.earlier.as_ref().filter(|_| !app.tab.is_stale()) else {
+fn is_changed(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> bool {
+    let Some(earlier) = pane.earlier.filter(|_| !pane.is_stale) else {
         return false;
     };
     let at = QUANTITIES
@@ -234,7 +229,7 @@ fn is_changed(app: &App, answer: &Answer, quantity: &Quantity) -> bool {
         .position(|known| known.key == quantity.key);
     let before = at.and_then(|at| earlier.get(at).copied().flatten());
     let now = answer.of(answer.active).and_then(quantity.value);
-    let told = |value: Option<f64>| value.map(|value| shown_in(app, quantity, value));
+    let told = |value: Option<f64>| value.map(|value| shown_in(pane, quantity, value));
     told(before) != told(now)
 }
 

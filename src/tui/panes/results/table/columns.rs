@@ -8,9 +8,9 @@ use unicode_width::UnicodeWidthStr;
 use super::difference::{WIDTH as DIFFERENCE, difference};
 use super::{Cells, methods};
 use crate::model::inputs::Method;
-use crate::tui::app::App;
+use crate::tui::panes::results::Results;
 use crate::tui::solver::Answer;
-use crate::tui::view::text;
+use crate::tui::text;
 
 /// Columns of a number, where there is room.
 const NUMBER: usize = 9;
@@ -45,11 +45,16 @@ pub(super) struct Columns {
 }
 
 impl Columns {
-    pub(super) fn of(app: &App, answer: &Answer, cells: &[Cells], width: usize) -> Columns {
+    pub(super) fn of(
+        pane: &Results<'_>,
+        answer: &Answer,
+        cells: &[Cells],
+        width: usize,
+    ) -> Columns {
         let all = subsets(answer);
         let enough = |methods: &&Vec<Method>| methods.len() >= ENOUGH_METHODS.min(all[0].len());
         let columns = |methods: &Vec<Method>, is_labelled, is_tight| {
-            Columns::measured(app, methods, cells, width, is_labelled, is_tight)
+            Columns::measured(pane, methods, cells, width, is_labelled, is_tight)
         };
         let labelled = all
             .iter()
@@ -63,13 +68,13 @@ impl Columns {
             .chain(others)
             .find(|columns| columns.taken() <= width)
             .unwrap_or_else(|| Columns {
-                is_shared: app.baseline.is_some(),
+                is_shared: pane.baseline.is_some(),
                 ..columns(&vec![answer.active], false, true)
             })
     }
 
     fn measured(
-        app: &App,
+        pane: &Results<'_>,
         methods: &[Method],
         cells: &[Cells],
         width: usize,
@@ -101,7 +106,7 @@ impl Columns {
             methods: methods.to_vec(),
             numbers: methods.iter().enumerate().map(number).collect(),
             unit: widest(&|cells| cells.unit.width()),
-            has_base: app.baseline.is_some(),
+            has_base: pane.baseline.is_some(),
             is_shared: false,
         }
     }
@@ -113,11 +118,11 @@ impl Columns {
     }
 
     /// The names of the methods above their columns.
-    pub(super) fn heading(&self, app: &App, answer: &Answer) -> Line<'static> {
+    pub(super) fn heading(&self, pane: &Results<'_>, answer: &Answer) -> Line<'static> {
         if self.is_shared {
-            return self.shared_heading(app, answer);
+            return self.shared_heading(pane, answer);
         }
-        let theme = app.look.theme;
+        let theme = pane.look.theme;
         let mut spans = Vec::new();
         let mut before = self.label.map_or(0, |label| self.symbol + label - 1);
         for (at, (&method, &width)) in self.methods.iter().zip(&self.numbers).enumerate() {
@@ -142,28 +147,28 @@ impl Columns {
         }
         if self.has_base {
             let room = self.unit + MARK + DIFFERENCE + 1;
-            let heading = to_base(app, answer, room);
+            let heading = to_base(pane, answer, room);
             let heading = format!(" {heading:>room$}");
             spans.push(Span::styled(heading, theme.baseline));
         }
         Line::from(spans)
     }
 
-    fn shared_heading(&self, app: &App, answer: &Answer) -> Line<'static> {
+    fn shared_heading(&self, pane: &Results<'_>, answer: &Answer) -> Line<'static> {
         let method = format!("▸{}", answer.active.name());
         let room = self.width.saturating_sub(method.width() + 1);
-        let heading = format!(" {:>room$}", to_base(app, answer, room));
+        let heading = format!(" {:>room$}", to_base(pane, answer, room));
         Line::from(vec![
-            Span::styled(method, app.look.theme.active),
-            Span::styled(heading, app.look.theme.baseline),
+            Span::styled(method, pane.look.theme.active),
+            Span::styled(heading, pane.look.theme.baseline),
         ])
     }
 
     /// The line of a quantity.
-    pub(super) fn line(&self, app: &App, answer: &Answer, cells: &Cells) -> Line<'static> {
+    pub(super) fn line(&self, pane: &Results<'_>, answer: &Answer, cells: &Cells) -> Line<'static> {
         let unit = cells.unit;
-        let theme = app.look.theme;
-        let base = |room| difference(app, answer, cells.quantity, cells.common, room);
+        let theme = pane.look.theme;
+        let base = |room| difference(pane, answer, cells.quantity, cells.common, room);
         if self.is_shared {
             let start = SHARED_SYMBOL.max(cells.symbol.width() + 1);
             let room = self.width.saturating_sub(start);
@@ -238,10 +243,9 @@ fn subsets(answer: &Answer) -> Vec<Vec<Method>> {
 }
 
 // The heading of the differences, with the baseline's method where it is another.
-fn to_base(app: &App, answer: &Answer, room: usize) -> String {
-    let base = app
+fn to_base(pane: &Results<'_>, answer: &Answer, room: usize) -> String {
+    let base = pane
         .baseline
-        .as_ref()
         .map(|baseline| baseline.answer.beside(answer.active));
     let other = base.filter(|&base| base != answer.active).map(Method::name);
     let headings = other.map(|other| [format!("vs {other} baseline"), format!("{other} baseline")]);

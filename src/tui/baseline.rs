@@ -1,0 +1,19 @@
+//! Pinned results, which all others are compared with.
+
+use super::solver::Answer;
+use crate::case::Case;
+
+/// Pinned results.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Baseline {
+    /// The tab in which it was, for as long as that is open.
+    pub tab: usize,
+    /// The name of the case.
+    pub name: String,
+    /// Whether that is the name of a file.
+    pub is_file: bool,
+    /// The case.
+    pub case: Case,
+    /// Its results.
+    pub answer: Answer,
+}

@@ -1,0 +1,149 @@
+//! The header: the open cases.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect};
+use ratatui::text::{Line, Span};
+use ratatui::widgets::Widget;
+use unicode_width::UnicodeWidthStr;
+
+use super::app::App;
+use super::commands::{Command, key_of};
+use super::tab::{Origin, Tab};
+use super::text;
+use crate::case::fields;
+
+/// What the header begins with.
+const HEAD: &str = "tipstrike";
+/// Stands before the open cases where there are others before them.
+const BEFORE: &str = "‹ ";
+/// A longer name of a case is cut where there are several.
+const LONGEST_NAME: usize = 24;
+/// The open cases, the current one with its path and title, and which of them are unsaved.
+pub(super) fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
+    let mut spans = vec![Span::styled(HEAD, app.look.theme.title), Span::raw("  ")];
+    if app.others.is_empty() {
+        spans.extend(only_case(app, area.width));
+    } else {
+        spans.extend(tabs(app, area.width));
+    }
+    Line::from(spans).render(area, buffer);
+}
+
+fn only_case(app: &App, width: u16) -> Vec<Span<'static>> {
+    let last = if app.tab.origin == Origin::LastCase {
+        format!(" (last case; {}: Table 1)", key_of(Command::BuiltIn))
+    } else {
+        String::new()
+    };
+    let mark = [
+        if app.tab.is_unsaved() {
+            " *unsaved*"
+        } else {
+            ""
+        },
+        app.tab.access.mark(),
+        &last,
+    ]
+    .concat();
+    let room = usize::from(width).saturating_sub(11 + mark.width());
+    let instead = app
+        .tab
+        .in_place_of
+        .as_ref()
+        .map(|path| format!(", for {} cannot be opened", path.display()));
+    let name = text::cut(
+        &format!("{}{}", app.tab.name(), instead.unwrap_or_default()),
+        room,
+    );
+    let title = fields::index_of("title")
+        .and_then(|title| app.tab.case.text(title))
+        .unwrap_or_default();
+    let left = usize::from(width).saturating_sub(11 + name.width() + mark.width() + 3);
+    let title = if title.is_empty() || left <= 8 {
+        String::new()
+    } else {
+        format!("   {}", text::cut(title, left))
+    };
+    vec![
+        Span::raw(name),
+        Span::styled(mark, app.look.theme.note),
+        Span::raw(title),
+    ]
+}
+
+/// The place of the open case whose name stands on a cell, where there is one.
+#[must_use]
+pub(super) fn tab_at(app: &App, area: Rect, at: Position) -> Option<usize> {
+    if app.others.is_empty() || !area.contains(at) {
+        return None;
+    }
+    let names: Vec<String> = app
+        .tabs()
+        .enumerate()
+        .map(|(at, tab)| tab_name(at, tab))
+        .collect();
+    let (from, to) = window(
+        &names,
+        app.place_of_tab,
+        usize::from(area.width).saturating_sub(15),
+    );
+    let mut right =
+        usize::from(area.x) + HEAD.width() + 2 + if from > 0 { BEFORE.width() } else { 0 };
+    (from..to).find(|&tab| {
+        let left = right;
+        right += names[tab].width() + 2;
+        (left..right).contains(&at.x.into())
+    })
+}
+
+// The open cases by their numbers, as many around the current one as have room; a mark at the end
+// where others are.
+fn tabs(app: &App, width: u16) -> Vec<Span<'static>> {
+    let names: Vec<String> = app
+        .tabs()
+        .enumerate()
+        .map(|(at, tab)| tab_name(at, tab))
+        .collect();
+    let (from, to) = window(
+        &names,
+        app.place_of_tab,
+        usize::from(width).saturating_sub(15),
+    );
+    let mut spans = vec![Span::raw(if from > 0 { BEFORE } else { "" })];
+    for (at, name) in names.iter().enumerate().take(to).skip(from) {
+        if at == app.place_of_tab {
+            spans.push(Span::styled(format!("[{name}]"), app.look.theme.key));
+        } else {
+            spans.push(Span::raw(format!(" {name} ")));
+        }
+    }
+    spans.push(Span::raw(if to < names.len() { " ›" } else { "" }));
+    spans
+}
+
+fn tab_name(at: usize, tab: &Tab) -> String {
+    format!(
+        "{} {}{}{}",
+        at + 1,
+        text::cut(&tab.short_name(), LONGEST_NAME),
+        if tab.is_unsaved() { "*" } else { "" },
+        tab.access.mark()
+    )
+}
+
+// The first and the last but one of the names that have room, grown from the one in the middle.
+fn window(names: &[String], middle: usize, width: usize) -> (usize, usize) {
+    let size = |at: usize| names.get(at).map_or(0, |name| name.width() + 2);
+    let (mut from, mut to, mut used) = (middle, middle + 1, size(middle));
+    loop {
+        if to < names.len() && used + size(to) <= width {
+            used += size(to);
+            to += 1;
+        } else if from > 0 && used + size(from - 1) <= width {
+            from -= 1;
+            used += size(from);
+        } else {
+            return (from, to);
+        }
+    }
+}

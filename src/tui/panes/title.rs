@@ -1,0 +1,126 @@
+//! The title line of a pane: the key that goes there, the title, and in one of the panes the names
+//! of the hidden ones.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect};
+use ratatui::style::Style;
+use unicode_width::UnicodeWidthStr;
+
+use crate::tui::pane::Pane;
+use crate::tui::text;
+use crate::tui::theme::Theme;
+
+/// Room for a title beside the names of hidden panes.
+const LEAST_TITLE: usize = 32;
+/// Stands before the number of a pane while a field takes the digits.
+const LEAVE: &str = "Esc ";
+
+/// The title line of a pane.
+#[derive(Debug, Clone)]
+pub struct Title {
+    /// The pane.
+    pub pane: Pane,
+    /// Whether it takes the keys.
+    pub has_focus: bool,
+    /// Whether a field takes the digits.
+    pub is_editing: bool,
+    /// The hidden panes, if this title names them.
+    pub hidden: Vec<Pane>,
+    /// The colours.
+    pub theme: &'static Theme,
+}
+
+impl Title {
+    /// The columns for the words of the title, in a pane of that width.
+    #[must_use]
+    pub fn room(&self, width: u16) -> usize {
+        room_beside(&self.names(width), width).saturating_sub(4 + self.key().len())
+    }
+
+    /// Draws the line, and returns the area below it.
+    pub fn draw(&self, words: &str, area: Rect, buffer: &mut Buffer) -> Rect {
+        let names = self.names(area.width);
+        let room = room_beside(&names, area.width);
+        let title = text::cut(&format!("{}{words}", self.key()), room.saturating_sub(4));
+        let inner = text::titled(&title, area, self.theme, buffer);
+        if self.has_focus && area.width > 4 {
+            buffer.set_string(area.x, area.y, "▸", self.theme.title);
+            buffer.set_stringn(
+                area.x + 1,
+                area.y,
+                format!(" {title} "),
+                usize::from(area.width) - 1,
+                self.theme.key,
+            );
+        }
+        if !names.is_empty() && room > LEAST_TITLE {
+            buffer.set_string(area.x + room as u16, area.y, &names, Style::new());
+        }
+        inner
+    }
+
+    /// The hidden pane whose name or key is on a cell.
+    #[must_use]
+    pub fn hidden_at(&self, area: Rect, at: Position) -> Option<Pane> {
+        let names = self.names(area.width);
+        let from = area.right().checked_sub(names.width() as u16 + 1)?;
+        let column = usize::from(at.x.checked_sub(from)?);
+        let begins = |pane: &&Pane| {
+            names
+                .find(&format!(" {}", pane.number()))
+                .is_some_and(|start| start <= column)
+        };
+        let named = self.hidden.iter().rfind(begins);
+        named
+            .filter(|_| at.y == area.y && column < names.width())
+            .copied()
+    }
+
+    // In a field Esc comes first, since a digit is part of the value there. No key for the form
+    // while one of its fields is edited.
+    fn key(&self) -> String {
+        match (self.is_editing, self.pane) {
+            (false, pane) => format!("{} ", pane.number()),
+            (true, Pane::Form) => String::new(),
+            (true, pane) => format!("{LEAVE}{} ", pane.number()),
+        }
+    }
+
+    // Keys and names of the hidden panes; their keys alone where names have no room.
+    fn names(&self, width: u16) -> String {
+        if self.hidden.is_empty() {
+            return String::new();
+        }
+        let leave = if self.is_editing {
+            format!(" {}", LEAVE.trim_end())
+        } else {
+            String::new()
+        };
+        let hidden = || self.hidden.iter();
+        let names = hidden().map(|pane| format!(" {} {} ", pane.number(), pane.name()));
+        let named: String = std::iter::once(leave.clone()).chain(names).collect();
+        if named.width() + LEAST_TITLE <= width.into() {
+            return named;
+        }
+        let numbers: String = hidden()
+            .map(|pane| format!(" {}", pane.number()))
+            .chain([" ".to_owned()])
+            .collect();
+        let in_full = leave + &numbers;
+        if room_beside(&in_full, width) > LEAST_TITLE {
+            in_full
+        } else {
+            numbers
+        }
+    }
+}
+
+// The names are at the right end, before one cell of the rule.
+fn room_beside(names: &str, width: u16) -> usize {
+    let taken = if names.is_empty() {
+        0
+    } else {
+        names.width() + 1
+    };
+    usize::from(width).saturating_sub(taken)
+}
