@@ -7,6 +7,8 @@ use ratatui::layout::Size;
 use super::baseline::Baseline;
 use super::benchmark::Traded;
 use super::commands::{Command, key_of};
+use super::cursor_range::CursorScope;
+use super::dialogs::{Prompt, Surroundings};
 use super::keys::Place;
 use super::layout::{Plan, plan};
 use super::pane::{Pane, Panes};
@@ -16,7 +18,6 @@ use super::panes::results::Results;
 use super::panes::teeth::{Picture, TeethView};
 use super::panes::title::Title;
 use super::panes::trade::TradePane;
-use super::prompt::Prompt;
 use super::rows;
 use super::session::recovery::{Access, NEWER, OpenCase};
 use super::settings::Settings;
@@ -174,6 +175,27 @@ impl App {
         }
     }
 
+    /// The charts and the pane in which the cursor moves.
+    #[must_use]
+    pub fn cursor_scope(&self) -> CursorScope<'_> {
+        let plan = self.plan();
+        let is_alone = plan.chart.is_empty() && !plan.teeth.is_empty();
+        CursorScope {
+            charts: self.charts(),
+            is_in_teeth: self.panes.focus == Pane::Teeth || is_alone,
+        }
+    }
+
+    /// The surroundings of a dialog.
+    #[must_use]
+    pub fn surroundings(&self) -> Surroundings<'_> {
+        Surroundings {
+            screen: self.size,
+            look: self.look,
+            cursor: self.cursor_scope(),
+        }
+    }
+
     /// The form with the case in it.
     #[must_use]
     pub fn form(&self) -> Form<'_> {
@@ -270,7 +292,7 @@ impl App {
     #[must_use]
     pub fn place(&self) -> Place {
         match self.prompts.last() {
-            Some(prompt) => prompt.place(),
+            Some(prompt) => prompt.dialog().place(),
             None if !self.has_line() => self.panes.focus.place(),
             None if !rows::names(&self.tab.case, self.tab.focus).is_empty() => Place::CHOICE,
             None if self.is_fresh() => Place::TEXT.or(Place::FRESH),

@@ -1,8 +1,6 @@
 //! The range of the cursor on the roll angle, and the parser of its prompt.
 
-use super::app::App;
-use super::layout::plan;
-use super::pane::Pane;
+use super::panes::chart::Charts;
 use super::panes::chart::axes::Ruler;
 use super::panes::chart::curves::{Whose, curves};
 use super::panes::chart::{first_contact, last_contact, panels};
@@ -18,6 +16,15 @@ pub const HOW: &str = "Type an angle before E (1.2 deg, 20 mrad), a time after E
 const PICTURES: f64 = 48.0;
 /// The start of a run in the teeth pane, before D, as a multiple of the angle from D to E.
 const APPROACH: f64 = 1.6;
+
+/// The charts and the pane in which the cursor moves.
+#[derive(Debug, Clone, Copy)]
+pub struct CursorScope<'a> {
+    /// The charts.
+    pub charts: Charts<'a>,
+    /// Whether it moves in the teeth pane.
+    pub is_in_teeth: bool,
+}
 
 /// The range of the cursor, in rad before E.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,21 +75,24 @@ impl Reach {
 ///
 /// # Errors
 /// If the text has no meaning, or the angle is out of range.
-pub fn parse_cursor(app: &App, typed: &str) -> Result<f64, String> {
-    let solution = solution(app).ok_or("no valid results for a cursor")?;
-    let reach = cursor_range(app).ok_or("no valid results for a cursor")?;
-    let angle = match place(app, solution, typed.trim()) {
+pub fn parse_cursor(scope: &CursorScope<'_>, typed: &str) -> Result<f64, String> {
+    let solution = scope
+        .charts
+        .solution()
+        .ok_or("no valid results for a cursor")?;
+    let reach = cursor_range(scope).ok_or("no valid results for a cursor")?;
+    let angle = match place(scope, solution, typed.trim()) {
         Some(place) => place?,
-        None => measured(app, typed)?,
+        None => measured(scope, typed)?,
     };
     let slack = 1e-9 * reach.column;
     if (reach.least - slack..=reach.most + slack).contains(&angle) {
         return Ok(reach.held(angle));
     }
-    let ends = [reach.most, reach.least].map(|end| describe(app, end));
+    let ends = [reach.most, reach.least].map(|end| describe(scope, end));
     Err(format!(
         "{} is out of range: from {} to {}",
-        describe(app, angle),
+        describe(scope, angle),
         ends[0],
         ends[1]
     ))
@@ -90,8 +100,8 @@ pub fn parse_cursor(app: &App, typed: &str) -> Result<f64, String> {
 
 /// The completion of a typed angle or time.
 #[must_use]
-pub fn ending(app: &App, typed: &str) -> Option<String> {
-    let ruler = ruler(app);
+pub fn ending(scope: &CursorScope<'_>, typed: &str) -> Option<String> {
+    let ruler = ruler(scope);
     let dimensions = [Dimension::Angle, Dimension::Time];
     if units::parse(typed, Dimension::Number, "").is_ok() {
         return units::ending(typed, Dimension::of_unit(ruler.unit)?, ruler.unit);
@@ -109,11 +119,10 @@ pub fn ending(app: &App, typed: &str) -> Option<String> {
 
 /// An angle in words, with the time between it and E.
 #[must_use]
-pub fn describe(app: &App, angle: f64) -> String {
-    let speed = app
-        .tab
+pub fn describe(scope: &CursorScope<'_>, angle: f64) -> String {
+    let speed = scope
+        .charts
         .answer
-        .as_ref()
         .map_or(0.0, |answer| answer.inputs.speed);
     let side = if angle < 0.0 { "after" } else { "before" };
     let micros = 1e6 * angle.abs() / speed;
@@ -126,7 +135,7 @@ pub fn describe(app: &App, angle: f64) -> String {
 }
 
 // A point by its name. `None` if the text is no name.
-fn place(app: &App, solution: &Solution, name: &str) -> Option<Result<f64, String>> {
+fn place(scope: &CursorScope<'_>, solution: &Solution, name: &str) -> Option<Result<f64, String>> {
     let geometry = &solution.geometry;
     let found = |angle: Option<f64>, why: &str| angle.ok_or_else(|| why.to_owned());
     Some(match name.to_lowercase().as_str() {
@@ -137,14 +146,14 @@ fn place(app: &App, solution: &Solution, name: &str) -> Option<Result<f64, Strin
             last_contact(solution),
             "only static and dynamic compute the last contact L",
         ),
-        "peak" => found(peak(app), "the chart has no curve, so no peak"),
+        "peak" => found(peak(scope), "the chart has no curve, so no peak"),
         _ => return None,
     })
 }
 
 // The angle at which the active method's curve in the chosen chart is farthest from 0.
-fn peak(app: &App) -> Option<f64> {
-    let curves = curves(&app.charts(), &GRAPHS[app.chart.graph]);
+fn peak(scope: &CursorScope<'_>) -> Option<f64> {
+    let curves = curves(&scope.charts, &GRAPHS[scope.charts.pane.graph]);
     let own = curves
         .iter()
         .find(|curve| matches!(curve.whose, Whose::Active(_)))?;
@@ -157,13 +166,12 @@ fn peak(app: &App) -> Option<f64> {
 }
 
 // Angles count before E and times after E, as on the axes.
-fn measured(app: &App, typed: &str) -> Result<f64, String> {
-    let whole = [typed, &ending(app, typed).unwrap_or_default()].concat();
+fn measured(scope: &CursorScope<'_>, typed: &str) -> Result<f64, String> {
+    let whole = [typed, &ending(scope, typed).unwrap_or_default()].concat();
     let angle = units::parse(&whole, Dimension::Angle, "deg");
-    let speed = app
-        .tab
+    let speed = scope
+        .charts
         .answer
-        .as_ref()
         .map_or(0.0, |answer| answer.inputs.speed);
     let time = || units::parse(&whole, Dimension::Time, "us").map(|time| 0.0 - time * speed);
     angle.or_else(|_| time()).map_err(
@@ -174,32 +182,30 @@ fn measured(app: &App, typed: &str) -> Result<f64, String> {
     )
 }
 
-fn ruler(app: &App) -> Ruler {
-    let speed = app
-        .tab
+fn ruler(scope: &CursorScope<'_>) -> Ruler {
+    let speed = scope
+        .charts
         .answer
-        .as_ref()
         .map_or(0.0, |answer| answer.inputs.speed);
-    Ruler::of(app.chart.by_time, speed, app.charts().window())
+    Ruler::of(scope.charts.pane.by_time, speed, scope.charts.window())
 }
 
 /// The range of the cursor in the focused pane, or in the visible pane. In a chart it is the range
 /// of the axis. In the teeth pane it extends to one base pitch after E.
 #[must_use]
-pub fn cursor_range(app: &App) -> Option<Reach> {
-    let solution = solution(app)?;
+pub fn cursor_range(scope: &CursorScope<'_>) -> Option<Reach> {
+    let solution = scope.charts.solution()?;
     let pitch = solution.geometry.base_pitch / solution.geometry.driver.base;
     let start = first_contact(solution).unwrap_or(0.0);
     let end = last_contact(solution).unwrap_or(0.0).min(0.0);
-    let axis = app.tab.scale.across;
+    let axis = scope.charts.scale.across;
     let before = if axis.is_empty() {
         start.max(pitch / 10.0)
     } else {
         start.max(-axis.from.to_radians())
     };
-    let columns = f64::from(panels::columns(&app.charts()).max(2) - 1);
-    let plan = plan(app.size, app.panes);
-    if app.panes.focus == Pane::Teeth || plan.chart.is_empty() && !plan.teeth.is_empty() {
+    let columns = f64::from(panels::columns(&scope.charts).max(2) - 1);
+    if scope.is_in_teeth {
         let (most, least) = (before.max(2.0 * start), end.min(-pitch));
         return Some(Reach {
             start,
@@ -210,7 +216,7 @@ pub fn cursor_range(app: &App) -> Option<Reach> {
             column: before / columns,
         });
     }
-    let window = app.charts().window();
+    let window = scope.charts.window();
     let (least, shown) = if axis.is_empty() {
         (end, before)
     } else {
@@ -234,15 +240,6 @@ pub fn cursor_range(app: &App) -> Option<Reach> {
         least,
         column: shown / columns,
     })
-}
-
-/// The active method's results.
-#[must_use]
-pub fn solution(app: &App) -> Option<&Solution> {
-    app.tab
-        .answer
-        .as_ref()
-        .and_then(|answer| answer.of(answer.active))
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ mod catalogue;
 mod chart;
 mod copy;
 mod cursor;
+mod dialogs;
 mod edit;
 pub(super) mod files;
 mod navigation;
@@ -15,7 +16,6 @@ mod options;
 mod page;
 mod panes;
 mod pointer;
-mod prompts;
 mod recovery;
 mod selection;
 mod tabs;
@@ -30,13 +30,15 @@ use ratatui::layout::Size;
 use super::actions::{Action, Effect};
 use super::app::App;
 use super::commands::{self, Command, Scope};
+use super::dialogs::Prompt;
+use super::dialogs::page::Page;
+use super::dialogs::picker::{Context, List, Picker};
 use super::help;
 use super::keys::Place;
 use super::pane::Pane;
 use super::panes::{form, results};
-use super::pick::{Context, List, Picker};
-use super::prompt::{Next, Page, Prompt};
 use super::rows;
+use super::session::save::Next;
 use super::solver::Request;
 use super::theme::Look;
 use crate::case::{Acting, Document, FIELDS, Field, changes, fields, relevance};
@@ -69,7 +71,7 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     effects.extend(solve(app.catch_up()));
     settle(app);
     chart::follow_cursor(app, cursor);
-    effects.extend(browse::look(app));
+    effects.extend(dialogs::preview(app));
     effects.extend(trade::stop_unseen(app));
     effects
 }
@@ -122,14 +124,14 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
         Action::Progress(progress) => app.progress = progress,
         Action::Loaded(path, result) => return files::loaded(app, path, result),
         Action::Saved(path, next, result) => return files::saved(app, path, next, result),
-        Action::Listed(listing) => browse::listed(app, *listing),
-        Action::Found(below) => browse::found(app, *below),
-        Action::Previewed(sight, preview) => browse::previewed(app, sight, *preview),
         Action::Claimed(claim) => recovery::claimed(app, *claim),
-        Action::Recents(recents) => browse::recalled(app, recents),
-        Action::Examples(digests) => catalogue::digested(app, digests),
-        Action::Explained(explained) => page::explained(app, *explained),
         Action::Failed(reason) => app.complain(reason),
+        result @ (Action::Listed(_)
+        | Action::Found(_)
+        | Action::Previewed(..)
+        | Action::Recents(_)
+        | Action::Examples(_)
+        | Action::Explained(_)) => dialogs::receive(app, result),
     }
     Vec::new()
 }
@@ -149,7 +151,7 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::CloseTab => files::close(app),
         Command::Quit => files::quit(app),
         Command::Cancel => cancel::cancel(app),
-        Command::Accept => prompts::accept(app),
+        Command::Accept => dialogs::accept(app),
         Command::Complete => browse::complete(app),
         Command::Undo | Command::Redo => travel(app, command),
         Command::ToggleMethod => set_method(app, None),

@@ -1,12 +1,5 @@
 //! The screen, drawn from the state alone.
 
-pub mod boxes;
-pub mod browser;
-pub mod cursor_prompt;
-pub mod digest;
-pub mod explain;
-pub mod picker;
-pub mod popup;
 pub mod status;
 
 use ratatui::buffer::Buffer;
@@ -93,7 +86,7 @@ fn draw_panes(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
     status::hint(app, plan.hint, buffer);
     status::keys(app, plan.keys, buffer);
     match app.prompts.last() {
-        Some(prompt) => popup::draw(app, prompt, area, buffer),
+        Some(prompt) => prompt.dialog().draw(&app.surroundings(), area, buffer),
         None => in_form,
     }
 }

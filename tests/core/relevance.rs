@@ -175,8 +175,7 @@ fn the_reason_is_a_short_sentence_and_not_a_makeshift() {
         let mut case = Case::table_1();
         case.set("model.method", method).unwrap();
         for (index, field) in FIELDS.iter().enumerate() {
-            let (Acting::No(why) | Acting::Beside(why)) = relevance(index, &case.read().0)
-            else {
+            let (Acting::No(why) | Acting::Beside(why)) = relevance(index, &case.read().0) else {
                 continue;
             };
             assert!(

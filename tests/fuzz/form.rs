@@ -20,9 +20,9 @@ use tipstrike::model::inputs::Method;
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::actions::Effect;
 use tipstrike::tui::app::App;
+use tipstrike::tui::dialogs::Prompt;
 use tipstrike::tui::events::{Event, take_action};
 use tipstrike::tui::jobs::Job;
-use tipstrike::tui::prompt::Prompt;
 use tipstrike::tui::session::autosave::Autosave;
 use tipstrike::tui::session::journal_writer::JournalWriter;
 use tipstrike::tui::solver::{self, Request};
@@ -301,8 +301,8 @@ impl Bench {
     fn look_around(&mut self) {
         let prompt = self.app.prompts.last().map(|prompt| match prompt {
             Prompt::Browse(_) => "browse",
-            Prompt::SaveAs(..) => "save as",
-            Prompt::Aim(_) => "aim",
+            Prompt::SaveAs(_) => "save as",
+            Prompt::CursorTo(_) => "aim",
             Prompt::Ask(_) => "ask",
             Prompt::Read(_) | Prompt::Explain(_) => "page",
             Prompt::Pick(_) => "pick",

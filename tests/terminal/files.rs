@@ -17,7 +17,7 @@ use tipstrike::case::{Document, fields};
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::actions::Effect;
 use tipstrike::tui::commands::Command as Do;
-use tipstrike::tui::prompt::Next;
+use tipstrike::tui::session::save::Next;
 use tipstrike::tui::session::save::SaveFault;
 use tipstrike::tui::update::update;
 use tty::{Launch, PROGRAM};

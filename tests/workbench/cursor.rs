@@ -2,7 +2,7 @@
 use crate::harness;
 
 use harness::{Desk, LARGE, SMALL, TABLE_1};
-use tipstrike::tui::prompt::Prompt;
+use tipstrike::tui::dialogs::Prompt;
 
 fn at(desk: &mut Desk, typed: &str) -> f64 {
     desk.keys(&["a", "Ctrl-U", typed, "Enter"]);
@@ -69,7 +69,7 @@ fn a_wrong_text_shows_the_reason_and_stays() {
     ] {
         desk.keys(&["Esc", "Esc", "a", typed, "Enter"]);
         assert!(desk.shows(said), "{typed}\n{}", desk.screen());
-        assert!(matches!(desk.app.prompts[..], [Prompt::Aim(_)]) && desk.app.cursor.is_none());
+        assert!(matches!(desk.app.prompts[..], [Prompt::CursorTo(_)]) && desk.app.cursor.is_none());
     }
     let mut desk = Desk::on(
         SMALL,

@@ -9,11 +9,10 @@ use insta::assert_snapshot;
 use tipstrike::case::EXAMPLES;
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::ascii::written_out;
-use tipstrike::tui::explanation::Explanation;
+use tipstrike::tui::dialogs::Prompt;
+use tipstrike::tui::dialogs::explanation::Explanation;
 use tipstrike::tui::panes::results;
-use tipstrike::tui::prompt::Prompt;
 use tipstrike::tui::theme::{Look, MONO};
-use tipstrike::tui::view::explain;
 
 /// The lines inside the box on the screen.
 fn in_box(desk: &Desk) -> Vec<String> {
@@ -226,9 +225,9 @@ fn it_scrolls_no_farther_than_its_end_at_any_size() {
     let Some(Prompt::Explain(mut page)) = desk.app.prompts.last().cloned() else {
         panic!("it is open")
     };
-    explain::scroll(&mut page, isize::MAX, SMALL, false);
+    page.scroll(isize::MAX, SMALL, false);
     let end = page.top;
-    explain::scroll(&mut page, 1, SMALL, false);
+    page.scroll(1, SMALL, false);
     assert_eq!(page.top, end);
 }
 

@@ -7,9 +7,10 @@ use insta::assert_snapshot;
 use tipstrike::case::Change;
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::app::Progress;
-use tipstrike::tui::prompt::Next;
-use tipstrike::tui::prompt::{Prompt, Question};
+use tipstrike::tui::dialogs::Prompt;
+use tipstrike::tui::dialogs::question::Question;
 use tipstrike::tui::session::recovery::{Access, Claim, Offer};
+use tipstrike::tui::session::save::Next;
 use tipstrike::tui::session::save::SaveFault;
 use tipstrike::tui::theme::{Look, MONO};
 

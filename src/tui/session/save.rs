@@ -8,6 +8,21 @@ use crate::case::changes::{self, Change};
 use crate::case::file::{ReadError, SaveError, Saved};
 use crate::tui::store::at_home;
 
+/// What comes after a save or a decision to lose the edits.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Next {
+    /// Go on with this case.
+    Stay,
+    /// Leave the workbench.
+    Quit,
+    /// Save what else is unsaved, then leave the workbench.
+    SaveRest,
+    /// Close this case.
+    Close,
+    /// Open this file in place of the case.
+    Load(PathBuf),
+}
+
 const ONLY_SPACING: &str = "Every field is the same: only comments or spacing differ.";
 const ALL_THE_SAME: &str = "Every field in it is as in the form.";
 

@@ -7,15 +7,14 @@ use crate::case::step::step_limit;
 use crate::case::{FIELDS, Limit};
 use crate::model::Quantity;
 use crate::report;
-use crate::report::digest::Digest;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::ascii::symbol;
+use crate::tui::dialogs::Prompt;
+use crate::tui::dialogs::picker::{List, Picker};
 use crate::tui::jobs::Job;
 use crate::tui::pane::Pane;
 use crate::tui::panes::results;
-use crate::tui::pick::{List, Picker};
-use crate::tui::prompt::Prompt;
 use crate::tui::rows::{self, Row};
 
 /// Ask for the material of the gear whose field is focused, else of both.
@@ -34,17 +33,6 @@ pub(super) fn examples(app: &mut App) -> Vec<Effect> {
     app.prompts
         .push(Prompt::Pick(Picker::new(List::Examples(Vec::new()))));
     vec![Effect::Job(Job::Examples(app.settings.units))]
-}
-
-/// What the examples are has been found out.
-pub(super) fn digested(app: &mut App, found: Vec<Digest>) {
-    if let Some(Prompt::Pick(Picker {
-        list: List::Examples(digests),
-        ..
-    })) = app.prompts.last_mut()
-    {
-        *digests = found;
-    }
 }
 
 /// Make the gears of a material: one edit, which undo takes back.

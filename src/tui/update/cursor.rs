@@ -3,16 +3,15 @@
 use super::panes;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
-use crate::tui::cursor_range::{cursor_range, parse_cursor, solution};
-use crate::tui::layout;
-use crate::tui::line::Line;
+use crate::tui::cursor_range::{Reach, cursor_range};
+use crate::tui::dialogs::Prompt;
+use crate::tui::dialogs::cursor_to::CursorTo;
 use crate::tui::pane::Pane;
 use crate::tui::panes::chart::{self, first_contact};
-use crate::tui::prompt::Prompt;
 
 /// Moves the cursor by columns towards E.
 pub(super) fn step(app: &mut App, columns: i16) -> Vec<Effect> {
-    match cursor_range(app) {
+    match range(app) {
         Some(reach) => app.cursor = Some(reach.moved(app.cursor, columns)),
         None => app.complain("no valid results for a cursor"),
     }
@@ -21,7 +20,8 @@ pub(super) fn step(app: &mut App, columns: i16) -> Vec<Effect> {
 
 /// Moves the cursor to the first contact.
 pub(super) fn to_start(app: &mut App) -> Vec<Effect> {
-    match solution(app).and_then(first_contact) {
+    let start = app.charts().solution().and_then(first_contact);
+    match start {
         Some(angle) => app.cursor = Some(angle),
         None => app.complain("no corner contact, so no D"),
     }
@@ -30,34 +30,26 @@ pub(super) fn to_start(app: &mut App) -> Vec<Effect> {
 
 /// Asks for an angle, a time or a point.
 pub(super) fn ask(app: &mut App) {
-    if cursor_range(app).is_some() {
-        app.prompts.push(Prompt::Aim(Line::default()));
+    if range(app).is_some() {
+        app.prompts.push(Prompt::CursorTo(CursorTo::default()));
     } else {
         app.complain("no valid results for a cursor");
     }
 }
 
 /// Moves the cursor to the typed angle. Shows the chart if neither charts nor teeth are visible.
-pub(super) fn take_aim(app: &mut App, typed: &str) -> Vec<Effect> {
-    match parse_cursor(app, typed) {
-        Err(reason) => {
-            app.complain(reason);
-            // Typing replaces the wrong text.
-            if let Some(Prompt::Aim(line)) = app.prompts.last_mut() {
-                line.select_all();
-            }
-        }
+pub(super) fn move_to(app: &mut App, typed: Result<f64, String>) -> Vec<Effect> {
+    match typed {
+        Err(reason) => app.complain(reason),
         Ok(angle) => {
             app.prompts.pop();
-            let plan = layout::plan(app.size, app.panes);
+            let plan = app.plan();
             if plan.chart.is_empty() && plan.teeth.is_empty() {
                 panes::show(app, Pane::Chart);
             }
             app.cursor = Some(angle);
-            app.say(format!(
-                "cursor at {}",
-                chart::readout(&app.charts(), angle)
-            ));
+            let reading = chart::readout(&app.charts(), angle);
+            app.say(format!("cursor at {reading}"));
         }
     }
     stop(app)
@@ -74,7 +66,7 @@ pub(super) fn play(app: &mut App) -> Vec<Effect> {
     if app.is_playing {
         return stop(app);
     }
-    let Some(reach) = cursor_range(app).filter(|reach| reach.run_from > reach.run_to) else {
+    let Some(reach) = range(app).filter(|reach| reach.run_from > reach.run_to) else {
         app.complain("no corner contact, so nothing to play");
         return Vec::new();
     };
@@ -93,7 +85,7 @@ pub(super) fn tick(app: &mut App) -> Vec<Effect> {
     if !app.is_playing {
         return vec![Effect::Play(false)];
     }
-    let reach = cursor_range(app);
+    let reach = range(app);
     let next = reach
         .zip(app.cursor)
         .and_then(|(reach, cursor)| reach.played(cursor));
@@ -112,4 +104,8 @@ pub(super) fn stop(app: &mut App) -> Vec<Effect> {
     } else {
         Vec::new()
     }
+}
+
+fn range(app: &App) -> Option<Reach> {
+    cursor_range(&app.cursor_scope())
 }

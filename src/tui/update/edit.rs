@@ -11,9 +11,8 @@ use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::line::Line;
 use crate::tui::pane::Pane;
-use crate::tui::prompt::Prompt;
 use crate::tui::session::recovery;
-use crate::tui::update::{browse, files};
+use crate::tui::update::{browse, dialogs};
 use crate::tui::{ascii, rows};
 
 /// A longer text is no value, title or path.
@@ -21,10 +20,8 @@ const LONGEST: usize = 4096;
 
 /// A character typed.
 pub(super) fn insert(app: &mut App, letter: char) -> Vec<Effect> {
-    if let Some(Prompt::Ask(question)) = app.prompts.last() {
-        return question
-            .by_letter(letter)
-            .map_or_else(Vec::new, |choice| files::choose(app, choice));
+    if let Some(effects) = dialogs::letter(app, letter) {
+        return effects;
     }
     if app.prompts.is_empty() && app.has_line() && !names(app).is_empty() {
         return choose_by_letter(app, letter);
@@ -77,7 +74,7 @@ pub(super) fn paste(app: &mut App, text: &str) -> Vec<Effect> {
     let editing_case = app.prompts.is_empty();
     let takes_text = app.has_line() && names(app).is_empty();
     let line = match app.prompts.last_mut() {
-        Some(prompt) => prompt.input_mut(),
+        Some(prompt) => prompt.dialog_mut().input(),
         None => Some(&mut app.tab.input).filter(|_| takes_text),
     };
     let Some(line) = line else { return Vec::new() };
@@ -119,7 +116,10 @@ pub(super) fn handle(app: &mut App, request: InputRequest) -> Vec<Effect> {
         return browse::up(app);
     }
     if let Some(prompt) = app.prompts.last_mut() {
-        let changed = prompt.input_mut().and_then(|input| input.handle(request));
+        let changed = prompt
+            .dialog_mut()
+            .input()
+            .and_then(|input| input.handle(request));
         return if changed.is_some_and(|changed| changed.value) {
             line_changed(app)
         } else {
@@ -276,14 +276,8 @@ fn checked(app: &mut App) -> Vec<Effect> {
     solve(request)
 }
 
-// The line of a prompt has changed.
+// The line of a dialog has changed.
 fn line_changed(app: &mut App) -> Vec<Effect> {
-    match app.prompts.last_mut() {
-        Some(Prompt::Browse(browser)) => browse::typed(browser),
-        Some(Prompt::Pick(picker)) => {
-            picker.marked = 0;
-            Vec::new()
-        }
-        _ => Vec::new(),
-    }
+    let prompt = app.prompts.last_mut();
+    prompt.map_or_else(Vec::new, |prompt| prompt.dialog_mut().typed())
 }

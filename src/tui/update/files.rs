@@ -8,11 +8,14 @@ use crate::case::file::Saved;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::ascii;
+use crate::tui::dialogs::Prompt;
+use crate::tui::dialogs::page::Page;
+use crate::tui::dialogs::question::{Choice, Question};
+use crate::tui::dialogs::save_as::SaveAs;
 use crate::tui::line::{CASE_ENDING, Line};
-use crate::tui::prompt::{Choice, Next, Page, Prompt, Question};
 use crate::tui::rows;
 use crate::tui::session::recovery::{Access, NEWER};
-use crate::tui::session::save::{Over, SaveFault, Saving, Written};
+use crate::tui::session::save::{Next, Over, SaveFault, Saving, Written};
 use crate::tui::tab::{Origin, Tab};
 
 /// Leave, or ask when anything is unsaved.
@@ -76,7 +79,8 @@ pub(super) fn ask_where(app: &mut App, next: Next) -> Vec<Effect> {
         .path
         .as_ref()
         .map_or_else(|| "case.toml".to_owned(), |path| path.display().to_string());
-    app.prompts.push(Prompt::SaveAs(Line::named(path), next));
+    let input = Line::named(path);
+    app.prompts.push(Prompt::SaveAs(SaveAs { input, next }));
     Vec::new()
 }
 
@@ -91,7 +95,7 @@ pub(super) fn choose(app: &mut App, choice: Choice) -> Vec<Effect> {
         Choice::Recover(offer) => recovery::recover(app, &offer),
         Choice::Forget(journal) => vec![Effect::Forget(journal)],
         Choice::SaveAs(next) => {
-            if !matches!(app.prompts.last(), Some(Prompt::SaveAs(..))) {
+            if !app.prompts.last().is_some_and(Prompt::is_save_as) {
                 return ask_where(app, next);
             }
             Vec::new()
@@ -137,7 +141,7 @@ pub(super) fn saved(
     match result {
         Ok(written) => {
             let Written { document, saved } = *written;
-            if matches!(app.prompts.last(), Some(Prompt::SaveAs(..))) {
+            if app.prompts.last().is_some_and(Prompt::is_save_as) {
                 app.prompts.pop();
             }
             app.tab.saved = document.case.clone();

@@ -1,14 +1,12 @@
 //! Walking: lines, groups and pages, in the focused pane or in what lies over it.
 
-use super::trade;
+use super::{dialogs, trade};
 use crate::case::Case;
 use crate::tui::app::App;
 use crate::tui::commands::Command;
 use crate::tui::pane::Pane;
 use crate::tui::panes::results;
-use crate::tui::prompt::Prompt;
 use crate::tui::rows;
-use crate::tui::view::{boxes, explain, popup};
 
 /// A command that moves a focus or a mark; others change nothing.
 pub(super) fn walk(app: &mut App, command: Command) {
@@ -47,35 +45,23 @@ fn fault(app: &mut App) {
 }
 
 fn step(app: &mut App, by: isize) {
-    match app.prompts.last_mut() {
-        None if app.panes.focus == Pane::Results => mark(app, by),
-        None if app.panes.focus == Pane::Trade => trade::step(app, by),
-        None => app.focus_on(app.tab.focus.saturating_add_signed(by)),
-        Some(Prompt::Browse(browser)) => browser.mark(by),
-        Some(Prompt::Pick(picker)) => picker.mark(by),
-        Some(Prompt::Ask(question)) => question.mark(by),
-        Some(Prompt::Read(page)) => popup::scroll(page, by, app.size),
-        Some(Prompt::Explain(explanation)) => {
-            explain::scroll(explanation, by, app.size, app.look.ascii);
-        }
-        Some(Prompt::SaveAs(..) | Prompt::Aim(_)) => (),
+    if dialogs::with(app, |dialog, around| dialog.step(by, around)).is_some() {
+        return;
+    }
+    match app.panes.focus {
+        Pane::Results => mark(app, by),
+        Pane::Trade => trade::step(app, by),
+        _ => app.focus_on(app.tab.focus.saturating_add_signed(by)),
     }
 }
 
 fn leap(app: &mut App, by: isize) {
-    let page_of_prompt = isize::try_from(boxes::room(app.size).height)
-        .unwrap_or(1)
-        .max(1);
-    match app.prompts.last_mut() {
-        None if app.panes.focus == Pane::Results => turn(app, by * page(app)),
-        None => app.focus_on(group_beside(&app.tab.case, app.tab.focus, by)),
-        Some(Prompt::Browse(browser)) => browser.mark(by * page_of_prompt),
-        Some(Prompt::Pick(picker)) => picker.mark(by * page_of_prompt),
-        Some(Prompt::Read(text)) => popup::scroll(text, by * page_of_prompt, app.size),
-        Some(Prompt::Explain(text)) => {
-            explain::scroll(text, by * page_of_prompt, app.size, app.look.ascii);
-        }
-        Some(Prompt::Ask(_) | Prompt::SaveAs(..) | Prompt::Aim(_)) => (),
+    if dialogs::with(app, |dialog, around| dialog.turn(by, around)).is_some() {
+        return;
+    }
+    match app.panes.focus {
+        Pane::Results => turn(app, by * page(app)),
+        _ => app.focus_on(group_beside(&app.tab.case, app.tab.focus, by)),
     }
 }
 

@@ -1,16 +1,15 @@
 //! The page on one result, and the way from it to the fields behind it.
 
-use super::panes;
-use crate::case::fields::index_of;
+use super::dialogs;
 use crate::case::units::System;
 use crate::report;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
-use crate::tui::explanation::Explanation;
-use crate::tui::jobs::{Asked, Explained, Job};
+use crate::tui::dialogs::Prompt;
+use crate::tui::dialogs::explanation::Explanation;
+use crate::tui::dialogs::page::Page;
+use crate::tui::jobs::{Asked, Job};
 use crate::tui::panes::results;
-use crate::tui::prompt::{Page, Prompt};
-use crate::tui::view::explain;
 
 /// Open the page on the marked result.
 pub(super) fn explain(app: &mut App) -> Vec<Effect> {
@@ -58,29 +57,7 @@ pub(super) fn notes(app: &mut App) {
     }
 }
 
-/// The page has been written.
-pub(super) fn explained(app: &mut App, explained: Explained) {
-    if let Some(Prompt::Explain(explanation)) = app.prompts.last_mut() {
-        explanation.take(explained);
-    }
-}
-
-/// Mark another one of the fields, and bring it into sight.
+/// Selects another one of the fields, and makes it visible.
 pub(super) fn step(app: &mut App, by: isize) {
-    if let Some(Prompt::Explain(explanation)) = app.prompts.last_mut() {
-        explanation.mark(by);
-        explain::follow(explanation, app.size, app.look.ascii);
-    }
-}
-
-/// Go to the marked field; where none is marked, mark the first one.
-pub(super) fn accept(app: &mut App, explanation: &Explanation) -> Vec<Effect> {
-    match explanation.field().and_then(index_of) {
-        Some(field) => {
-            app.prompts.clear();
-            panes::go_to(app, field);
-        }
-        None => step(app, 1),
-    }
-    Vec::new()
+    dialogs::with(app, |dialog, around| dialog.select_field(by, around));
 }

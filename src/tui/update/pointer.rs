@@ -2,7 +2,7 @@
 
 use ratatui::layout::Position;
 
-use super::{chart, cursor, edit, page, panes, prompts, tabs, teeth};
+use super::{chart, cursor, dialogs, edit, page, panes, tabs, teeth};
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::header;
@@ -10,31 +10,14 @@ use crate::tui::pane::Pane;
 use crate::tui::panes::chart::{ChartCommand, panels};
 use crate::tui::panes::teeth::TeethCommand;
 use crate::tui::panes::{form, results};
-use crate::tui::prompt::Prompt;
-use crate::tui::view::{browser, explain, picker, popup};
 
 /// A press: onto a field, a result, the chart, the name of a case or of a pane out of sight, a line
 /// of a list, a button. A second press on what is marked does what Enter does.
 pub(super) fn click(app: &mut App, at: Position) -> Vec<Effect> {
-    let size = app.size;
-    let is_again = match app.prompts.last_mut() {
-        None => return in_panes(app, at),
-        Some(Prompt::Pick(picker)) => {
-            picker::item_at(picker, size, at).map(|line| mark(&mut picker.marked, line))
-        }
-        Some(Prompt::Browse(browser)) => {
-            browser::line_at(browser, size, at).map(|line| mark(&mut browser.marked, line))
-        }
-        Some(Prompt::Ask(question)) => popup::button_at(question, size, at).map(|button| {
-            question.marked = button;
-            true
-        }),
-        Some(Prompt::Read(_) | Prompt::Explain(_) | Prompt::SaveAs(..) | Prompt::Aim(_)) => None,
-    };
-    if is_again == Some(true) {
-        prompts::accept(app)
-    } else {
-        Vec::new()
+    match dialogs::with(app, |dialog, around| dialog.click(at, around.screen)) {
+        None => in_panes(app, at),
+        Some(true) => dialogs::accept(app),
+        Some(false) => Vec::new(),
     }
 }
 
@@ -94,23 +77,16 @@ fn in_form(app: &mut App, field: Option<usize>) -> Vec<Effect> {
 
 /// A turn of the wheel by so many lines downwards.
 pub(super) fn wheel(app: &mut App, at: Position, by: isize) {
-    match app.prompts.last_mut() {
-        Some(Prompt::Read(page)) => popup::scroll(page, by, app.size),
-        Some(Prompt::Explain(page)) => explain::scroll(page, by, app.size, app.look.ascii),
-        Some(Prompt::Browse(browser)) => browser.mark(by),
-        Some(Prompt::Pick(picker)) => picker.mark(by),
-        Some(Prompt::Ask(_) | Prompt::SaveAs(..) | Prompt::Aim(_)) => (),
-        None => match pane_at(app, at) {
-            Some(Pane::Form) => app.tab.form_top = form::scrolled(&app.form(), by),
-            Some(Pane::Results) => app.tab.results.top = results::scrolled(&app.results(), by),
-            Some(Pane::Chart) => {
-                chart::run(app, ChartCommand::Zoom(if by < 0 { 1 } else { -1 }));
-            }
-            Some(Pane::Teeth) => {
-                teeth::run(app, TeethCommand::Zoom(if by < 0 { 1 } else { -1 }));
-            }
-            _ => (),
-        },
+    if dialogs::with(app, |dialog, around| dialog.wheel(by, around)).is_some() {
+        return;
+    }
+    let nearer = if by < 0 { 1 } else { -1 };
+    match pane_at(app, at) {
+        Some(Pane::Form) => app.tab.form_top = form::scrolled(&app.form(), by),
+        Some(Pane::Results) => app.tab.results.top = results::scrolled(&app.results(), by),
+        Some(Pane::Chart) => chart::run(app, ChartCommand::Zoom(nearer)),
+        Some(Pane::Teeth) => teeth::run(app, TeethCommand::Zoom(nearer)),
+        Some(Pane::Trade) | None => (),
     }
 }
 

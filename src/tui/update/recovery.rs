@@ -3,7 +3,8 @@
 use super::{solve, tabs};
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
-use crate::tui::prompt::{Prompt, Question};
+use crate::tui::dialogs::Prompt;
+use crate::tui::dialogs::question::Question;
 use crate::tui::session::recovery::{Access, Claim, Offer};
 
 /// Shows the result of opening a case.

@@ -6,25 +6,43 @@ use ratatui::style::Style;
 use ratatui::text::Line;
 use ratatui::widgets::{Block, Clear, Widget};
 
-use super::text;
+use crate::tui::text;
 use crate::tui::theme::Theme;
+use unicode_width::UnicodeWidthStr;
 
 /// The widest one.
-pub const WIDEST: u16 = 100;
+pub(super) const WIDEST: u16 = 100;
 /// Room for four buttons.
 const NARROWEST: u16 = 52;
 
 /// The room inside the largest box.
 #[must_use]
-pub fn room(screen: Size) -> Size {
+pub(super) fn room(screen: Size) -> Size {
     Size {
         width: screen.width.min(WIDEST).saturating_sub(5),
         height: screen.height.saturating_sub(4),
     }
 }
 
+/// The lines of a page in the largest box.
+#[must_use]
+pub(super) fn page_height(screen: Size) -> isize {
+    isize::try_from(room(screen).height).unwrap_or(1).max(1)
+}
+
+/// Selects a line. Returns whether it was selected before.
+pub(super) fn select(selected: &mut usize, line: usize) -> bool {
+    std::mem::replace(selected, line) == line
+}
+
 /// An emptied box with a border, as large as is wanted if there is room.
-pub fn frame(title: &str, wanted: Size, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Rect {
+pub(super) fn frame(
+    title: &str,
+    wanted: Size,
+    screen: Rect,
+    theme: &Theme,
+    buffer: &mut Buffer,
+) -> Rect {
     let area = outside(wanted, screen);
     Clear.render(area, buffer);
     let title = Line::styled(
@@ -49,7 +67,7 @@ fn outside(wanted: Size, screen: Rect) -> Rect {
 
 /// What is inside of such a box.
 #[must_use]
-pub fn inside(wanted: Size, screen: Rect) -> Rect {
+pub(super) fn inside(wanted: Size, screen: Rect) -> Rect {
     let inner = Block::bordered().inner(outside(wanted, screen));
     Rect {
         x: inner.x + 1,
@@ -59,7 +77,7 @@ pub fn inside(wanted: Size, screen: Rect) -> Rect {
 }
 
 /// A list on the left and what belongs to it on the right, with a rule between them.
-pub fn halves(area: Rect, buffer: &mut Buffer) -> (Rect, Rect) {
+pub(super) fn halves(area: Rect, buffer: &mut Buffer) -> (Rect, Rect) {
     let left = area.width * 2 / 5;
     for y in area.top()..area.bottom() {
         buffer.set_stringn(
@@ -75,7 +93,7 @@ pub fn halves(area: Rect, buffer: &mut Buffer) -> (Rect, Rect) {
 
 /// The two without the rule.
 #[must_use]
-pub fn parted(area: Rect) -> (Rect, Rect) {
+pub(super) fn parted(area: Rect) -> (Rect, Rect) {
     let left = area.width * 2 / 5;
     let right = area.width.saturating_sub(left + 2);
     (
@@ -92,7 +110,7 @@ pub fn parted(area: Rect) -> (Rect, Rect) {
 }
 
 /// The lines of a list around the marked one; of the others nothing is made.
-pub fn draw_window(
+pub(super) fn draw_window(
     count: usize,
     line: impl Fn(usize) -> String,
     marked: Option<usize>,
@@ -116,7 +134,12 @@ pub fn draw_window(
 
 /// The line of such a list on a cell, where there is one.
 #[must_use]
-pub fn line_at(count: usize, marked: Option<usize>, area: Rect, at: Position) -> Option<usize> {
+pub(super) fn line_at(
+    count: usize,
+    marked: Option<usize>,
+    area: Rect,
+    at: Position,
+) -> Option<usize> {
     let line = area
         .contains(at)
         .then(|| top_of(marked, area) + usize::from(at.y - area.y));
@@ -125,4 +148,14 @@ pub fn line_at(count: usize, marked: Option<usize>, area: Rect, at: Position) ->
 
 fn top_of(marked: Option<usize>, area: Rect) -> usize {
     marked.map_or(0, |marked| (marked + 1).saturating_sub(area.height.into()))
+}
+
+/// What the lines and some more below them take.
+pub(super) fn extent(lines: &[String], more: usize) -> Size {
+    let width = lines.iter().map(|line| line.width()).max().unwrap_or(0);
+    let size = |length: usize| u16::try_from(length).unwrap_or(u16::MAX);
+    Size {
+        width: size(width),
+        height: size(lines.len() + more),
+    }
 }

@@ -1,47 +1,24 @@
-//! What lies over the form: prompts for a path, questions with buttons, pages to read.
+//! A question with buttons.
 
 use std::path::{Path, PathBuf};
 
-use super::browser::Browser;
-use super::explanation::Explanation;
-use super::keys::Place;
-use super::line::Line;
-use super::pick::Picker;
-use super::session::recovery::{self, Offer};
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect, Size};
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::Widget;
+use unicode_width::UnicodeWidthStr;
 
-/// Something that lies over the form and takes the keys.
-#[derive(Debug, Clone)]
-pub enum Prompt {
-    /// Which file to open.
-    Browse(Box<Browser>),
-    /// Where to save, and what comes next.
-    SaveAs(Line, Next),
-    /// Where the cursor is to go.
-    Aim(Line),
-    /// A question with buttons.
-    Ask(Question),
-    /// A page to read, scrolled to a line.
-    Read(Page),
-    /// Where a result comes from.
-    Explain(Explanation),
-    /// A list to pick from.
-    Pick(Picker),
-}
+use super::boxes::{extent, frame, inside, room};
+use super::{Dialog, Outcome, Surroundings};
+use crate::tui::keys::Place;
+use crate::tui::session::recovery::{self, Offer};
+use crate::tui::session::save::Next;
+use crate::tui::text;
+use crate::tui::theme::Theme;
 
-/// What comes after a save or a decision to lose the edits.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Next {
-    /// Go on with this case.
-    Stay,
-    /// Leave the workbench.
-    Quit,
-    /// Save what else is unsaved, then leave the workbench.
-    SaveRest,
-    /// Close this case.
-    Close,
-    /// Open this file in place of the case.
-    Load(PathBuf),
-}
+/// Brackets, marks and the gap beside the name of a button.
+const BESIDE_NAME: u16 = 7;
 
 /// A question with buttons.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -75,42 +52,6 @@ pub enum Choice {
     Forget(PathBuf),
     /// Back to the form.
     Cancel,
-}
-
-/// A page to read.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Page {
-    /// In a few words.
-    pub title: String,
-    /// Its lines.
-    pub lines: Vec<String>,
-    /// The first line in sight.
-    pub top: usize,
-}
-
-impl Prompt {
-    /// Which keys it takes.
-    #[must_use]
-    pub fn place(&self) -> Place {
-        match self {
-            Prompt::Browse(_) => Place::BROWSE,
-            Prompt::SaveAs(..) | Prompt::Aim(_) => Place::PATH,
-            Prompt::Ask(_) => Place::ASK,
-            Prompt::Read(_) => Place::READ,
-            Prompt::Explain(_) => Place::EXPLAIN,
-            Prompt::Pick(_) => Place::PICK,
-        }
-    }
-
-    /// The line of text that it edits.
-    pub fn input_mut(&mut self) -> Option<&mut Line> {
-        match self {
-            Prompt::Browse(browser) => Some(&mut browser.input),
-            Prompt::SaveAs(input, _) | Prompt::Aim(input) => Some(input),
-            Prompt::Pick(picker) => Some(&mut picker.input),
-            Prompt::Ask(_) | Prompt::Read(_) | Prompt::Explain(_) => None,
-        }
-    }
 }
 
 impl Question {
@@ -258,14 +199,118 @@ impl Question {
     }
 }
 
-impl Page {
-    /// A page from its first line.
-    #[must_use]
-    pub fn new(title: impl Into<String>, lines: Vec<String>) -> Page {
-        Page {
-            title: title.into(),
-            lines,
-            top: 0,
-        }
+impl Dialog for Question {
+    fn place(&self) -> Place {
+        Place::ASK
     }
+
+    fn letter(&mut self, letter: char) -> Option<Outcome> {
+        Some(
+            self.by_letter(letter)
+                .map_or_else(Outcome::none, Outcome::Choose),
+        )
+    }
+
+    fn step(&mut self, by: isize, _: &Surroundings<'_>) {
+        self.mark(by);
+    }
+
+    fn wheel(&mut self, _: isize, _: &Surroundings<'_>) {}
+
+    fn click(&mut self, at: Position, screen: Size) -> bool {
+        let button = button_at(self, screen, at);
+        self.marked = button.unwrap_or(self.marked);
+        button.is_some()
+    }
+
+    fn accept(&mut self, _: &Surroundings<'_>) -> Outcome {
+        let button = self.buttons.get(self.marked);
+        button.map_or_else(Outcome::none, |(_, choice)| Outcome::Choose(choice.clone()))
+    }
+
+    fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
+        draw_question(self, area, around.look.theme, buffer);
+        None
+    }
+}
+
+fn draw_question(question: &Question, screen: Rect, theme: &Theme, buffer: &mut Buffer) {
+    let lines = question_lines(question, room(screen.as_size()));
+    let inner = frame(question.title, extent(&lines, 2), screen, theme, buffer);
+    for (line, y) in lines.iter().zip(inner.top()..inner.bottom()) {
+        buffer.set_stringn(inner.x, y, line, inner.width.into(), Style::new());
+    }
+    let row = button_row(&lines, inner);
+    let buttons = question
+        .buttons
+        .iter()
+        .enumerate()
+        .flat_map(|(index, (name, _))| {
+            let marked = index == question.marked;
+            let (text, style) = if marked {
+                (format!("[> {name} <]"), theme.key)
+            } else {
+                (format!("[  {name}  ]"), Style::new())
+            };
+            [Span::styled(text, style), Span::raw(" ")]
+        });
+    buttons.collect::<Line<'_>>().render(row, buffer);
+}
+
+// The button on a cell, where there is one.
+fn button_at(question: &Question, screen: Size, at: Position) -> Option<usize> {
+    let lines = question_lines(question, room(screen));
+    let row = button_row(
+        &lines,
+        inside(extent(&lines, 2), Rect::from((Position::ORIGIN, screen))),
+    );
+    let mut right = row.x;
+    let ends = question.buttons.iter().map(|(name, _)| {
+        right += name.width() as u16 + BESIDE_NAME;
+        right
+    });
+    let ends: Vec<_> = ends.collect();
+    // The gap before the next one is no button.
+    ends.iter()
+        .position(|&end| at.x + 1 < end)
+        .filter(|_| row.contains(at))
+}
+
+// Below the lines and one that is empty; nothing where it has no room.
+fn button_row(lines: &[String], inner: Rect) -> Rect {
+    let below = u16::try_from(lines.len())
+        .unwrap_or(u16::MAX)
+        .saturating_add(1);
+    if below < inner.height {
+        Rect {
+            y: inner.y + below,
+            height: 1,
+            ..inner
+        }
+    } else {
+        Rect::ZERO
+    }
+}
+
+// The buttons below them must be in sight: of the details, as many as there is room for, a line
+// each.
+fn question_lines(question: &Question, room: Size) -> Vec<String> {
+    let width = usize::from(room.width);
+    let mut lines = text::wrap(&question.text, width);
+    let left = usize::from(room.height).saturating_sub(lines.len() + 2);
+    let details = &question.details;
+    let shown = if details.len() <= left {
+        details.len()
+    } else {
+        left.saturating_sub(1)
+    };
+    lines.extend(
+        details[..shown]
+            .iter()
+            .map(|line| text::cut(&format!("  {line}"), width)),
+    );
+    if shown < details.len() && left > 0 {
+        lines.push(format!("  and {} more", details.len() - shown));
+    }
+    lines
 }

@@ -7,11 +7,20 @@ use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
 use super::boxes::{draw_window, frame, halves, inside, line_at, parted};
-use super::{digest, text};
+use super::{Dialog, Outcome, Surroundings, boxes, digest};
 use crate::case::EXAMPLES;
 use crate::report::digest::Digest;
-use crate::tui::pick::{Item, List, Pick, Picker};
+use crate::tui::actions::{Action, Effect};
+use crate::tui::keys::Place;
+use crate::tui::line::Line;
+use crate::tui::text;
 use crate::tui::theme::Theme;
+
+mod item;
+mod state;
+
+pub use item::{Item, Pick};
+pub use state::{Context, List, Picker};
 
 /// A list has so many columns and lines where there is room.
 const SIZE: Size = Size {
@@ -22,8 +31,49 @@ const SIZE: Size = Size {
 const NAME: usize = 18;
 const KEYS: usize = 14;
 
-/// Draw a list over the screen; where the cursor stands.
-pub fn draw(picker: &Picker, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Option<Position> {
+impl Dialog for Picker {
+    fn place(&self) -> Place {
+        Place::PICK
+    }
+
+    fn input(&mut self) -> Option<&mut Line> {
+        Some(&mut self.input)
+    }
+
+    fn typed(&mut self) -> Vec<Effect> {
+        self.marked = 0;
+        Vec::new()
+    }
+
+    fn step(&mut self, by: isize, _: &Surroundings<'_>) {
+        self.mark(by);
+    }
+
+    fn turn(&mut self, by: isize, around: &Surroundings<'_>) {
+        self.mark(by * boxes::page_height(around.screen));
+    }
+
+    fn click(&mut self, at: Position, screen: Size) -> bool {
+        item_at(self, screen, at).is_some_and(|line| boxes::select(&mut self.marked, line))
+    }
+
+    fn accept(&mut self, _: &Surroundings<'_>) -> Outcome {
+        let item = self.fitting().into_iter().nth(self.marked);
+        item.map_or_else(Outcome::none, |item| Outcome::Pick(item.pick))
+    }
+
+    fn receive(&mut self, result: Action) {
+        if let (List::Examples(digests), Action::Examples(found)) = (&mut self.list, result) {
+            *digests = found;
+        }
+    }
+
+    fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
+        draw(self, area, around.look.theme, buffer)
+    }
+}
+
+fn draw(picker: &Picker, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Option<Position> {
     let inner = frame(picker.title(), SIZE, screen, theme, buffer);
     let items = picker.fitting();
     let list = below_line(inner);
@@ -50,9 +100,8 @@ pub fn draw(picker: &Picker, screen: Rect, theme: &Theme, buffer: &mut Buffer) -
     )
 }
 
-/// The line of the list on a cell, where there is one.
-#[must_use]
-pub fn item_at(picker: &Picker, screen: Size, at: Position) -> Option<usize> {
+// The line of the list on a cell, where there is one.
+fn item_at(picker: &Picker, screen: Size, at: Position) -> Option<usize> {
     let items = picker.fitting();
     let list = below_line(inside(SIZE, Rect::from((Position::ORIGIN, screen))));
     let area = if matches!(picker.list, List::Examples(_)) {

@@ -2,17 +2,16 @@
 
 use std::cmp::Reverse;
 
-use super::commands::{self, Command};
-use super::line::Line;
 use crate::case::{EXAMPLES, FIELDS, materials, search};
 use crate::model::{QUANTITIES, Quantity};
 use crate::report::digest::Digest;
 use crate::report::graphs::GRAPHS;
+use crate::tui::commands::{self, Command};
+use crate::tui::line::Line;
 
-mod item;
-
-use item::{DESCRIBED, command, example, field, graph, of_material, quantity, rank, result};
-pub use item::{Item, Pick};
+use super::item::{
+    DESCRIBED, Item, command, example, field, graph, of_material, quantity, rank, result,
+};
 
 /// The least similarity of a name that is offered when no name contains the typed words.
 const LIKENESS: f64 = 0.75;

@@ -4,12 +4,12 @@
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use super::line::Line as Text;
-use super::store::case_search::{self, Below};
-use super::store::folder::{Entry, Listing, beneath};
-use super::store::preview::{Preview, Viewport};
-use super::store::recents::Recent;
 use crate::case::{EXAMPLES, Example};
+use crate::tui::line::Line as Text;
+use crate::tui::store::case_search::{self, Below};
+use crate::tui::store::folder::{Entry, Listing, beneath};
+use crate::tui::store::preview::{Preview, Viewport};
+use crate::tui::store::recents::Recent;
 
 /// A folder, and the cases that were open last.
 #[derive(Debug, Clone, Default)]

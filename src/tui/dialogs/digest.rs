@@ -2,13 +2,13 @@
 
 use ratatui::style::Style;
 
-use super::text;
 use crate::report::digest::Digest;
+use crate::tui::text;
 use crate::tui::theme::Theme;
 
 /// The lines in that width, each with its style.
 #[must_use]
-pub fn lines(digest: &Digest, width: usize, theme: &Theme) -> Vec<(String, Style)> {
+pub(super) fn lines(digest: &Digest, width: usize, theme: &Theme) -> Vec<(String, Style)> {
     let plain = Style::new();
     let title = if digest.title.is_empty() {
         "without a title"

@@ -7,10 +7,21 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 use ratatui::style::Style;
 
-use super::{boxes, digest, text};
-use crate::tui::browser::{Browser, Line};
+use super::picker::Pick;
+use super::{Dialog, Outcome, Surroundings, boxes, digest};
+use crate::case::units::System;
+use crate::tui::actions::{Action, Effect};
+use crate::tui::jobs::Job;
+use crate::tui::keys::Place;
+use crate::tui::line::Line as Text;
 use crate::tui::store::preview::{Preview, Viewport};
+use crate::tui::text;
 use crate::tui::theme::Theme;
+
+mod state;
+
+pub use state::Browser;
+use state::Line;
 
 /// As wide as may be, and so many lines at most.
 const SIZE: Size = Size {
@@ -20,13 +31,88 @@ const SIZE: Size = Size {
 /// So many of the recent cases are in sight.
 const RECENTS: usize = 6;
 
-/// Draw the browser over the screen; where the cursor stands.
-pub fn draw(
-    browser: &Browser,
-    screen: Rect,
-    theme: &Theme,
-    buffer: &mut Buffer,
-) -> Option<Position> {
+impl Browser {
+    /// The job that lists the folder.
+    #[must_use]
+    pub fn list(&self) -> Effect {
+        let (base, typed) = self.asks();
+        Effect::Job(Job::Folder(base, typed))
+    }
+
+    /// Enters the selected folder, or writes the selected name into the line.
+    pub fn complete(&mut self) -> Vec<Effect> {
+        match self.marked_sight() {
+            Some(Viewport::Folder(folder)) => {
+                self.enter(folder);
+                return vec![self.list()];
+            }
+            Some(Viewport::File(path)) => self.input = path.display().to_string().into(),
+            Some(Viewport::Example(example)) => self.input = example.name.into(),
+            None => return Vec::new(),
+        }
+        self.typed()
+    }
+}
+
+impl Dialog for Browser {
+    fn place(&self) -> Place {
+        Place::BROWSE
+    }
+
+    fn input(&mut self) -> Option<&mut Text> {
+        Some(&mut self.input)
+    }
+
+    fn typed(&mut self) -> Vec<Effect> {
+        let list = self.follow().then(|| self.list());
+        let below = self.seek();
+        let below = below.map(|(base, typed)| Effect::Job(Job::Below(base, typed)));
+        list.into_iter().chain(below).collect()
+    }
+
+    fn step(&mut self, by: isize, _: &Surroundings<'_>) {
+        self.mark(by);
+    }
+
+    fn turn(&mut self, by: isize, around: &Surroundings<'_>) {
+        self.mark(by * boxes::page_height(around.screen));
+    }
+
+    fn click(&mut self, at: Position, screen: Size) -> bool {
+        line_at(self, screen, at).is_some_and(|line| boxes::select(&mut self.marked, line))
+    }
+
+    // Without a match, opens the typed path.
+    fn accept(&mut self, _: &Surroundings<'_>) -> Outcome {
+        match self.marked_sight() {
+            Some(Viewport::Folder(_)) => Outcome::Effects(self.complete()),
+            Some(Viewport::File(path)) => Outcome::Open(path),
+            Some(Viewport::Example(example)) => Outcome::Pick(Pick::Begin(example)),
+            None if self.input.value().is_empty() => Outcome::none(),
+            None => Outcome::Open(self.typed_path()),
+        }
+    }
+
+    fn receive(&mut self, result: Action) {
+        match result {
+            Action::Listed(listing) => self.take(*listing),
+            Action::Found(below) => self.take_below(*below),
+            Action::Previewed(sight, preview) => self.show(sight, *preview),
+            Action::Recents(recents) => self.remember(recents),
+            _ => (),
+        }
+    }
+
+    fn preview(&mut self, units: System) -> Option<Effect> {
+        Some(Effect::Job(Job::Preview(self.look()?, units)))
+    }
+
+    fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
+        draw(self, area, around.look.theme, buffer)
+    }
+}
+
+fn draw(browser: &Browser, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Option<Position> {
     let inner = boxes::frame("Open a case", SIZE, screen, theme, buffer);
     let folder = browser
         .listing
@@ -61,9 +147,8 @@ pub fn draw(
     text::edited(&browser.input, line, theme.focus, buffer)
 }
 
-/// The line of the lists on a cell, where there is one.
-#[must_use]
-pub fn line_at(browser: &Browser, screen: Size, at: Position) -> Option<usize> {
+// The line of the lists on a cell, where there is one.
+fn line_at(browser: &Browser, screen: Size, at: Position) -> Option<usize> {
     let inner = boxes::inside(SIZE, Rect::from((Position::ORIGIN, screen)));
     let (above, below) = stacked(browser, boxes::parted(below_line(inner)).0);
     let first = browser.count_of_folder();

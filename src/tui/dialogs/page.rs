@@ -1,0 +1,111 @@
+//! A page to read.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect, Size};
+use ratatui::style::Style;
+
+use super::boxes::{extent, frame, page_height, room};
+use super::{Dialog, Outcome, Surroundings};
+use crate::tui::keys::Place;
+use crate::tui::text;
+use crate::tui::theme::Theme;
+
+/// A page to read.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Page {
+    /// In a few words.
+    pub title: String,
+    /// Its lines.
+    pub lines: Vec<String>,
+    /// The first line in sight.
+    pub top: usize,
+}
+
+impl Page {
+    /// A page from its first line.
+    #[must_use]
+    pub fn new(title: impl Into<String>, lines: Vec<String>) -> Page {
+        Page {
+            title: title.into(),
+            lines,
+            top: 0,
+        }
+    }
+
+    fn scroll(&mut self, by: isize, screen: Size) {
+        let last = wrapped(self, screen)
+            .len()
+            .saturating_sub(room(screen).height.into());
+        self.top = self.top.saturating_add_signed(by).min(last);
+    }
+}
+
+impl Dialog for Page {
+    fn place(&self) -> Place {
+        Place::READ
+    }
+
+    fn step(&mut self, by: isize, around: &Surroundings<'_>) {
+        self.scroll(by, around.screen);
+    }
+
+    fn turn(&mut self, by: isize, around: &Surroundings<'_>) {
+        self.scroll(by * page_height(around.screen), around.screen);
+    }
+
+    fn accept(&mut self, _: &Surroundings<'_>) -> Outcome {
+        Outcome::none()
+    }
+
+    fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
+        draw_page(self, area, around.look.theme, buffer);
+        None
+    }
+}
+
+// The lines of a page as they stand in a box; lines that go on are indented.
+fn wrapped(page: &Page, screen: Size) -> Vec<String> {
+    let width = usize::from(room(screen).width);
+    let wrap = |line: &String| {
+        let indent = hanging(line);
+        let (head, text) = line.split_at(indent);
+        let pieces = text::wrap(text, width.saturating_sub(indent));
+        let head = head.to_owned();
+        pieces.into_iter().enumerate().map(move |(index, piece)| {
+            if index == 0 {
+                head.clone() + &piece
+            } else {
+                " ".repeat(indent) + &piece
+            }
+        })
+    };
+    page.lines.iter().flat_map(wrap).collect()
+}
+
+// Where a line goes on when it is wrapped: below its second column, if it has one.
+fn hanging(line: &str) -> usize {
+    let lead = line.len() - line.trim_start().len();
+    let gap = line[lead..].find("  ").map(|at| lead + at);
+    let column = gap.map(|gap| line.len() - line[gap..].trim_start().len());
+    column.filter(|_| line.is_ascii()).unwrap_or(lead)
+}
+
+fn draw_page(page: &Page, screen: Rect, theme: &Theme, buffer: &mut Buffer) {
+    let lines = wrapped(page, screen.as_size());
+    let inner = frame(&page.title, extent(&lines, 0), screen, theme, buffer);
+    for (line, y) in lines.iter().skip(page.top).zip(inner.top()..inner.bottom()) {
+        buffer.set_stringn(inner.x, y, line, inner.width.into(), Style::new());
+    }
+    if lines.len() > usize::from(inner.height) {
+        text::scroll_bar(
+            page.top,
+            lines.len(),
+            Rect {
+                x: inner.right(),
+                width: 1,
+                ..inner
+            },
+            buffer,
+        );
+    }
+}

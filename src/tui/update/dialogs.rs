@@ -1,0 +1,80 @@
+//! Keys, mouse and results for the topmost dialog, and what follows from its outcome.
+
+use super::{catalogue, cursor, files, panes, run, solve, tabs};
+use crate::model::Quantity;
+use crate::tui::actions::{Action, Effect};
+use crate::tui::app::App;
+use crate::tui::dialogs::picker::Pick;
+use crate::tui::dialogs::{Dialog, Outcome, Surroundings};
+
+/// Lets the topmost dialog act. `None` if there is no dialog.
+pub(super) fn with<T>(
+    app: &mut App,
+    act: impl FnOnce(&mut dyn Dialog, &Surroundings<'_>) -> T,
+) -> Option<T> {
+    let mut prompt = app.prompts.pop()?;
+    let result = act(prompt.dialog_mut(), &app.surroundings());
+    app.prompts.push(prompt);
+    Some(result)
+}
+
+/// Enter.
+pub(super) fn accept(app: &mut App) -> Vec<Effect> {
+    let outcome = with(app, |dialog, around| dialog.accept(around));
+    outcome.map_or_else(Vec::new, |outcome| decided(app, outcome))
+}
+
+/// A letter: an answer of its own, or `None` if it is text for a line.
+pub(super) fn letter(app: &mut App, letter: char) -> Option<Vec<Effect>> {
+    let outcome = app.prompts.last_mut()?.dialog_mut().letter(letter)?;
+    Some(decided(app, outcome))
+}
+
+/// The result of a job.
+pub(super) fn receive(app: &mut App, result: Action) {
+    if let Some(prompt) = app.prompts.last_mut() {
+        prompt.dialog_mut().receive(result);
+    }
+}
+
+/// The job that previews a new selection.
+pub(super) fn preview(app: &mut App) -> Option<Effect> {
+    let units = app.settings.units;
+    app.prompts.last_mut()?.dialog_mut().preview(units)
+}
+
+fn decided(app: &mut App, outcome: Outcome) -> Vec<Effect> {
+    match outcome {
+        Outcome::Effects(effects) => effects,
+        Outcome::Open(path) => files::open(app, path),
+        Outcome::Choose(choice) => files::choose(app, choice),
+        Outcome::SaveAs(name, next) => files::save_under(app, &name, next),
+        Outcome::CursorTo(angle) => cursor::move_to(app, angle),
+        Outcome::Pick(chosen) => pick(app, chosen),
+        Outcome::GoTo(field) => {
+            app.prompts.clear();
+            panes::go_to(app, field);
+            Vec::new()
+        }
+    }
+}
+
+fn pick(app: &mut App, pick: Pick) -> Vec<Effect> {
+    app.prompts.pop();
+    match pick {
+        Pick::Run(command) => run(app, command),
+        Pick::Begin(example) => solve(tabs::begin(app, example)),
+        Pick::Make(gears, material) => catalogue::make(app, gears, material),
+        Pick::Limit(key) => {
+            Quantity::find(key).map_or_else(Vec::new, |quantity| catalogue::hold(app, quantity))
+        }
+        Pick::Show(key) => {
+            panes::show_result(app, key);
+            Vec::new()
+        }
+        Pick::Go(field) => {
+            panes::go_to(app, field);
+            Vec::new()
+        }
+    }
+}
