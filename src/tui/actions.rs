@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 use ratatui::layout::{Position, Size};
 
-use super::app::Progress;
 use super::benchmark::{Measured, Measuring};
 use super::commands::{self, Command};
 use super::jobs::{Explained, Job};
@@ -110,6 +109,15 @@ pub enum Effect {
     Suspend,
     /// Leave.
     Quit,
+}
+
+/// Long work that runs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Progress {
+    /// The work, in a few words.
+    pub what: String,
+    /// The completed part, 0 to 1.
+    pub part: f64,
 }
 
 /// What a key does in a place.

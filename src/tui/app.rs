@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use ratatui::layout::Size;
 
+use super::actions::Progress;
 use super::baseline::Baseline;
 use super::benchmark::Traded;
 use super::commands::{Command, key_of};
@@ -78,15 +79,6 @@ pub struct App {
     pub settings: Settings,
     /// What the terminal is able to show.
     pub look: Look,
-}
-
-/// Long work that goes on.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Progress {
-    /// In a few words.
-    pub what: String,
-    /// How much of it is done, 0 to 1.
-    pub part: f64,
 }
 
 /// Something said once.

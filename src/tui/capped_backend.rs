@@ -9,7 +9,7 @@ use ratatui::buffer;
 use ratatui::layout::{Position, Size};
 
 /// The largest area that the workbench draws.
-pub const LARGEST: Size = Size {
+pub(super) const LARGEST: Size = Size {
     width: 1000,
     height: 500,
 };

@@ -9,7 +9,7 @@ use crate::model::Solution;
 use crate::report::graphs::GRAPHS;
 
 /// The instruction of the prompt.
-pub const HOW: &str = "Type an angle before E (1.2 deg, 20 mrad), a time after E (-80 us, 0.1 ms) \
+pub(super) const HOW: &str = "Type an angle before E (1.2 deg, 20 mrad), a time after E (-80 us, 0.1 ms) \
     or a point (D, E, B, L, peak).";
 
 /// Pictures of a run: four seconds at twelve pictures a second.
@@ -28,7 +28,7 @@ pub struct CursorScope<'a> {
 
 /// The range of the cursor, in rad before E.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reach {
+pub(super) struct Reach {
     /// The first contact D, or E without corner contact.
     pub start: f64,
     /// The start of a run.
@@ -46,7 +46,7 @@ pub struct Reach {
 impl Reach {
     /// The angle `columns` closer to E, or D if there is no cursor yet.
     #[must_use]
-    pub fn moved(self, cursor: Option<f64>, columns: i16) -> f64 {
+    pub(super) fn moved(self, cursor: Option<f64>, columns: i16) -> f64 {
         let Some(cursor) = cursor else {
             return self.held(self.start);
         };
@@ -55,7 +55,7 @@ impl Reach {
 
     /// The next picture of the run. `None` at its end.
     #[must_use]
-    pub fn played(self, cursor: f64) -> Option<f64> {
+    pub(super) fn played(self, cursor: f64) -> Option<f64> {
         let next = cursor - (self.run_from - self.run_to) / PICTURES;
         (next > self.run_to && next < cursor).then_some(next)
     }
@@ -75,7 +75,7 @@ impl Reach {
 ///
 /// # Errors
 /// If the text has no meaning, or the angle is out of range.
-pub fn parse_cursor(scope: &CursorScope<'_>, typed: &str) -> Result<f64, String> {
+pub(super) fn parse_cursor(scope: &CursorScope<'_>, typed: &str) -> Result<f64, String> {
     let solution = scope
         .charts
         .solution()
@@ -100,7 +100,7 @@ pub fn parse_cursor(scope: &CursorScope<'_>, typed: &str) -> Result<f64, String>
 
 /// The completion of a typed angle or time.
 #[must_use]
-pub fn ending(scope: &CursorScope<'_>, typed: &str) -> Option<String> {
+pub(super) fn ending(scope: &CursorScope<'_>, typed: &str) -> Option<String> {
     let ruler = ruler(scope);
     let dimensions = [Dimension::Angle, Dimension::Time];
     if units::parse(typed, Dimension::Number, "").is_ok() {
@@ -119,7 +119,7 @@ pub fn ending(scope: &CursorScope<'_>, typed: &str) -> Option<String> {
 
 /// An angle in words, with the time between it and E.
 #[must_use]
-pub fn describe(scope: &CursorScope<'_>, angle: f64) -> String {
+pub(super) fn describe(scope: &CursorScope<'_>, angle: f64) -> String {
     let speed = scope
         .charts
         .answer
@@ -193,7 +193,7 @@ fn ruler(scope: &CursorScope<'_>) -> Ruler {
 /// The range of the cursor in the focused pane, or in the visible pane. In a chart it is the range
 /// of the axis. In the teeth pane it extends to one base pitch after E.
 #[must_use]
-pub fn cursor_range(scope: &CursorScope<'_>) -> Option<Reach> {
+pub(super) fn cursor_range(scope: &CursorScope<'_>) -> Option<Reach> {
     let solution = scope.charts.solution()?;
     let pitch = solution.geometry.base_pitch / solution.geometry.driver.base;
     let start = first_contact(solution).unwrap_or(0.0);

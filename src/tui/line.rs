@@ -5,7 +5,7 @@ use std::ops::{Deref, Range};
 use tui_input::{Input, InputRequest, StateChanged};
 
 /// The ending of a case file.
-pub const CASE_ENDING: &str = ".toml";
+pub(super) const CASE_ENDING: &str = ".toml";
 
 /// A line of text with a cursor and a selection.
 #[derive(Debug, Clone, Default)]

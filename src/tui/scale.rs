@@ -186,7 +186,7 @@ impl Span {
 
 /// Valid bounds of a canvas: finite, in order, never equal.
 #[must_use]
-pub fn bounds(from: f64, to: f64) -> [f64; 2] {
+pub(super) fn bounds(from: f64, to: f64) -> [f64; 2] {
     let sound = |value: f64| {
         if value.is_finite() {
             value.clamp(-1e100, 1e100)

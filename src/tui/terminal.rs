@@ -41,7 +41,7 @@ const NOTICE: Duration = Duration::from_millis(50);
 static LAST_PANIC: Mutex<Option<String>> = Mutex::new(None);
 
 /// The picture on the terminal. Dropping it gives the terminal back.
-pub struct Screen {
+pub(super) struct Screen {
     terminal: Terminal<CappedBackend<CrosstermBackend<BufWriter<Stdout>>>>,
     /// The signal that ended our own suspension is still to come.
     is_back: bool,
@@ -51,7 +51,7 @@ pub struct Screen {
 
 /// Why there is no terminal for a workbench, if so.
 #[must_use]
-pub fn missing(variable: impl Fn(&str) -> Option<OsString>) -> Option<&'static str> {
+pub(super) fn missing(variable: impl Fn(&str) -> Option<OsString>) -> Option<&'static str> {
     let term = variable("TERM").unwrap_or_default();
     if term.is_empty() {
         return Some("TERM is not set");
@@ -65,7 +65,7 @@ pub fn missing(variable: impl Fn(&str) -> Option<OsString>) -> Option<&'static s
 
 /// Keep the words of a panic until the terminal is given back. A panic of the worker is told on the
 /// screen.
-pub fn hold_panics() {
+pub(super) fn hold_panics() {
     panic::set_hook(Box::new(|panic: &PanicHookInfo<'_>| {
         *LAST_PANIC.lock().unwrap_or_else(PoisonError::into_inner) = Some(panic.to_string());
     }));
@@ -73,7 +73,7 @@ pub fn hold_panics() {
 
 /// The words of the last panic.
 #[must_use]
-pub fn last_panic() -> Option<String> {
+pub(super) fn last_panic() -> Option<String> {
     LAST_PANIC
         .lock()
         .unwrap_or_else(PoisonError::into_inner)
@@ -138,7 +138,7 @@ impl Screen {
     ///
     /// # Errors
     /// When the terminal does not report its size.
-    pub fn new() -> io::Result<Screen> {
+    pub(super) fn new() -> io::Result<Screen> {
         // Else NO_COLOR takes bold and reverse away too; our own theme has no colour then.
         force_color_output(true);
         let backend = CrosstermBackend::new(BufWriter::with_capacity(FRAME, io::stdout()));
@@ -153,7 +153,7 @@ impl Screen {
     ///
     /// # Errors
     /// When the terminal does not say.
-    pub fn size(&self) -> io::Result<Size> {
+    pub(super) fn size(&self) -> io::Result<Size> {
         self.terminal.size()
     }
 
@@ -161,7 +161,7 @@ impl Screen {
     ///
     /// # Errors
     /// When the terminal is gone.
-    pub fn draw(&mut self, app: &App) -> io::Result<()> {
+    pub(super) fn draw(&mut self, app: &App) -> io::Result<()> {
         if !IS_TAKEN.load(Ordering::Relaxed) {
             return Ok(());
         }
@@ -177,7 +177,7 @@ impl Screen {
     ///
     /// # Errors
     /// When the terminal is gone.
-    pub fn clear(&mut self) -> io::Result<()> {
+    pub(super) fn clear(&mut self) -> io::Result<()> {
         // `Terminal::clear` would ask the terminal where its cursor is, and wait for the answer.
         let size = self.terminal.size()?;
         self.terminal.resize(size.into())
@@ -187,7 +187,7 @@ impl Screen {
     ///
     /// # Errors
     /// When the terminal is gone.
-    pub fn suspend(&mut self) -> io::Result<()> {
+    pub(super) fn suspend(&mut self) -> io::Result<()> {
         self.leave()?;
         signal_hook::low_level::emulate_default_handler(signal_hook::consts::SIGTSTP)?;
         self.is_back = true;
@@ -202,7 +202,7 @@ impl Screen {
     ///
     /// # Errors
     /// When the terminal is gone.
-    pub fn resume(&mut self) -> io::Result<()> {
+    pub(super) fn resume(&mut self) -> io::Result<()> {
         // For a moment the terminal is in the shell's modes, in which it would eat a Ctrl-Q: only
         // where it must be.
         if std::mem::take(&mut self.is_back) {
@@ -220,7 +220,7 @@ impl Screen {
     ///
     /// # Errors
     /// When the terminal is gone.
-    pub fn take_mouse(&mut self, takes: bool) -> io::Result<()> {
+    pub(super) fn take_mouse(&mut self, takes: bool) -> io::Result<()> {
         if self.has_mouse == takes {
             return Ok(());
         }
@@ -237,7 +237,7 @@ impl Screen {
     ///
     /// # Errors
     /// When the terminal is gone.
-    pub fn copy(&mut self, text: &str) -> io::Result<()> {
+    pub(super) fn copy(&mut self, text: &str) -> io::Result<()> {
         execute!(self.output(), CopyToClipboard::to_clipboard_from(text))
     }
 
@@ -245,7 +245,7 @@ impl Screen {
     ///
     /// # Errors
     /// When the terminal does not answer.
-    pub fn enter(&mut self) -> io::Result<()> {
+    pub(super) fn enter(&mut self) -> io::Result<()> {
         enable_raw_mode()?;
         IS_TAKEN.store(true, Ordering::Relaxed);
         // A terminal that is still in the alternate screen, as after a lost connection, shows its

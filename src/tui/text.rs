@@ -12,7 +12,7 @@ use crate::tui::theme::Theme;
 
 /// The text cut to the width, with a mark where it goes on.
 #[must_use]
-pub fn cut(text: &str, width: usize) -> String {
+pub(super) fn cut(text: &str, width: usize) -> String {
     let text = printable(text);
     if text.width() <= width {
         return text.into_owned();
@@ -27,7 +27,7 @@ pub fn cut(text: &str, width: usize) -> String {
 /// The text cut to the width at its beginning, with a mark where something is left out: a path is
 /// known by its end.
 #[must_use]
-pub fn cut_front(text: &str, width: usize) -> String {
+pub(super) fn cut_front(text: &str, width: usize) -> String {
     let text = printable(text);
     let over = text.width().saturating_sub(width);
     if over == 0 {
@@ -42,7 +42,7 @@ pub fn cut_front(text: &str, width: usize) -> String {
 
 /// The text cut to the width, or filled up to it.
 #[must_use]
-pub fn padded(text: &str, width: usize) -> String {
+pub(super) fn padded(text: &str, width: usize) -> String {
     let text = cut(text, width);
     let gap = width - text.width().min(width);
     text + &" ".repeat(gap)
@@ -51,7 +51,7 @@ pub fn padded(text: &str, width: usize) -> String {
 /// The text in lines of at most the width, broken between words, and after a unit rather than
 /// before it.
 #[must_use]
-pub fn wrap(text: &str, width: usize) -> Vec<String> {
+pub(super) fn wrap(text: &str, width: usize) -> Vec<String> {
     let width = width.max(1);
     let text = printable(text);
     let mut lines = vec![String::new()];
@@ -64,7 +64,7 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
 /// The text in so many lines at most: where it is longer, up to the end of a sentence, or of a part
 /// of one with a mark that it goes on, unless half of the room would stay empty.
 #[must_use]
-pub fn sentences(text: &str, width: usize, rows: usize) -> Vec<String> {
+pub(super) fn sentences(text: &str, width: usize, rows: usize) -> Vec<String> {
     let fits = |text: &str| wrap(text, width).len() <= rows;
     if fits(text) {
         return wrap(text, width);
@@ -93,7 +93,7 @@ pub fn sentences(text: &str, width: usize, rows: usize) -> Vec<String> {
 }
 
 /// A rule with a title, over the top line of an area; what is below it.
-pub fn titled(title: &str, area: Rect, theme: &Theme, buffer: &mut Buffer) -> Rect {
+pub(super) fn titled(title: &str, area: Rect, theme: &Theme, buffer: &mut Buffer) -> Rect {
     if area.is_empty() {
         return Rect::ZERO;
     }
@@ -111,7 +111,12 @@ pub fn titled(title: &str, area: Rect, theme: &Theme, buffer: &mut Buffer) -> Re
 }
 
 /// A line of text that is edited, scrolled so that the cursor is in sight; where the cursor stands.
-pub fn edited(input: &Line, area: Rect, style: Style, buffer: &mut Buffer) -> Option<Position> {
+pub(super) fn edited(
+    input: &Line,
+    area: Rect,
+    style: Style,
+    buffer: &mut Buffer,
+) -> Option<Position> {
     let width = usize::from(area.width);
     if area.is_empty() {
         return None;
@@ -149,7 +154,13 @@ pub fn edited(input: &Line, area: Rect, style: Style, buffer: &mut Buffer) -> Op
 }
 
 /// What completes a line of text that is edited, after so many cells of it.
-pub fn ending(ending: Option<&str>, typed: usize, area: Rect, theme: &Theme, buffer: &mut Buffer) {
+pub(super) fn ending(
+    ending: Option<&str>,
+    typed: usize,
+    area: Rect,
+    theme: &Theme,
+    buffer: &mut Buffer,
+) {
     let width = usize::from(area.width);
     if let Some(ending) = ending.filter(|_| typed < width && !area.is_empty()) {
         let style = theme
@@ -212,7 +223,7 @@ fn width_of(letter: char) -> usize {
 }
 
 /// A bar whose thumb shows which part of the lines is in sight.
-pub fn scroll_bar(top: usize, lines: usize, area: Rect, buffer: &mut Buffer) {
+pub(super) fn scroll_bar(top: usize, lines: usize, area: Rect, buffer: &mut Buffer) {
     let height = usize::from(area.height);
     let is_thumb = |row: usize| {
         let from = top * height / lines.max(1);

@@ -97,7 +97,9 @@ pub fn opened(document: Document, path: Option<PathBuf>, look: Look, size: Size)
 fn happen(app: &mut App, action: Action) -> Vec<Effect> {
     match action {
         Action::Do(command) => return run(app, command),
-        Action::Insert(letter) => return edit::insert(app, letter),
+        Action::Insert(letter) => {
+            return dialogs::letter(app, letter).unwrap_or_else(|| edit::insert(app, letter));
+        }
         Action::Paste(text) => return edit::paste(app, &text),
         Action::Stray(letter) => panes::stray(app, letter),
         Action::Click(at) => return pointer::click(app, at),

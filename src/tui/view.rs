@@ -17,7 +17,7 @@ use super::panes::results::{self, Results};
 use super::panes::teeth;
 use super::panes::trade::{self, TradePane};
 
-pub use super::text;
+use super::text;
 
 /// Draw the whole screen; the place of the cursor, where there is one.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {

@@ -33,25 +33,6 @@ const OUTSIDE: [&str; 10] = [
     "eprintln",
 ];
 
-/// Folders in which no file needs, by whatever way round, one that needs it. A file and its own
-/// folder count as one.
-const IN_ORDER: [&str; 14] = [
-    "numeric",
-    "model",
-    "case",
-    "study",
-    "report",
-    "report/explain",
-    "cli",
-    "tui",
-    "tui/panes",
-    "tui/panes/chart",
-    "tui/panes/teeth",
-    "tui/store",
-    "tui/update",
-    "tui/view",
-];
-
 const MOST_LINES: usize = 600;
 
 struct Source {
@@ -208,10 +189,21 @@ fn rooms_open_only_upstream() {
     }
 }
 
+/// Every folder below `src`, as its modules: `["report", "explain"]`.
+fn folders() -> BTreeSet<Vec<String>> {
+    let parents = |source: Source| {
+        let modules = source.modules();
+        (1..modules.len()).map(move |depth| modules[..depth].to_vec())
+    };
+    sources("src").into_iter().flat_map(parents).collect()
+}
+
+/// A file and its own folder count as one.
 #[test]
 fn no_file_needs_one_that_needs_it() {
-    for folder in IN_ORDER {
-        let modules: Vec<_> = folder.split('/').collect();
+    for modules in &folders() {
+        let folder = modules.join("/");
+        let modules: Vec<_> = modules.iter().map(String::as_str).collect();
         let mut needs: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
         let are_no_tests =
             |source: &Source| source.modules().last().is_none_or(|last| last != "tests");
@@ -235,6 +227,31 @@ fn no_file_needs_one_that_needs_it() {
             needs.remove(&free);
         }
         assert!(needs.is_empty(), "in {folder}: {needs:#?}");
+    }
+}
+
+#[test]
+fn update_names_no_view_and_a_component_does_not_name_the_workbench() {
+    let rules: [(&str, &[&str]); 3] = [
+        ("update", &["view"]),
+        ("panes", &["app", "tab", "dialogs", "update", "view"]),
+        ("dialogs", &["app", "tab", "update", "view"]),
+    ];
+    for source in sources("src/tui") {
+        let modules = source.modules();
+        let Some((_, foreign)) = rules.iter().find(|(own, _)| modules[1] == *own) else {
+            continue;
+        };
+        let named = source.neighbours_named(&["tui"]);
+        let wrong: Vec<_> = foreign
+            .iter()
+            .filter(|name| named.contains(**name))
+            .collect();
+        assert!(
+            wrong.is_empty(),
+            "{} names {wrong:?}",
+            source.path.display()
+        );
     }
 }
 

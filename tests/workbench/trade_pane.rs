@@ -9,7 +9,7 @@ use tipstrike::model::inputs::Method;
 use tipstrike::study::trade::Setting;
 use tipstrike::tui::actions::Action;
 use tipstrike::tui::actions::Effect;
-use tipstrike::tui::app::Progress;
+use tipstrike::tui::actions::Progress;
 use tipstrike::tui::benchmark::{End, Measured, Measuring};
 use tipstrike::tui::layout::plan;
 use tipstrike::tui::theme::{Look, MONO};

@@ -12,7 +12,7 @@ use crate::tui::app::App;
 use crate::tui::line::Line;
 use crate::tui::pane::Pane;
 use crate::tui::session::recovery;
-use crate::tui::update::{browse, dialogs};
+use crate::tui::update::browse;
 use crate::tui::{ascii, rows};
 
 /// A longer text is no value, title or path.
@@ -20,9 +20,6 @@ const LONGEST: usize = 4096;
 
 /// A character typed.
 pub(super) fn insert(app: &mut App, letter: char) -> Vec<Effect> {
-    if let Some(effects) = dialogs::letter(app, letter) {
-        return effects;
-    }
     if app.prompts.is_empty() && app.has_line() && !names(app).is_empty() {
         return choose_by_letter(app, letter);
     }

@@ -6,20 +6,21 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget;
 use unicode_width::UnicodeWidthStr;
 
-use super::text;
 use crate::case::fields::{Absent, Field, Kind};
 use crate::case::units::System;
 use crate::case::{Acting, FIELDS, Limit, materials, partial_relevance, relevance};
 use crate::model::inputs::Method;
 use crate::numeric::decimal::shortest;
 use crate::report::verdict::verdicts;
-use crate::tui::app::{App, Progress};
+use crate::tui::actions::Progress;
+use crate::tui::app::App;
 use crate::tui::ascii::symbol;
 use crate::tui::commands::{BINDINGS, Binding};
 use crate::tui::keys::Chord;
 use crate::tui::pane::Pane;
 use crate::tui::panes::{chart, results, trade};
 use crate::tui::rows::{self, Row};
+use crate::tui::text;
 
 /// Cells of a bar of progress.
 const BAR: usize = 20;
