@@ -98,7 +98,7 @@ fn a_solve_that_takes_long_shows_how_far_it_is_and_esc_ends_it() {
     tty.wait_for("solving dynamic; Esc cancels");
     let start = Instant::now();
     tty.type_in("\x1b");
-    tty.wait_for("method dynamic is stopped: the closed form stands until the next edit");
+    tty.wait_for("method dynamic is stopped; the closed form is shown until the next edit");
     println!(
         "Esc ends the solve within {:.1?}, of which 50 ms are for what an escape sequence may take",
         start.elapsed()
