@@ -179,7 +179,7 @@ fn session(
     });
     let mut app = App {
         settings,
-        ..App::new(document, path, look, screen.size()?)
+        ..App::at_start(document, path, look, screen.size()?)
     };
     if is_last_case && app.tab.path.is_some() {
         app.tab.origin = Origin::LastCase;

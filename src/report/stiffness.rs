@@ -9,9 +9,12 @@ use super::csv::{cell, write_rows};
 use super::json::write_line;
 use super::layout::{WIDTH, flow, item};
 use crate::case::sanitize::sanitize;
+use crate::model::Refusal;
 use crate::model::inputs::ToothCompliance;
 use crate::numeric::decimal::significant;
-use crate::study::stiffness::{Comparison, FIELD, FieldPoint, GearComparison, Point};
+use crate::study::stiffness::{
+    Comparison, FIELD, FieldPoint, GearComparison, PathComparison, PathPoint, Point,
+};
 
 /// m²/N in a µm mm/N.
 const MICRON_MILLIMETRE: f64 = 1e-9;
@@ -37,9 +40,9 @@ pub fn write(report: &StiffnessReport<'_>, out: &mut dyn Write) -> io::Result<()
     for gear in &report.comparison.gears {
         sections.push(gear_section(report.comparison, gear));
     }
-    sections.push(vec![
-        "`tipstrike solve` does not use the finite elements yet.".to_owned(),
-    ]);
+    let path = &report.comparison.path;
+    sections.push(path_section("one pair", path, |point| &point.pair));
+    sections.push(path_section("all pairs in contact", path, |point| &point.mesh));
     let sections: Vec<_> = sections.iter().map(|lines| lines.join("\n")).collect();
     writeln!(out, "{}", sections.join("\n\n"))
 }
@@ -114,6 +117,55 @@ fn head(models: &[ToothCompliance]) -> String {
     )
 }
 
+/// A table of stiffness over the path of contact.
+fn path_section(
+    pairs: &str,
+    path: &PathComparison,
+    of: fn(&PathPoint) -> &Vec<Option<f64>>,
+) -> Vec<String> {
+    let field = path.models.iter().position(|model| model.name() == FIELD);
+    let names: Vec<_> = path
+        .models
+        .iter()
+        .map(|model| format!("{:>17}", model.name()))
+        .collect();
+    let title = format!("Stiffness of {pairs} over the path of contact, in N/(um mm):");
+    let mut lines = vec![title, format!("{:>8}{}", "s [mm]", names.concat())];
+    lines.extend(path.points.iter().map(|point| {
+        let values = of(point);
+        let reference = field.and_then(|field| values[field]);
+        let cells: Vec<_> = values
+            .iter()
+            .enumerate()
+            .map(|(model, value)| {
+                let other = reference.filter(|_| Some(model) != field);
+                format!("{:>17}", stiffness(*value, other))
+            })
+            .collect();
+        format!(
+            "{:>8}{}",
+            significant(point.way / MILLIMETRE, 4),
+            cells.concat()
+        )
+    }));
+    lines
+}
+
+fn stiffness(value: Option<f64>, reference: Option<f64>) -> String {
+    let shown = value.map_or("-".to_owned(), |value| {
+        significant(value * MICRON_MILLIMETRE, 4)
+    });
+    shown + &difference(value, reference)
+}
+
+/// The difference from a reference in brackets; empty without both.
+fn difference(value: Option<f64>, reference: Option<f64>) -> String {
+    value
+        .zip(reference)
+        .map(|(value, reference)| format!(" ({:+.0} %)", 100.0 * (value / reference - 1.0)))
+        .unwrap_or_default()
+}
+
 fn row(point: &Point, twist: f64) -> String {
     let whole = point.field.map(|field| field.depth + twist);
     let models: Vec<_> = point
@@ -139,10 +191,7 @@ fn compliance(value: Option<f64>) -> String {
 }
 
 fn with_difference(value: Option<f64>, reference: Option<f64>) -> String {
-    let difference = value
-        .zip(reference)
-        .map(|(value, reference)| format!(" ({:+.0} %)", 100.0 * (value / reference - 1.0)));
-    compliance(value) + &difference.unwrap_or_default()
+    compliance(value) + &difference(value, reference)
 }
 
 /// The twist of the body, and the reasons for missing values.
@@ -167,8 +216,14 @@ fn remarks(gear: &GearComparison) -> Vec<String> {
 /// Why a gear has no finite-element values; `None` if it has them.
 #[must_use]
 pub fn no_field(gear: &GearComparison) -> Option<String> {
-    let refusal = gear.refusal?;
-    Some(format!("no finite-element values: {refusal}"))
+    Some(format!("no finite-element values: {}", reason(gear)?))
+}
+
+fn reason(gear: &GearComparison) -> Option<String> {
+    Some(match gear.refusal? {
+        Refusal::NoField { reason, .. } => reason.to_string(),
+        other => other.to_string(),
+    })
 }
 
 /// Write it as CSV in SI units, one row per gear and radius; a missing value is an empty cell.
@@ -225,6 +280,14 @@ struct Line<'a> {
     version: &'static str,
     contact_half_width: f64,
     gears: Vec<GearLine>,
+    path: Vec<PathLine>,
+}
+
+#[derive(Serialize)]
+struct PathLine {
+    way: f64,
+    pair_stiffness: Map<String, Value>,
+    mesh_stiffness: Map<String, Value>,
 }
 
 #[derive(Serialize)]
@@ -257,8 +320,24 @@ pub fn write_json(report: &StiffnessReport<'_>, out: &mut dyn Write) -> io::Resu
             .iter()
             .map(|gear| gear_line(comparison, gear))
             .collect(),
+        path: path_lines(&comparison.path),
     };
     write_line(&line, out)
+}
+
+fn path_lines(path: &PathComparison) -> Vec<PathLine> {
+    let by_model = |values: &[Option<f64>]| -> Map<String, Value> {
+        let pairs = path.models.iter().zip(values);
+        pairs
+            .filter_map(|(model, value)| Some((key(model.name()), (*value)?.into())))
+            .collect()
+    };
+    let line = |point: &PathPoint| PathLine {
+        way: point.way,
+        pair_stiffness: by_model(&point.pair),
+        mesh_stiffness: by_model(&point.mesh),
+    };
+    path.points.iter().map(line).collect()
 }
 
 fn gear_line(comparison: &Comparison, gear: &GearComparison) -> GearLine {
@@ -275,7 +354,7 @@ fn gear_line(comparison: &Comparison, gear: &GearComparison) -> GearLine {
         form_radius: gear.form_radius,
         tip_radius: gear.tip_radius,
         twist: gear.twist,
-        refusal: gear.refusal.map(|refusal| refusal.to_string()),
+        refusal: reason(gear),
         gaps: gaps.collect(),
         points: points.collect(),
     }

@@ -1,8 +1,12 @@
 //! Tooth compliance over the flank of each gear, by every model and by finite elements.
 
-use crate::model::compliance::tooth::{Tooth, ToothModel};
+mod path;
+
+pub use path::{PathComparison, PathPoint};
+
+use crate::model::compliance::tooth::{Tooth, ToothModel, field_of};
 use crate::model::compliance::{ContactPlace, ElasticGear, contact};
-use crate::model::field::{Field, FieldInput, FieldRefusal};
+use crate::model::field::Field;
 use crate::model::geometry::{Circles, Geometry, geometry};
 use crate::model::impact::Masses;
 use crate::model::inputs::{Gear, ToothCompliance};
@@ -27,6 +31,8 @@ pub struct Comparison {
     pub models: Vec<ToothCompliance>,
     /// Driver and driven gear.
     pub gears: [GearComparison; 2],
+    /// Pairs and mesh over the path of contact.
+    pub path: PathComparison,
 }
 
 /// The compliances of one gear.
@@ -44,7 +50,7 @@ pub struct GearComparison {
     /// gear without a bore or without a field.
     pub twist: Option<f64>,
     /// Why the gear has no field, if it has none.
-    pub refusal: Option<FieldRefusal>,
+    pub refusal: Option<Refusal>,
     /// Models without a value at one point or more.
     pub gaps: Vec<Gap>,
     /// From the form circle to the tip; empty if no involute is left between them.
@@ -106,6 +112,7 @@ pub fn compare(inputs: &Inputs, points: usize) -> Result<Comparison, Refusal> {
         contact_half_width,
         models,
         gears,
+        path: path::compare(inputs, &geometry, mesh_force, points),
     })
 }
 
@@ -161,7 +168,7 @@ impl Flank<'_> {
                 column
             })
             .collect();
-        let field = self.field(inputs.module);
+        let field = field_of(&self.elastic);
         let young = self.elastic.young;
         let points = radii.iter().enumerate().map(|(index, &radius)| Point {
             radius,
@@ -179,22 +186,12 @@ impl Flank<'_> {
             twist: field
                 .as_ref()
                 .ok()
-                .and_then(Field::twist)
+                .and_then(|field| field.twist())
                 .map(|twist| twist / young),
             refusal: field.as_ref().err().copied(),
             gaps,
             points: points.collect(),
         }
-    }
-
-    fn field(&self, module: f64) -> Result<Field, FieldRefusal> {
-        Field::build(&FieldInput {
-            profile: self.profile,
-            teeth: self.gear.teeth,
-            module,
-            bore_radius: self.elastic.bore_radius,
-            poisson: self.elastic.poisson,
-        })
     }
 
     /// Radii in equal steps from the form circle to the tip.

@@ -94,6 +94,23 @@ impl App {
     /// A document that was just opened, solved at once so that the first frame is whole.
     #[must_use]
     pub fn new(document: Document, path: Option<PathBuf>, look: Look, size: Size) -> App {
+        App::answered(document, path, (look, size), |request| {
+            Some(solver::first_answer(request))
+        })
+    }
+
+    /// The workbench for the first frame, which waits for no elastic field.
+    #[must_use]
+    pub fn at_start(document: Document, path: Option<PathBuf>, look: Look, size: Size) -> App {
+        App::answered(document, path, (look, size), solver::answer_without_fields)
+    }
+
+    fn answered(
+        document: Document,
+        path: Option<PathBuf>,
+        (look, size): (Look, Size),
+        answer: impl Fn(&Request) -> Option<Answer>,
+    ) -> App {
         let mut app = App {
             tab: Tab::new(document, path),
             others: Vec::new(),
@@ -123,8 +140,8 @@ impl App {
             app.complain(NEWER);
         }
         app.follow();
-        if let Some(request) = app.request() {
-            app.take(solver::first_answer(&request));
+        if let Some(answer) = app.request().and_then(|request| answer(&request)) {
+            app.take(answer);
         }
         app
     }

@@ -126,6 +126,7 @@ static TABLE: &[Row] = &[
     part("masses", always, &["*.density", "*.face_width", "*.bore_radius", "base_circle_driver", "base_circle_driven"]),
 
     part("tooth_method", always, &["model.tooth_compliance"]),
+    part("tooth_method", method_free, &["model.method"]),
     part("tooth_stiffness", always, &["tooth_method", "pair.module", "*.teeth", "*.profile_shift", "base_circle_driver", "base_circle_driven"]),
     part("profile", always, &["pair.pressure_angle", "root_circles", "base_circle_driver", "base_circle_driven"]),
     part("materials", always, &["*.young", "*.poisson"]),

@@ -24,7 +24,7 @@ struct Solved {
 type Change = fn(&mut Inputs);
 
 /// What turns a case into one that reads other fields.
-const VARIANTS: [(&str, Change); 16] = [
+const VARIANTS: [(&str, Change); 17] = [
     ("as it is", |_| {}),
     ("paper", |inputs| inputs.method = Method::Paper),
     ("static", |inputs| inputs.method = Method::Static),
@@ -40,6 +40,11 @@ const VARIANTS: [(&str, Change); 16] = [
     ("dynamic", |inputs| {
         relieved(inputs, Method::Dynamic);
         (inputs.warmup_cycles, inputs.tolerance) = (2, 1e-5);
+    }),
+    ("dynamic, fit", |inputs| {
+        relieved(inputs, Method::Dynamic);
+        (inputs.warmup_cycles, inputs.tolerance) = (2, 1e-5);
+        inputs.tooth_compliance = Some(ToothCompliance::KUANG_YANG);
     }),
     ("deflection computed", |inputs| inputs.deflection = None),
     ("stations as needed", |inputs| inputs.stations = None),

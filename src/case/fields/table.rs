@@ -236,7 +236,7 @@ const TAIL: [Field; 18] = [
         kind: Kind::Choice(&ToothCompliance::NAMES, |inputs, value| {
             inputs.tooth_compliance = Some(ToothCompliance::ALL[value]);
         }),
-        absent: Without("by its range"),
+        absent: Without("by the method"),
     },
     Field {
         key: "model.contact_compliance",

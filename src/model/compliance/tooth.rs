@@ -7,15 +7,17 @@ pub mod kuang_yang;
 
 use std::sync::Arc;
 
+pub use finite_element::field_of;
+
 use super::ElasticGear;
 use super::contact::ContactLaw;
 use super::list::listed;
 use crate::model::Refusal;
 use crate::model::explanation::{Context, Finding, Step};
 use crate::model::geometry::{Circles, Geometry};
-use crate::model::inputs::{ContactCompliance, Inputs, ToothCompliance};
+use crate::model::inputs::{ContactCompliance, Inputs, Method, ToothCompliance};
 
-/// Every model; where a case names none, the first that covers the pair is used.
+/// Every model.
 pub const MODELS: [&ToothModel; 3] = [&kuang_yang::MODEL, &beam::MODEL, &finite_element::MODEL];
 
 /// A model of the compliance of one tooth.
@@ -31,6 +33,8 @@ pub struct ToothModel {
     pub range: &'static str,
     /// Whether the pair is in the range.
     pub covers: fn(&Inputs) -> bool,
+    /// Why a pair outside the range is outside, as the end of a sentence.
+    pub why_outside: fn(&Inputs) -> String,
     /// What decides whether the pair is in the range, see [`ToothModel::reads`].
     pub range_reads: &'static [&'static str],
     /// Compares a pair with the range, for an explanation.
@@ -187,13 +191,25 @@ impl<'a> Tooth<'a> {
     }
 }
 
-/// The tooth compliance of a pair: the choice of the case, else the first model of the list that
-/// covers the pair.
+/// The models that are tried in turn where a case names none.
+#[must_use]
+pub fn preferences(inputs: &Inputs) -> [&'static ToothModel; MODELS.len()] {
+    if inputs.method == Method::Paper {
+        [&kuang_yang::MODEL, &beam::MODEL, &finite_element::MODEL]
+    } else {
+        [&finite_element::MODEL, &beam::MODEL, &kuang_yang::MODEL]
+    }
+}
+
+/// The tooth compliance of a pair: the choice of the case, else the first of the [`preferences`]
+/// that covers the pair; if none does, the beam, whose refusal says why.
 #[must_use]
 pub fn model_of(inputs: &Inputs) -> ToothCompliance {
     let by_range = || {
-        let mut covering = MODELS.into_iter().filter(|model| (model.covers)(inputs));
-        ToothCompliance::named(covering.next().unwrap_or(MODELS[0]).name)
+        let covering = preferences(inputs)
+            .into_iter()
+            .find(|model| (model.covers)(inputs));
+        ToothCompliance::named(covering.unwrap_or(&beam::MODEL).name)
     };
     inputs.tooth_compliance.unwrap_or_else(by_range)
 }

@@ -4,7 +4,7 @@ use super::motion::{Motion, State};
 use super::step::{Course, Step};
 use super::watch::Watch;
 use super::*;
-use crate::model::inputs::{Inputs, Method};
+use crate::model::inputs::{Inputs, Method, ToothCompliance};
 use crate::model::sample::standard_pair;
 use crate::model::{Stage, Stages, solve};
 use crate::numeric::polynomial::Polynomial;
@@ -15,6 +15,7 @@ fn struck(adjust: impl FnOnce(&mut Inputs)) -> (Mesh, Settings) {
     let mut inputs = standard_pair(20, 30, 5e-3);
     inputs.base_pitch_deviation = 12e-6;
     inputs.method = Method::Static;
+    inputs.tooth_compliance = Some(ToothCompliance::KUANG_YANG);
     adjust(&mut inputs);
     let solution = solve(&inputs, Stages::of(Stage::Static)).unwrap();
     let error = solution.deviation.equivalent_error;

@@ -1,18 +1,16 @@
 //! Notes on the range of the stiffness models.
 
 use super::{Note, four};
-use crate::model::compliance::tooth::MODELS;
+use crate::model::compliance::tooth::preferences;
 use crate::model::{Inputs, Solution};
 
 /// The range chose the model.
 pub(super) fn chosen_by_range(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let used = solution.compliance?.model.model();
-    let [first, ..] = MODELS;
+    let [first, ..] = preferences(inputs);
     let message = || {
-        format!(
-            "the tooth compliance is `{}`: the pair is outside the range of `{}`, {}",
-            used.name, first.name, first.range
-        )
+        let why = (first.why_outside)(inputs);
+        format!("the tooth compliance is `{}`: {why}", used.name)
     };
     let is_second_choice = inputs.tooth_compliance.is_none() && used.name != first.name;
     is_second_choice.then(|| Note::new(used.chosen, message()))

@@ -1,12 +1,15 @@
 //! What every method says of a request: the closed forms at once, then the method of the case, then
 //! the least relief.
 
+use std::cell::OnceCell;
 use std::time::Instant;
 
 use super::{Answer, Cost, PATIENCE, Request};
 use crate::case::Evaluator;
+use crate::model::compliance::model_of;
+use crate::model::compliance::tooth::Compliance;
 use crate::model::inputs::Method;
-use crate::model::{self, Refusal, Solution, Stage};
+use crate::model::{self, Inputs, Refusal, Solution, Stage};
 
 /// Solve with the closed forms, which cost nothing, and the method of the case: their difference is
 /// what the engineer came for.
@@ -19,8 +22,37 @@ pub fn answer(request: &Request) -> Answer {
 /// and where the least relief does, all but that.
 #[must_use]
 pub fn first_answer(request: &Request) -> Answer {
-    let begun = Instant::now();
-    answer_while(request, &|| begun.elapsed() < PATIENCE)
+    // The closed forms are done by then, and with them the fields of new gears.
+    let begun = OnceCell::new();
+    answer_while(request, &|| {
+        begun.get_or_init(Instant::now).elapsed() < PATIENCE
+    })
+}
+
+/// The same for the first frame of the program, which waits for no elastic field: without the
+/// stiffness spread, and `None` if the pair's own compliance needs a field.
+#[must_use]
+pub fn answer_without_fields(request: &Request) -> Option<Answer> {
+    let methods = Method::CLOSED_FORM.into_iter().chain([request.inputs.method]);
+    let needs_field = methods.into_iter().any(|method| {
+        let inputs = Inputs {
+            method,
+            ..request.inputs.clone()
+        };
+        matches!(model_of(&inputs).model().compliance, Compliance::PerGear(_))
+    });
+    if needs_field {
+        return None;
+    }
+    let quick = Request {
+        stages: request.stages.without(Stage::Band),
+        ..request.clone()
+    };
+    let answer = first_answer(&quick);
+    Some(Answer {
+        asked: request.stages,
+        ..answer
+    })
 }
 
 fn answer_while(request: &Request, go_on: &dyn Fn() -> bool) -> Answer {

@@ -7,7 +7,7 @@ use crate::model::Refusal;
 use crate::model::compliance::ElasticGear;
 use crate::model::explanation::Formula::Words;
 use crate::model::explanation::{Context, Finding, Step, four};
-use crate::model::geometry::{Circles, Geometry};
+use crate::model::geometry::{self, Circles, Geometry};
 use crate::model::inputs::{Gear, Inputs, ToothCompliance};
 use crate::model::profile::{Profile, Rack, Section};
 use crate::numeric::quadrature;
@@ -18,8 +18,9 @@ pub const MODEL: ToothModel = ToothModel {
     index: "beam",
     help: "potential energy on the true profile",
     range: "any tooth number, profile shift and pressure angle that leave a tooth",
-    covers: |_| true,
-    range_reads: &[],
+    covers,
+    why_outside: |_| "the beam finds no tooth at the load point".to_owned(),
+    range_reads: &["profile", "tip_circle_driver", "tip_circle_driven"],
     check,
     outside,
     chosen: "tooth-compliance-beam",
@@ -157,6 +158,17 @@ const SOLID_BODY: f64 = 3.0;
 const FOUNDATION_BODY: (f64, f64) = (1.4, 7.0);
 /// Range of the half tooth angle at the root in which they were fitted, in rad.
 const FOUNDATION_ANGLE: (f64, f64) = (0.01, 0.12);
+
+/// Whether the beam has an answer at both tips.
+fn covers(inputs: &Inputs) -> bool {
+    let answers = |gear: &Gear| {
+        let gear = ElasticGear::of(inputs, gear);
+        let (module, alpha) = (gear.rack.module, gear.rack.pressure_angle);
+        geometry::circles(module, alpha, &gear.shape)
+            .is_ok_and(|circles| tooth(&gear, &circles, circles.tip).is_ok())
+    };
+    answers(&inputs.driver) && answers(&inputs.driven)
+}
 
 fn check(context: &Context) -> Option<Finding> {
     let geometry = &context.solution.geometry;

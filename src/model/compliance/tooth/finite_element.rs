@@ -17,9 +17,10 @@ use crate::model::inputs::{Inputs, ToothCompliance};
 pub const MODEL: ToothModel = ToothModel {
     name: "finite-element",
     index: "fe",
-    help: "plane strain of the whole gear, contact and neighbouring teeth included",
+    help: "plane strain of the whole gear with its contact, the default but in paper",
     range: "any gear whose teeth have a tip, a neck and an involute, with a rim below them",
     covers,
+    why_outside: |inputs| refusal(inputs).map_or(String::new(), |refusal| refusal.to_string()),
     range_reads: &[
         "profile",
         "tip_circle_driver",
@@ -135,6 +136,14 @@ fn outside(inputs: &Inputs, _: &Geometry) -> Option<(&'static str, String)> {
     refusal(inputs).map(|refusal| ("no-field", refusal.to_string()))
 }
 
+/// The field of a gear, built if no recent solve has built it.
+///
+/// # Errors
+/// [`Refusal::NoField`] if the gear has none.
+pub fn field_of(gear: &ElasticGear) -> Result<Arc<Field>, Refusal> {
+    field_gear(gear).field()
+}
+
 fn field_gear(gear: &ElasticGear) -> FieldGear {
     FieldGear {
         rack: gear.rack,
@@ -163,7 +172,7 @@ fn field_gear(gear: &ElasticGear) -> FieldGear {
 /// # Errors
 /// [`Refusal::NoField`] if the gear has no field.
 fn build(gear: &ElasticGear, _: &Circles) -> Result<Arc<dyn LoadedTooth>, Refusal> {
-    Ok(field_gear(gear).field()?)
+    Ok(field_of(gear)?)
 }
 
 /// Refuses a load below the form circle.
@@ -205,5 +214,65 @@ impl LoadedTooth for Field {
 
     fn last_radius(&self) -> f64 {
         self.radii()[1]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::inputs::Drive;
+    use crate::model::sample::standard_pair;
+    use crate::model::{Stages, solve};
+
+    fn fields(inputs: &Inputs) -> [Arc<Field>; 2] {
+        let elasticity = inputs.elasticity();
+        [elasticity.driver, elasticity.driven].map(|gear| field_of(&gear).unwrap())
+    }
+
+    #[test]
+    fn an_edit_of_load_deviation_or_relief_builds_no_field() {
+        let before = standard_pair(23, 31, 5e-3);
+        let [driver, driven] = fields(&before);
+        let edits: [fn(&mut Inputs); 7] = [
+            |inputs| inputs.drive = Drive::Torque(200.0),
+            |inputs| inputs.speed *= 2.0,
+            |inputs| inputs.base_pitch_deviation = 20e-6,
+            |inputs| inputs.driven.tip_relief = 30e-6,
+            |inputs| inputs.driver.face_width *= 2.0,
+            |inputs| inputs.driver.young *= 1.1,
+            |inputs| inputs.driver.density *= 1.1,
+        ];
+        for edit in edits {
+            let mut after = before.clone();
+            edit(&mut after);
+            assert!(solve(&after, Stages::CLOSED_FORM).is_ok());
+            let [new_driver, new_driven] = fields(&after);
+            assert!(Arc::ptr_eq(&driver, &new_driver) && Arc::ptr_eq(&driven, &new_driven));
+        }
+    }
+
+    #[test]
+    fn a_change_of_one_gear_builds_its_field_alone_and_equal_gears_share_one() {
+        let mut inputs = standard_pair(27, 27, 4e-3);
+        let [driver, driven] = fields(&inputs);
+        assert!(Arc::ptr_eq(&driver, &driven));
+        inputs.driven.bore_radius = 10e-3;
+        let [kept, bored] = fields(&inputs);
+        assert!(Arc::ptr_eq(&driver, &kept) && !Arc::ptr_eq(&driver, &bored));
+    }
+
+    #[test]
+    fn a_gear_without_a_field_is_solved_by_the_beam_and_a_note_says_why() {
+        let mut inputs = standard_pair(12, 40, 5e-3);
+        inputs.driver.profile_shift = 0.2;
+        inputs.driver.bore_radius = 0.999 * 5e-3 * (6.0 - 1.25 + 0.2) + 0.5e-6;
+        inputs.driver.poisson = 0.495;
+        inputs.base_pitch_deviation = 20e-6;
+        assert_eq!(inputs.elasticity().tooth, ToothCompliance::BEAM);
+        let solution = solve(&inputs, Stages::CLOSED_FORM).unwrap();
+        let notes = crate::model::notes(&inputs, &solution);
+        let note = notes.iter().find(|note| note.code == "tooth-compliance-beam");
+        let message = &note.unwrap().message;
+        assert!(message.contains("no finite elements for the gear with 12 teeth"), "{message}");
     }
 }

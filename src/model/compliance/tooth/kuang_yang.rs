@@ -17,6 +17,7 @@ pub const MODEL: ToothModel = ToothModel {
     help: "Eq. 56, for z 12..100, |x| <= 0.6, 20 deg full-depth steel",
     range: RANGE,
     covers,
+    why_outside: |_| format!("the pair is outside the range of `kuang-yang`, {RANGE}"),
     range_reads: &[
         "pair.pressure_angle",
         "*.teeth",
