@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 
 use tipstrike::case::file::Document;
 use tipstrike::model::Inputs;
+use tipstrike::model::compliance::model_of;
+use tipstrike::model::inputs::Method;
 use tipstrike::report::trade::duration;
 use tipstrike::study::trade::{
     Differences, Patience, Question, Setting, Subject, Trade, greatest, trade,
@@ -27,12 +29,22 @@ pub(crate) fn cases() -> Vec<PathBuf> {
     cases
 }
 
+/// The inputs of a case; without a tooth compliance, with that of the method `paper`, whose time
+/// includes no field.
 pub(crate) fn inputs(path: &Path) -> Inputs {
     let document = Document::read(path).unwrap_or_else(|error| panic!("{error}"));
-    document
+    let inputs = document
         .case
         .inputs()
-        .unwrap_or_else(|problems| panic!("{}: {}", path.display(), problems[0]))
+        .unwrap_or_else(|problems| panic!("{}: {}", path.display(), problems[0]));
+    let printed = Inputs {
+        method: Method::Paper,
+        ..inputs.clone()
+    };
+    Inputs {
+        tooth_compliance: Some(model_of(&printed)),
+        ..inputs
+    }
 }
 
 /// A power of ten as it is read from a file.
