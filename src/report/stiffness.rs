@@ -42,7 +42,9 @@ pub fn write(report: &StiffnessReport<'_>, out: &mut dyn Write) -> io::Result<()
     }
     let path = &report.comparison.path;
     sections.push(path_section("one pair", path, |point| &point.pair));
-    sections.push(path_section("all pairs in contact", path, |point| &point.mesh));
+    sections.push(path_section("all pairs in contact", path, |point| {
+        &point.mesh
+    }));
     let sections: Vec<_> = sections.iter().map(|lines| lines.join("\n")).collect();
     writeln!(out, "{}", sections.join("\n\n"))
 }

@@ -56,10 +56,7 @@ pub(super) fn compare(
         let way = length * step as f64 / last as f64;
         PathPoint {
             way,
-            pair: meshes
-                .iter()
-                .map(|mesh| mesh.as_ref()?.pair(way))
-                .collect(),
+            pair: meshes.iter().map(|mesh| mesh.as_ref()?.pair(way)).collect(),
             mesh: meshes
                 .iter()
                 .map(|mesh| mesh.as_ref()?.whole(way))
@@ -157,8 +154,8 @@ mod tests {
         let geometry = geometry::<f64>(&inputs.shape()).unwrap();
         let found = compare(&inputs, &geometry, 2e3, 9);
         let of = |model: ToothCompliance| found.models.iter().position(|&own| own == model);
-        let [beam, field] =
-            [ToothCompliance::BEAM, ToothCompliance::FINITE_ELEMENT].map(|model| of(model).unwrap());
+        let [beam, field] = [ToothCompliance::BEAM, ToothCompliance::FINITE_ELEMENT]
+            .map(|model| of(model).unwrap());
         // At E a second pair is one base pitch ahead.
         let (first, length) = (&found.points[0], geometry.end - geometry.start);
         assert!(length > geometry.base_pitch);

@@ -33,7 +33,9 @@ pub fn first_answer(request: &Request) -> Answer {
 /// stiffness spread, and `None` if the pair's own compliance needs a field.
 #[must_use]
 pub fn answer_without_fields(request: &Request) -> Option<Answer> {
-    let methods = Method::CLOSED_FORM.into_iter().chain([request.inputs.method]);
+    let methods = Method::CLOSED_FORM
+        .into_iter()
+        .chain([request.inputs.method]);
     let needs_field = methods.into_iter().any(|method| {
         let inputs = Inputs {
             method,

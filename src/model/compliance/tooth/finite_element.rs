@@ -271,8 +271,13 @@ mod tests {
         assert_eq!(inputs.elasticity().tooth, ToothCompliance::BEAM);
         let solution = solve(&inputs, Stages::CLOSED_FORM).unwrap();
         let notes = crate::model::notes(&inputs, &solution);
-        let note = notes.iter().find(|note| note.code == "tooth-compliance-beam");
+        let note = notes
+            .iter()
+            .find(|note| note.code == "tooth-compliance-beam");
         let message = &note.unwrap().message;
-        assert!(message.contains("no finite elements for the gear with 12 teeth"), "{message}");
+        assert!(
+            message.contains("no finite elements for the gear with 12 teeth"),
+            "{message}"
+        );
     }
 }
