@@ -16,7 +16,7 @@ mod value;
 use std::path::PathBuf;
 
 use super::{Case, Problem};
-pub use disk::Saved;
+pub use disk::{Saved, read_bytes};
 pub use error::{ReadError, SaveError};
 use fault::Lines;
 pub use fault::{Fault, FaultKind};
@@ -28,6 +28,9 @@ pub const FORMAT: u32 = 1;
 
 /// The longest file that is read, in bytes.
 pub const MOST_BYTES: usize = 1 << 20;
+
+/// The longest model of another program that is read, packed or unpacked, in bytes.
+pub const MOST_MODEL_BYTES: usize = 16 << 20;
 
 const TABLE_1: &str = include_str!("../../cases/zhou-chen-2014.toml");
 const BYTE_ORDER_MARK: char = '\u{feff}';
@@ -147,9 +150,15 @@ impl Document {
     /// A document without a file: the case in a commented text with every field.
     #[must_use]
     pub fn new(case: Case) -> Document {
-        let text = template::text(&case);
+        Document::commented("new case".to_owned(), case, &[])
+    }
+
+    /// A document without a file whose text has a comment of its own at the named fields.
+    #[must_use]
+    pub fn commented(name: String, case: Case, comments: &[(&str, String)]) -> Document {
+        let text = template::text(&case, comments);
         let places = tree::read(&text).places;
-        let (loaded, name) = (case.clone(), "new case".to_owned());
+        let loaded = case.clone();
         Document {
             loaded,
             case,

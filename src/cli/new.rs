@@ -6,6 +6,7 @@ use crate::case::units::System;
 use crate::case::{Case, Document, EXAMPLES, Example};
 use crate::report::digest::Digest;
 use std::io::{self, Write};
+use std::path::Path;
 
 pub(super) fn run(options: &New, streams: &mut Streams) -> io::Result<Exit> {
     if options.list {
@@ -15,11 +16,12 @@ pub(super) fn run(options: &New, streams: &mut Streams) -> io::Result<Exit> {
         || Document::new(Case::fresh()).render(),
         |example| example.text.to_owned(),
     );
-    match options
-        .file
-        .as_deref()
-        .filter(|file| file.as_os_str() != "-")
-    {
+    write(options.file.as_deref(), &text, streams)
+}
+
+/// Writes a case to a file that must not exist yet, or to standard output.
+pub(super) fn write(file: Option<&Path>, text: &str, streams: &mut Streams) -> io::Result<Exit> {
+    match file.filter(|file| file.as_os_str() != "-") {
         None => streams
             .output
             .write_all(text.as_bytes())

@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 
 use crate::case::Document;
 use crate::case::file::ReadError;
+use crate::case::rexs;
 use crate::case::sanitize::sanitize;
 
 /// What the workbench begins with.
@@ -57,7 +58,7 @@ pub fn opening(asked: Option<PathBuf>) -> Opening {
             recents::add(&path);
             Opening {
                 document: *document,
-                path: Some(path),
+                path: Some(rexs::case_path(&path)),
                 trouble: None,
             }
         }
@@ -84,7 +85,12 @@ pub(super) fn load(path: &Path) -> Result<Box<Document>, Vec<String>> {
                 .to_owned(),
         ]);
     }
-    let document = match Document::read_draft(path) {
+    let document = if rexs::is_model(path) {
+        rexs::read_document(path)
+    } else {
+        Document::read_draft(path)
+    };
+    let document = match document {
         Err(ReadError::NewerFormat(_)) => Document::read_newer(path),
         document => document,
     };

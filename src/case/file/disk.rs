@@ -177,15 +177,30 @@ fn open(path: &Path, name: &str) -> Result<File, ReadError> {
     File::open(path).map_err(failed)
 }
 
+/// The bytes of a regular file of at most so many, or of standard input where the path is `-`.
+///
+/// # Errors
+/// Where the file cannot be read, or is longer.
+pub fn read_bytes(path: &Path, most: usize) -> Result<Vec<u8>, ReadError> {
+    let name = shown(path);
+    if path == Path::new("-") {
+        return limited(io::stdin().lock(), &name, most);
+    }
+    limited(open(path, &name)?, &name, most)
+}
+
 fn capped(source: impl Read, name: &str) -> Result<Vec<u8>, ReadError> {
+    limited(source, name, MOST_BYTES)
+}
+
+fn limited(source: impl Read, name: &str, most: usize) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
-    let most = MOST_BYTES as u64 + 1;
     source
-        .take(most)
+        .take(most as u64 + 1)
         .read_to_end(&mut bytes)
         .map_err(|error| ReadError::Unreadable(name.to_owned(), error))?;
-    if bytes.len() > MOST_BYTES {
-        Err(ReadError::TooLarge(name.to_owned()))
+    if bytes.len() > most {
+        Err(ReadError::TooLarge(name.to_owned(), most >> 10))
     } else {
         Ok(bytes)
     }

@@ -8,7 +8,7 @@ use super::{Document, tree};
 /// The document's text with its changes.
 pub(super) fn render(document: &Document) -> String {
     let Some(text) = edited(document) else {
-        return template::text(&document.case);
+        return template::text(&document.case, &[]);
     };
     let sorted = |case| {
         let mut entries = entries(case);
@@ -21,7 +21,7 @@ pub(super) fn render(document: &Document) -> String {
     if kept || document.case.inputs().is_err() {
         text
     } else {
-        template::text(&document.case)
+        template::text(&document.case, &[])
     }
 }
 

@@ -17,15 +17,18 @@ pub enum ReadError {
     /// It is a folder, a pipe or a device.
     #[error("{0}: this is not a regular file")]
     NotAFile(String),
-    /// It is longer than [`MOST_BYTES`](super::MOST_BYTES).
-    #[error("{0}: the file is longer than 1024 KiB, so it is no case")]
-    TooLarge(String),
+    /// It is longer than so many KiB.
+    #[error("{0}: the file is longer than {1} KiB, so it is no case")]
+    TooLarge(String, usize),
     /// The system refuses to read it.
     #[error("{0}: cannot be read: {1}")]
     Unreadable(String, io::Error),
     /// Its text is no valid case.
     #[error("{}", one_a_line(.0))]
     Bad(Vec<Fault>),
+    /// It is a model of another program that cannot become a case.
+    #[error("{0}")]
+    Model(String),
     /// It is of a newer format.
     #[error("{0}")]
     NewerFormat(Fault),

@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 use super::FORMAT;
 use crate::case::fields::{Absent, FIELDS, FLAG, Field, GROUPS};
+use crate::case::sanitize::sanitize;
 use crate::case::units::{self, Dimension};
 use crate::case::{Case, check};
 
@@ -84,8 +85,8 @@ pub(super) fn entries(case: &Case) -> Vec<Entry> {
     fields.chain(limits).chain(spread).collect()
 }
 
-/// A commented case; valid where the case is.
-pub(super) fn text(case: &Case) -> String {
+/// A commented case; valid where the case is. The comments are for single fields, by their keys.
+pub(super) fn text(case: &Case, comments: &[(&str, String)]) -> String {
     let entries = entries(case);
     let mut text = format!(
         "# A gear pair for tipstrike.\n# A value with a dimension is a string with its unit; any unit of the dimension will do.\nformat = {FORMAT}\n"
@@ -100,7 +101,9 @@ pub(super) fn text(case: &Case) -> String {
                     .iter()
                     .find(|entry| entry.table == table && entry.name == field.name());
                 let line = written.map_or_else(|| unwritten(case, index), Entry::line);
-                text.push_str(&described(field, &line));
+                let comments = comments.iter().filter(|(key, _)| *key == field.key);
+                let comments = comments.map(|(_, comment)| comment.as_str());
+                text.push_str(&described(field, &line, comments));
             }
         }
     }
@@ -119,7 +122,7 @@ pub(super) fn text(case: &Case) -> String {
     text
 }
 
-fn described(field: &Field, line: &str) -> String {
+fn described<'a>(field: &Field, line: &str, comments: impl Iterator<Item = &'a str>) -> String {
     let symbol = if field.symbol.is_empty() {
         String::new()
     } else {
@@ -135,7 +138,13 @@ fn described(field: &Field, line: &str) -> String {
         Absent::Without(words) => format!(" Left out: {words}."),
         _ => String::new(),
     };
-    format!("# {symbol}{}{range}{absent}\n{line}\n", field.help)
+    let comments: String = comments
+        .map(|comment| format!("# {}\n", sanitize(comment)))
+        .collect();
+    format!(
+        "# {symbol}{}{range}{absent}\n{comments}{line}\n",
+        field.help
+    )
 }
 
 /// A field without a value: an empty one where it is required, else an example as a comment.

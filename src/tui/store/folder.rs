@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::at_home;
+use crate::case::rexs;
 use crate::case::sanitize::sanitize;
 
 /// So many are listed; a folder with more is not for looking through.
@@ -91,11 +92,11 @@ pub fn entries(folder: &Path) -> Result<Vec<Entry>, String> {
 }
 
 impl Entry {
-    /// Whether a file of that name is taken for a case.
+    /// Whether a file of that name is taken for a case, or for a model that becomes one.
     #[must_use]
     pub fn is_case(file: &Path) -> bool {
-        file.extension()
-            .is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
+        let is_toml = |ending: &std::ffi::OsStr| ending.eq_ignore_ascii_case("toml");
+        file.extension().is_some_and(is_toml) || rexs::is_model(file)
     }
 
     fn of(entry: &fs::DirEntry) -> Option<Entry> {

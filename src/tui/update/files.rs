@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::{baseline, recovery, solve, tabs};
 use crate::case::Document;
 use crate::case::file::Saved;
+use crate::case::rexs;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::ascii;
@@ -114,7 +115,7 @@ pub(super) fn loaded(
         Ok(document) => {
             app.prompts.clear();
             let mut effects = vec![Effect::Remember(path.clone())];
-            effects.extend(solve(tabs::show(app, *document, path)));
+            effects.extend(solve(tabs::show(app, *document, rexs::case_path(&path))));
             if app.tab.access == Access::Newer {
                 app.complain(NEWER);
             } else {
@@ -221,7 +222,9 @@ pub(super) fn open(app: &mut App, path: PathBuf) -> Vec<Effect> {
 // The same file by another path, over a link, is the same case.
 fn is_open_as_another(app: &mut App, document: &Document, path: &Path) -> bool {
     let is_it = |tab: &Tab| {
-        tab.path.as_deref().is_some_and(|own| own != path) && tab.document.path() == document.path()
+        tab.path.as_deref().is_some_and(|own| own != path)
+            && document.path().is_some()
+            && tab.document.path() == document.path()
     };
     let Some(at) = app.tabs().position(is_it) else {
         return false;
@@ -237,7 +240,9 @@ fn is_open_as_another(app: &mut App, document: &Document, path: &Path) -> bool {
 }
 
 fn place_of(app: &App, path: &Path) -> Option<usize> {
-    app.tabs().position(|tab| tab.path.as_deref() == Some(path))
+    let path = rexs::case_path(path);
+    app.tabs()
+        .position(|tab| tab.path.as_deref() == Some(&path))
 }
 
 // A file with wrong values could not be opened again; one in which values are missing can.

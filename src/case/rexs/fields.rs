@@ -1,0 +1,302 @@
+//! The fields of pair, gears and deviations from the components of a spur stage.
+
+use super::model::{Component, Model};
+use super::relief;
+use super::source::{Found, Reading, Values, Wanted, agreed, found};
+use super::stage::TEETH;
+use crate::case::units::{self, Dimension};
+
+/// A gear of the stage with what belongs to it.
+pub(super) struct Gear<'a> {
+    pub(super) component: &'a Component,
+    /// The components of the left flank and of the right one.
+    pub(super) flanks: [Vec<&'a Component>; 2],
+    materials: Vec<&'a Component>,
+    /// Racks that cut the gear.
+    racks: Vec<&'a Component>,
+}
+
+impl<'a> Gear<'a> {
+    pub(super) fn new(model: &'a Model, component: &'a Component) -> Gear<'a> {
+        let flank = |side| {
+            let own = ("gear", component.id.as_str());
+            model.related("flank", own, side).collect()
+        };
+        Gear {
+            component,
+            flanks: [flank("left"), flank("right")],
+            materials: model.linked(&component.id, "material").collect(),
+            racks: model.linked(&component.id, "rack_shaped_tool").collect(),
+        }
+    }
+
+    /// A value that both flanks must share; the gear itself may have it instead.
+    pub(super) fn of_flanks(&self, wanted: Wanted) -> Result<Option<Reading>, String> {
+        let [left, right] = &self.flanks;
+        let reading = agreed(
+            wanted.first(left.iter().copied())?,
+            wanted.first(right.iter().copied())?,
+        )?;
+        reading.map_or_else(|| wanted.read(self.component), |reading| Ok(Some(reading)))
+    }
+}
+
+/// The keys of the fields of one gear.
+macro_rules! keys {
+    ($gear:literal) => {
+        Keys {
+            teeth: concat!($gear, ".teeth"),
+            profile_shift: concat!($gear, ".profile_shift"),
+            addendum: concat!($gear, ".addendum"),
+            dedendum: concat!($gear, ".dedendum"),
+            face_width: concat!($gear, ".face_width"),
+            bore_radius: concat!($gear, ".bore_radius"),
+            young: concat!($gear, ".young"),
+            poisson: concat!($gear, ".poisson"),
+            density: concat!($gear, ".density"),
+            tip_chamfer: concat!($gear, ".tip_chamfer"),
+            tip_relief: concat!($gear, ".tip_relief"),
+            tip_relief_length: concat!($gear, ".tip_relief_length"),
+            root_relief: concat!($gear, ".root_relief"),
+            root_relief_length: concat!($gear, ".root_relief_length"),
+        }
+    };
+}
+
+pub(super) struct Keys {
+    teeth: &'static str,
+    profile_shift: &'static str,
+    addendum: &'static str,
+    dedendum: &'static str,
+    face_width: &'static str,
+    bore_radius: &'static str,
+    young: &'static str,
+    poisson: &'static str,
+    density: &'static str,
+    tip_chamfer: &'static str,
+    pub(super) tip_relief: &'static str,
+    pub(super) tip_relief_length: &'static str,
+    pub(super) root_relief: &'static str,
+    pub(super) root_relief_length: &'static str,
+}
+
+const DRIVER: Keys = keys!("driver");
+const DRIVEN: Keys = keys!("driven");
+
+/// Reads every field but those of the operation.
+pub(super) fn read(model: &Model, stage: &Component, gears: [&Component; 2], values: &mut Values) {
+    let [driver, driven] = gears.map(|gear| Gear::new(model, gear));
+    let module = shared(values, "pair.module", [&driver, &driven], |gear| {
+        Wanted::length("normal_module").read(gear.component)
+    });
+    let angle = Wanted::new("normal_pressure_angle", Dimension::Angle, "deg");
+    let angle = shared(values, "pair.pressure_angle", [&driver, &driven], |gear| {
+        gear.of_flanks(angle)
+    });
+    values.put(
+        "pair.centre_distance",
+        found(
+            Wanted::length("center_distance").read(stage),
+            "the model gives no center_distance",
+        ),
+    );
+    for (keys, gear) in [(&DRIVER, &driver), (&DRIVEN, &driven)] {
+        let shift = body(values, keys, gear, module);
+        let base = angle.and_then(|angle| base_diameter(gear, module?, angle));
+        heights(values, keys, gear, module, shift);
+        relief::read(model, keys, gear, base, values);
+    }
+    deviations(values, stage, [&driver, &driven]);
+}
+
+/// A value that both gears must share, in SI. Gears with different values are no pair.
+fn shared(
+    values: &mut Values,
+    key: &'static str,
+    gears: [&Gear; 2],
+    read: impl Fn(&Gear) -> Result<Option<Reading>, String>,
+) -> Option<f64> {
+    let both = read(gears[0]).and_then(|first| Ok((first, read(gears[1])?)));
+    match both.and_then(|(first, second)| agreed(first, second)) {
+        Ok(Some(reading)) => {
+            let value = reading.value;
+            values.put(key, reading.found());
+            Some(value)
+        }
+        Ok(None) => {
+            values.put(key, Found::Absent("the model gives none".to_owned()));
+            None
+        }
+        Err(reason) => {
+            values.refusals.push(reason);
+            None
+        }
+    }
+}
+
+/// Teeth, profile shift, sizes and material; returns the profile shift coefficient.
+fn body(values: &mut Values, keys: &Keys, gear: &Gear, module: Option<f64>) -> Option<f64> {
+    let own = |wanted: Wanted| found(wanted.read(gear.component), &none(wanted.id));
+    values.put(keys.teeth, own(TEETH));
+    let shift = profile_shift(gear, module);
+    let coefficient = shift
+        .as_ref()
+        .ok()
+        .and_then(|shift| Some(shift.as_ref()?.value));
+    match shift {
+        Err(reason) => values.refusals.push(reason),
+        shift => values.put(
+            keys.profile_shift,
+            found(shift, &none("addendum_modification_coefficient")),
+        ),
+    }
+    values.put(keys.face_width, own(Wanted::length("face_width")));
+    let bore = Wanted::length("inner_diameter").read(gear.component);
+    let radius = bore.map(|bore| bore.map(|bore| derived(bore, 0.5, "mm", "half of")));
+    values.put(keys.bore_radius, found(radius, &none("inner_diameter")));
+    let of_material = |id, dimension, unit| {
+        let wanted = Wanted::new(id, dimension, unit);
+        let reading = wanted.first(gear.materials.iter().copied());
+        found(reading, &format!("no material of the gear has {id}"))
+    };
+    values.put(
+        keys.young,
+        of_material("elastic_modulus", Dimension::Pressure, "MPa"),
+    );
+    values.put(
+        keys.poisson,
+        of_material("poisson_ratio", Dimension::Number, ""),
+    );
+    values.put(
+        keys.density,
+        of_material("density", Dimension::Density, "kg/dm3"),
+    );
+    let chamfer = gear.of_flanks(Wanted::length("tooth_tip_chamfer"));
+    values.put(keys.tip_chamfer, found(chamfer, &none("tooth_tip_chamfer")));
+    coefficient
+}
+
+fn none(attribute: &str) -> String {
+    format!("the model gives no {attribute}")
+}
+
+/// The reading times a factor, in a unit.
+fn derived(reading: Reading, factor: f64, unit: &str, words: &str) -> Reading {
+    let value = reading.value * factor;
+    Reading {
+        text: units::text(value, unit),
+        value,
+        source: format!("{words} {} = {}", reading.source, reading.text),
+    }
+}
+
+/// The nominal coefficient, else that of the nominal shift, else that of the finished gear.
+fn profile_shift(gear: &Gear, module: Option<f64>) -> Result<Option<Reading>, String> {
+    let coefficient = |id| gear.of_flanks(Wanted::number(id));
+    if let Some(reading) = coefficient("addendum_modification_coefficient")? {
+        return Ok(Some(reading));
+    }
+    let shift = gear.of_flanks(Wanted::length("addendum_modification"))?;
+    if let (Some(shift), Some(module)) = (shift, module) {
+        return Ok(Some(derived(shift, 1.0 / module, "", "the module and")));
+    }
+    coefficient("addendum_modification_coefficient_after_finishing")
+}
+
+/// The base diameter d_b = m z cos α, in m.
+fn base_diameter(gear: &Gear, module: f64, angle: f64) -> Option<f64> {
+    let teeth = TEETH.read(gear.component).ok()??;
+    Some(module * teeth.value * angle.cos())
+}
+
+/// Addendum and dedendum from the tip and root diameters, else from the basic profile.
+fn heights(values: &mut Values, keys: &Keys, gear: &Gear, module: Option<f64>, shift: Option<f64>) {
+    let teeth = TEETH.read(gear.component).ok().flatten();
+    // A tip radius is m (z/2 + ha* + x), a root radius m (z/2 - hf* + x).
+    let coefficient = |id: &'static str, sign: f64| -> Result<Option<Reading>, String> {
+        let Some(diameter) = Wanted::length(id).read(gear.component)? else {
+            return Ok(None);
+        };
+        let (Some(module), Some(teeth)) = (module, teeth.as_ref()) else {
+            return Ok(None);
+        };
+        let over = diameter.value / module / 2.0 - teeth.value / 2.0;
+        let value = sign * (over - shift.unwrap_or(0.0));
+        // Diameters are printed to a micrometre or so; the digits beyond are noise.
+        let value = (value * 1e9).round() / 1e9;
+        Ok(Some(Reading {
+            text: units::text(value, ""),
+            value,
+            source: format!("{} = {}", diameter.source, diameter.text),
+        }))
+    };
+    let addendum = match coefficient("tip_diameter", 1.0) {
+        Ok(None) => gear.of_flanks(Wanted::number("addendum_coefficient_basic_profile")),
+        other => other,
+    };
+    values.put(
+        keys.addendum,
+        found(
+            addendum,
+            "the model gives neither tip_diameter nor the basic profile",
+        ),
+    );
+    // The addendum of the rack cuts the dedendum of the gear.
+    let dedendum = match coefficient("root_diameter", -1.0) {
+        Ok(None) => Wanted::number("addendum_coefficient_reference_profile")
+            .first(gear.racks.iter().copied()),
+        other => other,
+    };
+    values.put(
+        keys.dedendum,
+        found(
+            dedendum,
+            "the model gives neither root_diameter nor the rack",
+        ),
+    );
+}
+
+const PITCH_DEVIATIONS_OF_STAGE: [&str; 2] = [
+    "transverse_base_pitch_deviation_iso_6336_2019",
+    "transverse_base_pitch_deviation_iso_6336_2006",
+];
+
+fn deviations(values: &mut Values, stage: &Component, gears: [&Gear; 2]) {
+    let micrometres = |id| Wanted::new(id, Dimension::Length, "um");
+    let of_stage = PITCH_DEVIATIONS_OF_STAGE
+        .iter()
+        .map(|id| micrometres(id).read(stage));
+    let of_gears = || {
+        let deviation = micrometres("base_pitch_deviation_din_3962_1978");
+        let [first, second] = gears.map(|gear| deviation.read(gear.component));
+        Ok(greater(first?, second?))
+    };
+    let deviation = of_stage
+        .reduce(|first, next| {
+            if matches!(first, Ok(None)) {
+                next
+            } else {
+                first
+            }
+        })
+        .filter(|reading| !matches!(reading, Ok(None)))
+        .unwrap_or_else(of_gears);
+    values.put(
+        "deviations.base_pitch",
+        found(deviation, "the model gives no base pitch deviation"),
+    );
+    let least = Wanted::length("minimum_normal_backlash").read(stage);
+    let greatest = Wanted::length("maximum_normal_backlash").read(stage);
+    let backlash = least.and_then(|least| agreed(least, greatest?));
+    values.put(
+        "deviations.backlash",
+        found(backlash, "the model gives no normal backlash"),
+    );
+}
+
+fn greater(first: Option<Reading>, second: Option<Reading>) -> Option<Reading> {
+    match (first, second) {
+        (Some(first), Some(second)) if second.value > first.value => Some(second),
+        (first, second) => first.or(second),
+    }
+}

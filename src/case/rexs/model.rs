@@ -1,0 +1,120 @@
+//! A REXS model as a list of components and of relations between them, whatever its file format.
+
+/// A model.
+#[derive(Debug, Default)]
+pub(super) struct Model {
+    /// The REXS version, such as "1.4".
+    pub(super) version: String,
+    /// The program that wrote it, with its version.
+    pub(super) application: String,
+    pub(super) components: Vec<Component>,
+    pub(super) relations: Vec<Relation>,
+    pub(super) load_cases: Vec<LoadCase>,
+}
+
+/// A part, a material, a load.
+#[derive(Debug)]
+pub(super) struct Component {
+    pub(super) id: String,
+    /// Its type, such as "cylindrical_gear".
+    pub(super) kind: String,
+    pub(super) name: String,
+    pub(super) attributes: Vec<Attribute>,
+}
+
+/// A value of a component; arrays are left out.
+#[derive(Debug)]
+pub(super) struct Attribute {
+    pub(super) id: String,
+    /// Empty where none is given.
+    pub(super) unit: String,
+    pub(super) value: String,
+}
+
+/// A relation of components.
+#[derive(Debug)]
+pub(super) struct Relation {
+    /// Its type, such as "stage".
+    pub(super) kind: String,
+    /// The role and the id of each component.
+    pub(super) refs: Vec<(String, String)>,
+}
+
+/// Attributes that one load case of the load spectrum adds to components.
+#[derive(Debug)]
+pub(super) struct LoadCase {
+    pub(super) id: String,
+    /// The id of the component and its attributes.
+    pub(super) components: Vec<(String, Vec<Attribute>)>,
+}
+
+impl Model {
+    pub(super) fn component(&self, id: &str) -> Option<&Component> {
+        self.components.iter().find(|component| component.id == id)
+    }
+
+    /// The components that a relation of this type connects, each in the named role, with one that
+    /// is in the other role.
+    pub(super) fn related<'a>(
+        &'a self,
+        kind: &'a str,
+        (role, id): (&'a str, &'a str),
+        other: &'a str,
+    ) -> impl Iterator<Item = &'a Component> {
+        self.relations
+            .iter()
+            .filter(move |relation| relation.kind == kind && relation.role(role) == Some(id))
+            .filter_map(move |relation| self.component(relation.role(other)?))
+    }
+
+    /// The components of a type that share a relation with this one, whatever the relation.
+    pub(super) fn linked<'a>(
+        &'a self,
+        id: &'a str,
+        kind: &'a str,
+    ) -> impl Iterator<Item = &'a Component> {
+        self.relations
+            .iter()
+            .filter(move |relation| relation.refs.iter().any(|(_, other)| other == id))
+            .flat_map(|relation| &relation.refs)
+            .filter(move |(_, other)| other != id)
+            .filter_map(|(_, other)| self.component(other))
+            .filter(move |component| component.kind == kind)
+    }
+}
+
+impl Relation {
+    /// The id of the component in a role.
+    pub(super) fn role(&self, role: &str) -> Option<&str> {
+        let found = self.refs.iter().find(|(own, _)| own == role);
+        found.map(|(_, id)| id.as_str())
+    }
+}
+
+impl Component {
+    pub(super) fn attribute(&self, id: &str) -> Option<&Attribute> {
+        find(&self.attributes, id)
+    }
+
+    /// Whether a truth value is given and true.
+    pub(super) fn is_true(&self, id: &str) -> bool {
+        let value = self.attribute(id).map(|attribute| attribute.value.as_str());
+        matches!(value, Some("true" | "1"))
+    }
+
+    /// As a message names it, such as `cylindrical_gear 23 "pinion"`.
+    pub(super) fn label(&self) -> String {
+        if self.name.is_empty() {
+            format!("{} {}", self.kind, self.id)
+        } else {
+            format!("{} {} {:?}", self.kind, self.id, self.name)
+        }
+    }
+}
+
+/// An attribute with a value.
+pub(super) fn find<'a>(attributes: &'a [Attribute], id: &str) -> Option<&'a Attribute> {
+    attributes
+        .iter()
+        .find(|attribute| attribute.id == id && !attribute.value.is_empty())
+}
