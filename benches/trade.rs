@@ -13,7 +13,7 @@ mod table;
 
 use table::{Row, Table};
 use tipstrike::model::inputs::Method;
-use tipstrike::report::trade::plot::{LOOKS, Plot, Point, Series, svg};
+use tipstrike::report::trade::plot::{Plot, Point, Series, svg};
 use tipstrike::study::trade::{METHODS, Patience, Setting, Subject, greatest};
 
 fn main() {
@@ -82,8 +82,7 @@ fn picture(table: &Table) -> String {
     let series: Vec<Series> = stations
         .into_iter()
         .chain([tolerances])
-        .zip(LOOKS)
-        .map(|((name, usual, error), look)| {
+        .map(|(name, usual, error)| {
             let alike = |setting: &Setting| {
                 let same = if error == 1 {
                     setting.tolerance == usual.tolerance
@@ -107,7 +106,6 @@ fn picture(table: &Table) -> String {
                 .filter_map(|setting| point(table, setting, *setting == usual, error));
             Series {
                 name,
-                look,
                 points: points.collect(),
             }
         })

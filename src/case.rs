@@ -10,6 +10,7 @@ pub mod file;
 mod hint;
 pub mod materials;
 mod relevance;
+pub mod rexs;
 pub mod sanitize;
 pub mod search;
 pub mod spread;

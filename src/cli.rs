@@ -5,8 +5,11 @@ mod arguments;
 mod cases;
 mod check;
 mod explain;
+mod import;
 mod new;
+mod plot;
 mod progress;
+mod report;
 mod seek;
 mod shell;
 mod sink;
@@ -21,8 +24,8 @@ use crate::case::suggest;
 use crate::report::fields;
 
 pub use arguments::{
-    Arguments, Check, Command, Explain, Fields, Format, Listing, New, RowFormat, Running, Seek,
-    Setting, Solve, Stiffness, Sweep, Tolerance, Trading,
+    Arguments, Check, Command, Explain, Export, Fields, Format, Import, Listing, New, Plot,
+    RowFormat, Running, Seek, Setting, Solve, Stiffness, Sweep, Tolerance, Trading,
 };
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches};
@@ -173,6 +176,9 @@ pub fn run(command: &Command, streams: &mut Streams) -> Exit {
         Command::Tolerance(options) => tolerance::run(options, streams),
         Command::Fields(options) => list_fields(options, streams.output.as_mut()),
         Command::New(options) => new::run(options, streams),
+        Command::Plot(options) => plot::run(options, streams),
+        Command::Report(options) => report::run(options, streams),
+        Command::Import(options) => import::run(options, streams),
         Command::Completions { shell } => shell::completions(*shell, streams.output.as_mut()),
         Command::Man { command } => shell::man(command.as_deref(), streams),
     };

@@ -1,6 +1,7 @@
 //! What a person or a script reads of a solve.
 
 pub mod absence;
+pub mod charts;
 pub mod comparison;
 pub mod csv;
 pub mod digest;
@@ -10,10 +11,12 @@ pub mod graphs;
 pub mod groups;
 pub mod json;
 mod layout;
+pub mod page;
 pub mod relief;
 pub mod seek;
 pub mod stations;
 pub mod stiffness;
+pub mod svg;
 pub mod sweep;
 pub mod text;
 pub mod tolerance;

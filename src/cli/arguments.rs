@@ -10,6 +10,7 @@ use super::Exit;
 use crate::case::{Case, EXAMPLES, Example, Problem, unknown_quantity};
 use crate::model::inputs::Method;
 use crate::model::{QUANTITIES, Quantity};
+use crate::report::graphs::GRAPHS;
 use crate::study::stiffness::{LEAST_POINTS, MOST_POINTS};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::{Error, ErrorKind};
@@ -35,6 +36,17 @@ const TRADE_SHAPE: &str = "Each setting is timed on this machine. Its total erro
 const STIFFNESS_SHAPE: &str = "The finite elements are plane strain on the whole gear. They compare the stiffness models; `solve` does \
     not use them yet. CSV: one row per gear and radius, in SI units; an empty cell where a model does not cover the gear. JSON: one \
     object in SI units; missing values are absent, and gaps and refusal give the reason.";
+
+const PLOT_SHAPE: &str = "The chart shows the method of the case. A chart that this method lacks shows another one: load_share of a \
+    closed form shows static, impact_energy of static or dynamic shows exact. The legend names the method. The picture follows the light or dark setting of the browser.";
+
+const REPORT_SHAPE: &str = "The HTML page is complete in itself: verdict, inputs, results, charts, teeth, limits, notes and the case \
+    files; one case prints on two A4 pages. Markdown has the same without charts. CSV and JSON are those of `solve`, JSON with the \
+    stations.";
+
+const IMPORT_SHAPE: &str = "REXS is the exchange format of gear programs such as FVA-Workbench, Bearinx and KISSsoft. Versions 1.0 to \
+    2.0 are read. Each value of the case has its source as a comment; standard error lists the stages of the model and each field \
+    that stays empty, with the reason. Helical, planetary, bevel and other stages are refused.";
 
 /// Corner contact in spur gear pairs: where, how hard and how long an incoming tooth strikes
 #[derive(Debug, Parser)]
@@ -67,10 +79,16 @@ pub enum Command {
     Tolerance(Tolerance),
     /// Find every value of a field at which a condition on the results changes
     Seek(Seek),
+    /// Write a chart of a case, or its teeth, as a picture (SVG)
+    Plot(Plot),
+    /// Write cases side by side as one page or as data: .html, .md, .csv or .json
+    Report(Export),
     /// List every field of a case with its unit, range, default and meaning
     Fields(Fields),
     /// Write a commented case to start from
     New(New),
+    /// Import a spur stage of a REXS model as a commented case
+    Import(Import),
     /// Write a shell's completions to standard output
     Completions {
         /// The shell
@@ -103,6 +121,54 @@ impl Changes {
             .map(|method| Setting::by("--method", "model.method", method.name()));
         self.settings.iter().cloned().chain(method).collect()
     }
+}
+
+/// The arguments of `plot`.
+#[derive(Debug, Args)]
+#[command(after_help = PLOT_SHAPE)]
+pub struct Plot {
+    /// Case file; - is standard input
+    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub case: PathBuf,
+    /// What differs from the case
+    #[command(flatten)]
+    pub changes: Changes,
+    /// The chart to draw
+    #[arg(long, value_name = "NAME", default_value = "force", value_parser = charts())]
+    pub chart: String,
+    /// File to write, over an older one; else standard output
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub out: Option<PathBuf>,
+}
+
+/// The arguments of `report`.
+#[derive(Debug, Args)]
+#[command(after_help = REPORT_SHAPE)]
+pub struct Export {
+    /// Case files; - is standard input
+    #[arg(required = true, value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub cases: Vec<PathBuf>,
+    /// What differs from each case
+    #[command(flatten)]
+    pub changes: Changes,
+    /// File to write, over an older one; its ending chooses the format
+    #[arg(long, required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub out: PathBuf,
+}
+
+/// The arguments of `import`.
+#[derive(Debug, Args)]
+#[command(after_help = IMPORT_SHAPE)]
+pub struct Import {
+    /// REXS model (.rexs, .rexsj or .rexsz); - is standard input
+    #[arg(value_name = "MODEL", value_hint = ValueHint::FilePath)]
+    pub model: PathBuf,
+    /// Import the stage with this id; else the only spur stage of the model
+    #[arg(long, value_name = "ID")]
+    pub stage: Option<String>,
+    /// File to write, which must not exist yet; else standard output
+    #[arg(long, value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub out: Option<PathBuf>,
 }
 
 /// What `solve` is asked.
@@ -388,6 +454,11 @@ impl TypedValueParser for Settings {
 /// One line of wrong usage.
 fn misused(told: String) -> Error {
     Error::raw(ErrorKind::ValueValidation, told + "\n")
+}
+
+fn charts() -> PossibleValuesParser {
+    let names = GRAPHS.iter().map(|graph| graph.key);
+    PossibleValuesParser::new(names.chain([super::plot::TEETH]))
 }
 
 fn examples() -> impl TypedValueParser<Value = &'static Example> {

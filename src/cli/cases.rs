@@ -2,7 +2,8 @@
 
 use super::{Exit, Setting, Streams};
 use crate::case::fields::FIELDS;
-use crate::case::file::ReadError;
+use crate::case::file::{MOST_MODEL_BYTES, ReadError, read_bytes};
+use crate::case::rexs::{self, Imported};
 use crate::case::{Case, Document, Problem};
 use crate::model::{Inputs, Refusal};
 use std::path::Path;
@@ -36,7 +37,7 @@ pub(super) fn open(
     settings: &[Setting],
     streams: &mut Streams,
 ) -> Result<Opened, Exit> {
-    let document = Document::read_draft(path).map_err(|error| unread(&error, streams))?;
+    let document = read(path, streams)?;
     changed(path.display().to_string(), document, settings, streams)
 }
 
@@ -48,7 +49,7 @@ pub(super) fn open_varied(
     varied: &[(usize, String)],
     streams: &mut Streams,
 ) -> Result<Opened, Exit> {
-    let mut document = Document::read_draft(path).map_err(|error| unread(&error, streams))?;
+    let mut document = read(path, streams)?;
     for (field, value) in varied {
         if document.case.effective(*field).is_none() {
             // A value that does not fit is reported with its point.
@@ -70,6 +71,47 @@ pub(super) fn set_and_varied(settings: &[Setting], varied: &[&str]) -> Option<St
     Some(format!(
         "{written}: --vary replaces this value: leave one of them out"
     ))
+}
+
+/// Reads a case whose values may be missing yet, or the only spur stage of a model.
+fn read(path: &Path, streams: &mut Streams) -> Result<Document, Exit> {
+    if rexs::is_model(path) {
+        return Ok(read_model(path, None, streams)?.document);
+    }
+    Document::read_draft(path).map_err(|error| unread(&error, streams))
+}
+
+/// Reads a stage of a model, and reports the stages and the fields that stay empty.
+pub(super) fn read_model(
+    path: &Path,
+    stage: Option<&str>,
+    streams: &mut Streams,
+) -> Result<Imported, Exit> {
+    let bytes = read_bytes(path, MOST_MODEL_BYTES).map_err(|error| unread(&error, streams))?;
+    let imported = rexs::import(path, &bytes, stage).map_err(|refusal| {
+        streams.say(&refusal.to_string());
+        Exit::BadCase
+    })?;
+    let name = path.display();
+    for stage in &imported.stages {
+        let mark = if stage.id == imported.stage {
+            ", imported"
+        } else {
+            ""
+        };
+        streams.say(&format!(
+            "{name}: stage {}: {}{mark}",
+            stage.label(),
+            stage.kind
+        ));
+    }
+    for remark in &imported.remarks {
+        streams.say(&format!("{name}: {remark}"));
+    }
+    for (field, reason) in &imported.absent {
+        streams.say(&format!("{name}: {field} stays empty: {reason}"));
+    }
+    Ok(imported)
 }
 
 /// A document as it is once the settings have changed what they name.

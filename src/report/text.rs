@@ -94,6 +94,14 @@ fn heading(report: &Report) -> Vec<String> {
 }
 
 fn outcome(report: &Report) -> Vec<String> {
+    verdict(report)
+        .iter()
+        .flat_map(|sentence| item("", sentence))
+        .collect()
+}
+
+/// The verdict in sentences.
+pub(super) fn verdict(report: &Report) -> Vec<String> {
     let solution = &report.solution;
     let mut sentences = vec![digest::sentence(solution, System::Metric)];
     if report.selection.is_whole() {
@@ -111,9 +119,6 @@ fn outcome(report: &Report) -> Vec<String> {
         sentences.extend(told.into_iter().flatten().map(|words| words + "."));
     }
     sentences
-        .iter()
-        .flat_map(|sentence| item("", sentence))
-        .collect()
 }
 
 /// The methods beside the governing one that cost little: the load at rest below its inertia, and

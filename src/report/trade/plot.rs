@@ -1,6 +1,6 @@
 //! Error against time as a picture (SVG), both on logarithmic scales.
 
-use std::fmt::Write;
+use crate::report::svg::{self, Chart, Kind, Labelled, Scale};
 
 /// What is drawn.
 #[derive(Debug, Clone)]
@@ -20,8 +20,6 @@ pub struct Plot<'a> {
 pub struct Series {
     /// In the legend.
     pub name: String,
-    /// What a mark looks like.
-    pub look: Look,
     /// Time in s and relative error of each setting.
     pub points: Vec<Point>,
 }
@@ -37,48 +35,8 @@ pub struct Point {
     pub is_usual: bool,
 }
 
-/// Shape and colour of a mark; either tells the series.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Look {
-    shape: &'static str,
-    colour: &'static str,
-}
-
-/// One look a series, in order.
-pub const LOOKS: [Look; 6] = [
-    Look {
-        shape: "M-4-4H4V4H-4Z",
-        colour: "#8a4b08",
-    },
-    Look {
-        shape: "M0-5.5L5.5 0L0 5.5L-5.5 0Z",
-        colour: "#0b6e99",
-    },
-    Look {
-        shape: "M0-5L5 4.5H-5Z",
-        colour: "#2b7a3d",
-    },
-    Look {
-        shape: "M-4.5 0a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0-9 0Z",
-        colour: "#b3261e",
-    },
-    Look {
-        shape: "M0 5L5-4.5H-5Z",
-        colour: "#6a3fa0",
-    },
-    Look {
-        shape: "M-1.5-5h3v3.5h3.5v3h-3.5v3.5h-3v-3.5h-3.5v-3h3.5Z",
-        colour: "#555555",
-    },
-];
-
-const SIZE: (f64, f64) = (760.0, 420.0);
-/// Left, top, right, bottom of the field.
-const FIELD: (f64, f64, f64, f64) = (80.0, 40.0, 600.0, 370.0);
 /// Below this an error is rounding.
 const ROUNDING: f64 = 1e-16;
-/// Numbers on an axis.
-const MARKS: usize = 10;
 /// What no picture is needed for.
 const GREATEST: f64 = 1e4;
 
@@ -133,67 +91,36 @@ impl Axis {
 /// The picture.
 #[must_use]
 pub fn svg(plot: &Plot<'_>) -> String {
-    let points = || plot.series.iter().flat_map(|series| &series.points);
-    let across = Axis::of(points().map(|point| point.seconds), FIELD.0, FIELD.2);
-    let up = Axis::of(points().map(|point| shown(point.error)), FIELD.3, FIELD.1);
-    let mut lines = vec![frame(plot)];
-    lines.extend(
-        across
-            .marks(MARKS)
-            .map(|decade| upright(decade, across.at(10f64.powi(decade)))),
-    );
-    lines.extend(
-        up.marks(MARKS)
-            .map(|decade| level(decade, up.at(10f64.powi(decade)))),
-    );
-    for (at, series) in plot.series.iter().enumerate() {
-        lines.push(drawn(series, &across, &up));
-        lines.push(legend(series, at));
-    }
-    lines.join("\n") + "\n</svg>\n"
+    let axis = |label: &str, tick: fn(f64) -> String| Labelled {
+        label: label.to_owned(),
+        scale: Scale::Logarithmic,
+        tick: Some(tick),
+    };
+    let series = plot.series.iter().map(|series| {
+        let points = series.points.iter();
+        svg::Series {
+            name: series.name.clone(),
+            pieces: vec![
+                points
+                    .map(|point| (point.seconds, shown(point.error)))
+                    .collect(),
+            ],
+            kind: Kind::Marks(series.points.iter().position(|point| point.is_usual)),
+        }
+    });
+    svg::chart(&Chart {
+        title: plot.title.to_owned(),
+        across: axis(plot.across, |seconds| time(seconds.log10().round() as i32)),
+        up: axis(plot.up, |error| format!("{error:.0e}")),
+        series: series.collect(),
+        marks: Vec::new(),
+    })
 }
 
 /// An error that has a place on a logarithmic scale.
 #[must_use]
 pub fn shown(error: f64) -> f64 {
     error.clamp(ROUNDING, GREATEST)
-}
-
-fn frame(plot: &Plot<'_>) -> String {
-    let (left, top, right, bottom) = FIELD;
-    let (middle, half) = (f64::midpoint(left, right), f64::midpoint(top, bottom));
-    format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\" \
-         font-size=\"12\">\n<title>{title}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n\
-         <text x=\"{left}\" y=\"24\" font-size=\"14\" font-weight=\"bold\">{title}</text>\n\
-         <text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n\
-         <text transform=\"translate(20 {half}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n\
-         <path d=\"M{left} {top}V{bottom}H{right}\" fill=\"none\" stroke=\"#333333\"/>",
-        SIZE.0,
-        SIZE.1,
-        bottom + 38.0,
-        escaped(plot.across),
-        escaped(plot.up),
-        title = escaped(plot.title),
-    )
-}
-
-fn upright(decade: i32, x: f64) -> String {
-    let (_, top, _, bottom) = FIELD;
-    format!(
-        "<path d=\"M{x:.1} {top}V{bottom}\" stroke=\"#dddddd\"/><text x=\"{x:.1}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
-        bottom + 18.0,
-        time(decade)
-    )
-}
-
-fn level(decade: i32, y: f64) -> String {
-    let (left, _, right, _) = FIELD;
-    format!(
-        "<path d=\"M{left} {y:.1}H{right}\" stroke=\"#dddddd\"/><text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">1e{decade}</text>",
-        left - 8.0,
-        y + 4.0
-    )
 }
 
 /// A power of ten seconds.
@@ -208,53 +135,6 @@ pub fn time(decade: i32) -> String {
     format!("{} {unit}", 10f64.powi(decade - zero))
 }
 
-fn drawn(series: &Series, across: &Axis, up: &Axis) -> String {
-    let Look { shape, colour } = series.look;
-    let places: Vec<(f64, f64)> = series
-        .points
-        .iter()
-        .map(|point| (across.at(point.seconds), up.at(shown(point.error))))
-        .collect();
-    let way: Vec<String> = places
-        .iter()
-        .map(|(x, y)| format!("{x:.1},{y:.1}"))
-        .collect();
-    let mut text = format!(
-        "<g fill=\"{colour}\" stroke=\"{colour}\">\n<polyline points=\"{}\" fill=\"none\" stroke-opacity=\"0.5\"/>",
-        way.join(" ")
-    );
-    for ((x, y), point) in places.iter().zip(&series.points) {
-        let ring = if point.is_usual {
-            "<circle r=\"9\" fill=\"none\"/>"
-        } else {
-            ""
-        };
-        let _ = write!(
-            text,
-            "\n<g transform=\"translate({x:.1} {y:.1})\"><path d=\"{shape}\" stroke=\"none\"/>{ring}</g>"
-        );
-    }
-    text + "\n</g>"
-}
-
-fn legend(series: &Series, at: usize) -> String {
-    let Look { shape, colour } = series.look;
-    let (x, y) = (FIELD.2 + 16.0, FIELD.1 + 12.0 + 20.0 * at as f64);
-    format!(
-        "<path d=\"{shape}\" transform=\"translate({x} {y})\" fill=\"{colour}\"/><text x=\"{}\" y=\"{}\">{}</text>",
-        x + 12.0,
-        y + 4.0,
-        escaped(&series.name)
-    )
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -262,7 +142,6 @@ mod tests {
     fn plot(points: Vec<Point>) -> String {
         let series = [Series {
             name: "exact & <co>".to_owned(),
-            look: LOOKS[1],
             points,
         }];
         svg(&Plot {
@@ -281,6 +160,7 @@ mod tests {
             is_usual,
         };
         let drawn = plot(vec![point(1e-6, 1e-3, false), point(2e-5, 0.0, true)]);
+        // The label of the upward axis, two marks and the legend.
         assert_eq!(drawn.matches("translate(").count(), 1 + 2 + 1, "{drawn}");
         assert_eq!(drawn.matches("<circle").count(), 1);
         assert!(

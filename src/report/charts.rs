@@ -1,0 +1,173 @@
+//! The charts of solved cases as pictures.
+
+use super::Report;
+use super::graphs::{GRAPHS, Graph};
+use super::stations::{Row, rows};
+use super::svg::{Chart, Kind, Labelled, Series, chart};
+use crate::case::units;
+use crate::model::inputs::Method;
+use crate::model::spacing::Spacing;
+use crate::model::{Inputs, Solution, contact_state};
+
+/// A longer interval between stations, in requested intervals, is a gap in the curve.
+const LEFT_OUT: f64 = 1.5;
+
+/// The curve of one case in a chart, by a name in the legend.
+#[derive(Debug, Clone, Copy)]
+pub struct Drawn<'a> {
+    /// The name of the case.
+    pub name: &'a str,
+    /// The solve by the case's own method and, for charts that this method lacks, by another.
+    pub reports: &'a [Report],
+}
+
+/// The chart of that key.
+#[must_use]
+pub fn find(key: &str) -> Option<&'static Graph> {
+    GRAPHS.iter().find(|graph| graph.key == key)
+}
+
+/// The chart as a picture; none where no case has a curve in it.
+#[must_use]
+pub fn picture(graph: &Graph, cases: &[Drawn]) -> Option<String> {
+    let found: Vec<_> = cases
+        .iter()
+        .filter_map(|case| {
+            let mut reports = case.reports.iter();
+            reports.find_map(|report| Some((label(case, report), report, curve(graph, report)?)))
+        })
+        .collect();
+    let (_, first, _) = found.first()?;
+    let column = graph.column(first.solution.method)?;
+    let unit = shown_unit(column.shown);
+    let marks = marks(&first.solution);
+    let bound = if found.len() == 1 {
+        bound(graph, first)
+    } else {
+        None
+    };
+    let series = found.into_iter().map(|(name, _, pieces)| Series {
+        name,
+        pieces,
+        kind: Kind::Curve,
+    });
+    Some(chart(&Chart {
+        title: graph.label.to_owned(),
+        across: Labelled::linear("driver roll angle after E, deg"),
+        up: Labelled::linear(if unit.is_empty() {
+            format!("{} {}", graph.label, column.symbol)
+        } else {
+            format!("{} {}, {unit}", graph.label, column.symbol)
+        }),
+        series: series.chain(bound).collect(),
+        marks,
+    }))
+}
+
+fn label(case: &Drawn, report: &Report) -> String {
+    let method = report.solution.method.name();
+    if case.name.is_empty() {
+        format!("method {method}")
+    } else {
+        format!("{}, method {method}", case.name)
+    }
+}
+
+fn shown_unit(unit: &'static str) -> String {
+    match unit {
+        "1" => String::new(),
+        other => other.replace("um", "µm"),
+    }
+}
+
+/// E, and the first contact D.
+fn marks(solution: &Solution) -> Vec<(f64, &'static str)> {
+    let ratio = solution.geometry.driven.base / solution.geometry.driver.base;
+    let contact = contact_state::first_contact(solution).map(|angle| angle * ratio);
+    let contact = contact.filter(|angle| *angle > 0.0);
+    let contact = contact.map(|angle| (-angle.to_degrees(), "D"));
+    contact.into_iter().chain([(0.0, "E")]).collect()
+}
+
+fn curve(graph: &Graph, report: &Report) -> Option<Vec<Vec<(f64, f64)>>> {
+    let column = graph.column(report.solution.method)?;
+    pieces(report, column.shown, |row| column.of(row))
+}
+
+fn bound(graph: &Graph, report: &Report) -> Option<Series> {
+    let bound = graph.bound?;
+    let solution = &report.solution;
+    let column = graph.column(solution.method)?;
+    let pieces = pieces(report, column.shown, |row| (bound.value)(solution, row))?;
+    Some(Series {
+        name: bound.symbols[usize::from(solution.method.shares_load())].to_owned(),
+        pieces,
+        kind: Kind::Bound,
+    })
+}
+
+/// The curve in the unit, split at missing stations; none without a line.
+fn pieces(
+    report: &Report,
+    unit: &str,
+    value: impl Fn(Row) -> Option<f64>,
+) -> Option<Vec<Vec<(f64, f64)>>> {
+    let factor = units::factor(unit).unwrap_or(1.0);
+    let longest = longest_interval(&report.inputs, &report.solution);
+    let mut pieces: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
+    for row in rows(&report.solution) {
+        let angle = match row {
+            Row::Impact(station) => station.roll_angle_driver,
+            Row::Load(station) => station.roll_angle_driver,
+        };
+        let x = 0.0 - angle.to_degrees();
+        let Some(y) = value(row).filter(|y| y.is_finite()) else {
+            pieces.push(Vec::new());
+            continue;
+        };
+        let last = pieces.last().and_then(|piece| piece.last());
+        if last.is_some_and(|last| x - last.0 > longest) {
+            pieces.push(Vec::new());
+        }
+        pieces.extend(pieces.is_empty().then(Vec::new));
+        if let Some(piece) = pieces.last_mut() {
+            piece.push((x, y / factor));
+        }
+    }
+    pieces.retain(|piece| piece.len() > 1);
+    (!pieces.is_empty()).then_some(pieces)
+}
+
+// The closed forms leave out stations whose force cannot be computed; the other methods have every
+// station.
+fn longest_interval(inputs: &Inputs, solution: &Solution) -> f64 {
+    match solution.position {
+        Some(position) if solution.stations_withheld.is_some() => {
+            let count = Spacing::of(inputs).count().unwrap_or(Spacing::LOOKS) as f64;
+            LEFT_OUT * position.approach_angle_driver.to_degrees() / count
+        }
+        _ => f64::INFINITY,
+    }
+}
+
+/// The solve of a case, and one by another method for the charts that the method of the case lacks:
+/// `static` beside a closed form, `exact` beside a method that shares the load.
+#[must_use]
+pub fn with_other_method(report: Report) -> Vec<Report> {
+    let method = if report.solution.method.shares_load() {
+        Method::Exact
+    } else {
+        Method::Static
+    };
+    let inputs = Inputs {
+        method,
+        ..report.inputs.clone()
+    };
+    let beside = Report::solve(
+        report.name.clone(),
+        report.case.clone(),
+        inputs,
+        report.selection.clone(),
+    );
+    std::iter::once(report).chain(beside.ok()).collect()
+}

@@ -1,0 +1,296 @@
+//! Solved cases side by side as one page to send: HTML with charts, or Markdown.
+
+mod markdown;
+
+use askama::Template;
+
+use super::charts::{Drawn, picture};
+use super::graphs::GRAPHS;
+use super::groups::{FREE_IMPACT, groups};
+use super::svg::teeth::teeth;
+use super::verdict::verdicts;
+use super::{Report, shown_with, text, unit_beside, value};
+use crate::case::changes::label;
+use crate::case::sanitize::sanitize;
+use crate::case::units::System;
+use crate::case::{Case, FIELDS};
+use crate::model::{Quantity, Solution};
+
+/// A solved case with the text of its file.
+#[derive(Debug)]
+pub struct Subject {
+    /// The solve by the method of the case, then one for the charts that this method lacks.
+    pub reports: Vec<Report>,
+    /// The text of the case file.
+    pub file: String,
+}
+
+/// A column of the page.
+struct Column {
+    name: String,
+    title: String,
+    method: &'static str,
+    notes_of_case: String,
+    verdict: Vec<String>,
+    limits: Vec<LimitLine>,
+    notes: Vec<String>,
+    teeth: String,
+    /// The file without its comments.
+    lines: String,
+    /// The whole file as an address.
+    link: String,
+    /// The file's name without folders.
+    file_name: String,
+}
+
+struct LimitLine {
+    word: &'static str,
+    is_met: bool,
+    words: String,
+}
+
+struct InputRow {
+    label: String,
+    symbol: &'static str,
+    /// The text of each case and whether it is the default.
+    values: Vec<(String, bool)>,
+}
+
+struct Table {
+    title: String,
+    rows: Vec<ResultRow>,
+}
+
+struct ResultRow {
+    label: &'static str,
+    symbol: &'static str,
+    values: Vec<String>,
+    unit: &'static str,
+    source: &'static str,
+}
+
+#[derive(Template)]
+#[template(path = "report.html", config = "assets/askama.toml")]
+struct Html<'a> {
+    page: &'a Page,
+}
+
+/// Everything that a page shows.
+pub struct Page {
+    title: String,
+    version: &'static str,
+    columns: Vec<Column>,
+    inputs: Vec<InputRow>,
+    tables: Vec<Table>,
+    charts: Vec<String>,
+}
+
+impl Page {
+    /// The page of the cases; empty without a case.
+    #[must_use]
+    pub fn of(subjects: &[Subject]) -> Page {
+        let own: Vec<&Report> = subjects
+            .iter()
+            .filter_map(|subject| subject.reports.first())
+            .collect();
+        let is_single = own.len() == 1;
+        let columns: Vec<Column> = subjects.iter().filter_map(column).collect();
+        let names: Vec<String> = columns
+            .iter()
+            .map(|column| {
+                if is_single {
+                    String::new()
+                } else {
+                    column.title.clone()
+                }
+            })
+            .collect();
+        let drawn: Vec<Drawn> = subjects
+            .iter()
+            .zip(&names)
+            .map(|(subject, name)| Drawn {
+                name,
+                reports: &subject.reports,
+            })
+            .collect();
+        Page {
+            title: match columns.as_slice() {
+                [] => String::new(),
+                [only] => only.title.clone(),
+                several => format!("{} gear pairs side by side", several.len()),
+            },
+            version: env!("CARGO_PKG_VERSION"),
+            inputs: inputs(&own),
+            tables: tables(&own),
+            charts: GRAPHS
+                .iter()
+                .filter_map(|graph| picture(graph, &drawn))
+                .collect(),
+            columns,
+        }
+    }
+
+    /// As a page for a browser, complete in itself.
+    ///
+    /// # Errors
+    /// Where the page cannot be filled in.
+    pub fn html(&self) -> Result<String, askama::Error> {
+        Html { page: self }.render()
+    }
+
+    /// As Markdown, without charts.
+    #[must_use]
+    pub fn markdown(&self) -> String {
+        markdown::render(self)
+    }
+
+    fn is_single(&self) -> bool {
+        self.columns.len() == 1
+    }
+
+    fn has_limits(&self) -> bool {
+        self.columns.iter().any(|column| !column.limits.is_empty())
+    }
+
+    fn has_notes(&self) -> bool {
+        self.columns.iter().any(|column| !column.notes.is_empty())
+    }
+}
+
+fn column(subject: &Subject) -> Option<Column> {
+    let report = subject.reports.first()?;
+    let limits = verdicts(&report.case, &report.solution);
+    let title = if report.title().is_empty() {
+        report.name.clone()
+    } else {
+        report.title().to_owned()
+    };
+    let file_name = report.name.rsplit('/').next().unwrap_or_default();
+    Some(Column {
+        name: sanitize(&report.name),
+        title: sanitize(&title),
+        method: report.solution.method.name(),
+        notes_of_case: sanitize(report.text("notes")),
+        verdict: text::verdict(report),
+        limits: limits
+            .iter()
+            .map(|verdict| LimitLine {
+                word: verdict.standing.word(),
+                is_met: verdict.standing.holds(),
+                words: verdict.to_string(),
+            })
+            .collect(),
+        notes: report
+            .notes
+            .iter()
+            .map(|note| sanitize(&note.message))
+            .collect(),
+        teeth: teeth(&report.inputs, &report.solution),
+        lines: without_comments(&subject.file),
+        link: address(&subject.file),
+        file_name: sanitize(file_name),
+    })
+}
+
+/// The lines of a case file that say something.
+fn without_comments(text: &str) -> String {
+    let is_said = |line: &&str| !line.trim().is_empty() && !line.trim_start().starts_with('#');
+    let lines: Vec<String> = text.lines().filter(is_said).map(sanitize).collect();
+    // A table without a line says nothing.
+    let is_header = |line: &String| line.starts_with('[');
+    let said = |at: usize| {
+        !is_header(&lines[at]) || lines.get(at + 1).is_some_and(|next| !is_header(next))
+    };
+    (0..lines.len())
+        .filter(|&at| said(at))
+        .map(|at| lines[at].as_str())
+        .collect::<Vec<_>>()
+        .join("\n")
+}
+
+/// A text as an address that a browser saves.
+fn address(text: &str) -> String {
+    let mut address = "data:text/plain;charset=utf-8,".to_owned();
+    for byte in text.bytes() {
+        if byte.is_ascii_alphanumeric() || b"-_.~".contains(&byte) {
+            address.push(char::from(byte));
+        } else {
+            address.push_str(&format!("%{byte:02X}"));
+        }
+    }
+    address
+}
+
+/// The fields that differ from their defaults in some case.
+fn inputs(reports: &[&Report]) -> Vec<InputRow> {
+    let defaults = Case::empty();
+    let rows = FIELDS.iter().enumerate().filter_map(|(at, field)| {
+        let is_default = |case: &Case| match (case.value(at), defaults.value(at)) {
+            (Some(own), Some(usual)) => own == usual,
+            _ => case.effective(at) == defaults.effective(at),
+        };
+        let is_words = matches!(field.key, "title" | "notes");
+        if is_words || reports.iter().all(|report| is_default(&report.case)) {
+            return None;
+        }
+        let values = reports.iter().map(|report| {
+            let text = report.case.effective(at).unwrap_or("–");
+            (sanitize(text), is_default(&report.case))
+        });
+        Some(InputRow {
+            label: label(field.key),
+            symbol: field.symbol,
+            values: values.collect(),
+        })
+    });
+    rows.collect()
+}
+
+/// The results in groups, in the order of the first case's method.
+fn tables(reports: &[&Report]) -> Vec<Table> {
+    let Some(first) = reports.first() else {
+        return Vec::new();
+    };
+    let method = first.solution.method;
+    let solutions: Vec<&Solution> = reports.iter().map(|report| &report.solution).collect();
+    let tables = groups(method).into_iter().map(|group| Table {
+        title: if group.is_beside(method) {
+            format!("{FREE_IMPACT}: {}", group.title)
+        } else {
+            group.title.to_owned()
+        },
+        rows: group
+            .quantities()
+            .filter_map(|quantity| row(quantity, &solutions))
+            .collect(),
+    });
+    tables.filter(|table| !table.rows.is_empty()).collect()
+}
+
+fn row(quantity: &'static Quantity, solutions: &[&Solution]) -> Option<ResultRow> {
+    let values: Vec<Option<f64>> = solutions
+        .iter()
+        .map(|solution| value(quantity, solution))
+        .collect();
+    let given = values.iter().copied().flatten();
+    given.clone().next()?;
+    let unit = unit_beside(quantity, given, System::Metric);
+    let method = solutions.first()?.method;
+    let mut shown_unit = "";
+    let texts = values.iter().map(|value| match value {
+        Some(value) => {
+            let shown = shown_with(quantity, *value, unit);
+            shown_unit = shown.unit;
+            shown.number
+        }
+        None => "–".to_owned(),
+    });
+    let values = texts.collect();
+    Some(ResultRow {
+        label: quantity.label_in(method),
+        symbol: quantity.symbol_in(method),
+        values,
+        unit: shown_unit,
+        source: quantity.equation,
+    })
+}

@@ -1,0 +1,164 @@
+//! A page in Markdown, without charts.
+
+use super::{Column, Page};
+
+/// The page as Markdown.
+pub(super) fn render(page: &Page) -> String {
+    let sections = [
+        heading(page),
+        verdicts(page),
+        limits(page),
+        inputs(page),
+        results(page),
+        notes(page),
+        files(page),
+    ];
+    let sections: Vec<String> = sections
+        .into_iter()
+        .filter(|lines| !lines.is_empty())
+        .map(|lines| lines.join("\n"))
+        .collect();
+    sections.join("\n\n") + "\n"
+}
+
+fn heading(page: &Page) -> Vec<String> {
+    vec![
+        format!("# {}", plain(&page.title)),
+        String::new(),
+        format!(
+            "Corner contact of spur gear pairs, computed by tipstrike {}.",
+            page.version
+        ),
+    ]
+}
+
+fn verdicts(page: &Page) -> Vec<String> {
+    let mut lines = vec!["## Verdict".to_owned()];
+    for column in &page.columns {
+        if !page.is_single() {
+            lines.extend([String::new(), format!("### {}", plain(&column.title))]);
+        }
+        for sentence in &column.verdict {
+            lines.extend([String::new(), plain(sentence)]);
+        }
+        let notes = match column.notes_of_case.as_str() {
+            "" => String::new(),
+            notes => format!(". {}", plain(notes)),
+        };
+        let (name, method) = (plain(&column.name), column.method);
+        lines.extend([String::new(), format!("{name}, method {method}{notes}")]);
+    }
+    lines
+}
+
+fn limits(page: &Page) -> Vec<String> {
+    list(page, "## Limits", |column| {
+        let lines = column.limits.iter();
+        lines
+            .map(|limit| format!("{}: {}", limit.word, limit.words))
+            .collect()
+    })
+}
+
+fn notes(page: &Page) -> Vec<String> {
+    list(page, "## Notes", |column| column.notes.clone())
+}
+
+/// The lines of every case under a heading; nothing without lines.
+fn list(page: &Page, title: &str, of: impl Fn(&Column) -> Vec<String>) -> Vec<String> {
+    let mut lines = Vec::new();
+    for column in &page.columns {
+        for line in of(column) {
+            let whose = if page.is_single() {
+                String::new()
+            } else {
+                format!("{}: ", plain(&column.title))
+            };
+            lines.push(format!("- {whose}{}", plain(&line)));
+        }
+    }
+    if !lines.is_empty() {
+        lines.splice(0..0, [title.to_owned(), String::new()]);
+    }
+    lines
+}
+
+fn inputs(page: &Page) -> Vec<String> {
+    let mut lines = vec![
+        "## Inputs that differ from their defaults".to_owned(),
+        String::new(),
+    ];
+    lines.extend(header(page, &["input", ""], &[]));
+    for row in &page.inputs {
+        let values = row.values.iter().map(|(text, _)| text.as_str());
+        let cells = [row.label.as_str(), row.symbol].into_iter().chain(values);
+        lines.push(table_row(cells));
+    }
+    lines
+}
+
+fn results(page: &Page) -> Vec<String> {
+    let mut lines = vec!["## Results".to_owned(), String::new()];
+    lines.extend(header(page, &["quantity", ""], &["unit", "source"]));
+    for row in page.tables.iter().flat_map(|table| &table.rows) {
+        let values = row.values.iter().map(String::as_str);
+        let cells = [row.label.trim(), row.symbol].into_iter().chain(values);
+        lines.push(table_row(cells.chain([row.unit, row.source])));
+    }
+    lines
+}
+
+/// The names of the columns, the cases to the right, and the line below them.
+fn header(page: &Page, before: &[&str], after: &[&str]) -> [String; 2] {
+    let titles = page.columns.iter().map(|column| column.title.as_str());
+    let names = before.iter().copied().chain(titles);
+    let left = |count: usize| "---|".repeat(count);
+    [
+        table_row(names.chain(after.iter().copied())),
+        format!(
+            "|{}{}{}",
+            left(before.len()),
+            "---:|".repeat(page.columns.len()),
+            left(after.len())
+        ),
+    ]
+}
+
+fn table_row<'a>(cells: impl Iterator<Item = &'a str>) -> String {
+    let cells: Vec<String> = cells.map(plain).collect();
+    format!("| {} |", cells.join(" | "))
+}
+
+fn files(page: &Page) -> Vec<String> {
+    let mut lines = vec!["## Case files".to_owned()];
+    for column in &page.columns {
+        let fence = fence(&column.lines);
+        lines.extend([
+            String::new(),
+            format!("{}, without comments:", plain(&column.name)),
+            String::new(),
+            format!("{fence}toml"),
+            column.lines.clone(),
+            fence,
+        ]);
+    }
+    lines
+}
+
+/// A text without the marks of Markdown and HTML.
+fn plain(text: &str) -> String {
+    let mut plain = String::new();
+    for letter in text.chars() {
+        if "\\|*`<>[]#".contains(letter) {
+            plain.push('\\');
+        }
+        plain.push(letter);
+    }
+    plain
+}
+
+/// Backticks around a text that may have backticks itself.
+fn fence(text: &str) -> String {
+    let longest = text.split(|c| c != '`').map(str::len).max().unwrap_or(0);
+    "`".repeat(longest.max(2) + 1)
+}

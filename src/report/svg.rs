@@ -1,0 +1,326 @@
+//! Draws charts as self-contained pictures (SVG): true axes, a legend below the field, light and
+//! dark.
+
+mod axis;
+mod style;
+pub mod teeth;
+
+use std::fmt::Write;
+
+pub use axis::{Axis, Scale};
+pub(crate) use style::escaped;
+use style::{LOOKS, STYLE};
+
+/// A chart.
+#[derive(Debug, Clone)]
+pub struct Chart {
+    /// Above the field.
+    pub title: String,
+    /// The horizontal axis.
+    pub across: Labelled,
+    /// The vertical axis.
+    pub up: Labelled,
+    /// The curves; the first is drawn on top.
+    pub series: Vec<Series>,
+    /// Places on the horizontal axis with a name above the field.
+    pub marks: Vec<(f64, &'static str)>,
+}
+
+/// An axis with its label.
+#[derive(Debug, Clone)]
+pub struct Labelled {
+    /// The quantity and its unit.
+    pub label: String,
+    /// Linear or logarithmic.
+    pub scale: Scale,
+    /// Writes the value of a tick; none for a plain number.
+    pub tick: Option<fn(f64) -> String>,
+}
+
+impl Labelled {
+    /// A linear axis with plain numbers.
+    #[must_use]
+    pub fn linear(label: impl Into<String>) -> Labelled {
+        Labelled {
+            label: label.into(),
+            scale: Scale::Linear,
+            tick: None,
+        }
+    }
+}
+
+/// A curve, or single points joined by a thin line.
+#[derive(Debug, Clone)]
+pub struct Series {
+    /// In the legend.
+    pub name: String,
+    /// Pieces with gaps between them.
+    pub pieces: Vec<Vec<(f64, f64)>>,
+    /// How it is drawn.
+    pub kind: Kind,
+}
+
+/// How a series is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A line.
+    Curve,
+    /// A thin grey line that a curve is compared with.
+    Bound,
+    /// A mark at each point; the point with this number has a ring.
+    Marks(Option<usize>),
+}
+
+const WIDTH: f64 = 760.0;
+/// Left, top, right, bottom of the field.
+const FIELD: (f64, f64, f64, f64) = (80.0, 52.0, 736.0, 352.0);
+/// The first line of the legend.
+const LEGEND: f64 = 412.0;
+const LINE: f64 = 20.0;
+/// Width of a letter of the legend, at most.
+const LETTER: f64 = 7.4;
+/// Width of a symbol of the legend with its gaps.
+const SYMBOL: f64 = 52.0;
+/// A name of the legend is cut after this many letters.
+const MOST_LETTERS: usize = 84;
+
+/// The chart as a picture.
+#[must_use]
+pub fn chart(chart: &Chart) -> String {
+    let (left, top, right, bottom) = FIELD;
+    let points = || {
+        chart
+            .series
+            .iter()
+            .flat_map(|series| series.pieces.iter().flatten())
+    };
+    let across = Axis::of(
+        chart.across.scale,
+        points().map(|point| point.0),
+        left,
+        right,
+        false,
+    );
+    let up = Axis::of(
+        chart.up.scale,
+        points().map(|point| point.1),
+        bottom,
+        top,
+        true,
+    );
+    let places = places(&chart.series);
+    let lines = places.last().map_or(0.0, |(_, y)| y - LEGEND + LINE);
+    let mut text = frame(chart, LEGEND + lines);
+    grid(&mut text, &across, &up, chart);
+    for (at, series) in chart.series.iter().enumerate().rev() {
+        draw(&mut text, series, at, |(x, y)| (across.at(x), up.at(y)));
+    }
+    for ((at, series), (x, y)) in chart.series.iter().enumerate().zip(places) {
+        legend(&mut text, series, at, x, y);
+    }
+    text + "</svg>\n"
+}
+
+fn frame(chart: &Chart, height: f64) -> String {
+    let (left, top, right, bottom) = FIELD;
+    let (middle, half) = (f64::midpoint(left, right), f64::midpoint(top, bottom));
+    let (title, across, up) = (
+        escaped(&chart.title),
+        escaped(&chart.across.label),
+        escaped(&chart.up.label),
+    );
+    let below = bottom + 40.0;
+    format!(
+        "{}<text x=\"{left}\" y=\"22\" class=\"title\">{title}</text>\n\
+         <text x=\"{middle}\" y=\"{below}\" text-anchor=\"middle\">{across}</text>\n\
+         <text transform=\"translate(18 {half}) rotate(-90)\" text-anchor=\"middle\">{up}</text>\n",
+        opening(&title, WIDTH, height),
+    )
+}
+
+/// The root element, the styles and the ground of a picture; the title is escaped already.
+fn opening(title: &str, width: f64, height: f64) -> String {
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
+         class=\"tipstrike\">\n<title>{title}</title>\n<style>{STYLE}</style>\n\
+         <rect width=\"{width}\" height=\"{height}\" class=\"ground\"/>\n"
+    )
+}
+
+fn grid(text: &mut String, across: &Axis, up: &Axis, chart: &Chart) {
+    let (left, top, right, bottom) = FIELD;
+    let told = |labelled: &Labelled, axis: &Axis, value: f64| {
+        labelled
+            .tick
+            .map_or_else(|| axis.number(value), |tick| tick(value))
+    };
+    for value in across.ticks(10) {
+        let x = across.at(value);
+        let number = escaped(&told(&chart.across, across, value));
+        let below = bottom + 18.0;
+        let _ = writeln!(
+            text,
+            "<path d=\"M{x:.1} {top}V{bottom}\" class=\"grid\"/><text x=\"{x:.1}\" y=\"{below}\" text-anchor=\"middle\">{number}</text>"
+        );
+    }
+    for value in up.ticks(7) {
+        let y = up.at(value);
+        let number = escaped(&told(&chart.up, up, value));
+        let (beside, base) = (left - 8.0, y + 4.0);
+        let _ = writeln!(
+            text,
+            "<path d=\"M{left} {y:.1}H{right}\" class=\"grid\"/><text x=\"{beside}\" y=\"{base:.1}\" text-anchor=\"end\">{number}</text>"
+        );
+    }
+    let _ = writeln!(
+        text,
+        "<path d=\"M{left} {top}V{bottom}H{right}\" class=\"axis\"/>"
+    );
+    let mut last = f64::NEG_INFINITY;
+    for (value, name) in &chart.marks {
+        let x = across.at(*value);
+        let is_free = (left..=right).contains(&x) && x - last > 2.0 * LETTER;
+        if is_free {
+            last = x;
+            let above = top - 5.0;
+            let _ = writeln!(
+                text,
+                "<path d=\"M{x:.1} {top}V{bottom}\" class=\"mark\"/><text x=\"{x:.1}\" y=\"{above}\" text-anchor=\"middle\">{name}</text>"
+            );
+        }
+    }
+}
+
+fn draw(text: &mut String, series: &Series, at: usize, place: impl Fn((f64, f64)) -> (f64, f64)) {
+    let look = at % LOOKS.len();
+    let class = match series.kind {
+        Kind::Curve => format!("curve s{look}"),
+        Kind::Bound => "bound".to_owned(),
+        Kind::Marks(_) => format!("thin s{look}"),
+    };
+    for piece in &series.pieces {
+        let points: Vec<String> = piece
+            .iter()
+            .map(|&point| place(point))
+            .map(|(x, y)| format!("{x:.1},{y:.1}"))
+            .collect();
+        let _ = writeln!(
+            text,
+            "<polyline points=\"{}\" class=\"{class}\"/>",
+            points.join(" ")
+        );
+    }
+    let Kind::Marks(ringed) = series.kind else {
+        return;
+    };
+    for (number, &point) in series.pieces.iter().flatten().enumerate() {
+        let (x, y) = place(point);
+        let ring = if ringed == Some(number) {
+            format!("<circle r=\"9\" class=\"thin s{look}\"/>")
+        } else {
+            String::new()
+        };
+        let _ = writeln!(
+            text,
+            "<g transform=\"translate({x:.1} {y:.1})\"><path d=\"{}\" class=\"f{look}\"/>{ring}</g>",
+            LOOKS[look]
+        );
+    }
+}
+
+/// The places of the names below the field, in rows.
+fn places(series: &[Series]) -> Vec<(f64, f64)> {
+    let (mut x, mut y) = (FIELD.0, LEGEND);
+    let mut places = Vec::new();
+    for one in series {
+        let width = SYMBOL + LETTER * cut(&one.name).chars().count() as f64;
+        if x > FIELD.0 && x + width > FIELD.2 {
+            (x, y) = (FIELD.0, y + LINE);
+        }
+        places.push((x, y));
+        x += width;
+    }
+    places
+}
+
+fn cut(name: &str) -> String {
+    if name.chars().count() <= MOST_LETTERS {
+        return name.to_owned();
+    }
+    name.chars().take(MOST_LETTERS - 1).chain(['…']).collect()
+}
+
+fn legend(text: &mut String, series: &Series, at: usize, x: f64, y: f64) {
+    let look = at % LOOKS.len();
+    let middle = y - 4.0;
+    let symbol = match series.kind {
+        Kind::Curve => format!("<path d=\"M{x} {middle}h30\" class=\"curve s{look}\"/>"),
+        Kind::Bound => format!("<path d=\"M{x} {middle}h30\" class=\"bound\"/>"),
+        Kind::Marks(_) => format!(
+            "<path d=\"{}\" transform=\"translate({} {middle})\" class=\"f{look}\"/>",
+            LOOKS[look],
+            x + 15.0
+        ),
+    };
+    let (beside, name) = (x + 38.0, escaped(&cut(&series.name)));
+    let _ = writeln!(text, "{symbol}<text x=\"{beside}\" y=\"{y}\">{name}</text>");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn drawn(points: Vec<(f64, f64)>, kind: Kind) -> String {
+        chart(&Chart {
+            title: "a < b".to_owned(),
+            across: Labelled::linear("x, deg"),
+            up: Labelled::linear("y, N"),
+            series: vec![Series {
+                name: "exact & <co>".to_owned(),
+                pieces: vec![points],
+                kind,
+            }],
+            marks: vec![(0.0, "E"), (0.001, "D")],
+        })
+    }
+
+    #[test]
+    fn names_are_escaped_and_marks_do_not_cover_each_other() {
+        let text = drawn(vec![(-1.0, 5.0), (1.0, 2000.0)], Kind::Curve);
+        assert!(
+            text.contains("a &lt; b") && text.contains("exact &amp; &lt;co&gt;"),
+            "{text}"
+        );
+        assert!(
+            text.contains(">E</text>") && !text.contains(">D</text>"),
+            "{text}"
+        );
+        assert_eq!(text.matches("<polyline").count(), 1);
+    }
+
+    #[test]
+    fn no_points_one_point_and_extreme_values_are_drawn_without_invalid_numbers() {
+        for points in [
+            vec![],
+            vec![(0.0, 0.0)],
+            vec![(1e300, -1e300), (-1e300, 1e300)],
+            vec![(f64::NAN, 1.0), (1.0, f64::INFINITY)],
+            vec![(1.0, 5.0), (1.0 + 1e-15, 5.0)],
+        ] {
+            let text = drawn(points, Kind::Marks(Some(0)));
+            assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_long_legend_takes_more_lines() {
+        let one = Series {
+            name: "a name of forty letters in the legend....".to_owned(),
+            pieces: Vec::new(),
+            kind: Kind::Curve,
+        };
+        let places = places(&vec![one; 4]);
+        assert!(places.windows(2).all(|pair| pair[0] != pair[1]));
+        assert!(places[3].1 > places[0].1);
+    }
+}

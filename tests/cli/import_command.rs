@@ -1,0 +1,212 @@
+//! Imports REXS models: values with their sources, refusals by name, bounded reading.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use tipstrike::case::rexs::{import, read_document};
+use tipstrike::case::{Document, fields};
+use zip::write::SimpleFileOptions;
+
+fn model(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/cli/rexs")
+        .join(name)
+}
+
+fn run(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_tipstrike"))
+        .args(arguments)
+        .current_dir(model(""))
+        .output()
+        .unwrap()
+}
+
+fn texts(output: &Output) -> (i32, String, String) {
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
+    (
+        output.status.code().unwrap(),
+        text(&output.stdout),
+        text(&output.stderr),
+    )
+}
+
+fn value(document: &Document, key: &str) -> Option<f64> {
+    document.case.value(fields::index_of(key).unwrap())
+}
+
+/// A model in a file of its own, imported without an id of a stage.
+fn refusal_of(bytes: &[u8]) -> String {
+    import(Path::new("m.rexs"), bytes, None)
+        .unwrap_err()
+        .to_string()
+}
+
+fn edited(name: &str, from: &str, to: &str) -> Vec<u8> {
+    let text = fs::read_to_string(model(name)).unwrap();
+    assert!(text.contains(from), "{from}");
+    text.replace(from, to).into_bytes()
+}
+
+#[test]
+fn a_spur_stage_becomes_a_case_with_the_source_of_each_value() {
+    let (code, case, told) = texts(&run(&["import", "two-stages-1.0.rexs"]));
+    insta::assert_snapshot!("import_two_stages", format!("exit {code}\n{told}\n{case}"));
+    let read_back = Document::parse("case.toml", &case).unwrap();
+    assert!(read_back.case.inputs().is_ok());
+}
+
+#[test]
+fn units_signs_and_load_cases_of_a_model_become_si_values() {
+    let document = read_document(&model("spur-2.0.rexsj")).unwrap();
+    for (key, expected) in [
+        ("pair.module", 5e-3),
+        ("pair.centre_distance", 0.15),
+        // The model says that gear_2 drives.
+        ("driver.teeth", 20.0),
+        ("driven.teeth", 40.0),
+        ("driver.bore_radius", 0.02),
+        ("driver.addendum", 1.0),
+        ("driver.dedendum", 1.25),
+        ("driver.young", 205e9),
+        ("driver.density", 7850.0),
+        ("driver.tip_relief", 20e-6),
+        // From the diameters 110 mm and 107.5 mm with d_b = 100 mm cos 20 deg.
+        ("driver.tip_relief_length", 2.485297e-3),
+        ("deviations.base_pitch", 16e-6),
+        ("operation.power", 15e3),
+        ("operation.speed", 209.43951023931953),
+    ] {
+        let found = value(&document, key).unwrap();
+        assert!(
+            (found - expected).abs() <= 1e-12 * expected.abs(),
+            "{key}: {found}"
+        );
+    }
+    let negative = read_document(&model("two-stages-1.0.rexs")).unwrap();
+    assert!(
+        value(&negative, "operation.torque").is_some_and(|torque| (47.2..47.3).contains(&torque))
+    );
+}
+
+#[test]
+fn the_samples_are_refused_by_the_name_of_their_stages() {
+    let (code, case, told) = texts(&run(&["import", "planetary-1.1.rexsz"]));
+    assert_eq!((code, case.as_str()), (3, ""));
+    assert!(told.contains("the model has no spur stage"), "{told}");
+    assert!(
+        told.contains("stage 9 \"Planetenstufe [9]\" is a planetary stage"),
+        "{told}"
+    );
+    let (code, _, told) = texts(&run(&["import", "two-stages-1.0.rexs", "--stage", "7"]));
+    assert_eq!(code, 3);
+    assert!(
+        told.contains("is a helical stage (helix angle -10 deg)"),
+        "{told}"
+    );
+    let bevel = edited(
+        "two-stages-1.0.rexs",
+        "\"cylindrical_stage\"",
+        "\"bevel_stage\"",
+    );
+    assert!(refusal_of(&bevel).contains("is a bevel stage"));
+    let ring = edited(
+        "spur-2.0.rexsj",
+        "\"id\": 16, \"type\": \"cylindrical_gear\"",
+        "\"id\": 16, \"type\": \"ring_gear\"",
+    );
+    assert!(refusal_of(&ring).contains("is a stage with a ring gear"));
+}
+
+#[test]
+fn of_several_spur_stages_one_must_be_chosen() {
+    let both = edited("two-stages-1.0.rexs", "10.0</attribute>", "0.0</attribute>");
+    assert!(refusal_of(&both).contains("choose one with `tipstrike import --stage ID`"));
+    assert!(import(Path::new("m.rexs"), &both, Some("6")).is_ok());
+    let unknown = import(Path::new("m.rexs"), &both, Some("8")).unwrap_err();
+    assert!(unknown.to_string().contains("the model has no stage \"8\""));
+}
+
+#[test]
+fn unequal_flanks_and_load_cases_are_named_and_no_value_is_guessed() {
+    let unequal = edited(
+        "two-stages-1.0.rexs",
+        "362\" name=\"\" type=\"flank_geometry\">\n      <attribute id=\"normal_pressure_angle\" unit=\"°\">20.0",
+        "362\" name=\"\" type=\"flank_geometry\">\n      <attribute id=\"normal_pressure_angle\" unit=\"°\">25.0",
+    );
+    let told = refusal_of(&unequal);
+    assert!(
+        told.contains("of flank_geometry 361 is 20 deg") && told.contains("362 is 25 deg"),
+        "{told}"
+    );
+    let cases = edited(
+        "spur-2.0.rexsj",
+        "\"load_cases\": [",
+        "\"load_cases\": [{\"id\": 2, \"components\": [{\"id\": 12, \"attributes\": [{\"id\": \"rotational_speed\", \"unit\": \"1 / min\", \"floating_point\": 500.0}]}]}, ",
+    );
+    let imported = import(Path::new("m.rexsj"), &cases, None).unwrap();
+    let speed = imported
+        .absent
+        .iter()
+        .find(|(key, _)| *key == "operation.speed")
+        .unwrap();
+    assert!(
+        speed
+            .1
+            .contains("500 rpm in load case 2, 2000 rpm in load case 1"),
+        "{}",
+        speed.1
+    );
+}
+
+#[test]
+fn entities_bombs_and_texts_of_another_kind_are_refused() {
+    let entity = "<!DOCTYPE m [<!ENTITY a \"aaaa\">]><model version=\"1.0\">&a;</model>";
+    assert!(refusal_of(entity.as_bytes()).contains("declares a document type"));
+    let deep = "<model version=\"1.0\">".to_owned() + &"<a>".repeat(1_000_000);
+    assert!(refusal_of(deep.as_bytes()).contains("this is no XML"));
+    let deep = "{\"model\":".to_owned() + &"[".repeat(1_000_000);
+    assert!(refusal_of(deep.as_bytes()).contains("in JSON"));
+    assert!(refusal_of(b"solid").contains("neither XML nor JSON"));
+    assert!(refusal_of(b"<model version=\"3.1\"/>").contains("REXS version \"3.1\""));
+    assert!(refusal_of(b"<model version=\"1.3\"/>").contains("no gear stage"));
+    assert!(refusal_of(b"<gear/>").contains("the root element is \"gear\""));
+    assert!(refusal_of(b"PK\x03\x04 broken").contains("cannot be unpacked"));
+    assert!(refusal_of(&zipped(&[("a.rexs", 17 << 20)])).contains("longer than 16 MiB unpacked"));
+    assert!(refusal_of(&zipped(&[("a.rexs", 9), ("b.rexs", 9)])).contains("has 2 models"));
+    assert!(refusal_of(&zipped(&[("a.txt", 9)])).contains("has 0 models"));
+}
+
+/// An archive of files of spaces.
+fn zipped(files: &[(&str, usize)]) -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let mut archive = zip::ZipWriter::new(&mut bytes);
+    for (name, length) in files {
+        archive
+            .start_file(*name, SimpleFileOptions::default())
+            .unwrap();
+        archive.write_all(&vec![b' '; *length]).unwrap();
+    }
+    archive.finish().unwrap();
+    bytes.into_inner()
+}
+
+#[test]
+fn import_writes_a_new_file_and_solve_takes_a_model_as_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("case.toml");
+    let out = out.to_str().unwrap();
+    let (code, case, _) = texts(&run(&["import", "spur-2.0.rexsj", "--out", out]));
+    assert_eq!((code, case.as_str()), (0, ""));
+    let (again, _, told) = texts(&run(&["import", "spur-2.0.rexsj", "--out", out]));
+    assert_eq!(again, 5);
+    assert!(told.contains("it exists already"), "{told}");
+    let quantity = ["--only", "impact_force", "--format", "csv"];
+    let (_, of_case, _) = texts(&run(&[&["solve", out][..], &quantity].concat()));
+    let (code, of_model, told) =
+        texts(&run(&[&["solve", "spur-2.0.rexsj"][..], &quantity].concat()));
+    let last = |text: &str| text.trim_end().rsplit(',').next().unwrap().to_owned();
+    assert_eq!((code, last(&of_model)), (0, last(&of_case)));
+    assert!(told.contains("driven.young stays empty"), "{told}");
+}

@@ -1,0 +1,205 @@
+//! Writes pictures and pages: every chart, well-formed, complete in itself, texts made harmless.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use roxmltree::Document;
+use tipstrike::report::graphs::GRAPHS;
+
+const TABLE_1: &str = "cases/zhou-chen-2014.toml";
+const FZG: &str = "cases/fzg-type-c.toml";
+
+fn run(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_tipstrike"))
+        .args(arguments)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .unwrap()
+}
+
+/// Standard output of a run that succeeds in silence.
+fn told(arguments: &[&str]) -> String {
+    let output = run(arguments);
+    let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(
+        (output.status.code(), errors.as_str()),
+        (Some(0), ""),
+        "{arguments:?}"
+    );
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// The file of a report of these cases.
+fn report(cases: &[&str], ending: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join(format!("report.{ending}"));
+    let to = ["--out", out.to_str().unwrap()];
+    assert_eq!(told(&[&["report"][..], cases, &to].concat()), "");
+    fs::read_to_string(out).unwrap()
+}
+
+fn numbers_are_finite(text: &str) {
+    let invalid = ["NaN", "inf,", ",inf", "\"inf"];
+    assert!(invalid.iter().all(|word| !text.contains(word)), "{text}");
+}
+
+#[test]
+fn every_chart_and_the_teeth_are_well_formed_pictures() {
+    for name in GRAPHS.iter().map(|graph| graph.key).chain(["teeth"]) {
+        for method in ["exact", "dynamic"] {
+            let picture = told(&["plot", TABLE_1, "--chart", name, "--method", method]);
+            numbers_are_finite(&picture);
+            let xml = Document::parse(&picture).unwrap_or_else(|error| panic!("{name}: {error}"));
+            assert!(
+                xml.root_element()
+                    .has_tag_name(("http://www.w3.org/2000/svg", "svg"))
+            );
+            assert!(picture.contains("prefers-color-scheme:dark"));
+            let labels = xml.descendants().filter(|node| node.has_tag_name("text"));
+            let labels = labels.count() + picture.matches("<text").count();
+            assert!(labels > 3, "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_chart_names_axes_with_units_and_the_legend_lies_below_the_field() {
+    let picture = told(&["plot", TABLE_1, "--chart", "gap"]);
+    for text in [
+        "Gap S, µm",
+        "driver roll angle after E, deg",
+        ">method exact<",
+        ">Δ<",
+        ">D<",
+        ">E<",
+    ] {
+        assert!(picture.contains(text), "{text}: {picture}");
+    }
+    let field = 352.0;
+    let xml = Document::parse(&picture).unwrap();
+    let legend = xml
+        .descendants()
+        .filter(|node| matches!(node.text(), Some("method exact" | "Δ")));
+    for name in legend.filter(|node| node.has_attribute("y")) {
+        assert!(name.attribute("y").unwrap().parse::<f64>().unwrap() > field);
+    }
+    let shared = told(&["plot", TABLE_1, "--chart", "load_share"]);
+    assert!(
+        shared.contains(">method static<"),
+        "a closed form has no load share"
+    );
+}
+
+#[test]
+fn a_chart_without_a_curve_is_refused_and_a_picture_replaces_an_older_one() {
+    let late = run(&[
+        "plot",
+        "cases/tip-relief-enough.toml",
+        "--chart",
+        "impact_energy",
+    ]);
+    let words = String::from_utf8_lossy(&late.stderr).into_owned();
+    assert_eq!(late.status.code(), Some(3), "{words}");
+    assert!(
+        words.contains("the chart impact_energy has no curve"),
+        "{words}"
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("force.svg");
+    fs::write(&out, "old").unwrap();
+    told(&["plot", TABLE_1, "--out", out.to_str().unwrap()]);
+    assert!(fs::read_to_string(out).unwrap().starts_with("<svg"));
+}
+
+#[test]
+fn a_page_needs_no_other_file_and_has_every_part() {
+    let page = report(&[TABLE_1], "html");
+    numbers_are_finite(&page);
+    let elsewhere = ["<script", "<link", "src=", "url(", "@import"];
+    assert!(elsewhere.iter().all(|word| !page.contains(word)));
+    let addresses = page.matches("http").count();
+    assert_eq!(
+        addresses,
+        page.matches("http://www.w3.org/2000/svg").count()
+    );
+    let charts = GRAPHS.len() + 1;
+    assert_eq!(page.matches("class=\"tipstrike\"").count(), charts);
+    for text in [
+        "<h1>Zhou &#38; Chen 2014, Table 1</h1>",
+        "impact force 2191.0 N",
+        concat!("tipstrike ", env!("CARGO_PKG_VERSION")),
+        "<td>power</td><td>P</td><td class=\"number\">15 kW</td>",
+        "<td class=\"number\">2123</td><td>N</td>",
+        "impact_force 2191.0 N &#60;= 2500 N",
+        "the impact lasts 133.9 us",
+        "Chin. J. Mech. Eng.",
+        "base_pitch = &#34;16 um&#34;",
+        "data:text/plain;charset=utf-8,",
+    ] {
+        assert!(page.contains(text), "{text}");
+    }
+    assert!(
+        !page.contains("<td>pressure angle</td>"),
+        "20 deg is the default"
+    );
+}
+
+#[test]
+fn several_cases_are_side_by_side_in_every_format() {
+    let page = report(&[TABLE_1, FZG], "html");
+    assert!(page.contains("<h1>2 gear pairs side by side</h1>"));
+    assert!(
+        page.contains("<td class=\"number\">2191.0</td><td class=\"number\">3346.5</td><td>N</td>")
+    );
+    let markdown = report(&[TABLE_1, FZG], "md");
+    assert!(
+        markdown.contains("| impact force | F_S | 2191.0 | 3346.5 | N | Eq. 57 |"),
+        "{markdown}"
+    );
+    assert!(markdown.contains("|---|---|---:|---:|---|---|"));
+    let csv = report(&[TABLE_1, FZG], "csv");
+    assert_eq!(csv.lines().count(), 3);
+    let json = report(&[TABLE_1, FZG], "json");
+    assert_eq!(json, told(&["solve", TABLE_1, FZG, "--format", "json"]));
+}
+
+#[test]
+fn texts_of_a_case_are_harmless_in_a_page_and_in_a_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("odd.toml");
+    let title = "</title><script>a|b`\u{1b}[2J";
+    let text = fs::read_to_string(TABLE_1).unwrap();
+    let text = text.replace(
+        "Zhou & Chen 2014, Table 1",
+        &title.replace('\u{1b}', "\\u001b"),
+    );
+    fs::write(&path, text).unwrap();
+    let odd = path.to_str().unwrap();
+    let page = report(&[odd, TABLE_1], "html");
+    assert!(!page.contains("<script") && !page.contains('\u{1b}'));
+    let markdown = report(&[odd], "md");
+    assert!(
+        !markdown.contains("<script>") || !markdown.contains("# </title>"),
+        "{markdown}"
+    );
+    assert!(markdown.contains("\\<script\\>a\\|b\\`"), "{markdown}");
+}
+
+#[test]
+fn an_unknown_ending_is_refused_and_a_bad_case_is_left_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let pdf = run(&["report", TABLE_1, "--out", &path("a.pdf")]);
+    assert_eq!(pdf.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&pdf.stderr).contains("use .html, .md, .csv or .json"));
+    fs::write(path("bad.toml"), "format = 1\n").unwrap();
+    let some = run(&["report", &path("bad.toml"), TABLE_1, "--out", &path("a.md")]);
+    assert_eq!(some.status.code(), Some(3));
+    assert!(
+        fs::read_to_string(path("a.md"))
+            .unwrap()
+            .starts_with("# Zhou & Chen 2014, Table 1")
+    );
+    assert!(Path::new(&path("a.md")).exists());
+}
