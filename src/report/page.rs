@@ -16,6 +16,14 @@ use crate::case::units::System;
 use crate::case::{Case, FIELDS};
 use crate::model::{Quantity, Solution};
 
+/// Charts that a page leaves out, so that one case prints on two sheets.
+const LEFT_OUT: [&str; 4] = [
+    "sliding_velocity",
+    "pair_compliance",
+    "impact_energy",
+    "radius_driver",
+];
+
 /// A solved case with the text of its file.
 #[derive(Debug)]
 pub struct Subject {
@@ -124,6 +132,7 @@ impl Page {
             tables: tables(&own),
             charts: GRAPHS
                 .iter()
+                .filter(|graph| !LEFT_OUT.contains(&graph.key))
                 .filter_map(|graph| picture(graph, &drawn))
                 .collect(),
             columns,

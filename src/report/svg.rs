@@ -73,16 +73,16 @@ pub enum Kind {
 
 const WIDTH: f64 = 760.0;
 /// Left, top, right, bottom of the field.
-const FIELD: (f64, f64, f64, f64) = (80.0, 52.0, 736.0, 352.0);
+const FIELD: (f64, f64, f64, f64) = (92.0, 58.0, 736.0, 316.0);
 /// The first line of the legend.
-const LEGEND: f64 = 412.0;
-const LINE: f64 = 20.0;
+const LEGEND: f64 = 388.0;
+const LINE: f64 = 23.0;
 /// Width of a letter of the legend, at most.
-const LETTER: f64 = 7.4;
+const LETTER: f64 = 9.4;
 /// Width of a symbol of the legend with its gaps.
 const SYMBOL: f64 = 52.0;
 /// A name of the legend is cut after this many letters.
-const MOST_LETTERS: usize = 84;
+const MOST_LETTERS: usize = 62;
 
 /// The chart as a picture.
 #[must_use]
@@ -129,11 +129,11 @@ fn frame(chart: &Chart, height: f64) -> String {
         escaped(&chart.across.label),
         escaped(&chart.up.label),
     );
-    let below = bottom + 40.0;
+    let below = bottom + 46.0;
     format!(
-        "{}<text x=\"{left}\" y=\"22\" class=\"title\">{title}</text>\n\
+        "{}<text x=\"{left}\" y=\"24\" class=\"title\">{title}</text>\n\
          <text x=\"{middle}\" y=\"{below}\" text-anchor=\"middle\">{across}</text>\n\
-         <text transform=\"translate(18 {half}) rotate(-90)\" text-anchor=\"middle\">{up}</text>\n",
+         <text transform=\"translate(20 {half}) rotate(-90)\" text-anchor=\"middle\">{up}</text>\n",
         opening(&title, WIDTH, height),
     )
 }
@@ -154,19 +154,19 @@ fn grid(text: &mut String, across: &Axis, up: &Axis, chart: &Chart) {
             .tick
             .map_or_else(|| axis.number(value), |tick| tick(value))
     };
-    for value in across.ticks(10) {
+    for value in across.ticks(9) {
         let x = across.at(value);
         let number = escaped(&told(&chart.across, across, value));
-        let below = bottom + 18.0;
+        let below = bottom + 21.0;
         let _ = writeln!(
             text,
             "<path d=\"M{x:.1} {top}V{bottom}\" class=\"grid\"/><text x=\"{x:.1}\" y=\"{below}\" text-anchor=\"middle\">{number}</text>"
         );
     }
-    for value in up.ticks(7) {
+    for value in up.ticks(6) {
         let y = up.at(value);
         let number = escaped(&told(&chart.up, up, value));
-        let (beside, base) = (left - 8.0, y + 4.0);
+        let (beside, base) = (left - 8.0, y + 5.0);
         let _ = writeln!(
             text,
             "<path d=\"M{left} {y:.1}H{right}\" class=\"grid\"/><text x=\"{beside}\" y=\"{base:.1}\" text-anchor=\"end\">{number}</text>"
@@ -252,7 +252,7 @@ fn cut(name: &str) -> String {
 
 fn legend(text: &mut String, series: &Series, at: usize, x: f64, y: f64) {
     let look = at % LOOKS.len();
-    let middle = y - 4.0;
+    let middle = y - 5.0;
     let symbol = match series.kind {
         Kind::Curve => format!("<path d=\"M{x} {middle}h30\" class=\"curve s{look}\"/>"),
         Kind::Bound => format!("<path d=\"M{x} {middle}h30\" class=\"bound\"/>"),

@@ -100,7 +100,7 @@ impl Axis {
             return format!("{value:e}");
         }
         let size = self.from.abs().max(self.to.abs());
-        let step = self.step(7);
+        let step = self.step(9);
         let value = if value.abs() < step / 2.0 { 0.0 } else { value };
         if (1e-3..1e6).contains(&size) {
             let decimals = (-step.log10().floor()).clamp(0.0, 12.0) as usize;

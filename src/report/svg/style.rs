@@ -16,8 +16,8 @@ pub(super) const LOOKS: [&str; 6] = [
 /// The style sheet of every picture. Its rules are limited to the pictures, so that a page may hold
 /// several.
 pub(super) const STYLE: &str = "\
-.tipstrike{font:12px 'DejaVu Sans',Helvetica,Arial,sans-serif;fill:#222}\
-.tipstrike .title{font-size:14px;font-weight:bold}\
+.tipstrike{font:15px 'DejaVu Sans',Helvetica,Arial,sans-serif;fill:#222}\
+.tipstrike .title{font-size:17px;font-weight:bold}\
 .tipstrike .ground{fill:#fff}\
 .tipstrike .grid{stroke:#ddd;fill:none}\
 .tipstrike .axis{stroke:#333;fill:none}\

@@ -10,7 +10,7 @@ use crate::model::gear_pose::{GearPose, Placed, on_line_of_action};
 use crate::model::{Inputs, Solution};
 
 const WIDTH: f64 = 760.0;
-const HEIGHT: f64 = 620.0;
+const HEIGHT: f64 = 622.0;
 /// Left, top, width, height of the window.
 const WINDOW: (f64, f64, f64, f64) = (12.0, 40.0, 736.0, 520.0);
 /// Steps of each piece of an outline.
@@ -185,12 +185,14 @@ fn points(text: &mut String, solution: &Solution, view: &View) {
 fn caption(text: &mut String, view: &View) {
     let length = round_below(150.0 / view.scale);
     let (dots, name) = (length * view.scale, told(length));
-    let (left, base) = (WINDOW.0, HEIGHT - 18.0);
+    let (left, base) = (WINDOW.0, HEIGHT - 14.0);
+    let first = base - 21.0;
     let bar = WIDTH - WINDOW.0 - dots;
     let (middle, above) = (bar + dots / 2.0, base - 8.0);
     let _ = writeln!(
         text,
-        "<text x=\"{left}\" y=\"{base}\">Driver left, driven gear right; reliefs and chamfers are not drawn. E to B: path of contact.</text>\n\
+        "<text x=\"{left}\" y=\"{first}\">Driver left, driven gear right; E to B: path of contact.</text>\n\
+         <text x=\"{left}\" y=\"{base}\">Reliefs and chamfers are not drawn.</text>\n\
          <path d=\"M{bar:.1} {base}v-5v5h{dots:.1}v-5\" class=\"axis\"/>\
          <text x=\"{middle:.1}\" y=\"{above}\" text-anchor=\"middle\">{name}</text>"
     );
