@@ -2,6 +2,7 @@
 
 mod archive;
 mod fields;
+mod gear;
 mod json;
 mod model;
 mod operation;

@@ -44,8 +44,8 @@ const REPORT_SHAPE: &str = "The HTML page is complete in itself: verdict, inputs
     files; one case prints on two A4 pages. Markdown has the same without charts. CSV and JSON are those of `solve`, JSON with the \
     stations.";
 
-const IMPORT_SHAPE: &str = "REXS is the exchange format of gear programs such as FVA-Workbench, Bearinx and KISSsoft. Versions 1.0 to \
-    2.0 are read. Each value of the case has its source as a comment; standard error lists the stages of the model and each field \
+const IMPORT_SHAPE: &str = "REXS is the exchange format of gear programs such as FVA-Workbench and Bearinx. Versions 1.0 to 2.0 \
+    are read. Each value of the case has its source as a comment; standard error lists the stages of the model and each field \
     that stays empty, with the reason. Helical, planetary, bevel and other stages are refused.";
 
 /// Corner contact in spur gear pairs: where, how hard and how long an incoming tooth strikes

@@ -210,3 +210,20 @@ fn import_writes_a_new_file_and_solve_takes_a_model_as_it_is() {
     assert_eq!((code, last(&of_model)), (0, last(&of_case)));
     assert!(told.contains("driven.young stays empty"), "{told}");
 }
+
+#[test]
+fn no_cut_or_damaged_model_stops_the_program() {
+    for name in [
+        "two-stages-1.0.rexs",
+        "spur-2.0.rexsj",
+        "planetary-1.1.rexsz",
+    ] {
+        let whole = fs::read(model(name)).unwrap();
+        for at in (0..whole.len()).step_by(whole.len() / 150) {
+            drop(import(Path::new(name), &whole[..at], None));
+            let mut damaged = whole.clone();
+            damaged[at] = b'9';
+            drop(import(Path::new(name), &damaged, None));
+        }
+    }
+}

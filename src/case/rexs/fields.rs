@@ -1,87 +1,11 @@
 //! The fields of pair, gears and deviations from the components of a spur stage.
 
+use super::gear::{DRIVEN, DRIVER, Gear, Keys};
 use super::model::{Component, Model};
 use super::relief;
 use super::source::{Found, Reading, Values, Wanted, agreed, found};
 use super::stage::TEETH;
 use crate::case::units::{self, Dimension};
-
-/// A gear of the stage with what belongs to it.
-pub(super) struct Gear<'a> {
-    pub(super) component: &'a Component,
-    /// The components of the left flank and of the right one.
-    pub(super) flanks: [Vec<&'a Component>; 2],
-    materials: Vec<&'a Component>,
-    /// Racks that cut the gear.
-    racks: Vec<&'a Component>,
-}
-
-impl<'a> Gear<'a> {
-    pub(super) fn new(model: &'a Model, component: &'a Component) -> Gear<'a> {
-        let flank = |side| {
-            let own = ("gear", component.id.as_str());
-            model.related("flank", own, side).collect()
-        };
-        Gear {
-            component,
-            flanks: [flank("left"), flank("right")],
-            materials: model.linked(&component.id, "material").collect(),
-            racks: model.linked(&component.id, "rack_shaped_tool").collect(),
-        }
-    }
-
-    /// A value that both flanks must share; the gear itself may have it instead.
-    pub(super) fn of_flanks(&self, wanted: Wanted) -> Result<Option<Reading>, String> {
-        let [left, right] = &self.flanks;
-        let reading = agreed(
-            wanted.first(left.iter().copied())?,
-            wanted.first(right.iter().copied())?,
-        )?;
-        reading.map_or_else(|| wanted.read(self.component), |reading| Ok(Some(reading)))
-    }
-}
-
-/// The keys of the fields of one gear.
-macro_rules! keys {
-    ($gear:literal) => {
-        Keys {
-            teeth: concat!($gear, ".teeth"),
-            profile_shift: concat!($gear, ".profile_shift"),
-            addendum: concat!($gear, ".addendum"),
-            dedendum: concat!($gear, ".dedendum"),
-            face_width: concat!($gear, ".face_width"),
-            bore_radius: concat!($gear, ".bore_radius"),
-            young: concat!($gear, ".young"),
-            poisson: concat!($gear, ".poisson"),
-            density: concat!($gear, ".density"),
-            tip_chamfer: concat!($gear, ".tip_chamfer"),
-            tip_relief: concat!($gear, ".tip_relief"),
-            tip_relief_length: concat!($gear, ".tip_relief_length"),
-            root_relief: concat!($gear, ".root_relief"),
-            root_relief_length: concat!($gear, ".root_relief_length"),
-        }
-    };
-}
-
-pub(super) struct Keys {
-    teeth: &'static str,
-    profile_shift: &'static str,
-    addendum: &'static str,
-    dedendum: &'static str,
-    face_width: &'static str,
-    bore_radius: &'static str,
-    young: &'static str,
-    poisson: &'static str,
-    density: &'static str,
-    tip_chamfer: &'static str,
-    pub(super) tip_relief: &'static str,
-    pub(super) tip_relief_length: &'static str,
-    pub(super) root_relief: &'static str,
-    pub(super) root_relief_length: &'static str,
-}
-
-const DRIVER: Keys = keys!("driver");
-const DRIVEN: Keys = keys!("driven");
 
 /// Reads every field but those of the operation.
 pub(super) fn read(model: &Model, stage: &Component, gears: [&Component; 2], values: &mut Values) {

@@ -1,6 +1,6 @@
 //! Tip and root relief of a gear from the components that are linked to its flanks.
 
-use super::fields::{Gear, Keys};
+use super::gear::{Gear, Keys};
 use super::model::{Component, Model};
 use super::source::{Found, Reading, Values, Wanted, agreed, found};
 use crate::case::units;
