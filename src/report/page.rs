@@ -235,7 +235,7 @@ fn inputs(reports: &[&Report]) -> Vec<InputRow> {
     let defaults = Case::empty();
     let rows = FIELDS.iter().enumerate().filter_map(|(at, field)| {
         let is_default = |case: &Case| match (case.value(at), defaults.value(at)) {
-            (Some(own), Some(usual)) => own == usual,
+            (Some(own), Some(usual)) => own.total_cmp(&usual).is_eq(),
             _ => case.effective(at) == defaults.effective(at),
         };
         let is_words = matches!(field.key, "title" | "notes");
