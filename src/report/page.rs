@@ -2,6 +2,8 @@
 
 mod markdown;
 
+use std::fmt::Write;
+
 use askama::Template;
 
 use super::charts::{Drawn, picture};
@@ -224,7 +226,7 @@ fn address(text: &str) -> String {
         if byte.is_ascii_alphanumeric() || b"-_.~".contains(&byte) {
             address.push(char::from(byte));
         } else {
-            address.push_str(&format!("%{byte:02X}"));
+            let _ = write!(address, "%{byte:02X}");
         }
     }
     address

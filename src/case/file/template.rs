@@ -138,9 +138,10 @@ fn described<'a>(field: &Field, line: &str, comments: impl Iterator<Item = &'a s
         Absent::Without(words) => format!(" Left out: {words}."),
         _ => String::new(),
     };
-    let comments: String = comments
-        .map(|comment| format!("# {}\n", sanitize(comment)))
-        .collect();
+    let comments = comments.fold(String::new(), |mut lines, comment| {
+        let _ = writeln!(lines, "# {}", sanitize(comment));
+        lines
+    });
     format!(
         "# {symbol}{}{range}{absent}\n{comments}{line}\n",
         field.help

@@ -76,7 +76,7 @@ fn body(values: &mut Values, keys: &Keys, gear: &Gear, module: Option<f64>) -> O
     }
     values.put(keys.face_width, own(Wanted::length("face_width")));
     let bore = Wanted::length("inner_diameter").read(gear.component);
-    let radius = bore.map(|bore| bore.map(|bore| derived(bore, 0.5, "mm", "half of")));
+    let radius = bore.map(|bore| bore.map(|bore| derived(&bore, 0.5, "mm", "half of")));
     values.put(keys.bore_radius, found(radius, &none("inner_diameter")));
     let of_material = |id, dimension, unit| {
         let wanted = Wanted::new(id, dimension, unit);
@@ -105,7 +105,7 @@ fn none(attribute: &str) -> String {
 }
 
 /// The reading times a factor, in a unit.
-fn derived(reading: Reading, factor: f64, unit: &str, words: &str) -> Reading {
+fn derived(reading: &Reading, factor: f64, unit: &str, words: &str) -> Reading {
     let value = reading.value * factor;
     Reading {
         text: units::text(value, unit),
@@ -122,7 +122,7 @@ fn profile_shift(gear: &Gear, module: Option<f64>) -> Result<Option<Reading>, St
     }
     let shift = gear.of_flanks(Wanted::length("addendum_modification"))?;
     if let (Some(shift), Some(module)) = (shift, module) {
-        return Ok(Some(derived(shift, 1.0 / module, "", "the module and")));
+        return Ok(Some(derived(&shift, 1.0 / module, "", "the module and")));
     }
     coefficient("addendum_modification_coefficient_after_finishing")
 }

@@ -114,8 +114,9 @@ pub(super) fn loaded(
         Ok(document) if is_open_as_another(app, &document, &path) => Vec::new(),
         Ok(document) => {
             app.prompts.clear();
-            let mut effects = vec![Effect::Remember(path.clone())];
-            effects.extend(solve(tabs::show(app, *document, rexs::case_path(&path))));
+            let case_path = rexs::case_path(&path);
+            let mut effects = vec![Effect::Remember(path)];
+            effects.extend(solve(tabs::show(app, *document, case_path)));
             if app.tab.access == Access::Newer {
                 app.complain(NEWER);
             } else {
