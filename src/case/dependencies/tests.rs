@@ -41,10 +41,10 @@ const VARIANTS: [(&str, Change); 17] = [
         relieved(inputs, Method::Dynamic);
         (inputs.warmup_cycles, inputs.tolerance) = (2, 1e-5);
     }),
-    ("dynamic, fit", |inputs| {
-        relieved(inputs, Method::Dynamic);
+    ("dynamic, beam", |inputs| {
+        (inputs.method, inputs.friction_coefficient) = (Method::Dynamic, Some(0.05));
         (inputs.warmup_cycles, inputs.tolerance) = (2, 1e-5);
-        inputs.tooth_compliance = Some(ToothCompliance::KUANG_YANG);
+        inputs.tooth_compliance = Some(ToothCompliance::BEAM);
     }),
     ("deflection computed", |inputs| inputs.deflection = None),
     ("stations as needed", |inputs| inputs.stations = None),
