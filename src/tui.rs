@@ -5,42 +5,67 @@
 //! worker's answers come through one channel; the loop takes what has come, changes the state,
 //! draws once and sleeps.
 
+// Public for the tests of the screens, which are programs of their own.
+#[doc(hidden)]
 pub mod actions;
+#[doc(hidden)]
 pub mod app;
+#[doc(hidden)]
 pub mod ascii;
-mod baseline;
+#[doc(hidden)]
 pub mod benchmark;
-mod capped_backend;
+#[doc(hidden)]
 pub mod commands;
-mod cursor_range;
+#[doc(hidden)]
 pub mod dialogs;
+#[doc(hidden)]
 pub mod effects;
-mod ending;
+#[doc(hidden)]
 pub mod events;
+#[doc(hidden)]
+pub mod help;
+#[doc(hidden)]
+pub mod jobs;
+#[doc(hidden)]
+pub mod layout;
+#[doc(hidden)]
+pub mod pane;
+#[doc(hidden)]
+pub mod panes;
+#[doc(hidden)]
+pub mod rows;
+#[doc(hidden)]
+pub mod session;
+#[doc(hidden)]
+pub mod settings;
+#[doc(hidden)]
+pub mod solver;
+#[doc(hidden)]
+pub mod store;
+#[doc(hidden)]
+pub mod tab;
+#[doc(hidden)]
+pub mod theme;
+#[doc(hidden)]
+pub mod update;
+#[doc(hidden)]
+pub mod view;
+#[doc(hidden)]
+pub mod worker;
+
+mod baseline;
+mod capped_backend;
+mod cursor_range;
+mod ending;
 mod fault;
 mod header;
-pub mod help;
 mod history;
 mod input;
-pub mod jobs;
 mod keys;
-pub mod layout;
 mod line;
-pub mod pane;
-pub mod panes;
-pub mod rows;
 mod scale;
-pub mod session;
-pub mod settings;
-pub mod solver;
-pub mod store;
-pub mod tab;
 mod terminal;
 mod text;
-pub mod theme;
-pub mod update;
-pub mod view;
-pub mod worker;
 
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -91,7 +116,6 @@ enum End {
     Left,
     /// The terminal is gone.
     Lost,
-    /// By a signal.
     Signal(i32),
 }
 

@@ -89,7 +89,6 @@ pub enum Effect {
     Adopt(PathBuf),
     /// The edits of this journal are not wanted.
     Forget(PathBuf),
-    /// Keep the settings.
     Keep(Settings),
     /// Hand a text to the clipboard of the user's own terminal.
     Copy(String),

@@ -185,8 +185,7 @@ impl App {
     }
 
     /// The charts and the pane in which the cursor moves.
-    #[must_use]
-    pub fn cursor_scope(&self) -> CursorScope<'_> {
+    pub(crate) fn cursor_scope(&self) -> CursorScope<'_> {
         let plan = self.plan();
         let is_alone = plan.chart.is_empty() && !plan.teeth.is_empty();
         CursorScope {
@@ -196,8 +195,7 @@ impl App {
     }
 
     /// The surroundings of a dialog.
-    #[must_use]
-    pub fn surroundings(&self) -> Surroundings<'_> {
+    pub(crate) fn surroundings(&self) -> Surroundings<'_> {
         Surroundings {
             screen: self.size,
             look: self.look,
@@ -216,10 +214,10 @@ impl App {
             problems: &tab.problems,
             answer: tab.answer.as_ref(),
             is_stale: tab.is_stale(),
-            focus: tab.focus,
-            line: self.has_line().then_some(&tab.input),
+            focus: tab.form.focus,
+            line: self.has_line().then_some(&tab.form.input),
             ending: self.ending(),
-            top: tab.form_top,
+            top: tab.form.top,
             look: self.look,
             title: self.title(Pane::Form),
             area: self.plan().form,
@@ -303,7 +301,7 @@ impl App {
         match self.prompts.last() {
             Some(prompt) => prompt.dialog().place(),
             None if !self.has_line() => self.panes.focus.place(),
-            None if !rows::names(&self.tab.case, self.tab.focus).is_empty() => Place::CHOICE,
+            None if !rows::names(&self.tab.case, self.tab.form.focus).is_empty() => Place::CHOICE,
             None if self.is_fresh() => Place::TEXT.or(Place::FRESH),
             None => Place::TEXT,
         }
@@ -317,24 +315,17 @@ impl App {
 
     /// Whether the focused row has a value rather than words, and typing would replace all of it.
     fn is_fresh(&self) -> bool {
-        let Tab {
-            case, focus, input, ..
-        } = &self.tab;
+        let Tab { case, form, .. } = &self.tab;
         let is_words =
-            rows::field(case, *focus).is_some_and(|field| matches!(field.kind, Kind::Text));
-        !is_words && input.kept() == 0
+            rows::field(case, form.focus).is_some_and(|field| matches!(field.kind, Kind::Text));
+        !is_words && form.input.kept() == 0
     }
 
     /// Whether a key would be the first of an edit that replaces the text of the focused row.
     pub(super) fn starts_anew(&self) -> bool {
-        let Tab {
-            focus,
-            input,
-            history,
-            ..
-        } = &self.tab;
+        let Tab { form, history, .. } = &self.tab;
         let is_in_line = self.prompts.is_empty() && self.has_line();
-        is_in_line && input.kept() == 0 && !history.is_visited(*focus)
+        is_in_line && form.input.kept() == 0 && !history.is_visited(form.focus)
     }
 
     /// What completes the text that is typed into the focused field: its unit, or the rest of it.
@@ -344,9 +335,9 @@ impl App {
         let typed = || {
             rows::ending(
                 &tab.case,
-                tab.focus,
-                tab.input.value(),
-                tab.written_unit.as_deref(),
+                tab.form.focus,
+                tab.form.input.value(),
+                tab.form.written_unit.as_deref(),
                 system,
             )
         };
@@ -438,7 +429,7 @@ impl App {
             });
         }
         self.tab.refusal = None;
-        let (case, focus) = (&self.tab.case, self.tab.focus);
+        let (case, focus) = (&self.tab.case, self.tab.form.focus);
         let place_of = |problem: &Problem| rows::of_key(case, &problem.field).unwrap_or(focus);
         self.tab.problems = problems
             .into_iter()

@@ -88,8 +88,7 @@ pub fn is_safe(character: char) -> bool {
 }
 
 /// The text with one visible mark in place of each character that controls or hides.
-#[must_use]
-pub fn printable(text: &str) -> Cow<'_, str> {
+pub(crate) fn printable(text: &str) -> Cow<'_, str> {
     if text.chars().all(is_safe) {
         return Cow::Borrowed(text);
     }

@@ -12,7 +12,6 @@ pub struct Baseline {
     pub name: String,
     /// Whether that is the name of a file.
     pub is_file: bool,
-    /// The case.
     pub case: Case,
     /// Its results.
     pub answer: Answer,

@@ -166,8 +166,7 @@ pub fn scope(command: Command, place: Place, pane: Pane) -> Scope {
 }
 
 /// Every key that calls the command outside prompts, as a person reads it.
-#[must_use]
-pub fn keys_of(command: Command) -> String {
+pub(crate) fn keys_of(command: Command) -> String {
     let bound = BINDINGS
         .iter()
         .filter(|binding| binding.command == command && binding.places.meets(Place::WORK));
@@ -179,8 +178,7 @@ pub fn keys_of(command: Command) -> String {
 }
 
 /// The first key that calls the command outside prompts; its name in the palette where it has none.
-#[must_use]
-pub fn key_of(command: Command) -> String {
+pub(crate) fn key_of(command: Command) -> String {
     let keys = keys_of(command);
     match keys.split(", ").next() {
         Some(key) if !key.is_empty() => key.to_owned(),

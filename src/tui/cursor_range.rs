@@ -20,7 +20,6 @@ const APPROACH: f64 = 1.6;
 /// The charts and the pane in which the cursor moves.
 #[derive(Debug, Clone, Copy)]
 pub struct CursorScope<'a> {
-    /// The charts.
     pub charts: Charts<'a>,
     /// Whether it moves in the teeth pane.
     pub is_in_teeth: bool,

@@ -133,13 +133,11 @@ impl Outcome {
 pub enum Prompt {
     /// Which file to open.
     Browse(Box<Browser>),
-    /// Where to save.
     SaveAs(SaveAs),
     /// Where the cursor is to go.
     CursorTo(CursorTo),
     /// A question with buttons.
     Ask(Question),
-    /// A page to read.
     Read(Page),
     /// The explanation of a result.
     Explain(Explanation),
@@ -148,7 +146,6 @@ pub enum Prompt {
 }
 
 impl Prompt {
-    /// The dialog.
     #[must_use]
     pub fn dialog(&self) -> &dyn Dialog {
         match self {
@@ -163,7 +160,7 @@ impl Prompt {
     }
 
     /// The dialog, to change it.
-    pub fn dialog_mut(&mut self) -> &mut dyn Dialog {
+    pub(crate) fn dialog_mut(&mut self) -> &mut dyn Dialog {
         match self {
             Prompt::Browse(dialog) => &mut **dialog,
             Prompt::SaveAs(dialog) => dialog,
@@ -184,8 +181,7 @@ impl Prompt {
     }
 
     /// Whether it asks for the name of a file to save to.
-    #[must_use]
-    pub fn is_save_as(&self) -> bool {
+    pub(crate) fn is_save_as(&self) -> bool {
         matches!(self, Prompt::SaveAs(_))
     }
 }

@@ -59,7 +59,7 @@ impl Events {
     ///
     /// # Errors
     /// When the system gives no thread.
-    pub fn listen(&self) -> io::Result<()> {
+    pub(crate) fn listen(&self) -> io::Result<()> {
         let keys = self.sender.clone();
         thread::Builder::new()
             .name("keys".to_owned())
@@ -74,7 +74,7 @@ impl Events {
     }
 
     /// Sends actions as events.
-    pub fn action_sender(&self) -> impl Fn(Action) -> bool + Send + Sync + 'static {
+    pub(crate) fn action_sender(&self) -> impl Fn(Action) -> bool + Send + Sync + 'static {
         let sender = self.sender.clone();
         move |action| sender.send(Event::Action(action)).is_ok()
     }

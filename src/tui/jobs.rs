@@ -30,7 +30,6 @@ pub enum Job {
 pub struct Asked {
     /// The result.
     pub quantity: &'static Quantity,
-    /// The case.
     pub case: Case,
     /// The pair that it describes.
     pub inputs: Inputs,
@@ -41,7 +40,6 @@ pub struct Asked {
 pub struct Explained {
     /// The result.
     pub quantity: &'static Quantity,
-    /// The page.
     pub page: Result<Box<Page>, String>,
 }
 

@@ -81,8 +81,7 @@ impl Place {
     }
 
     /// Whether letters go into a line of text.
-    #[must_use]
-    pub const fn is_line(self) -> bool {
+    pub(crate) const fn is_line(self) -> bool {
         self.meets(Place::LINE)
     }
 

@@ -44,7 +44,6 @@ pub struct Plan {
     pub trade: Rect,
     /// What the focused field is, and messages.
     pub hint: Rect,
-    /// The keys.
     pub keys: Rect,
 }
 
@@ -78,8 +77,7 @@ pub fn plan(size: Size, panes: Panes) -> Plan {
 }
 
 /// Whether a terminal is of no use.
-#[must_use]
-pub fn is_too_small(size: Size) -> bool {
+pub(crate) fn is_too_small(size: Size) -> bool {
     !holds(size, SMALLEST)
 }
 
@@ -119,8 +117,7 @@ impl Plan {
 
     /// The pane in whose title the hidden ones are named: the lowest in sight that they could take
     /// the place of.
-    #[must_use]
-    pub fn names_hidden(&self) -> Option<Pane> {
+    pub(crate) fn names_hidden(&self) -> Option<Pane> {
         [Pane::Trade, Pane::Chart, Pane::Teeth, Pane::Results]
             .into_iter()
             .find(|&pane| !self.area(pane).is_empty())

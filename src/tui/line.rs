@@ -46,8 +46,7 @@ impl Line {
     }
 
     /// The selection, in characters.
-    #[must_use]
-    pub fn selected(&self) -> Option<Range<usize>> {
+    pub(crate) fn selected(&self) -> Option<Range<usize>> {
         self.selected.clone()
     }
 
@@ -63,14 +62,14 @@ impl Line {
     }
 
     /// Selects the text and moves the cursor to its end.
-    pub fn select_all(&mut self) {
+    pub(crate) fn select_all(&mut self) {
         let length = self.input.value().chars().count();
         self.input.handle(InputRequest::GoToEnd);
         self.selected = (length > 0).then_some(0..length);
     }
 
     /// Moves in the line or deletes from it. A deletion removes the selection, a move clears it.
-    pub fn handle(&mut self, request: InputRequest) -> Option<StateChanged> {
+    pub(crate) fn handle(&mut self, request: InputRequest) -> Option<StateChanged> {
         use InputRequest::{DeleteNextChar, DeletePrevChar, GoToNextChar, GoToPrevChar};
         let Some(part) = self.selected.take() else {
             return self.input.handle(request);

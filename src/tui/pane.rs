@@ -72,8 +72,7 @@ impl Pane {
     }
 
     /// The pane of a number.
-    #[must_use]
-    pub fn of_digit(digit: char) -> Option<Pane> {
+    pub(crate) fn of_digit(digit: char) -> Option<Pane> {
         let number = digit.to_digit(10)?;
         Pane::ALL
             .into_iter()
@@ -81,8 +80,7 @@ impl Pane {
     }
 
     /// Whether it shares the lower area.
-    #[must_use]
-    pub const fn is_lower(self) -> bool {
+    pub(crate) const fn is_lower(self) -> bool {
         matches!(self, Pane::Chart | Pane::Teeth | Pane::Trade)
     }
 

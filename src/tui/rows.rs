@@ -36,8 +36,7 @@ pub fn of_key(case: &Case, key: &str) -> Option<usize> {
 }
 
 /// The row of the limit of a quantity.
-#[must_use]
-pub fn of_limit(case: &Case, quantity: &str) -> Option<usize> {
+pub(crate) fn of_limit(case: &Case, quantity: &str) -> Option<usize> {
     case.limits
         .iter()
         .position(|limit| limit.quantity == quantity)
@@ -79,8 +78,7 @@ fn measure(case: &Case, at: usize, system: System) -> Option<Measure> {
 }
 
 /// The unit of what is written in a row, as it is written.
-#[must_use]
-pub fn written_unit(case: &Case, at: usize) -> Option<String> {
+pub(crate) fn written_unit(case: &Case, at: usize) -> Option<String> {
     let measure = measure(case, at, System::Metric)?;
     units::written_unit(text(case, at)?, measure.dimension).map(str::to_owned)
 }
@@ -100,8 +98,7 @@ pub fn ending(
 }
 
 /// Whether what is typed into a row, and is not taken, may be taken by typing on.
-#[must_use]
-pub fn is_unfinished(case: &Case, at: usize, typed: &str) -> bool {
+pub(crate) fn is_unfinished(case: &Case, at: usize, typed: &str) -> bool {
     match row(case, at) {
         Row::Field(field) => FIELDS[field].is_unfinished(typed),
         Row::Limit(limit) => limit
@@ -148,8 +145,7 @@ pub fn label(case: &Case, at: usize) -> &'static str {
 }
 
 /// The label of a row, with the gear where both gears have such a field.
-#[must_use]
-pub fn full_label(case: &Case, at: usize) -> String {
+pub(crate) fn full_label(case: &Case, at: usize) -> String {
     field(case, at).map_or_else(
         || format!("limit of {}", label(case, at)),
         Field::full_label,
@@ -185,8 +181,7 @@ pub fn lacks(case: &Case, at: usize) -> bool {
 const REQUIRED: &str = "(required)";
 
 /// The words for an empty field: its default, or that a value is required.
-#[must_use]
-pub fn unwritten(case: &Case, field: usize) -> String {
+pub(crate) fn unwritten(case: &Case, field: usize) -> String {
     match FIELDS[field].absent {
         Absent::Default("") => String::new(),
         Absent::Default(text) | Absent::Without(text) => format!("({text})"),

@@ -52,7 +52,6 @@ impl Span {
         Span { from, to }
     }
 
-    /// The length.
     #[must_use]
     pub fn length(self) -> f64 {
         self.to - self.from

@@ -155,8 +155,7 @@ impl Settings {
 }
 
 /// The name of a marker in the file.
-#[must_use]
-pub fn marker_name(marker: Marker) -> &'static str {
+pub(crate) fn marker_name(marker: Marker) -> &'static str {
     MARKERS
         .iter()
         .find(|(_, known)| *known == marker)

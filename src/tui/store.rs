@@ -17,7 +17,6 @@ use crate::case::sanitize::sanitize;
 /// What the workbench begins with.
 #[derive(Debug)]
 pub struct Opening {
-    /// The document.
     pub document: Document,
     /// Where it was read from.
     pub path: Option<PathBuf>,
@@ -28,7 +27,6 @@ pub struct Opening {
 /// What could not be opened, and its faults.
 #[derive(Debug)]
 pub struct Trouble {
-    /// The path.
     pub path: PathBuf,
     /// The faults, a line each.
     pub faults: Vec<String>,

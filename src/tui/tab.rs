@@ -7,6 +7,7 @@ use super::benchmark::Traded;
 use super::history::History;
 use super::line::Line;
 use super::panes::chart::range::{Occasion, Scale};
+use super::panes::form::FormState;
 use super::panes::results::ResultsState;
 use super::rows::{self, Row};
 use super::session::recovery::{Access, OpenCase};
@@ -35,13 +36,8 @@ pub struct Tab {
     pub access: Access,
     /// What was asked for and could not be opened, where the built-in case stands for it.
     pub in_place_of: Option<PathBuf>,
-    /// The focused field.
-    pub focus: usize,
-    /// The text that is typed into the focused field, and the cursor in it; the case has it with
-    /// its unit.
-    pub input: Line,
-    /// The unit in which the focused field was written when it got the focus.
-    pub written_unit: Option<String>,
+    /// Focus, typed text and scrolling of the form.
+    pub form: FormState,
     /// States to go back to.
     pub history: History,
     /// The case as far as it can be read; read anew for each request.
@@ -70,8 +66,6 @@ pub struct Tab {
     pub undone: u64,
     /// What they were last fitted to.
     pub fitted: Occasion,
-    /// The first line of the form that is shown.
-    pub form_top: usize,
     /// What was measured of error and time.
     pub traded: Option<Traded>,
     /// Selection and scrolling of the results.
@@ -100,8 +94,7 @@ impl Tab {
         Tab {
             id: 0,
             access: Access::of(&document),
-            input: Line::whole(case.text(focus).unwrap_or_default()),
-            written_unit: rows::written_unit(&case, focus),
+            form: FormState::at(&case, focus),
             saved: case.clone(),
             being_saved: None,
             inputs_so_far: case.read().0,
@@ -110,7 +103,6 @@ impl Tab {
             path,
             origin: Origin::Given,
             in_place_of: None,
-            focus,
             history: History::default(),
             problems: Vec::new(),
             serial: 0,
@@ -124,7 +116,6 @@ impl Tab {
             scale: Scale::default(),
             undone: 0,
             fitted: Occasion::default(),
-            form_top: 0,
             traded: None,
             results: ResultsState::default(),
         }
@@ -143,14 +134,12 @@ impl Tab {
     }
 
     /// Whether nobody asked for it or edited it, so that another case may replace it.
-    #[must_use]
-    pub fn is_untouched(&self) -> bool {
+    pub(crate) fn is_untouched(&self) -> bool {
         (self.path.is_none() || self.origin == Origin::LastCase) && !self.is_unsaved()
     }
 
     /// Whether it is the built-in Table 1, with or without edits.
-    #[must_use]
-    pub fn is_built_in(&self) -> bool {
+    pub(crate) fn is_built_in(&self) -> bool {
         self.path.is_none() && self.origin == Origin::Given
     }
 
@@ -161,14 +150,12 @@ impl Tab {
     }
 
     /// Whether the results in sight are those of an earlier state of the form.
-    #[must_use]
-    pub fn shows_last_valid(&self) -> bool {
+    pub(crate) fn shows_last_valid(&self) -> bool {
         self.is_stale() && self.answer.is_some()
     }
 
     /// What the form makes of its file.
-    #[must_use]
-    pub fn sheet(&self) -> OpenCase<'_> {
+    pub(crate) fn sheet(&self) -> OpenCase<'_> {
         let path = self
             .document
             .path()
@@ -204,7 +191,7 @@ impl Tab {
 
     /// Remember the state before an edit of a row, and the results with it.
     pub(super) fn before_edit(&mut self, row: usize) {
-        if self.history.before_edit(&self.case, self.focus, row) {
+        if self.history.before_edit(&self.case, self.form.focus, row) {
             self.remember();
         }
     }
@@ -224,19 +211,21 @@ impl Tab {
             None
         };
         self.case.drop_empty_limits(limit);
-        self.focus = limit
+        let focus = limit
             .and_then(|quantity| rows::of_limit(&self.case, quantity))
             .unwrap_or(at);
-        self.input = Line::whole(rows::text(&self.case, self.focus).unwrap_or_default());
-        self.written_unit = rows::written_unit(&self.case, self.focus);
+        self.form = FormState {
+            top: self.form.top,
+            ..FormState::at(&self.case, focus)
+        };
         self.history.end_visit();
     }
 
     /// Take over what the case has of the focused row, as when its line is left.
     pub(super) fn read_line_anew(&mut self) {
-        let text = rows::text(&self.case, self.focus).unwrap_or_default();
-        if text != self.input.value() {
-            self.input = Line::whole(text);
+        let text = rows::text(&self.case, self.form.focus).unwrap_or_default();
+        if text != self.form.input.value() {
+            self.form.input = Line::whole(text);
         }
     }
 

@@ -60,7 +60,6 @@ impl ThemeName {
         }
     }
 
-    /// The theme.
     #[must_use]
     pub fn theme(self) -> &'static Theme {
         match self {

@@ -80,7 +80,7 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
 /// the charts.
 pub fn settle(app: &mut App) {
     if mem::take(&mut app.needs_scroll) {
-        app.tab.form_top = form::top_for(&app.form());
+        app.tab.form.top = form::top_for(&app.form());
         app.tab.results.top = results::top_for(&app.results());
     }
     chart::fit(app);
@@ -250,9 +250,9 @@ fn scope_of(app: &App, command: Command) -> Scope {
     if app.panes.focus != Pane::Form {
         return scope;
     }
-    let field = rows::field(&app.tab.case, app.tab.focus);
+    let field = rows::field(&app.tab.case, app.tab.form.focus);
     let is_own = match command {
-        Command::Step(by) => rows::stepped(&app.tab.case, app.tab.focus, by).is_some(),
+        Command::Step(by) => rows::stepped(&app.tab.case, app.tab.form.focus, by).is_some(),
         Command::Material => field.is_some_and(Field::is_of_gear),
         Command::ToggleMethod | Command::Method(_) => {
             field.is_some_and(|field| field.key == "model.method")
@@ -283,8 +283,8 @@ fn solver_failed(app: &mut App, serial: u64) {
 fn travel(app: &mut App, command: Command) -> Vec<Effect> {
     let tab = &mut app.tab;
     let (state, verb) = match command {
-        Command::Undo => (tab.history.undo(&tab.case, tab.focus), "undo"),
-        _ => (tab.history.redo(&tab.case, tab.focus), "redo"),
+        Command::Undo => (tab.history.undo(&tab.case, tab.form.focus), "undo"),
+        _ => (tab.history.redo(&tab.case, tab.form.focus), "redo"),
     };
     let Some((case, focus)) = state else {
         app.say(format!("nothing to {verb}"));

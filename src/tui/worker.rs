@@ -41,7 +41,7 @@ impl Workers {
     }
 
     /// Stops the solve that runs.
-    pub fn stop_solve(&self) {
+    pub(crate) fn stop_solve(&self) {
         self.solver.stop_running();
     }
 
@@ -60,8 +60,7 @@ impl Workers {
         Ok(())
     }
 
-    /// Stops the benchmark.
-    pub fn stop_benchmark(&self) {
+    pub(crate) fn stop_benchmark(&self) {
         self.benchmark.iter().for_each(Worker::stop);
     }
 

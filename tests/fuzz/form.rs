@@ -449,9 +449,13 @@ impl Bench {
 
     fn assert_sound(&self) {
         let app = &self.app;
-        if rows::names(&app.tab.case, app.tab.focus).is_empty() {
-            let line = [app.tab.input.value(), &app.ending().unwrap_or_default()].concat();
-            let is_words = rows::field(&app.tab.case, app.tab.focus)
+        if rows::names(&app.tab.case, app.tab.form.focus).is_empty() {
+            let line = [
+                app.tab.form.input.value(),
+                &app.ending().unwrap_or_default(),
+            ]
+            .concat();
+            let is_words = rows::field(&app.tab.case, app.tab.form.focus)
                 .is_some_and(|field| matches!(field.kind, Kind::Text));
             // While a number is typed, its unit may be the field's, and blanks may stand around it.
             let said = if is_words || !app.has_line() {
@@ -461,7 +465,7 @@ impl Bench {
             };
             assert_eq!(
                 said,
-                rows::text(&app.tab.case, app.tab.focus).unwrap_or_default(),
+                rows::text(&app.tab.case, app.tab.form.focus).unwrap_or_default(),
                 "the line is the row's"
             );
         }

@@ -194,7 +194,7 @@ impl Desk {
         (0..field).for_each(|_| {
             self.keys(&["Down"]);
         });
-        assert_eq!(self.app.tab.focus, field);
+        assert_eq!(self.app.tab.form.focus, field);
         self
     }
 

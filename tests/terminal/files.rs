@@ -317,7 +317,7 @@ fn after_a_save_the_form_says_what_the_file_says() {
         assert!(desk.app.tab.case == file.case, "{key}");
         let field = fields::index_of(key).expect("a field");
         assert_eq!(
-            desk.app.tab.input.value(),
+            desk.app.tab.form.input.value(),
             file.case.text(field).unwrap_or_default(),
             "{key}"
         );

@@ -316,7 +316,7 @@ fn values_of_file(path: &Path) -> Vec<String> {
     );
     let lines = 0..rows::count(&app.tab.case);
     let copied = lines.filter_map(|line| {
-        app.tab.focus = line;
+        app.tab.form.focus = line;
         let effects = update(&mut app, Action::Do(Command::CopyValue));
         effects.into_iter().find_map(|effect| {
             if let Effect::Copy(text) = effect {

@@ -28,7 +28,7 @@ fn a_bare_number_is_completed_while_it_is_typed_and_written_with_its_unit() {
     );
     assert_eq!(
         (
-            desk.app.tab.input.value(),
+            desk.app.tab.form.input.value(),
             text(&desk, "deviations.base_pitch")
         ),
         ("48", "48 um")
@@ -43,7 +43,7 @@ fn a_bare_number_is_completed_while_it_is_typed_and_written_with_its_unit() {
     assert_eq!(desk.read("case.toml"), TABLE_1.replace("16 um", "48 um"));
     desk.keys(&["Up", "Esc"]);
     assert_eq!(
-        desk.app.tab.input.value(),
+        desk.app.tab.form.input.value(),
         "48 um",
         "a line that is left is the case's"
     );
@@ -70,7 +70,7 @@ fn on_the_way_to_a_value_no_error_flickers() {
         }
         for letter in whole.chars() {
             desk.keys(&[&letter.to_string()]);
-            let typed = desk.app.tab.input.value().to_owned();
+            let typed = desk.app.tab.form.input.value().to_owned();
             assert!(!desk.shows("  ! "), "{typed}:\n{}", desk.screen());
         }
         assert!(
@@ -132,7 +132,7 @@ fn what_says_the_same_is_no_edit() {
     let mut desk = Desk::new(SMALL);
     desk.go_to("deviations.base_pitch")
         .keys(&["End", "Backspace", "Backspace", "Backspace"]);
-    assert_eq!(desk.app.tab.input.value(), "16");
+    assert_eq!(desk.app.tab.form.input.value(), "16");
     assert!(!desk.app.tab.is_unsaved());
     desk.keys(&["Ctrl-Z"]);
     assert!(desk.shows("nothing to undo"));
@@ -144,7 +144,7 @@ fn steps_copies_and_limits_know_the_unit_of_a_bare_number() {
     desk.fill("deviations.base_pitch", "48").keys(&["Shift-Up"]);
     assert_eq!(
         (
-            desk.app.tab.input.value(),
+            desk.app.tab.form.input.value(),
             text(&desk, "deviations.base_pitch")
         ),
         ("49 um", "49 um")

@@ -202,7 +202,11 @@ fn a_field_takes_text_until_esc_leaves_it() {
     desk.keys(&["Ctrl-R"]);
     assert!(desk.shows("21 deg"));
     desk.keys(&["Enter", "End", "Backspace"]);
-    assert_eq!(desk.app.tab.input.value(), "21 de", "Enter edits again");
+    assert_eq!(
+        desk.app.tab.form.input.value(),
+        "21 de",
+        "Enter edits again"
+    );
 }
 
 #[test]
@@ -220,6 +224,7 @@ fn hjkl_and_the_arrows_are_alike_outside_a_field() {
                 .keys(&["Esc", "j", "l", "j", key])
                 .app
                 .tab
+                .form
                 .focus
         };
         assert_eq!(focus(letter), focus(arrow), "{letter}");
@@ -349,7 +354,10 @@ fn a_field_is_found_by_its_name_or_symbol() {
     desk.keys(&["Esc", "/", "speed", "Enter"]);
     assert!(desk.shows("n1 speed, "));
     desk.keys(&["/", "ca2", "Enter", "i", "Ctrl-U", "3 um"]);
-    assert_eq!(desk.app.tab.case.text(desk.app.tab.focus), Some("3 um"));
+    assert_eq!(
+        desk.app.tab.case.text(desk.app.tab.form.focus),
+        Some("3 um")
+    );
 }
 
 #[test]
@@ -791,7 +799,7 @@ fn the_mouse_is_off_until_it_is_asked_for_and_then_points() {
             .is_some_and(|cursor| (cursor.to_degrees() - 1.5).abs() < 1e-9)
     );
     desk.act(Action::Wheel(Position::new(10, 7), 3));
-    assert_eq!(desk.app.tab.form_top, 3);
+    assert_eq!(desk.app.tab.form.top, 3);
     desk.act(Action::Wheel(Position::new(50, 10), 3));
     assert_eq!(desk.app.tab.results.top, 3);
 }

@@ -109,7 +109,7 @@ fn from_the_fields_behind_a_result_one_goes_to_the_form() {
     let wanted = of(&desk).field().expect("one is marked");
     desk.keys(&["Enter"]);
     assert!(desk.app.prompts.is_empty());
-    assert_eq!(tipstrike::case::FIELDS[desk.app.tab.focus].key, wanted);
+    assert_eq!(tipstrike::case::FIELDS[desk.app.tab.form.focus].key, wanted);
     desk.keys(&["Esc", "2", "Enter", "Enter"]);
     assert_eq!(
         of(&desk).field(),

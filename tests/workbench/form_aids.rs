@@ -174,7 +174,7 @@ fn a_limit_that_is_no_value_is_not_saved() {
     assert!(desk.shows("not saved"));
     assert_eq!(desk.read("case.toml"), TABLE_1);
     assert_eq!(
-        desk.app.tab.input.value(),
+        desk.app.tab.form.input.value(),
         "much",
         "the focus is on what must be mended"
     );
@@ -220,6 +220,6 @@ fn a_search_finds_a_field_by_its_greek_letter_and_its_meaning() {
         ("coulomb", "operation.friction_coefficient"),
     ] {
         desk.keys(&["Esc", "/", typed, "Enter"]);
-        assert_eq!(desk.app.tab.focus, index_of(key).unwrap(), "{typed}");
+        assert_eq!(desk.app.tab.form.focus, index_of(key).unwrap(), "{typed}");
     }
 }

@@ -212,7 +212,7 @@ fn a_faulty_form_is_not_saved() {
     assert!(desk.shows("not saved"));
     assert_eq!(desk.read("case.toml"), TABLE_1);
     assert_eq!(
-        desk.app.tab.case.text(desk.app.tab.focus),
+        desk.app.tab.case.text(desk.app.tab.form.focus),
         Some("fast"),
         "the focus is on the wrong field"
     );
@@ -240,7 +240,7 @@ fn a_faulty_form_is_not_taken_for_saved_by_any_way_to_save() {
             "{keys:?}"
         );
         assert_eq!(
-            desk.app.tab.case.text(desk.app.tab.focus),
+            desk.app.tab.case.text(desk.app.tab.form.focus),
             Some("fast"),
             "{keys:?}"
         );
@@ -415,7 +415,7 @@ fn a_paste_never_presses_a_button_and_brings_no_control_character() {
     desk.fill("operation.speed", "")
         .act(Action::Paste("15\u{1b}[2J00\n rpm\u{202e}\r".to_owned()));
     assert_eq!(
-        desk.app.tab.case.text(desk.app.tab.focus),
+        desk.app.tab.case.text(desk.app.tab.form.focus),
         Some("15[2J00 rpm"),
         "of its lines one is made"
     );
@@ -428,7 +428,7 @@ fn a_long_paste_is_cut_and_quick() {
     let mut desk = Desk::new(SMALL);
     desk.fill("title", "")
         .act(Action::Paste("x".repeat(1 << 20)));
-    assert_eq!(desk.app.tab.input.value().len(), 4096);
+    assert_eq!(desk.app.tab.form.input.value().len(), 4096);
     desk.screen();
 }
 
@@ -719,5 +719,8 @@ fn a_text_as_long_as_may_be_gives_way_to_what_is_typed() {
     let mut desk = Desk::new(SMALL);
     desk.fill("title", "").act(Action::Paste("x".repeat(5000)));
     desk.keys(&["Down", "Up", "short"]);
-    assert_eq!(desk.app.tab.case.text(desk.app.tab.focus), Some("short"));
+    assert_eq!(
+        desk.app.tab.case.text(desk.app.tab.form.focus),
+        Some("short")
+    );
 }

@@ -21,7 +21,10 @@ fn beside_last_valid_results_stands_why_they_are_and_a_key_that_goes_there() {
             desk.screen()
         );
         desk.keys(&["Alt-E"]);
-        assert_eq!(desk.app.tab.case.text(desk.app.tab.focus), Some("20 mm"));
+        assert_eq!(
+            desk.app.tab.case.text(desk.app.tab.form.focus),
+            Some("20 mm")
+        );
         assert!(desk.shows("rh1 driver bore radius, "), "{}", desk.screen());
         desk.keys(&["Alt-E"]);
         assert!(desk.shows("rh2 driven bore radius, "), "{}", desk.screen());

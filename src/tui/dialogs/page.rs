@@ -15,7 +15,6 @@ use crate::tui::theme::Theme;
 pub struct Page {
     /// In a few words.
     pub title: String,
-    /// Its lines.
     pub lines: Vec<String>,
     /// The first line in sight.
     pub top: usize,

@@ -31,7 +31,6 @@ pub struct Question {
     pub details: Vec<String>,
     /// The answers. The first letter of each calls it.
     pub buttons: Vec<(&'static str, Choice)>,
-    /// The marked one.
     pub marked: usize,
 }
 
@@ -72,8 +71,7 @@ impl Question {
     }
 
     /// Edits of several cases would be lost.
-    #[must_use]
-    pub fn all_unsaved(names: &[String]) -> Question {
+    pub(crate) fn all_unsaved(names: &[String]) -> Question {
         Question {
             title: "Unsaved edits",
             text: format!(
@@ -185,8 +183,7 @@ impl Question {
     }
 
     /// The answer whose name begins with the letter.
-    #[must_use]
-    pub fn by_letter(&self, letter: char) -> Option<Choice> {
+    pub(crate) fn by_letter(&self, letter: char) -> Option<Choice> {
         let fits = |name: &str| {
             name.chars()
                 .next()

@@ -22,7 +22,8 @@ use crate::tui::theme::Look;
 use curves::{curves, way, way_by};
 use range::{Anew, ChartView, Frame, Occasion, Scale};
 
-pub use curves::{first_contact, last_contact};
+pub use curves::first_contact;
+pub(crate) use curves::last_contact;
 pub use readout::readout;
 
 /// The least rows of each chart, and the greatest number of charts.
@@ -154,8 +155,7 @@ impl Charts<'_> {
     }
 
     /// The state that the axes depend on.
-    #[must_use]
-    pub fn occasion(&self) -> Occasion {
+    pub(crate) fn occasion(&self) -> Occasion {
         let view = &self.pane.view;
         Occasion {
             answered: self
@@ -169,8 +169,7 @@ impl Charts<'_> {
     }
 
     /// The axes, if they must change since an earlier occasion, with the new occasion.
-    #[must_use]
-    pub fn fitted_since(&self, before: Occasion) -> Option<(Occasion, Scale)> {
+    pub(crate) fn fitted_since(&self, before: Occasion) -> Option<(Occasion, Scale)> {
         let mut occasion = self.occasion();
         let anew = occasion.since(before);
         (before != occasion).then(|| (occasion, self.fitted(anew)))

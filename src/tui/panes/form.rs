@@ -27,6 +27,32 @@ const IDLE: &str = "-";
 /// The least width of a label beside a symbol.
 const LEAST_LABEL: u16 = 6;
 
+/// The state of the pane. Each open case has its own.
+#[derive(Debug, Clone)]
+pub struct FormState {
+    /// The focused row.
+    pub focus: usize,
+    /// Its typed text, and the cursor in it. The case has the text with its unit.
+    pub input: Text,
+    /// The unit of the row when it got the focus.
+    pub written_unit: Option<String>,
+    /// The first visible line.
+    pub top: usize,
+}
+
+impl FormState {
+    /// The focus on a row, the cursor at the end of its text.
+    #[must_use]
+    pub fn at(case: &Case, focus: usize) -> FormState {
+        FormState {
+            focus,
+            input: Text::whole(rows::text(case, focus).unwrap_or_default()),
+            written_unit: rows::written_unit(case, focus),
+            top: 0,
+        }
+    }
+}
+
 /// The form with the case in it.
 #[derive(Debug, Clone)]
 pub struct Form<'a> {
@@ -60,8 +86,7 @@ pub struct Form<'a> {
 
 impl Form<'_> {
     /// Whether the value of a row is wrong only because it is being typed.
-    #[must_use]
-    pub fn is_unfinished(&self, row: usize) -> bool {
+    pub(crate) fn is_unfinished(&self, row: usize) -> bool {
         let line = self.line.filter(|_| self.focus == row);
         line.is_some_and(|line| rows::is_unfinished(self.case, row, line.value()))
     }
@@ -114,8 +139,7 @@ pub fn draw(pane: &Form<'_>, buffer: &mut Buffer) -> Option<Position> {
 
 /// The first line to be shown, so that the focused field is in sight with its reason and, at the
 /// top, its group.
-#[must_use]
-pub fn top_for(pane: &Form<'_>) -> usize {
+pub(crate) fn top_for(pane: &Form<'_>) -> usize {
     let area = pane.area;
     if area.is_empty() {
         return pane.top;
@@ -141,8 +165,7 @@ pub fn top_for(pane: &Form<'_>) -> usize {
 }
 
 /// The field on a cell, where there is one.
-#[must_use]
-pub fn field_at(pane: &Form<'_>, at: Position) -> Option<usize> {
+pub(crate) fn field_at(pane: &Form<'_>, at: Position) -> Option<usize> {
     let area = pane.area;
     let line = usize::from(at.y.checked_sub(area.y + 1)?);
     match rows(pane, area.width).get(pane.top + line)? {

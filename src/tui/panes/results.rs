@@ -99,7 +99,6 @@ struct Parts {
     notes: Vec<Line<'static>>,
 }
 
-/// Draw the results.
 pub fn draw(pane: &Results<'_>, buffer: &mut Buffer) {
     let area = pane.area;
     let parts = parts(pane);
@@ -151,7 +150,6 @@ pub fn page(pane: &Results<'_>) -> usize {
     parts(pane).rows
 }
 
-/// The marked quantity.
 #[must_use]
 pub fn marked(pane: &Results<'_>) -> Option<&'static Quantity> {
     table::order(pane.answer?).nth(pane.state.row)
@@ -160,19 +158,16 @@ pub fn marked(pane: &Results<'_>) -> Option<&'static Quantity> {
 /// Where a quantity stands in the results of a tab.
 #[derive(Debug, Clone, Copy)]
 pub struct Listed {
-    /// Its key.
     pub key: &'static str,
     /// Its place among the quantities.
     pub row: usize,
-    /// Its line.
     pub line: usize,
     /// Whether the active method finds a value.
     pub has_value: bool,
 }
 
 /// Where a quantity stands in an answer, by its key; else the selected one.
-#[must_use]
-pub fn place_of(answer: &Answer, state: ResultsState, key: Option<&str>) -> Option<Listed> {
+pub(crate) fn place_of(answer: &Answer, state: ResultsState, key: Option<&str>) -> Option<Listed> {
     let is_meant = |(row, quantity): &(usize, &Quantity)| {
         key.map_or(*row == state.row, |key| quantity.key == key)
     };
@@ -222,8 +217,7 @@ impl Results<'_> {
     }
 
     /// The state so many lines further, the selection moved along where it would be left behind.
-    #[must_use]
-    pub fn turned(&self, by: isize) -> ResultsState {
+    pub(crate) fn turned(&self, by: isize) -> ResultsState {
         let top = scrolled(self, by);
         let last = top + page(self).saturating_sub(1);
         let row = if top == self.state.top {
@@ -244,8 +238,7 @@ impl Results<'_> {
 }
 
 /// The first line to be shown, so that the marked quantity is in sight.
-#[must_use]
-pub fn top_for(pane: &Results<'_>) -> usize {
+pub(crate) fn top_for(pane: &Results<'_>) -> usize {
     let rows = page(pane).max(1);
     let line = line_of(pane, pane.state.row);
     let least = (line + 1).saturating_sub(rows);
@@ -271,8 +264,7 @@ pub fn compared(pane: &Results<'_>, quantity: &Quantity) -> Option<String> {
 }
 
 /// The place of the quantity on a cell, where there is one.
-#[must_use]
-pub fn row_at(pane: &Results<'_>, at: Position) -> Option<usize> {
+pub(crate) fn row_at(pane: &Results<'_>, at: Position) -> Option<usize> {
     let line = usize::from(at.y - pane.area.y).checked_sub(lines_before(pane))?;
     let in_sight = line < parts(pane).rows;
     table::row_of(pane.answer?, pane.state.top + line).filter(|&row| in_sight && row < count(pane))

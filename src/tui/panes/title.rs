@@ -18,7 +18,6 @@ const LEAVE: &str = "Esc ";
 /// The title line of a pane.
 #[derive(Debug, Clone)]
 pub struct Title {
-    /// The pane.
     pub pane: Pane,
     /// Whether it takes the keys.
     pub has_focus: bool,
@@ -60,8 +59,7 @@ impl Title {
     }
 
     /// The hidden pane whose name or key is on a cell.
-    #[must_use]
-    pub fn hidden_at(&self, area: Rect, at: Position) -> Option<Pane> {
+    pub(crate) fn hidden_at(&self, area: Rect, at: Position) -> Option<Pane> {
         let names = self.names(area.width);
         let from = area.right().checked_sub(names.width() as u16 + 1)?;
         let column = usize::from(at.x.checked_sub(from)?);

@@ -38,7 +38,6 @@ pub struct TradePane<'a> {
     pub area: Rect,
 }
 
-/// Draw the pane.
 pub fn draw(pane: &TradePane<'_>, buffer: &mut Buffer) {
     let inner = pane.title.draw(title(pane), pane.area, buffer);
     if inner.is_empty() {

@@ -56,14 +56,12 @@ pub enum JournalFault {
 impl Journal {
     /// Whether these are edits of the case in that file; without a file, of the text with that
     /// stamp.
-    #[must_use]
-    pub fn is_of(&self, case: Option<&Path>, stamp: Stamp) -> bool {
+    pub(crate) fn is_of(&self, case: Option<&Path>, stamp: Stamp) -> bool {
         self.case.as_deref() == case && (case.is_some() || self.stands_on == stamp)
     }
 
     /// The text of a journal's file.
-    #[must_use]
-    pub fn to_text(&self) -> String {
+    pub(crate) fn to_text(&self) -> String {
         let body = self.body();
         format!(
             "{OPENING}{FORMAT_KEY}{FORMAT}\n{CHECKSUM_KEY}\"{:016x}\"\n{body}",

@@ -69,7 +69,7 @@ impl JournalWriter {
     }
 
     /// Wakes the thread, which writes every changed journal.
-    pub fn ring(&self) {
+    pub(crate) fn ring(&self) {
         self.shelf().is_due = true;
         self.bell.notify_all();
     }

@@ -30,7 +30,6 @@ pub struct Lock {
 /// The result of taking a lock.
 #[derive(Debug)]
 pub enum Taken {
-    /// It is ours.
     Ours(Lock),
     /// It is ours as far as other processes on this machine respect its text: the file system has
     /// no locks.
@@ -109,8 +108,7 @@ impl Lock {
     }
 
     /// Whether a living process has the lock.
-    #[must_use]
-    pub fn is_held(path: &Path) -> bool {
+    pub(crate) fn is_held(path: &Path) -> bool {
         look_at(path).is_ok_and(|mut file| matches!(hold(&mut file), Hold::Other(_)))
     }
 
@@ -175,14 +173,12 @@ impl Holder {
     }
 
     /// Whether that very process is still there, as far as can be told from this machine.
-    #[must_use]
-    pub fn is_alive(&self) -> bool {
+    pub(crate) fn is_alive(&self) -> bool {
         self.host == host() && self.boot == boot() && started(self.process) == Some(self.started)
     }
 
     /// The text of the lock's file.
-    #[must_use]
-    pub fn to_text(&self) -> String {
+    pub(crate) fn to_text(&self) -> String {
         let mut toml = DocumentMut::new();
         toml["host"] = value(&self.host);
         toml["process"] = value(i64::from(self.process));

@@ -26,7 +26,6 @@ pub struct Case {
     pub name: String,
     /// The same in small letters.
     pub folded: String,
-    /// The way to it.
     pub way: PathBuf,
 }
 

@@ -55,8 +55,7 @@ pub fn list(base: PathBuf, typed: String) -> Listing {
 }
 
 /// The folder that is meant, the present one where nothing is said.
-#[must_use]
-pub fn place_of(base: &Path, typed: &str) -> PathBuf {
+pub(crate) fn place_of(base: &Path, typed: &str) -> PathBuf {
     let place = at_home(&beneath(base, typed));
     if place.as_os_str().is_empty() {
         PathBuf::from(".")

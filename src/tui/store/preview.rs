@@ -14,11 +14,8 @@ const MOST_FAULTS: usize = 20;
 /// What a preview is of.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Viewport {
-    /// A file.
     File(PathBuf),
-    /// A folder.
     Folder(PathBuf),
-    /// An example.
     Example(&'static Example),
 }
 

@@ -22,7 +22,6 @@ const END: u8 = 0;
 /// A case that was open once.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Recent {
-    /// Its path.
     pub path: PathBuf,
     /// The path as a person reads it, in small letters.
     pub folded: String,

@@ -19,7 +19,7 @@ use crate::tui::rows::{self, Row};
 
 /// Ask for the material of the gear whose field is focused, else of both.
 pub(super) fn materials(app: &mut App) {
-    let gears: &[&str] = match rows::row(&app.tab.case, app.tab.focus) {
+    let gears: &[&str] = match rows::row(&app.tab.case, app.tab.form.focus) {
         Row::Field(field) if FIELDS[field].table() == "driver" => &["driver"],
         Row::Field(field) if FIELDS[field].table() == "driven" => &["driven"],
         _ => &["driver", "driven"],
@@ -99,7 +99,7 @@ pub(super) fn hold(app: &mut App, quantity: &'static Quantity) -> Vec<Effect> {
     app.panes.focus = Pane::Form;
     app.is_editing = true;
     let row = rows::of_limit(&app.tab.case, quantity.key).or_else(|| index_of("model.method"));
-    app.focus_on(row.unwrap_or(app.tab.focus));
+    app.focus_on(row.unwrap_or(app.tab.form.focus));
     effects
 }
 

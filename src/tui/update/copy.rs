@@ -18,11 +18,11 @@ const MOST_BYTES: usize = 48 * 1024;
 /// marked result.
 pub(super) fn value(app: &mut App) -> Vec<Effect> {
     if app.panes.focus == Pane::Form {
-        let text = match rows::row(&app.tab.case, app.tab.focus) {
+        let text = match rows::row(&app.tab.case, app.tab.form.focus) {
             Row::Field(field) => app.tab.case.effective(field).unwrap_or_default().to_owned(),
             Row::Limit(limit) => limit.text.clone(),
         };
-        let label = rows::full_label(&app.tab.case, app.tab.focus);
+        let label = rows::full_label(&app.tab.case, app.tab.form.focus);
         return copy(app, text, &label);
     }
     if Place::CURSOR.meets(app.panes.focus.place()) {

@@ -36,8 +36,8 @@ pub(super) fn insert(app: &mut App, letter: char) -> Vec<Effect> {
 fn announce(app: &mut App, digit: char, before: &Case) {
     let earlier = app.message.take();
     let earlier = earlier.map_or_else(String::new, |message| message.text + ". ");
-    let label = rows::full_label(&app.tab.case, app.tab.focus);
-    let edit = match rows::text(before, app.tab.focus) {
+    let label = rows::full_label(&app.tab.case, app.tab.form.focus);
+    let edit = match rows::text(before, app.tab.form.focus) {
         Some(text) => {
             let text = recovery::shown(Some(text));
             format!("{label}: {digit} replaces {text}. Esc restores {text}")
@@ -52,7 +52,7 @@ fn announce(app: &mut App, digit: char, before: &Case) {
 
 /// Esc after the digit that started a new value: the field has its value again and is left.
 pub(super) fn take_back(app: &mut App, case: Case) -> Vec<Effect> {
-    let focus = app.tab.focus;
+    let focus = app.tab.form.focus;
     app.tab.history.forget_visit(&case);
     app.is_editing = false;
     let effects = solve(app.replace_case(case, focus));
@@ -72,7 +72,7 @@ pub(super) fn paste(app: &mut App, text: &str) -> Vec<Effect> {
     let takes_text = app.has_line() && names(app).is_empty();
     let line = match app.prompts.last_mut() {
         Some(prompt) => prompt.dialog_mut().input(),
-        None => Some(&mut app.tab.input).filter(|_| takes_text),
+        None => Some(&mut app.tab.form.input).filter(|_| takes_text),
     };
     let Some(line) = line else { return Vec::new() };
     let room = LONGEST.saturating_sub(line.kept());
@@ -123,7 +123,7 @@ pub(super) fn handle(app: &mut App, request: InputRequest) -> Vec<Effect> {
             Vec::new()
         };
     }
-    match app.tab.input.handle(request) {
+    match app.tab.form.input.handle(request) {
         Some(changed) if changed.value => write(app),
         _ => Vec::new(),
     }
@@ -133,12 +133,12 @@ pub(super) fn handle(app: &mut App, request: InputRequest) -> Vec<Effect> {
 pub(super) fn begin(app: &mut App) {
     app.panes.focus = Pane::Form;
     app.is_editing = true;
-    app.tab.input.select_all();
+    app.tab.form.input.select_all();
 }
 
 /// Take the next or the previous of the names of the focused field.
 pub(super) fn cycle(app: &mut App, by: isize) -> Vec<Effect> {
-    choose(app, app.tab.focus, names(app), by)
+    choose(app, app.tab.form.focus, names(app), by)
 }
 
 /// Take a name beside the present one, in any field of names.
@@ -154,19 +154,19 @@ pub(super) fn choose(app: &mut App, field: usize, names: &[&str], by: isize) -> 
 
 /// The names that the focused row offers.
 fn names(app: &App) -> &'static [&'static str] {
-    rows::names(&app.tab.case, app.tab.focus)
+    rows::names(&app.tab.case, app.tab.form.focus)
 }
 
 /// Move the value of the focused row by so many units of its last digit.
 pub(super) fn step(app: &mut App, by: i32) -> Vec<Effect> {
-    let Some(text) = rows::stepped(&app.tab.case, app.tab.focus, by) else {
+    let Some(text) = rows::stepped(&app.tab.case, app.tab.form.focus, by) else {
         app.say(format!(
             "{} has no step here",
-            rows::full_label(&app.tab.case, app.tab.focus)
+            rows::full_label(&app.tab.case, app.tab.form.focus)
         ));
         return Vec::new();
     };
-    app.tab.input = Line::whole(text);
+    app.tab.form.input = Line::whole(text);
     write(app)
 }
 
@@ -183,7 +183,7 @@ fn choose_by_letter(app: &mut App, letter: char) -> Vec<Effect> {
         .iter()
         .find(|name| name.starts_with(letter.to_ascii_lowercase()));
     match (name, Pane::of_digit(letter)) {
-        (Some(name), _) => return set(app, app.tab.focus, name),
+        (Some(name), _) => return set(app, app.tab.form.focus, name),
         (None, Some(pane)) => app.say(format!(
             "no choice begins with {letter}. Esc leaves the field; then {letter} shows {}",
             pane.name()
@@ -200,8 +200,8 @@ pub(super) fn set(app: &mut App, field: usize, name: &str) -> Vec<Effect> {
     }
     app.tab.before_edit(field);
     app.tab.case.write(field, name);
-    if field == app.tab.focus {
-        app.tab.input = name.into();
+    if field == app.tab.form.focus {
+        app.tab.form.input = name.into();
     }
     checked(app)
 }
@@ -212,13 +212,13 @@ pub(super) fn replace(app: &mut App, case: Case) -> Vec<Effect> {
         return Vec::new();
     }
     app.tab.history.end_visit();
-    let focus = app.tab.focus;
+    let focus = app.tab.form.focus;
     app.tab.before_edit(focus);
     solve(app.replace_case(case, focus))
 }
 
 fn write(app: &mut App) -> Vec<Effect> {
-    let focus = app.tab.focus;
+    let focus = app.tab.form.focus;
     let text = completed(app);
     let is_other = rows::text(&app.tab.case, focus).unwrap_or_default() != text;
     if is_other {
@@ -235,8 +235,12 @@ fn write(app: &mut App) -> Vec<Effect> {
 
 // What is typed, a number with its unit; blanks around a number are none of it.
 fn completed(app: &App) -> String {
-    let text = [app.tab.input.value(), &app.ending().unwrap_or_default()].concat();
-    let is_words = rows::field(&app.tab.case, app.tab.focus)
+    let text = [
+        app.tab.form.input.value(),
+        &app.ending().unwrap_or_default(),
+    ]
+    .concat();
+    let is_words = rows::field(&app.tab.case, app.tab.form.focus)
         .is_some_and(|field| matches!(field.kind, Kind::Text));
     if is_words {
         text

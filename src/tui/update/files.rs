@@ -151,7 +151,7 @@ pub(super) fn saved(
             let is_as_asked = asked.is_none_or(|asked| asked == app.tab.case);
             if is_as_asked && app.tab.case != document.case {
                 app.tab.case = document.case.clone();
-                app.focus_on(app.tab.focus);
+                app.focus_on(app.tab.form.focus);
             }
             app.tab.read_line_anew();
             app.tab.document = document;

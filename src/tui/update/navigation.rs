@@ -35,7 +35,7 @@ fn field(app: &mut App, field: usize) {
 fn fault(app: &mut App) {
     let rows = || app.tab.problems.iter().map(|(row, _)| *row);
     match rows()
-        .filter(|&row| row > app.tab.focus)
+        .filter(|&row| row > app.tab.form.focus)
         .min()
         .or_else(|| rows().min())
     {
@@ -51,7 +51,7 @@ fn step(app: &mut App, by: isize) {
     match app.panes.focus {
         Pane::Results => mark(app, by),
         Pane::Trade => trade::step(app, by),
-        _ => app.focus_on(app.tab.focus.saturating_add_signed(by)),
+        _ => app.focus_on(app.tab.form.focus.saturating_add_signed(by)),
     }
 }
 
@@ -61,7 +61,7 @@ fn leap(app: &mut App, by: isize) {
     }
     match app.panes.focus {
         Pane::Results => turn(app, by * page(app)),
-        _ => app.focus_on(group_beside(&app.tab.case, app.tab.focus, by)),
+        _ => app.focus_on(group_beside(&app.tab.case, app.tab.form.focus, by)),
     }
 }
 

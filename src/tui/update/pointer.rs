@@ -63,13 +63,13 @@ fn in_pane(app: &mut App, pane: Pane, at: Position) -> Vec<Effect> {
 
 // The first press goes to a field, the second one types into it.
 fn in_form(app: &mut App, field: Option<usize>) -> Vec<Effect> {
-    let is_marked = app.panes.focus == Pane::Form && field == Some(app.tab.focus);
+    let is_marked = app.panes.focus == Pane::Form && field == Some(app.tab.form.focus);
     match field {
-        Some(_) if is_marked && app.has_line() => app.tab.input.select_all(),
+        Some(_) if is_marked && app.has_line() => app.tab.form.input.select_all(),
         Some(_) if is_marked => edit::begin(app),
         _ => {
             panes::show(app, Pane::Form);
-            app.focus_on(field.unwrap_or(app.tab.focus));
+            app.focus_on(field.unwrap_or(app.tab.form.focus));
         }
     }
     Vec::new()
@@ -82,7 +82,7 @@ pub(super) fn wheel(app: &mut App, at: Position, by: isize) {
     }
     let nearer = if by < 0 { 1 } else { -1 };
     match pane_at(app, at) {
-        Some(Pane::Form) => app.tab.form_top = form::scrolled(&app.form(), by),
+        Some(Pane::Form) => app.tab.form.top = form::scrolled(&app.form(), by),
         Some(Pane::Results) => app.tab.results.top = results::scrolled(&app.results(), by),
         Some(Pane::Chart) => chart::run(app, ChartCommand::Zoom(nearer)),
         Some(Pane::Teeth) => teeth::run(app, TeethCommand::Zoom(nearer)),

@@ -54,8 +54,8 @@ pub(super) fn recover(app: &mut App, offer: &Offer) -> Vec<Effect> {
         .filter_map(|change| case.apply(&change.key, change.to.as_deref()).err())
         .collect();
     app.tab.history.end_visit();
-    app.tab.before_edit(app.tab.focus);
-    let mut effects = solve(app.replace_case(case, app.tab.focus));
+    app.tab.before_edit(app.tab.form.focus);
+    let mut effects = solve(app.replace_case(case, app.tab.form.focus));
     if let Some(problem) = refused.first() {
         app.complain(format!(
             "some edits are not restored, and the journal stays: {problem}"

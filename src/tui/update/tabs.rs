@@ -124,7 +124,7 @@ pub(super) fn close(app: &mut App) -> Option<Request> {
 }
 
 fn put(app: &mut App, tab: Tab, replaces: bool) -> Option<Request> {
-    let focus = app.tab.focus;
+    let focus = app.tab.form.focus;
     app.last_id += 1;
     let before = std::mem::replace(
         &mut app.tab,

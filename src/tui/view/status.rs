@@ -132,7 +132,7 @@ pub fn about(field: &Field, ascii: bool, units: System) -> String {
 fn focused(app: &App) -> String {
     match app.panes.focus {
         Pane::Form => {
-            let about = match rows::row(&app.tab.case, app.tab.focus) {
+            let about = match rows::row(&app.tab.case, app.tab.form.focus) {
                 Row::Field(field) => about_field(app, field),
                 Row::Limit(limit) => about_limit(app, limit),
             };
@@ -167,17 +167,21 @@ fn focused(app: &App) -> String {
 // The unit that a number typed without one takes, or why it is no value yet. That it stays as it is
 // while digits are typed spares bytes.
 fn typed(app: &App) -> Option<String> {
-    if rows::lacks(&app.tab.case, app.tab.focus) {
-        let example = rows::field(&app.tab.case, app.tab.focus).map_or("", Field::example);
+    if rows::lacks(&app.tab.case, app.tab.form.focus) {
+        let example = rows::field(&app.tab.case, app.tab.form.focus).map_or("", Field::example);
         return Some(format!("Required, such as {example}."));
     }
-    if app.form().is_unfinished(app.tab.focus)
-        && let Some((_, problem)) = app.tab.problems.iter().find(|(at, _)| *at == app.tab.focus)
+    if app.form().is_unfinished(app.tab.form.focus)
+        && let Some((_, problem)) = app
+            .tab
+            .problems
+            .iter()
+            .find(|(at, _)| *at == app.tab.form.focus)
     {
         return Some(format!("Not yet: {}: {}.", problem.cause, problem.mend));
     }
     app.ending()?;
-    rows::written_unit(&app.tab.case, app.tab.focus).map(|unit| format!("Unit added: {unit}."))
+    rows::written_unit(&app.tab.case, app.tab.form.focus).map(|unit| format!("Unit added: {unit}."))
 }
 
 // What is typed in another unit, why it does not act, what it is.
@@ -242,7 +246,7 @@ fn about_limit(app: &App, limit: &Limit) -> String {
     format!(
         "{}The greatest value that {} may take; empty: none.",
         told.unwrap_or_default(),
-        rows::label(&app.tab.case, app.tab.focus)
+        rows::label(&app.tab.case, app.tab.form.focus)
     )
 }
 

@@ -71,7 +71,7 @@ impl<R: std::marker::Send + 'static> Worker<R> {
     }
 
     /// Stops the request that runs. One that has not begun runs after it.
-    pub fn stop_running(&self) {
+    pub(crate) fn stop_running(&self) {
         self.requests.tray().is_stopped = true;
     }
 

@@ -135,13 +135,12 @@ impl Browser {
     }
 
     /// Whether it is not known yet what stands below.
-    #[must_use]
-    pub fn is_seeking(&self) -> bool {
+    pub(crate) fn is_seeking(&self) -> bool {
         self.wanted().is_some() && self.own_below().is_none()
     }
 
     /// Take what stands in the folders below; a mark among the lines before stays where it is.
-    pub fn take_below(&mut self, below: Below) {
+    pub(crate) fn take_below(&mut self, below: Below) {
         self.below = Some(below);
         let marked = self.marked;
         let is_above = marked < self.count_of_folder() && !self.fitting.is_empty();
@@ -150,20 +149,19 @@ impl Browser {
     }
 
     /// Take the cases that were open last.
-    pub fn remember(&mut self, recents: Vec<Recent>) {
+    pub(crate) fn remember(&mut self, recents: Vec<Recent>) {
         self.recents = recents;
         self.refit();
     }
 
     /// Mark the first of the recent cases, or go back to the folder.
-    pub fn to_recents(&mut self) {
+    pub(crate) fn to_recents(&mut self) {
         self.prefers_recents = !self.marks_recent();
         self.mark_first();
     }
 
     /// Whether the folder above is offered.
-    #[must_use]
-    pub fn has_up(&self) -> bool {
+    pub(crate) fn has_up(&self) -> bool {
         self.listing.is_some() && self.split().1.is_empty()
     }
 
@@ -177,8 +175,7 @@ impl Browser {
     }
 
     /// How many lines of the folder there are.
-    #[must_use]
-    pub fn count_of_folder(&self) -> usize {
+    pub(crate) fn count_of_folder(&self) -> usize {
         self.fitting.len()
             + self.fitting_below.len()
             + self.fitting_examples.len()
@@ -186,14 +183,12 @@ impl Browser {
     }
 
     /// How many recent cases fit.
-    #[must_use]
-    pub fn count_of_recents(&self) -> usize {
+    pub(crate) fn count_of_recents(&self) -> usize {
         self.fitting_recents.len()
     }
 
     /// Whether the mark is among the recent cases.
-    #[must_use]
-    pub fn marks_recent(&self) -> bool {
+    pub(crate) fn marks_recent(&self) -> bool {
         self.count_of_recents() > 0 && self.marked >= self.count_of_folder()
     }
 
@@ -252,14 +247,12 @@ impl Browser {
     }
 
     /// What the marked line is of.
-    #[must_use]
-    pub fn marked_sight(&self) -> Option<Viewport> {
+    pub(crate) fn marked_sight(&self) -> Option<Viewport> {
         self.line(self.marked).map(|line| self.sight(line))
     }
 
     /// The path of what is typed.
-    #[must_use]
-    pub fn typed_path(&self) -> PathBuf {
+    pub(crate) fn typed_path(&self) -> PathBuf {
         beneath(&self.base, self.input.value())
     }
 
@@ -270,7 +263,7 @@ impl Browser {
     }
 
     /// Go into a folder.
-    pub fn enter(&mut self, folder: PathBuf) {
+    pub(crate) fn enter(&mut self, folder: PathBuf) {
         self.came_from = (folder == self.above())
             .then(|| {
                 self.listing

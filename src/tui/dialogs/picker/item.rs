@@ -15,7 +15,6 @@ pub(super) const DESCRIBED: usize = 100;
 /// The effect of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pick {
-    /// Run a command.
     Run(Command),
     /// Go to a field.
     Go(usize),
@@ -34,11 +33,9 @@ pub enum Pick {
 pub struct Item {
     /// The effect of Enter.
     pub pick: Pick,
-    /// The name.
     pub name: String,
     /// The description.
     pub about: String,
-    /// The keys.
     pub keys: String,
 }
 

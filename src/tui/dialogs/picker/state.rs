@@ -89,7 +89,6 @@ impl Picker {
         }
     }
 
-    /// The title.
     #[must_use]
     pub fn title(&self) -> &'static str {
         match self.list {

@@ -30,7 +30,6 @@ const TIME_LABELS: [&str; 2] = ["time after E", "time"];
 pub struct Ruler {
     /// The axis value of one degree of roll after E.
     pub factor: f64,
-    /// The unit.
     pub unit: &'static str,
     /// The name, the longest form first.
     pub labels: &'static [&'static str],
@@ -228,7 +227,7 @@ impl Axes {
     }
 
     /// A faint line at 0 on blank cells, if the values have both signs.
-    pub fn draw_zero(&self, charts: &Charts, buffer: &mut Buffer) {
+    pub(crate) fn draw_zero(&self, charts: &Charts, buffer: &mut Buffer) {
         if self.upright.from < 0.0 && self.upright.to > 0.0 {
             let y = self.row(0.0);
             for x in self.plot.left()..self.plot.right() {
@@ -239,7 +238,7 @@ impl Axes {
 
     /// The marks of the contact on the axis: D of the other methods, B, the last contact L, E and
     /// D.
-    pub fn draw_marks(&self, charts: &Charts, buffer: &mut Buffer) {
+    pub(crate) fn draw_marks(&self, charts: &Charts, buffer: &mut Buffer) {
         let Some(answer) = charts.answer else { return };
         let theme = charts.look.theme;
         let others = answer
@@ -261,7 +260,7 @@ impl Axes {
     }
 
     /// A dotted line on blank cells outside the legend, and a mark on the axis.
-    pub fn draw_cursor(
+    pub(crate) fn draw_cursor(
         &self,
         charts: &Charts,
         is_legend: impl Fn(Position) -> bool,
@@ -280,7 +279,7 @@ impl Axes {
     }
 
     /// The direction of time, on the axis between its ticks and marks.
-    pub fn draw_time_direction(&self, buffer: &mut Buffer) {
+    pub(crate) fn draw_time_direction(&self, buffer: &mut Buffer) {
         let y = self.plot.bottom();
         let is_line = |x: u16| buffer.cell((x, y)).is_some_and(|cell| cell.symbol() == "─");
         let place = |text: &&str| {
@@ -313,7 +312,7 @@ fn marks(solution: &Solution) -> Vec<(f64, &'static str)> {
 }
 
 /// Writes into a blank cell.
-pub fn put_where_free(at: (u16, u16), symbol: &str, style: Style, buffer: &mut Buffer) {
+pub(crate) fn put_where_free(at: (u16, u16), symbol: &str, style: Style, buffer: &mut Buffer) {
     if buffer.cell(at).is_some_and(|cell| cell.symbol() == " ") {
         buffer.set_string(at.0, at.1, symbol, style);
     }

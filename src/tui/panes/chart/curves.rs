@@ -20,7 +20,6 @@ const ALIKE: f64 = 2e-3;
 /// The source of a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Whose {
-    /// The active method.
     Active(Method),
     /// Another method.
     Other(Method),
@@ -184,8 +183,7 @@ impl Curve {
     }
 
     /// The least and the greatest value within a stretch of the angle.
-    #[must_use]
-    pub fn upright_within(&self, window: Span) -> Span {
+    pub(crate) fn upright_within(&self, window: Span) -> Span {
         let ends = [window.from, window.to]
             .into_iter()
             .filter_map(|x| self.at(x));
@@ -226,8 +224,7 @@ pub fn first_contact(solution: &Solution) -> Option<f64> {
 
 /// The driver's angle before E at the last contact, in rad, negative after E. Only `static` and
 /// `dynamic` have a last contact.
-#[must_use]
-pub fn last_contact(solution: &Solution) -> Option<f64> {
+pub(crate) fn last_contact(solution: &Solution) -> Option<f64> {
     match rows(solution).last() {
         Some(Row::Load(station)) => Some(station.roll_angle_driver),
         _ => None,
@@ -246,8 +243,7 @@ pub fn way(answer: &Answer) -> Span {
 }
 
 /// The range of the stations of one method, in deg after E.
-#[must_use]
-pub fn way_by(answer: &Answer, method: Method) -> Span {
+pub(crate) fn way_by(answer: &Answer, method: Method) -> Span {
     answer.of(method).map_or(Span::NONE, way_of)
 }
 

@@ -22,8 +22,7 @@ use crate::tui::text;
 const USUAL_COLUMNS: u16 = 71;
 
 /// The title of the first chart, in a given room.
-#[must_use]
-pub fn first_title(charts: &Charts, room: usize) -> String {
+pub(crate) fn first_title(charts: &Charts, room: usize) -> String {
     let panels = panels(charts);
     let Some((graph, axes)) = panels.first().filter(|_| charts.answer.is_some()) else {
         return "Chart".to_owned();
@@ -63,8 +62,7 @@ pub fn columns(charts: &Charts) -> u16 {
 }
 
 /// The driver's roll angle before E at a cell of a plot, in rad.
-#[must_use]
-pub fn angle_at(charts: &Charts, at: Position) -> Option<f64> {
+pub(crate) fn angle_at(charts: &Charts, at: Position) -> Option<f64> {
     let panels = panels(charts);
     let (_, axes) = panels.iter().find(|(_, axes)| axes.plot.contains(at))?;
     Some(0.0 - axes.angle(at.x).to_radians()).filter(|angle| angle.is_finite())

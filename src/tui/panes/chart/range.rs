@@ -91,8 +91,7 @@ impl ChartView {
     }
 
     /// Switches between the strike and the whole contact.
-    #[must_use]
-    pub fn strike_or_whole(self, scale: &Scale) -> ChartView {
+    pub(crate) fn strike_or_whole(self, scale: &Scale) -> ChartView {
         let frame = match self.resolved(scale) {
             Frame::Strike => Frame::Whole,
             Frame::Opening | Frame::Whole => Frame::Strike,
@@ -104,8 +103,7 @@ impl ChartView {
     }
 
     /// The view, scrolled if necessary to make an angle visible.
-    #[must_use]
-    pub fn following(self, angle: f64, scale: &Scale) -> ChartView {
+    pub(crate) fn following(self, angle: f64, scale: &Scale) -> ChartView {
         let window = self.window(scale);
         if window.is_empty() || (window.from..=window.to).contains(&angle) {
             return self;
@@ -122,8 +120,7 @@ impl ChartView {
     }
 
     /// `Strike` or `Whole`, whichever frame the view has on these axes.
-    #[must_use]
-    pub fn resolved(&self, scale: &Scale) -> Frame {
+    pub(crate) fn resolved(&self, scale: &Scale) -> Frame {
         let opens_on_strike = !scale.strike.is_empty() && scale.strike.to < scale.across.to;
         match self.frame {
             Frame::Opening if opens_on_strike => Frame::Strike,

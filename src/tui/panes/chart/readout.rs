@@ -123,8 +123,7 @@ fn value(charts: &Charts, graph: &Graph, curve: &Curve, cursor: f64) -> Option<(
 }
 
 /// The name of the baseline's curve, with its method if that differs from the active method.
-#[must_use]
-pub fn base_name(charts: &Charts, method: Method) -> String {
+pub(crate) fn base_name(charts: &Charts, method: Method) -> String {
     let is_other = charts.answer.is_some_and(|answer| answer.active != method);
     if is_other {
         format!("baseline ({})", method.name())

@@ -63,7 +63,6 @@ const FIRST_WITHOUT_CONTACT: &[&str] = &[
 /// Stands behind a value that the last edit changed.
 const CHANGED: &str = "←";
 
-/// The table.
 pub(super) struct Table {
     /// The names of the columns.
     pub(super) heading: Line<'static>,

@@ -16,7 +16,6 @@ pub enum Ink {
     Driven,
     /// The incoming tooth.
     StruckDriven,
-    /// The driver.
     Driver,
     /// The struck tooth.
     StruckDriver,
@@ -38,7 +37,6 @@ impl Ink {
         Ink::Contact,
     ];
 
-    /// The style.
     #[must_use]
     pub fn style(self, theme: &Theme) -> Style {
         match self {

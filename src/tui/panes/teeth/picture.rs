@@ -30,8 +30,7 @@ pub struct Picture<'a> {
 
 impl Picture<'_> {
     /// The marker of a dot. In ASCII mode it has the dots from which letters are chosen.
-    #[must_use]
-    pub fn drawn_marker(&self) -> Marker {
+    pub(crate) fn drawn_marker(&self) -> Marker {
         if self.look.ascii {
             Marker::Braille
         } else {

@@ -40,7 +40,6 @@ pub struct Reading {
     pub symbol: &'static str,
     /// The number, where there is one.
     pub number: Option<String>,
-    /// The unit.
     pub unit: &'static str,
 }
 

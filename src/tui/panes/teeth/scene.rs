@@ -43,7 +43,6 @@ pub struct Scene {
 pub struct Named {
     /// The place.
     pub at: Point2<f64>,
-    /// The name.
     pub name: &'static str,
 }
 

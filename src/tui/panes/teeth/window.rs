@@ -24,8 +24,7 @@ const INCH: [(f64, &str); 2] = [(25.4e-3, "in"), (25.4e-6, "thou")];
 const LEAST_INCHES: f64 = 0.1;
 
 /// The unit for a length in m: its size in m and its name.
-#[must_use]
-pub fn unit_of_length(length: f64, system: System) -> (f64, &'static str) {
+pub(crate) fn unit_of_length(length: f64, system: System) -> (f64, &'static str) {
     let (units, least) = match system {
         System::Metric => (&METRIC[..], 1.0),
         System::Inch => (&INCH[..], LEAST_INCHES),
@@ -140,8 +139,7 @@ impl Window {
     }
 
     /// The visible part of a straight line, as shares of its length (Liang & Barsky 1984).
-    #[must_use]
-    pub fn clip(&self, from: Point2<f64>, to: Point2<f64>) -> Option<(f64, f64)> {
+    pub(crate) fn clip(&self, from: Point2<f64>, to: Point2<f64>) -> Option<(f64, f64)> {
         let (start, way) = (from - self.centre, to - from);
         let (mut first, mut last) = (0.0f64, 1.0f64);
         for axis in 0..2 {
@@ -189,7 +187,6 @@ impl Window {
         self.column() * CELL_HEIGHT
     }
 
-    /// Height of a dot.
     #[must_use]
     pub fn dot_height(&self) -> f64 {
         self.row() / f64::from(self.dots.1)

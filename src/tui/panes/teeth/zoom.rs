@@ -26,7 +26,6 @@ const MOST_FACTOR: f64 = 1000.0;
 /// The view of the teeth pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TeethView {
-    /// The centre.
     pub centre: Centre,
     /// Zoom steps of √2: in above 0, out below.
     pub zoom: i32,
@@ -40,7 +39,6 @@ pub enum Centre {
     /// D, or E without corner contact.
     #[default]
     Strike,
-    /// The pitch point.
     PitchPoint,
     /// The whole pair.
     Pair,
@@ -66,7 +64,6 @@ impl Centre {
         Centre::ALL[(self as usize + count).saturating_add_signed(by) % count]
     }
 
-    /// The name.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -93,8 +90,7 @@ impl TeethView {
     }
 
     /// The view around another centre, without zoom.
-    #[must_use]
-    pub fn centred_beside(self, by: isize) -> TeethView {
+    pub(crate) fn centred_beside(self, by: isize) -> TeethView {
         TeethView {
             centre: self.centre.beside(by),
             zoom: 0,
@@ -168,8 +164,7 @@ pub fn whole(geometry: &Geometry) -> (f64, f64) {
 }
 
 /// The greatest of 1, 2, 5 times a power of ten that is not above the value; 1 if there is none.
-#[must_use]
-pub fn round_down(value: f64) -> f64 {
+pub(crate) fn round_down(value: f64) -> f64 {
     if !(value.is_finite() && value > 0.0) {
         return 1.0;
     }
