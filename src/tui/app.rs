@@ -241,7 +241,7 @@ impl App {
             shows_last_valid: tab.shows_last_valid(),
             shows_cost: self.shows_cost,
             is_focused: self.panes.focus == Pane::Results,
-            next_fault: key_of(Command::NextFault),
+            next_fault: || key_of(Command::NextFault),
             units: self.settings.units,
             look: self.look,
             title: self.title(Pane::Results),

@@ -77,8 +77,8 @@ pub struct Results<'a> {
     pub shows_cost: bool,
     /// Whether the pane has the focus.
     pub is_focused: bool,
-    /// The key that goes to the next wrong row.
-    pub next_fault: String,
+    /// Names the key that goes to the next wrong row.
+    pub next_fault: fn() -> String,
     /// The display units.
     pub units: System,
     /// The capabilities of the terminal.
@@ -115,6 +115,7 @@ pub fn draw(pane: &Results<'_>, buffer: &mut Buffer) {
     };
     let table = table::lines(pane, answer, inner.width.into());
     let quantities = table.rows.iter().skip(pane.state.top).take(parts.rows);
+    let before = parts.head.len() + 2;
     let lines: Vec<Line<'static>> = parts
         .head
         .into_iter()
@@ -128,7 +129,7 @@ pub fn draw(pane: &Results<'_>, buffer: &mut Buffer) {
             .checked_sub(pane.state.top)
             .filter(|&line| line < parts.rows)
     {
-        let y = area.y + (lines_before(pane) + line) as u16;
+        let y = area.y + (before + line) as u16;
         buffer.set_stringn(area.x, y, "▸", 1, pane.look.theme.focus);
     }
 }
@@ -527,7 +528,7 @@ fn wrong(pane: &Results<'_>) -> Option<String> {
     } else {
         String::new()
     };
-    let key = &pane.next_fault;
+    let key = (pane.next_fault)();
     if let Some(missing) = pane.missing.filter(|&missing| missing > 1) {
         return Some(format!("! {missing} required values are missing ({key})"));
     }

@@ -18,7 +18,7 @@ pub(super) fn open(app: &mut App, prefers_recents: bool) -> Vec<Effect> {
 pub(super) fn recent(app: &mut App) -> Vec<Effect> {
     match browser(app) {
         Some(browser) => {
-            browser.to_recents();
+            browser.select_recents();
             Vec::new()
         }
         None => open(app, true),

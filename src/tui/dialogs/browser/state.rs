@@ -155,7 +155,7 @@ impl Browser {
     }
 
     /// Mark the first of the recent cases, or go back to the folder.
-    pub(crate) fn to_recents(&mut self) {
+    pub(crate) fn select_recents(&mut self) {
         self.prefers_recents = !self.marks_recent();
         self.mark_first();
     }
