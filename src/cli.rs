@@ -5,12 +5,14 @@ mod arguments;
 mod cases;
 mod check;
 mod explain;
+mod gather;
 mod import;
 mod new;
 mod plot;
 mod progress;
 mod report;
 mod seek;
+mod shards;
 mod shell;
 mod sink;
 mod solve;
@@ -24,7 +26,7 @@ use crate::case::suggest;
 use crate::report::fields;
 
 pub use arguments::{
-    Arguments, Check, Command, Explain, Export, Fields, Format, Import, Listing, New, Plot,
+    Arguments, Check, Command, Explain, Export, Fields, Format, Gather, Import, Listing, New, Plot,
     RowFormat, Running, Seek, Setting, Solve, Stiffness, Sweep, Tolerance, Trading,
 };
 use clap::error::ErrorKind;
@@ -174,6 +176,7 @@ pub fn run(command: &Command, streams: &mut Streams) -> Exit {
         Command::Sweep(options) => sweep::run(options, streams),
         Command::Seek(options) => seek::run(options, streams),
         Command::Tolerance(options) => tolerance::run(options, streams),
+        Command::Gather(options) => gather::run(options, streams),
         Command::Fields(options) => list_fields(options, streams.output.as_mut()),
         Command::New(options) => new::run(options, streams),
         Command::Plot(options) => plot::run(options, streams),

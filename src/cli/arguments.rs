@@ -18,7 +18,7 @@ use clap::{Arg, Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
 use std::ffi::OsStr;
 use std::path::PathBuf;
-pub use studies::{RowFormat, Running, Seek, Sweep, Tolerance};
+pub use studies::{Gather, RowFormat, Running, Seek, Sweep, Tolerance};
 
 const CSV_SHAPE: &str = "CSV is in SI units: a row a case with a column a quantity, such as `impact_force [N]`; with --stations \
     instead a row a station. JSON is an object a case, one a line, in SI units; what does not exist is absent.";
@@ -77,6 +77,8 @@ pub enum Command {
     Sweep(Sweep),
     /// Sample the distributions of [spread]: percentiles, probabilities, ranking of the fields
     Tolerance(Tolerance),
+    /// Put the shards of a sweep or a tolerance study together
+    Gather(Gather),
     /// Find every value of a field at which a condition on the results changes
     Seek(Seek),
     /// Write a chart of a case, or its teeth, as a picture (SVG)

@@ -22,7 +22,7 @@ pub(super) fn run(options: &Seek, streams: &mut Streams) -> io::Result<Exit> {
     };
     let settings = options.changes.settings();
     let key = FIELDS[range.field].key;
-    let out = options.running.out.as_deref();
+    let out = options.out.as_deref();
     if let Some(refusal) =
         cases::set_and_varied(&settings, &[key]).or_else(|| overwrites(out, &[&options.case]))
     {
@@ -41,7 +41,7 @@ pub(super) fn run(options: &Seek, streams: &mut Streams) -> io::Result<Exit> {
         ));
         return Ok(Exit::Usage);
     }
-    let running = Running::new("points", options.running.jobs);
+    let running = Running::new("points", options.jobs);
     let found = running.run(|control| {
         match seek(&opened.inputs, &range, &condition, options.points, control) {
             Err(Unfound::Stopped) => Err(crate::study::batch::Stopped),
@@ -101,7 +101,7 @@ fn write(
         condition,
         found,
     };
-    let out = options.running.out.as_deref();
+    let out = options.out.as_deref();
     let mut sink = Sink::open(out, streams.output.as_mut()).map_err(Failure::File)?;
     let written = match options.format {
         Listing::Text => report.write(&mut sink),

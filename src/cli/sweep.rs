@@ -3,7 +3,7 @@
 use super::cases::{self, Opened};
 use super::progress::Running;
 use super::sink::{Failure, Sink, overwrites};
-use super::{Exit, Streams, Sweep};
+use super::{Exit, Streams, Sweep, shards};
 use crate::case::{Acting, partial_relevance, relevance};
 use crate::model::Quantity;
 use crate::model::inputs::Method;
@@ -12,6 +12,7 @@ use crate::study::axis::Axis;
 use crate::study::batch::{Batch, Points, solve_all};
 use crate::study::headline::{distinct, headline};
 use crate::study::refusals::Refusals;
+use crate::study::request::{PointsRequest, Request};
 use crate::study::sweep::Grid;
 use std::io;
 
@@ -52,19 +53,60 @@ pub(super) fn run(options: &Sweep, streams: &mut Streams) -> io::Result<Exit> {
         quantities: &quantities,
         format: options.format.into(),
     };
-    let refusals = match write(options, &opened, &table, streams) {
-        Ok(refusals) => refusals,
-        Err(failure) => return failure.report(streams),
-    };
-    for refused in &refusals.0 {
-        let sentence = table.refused(refused, grid.count());
-        streams.say(&format!("{}: {sentence}", opened.name));
+    if let Some(shard) = options.running.shard {
+        let request = request(options, &opened, &table);
+        let batch = batch(&opened, &table);
+        return shards::run(shard, &request, &batch, &options.running, streams);
     }
-    Ok(if refusals.total() == grid.count() {
+    match write(options, &opened, &table, streams) {
+        Ok(refusals) => Ok(report(&table, &refusals, &opened.name, streams)),
+        Err(failure) => failure.report(streams),
+    }
+}
+
+/// Reports the refused points of a sweep that is written.
+pub(super) fn report(
+    table: &SweepTable,
+    refusals: &Refusals,
+    name: &str,
+    streams: &mut Streams,
+) -> Exit {
+    let count = table.grid.count();
+    for refused in &refusals.0 {
+        streams.say(&format!("{name}: {}", table.refused(refused, count)));
+    }
+    if refusals.total() == count {
         Exit::BadCase
     } else {
         Exit::Done
-    })
+    }
+}
+
+/// The study for the files of its shards.
+fn request(options: &Sweep, opened: &Opened, table: &SweepTable) -> Request {
+    Request {
+        name: opened.name.clone(),
+        case: opened.document.render(),
+        quantities: table
+            .quantities
+            .iter()
+            .map(|known| known.key.to_owned())
+            .collect(),
+        format: table.format.name().to_owned(),
+        points: PointsRequest::Sweep {
+            vary: options.vary.clone(),
+            points: options.points.clone(),
+            log: options.log,
+        },
+    }
+}
+
+fn batch<'a>(opened: &'a Opened, table: &SweepTable<'a>) -> Batch<'a> {
+    Batch {
+        inputs: &opened.inputs,
+        points: table.grid,
+        quantities: table.quantities,
+    }
 }
 
 /// The varied fields that change no result.
@@ -102,11 +144,7 @@ fn write(
 ) -> Result<Refusals, Failure> {
     let out = options.running.out.as_deref();
     let mut sink = Sink::open(out, streams.output.as_mut()).map_err(Failure::File)?;
-    let batch = Batch {
-        inputs: &opened.inputs,
-        points: table.grid,
-        quantities: table.quantities,
-    };
+    let batch = batch(opened, table);
     let running = Running::new("points", options.running.jobs);
     let mut refusals = Refusals::default();
     let mut written = table.begin(&mut sink);

@@ -3,11 +3,13 @@
 use super::cases::{self, Opened};
 use super::progress::Running;
 use super::sink::{Failure, Sink, overwrites};
-use super::{Exit, Format, Streams, Tolerance as Options};
+use super::{Exit, Format, Streams, Tolerance as Options, shards};
 use crate::case::Problem;
 use crate::report::tolerance::{ToleranceReport, is_all_refused};
-use crate::study::tolerance::{MOST_SAMPLES, Samples, Size, Tolerance};
-use std::io;
+use crate::study::batch::Batch;
+use crate::study::request::{PointsRequest, Request};
+use crate::study::tolerance::{MOST_SAMPLES, Size, Tolerance};
+use std::io::{self, Write};
 
 pub(super) fn run(options: &Options, streams: &mut Streams) -> io::Result<Exit> {
     let out = options.running.out.as_deref();
@@ -26,15 +28,70 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> io::Result<Exit> 
             return Ok(Exit::BadCase);
         }
     };
+    if let Some(shard) = options.running.shard {
+        let request = request(options, &opened, &study);
+        let batch = Batch {
+            inputs: &opened.inputs,
+            points: &study.design,
+            quantities: &study.quantities,
+        };
+        return shards::run(shard, &request, &batch, &options.running, streams);
+    }
     let running = Running::new("solves", options.running.jobs);
     let Ok(samples) = running.run(|control| study.run(&opened.inputs, control)) else {
         Running::end();
         return Err(io::ErrorKind::Interrupted.into());
     };
-    match write(options, &opened, &study, &samples, streams) {
-        Ok(()) if is_all_refused(&samples) => Ok(Exit::BadCase),
-        Ok(()) => Ok(Exit::Done),
+    let whole = ToleranceReport {
+        name: &opened.name,
+        case: &opened.document.case,
+        method: opened.inputs.method.name(),
+        study: &study,
+        samples: &samples,
+    };
+    match write(options, &whole, streams) {
+        Ok(()) => Ok(report(&whole, streams)),
         Err(failure) => failure.report(streams),
+    }
+}
+
+/// Reports the refused samples of a study that is written.
+pub(super) fn report(whole: &ToleranceReport, streams: &mut Streams) -> Exit {
+    for refused in &whole.samples.refusals.0 {
+        streams.say(&format!("{}: {}", whole.name, whole.refused(refused)));
+    }
+    if is_all_refused(whole.samples) {
+        Exit::BadCase
+    } else {
+        Exit::Done
+    }
+}
+
+/// The study for the files of its shards.
+fn request(options: &Options, opened: &Opened, study: &Tolerance) -> Request {
+    Request {
+        name: opened.name.clone(),
+        case: opened.document.render(),
+        quantities: study
+            .quantities
+            .iter()
+            .map(|known| known.key.to_owned())
+            .collect(),
+        format: name_of(options.format).to_owned(),
+        points: PointsRequest::Tolerance {
+            samples: study.design.samples,
+            seed: study.design.seed,
+            ranked: study.design.ranked,
+        },
+    }
+}
+
+/// The name of a format on the command line.
+fn name_of(format: Format) -> &'static str {
+    match format {
+        Format::Text => "text",
+        Format::Json => "json",
+        Format::Csv => "csv",
     }
 }
 
@@ -56,30 +113,22 @@ fn study(options: &Options, opened: &Opened) -> Result<Tolerance, Problem> {
     Tolerance::of(&opened.document.case, &opened.inputs, &only, size)
 }
 
-fn write(
-    options: &Options,
-    opened: &Opened,
-    study: &Tolerance,
-    samples: &Samples,
-    streams: &mut Streams,
-) -> Result<(), Failure> {
-    let report = ToleranceReport {
-        name: &opened.name,
-        case: &opened.document.case,
-        method: opened.inputs.method.name(),
-        study,
-        samples,
-    };
-    for refused in &samples.refusals.0 {
-        streams.say(&format!("{}: {}", opened.name, report.refused(refused)));
-    }
+fn write(options: &Options, whole: &ToleranceReport, streams: &mut Streams) -> Result<(), Failure> {
     let out = options.running.out.as_deref();
     let mut sink = Sink::open(out, streams.output.as_mut()).map_err(Failure::File)?;
-    let written = match options.format {
-        Format::Text => report.write(&mut sink),
-        Format::Json => report.write_json(&mut sink),
-        Format::Csv => report.write_csv(&mut sink),
-    };
-    written.map_err(|error| sink.failure(error))?;
+    write_as(name_of(options.format), whole, &mut sink).map_err(|error| sink.failure(error))?;
     sink.finish()
+}
+
+/// Writes a study in the format of that name.
+pub(super) fn write_as(
+    format: &str,
+    whole: &ToleranceReport,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    match format {
+        "json" => whole.write_json(out),
+        "csv" => whole.write_csv(out),
+        _ => whole.write(out),
+    }
 }

@@ -22,6 +22,27 @@ pub enum TableFormat {
     Json,
 }
 
+impl TableFormat {
+    /// The name on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            TableFormat::Csv => "csv",
+            TableFormat::Json => "json",
+        }
+    }
+
+    /// The format of that name.
+    #[must_use]
+    pub fn named(name: &str) -> TableFormat {
+        if name == TableFormat::Json.name() {
+            TableFormat::Json
+        } else {
+            TableFormat::Csv
+        }
+    }
+}
+
 /// A sweep on its way to a file or a stream.
 #[derive(Clone, Copy)]
 pub struct SweepTable<'a> {

@@ -7,7 +7,7 @@ use std::io::{self, Write};
 
 use super::csv::{cell, write_rows};
 use crate::case::Case;
-use crate::study::batch::{Points, Rows};
+use crate::study::batch::Points;
 use crate::study::design::Member;
 use crate::study::refusals::Refused;
 use crate::study::tolerance::{Samples, Tolerance};
@@ -105,12 +105,4 @@ impl ToleranceReport<'_> {
 #[must_use]
 pub fn is_all_refused(samples: &Samples) -> bool {
     samples.refusals.total() == samples.outcomes.len()
-}
-
-/// Rows as the results of a study.
-#[must_use]
-pub fn collected<'r>(study: &Tolerance, rows: impl IntoIterator<Item = &'r Rows>) -> Samples {
-    let mut samples = Samples::of(study);
-    rows.into_iter().for_each(|rows| samples.add(rows));
-    samples
 }

@@ -16,5 +16,6 @@ mod import_command;
 mod meaning;
 mod report_command;
 mod reports;
+mod shards;
 mod stiffness_command;
 mod studies;

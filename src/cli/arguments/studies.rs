@@ -8,6 +8,7 @@ use super::{Changes, Format, Listing, QuantityList};
 use crate::model::Quantity;
 use crate::report::sweep::TableFormat;
 use crate::study::seek::USUAL_SCAN;
+use crate::study::shard::Shard;
 use crate::study::tolerance::USUAL_SAMPLES;
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
@@ -26,12 +27,15 @@ const TOLERANCE_SHAPE: &str = "A distribution is a line of [spread]: the field i
     deviations) with half the span, or { grade = CLASS } for a base pitch deviation of ISO 1328-1. CSV has one row per solve in SI units: \
     the samples (set a), then the points of the ranking (set b, and b:FIELD with the value of b in that field). JSON is one object in SI units.";
 
-/// How a study runs.
+/// How a study runs whose points can be divided among machines.
 #[derive(Debug, Args)]
 pub struct Running {
     /// Number of threads; else one per core. The output does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
+    /// Solve only part I of N equal parts, such as 3/8, for `tipstrike gather`
+    #[arg(long, value_name = "I/N", value_parser = Shard::parse)]
+    pub shard: Option<Shard>,
     /// File to write, in place of an older one; else standard output
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub out: Option<PathBuf>,
@@ -92,9 +96,12 @@ pub struct Seek {
     /// Format of the output
     #[arg(long, value_enum, default_value_t)]
     pub format: Listing,
-    /// How the study runs
-    #[command(flatten)]
-    pub running: Running,
+    /// Number of threads; else one per core. The output does not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub jobs: Option<u16>,
+    /// File to write, in place of an older one; else standard output
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub out: Option<PathBuf>,
 }
 
 /// The options of `tolerance`.
@@ -152,4 +159,15 @@ fn count(text: &str) -> Result<usize, String> {
     text.trim()
         .parse()
         .map_err(|_| "write a whole number, such as 101".to_owned())
+}
+
+/// The options of `gather`.
+#[derive(Debug, Args)]
+pub struct Gather {
+    /// Files that --shard wrote, in any order
+    #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub files: Vec<PathBuf>,
+    /// File to write, in place of an older one; else standard output
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub out: Option<PathBuf>,
 }

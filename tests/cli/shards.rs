@@ -1,0 +1,139 @@
+//! Shards of a study: together they are the whole, and nothing else is taken for one.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+const TABLE_1: &str = "cases/zhou-chen-2014.toml";
+
+/// A sweep with corner contact, without it, and with refused points.
+const SWEEP: [&str; 8] = [
+    "sweep",
+    TABLE_1,
+    "--vary",
+    "driven.tip_relief=0..80 um",
+    "--vary",
+    "driver.bore_radius=30,40,50 mm",
+    "--points",
+    "7",
+];
+
+fn run(arguments: &[&str]) -> (i32, String, String) {
+    let Output {
+        status,
+        stdout,
+        stderr,
+    } = Command::new(env!("CARGO_BIN_EXE_tipstrike"))
+        .args(arguments)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (status.code().unwrap(), text(stdout), text(stderr))
+}
+
+/// Writes the shards of a study into a folder, the last one first.
+fn shards(folder: &Path, study: &[&str], of: usize) -> Vec<PathBuf> {
+    let write = |number: usize| {
+        let path = folder.join(format!("{of}-{number}.shard"));
+        let shard = format!("{number}/{of}");
+        let options = ["--shard", &shard, "--out", path.to_str().unwrap()];
+        assert_eq!(run(&[study, &options].concat()).0, 0);
+        path
+    };
+    (1..=of).rev().map(write).collect()
+}
+
+fn gather(files: &[PathBuf]) -> (i32, String, String) {
+    let names = files.iter().map(|file| file.to_str().unwrap());
+    run(&std::iter::once("gather").chain(names).collect::<Vec<_>>())
+}
+
+#[test]
+fn gathered_shards_are_the_bytes_of_the_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("spread.toml");
+    let spread = "[spread]\n\"driven.tip_relief\" = { uniform = \"12 um\" }\n\
+                  \"deviations.base_pitch\" = { normal = \"2 um\" }\n";
+    fs::write(
+        &case,
+        format!("{}\n{spread}", fs::read_to_string(TABLE_1).unwrap()),
+    )
+    .unwrap();
+    let tolerance = [
+        "tolerance",
+        case.to_str().unwrap(),
+        "--samples",
+        "200",
+        "--set",
+        "driven.tip_relief=40 um",
+        "--seed",
+        "3",
+    ];
+    let as_json = [&SWEEP[..], &["--format", "json"]].concat();
+    let as_csv = [&tolerance[..], &["--format", "csv", "--ranking", "20"]].concat();
+    for study in [&SWEEP[..], &as_json, &tolerance[..], &as_csv] {
+        let whole = run(study);
+        for of in [1, 3, 40] {
+            let files = shards(folder.path(), study, of);
+            assert_eq!(gather(&files), whole, "{study:?} in {of}");
+        }
+    }
+    let files = shards(folder.path(), &SWEEP, 2);
+    let out = folder.path().join("whole.csv");
+    let names: Vec<&str> = files.iter().map(|file| file.to_str().unwrap()).collect();
+    let arguments = [&["gather", "--out", out.to_str().unwrap()], &names[..]].concat();
+    assert_eq!(run(&arguments).0, 0);
+    assert_eq!(fs::read_to_string(out).unwrap(), run(&SWEEP).1);
+}
+
+#[test]
+fn missing_repeated_half_changed_and_foreign_shards_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = shards(folder.path(), &SWEEP, 3);
+    let other_folder = tempfile::tempdir().unwrap();
+    let other_study = [&SWEEP[..], &["--method", "paper"]].concat();
+    let others = shards(other_folder.path(), &other_study, 3);
+    let refusal = |files: &[PathBuf]| {
+        let (code, text, errors) = gather(files);
+        assert_eq!((code, text.as_str()), (3, ""), "{errors}");
+        errors
+    };
+    let told = refusal(&files[1..]);
+    assert!(
+        told.contains("1 of 3 shards are missing: run --shard 3/3"),
+        "{told}"
+    );
+    let copy = folder.path().join("copy.shard");
+    fs::copy(&files[0], &copy).unwrap();
+    let told = refusal(&[files.clone(), vec![copy.clone()]].concat());
+    assert!(
+        told.contains("shard 3/3 is in") && told.contains("too"),
+        "{told}"
+    );
+    let told = refusal(&[files[0].clone(), files[1].clone(), others[2].clone()]);
+    assert!(told.contains("of another study than"), "{told}");
+
+    let text = fs::read_to_string(&files[0]).unwrap();
+    let whole_lines: Vec<&str> = text.split_inclusive('\n').collect();
+    let without_end = whole_lines[..whole_lines.len() - 1].concat();
+    let without_row = [&whole_lines[..2], &whole_lines[3..]].concat().concat();
+    let half_line = text[..text.len() - 9].to_owned();
+    let other_case = text.replacen("2000 rpm", "2001 rpm", 1);
+    assert_ne!(other_case, text);
+    for broken in [without_end, without_row, half_line, other_case] {
+        fs::write(&copy, broken).unwrap();
+        let told = refusal(&[copy.clone(), files[1].clone(), files[2].clone()]);
+        assert!(
+            told.contains("copy.shard: shard 3/3 is incomplete or changed: run it"),
+            "{told}"
+        );
+    }
+    let told = refusal(&[PathBuf::from(TABLE_1)]);
+    assert!(told.contains("this is no shard"), "{told}");
+    let (code, _, errors) = gather(&[folder.path().join("missing.shard")]);
+    assert!(code == 5 && errors.contains("cannot be read"), "{errors}");
+    let (code, _, errors) = run(&[&SWEEP[..], &["--shard", "4/3"]].concat());
+    assert!(code == 2 && errors.contains("write 1/3 to 3/3"), "{errors}");
+}
