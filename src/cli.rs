@@ -23,7 +23,7 @@ mod trade;
 
 use crate::case::sanitize::sanitize;
 use crate::case::suggest;
-use crate::report::fields;
+use crate::report::{fields, schema};
 
 pub use arguments::{
     Arguments, Check, Command, Explain, Export, Fields, Format, Gather, Import, Listing, New, Plot,
@@ -178,6 +178,12 @@ pub fn run(command: &Command, streams: &mut Streams) -> Exit {
         Command::Tolerance(options) => tolerance::run(options, streams),
         Command::Gather(options) => gather::run(options, streams),
         Command::Fields(options) => list_fields(options, streams.output.as_mut()),
+        Command::Schema { results: false } => {
+            schema::write_case(streams.output.as_mut()).map(|()| Exit::Done)
+        }
+        Command::Schema { results: true } => {
+            schema::write_results(streams.output.as_mut()).map(|()| Exit::Done)
+        }
         Command::New(options) => new::run(options, streams),
         Command::Plot(options) => plot::run(options, streams),
         Command::Report(options) => report::run(options, streams),

@@ -13,6 +13,7 @@ pub mod json;
 mod layout;
 pub mod page;
 pub mod relief;
+pub mod schema;
 pub mod seek;
 pub mod stations;
 pub mod stiffness;

@@ -24,6 +24,20 @@ impl Evaluator {
         wanted: Stages,
         go_on: &dyn Fn(f64) -> bool,
     ) -> Result<Solution, Refusal> {
+        self.solve_kept(inputs, method, wanted, go_on).cloned()
+    }
+
+    /// As [`Evaluator::solve`], without a copy of the solution.
+    ///
+    /// # Errors
+    /// Those of [`solve_after`]; the last results then stay.
+    pub fn solve_kept(
+        &mut self,
+        inputs: &Inputs,
+        method: Method,
+        wanted: Stages,
+        go_on: &dyn Fn(f64) -> bool,
+    ) -> Result<&Solution, Refusal> {
         let inputs = Inputs {
             method,
             ..inputs.clone()
@@ -34,12 +48,13 @@ impl Evaluator {
             Earlier { inputs, solution }
         });
         let solution = solve_after(&inputs, wanted, earlier, go_on)?;
-        let solved = (method, inputs, solution.clone());
-        match at {
-            Some(at) => self.solved[at] = solved,
+        let solved = (method, inputs, solution);
+        let at = at.unwrap_or(self.solved.len());
+        match self.solved.get_mut(at) {
+            Some(earlier) => *earlier = solved,
             None => self.solved.push(solved),
         }
-        Ok(solution)
+        Ok(&self.solved[at].2)
     }
 }
 

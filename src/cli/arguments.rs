@@ -87,6 +87,12 @@ pub enum Command {
     Report(Export),
     /// List every field of a case with its unit, range, default and meaning
     Fields(Fields),
+    /// Write the JSON Schema of a case file, with which editors complete keys
+    Schema {
+        /// Write that of `solve --format json` instead
+        #[arg(long)]
+        results: bool,
+    },
     /// Write a commented case to start from
     New(New),
     /// Import a spur stage of a REXS model as a commented case

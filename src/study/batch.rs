@@ -321,7 +321,8 @@ impl<'a> PointSolver<'a> {
         rows: &mut Rows,
         go_on: &dyn Fn() -> bool,
     ) -> Result<Option<Refusal>, Unsolved> {
-        self.batch.points.put(index, &mut self.inputs)?;
+        let batch = self.batch;
+        batch.points.put(index, &mut self.inputs)?;
         if let Some(problem) = misfit_between(&self.inputs) {
             return Err(problem.into());
         }
@@ -329,10 +330,10 @@ impl<'a> PointSolver<'a> {
         let wanted = self.wanted.and(method.deciding_stages());
         let solution = self
             .evaluator
-            .solve(&self.inputs, method, wanted, &|_| go_on())?;
+            .solve_kept(&self.inputs, method, wanted, &|_| go_on())?;
         let values = || {
-            let all = self.batch.quantities.iter();
-            all.map(|quantity| quantity.finite_value(&solution))
+            let all = batch.quantities.iter();
+            all.map(|quantity| quantity.finite_value(solution))
         };
         // As a plain solve does with a quantity that is named.
         if solution.withheld.is_some() && values().any(|value| value.is_none()) {

@@ -26,8 +26,8 @@ pub struct Ranked {
 ///
 /// # Formula
 /// ```text
-/// f0 = mean(A, B),   V = mean((A - f0)², (B - f0)²)
-/// S_i  = mean((B - f0)(AB_i - A))/V
+/// f0 = mean(A, B),   c = mean(A, B, AB_1, AB_2, ..),   V = mean((A - f0)², (B - f0)²)
+/// S_i  = mean((B - c)(AB_i - A))/V
 /// ST_i = mean((A - AB_i)²)/(2 V)
 /// ```
 /// where AB_i is the result of A with field i of B. The intervals are ±1.96 standard errors of the
@@ -47,8 +47,10 @@ pub fn indices(samples: &[Ranked]) -> Option<Vec<Indices>> {
     let variance = samples.iter().map(variance_of).sum::<f64>() / count;
     let is_varied = variance > (f64::EPSILON * mean).powi(2);
     let fields = samples.first()?.swapped.len();
+    let sum = |s: &Ranked| s.first + s.second + s.swapped.iter().sum::<f64>();
+    let centre = samples.iter().map(sum).sum::<f64>() / ((fields + 2) as f64 * count);
     let of_field = |field: usize| {
-        let first_order = |s: &Ranked| (s.second - mean) * (s.swapped[field] - s.first);
+        let first_order = |s: &Ranked| (s.second - centre) * (s.swapped[field] - s.first);
         let total = |s: &Ranked| 0.5 * (s.first - s.swapped[field]).powi(2);
         Indices {
             first_order: quotient(samples, first_order, variance_of),

@@ -16,6 +16,7 @@ mod import_command;
 mod meaning;
 mod report_command;
 mod reports;
+mod schema;
 mod shards;
 mod stiffness_command;
 mod studies;

@@ -1,0 +1,203 @@
+//! JSON Schemas of the case file and of the results, derived from the fields and the quantities.
+
+use std::io::{self, Write};
+
+use serde_json::{Map, Value, json};
+
+use super::stations::COLUMNS;
+use crate::case::fields::{AUTO, Absent, FIELDS, Field, GROUPS, Kind};
+use crate::case::file::FORMAT;
+use crate::case::spread::Shape;
+use crate::case::units::Dimension;
+use crate::model::inputs::Method;
+use crate::model::{Outcome, QUANTITIES, Quantity, Stage};
+
+const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
+
+/// A number and a unit after it.
+const MEASURE: &str = r"^\s*[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?\s*[^\s0-9].*$";
+
+/// Writes the schema of a case file.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_case(out: &mut dyn Write) -> io::Result<()> {
+    let mut tables = Map::new();
+    tables.insert("format".to_owned(), json!({"const": FORMAT}));
+    for (table, title) in GROUPS {
+        let fields = FIELDS.iter().filter(|field| field.table() == table);
+        let members = fields.map(|field| (field.name().to_owned(), of_field(field)));
+        if table.is_empty() {
+            tables.extend(members);
+        } else {
+            let members: Map<String, Value> = members.collect();
+            tables.insert(table.to_owned(), object(title, members));
+        }
+    }
+    let limits = QUANTITIES
+        .iter()
+        .map(|known| (known.key.to_owned(), of_limit(known)));
+    let help = "Greatest value allowed, of any quantity of the results.";
+    tables.insert("limits".to_owned(), object(help, limits.collect()));
+    let spread = FIELDS
+        .iter()
+        .filter_map(|field| Some((field.key.to_owned(), of_spread(field)?)));
+    let help = "Distribution of a field around its value.";
+    tables.insert("spread".to_owned(), object(help, spread.collect()));
+    let mut schema = object("A case of tipstrike: a gear pair in operation.", tables);
+    schema["$schema"] = DRAFT.into();
+    schema["required"] = json!(["format"]);
+    print(&schema, out)
+}
+
+/// Writes the schema of a line of `solve --format json`.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_results(out: &mut dyn Write) -> io::Result<()> {
+    let quantities = QUANTITIES
+        .iter()
+        .map(|known| (known.key.to_owned(), of_quantity(known)));
+    let help = "Values in SI units; a quantity without a value is absent.";
+    let columns = COLUMNS.iter().map(|column| {
+        let about = format!("in {}", column.unit);
+        (
+            column.key.to_owned(),
+            json!({"type": "number", "description": about}),
+        )
+    });
+    let stages: Vec<&str> = Stage::ALL.into_iter().map(Stage::name).collect();
+    let outcomes = [Outcome::CornerContact, Outcome::NoCornerContact].map(Outcome::name);
+    let methods = Method::ALL.map(Method::name);
+    let note = json!({
+        "type": "object",
+        "properties": {"code": {"type": "string"}, "message": {"type": "string"}},
+        "required": ["code", "message"],
+    });
+    let schema = json!({
+        "$schema": DRAFT,
+        "description": "What `tipstrike solve --format json` prints for a case.",
+        "type": "object",
+        "properties": {
+            "case": {"type": "string"},
+            "title": {"type": "string"},
+            "format": {"const": FORMAT},
+            "version": {"type": "string"},
+            "method": {"enum": methods},
+            "outcome": {"enum": outcomes},
+            "quantities": object(help, quantities.collect()),
+            "stations": {"type": "array", "items": object("One station.", columns.collect())},
+            "stages": {"type": "array", "items": {"enum": stages}},
+            "notes": {"type": "array", "items": note},
+        },
+        "required": ["case", "format", "version", "method", "outcome", "quantities", "stages", "notes"],
+    });
+    print(&schema, out)
+}
+
+fn print(schema: &Value, out: &mut dyn Write) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, schema)?;
+    writeln!(out)
+}
+
+/// An object with these members and no others.
+fn object(description: &str, members: Map<String, Value>) -> Value {
+    json!({
+        "description": description,
+        "type": "object",
+        "properties": members,
+        "additionalProperties": false,
+    })
+}
+
+fn of_field(field: &Field) -> Value {
+    let mut schema = match field.kind {
+        Kind::Text => json!({"type": "string"}),
+        Kind::Choice(..) if field.is_flag() => json!({"type": "boolean"}),
+        Kind::Choice(names, _) => json!({"enum": names}),
+        Kind::Count(from, to, _) => {
+            let number = json!({"type": "integer", "minimum": from, "maximum": to});
+            if field.takes_auto() {
+                json!({"anyOf": [number, {"const": AUTO}]})
+            } else {
+                number
+            }
+        }
+        Kind::Number(Dimension::Number, range, _) => {
+            json!({"type": "number", "minimum": range.from, "maximum": range.to})
+        }
+        Kind::Number(..) => {
+            json!({"type": "string", "pattern": MEASURE, "examples": [field.example()]})
+        }
+    };
+    let range = field.range_text();
+    let about = if range.is_empty() || matches!(field.kind, Kind::Choice(..)) {
+        format!("{}. {}", field.label, field.help)
+    } else {
+        format!("{}, {range}. {}", field.label, field.help)
+    };
+    schema["description"] = about.into();
+    if let Absent::Default(text) = field.absent
+        && !text.is_empty()
+    {
+        schema["default"] = if field.is_bare() {
+            serde_json::from_str(text).unwrap_or_else(|_| text.into())
+        } else {
+            text.into()
+        };
+    }
+    schema
+}
+
+fn of_limit(quantity: &Quantity) -> Value {
+    let mut schema = if quantity.unit == "1" {
+        json!({"type": "number"})
+    } else {
+        json!({"type": "string", "pattern": MEASURE})
+    };
+    schema["description"] = format!("{} {}", quantity.label, quantity.symbol).into();
+    schema
+}
+
+fn of_quantity(quantity: &Quantity) -> Value {
+    let kind = if quantity.is_flag() {
+        "boolean"
+    } else {
+        "number"
+    };
+    json!({
+        "description": format!("{} {}", quantity.label, quantity.symbol),
+        "type": "object",
+        "properties": {
+            "value": {"type": kind},
+            "unit": {"const": quantity.unit},
+            "of": {"type": "string"},
+        },
+        "required": ["value", "unit"],
+        "additionalProperties": false,
+    })
+}
+
+/// The distributions that a field takes.
+fn of_spread(field: &Field) -> Option<Value> {
+    let Kind::Number(dimension, ..) = field.kind else {
+        return None;
+    };
+    let width = if dimension == Dimension::Number {
+        json!({"type": "number", "exclusiveMinimum": 0})
+    } else {
+        json!({"type": "string", "pattern": MEASURE})
+    };
+    let shapes = Shape::ALL.into_iter().filter_map(|shape| {
+        let width = match shape {
+            Shape::Grade if field.name() != "base_pitch" => return None,
+            Shape::Grade => json!({"type": "integer", "minimum": 1, "maximum": 11}),
+            _ => width.clone(),
+        };
+        Some((shape.name().to_owned(), width))
+    });
+    let mut schema = object(field.label, shapes.collect());
+    schema["minProperties"] = 1.into();
+    schema["maxProperties"] = 1.into();
+    Some(schema)
+}

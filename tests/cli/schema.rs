@@ -1,0 +1,65 @@
+//! The JSON Schemas: every key of a case and of a result is in them.
+
+use std::collections::BTreeSet;
+use std::process::{Command, Stdio};
+
+use serde_json::Value;
+use tipstrike::case::FIELDS;
+use tipstrike::model::QUANTITIES;
+
+fn json(arguments: &[&str]) -> Value {
+    let output = Command::new(env!("CARGO_BIN_EXE_tipstrike"))
+        .args(arguments)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
+    assert!(output.status.success());
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn keys(object: &Value) -> BTreeSet<&str> {
+    object
+        .as_object()
+        .unwrap()
+        .keys()
+        .map(String::as_str)
+        .collect()
+}
+
+#[test]
+fn the_schema_of_a_case_has_every_field_and_limit() {
+    let schema = json(&["schema"]);
+    let properties = &schema["properties"];
+    for field in FIELDS.iter() {
+        let table = match field.table() {
+            "" => properties,
+            table => &properties[table]["properties"],
+        };
+        let known = &table[field.name()];
+        assert!(known["description"].is_string(), "{}", field.key);
+    }
+    let limits = keys(&properties["limits"]["properties"]);
+    assert!(
+        QUANTITIES
+            .iter()
+            .all(|quantity| limits.contains(quantity.key))
+    );
+    assert!(properties["spread"]["properties"]["pair.module"]["properties"]["normal"].is_object());
+    assert_eq!(schema["additionalProperties"], false);
+}
+
+#[test]
+fn the_schema_of_the_results_has_every_key_that_solve_prints() {
+    let schema = json(&["schema", "--results"]);
+    for method in ["exact", "dynamic"] {
+        let arguments = ["solve", "cases/zhou-chen-2014.toml", "--format", "json"];
+        let solved = json(&[&arguments[..], &["--method", method]].concat());
+        let properties = &schema["properties"];
+        assert!(keys(&solved).is_subset(&keys(properties)));
+        let quantities = keys(&properties["quantities"]["properties"]);
+        assert!(keys(&solved["quantities"]).is_subset(&quantities));
+        let stations = keys(&properties["stations"]["items"]["properties"]);
+        assert!(keys(&solved["stations"][0]).is_subset(&stations));
+    }
+}
