@@ -102,12 +102,13 @@ fn print(schema: &Value, out: &mut dyn Write) -> io::Result<()> {
 
 /// An object with these members and no others.
 fn object(description: &str, members: Map<String, Value>) -> Value {
-    json!({
+    let mut schema = json!({
         "description": description,
         "type": "object",
-        "properties": members,
         "additionalProperties": false,
-    })
+    });
+    schema["properties"] = Value::Object(members);
+    schema
 }
 
 fn of_field(field: &Field) -> Value {
