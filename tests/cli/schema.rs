@@ -31,7 +31,7 @@ fn keys(object: &Value) -> BTreeSet<&str> {
 fn the_schema_of_a_case_has_every_field_and_limit() {
     let schema = json(&["schema"]);
     let properties = &schema["properties"];
-    for field in FIELDS.iter() {
+    for field in &FIELDS {
         let table = match field.table() {
             "" => properties,
             table => &properties[table]["properties"],
