@@ -1,43 +1,235 @@
-//! Which stages read a field, and which fields a quantity depends on.
+//! Which stages read a field, and which fields a quantity depends on: both follow from changes of the
+//! field.
 
-mod table;
 #[cfg(test)]
 mod tests;
 
-use super::FIELDS;
-use super::fields::Kind;
+use super::fields::{Kind, Range};
+use super::units::{self, Dimension};
+use super::{Case, FIELDS};
 use crate::model::compliance::model_of;
-use crate::model::{Inputs, Quantity, Stage, Stages};
-use table::{ROWS, Row};
+use crate::model::{self, Inputs, Quantity, Stage, Stages};
 
-/// The fields, by their place in [`FIELDS`], that a quantity depends on in a case with these
-/// inputs; in the order of the form.
-///
-/// What the case leaves aside is not among them: a deflection that is given needs no stiffness, and
-/// the fit of Kuang and Yang no bore. A field that is left out and would act if it were given is
-/// among them, such as the centre distance.
-///
-/// # Valid for
-/// Every digit, but for pairs on the brink of the close calls of
-/// [`Geometry::is_close_call`](crate::model::Geometry): there another field may turn double-double
-/// arithmetic on or off, and so move the last one.
+/// A field that a quantity depends on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dependence {
+    /// The place of the field in [`FIELDS`].
+    pub field: usize,
+    /// A small step of the field, if it has a number.
+    pub step: Option<Step>,
+}
+
+/// A small step of a field.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Step {
+    /// The step, such as `+1 um`.
+    pub text: &'static str,
+    /// The quantity after the step, in SI, if it has a value there.
+    pub value: Option<f64>,
+}
+
+/// The fields that a quantity depends on, in the order of the form: those that a stage behind the
+/// quantity reads and whose change moves `own`, the value of the quantity with these inputs. A
+/// quantity without a value, and one that is true or false, depends on every field that those
+/// stages read.
 #[must_use]
-pub fn fields_of(quantity: &Quantity, inputs: &Inputs) -> Vec<usize> {
-    let read = values_behind(quantity.key, inputs);
-    let reads = |key: &str| read.iter().any(|row| row.reads_field(key));
+pub fn fields_of(
+    quantity: &Quantity,
+    case: &Case,
+    inputs: &Inputs,
+    own: Option<f64>,
+) -> Vec<Dependence> {
+    let behind = Stages::of(quantity.stage);
+    let is_behind = |&field: &usize| stages_of(field, inputs).within(behind) != Stages::NONE;
+    let dependence = |field| {
+        let small = small_step(field, case, inputs);
+        let after = small
+            .as_ref()
+            .map(|(_, inputs)| Outcome::of(quantity, inputs));
+        let moves = own.is_none()
+            || quantity.is_flag()
+            || after.is_some_and(|after| after.differs(own) == Some(true))
+            || is_moved(quantity, own, field, case, inputs)
+                .or_else(|| is_moved_freely(quantity, field, case, inputs))
+                .unwrap_or_default();
+        let step = small.zip(after).map(|((text, _), after)| Step {
+            text,
+            value: after.value(),
+        });
+        moves.then_some(Dependence { field, step })
+    };
     (0..FIELDS.len())
-        .filter(|&field| reads(FIELDS[field].key))
+        .filter(is_behind)
+        .filter_map(dependence)
         .collect()
 }
 
-/// The stages that read a field in a case with these inputs: those whose inputs differ once the
-/// field holds another value.
+/// The value of a quantity with these inputs, in SI, if it has one.
+#[must_use]
+pub fn value_of(quantity: &Quantity, inputs: &Inputs) -> Option<f64> {
+    Outcome::of(quantity, inputs).value()
+}
+
+/// A quantity with other inputs.
+#[derive(Clone, Copy)]
+enum Outcome {
+    /// The pair cannot be solved.
+    Refused,
+    /// The value, if there is one.
+    Solved(Option<f64>),
+}
+
+impl Outcome {
+    fn of(quantity: &Quantity, inputs: &Inputs) -> Outcome {
+        let solution = model::solve(inputs, Stages::of(quantity.stage));
+        solution.map_or(Outcome::Refused, |solution| {
+            Outcome::Solved((quantity.value)(&solution).filter(|value| value.is_finite()))
+        })
+    }
+
+    fn value(self) -> Option<f64> {
+        match self {
+            Outcome::Refused => None,
+            Outcome::Solved(value) => value,
+        }
+    }
+
+    /// Whether the value differs in any bit, if the pair can be solved; a zero has no sign.
+    fn differs(self, own: Option<f64>) -> Option<bool> {
+        let bits = |value: Option<f64>| value.map(|value| (value + 0.0).to_bits());
+        match self {
+            Outcome::Refused => None,
+            Outcome::Solved(value) => Some(bits(value) != bits(own)),
+        }
+    }
+}
+
+/// A step that is small for the field, and the inputs after it.
+fn small_step(field: usize, case: &Case, inputs: &Inputs) -> Option<(&'static str, Inputs)> {
+    let now = case.value(field)?;
+    let mut inputs = inputs.clone();
+    let text = match FIELDS[field].kind {
+        Kind::Count(_, _, put) => {
+            put(&mut inputs, now as u32 + 1);
+            "+1"
+        }
+        Kind::Number(dimension, range, put) => {
+            let (text, to) = match (dimension, range.unit) {
+                (_, "um") => ("+1 um", now + 1e-6),
+                (Dimension::Number, _) => ("+0.01", now + 0.01),
+                (Dimension::Length, _) if now == 0.0 => ("+0.1 mm", 0.1e-3),
+                _ => ("+1 %", 1.01 * now),
+            };
+            put(&mut inputs, to);
+            text
+        }
+        Kind::Text | Kind::Choice(..) => return None,
+    };
+    Some((text, inputs))
+}
+
+/// Whether a larger change of a field moves a quantity; `None` where no change can be solved.
+fn is_moved(
+    quantity: &Quantity,
+    own: Option<f64>,
+    field: usize,
+    case: &Case,
+    inputs: &Inputs,
+) -> Option<bool> {
+    let moved = |put: &dyn Fn(&mut Inputs)| {
+        let mut other = inputs.clone();
+        put(&mut other);
+        Outcome::of(quantity, &other).differs(own)
+    };
+    match FIELDS[field].kind {
+        Kind::Text => Some(false),
+        Kind::Choice(names, put) => any((0..names.len()).map(|at| moved(&|other| put(other, at)))),
+        Kind::Count(from, _, put) => {
+            let now = case.value(field).unwrap_or_default() as u32;
+            let counts = [from, now + 1, now + now / 2, 2 * now].into_iter();
+            any(counts.map(|count| moved(&|other| put(other, count))))
+        }
+        Kind::Number(dimension, range, put) => {
+            let numbers = other_numbers(field, (dimension, range), case, inputs).into_iter();
+            any(numbers.map(|number| moved(&|other| put(other, number))))
+        }
+    }
+}
+
+/// Whether any answer is yes; `None` where there is none.
+fn any(answers: impl Iterator<Item = Option<bool>>) -> Option<bool> {
+    let mut known = None;
+    for answer in answers.flatten() {
+        known = Some(answer);
+        if answer {
+            break;
+        }
+    }
+    known
+}
+
+/// The same without the centre distance that the case gives: it fits the present gears alone.
+fn is_moved_freely(
+    quantity: &Quantity,
+    field: usize,
+    case: &Case,
+    inputs: &Inputs,
+) -> Option<bool> {
+    let free = Inputs {
+        centre_distance: None,
+        ..inputs.clone()
+    };
+    inputs
+        .centre_distance
+        .filter(|_| quantity.key != "centre_distance")?;
+    is_moved(quantity, value_of(quantity, &free), field, case, &free)
+}
+
+/// Numbers, in SI, to try in a field: about its value; if it has none, about the quantity of the
+/// same name, and an example.
+fn other_numbers(
+    field: usize,
+    (dimension, range): (Dimension, Range),
+    case: &Case,
+    inputs: &Inputs,
+) -> Vec<f64> {
+    /// Changes that a pair survives, of a centre distance and of any other number.
+    const FACTORS: [f64; 4] = [1.0002, 1.02, 0.8, 1.25];
+    /// Multiples of an example.
+    const EXAMPLES: [f64; 4] = [1.0, 0.2, 1.5, 30.0];
+    /// A number in the lower part of a range, for a field that is zero.
+    const SHARE: f64 = 1e-3;
+    let known = &FIELDS[field];
+    let now = case.value(field).or_else(|| {
+        let quantity = Quantity::find(known.name())?;
+        value_of(quantity, inputs)
+    });
+    let Some(now) = now else {
+        let example = units::parse(known.example(), dimension, range.unit);
+        let times = |example| EXAMPLES.map(|times| times * example);
+        return example.map_or_else(|_| Vec::new(), |example| times(example).into());
+    };
+    let mut numbers: Vec<f64> = FACTORS.map(|times| times * now).into();
+    numbers.push(within(range, SHARE));
+    numbers
+}
+
+/// The number, in SI, at a share of a range.
+fn within(range: Range, share: f64) -> f64 {
+    let factor = units::factor(range.unit).unwrap_or(1.0);
+    factor * (range.from + share * (range.to - range.from))
+}
+
+/// The stages that read a field in a case with these inputs: those that receive other inputs, or no
+/// longer run, if the field has another value.
 #[must_use]
 pub fn stages_of(field: usize, inputs: &Inputs) -> Stages {
     let others = with_other_values(field, inputs);
     let reads = |stage: &Stage| {
         let own = stage.inputs(inputs);
-        others.iter().any(|other| stage.inputs(other) != own)
+        others
+            .iter()
+            .any(|other| stage.inputs(other) != own || !other.method.stages().has(*stage))
     };
     let stages = inputs.method.stages().iter().filter(reads);
     stages.fold(Stages::NONE, Stages::with)
@@ -49,10 +241,11 @@ pub fn is_read(field: usize, inputs: &Inputs) -> bool {
     stages_of(field, inputs) != Stages::NONE
 }
 
-/// The inputs with other values in a field, so that one of them at least differs from the present.
+/// The inputs with other values in a field, at least one of which differs from the present value.
 fn with_other_values(field: usize, inputs: &Inputs) -> Vec<Inputs> {
-    /// Shares of the range, both unlike a value that a person types.
-    const SHARES: [f64; 2] = [0.381_966, 0.618_034];
+    /// Shares of the range: the least value, since the smaller of two may count, and two unlike
+    /// any that a person types.
+    const SHARES: [f64; 3] = [0.0, 0.381_966, 0.618_034];
     // Every stage that reads the model of the teeth reads what decides its range as well.
     let held = Inputs {
         tooth_compliance: Some(model_of(inputs)),
@@ -66,7 +259,7 @@ fn with_other_values(field: usize, inputs: &Inputs) -> Vec<Inputs> {
     match FIELDS[field].kind {
         Kind::Text => Vec::new(),
         Kind::Number(_, range, put) => SHARES
-            .map(|share| with(&|other| put(other, range.from + share * (range.to - range.from))))
+            .map(|share| with(&|other| put(other, within(range, share))))
             .into(),
         Kind::Count(from, to, put) => [from, to]
             .map(|count| with(&|other| put(other, count)))
@@ -75,26 +268,4 @@ fn with_other_values(field: usize, inputs: &Inputs) -> Vec<Inputs> {
             .map(|at| with(&|other| put(other, at)))
             .collect(),
     }
-}
-
-/// The rows that count in a case with these inputs.
-fn active(inputs: &Inputs) -> impl Iterator<Item = &'static Row> {
-    ROWS.iter().filter(move |row| row.when.is_true(inputs))
-}
-
-/// The rows of a value and of every value that it reads, in turn.
-fn values_behind(value: &str, inputs: &Inputs) -> Vec<&'static Row> {
-    let mut found: Vec<&Row> = active(inputs).filter(|row| row.value == value).collect();
-    let mut next = 0;
-    while let Some(&row) = found.get(next) {
-        let fresh: Vec<&Row> = active(inputs)
-            .filter(|other| {
-                row.reads.contains(&other.value)
-                    && found.iter().all(|known| known.value != other.value)
-            })
-            .collect();
-        found.extend(fresh);
-        next += 1;
-    }
-    found
 }

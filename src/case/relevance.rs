@@ -1,5 +1,4 @@
-//! Whether a field makes a difference in a case, and why it does not. That it does is what `reach`
-//! says; this adds the words.
+//! Whether a field makes a difference in a case, and why it does not.
 
 use super::dependencies::is_read;
 use super::fields::FIELDS;
@@ -152,9 +151,9 @@ const PARTS: &[Reason] = &[
     Reason {
         keys: &["driver.dedendum", "driven.dedendum"],
         when: |inputs| {
-            let tooth = model_of(inputs).model().reads;
-            let contact = contact_of(inputs).map_or(&[][..], |contact| contact.model().reads);
-            !tooth.iter().chain(contact).any(|&read| read == "profile")
+            let contact = contact_of(inputs);
+            !model_of(inputs).model().reads_root
+                && contact.is_none_or(|contact| !contact.model().reads_root)
         },
         why: "the tooth compliance does not read the root: only the stiffness spread changes, which tries the other models too",
     },

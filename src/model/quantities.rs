@@ -58,9 +58,6 @@ pub struct Quantity {
     pub checks: &'static [Check],
     /// Other words in some cases; the first variant whose condition is true is used.
     pub variants: &'static [Variant],
-    /// Fields by their keys, `*` for both gears, and values that the quantity reads, in the cases
-    /// of each condition.
-    pub reads: &'static [(When, &'static [&'static str])],
 }
 
 /// Other words on a quantity in some cases.

@@ -29,9 +29,8 @@ pub struct ContactModel {
     pub help: &'static str,
     /// Whether the compliance depends on the half-width, and so on load and curvature.
     pub reads_half_width: bool,
-    /// The keys of fields, `*` for both gears, and the values of the dependency table that the
-    /// compliance reads beyond the materials and the half-width.
-    pub reads: &'static [&'static str],
+    /// Whether the compliance depends on the root of the tooth, and so on the dedendum.
+    pub reads_root: bool,
     /// q_H at the impact force and the steps before it.
     pub steps: &'static [Step],
     /// Offset and slope of q_H = offset − slope ln a per unit width, in m²/N.

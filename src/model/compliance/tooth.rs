@@ -35,17 +35,14 @@ pub struct ToothModel {
     pub covers: fn(&Inputs) -> bool,
     /// Why a pair outside the range is outside, as the end of a sentence.
     pub why_outside: fn(&Inputs) -> String,
-    /// What decides whether the pair is in the range, see [`ToothModel::reads`].
-    pub range_reads: &'static [&'static str],
     /// Compares a pair with the range, for an explanation.
     pub check: fn(&Context) -> Option<Finding>,
     /// The note on a pair outside the range: its code and its message.
     pub outside: fn(&Inputs, &Geometry) -> Option<(&'static str, String)>,
     /// The code of the note that the range chose this model.
     pub chosen: &'static str,
-    /// The keys of fields, `*` for both gears, and the values of the dependency table that the
-    /// compliance reads beyond the load point, the module, tooth numbers and profile shifts.
-    pub reads: &'static [&'static str],
+    /// Whether the compliance depends on the root of the tooth, and so on the dedendum.
+    pub reads_root: bool,
     /// Whether the model includes the contact, so that the case's contact compliance is not used.
     pub has_contact: bool,
     /// q_1, q_2 and the steps before them; q_H as well if the model includes the contact.

@@ -1,6 +1,6 @@
 //! Rows of the load that the pairs share at rest.
 
-use super::conditions::{always, edges_read, friction_given, may_share_load};
+use super::conditions::friction_given;
 use super::{Quantity, Variant, checks, of_driver};
 use crate::model::Stage::{Mesh, Static};
 use crate::model::compliance::{ContactPlace, Teeth};
@@ -43,22 +43,6 @@ pub(super) const TABLE: &[Quantity] = &[
             depends on its place only.",
         checks: &[checks::teeth],
         variants: &[],
-        reads: &[
-            (always, &["method"]),
-            (
-                may_share_load,
-                &[
-                    "mesh_force",
-                    "start_of_contact",
-                    "end_of_contact",
-                    "base_pitch",
-                    "tooth_stiffness",
-                    "contact_stiffness",
-                    "*.face_width",
-                    "reliefs",
-                ],
-            ),
-        ],
     },
     Quantity {
         key: "static_first_contact_angle_driver",
@@ -78,7 +62,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: AT_REST,
         checks: CHECKS,
         variants: &[],
-        reads: &[(may_share_load, &["static_first_contact_angle"])],
     },
     Quantity {
         key: "static_first_contact_angle",
@@ -98,10 +81,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: AT_REST,
         checks: CHECKS,
         variants: &[],
-        reads: &[
-            (may_share_load, &["mesh"]),
-            (edges_read, &["driver.tip_radius"]),
-        ],
     },
     Quantity {
         key: "static_force_at_start",
@@ -121,7 +100,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: AT_REST,
         checks: CHECKS,
         variants: &[],
-        reads: &[(may_share_load, &["mesh", "edges"])],
     },
     Quantity {
         key: "static_peak_force",
@@ -150,7 +128,6 @@ pub(super) const TABLE: &[Quantity] = &[
                 single-tooth contact it carries the whole mesh force and the addition by \
                 friction.",
         )],
-        reads: &[(may_share_load, &["mesh", "edges"])],
     },
     Quantity {
         key: "static_last_contact_angle",
@@ -174,10 +151,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: AT_REST,
         checks: CHECKS,
         variants: &[],
-        reads: &[
-            (may_share_load, &["mesh"]),
-            (edges_read, &["driven.tip_radius"]),
-        ],
     },
     Quantity {
         key: "static_transmission_error",
@@ -201,7 +174,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: AT_REST,
         checks: CHECKS,
         variants: &[],
-        reads: &[(may_share_load, &["mesh", "edges"])],
     },
     Quantity {
         key: "pitch_contact_jump",
@@ -224,7 +196,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: AT_REST,
         checks: &[checks::at_rest],
         variants: &[],
-        reads: &[(may_share_load, &["mesh", "edges"])],
     },
 ];
 

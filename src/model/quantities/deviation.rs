@@ -1,9 +1,6 @@
 //! Rows of the deviations that bring a tooth into contact early.
 
-use super::conditions::{
-    always, at_rest, deflection_computed, deflection_used, edges_read, free_impact, in_motion,
-    may_move, may_share_load, paper, shared_load,
-};
+use super::conditions::{always, at_rest, deflection_used, in_motion, paper, shared_load};
 use super::{Quantity, Variant, checks};
 use crate::model::Context;
 use crate::model::Stage::{Clearing, Deviation};
@@ -55,13 +52,6 @@ pub(super) const TABLE: &[Quantity] = &[
                     exact counts its full amount.",
             ),
         ],
-        reads: &[
-            (
-                always,
-                &["deviations.base_pitch", "deviations.backlash", "method"],
-            ),
-            (free_impact, &["driven.tip_relief", "driver.root_relief"]),
-        ],
     },
     Quantity {
         key: "modification",
@@ -99,7 +89,6 @@ pub(super) const TABLE: &[Quantity] = &[
                     includes 1/√2 of it, as printed.",
             ),
         ],
-        reads: &[(always, &["driven.tip_relief", "driver.root_relief"])],
     },
     Quantity {
         key: "combined_deflection",
@@ -143,22 +132,6 @@ pub(super) const TABLE: &[Quantity] = &[
                     it.",
                 "The given deflection belongs to the load of the case. The program does not \
                     compare the two.",
-            ),
-        ],
-        reads: &[
-            (always, &["method"]),
-            (free_impact, &["model.deflection"]),
-            (
-                deflection_computed,
-                &[
-                    "mesh_force",
-                    "start_of_contact",
-                    "end_of_contact",
-                    "base_pitch",
-                    "tooth_stiffness",
-                    "contact_stiffness",
-                    "*.face_width",
-                ],
             ),
         ],
     },
@@ -207,15 +180,6 @@ pub(super) const TABLE: &[Quantity] = &[
                     angle before E.",
             ),
         ],
-        reads: &[(
-            always,
-            &[
-                "equivalent_error",
-                "combined_deflection",
-                "driven.tip_relief",
-                "driver.root_relief",
-            ],
-        )],
     },
     Quantity {
         key: "clearing_relief",
@@ -263,13 +227,6 @@ pub(super) const TABLE: &[Quantity] = &[
             contact is lost).",
         checks: &[checks::contact_kept],
         variants: &[],
-        reads: &[
-            (always, &["total_deviation", "method"]),
-            (paper, &["start_of_contact", "base_pitch"]),
-            (may_share_load, &["mesh"]),
-            (edges_read, &["driver.tip_radius"]),
-            (may_move, &["motion"]),
-        ],
     },
 ];
 

@@ -43,17 +43,6 @@ pub(super) const TABLE: &[Quantity] = &[
                 impact. D' is the point at which the triangle of Eq. 34 closes, after the time \
                 T_S,32.",
         )],
-        reads: &[(
-            always,
-            &[
-                "approach_angle_driven",
-                "operation.speed",
-                "impact_force",
-                "impact_duration_printed",
-                "reduced_mass",
-                "method",
-            ],
-        )],
     },
     Quantity {
         key: "stick_limit",
@@ -75,7 +64,6 @@ pub(super) const TABLE: &[Quantity] = &[
             flank.",
         checks: &[checks::coulomb],
         variants: &[],
-        reads: &[(always, &["normal_velocity", "sliding_velocity"])],
     },
     Quantity {
         key: "impulse_ratio",
@@ -97,15 +85,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: "The force follows half a sine over time.",
         checks: &[checks::possible],
         variants: &[],
-        reads: &[(
-            always,
-            &[
-                "impact_force",
-                "impact_duration",
-                "effective_mass",
-                "normal_velocity",
-            ],
-        )],
     },
 ];
 

@@ -1,7 +1,7 @@
 //! Rows of the geometry, the load and the steps on the way to them.
 
 use super::checks;
-use super::conditions::{always, distance_computed, distance_given, power_given};
+use super::conditions::{always, distance_given, power_given};
 use super::{Quantity, Variant};
 use crate::model::Context;
 use crate::model::Stage::{Geometry, Load};
@@ -31,10 +31,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: SPUR_PAIR,
         checks: &[checks::start, checks::end, checks::contact_ratio],
         variants: &[],
-        reads: &[(
-            always,
-            &["start_of_contact", "end_of_contact", "base_pitch"],
-        )],
     },
     Quantity {
         key: "base_pitch",
@@ -54,10 +50,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: SPUR_PAIR,
         checks: &[],
         variants: &[],
-        reads: &[(
-            always,
-            &["pair.module", "pair.pressure_angle", "model.accurate"],
-        )],
     },
     Quantity {
         key: "centre_distance",
@@ -81,17 +73,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: SPUR_PAIR,
         checks: &[checks::distance],
         variants: &[],
-        reads: &[
-            (always, &["pair.centre_distance"]),
-            (
-                distance_computed,
-                &[
-                    "base_circle_driver",
-                    "base_circle_driven",
-                    "working_pressure_angle",
-                ],
-            ),
-        ],
     },
     Quantity {
         key: "working_pressure_angle",
@@ -115,26 +96,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: SPUR_PAIR,
         checks: &[checks::distance],
         variants: &[],
-        reads: &[
-            (
-                distance_given,
-                &[
-                    "pair.centre_distance",
-                    "base_circle_driver",
-                    "base_circle_driven",
-                ],
-            ),
-            (
-                distance_computed,
-                &[
-                    "pair.centre_distance",
-                    "pair.pressure_angle",
-                    "*.teeth",
-                    "*.profile_shift",
-                    "model.accurate",
-                ],
-            ),
-        ],
     },
     Quantity {
         key: "mesh_force",
@@ -159,13 +120,6 @@ pub(super) const TABLE: &[Quantity] = &[
                 force with it. The case gives the deflection, so the load changes neither the \
                 place nor the force of the impact.",
         )],
-        reads: &[
-            (
-                always,
-                &["operation.power", "operation.torque", "base_circle_driver"],
-            ),
-            (power_given, &["operation.speed"]),
-        ],
     },
 ];
 

@@ -1,8 +1,8 @@
 //! Rows of the impact: force, energy, duration, and the values behind them.
 
-use super::conditions::{always, half_width_read, not_paper, paper, shared_load};
+use super::conditions::{always, paper, shared_load};
 use super::{Quantity, Variant, checks};
-use crate::model::Stage::{Band, Impact, Load};
+use crate::model::Stage::{Band, Impact, Masses};
 use crate::model::compliance::contact::plane_strain_compliance;
 use crate::model::explanation::Formula::{Cases, Made, Text};
 use crate::model::explanation::{Context, Step, step};
@@ -48,19 +48,6 @@ pub(super) const TABLE: &[Quantity] = &[
             checks::within_approach,
         ],
         variants: &[],
-        reads: &[
-            (
-                always,
-                &[
-                    "normal_velocity",
-                    "effective_mass",
-                    "teeth_compliance",
-                    "contact_stiffness",
-                    "*.face_width",
-                ],
-            ),
-            (half_width_read, &["curvature_radius"]),
-        ],
     },
     Quantity {
         key: "impact_force_low",
@@ -86,7 +73,6 @@ pub(super) const TABLE: &[Quantity] = &[
                 cover the pair.",
             BAND_SHARED,
         )],
-        reads: &[(always, &["impact_force", "every_model", "curvature_radius"])],
     },
     Quantity {
         key: "impact_force_high",
@@ -111,7 +97,6 @@ pub(super) const TABLE: &[Quantity] = &[
                 pair.",
             BAND_SHARED,
         )],
-        reads: &[(always, &["impact_force", "every_model", "curvature_radius"])],
     },
     Quantity {
         key: "dynamic_factor",
@@ -131,7 +116,6 @@ pub(super) const TABLE: &[Quantity] = &[
             the factor K_v of ISO 6336, which includes the whole mesh.",
         checks: &[checks::gap_closed, checks::within_approach],
         variants: &[],
-        reads: &[(always, &["impact_force", "mesh_force"])],
     },
     Quantity {
         key: "impact_duration",
@@ -156,11 +140,6 @@ pub(super) const TABLE: &[Quantity] = &[
             "Two spheres collide. The bending of the teeth, which determines the force, is \
                 neglected.",
         )],
-        reads: &[
-            (always, &["method"]),
-            (paper, &["impact_duration_printed"]),
-            (not_paper, &["impact_duration_spring"]),
-        ],
     },
     Quantity {
         key: "impact_duration_printed",
@@ -180,15 +159,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: SPHERES,
         checks: &[checks::printed_shorter],
         variants: &[],
-        reads: &[(
-            always,
-            &[
-                "reduced_mass",
-                "normal_velocity",
-                "curvature_radius",
-                "materials",
-            ],
-        )],
     },
     Quantity {
         key: "impact_duration_hertz",
@@ -209,7 +179,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: SPHERES,
         checks: &[],
         variants: &[],
-        reads: &[(always, &["impact_duration_printed"])],
     },
     Quantity {
         key: "impact_duration_spring",
@@ -229,10 +198,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: SPRING,
         checks: &[checks::within_approach, checks::teeth],
         variants: &[],
-        reads: &[(
-            always,
-            &["effective_mass", "pair_compliance", "*.face_width"],
-        )],
     },
     Quantity {
         key: "reduced_mass",
@@ -242,7 +207,7 @@ pub(super) const TABLE: &[Quantity] = &[
         shown: "kg",
         digits: 5,
         equation: "Eq. 33",
-        stage: Load,
+        stage: Masses,
         value: |s| Some(s.reduced_mass),
         meaning: "The masses of both gears on the line of action, combined in series. Eqs. 31 and \
             32 use it. The impact force uses the effective mass at D.",
@@ -254,7 +219,6 @@ pub(super) const TABLE: &[Quantity] = &[
             mass.",
         checks: &[checks::discs],
         variants: &[],
-        reads: &[(always, &["masses"])],
     },
     Quantity {
         key: "effective_mass",
@@ -274,7 +238,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: DISCS,
         checks: &[checks::discs],
         variants: &[],
-        reads: &[(always, &["masses", "contact_normal_radius_driven"])],
     },
     Quantity {
         key: "pair_compliance",
@@ -296,10 +259,6 @@ pub(super) const TABLE: &[Quantity] = &[
             that under the impact force.",
         checks: &[checks::teeth, checks::contact_small],
         variants: &[],
-        reads: &[
-            (always, &["teeth_compliance", "contact_stiffness"]),
-            (half_width_read, &["impact_force"]),
-        ],
     },
     Quantity {
         key: "hertz_half_width",
@@ -318,15 +277,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: "Smooth cylinders of the reduced radius at D over the full width.",
         checks: &[checks::contact_small, checks::edge],
         variants: &[],
-        reads: &[(
-            always,
-            &[
-                "impact_force",
-                "curvature_radius",
-                "materials",
-                "*.face_width",
-            ],
-        )],
     },
     Quantity {
         key: "impact_energy",
@@ -346,7 +296,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: "The gears approach at their steady speeds.",
         checks: &[checks::gap_closed],
         variants: &[],
-        reads: &[(always, &["effective_mass", "normal_velocity"])],
     },
     Quantity {
         key: "sliding_energy",
@@ -366,7 +315,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: "The effective mass along the normal also applies to the sliding, as printed.",
         checks: &[checks::gap_closed, checks::keeps_sliding],
         variants: &[],
-        reads: &[(always, &["effective_mass", "sliding_velocity"])],
     },
 ];
 

@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use super::conditions::always;
 use super::{Quantity, checks, of_driver};
 use crate::model::Context;
 use crate::model::Stage::Dynamic;
@@ -41,7 +40,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: IN_MOTION,
         checks: CHECKS,
         variants: &[],
-        reads: &[(always, &["dynamic_first_contact_angle"])],
     },
     Quantity {
         key: "dynamic_first_contact_angle",
@@ -61,7 +59,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: IN_MOTION,
         checks: CHECKS,
         variants: &[],
-        reads: &[(always, &["motion"])],
     },
     Quantity {
         key: "dynamic_peak_approach_force",
@@ -81,7 +78,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: IN_MOTION,
         checks: CHECKS,
         variants: &[],
-        reads: &[(always, &["motion"])],
     },
     Quantity {
         key: "dynamic_peak_force",
@@ -101,7 +97,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: IN_MOTION,
         checks: CHECKS,
         variants: &[],
-        reads: &[(always, &["motion"])],
     },
     Quantity {
         key: "dynamic_impact_duration",
@@ -121,7 +116,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: IN_MOTION,
         checks: CHECKS,
         variants: &[],
-        reads: &[(always, &["motion"])],
     },
     Quantity {
         key: "dynamic_last_contact_angle",
@@ -141,7 +135,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: IN_MOTION,
         checks: CHECKS,
         variants: &[],
-        reads: &[(always, &["motion"])],
     },
     Quantity {
         key: "dynamic_contact_lost",
@@ -161,7 +154,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: IN_MOTION,
         checks: &[checks::teeth, checks::forgotten],
         variants: &[],
-        reads: &[(always, &["motion"])],
     },
     Quantity {
         key: "dynamic_friction_work",
@@ -182,7 +174,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: IN_MOTION,
         checks: CHECKS,
         variants: &[],
-        reads: &[(always, &["motion"])],
     },
 ];
 

@@ -36,7 +36,6 @@ pub(super) const TABLE: &[Quantity] = &[
                 are linear in Δ. They place D so close to E that the tip has closed only a small \
                 part of its gap: see closed_gap.",
         )],
-        reads: &[(always, &["approach_angle_driven"])],
     },
     Quantity {
         key: "approach_angle_driven",
@@ -64,10 +63,6 @@ pub(super) const TABLE: &[Quantity] = &[
                 which are linear in Δ. They place D so close to E that the tip has closed only a \
                 small part of its gap: see closed_gap.",
         )],
-        reads: &[
-            (always, &["total_deviation", "start_of_contact", "method"]),
-            (paper, &["base_pitch"]),
-        ],
     },
     Quantity {
         key: "contact_radius_driver",
@@ -87,7 +82,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: TIP,
         checks: &[checks::on_flank, checks::gap_closed],
         variants: &[],
-        reads: &[(always, &["approach_angle_driven"])],
     },
     Quantity {
         key: "contact_normal_radius_driven",
@@ -107,7 +101,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: TIP,
         checks: &[checks::gap_closed],
         variants: &[],
-        reads: &[(always, &["approach_angle_driven"])],
     },
     Quantity {
         key: "curvature_radius",
@@ -128,7 +121,6 @@ pub(super) const TABLE: &[Quantity] = &[
             the case gives one. A sharp edge causes far higher pressure than either.",
         checks: &[checks::edge],
         variants: &[],
-        reads: &[(always, &["approach_angle_driven", "driven.tip_radius"])],
     },
     Quantity {
         key: "closed_gap",
@@ -150,10 +142,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: TIP,
         checks: &[checks::gap_closed],
         variants: &[],
-        reads: &[
-            (always, &["total_deviation", "method"]),
-            (paper, &["approach_angle_driven"]),
-        ],
     },
     Quantity {
         key: "transit_time",
@@ -173,7 +161,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: "Constant speed.",
         checks: &[checks::within_approach],
         variants: &[],
-        reads: &[(always, &["approach_angle_driven", "operation.speed"])],
     },
     Quantity {
         key: "normal_velocity",
@@ -193,7 +180,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: TIP,
         checks: &[checks::gap_closed],
         variants: &[],
-        reads: &[(always, &["approach_angle_driven", "operation.speed"])],
     },
     Quantity {
         key: "sliding_velocity",
@@ -213,7 +199,6 @@ pub(super) const TABLE: &[Quantity] = &[
         assumptions: TIP,
         checks: &[checks::gap_closed, checks::keeps_sliding],
         variants: &[],
-        reads: &[(always, &["approach_angle_driven", "operation.speed"])],
     },
 ];
 

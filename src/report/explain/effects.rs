@@ -2,12 +2,11 @@
 //! each.
 
 use super::context::{Known, factor};
-use super::uncertainty::{noise, value_of};
+use super::uncertainty::noise;
 use crate::case::FIELDS;
-use crate::case::dependencies::fields_of;
-use crate::case::fields::{Absent, Kind, index_of};
+use crate::case::dependencies::{Dependence, fields_of, value_of};
+use crate::case::fields::{Absent, index_of};
 use crate::case::sanitize::sanitize;
-use crate::case::units::Dimension;
 use crate::model::compliance::model_of;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Quantity, Stage};
@@ -32,11 +31,12 @@ pub struct Effect {
     pub change: String,
 }
 
-/// The fields behind a quantity, in the order of the form.
+/// The fields behind a quantity, in the order of the form; method `auto` derives the tolerance from
+/// `model.within`.
 pub(super) fn of(quantity: &Quantity, known: &Known) -> Vec<Effect> {
     // A step must not switch the stiffness model and must exceed the steps of the motion.
     let tolerance = known.context.inputs.tolerance.min(FINE);
-    let held = Inputs {
+    let fixed = Inputs {
         tooth_compliance: Some(model_of(known.context.inputs)),
         tolerance,
         ..known.context.inputs.clone()
@@ -44,92 +44,51 @@ pub(super) fn of(quantity: &Quantity, known: &Known) -> Vec<Effect> {
     let is_coarse = quantity.stage == Stage::Dynamic && tolerance < known.context.inputs.tolerance;
     let own = value(quantity, known.context.solution);
     let own = if is_coarse {
-        value_of(quantity, &held)
+        value_of(quantity, &fixed)
     } else {
         own
     };
-    fields(quantity, known)
-        .into_iter()
-        .filter_map(|field| effect(quantity, field, known, &held, own))
-        .collect()
-}
-
-/// The fields behind a quantity; method `auto` derives the tolerance from `model.within`.
-fn fields(quantity: &Quantity, known: &Known) -> Vec<usize> {
-    let [given, taken] = ["model.within", "model.tolerance"].map(index_of);
-    let by_auto = |field: usize| {
-        if known.context.given.method == Method::Auto && Some(field) == taken {
-            given
+    let [within, tolerance] = ["model.within", "model.tolerance"].map(index_of);
+    let by_auto = |dependence: Dependence| {
+        if known.context.given.method == Method::Auto && Some(dependence.field) == tolerance {
+            let step = None;
+            within.map(|field| Dependence { field, step })
         } else {
-            Some(field)
+            Some(dependence)
         }
     };
-    fields_of(quantity, known.context.inputs)
+    let noise = noise(quantity, &fixed);
+    fields_of(quantity, known.case, &fixed, own)
         .into_iter()
         .filter_map(by_auto)
+        .filter_map(|dependence| effect(quantity, &dependence, known, own, noise))
         .collect()
 }
 
 fn effect(
     quantity: &Quantity,
-    field: usize,
+    dependence: &Dependence,
     known: &Known,
-    held: &Inputs,
     own: Option<f64>,
+    noise: f64,
 ) -> Option<Effect> {
-    let known_field = &FIELDS[field];
-    let text = known
-        .case
-        .effective(field)
-        .map(sanitize)
-        .unwrap_or_default();
-    if text.is_empty() && matches!(known_field.absent, Absent::Either(_)) {
+    let (case, field) = (known.case, &FIELDS[dependence.field]);
+    let text = case.effective(dependence.field).map(sanitize);
+    let text = text.unwrap_or_default();
+    if text.is_empty() && matches!(field.absent, Absent::Either(_)) {
         return None;
     }
-    let stepped = known
-        .case
-        .value(field)
-        .and_then(|now| stepped(field, now, held));
-    let (step, inputs) = stepped.unzip();
-    let change = own.zip(inputs).map(|(own, inputs)| {
-        change(
-            quantity,
-            own,
-            value_of(quantity, &inputs),
-            noise(quantity, held),
-        )
-    });
-    let (step, change) = (step.unwrap_or_default(), change.unwrap_or_default());
+    let step = dependence.step.as_ref();
+    let change = own
+        .zip(step)
+        .map(|(own, step)| change(quantity, own, step.value, noise));
     Some(Effect {
-        key: known_field.key,
-        symbol: known_field.symbol,
+        key: field.key,
+        symbol: field.symbol,
         text,
-        step,
-        change,
+        step: step.map(|step| step.text.to_owned()).unwrap_or_default(),
+        change: change.unwrap_or_default(),
     })
-}
-
-/// A step that is small for the field, in words, and the inputs after it.
-fn stepped(field: usize, now: f64, held: &Inputs) -> Option<(String, Inputs)> {
-    let mut inputs = held.clone();
-    let step = match FIELDS[field].kind {
-        Kind::Count(_, _, put) => {
-            put(&mut inputs, now as u32 + 1);
-            "+1".to_owned()
-        }
-        Kind::Number(dimension, range, put) => {
-            let (step, to) = match (dimension, range.unit) {
-                (_, "um") => ("+1 um", now + 1e-6),
-                (Dimension::Number, _) => ("+0.01", now + 0.01),
-                (Dimension::Length, _) if now == 0.0 => ("+0.1 mm", 0.1e-3),
-                _ => ("+1 %", 1.01 * now),
-            };
-            put(&mut inputs, to);
-            step.to_owned()
-        }
-        Kind::Text | Kind::Choice(..) => return None,
-    };
-    Some((step, inputs))
 }
 
 /// A change of the value, relative or in the unit of the quantity.

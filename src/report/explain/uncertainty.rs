@@ -1,6 +1,7 @@
 //! The accuracy of a value: numerical error, spread of the stiffness models, methods side by side.
 
 use super::context::Known;
+use crate::case::dependencies::value_of;
 use crate::model::inputs::Method;
 use crate::model::stiffness_spread::StiffnessModels;
 use crate::model::{self, Inputs, Quantity, Stage, Stages};
@@ -69,14 +70,6 @@ fn tolerance(known: &Known) -> String {
     } else {
         format!("model.tolerance = {used:e}")
     }
-}
-
-/// The quantity's value with other inputs, if it has one.
-pub(super) fn value_of(quantity: &Quantity, inputs: &Inputs) -> Option<f64> {
-    value(
-        quantity,
-        &model::solve(inputs, Stages::of(quantity.stage)).ok()?,
-    )
 }
 
 /// The quantity by every stiffness model that covers the pair.

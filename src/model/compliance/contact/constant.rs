@@ -16,7 +16,7 @@ pub(super) const MODEL: ContactModel = ContactModel {
     index: "const",
     help: "Yang & Sun 1985",
     reads_half_width: false,
-    reads: &[],
+    reads_root: false,
     steps: &[Step {
         symbol: "q_H",
         meaning: "contact at any force, Yang & Sun 1985",

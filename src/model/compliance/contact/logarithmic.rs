@@ -16,7 +16,7 @@ pub(super) const MODEL: ContactModel = ContactModel {
     index: "log",
     help: "Eq. 55",
     reads_half_width: true,
-    reads: &["pair.module"],
+    reads_root: false,
     steps: &[Step {
         symbol: "q_H",
         meaning: "contact at the impact force, Eq. 55",

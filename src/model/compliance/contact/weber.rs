@@ -18,7 +18,7 @@ pub(super) const MODEL: ContactModel = ContactModel {
     index: "weber",
     help: "Weber & Banaschek 1953, from the thickness of the teeth",
     reads_half_width: true,
-    reads: &["profile"],
+    reads_root: true,
     steps: &[
         Step {
             symbol: "q_H",
