@@ -1,11 +1,13 @@
 //! The one table of fields, from which the form, the TOML keys, `--set` and the help are derived.
 
+pub mod reasons;
 mod table;
 
 use super::units::Dimension;
 use crate::model::Inputs;
 use crate::numeric::decimal::shortest;
 
+use reasons::{Reason, When};
 pub use table::FIELDS;
 
 /// One line of the form, one key of the case file.
@@ -21,8 +23,14 @@ pub struct Field {
     pub help: &'static str,
     /// What it holds.
     pub kind: Kind,
-    /// Whether a case may leave it out, and what then holds.
+    /// Whether a case may leave it out, and the value it has then.
     pub absent: Absent,
+    /// A text that shows how to write a value; empty where the default or a choice shows it.
+    pub example: &'static str,
+    /// Why it makes no difference in some cases, or less than expected; the first that fits counts.
+    pub reasons: &'static [Reason],
+    /// Whether a case reads it, where the inputs of the stages do not decide.
+    pub read_when: Option<When>,
 }
 
 /// What a field holds.
@@ -112,6 +120,32 @@ impl Field {
 }
 
 impl Field {
+    /// A field of text, from which rows start.
+    const PLAIN: Field = Field {
+        key: "",
+        symbol: "",
+        label: "",
+        help: "",
+        kind: Kind::Text,
+        absent: Absent::Default(""),
+        example: "",
+        reasons: &[],
+        read_when: None,
+    };
+
+    const fn with_example(self, example: &'static str) -> Field {
+        Field { example, ..self }
+    }
+
+    const fn reasons(self, reasons: &'static [Reason]) -> Field {
+        Field { reasons, ..self }
+    }
+
+    const fn read_when(self, when: When) -> Field {
+        let read_when = Some(when);
+        Field { read_when, ..self }
+    }
+
     /// Puts a value of this field into a model's inputs.
     pub fn put(&self, value: Value, inputs: &mut Inputs) {
         match (self.kind, value) {
@@ -150,10 +184,8 @@ impl Field {
         match (self.absent, self.kind) {
             (Absent::Default(text), _) if !text.is_empty() => text,
             (_, Kind::Choice(names, _)) => names.first().copied().unwrap_or_default(),
-            _ => EXAMPLES
-                .iter()
-                .find(|(name, _)| *name == self.name())
-                .map_or("a few words", |(_, text)| text),
+            (_, Kind::Text) => "a few words",
+            _ => self.example,
         }
     }
 
@@ -177,23 +209,6 @@ impl Field {
         }
     }
 }
-
-/// Values of fields that have no default, by the name within the table: Table 1 of the paper where
-/// it has one.
-const EXAMPLES: [(&str, &str); 12] = [
-    ("module", "5 mm"),
-    ("centre_distance", "100 mm"),
-    ("teeth", "20"),
-    ("face_width", "8 mm"),
-    ("tip_relief_length", "1 mm"),
-    ("root_relief_length", "1 mm"),
-    ("tip_radius", "0.2 mm"),
-    ("power", "15 kW"),
-    ("torque", "71.6 N m"),
-    ("speed", "2000 rpm"),
-    ("friction_coefficient", "0.06"),
-    ("deflection", "24.7 um"),
-];
 
 /// The place of a key in [`FIELDS`].
 #[must_use]

@@ -20,4 +20,5 @@ pub use derivation::{How, Leaf, Work};
 pub use effects::Effect;
 pub use json::write as write_json;
 pub use page::{Page, explain};
+pub use substitution::{Token, tokens};
 pub use text::{Kind, Line, lines, render};

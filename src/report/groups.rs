@@ -24,7 +24,7 @@ static GROUPS: [Group; 12] = [
     },
     Group {
         title: "Load",
-        stages: &[Stage::Load],
+        stages: &[Stage::Load, Stage::Masses],
     },
     Group {
         title: "Deviation",

@@ -1,8 +1,14 @@
 //! The table of fields itself: every line of the form, in order.
 
-use super::Absent::{self, Default, Either, Refused, Without};
+use super::Absent::{Default, Either, Refused, Without};
+use super::reasons::Reason::{Beside, Idle, Partly};
+use super::reasons::{
+    AT_RUN_OUT, CURVE, IN_TIME, LOAD, MASS, TIP_OF_DRIVER, WHOLE_RELIEF, always,
+    by_constant_contact, by_impact, is_driver, is_wider, root_is_read,
+};
 use super::{FLAG, Field, Kind, Range};
 use crate::case::units::Dimension;
+use crate::model::compliance::contact_of;
 use crate::model::inputs::{ContactCompliance, Drive, Method, ReliefShape, ToothCompliance};
 
 const fn range(from: f64, to: f64, unit: &'static str) -> Range {
@@ -12,11 +18,9 @@ const fn range(from: f64, to: f64, unit: &'static str) -> Range {
 const fn text(key: &'static str, label: &'static str, help: &'static str) -> Field {
     Field {
         key,
-        symbol: "",
         label,
         help,
-        kind: Kind::Text,
-        absent: Absent::Default(""),
+        ..Field::PLAIN
     }
 }
 
@@ -29,6 +33,7 @@ macro_rules! number {
             help: $help,
             kind: Kind::Number(Dimension::$dimension, range($from, $to, $unit), $put),
             absent: $absent,
+            ..Field::PLAIN
         }
     };
 }
@@ -43,35 +48,43 @@ macro_rules! gear {
                 help: "Whole number of teeth of the gear.",
                 kind: Kind::Count(5, 1000, |inputs, value| inputs.$gear.teeth = value),
                 absent: Refused,
-            },
+                ..Field::PLAIN
+            }.with_example("20"),
             number!(concat!(stringify!($gear), ".profile_shift"), concat!("x", $i), "profile shift", Number, -0.7, 1.2, "", Default("0"),
                 |inputs, value| inputs.$gear.profile_shift = value, "Profile shift coefficient, times the module."),
             number!(concat!(stringify!($gear), ".addendum"), concat!("ha*", $i), "addendum", Number, 0.1, 2.0, "", Default("1"),
-                |inputs, value| inputs.$gear.addendum = value, "Addendum coefficient, times the module: tip radius = m (z/2 + ha* + x)."),
+                |inputs, value| inputs.$gear.addendum = value, "Addendum coefficient, times the module: tip radius = m (z/2 + ha* + x).").reasons(&[Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER)]),
             number!(concat!(stringify!($gear), ".dedendum"), concat!("hf*", $i), "dedendum", Number, 0.5, 2.0, "", Default("1.25"),
-                |inputs, value| inputs.$gear.dedendum = value, "Dedendum coefficient of the cutting rack, times the module: root radius = m (z/2 - hf* + x)."),
+                |inputs, value| inputs.$gear.dedendum = value, "Dedendum coefficient of the cutting rack, times the module: root radius = m (z/2 - hf* + x).").reasons(&[Partly(
+                |inputs| !root_is_read(inputs),
+                "the tooth compliance does not read the root: only the stiffness spread changes, which tries the other models too",
+            )]),
             number!(concat!(stringify!($gear), ".face_width"), concat!("b", $i), "face width", Length, 0.1, 1000.0, "mm", Refused,
-                |inputs, value| inputs.$gear.face_width = value, "Face width; the smaller of the two carries the contact."),
+                |inputs, value| inputs.$gear.face_width = value, "Face width; the smaller of the two carries the contact.").with_example("8 mm").reasons(&[Partly(
+                |inputs| is_wider(inputs, inputs.$gear.face_width),
+                "only the narrower width carries, and the load at rest reads no masses",
+            )]),
             number!(concat!(stringify!($gear), ".bore_radius"), concat!("rh", $i), "bore radius", Length, 0.0, 25000.0, "mm", Default("0 mm"),
-                |inputs, value| inputs.$gear.bore_radius = value, "Radius of the bore: a radius, not a diameter."),
+                |inputs, value| inputs.$gear.bore_radius = value, "Radius of the bore: a radius, not a diameter.").reasons(&MASS),
             number!(concat!(stringify!($gear), ".young"), concat!("E", $i), "Young's modulus", Pressure, 0.001, 1000.0, "GPa", Default("206 GPa"),
                 |inputs, value| inputs.$gear.young = value, "Young's modulus of the gear's material."),
             number!(concat!(stringify!($gear), ".poisson"), concat!("ν", $i), "Poisson's ratio", Number, 0.0, 0.499, "", Default("0.3"),
                 |inputs, value| inputs.$gear.poisson = value, "Poisson's ratio of the gear's material."),
             number!(concat!(stringify!($gear), ".density"), concat!("ρ", $i), "density", Density, 1.0, 50000.0, "kg/m3", Default("7800 kg/m3"),
-                |inputs, value| inputs.$gear.density = value, "Density of the gear's material."),
+                |inputs, value| inputs.$gear.density = value, "Density of the gear's material.").reasons(&MASS),
             number!(concat!(stringify!($gear), ".tip_relief"), concat!("Ca", $i), "tip relief", Length, 0.0, 5000.0, "um", Default("0 um"),
-                |inputs, value| inputs.$gear.tip_relief = value, "Material removed at the tip, normal to the flank."),
+                |inputs, value| inputs.$gear.tip_relief = value, "Material removed at the tip, normal to the flank.").reasons(&[Idle(|inputs| is_driver($i) && by_impact(inputs), AT_RUN_OUT)]),
             number!(concat!(stringify!($gear), ".root_relief"), concat!("Cf", $i), "root relief", Length, 0.0, 5000.0, "um", Default("0 um"),
-                |inputs, value| inputs.$gear.root_relief = value, "Material removed at the root, normal to the flank."),
+                |inputs, value| inputs.$gear.root_relief = value, "Material removed at the root, normal to the flank.").reasons(&[Idle(|inputs| !is_driver($i) && by_impact(inputs), AT_RUN_OUT)]),
             Field {
                 key: concat!(stringify!($gear), ".tip_relief_length"),
                 symbol: concat!("La", $i),
                 label: "tip relief length",
-                help: "Length of the tip relief along the path of contact, from the tip; paper and exact know the tip alone, where the whole relief acts.",
+                help: "Length of the tip relief along the path of contact, from the tip; paper and exact apply the whole relief at the tip.",
                 kind: Kind::Number(Dimension::Length, range(0.0001, 1000.0, "mm"), |inputs, value| inputs.$gear.tip_relief_length = Some(value)),
                 absent: Without("to single contact"),
-            },
+                ..Field::PLAIN
+            }.with_example("1 mm").reasons(&WHOLE_RELIEF),
             Field {
                 key: concat!(stringify!($gear), ".root_relief_length"),
                 symbol: concat!("Lf", $i),
@@ -79,21 +92,31 @@ macro_rules! gear {
                 help: "Length of the root relief along the path of contact, from its end at the root; static and dynamic alone.",
                 kind: Kind::Number(Dimension::Length, range(0.0001, 1000.0, "mm"), |inputs, value| inputs.$gear.root_relief_length = Some(value)),
                 absent: Without("to single contact"),
-            },
+                ..Field::PLAIN
+            }.with_example("1 mm").reasons(&WHOLE_RELIEF),
             number!(concat!(stringify!($gear), ".tip_chamfer"), concat!("hk", $i), "tip chamfer", Length, 0.0, 50.0, "mm", Default("0 mm"),
-                |inputs, value| inputs.$gear.tip_chamfer = value, "Radial height of the chamfer; shortens the active tip."),
+                |inputs, value| inputs.$gear.tip_chamfer = value, "Radial height of the chamfer; shortens the active tip.").reasons(&[Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER)]),
             number!(concat!(stringify!($gear), ".tip_radius"), concat!("re", $i), "tip edge radius", Length, 0.0001, 50.0, "mm", Without("flank's own"),
-                |inputs, value| inputs.$gear.tip_radius = Some(value), "Radius of the tip's edge; else the flank's own curvature counts."),
+                |inputs, value| inputs.$gear.tip_radius = Some(value), "Radius of the tip's edge; else the flank's own curvature counts.").with_example("0.2 mm").reasons(&[
+                Idle(
+                    |inputs| is_driver($i) && by_impact(inputs),
+                    "the driver's tip touches at run-out only, which this method does not follow",
+                ),
+                Idle(
+                    by_constant_contact,
+                    "the contact compliance of this case does not depend on curvature",
+                ),
+            ]),
         ]
     };
 }
 
-const DRIVER: [Field; 15] = gear!(driver, "1");
-const DRIVEN: [Field; 15] = gear!(driven, "2");
+const DRIVER: &[Field] = &gear!(driver, "1");
+const DRIVEN: &[Field] = &gear!(driven, "2");
 
-const HEAD: [Field; 5] = [
-    text("title", "title", "A name for the case."),
-    text("notes", "notes", "Where the numbers come from."),
+const HEAD: &[Field] = &[
+    text("title", "title", "A name for the case.").reasons(&[Beside("a name for people")]),
+    text("notes", "notes", "Where the numbers come from.").reasons(&[Beside("words for people")]),
     number!(
         "pair.module",
         "m",
@@ -105,7 +128,8 @@ const HEAD: [Field; 5] = [
         Refused,
         |inputs, value| inputs.module = value,
         "Module of both gears."
-    ),
+    )
+    .with_example("5 mm"),
     number!(
         "pair.pressure_angle",
         "α",
@@ -129,10 +153,11 @@ const HEAD: [Field; 5] = [
         Without("no backlash"),
         |inputs, value| inputs.centre_distance = Some(value),
         "Centre distance; else from the profile shifts, without backlash."
-    ),
+    )
+    .with_example("100 mm"),
 ];
 
-const TAIL: [Field; 18] = [
+const TAIL: &[Field] = &[
     number!(
         "deviations.base_pitch",
         "f_pb",
@@ -168,7 +193,7 @@ const TAIL: [Field; 18] = [
         Either("operation.torque"),
         |inputs, value| inputs.drive = Drive::Power(value),
         "Power on the driver; give power or torque."
-    ),
+    ).with_example("15 kW").reasons(&LOAD),
     number!(
         "operation.torque",
         "T1",
@@ -180,7 +205,7 @@ const TAIL: [Field; 18] = [
         Either("operation.power"),
         |inputs, value| inputs.drive = Drive::Torque(value),
         "Torque on the driver; give power or torque."
-    ),
+    ).with_example("71.6 N m").reasons(&LOAD),
     number!(
         "operation.speed",
         "n1",
@@ -192,7 +217,10 @@ const TAIL: [Field; 18] = [
         Refused,
         |inputs, value| inputs.speed = value,
         "Speed of the driver."
-    ),
+    ).with_example("2000 rpm").reasons(&[Partly(
+        |inputs| inputs.method == Method::Static && matches!(inputs.drive, Drive::Torque(_)),
+        "where the torque is given, the load at rest reads no speed: only the free impact changes",
+    )]),
     number!(
         "operation.friction_coefficient",
         "μ",
@@ -203,18 +231,21 @@ const TAIL: [Field; 18] = [
         "",
         Without("not given"),
         |inputs, value| inputs.friction_coefficient = Some(value),
-        "Coulomb friction coefficient: beside the kinematic ratio; in static and dynamic friction acts at the teeth."
-    ),
+        "Coulomb friction coefficient; static and dynamic apply friction at the teeth."
+    ).with_example("0.06").reasons(&[Beside(
+        "a note compares it with the stick limit; no quantity of this method depends on it",
+    )]),
     Field {
         key: "model.method",
         symbol: "",
         label: "method",
-        help: "paper: as printed, typesetting mended. exact: exact position, free impact. static: load shared by all pairs. dynamic: with inertia. auto: the cheapest that will do.",
+        help: "paper: as printed, misprints fixed. exact: exact position, free impact. static: all pairs share the load. dynamic: with inertia. auto: the fastest within the tolerance.",
         kind: Kind::Choice(
             &["paper", "exact", "static", "dynamic", "auto"],
             |inputs, value| inputs.method = Method::ALL[value],
         ),
         absent: Default("exact"),
+        ..Field::PLAIN
     },
     number!(
         "model.deflection",
@@ -227,7 +258,10 @@ const TAIL: [Field; 18] = [
         Without("from the load"),
         |inputs, value| inputs.deflection = Some(value),
         "Combined deflection of the loaded pair; else computed from the load."
-    ),
+    ).with_example("24.7 um").reasons(&[Idle(
+        |inputs| inputs.method.shares_load(),
+        "this method computes the deflection from the load",
+    )]),
     Field {
         key: "model.tooth_compliance",
         symbol: "q1,q2",
@@ -237,6 +271,7 @@ const TAIL: [Field; 18] = [
             inputs.tooth_compliance = Some(ToothCompliance::ALL[value]);
         }),
         absent: Without("by the method"),
+        ..Field::PLAIN
     },
     Field {
         key: "model.contact_compliance",
@@ -247,7 +282,11 @@ const TAIL: [Field; 18] = [
             inputs.contact_compliance = ContactCompliance::ALL[value];
         }),
         absent: Default(ContactCompliance::NAMES[0]),
-    },
+        ..Field::PLAIN
+    }.reasons(&[Idle(
+        |inputs| contact_of(inputs).is_none(),
+        "the tooth compliance of this case includes the contact",
+    )]),
     Field {
         key: "model.relief_shape",
         symbol: "",
@@ -257,7 +296,8 @@ const TAIL: [Field; 18] = [
             inputs.relief_shape = ReliefShape::ALL[value];
         }),
         absent: Default("linear"),
-    },
+        ..Field::PLAIN
+    }.reasons(&WHOLE_RELIEF),
     number!(
         "model.damping_ratio",
         "ζ",
@@ -269,7 +309,7 @@ const TAIL: [Field; 18] = [
         Default("0.07"),
         |inputs, value| inputs.damping_ratio = value,
         "Damping ratio of the mean mesh stiffness while a pair is in contact; dynamic alone."
-    ),
+    ).reasons(&[Idle(always, IN_TIME)]),
     Field {
         key: "model.warmup_cycles",
         symbol: "",
@@ -277,7 +317,8 @@ const TAIL: [Field; 18] = [
         help: "Base pitches that pass before the incoming tooth reaches E, from the static balance on; dynamic alone.",
         kind: Kind::Count(1, 10000, |inputs, value| inputs.warmup_cycles = value),
         absent: Default("20"),
-    },
+        ..Field::PLAIN
+    }.reasons(&[Idle(always, IN_TIME)]),
     number!(
         "model.tolerance",
         "",
@@ -288,8 +329,16 @@ const TAIL: [Field; 18] = [
         "",
         Default("1e-6"),
         |inputs, value| inputs.tolerance = value,
-        "Relative error that the peak force may have, where the motion is damped; dynamic alone."
-    ),
+        "Permitted relative error of the peak force of a damped motion; dynamic alone."
+    ).read_when(|inputs| inputs.method == Method::Dynamic)
+    .reasons(&[
+        Idle(
+            |inputs| inputs.method == Method::Auto,
+            "the method auto derives the tolerance from the field below",
+        ),
+        Idle(always, IN_TIME),
+        Partly(always, "changes results by no more than itself"),
+    ]),
     number!(
         "model.within",
         "",
@@ -300,8 +349,11 @@ const TAIL: [Field; 18] = [
         "",
         Default("0.05"),
         |inputs, value| inputs.within = value,
-        "Relative error against the method dynamic that the method auto may leave."
-    ),
+        "Permitted relative error of the method auto against the method dynamic."
+    ).read_when(|inputs| inputs.method == Method::Auto).reasons(&[Idle(
+        always,
+        "only the method auto chooses by a permitted error",
+    )]),
     Field {
         key: "model.stations",
         symbol: "n",
@@ -311,7 +363,8 @@ const TAIL: [Field; 18] = [
             inputs.stations = (value > 0).then_some(value as usize);
         }),
         absent: Default("64"),
-    },
+        ..Field::PLAIN
+    }.reasons(&[Partly(always, CURVE)]),
     number!(
         "model.station_tolerance",
         "",
@@ -322,33 +375,44 @@ const TAIL: [Field; 18] = [
         "",
         Default("1e-3"),
         |inputs, value| inputs.station_tolerance = value,
-        "How far the curve may lie off the lines between stations, over its peak; with stations = \"auto\" alone."
-    ),
+        "Permitted distance of the curve from the lines between stations, over its peak; used with stations = \"auto\"."
+    ).read_when(|inputs| inputs.stations.is_none()).reasons(&[
+        Idle(
+            |inputs| inputs.stations.is_some(),
+            "the case gives the number of stations",
+        ),
+        Partly(always, CURVE),
+    ]),
     Field {
         key: "model.accurate",
         symbol: "",
         label: "accurate",
-        help: "Geometry and position in double-double arithmetic: the last digit, for some twenty times the cost.",
+        help: "Computes geometry and position in double-double arithmetic: exact to the last digit, about 20 times slower.",
         kind: Kind::Choice(FLAG, |inputs, value| inputs.accurate = value == 1),
         absent: Default("false"),
-    },
+        ..Field::PLAIN
+    }.reasons(&[Partly(
+        always,
+        "changes only digits beyond those shown",
+    )]),
 ];
 
-/// Every field, in the order of the form and of a new file.
-pub static FIELDS: [Field; 53] = table();
+/// The rows by groups, in the order of the form and of a new file.
+const PARTS: [&[Field]; 4] = [HEAD, DRIVER, DRIVEN, TAIL];
 
-const fn table() -> [Field; 53] {
-    let mut all = [HEAD[0]; 53];
-    let parts: [&[Field]; 4] = [&HEAD, &DRIVER, &DRIVEN, &TAIL];
+const COUNT: usize = HEAD.len() + DRIVER.len() + DRIVEN.len() + TAIL.len();
+
+/// Every field, in the order of the form and of a new file.
+pub static FIELDS: [Field; COUNT] = {
+    let mut all = [Field::PLAIN; COUNT];
     let (mut part, mut at) = (0, 0);
-    while part < parts.len() {
-        let mut index = 0;
-        while index < parts[part].len() {
-            all[at] = parts[part][index];
-            at += 1;
-            index += 1;
+    while part < PARTS.len() {
+        let mut row = 0;
+        while row < PARTS[part].len() {
+            all[at] = PARTS[part][row];
+            (at, row) = (at + 1, row + 1);
         }
         part += 1;
     }
     all
-}
+};

@@ -40,17 +40,24 @@ pub(super) fn with_unit(number: &str, unit: &str) -> String {
     }
 }
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Token<'a> {
+/// A part of a formula, as written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Token<'a> {
+    /// A number, or π.
     Number(&'a str),
+    /// The symbol of a value.
     Symbol(&'a str),
+    /// The name of a function, or √.
     Function(&'a str),
+    /// A unit, without its brackets.
     Unit(&'a str),
+    /// An operator, a parenthesis, a comma or an exponent.
     Mark(char),
 }
 
 /// The tokens of a formula; `None` for a character that no formula has.
-fn tokens(text: &str) -> Option<Vec<Token<'_>>> {
+#[must_use]
+pub fn tokens(text: &str) -> Option<Vec<Token<'_>>> {
     let mut found = Vec::new();
     let mut rest = text.trim_start();
     while let Some(first) = rest.chars().next() {

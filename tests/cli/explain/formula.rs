@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::evaluate::factor;
+use tipstrike::report::explain::{Token, tokens};
 
 /// A right-hand side.
 #[derive(Debug, Clone, PartialEq)]
@@ -138,75 +139,29 @@ impl Tree {
     }
 }
 
-#[derive(Debug, Clone, PartialEq)]
-enum Token {
-    Number(String),
-    Word(String),
-    Unit(String),
-    Mark(char),
-}
-
 const SUPERSCRIPTS: [(char, &str); 3] = [('²', "2"), ('³', "3"), ('⁴', "4")];
 
-fn tokens(text: &str) -> Option<Vec<Token>> {
-    let mut found = Vec::new();
-    let mut rest = text.trim_start();
-    while let Some(first) = rest.chars().next() {
-        let length = match first {
-            '0'..='9' => length(rest, |c, _| c.is_ascii_digit() || c == '.'),
-            _ if is_letter(first) => length(rest, |c, next| {
-                is_letter(c) || "_'*".contains(c) || c == ',' && is_letter(next)
-            }),
-            '[' => rest.find(']')? + 1,
-            _ => first.len_utf8(),
-        };
-        let (token, after) = rest.split_at(length);
-        found.push(match first {
-            '0'..='9' => Token::Number(token.to_owned()),
-            _ if is_letter(first) => Token::Word(token.to_owned()),
-            '[' => Token::Unit(token[1..token.len() - 1].to_owned()),
-            '+' | '-' | '·' | '/' | '^' | '(' | ')' | ',' | '|' | '√' => Token::Mark(first),
-            _ if SUPERSCRIPTS.iter().any(|(mark, _)| *mark == first) => Token::Mark(first),
-            _ => return None,
-        });
-        rest = after.trim_start();
-    }
-    Some(found)
-}
-
-fn is_letter(c: char) -> bool {
-    c.is_alphanumeric() && SUPERSCRIPTS.iter().all(|(mark, _)| *mark != c)
-}
-
-/// How many bytes of the text belong to its first token.
-fn length(text: &str, belongs: impl Fn(char, char) -> bool) -> usize {
-    let next = |at: usize, c: char| text[at + c.len_utf8()..].chars().next().unwrap_or(' ');
-    text.char_indices()
-        .find(|&(at, c)| !belongs(c, next(at, c)))
-        .map_or(text.len(), |(at, _)| at)
-}
-
 /// Tokens and how many of them are read.
-struct Reader {
-    tokens: Vec<Token>,
+struct Reader<'a> {
+    tokens: Vec<Token<'a>>,
     at: usize,
 }
 
-impl Reader {
-    fn peek(&self) -> Option<&Token> {
-        self.tokens.get(self.at)
+impl<'a> Reader<'a> {
+    fn peek(&self) -> Option<Token<'a>> {
+        self.tokens.get(self.at).copied()
     }
 
     /// Whether the mark came next; then it is read.
     fn took(&mut self, mark: char) -> bool {
-        let is_next = self.peek() == Some(&Token::Mark(mark));
+        let is_next = self.peek() == Some(Token::Mark(mark));
         self.at += usize::from(is_next);
         is_next
     }
 
     fn sum(&mut self) -> Option<Tree> {
         let mut terms = vec![(self.took('-'), self.product()?)];
-        while let Some(&Token::Mark(mark @ ('+' | '-'))) = self.peek() {
+        while let Some(Token::Mark(mark @ ('+' | '-'))) = self.peek() {
             self.at += 1;
             terms.push((mark == '-', self.product()?));
         }
@@ -224,7 +179,13 @@ impl Reader {
             let is_factor = divides || self.took('·');
             let follows = matches!(
                 self.peek(),
-                Some(Token::Number(_) | Token::Word(_) | Token::Unit(_) | Token::Mark('(' | '√'))
+                Some(
+                    Token::Number(_)
+                        | Token::Symbol(_)
+                        | Token::Function(_)
+                        | Token::Unit(_)
+                        | Token::Mark('(')
+                )
             );
             if !is_factor && !follows {
                 break;
@@ -254,18 +215,18 @@ impl Reader {
     }
 
     fn base(&mut self) -> Option<Tree> {
-        let token = self.peek()?.clone();
+        let token = self.peek()?;
         self.at += 1;
         match token {
-            Token::Number(text) => Some(Tree::Number(text)),
-            Token::Word(word) if word == "π" => Some(Tree::Pi),
-            Token::Word(word) => match FUNCTIONS.into_iter().find(|function| function.name == word)
-            {
-                Some(function) => self.call(function),
-                None => Some(Tree::Symbol(word)),
-            },
-            Token::Unit(unit) => Some(Tree::Unit(unit)),
-            Token::Mark('√') => Some(Tree::Root(Box::new(self.base()?))),
+            Token::Number("π") => Some(Tree::Pi),
+            Token::Number(text) => Some(Tree::Number(text.to_owned())),
+            Token::Symbol(symbol) => Some(Tree::Symbol(symbol.to_owned())),
+            Token::Function("√") => Some(Tree::Root(Box::new(self.base()?))),
+            Token::Function(name) => {
+                let mut functions = FUNCTIONS.into_iter();
+                self.call(functions.find(|function| function.name == name)?)
+            }
+            Token::Unit(unit) => Some(Tree::Unit(unit.to_owned())),
             Token::Mark('(') => self.closed(')'),
             Token::Mark('|') => Some(Tree::Absolute(Box::new(self.closed('|')?))),
             Token::Mark(_) => None,

@@ -1,0 +1,74 @@
+//! Why a field makes no difference in a case, or less than expected: the vocabulary of the rows.
+
+use crate::model::Inputs;
+use crate::model::compliance::{contact_of, model_of};
+use crate::model::inputs::Method;
+
+use Reason::{Idle, Partly};
+
+/// A condition on the inputs.
+pub type When = fn(&Inputs) -> bool;
+
+/// Why a field makes no difference in a case, or less than expected.
+#[derive(Debug, Clone, Copy)]
+pub enum Reason {
+    /// No stage reads the field.
+    Idle(When, &'static str),
+    /// No stage reads the field, and reports show it beside the results.
+    Beside(&'static str),
+    /// A stage reads the field, and less depends on it than expected.
+    Partly(When, &'static str),
+}
+
+pub(super) const AT_RUN_OUT: &str = "at run-in the driven tip meets the driver's root: this relief acts at run-out, which this method does not follow";
+pub(super) const TIP_OF_DRIVER: &str = "the driver's tip leaves contact at B: at run-in it counts only by how many pairs carry the load";
+pub(super) const IN_TIME: &str = "only the method dynamic follows the motion in time";
+pub(super) const CURVE: &str = "changes only how closely the curve is sampled";
+
+/// Of relief lengths and shapes.
+pub(super) const WHOLE_RELIEF: [Reason; 1] = [Idle(
+    by_impact,
+    "this method takes the whole relief at the first contact, whatever its length and shape",
+)];
+
+/// Of the load.
+pub(super) const LOAD: [Reason; 1] = [Partly(
+    |inputs| inputs.method != Method::Auto && inputs.deflection_taken().is_some(),
+    "with the deflection given, the load changes F_0, not the impact",
+)];
+
+/// Of the masses.
+pub(super) const MASS: [Reason; 1] = [Partly(
+    |inputs| inputs.method == Method::Static,
+    "the load at rest reads no masses: the free impact changes, and with the beam the stiffness",
+)];
+
+pub(super) fn always(_: &Inputs) -> bool {
+    true
+}
+
+pub(super) fn by_impact(inputs: &Inputs) -> bool {
+    !inputs.method.shares_load()
+}
+
+/// Whether the index of a gear is that of the driver.
+pub(super) fn is_driver(index: &str) -> bool {
+    index == "1"
+}
+
+/// Whether no gear is wider than this face width, at rest.
+pub(super) fn is_wider(inputs: &Inputs, width: f64) -> bool {
+    let widest = inputs.driver.face_width.max(inputs.driven.face_width);
+    inputs.method == Method::Static && width >= widest
+}
+
+/// Whether a compliance of the case reads the root of the teeth.
+pub(super) fn root_is_read(inputs: &Inputs) -> bool {
+    model_of(inputs).model().reads_root
+        || contact_of(inputs).is_some_and(|contact| contact.model().reads_root)
+}
+
+/// Whether no compliance of the case depends on curvature.
+pub(super) fn by_constant_contact(inputs: &Inputs) -> bool {
+    contact_of(inputs).is_some_and(|contact| !contact.model().reads_half_width)
+}
