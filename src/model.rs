@@ -17,6 +17,7 @@ pub mod field;
 pub mod friction;
 pub mod gear_pose;
 pub mod geometry;
+pub mod grade;
 pub mod impact;
 pub mod inertia;
 pub mod inputs;

@@ -1,8 +1,10 @@
 //! What a form says about a field beside its text: its usual unit, its range, its value in other
 //! units.
 
-use super::fields::{Absent, Field, Kind};
+use super::Case;
+use super::fields::{Absent, FIELDS, Field, Kind};
 use super::units::{self, System};
+use crate::model::explanation::tidy;
 use crate::numeric::decimal::significant;
 
 /// Significant digits of the ends of a range that is not told as the table of fields has it.
@@ -74,10 +76,32 @@ impl Field {
     }
 }
 
+impl Case {
+    /// The value that other fields give to a field that is left out: the base pitch deviation of a
+    /// gear by its grade, or the common one.
+    #[must_use]
+    pub fn computed(&self, field: usize) -> Option<String> {
+        const DIGITS: usize = 4;
+        let key = FIELDS[field].key;
+        let table = key.strip_suffix(".base_pitch")?;
+        let (inputs, _) = self.read();
+        let gear = match table {
+            "driver" => &inputs.driver,
+            "driven" => &inputs.driven,
+            _ => return None,
+        };
+        if gear.grade.is_some() && (gear.teeth == 0 || inputs.module <= 0.0) {
+            return None;
+        }
+        let (deviation, _) = inputs.base_pitch_of(gear);
+        Some(format!("{} um", tidy(deviation * 1e6, DIGITS)))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::fields::{FIELDS, index_of};
+    use crate::case::fields::index_of;
 
     fn field(key: &str) -> &'static Field {
         &FIELDS[index_of(key).unwrap()]

@@ -102,7 +102,7 @@ impl Entry {
         Entry {
             symbols: [symbol, stem],
             words: [
-                (40, words(label)),
+                (41, words(label).into_iter().chain([plain(label)]).collect()),
                 (30, name),
                 (20, words(group)),
                 (10, words(help)),
@@ -112,11 +112,12 @@ impl Entry {
 
     /// How well the entry fits one word of the query; `None` where it does not.
     fn score(&self, sought: &str) -> Option<u32> {
-        let symbol = self
-            .symbols
-            .iter()
-            .any(|symbol| symbol == sought)
-            .then_some(100);
+        let [whole, stem] = &self.symbols;
+        let symbol = if whole == sought {
+            Some(101)
+        } else {
+            (stem == sought).then_some(100)
+        };
         let begun = self.symbols[0].starts_with(sought).then_some(60);
         let word = self.words.iter().filter_map(|(weight, words)| {
             let best = words.iter().filter_map(|word| fit(sought, word)).max()?;

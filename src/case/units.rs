@@ -42,6 +42,8 @@ pub enum Dimension {
     Mass,
     /// J.
     Energy,
+    /// kg m².
+    Inertia,
     /// m²/N.
     Compliance,
     /// N/m.

@@ -53,7 +53,11 @@ impl ElasticGear {
     pub fn of(inputs: &Inputs, gear: &Gear) -> ElasticGear {
         ElasticGear {
             rack: Rack::of(inputs, gear),
-            shape: gear.shape(),
+            // The rounding of the tip moves the load, not the stiffness of the tooth.
+            shape: GearShape {
+                tip_radius: None,
+                ..gear.shape()
+            },
             bore_radius: gear.bore_radius,
             young: gear.young,
             poisson: gear.poisson,
@@ -124,7 +128,7 @@ impl ContactPlace {
     pub fn at_tip(tip_radius: Option<f64>, geometry: &Geometry, tip: &TipContact) -> ContactPlace {
         ContactPlace {
             radius_driver: tip.radius_driver,
-            radius_driven: geometry.driven.tip,
+            radius_driven: tip.radius_driven,
             curvature_radius: super::position::reduced_curvature(tip_radius, geometry, tip),
         }
     }

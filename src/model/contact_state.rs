@@ -234,7 +234,7 @@ fn run_out(
         roll_angle_driver: roll_angle,
         roll_angle_driven: roll_angle / inputs.ratio(),
         point: Point2::new(geometry.centre_distance - point.x, -point.y),
-        radius_driver: geometry.driven.tip,
+        radius_driver: tip.radius_driven,
         gap,
         opening: if told.is_some() { 0.0 } else { gap },
         normal_velocity: -velocity.normal,

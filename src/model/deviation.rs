@@ -13,8 +13,8 @@ use crate::numeric::Real;
 pub struct DeviationInputs {
     /// `paper` scales the reliefs as printed; `static` and `dynamic` leave them to the flanks.
     pub method: Method,
-    /// Base pitch deviation f_pb, in m.
-    pub base_pitch: f64,
+    /// Base pitch deviations f_pb of driver and driven gear, in m.
+    pub base_pitches: [f64; 2],
     /// Normal backlash j_bn, in m.
     pub backlash: f64,
     /// Tip relief of the driven gear, in m.
@@ -44,7 +44,7 @@ impl Inputs {
     pub fn deviation(&self) -> DeviationInputs {
         DeviationInputs {
             method: self.method,
-            base_pitch: self.base_pitch_deviation,
+            base_pitches: self.base_pitches(),
             backlash: self.backlash,
             driven_tip_relief: self.driven.tip_relief,
             driver_root_relief: self.driver.root_relief,
@@ -109,7 +109,8 @@ pub fn deviation(
 /// paper:  Δf = (2 f_pb + e_m − j_bn)/√2
 /// others: Δf = (2 f_pb − j_bn)/√2 + e_m,   e_m = −(driven tip relief + driver root relief)
 /// ```
-/// where 1/√2 stands for the sum of independent random errors.
+/// where 1/√2 stands for the sum of independent random errors: the deviations of two gears add as
+/// √(f_pb1² + f_pb2²), which is 2 f_pb/√2 where both are f_pb, and in general takes its place.
 ///
 /// # Source
 /// Zhou & Chen 2014, Eqs. 1 and 2. The method `paper` scales the modification e_m with the random
@@ -129,14 +130,26 @@ fn modification(inputs: &DeviationInputs) -> TwoFloat {
     -TwoFloat::new_add(inputs.driven_tip_relief, inputs.driver_root_relief)
 }
 
-/// Equivalent error without reliefs, (2 f_pb − j_bn)/√2, in m.
+/// Equivalent error without reliefs, √(f_pb1² + f_pb2²) − j_bn/√2, in m.
 fn random_error(inputs: &DeviationInputs) -> TwoFloat {
     random_deviation(inputs) * twofloat::consts::FRAC_1_SQRT_2
 }
 
-/// 2 f_pb − j_bn, in m.
+/// √(2 (f_pb1² + f_pb2²)) − j_bn, in m, which is 2 f_pb − j_bn for equal deviations; a negative
+/// deviation subtracts its square.
 fn random_deviation(inputs: &DeviationInputs) -> TwoFloat {
-    TwoFloat::new_sub(2.0 * inputs.base_pitch, inputs.backlash)
+    let [driver, driven] = inputs.base_pitches;
+    if driver.to_bits() == driven.to_bits() {
+        return TwoFloat::new_sub(2.0 * driver, inputs.backlash);
+    }
+    let squares = TwoFloat::new_mul(driver, driver.abs()) + TwoFloat::new_mul(driven, driven.abs());
+    let sum = (squares.abs() * TwoFloat::from(2.0)).root();
+    let signed = if squares < TwoFloat::from(0.0) {
+        -sum
+    } else {
+        sum
+    };
+    signed - TwoFloat::from(inputs.backlash)
 }
 
 /// Combined deflection δ of the pairs in contact when the incoming pair stands at E, in m.

@@ -44,7 +44,7 @@ pub fn friction(
         Method::Paper => printed_end(&from_contact, tip, turn),
         _ => Some(tip_after(geometry, &from_contact, tip, turn)),
     };
-    let gained = impact.force * impact.duration_printed / (reduced_mass * geometry.driven.tip);
+    let gained = impact.force * impact.duration_printed / (reduced_mass * tip.radius_driven);
     let ratio = end
         .map(|end| changes_ratio(speeds, &end, gained))
         .filter(|ratio| ratio.is_finite() && velocity.normal > 0.0);

@@ -116,13 +116,17 @@ pub fn on_line_of_action(geometry: &Geometry, length: f64) -> Point2<f64> {
     ))
 }
 
-/// The driven tip on its circle.
+/// The driven tip on its circle; of a rounded tip the point of its arc that faces the driver's
+/// flank.
 #[must_use]
 pub fn tip_point(geometry: &Geometry, tip: &TipContact) -> Point2<f64> {
     let (sine, cosine) = tip.polar_angle.sin_cos();
+    let edge = geometry.driven.edge;
+    let radius = geometry.driven.tip - edge;
+    let (across, along) = (geometry.working_pressure_angle + tip.normal_turn).sin_cos();
     Point2::new(
-        geometry.centre_distance - geometry.driven.tip * cosine,
-        geometry.driven.tip * sine,
+        geometry.centre_distance - radius * cosine - edge * across,
+        radius * sine + edge * along,
     )
 }
 

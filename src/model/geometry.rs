@@ -3,7 +3,7 @@
 use nalgebra::{Matrix2, Rotation2, Vector2};
 
 use super::Refusal;
-use super::inputs::{Gear, Inputs};
+use super::inputs::{Gear, Inputs, Method};
 use crate::numeric::Real;
 
 /// A difference below this share of its terms is taken in double-double arithmetic: f64 would lose
@@ -38,6 +38,8 @@ pub struct GearShape {
     pub dedendum: f64,
     /// Radial tip chamfer, in m.
     pub tip_chamfer: f64,
+    /// Radius of the rounding of the tip's edge, in m; a sharp tip has none.
+    pub tip_radius: Option<f64>,
 }
 
 impl Gear {
@@ -50,20 +52,29 @@ impl Gear {
             addendum: self.addendum,
             dedendum: self.dedendum,
             tip_chamfer: self.tip_chamfer,
+            tip_radius: self.tip_radius,
         }
     }
 }
 
 impl Inputs {
-    /// Shape of the pair.
+    /// Shape of the pair. The method `paper` knows sharp tips alone.
     #[must_use]
     pub fn shape(&self) -> PairShape {
+        let shape = |gear: &Gear| {
+            let shape = gear.shape();
+            let tip_radius = shape.tip_radius.filter(|_| self.method != Method::Paper);
+            GearShape {
+                tip_radius,
+                ..shape
+            }
+        };
         PairShape {
             module: self.module,
             pressure_angle: self.pressure_angle,
             centre_distance: self.centre_distance,
-            driver: self.driver.shape(),
-            driven: self.driven.shape(),
+            driver: shape(&self.driver),
+            driven: shape(&self.driven),
         }
     }
 
@@ -83,8 +94,10 @@ pub struct Circles<T = f64> {
     pub base: T,
     /// Active tip radius r_a, the chamfer taken off.
     pub tip: T,
-    /// Radius of curvature of the involute at the tip, √(r_a² − r_b²).
+    /// Radius of curvature of the involute at its end, L_f: √(r_a² − r_b²) at a sharp tip.
     pub tip_curvature: T,
+    /// Radius r_e of the rounding of the tip's edge; 0 for a sharp tip.
+    pub edge: T,
     /// Root radius r_f = r + m (x − h_fP*).
     pub root: T,
 }
@@ -114,9 +127,10 @@ pub struct Geometry<T = f64> {
     pub approach_length: T,
     /// Contact ratio ε = EB/p_b.
     pub contact_ratio: T,
-    /// γ₂: angle at O₂ between the centre line and the tip at E, in rad.
+    /// γ₂: angle at O₂ between the centre line and the tip at E, in rad; of a rounded tip the centre
+    /// of its arc.
     pub start_angle_driven: T,
-    /// E seen from O₁, the centre line along x, in m.
+    /// E seen from O₁, or the centre of the rounded tip's arc there, the centre line along x, in m.
     pub start_point: Vector2<T>,
 }
 
@@ -128,6 +142,12 @@ pub struct Geometry<T = f64> {
 /// inv αw = inv α + 2 (x1 + x2) tan α/(z1 + z2)  where no centre distance is given,  else cos αw = (rb1 + rb2)/a
 /// N1E = N1N2 − √(ra2² − rb2²),  N1B = √(ra1² − rb1²),  ε = (N1B − N1E)/pb
 /// γ2 = ∠(O2O1, O2E)
+/// ```
+/// A tip that is rounded by an arc of radius re inside the tip circle, tangent to it and to the
+/// flank, ends the involute at the radius of curvature L_f in place of √(ra² − rb²), and γ₂ and E of
+/// the tip are those of the arc's centre C:
+/// ```text
+/// rC = ra − re,  L_C = √(rC² − rb²),  L_f = L_C + re,  N1C = N1E + re
 /// ```
 /// where inv t = tan t − t. Squares are never subtracted: r_a − r_b = 2 r sin²(α/2) + m (h_a* + x),
 /// and N₁N₂ = (r_b1 + r_b2) tan α_w.
@@ -142,7 +162,7 @@ pub struct Geometry<T = f64> {
 pub fn geometry<T: Real>(shape: &PairShape) -> Result<Geometry<T>, Refusal> {
     let alpha: T = shape.pressure_angle.into();
     let driver: Circles<T> = circles(shape.module, shape.pressure_angle, &shape.driver)?;
-    let driven: Circles<T> = circles(shape.module, shape.pressure_angle, &shape.driven)?;
+    let driven: Circles<T> = circles(shape.module, shape.pressure_angle, &shape.driven).map_err(Refusal::at_driven)?;
     let base_sum = driver.base + driven.base;
     let (centre_distance, tangent) = working_tangent(shape, alpha, base_sum)?;
     let tangent_length = base_sum * tangent;
@@ -154,6 +174,10 @@ pub fn geometry<T: Real>(shape: &PairShape) -> Result<Geometry<T>, Refusal> {
     }
     let base_pitch = T::PI * shape.module.into() * alpha.sine_cosine().1;
     let approach_length = driven.tip_curvature - driven.base * tangent;
+    let (centre_approach, centre_curvature) = (
+        approach_length - driven.edge,
+        driven.tip_curvature - driven.edge,
+    );
     let working_pressure_angle = tangent.angle_to(T::one());
     let end = driver.tip_curvature;
     if end <= start {
@@ -161,6 +185,13 @@ pub fn geometry<T: Real>(shape: &PairShape) -> Result<Geometry<T>, Refusal> {
             start: start.rounded(),
             end: end.rounded(),
             is_distance_given: shape.centre_distance.is_some(),
+        });
+    }
+    let contact_ratio = (end - start).over(base_pitch);
+    let is_rounded = driver.edge > T::zero() || driven.edge > T::zero();
+    if is_rounded && contact_ratio < T::one() {
+        return Err(Refusal::RoundingBreaksContact {
+            ratio: contact_ratio.rounded(),
         });
     }
     Ok(Geometry {
@@ -174,9 +205,9 @@ pub fn geometry<T: Real>(shape: &PairShape) -> Result<Geometry<T>, Refusal> {
         end,
         tangent_length,
         approach_length,
-        contact_ratio: (end - start).over(base_pitch),
-        start_angle_driven: approach_length.angle_to(driven.base + driven.tip_curvature * tangent),
-        start_point: foot(driver.base, start, working_pressure_angle),
+        contact_ratio,
+        start_angle_driven: centre_approach.angle_to(driven.base + centre_curvature * tangent),
+        start_point: foot(driver.base, start + driven.edge, working_pressure_angle),
     })
 }
 
@@ -201,7 +232,8 @@ fn turned<T: Real>(angle: T) -> Rotation2<T> {
 /// Circles of one gear, cut by a rack of a module in m and a pressure angle in rad.
 ///
 /// # Errors
-/// [`Refusal::PointedRack`] and [`Refusal::TipInsideBase`].
+/// [`Refusal::PointedRack`], [`Refusal::TipInsideBase`], and of the rounding of the tip
+/// [`Refusal::RoundingInsideBase`] and [`Refusal::RoundingTooWide`], which name the driver's field.
 pub fn circles<T: Real>(
     module: f64,
     pressure_angle: f64,
@@ -229,14 +261,60 @@ pub fn circles<T: Real>(
         });
     }
     let tip = reference + height;
-    let tip_curvature = (over_base * (tip + base)).root();
+    let edge: T = gear.tip_radius.unwrap_or(0.0).into();
+    let centre_over_base = over_base - edge;
+    if centre_over_base <= T::zero() {
+        return Err(Refusal::RoundingInsideBase {
+            field: "driver.tip_radius",
+            radius: edge.rounded(),
+            limit: over_base.rounded(),
+        });
+    }
+    let centre_curvature = (centre_over_base * (tip - edge + base)).root();
+    if edge > T::zero() {
+        check_room(
+            pressure_angle,
+            gear,
+            [base, centre_curvature, edge].map(Real::rounded),
+        )?;
+    }
     Ok(Circles {
         reference,
         base,
         tip,
-        tip_curvature,
+        tip_curvature: centre_curvature + edge,
+        edge,
         root: reference + module * (shift - gear.dedendum.into()),
     })
+}
+
+/// Refuse a rounding for which the tooth is too thin: its arc would begin beyond the tooth's centre
+/// line.
+///
+/// # Formula
+/// ```text
+/// (π/2 + 2 x tan α)/z + inv α − inv acos(rb/rC) − re/rb >= 0
+/// ```
+fn check_room(
+    pressure_angle: f64,
+    gear: &GearShape,
+    [base, centre_curvature, radius]: [f64; 3],
+) -> Result<(), Refusal> {
+    let tangent = pressure_angle.tan();
+    let half_angle = (std::f64::consts::FRAC_PI_2 + 2.0 * gear.profile_shift * tangent)
+        / f64::from(gear.teeth)
+        + tangent
+        - pressure_angle;
+    let roll = centre_curvature / base;
+    let room = half_angle - (roll - roll.atan()) - radius / base;
+    if room < 0.0 {
+        return Err(Refusal::RoundingTooWide {
+            field: "driver.tip_radius",
+            radius,
+            lack: -room * base,
+        });
+    }
+    Ok(())
 }
 
 /// Centre distance and tan α_w.
@@ -300,13 +378,39 @@ fn working_angle_rise<T: Real>(shape: &PairShape, alpha: T) -> Result<T, Refusal
 
 impl<T: Real> Circles<T> {
     /// Rounded to f64.
-    fn rounded(self) -> Circles {
+    pub(super) fn rounded(self) -> Circles {
         Circles {
             reference: self.reference.rounded(),
             base: self.base.rounded(),
             tip: self.tip.rounded(),
             tip_curvature: self.tip_curvature.rounded(),
+            edge: self.edge.rounded(),
             root: self.root.rounded(),
+        }
+    }
+}
+
+impl Circles {
+    /// The circles of the gear with a sharp tip.
+    #[must_use]
+    pub fn sharp(&self) -> Circles {
+        if self.edge <= 0.0 {
+            return *self;
+        }
+        Circles {
+            tip_curvature: ((self.tip - self.base) * (self.tip + self.base)).sqrt(),
+            edge: 0.0,
+            ..*self
+        }
+    }
+
+    /// Radius at which the involute ends, in m: the tip circle's at a sharp tip.
+    #[must_use]
+    pub fn involute_end(&self) -> f64 {
+        if self.edge <= 0.0 {
+            self.tip
+        } else {
+            self.base.hypot(self.tip_curvature)
         }
     }
 }

@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use super::compliance::Elasticity;
 use super::compliance::contact::{ContactSpring, plane_strain_compliance};
 use super::geometry::{Circles, Geometry};
-use super::inputs::{Gear, Inputs, Method};
+use super::inertia::{Body, Inertia};
+use super::inputs::{Inputs, Method};
 use super::position::reduced_curvature;
 use super::tip_gap::TipContact;
 use super::{Refusal, TeethCompliance, Velocity};
@@ -65,41 +66,13 @@ impl Inputs {
     }
 }
 
-/// Body of a gear: all that its mass depends on, but for its circles.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Body {
-    /// Key of the field of the bore.
-    pub bore_field: &'static str,
-    /// Bore radius r_h, in m.
-    pub bore_radius: f64,
-    /// Face width b, in m.
-    pub face_width: f64,
-    /// Density ρ, in kg/m³.
-    pub density: f64,
-}
-
-impl Inputs {
-    /// Bodies of driver and driven gear.
-    #[must_use]
-    pub fn bodies(&self) -> [Body; 2] {
-        let body = |bore_field, gear: &Gear| Body {
-            bore_field,
-            bore_radius: gear.bore_radius,
-            face_width: gear.face_width,
-            density: gear.density,
-        };
-        [
-            body("driver.bore_radius", &self.driver),
-            body("driven.bore_radius", &self.driven),
-        ]
-    }
-}
-
 /// Masses of the two gears at their base circles J/r_b², in kg.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Masses {
     pub(super) driver: f64,
     pub(super) driven: f64,
+    /// Moments of inertia of driver and driven gear.
+    pub(super) inertias: [Inertia; 2],
 }
 
 impl Masses {
@@ -107,19 +80,27 @@ impl Masses {
     ///
     /// # Formula
     /// ```text
-    /// J = π ρ b/2 (rb⁴ − rh⁴),   m_red,i = J_i/rb_i²
+    /// m_red,i = J_i/rb_i²
     /// ```
     ///
     /// # Source
-    /// Zhou & Chen 2014, Eqs. 46 and 47. Mended: Eq. 46 divides by the width and so gives kg/m
-    /// where a mass is meant; Eq. 47 carries a spurious g.
+    /// Zhou & Chen 2014, Eq. 46. Corrected: Eq. 46 divides by the width and so gives kg/m where a
+    /// mass is meant. [`Inertia::of`] gives J.
     ///
     /// # Errors
-    /// [`Refusal::BoreTooLarge`] where the bore reaches the base circle or the root circle.
+    /// [`Refusal::BoreTooLarge`] where a bore leaves no body.
     pub fn of<T: Real>(bodies: &[Body; 2], geometry: &Geometry<T>) -> Result<Masses, Refusal> {
-        let driver = mass(&bodies[0], &geometry.driver)?;
-        let driven = mass(&bodies[1], &geometry.driven)?;
-        Ok(Masses { driver, driven })
+        let driver = Inertia::of(&bodies[0], &geometry.driver)?;
+        let driven = Inertia::of(&bodies[1], &geometry.driven)?;
+        let mass = |inertia: &Inertia, circles: &Circles<T>| {
+            let base = circles.base.rounded();
+            inertia.moment / (base * base)
+        };
+        Ok(Masses {
+            driver: mass(&driver, &geometry.driver),
+            driven: mass(&driven, &geometry.driven),
+            inertias: [driver, driven],
+        })
     }
 
     /// Reduced mass of Eq. 33, 1/m_red = 1/m_red,1 + 1/m_red,2, in kg.
@@ -135,26 +116,6 @@ impl Masses {
         let arm = tip.normal_radius_driven / geometry.driven.base;
         self.driver * self.driven / (self.driver * arm * arm + self.driven)
     }
-}
-
-/// Mass of one gear at its base circle, in kg.
-fn mass<T: Real>(body: &Body, circles: &Circles<T>) -> Result<f64, Refusal> {
-    let (base, bore): (T, T) = (circles.base, body.bore_radius.into());
-    let limit = if base < circles.root {
-        base
-    } else {
-        circles.root
-    };
-    if bore >= limit {
-        return Err(Refusal::BoreTooLarge {
-            field: body.bore_field,
-            bore: body.bore_radius,
-            limit: limit.rounded(),
-        });
-    }
-    let (wall, base, bore) = ((base - bore).rounded(), base.rounded(), body.bore_radius);
-    let fourth_powers = wall * (base + bore) * (base * base + bore * bore);
-    Ok(PI * body.density * body.face_width / 2.0 * fourth_powers / (base * base))
 }
 
 /// The impact of the driven tip on the driver's flank: force, energy, duration.

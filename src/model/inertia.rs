@@ -1,15 +1,162 @@
-//! Polar moment of a gear's section from its true outline.
+//! Moment of inertia of a gear: from its true outline, as a disc, or as the case gives it.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::profile::Profile;
-use crate::numeric::quadrature;
+use super::Refusal;
+use super::geometry::Circles;
+use super::inputs::{Gear, InertiaModel, Inputs, Method};
+use super::profile::{Profile, Rack};
+use crate::numeric::{Real, quadrature};
 
-/// Relative tolerance of the integrals.
+/// Relative tolerance of the integral over the fillet.
 const TOLERANCE: f64 = 1e-14;
 
+/// A gear's body: all that its inertia depends on, apart from its circles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Body {
+    /// The case gives the moment of inertia of all that turns with the gear, in kg m².
+    Given(f64),
+    /// The gear's true outline.
+    Outline(Blank, Rack, f64),
+    /// A disc up to the base circle, Eq. 47.
+    BaseCircle(Blank),
+}
+
+/// What a body of uniform width is made of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Blank {
+    /// Key of the field of the bore.
+    pub bore_field: &'static str,
+    /// Bore radius r_h, in m.
+    pub bore_radius: f64,
+    /// Face width b, in m.
+    pub face_width: f64,
+    /// Density ρ, in kg/m³.
+    pub density: f64,
+}
+
+impl Inputs {
+    /// Bodies of driver and driven gear. The method `paper` takes the disc of its Eq. 47.
+    #[must_use]
+    pub fn bodies(&self) -> [Body; 2] {
+        let body = |bore_field, gear: &Gear| {
+            let blank = Blank {
+                bore_field,
+                bore_radius: gear.bore_radius,
+                face_width: gear.face_width,
+                density: gear.density,
+            };
+            match (self.inertia_taken(), gear.inertia) {
+                (_, Some(given)) => Body::Given(given),
+                (InertiaModel::Outline, None) => {
+                    Body::Outline(blank, Rack::of(self, gear), gear.addendum)
+                }
+                (InertiaModel::BaseCircle, None) => Body::BaseCircle(blank),
+            }
+        };
+        [
+            body("driver.bore_radius", &self.driver),
+            body("driven.bore_radius", &self.driven),
+        ]
+    }
+
+    /// The body of a gear without an inertia of its own: the method `paper` knows one alone.
+    #[must_use]
+    pub fn inertia_taken(&self) -> InertiaModel {
+        match self.method {
+            Method::Paper => InertiaModel::BaseCircle,
+            _ => self.inertia,
+        }
+    }
+}
+
+/// Moment of inertia of a gear.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Inertia {
+    /// J, in kg m².
+    pub moment: f64,
+    /// Whether the outline encloses no tooth, so that the disc to the base circle replaces it.
+    pub is_fallback: bool,
+}
+
+impl Inertia {
+    /// Moment of inertia of a gear.
+    ///
+    /// # Formula
+    /// ```text
+    /// outline:      J = ρ b I_p,   I_p of the outline
+    /// base-circle:  J = π ρ b/2 (rb⁴ − rh⁴)
+    /// ```
+    ///
+    /// # Source
+    /// Zhou & Chen 2014, Eq. 47, of which a spurious g is taken out; [`polar_moment`].
+    ///
+    /// # Errors
+    /// [`Refusal::BoreTooLarge`] where the bore leaves no body.
+    pub fn of<T: Real>(body: &Body, circles: &Circles<T>) -> Result<Inertia, Refusal> {
+        let disc = |blank: &Blank, is_fallback| {
+            disc(blank, circles).map(|moment| Inertia {
+                moment,
+                is_fallback,
+            })
+        };
+        match body {
+            Body::Given(moment) => Ok(Inertia {
+                moment: *moment,
+                is_fallback: false,
+            }),
+            Body::BaseCircle(blank) => disc(blank, false),
+            Body::Outline(blank, rack, addendum) => {
+                let circles = whole(&circles.rounded(), rack, *addendum);
+                check_bore(blank, "root", circles.root)?;
+                let section =
+                    polar_moment(&Profile::of(rack, &circles), rack.teeth, blank.bore_radius);
+                match section {
+                    Some(section) => Ok(Inertia {
+                        moment: blank.density * blank.face_width * section,
+                        is_fallback: false,
+                    }),
+                    None => disc(blank, true),
+                }
+            }
+        }
+    }
+}
+
+/// The circles of the gear before its tip is chamfered or rounded.
+fn whole(circles: &Circles, rack: &Rack, addendum: f64) -> Circles {
+    let tip = circles.reference + rack.module * (addendum + rack.profile_shift);
+    Circles {
+        tip,
+        tip_curvature: ((tip - circles.base) * (tip + circles.base)).sqrt(),
+        ..*circles
+    }
+}
+
+/// J of the disc to the base circle, in kg m².
+fn disc<T: Real>(blank: &Blank, circles: &Circles<T>) -> Result<f64, Refusal> {
+    let (base, bore): (T, T) = (circles.base, blank.bore_radius.into());
+    check_bore(blank, "root", circles.root.rounded())?;
+    check_bore(blank, "base", base.rounded())?;
+    let (wall, base, bore) = ((base - bore).rounded(), base.rounded(), blank.bore_radius);
+    let fourth_powers = wall * (base + bore) * (base * base + bore * bore);
+    Ok(PI * blank.density * blank.face_width / 2.0 * fourth_powers)
+}
+
+fn check_bore(blank: &Blank, circle: &'static str, limit: f64) -> Result<(), Refusal> {
+    if blank.bore_radius >= limit {
+        return Err(Refusal::BoreTooLarge {
+            field: blank.bore_field,
+            bore: blank.bore_radius,
+            circle,
+            limit,
+        });
+    }
+    Ok(())
+}
+
 /// Polar moment of area of the gear's section, in m⁴: times density and face width it is the moment
-/// of inertia J.
+/// of inertia J. `None` where the undercut cuts the teeth through.
 ///
 /// # Formula
 /// ```text
@@ -20,52 +167,84 @@ const TOLERANCE: f64 = 1e-14;
 /// # Source
 /// The profile is the rack's, see [`Profile`].
 #[must_use]
-pub fn polar_moment(profile: &Profile, teeth: u32, bore_radius: f64) -> f64 {
+pub fn polar_moment(profile: &Profile, teeth: u32, bore_radius: f64) -> Option<f64> {
     let root = profile.circles().root;
     let ring = PI / 2.0
         * (root - bore_radius)
         * (root + bore_radius)
         * (root * root + bore_radius * bore_radius);
-    ring + 2.0 * f64::from(teeth) * (flank_moment(profile) + fillet_moment(profile))
+    let fillet = fillet_moment(profile)?;
+    Some(ring + 2.0 * f64::from(teeth) * (flank_moment(profile)? + fillet))
 }
 
-/// ∫ θ r³ dr over the involute; r = r_b √(1 + φ²).
-fn flank_moment(profile: &Profile) -> f64 {
+/// ∫ θ r³ dr over the involute in closed form; `None` where it begins beyond its own end.
+///
+/// # Formula
+/// ```text
+/// r = rb √(1 + φ²),  θ = θ_b − φ + atan φ
+/// rb⁴ [θ (1 + φ²)²/4 + φ³/12 + φ⁵/20]
+/// ```
+fn flank_moment(profile: &Profile) -> Option<f64> {
     let base = profile.circles().base;
     let half_angle = |roll: f64| profile.base_half_angle() - roll + roll.atan();
-    let tip = profile.circles().tip_curvature / base;
-    let start = profile.junction.roll.min(tip);
+    let (start, tip) = (
+        profile.junction.roll,
+        profile.circles().tip_curvature / base,
+    );
+    if half_angle(start) <= 0.0 {
+        return None;
+    }
+    if tip <= start {
+        return Some(0.0);
+    }
     let end = if half_angle(tip) < 0.0 {
-        pointed_end(start, tip, half_angle)
+        last_where(start, tip, |roll| half_angle(roll) > 0.0)
     } else {
         tip
     };
-    let integral = quadrature::adaptive(start, end, TOLERANCE, |roll| {
-        half_angle(roll) * (1.0 + roll * roll) * roll
-    });
-    base.powi(4) * integral
+    let primitive = |roll: f64| {
+        let square = roll * roll;
+        half_angle(roll) * (1.0 + square) * (1.0 + square) / 4.0
+            + square * roll * (1.0 / 12.0 + square / 20.0)
+    };
+    Some(base.powi(4) * (primitive(end) - primitive(start)))
 }
 
-/// Roll angle at which the flanks meet, by bisection.
-fn pointed_end(mut low: f64, mut high: f64, half_angle: impl Fn(f64) -> f64) -> f64 {
+/// ∫ θ r³ dr over the fillet, to the tip circle at the most; `None` where its two sides meet.
+fn fillet_moment(profile: &Profile) -> Option<f64> {
+    let tip = profile.circles().tip;
+    let end = -last_where(-FRAC_PI_2, -profile.junction.normal, |normal| {
+        let section = profile.fillet_at(-normal);
+        section.along.hypot(section.half_thickness) <= tip
+    });
+    let is_whole = std::cell::Cell::new(true);
+    let moment = quadrature::adaptive(FRAC_PI_2, end, TOLERANCE, |normal| {
+        let section = profile.fillet_at(normal);
+        if section.half_thickness <= 0.0 {
+            is_whole.set(false);
+        }
+        let squared =
+            section.along * section.along + section.half_thickness * section.half_thickness;
+        section.half_thickness.atan2(section.along) * squared * profile.fillet_rise(normal)
+    });
+    is_whole.get().then_some(moment)
+}
+
+/// The greatest value at which a condition is true that is true at `from` and turns false once at
+/// the most, by bisection.
+fn last_where(from: f64, to: f64, is_true: impl Fn(f64) -> bool) -> f64 {
     const HALVINGS: usize = 60;
+    if is_true(to) {
+        return to;
+    }
+    let (mut low, mut high) = (from, to);
     for _ in 0..HALVINGS {
         let middle = f64::midpoint(low, high);
-        if half_angle(middle) > 0.0 {
+        if is_true(middle) {
             low = middle;
         } else {
             high = middle;
         }
     }
     low
-}
-
-/// ∫ θ r³ dr over the fillet.
-fn fillet_moment(profile: &Profile) -> f64 {
-    quadrature::adaptive(FRAC_PI_2, profile.junction.normal, TOLERANCE, |normal| {
-        let section = profile.fillet_at(normal);
-        let squared =
-            section.along * section.along + section.half_thickness * section.half_thickness;
-        section.half_thickness.atan2(section.along) * squared * profile.fillet_rise(normal)
-    })
 }

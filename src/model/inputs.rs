@@ -23,6 +23,8 @@ pub struct Gear {
     pub poisson: f64,
     /// Density ρ, in kg/m³.
     pub density: f64,
+    /// Moment of inertia of all that turns with the gear, in kg m²; without it computed.
+    pub inertia: Option<f64>,
     /// Material removed at the tip, in m.
     pub tip_relief: f64,
     /// Material removed at the root, in m.
@@ -35,6 +37,10 @@ pub struct Gear {
     pub tip_chamfer: f64,
     /// Radius of the tip's edge, in m.
     pub tip_radius: Option<f64>,
+    /// Base pitch deviation f_pb of this gear, in m; without it by its grade, or the common one.
+    pub base_pitch: Option<f64>,
+    /// Flank tolerance class of ISO 1328-1:2013.
+    pub grade: Option<u32>,
 }
 
 /// A full-depth gear without shift, relief and bore, of which nothing else is given yet: teeth,
@@ -51,12 +57,15 @@ impl Default for Gear {
             young: 0.0,
             poisson: 0.0,
             density: 0.0,
+            inertia: None,
             tip_relief: 0.0,
             root_relief: 0.0,
             tip_relief_length: None,
             root_relief_length: None,
             tip_chamfer: 0.0,
             tip_radius: None,
+            base_pitch: None,
+            grade: None,
         }
     }
 }
@@ -173,6 +182,20 @@ impl ContactCompliance {
     }
 }
 
+/// The body whose moment of inertia a gear has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InertiaModel {
+    /// The gear's true outline.
+    Outline,
+    /// A disc up to the base circle, Eq. 47.
+    BaseCircle,
+}
+
+impl InertiaModel {
+    /// Every model.
+    pub const ALL: [InertiaModel; 2] = [InertiaModel::Outline, InertiaModel::BaseCircle];
+}
+
 /// How a relief grows from its start to its full amount.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ReliefShape {
@@ -200,7 +223,7 @@ pub struct Inputs {
     pub driver: Gear,
     /// Gear 2.
     pub driven: Gear,
-    /// Base pitch deviation f_pb, in m.
+    /// Base pitch deviation f_pb of a gear without its own, in m.
     pub base_pitch_deviation: f64,
     /// Normal backlash j_bn, in m.
     pub backlash: f64,
@@ -218,6 +241,8 @@ pub struct Inputs {
     pub tooth_compliance: Option<ToothCompliance>,
     /// Compliance of the contact.
     pub contact_compliance: ContactCompliance,
+    /// Body of a gear without a given inertia.
+    pub inertia: InertiaModel,
     /// How tip and root reliefs grow along the path of contact.
     pub relief_shape: ReliefShape,
     /// Damping ratio ζ of the mesh, of its mean stiffness.
@@ -258,6 +283,7 @@ impl Default for Inputs {
             deflection: None,
             tooth_compliance: None,
             contact_compliance: ContactCompliance::ALL[0],
+            inertia: InertiaModel::Outline,
             relief_shape: ReliefShape::Linear,
             damping_ratio: 0.07,
             warmup_cycles: 20,

@@ -149,12 +149,13 @@ fn cubic(from: &MeshStation, to: &MeshStation, part: f64) -> Option<(f64, f64)> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::inputs::Method;
+    use crate::model::inputs::{InertiaModel, Method};
     use crate::model::sample::standard_pair;
     use crate::model::{Stages, solve};
 
     fn solved(method: Method, stations: usize) -> (Inputs, Solution) {
         let mut inputs = standard_pair(20, 30, 5e-3);
+        inputs.inertia = InertiaModel::BaseCircle;
         (inputs.method, inputs.base_pitch_deviation, inputs.stations) =
             (method, 10e-6, Some(stations));
         let solution = solve(&inputs, Stages::EVERY).unwrap();

@@ -74,13 +74,15 @@ pub enum Refusal {
         is_deflection_taken: bool,
     },
     /// The bore leaves no gear body.
-    #[error("the bore radius is {:.4} mm and must be below the root and base circles, {:.4} mm", .bore / MILLIMETRE, .limit / MILLIMETRE)]
+    #[error("the bore radius is {:.4} mm and must be below the {circle} circle's {:.4} mm", .bore / MILLIMETRE, .limit / MILLIMETRE)]
     BoreTooLarge {
         /// The key of the gear's bore radius.
         field: &'static str,
         /// r_h, in m.
         bore: f64,
-        /// The smaller of root and base radius, in m.
+        /// The circle that it must not reach.
+        circle: &'static str,
+        /// The radius of that circle, in m.
         limit: f64,
     },
     /// S(u) = Δ has no solution on the driver's flank.
@@ -89,12 +91,44 @@ pub enum Refusal {
         /// Δ, in m.
         deviation: f64,
     },
+    /// The centre of the tip's rounding is inside the base circle.
+    #[error("the tip radius is {:.4} mm and must be below {:.4} mm: the centre of the rounding must be outside the base circle", .radius / MILLIMETRE, .limit / MILLIMETRE)]
+    RoundingInsideBase {
+        /// The key of the gear's tip radius.
+        field: &'static str,
+        /// r_e, in m.
+        radius: f64,
+        /// r_a − r_b, in m.
+        limit: f64,
+    },
+    /// The tooth is too thin for the rounding of its tip.
+    #[error("the tip radius is {:.4} mm and the tip is {:.4} mm too thin for it", .radius / MILLIMETRE, 2.0 * .lack / MILLIMETRE)]
+    RoundingTooWide {
+        /// The key of the gear's tip radius.
+        field: &'static str,
+        /// r_e, in m.
+        radius: f64,
+        /// What half of the tooth lacks, on the base circle, in m.
+        lack: f64,
+    },
+    /// Rounded tips leave a path of contact shorter than a base pitch.
+    #[error("the rounded tips leave a contact ratio of {ratio:.4}, and it must not be below 1")]
+    RoundingBreaksContact {
+        /// ε.
+        ratio: f64,
+    },
+    /// The contact is beyond the arc of the rounded tip.
+    #[error("D is beyond the rounding of the driven tip: rb2' is {:.4} mm and must not be below 0", .arm / MILLIMETRE)]
+    BeyondRounding {
+        /// r_b2', in m.
+        arm: f64,
+    },
     /// The driver's flank ends before D.
-    #[error("D is beyond the driver's tip: O1D is {:.4} mm and ra1 is {:.4} mm", .radius / MILLIMETRE, .tip / MILLIMETRE)]
+    #[error("D is beyond the end of the driver's involute: O1D is {:.4} mm and the involute ends at {:.4} mm", .radius / MILLIMETRE, .tip / MILLIMETRE)]
     BeyondDriverTip {
         /// O₁D, in m.
         radius: f64,
-        /// r_a1, in m.
+        /// Radius at which the driver's involute ends, in m.
         tip: f64,
     },
     /// Eq. 56 does not cover the tooth number.
@@ -280,6 +314,24 @@ struct Remedy {
 }
 
 impl Refusal {
+    /// The same refusal of the driven gear, where it names a field of the driver.
+    pub(super) fn at_driven(self) -> Refusal {
+        const FIELD: &str = "driven.tip_radius";
+        match self {
+            Refusal::RoundingInsideBase { radius, limit, .. } => Refusal::RoundingInsideBase {
+                field: FIELD,
+                radius,
+                limit,
+            },
+            Refusal::RoundingTooWide { radius, lack, .. } => Refusal::RoundingTooWide {
+                field: FIELD,
+                radius,
+                lack,
+            },
+            other => other,
+        }
+    }
+
     /// A short name for scripts.
     #[must_use]
     pub fn code(&self) -> &'static str {
@@ -358,6 +410,24 @@ impl Refusal {
                 "no-first-contact",
                 "deviations.base_pitch",
                 "give a smaller deviation or deflection",
+            ),
+            Refusal::RoundingInsideBase { field, .. } => (
+                "tip-radius-inside-base",
+                *field,
+                "give a smaller tip radius or a higher addendum",
+            ),
+            Refusal::RoundingTooWide { field, .. } => {
+                ("tip-radius-too-large", *field, "give a smaller tip radius")
+            }
+            Refusal::RoundingBreaksContact { .. } => (
+                "tip-radius-breaks-contact",
+                "driven.tip_radius",
+                "give smaller tip radii, or lengthen the addenda",
+            ),
+            Refusal::BeyondRounding { .. } => (
+                "beyond-tip-rounding",
+                "deviations.base_pitch",
+                "give a smaller deviation or deflection, or a smaller tip radius",
             ),
             Refusal::BeyondDriverTip { .. } => (
                 "beyond-driver-tip",

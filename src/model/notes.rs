@@ -1,6 +1,7 @@
 //! What a reader must know beside a result: each note with its value and its limit.
 
 mod compliance;
+mod gear;
 mod impact;
 mod load;
 mod pair;
@@ -49,6 +50,11 @@ const LOOKS: &[Look] = &[
     impact::end_not_found,
     impact::friction,
     load::deflection_given,
+    gear::common_base_pitch,
+    gear::grade_driver,
+    gear::grade_driven,
+    gear::inertia_driver,
+    gear::inertia_driven,
     compliance::chosen_by_range,
     compliance::outside_range,
     compliance::hertz_width,

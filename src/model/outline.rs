@@ -11,9 +11,9 @@ use super::profile::{Profile, Rack, Section};
 /// The outline of a tooth in a frame whose x axis is the tooth's centre line, from the gear's
 /// centre.
 ///
-/// The tooth is symmetric: the half with y above 0 is told. The chamfer is taken off, so that the
-/// tooth ends on its active tip circle; the bevel beyond is left out, since no case gives its
-/// angle. Reliefs, some micrometres, are not on it.
+/// The tooth is symmetric: the half with y above 0 is described. A chamfer is a bevel at 45 degrees
+/// to the centre line, from the active tip circle to the tip circle; no case gives its angle. A tip
+/// with a radius has no bevel. Reliefs, some micrometres, are not on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outline {
     profile: Profile,
@@ -23,6 +23,7 @@ pub struct Outline {
     /// junction's.
     flank_end: f64,
     edge: Option<Edge>,
+    bevel: Option<Bevel>,
     /// Radius at which the tooth ends, in m.
     tip_radius: f64,
     /// Angle between the centre line and the place where the tip circle takes over, in rad.
@@ -38,6 +39,13 @@ struct Edge {
     roll: f64,
 }
 
+/// The chamfer between flank and tip circle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Bevel {
+    from: Point2<f64>,
+    to: Point2<f64>,
+}
+
 /// A piece of the outline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Piece {
@@ -47,13 +55,21 @@ pub enum Piece {
     Flank,
     /// The rounding of the tip's edge.
     Edge,
+    /// The chamfer of the tip's edge.
+    Bevel,
     /// The tip circle.
     Tip,
 }
 
 impl Piece {
     /// Every piece, from the root to the tip.
-    pub const ALL: [Piece; 4] = [Piece::Fillet, Piece::Flank, Piece::Edge, Piece::Tip];
+    pub const ALL: [Piece; 5] = [
+        Piece::Fillet,
+        Piece::Flank,
+        Piece::Edge,
+        Piece::Bevel,
+        Piece::Tip,
+    ];
 }
 
 impl Outline {
@@ -73,14 +89,18 @@ impl Outline {
         } else {
             profile.fillet_at(fillet_end)
         };
-        let end = edge.map_or(point(sharp), |edge| edge.centre);
+        let corner = edge.map_or(point(sharp), |edge| edge.centre);
         let pointed = edge.is_none() && flank_end < tip_roll(&profile);
+        let bevel = (edge.is_none() && !pointed && gear.tip_chamfer > 0.0)
+            .then(|| bevel(corner, circles.tip + gear.tip_chamfer));
+        let end = bevel.map_or(corner, |bevel| bevel.to);
         Outline {
             profile,
             fillet_end,
             flank_end: edge.map_or(flank_end, |edge| edge.roll),
             edge,
-            tip_radius: if pointed {
+            bevel,
+            tip_radius: if pointed || bevel.is_some() {
                 end.coords.norm()
             } else {
                 circles.tip
@@ -95,8 +115,8 @@ impl Outline {
         &self.profile
     }
 
-    /// Radius at which the tooth ends, in m: that of the active tip circle, or less where the tooth
-    /// is pointed.
+    /// Radius at which the tooth ends, in m: that of the tip circle, or less where the tooth is
+    /// pointed.
     #[must_use]
     pub fn tip_radius(&self) -> f64 {
         self.tip_radius
@@ -104,14 +124,13 @@ impl Outline {
 
     /// The pieces that the tooth has, from the root to the tip.
     pub fn pieces(&self) -> impl Iterator<Item = Piece> + use<> {
-        let (has_flank, has_edge) = (
-            self.flank_end > self.profile.junction.roll,
-            self.edge.is_some(),
-        );
+        let has_flank = self.flank_end > self.profile.junction.roll;
+        let (has_edge, has_bevel) = (self.edge.is_some(), self.bevel.is_some());
         Piece::ALL.into_iter().filter(move |piece| match piece {
             Piece::Fillet | Piece::Tip => true,
             Piece::Flank => has_flank,
             Piece::Edge => has_edge,
+            Piece::Bevel => has_bevel,
         })
     }
 
@@ -120,19 +139,20 @@ impl Outline {
     #[must_use]
     pub fn at(&self, piece: Piece, part: f64) -> Point2<f64> {
         let between = |from: f64, to: f64| from + part * (to - from);
-        match (piece, self.edge) {
-            (Piece::Fillet, _) => {
+        match (piece, self.edge, self.bevel) {
+            (Piece::Fillet, ..) => {
                 point(self.profile.fillet_at(between(FRAC_PI_2, self.fillet_end)))
             }
-            (Piece::Edge, Some(edge)) => {
+            (Piece::Edge, Some(edge), _) => {
                 let string = FRAC_PI_2 - self.profile.load_angle(edge.roll);
                 edge.centre + along(between(string, self.tip_half_angle)) * edge.radius
             }
-            (Piece::Flank | Piece::Edge, _) => point(
+            (Piece::Bevel, _, Some(bevel)) => bevel.from + (bevel.to - bevel.from) * part,
+            (Piece::Flank | Piece::Edge | Piece::Bevel, ..) => point(
                 self.profile
                     .involute_at(between(self.profile.junction.roll, self.flank_end)),
             ),
-            (Piece::Tip, _) => {
+            (Piece::Tip, ..) => {
                 Point2::from(along(between(self.tip_half_angle, 0.0)) * self.tip_radius)
             }
         }
@@ -180,6 +200,19 @@ fn fillet_end(profile: &Profile) -> f64 {
     -last_where(-FRAC_PI_2, -profile.junction.normal, |normal| {
         point(profile.fillet_at(-normal)).coords.norm() <= tip
     })
+}
+
+/// The bevel at 45 degrees from the corner of the flank to the tip circle, or to the centre line
+/// where the tooth is too thin.
+fn bevel(corner: Point2<f64>, tip: f64) -> Bevel {
+    let skew = corner.x - corner.y;
+    let rise = (tip - corner.coords.norm()) * (tip + corner.coords.norm());
+    let way = rise / (skew + (skew * skew + 2.0 * rise).sqrt());
+    let way = way.min(corner.y);
+    Bevel {
+        from: corner,
+        to: corner + Vector2::new(way, -way),
+    }
 }
 
 /// The rounding of that radius, or of the greatest that the tip has room for.
@@ -262,12 +295,12 @@ mod tests {
             (100, -0.3, None),
             (9, 0.0, None),
             (20, 0.0, Some(0.2e-3)),
-            (40, 0.3, Some(9e-3)),
+            (40, 0.3, Some(2e-3)),
             (30, 0.8, Some(1e-9)),
         ];
         let outline = |(teeth, shift, tip_radius): (u32, f64, Option<f64>)| {
             let mut inputs = standard_pair(teeth, 60, 5e-3);
-            inputs.driven.addendum = 0.3;
+            inputs.driven.addendum = if tip_radius.is_some() { 0.8 } else { 0.3 };
             (inputs.driver.profile_shift, inputs.driver.tip_radius) = (shift, tip_radius);
             let circles = geometry::<f64>(&inputs.shape()).unwrap().driver;
             (
@@ -380,6 +413,26 @@ mod tests {
                 "{name}: kink of {across} at the tip, {edge:?}"
             );
         }
+    }
+
+    #[test]
+    fn a_chamfer_leaves_a_bevel_from_the_lower_tip_to_the_tip_circle() {
+        let mut inputs = standard_pair(20, 60, 5e-3);
+        inputs.driver.tip_chamfer = 0.4e-3;
+        let circles = geometry::<f64>(&inputs.shape()).unwrap().driver;
+        let outline = Outline::of(&inputs, &inputs.driver, &circles);
+        let (corner, end) = (outline.at(Piece::Bevel, 0.0), outline.at(Piece::Bevel, 1.0));
+        assert!((corner.coords.norm() - circles.tip).abs() < 1e-15);
+        assert!((corner - outline.at(Piece::Flank, 1.0)).norm() < 1e-15);
+        assert!((end.coords.norm() - 55e-3).abs() < 1e-15);
+        assert!(((end.x - corner.x) + (end.y - corner.y)).abs() < 1e-15);
+        assert!((outline.tip_radius() - 55e-3).abs() < 1e-15);
+        // A tooth that is thinner than the chamfer ends on its centre line.
+        inputs.driver.tip_chamfer = 4e-3;
+        inputs.driver.addendum = 1.5;
+        let circles = geometry::<f64>(&inputs.shape()).unwrap().driver;
+        let thin = Outline::of(&inputs, &inputs.driver, &circles);
+        assert!(thin.at(Piece::Bevel, 1.0).y.abs() < 1e-15);
     }
 
     #[test]

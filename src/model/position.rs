@@ -112,7 +112,11 @@ fn refine(geometry: &Geometry<TwoFloat>, angle: f64, deviation: TwoFloat) -> Two
 
 /// S''(0) = (ρ1E + ρ2E) ρ2E/ρ1E, in m.
 fn gap_curvature_at_start(geometry: &Geometry) -> f64 {
-    let (driver, driven) = (geometry.start, geometry.driven.tip_curvature);
+    let edge = geometry.driven.edge;
+    let (driver, driven) = (
+        geometry.start + edge,
+        geometry.driven.tip_curvature - edge,
+    );
     (driver + driven) * driven / driver
 }
 
@@ -276,7 +280,12 @@ fn checked(
     if contact.curvature_growth > geometry.contact_ratio * geometry.base_pitch {
         return Err(Refusal::BeyondDriverTip {
             radius: contact.radius_driver,
-            tip: geometry.driver.tip,
+            tip: geometry.driver.involute_end(),
+        });
+    }
+    if geometry.driven.edge > 0.0 && contact.normal_radius_driven < 0.0 {
+        return Err(Refusal::BeyondRounding {
+            arm: contact.normal_radius_driven,
         });
     }
     Ok(Some(Position {

@@ -130,7 +130,7 @@ impl Profile {
         let flank_room = PI / 4.0 - rack.dedendum * sine / cosine;
         let rounding = rack.fitting(rounding);
         Profile {
-            circles: *circles,
+            circles: circles.sharp(),
             base_half_angle: half_pitch / 2.0
                 + 2.0 * shift * alpha.tan() / f64::from(rack.teeth)
                 + involute(alpha),

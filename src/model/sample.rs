@@ -34,6 +34,7 @@ pub(crate) fn circles(rack: &Rack, addendum: f64) -> Circles {
         reference,
         base,
         tip,
+        edge: 0.0,
         tip_curvature: ((tip - base) * (tip + base)).max(0.0).sqrt(),
         root: reference + rack.module * (rack.profile_shift - rack.dedendum),
     }

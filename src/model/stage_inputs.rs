@@ -6,7 +6,8 @@
 use super::deviation::DeviationInputs;
 use super::dynamic::Settings;
 use super::geometry::PairShape;
-use super::impact::{Body, ImpactInputs};
+use super::impact::ImpactInputs;
+use super::inertia::Body;
 use super::inputs::{Inputs, Method};
 use super::mesh::MeshInputs;
 use super::position::ContactSearch;

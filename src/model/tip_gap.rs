@@ -7,15 +7,20 @@ use crate::numeric::{Real, quadrature};
 
 /// A place of the driven tip on its circle, and the driver's flank that it would touch there.
 ///
+/// A rounded tip is the centre C of its arc on a smaller circle: C meets the involute parallel to
+/// the driver's flank, at the distance r_e from it.
+///
 /// What changes from E is carried as an increment, so that nothing is lost close to E.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TipContact<T = f64> {
     /// Driven gear's angle before E, u, in rad.
     pub angle: T,
-    /// Angle at O₂ between the centre line and the tip, γ₂ + u, in rad.
+    /// Angle at O₂ between the centre line and the tip, or the centre of its arc, γ₂ + u, in rad.
     pub polar_angle: T,
     /// O₁D, in m.
     pub radius_driver: T,
+    /// O₂D, in m: the tip radius where the tip is sharp.
+    pub radius_driven: T,
     /// Radius of curvature of the driver's flank ρ₁ = N₁'D, in m.
     pub curvature_driver: T,
     /// Growth of ρ₁ since E, in m.
@@ -43,7 +48,8 @@ pub struct TipContact<T = f64> {
 /// rb2 − rb2' = 2 a sin(αw + Δχ/2) sin(Δχ/2),  N2'D = N2E + 2 a cos(αw + Δχ/2) sin(Δχ/2) − Δρ1
 /// N2'D − i ρ1 = (1 + i) EP + Δ(N2'D) − i Δρ1
 /// ```
-/// where E and D are seen from O₁, D − E is the chord of the tip circle, EP is the path of approach
+/// For a rounded tip ra2, N1E, γ2, E and D are those of the arc's centre C in Q, Δβ1 and Δψ, and
+/// then ρ1 = N1'C − re and O1D² = rb1² + ρ1². Here E and D are seen from O₁, D − E is the chord of the tip circle, EP is the path of approach
 /// and Δ the growth since E.
 ///
 /// # Source
@@ -54,15 +60,16 @@ pub struct TipContact<T = f64> {
 /// Any angle at which the tip lies outside the driver's base circle (`N1E² + Q > 0`).
 pub fn tip_at<T: Real>(geometry: &Geometry<T>, angle: T) -> TipContact<T> {
     let (half, two): (T, T) = (0.5.into(), 2.0.into());
-    let (base, start) = (geometry.driver.base, geometry.start);
+    let (base, edge) = (geometry.driver.base, geometry.driven.edge);
+    let start = geometry.start + edge;
     let half_sine = (angle * half).sine_cosine().0;
     let (middle_sine, middle_cosine) = (geometry.start_angle_driven + angle * half).sine_cosine();
-    let chord_length = two * geometry.driven.tip * half_sine;
+    let chord_length = two * (geometry.driven.tip - edge) * half_sine;
 
     let grown_square = two * geometry.centre_distance * chord_length * middle_sine;
-    let curvature_driver = (start * start + grown_square).root();
-    let curvature_growth = grown_square.over(curvature_driver + start);
-    let flank_turn = (base * curvature_growth).angle_to(base * base + curvature_driver * start);
+    let centre_curvature = (start * start + grown_square).root();
+    let curvature_growth = grown_square.over(centre_curvature + start);
+    let flank_turn = (base * curvature_growth).angle_to(base * base + centre_curvature * start);
 
     let from = geometry.start_point;
     let chord = Vector2::new(middle_sine, middle_cosine) * chord_length;
@@ -75,17 +82,27 @@ pub fn tip_at<T: Real>(geometry: &Geometry<T>, angle: T) -> TipContact<T> {
     let (sine, cosine) = (geometry.working_pressure_angle + normal_turn * half).sine_cosine();
     let normal_radius_drop = turn_chord * sine;
     let normal_length_growth = turn_chord * cosine - curvature_growth;
+    let normal_radius_driven = geometry.driven.base - normal_radius_drop;
+    let normal_length_driven = geometry.driven.tip_curvature + normal_length_growth;
+    let (curvature_driver, radius_driven) = if edge > T::zero() {
+        let square =
+            normal_radius_driven * normal_radius_driven + normal_length_driven * normal_length_driven;
+        (geometry.start + curvature_growth, square.root())
+    } else {
+        (centre_curvature, geometry.driven.tip)
+    };
     TipContact {
         angle,
         polar_angle: geometry.start_angle_driven + angle,
         radius_driver: (base * base + curvature_driver * curvature_driver).root(),
+        radius_driven,
         curvature_driver,
         curvature_growth,
         normal_turn,
-        normal_radius_driven: geometry.driven.base - normal_radius_drop,
+        normal_radius_driven,
         normal_radius_drop,
         normal_length_growth,
-        normal_length_driven: geometry.driven.tip_curvature + normal_length_growth,
+        normal_length_driven,
         sliding_arm: (T::one() + geometry.ratio) * geometry.approach_length + normal_length_growth
             - geometry.ratio * curvature_growth,
     }
@@ -127,18 +144,19 @@ pub(super) fn largest_term(geometry: &Geometry, tip: &TipContact) -> f64 {
 /// in which the integrand is smooth.
 #[must_use]
 pub fn gap_by_quadrature(geometry: &Geometry, tip: &TipContact) -> f64 {
-    if tip.curvature_driver < std::f64::consts::SQRT_2 * geometry.start {
+    let edge = geometry.driven.edge;
+    if tip.curvature_driver + edge < std::f64::consts::SQRT_2 * (geometry.start + edge) {
         return tip.angle
             * quadrature::unit_interval(|part| {
                 tip_at(geometry, part * tip.angle).normal_radius_drop
             });
     }
-    let arm = geometry.centre_distance * geometry.driven.tip;
+    let arm = geometry.centre_distance * (geometry.driven.tip - edge);
     tip.curvature_growth
         * quadrature::unit_interval(|part| {
             let curvature = geometry.start + part * tip.curvature_growth;
             let angle = angle_at_curvature(geometry, curvature);
-            let slope = curvature / (arm * (geometry.start_angle_driven + angle).sin());
+            let slope = (curvature + edge) / (arm * (geometry.start_angle_driven + angle).sin());
             tip_at(geometry, angle).normal_radius_drop * slope
         })
 }
@@ -148,15 +166,17 @@ pub fn gap_by_quadrature(geometry: &Geometry, tip: &TipContact) -> f64 {
 pub(super) fn angle_at_curvature(geometry: &Geometry, curvature: f64) -> f64 {
     angle_by_growth(
         geometry,
-        (curvature - geometry.start) * (curvature + geometry.start),
+        (curvature - geometry.start)
+            * (curvature + geometry.start + 2.0 * geometry.driven.edge),
     )
 }
 
-/// The angle u at which O₁D² and ρ₁² have grown by `grown_square`: the inverse of Q(u). NaN where
+/// The angle u at which O₁D² and ρ₁², of a rounded tip O₁C² and N₁'C², have grown by `grown_square`: the inverse of Q(u). NaN where
 /// the tip circle does not reach so far.
 #[must_use]
 pub fn angle_by_growth(geometry: &Geometry, grown_square: f64) -> f64 {
-    let fallen = grown_square / (2.0 * geometry.centre_distance * geometry.driven.tip);
+    let tip = geometry.driven.tip - geometry.driven.edge;
+    let fallen = grown_square / (2.0 * geometry.centre_distance * tip);
     let (sine, cosine) = geometry.start_angle_driven.sin_cos();
     let risen = fallen * (2.0 * cosine - fallen);
     let end_sine = (sine * sine + risen).sqrt();
@@ -181,13 +201,23 @@ pub fn seen_from(geometry: &Geometry, tip: &TipContact) -> Geometry {
     moved.working_pressure_angle += tip.normal_turn;
     moved.start_point = foot(
         geometry.driver.base,
-        moved.start,
+        moved.start + moved.driven.edge,
         moved.working_pressure_angle,
     );
     moved
 }
 
 impl TipContact {
+    /// Distance of D from the driven gear's tangent to its base circle through D, √(O₂D² − r_b2²), in
+    /// m: where the tooth's compliance is that of the load on the flank.
+    pub(super) fn load_arm_driven(&self, geometry: &Geometry) -> f64 {
+        if geometry.driven.edge <= 0.0 {
+            return geometry.driven.tip_curvature;
+        }
+        let (radius, base) = (self.radius_driven, geometry.driven.base);
+        ((radius - base) * (radius + base)).max(0.0).sqrt()
+    }
+
     /// Whether the tip all but rolls, or stands all but on the centre line, or its normal all but
     /// passes through O₂: f64 loses digits in the small rest.
     pub(super) fn is_close_call(&self, geometry: &Geometry) -> bool {
@@ -206,6 +236,7 @@ impl<T: Real> TipContact<T> {
             angle: self.angle.rounded(),
             polar_angle: self.polar_angle.rounded(),
             radius_driver: self.radius_driver.rounded(),
+            radius_driven: self.radius_driven.rounded(),
             curvature_driver: self.curvature_driver.rounded(),
             curvature_growth: self.curvature_growth.rounded(),
             normal_turn: self.normal_turn.rounded(),

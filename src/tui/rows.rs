@@ -184,7 +184,11 @@ const REQUIRED: &str = "(required)";
 pub(crate) fn unwritten(case: &Case, field: usize) -> String {
     match FIELDS[field].absent {
         Absent::Default("") => String::new(),
-        Absent::Default(text) | Absent::Without(text) => format!("({text})"),
+        Absent::Default(text) => format!("({text})"),
+        Absent::Without(text) => format!(
+            "({})",
+            case.computed(field).unwrap_or_else(|| text.to_owned())
+        ),
         Absent::Refused => REQUIRED.to_owned(),
         Absent::Either(other) => match index_of(other) {
             Some(other) if case.text(other).is_some() => format!("(by {})", FIELDS[other].label),

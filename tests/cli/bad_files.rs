@@ -201,9 +201,9 @@ fn a_missing_value_is_reported_at_its_key_its_table_or_the_end() {
     expect(
         &without("driven"),
         &[
-            (43, 1, "driven.teeth", "missing", "under [driven]"),
+            (44, 1, "driven.teeth", "missing", "under [driven]"),
             (
-                43,
+                44,
                 1,
                 "driven.face_width",
                 "missing",

@@ -342,7 +342,7 @@ fn a_refusal_of_the_model_is_placed() {
     let document = parsed(TABLE_1);
     assert_eq!(document.place("driven.addendum"), (29, 12));
     assert_eq!(document.place("pair.centre_distance"), (10, 1));
-    assert_eq!(document.place("limits.impact_force"), (54, 16));
+    assert_eq!(document.place("limits.impact_force"), (55, 16));
 }
 
 #[test]

@@ -32,6 +32,8 @@ mod motion;
 mod properties;
 mod reference;
 mod relevance;
+mod rounded;
 mod stiffness;
 mod studies;
 mod trade;
+mod validation;

@@ -207,6 +207,10 @@ fn scaled(inputs: &Inputs, length: f64, time: f64) -> Inputs {
         tip_relief_length: gear.tip_relief_length.map(|of| of * length),
         tip_chamfer: gear.tip_chamfer * length,
         tip_radius: gear.tip_radius.map(|radius| radius * length),
+        base_pitch: gear.base_pitch.map(|deviation| deviation * length),
+        inertia: gear
+            .inertia
+            .map(|inertia| inertia * length.powi(3) * time.powi(2)),
         ..gear.clone()
     };
     Inputs {
@@ -234,6 +238,7 @@ fn factor(unit: &str, length: f64, time: f64) -> f64 {
         "m/s" => length / time,
         "N" => length.powi(2),
         "kg" => length * time.powi(2),
+        "kg m2" => length.powi(3) * time.powi(2),
         "J" => length.powi(3),
         "m2/N" | "1" | "rad" => 1.0,
         _ => panic!("no factor for {unit}"),

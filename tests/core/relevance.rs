@@ -59,6 +59,9 @@ fn others(field: &Field, index: usize, case: &Case) -> Vec<String> {
     match field.kind {
         Kind::Text => vec!["other words".to_owned()],
         Kind::Choice(names, _) => names.iter().map(|name| (*name).to_owned()).collect(),
+        Kind::Count(from, to, _) if case.effective(index).is_none_or(|now| now == "none") => {
+            [from, to].map(|count| count.to_string()).into()
+        }
         Kind::Count(..) => [1, 10, -1]
             .into_iter()
             .filter_map(|by| case.stepped(index, by))

@@ -12,7 +12,7 @@ use tipstrike::model::inputs::{ContactCompliance, Gear, ToothCompliance};
 const LINE_LOAD: f64 = 300e3;
 
 /// Single stiffness c' of ISO 6336-1 method B for a solid disc and the standard rack, in N/(µm mm).
-fn iso_single_stiffness(inputs: &Inputs) -> f64 {
+pub(crate) fn iso_single_stiffness(inputs: &Inputs) -> f64 {
     const DEDENDUM: f64 = 1.25;
     let (z1, z2) = (
         f64::from(inputs.driver.teeth),
@@ -43,7 +43,7 @@ fn pair((z1, x1): (u32, f64), (z2, x2): (u32, f64)) -> Inputs {
 }
 
 /// Six pairs and more: FZG type C, equal, unequal and shifted ones.
-fn pairs() -> Vec<Inputs> {
+pub(crate) fn pairs() -> Vec<Inputs> {
     vec![
         pair((16, 0.1817), (24, 0.1715)),
         pair((20, 0.0), (20, 0.0)),
@@ -56,7 +56,7 @@ fn pairs() -> Vec<Inputs> {
 }
 
 /// Stiffness of the pair at a place, in N/(µm mm).
-fn stiffness(
+pub(crate) fn stiffness(
     inputs: &Inputs,
     model: ToothCompliance,
     contact: ContactCompliance,
@@ -78,7 +78,7 @@ fn stiffness(
     .expect("a compliance")
 }
 
-fn at_pitch(geometry: &Geometry) -> f64 {
+pub(crate) fn at_pitch(geometry: &Geometry) -> f64 {
     geometry.start + geometry.approach_length
 }
 

@@ -3,7 +3,9 @@
 use std::f64::consts::{PI, SQRT_2};
 
 use tipstrike::model::Inputs;
-use tipstrike::model::inputs::{ContactCompliance, Drive, Gear, Method, ToothCompliance};
+use tipstrike::model::inputs::{
+    ContactCompliance, Drive, Gear, InertiaModel, Method, ToothCompliance,
+};
 
 /// A small generator with a named sequence (splitmix64, Steele, Lea & Flood 2014), the same on
 /// every machine.
@@ -128,6 +130,8 @@ fn anywhere(random: &mut Random, fit: bool) -> Inputs {
         method: random.one_of(&[Method::Exact, Method::Exact, Method::Exact, Method::Paper]),
         tooth_compliance: fit.then_some(ToothCompliance::KUANG_YANG),
         contact_compliance: random.one_of(&ContactCompliance::ALL),
+        // The oracle knows the disc to the base circle.
+        inertia: InertiaModel::BaseCircle,
         stations: Some(8),
         ..Inputs::default()
     }

@@ -161,7 +161,7 @@ impl Load {
     fn impact(&self, given: &Given, pair: &Pair, tip: &Tip, momentum: &Big) -> Option<Struck> {
         const STEPS: usize = 400;
         const FORCE_SETTLED: f64 = 1e-32;
-        let radii = [tip.radius.clone(), pair.driven.tip.clone()];
+        let radii = [tip.radius.clone(), tip.radius_driven.clone()];
         let (teeth, depths) = (teeth(given, pair, &radii)?, depths(given, pair, &radii)?);
         let curvature = reduced_curvature(given, pair, tip);
         let mut force = momentum / teeth.sqrt();
@@ -236,7 +236,7 @@ impl Load {
             }
             _ => tip_at(pair, &(angle - driven_turn).max(whole(0)))?,
         };
-        let speed = &self.driven_speed + impulse / (&self.reduced_mass * &pair.driven.tip);
+        let speed = &self.driven_speed + impulse / (&self.reduced_mass * &tip.radius_driven);
         let driver = &self.driver_speed;
         let normal = driver * &pair.driver.base
             - &speed * &end.normal_radius
@@ -251,7 +251,7 @@ impl Load {
 
 /// Angle at O₂ between the centre line and the tip where it is `radius` from O₁.
 pub(crate) fn polar_angle(pair: &Pair, radius: &Big) -> Option<Big> {
-    let (tip, distance) = (&pair.driven.tip, &pair.distance);
+    let (tip, distance) = (&(&pair.driven.tip - &pair.driven.edge), &pair.distance);
     let cosine = (tip * tip + distance * distance - radius * radius) / (2 * tip * distance);
     (rounded(radius) > 0.0 && rounded(&cosine).abs() < 1.0).then(|| cosine.acos())
 }

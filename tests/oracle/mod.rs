@@ -32,6 +32,8 @@ struct Circles {
     reference: Big,
     base: Big,
     tip: Big,
+    /// Radius of the arc that rounds the tip; 0 for a sharp tip.
+    edge: Big,
 }
 
 /// Geometry of the pair.
@@ -53,6 +55,8 @@ struct Pair {
 struct Tip {
     /// O₁D.
     radius: Big,
+    /// O₂D.
+    radius_driven: Big,
     /// ρ₁.
     curvature: Big,
     /// χ.
@@ -112,7 +116,10 @@ fn of_given(given: &Given) -> Option<Answers> {
         _ => first_contact(&pair, &total)?,
     };
     let tip = tip_at(&pair, &angle)?;
-    if rounded(&angle) <= 0.0 || tip.radius > pair.driver.tip {
+    if rounded(&pair.driven.edge) > 0.0 && rounded(&tip.normal_radius) < 0.0 {
+        return None;
+    }
+    if rounded(&angle) <= 0.0 || tip.radius > root(&pair.driver.base * &pair.driver.base + &pair.end * &pair.end) {
         return None;
     }
     let mut found = Answers::from([
@@ -130,6 +137,7 @@ fn of_given(given: &Given) -> Option<Answers> {
         ("approach_angle_driver", &angle * &given.ratio()),
         ("approach_angle_driven", angle.clone()),
         ("contact_radius_driver", tip.radius.clone()),
+        ("contact_radius_driven", tip.radius_driven.clone()),
         ("contact_normal_radius_driven", tip.normal_radius.clone()),
     ]);
     load.strike(given, &pair, &tip, &angle, &mut found);
@@ -151,16 +159,22 @@ fn circles(given: &Given, gear: &Gear) -> Circles {
     let base = &reference * given.pressure_angle.cos();
     let tip =
         &reference + &given.module * (&gear.addendum + &gear.profile_shift) - &gear.tip_chamfer;
+    // The paper knows sharp tips alone.
+    let edge = match (&gear.tip_radius, given.method) {
+        (Some(edge), method) if method != Method::Paper => edge.clone(),
+        _ => whole(0),
+    };
     Circles {
         reference,
         base,
         tip,
+        edge,
     }
 }
 
 fn pair(given: &Given) -> Option<Pair> {
     let (driver, driven) = (circles(given, &given.driver), circles(given, &given.driven));
-    if driver.tip <= driver.base || driven.tip <= driven.base {
+    if !has_room(given, &given.driver, &driver) || !has_room(given, &given.driven, &driven) {
         return None;
     }
     let base_sum = &driver.base + &driven.base;
@@ -172,13 +186,17 @@ fn pair(given: &Given) -> Option<Pair> {
             (&base_sum / working.cos(), working)
         }
     };
-    let start = &distance * working.sin() - leg(&driven.tip, &driven.base)?;
-    let end = leg(&driver.tip, &driver.base)?;
+    let start = &distance * working.sin() - involute_end(&driven)?;
+    let end = involute_end(&driver)?;
     if rounded(&start) <= 0.0 || end <= start {
         return None;
     }
-    let start_angle = (&driven.base / &driven.tip).acos() - &working;
+    let start_angle = (&driven.base / (&driven.tip - &driven.edge)).acos() - &working;
     let base_pitch = pi() * &given.module * given.pressure_angle.cos();
+    let is_rounded = rounded(&driver.edge) > 0.0 || rounded(&driven.edge) > 0.0;
+    if is_rounded && &end - &start < base_pitch {
+        return None;
+    }
     Some(Pair {
         driver,
         driven,
@@ -189,6 +207,25 @@ fn pair(given: &Given) -> Option<Pair> {
         end,
         start_angle,
     })
+}
+
+/// Radius of curvature at which the involute ends: an arc of radius r_e takes over where its centre is
+/// on the involute parallel to the flank.
+fn involute_end(circles: &Circles) -> Option<Big> {
+    Some(leg(&(&circles.tip - &circles.edge), &circles.base)? + &circles.edge)
+}
+
+/// Whether the centre of the tip's rounding is outside the base circle and not beyond the tooth's
+/// centre line.
+fn has_room(given: &Given, gear: &Gear, circles: &Circles) -> bool {
+    let Some(string) = leg(&(&circles.tip - &circles.edge), &circles.base) else {
+        return false;
+    };
+    let involute = |angle: &Big| angle.tan() - angle;
+    let alpha = &given.pressure_angle;
+    let half = (pi() / 2 + 2 * &gear.profile_shift * alpha.tan()) / gear.teeth + involute(alpha);
+    let room = half - involute(&string.atan2(&circles.base)) - &circles.edge / &circles.base;
+    rounded(&circles.edge) <= 0.0 || rounded(&room) >= 0.0
 }
 
 /// √(hypotenuse² − leg²).
@@ -223,16 +260,21 @@ fn working_angle(given: &Given) -> Option<Big> {
 
 /// The driven tip at an angle before E. `None` where it lies inside the driver's base circle.
 fn tip_at(pair: &Pair, angle: &Big) -> Option<Tip> {
-    let (tip, distance, base) = (&pair.driven.tip, &pair.distance, &pair.driver.base);
+    let (distance, base) = (&pair.distance, &pair.driver.base);
+    let tip = &(&pair.driven.tip - &pair.driven.edge);
     let (sine, cosine) = (&pair.start_angle + angle).sin_cos();
-    let radius = root(tip * tip + distance * distance - 2 * distance * tip * &cosine);
-    let curvature = leg(&radius, base)?;
+    let centre = root(tip * tip + distance * distance - 2 * distance * tip * &cosine);
+    let string = leg(&centre, base)?;
     let polar = (tip * sine).atan2(&(distance - tip * cosine));
-    let normal = polar + curvature.atan2(base);
+    let normal = polar + string.atan2(base);
+    let curvature = string - &pair.driven.edge;
+    let normal_radius = distance * normal.cos() - base;
+    let normal_length = distance * normal.sin() - &curvature;
     Some(Tip {
-        normal_radius: distance * normal.cos() - base,
-        normal_length: distance * normal.sin() - &curvature,
-        radius,
+        radius: root(base * base + &curvature * &curvature),
+        radius_driven: root(&normal_radius * &normal_radius + &normal_length * &normal_length),
+        normal_radius,
+        normal_length,
         curvature,
         normal,
     })
@@ -254,8 +296,10 @@ pub(crate) fn gap_at(inputs: &Inputs, angle: f64) -> Option<Big> {
 /// nearer; dS/du = rb2 − rb2'.
 fn first_contact(pair: &Pair, deviation: &Big) -> Option<Big> {
     const STEPS: usize = 200;
-    let driven = leg(&pair.driven.tip, &pair.driven.base)?;
-    let curvature = (&pair.start + &driven) * &driven / &pair.start;
+    let edge = &pair.driven.edge;
+    let driven = leg(&(&pair.driven.tip - edge), &pair.driven.base)?;
+    let driver = &pair.start + edge;
+    let curvature = (&driver + &driven) * &driven / &driver;
     let wanted = deviation.sqrt();
     let at_driver_tip =
         force::polar_angle(pair, &pair.driver.tip).map(|polar| polar - &pair.start_angle);

@@ -36,6 +36,7 @@ fn profile(row: &Value, module: f64, rounding: f64) -> Profile {
         reference,
         base,
         tip,
+        edge: 0.0,
         tip_curvature: ((tip - base) * (tip + base)).sqrt(),
         root: reference + module * (rack.profile_shift - rack.dedendum),
     };
@@ -84,7 +85,7 @@ fn inertia_agrees_with_eighteen_digits() {
         let found = number(&row, "density")
             * number(&row, "face_width_mm")
             * MILLIMETRE
-            * polar_moment(&profile, number(&row, "teeth") as u32, bore_radius);
+            * polar_moment(&profile, number(&row, "teeth") as u32, bore_radius).unwrap();
         let expected: f64 = row["inertia"].as_str().unwrap().parse().unwrap();
         let off = found / expected - 1.0;
         assert!(off.abs() < 1e-12, "z {}: {off:e}", row["teeth"]);

@@ -2,7 +2,7 @@
 
 use tipstrike::case::Case;
 use tipstrike::model::Inputs;
-use tipstrike::model::inputs::{Drive, Gear, ToothCompliance};
+use tipstrike::model::inputs::{Drive, Gear, InertiaModel, ToothCompliance};
 
 use super::envelope::Random;
 
@@ -35,6 +35,7 @@ pub(crate) fn numbered(number: u64) -> Inputs {
             Some(ToothCompliance::BEAM),
         ]),
         deflection: None,
+        inertia: InertiaModel::BaseCircle,
         ..built
     }
 }

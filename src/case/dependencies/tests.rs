@@ -22,7 +22,7 @@ struct Solved {
 type Change = fn(&mut Inputs);
 
 /// What turns a case into one that reads other fields.
-const VARIANTS: [(&str, Change); 17] = [
+const VARIANTS: [(&str, Change); 20] = [
     ("as it is", |_| {}),
     ("paper", |inputs| inputs.method = Method::Paper),
     ("static", |inputs| inputs.method = Method::Static),
@@ -46,6 +46,15 @@ const VARIANTS: [(&str, Change); 17] = [
     }),
     ("deflection computed", |inputs| inputs.deflection = None),
     ("stations as needed", |inputs| inputs.stations = None),
+    ("a grade of the driver", |inputs| {
+        inputs.driver.grade = Some(6);
+    }),
+    ("a grade of the driven gear", |inputs| {
+        inputs.driven.grade = Some(6);
+    }),
+    ("inertia given", |inputs| {
+        (inputs.driver.inertia, inputs.driven.inertia) = (Some(1e-3), Some(2e-3));
+    }),
     ("auto", |inputs| inputs.method = Method::Auto),
     ("beam, deflection given", |inputs| {
         inputs.tooth_compliance = Some(ToothCompliance::BEAM);
@@ -181,7 +190,7 @@ fn changed(solved: &Solved, field: usize) -> Vec<Inputs> {
             .map(|choice| with(&|inputs| put(inputs, choice)))
             .collect(),
         Kind::Count(_, _, put) => {
-            let now = solved.case.value(field).unwrap() as u32;
+            let now = solved.case.value(field).unwrap_or(1.0) as u32;
             [1, 9]
                 .map(|more| with(&|inputs| put(inputs, now + more)))
                 .into()

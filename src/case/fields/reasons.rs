@@ -67,8 +67,3 @@ pub(super) fn root_is_read(inputs: &Inputs) -> bool {
     model_of(inputs).model().reads_root
         || contact_of(inputs).is_some_and(|contact| contact.model().reads_root)
 }
-
-/// Whether no compliance of the case depends on curvature.
-pub(super) fn by_constant_contact(inputs: &Inputs) -> bool {
-    contact_of(inputs).is_some_and(|contact| !contact.model().reads_half_width)
-}

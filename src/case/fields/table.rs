@@ -4,12 +4,12 @@ use super::Absent::{Default, Either, Refused, Without};
 use super::reasons::Reason::{Beside, Idle, Partly};
 use super::reasons::{
     AT_RUN_OUT, CURVE, IN_TIME, LOAD, MASS, TIP_OF_DRIVER, WHOLE_RELIEF, always,
-    by_constant_contact, by_impact, is_driver, is_wider, root_is_read,
+    by_impact, is_driver, is_wider, root_is_read,
 };
 use super::{FLAG, Field, Kind, Range};
 use crate::case::units::Dimension;
 use crate::model::compliance::contact_of;
-use crate::model::inputs::{ContactCompliance, Drive, Method, ReliefShape, ToothCompliance};
+use crate::model::inputs::{ContactCompliance, Drive, InertiaModel, Method, ReliefShape, ToothCompliance};
 
 const fn range(from: f64, to: f64, unit: &'static str) -> Range {
     Range { from, to, unit }
@@ -72,6 +72,8 @@ macro_rules! gear {
                 |inputs, value| inputs.$gear.poisson = value, "Poisson's ratio of the gear's material."),
             number!(concat!(stringify!($gear), ".density"), concat!("ρ", $i), "density", Density, 1.0, 50000.0, "kg/m3", Default("7800 kg/m3"),
                 |inputs, value| inputs.$gear.density = value, "Density of the gear's material.").reasons(&MASS),
+            number!(concat!(stringify!($gear), ".inertia"), concat!("J", $i), "moment of inertia", Inertia, 1e-15, 1e12, "kg m2", Without("computed"),
+                |inputs, value| inputs.$gear.inertia = Some(value), "Moment of inertia of all that turns with the gear; else of the gear's body, see model.inertia.").with_example("0.0006 kg m2").reasons(&MASS),
             number!(concat!(stringify!($gear), ".tip_relief"), concat!("Ca", $i), "tip relief", Length, 0.0, 5000.0, "um", Default("0 um"),
                 |inputs, value| inputs.$gear.tip_relief = value, "Material removed at the tip, normal to the flank.").reasons(&[Idle(|inputs| is_driver($i) && by_impact(inputs), AT_RUN_OUT)]),
             number!(concat!(stringify!($gear), ".root_relief"), concat!("Cf", $i), "root relief", Length, 0.0, 5000.0, "um", Default("0 um"),
@@ -95,18 +97,23 @@ macro_rules! gear {
                 ..Field::PLAIN
             }.with_example("1 mm").reasons(&WHOLE_RELIEF),
             number!(concat!(stringify!($gear), ".tip_chamfer"), concat!("hk", $i), "tip chamfer", Length, 0.0, 50.0, "mm", Default("0 mm"),
-                |inputs, value| inputs.$gear.tip_chamfer = value, "Radial height of the chamfer; shortens the active tip.").reasons(&[Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER)]),
-            number!(concat!(stringify!($gear), ".tip_radius"), concat!("re", $i), "tip edge radius", Length, 0.0001, 50.0, "mm", Without("flank's own"),
-                |inputs, value| inputs.$gear.tip_radius = Some(value), "Radius of the tip's edge; else the flank's own curvature counts.").with_example("0.2 mm").reasons(&[
-                Idle(
-                    |inputs| is_driver($i) && by_impact(inputs),
-                    "the driver's tip touches at run-out only, which this method does not follow",
-                ),
-                Idle(
-                    by_constant_contact,
-                    "the contact compliance of this case does not depend on curvature",
-                ),
+                |inputs, value| inputs.$gear.tip_chamfer = value, "Radial height of the chamfer; its corner is a sharp tip, lower by this height.").reasons(&[Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER)]),
+            number!(concat!(stringify!($gear), ".tip_radius"), concat!("re", $i), "tip edge radius", Length, 0.0001, 50.0, "mm", Without("sharp"),
+                |inputs, value| inputs.$gear.tip_radius = Some(value), "Radius of the arc that rounds the tip's edge, tangent to tip circle and flank; the tip is sharp without it.").with_example("0.2 mm").reasons(&[
+                Idle(always, "method paper has sharp tips"),
+                Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER),
             ]),
+            number!(concat!(stringify!($gear), ".base_pitch"), concat!("f_pb", $i), "own pitch deviation", Length, -5000.0, 5000.0, "um", Without("common f_pb"),
+                |inputs, value| inputs.$gear.base_pitch = Some(value), "Base pitch deviation of this gear; else by its grade, or deviations.base_pitch.").with_example("12 um"),
+            Field {
+                key: concat!(stringify!($gear), ".grade"),
+                symbol: concat!("A", $i),
+                label: "ISO 1328-1 grade",
+                help: "Flank tolerance class of ISO 1328-1:2013; it gives the base pitch deviation f_pb = f_pT cos(alpha) of this gear.",
+                kind: Kind::Count(1, 11, |inputs, value| inputs.$gear.grade = Some(value)),
+                absent: Without("none"),
+                ..Field::PLAIN
+            }.with_example("7").reasons(&[Idle(always, "the base pitch deviation of this gear is given")]),
         ]
     };
 }
@@ -168,8 +175,11 @@ const TAIL: &[Field] = &[
         "um",
         Default("0 um"),
         |inputs, value| inputs.base_pitch_deviation = value,
-        "Base pitch deviation of each gear; counts twice in the equivalent error."
-    ),
+        "Base pitch deviation of each gear without its own; independent deviations add as sqrt(f_pb1^2 + f_pb2^2)."
+    ).reasons(&[Idle(
+        always,
+        "both gears have their own base pitch deviation",
+    )]),
     number!(
         "deviations.backlash",
         "j_bn",
@@ -287,6 +297,24 @@ const TAIL: &[Field] = &[
         |inputs| contact_of(inputs).is_none(),
         "the tooth compliance of this case includes the contact",
     )]),
+    Field {
+        key: "model.inertia",
+        symbol: "",
+        label: "inertia model",
+        help: "outline: a gear's inertia is that of its true outline. base-circle: of a disc up to its base circle, Eq. 47; paper always.",
+        kind: Kind::Choice(&["outline", "base-circle"], |inputs, value| {
+            inputs.inertia = InertiaModel::ALL[value];
+        }),
+        absent: Default("outline"),
+        ..Field::PLAIN
+    }.reasons(&[
+        Idle(
+            |inputs| inputs.method == Method::Paper,
+            "method paper uses the disc to the base circle, Eq. 47",
+        ),
+        Idle(always, "the inertia of both gears is given"),
+        MASS[0],
+    ]),
     Field {
         key: "model.relief_shape",
         symbol: "",

@@ -15,7 +15,7 @@ pub enum System {
 
 /// Each metric unit in which something is shown, and the inch unit that stands for it. A unit that
 /// is not here, such as deg, rpm or us, serves both.
-const PAIRS: [(&str, &str); 18] = [
+const PAIRS: [(&str, &str); 20] = [
     ("m", "ft"),
     ("mm", "in"),
     ("um", "thou"),
@@ -26,6 +26,8 @@ const PAIRS: [(&str, &str); 18] = [
     ("kW", "hp"),
     ("J", "ft lbf"),
     ("kg", "lb"),
+    ("kg m2", "lb in2"),
+    ("kg mm2", "lb in2"),
     ("kg/m3", "lb/in3"),
     ("Pa", "psi"),
     ("MPa", "psi"),
@@ -78,7 +80,7 @@ impl System {
 }
 
 /// The unit into which a number goes up that has more places than digits.
-const NEXT: [(&str, &str); 13] = [
+const NEXT: [(&str, &str); 14] = [
     ("N", "kN"),
     ("kN", "MN"),
     ("us", "ms"),
@@ -90,6 +92,7 @@ const NEXT: [(&str, &str); 13] = [
     ("kW", "MW"),
     ("N m", "kN m"),
     ("kg", "t"),
+    ("kg mm2", "kg m2"),
     ("thou", "in"),
     ("psi", "ksi"),
 ];

@@ -84,7 +84,7 @@ pub(super) fn name_of(dimension: Dimension) -> &'static str {
 // digits.
 /// Every dimension but the bare number.
 #[rustfmt::skip]
-pub(super) static FAMILIES: [Family; 14] = [
+pub(super) static FAMILIES: [Family; 15] = [
     family(Dimension::Length, "a length", &[
         ten("mm", &[], -3),
         ten("um", &["micron", "microns"], -6),
@@ -175,6 +175,14 @@ pub(super) static FAMILIES: [Family; 14] = [
         ten("kJ", &[], 3),
         times("ft lbf", &["ft lb"], 1.3558179483314003, 5.338232996145962e-17),
         times("in lbf", &["in lb"], 0.1129848290276167, 4.448527496788302e-18),
+    ]),
+    family(Dimension::Inertia, "a moment of inertia", &[
+        ten("kg m2", &["kgm2"], 0),
+        ten("kg cm2", &["kgcm2"], -4),
+        ten("kg mm2", &["kgmm2", "g m2"], -6),
+        ten("g cm2", &["gcm2"], -7),
+        times("lb in2", &["lbm in2"], 0.0002926396534292, 8.897395017015697e-21),
+        times("lb ft2", &["lbm ft2"], 0.0421401100938048, 1.2812248824502604e-18),
     ]),
     family(Dimension::Compliance, "a compliance per width", &[
         ten("um mm/N", &["mm um/N"], -9),

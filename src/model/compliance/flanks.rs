@@ -59,7 +59,6 @@ impl Flanks {
     /// Those of the teeth, see [`Teeth`](super::Teeth).
     pub fn new(elasticity: &Elasticity, geometry: &Geometry) -> Result<Flanks, Refusal> {
         let tooth = |gear, circles| Tooth::of(elasticity.tooth, gear, circles);
-        let (start, end) = (geometry.start, geometry.end);
         let (driver, driven) = (
             tooth(&elasticity.driver, &geometry.driver)?,
             tooth(&elasticity.driven, &geometry.driven)?,
@@ -68,11 +67,15 @@ impl Flanks {
             driver.contact(geometry.driver.tip)?,
             driven.contact(geometry.driven.tip)?,
         ];
-        let lowest = geometry.tangent_length - end;
-        let highest = geometry.driven.tip_curvature;
+        let lowest = geometry.tangent_length - geometry.end;
+        let highest = |circles: &Circles| circles.sharp().tip_curvature;
+        let ends = [
+            (geometry.start, highest(&geometry.driver)),
+            (lowest, highest(&geometry.driven)),
+        ];
         Ok(Flanks {
-            driver: Flank::of(&driver, &geometry.driver, (start, end))?,
-            driven: Flank::of(&driven, &geometry.driven, (lowest, highest))?,
+            driver: Flank::of(&driver, &geometry.driver, ends[0])?,
+            driven: Flank::of(&driven, &geometry.driven, ends[1])?,
             slope: match contacts {
                 [Some(driver), Some(driven)] => Some(driver.slope + driven.slope),
                 _ => None,

@@ -145,6 +145,7 @@ impl End {
         } else {
             LARGEST_ANGLE
         };
+        let whole = self.end_of_rounding(whole);
         match first_contact(&self.geometry, reach) {
             Ok(angle) if angle < whole => (angle, false),
             _ => (whole, true),
@@ -192,7 +193,7 @@ impl End {
     fn at(&self, relief: &Relief, force: f64, angle: f64) -> Result<[f64; 4], Refusal> {
         let tip = tip_at(&self.geometry, angle);
         let place = ContactPlace::at_tip(self.inputs.tip_radii[1], &self.geometry, &tip);
-        let arms = (tip.curvature_driver, self.geometry.driven.tip_curvature);
+        let arms = (tip.curvature_driver, tip.load_arm_driven(&self.geometry));
         let compliance = self.flanks.pair_at_load(
             &self.inputs.elasticity,
             &self.geometry,
@@ -235,6 +236,16 @@ impl End {
         ends.into_iter()
             .filter(move |&end| end > geometry.start)
             .map(move |end| angle_at_curvature(&geometry, end))
+    }
+
+    /// The angle, `whole` at the most, at which the contact leaves the arc of a rounded tip.
+    fn end_of_rounding(&self, whole: f64) -> f64 {
+        let arm = |angle: f64| tip_at(&self.geometry, angle).normal_radius_driven;
+        if self.geometry.driven.edge > 0.0 && arm(whole) < 0.0 {
+            root::between(0.0, whole, arm)
+        } else {
+            whole
+        }
     }
 
     /// Where the tip all but rolls: there friction turns round.

@@ -40,14 +40,14 @@ pub(super) fn stations_left_out(inputs: &Inputs, solution: &Solution) -> Option<
 ///
 /// # Formula
 /// ```text
-/// f_pb,0 = f_pb + g/√2,  told where f_pb,0 < 1.1 f_pb, or where g < 0.1 δ and the load makes δ
+/// f_pb,0 = f_pb + g/√2,  reported where f_pb,0 < 1.1 f_pb, or where g < 0.1 δ and the load makes δ
 /// ```
-/// where g is the gap that is left, which √2 f_pb closes, Eqs. 1 and 5, and δ grows about as the
-/// load.
+/// where g is the remaining gap, which √2 f_pb closes, Eqs. 1 and 5, and δ grows about as the load.
+/// Where the gears have their own deviations, f_pb is their root mean square.
 pub(super) fn barely_clear(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     const CLOSE: f64 = 0.1;
     let clear = solution.margin()?;
-    let now = inputs.base_pitch_deviation;
+    let now = inputs.mean_base_pitch();
     let enough = now + clear / SQRT_2;
     let is_of_load = solution.method.shares_load() || inputs.deflection.is_none();
     let more_load = Some(clear / solution.deviation.combined_deflection)

@@ -52,14 +52,14 @@ pub(super) fn distance(k: &Context) -> Option<Finding> {
 }
 
 /// The bores lie within the discs.
-pub(super) fn discs(k: &Context) -> Option<Finding> {
+pub(super) fn bodies(k: &Context) -> Option<Finding> {
     let geometry = &k.solution.geometry;
     let [driver, driven] = k.inputs.bores();
-    let parts = [driver / geometry.driver.base, driven / geometry.driven.base];
+    let parts = [driver / geometry.driver.root, driven / geometry.driven.root];
     Finding::new(
-        "the bores leave a disc, r_h < r_b",
+        "the bores leave a body, r_h < r_f",
         format!(
-            "rh1/r_b1 = {}, rh2/r_b2 = {}",
+            "rh1/r_f1 = {}, rh2/r_f2 = {}",
             four(parts[0]),
             four(parts[1])
         ),
@@ -86,10 +86,11 @@ pub(super) fn on_flank(k: &Context) -> Option<Finding> {
     let circles = &k.solution.geometry.driver;
     let radius = k.solution.position?.contact.radius_driver;
     let form = Profile::of(&Rack::of(k.inputs, &k.inputs.driver), circles).form_radius();
+    let end = circles.involute_end();
     Finding::new(
-        "D on the driver's involute: form circle <= O1D <= r_a1",
-        format!("{} <= {} <= {}", mm(form), mm(radius), mm(circles.tip)),
-        (form..=circles.tip).contains(&radius),
+        "D on the driver's involute: form circle <= O1D <= its end at the tip",
+        format!("{} <= {} <= {}", mm(form), mm(radius), mm(end)),
+        (form..=end).contains(&radius),
     )
 }
 

@@ -1,6 +1,7 @@
 //! Conditions on the inputs, by which rows choose formulas and words.
 
-use crate::model::inputs::{Drive, Inputs, Method};
+use crate::model::grade::Origin;
+use crate::model::inputs::{Drive, InertiaModel, Inputs, Method};
 
 /// In every case.
 #[must_use]
@@ -66,4 +67,70 @@ pub fn friction_given(inputs: &Inputs) -> bool {
 #[must_use]
 pub fn edge_given(inputs: &Inputs) -> bool {
     inputs.driven.tip_radius.is_some()
+}
+
+/// The driven tip is rounded, and the method follows the rounding.
+#[must_use]
+pub fn driven_rounded(inputs: &Inputs) -> bool {
+    edge_given(inputs) && !paper(inputs)
+}
+
+/// The driver's tip is rounded, and the method follows the rounding.
+#[must_use]
+pub fn driver_rounded(inputs: &Inputs) -> bool {
+    inputs.driver.tip_radius.is_some() && !paper(inputs)
+}
+
+/// A gear has a base pitch deviation of its own, given or by its grade.
+#[must_use]
+pub fn own_base_pitch(inputs: &Inputs) -> bool {
+    inputs.has_own_base_pitch()
+}
+
+/// The driver's grade gives its base pitch deviation.
+#[must_use]
+pub fn driver_graded(inputs: &Inputs) -> bool {
+    inputs.base_pitch_of(&inputs.driver).1 == Origin::Grade
+}
+
+/// The driver has a base pitch deviation of its own in a field.
+#[must_use]
+pub fn driver_pitch_given(inputs: &Inputs) -> bool {
+    inputs.driver.base_pitch.is_some()
+}
+
+/// The case gives the driver's moment of inertia.
+#[must_use]
+pub fn driver_inertia_given(inputs: &Inputs) -> bool {
+    inputs.driver.inertia.is_some()
+}
+
+/// The driver's moment of inertia is that of its outline.
+#[must_use]
+pub fn driver_outline(inputs: &Inputs) -> bool {
+    !driver_inertia_given(inputs) && inputs.inertia_taken() == InertiaModel::Outline
+}
+
+/// The driven gear's grade gives its base pitch deviation.
+#[must_use]
+pub fn driven_graded(inputs: &Inputs) -> bool {
+    inputs.base_pitch_of(&inputs.driven).1 == Origin::Grade
+}
+
+/// The driven gear has a base pitch deviation of its own in a field.
+#[must_use]
+pub fn driven_pitch_given(inputs: &Inputs) -> bool {
+    inputs.driven.base_pitch.is_some()
+}
+
+/// The case gives the driven gear's moment of inertia.
+#[must_use]
+pub fn driven_inertia_given(inputs: &Inputs) -> bool {
+    inputs.driven.inertia.is_some()
+}
+
+/// The driven gear's moment of inertia is that of its outline.
+#[must_use]
+pub fn driven_outline(inputs: &Inputs) -> bool {
+    !driven_inertia_given(inputs) && inputs.inertia_taken() == InertiaModel::Outline
 }

@@ -1,12 +1,13 @@
 //! Rows of the deviations that bring a tooth into contact early.
 
-use super::conditions::{always, at_rest, deflection_used, in_motion, paper, shared_load};
+use super::conditions::{always, at_rest, deflection_used, in_motion, paper, shared_load, driven_graded, driven_pitch_given, driver_graded, driver_pitch_given, own_base_pitch};
 use super::{Quantity, Variant, checks};
 use crate::model::Context;
 use crate::model::Stage::{Clearing, Deviation};
 use crate::model::compliance::{ContactPlace, Teeth};
 use crate::model::explanation::Formula::{Cases, Difference, Found, Given, Made, Text, Words};
 use crate::model::explanation::{Step, step};
+use crate::model::inputs::Method;
 
 pub(super) const TABLE: &[Quantity] = &[
     Quantity {
@@ -22,6 +23,7 @@ pub(super) const TABLE: &[Quantity] = &[
         meaning: "The distance along the line of action by which the deviations of both gears \
             bring the incoming tooth into contact early. Relief reduces it by its full amount.",
         formula: Cases(&[
+            (own_base_pitch, Made(own_error)),
             (paper, Difference("(2 f_pb + e_m - j_bn)/√2")),
             (shared_load, Difference("(2 f_pb - j_bn)/√2")),
             (always, Difference("(2 f_pb - j_bn)/√2 + e_m")),
@@ -276,7 +278,61 @@ fn contact_ahead(k: &Context) -> Option<f64> {
     spring.compliance(k.solution.mesh_force).ok()
 }
 
+/// Δf of gears with their own base pitch deviations.
+fn own_error(k: &Context) -> String {
+    let [driver, driven] = k.inputs.base_pitches();
+    let (squares, sign) = match (driver < 0.0, driven < 0.0) {
+        (false, false) => ("f_pb1² + f_pb2²", ""),
+        (true, true) => ("f_pb1² + f_pb2²", "-"),
+        (false, true) if driver >= -driven => ("f_pb1² - f_pb2²", ""),
+        (false, true) => ("f_pb2² - f_pb1²", "-"),
+        (true, false) if driven >= -driver => ("f_pb2² - f_pb1²", ""),
+        (true, false) => ("f_pb1² - f_pb2²", "-"),
+    };
+    match k.solution.method {
+        Method::Paper => format!("({sign}√(2 ({squares})) + e_m - j_bn)/√2"),
+        method if method.shares_load() => format!("{sign}√({squares}) - j_bn/√2"),
+        _ => format!("{sign}√({squares}) - j_bn/√2 + e_m"),
+    }
+}
+
 pub(super) const STEPS: &[Step] = &[
+    step(
+        "f_pT1",
+        "single pitch deviation of the driver's grade, rounded as the standard rounds it",
+        "um",
+        Words("(0.001 d + 0.4 m + 5) 2^((A1 - 5)/2) um, d and m in mm"),
+        |k| k.inputs.graded_pitch(&k.inputs.driver),
+    ),
+    step(
+        "f_pT2",
+        "single pitch deviation of the driven gear's grade, rounded as the standard rounds it",
+        "um",
+        Words("(0.001 d + 0.4 m + 5) 2^((A2 - 5)/2) um, d and m in mm"),
+        |k| k.inputs.graded_pitch(&k.inputs.driven),
+    ),
+    step(
+        "f_pb1",
+        "base pitch deviation of the driver",
+        "um",
+        Cases(&[
+            (driver_pitch_given, Given("driver.base_pitch")),
+            (driver_graded, Text("f_pT1 cos α")),
+            (always, Text("f_pb")),
+        ]),
+        |k| Some(k.inputs.base_pitches()[0]),
+    ),
+    step(
+        "f_pb2",
+        "base pitch deviation of the driven gear",
+        "um",
+        Cases(&[
+            (driven_pitch_given, Given("driven.base_pitch")),
+            (driven_graded, Text("f_pT2 cos α")),
+            (always, Text("f_pb")),
+        ]),
+        |k| Some(k.inputs.base_pitches()[1]),
+    ),
     step(
         "q_F",
         "compliance of the pair at F, one base pitch after E",

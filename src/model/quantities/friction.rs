@@ -1,6 +1,6 @@
 //! Rows of the friction ratio and of its limits.
 
-use super::conditions::{always, paper};
+use super::conditions::{always, paper, driven_rounded};
 use super::{Quantity, Variant, checks};
 use crate::model::Context;
 use crate::model::Stage::{Friction, Impact, Velocity};
@@ -106,7 +106,8 @@ impl End {
     fn of(k: &Context) -> Option<End> {
         let (geometry, impact) = (&k.solution.geometry, k.solution.impact?);
         let (position, time) = (k.solution.position?, impact.duration_printed);
-        let (tip, distance) = (geometry.driven.tip, geometry.centre_distance);
+        let edge = geometry.driven.edge;
+        let (tip, distance) = (geometry.driven.tip - edge, geometry.centre_distance);
         let turn = k.inputs.speed * time;
         let chord = 2.0 * tip * (turn / (2.0 * k.inputs.ratio())).sin();
         let at = |polar_angle: f64| {
@@ -124,11 +125,13 @@ impl End {
             let polar_angle = geometry.start_angle_driven + rest.max(0.0);
             (polar_angle, at(polar_angle))
         };
-        let curvature = (radius * radius - geometry.driver.base.powi(2)).sqrt();
+        let centre_curvature = (radius * radius - geometry.driver.base.powi(2)).sqrt();
+        let curvature = centre_curvature - edge;
         let (sine, cosine) = polar_angle.sin_cos();
         let normal_angle =
-            (tip * sine).atan2(distance - tip * cosine) + curvature.atan2(geometry.driver.base);
-        let gained = impact.force * time / (k.solution.reduced_mass * tip);
+            (tip * sine).atan2(distance - tip * cosine) + centre_curvature.atan2(geometry.driver.base);
+        let arm = position.contact.radius_driven;
+        let gained = impact.force * time / (k.solution.reduced_mass * arm);
         Some(End {
             turn,
             chord,
@@ -181,12 +184,16 @@ pub(super) const STEPS: &[Step] = &[
     ),
     step(
         "O1D'",
-        "driver radius at D'",
+        "driver radius at D', or of the centre of the rounding there",
         "mm",
         Cases(&[
             (
                 paper,
                 Difference("O1D cos Δθ - √((O1D cos Δθ)² - O1D² + DD'²)"),
+            ),
+            (
+                driven_rounded,
+                Text("√(r_C2² + a² - 2 a r_C2 cos η')"),
             ),
             (always, Text("√(r_a2² + a² - 2 a r_a2 cos η')")),
         ]),
@@ -196,14 +203,26 @@ pub(super) const STEPS: &[Step] = &[
         "ρ_1'",
         "radius of curvature of the driver at D'",
         "mm",
-        Difference("√(O1D'² - r_b1²)"),
+        Cases(&[
+            (driven_rounded, Difference("√(O1D'² - r_b1²) - re2")),
+            (always, Difference("√(O1D'² - r_b1²)")),
+        ]),
         |k| Some(End::of(k)?.curvature),
     ),
     step(
         "χ'",
         "angle of the contact normal at D'",
         "deg",
-        Text("atan2(r_a2 sin η', a - r_a2 cos η') + atan2(ρ_1', r_b1)"),
+        Cases(&[
+            (
+                driven_rounded,
+                Text("atan2(r_C2 sin η', a - r_C2 cos η') + atan2(ρ_1' + re2, r_b1)"),
+            ),
+            (
+                always,
+                Text("atan2(r_a2 sin η', a - r_a2 cos η') + atan2(ρ_1', r_b1)"),
+            ),
+        ]),
         |k| Some(End::of(k)?.normal_angle),
     ),
     step(
@@ -224,7 +243,7 @@ pub(super) const STEPS: &[Step] = &[
         "ω_2'",
         "speed of the driven gear after the impact, Eq. 31",
         "rad/s",
-        Text("ω_2 + F_S T_S,32/(m_red r_a2)"),
+        Text("ω_2 + F_S T_S,32/(m_red O2D)"),
         |k| Some(End::of(k)?.driven_speed),
     ),
     step(

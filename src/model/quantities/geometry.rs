@@ -1,13 +1,14 @@
 //! Rows of the geometry, the load and the steps on the way to them.
 
 use super::checks;
-use super::conditions::{always, distance_given, power_given};
+use super::conditions::{
+    always, distance_given, driven_rounded, driver_rounded, power_given,
+};
 use super::{Quantity, Variant};
 use crate::model::Context;
 use crate::model::Stage::{Geometry, Load};
 use crate::model::explanation::Formula::{Cases, Difference, Given, Solved, Text};
 use crate::model::explanation::{Equation, Step, step};
-use crate::model::impact::Masses;
 
 const SPUR_PAIR: &str =
     "External spur gears on parallel, rigid shafts, with involute flanks down to the contact.";
@@ -24,7 +25,7 @@ pub(super) const TABLE: &[Quantity] = &[
         stage: Geometry,
         value: |s| Some(s.geometry.contact_ratio),
         meaning: "The mean number of tooth pairs in contact: the length of the path of contact EB \
-            over the base pitch. Tip chamfers shorten the path.",
+            over the base pitch. Tip chamfers and tip radii shorten the path.",
         formula: Text("(N1B - N1E)/p_b"),
         source: "ISO 21771:2007, transverse contact ratio. Table 1 of Zhou & Chen 2014 has 1.5568.",
         corrections: &["Eqs. 16, 20"],
@@ -142,7 +143,7 @@ const INVOLUTE: Equation = Equation {
 };
 
 fn masses(k: &Context) -> Option<[f64; 2]> {
-    let masses = Masses::of(&k.inputs.bodies(), &k.solution.geometry).ok()?;
+    let masses = k.solution.kept.masses;
     Some([masses.driver, masses.driven])
 }
 
@@ -197,10 +198,33 @@ pub(super) const STEPS: &[Step] = &[
         |k| Some(k.solution.geometry.driven.tip),
     ),
     step(
+        "r_C1",
+        "radius of the centre of the rounding of the driver's tip",
+        "mm",
+        Text("r_a1 - re1"),
+        |k| {
+            let circles = &k.solution.geometry.driver;
+            Some(circles.tip - circles.edge)
+        },
+    ),
+    step(
+        "r_C2",
+        "radius of the centre of the rounding of the driven tip",
+        "mm",
+        Text("r_a2 - re2"),
+        |k| {
+            let circles = &k.solution.geometry.driven;
+            Some(circles.tip - circles.edge)
+        },
+    ),
+    step(
         "N2E",
         "from the driven gear's tangent point to E",
         "mm",
-        Text("√(r_a2² - r_b2²)"),
+        Cases(&[
+            (driven_rounded, Text("√(r_C2² - r_b2²) + re2")),
+            (always, Text("√(r_a2² - r_b2²)")),
+        ]),
         |k| Some(k.solution.geometry.driven.tip_curvature),
     ),
     step(
@@ -214,7 +238,10 @@ pub(super) const STEPS: &[Step] = &[
         "N1B",
         "from the driver's tangent point to B",
         "mm",
-        Text("√(r_a1² - r_b1²)"),
+        Cases(&[
+            (driver_rounded, Text("√(r_C1² - r_b1²) + re1")),
+            (always, Text("√(r_a1² - r_b1²)")),
+        ]),
         |k| Some(k.solution.geometry.end),
     ),
     step(
@@ -226,9 +253,12 @@ pub(super) const STEPS: &[Step] = &[
     ),
     step(
         "γ_2",
-        "angle at O2 from the centre line to the tip at E",
+        "angle at O2 from the centre line to the tip at E, or to the centre of its rounding",
         "deg",
-        Text("acos(r_b2/r_a2) - α_w"),
+        Cases(&[
+            (driven_rounded, Text("acos(r_b2/r_C2) - α_w")),
+            (always, Text("acos(r_b2/r_a2) - α_w")),
+        ]),
         |k| Some(k.solution.geometry.start_angle_driven),
     ),
     step("ω_1", "speed of the driver", "rad/s", Text("n1"), |k| {
@@ -254,20 +284,6 @@ pub(super) const STEPS: &[Step] = &[
     step("b", "common face width", "mm", Text("min(b1, b2)"), |k| {
         Some(k.inputs.common_width())
     }),
-    step(
-        "J_1",
-        "moment of inertia of the driver, a disc up to its base circle",
-        "kg m2",
-        Text("π ρ1 b1/2 (r_b1⁴ - rh1⁴)"),
-        |k| Some(masses(k)?[0] * k.solution.geometry.driver.base.powi(2)),
-    ),
-    step(
-        "J_2",
-        "moment of inertia of the driven gear, a disc up to its base circle",
-        "kg m2",
-        Text("π ρ2 b2/2 (r_b2⁴ - rh2⁴)"),
-        |k| Some(masses(k)?[1] * k.solution.geometry.driven.base.powi(2)),
-    ),
     step(
         "m_1",
         "mass of the driver at its base circle, Eq. 46 in kg",

@@ -1,10 +1,10 @@
 //! Rows of the impact: force, energy, duration, and the values behind them.
 
-use super::conditions::{always, paper, shared_load};
+use super::conditions::{always, paper, shared_load, driven_inertia_given, driven_outline, driver_inertia_given, driver_outline};
 use super::{Quantity, Variant, checks};
 use crate::model::Stage::{Band, Impact, Masses};
 use crate::model::compliance::contact::plane_strain_compliance;
-use crate::model::explanation::Formula::{Cases, Made, Text};
+use crate::model::explanation::Formula::{Cases, Given, Made, Text, Words};
 use crate::model::explanation::{Context, Step, step};
 use crate::model::impact::HERTZ_PREFACTOR;
 use crate::model::stiffness_spread::StiffnessModels;
@@ -15,13 +15,14 @@ const SPRING: &str = "The effective mass strikes the pair at D as a mass strikes
     constant during the impact.";
 const BAND: &str = "Every tooth compliance that covers the pair is combined with every contact \
     compliance, each with its own deflection if the case gives none. The models share the mass \
-    and the position, so the spread is smaller than the real uncertainty of about 10 %.";
+    and the position, and no measurement shows which model is right.";
 const BAND_SHARED: &str = "Every tooth compliance that covers the pair is combined with every \
-    contact compliance, each with its own deflection. The models share the mass, so the spread is \
-    smaller than the real uncertainty of about 10 %.";
+    contact compliance, each with its own deflection. The models share the mass, and \
+    no measurement shows which model is right.";
 const SPHERES: &str = "Two spheres collide. The bending of the teeth is neglected.";
-const DISCS: &str = "Each gear is a solid disc of its own width from the bore to the base circle, \
-    without web, shaft or coupling.";
+const BODY: &str = "Each gear is a solid body of its own width from the bore to its outline, or to \
+    the base circle with model.inertia = \"base-circle\", without web, shaft or coupling. The field \
+    inertia of a gear gives the moment of inertia of all that turns with it.";
 
 pub(super) const TABLE: &[Quantity] = &[
     Quantity {
@@ -200,6 +201,50 @@ pub(super) const TABLE: &[Quantity] = &[
         variants: &[],
     },
     Quantity {
+        key: "inertia_driver",
+        symbol: "J_1",
+        label: "inertia of driver",
+        unit: "kg m2",
+        shown: "kg mm2",
+        digits: 5,
+        equation: "∫r² dm",
+        stage: Masses,
+        value: |s| Some(s.kept.masses.inertias[0].moment),
+        meaning: "The moment of inertia of the driver about its axis.",
+        formula: Cases(&[
+            (driver_inertia_given, Given("driver.inertia")),
+            (always, Made(|k| inertia(k, 0))),
+        ]),
+        source: "Method paper: Zhou & Chen 2014, Eq. 47. Outline: ∫r² dm over the section that the \
+            rack cuts, involute and fillet.",
+        corrections: &["Eq. 47"],
+        assumptions: BODY,
+        checks: &[checks::bodies],
+        variants: &[],
+    },
+    Quantity {
+        key: "inertia_driven",
+        symbol: "J_2",
+        label: "inertia of driven gear",
+        unit: "kg m2",
+        shown: "kg mm2",
+        digits: 5,
+        equation: "∫r² dm",
+        stage: Masses,
+        value: |s| Some(s.kept.masses.inertias[1].moment),
+        meaning: "The moment of inertia of the driven gear about its axis.",
+        formula: Cases(&[
+            (driven_inertia_given, Given("driven.inertia")),
+            (always, Made(|k| inertia(k, 1))),
+        ]),
+        source: "Method paper: Zhou & Chen 2014, Eq. 47. Outline: ∫r² dm over the section that the \
+            rack cuts, involute and fillet.",
+        corrections: &["Eq. 47"],
+        assumptions: BODY,
+        checks: &[checks::bodies],
+        variants: &[],
+    },
+    Quantity {
         key: "reduced_mass",
         symbol: "m_red",
         label: "reduced mass",
@@ -212,12 +257,10 @@ pub(super) const TABLE: &[Quantity] = &[
         meaning: "The masses of both gears on the line of action, combined in series. Eqs. 31 and \
             32 use it. The impact force uses the effective mass at D.",
         formula: Text("m_1 m_2/(m_1 + m_2)"),
-        source: "Zhou & Chen 2014, Eqs. 33, 46 and 47.",
-        corrections: &["Eq. 33, Eq. 50", "Eq. 46", "Eq. 47"],
-        assumptions: "Each gear is a solid disc of its own width from the bore to the base \
-            circle, without web, shaft or coupling. A part that is fixed to a gear adds to its \
-            mass.",
-        checks: &[checks::discs],
+        source: "Zhou & Chen 2014, Eqs. 33 and 46.",
+        corrections: &["Eq. 33, Eq. 50", "Eq. 46"],
+        assumptions: BODY,
+        checks: &[checks::bodies],
         variants: &[],
     },
     Quantity {
@@ -234,9 +277,9 @@ pub(super) const TABLE: &[Quantity] = &[
             mass, with r_b2' instead of r_b2 as the lever arm of the driven gear.",
         formula: Text("m_1 m_2/(m_1 (r_b2'/r_b2)² + m_2)"),
         source: "Zhou & Chen 2014, Eq. 50: J_1 J_2/(J_1 r_b2'² + J_2 r_b1²).",
-        corrections: &["Eq. 33, Eq. 50", "Eq. 46", "Eq. 47"],
-        assumptions: DISCS,
-        checks: &[checks::discs],
+        corrections: &["Eq. 33, Eq. 50", "Eq. 46"],
+        assumptions: BODY,
+        checks: &[checks::bodies],
         variants: &[],
     },
     Quantity {
@@ -318,6 +361,24 @@ pub(super) const TABLE: &[Quantity] = &[
     },
 ];
 
+/// Moment of inertia of a gear whose inertia the case does not give.
+fn inertia(k: &Context, gear: usize) -> String {
+    let n = gear + 1;
+    let is_outline = [driver_outline, driven_outline][gear](k.inputs);
+    if is_outline && !k.solution.kept.masses.inertias[gear].is_fallback {
+        format!("ρ{n} b{n} I_p{n}")
+    } else {
+        format!("π ρ{n} b{n}/2 (r_b{n}⁴ - rh{n}⁴)")
+    }
+}
+
+/// Polar moment of a gear's section, in m⁴.
+fn section(k: &Context, gear: usize) -> Option<f64> {
+    let body = [&k.inputs.driver, &k.inputs.driven][gear];
+    let moment = k.solution.kept.masses.inertias[gear].moment;
+    Some(moment / (body.density * body.face_width))
+}
+
 /// The least or the greatest of the force of the case and the forces of all models in range.
 fn over_models(k: &Context, choice: &str) -> String {
     let forces = StiffnessModels::covering(k.inputs)
@@ -335,6 +396,20 @@ pub fn spread_force(inputs: &Inputs, models: &StiffnessModels) -> Option<f64> {
 }
 
 pub(super) const STEPS: &[Step] = &[
+    step(
+        "I_p1",
+        "polar moment of the driver's section, bore to outline",
+        "mm4",
+        Words("the integral of r² over the section"),
+        |k| section(k, 0),
+    ),
+    step(
+        "I_p2",
+        "polar moment of the driven gear's section, bore to outline",
+        "mm4",
+        Words("the integral of r² over the section"),
+        |k| section(k, 1),
+    ),
     step(
         "E'",
         "modulus of both materials in plane strain",

@@ -1,6 +1,6 @@
 //! Rows of the first contact D and the velocities there.
 
-use super::conditions::{always, edge_given, paper};
+use super::conditions::{always, driven_rounded, edge_given, paper};
 use super::{Quantity, Variant, checks};
 use crate::model::Context;
 use crate::model::Stage::{Position, Velocity};
@@ -8,8 +8,8 @@ use crate::model::explanation::Formula::{Cases, Difference, Solved, Text};
 use crate::model::explanation::{Equation, Step, step};
 use crate::model::position::{gap, printed_turns};
 
-const TIP: &str = "The tip edge of the driven gear meets the involute of the driver. Both gears \
-    turn at their steady speeds up to D.";
+const TIP: &str = "The tip of the driven gear meets the involute of the driver: a sharp edge, or the \
+    arc of its tip radius. Both gears turn at their steady speeds up to D.";
 
 pub(super) const TABLE: &[Quantity] = &[
     Quantity {
@@ -76,11 +76,36 @@ pub(super) const TABLE: &[Quantity] = &[
         value: |s| Some(s.position?.contact.radius_driver),
         meaning: "The radius of D on the driver. D is near the root, where the flank has its \
             strongest curvature.",
-        formula: Text("√(r_a2² + a² - 2 a r_a2 cos η)"),
+        formula: Cases(&[
+            (driven_rounded, Text("√(r_b1² + ρ_1²)")),
+            (always, Text("√(r_a2² + a² - 2 a r_a2 cos η)")),
+        ]),
         source: "Zhou & Chen 2014, Eqs. 7-10, with a instead of r_1 + r_2.",
         corrections: &["Eqs. 7-20"],
         assumptions: TIP,
         checks: &[checks::on_flank, checks::gap_closed],
+        variants: &[],
+    },
+    Quantity {
+        key: "contact_radius_driven",
+        symbol: "O2D",
+        label: "driven radius at D",
+        unit: "m",
+        shown: "mm",
+        digits: 6,
+        equation: "",
+        stage: Position,
+        value: |s| Some(s.position?.contact.radius_driven),
+        meaning: "The radius of D on the driven gear, where the tooth takes the load: its tip \
+            radius, or a point on the rounding of its tip.",
+        formula: Cases(&[
+            (driven_rounded, Text("√(r_b2'² + N2'D²)")),
+            (always, Text("r_a2")),
+        ]),
+        source: "Geometry of the rounding, an arc tangent to the tip circle and to the flank.",
+        corrections: &[],
+        assumptions: TIP,
+        checks: &[checks::gap_closed],
         variants: &[],
     },
     Quantity {
@@ -117,8 +142,8 @@ pub(super) const TABLE: &[Quantity] = &[
         formula: Text("ρ_1 ρ_2/(ρ_1 + ρ_2)"),
         source: "Zhou & Chen 2014, below Eq. 32.",
         corrections: &[],
-        assumptions: "The tip has the curvature of its own flank, or the radius of its edge if \
-            the case gives one. A sharp edge causes far higher pressure than either.",
+        assumptions: "A sharp tip has the curvature of its own flank, a rounded tip the radius of \
+            its edge. A sharp edge causes far higher pressure than either.",
         checks: &[checks::edge],
         variants: &[],
     },
@@ -219,8 +244,13 @@ const CONTACT: Equation = Equation {
 fn angle_at_tip(k: &Context) -> Option<f64> {
     let (geometry, contact) = (&k.solution.geometry, k.solution.position?.contact);
     let (sine, cosine) = contact.polar_angle.sin_cos();
-    let tip = geometry.driven.tip;
+    let tip = geometry.driven.tip - geometry.driven.edge;
     Some((tip * sine).atan2(geometry.centre_distance - tip * cosine))
+}
+
+/// N₁'D, of a rounded tip N₁'C, in m.
+fn centre_curvature(k: &Context) -> Option<f64> {
+    Some(k.solution.position?.contact.curvature_driver + k.solution.geometry.driven.edge)
 }
 
 pub(super) const STEPS: &[Step] = &[
@@ -240,7 +270,7 @@ pub(super) const STEPS: &[Step] = &[
     ),
     step(
         "η",
-        "angle at O2 from the centre line to the tip at D, Eq. 10",
+        "angle at O2 from the centre line to the tip at D, or to the centre of its rounding, Eq. 10",
         "deg",
         Text("γ_2 + u"),
         |k| Some(k.solution.position?.contact.polar_angle),
@@ -249,8 +279,18 @@ pub(super) const STEPS: &[Step] = &[
         "ρ_1",
         "radius of curvature of the driver at D, N1'D",
         "mm",
-        Difference("√(O1D² - r_b1²)"),
+        Cases(&[
+            (driven_rounded, Difference("ρ_1C - re2")),
+            (always, Difference("√(O1D² - r_b1²)")),
+        ]),
         |k| Some(k.solution.position?.contact.curvature_driver),
+    ),
+    step(
+        "ρ_1C",
+        "distance of the centre of the rounding from N1' at D",
+        "mm",
+        Difference("√(r_C2² + a² - 2 a r_C2 cos η - r_b1²)"),
+        centre_curvature,
     ),
     step(
         "Δρ_1",
@@ -263,23 +303,24 @@ pub(super) const STEPS: &[Step] = &[
         "ψ",
         "angle D O1 P",
         "deg",
-        Text("atan2(r_a2 sin η, a - r_a2 cos η)"),
+        Cases(&[
+            (
+                driven_rounded,
+                Text("atan2(r_C2 sin η, a - r_C2 cos η)"),
+            ),
+            (always, Text("atan2(r_a2 sin η, a - r_a2 cos η)")),
+        ]),
         angle_at_tip,
     ),
     step(
         "β_1",
         "angle D O1 N1'",
         "deg",
-        Text("atan2(ρ_1, r_b1)"),
-        |k| {
-            Some(
-                k.solution
-                    .position?
-                    .contact
-                    .curvature_driver
-                    .atan2(k.solution.geometry.driver.base),
-            )
-        },
+        Cases(&[
+            (driven_rounded, Text("atan2(ρ_1C, r_b1)")),
+            (always, Text("atan2(ρ_1, r_b1)")),
+        ]),
+        |k| Some(centre_curvature(k)?.atan2(k.solution.geometry.driver.base)),
     ),
     step(
         "χ",

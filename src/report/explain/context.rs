@@ -15,7 +15,7 @@ use crate::report::value;
 
 /// Units of steps that are no units of a field or a quantity, and one of each in SI.
 pub const STEP_UNITS: [(&str, f64); 5] = [
-    ("kg m2", 1.0),
+    ("mm4", 1e-12),
     ("N/(um mm)", 1e9),
     ("N/m", 1.0),
     ("Hz", 1.0),

@@ -83,8 +83,8 @@ fn over_models(quantity: &Quantity, own: f64, known: &Known) -> Option<String> {
     let share = |value: f64| format!("{:+.1} %", 100.0 * (value - own) / own.abs());
     (most - least > noise(quantity, inputs) * own.abs()).then(|| {
         format!(
-            "Other stiffness models: {} to {} ({} to {}). The stiffness of a tooth is known to about 20 %, \
-             which is 10 % of the impact force.",
+            "Other stiffness models: {} to {} ({} to {}). docs/validation.md compares \
+             the stiffness with published figures.",
             shown(quantity, least),
             shown(quantity, most),
             share(least),

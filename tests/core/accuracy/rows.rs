@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::thread;
 
 use serde_json::Value;
-use tipstrike::model::inputs::{ContactCompliance, Drive, Method, ToothCompliance};
+use tipstrike::model::inputs::{ContactCompliance, Drive, InertiaModel, Method, ToothCompliance};
 use tipstrike::model::{Inputs, QUANTITIES};
 
 use crate::envelope::{self, Corner, Random};
@@ -326,6 +326,7 @@ fn chosen(choices: &str) -> Inputs {
     let words: Vec<&str> = choices.split(' ').collect();
     let named = |contact: &ContactCompliance| contact.name() == words[3];
     Inputs {
+        inertia: InertiaModel::BaseCircle,
         drive: if words[1] == "power" {
             Drive::Power(0.0)
         } else {

@@ -73,6 +73,7 @@ impl Table {
         let plain = |row: &&Row| {
             matches!(row.corner, Corner::Anywhere | Corner::Fit)
                 && row.inputs.method == Method::Exact
+                && row.inputs.driven.tip_radius.is_none()
         };
         for row in rows.iter().filter(plain) {
             let Some(column) = DECADES.iter().position(|&of| of == decade(row)) else {

@@ -45,7 +45,7 @@ const STEPS: &[Step] = &[
         symbol: "q_2",
         meaning: "driven tooth loaded at its tip, Kuang & Yang 1992",
         unit: "um mm/N",
-        formula: Text("1/(c_2 + d_2 (r_a2 - r_2)/((1 + x2) m))"),
+        formula: Text("1/(c_2 + d_2 (O2D - r_2)/((1 + x2) m))"),
         value: |k| Some(k.solution.compliance?.driven),
     },
     Step {

@@ -1,0 +1,99 @@
+//! Base pitch deviation of a gear: as the case gives it, or by its flank tolerance class.
+
+use super::inputs::{Gear, Inputs};
+use super::iso_1328::{base_pitch_tolerance, pitch_tolerance};
+
+/// Where a gear's base pitch deviation comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Origin {
+    /// The gear's own value.
+    Own,
+    /// The gear's flank tolerance class.
+    Grade,
+    /// The value that both gears share.
+    Common,
+}
+
+/// Why ISO 1328-1:2013 does not cover a gear, where it does not.
+#[must_use]
+pub fn out_of_range(module: f64, teeth: u32) -> Option<&'static str> {
+    let diameter = module * f64::from(teeth);
+    if !(0.5e-3..=70e-3).contains(&module) {
+        Some("modules from 0.5 to 70 mm")
+    } else if !(5e-3..=15.0).contains(&diameter) {
+        Some("reference diameters from 5 to 15000 mm")
+    } else {
+        None
+    }
+}
+
+impl Inputs {
+    /// Base pitch deviation f_pb of a gear of the pair, in m, and where it comes from: the gear's
+    /// own value governs its grade, and its grade the common value.
+    ///
+    /// # Formula
+    /// ```text
+    /// f_pb = f_pT cos α  by the grade
+    /// ```
+    #[must_use]
+    pub fn base_pitch_of(&self, gear: &Gear) -> (f64, Origin) {
+        match (gear.base_pitch, gear.grade) {
+            (Some(own), _) => (own, Origin::Own),
+            (None, Some(grade)) => {
+                let diameter = self.module * f64::from(gear.teeth);
+                let allowed =
+                    base_pitch_tolerance(grade, self.module, diameter, self.pressure_angle);
+                (allowed, Origin::Grade)
+            }
+            (None, None) => (self.base_pitch_deviation, Origin::Common),
+        }
+    }
+
+    /// Single pitch deviation f_pT of a gear's grade, in m.
+    #[must_use]
+    pub fn graded_pitch(&self, gear: &Gear) -> Option<f64> {
+        let diameter = self.module * f64::from(gear.teeth);
+        Some(pitch_tolerance(gear.grade?, self.module, diameter))
+    }
+
+    /// Base pitch deviations of driver and driven gear, in m.
+    #[must_use]
+    pub fn base_pitches(&self) -> [f64; 2] {
+        [&self.driver, &self.driven].map(|gear| self.base_pitch_of(gear).0)
+    }
+
+    /// The base pitch deviation that both gears would have to have for the same equivalent error, in
+    /// m: the root mean square of both.
+    #[must_use]
+    pub fn mean_base_pitch(&self) -> f64 {
+        let [driver, driven] = self.base_pitches();
+        if driver.to_bits() == driven.to_bits() {
+            return driver;
+        }
+        let mean = f64::midpoint(driver * driver.abs(), driven * driven.abs());
+        mean.abs().sqrt().copysign(mean)
+    }
+
+    /// Whether a gear has a base pitch deviation of its own, given or by its grade.
+    #[must_use]
+    pub fn has_own_base_pitch(&self) -> bool {
+        [&self.driver, &self.driven]
+            .into_iter()
+            .any(|gear| self.base_pitch_of(gear).1 != Origin::Common)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_own_value_governs_the_grade_and_the_grade_the_common_value() {
+        let mut inputs = crate::model::sample::standard_pair(20, 20, 5e-3);
+        inputs.base_pitch_deviation = 3e-6;
+        assert_eq!(inputs.base_pitches(), [3e-6, 3e-6]);
+        inputs.driver.grade = Some(7);
+        let by_grade = 14e-6 * 20f64.to_radians().cos();
+        assert_eq!(inputs.base_pitches(), [by_grade, 3e-6]);
+        inputs.driver.base_pitch = Some(5e-6);
+        assert_eq!(inputs.base_pitches(), [5e-6, 3e-6]);
+    }
+}

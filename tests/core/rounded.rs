@@ -1,0 +1,167 @@
+//! Rounded tips: against answers of another program with 50 digits, and against sharp tips.
+
+use std::path::Path;
+
+use serde_json::Value;
+use tipstrike::case::file::Document;
+use tipstrike::model::inputs::Method;
+use tipstrike::model::{Inputs, Quantity, Refusal, Solution, Stages, solve};
+
+use crate::support::standard_pair;
+
+/// Every pair of `tests/reference/rounded` with its answers.
+fn pairs() -> Vec<(String, Inputs, Value)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/rounded");
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(&folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|ending| ending != "toml") {
+            continue;
+        }
+        let name = path.display().to_string();
+        let document = Document::parse(&name, &std::fs::read_to_string(&path).unwrap()).unwrap();
+        let answers = std::fs::read_to_string(path.with_extension("json")).unwrap();
+        found.push((
+            name,
+            document.case.inputs().unwrap(),
+            serde_json::from_str(&answers).unwrap(),
+        ));
+    }
+    found
+}
+
+fn value(solution: &Solution, key: &str) -> f64 {
+    let geometry = &solution.geometry;
+    match key {
+        "path_start" => geometry.start,
+        "path_end" => geometry.end,
+        "involute_end_radius_driver" => geometry.driver.involute_end(),
+        "involute_end_radius_driven" => geometry.driven.involute_end(),
+        "tip_centre_radius_driven" => geometry.driven.tip - geometry.driven.edge,
+        _ => (Quantity::find(key).unwrap().value)(solution).unwrap(),
+    }
+}
+
+#[test]
+fn every_rounded_pair_agrees_within_1e_11() {
+    let pairs = pairs();
+    assert_eq!(pairs.len(), 12);
+    for (name, inputs, answers) in pairs {
+        let solution = solve(&inputs, Stages::ALL).unwrap();
+        for (key, expected) in answers.as_object().unwrap() {
+            let Some(expected) = expected.as_f64() else {
+                assert_eq!(expected, solution.outcome.name(), "{name}");
+                continue;
+            };
+            let found = value(&solution, key);
+            let off = (found / expected - 1.0).abs();
+            assert!(off < 1e-11, "{name}: {key} is {found}, expected {expected}");
+        }
+    }
+}
+
+/// A loaded pair with a deviation and tips of a radius.
+fn pair(method: Method, tip_radius: Option<f64>) -> Inputs {
+    let mut inputs = standard_pair(20, 33, 4e-3);
+    (inputs.method, inputs.base_pitch_deviation) = (method, 12e-6);
+    (inputs.driver.tip_radius, inputs.driven.tip_radius) = (tip_radius, tip_radius);
+    inputs
+}
+
+#[test]
+fn a_vanishing_tip_radius_gives_the_geometry_of_a_sharp_tip() {
+    let keys = [
+        "contact_ratio",
+        "approach_angle_driven",
+        "contact_radius_driver",
+        "contact_radius_driven",
+        "contact_normal_radius_driven",
+        "normal_velocity",
+        "sliding_velocity",
+    ];
+    let sharp = solve(&pair(Method::Exact, None), Stages::ALL).unwrap();
+    for radius in [1e-6, 1e-8, 1e-10] {
+        let rounded = solve(&pair(Method::Exact, Some(radius)), Stages::ALL).unwrap();
+        for key in keys {
+            let off = (value(&rounded, key) / value(&sharp, key) - 1.0).abs();
+            assert!(
+                off < 20.0 * radius / 4e-3,
+                "{key} off by {off:e} at {radius:e} m"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_tip_radius_moves_the_first_contact_of_every_method_but_paper() {
+    for method in [Method::Exact, Method::Static, Method::Dynamic] {
+        let key = match method {
+            Method::Static => "static_first_contact_angle",
+            Method::Dynamic => "dynamic_first_contact_angle",
+            _ => "approach_angle_driven",
+        };
+        let [sharp, rounded] =
+            [None, Some(0.4e-3)].map(|radius| solve(&pair(method, radius), Stages::EVERY).unwrap());
+        let ratios = [&sharp, &rounded].map(|solution| value(solution, "contact_ratio"));
+        assert!(
+            ratios[1] < 0.98 * ratios[0],
+            "{method:?}: contact ratios {ratios:?}"
+        );
+        let angles = [&sharp, &rounded].map(|solution| value(solution, key));
+        assert!(
+            (angles[1] / angles[0] - 1.0).abs() > 0.01,
+            "{method:?}: first contact {angles:?}"
+        );
+    }
+    let [sharp, rounded] = [None, Some(0.4e-3)]
+        .map(|radius| solve(&pair(Method::Paper, radius), Stages::ALL).unwrap());
+    assert_eq!(sharp.geometry, rounded.geometry);
+    assert_eq!(
+        sharp.position.unwrap().contact,
+        rounded.position.unwrap().contact
+    );
+}
+
+#[test]
+fn a_tip_radius_at_run_out_moves_the_last_contact() {
+    let mut inputs = pair(Method::Static, None);
+    let sharp = solve(&inputs, Stages::EVERY).unwrap();
+    inputs.driver.tip_radius = Some(0.4e-3);
+    let rounded = solve(&inputs, Stages::EVERY).unwrap();
+    assert_eq!(sharp.geometry.start, rounded.geometry.start);
+    let key = "static_last_contact_angle";
+    let (sharp, rounded) = (value(&sharp, key), value(&rounded, key));
+    assert!(
+        (rounded / sharp - 1.0).abs() > 0.01,
+        "last contact {sharp} and {rounded}"
+    );
+}
+
+#[test]
+fn a_tip_radius_beyond_its_limits_is_refused_by_name() {
+    let refusal = |change: &dyn Fn(&mut Inputs)| {
+        let mut inputs = pair(Method::Exact, None);
+        change(&mut inputs);
+        solve(&inputs, Stages::ALL).unwrap_err()
+    };
+    let too_wide = refusal(&|inputs| inputs.driven.tip_radius = Some(0.75 * inputs.module));
+    assert!(
+        matches!(too_wide, Refusal::RoundingTooWide { .. }),
+        "{too_wide}"
+    );
+    assert_eq!(too_wide.field(), "driven.tip_radius");
+    let inside = refusal(&|inputs| inputs.driver.tip_radius = Some(2.0 * inputs.module));
+    assert!(
+        matches!(inside, Refusal::RoundingInsideBase { .. }),
+        "{inside}"
+    );
+    let apart = refusal(&|inputs| {
+        (inputs.driver.addendum, inputs.driven.addendum) = (0.6, 0.6);
+        let radius = Some(0.25 * inputs.module);
+        (inputs.driver.tip_radius, inputs.driven.tip_radius) = (radius, radius);
+    });
+    assert!(
+        matches!(apart, Refusal::RoundingBreaksContact { .. }),
+        "{apart}"
+    );
+}

@@ -1,0 +1,142 @@
+//! `docs/validation.md`: published figures beside those of the program.
+//!
+//! `TIPSTRIKE_REGENERATE=1 cargo test --test core validation::` writes the page anew.
+
+mod changes;
+mod sources;
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use tipstrike::case::file::Document;
+use tipstrike::model::Inputs;
+use tipstrike::model::inputs::ToothCompliance;
+use tipstrike::numeric::decimal::significant;
+
+use sources::SOURCES;
+
+const HEAD: &str = "# Validation
+
+Nothing on this page is a measurement, and nothing in tipstrike is compared with one. No published
+measurement with all its inputs could be read in full; tooth forces of NASA's gear noise rig and the
+dynamic transmission errors of Kubur and Kahraman are the ones to get.
+
+This page compares tipstrike with figures of other programs and of standards. Such a figure is a
+model too: agreement shows that two models agree. Misses stay on the page. The cases are in
+`tests/validation/`; `TIPSTRIKE_REGENERATE=1 cargo test --test core validation::` writes the page
+anew, and the same test without the variable checks it.
+";
+
+/// A program or standard with published figures.
+pub(crate) struct Source {
+    title: &'static str,
+    /// Where the figures are from.
+    from: &'static str,
+    /// The file in `tests/validation`, without its ending.
+    case: &'static str,
+    figures: &'static [Figure],
+}
+
+/// A published figure.
+pub(crate) struct Figure {
+    name: &'static str,
+    unit: &'static str,
+    published: f64,
+    ours: fn(&Inputs) -> Option<f64>,
+    /// Whether it depends on the tooth compliance.
+    by_model: bool,
+    /// Whether the comparison is fair, and the reason for the deviation.
+    fair: &'static str,
+}
+
+fn folder(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(name)
+}
+
+/// The inputs of a case file.
+pub(crate) fn inputs(file: &str) -> Inputs {
+    let text = std::fs::read_to_string(folder(file)).unwrap();
+    Document::parse(file, &text)
+        .unwrap_or_else(|faults| panic!("{file}: {}", faults[0]))
+        .case
+        .inputs()
+        .unwrap_or_else(|problems| panic!("{file}: {}", problems[0]))
+}
+
+/// The same with a tooth compliance.
+pub(crate) fn with_model(inputs: &Inputs, model: ToothCompliance) -> Inputs {
+    Inputs {
+        tooth_compliance: Some(model),
+        ..inputs.clone()
+    }
+}
+
+fn row(figure: &Figure, published: &str, model: &str, ours: Option<f64>) -> String {
+    let ours = ours.filter(|value| value.is_finite());
+    let shown = ours.map_or("outside its range".to_owned(), |value| significant(value, 4));
+    let deviation = ours.map_or("-".to_owned(), |value| {
+        format!("{:+.1} %", 100.0 * (value / figure.published - 1.0))
+    });
+    format!("| {published} | {model} | {shown} | {deviation} |\n")
+}
+
+fn figure(figure: &Figure, inputs: &Inputs) -> String {
+    let unit = if figure.unit.is_empty() {
+        String::new()
+    } else {
+        format!(" {}", figure.unit)
+    };
+    let published = format!("{} | {}{unit}", figure.name, figure.published);
+    if !figure.by_model {
+        return row(figure, &published, "any", (figure.ours)(inputs));
+    }
+    let mut text = String::new();
+    for (at, model) in ToothCompliance::ALL.into_iter().enumerate() {
+        let ours = (figure.ours)(&with_model(inputs, model));
+        let published = if at == 0 { published.as_str() } else { " | " };
+        text += &row(figure, published, model.name(), ours);
+    }
+    text
+}
+
+fn source(source: &Source) -> String {
+    let file = format!("tests/validation/{}.toml", source.case);
+    let inputs = inputs(&file);
+    let mut text = format!(
+        "\n## {}\n\nSource: {}. Inputs: `{file}`.\n\n| figure | published | tooth compliance | tipstrike | deviation |\n|---|---|---|---|---|\n",
+        source.title, source.from
+    );
+    for one in source.figures {
+        text += &figure(one, &inputs);
+    }
+    text += "\nIs it fair?\n\n";
+    for one in source.figures.iter().filter(|one| !one.fair.is_empty()) {
+        writeln!(text, "- {}: {}", one.name, one.fair).unwrap();
+    }
+    text
+}
+
+fn page() -> String {
+    let mut text = HEAD.to_owned();
+    for one in SOURCES {
+        text += &source(one);
+    }
+    text += &sources::iso_table();
+    text += &changes::section();
+    text
+}
+
+#[test]
+fn the_validation_page_shows_what_the_program_computes() {
+    let path = folder("docs/validation.md");
+    let page = page();
+    if std::env::var_os("TIPSTRIKE_REGENERATE").is_some() {
+        std::fs::write(path, page).unwrap();
+        return;
+    }
+    let stored = std::fs::read_to_string(path).unwrap();
+    for (number, (stored, made)) in stored.lines().zip(page.lines()).enumerate() {
+        assert_eq!(stored, made, "docs/validation.md, line {}", number + 1);
+    }
+    assert_eq!(stored.lines().count(), page.lines().count());
+}
