@@ -162,7 +162,8 @@ pub struct Geometry<T = f64> {
 pub fn geometry<T: Real>(shape: &PairShape) -> Result<Geometry<T>, Refusal> {
     let alpha: T = shape.pressure_angle.into();
     let driver: Circles<T> = circles(shape.module, shape.pressure_angle, &shape.driver)?;
-    let driven: Circles<T> = circles(shape.module, shape.pressure_angle, &shape.driven).map_err(Refusal::at_driven)?;
+    let driven: Circles<T> =
+        circles(shape.module, shape.pressure_angle, &shape.driven).map_err(Refusal::at_driven)?;
     let base_sum = driver.base + driven.base;
     let (centre_distance, tangent) = working_tangent(shape, alpha, base_sum)?;
     let tangent_length = base_sum * tangent;

@@ -113,10 +113,7 @@ fn refine(geometry: &Geometry<TwoFloat>, angle: f64, deviation: TwoFloat) -> Two
 /// S''(0) = (ρ1E + ρ2E) ρ2E/ρ1E, in m.
 fn gap_curvature_at_start(geometry: &Geometry) -> f64 {
     let edge = geometry.driven.edge;
-    let (driver, driven) = (
-        geometry.start + edge,
-        geometry.driven.tip_curvature - edge,
-    );
+    let (driver, driven) = (geometry.start + edge, geometry.driven.tip_curvature - edge);
     (driver + driven) * driven / driver
 }
 

@@ -85,8 +85,8 @@ pub fn tip_at<T: Real>(geometry: &Geometry<T>, angle: T) -> TipContact<T> {
     let normal_radius_driven = geometry.driven.base - normal_radius_drop;
     let normal_length_driven = geometry.driven.tip_curvature + normal_length_growth;
     let (curvature_driver, radius_driven) = if edge > T::zero() {
-        let square =
-            normal_radius_driven * normal_radius_driven + normal_length_driven * normal_length_driven;
+        let square = normal_radius_driven * normal_radius_driven
+            + normal_length_driven * normal_length_driven;
         (geometry.start + curvature_growth, square.root())
     } else {
         (centre_curvature, geometry.driven.tip)
@@ -166,8 +166,7 @@ pub fn gap_by_quadrature(geometry: &Geometry, tip: &TipContact) -> f64 {
 pub(super) fn angle_at_curvature(geometry: &Geometry, curvature: f64) -> f64 {
     angle_by_growth(
         geometry,
-        (curvature - geometry.start)
-            * (curvature + geometry.start + 2.0 * geometry.driven.edge),
+        (curvature - geometry.start) * (curvature + geometry.start + 2.0 * geometry.driven.edge),
     )
 }
 

@@ -73,7 +73,9 @@ pub(crate) fn with_model(inputs: &Inputs, model: ToothCompliance) -> Inputs {
 
 fn row(figure: &Figure, published: &str, model: &str, ours: Option<f64>) -> String {
     let ours = ours.filter(|value| value.is_finite());
-    let shown = ours.map_or("outside its range".to_owned(), |value| significant(value, 4));
+    let shown = ours.map_or("outside its range".to_owned(), |value| {
+        significant(value, 4)
+    });
     let deviation = ours.map_or("-".to_owned(), |value| {
         format!("{:+.1} %", 100.0 * (value / figure.published - 1.0))
     });

@@ -119,7 +119,9 @@ fn of_given(given: &Given) -> Option<Answers> {
     if rounded(&pair.driven.edge) > 0.0 && rounded(&tip.normal_radius) < 0.0 {
         return None;
     }
-    if rounded(&angle) <= 0.0 || tip.radius > root(&pair.driver.base * &pair.driver.base + &pair.end * &pair.end) {
+    if rounded(&angle) <= 0.0
+        || tip.radius > root(&pair.driver.base * &pair.driver.base + &pair.end * &pair.end)
+    {
         return None;
     }
     let mut found = Answers::from([

@@ -3,13 +3,15 @@
 use super::Absent::{Default, Either, Refused, Without};
 use super::reasons::Reason::{Beside, Idle, Partly};
 use super::reasons::{
-    AT_RUN_OUT, CURVE, IN_TIME, LOAD, MASS, TIP_OF_DRIVER, WHOLE_RELIEF, always,
-    by_impact, is_driver, is_wider, root_is_read,
+    AT_RUN_OUT, CURVE, IN_TIME, LOAD, MASS, TIP_OF_DRIVER, WHOLE_RELIEF, always, by_impact,
+    is_driver, is_wider, root_is_read,
 };
 use super::{FLAG, Field, Kind, Range};
 use crate::case::units::Dimension;
 use crate::model::compliance::contact_of;
-use crate::model::inputs::{ContactCompliance, Drive, InertiaModel, Method, ReliefShape, ToothCompliance};
+use crate::model::inputs::{
+    ContactCompliance, Drive, InertiaModel, Method, ReliefShape, ToothCompliance,
+};
 
 const fn range(from: f64, to: f64, unit: &'static str) -> Range {
     Range { from, to, unit }

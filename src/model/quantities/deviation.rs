@@ -1,6 +1,9 @@
 //! Rows of the deviations that bring a tooth into contact early.
 
-use super::conditions::{always, at_rest, deflection_used, in_motion, paper, shared_load, driven_graded, driven_pitch_given, driver_graded, driver_pitch_given, own_base_pitch};
+use super::conditions::{
+    always, at_rest, deflection_used, driven_graded, driven_pitch_given, driver_graded,
+    driver_pitch_given, in_motion, own_base_pitch, paper, shared_load,
+};
 use super::{Quantity, Variant, checks};
 use crate::model::Context;
 use crate::model::Stage::{Clearing, Deviation};

@@ -1,6 +1,6 @@
 //! Rows of the friction ratio and of its limits.
 
-use super::conditions::{always, paper, driven_rounded};
+use super::conditions::{always, driven_rounded, paper};
 use super::{Quantity, Variant, checks};
 use crate::model::Context;
 use crate::model::Stage::{Friction, Impact, Velocity};
@@ -128,8 +128,8 @@ impl End {
         let centre_curvature = (radius * radius - geometry.driver.base.powi(2)).sqrt();
         let curvature = centre_curvature - edge;
         let (sine, cosine) = polar_angle.sin_cos();
-        let normal_angle =
-            (tip * sine).atan2(distance - tip * cosine) + centre_curvature.atan2(geometry.driver.base);
+        let normal_angle = (tip * sine).atan2(distance - tip * cosine)
+            + centre_curvature.atan2(geometry.driver.base);
         let arm = position.contact.radius_driven;
         let gained = impact.force * time / (k.solution.reduced_mass * arm);
         Some(End {
@@ -191,10 +191,7 @@ pub(super) const STEPS: &[Step] = &[
                 paper,
                 Difference("O1D cos Δθ - √((O1D cos Δθ)² - O1D² + DD'²)"),
             ),
-            (
-                driven_rounded,
-                Text("√(r_C2² + a² - 2 a r_C2 cos η')"),
-            ),
+            (driven_rounded, Text("√(r_C2² + a² - 2 a r_C2 cos η')")),
             (always, Text("√(r_a2² + a² - 2 a r_a2 cos η')")),
         ]),
         |k| Some(End::of(k)?.radius),

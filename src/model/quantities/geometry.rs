@@ -1,9 +1,7 @@
 //! Rows of the geometry, the load and the steps on the way to them.
 
 use super::checks;
-use super::conditions::{
-    always, distance_given, driven_rounded, driver_rounded, power_given,
-};
+use super::conditions::{always, distance_given, driven_rounded, driver_rounded, power_given};
 use super::{Quantity, Variant};
 use crate::model::Context;
 use crate::model::Stage::{Geometry, Load};

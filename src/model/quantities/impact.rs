@@ -1,6 +1,9 @@
 //! Rows of the impact: force, energy, duration, and the values behind them.
 
-use super::conditions::{always, paper, shared_load, driven_inertia_given, driven_outline, driver_inertia_given, driver_outline};
+use super::conditions::{
+    always, driven_inertia_given, driven_outline, driver_inertia_given, driver_outline, paper,
+    shared_load,
+};
 use super::{Quantity, Variant, checks};
 use crate::model::Stage::{Band, Impact, Masses};
 use crate::model::compliance::contact::plane_strain_compliance;

@@ -304,10 +304,7 @@ pub(super) const STEPS: &[Step] = &[
         "angle D O1 P",
         "deg",
         Cases(&[
-            (
-                driven_rounded,
-                Text("atan2(r_C2 sin η, a - r_C2 cos η)"),
-            ),
+            (driven_rounded, Text("atan2(r_C2 sin η, a - r_C2 cos η)")),
             (always, Text("atan2(r_a2 sin η, a - r_a2 cos η)")),
         ]),
         angle_at_tip,

@@ -57,7 +57,9 @@ fn stiffness_at(inputs: &Inputs, way: f64) -> Option<f64> {
 fn greatest_stiffness(inputs: &Inputs) -> Option<f64> {
     let curve = mesh_stiffness(inputs)?;
     let within = curve.iter().filter(|(way, _)| (0.0..=1.0).contains(way));
-    within.map(|&(_, stiffness)| stiffness).max_by(f64::total_cmp)
+    within
+        .map(|&(_, stiffness)| stiffness)
+        .max_by(f64::total_cmp)
 }
 
 /// Stiffness per width of the pair at the pitch point, where it carries alone, in N/(um mm).
@@ -203,9 +205,7 @@ pub(super) const SOURCES: &[Source] = &[
                 name: "mean mesh stiffness",
                 unit: "N/um",
                 published: 353.2,
-                ours: |inputs| {
-                    Some(PER_MICROMETRE * by(inputs, Method::Static, "mesh_stiffness")?)
-                },
+                ours: |inputs| Some(PER_MICROMETRE * by(inputs, Method::Static, "mesh_stiffness")?),
                 by_model: true,
                 fair: "partly. The source uses the potential-energy method.",
             },
