@@ -140,9 +140,9 @@ const INVOLUTE: Equation = Equation {
     },
 };
 
-fn masses(k: &Context) -> Option<[f64; 2]> {
+fn masses(k: &Context) -> [f64; 2] {
     let masses = k.solution.kept.masses;
-    Some([masses.driver, masses.driven])
+    [masses.driver, masses.driven]
 }
 
 pub(super) const STEPS: &[Step] = &[
@@ -287,13 +287,13 @@ pub(super) const STEPS: &[Step] = &[
         "mass of the driver at its base circle, Eq. 46 in kg",
         "kg",
         Text("J_1/r_b1²"),
-        |k| Some(masses(k)?[0]),
+        |k| Some(masses(k)[0]),
     ),
     step(
         "m_2",
         "mass of the driven gear at its base circle, Eq. 46 in kg",
         "kg",
         Text("J_2/r_b2²"),
-        |k| Some(masses(k)?[1]),
+        |k| Some(masses(k)[1]),
     ),
 ];

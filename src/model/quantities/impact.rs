@@ -376,10 +376,10 @@ fn inertia(k: &Context, gear: usize) -> String {
 }
 
 /// Polar moment of a gear's section, in m⁴.
-fn section(k: &Context, gear: usize) -> Option<f64> {
+fn section(k: &Context, gear: usize) -> f64 {
     let body = [&k.inputs.driver, &k.inputs.driven][gear];
     let moment = k.solution.kept.masses.inertias[gear].moment;
-    Some(moment / (body.density * body.face_width))
+    moment / (body.density * body.face_width)
 }
 
 /// The least or the greatest of the force of the case and the forces of all models in range.
@@ -404,14 +404,14 @@ pub(super) const STEPS: &[Step] = &[
         "polar moment of the driver's section, bore to outline",
         "mm4",
         Words("the integral of r² over the section"),
-        |k| section(k, 0),
+        |k| Some(section(k, 0)),
     ),
     step(
         "I_p2",
         "polar moment of the driven gear's section, bore to outline",
         "mm4",
         Words("the integral of r² over the section"),
-        |k| section(k, 1),
+        |k| Some(section(k, 1)),
     ),
     step(
         "E'",

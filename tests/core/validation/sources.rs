@@ -149,7 +149,7 @@ macro_rules! light {
             name: concat!("dynamic factor of one tooth at ", $speed, " rpm"),
             unit: "",
             published: $published,
-            ours: |inputs| light_factor(inputs, $speed as f64),
+            ours: |inputs| light_factor(inputs, f64::from($speed)),
             by_model: true,
             fair: $fair,
         }
