@@ -28,6 +28,7 @@ pub mod load_sharing;
 pub mod mesh;
 pub mod notes;
 pub mod outline;
+pub mod pair_forces;
 pub mod position;
 pub mod profile;
 pub mod quantities;

@@ -1,5 +1,6 @@
 //! Numerical methods that know no gears.
 
+pub mod banded;
 pub mod bernstein;
 pub mod chebyshev;
 pub mod decimal;

@@ -212,7 +212,7 @@ fn swing(period: f64, time: f64) -> f64 {
 
 /// Period of a pair at rest under its load, in s.
 fn period(solution: &Solution) -> Option<f64> {
-    let compliance = solution.deviation.combined_deflection / solution.mesh_force;
+    let compliance = solution.deviation.loaded_deflection() / solution.mesh_force;
     Some(2.0 * PI * (solution.reduced_mass * compliance).sqrt()).filter(|period| *period > 0.0)
 }
 

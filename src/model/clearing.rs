@@ -85,7 +85,7 @@ pub fn clearing(
                 }
             };
             let deviation = &solution.deviation;
-            let size = deviation.combined_deflection
+            let size = deviation.loaded_deflection()
                 + deviation.equivalent_error.abs()
                 + inputs.driven.tip_relief;
             least(&tried, !is_in_motion, MOST * size).map(Some)

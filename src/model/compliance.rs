@@ -123,6 +123,16 @@ impl ContactPlace {
         }
     }
 
+    /// The same place with the gears swapped.
+    #[must_use]
+    pub fn swapped(self) -> ContactPlace {
+        ContactPlace {
+            radius_driver: self.radius_driven,
+            radius_driven: self.radius_driver,
+            ..self
+        }
+    }
+
     /// The driven tip on the driver's flank.
     #[must_use]
     pub fn at_tip(tip_radius: Option<f64>, geometry: &Geometry, tip: &TipContact) -> ContactPlace {
@@ -154,6 +164,12 @@ impl<'a> Teeth<'a> {
             driver: Tooth::of(elasticity.tooth, &elasticity.driver, &geometry.driver)?,
             driven: Tooth::of(elasticity.tooth, &elasticity.driven, &geometry.driven)?,
         })
+    }
+
+    /// Common face width b, in m.
+    #[must_use]
+    pub fn width(&self) -> f64 {
+        self.elasticity.width
     }
 
     /// Compliance of the two teeth at a place, in m²/N.
@@ -197,6 +213,28 @@ impl<'a> Teeth<'a> {
             }
             _ => contact::spring(self.elasticity, self.geometry, place),
         }
+    }
+
+    /// Displacement of a pair by the force on the pair `pitches` later in time, or of that one by
+    /// the force on this one, in m²/N: `later` and `earlier` are where they touch.
+    ///
+    /// # Errors
+    /// A [`Refusal`] outside the range of the model.
+    pub fn coupling(
+        &self,
+        later: &ContactPlace,
+        earlier: &ContactPlace,
+        pitches: i32,
+    ) -> Result<f64, Refusal> {
+        // The force pushes a tooth of the driver back towards the later pairs, one of the driven
+        // gear on towards the earlier ones.
+        let driver = self
+            .driver
+            .neighbour(earlier.radius_driver, later.radius_driver, pitches)?;
+        let driven = self
+            .driven
+            .neighbour(earlier.radius_driven, later.radius_driven, -pitches)?;
+        Ok(driver + driven)
     }
 
     /// Compliance of the pair at a place under a given force, in m²/N.

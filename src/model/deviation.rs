@@ -6,6 +6,7 @@ use super::Refusal;
 use super::compliance::{ContactPlace, Elasticity, Teeth};
 use super::geometry::Geometry;
 use super::inputs::{Inputs, Method};
+use super::pair_forces::{PITCHES, Pair, PairSet, Place};
 use crate::numeric::Real;
 
 /// What the deviation depends on, apart from geometry and mesh force.
@@ -64,8 +65,12 @@ pub struct Deviation<T = f64> {
     pub equivalent_error: T,
     /// Modification e_m at the run-in contact, Eq. 1: below 0 where material is taken off.
     pub modification: T,
-    /// Combined deflection δ of the pairs that carry the load, Eqs. 3 and 4.
+    /// Combined deflection δ: how far the pairs that carry the load deflect, Eqs. 3 and 4, less
+    /// what the incoming pair is displaced by them.
     pub combined_deflection: T,
+    /// Displacement of the incoming pair by the forces on the pairs ahead; 0 in the method `paper`
+    /// and where teeth deflect alone.
+    pub neighbour_deflection: T,
     /// Δ = Δf + δ, Eq. 5, reliefs counted in every method. Without Δ > 0 no tooth strikes.
     pub total: T,
 }
@@ -80,13 +85,11 @@ pub fn deviation(
     geometry: &Geometry,
     mesh_force: f64,
 ) -> Result<Deviation<TwoFloat>, Refusal> {
-    let combined_deflection = match &inputs.deflection {
-        Deflection::Given(given) => (*given).into(),
-        Deflection::ByLoad(elasticity) => {
-            let is_taken = !inputs.method.shares_load();
-            combined_deflection(elasticity, is_taken, geometry, mesh_force)?.into()
-        }
+    let deflected = match &inputs.deflection {
+        Deflection::Given(given) => Deflected::alone(*given),
+        Deflection::ByLoad(elasticity) => deflected(inputs, elasticity, geometry, mesh_force)?,
     };
+    let combined_deflection = TwoFloat::new_sub(deflected.pairs_ahead, deflected.incoming_pair);
     let with_reliefs = equivalent_error(inputs);
     let equivalent_error = if inputs.method.shares_load() {
         random_error(inputs)
@@ -98,6 +101,7 @@ pub fn deviation(
         equivalent_error,
         modification,
         combined_deflection,
+        neighbour_deflection: deflected.incoming_pair.into(),
         total: with_reliefs + combined_deflection,
     })
 }
@@ -152,42 +156,116 @@ fn random_deviation(inputs: &DeviationInputs) -> TwoFloat {
     signed - TwoFloat::from(inputs.backlash)
 }
 
-/// Combined deflection δ of the pairs in contact when the incoming pair stands at E, in m.
+/// Displacements along the line of action under the load with the incoming pair at E, in m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Deflected {
+    /// Of the pairs that carry the load, by their own deflection and each other's.
+    pairs_ahead: f64,
+    /// Of the incoming pair, by their forces.
+    incoming_pair: f64,
+}
+
+impl Deflected {
+    fn alone(pairs_ahead: f64) -> Deflected {
+        Deflected {
+            pairs_ahead,
+            incoming_pair: 0.0,
+        }
+    }
+}
+
+/// The two parts of the combined deflection δ when the incoming pair is at E, in m.
 ///
 /// # Formula
 /// ```text
-/// δ = F0/(b Σ 1/q_k),   q_k = q1 + q2 + qH  of the pair at  N1E + k pb,  k = 1, 2, .. while it lies before B
+/// δ = x − Σ_k Q_0k F_k/b,   x = Σ_j Q_kj F_j/b,   Σ F_k = F0,   F_k >= 0
+/// Q_kk = q1 + q2 + qH  of the pair at  N1E + k pb,  k = 1, 2, .. while it lies before B
 /// ```
-/// With a contact ratio below 2 only the pair at F, one base pitch after E, carries the load. With
-/// more, the pairs share it as parallel springs.
+/// With a contact ratio below 2 only the pair at F, one base pitch after E, carries the load:
+/// δ = (Q_11 − Q_01) F0/b. With more, the pairs share it. Teeth that deflect alone (Q_kj = 0), and
+/// the method `paper`, have δ = F0/(b Σ 1/Q_kk).
 ///
 /// # Source
 /// Zhou & Chen 2014, Eqs. 3 and 4, with the compliances of Eqs. 54-56 in place of the curve in its
-/// Fig. 3.
+/// Fig. 3. The displacement of neighbours is not in the paper.
 ///
 /// # Errors
 /// [`Refusal::ContactRatioBelowOne`] where no pair is in contact at F, or the compliance's own.
-fn combined_deflection(
+fn deflected(
+    inputs: &DeviationInputs,
     elasticity: &Elasticity,
-    is_deflection_taken: bool,
     geometry: &Geometry,
     mesh_force: f64,
-) -> Result<f64, Refusal> {
-    let mut stiffness = 0.0;
-    let mut along = geometry.start + geometry.base_pitch;
-    if along > geometry.end || along >= geometry.tangent_length {
+) -> Result<Deflected, Refusal> {
+    let is_in_contact = |along: f64| along <= geometry.end && along < geometry.tangent_length;
+    let first = geometry.start + geometry.base_pitch;
+    if !is_in_contact(first) {
         return Err(Refusal::ContactRatioBelowOne {
             ratio: geometry.contact_ratio,
-            is_deflection_taken,
+            is_deflection_taken: !inputs.method.shares_load(),
         });
     }
     let teeth = Teeth::of(elasticity, geometry)?;
-    while along <= geometry.end && along < geometry.tangent_length {
-        let place = ContactPlace::on_line_of_action(geometry, along);
-        stiffness += 1.0 / teeth.pair_at_load(&place, mesh_force)?;
+    let place = |along: f64| ContactPlace::on_line_of_action(geometry, along);
+    let force = mesh_force / elasticity.width;
+    let start = place(geometry.start);
+    let incoming = if inputs.method == Method::Paper {
+        0.0
+    } else {
+        teeth.coupling(&start, &place(first), 1)?
+    };
+    if incoming != 0.0 && is_in_contact(first + geometry.base_pitch) {
+        let ahead = std::iter::successors(Some(first), |along| Some(along + geometry.base_pitch));
+        let ahead = ahead.take_while(|along| is_in_contact(*along)).map(place);
+        return shared(&teeth, start, ahead, mesh_force);
+    }
+    let (mut stiffness, mut along) = (0.0, first);
+    while is_in_contact(along) {
+        stiffness += 1.0 / teeth.pair_at_load(&place(along), mesh_force)?;
         along += geometry.base_pitch;
     }
-    Ok(mesh_force / (elasticity.width * stiffness))
+    Ok(Deflected {
+        pairs_ahead: mesh_force / (elasticity.width * stiffness),
+        incoming_pair: incoming * force,
+    })
+}
+
+/// The displacements where several coupled pairs ahead of the one at `start` carry the force.
+fn shared(
+    teeth: &Teeth,
+    start: ContactPlace,
+    ahead: impl Iterator<Item = ContactPlace>,
+    mesh_force: f64,
+) -> Result<Deflected, Refusal> {
+    let places: Vec<ContactPlace> = std::iter::once(start).chain(ahead).collect();
+    let (mut pairs, mut couplings) = (Vec::new(), Vec::new());
+    for (ahead, place) in (0..).zip(&places) {
+        pairs.push(Pair {
+            ahead,
+            place: Place {
+                stiffness: 1.0 / teeth.pair_at_load(place, mesh_force)?,
+                gap: if ahead == 0 { f64::INFINITY } else { 0.0 },
+                lever: 0.0,
+                sliding: 0.0,
+            },
+            weight: 1.0,
+        });
+        let mut behind = [0.0; PITCHES];
+        let rear = places[..couplings.len()].iter().rev();
+        for ((pitches, rear), coupling) in (1..).zip(rear).zip(&mut behind) {
+            *coupling = teeth.coupling(rear, place, pitches)?;
+        }
+        couplings.push(behind);
+    }
+    let pairs = PairSet::new(pairs, couplings);
+    let (pairs_ahead, forces) = pairs.shared(mesh_force / teeth.width());
+    if !pairs_ahead.is_finite() {
+        return Err(Refusal::IndefiniteCompliance);
+    }
+    Ok(Deflected {
+        pairs_ahead,
+        incoming_pair: pairs.pushed(0, &forces),
+    })
 }
 
 impl Deviation {
@@ -206,6 +284,14 @@ impl Deviation {
     }
 }
 
+impl Deviation {
+    /// How far the pairs that carry the load deflect, in m.
+    #[must_use]
+    pub fn loaded_deflection(&self) -> f64 {
+        self.combined_deflection + self.neighbour_deflection
+    }
+}
+
 impl<T: Real> Deviation<T> {
     /// Rounded to f64.
     pub(super) fn rounded(self) -> Deviation {
@@ -213,6 +299,7 @@ impl<T: Real> Deviation<T> {
             equivalent_error: self.equivalent_error.rounded(),
             modification: self.modification.rounded(),
             combined_deflection: self.combined_deflection.rounded(),
+            neighbour_deflection: self.neighbour_deflection.rounded(),
             total: self.total.rounded(),
         }
     }

@@ -3,7 +3,9 @@
 
 mod events;
 mod laps;
+mod lead;
 mod motion;
+mod sharing;
 mod step;
 mod swing;
 #[cfg(test)]
@@ -14,13 +16,14 @@ use super::Refusal;
 use super::budget::{EVENT_WORK, MOTION_BYTES, MOTION_WORK, Meter};
 use super::inputs::Inputs;
 use super::mesh::Mesh;
+use super::pair_forces::Touching;
 use super::spacing::{Resolution, Spacing};
-use super::static_load;
 use super::stations::MeshStation;
 use events::Event;
 use laps::Laps;
-use motion::{Motion, State, Touching, Window};
-use step::{Course, TERMS};
+use lead::TERMS;
+use motion::{Motion, State, Window};
+use step::Course;
 use watch::Watch;
 
 /// What the incoming tooth carries, with inertia.
@@ -119,7 +122,7 @@ impl Settings {
 ///
 /// # Formula
 /// ```text
-/// me x'' + c x' + Σ w_k F_k(x, s) = F0,   s' = ω1 rb1,   1/me = rb1²/J1 + rb2²/J2
+/// me x'' + c x' + Σ w_k F_k(x, s) = F0,   x + e_k − S_k = Σ_j Q_kj F_j/b,   s' = ω1 rb1,   1/me = rb1²/J1 + rb2²/J2
 /// c = 2 ζ √(k me) while a pair is in contact, else 0;   k the mean stiffness of the mesh
 /// ```
 /// from the static balance `warmup_cycles` base pitches before E, where no pair deviates, until the
@@ -243,19 +246,19 @@ impl<'a> Run<'a> {
         let borders = mesh.borders(start, end);
         meter.spend((borders.len() / BORDERS) as u64);
         let inside = f64::midpoint(start, borders.get(1).copied().unwrap_or(end));
-        let displacement = static_load::balance(mesh, start, inside).displacement;
+        let pairs = mesh.pair_set(start, inside);
+        let (displacement, forces) = pairs.shared(mesh.force);
         if !displacement.is_finite() {
             return Err(Refusal::BeyondReach);
         }
-        let touching = mesh
-            .pairs(start, inside)
-            .filter(|pair| displacement > pair.place.gap);
+        let carries = pairs.pairs().iter().zip(forces);
+        let touching = carries.filter(|(_, force)| *force > 0.0);
         Ok(Run {
             motion,
             next: 1,
             t: motion.time(start),
             y: State::new(displacement, 0.0),
-            ahead: touching.map(|pair| pair.ahead).collect(),
+            ahead: touching.map(|(pair, _)| pair.ahead).collect(),
             borders,
             turned: Touching::NONE,
             allowed: SHARE_OF_A_STEP * tolerance * motion.scale()[0],
@@ -324,13 +327,13 @@ impl<'a> Run<'a> {
         end: f64,
     ) -> Result<Touching, Refusal> {
         let course = Course::new(self.motion, window, touching);
-        let (step, gaps) = course.step(self.t, &self.y, end, self.allowed)?;
+        let (step, leads) = course.step(self.t, &self.y, end, self.allowed)?;
         self.effort.steps += 1;
         self.effort.evaluations += TERMS as u64;
-        self.count(1 + window.pairs.len() as u64)?;
+        self.count(1 + window.pairs.len() as u64 + self.motion.take_looks())?;
         let range = step.range();
         let standing_off = self.lead.and(window.incoming());
-        let event = events::first(&course, (&step, range), &gaps, (self.turned, standing_off));
+        let event = events::first(&course, (&step, range), &leads, (self.turned, standing_off));
         let part = event.map_or(1.0, |event| event.part);
         let step = event.map_or(step, |event| step.cut(event.part));
         // A step to a border ends on it, whatever the rounding of the sum.
@@ -343,7 +346,7 @@ impl<'a> Run<'a> {
             self.y = step.state(1.0);
             self.turned = Touching::NONE;
             if let (Some(lead), Some(incoming)) = (self.lead, standing_off) {
-                self.lead = Some(step.most_beyond(&gaps[incoming].stretched(part), lead));
+                self.lead = Some(leads[incoming].stretched(part).most(&step.ahead, lead));
             }
             self.watch.keep(self.motion, touching, step, range.1);
         }
@@ -356,7 +359,7 @@ impl<'a> Run<'a> {
 
     /// Counts work of the motion.
     fn count(&self, work: u64) -> Result<(), Refusal> {
-        let is_too_large = self.watch.bytes() > MOTION_BYTES;
+        let is_too_large = self.watch.bytes() + self.motion.bytes() > MOTION_BYTES;
         if self.meter.spend(work) && !is_too_large {
             return Ok(());
         }

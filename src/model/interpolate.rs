@@ -5,7 +5,7 @@ use super::compliance::Teeth;
 use super::impact::Masses;
 use super::inputs::Inputs;
 use super::mesh::Mesh;
-use super::static_load::{balance, carried};
+use super::static_load::balance;
 use super::{MeshStation, Solution, Station, stations};
 
 /// An angle beyond the first contact by less than this share of it is at the first contact.
@@ -35,7 +35,7 @@ impl Told {
     /// ```text
     /// paper, exact:  as at a station
     /// static:        as at a station
-    /// dynamic:       F = k(s) max(0, x + e − S(s)),  x by the cubic with x and x' of the stations on either side
+    /// dynamic:       F of the load shared at x,  x by the cubic with x and x' of the stations on either side
     /// ```
     ///
     /// # Valid for
@@ -119,12 +119,11 @@ fn moving(mesh: &Mesh, stations: &[MeshStation], roll_angle: f64) -> Option<Told
         (from.roll_angle_driver - roll_angle) / (from.roll_angle_driver - to.roll_angle_driver);
     let (displacement, time) = cubic(from, to, part)?;
     let s = 0.0 - roll_angle * mesh.base_radii.0;
-    let pairs: Vec<_> = mesh.pairs(s, s).collect();
-    let total = pairs.iter().map(|pair| carried(pair, displacement)).sum();
-    let force = pairs
-        .iter()
-        .find(|pair| pair.ahead == 0)
-        .map_or(0.0, |pair| carried(pair, displacement));
+    let pairs = mesh.pair_set(s, s);
+    let forces = pairs.forces(displacement);
+    let total = forces.iter().sum();
+    let incoming = pairs.pairs().iter().position(|pair| pair.ahead == 0);
+    let force = incoming.map_or(0.0, |incoming| forces[incoming]);
     Some(Told::Between(MeshStation::at(
         mesh,
         s,

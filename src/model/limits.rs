@@ -194,6 +194,11 @@ pub enum Refusal {
     /// The pairs yield so far that a tip would leave the other flank.
     #[error("the teeth cannot carry the load: the pairs deflect further than their flanks reach")]
     BeyondReach,
+    /// The compliances of neighbouring pairs contradict each other.
+    #[error(
+        "the pairs have no load shares: a force would displace neighbouring teeth further than its own"
+    )]
+    IndefiniteCompliance,
     /// Friction alone would hold the gears.
     #[error(
         "the friction locks the gears: the coefficient is {friction} and must be below {limit:.4}, r_b1 over the greatest arm"
@@ -478,6 +483,11 @@ impl Refusal {
                 "beyond-reach",
                 "operation.power",
                 "lower the load, widen the gears or give a smaller deviation",
+            ),
+            Refusal::IndefiniteCompliance => (
+                "indefinite-compliance",
+                "model.tooth_compliance",
+                "choose the tooth compliance `beam`, in which each tooth deflects alone",
             ),
             Refusal::FrictionLocks { .. } => (
                 "friction-locks",

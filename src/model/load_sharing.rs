@@ -107,7 +107,7 @@ pub(super) fn on_mesh<T>(
     const FURTHER: f64 = 16.0;
     let deviation = &solution.deviation;
     let yields =
-        deviation.combined_deflection + deviation.equivalent_error.abs() + inputs.reliefs.sum();
+        deviation.loaded_deflection() + deviation.equivalent_error.abs() + inputs.reliefs.sum();
     let mut reach = AT_FIRST * yields;
     let mut known = solution.mesh.as_ref().map(|mesh| Arc::clone(mesh.flanks()));
     loop {

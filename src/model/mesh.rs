@@ -1,113 +1,25 @@
 //! Gap and stiffness of every tooth pair along the line of action: what the methods `static` and
 //! `dynamic` share.
 
+mod couplings;
+mod inputs;
 mod zones;
 
 use std::sync::Arc;
 
 use super::Refusal;
 use super::budget::{PAIRS, TOOTH_WORK};
-use super::compliance::Elasticity;
 use super::compliance::flanks::Flanks;
-use super::geometry::{Geometry, PairShape};
-use super::inputs::Inputs;
-use super::relief::{Relief, Reliefs};
+use super::compliance::{ContactPlace, Teeth};
+use super::geometry::Geometry;
+use super::pair_forces::{Compliances, PITCHES, Pair, PairSet, Place};
+use super::relief::Relief;
 use crate::numeric::chebyshev::TERMS;
 use crate::numeric::polynomial::Polynomial;
+use crate::numeric::quadrature;
+use couplings::{Couplings, Way};
+pub use inputs::MeshInputs;
 use zones::{End, GAP, LEVER, SLIDING, STIFFNESS, Zone, line_zones};
-
-/// What the mesh depends on, apart from geometry, mesh force and error.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MeshInputs {
-    /// Shape of the pair; swapped, it is that of the run-out.
-    pub shape: PairShape,
-    /// Elasticity of the pair.
-    pub elasticity: Elasticity,
-    /// Reliefs of the pair.
-    pub reliefs: Reliefs,
-    /// Radii of the tip edges of driver and driven gear, in m.
-    pub tip_radii: [Option<f64>; 2],
-    /// Speed of the driver ω₁, in rad/s.
-    pub speed: f64,
-    /// Friction coefficient, 0 where the case gives none.
-    pub friction: f64,
-}
-
-impl Inputs {
-    /// What the mesh depends on.
-    #[must_use]
-    pub fn mesh(&self) -> MeshInputs {
-        MeshInputs {
-            shape: self.shape(),
-            elasticity: self.elasticity(),
-            reliefs: self.reliefs(),
-            tip_radii: [self.driver.tip_radius, self.driven.tip_radius],
-            speed: self.speed,
-            friction: self.friction_coefficient.unwrap_or(0.0),
-        }
-    }
-}
-
-impl MeshInputs {
-    fn driven_speed(&self) -> f64 {
-        self.speed / (f64::from(self.shape.driven.teeth) / f64::from(self.shape.driver.teeth))
-    }
-
-    /// The same with the gears swapped.
-    fn swapped(&self) -> MeshInputs {
-        let MeshInputs {
-            shape,
-            elasticity,
-            reliefs,
-            tip_radii: [driver_tip, driven_tip],
-            ..
-        } = *self;
-        MeshInputs {
-            shape: PairShape {
-                driver: shape.driven,
-                driven: shape.driver,
-                ..shape
-            },
-            elasticity: Elasticity {
-                driver: elasticity.driven,
-                driven: elasticity.driver,
-                ..elasticity
-            },
-            reliefs: Reliefs {
-                driver: reliefs.driven,
-                driven: reliefs.driver,
-                ..reliefs
-            },
-            tip_radii: [driven_tip, driver_tip],
-            speed: self.driven_speed(),
-            friction: self.friction,
-        }
-    }
-}
-
-/// What a pair is at a place.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
-    /// Stiffness b/q, in N/m.
-    pub stiffness: f64,
-    /// Normal gap of the unloaded flanks, reliefs included, in m.
-    pub gap: f64,
-    /// Arm of the friction force on the driver over its base radius, ρ₁/r_b1.
-    pub lever: f64,
-    /// Sliding velocity of the driven flank on the driver's, in m/s.
-    pub sliding: f64,
-}
-
-/// A tooth pair at a position of the mesh.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pair {
-    /// How many base pitches it is ahead of the incoming one; below 0 behind.
-    pub ahead: i32,
-    /// What it is there.
-    pub place: Place,
-    /// The part of its force that turns the driver, 1 without friction.
-    pub weight: f64,
-}
 
 /// The mesh as a function of s, the way of the incoming pair along the line of action since E, in
 /// m.
@@ -133,9 +45,15 @@ pub struct Mesh {
     pitch_point: f64,
     flanks: Arc<Flanks>,
     zones: Vec<Zone>,
+    /// None if the pairs are independent springs.
+    couplings: Option<Couplings>,
     is_whole: bool,
     work: u64,
 }
+
+/// Displacement of a pair by the force on another, in m²/N: of the places of the rear pair and of
+/// the front one, and the pitches between them.
+type Neighbour<'a> = &'a dyn Fn(&ContactPlace, &ContactPlace, i32) -> Result<f64, Refusal>;
 
 impl Mesh {
     /// The mesh as far on both sides of the path of contact as gaps of up to `reach` stand there,
@@ -143,11 +61,13 @@ impl Mesh {
     ///
     /// # Formula
     /// ```text
-    /// F_k = b/q(s_k) max(0, x + e_k − S(s_k)),   s_k = s + k pb,   q = q1(r1) + q2(r2) + qH(F0)
+    /// x + e_k − S(s_k) = Σ_j Q_kj F_j/b  where F_k > 0,   s_k = s + k pb,   Q_kk = q1(r1) + q2(r2) + qH(F0)
     /// ```
     /// where S is the normal gap with the reliefs of both flanks, x the displacement of the driver
     /// ahead along the line of action, and e_k the equivalent error, Δf without reliefs for the
-    /// incoming pair and 0 for every other. On the line of action both flanks are met where the
+    /// incoming pair and 0 for every other. Q_kj is the displacement of the pair k by the force on
+    /// the pair j, up to two pitches away; where the model of the teeth has none, the pairs are
+    /// independent springs. On the line of action both flanks are met where the
     /// line crosses them; before E the driven tip is the load point, after B the driver's. A tip
     /// keeps its flank's own radius of curvature, or that of its edge where the case gives one.
     ///
@@ -178,8 +98,27 @@ impl Mesh {
         inputs: &MeshInputs,
         geometry: &Geometry,
         flanks: &Arc<Flanks>,
+        load: (f64, f64),
+        reach: f64,
+    ) -> Result<Mesh, Refusal> {
+        let teeth = Teeth::of(&inputs.elasticity, geometry)?;
+        let neighbour = |rear: &ContactPlace, front: &ContactPlace, pitches: i32| {
+            teeth.coupling(rear, front, pitches)
+        };
+        Mesh::with_neighbours(inputs, geometry, flanks, load, reach, &neighbour)
+    }
+
+    /// The same with the couplings by `neighbour`.
+    ///
+    /// # Errors
+    /// Those of [`Mesh::new`].
+    pub(super) fn with_neighbours(
+        inputs: &MeshInputs,
+        geometry: &Geometry,
+        flanks: &Arc<Flanks>,
         (force, error): (f64, f64),
         reach: f64,
+        neighbour: Neighbour<'_>,
     ) -> Result<Mesh, Refusal> {
         let relief = Relief::of(&inputs.reliefs, geometry);
         let run_in = End {
@@ -206,31 +145,117 @@ impl Mesh {
         if friction >= limit {
             return Err(Refusal::FrictionLocks { friction, limit });
         }
-        let on_line = |zone: &&Zone| zone.from >= 0.0 && zone.to <= length;
-        let stiffness: f64 = zones
-            .iter()
-            .filter(on_line)
-            .map(|zone| zone.series.integral(STIFFNESS))
-            .sum();
-        Ok(Mesh {
+        let [driver_bend, driven_bend] = flanks.bends();
+        let way = Way {
+            ends: (
+                zones.first().map_or(0.0, |zone| zone.from),
+                zones.last().map_or(0.0, |zone| zone.to),
+            ),
+            bends: vec![
+                0.0,
+                length,
+                driver_bend - geometry.start,
+                geometry.tangent_length - geometry.start - driven_bend,
+                run_in.bend(0.0),
+                run_out.bend(length),
+            ],
+            base_pitch: geometry.base_pitch,
+        };
+        let place = |s: f64| match s {
+            s if s < 0.0 => run_in.place(-s / geometry.driven.base),
+            s if s > length => run_out.place((s - length) / geometry.driver.base).swapped(),
+            s => ContactPlace::on_line_of_action(geometry, geometry.start + s),
+        };
+        let width = inputs.elasticity.width;
+        let coupling = |s: f64, pitches: i32| {
+            let front = place(s + f64::from(pitches) * geometry.base_pitch);
+            neighbour(&place(s), &front, pitches).map(|found| found / width)
+        };
+        let own = zones
+            .first()
+            .map_or(0.0, |zone| zone.series.one(STIFFNESS, zone.to))
+            .recip();
+        let couplings = Couplings::of(&way, own, &coupling)?;
+        let coupling_work = couplings.as_ref().map_or(0, Couplings::evaluations) as u64;
+        let mesh = Mesh {
             base_pitch: geometry.base_pitch,
             length,
             force,
             speed: inputs.speed * geometry.driver.base,
             error,
-            mean_stiffness: stiffness / geometry.base_pitch,
+            mean_stiffness: 0.0,
             base_radii: (geometry.driver.base, geometry.driven.base),
-            width: inputs.elasticity.width,
+            width,
             friction,
             pitch_point: geometry.approach_length,
-            work: zones
-                .iter()
-                .map(|zone| zone.series.evaluations() as u64)
-                .sum(),
+            work: coupling_work
+                + zones
+                    .iter()
+                    .map(|zone| zone.series.evaluations() as u64)
+                    .sum::<u64>(),
             flanks: Arc::clone(flanks),
             zones,
+            couplings,
             is_whole: is_whole_before && is_whole_after,
-        })
+        };
+        mesh.check_couplings()?;
+        Ok(mesh.with_mean_stiffness())
+    }
+
+    /// The same mesh if the force on a pair displaced no other.
+    #[must_use]
+    pub fn uncoupled(&self) -> Mesh {
+        let alone = Mesh {
+            couplings: None,
+            ..self.clone()
+        };
+        alone.with_mean_stiffness()
+    }
+
+    fn with_mean_stiffness(self) -> Mesh {
+        Mesh {
+            mean_stiffness: self.stiffness_on_line() / self.base_pitch,
+            ..self
+        }
+    }
+
+    /// Refuse compliances that are not positive definite.
+    fn check_couplings(&self) -> Result<(), Refusal> {
+        if self.couplings.is_none() {
+            return Ok(());
+        }
+        for ends in self.borders(0.0, self.base_pitch).windows(2) {
+            let middle = f64::midpoint(ends[0], ends[1]);
+            for s in [ends[0], middle, ends[1]] {
+                if !self.pair_set(s, middle).is_definite() {
+                    return Err(Refusal::IndefiniteCompliance);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// ∫ of the stiffness of all pairs on the line of action together over a base pitch, in N.
+    fn stiffness_on_line(&self) -> f64 {
+        if self.couplings.is_none() {
+            let on_line = |zone: &&Zone| zone.from >= 0.0 && zone.to <= self.length;
+            let zones = self.zones.iter().filter(on_line);
+            return zones.map(|zone| zone.series.integral(STIFFNESS)).sum();
+        }
+        let stiffness = |s: f64, inside: f64| {
+            let pairs = self.pair_set(s, inside).of_no_gap(|ahead| {
+                let place = inside + f64::from(ahead) * self.base_pitch;
+                (0.0..=self.length).contains(&place)
+            });
+            pairs.forces(1.0).iter().sum::<f64>()
+        };
+        let borders = self.borders(0.0, self.base_pitch);
+        let over = |ends: &[f64]| {
+            let (from, to) = (ends[0], ends[1]);
+            let at = |part: f64| stiffness(from + part * (to - from), f64::midpoint(from, to));
+            (to - from) * quadrature::unit_interval(at)
+        };
+        borders.windows(2).map(over).sum()
     }
 
     /// The compliance of its teeth.
@@ -271,9 +296,58 @@ impl Mesh {
 
     /// The pairs that may touch while the incoming one stands at `s`; on a border, those of the
     /// side where `inside` lies.
-    pub fn pairs(&self, s: f64, inside: f64) -> impl Iterator<Item = Pair> {
-        self.standing(inside)
-            .map(move |(ahead, zone)| self.pair(ahead, zone, s, inside))
+    #[must_use]
+    pub fn pair_set(&self, s: f64, inside: f64) -> PairSet {
+        let pairs: Vec<Pair> = self
+            .standing(inside)
+            .map(|(ahead, zone)| self.pair(ahead, zone, s, inside))
+            .collect();
+        let first = pairs.first().map_or(0, |pair| pair.ahead);
+        let couplings = self.couplings_of(first, pairs.len(), s, inside);
+        PairSet::new(pairs, couplings)
+    }
+
+    /// Whether the force on a pair displaces others.
+    #[must_use]
+    pub fn is_coupled(&self) -> bool {
+        self.couplings.is_some()
+    }
+
+    /// Displacement of each of so many pairs from the one `first` pitches ahead on by the force on
+    /// the pair one and two pitches behind it, in m/N; empty if there are none.
+    fn couplings_of(&self, first: i32, count: usize, s: f64, inside: f64) -> Vec<[f64; PITCHES]> {
+        let Some(couplings) = &self.couplings else {
+            return Vec::new();
+        };
+        let behind = |index: usize| {
+            std::array::from_fn(|at| {
+                index.checked_sub(at + 1).map_or(0.0, |rear| {
+                    let way = (f64::from(first) + rear as f64) * self.base_pitch;
+                    couplings.at(at, s + way, inside + way)
+                })
+            })
+        };
+        (0..count).map(behind).collect()
+    }
+
+    /// What `find` reads of the compliances of those pairs, each with its zone.
+    pub(super) fn with_compliances<T>(
+        &self,
+        standing: &[(i32, usize)],
+        (s, inside): (f64, f64),
+        find: impl FnOnce(&Compliances<'_>) -> T,
+    ) -> T {
+        let own = standing.iter().map(|&(ahead, zone)| {
+            let at = s + f64::from(ahead) * self.base_pitch;
+            self.zones[zone].series.one(STIFFNESS, at).recip()
+        });
+        let own: Vec<f64> = own.collect();
+        let first = standing.first().map_or(0, |&(ahead, _)| ahead);
+        let couplings = self.couplings_of(first, own.len(), s, inside);
+        find(&Compliances {
+            own: &own,
+            couplings: &couplings,
+        })
     }
 
     /// Which pairs stand in which zone.
@@ -331,6 +405,21 @@ impl Mesh {
         [stiffness, gap]
     }
 
+    /// Its gap alone, over the same way.
+    pub(super) fn gap_along(
+        &self,
+        ahead: i32,
+        zone: usize,
+        s: f64,
+        length: f64,
+    ) -> Polynomial<TERMS> {
+        let [mut gap] = self.zones[zone]
+            .series
+            .local(GAP, self.above(ahead, s), length);
+        gap.0[0] -= self.error_of(ahead);
+        gap
+    }
+
     /// Arm of the friction force over the driver's base radius, and sliding velocity, over the same
     /// way.
     pub(super) fn slide_along(
@@ -352,7 +441,7 @@ impl Mesh {
     }
 
     /// Where a pair stands, and how near its place cannot be told from another.
-    fn above(&self, ahead: i32, s: f64) -> (f64, f64) {
+    pub(super) fn above(&self, ahead: i32, s: f64) -> (f64, f64) {
         (
             s + f64::from(ahead) * self.base_pitch,
             16.0 * f64::EPSILON * s.abs(),

@@ -2,7 +2,8 @@
 
 use super::Refusal;
 use super::budget::{CURVE_WORK, STATIONS};
-use super::mesh::{Mesh, Pair};
+use super::mesh::Mesh;
+use super::pair_forces::Balance;
 use super::spacing::{Resolution, Spacing};
 use super::stations::MeshStation;
 use crate::numeric::root;
@@ -32,17 +33,6 @@ pub struct StaticLoad {
     pub resolution: Resolution,
 }
 
-/// The balance at a position of the mesh.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Balance {
-    /// Displacement of the driver ahead x, in m; infinite where no pair can carry.
-    pub displacement: f64,
-    /// Force of the incoming tooth, in N.
-    pub force: f64,
-    /// Forces of all pairs together, in N.
-    pub total: f64,
-}
-
 /// The way of the incoming pair on which it may carry.
 #[derive(Debug, Clone, Copy)]
 struct Contact {
@@ -54,7 +44,8 @@ struct Contact {
 ///
 /// # Formula
 /// ```text
-/// Σ w_k F_k(x) = F0,   F_k = b/q(s_k) max(0, x + e_k − S(s_k)),   w_k = 1 − μ sgn(ΔVτ) ρ1/rb1
+/// Σ w_k F_k = F0,   w_k = 1 − μ sgn(ΔVτ) ρ1/rb1
+/// x + e_k − S(s_k) = Σ_j Q_kj F_j/b  where F_k > 0,   x + e_k − S(s_k) <= Σ_j Q_kj F_j/b  where F_k = 0
 /// ```
 /// The weights are those of the driver's own balance: on the way to the pitch point the friction of
 /// a pair turns the driver on, after it back, so that the forces jump there. Without friction they
@@ -63,7 +54,7 @@ struct Contact {
 /// # Source
 /// Compliances of Zhou & Chen 2014, Eqs. 53-56; the third kind of impact friction in its
 /// introduction is the jump at the pitch point. Balance of parallel springs with gaps: for example
-/// Seireg & Houser 1970.
+/// Seireg & Houser 1970; with a matrix of compliances: Conry & Seireg 1973.
 ///
 /// # Valid for
 /// A speed so low that no pair swings; any contact ratio.
@@ -119,45 +110,13 @@ impl StaticLoad {
 /// The balance while the incoming pair stands at `s`; on a border, sliding as at `inside`.
 #[must_use]
 pub fn balance(mesh: &Mesh, s: f64, inside: f64) -> Balance {
-    shared(mesh.pairs(s, inside), mesh.force)
-}
-
-/// The displacement at which the springs together balance the force, found by taking in one pair
-/// after the other, the smallest gap first.
-fn shared(pairs: impl Iterator<Item = Pair>, force: f64) -> Balance {
-    let mut pairs: Vec<Pair> = pairs.collect();
-    pairs.sort_by(|one, other| one.place.gap.total_cmp(&other.place.gap));
-    let (mut stiffness, mut preload, mut displacement) = (0.0, force, f64::INFINITY);
-    for pair in &pairs {
-        if displacement <= pair.place.gap {
-            break;
-        }
-        stiffness += pair.weight * pair.place.stiffness;
-        preload += pair.weight * pair.place.stiffness * pair.place.gap;
-        displacement = preload / stiffness;
-    }
-    let force = |pair: &Pair| carried(pair, displacement);
-    let incoming = pairs.iter().find(|pair| pair.ahead == 0);
-    Balance {
-        displacement,
-        force: incoming.map_or(0.0, force),
-        total: pairs.iter().map(force).sum(),
-    }
-}
-
-/// The force of a pair at that displacement of the driver ahead, in N.
-pub(super) fn carried(pair: &Pair, displacement: f64) -> f64 {
-    pair.place.stiffness * (displacement - pair.place.gap).max(0.0)
+    mesh.pair_set(s, inside).balance(mesh.force)
 }
 
 /// By how much the others' displacement is beyond the incoming pair's gap: above 0 it carries.
 fn lead(mesh: &Mesh, s: f64) -> f64 {
-    let gap = mesh
-        .pairs(s, s)
-        .find(|pair| pair.ahead == 0)
-        .map_or(f64::INFINITY, |pair| pair.place.gap);
-    let others = shared(mesh.pairs(s, s).filter(|pair| pair.ahead != 0), mesh.force);
-    (others.displacement - gap).clamp(-mesh.length, mesh.length)
+    let lead = mesh.pair_set(s, s).lead(0, mesh.force);
+    lead.clamp(-mesh.length, mesh.length)
 }
 
 /// Every border and some places between.

@@ -61,6 +61,21 @@ impl<const N: usize> Series<N> {
         Ok(Series { pieces })
     }
 
+    /// Any number of groups of functions on the same pieces; `f` writes the values of all groups.
+    ///
+    /// # Errors
+    /// Those of `f`.
+    pub fn groups<E>(
+        from: f64,
+        to: f64,
+        rest: &[[f64; N]],
+        f: &impl Fn(f64, &mut [[f64; N]]) -> Result<(), E>,
+    ) -> Result<Vec<Series<N>>, E> {
+        let mut groups = vec![Series { pieces: Vec::new() }; rest.len()];
+        halve_groups((from, to), rest, MOST_HALVINGS, f, &mut groups)?;
+        Ok(groups)
+    }
+
     /// The values of the first `M` functions at `x`, which may be beyond the interval by rounding.
     #[must_use]
     pub fn at<const M: usize>(&self, x: f64) -> [f64; M] {
@@ -126,6 +141,12 @@ impl<const N: usize> Series<N> {
         TERMS * (2 * self.pieces.len()).saturating_sub(1)
     }
 
+    /// What the pieces take, in bytes.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        size_of_val(&*self.pieces)
+    }
+
     /// The integral of one function over the whole interval.
     #[must_use]
     pub fn integral(&self, function: usize) -> f64 {
@@ -175,12 +196,7 @@ fn halve<const N: usize, E>(
 ) -> Result<(), E> {
     let terms = interpolate(from, to, f)?;
     let middle = f64::midpoint(from, to);
-    let is_narrow = to - from <= NARROWEST * from.abs().max(to.abs());
-    if halvings == 0
-        || is_narrow
-        || pieces.len() >= MOST_PIECES
-        || has_settled(&terms, &rest(from, to))
-    {
+    if may_not_halve((from, to), halvings, pieces.len()) || has_settled(&terms, &rest(from, to)) {
         pieces.push(Piece {
             from,
             to,
@@ -192,6 +208,53 @@ fn halve<const N: usize, E>(
     halve(middle, to, rest, halvings - 1, f, pieces)
 }
 
+fn halve_groups<const N: usize, E>(
+    (from, to): (f64, f64),
+    rest: &[[f64; N]],
+    halvings: u32,
+    f: &impl Fn(f64, &mut [[f64; N]]) -> Result<(), E>,
+    groups: &mut [Series<N>],
+) -> Result<(), E> {
+    let mut values = vec![[[0.0; N]; TERMS]; groups.len()];
+    let mut found = vec![[0.0; N]; groups.len()];
+    for point in 0..TERMS {
+        f(place(from, to, point), &mut found)?;
+        for (values, found) in values.iter_mut().zip(&found) {
+            values[point] = *found;
+        }
+    }
+    let terms: Vec<Terms<N>> = values.iter().map(terms_of).collect();
+    let middle = f64::midpoint(from, to);
+    let pieces = groups.first().map_or(0, |group| group.pieces.len());
+    let has_settled = terms
+        .iter()
+        .zip(rest)
+        .all(|(terms, rest)| has_settled(terms, rest));
+    if has_settled || may_not_halve((from, to), halvings, pieces) {
+        for (group, terms) in groups.iter_mut().zip(&terms) {
+            group.pieces.push(Piece {
+                from,
+                to,
+                powers: powers(terms),
+            });
+        }
+        return Ok(());
+    }
+    halve_groups((from, middle), rest, halvings - 1, f, groups)?;
+    halve_groups((middle, to), rest, halvings - 1, f, groups)
+}
+
+/// Whether an interval is as narrow as it may be, or there are as many pieces as there may be.
+fn may_not_halve((from, to): (f64, f64), halvings: u32, pieces: usize) -> bool {
+    let is_narrow = to - from <= NARROWEST * from.abs().max(to.abs());
+    halvings == 0 || is_narrow || pieces >= MOST_PIECES
+}
+
+/// The Chebyshev point of the first kind.
+fn place(from: f64, to: f64, point: usize) -> f64 {
+    f64::midpoint(from, to) + 0.5 * (to - from) * COSINES[2 * point + 1]
+}
+
 /// The terms of the polynomials through the function's values at the Chebyshev points of the first
 /// kind.
 fn interpolate<const N: usize, E>(
@@ -199,11 +262,18 @@ fn interpolate<const N: usize, E>(
     to: f64,
     f: &impl Fn(f64) -> Result<[f64; N], E>,
 ) -> Result<Terms<N>, E> {
+    let mut values = [[0.0; N]; TERMS];
+    for (point, value) in values.iter_mut().enumerate() {
+        *value = f(place(from, to, point))?;
+    }
+    Ok(terms_of(&values))
+}
+
+/// The same of the values at those points.
+fn terms_of<const N: usize>(values: &Terms<N>) -> Terms<N> {
     let cosines = &*COSINES;
     let mut terms = [[0.0; N]; TERMS];
-    for point in 0..TERMS {
-        let x = f64::midpoint(from, to) + 0.5 * (to - from) * cosines[2 * point + 1];
-        let found = f(x)?;
+    for (point, found) in values.iter().enumerate() {
         for (order, sums) in terms.iter_mut().enumerate() {
             let weight = cosines[order * (2 * point + 1) % cosines.len()];
             sums.iter_mut()
@@ -217,7 +287,7 @@ fn interpolate<const N: usize, E>(
             *sum *= scale;
         }
     }
-    Ok(terms)
+    terms
 }
 
 /// Whether the last terms of each function are small enough, or so large that no halving would
@@ -322,6 +392,29 @@ mod tests {
             assert!((found.one(1, x) - growth).abs() == 0.0);
         }
         assert!((found.integral(0) - (2f64.cos() - 7f64.cos())).abs() < 1e-13);
+    }
+
+    #[test]
+    fn groups_on_the_same_pieces_are_the_series_of_their_functions() {
+        let functions = |x: f64| [[x.sin(), (0.3 * x).exp()], [x.cos(), 1.0 / (3.0 + x)]];
+        let found = Series::<2>::groups(-2.0, 7.0, &[[1e-14; 2]; 2], &|x, values| {
+            values.copy_from_slice(&functions(x));
+            Ok::<_, ()>(())
+        })
+        .unwrap();
+        assert_eq!(found[0].pieces.len(), found[1].pieces.len());
+        for step in 0..=90 {
+            let x = -2.0 + 0.1 * f64::from(step);
+            for (group, expected) in found.iter().zip(functions(x)) {
+                let values: [f64; 2] = group.at(x);
+                for (value, expected) in values.iter().zip(expected) {
+                    assert!(
+                        (value - expected).abs() < 3e-14 * expected.abs().max(1.0),
+                        "{x}"
+                    );
+                }
+            }
+        }
     }
 
     #[test]

@@ -76,10 +76,8 @@ fn plain_peak(inputs: &Inputs, solution: &Solution, steps: u32) -> f64 {
     let damping = 2.0 * inputs.damping_ratio * (mesh.mean_stiffness * mass).sqrt();
     let slope = |t: f64, [x, v]: [f64; 2]| {
         let s = t * mesh.speed;
-        let forces: Vec<f64> = mesh
-            .pairs(s, s)
-            .map(|pair| pair.place.stiffness * (x - pair.place.gap).max(0.0))
-            .collect();
+        let pairs = mesh.pair_set(s, s);
+        let forces = pairs.forces(x);
         let drag = if forces.iter().any(|&force| force > 0.0) {
             damping * v
         } else {
@@ -106,9 +104,9 @@ fn plain_peak(inputs: &Inputs, solution: &Solution, steps: u32) -> f64 {
             y[part] + h / 6.0 * (one[part] + 2.0 * (two[part] + three[part]) + four[part])
         });
         let s = (t + h) * mesh.speed;
-        let incoming = mesh.pairs(s, s).find(|pair| pair.ahead == 0);
-        peak =
-            peak.max(incoming.map_or(0.0, |pair| pair.place.stiffness * (y[0] - pair.place.gap)));
+        let pairs = mesh.pair_set(s, s);
+        let incoming = pairs.pairs().iter().position(|pair| pair.ahead == 0);
+        peak = peak.max(incoming.map_or(0.0, |incoming| pairs.forces(y[0])[incoming]));
     }
     peak
 }

@@ -1,13 +1,17 @@
 //! The equation of motion between two borders of the mesh.
 
+use std::cell::{Cell, RefCell};
 use std::f64::consts::TAU;
+use std::rc::Rc;
 
 use nalgebra::Vector2;
 
 use super::Settings;
+use super::sharing::{Shares, Sharing};
 use crate::model::Refusal;
 use crate::model::budget::MOTION_SWINGS;
 use crate::model::mesh::Mesh;
+use crate::model::pair_forces::Touching;
 
 /// Displacement of the driver ahead in m, and its rate in m/s.
 pub(super) type State = Vector2<f64>;
@@ -22,13 +26,21 @@ pub(super) struct Motion<'a> {
     frequency: f64,
     decay: f64,
     warmup_cycles: u32,
+    /// The sharing of coupled pairs, by the zones in which they stand.
+    sharing: RefCell<Vec<(Vec<usize>, Rc<Sharing>)>>,
+    /// Places at which shares were computed.
+    looks: Cell<u64>,
 }
 
 /// What stays the same between two borders: the pairs that may touch, and the zones in which they
 /// stand.
 #[derive(Debug, Clone)]
 pub(super) struct Window {
+    /// From where to where the incoming pair goes, in m.
+    pub(super) ends: (f64, f64),
     pub(super) pairs: Vec<Standing>,
+    /// None if the pairs are independent springs.
+    sharing: Option<Rc<Sharing>>,
 }
 
 /// A pair that may touch.
@@ -42,10 +54,6 @@ pub(super) struct Standing {
     pub(super) direction: f64,
 }
 
-/// Some pairs of a window, a bit each: mostly those in contact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Touching(u64);
-
 impl<'a> Motion<'a> {
     pub(super) fn new(mesh: &'a Mesh, settings: &Settings) -> Motion<'a> {
         let frequency = (mesh.mean_stiffness / settings.mass).sqrt();
@@ -56,6 +64,8 @@ impl<'a> Motion<'a> {
             frequency,
             decay: settings.damping_ratio * frequency,
             warmup_cycles: settings.warmup_cycles,
+            sharing: RefCell::default(),
+            looks: Cell::default(),
         }
     }
 
@@ -123,9 +133,52 @@ impl<'a> Motion<'a> {
                 direction: sliding.signum(),
             }
         });
+        let pairs: Vec<Standing> = standing.collect();
+        let is_shared = self.mesh.is_coupled() && !pairs.is_empty();
         Window {
-            pairs: standing.collect(),
+            ends: (from, to),
+            sharing: is_shared.then(|| self.sharing(&pairs)),
+            pairs,
         }
+    }
+
+    /// The sharing of pairs in these zones: a base pitch later it is the same.
+    fn sharing(&self, pairs: &[Standing]) -> Rc<Sharing> {
+        let mut all = self.sharing.borrow_mut();
+        let zones = || pairs.iter().map(|pair| pair.zone);
+        let known = all
+            .iter()
+            .find(|(known, _)| known.iter().copied().eq(zones()));
+        if let Some((_, sharing)) = known {
+            return Rc::clone(sharing);
+        }
+        let sharing = Rc::new(Sharing::default());
+        all.push((zones().collect(), Rc::clone(&sharing)));
+        sharing
+    }
+
+    /// How coupled pairs share a displacement; none if none touches or all are independent springs.
+    pub(super) fn shares(&self, window: &Window, touching: Touching) -> Option<Rc<Shares>> {
+        let sharing = window.sharing.as_ref().filter(|_| !touching.is_none())?;
+        let pairs = window.pairs.iter();
+        let standing: Vec<_> = pairs.map(|pair| (pair.ahead, pair.zone)).collect();
+        let (shares, evaluations) = sharing.of(self.mesh, &standing, window.ends, touching);
+        self.looks.set(self.looks.get() + evaluations as u64);
+        Some(shares)
+    }
+
+    /// Places at which shares were computed since the last call.
+    pub(super) fn take_looks(&self) -> u64 {
+        self.looks.take()
+    }
+
+    /// What the shares take, in bytes.
+    pub(super) fn bytes(&self) -> usize {
+        self.sharing
+            .borrow()
+            .iter()
+            .map(|(_, sharing)| sharing.bytes())
+            .sum()
     }
 }
 
@@ -155,26 +208,5 @@ impl Window {
 
     fn index_of(&self, ahead: i32) -> Option<usize> {
         self.pairs.iter().position(|pair| pair.ahead == ahead)
-    }
-}
-
-impl Touching {
-    pub(super) const NONE: Touching = Touching(0);
-
-    pub(super) fn has(self, pair: usize) -> bool {
-        self.0 & 1 << pair != 0
-    }
-
-    pub(super) fn is_none(self) -> bool {
-        self.0 == 0
-    }
-
-    /// The set with the pair touching where it did not, and the other way round.
-    pub(super) fn toggled(self, pair: usize) -> Touching {
-        Touching(self.0 ^ 1 << pair)
-    }
-
-    pub(super) fn with(self, pair: usize) -> Touching {
-        Touching(self.0 | 1 << pair)
     }
 }

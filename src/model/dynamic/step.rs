@@ -1,27 +1,25 @@
 //! Steps of the motion while the same pairs touch, by the power series of the displacement.
 
-use super::motion::{Motion, Standing, State, Touching, Window};
+use std::rc::Rc;
+
+use super::lead::{Along, FORCE_TERMS, Lead, Product, TERMS};
+use super::motion::{Motion, Standing, State, Window};
+use super::sharing::Shares;
 use crate::model::Refusal;
-use crate::numeric::bernstein::{Bernstein, sign_changes};
+use crate::model::pair_forces::Touching;
+use crate::numeric::bernstein::Bernstein;
 use crate::numeric::chebyshev;
 use crate::numeric::polynomial::Polynomial;
 use crate::numeric::taylor::{Oscillator, convergent_part};
 
-/// Terms of a step's series: as many as take the least time, at tolerances from 1e-3 to 1e-11.
-pub(super) const TERMS: usize = 28;
-
-/// Terms of the incoming tooth's force, all that its stiffness times its deflection has.
-pub(super) const FORCE_TERMS: usize = TERMS + chebyshev::TERMS;
-
-/// What is known of the mesh over a step.
-pub(super) type Along = Polynomial<{ chebyshev::TERMS }>;
-
 /// What acts while the same pairs stay in contact.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(super) struct Course<'a> {
     pub(super) motion: &'a Motion<'a>,
     pub(super) window: &'a Window,
     touching: Touching,
+    /// How coupled pairs share a displacement; none if each is a spring of its own.
+    shares: Option<Rc<Shares>>,
 }
 
 /// A step.
@@ -44,21 +42,6 @@ impl Step {
     /// Between what values the displacement stays, in m.
     pub(super) fn range(&self) -> (f64, f64) {
         Bernstein::of(&self.ahead).bounds()
-    }
-
-    /// The most by which the displacement is beyond the gap in it, in m, where that is more than
-    /// `least`.
-    pub(super) fn most_beyond(&self, gap: &Along, least: f64) -> f64 {
-        let beyond: Polynomial<TERMS> = self.ahead.plus(-1.0, gap);
-        if Bernstein::of(&beyond).bounds().1 <= least {
-            return least;
-        }
-        let turns = sign_changes(&beyond.derivative());
-        turns
-            .into_iter()
-            .chain([0.0, 1.0])
-            .map(|part| beyond.at(part))
-            .fold(least, f64::max)
     }
 
     /// When it ends, in s.
@@ -86,6 +69,7 @@ impl<'a> Course<'a> {
             motion,
             window,
             touching,
+            shares: motion.shares(window, touching),
         }
     }
 
@@ -99,8 +83,8 @@ impl<'a> Course<'a> {
     }
 
     /// The step from a state on, as long as its series converges, to `end` at most and on one
-    /// polynomial of every pair; and every pair's gap over it, in m. The last terms of the series
-    /// are `allowed` to be as large as that, in m.
+    /// polynomial of every pair; and every pair's lead over it. The last terms of the series are
+    /// `allowed` to be as large as that, in m.
     ///
     /// # Errors
     /// [`Refusal::Unsettled`] where the series has no numbers.
@@ -110,17 +94,17 @@ impl<'a> Course<'a> {
         y: &State,
         end: f64,
         allowed: f64,
-    ) -> Result<(Step, Vec<Along>), Refusal> {
+    ) -> Result<(Step, Vec<Lead>), Refusal> {
         let whole = self.serves_until(t).min(end) - t;
         let length = whole.min(self.motion.longest_step());
-        let mut gaps = Vec::with_capacity(self.pairs());
+        let mut leads = Vec::with_capacity(self.pairs());
         let ahead = self
-            .oscillator(t, length, &mut gaps)
+            .oscillator(t, length, &mut leads)
             .series(y[0], y[1] * length);
         let step = Step { t, length, ahead };
         let part = convergent_part(&ahead, allowed);
         if part >= 1.0 {
-            return Ok((step, gaps));
+            return Ok((step, leads));
         }
         // Steps to an end are of one length, and the last of them is no splinter.
         let part = if length < whole {
@@ -131,42 +115,39 @@ impl<'a> Course<'a> {
         if part * length <= 0.0 || !part.is_finite() {
             return Err(Refusal::Unsettled);
         }
-        for gap in &mut gaps {
-            *gap = gap.stretched(part);
+        for lead in &mut leads {
+            *lead = lead.stretched(part);
         }
-        Ok((step.cut(part), gaps))
+        Ok((step.cut(part), leads))
     }
 
     /// Until when what is known of the pairs from a time on is one polynomial each.
     fn serves_until(&self, t: f64) -> f64 {
         let s = self.motion.place(t);
+        let mesh = self.motion.mesh;
         let pairs = self
             .window
             .pairs
             .iter()
-            .map(|pair| self.motion.mesh.serves_until(pair.ahead, pair.zone, s));
-        self.motion.time(pairs.fold(f64::INFINITY, f64::min))
+            .map(|pair| mesh.serves_until(pair.ahead, pair.zone, s));
+        let shares = self.shares.as_ref().map(|shares| {
+            let (at, least) = mesh.above(self.rearmost(), s);
+            s + (shares.serves_until((at, least)) - at)
+        });
+        self.motion
+            .time(pairs.chain(shares).fold(f64::INFINITY, f64::min))
     }
 
     /// The equation of motion over a length of time, which is its unit.
-    fn oscillator(&self, t: f64, length: f64, gaps: &mut Vec<Along>) -> Oscillator<TERMS> {
-        let Motion {
-            mesh,
-            mass,
-            damping,
-            ..
-        } = *self.motion;
-        let (s, way) = (self.motion.place(t), mesh.speed * length);
+    fn oscillator(&self, t: f64, length: f64, leads: &mut Vec<Lead>) -> Oscillator<TERMS> {
+        let Motion { mass, damping, .. } = *self.motion;
         let (mut stiffness, mut load) = (Polynomial::<TERMS>::ZERO, Polynomial::<TERMS>::ZERO);
-        load.0[0] = mesh.force;
-        for (index, pair) in self.window.pairs.iter().enumerate() {
-            let [spring, gap] = mesh.spring_along(pair.ahead, pair.zone, s, way);
-            gaps.push(gap);
-            if self.touches(index) {
-                let carrying = self.carrying(pair, &spring, s, way);
-                stiffness = stiffness.plus(1.0, &carrying);
-                load = load.plus(1.0, &carrying.times::<{ chebyshev::TERMS }, TERMS>(&gap));
+        load.0[0] = self.motion.mesh.force;
+        match &self.shares {
+            Some(shares) => {
+                self.add_shares(shares, (t, length), (&mut stiffness, &mut load), leads);
             }
+            None => self.add_springs((t, length), (&mut stiffness, &mut load), leads),
         }
         let damping = if self.touching.is_none() {
             0.0
@@ -181,41 +162,119 @@ impl<'a> Course<'a> {
         }
     }
 
-    /// The stiffness by which a pair turns the driver.
-    pub(super) fn carrying(
+    fn add_springs(
+        &self,
+        (t, length): (f64, f64),
+        (stiffness, load): (&mut Polynomial<TERMS>, &mut Polynomial<TERMS>),
+        leads: &mut Vec<Lead>,
+    ) {
+        let mesh = self.motion.mesh;
+        let (s, way) = (self.motion.place(t), mesh.speed * length);
+        for (index, pair) in self.window.pairs.iter().enumerate() {
+            let [spring, gap] = mesh.spring_along(pair.ahead, pair.zone, s, way);
+            leads.push(Lead::Gap(gap));
+            if self.touches(index) {
+                let carrying = self.turning(pair, &spring, s, way);
+                *stiffness = stiffness.plus(1.0, &carrying);
+                *load = load.plus(1.0, &carrying.times::<{ chebyshev::TERMS }, TERMS>(&gap));
+            }
+        }
+    }
+
+    fn add_shares(
+        &self,
+        shares: &Shares,
+        (t, length): (f64, f64),
+        (stiffness, load): (&mut Polynomial<TERMS>, &mut Polynomial<TERMS>),
+        leads: &mut Vec<Lead>,
+    ) {
+        let (s, way) = (self.motion.place(t), self.motion.mesh.speed * length);
+        let along = shares.along(self.motion.mesh.above(self.rearmost(), s), way);
+        let gaps = self.gaps_along(s, way);
+        for (index, pair) in self.window.pairs.iter().enumerate() {
+            let (slope, offset) = self.share(index, shares.row_along(index, &along), &gaps);
+            if self.touches(index) {
+                *stiffness = stiffness.plus(1.0, &self.turning(pair, &slope, s, way));
+                *load = load.plus(1.0, &self.turning(pair, &offset, s, way));
+            }
+            leads.push(Lead::Shared { slope, offset });
+        }
+    }
+
+    /// The gap of every pair, in m.
+    fn gaps_along(&self, s: f64, way: f64) -> Vec<Along> {
+        let pairs = self.window.pairs.iter();
+        pairs
+            .map(|pair| self.motion.mesh.gap_along(pair.ahead, pair.zone, s, way))
+            .collect()
+    }
+
+    /// Slope and offset of the force of a touching pair, or of the overlap of one apart, by its row
+    /// of the shares.
+    fn share(&self, pair: usize, row: Option<&[Along]>, gaps: &[Along]) -> (Along, Product) {
+        let (mut slope, mut offset) = (Along::ZERO, Product::ZERO);
+        let touching = self.shares.iter().flat_map(|shares| &shares.touching);
+        for (share, &other) in row.into_iter().flatten().zip(touching) {
+            let pushed: Product = share.times(&gaps[other]);
+            (slope, offset) = (slope.plus(1.0, share), offset.plus(1.0, &pushed));
+        }
+        if !self.touches(pair) {
+            (slope, offset) = (
+                slope.scaled(-1.0),
+                offset.scaled(-1.0).plus(1.0, &gaps[pair]),
+            );
+            slope.0[0] += 1.0;
+        }
+        (slope, offset)
+    }
+
+    /// The part of a pair's force, or of its stiffness, that turns the driver.
+    pub(super) fn turning<const N: usize>(
         &self,
         pair: &Standing,
-        spring: &Along,
+        force: &Polynomial<N>,
         s: f64,
         way: f64,
     ) -> Polynomial<TERMS> {
         let friction = self.motion.mesh.friction();
-        let whole = Polynomial::ZERO.plus(1.0, spring);
+        let whole = Polynomial::ZERO.plus(1.0, force);
         if friction == 0.0 {
             return whole;
         }
         let [lever, _] = self.motion.mesh.slide_along(pair.ahead, pair.zone, s, way);
         whole.plus(
             -friction * pair.direction,
-            &spring.times::<{ chebyshev::TERMS }, TERMS>(&lever),
+            &force.times::<{ chebyshev::TERMS }, TERMS>(&lever),
         )
     }
 
-    /// Stiffness of a pair over a step, in N/m, and its gap, in m.
-    pub(super) fn spring_along(&self, pair: usize, step: &Step) -> [Along; 2] {
+    /// What a pair keeps over a step until it turns.
+    pub(super) fn lead_along(&self, pair: usize, step: &Step) -> Lead {
         let Standing { ahead, zone, .. } = self.window.pairs[pair];
-        let motion = self.motion;
-        motion.mesh.spring_along(
-            ahead,
-            zone,
-            motion.place(step.t),
-            motion.mesh.speed * step.length,
-        )
+        let mesh = self.motion.mesh;
+        let (s, way) = (self.motion.place(step.t), mesh.speed * step.length);
+        let Some(shares) = &self.shares else {
+            return Lead::Gap(mesh.gap_along(ahead, zone, s, way));
+        };
+        let along = shares.along(mesh.above(self.rearmost(), s), way);
+        let gaps = self.gaps_along(s, way);
+        let (slope, offset) = self.share(pair, shares.row_along(pair, &along), &gaps);
+        Lead::Shared { slope, offset }
     }
 
     /// Force of a pair over a step in which it touches, in N.
     pub(super) fn force_along(&self, pair: usize, step: &Step) -> Polynomial<FORCE_TERMS> {
-        let [stiffness, gap] = self.spring_along(pair, step);
+        if self.shares.is_some() {
+            return self.lead_along(pair, step).over(&step.ahead);
+        }
+        let Standing { ahead, zone, .. } = self.window.pairs[pair];
+        let motion = self.motion;
+        let [stiffness, gap] = motion.mesh.spring_along(
+            ahead,
+            zone,
+            motion.place(step.t),
+            motion.mesh.speed * step.length,
+        );
         step.ahead.plus(-1.0, &gap).times(&stiffness)
     }
 
@@ -243,8 +302,16 @@ impl<'a> Course<'a> {
 
     /// Force of a pair that touches while the driver is so far ahead, in N.
     pub(super) fn force(&self, pair: usize, t: f64, ahead: f64) -> f64 {
-        let (stiffness, gap) = self.spring(pair, t);
-        stiffness * (ahead - gap)
+        let Some(shares) = &self.shares else {
+            let (stiffness, gap) = self.spring(pair, t);
+            return stiffness * (ahead - gap);
+        };
+        let at = self.motion.place(t) + f64::from(self.rearmost()) * self.motion.mesh.base_pitch;
+        let row = shares.row_at(pair, at).unwrap_or_default();
+        let terms = row.iter().zip(&shares.touching);
+        terms
+            .map(|(share, &other)| share * (ahead - self.gap(other, t)))
+            .sum()
     }
 
     /// Forces of all pairs together, in N.
@@ -258,5 +325,10 @@ impl<'a> Course<'a> {
     fn spring(&self, pair: usize, t: f64) -> (f64, f64) {
         let Standing { ahead, zone, .. } = self.window.pairs[pair];
         self.motion.mesh.spring(ahead, zone, self.motion.place(t))
+    }
+
+    /// How many base pitches ahead the rearmost pair is.
+    fn rearmost(&self) -> i32 {
+        self.window.pairs.first().map_or(0, |pair| pair.ahead)
     }
 }

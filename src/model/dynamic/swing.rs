@@ -1,6 +1,7 @@
 //! How the incoming tooth's force rises and falls over the steps of a run.
 
-use super::step::{FORCE_TERMS, Step};
+use super::lead::FORCE_TERMS;
+use super::step::Step;
 use crate::numeric::bernstein::sign_changes;
 use crate::numeric::polynomial::Polynomial;
 

@@ -1,11 +1,14 @@
 //! The motion against what is known of it: the linear oscillator, and the balance of energies.
 
-use super::motion::{Motion, State};
+use super::motion::{Motion, Standing, State};
 use super::step::{Course, Step};
 use super::watch::Watch;
 use super::*;
+use crate::model::compliance::ContactPlace;
+use crate::model::compliance::flanks::Flanks;
 use crate::model::inputs::{Inputs, Method, ToothCompliance};
 use crate::model::sample::standard_pair;
+use crate::model::static_load;
 use crate::model::{Stage, Stages, solve};
 use crate::numeric::polynomial::Polynomial;
 use crate::numeric::quadrature;
@@ -27,14 +30,45 @@ fn struck(adjust: impl FnOnce(&mut Inputs)) -> (Mesh, Settings) {
         1e-3,
     )
     .unwrap();
-    let settings = Settings {
-        mass: solution.reduced_mass,
+    (mesh, settings(&inputs, solution.reduced_mass))
+}
+
+/// The same pair with teeth that displace their neighbours.
+fn coupled(adjust: impl FnOnce(&mut Inputs)) -> (Mesh, Settings) {
+    let mut inputs = standard_pair(20, 30, 5e-3);
+    inputs.base_pitch_deviation = 12e-6;
+    inputs.method = Method::Static;
+    inputs.tooth_compliance = Some(ToothCompliance::KUANG_YANG);
+    adjust(&mut inputs);
+    let solution = solve(&inputs, Stages::of(Stage::Static)).unwrap();
+    let flanks = Flanks::new(&inputs.elasticity(), &solution.geometry).unwrap();
+    let load = (solution.mesh_force, solution.deviation.equivalent_error);
+    let scale = inputs.common_width() / solution.mesh.as_ref().unwrap().mean_stiffness;
+    let neighbour = |rear: &ContactPlace, front: &ContactPlace, pitches: i32| {
+        let share = if pitches == 1 { 0.3 } else { 0.12 };
+        let place = 40.0 * (rear.radius_driver + 2.0 * front.radius_driven - 0.2);
+        Ok(share * scale * (1.0 + 0.4 * place.sin()))
+    };
+    let mesh = Mesh::with_neighbours(
+        &inputs.mesh(),
+        &solution.geometry,
+        &flanks.into(),
+        load,
+        1e-3,
+        &neighbour,
+    )
+    .unwrap();
+    (mesh, settings(&inputs, solution.reduced_mass))
+}
+
+fn settings(inputs: &Inputs, mass: f64) -> Settings {
+    Settings {
+        mass,
         damping_ratio: inputs.damping_ratio,
         warmup_cycles: 5,
         tolerance: 1e-10,
         spacing: Spacing::Even(16),
-    };
-    (mesh, settings)
+    }
 }
 
 fn ran<'a>(motion: &'a Motion<'a>, settings: &Settings, meter: &'a Meter) -> Run<'a> {
@@ -55,13 +89,16 @@ fn a_pair_of_constant_stiffness_swings_as_the_linear_oscillator() {
     let middle = 0.5 * mesh.length;
     let window = motion.window(middle, middle + 1e-9);
     let balance = static_load::balance(&mesh, middle, middle);
-    let touching: Vec<i32> = mesh
-        .pairs(middle, middle)
+    let pairs = mesh.pair_set(middle, middle);
+    let touching: Vec<i32> = pairs
+        .pairs()
+        .iter()
         .filter(|pair| pair.place.gap < balance.displacement)
         .map(|pair| pair.ahead)
         .collect();
-    let stiffness: f64 = mesh
-        .pairs(middle, middle)
+    let stiffness: f64 = pairs
+        .pairs()
+        .iter()
         .filter(|pair| touching.contains(&pair.ahead))
         .map(|pair| pair.place.stiffness)
         .sum();
@@ -104,21 +141,105 @@ fn energies_balance_to_the_tolerance() {
         (0.07, 100.0, 0.08),
         (0.0, 30.0, 0.2),
     ] {
-        let (mesh, settings) = struck(|inputs| {
+        let adjust = |inputs: &mut Inputs| {
             inputs.damping_ratio = damping_ratio;
             inputs.friction_coefficient = Some(friction);
             inputs.drive = crate::model::inputs::Drive::Torque(torque);
             inputs.driven.tip_relief = 5e-6;
-        });
-        let motion = Motion::new(&mesh, &settings);
-        let meter = Meter::new(MOTION_WORK);
-        let run = ran(&motion, &settings, &meter);
-        let (unexplained, turned_over) = run.watch.energies(&motion, &mesh);
-        let told = format!(
-            "damping {damping_ratio}, friction {friction}: {unexplained:e} of {turned_over:e} J"
-        );
-        assert!(unexplained < 1e-9 * turned_over, "{told}");
+        };
+        for (teeth, (mesh, settings)) in [("alone", struck(adjust)), ("coupled", coupled(adjust))] {
+            let motion = Motion::new(&mesh, &settings);
+            let meter = Meter::new(MOTION_WORK);
+            let run = ran(&motion, &settings, &meter);
+            let (unexplained, turned_over) = run.watch.energies(&motion, &mesh);
+            let told = format!(
+                "teeth {teeth}, damping {damping_ratio}, friction {friction}: {unexplained:e} of \
+                 {turned_over:e} J"
+            );
+            assert!(unexplained < 1e-9 * turned_over, "{told}");
+        }
     }
+}
+
+/// The coupled equation once more, with the forces by the linear complementarity problem at every
+/// place: Runge-Kutta steps of fixed length that know no events.
+fn plain_peak(mesh: &Mesh, settings: &Settings, steps: u32) -> f64 {
+    let damping = 2.0 * settings.damping_ratio * (mesh.mean_stiffness * settings.mass).sqrt();
+    let forces = |t: f64, x: f64| {
+        let pairs = mesh.pair_set(t * mesh.speed, t * mesh.speed);
+        let forces = pairs.forces(x);
+        let incoming = pairs.pairs().iter().position(|pair| pair.ahead == 0);
+        (
+            forces.iter().sum::<f64>(),
+            incoming.map_or(0.0, |incoming| forces[incoming]),
+        )
+    };
+    let slope = |t: f64, y: State| {
+        let (total, _) = forces(t, y[0]);
+        let drag = if total > 0.0 { damping * y[1] } else { 0.0 };
+        State::new(y[1], (mesh.force - total - drag) / settings.mass)
+    };
+    let start = -f64::from(settings.warmup_cycles) * mesh.base_pitch;
+    let h = (1.2 * mesh.length - start) / mesh.speed / f64::from(steps);
+    let inside = start + 1e-9 * mesh.base_pitch;
+    let mut y = State::new(static_load::balance(mesh, start, inside).displacement, 0.0);
+    let mut peak = 0.0f64;
+    for step in 0..steps {
+        let t = start / mesh.speed + f64::from(step) * h;
+        let one = slope(t, y);
+        let two = slope(t + 0.5 * h, y + 0.5 * h * one);
+        let three = slope(t + 0.5 * h, y + 0.5 * h * two);
+        let four = slope(t + h, y + h * three);
+        y += h / 6.0 * (one + 2.0 * (two + three) + four);
+        peak = peak.max(forces(t + h, y[0]).1);
+    }
+    peak
+}
+
+#[test]
+fn plain_steps_with_coupled_pairs_come_to_the_same_peak() {
+    for (friction, deviation) in [(0.0, 12e-6), (0.0, 40e-6)] {
+        let (mesh, settings) = coupled(|inputs| {
+            inputs.friction_coefficient = Some(friction);
+            inputs.base_pitch_deviation = deviation;
+        });
+        let settings = Settings {
+            warmup_cycles: 2,
+            ..settings
+        };
+        let found = dynamic(&mesh, &settings, &|_| true).unwrap();
+        let off = |steps| (plain_peak(&mesh, &settings, steps) / found.peak_force - 1.0).abs();
+        let (coarse, fine) = (off(4_000), off(16_000));
+        assert!(
+            fine < 1e-6 && fine < 0.5 * coarse.max(4e-9),
+            "{coarse:e} and {fine:e}"
+        );
+    }
+}
+
+/// Slowly turning gears carry what coupled pairs share at rest.
+#[test]
+fn slow_coupled_gears_carry_the_static_load() {
+    let (mesh, settings) = coupled(|inputs| {
+        inputs.speed /= 2000.0;
+        inputs.damping_ratio = 0.5;
+    });
+    let settings = Settings {
+        warmup_cycles: 1,
+        tolerance: 1e-8,
+        ..settings
+    };
+    let moved = dynamic(&mesh, &settings, &|_| true).unwrap();
+    let still = static_load::static_load(&mesh, settings.spacing).unwrap();
+    let (moving, resting) = (
+        moved.first_contact_angle.unwrap(),
+        still.first_contact_angle.unwrap(),
+    );
+    assert!((moving / resting - 1.0).abs() < 1e-2, "{moving} {resting}");
+    assert!(
+        (moved.peak_force / still.peak_force - 1.0).abs() < 1e-2,
+        "{moved:?} {still:?}"
+    );
 }
 
 /// A motion ends with the work that it is given, and the refusal has its steps and its part.
@@ -198,9 +319,9 @@ impl Course<'_> {
             self.motion.place(step.t),
             self.motion.mesh.speed * step.length,
         );
-        let [spring, gap] = self.spring_along(pair, step);
-        let turning = self.carrying(&self.window.pairs[pair], &spring, s, way);
-        (spring.at(part) - turning.at(part)) * (step.ahead.at(part) - gap.at(part))
+        let one = Polynomial([1.0]);
+        let turning = self.turning(&self.window.pairs[pair], &one, s, way);
+        (1.0 - turning.at(part)) * self.force_along(pair, step).at(part)
     }
 
     /// Power that the moving mesh puts in at a pair: its gap closes on a spring that is pressed,
@@ -212,7 +333,12 @@ impl Course<'_> {
             ..*step
         };
         let force = self.force_along(pair, &still);
-        let [_, gap] = self.spring_along(pair, &still);
+        let Standing { ahead, zone, .. } = self.window.pairs[pair];
+        let (s, way) = (
+            self.motion.place(step.t),
+            self.motion.mesh.speed * step.length,
+        );
+        let gap = self.motion.mesh.gap_along(ahead, zone, s, way);
         let pressed = still.ahead.0[0] - gap.at(part);
         0.5 * (force.slope(part) * pressed - force.at(part) * gap.slope(part)) / step.length
     }

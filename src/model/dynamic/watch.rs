@@ -2,12 +2,13 @@
 
 use std::cell::Cell;
 
-use super::motion::{Motion, State, Touching, Window};
+use super::motion::{Motion, State, Window};
 use super::step::{Course, Step};
 use super::swing::{self, Swing};
 use super::{Dynamic, Effort};
 use crate::model::Refusal;
 use crate::model::budget::{CURVE_WORK, STATIONS, TURNS};
+use crate::model::pair_forces::Touching;
 use crate::model::spacing::{Resolution, Spacing};
 use crate::model::stations::MeshStation;
 
@@ -202,11 +203,13 @@ impl Watch {
     /// The most by which the driver is further ahead before E than the gap of an incoming tooth
     /// that does not touch is wide, in m.
     fn lead(&self, motion: &Motion<'_>) -> f64 {
-        let before = self.records().filter(|(_, record)| record.step.t < 0.0);
+        let before = self.records().filter(|(passage, record)| {
+            record.step.t < 0.0 && !record.touching.has(passage.incoming)
+        });
         before.fold(f64::NEG_INFINITY, |lead, (passage, record)| {
             let course = passage.course(motion, record);
-            let [_, gap] = course.spring_along(passage.incoming, &record.step);
-            record.step.most_beyond(&gap, lead)
+            let overlap = course.lead_along(passage.incoming, &record.step);
+            overlap.most(&record.step.ahead, lead)
         })
     }
 

@@ -1,6 +1,6 @@
 //! The zones of a mesh: on the line of action, and beyond both its ends, where a tip is in contact.
 
-use super::MeshInputs;
+use super::inputs::MeshInputs;
 use crate::model::Refusal;
 use crate::model::compliance::ContactPlace;
 use crate::model::compliance::flanks::Flanks;
@@ -167,7 +167,7 @@ impl End {
         let turns = self
             .angles_of_relief_ends(relief)
             .chain(self.angle_of_rolling(reach))
-            .chain([angle_at_curvature(&self.geometry, self.flanks.bends()[0])]);
+            .chain([self.angle_of_bend()]);
         let mut borders: Vec<f64> = turns
             .filter(|&angle| angle > 0.0 && angle < reach)
             .collect();
@@ -189,10 +189,29 @@ impl End {
         )
     }
 
+    /// Where the compliance of the flank that the tip meets bends, if the path of contact ends at
+    /// `edge`.
+    pub(super) fn bend(&self, edge: f64) -> f64 {
+        edge + self.side * self.geometry.driven.base * self.angle_of_bend()
+    }
+
+    fn angle_of_bend(&self) -> f64 {
+        angle_at_curvature(&self.geometry, self.flanks.bends()[0])
+    }
+
+    /// Where the tip touches at an angle from the end of the path of contact.
+    pub(super) fn place(&self, angle: f64) -> ContactPlace {
+        self.place_of(&tip_at(&self.geometry, angle))
+    }
+
+    fn place_of(&self, tip: &TipContact) -> ContactPlace {
+        ContactPlace::at_tip(self.inputs.tip_radii[1], &self.geometry, tip)
+    }
+
     /// The four values at an angle from the end of the path of contact.
     fn at(&self, relief: &Relief, force: f64, angle: f64) -> Result<[f64; 4], Refusal> {
         let tip = tip_at(&self.geometry, angle);
-        let place = ContactPlace::at_tip(self.inputs.tip_radii[1], &self.geometry, &tip);
+        let place = self.place_of(&tip);
         let arms = (tip.curvature_driver, tip.load_arm_driven(&self.geometry));
         let compliance = self.flanks.pair_at_load(
             &self.inputs.elasticity,

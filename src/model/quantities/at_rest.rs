@@ -8,16 +8,17 @@ use crate::model::explanation::Formula::{self, Difference, Found, Solved, Text, 
 use crate::model::explanation::{Check, Context, Equation, Step, step};
 use crate::model::position::{gap, tip_at};
 use crate::model::relief::Relief;
-use crate::model::static_load::balance;
 use crate::model::tip_gap::TipContact;
 use crate::numeric::quadrature;
 
 const AT_REST: &str = "Every pair is a spring b/q with a gap, and all pairs share the mesh force \
-    at rest. Only the incoming pair has a deviation, e = Δf_0; all pairs have their reliefs. The \
-    method ignores a deflection that the case gives.";
-const BALANCE: &str = "Balance ΣF = F0 of parallel springs with gaps, as in Seireg & Houser 1970, \
-    with the gap S(u) of the tips off the line of action. Compliances of Zhou & Chen 2014, Eqs. \
-    54-56.";
+    at rest. With finite-element compliance the force on a pair displaces the pairs up to two \
+    pitches away; in the other models each pair deflects alone. Only the incoming pair has a \
+    deviation, e = Δf_0; all pairs have their reliefs. The method ignores a deflection that the \
+    case gives.";
+const BALANCE: &str = "Balance ΣF = F0 of springs with gaps, as in Seireg & Houser 1970, coupled as \
+    in Conry & Seireg 1973, with the gap S(u) of the tips off the line of action. Compliances of \
+    Zhou & Chen 2014, Eqs. 54-56, or by finite elements.";
 const SHARED: &[&str] = &["F_0", "k_m", "Δf_0"];
 const CHECKS: &[Check] = &[checks::contact_ratio, checks::teeth, checks::at_rest];
 
@@ -169,7 +170,8 @@ pub(super) const TABLE: &[Quantity] = &[
             SHARED,
         ),
         source: "Displacement x of the driver along the line of action, max x − min x, by the \
-            balance ΣF = F0 of parallel springs with gaps, as in Seireg & Houser 1970.",
+            balance ΣF = F0 of springs with gaps, as in Seireg & Houser 1970, coupled as in Conry & \
+            Seireg 1973.",
         corrections: &[],
         assumptions: AT_REST,
         checks: CHECKS,
@@ -227,8 +229,20 @@ fn gap_at_first(k: &Context) -> Option<f64> {
 }
 
 fn lead_at_first(k: &Context) -> Option<f64> {
-    let s = -first_contact(k)?.angle * k.solution.geometry.driven.base;
-    Some(balance(k.solution.mesh.as_deref()?, s, s).displacement)
+    lead(
+        k,
+        -first_contact(k)?.angle * k.solution.geometry.driven.base,
+    )
+}
+
+/// Displacement of the driver ahead with the incoming pair at `s`, less that of the pair by the
+/// forces on the others.
+fn lead(k: &Context, s: f64) -> Option<f64> {
+    let mesh = k.solution.mesh.as_deref()?;
+    let pairs = mesh.pair_set(s, s);
+    let (displacement, forces) = pairs.shared(mesh.force);
+    let incoming = pairs.pairs().iter().position(|pair| pair.ahead == 0)?;
+    Some(displacement - pairs.pushed(incoming, &forces))
 }
 
 /// Relief of both flanks at the position of the driven tip.
@@ -285,10 +299,11 @@ pub(super) const STEPS: &[Step] = &[
     ),
     step(
         "x_E",
-        "lead of the driver with the tooth at E",
+        "lead of the driver with the tooth at E, less the displacement of the tooth by the forces \
+            on the others",
         "um",
         Words("from ΣF = F_0 of all pairs"),
-        |k| Some(balance(k.solution.mesh.as_deref()?, 0.0, 0.0).displacement),
+        |k| lead(k, 0.0),
     ),
     step(
         "C_E",
@@ -313,7 +328,8 @@ pub(super) const STEPS: &[Step] = &[
     ),
     step(
         "x_st",
-        "lead of the driver by the other pairs at the first contact",
+        "lead of the driver by the other pairs at the first contact, less the displacement of the \
+            tooth by their forces",
         "um",
         Words("from ΣF = F_0 of the other pairs"),
         lead_at_first,

@@ -109,13 +109,15 @@ pub(super) const TABLE: &[Quantity] = &[
             the incoming pair is at E.",
         formula: Cases(&[
             (deflection_used, Given("model.deflection")),
-            (always, Made(shared)),
+            (always, Made(deflection)),
         ]),
         source: "Zhou & Chen 2014, Eqs. 3 and 4, with the compliances of Eqs. 54-56 instead of \
             the curve in Fig. 3. Table 1 takes 24.7 um from its reference 20.",
         corrections: &["Eq. 55", "Eq. 56"],
-        assumptions: "Teeth and contacts deflect under the mesh force at rest and share the force \
-            as parallel springs. Shafts, bearings and housing are rigid.",
+        assumptions: "Teeth and contacts deflect under the mesh force at rest and share the force. \
+            With finite-element compliance the force on a tooth displaces its neighbours, which \
+            takes the incoming pair part of the way; in the other models, and in method paper, \
+            each pair deflects alone. Shafts, bearings and housing are rigid.",
         checks: &[checks::contact_ratio, checks::teeth_of_deflection],
         variants: &[
             Variant::meaning(
@@ -235,6 +237,44 @@ pub(super) const TABLE: &[Quantity] = &[
     },
 ];
 
+/// The deflection, by its two parts where the pairs ahead displace the incoming one.
+fn deflection(k: &Context) -> String {
+    if is_coupled(k) {
+        "δ_F - δ_E".to_owned()
+    } else {
+        shared(k)
+    }
+}
+
+fn is_coupled(k: &Context) -> bool {
+    k.solution.deviation.neighbour_deflection != 0.0
+}
+
+/// The deflection of the pairs ahead.
+fn ahead_alone(k: &Context) -> String {
+    if place(k, 2).is_some() {
+        "the displacement at which the forces of the pairs ahead add up to F_0".to_owned()
+    } else {
+        shared(k)
+    }
+}
+
+/// The displacement of the incoming pair by them.
+fn displaced(k: &Context) -> String {
+    if place(k, 2).is_some() {
+        "q_EF F/b of the pair at F and the same of the pairs further on".to_owned()
+    } else {
+        "F_0 q_EF/b".to_owned()
+    }
+}
+
+/// Displacement of the incoming pair at E by a unit force on the pair at F.
+fn coupling_at_start(k: &Context) -> Option<f64> {
+    let elasticity = k.inputs.elasticity();
+    let teeth = Teeth::of(&elasticity, &k.solution.geometry).ok()?;
+    teeth.coupling(&place(k, 0)?, &place(k, 1)?, 1).ok()
+}
+
 /// Eqs. 3 and 4 with as many pairs as carry the load.
 fn shared(k: &Context) -> String {
     let pairs: Vec<String> = STEPS
@@ -335,6 +375,27 @@ pub(super) const STEPS: &[Step] = &[
             (always, Text("f_pb")),
         ]),
         |k| Some(k.inputs.base_pitches()[1]),
+    ),
+    step(
+        "δ_F",
+        "deflection of the pairs ahead under F_0",
+        "um",
+        Made(ahead_alone),
+        |k| is_coupled(k).then(|| k.solution.deviation.loaded_deflection()),
+    ),
+    step(
+        "δ_E",
+        "displacement of the incoming pair at E by the force on the pairs ahead",
+        "um",
+        Made(displaced),
+        |k| is_coupled(k).then_some(k.solution.deviation.neighbour_deflection),
+    ),
+    step(
+        "q_EF",
+        "displacement of the incoming pair at E by a unit force on the pair at F",
+        "um mm/N",
+        Words("from the finite elements of both gears, teeth one pitch apart"),
+        |k| coupling_at_start(k).filter(|_| is_coupled(k)),
     ),
     step(
         "q_F",

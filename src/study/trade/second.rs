@@ -7,7 +7,7 @@ use nalgebra::Vector2;
 
 use super::answer::Subject;
 use crate::model::mesh::Mesh;
-use crate::model::static_load::balance;
+use crate::model::pair_forces::{Pair, PairSet, Touching};
 use crate::model::{Inputs, Refusal, Solution};
 use crate::numeric::extrapolated::{Equation, step};
 use crate::numeric::root;
@@ -46,7 +46,7 @@ pub(super) fn second_way(
 ) -> Result<Second, Refusal> {
     const FURTHER: f64 = 16.0;
     let error = solution.deviation.equivalent_error;
-    let mut reach = error.abs() + 4.0 * solution.deviation.combined_deflection;
+    let mut reach = error.abs() + 4.0 * solution.deviation.loaded_deflection();
     loop {
         let mesh = Mesh::new(
             &inputs.mesh(),
@@ -75,33 +75,69 @@ struct Oscillator<'a> {
     touching: Vec<i32>,
 }
 
+/// The pairs at a time.
+struct Moment {
+    pairs: PairSet,
+    touching: Touching,
+    /// See [`PairSet::leads`].
+    leads: Vec<f64>,
+}
+
+impl Moment {
+    /// What each pair keeps: pressed where it touches, apart where it does not; in m.
+    fn kept(&self) -> impl Iterator<Item = f64> {
+        let of = |(index, lead): (usize, &f64)| {
+            if self.touching.has(index) {
+                *lead
+            } else {
+                -lead
+            }
+        };
+        self.leads.iter().enumerate().map(of)
+    }
+
+    /// Each touching pair with its force, in N.
+    fn forces(&self) -> impl Iterator<Item = (&Pair, f64)> {
+        let all = self.pairs.pairs().iter().zip(&self.leads).enumerate();
+        all.filter(|(index, _)| self.touching.has(*index))
+            .map(|(_, (pair, lead))| (pair, pair.place.stiffness * lead))
+    }
+}
+
 impl Oscillator<'_> {
     fn place(&self, t: f64) -> f64 {
         t * self.mesh.speed
     }
 
-    /// The least of what each pair keeps: pressed where it touches, apart where it does not; in m.
-    fn kept(&self, t: f64, y: &State) -> f64 {
-        let pressed = self
-            .mesh
-            .pairs(self.place(t), self.inside)
-            .map(|pair| self.kept_by(pair.ahead, y[0] - pair.place.gap));
-        pressed.fold(f64::INFINITY, f64::min)
+    fn moment(&self, t: f64, displacement: f64) -> Moment {
+        let pairs = self.mesh.pair_set(self.place(t), self.inside);
+        let touches = |pair: &Pair| self.touching.contains(&pair.ahead);
+        let touching = pairs
+            .pairs()
+            .iter()
+            .enumerate()
+            .filter(|(_, pair)| touches(pair));
+        let touching = touching.fold(Touching::NONE, |set, (index, _)| set.with(index));
+        Moment {
+            leads: pairs.leads(touching, displacement),
+            pairs,
+            touching,
+        }
     }
 
-    fn kept_by(&self, ahead: i32, pressed: f64) -> f64 {
-        if self.touching.contains(&ahead) {
-            pressed
-        } else {
-            -pressed
-        }
+    /// The least of what each pair keeps, in m.
+    fn kept(&self, t: f64, y: &State) -> f64 {
+        self.moment(t, y[0]).kept().fold(f64::INFINITY, f64::min)
     }
 
     /// The pair that keeps least turns.
     fn turn(&mut self, t: f64, y: &State) -> Option<i32> {
-        let pairs = self.mesh.pairs(self.place(t), self.inside);
-        let kept = pairs.map(|pair| (pair.ahead, self.kept_by(pair.ahead, y[0] - pair.place.gap)));
-        let (turned, _) = kept.min_by(|one, other| one.1.total_cmp(&other.1))?;
+        let moment = self.moment(t, y[0]);
+        let (index, _) = moment
+            .kept()
+            .enumerate()
+            .min_by(|one, other| one.1.total_cmp(&other.1))?;
+        let turned = moment.pairs.pairs()[index].ahead;
         match self.touching.iter().position(|&ahead| ahead == turned) {
             Some(at) => drop(self.touching.swap_remove(at)),
             None => self.touching.push(turned),
@@ -111,24 +147,18 @@ impl Oscillator<'_> {
 
     /// Force of the incoming tooth, in N.
     fn force(&self, t: f64, y: &State) -> f64 {
-        let incoming = self
-            .mesh
-            .pairs(self.place(t), self.inside)
-            .find(|pair| pair.ahead == 0);
-        incoming.map_or(0.0, |pair| {
-            pair.place.stiffness * (y[0] - pair.place.gap).max(0.0)
-        })
+        let moment = self.moment(t, y[0]);
+        let incoming = moment.forces().find(|(pair, _)| pair.ahead == 0);
+        incoming.map_or(0.0, |(_, force)| force.max(0.0))
     }
 }
 
 impl Equation<2> for Oscillator<'_> {
     fn slope(&self, t: f64, y: &State) -> State {
-        let pairs = self
-            .mesh
-            .pairs(self.place(t), self.inside)
-            .filter(|pair| self.touching.contains(&pair.ahead));
-        let carried: f64 = pairs
-            .map(|pair| pair.weight * pair.place.stiffness * (y[0] - pair.place.gap))
+        let moment = self.moment(t, y[0]);
+        let carried: f64 = moment
+            .forces()
+            .map(|(pair, force)| pair.weight * force)
             .sum();
         let damping = if self.touching.is_empty() {
             0.0
@@ -177,11 +207,14 @@ impl<'a> Run<'a> {
         }
         let borders = mesh.borders(start, mesh.ends().1.min(mesh.length + mesh.base_pitch));
         let inside = f64::midpoint(borders[0], borders[1]);
-        let displacement = balance(mesh, start, inside).displacement;
-        let touching = mesh
-            .pairs(start, inside)
-            .filter(|pair| displacement > pair.place.gap)
-            .map(|pair| pair.ahead);
+        let pairs = mesh.pair_set(start, inside);
+        let (displacement, forces) = pairs.shared(mesh.force);
+        let carries = pairs
+            .pairs()
+            .iter()
+            .zip(forces)
+            .filter(|(_, force)| *force > 0.0);
+        let touching = carries.map(|(pair, _)| pair.ahead);
         Ok(Run {
             oscillator: Oscillator {
                 mesh,

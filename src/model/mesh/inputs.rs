@@ -1,0 +1,75 @@
+//! What the mesh reads of a case.
+
+use crate::model::compliance::Elasticity;
+use crate::model::geometry::PairShape;
+use crate::model::inputs::Inputs;
+use crate::model::relief::Reliefs;
+
+/// What the mesh depends on, apart from geometry, mesh force and error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeshInputs {
+    /// Shape of the pair; swapped, it is that of the run-out.
+    pub shape: PairShape,
+    /// Elasticity of the pair.
+    pub elasticity: Elasticity,
+    /// Reliefs of the pair.
+    pub reliefs: Reliefs,
+    /// Radii of the tip edges of driver and driven gear, in m.
+    pub tip_radii: [Option<f64>; 2],
+    /// Speed of the driver ω₁, in rad/s.
+    pub speed: f64,
+    /// Friction coefficient, 0 where the case gives none.
+    pub friction: f64,
+}
+
+impl Inputs {
+    /// What the mesh depends on.
+    #[must_use]
+    pub fn mesh(&self) -> MeshInputs {
+        MeshInputs {
+            shape: self.shape(),
+            elasticity: self.elasticity(),
+            reliefs: self.reliefs(),
+            tip_radii: [self.driver.tip_radius, self.driven.tip_radius],
+            speed: self.speed,
+            friction: self.friction_coefficient.unwrap_or(0.0),
+        }
+    }
+}
+
+impl MeshInputs {
+    pub(super) fn driven_speed(&self) -> f64 {
+        self.speed / (f64::from(self.shape.driven.teeth) / f64::from(self.shape.driver.teeth))
+    }
+
+    /// The same with the gears swapped.
+    pub(super) fn swapped(&self) -> MeshInputs {
+        let MeshInputs {
+            shape,
+            elasticity,
+            reliefs,
+            tip_radii: [driver_tip, driven_tip],
+            ..
+        } = *self;
+        MeshInputs {
+            shape: PairShape {
+                driver: shape.driven,
+                driven: shape.driver,
+                ..shape
+            },
+            elasticity: Elasticity {
+                driver: elasticity.driven,
+                driven: elasticity.driver,
+                ..elasticity
+            },
+            reliefs: Reliefs {
+                driver: reliefs.driven,
+                driven: reliefs.driver,
+                ..reliefs
+            },
+            tip_radii: [driven_tip, driver_tip],
+            speed: self.driven_speed(),
+            friction: self.friction,
+        }
+    }
+}
