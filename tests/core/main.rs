@@ -27,6 +27,7 @@ mod architecture;
 mod auto;
 mod budget;
 mod clearing;
+mod coupling;
 mod mesh;
 mod motion;
 mod properties;

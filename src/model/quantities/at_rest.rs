@@ -4,7 +4,7 @@ use super::conditions::friction_given;
 use super::{Quantity, Variant, checks, of_driver};
 use crate::model::Stage::{Mesh, Static};
 use crate::model::compliance::{ContactPlace, Teeth};
-use crate::model::explanation::Formula::{self, Difference, Found, Solved, Text, Words};
+use crate::model::explanation::Formula::{self, Difference, Found, Made, Solved, Text, Words};
 use crate::model::explanation::{Check, Context, Equation, Step, step};
 use crate::model::position::{gap, tip_at};
 use crate::model::relief::Relief;
@@ -36,9 +36,10 @@ pub(super) const TABLE: &[Quantity] = &[
         meaning: "The mean stiffness of the mesh over a base pitch, of all pairs on the line of \
             action together and without deviations. It determines the natural frequency, and the \
             damping is a fraction of it.",
-        formula: Text("ε k_p"),
-        source: "Mean of b/q of a pair over its path of contact, times the contact ratio. \
-            Compliances of Zhou & Chen 2014, Eqs. 54-56. The mean of ISO 6336-1 is c_γ.",
+        formula: Made(mean_of_pairs),
+        source: "Mean of b/q of a pair over its path of contact, times the contact ratio; with \
+            coupled pairs the mean of their force per displacement. Compliances of Zhou & Chen \
+            2014, Eqs. 54-56, or by finite elements. The mean of ISO 6336-1 is c_γ.",
         corrections: &["Eq. 55", "Eq. 56"],
         assumptions: "The contact compliance is that under F_0, so the stiffness of a pair \
             depends on its place only.",
@@ -258,6 +259,16 @@ fn compliance_at_start(k: &Context) -> Option<f64> {
     let elasticity = k.inputs.elasticity();
     let teeth = Teeth::of(&elasticity, geometry).ok()?;
     teeth.pair_at_load(&place, k.solution.mesh_force).ok()
+}
+
+fn mean_of_pairs(k: &Context) -> String {
+    let is_coupled = k.solution.mesh.as_ref().is_some_and(|mesh| mesh.is_coupled());
+    let formula = if is_coupled {
+        "the forces of all pairs from E to B per displacement, averaged over a base pitch"
+    } else {
+        "ε k_p"
+    };
+    formula.to_owned()
 }
 
 fn mean_stiffness(k: &Context) -> Option<f64> {

@@ -1,0 +1,296 @@
+//! The load that coupled pairs share, held against a whole gear by other finite elements.
+mod whole_gear;
+
+use std::fs;
+
+use nalgebra::{DMatrix, DVector};
+use tipstrike::case::Document;
+use tipstrike::model::compliance::{ContactPlace, Teeth};
+use tipstrike::model::geometry::{PairShape, geometry};
+use tipstrike::model::inputs::{Drive, Gear, Method, ToothCompliance};
+use tipstrike::model::mesh::Mesh;
+use tipstrike::model::spacing::Spacing;
+use tipstrike::model::static_load::{balance, static_load};
+use tipstrike::model::tip_gap::tip_at;
+use tipstrike::model::{Geometry, Inputs, Outline, Solution, Stages, solve};
+
+use crate::support::standard_pair;
+use whole_gear::{Line, WholeGear};
+
+/// A pair with the finite elements of the program, and both its gears by others.
+struct Check {
+    inputs: Inputs,
+    solution: Solution,
+    mesh: Mesh,
+    /// Shape with the gears swapped, for the places after B.
+    swapped: Geometry,
+    gears: [WholeGear; 2],
+}
+
+/// The pairs that may touch, the rearmost first.
+struct Pairs {
+    /// How many base pitches each is ahead of the incoming one.
+    ahead: Vec<i32>,
+    gaps: Vec<f64>,
+    compliance: DMatrix<f64>,
+}
+
+fn pair(teeth: [u32; 2], addendum: f64, torque: f64, deviation: f64) -> Inputs {
+    let mut inputs = standard_pair(teeth[0], teeth[1], 3e-3);
+    inputs.tooth_compliance = Some(ToothCompliance::FINITE_ELEMENT);
+    inputs.method = Method::Static;
+    inputs.drive = Drive::Torque(torque);
+    inputs.base_pitch_deviation = deviation;
+    for gear in [&mut inputs.driver, &mut inputs.driven] {
+        gear.bore_radius = 0.5 * inputs.module * (f64::from(gear.teeth) / 2.0 - 1.25);
+        gear.addendum = addendum;
+        gear.dedendum = addendum + 0.25;
+    }
+    inputs
+}
+
+impl Check {
+    fn of(inputs: Inputs) -> Check {
+        let solution = solve(&inputs, Stages::EVERY).expect("a solution");
+        let shape = inputs.shape();
+        let swapped = PairShape {
+            driver: shape.driven,
+            driven: shape.driver,
+            ..shape
+        };
+        let load = (solution.mesh_force, solution.deviation.equivalent_error);
+        let mesh = Mesh::new(&inputs.mesh(), &solution.geometry, load.0, load.1, 3e-4);
+        let gear = |gear: &Gear, circles| {
+            let outline = Outline::of(&inputs, gear, circles);
+            WholeGear::new(outline, gear.teeth, gear.bore_radius, gear.poisson)
+        };
+        Check {
+            gears: [
+                gear(&inputs.driver, &solution.geometry.driver),
+                gear(&inputs.driven, &solution.geometry.driven),
+            ],
+            mesh: mesh.expect("a mesh"),
+            swapped: geometry(&swapped).expect("a geometry"),
+            inputs,
+            solution,
+        }
+    }
+
+    /// Radii of the load points of a pair on driver and driven gear.
+    fn radii(&self, s: f64) -> [f64; 2] {
+        let geometry = &self.solution.geometry;
+        let length = geometry.end - geometry.start;
+        if s < 0.0 {
+            let tip = tip_at(geometry, -s / geometry.driven.base);
+            [tip.radius_driver, geometry.driven.tip]
+        } else if s > length {
+            let tip = tip_at(&self.swapped, (s - length) / geometry.driver.base);
+            [geometry.driver.tip, tip.radius_driver]
+        } else {
+            let place = ContactPlace::on_line_of_action(geometry, geometry.start + s);
+            [place.radius_driver, place.radius_driven]
+        }
+    }
+
+    /// The pairs with the incoming one at `s`, coupled by the whole gears.
+    fn pairs(&self, s: f64) -> Pairs {
+        let standing = self.mesh.pair_set(s, s);
+        let standing = standing.pairs();
+        let width = self.inputs.common_width();
+        let lines: Vec<[Line; 2]> = standing
+            .iter()
+            .map(|pair| {
+                let radii = self.radii(s + f64::from(pair.ahead) * self.mesh.base_pitch);
+                [0, 1].map(|gear| self.gears[gear].line(radii[gear]))
+            })
+            .collect();
+        let young = [self.inputs.driver.young, self.inputs.driven.young];
+        let compliance = |row: usize, column: usize| {
+            if row == column {
+                return 1.0 / standing[row].place.stiffness;
+            }
+            // A driver that turns anticlockwise has its earlier teeth further on in that direction;
+            // seen so that the force pushes clockwise, the driven gear has them the other way.
+            let earlier = column as i32 - row as i32;
+            let by_gear = [0, 1].map(|gear| {
+                let pitches = if gear == 0 { earlier } else { -earlier };
+                let (measured, loaded) = (&lines[row][gear], &lines[column][gear]);
+                self.gears[gear].displacement(measured, loaded, pitches) / young[gear]
+            });
+            (by_gear[0] + by_gear[1]) / width
+        };
+        Pairs {
+            ahead: standing.iter().map(|pair| pair.ahead).collect(),
+            gaps: standing.iter().map(|pair| pair.place.gap).collect(),
+            compliance: DMatrix::from_fn(standing.len(), standing.len(), compliance),
+        }
+    }
+
+    fn balance(&self, s: f64) -> (f64, f64) {
+        let (displacement, forces, incoming) = self.pairs(s).shared(self.mesh.force, None);
+        (displacement, incoming.map_or(0.0, |incoming| forces[incoming]))
+    }
+
+    /// By how much the incoming pair would overlap under the others' forces.
+    fn lead(&self, s: f64) -> f64 {
+        let pairs = self.pairs(s);
+        let (displacement, forces, incoming) = pairs.shared(self.mesh.force, Some(0));
+        let incoming = incoming.expect("it is there");
+        displacement - pairs.gaps[incoming] - pairs.compliance.row(incoming).transpose().dot(&forces)
+    }
+}
+
+impl Pairs {
+    /// Displacement and forces by trying every set of touching pairs, and the place of the incoming
+    /// pair; without one pair where that is given.
+    fn shared(&self, total: f64, without: Option<i32>) -> (f64, DVector<f64>, Option<usize>) {
+        let count = self.gaps.len();
+        let fits = (1..1u32 << count).find_map(|set| {
+            let members: Vec<usize> = (0..count).filter(|pair| set >> pair & 1 == 1).collect();
+            if members.iter().any(|&pair| Some(self.ahead[pair]) == without) {
+                return None;
+            }
+            let size = members.len();
+            let mut rows = DMatrix::zeros(size + 1, size + 1);
+            let mut right = DVector::zeros(size + 1);
+            for (row, &pair) in members.iter().enumerate() {
+                for (column, &other) in members.iter().enumerate() {
+                    rows[(row, column)] = self.compliance[(pair, other)] * 1e9;
+                }
+                (rows[(row, size)], rows[(size, row)]) = (-1.0, 1.0);
+                right[row] = -self.gaps[pair] * 1e9;
+            }
+            right[size] = total;
+            let found = rows.lu().solve(&right)?;
+            let mut forces = DVector::zeros(count);
+            for (row, &pair) in members.iter().enumerate() {
+                forces[pair] = found[row];
+            }
+            let displacement = found[size] * 1e-9;
+            let pushed = &self.compliance * &forces;
+            let is_right = (0..count).all(|pair| {
+                let overlap = displacement - self.gaps[pair] - pushed[pair];
+                let is_left_out = Some(self.ahead[pair]) == without;
+                forces[pair] >= 0.0 && (is_left_out || overlap <= 1e-15)
+            });
+            is_right.then_some((displacement, forces))
+        });
+        let (displacement, forces) = fits.expect("one set fits");
+        (displacement, forces, self.ahead.iter().position(|&ahead| ahead == 0))
+    }
+}
+
+fn checks() -> Vec<Check> {
+    let pairs = [
+        pair([18, 25], 1.0, 90.0, 8e-6),
+        pair([26, 34], 1.3, 250.0, 0.0),
+    ];
+    pairs.map(Check::of).into()
+}
+
+#[test]
+fn coupled_pairs_share_the_load_as_two_whole_gears_do() {
+    for check in checks() {
+        let (mesh, name) = (&check.mesh, format!("z {}", check.inputs.driver.teeth));
+        let load = check.solution.static_load.as_ref().expect("method static");
+        let first = -load.first_contact_angle.expect("it strikes") * mesh.base_radii.1;
+        let (mut low, mut high) = (2.0 * first, 0.0);
+        for _ in 0..40 {
+            let middle = f64::midpoint(low, high);
+            if check.lead(middle) < 0.0 { low = middle } else { high = middle }
+        }
+        assert!((first / high - 1.0).abs() < 0.01, "{name}: first contact {first} {high}");
+        let (_, at_start) = check.balance(0.0);
+        let off = load.force_at_start / at_start - 1.0;
+        assert!(off.abs() < 0.025, "{name}: force at E off by {off}");
+        let places = (0..=30).map(|step| first + (mesh.length - 2.0 * first) * f64::from(step) / 30.0);
+        let (mut own, mut other) = (Vec::new(), Vec::new());
+        for s in places {
+            let found = balance(mesh, s, s);
+            let (displacement, force) = check.balance(s);
+            let off = (found.force - force) / mesh.force;
+            assert!(off.abs() < 0.01, "{name}: force at {s} off by {off}");
+            own.push(found.displacement);
+            other.push(displacement);
+        }
+        let range = |all: &[f64]| {
+            let most = all.iter().copied().fold(f64::MIN, f64::max);
+            most - all.iter().copied().fold(f64::MAX, f64::min)
+        };
+        let off = range(&own) / range(&other) - 1.0;
+        println!("{name}: first contact {:+.4}, force at E {:+.4}, transmission error {off:+.4}",
+            first / high - 1.0, load.force_at_start / at_start - 1.0);
+        assert!(off.abs() < 0.01, "{name}: transmission error off by {off}");
+    }
+}
+
+#[test]
+fn neighbours_yield_as_those_of_a_whole_gear() {
+    for check in checks() {
+        let elasticity = check.inputs.elasticity();
+        let teeth = Teeth::of(&elasticity, &check.solution.geometry).expect("teeth");
+        let geometry = &check.solution.geometry;
+        for pitches in [1, 2] {
+            let way = check.mesh.length - f64::from(pitches) * check.mesh.base_pitch;
+            for step in 0..=4 {
+                let rear = 0.98 * way * f64::from(step) / 4.0 + 0.01 * way;
+                if way < 0.0 {
+                    continue;
+                }
+                let front = rear + f64::from(pitches) * check.mesh.base_pitch;
+                let place = |s: f64| ContactPlace::on_line_of_action(geometry, geometry.start + s);
+                let found = teeth.coupling(&place(rear), &place(front), pitches).expect("a coupling");
+                let radii = [check.radii(rear), check.radii(front)];
+                let of = |gear: usize, pitches: i32, young: f64| {
+                    let lines = radii.each_ref().map(|radii| check.gears[gear].line(radii[gear]));
+                    check.gears[gear].displacement(&lines[0], &lines[1], pitches) / young
+                };
+                let expected = of(0, pitches, check.inputs.driver.young)
+                    + of(1, -pitches, check.inputs.driven.young);
+                let own = teeth.pair_at_load(&place(rear), 1000.0).expect("a compliance");
+                println!("{pitches} at {step}: {found:e} {expected:e} {:+.4} {:+.4}",
+                    found / expected - 1.0, (found - expected) / own);
+                assert!((found / expected - 1.0).abs() < 0.02, "{found} {expected}");
+            }
+        }
+    }
+}
+
+#[test]
+fn coupling_changes_the_cases_as_much_as_the_documentation_says() {
+    let folder = format!("{}/cases", env!("CARGO_MANIFEST_DIR"));
+    let mut seen = 0;
+    for entry in fs::read_dir(folder).expect("the cases") {
+        let path = entry.expect("an entry").path();
+        let document = Document::read(&path).unwrap_or_else(|error| panic!("{error}"));
+        let case = document.case.inputs().expect("a valid case");
+        for part in [0.2, 1.0] {
+            let inputs = Inputs {
+                tooth_compliance: Some(ToothCompliance::FINITE_ELEMENT),
+                method: Method::Static,
+                drive: Drive::Torque(part * case.torque()),
+                ..case.clone()
+            };
+            let solution = solve(&inputs, Stages::EVERY).expect("a solution");
+            let (load, mesh) = (solution.static_load.expect("a load"), solution.mesh.expect("a mesh"));
+            assert!(mesh.is_coupled());
+            let alone = mesh.uncoupled();
+            let springs = static_load(&alone, Spacing::Even(1)).expect("a load");
+            let ratios = [
+                (load.first_contact_angle.zip(springs.first_contact_angle), 0.885..0.996),
+                (Some((load.force_at_start, springs.force_at_start)), 0.94..1.075),
+                (Some((load.transmission_error, springs.transmission_error)), 0.87..1.125),
+                (Some((mesh.mean_stiffness, alone.mean_stiffness)), 0.835..0.945),
+            ];
+            for (values, range) in ratios {
+                let Some((coupled, alone)) = values.filter(|(_, alone)| *alone > 0.0) else {
+                    continue;
+                };
+                println!("{} {part}: {:+.3}", path.display(), coupled / alone - 1.0);
+                assert!(range.contains(&(coupled / alone)), "{}: {coupled} {alone}", path.display());
+                seen += 1;
+            }
+        }
+    }
+    assert!(seen > 40, "{seen}");
+}
