@@ -418,8 +418,8 @@ impl Circles {
 
 impl Geometry {
     /// Whether the differences that the pair stands on are so small that f64 loses digits in them:
-    /// N₁E, the path of contact, EP, r_a − r_b, a − (r_b1 + r_b2) and the wall between bore and
-    /// base circle.
+    /// N₁E, the path of contact, EP, r_a − r_b, a − (r_b1 + r_b2), the wall between bore and base
+    /// circle, and of rounded tips ε − 1.
     #[must_use]
     pub fn is_close_call(&self, bores: [f64; 2]) -> bool {
         const FLAT: f64 = 0.125;
@@ -435,6 +435,11 @@ impl Geometry {
             || short_tip(&self.driven)
             || thin_wall(bores[0], &self.driver)
             || thin_wall(bores[1], &self.driven)
+            || self.is_rounded() && (self.contact_ratio - 1.0).abs() < LEAST_REST
+    }
+
+    fn is_rounded(&self) -> bool {
+        self.driver.edge > 0.0 || self.driven.edge > 0.0
     }
 
     /// Normal backlash that the centre distance leaves, 2 (r_b1 + r_b2) (inv α_w − inv α_w0), in m,

@@ -128,7 +128,10 @@ impl Check {
 
     fn balance(&self, s: f64) -> (f64, f64) {
         let (displacement, forces, incoming) = self.pairs(s).shared(self.mesh.force, None);
-        (displacement, incoming.map_or(0.0, |incoming| forces[incoming]))
+        (
+            displacement,
+            incoming.map_or(0.0, |incoming| forces[incoming]),
+        )
     }
 
     /// By how much the incoming pair would overlap under the others' forces.
@@ -136,7 +139,9 @@ impl Check {
         let pairs = self.pairs(s);
         let (displacement, forces, incoming) = pairs.shared(self.mesh.force, Some(0));
         let incoming = incoming.expect("it is there");
-        displacement - pairs.gaps[incoming] - pairs.compliance.row(incoming).transpose().dot(&forces)
+        displacement
+            - pairs.gaps[incoming]
+            - pairs.compliance.row(incoming).transpose().dot(&forces)
     }
 }
 
@@ -147,7 +152,10 @@ impl Pairs {
         let count = self.gaps.len();
         let fits = (1..1u32 << count).find_map(|set| {
             let members: Vec<usize> = (0..count).filter(|pair| set >> pair & 1 == 1).collect();
-            if members.iter().any(|&pair| Some(self.ahead[pair]) == without) {
+            if members
+                .iter()
+                .any(|&pair| Some(self.ahead[pair]) == without)
+            {
                 return None;
             }
             let size = members.len();
@@ -176,7 +184,11 @@ impl Pairs {
             is_right.then_some((displacement, forces))
         });
         let (displacement, forces) = fits.expect("one set fits");
-        (displacement, forces, self.ahead.iter().position(|&ahead| ahead == 0))
+        (
+            displacement,
+            forces,
+            self.ahead.iter().position(|&ahead| ahead == 0),
+        )
     }
 }
 
@@ -197,13 +209,21 @@ fn coupled_pairs_share_the_load_as_two_whole_gears_do() {
         let (mut low, mut high) = (2.0 * first, 0.0);
         for _ in 0..40 {
             let middle = f64::midpoint(low, high);
-            if check.lead(middle) < 0.0 { low = middle } else { high = middle }
+            if check.lead(middle) < 0.0 {
+                low = middle
+            } else {
+                high = middle
+            }
         }
-        assert!((first / high - 1.0).abs() < 0.01, "{name}: first contact {first} {high}");
+        assert!(
+            (first / high - 1.0).abs() < 0.01,
+            "{name}: first contact {first} {high}"
+        );
         let (_, at_start) = check.balance(0.0);
         let off = load.force_at_start / at_start - 1.0;
         assert!(off.abs() < 0.025, "{name}: force at E off by {off}");
-        let places = (0..=30).map(|step| first + (mesh.length - 2.0 * first) * f64::from(step) / 30.0);
+        let places =
+            (0..=30).map(|step| first + (mesh.length - 2.0 * first) * f64::from(step) / 30.0);
         let (mut own, mut other) = (Vec::new(), Vec::new());
         for s in places {
             let found = balance(mesh, s, s);
@@ -218,8 +238,11 @@ fn coupled_pairs_share_the_load_as_two_whole_gears_do() {
             most - all.iter().copied().fold(f64::MAX, f64::min)
         };
         let off = range(&own) / range(&other) - 1.0;
-        println!("{name}: first contact {:+.4}, force at E {:+.4}, transmission error {off:+.4}",
-            first / high - 1.0, load.force_at_start / at_start - 1.0);
+        println!(
+            "{name}: first contact {:+.4}, force at E {:+.4}, transmission error {off:+.4}",
+            first / high - 1.0,
+            load.force_at_start / at_start - 1.0
+        );
         assert!(off.abs() < 0.01, "{name}: transmission error off by {off}");
     }
 }
@@ -239,17 +262,26 @@ fn neighbours_yield_as_those_of_a_whole_gear() {
                 }
                 let front = rear + f64::from(pitches) * check.mesh.base_pitch;
                 let place = |s: f64| ContactPlace::on_line_of_action(geometry, geometry.start + s);
-                let found = teeth.coupling(&place(rear), &place(front), pitches).expect("a coupling");
+                let found = teeth
+                    .coupling(&place(rear), &place(front), pitches)
+                    .expect("a coupling");
                 let radii = [check.radii(rear), check.radii(front)];
                 let of = |gear: usize, pitches: i32, young: f64| {
-                    let lines = radii.each_ref().map(|radii| check.gears[gear].line(radii[gear]));
+                    let lines = radii
+                        .each_ref()
+                        .map(|radii| check.gears[gear].line(radii[gear]));
                     check.gears[gear].displacement(&lines[0], &lines[1], pitches) / young
                 };
                 let expected = of(0, pitches, check.inputs.driver.young)
                     + of(1, -pitches, check.inputs.driven.young);
-                let own = teeth.pair_at_load(&place(rear), 1000.0).expect("a compliance");
-                println!("{pitches} at {step}: {found:e} {expected:e} {:+.4} {:+.4}",
-                    found / expected - 1.0, (found - expected) / own);
+                let own = teeth
+                    .pair_at_load(&place(rear), 1000.0)
+                    .expect("a compliance");
+                println!(
+                    "{pitches} at {step}: {found:e} {expected:e} {:+.4} {:+.4}",
+                    found / expected - 1.0,
+                    (found - expected) / own
+                );
                 assert!((found / expected - 1.0).abs() < 0.02, "{found} {expected}");
             }
         }
@@ -272,22 +304,41 @@ fn coupling_changes_the_cases_as_much_as_the_documentation_says() {
                 ..case.clone()
             };
             let solution = solve(&inputs, Stages::EVERY).expect("a solution");
-            let (load, mesh) = (solution.static_load.expect("a load"), solution.mesh.expect("a mesh"));
+            let (load, mesh) = (
+                solution.static_load.expect("a load"),
+                solution.mesh.expect("a mesh"),
+            );
             assert!(mesh.is_coupled());
             let alone = mesh.uncoupled();
             let springs = static_load(&alone, Spacing::Even(1)).expect("a load");
             let ratios = [
-                (load.first_contact_angle.zip(springs.first_contact_angle), 0.885..0.996),
-                (Some((load.force_at_start, springs.force_at_start)), 0.94..1.075),
-                (Some((load.transmission_error, springs.transmission_error)), 0.87..1.125),
-                (Some((mesh.mean_stiffness, alone.mean_stiffness)), 0.835..0.945),
+                (
+                    load.first_contact_angle.zip(springs.first_contact_angle),
+                    0.885..0.996,
+                ),
+                (
+                    Some((load.force_at_start, springs.force_at_start)),
+                    0.94..1.075,
+                ),
+                (
+                    Some((load.transmission_error, springs.transmission_error)),
+                    0.87..1.125,
+                ),
+                (
+                    Some((mesh.mean_stiffness, alone.mean_stiffness)),
+                    0.835..0.945,
+                ),
             ];
             for (values, range) in ratios {
                 let Some((coupled, alone)) = values.filter(|(_, alone)| *alone > 0.0) else {
                     continue;
                 };
                 println!("{} {part}: {:+.3}", path.display(), coupled / alone - 1.0);
-                assert!(range.contains(&(coupled / alone)), "{}: {coupled} {alone}", path.display());
+                assert!(
+                    range.contains(&(coupled / alone)),
+                    "{}: {coupled} {alone}",
+                    path.display()
+                );
                 seen += 1;
             }
         }

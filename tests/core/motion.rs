@@ -1,7 +1,7 @@
 //! What the method `dynamic` must do whatever the pair: rest, swing, keep its energy, and come to
 //! the static load.
 use tipstrike::case::Document;
-use tipstrike::model::inputs::{Drive, Method};
+use tipstrike::model::inputs::{Drive, Method, ToothCompliance};
 use tipstrike::model::mesh::Mesh;
 use tipstrike::model::static_load::balance;
 use tipstrike::model::{Dynamic, Inputs, Solution, Stages, solve};
@@ -117,6 +117,7 @@ fn plain_steps_come_to_the_same_peak() {
         let inputs = Inputs {
             tolerance: 1e-10,
             warmup_cycles: 3,
+            tooth_compliance: Some(ToothCompliance::KUANG_YANG),
             ..case(name)
         };
         let (solution, found) = dynamic(&inputs);

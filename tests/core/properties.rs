@@ -152,7 +152,15 @@ fn every_pair_is_solved_or_refused_by_name() {
         }
     });
     println!("{verdicts:#?}");
-    assert!(verdicts["corner-contact"] > pairs() * 2 / 5, "{verdicts:?}");
+    let rounded_too_far: u64 = verdicts
+        .iter()
+        .filter(|(verdict, _)| verdict.starts_with("tip-radius"))
+        .map(|(_, count)| count)
+        .sum();
+    assert!(
+        verdicts["corner-contact"] > (pairs() - rounded_too_far) * 2 / 5,
+        "{verdicts:?}"
+    );
 }
 
 /// The default path against the accurate one, which the accuracy tests hold against the oracle.
@@ -423,6 +431,11 @@ fn vanishing_deviation_meets_no_corner_contact_without_a_jump() {
             value(&solution, "impact_force")?,
             value(&solution, "approach_angle_driven")?,
         );
+        // Where the tip lies on the base circle, S(u) has no such power yet.
+        let driven = &solution.geometry.driven;
+        if angle * driven.base > 0.1 * driven.tip_curvature {
+            return None;
+        }
         for exponent in [-20, -30, -60, -120, -200] {
             let small =
                 at(10f64.powi(exponent)).unwrap_or_else(|refusal| panic!("{refusal}: {exact:?}"));

@@ -262,7 +262,11 @@ fn compliance_at_start(k: &Context) -> Option<f64> {
 }
 
 fn mean_of_pairs(k: &Context) -> String {
-    let is_coupled = k.solution.mesh.as_ref().is_some_and(|mesh| mesh.is_coupled());
+    let is_coupled = k
+        .solution
+        .mesh
+        .as_ref()
+        .is_some_and(|mesh| mesh.is_coupled());
     let formula = if is_coupled {
         "the forces of all pairs from E to B per displacement, averaged over a base pitch"
     } else {

@@ -3,7 +3,7 @@
 //! without the symmetry of a tooth.
 use std::collections::HashMap;
 
-use nalgebra::{DMatrix, DVector, Dyn, Cholesky, Matrix3, Point2, SMatrix, Vector2};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix3, Point2, SMatrix, Vector2};
 use tipstrike::model::Outline;
 use tipstrike::model::outline::Piece;
 
@@ -45,7 +45,12 @@ pub(crate) struct Line {
 
 impl WholeGear {
     pub(crate) fn new(outline: Outline, sectors: u32, bore: f64, poisson: f64) -> WholeGear {
-        let mut mesh = Mesh { outline, bore, places: Vec::new(), known: HashMap::new() };
+        let mut mesh = Mesh {
+            outline,
+            bore,
+            places: Vec::new(),
+            known: HashMap::new(),
+        };
         let elements = mesh.elements();
         let flank = (0..=2 * FLANK).map(|at| {
             let place = mesh.tooth(2 * ACROSS, 2 * HIGH + at);
@@ -74,7 +79,8 @@ impl WholeGear {
         let mut turn = DMatrix::zeros(stiffness.nrows(), 2 * count);
         for (at, &node) in cuts.iter().flatten().enumerate() {
             let along = places[node].coords.normalize();
-            for (component, direction) in [along, Vector2::new(-along.y, along.x)].iter().enumerate()
+            for (component, direction) in
+                [along, Vector2::new(-along.y, along.x)].iter().enumerate()
             {
                 turn[(2 * node, 2 * at + component)] = direction.x;
                 turn[(2 * node + 1, 2 * at + component)] = direction.y;
@@ -118,7 +124,11 @@ impl WholeGear {
         }
         let held = self.factored.solve(&vector);
         let passed = -(self.to_cuts.transpose() * &held);
-        Line { vector, held, passed }
+        Line {
+            vector,
+            held,
+            passed,
+        }
     }
 
     /// Displacement along one line by the force on another, which acts `pitches` further
@@ -135,9 +145,18 @@ impl WholeGear {
         let moved = self.ring.solve(&force);
         let halves = starts(0).into_iter().enumerate();
         let by_cuts: f64 = halves
-            .map(|(half, at)| measured.passed.rows(half * count, count).dot(&moved.rows(at, count)))
+            .map(|(half, at)| {
+                measured
+                    .passed
+                    .rows(half * count, count)
+                    .dot(&moved.rows(at, count))
+            })
             .sum();
-        let own = if start == 0 { measured.vector.dot(&loaded.held) } else { 0.0 };
+        let own = if start == 0 {
+            measured.vector.dot(&loaded.held)
+        } else {
+            0.0
+        };
         own + by_cuts - self.twist()
     }
 
@@ -167,19 +186,28 @@ impl WholeGear {
     /// The three nodes of the flank's edge at a radius, with the shares of a place there.
     fn shares(&self, radius: f64) -> [(usize, f64); 3] {
         let radius_of = |at: usize| self.places[self.flank[at]].coords.norm();
-        let edge = (0..FLANK).find(|edge| radius <= radius_of(2 * edge + 2)).unwrap_or(FLANK - 1);
+        let edge = (0..FLANK)
+            .find(|edge| radius <= radius_of(2 * edge + 2))
+            .unwrap_or(FLANK - 1);
         let nodes = [0, 1, 2].map(|at| self.flank[2 * edge + at]);
         let shares = |t: f64| [0.5 * t * (t - 1.0), 1.0 - t * t, 0.5 * t * (t + 1.0)];
         let off = |t: f64| {
-            let place = nodes.iter().zip(shares(t)).fold(Vector2::zeros(), |sum, (node, share)| {
-                sum + self.places[*node].coords * share
-            });
+            let place = nodes
+                .iter()
+                .zip(shares(t))
+                .fold(Vector2::zeros(), |sum, (node, share)| {
+                    sum + self.places[*node].coords * share
+                });
             place.norm() - radius
         };
         let (mut low, mut high) = (-1.0, 1.0);
         for _ in 0..60 {
             let middle = f64::midpoint(low, high);
-            if off(middle) < 0.0 { low = middle } else { high = middle }
+            if off(middle) < 0.0 {
+                low = middle
+            } else {
+                high = middle
+            }
         }
         let shares = shares(low);
         [0, 1, 2].map(|at| (nodes[at], shares[at]))
@@ -199,7 +227,10 @@ struct Mesh {
 impl Mesh {
     fn node(&mut self, place: Point2<f64>) -> usize {
         const GRAIN: f64 = 1e-9;
-        let key = ((place.x / GRAIN).round() as i64, (place.y / GRAIN).round() as i64);
+        let key = (
+            (place.x / GRAIN).round() as i64,
+            (place.y / GRAIN).round() as i64,
+        );
         let next = self.places.len();
         let node = *self.known.entry(key).or_insert(next);
         if node == next {
@@ -210,8 +241,16 @@ impl Mesh {
 
     /// The nodes of every element: corners, then the middles of the edges.
     fn elements(&mut self) -> Vec<[usize; 8]> {
-        const PLACES: [(usize, usize); 8] =
-            [(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1)];
+        const PLACES: [(usize, usize); 8] = [
+            (0, 0),
+            (2, 0),
+            (2, 2),
+            (0, 2),
+            (1, 0),
+            (2, 1),
+            (1, 2),
+            (0, 1),
+        ];
         let mut elements = Vec::new();
         for (across, up) in grid(ACROSS, HIGH + FLANK) {
             elements.push(PLACES.map(|(y, x)| {
@@ -231,9 +270,11 @@ impl Mesh {
     /// A place of the tooth, in half elements across (clockwise flank first) and up.
     fn tooth(&self, across: usize, up: usize) -> Point2<f64> {
         let edge = if up <= 2 * HIGH {
-            self.outline.at(Piece::Fillet, 0.5 + 0.5 * up as f64 / (2 * HIGH) as f64)
+            self.outline
+                .at(Piece::Fillet, 0.5 + 0.5 * up as f64 / (2 * HIGH) as f64)
         } else {
-            self.outline.at(Piece::Flank, (up - 2 * HIGH) as f64 / (2 * FLANK) as f64)
+            self.outline
+                .at(Piece::Flank, (up - 2 * HIGH) as f64 / (2 * FLANK) as f64)
         };
         Point2::new(edge.x, edge.y * (across as f64 / ACROSS as f64 - 1.0))
     }
@@ -256,7 +297,11 @@ impl Mesh {
         let (profile, side) = (self.outline.profile(), 2 * (LOW + SPACE));
         let [from, to] = [profile.half_pitch(), profile.root_half_angle()];
         // Two fillets may leave nothing of the root circle.
-        let land = if from - to > 1e-3 * from { 2 * SPACE } else { 0 };
+        let land = if from - to > 1e-3 * from {
+            2 * SPACE
+        } else {
+            0
+        };
         if around < land {
             let angle = from + around as f64 / land as f64 * (to - from);
             let radius = profile.circles().root;
@@ -313,7 +358,8 @@ fn element(places: &[Point2<f64>; 8], poisson: f64) -> SMatrix<f64, 16, 16> {
                 strain[(2, 2 * node)] = slope.y;
                 strain[(2, 2 * node + 1)] = slope.x;
             }
-            stiffness += strain.transpose() * material * strain * (determinant * weight_x * weight_y);
+            stiffness +=
+                strain.transpose() * material * strain * (determinant * weight_x * weight_y);
         }
     }
     stiffness
