@@ -111,7 +111,7 @@ impl Check {
             }
             // A driver that turns anticlockwise has its earlier teeth further on in that direction;
             // seen so that the force pushes clockwise, the driven gear has them the other way.
-            let earlier = column as i32 - row as i32;
+            let earlier = column.cast_signed() as i32 - row.cast_signed() as i32;
             let by_gear = [0, 1].map(|gear| {
                 let pitches = if gear == 0 { earlier } else { -earlier };
                 let (measured, loaded) = (&lines[row][gear], &lines[column][gear]);
@@ -210,9 +210,9 @@ fn coupled_pairs_share_the_load_as_two_whole_gears_do() {
         for _ in 0..40 {
             let middle = f64::midpoint(low, high);
             if check.lead(middle) < 0.0 {
-                low = middle
+                low = middle;
             } else {
-                high = middle
+                high = middle;
             }
         }
         assert!(

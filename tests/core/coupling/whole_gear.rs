@@ -136,7 +136,7 @@ impl WholeGear {
     pub(crate) fn displacement(&self, measured: &Line, loaded: &Line, pitches: i32) -> f64 {
         let count = loaded.passed.len() / 2;
         let mut force = DVector::zeros(self.sectors * count);
-        let start = pitches.rem_euclid(self.sectors as i32) as usize;
+        let start = pitches.rem_euclid(self.sectors.cast_signed() as i32) as usize;
         let starts = |sector: usize| [sector, (sector + 1) % self.sectors].map(|cut| cut * count);
         for (half, at) in starts(start).into_iter().enumerate() {
             let mut part = force.rows_mut(at, count);
@@ -204,9 +204,9 @@ impl WholeGear {
         for _ in 0..60 {
             let middle = f64::midpoint(low, high);
             if off(middle) < 0.0 {
-                low = middle
+                low = middle;
             } else {
-                high = middle
+                high = middle;
             }
         }
         let shares = shares(low);
