@@ -93,7 +93,7 @@ pub(super) const TABLE: &[Quantity] = &[
         unit: "m",
         shown: "mm",
         digits: 6,
-        equation: "",
+        equation: "rounding",
         stage: Position,
         value: |s| Some(s.position?.contact.radius_driven),
         meaning: "The radius of D on the driven gear, where the tooth takes the load: its tip \
@@ -102,7 +102,7 @@ pub(super) const TABLE: &[Quantity] = &[
             (driven_rounded, Text("√(r_b2'² + N2'D²)")),
             (always, Text("r_a2")),
         ]),
-        source: "Geometry of the rounding, an arc tangent to the tip circle and to the flank.",
+        source: "The geometry of the rounding, an arc tangent to the tip circle and to the flank.",
         corrections: &[],
         assumptions: TIP,
         checks: &[checks::gap_closed],

@@ -50,7 +50,8 @@ pub(super) fn section() -> String {
     let mut text = "\n## What inertia and tooth compliance change\n\nMethod `dynamic`: first contact \
         before E in degrees of the driver, peak force before E and overall in N, and required \
         additional tip relief in um. `base-circle` is the disc of Eq. 47, `outline` the true inertia. \
-        `kuang-yang` and `beam` take neighbouring teeth as independent springs.\n"
+        `kuang-yang` and `beam` take neighbouring teeth as independent springs; \
+        `finite-element` adds the field and the coupling of neighbours together.\n"
         .to_owned();
     for (name, file) in PAIRS {
         let pair = Inputs {

@@ -273,7 +273,8 @@ mod tests {
         }
         for (typed, name) in [
             ("tab", "next case"),
-            ("switch", "next case"),
+            ("next tab", "next case"),
+            ("switch", "switch"),
             ("compare", "baseline"),
             ("static", "method static"),
             ("dynamic", "method dynamic"),
