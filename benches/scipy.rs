@@ -96,7 +96,7 @@ fn compare(case: &Path, setup: f64, theirs: &[Theirs]) {
     );
     let mut least = (f64::INFINITY, f64::INFINITY);
     for run in theirs {
-        let told = format!(
+        let shown = format!(
             "  {}: error {:.1e}, {:.1} ms",
             run.name,
             run.error,
@@ -104,10 +104,10 @@ fn compare(case: &Path, setup: f64, theirs: &[Theirs]) {
         );
         match run.ratios(setup, &ours) {
             Some((whole, alone)) => {
-                println!("{told}: {whole:.0} times whole, {alone:.0} times the run alone");
+                println!("{shown}: {whole:.0} times whole, {alone:.0} times the run alone");
                 least = (least.0.min(whole), least.1.min(alone));
             }
-            None => println!("{told}: nearer than any of ours"),
+            None => println!("{shown}: nearer than any of ours"),
         }
     }
     println!(

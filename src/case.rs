@@ -188,7 +188,7 @@ impl Case {
     /// What is wrong with the text of one field, on its own.
     ///
     /// # Errors
-    /// The cause and the mend, in the same words as for a file.
+    /// The cause and the fix, in the same words as for a file.
     pub fn check_field(&self, field: usize) -> Result<(), Problem> {
         check::put(self, field, &mut Inputs::default())
     }

@@ -104,7 +104,7 @@ impl Streams<'_> {
 /// The command line taken apart.
 ///
 /// # Errors
-/// Where there is nothing to run: help is told and all is done, or the usage is wrong.
+/// The exit code where there is nothing to run: after help, or for wrong usage.
 pub fn parse(
     arguments: impl IntoIterator<Item = OsString>,
     streams: &mut Streams,
@@ -132,11 +132,11 @@ pub fn parse(
                 let _ = streams.errors.write_all(text.as_bytes());
                 return Exit::Usage;
             }
-            let told = streams
+            let printed = streams
                 .output
                 .write_all(text.as_bytes())
                 .map(|()| Exit::Done);
-            finish(told, streams)
+            finish(printed, streams)
         })
 }
 
@@ -159,10 +159,10 @@ fn no_command(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
         .get_subcommands()
         .map(|known| known.get_name().to_owned())
         .collect::<Vec<_>>();
-    let mend = suggest::mend(first, known.iter().map(String::as_str), || {
+    let fix = suggest::fix(first, known.iter().map(String::as_str), || {
         "`tipstrike help` lists the commands".to_owned()
     });
-    Some(format!("error: {first}: there is no such command: {mend}"))
+    Some(format!("error: {first}: there is no such command: {fix}"))
 }
 
 /// Run a command to its end.

@@ -7,7 +7,7 @@ use signal_hook::consts::SIGXFSZ;
 use tipstrike::cli::{self, Arguments, Streams};
 
 fn main() -> ExitCode {
-    // A limit on the size of files then is an error of the write, which is told, and not the end of
+    // With a handler, a limit on the size of files becomes an error of the write and does not end
     // the program.
     drop(signal_hook::flag::register(SIGXFSZ, Arc::default()));
     let mut streams = Streams::standard();

@@ -58,7 +58,7 @@ pub use gear_pose::GearPose;
 pub use geometry::Geometry;
 pub use impact::Impact;
 pub use inputs::Inputs;
-pub use interpolate::Told;
+pub use interpolate::Interpolated;
 pub use limits::Refusal;
 pub use mesh::Mesh;
 pub use notes::{Note, notes};

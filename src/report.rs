@@ -87,7 +87,7 @@ impl Selection {
     }
 }
 
-/// A solved case, ready to be told.
+/// A solved case, ready to be printed.
 #[derive(Debug, Clone)]
 pub struct Report {
     /// The case's name, as the user gave it.
@@ -256,7 +256,7 @@ mod tests {
     use super::*;
     use crate::model::Stage;
 
-    fn told(value: f64, unit: &'static str, digits: usize) -> String {
+    fn text(value: f64, unit: &'static str, digits: usize) -> String {
         let quantity = Quantity {
             shown: unit,
             digits,
@@ -267,27 +267,27 @@ mod tests {
 
     #[test]
     fn a_value_has_its_significant_digits_in_the_unit_a_person_reads() {
-        assert_eq!(told(0.047_891_485, "mm", 6), "47.8915 mm");
-        assert_eq!(told(2191.016, "N", 5), "2191.0 N");
-        assert_eq!(told(-12.345e-6, "um", 3), "-12.3 um");
-        assert_eq!(told(1.556_844, "1", 5), "1.5568");
+        assert_eq!(text(0.047_891_485, "mm", 6), "47.8915 mm");
+        assert_eq!(text(2191.016, "N", 5), "2191.0 N");
+        assert_eq!(text(-12.345e-6, "um", 3), "-12.3 um");
+        assert_eq!(text(1.556_844, "1", 5), "1.5568");
     }
 
     #[test]
     fn plain_notation_where_it_can_be_read_and_an_exponent_elsewhere() {
-        assert_eq!(told(0.001_234_56, "N", 3), "0.00123 N");
-        assert_eq!(told(0.000_999_4, "N", 3), "9.99e-4 N");
-        assert_eq!(told(0.000_999_6, "N", 3), "0.00100 N");
-        assert_eq!(told(123_456.7, "N", 5), "123.46 kN");
-        assert_eq!(told(999_999.9, "N", 5), "1000.0 kN");
-        assert_eq!(told(9.9996, "N", 4), "10.00 N");
+        assert_eq!(text(0.001_234_56, "N", 3), "0.00123 N");
+        assert_eq!(text(0.000_999_4, "N", 3), "9.99e-4 N");
+        assert_eq!(text(0.000_999_6, "N", 3), "0.00100 N");
+        assert_eq!(text(123_456.7, "N", 5), "123.46 kN");
+        assert_eq!(text(999_999.9, "N", 5), "1000.0 kN");
+        assert_eq!(text(9.9996, "N", 4), "10.00 N");
     }
 
     #[test]
     fn no_value_reads_as_nan_or_as_minus_zero() {
-        assert_eq!(told(-0.0, "N", 5), "0 N");
-        assert_eq!(told(f64::NAN, "1", 5), "n/a");
-        assert_eq!(told(f64::INFINITY, "1", 5), "n/a");
+        assert_eq!(text(-0.0, "N", 5), "0 N");
+        assert_eq!(text(f64::NAN, "1", 5), "n/a");
+        assert_eq!(text(f64::INFINITY, "1", 5), "n/a");
     }
 
     #[test]
@@ -297,11 +297,11 @@ mod tests {
             measured.flat_map(|quantity| System::ALL.map(|system| (quantity, system)))
         {
             let dimension = units::Dimension::of_unit(quantity.unit).unwrap();
-            let told = shown_in(quantity, 0.123_456_7, system).to_string();
-            let read = units::parse(&told, dimension, "").unwrap();
+            let text = shown_in(quantity, 0.123_456_7, system).to_string();
+            let read = units::parse(&text, dimension, "").unwrap();
             assert!(
                 (read / 0.123_456_7 - 1.0).abs() < 6e-4,
-                "{}: {told}",
+                "{}: {text}",
                 quantity.key
             );
         }

@@ -345,9 +345,9 @@ impl Workbench {
 
     // Whether there was something to tell.
     fn keep(&mut self) -> bool {
-        let told = self.autosave.follow(&self.app.sheets(), Instant::now());
-        let has_changed = !told.is_empty();
-        for claim in told {
+        let claims = self.autosave.follow(&self.app.sheets(), Instant::now());
+        let has_changed = !claims.is_empty();
+        for claim in claims {
             update(&mut self.app, claimed(claim));
         }
         has_changed

@@ -1,9 +1,9 @@
-//! What one case says otherwise than another, field by field, and putting such changes into a case.
+//! The differences between two cases, field by field, and how to put them into a case.
 
 use super::fields::{self, FIELDS};
 use super::{Case, Problem, Spread, spread};
 
-/// A text that stands otherwise in one case than in another.
+/// A text that differs between two cases.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Change {
     /// The field's key, or `limits.…` or `spread."…"`.

@@ -10,34 +10,34 @@ use crate::model::inputs::Gear;
 use crate::model::{Inputs, QUANTITIES, Quantity, Refusal};
 use crate::numeric::decimal::shortest;
 
-/// What is wrong at one place: the cause and the mend.
+/// What is wrong at one place: the cause and the fix.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
     /// The field's key, or the key as written where it is unknown.
     pub field: String,
     /// What is wrong.
     pub cause: String,
-    /// How to mend it.
-    pub mend: String,
+    /// How to fix it.
+    pub fix: String,
 }
 
 impl Problem {
     /// A problem of a field.
-    pub(super) fn new(field: &str, cause: impl Into<String>, mend: impl Into<String>) -> Problem {
+    pub(super) fn new(field: &str, cause: impl Into<String>, fix: impl Into<String>) -> Problem {
         Problem {
             field: field.to_owned(),
             cause: cause.into(),
-            mend: mend.into(),
+            fix: fix.into(),
         }
     }
 
     /// A misread value, as a problem of its field.
     pub(super) fn of(field: &str, misread: ParseError) -> Problem {
-        Problem::new(field, misread.cause, misread.mend)
+        Problem::new(field, misread.cause, misread.fix)
     }
 }
 
-/// One line: `field: cause: mend`.
+/// One line: `field: cause: fix`.
 impl std::fmt::Display for Problem {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(
@@ -45,7 +45,7 @@ impl std::fmt::Display for Problem {
             "{}: {}: {}",
             sanitize(&self.field),
             sanitize(&self.cause),
-            sanitize(&self.mend)
+            sanitize(&self.fix)
         )
     }
 }
@@ -54,7 +54,7 @@ impl std::error::Error for Problem {}
 
 impl From<&Refusal> for Problem {
     fn from(refusal: &Refusal) -> Problem {
-        Problem::new(refusal.field(), refusal.to_string(), refusal.mend())
+        Problem::new(refusal.field(), refusal.to_string(), refusal.fix())
     }
 }
 
@@ -336,13 +336,13 @@ fn choice(known: &Field, text: &str, names: &'static [&'static str]) -> Result<u
     if let Some(index) = names.iter().position(|&known| known == name) {
         return Ok(index);
     }
-    let mend = suggest::mend(name, names.iter().copied(), || {
+    let fix = suggest::fix(name, names.iter().copied(), || {
         format!("use one of {}", names.join(", "))
     });
     Err(Problem::new(
         known.key,
         format!("unknown choice {}", quoted(name)),
-        mend,
+        fix,
     ))
 }
 
@@ -425,12 +425,12 @@ pub fn unknown_key(key: &str) -> Problem {
         .iter()
         .find(|field| field.name() == name)
         .map(|field| format!("did you mean {}?", field.key));
-    let mend = same_name.unwrap_or_else(|| {
-        suggest::mend(key, known, || {
+    let fix = same_name.unwrap_or_else(|| {
+        suggest::fix(key, known, || {
             "`tipstrike fields` lists every key".to_owned()
         })
     });
-    Problem::new(key, format!("unknown key {}", quoted(key)), mend)
+    Problem::new(key, format!("unknown key {}", quoted(key)), fix)
 }
 
 /// The refusal of a limit on a quantity that does not exist.
@@ -445,8 +445,8 @@ pub fn unknown_quantity(field: &str, quantity: &str) -> Problem {
             return Problem::new(field, cause, format!("write {}", known.key));
         }
         let cause = format!("unknown quantity {}", quoted(quantity));
-        let mend = format!("did you mean {}, {}?", known.symbol, known.key);
-        return Problem::new(field, cause, mend);
+        let fix = format!("did you mean {}, {}?", known.symbol, known.key);
+        return Problem::new(field, cause, fix);
     }
     if quantity.trim().is_empty() {
         return Problem::new(
@@ -460,12 +460,8 @@ pub fn unknown_quantity(field: &str, quantity: &str) -> Problem {
         return Problem::new(field, cause, "put commas between names");
     }
     let known = QUANTITIES.iter().map(|quantity| quantity.key);
-    let mend = suggest::mend(quantity, known, || {
+    let fix = suggest::fix(quantity, known, || {
         "`tipstrike fields --results` lists every quantity".to_owned()
     });
-    Problem::new(
-        field,
-        format!("unknown quantity {}", quoted(quantity)),
-        mend,
-    )
+    Problem::new(field, format!("unknown quantity {}", quoted(quantity)), fix)
 }

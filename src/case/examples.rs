@@ -1,7 +1,7 @@
 //! The cases that come with the program, each with its source: the texts of the folder `cases`.
 
 use super::Document;
-use super::suggest::mend;
+use super::suggest::fix;
 
 /// A case to start from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,7 +39,7 @@ impl Example {
         let name = name.strip_suffix(".toml").unwrap_or(name);
         let found = EXAMPLES.iter().find(|example| example.name == name);
         found.ok_or_else(|| {
-            mend(name, EXAMPLES.iter().map(|example| example.name), || {
+            fix(name, EXAMPLES.iter().map(|example| example.name), || {
                 "take one of the list".to_owned()
             })
         })

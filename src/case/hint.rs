@@ -7,7 +7,7 @@ use super::units::{self, System};
 use crate::model::explanation::tidy;
 use crate::numeric::decimal::significant;
 
-/// Significant digits of the ends of a range that is not told as the table of fields has it.
+/// Significant digits of the ends of a range that is not printed as in the table of fields.
 const RANGE_DIGITS: usize = 3;
 
 impl Field {

@@ -169,14 +169,15 @@ mod tests {
                 );
                 assert!(case.inputs().is_ok(), "{}", material.name);
             }
-            let told = [
+            let texts = [
                 &material.name,
                 &material.group,
                 &material.source,
                 &material.note,
             ];
             assert!(
-                told.iter()
+                texts
+                    .iter()
                     .all(|text| !text.trim().is_empty() && text.is_ascii()),
                 "{material:?}"
             );

@@ -12,7 +12,7 @@ use crate::model::inputs::Method;
 pub enum Acting {
     /// Some quantity or station depends on it.
     Yes,
-    /// It is told or noted beside the results, and no quantity depends on it.
+    /// It is printed beside the results or in a note, and no quantity depends on it.
     Beside(&'static str),
     /// The case does without it.
     No(&'static str),

@@ -152,11 +152,7 @@ fn named(place: &str, name: &str) -> Result<Shape, Problem> {
         .ok_or_else(|| {
             let known = Shape::ALL.into_iter().map(Shape::name);
             let all: Vec<&str> = known.clone().collect();
-            let mend = suggest::mend(name, known, || format!("use one of {}", all.join(", ")));
-            Problem::new(
-                place,
-                format!("unknown distribution {}", quoted(name)),
-                mend,
-            )
+            let fix = suggest::fix(name, known, || format!("use one of {}", all.join(", ")));
+            Problem::new(place, format!("unknown distribution {}", quoted(name)), fix)
         })
 }

@@ -36,12 +36,12 @@ fn sorted(name: &str) -> Vec<char> {
 }
 
 /// "did you mean X?" in front of what fits, or what fits alone.
-pub(crate) fn mend<'n>(
+pub(crate) fn fix<'n>(
     typed: &str,
     known: impl Iterator<Item = &'n str>,
-    otherwise: impl FnOnce() -> String,
+    fallback: impl FnOnce() -> String,
 ) -> String {
-    nearest(typed, known).map_or_else(otherwise, |name| format!("did you mean {name}?"))
+    nearest(typed, known).map_or_else(fallback, |name| format!("did you mean {name}?"))
 }
 
 #[cfg(test)]

@@ -187,7 +187,7 @@ fn all_problems_come_at_once_in_the_order_of_the_fields() {
             "model.method"
         ]
     );
-    assert_eq!(problems[3].mend, "did you mean exact?");
+    assert_eq!(problems[3].fix, "did you mean exact?");
 }
 
 #[test]
@@ -214,7 +214,7 @@ fn set_takes_keys_as_the_command_line_gives_them() {
 
 #[test]
 fn set_refuses_and_leaves_the_case_as_it_was() {
-    for (key, value, cause, mend) in [
+    for (key, value, cause, fix) in [
         ("pair.modul", "4 mm", "unknown key", "pair.module"),
         ("module", "4 mm", "unknown key", "did you mean pair.module?"),
         ("pair.module", "4", "bare number", "\"4 mm\""),
@@ -240,11 +240,7 @@ fn set_refuses_and_leaves_the_case_as_it_was() {
             "{key}={value}: {}",
             problem.cause
         );
-        assert!(
-            problem.mend.contains(mend),
-            "{key}={value}: {}",
-            problem.mend
-        );
+        assert!(problem.fix.contains(fix), "{key}={value}: {}", problem.fix);
         assert_eq!(case, Case::table_1());
     }
 }
@@ -262,7 +258,7 @@ fn a_limit_may_be_half_typed_in_a_form() {
     assert_eq!(case.limits[0].value, f64::INFINITY);
     let problem = only_problem(&case);
     assert_eq!(problem.field, "limits.impact_force");
-    assert!(problem.mend.contains("\"2600 N\""), "{}", problem.mend);
+    assert!(problem.fix.contains("\"2600 N\""), "{}", problem.fix);
     assert_eq!(case, case.clone());
     case.write_limit("impact_force", "2600 N");
     assert_eq!((case.limits.len(), case.limits[0].value), (1, 2600.0));

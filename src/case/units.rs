@@ -84,20 +84,20 @@ impl Dimension {
     }
 }
 
-/// Why a text is no value of the wanted dimension: the cause and the mend.
+/// Why a text is no value of the wanted dimension: the cause and the fix.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ParseError {
     /// What is wrong.
     pub cause: String,
-    /// How to mend it.
-    pub mend: String,
+    /// How to fix it.
+    pub fix: String,
 }
 
 impl ParseError {
-    pub(super) fn new(cause: impl Into<String>, mend: impl Into<String>) -> ParseError {
+    pub(super) fn new(cause: impl Into<String>, fix: impl Into<String>) -> ParseError {
         ParseError {
             cause: cause.into(),
-            mend: mend.into(),
+            fix: fix.into(),
         }
     }
 }
@@ -119,7 +119,7 @@ pub fn factor(unit: &str) -> Option<f64> {
 }
 
 /// A value in SI from a text such as "16 um": the f64 nearest to what is written where the unit is
-/// a power of ten of SI, within one unit in the last place otherwise.
+/// a power of ten of SI, else within one unit in the last place.
 ///
 /// `usual` is the unit in which an example is shown.
 ///
@@ -271,11 +271,11 @@ fn unit_wrong(unit: &str, dimension: Dimension) -> ParseError {
         .copied();
     let near = suggest::nearest(&plain_spelling(unit), spellings)
         .and_then(|near| find(near, units_of(dimension)));
-    let mend = near.map(|near| near.symbol).map_or_else(
+    let fix = near.map(|near| near.symbol).map_or_else(
         || format!("use one of {fitting}"),
         |near| format!("did you mean {near}? Units here: {fitting}"),
     );
-    ParseError::new(format!("unknown unit {}", quoted(unit)), mend)
+    ParseError::new(format!("unknown unit {}", quoted(unit)), fix)
 }
 
 fn bare(dimension: Dimension) -> &'static str {

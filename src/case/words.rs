@@ -33,7 +33,7 @@ impl Problem {
         Problem {
             field: called(&self.field),
             cause: for_form(&self.cause),
-            mend: for_form(&self.mend),
+            fix: for_form(&self.fix),
         }
     }
 }
@@ -108,7 +108,7 @@ mod tests {
             .find(|problem| problem.field == key)
             .unwrap()
             .for_form();
-        format!("{}: {}", problem.cause, problem.mend)
+        format!("{}: {}", problem.cause, problem.fix)
     }
 
     #[test]
@@ -220,7 +220,7 @@ mod tests {
         case.write(index_of("pair.module").unwrap(), "5");
         let problem = case.inputs().unwrap_err().remove(0);
         assert_eq!(
-            (problem.field.as_str(), problem.mend.as_str()),
+            (problem.field.as_str(), problem.fix.as_str()),
             ("pair.module", "write \"5 mm\"")
         );
     }

@@ -295,7 +295,7 @@ pub struct New {
     pub file: Option<PathBuf>,
 }
 
-/// How a solve is told.
+/// The form in which a solve is printed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub enum Format {
     /// A page for a person, in the units of the craft
@@ -307,7 +307,7 @@ pub enum Format {
     Csv,
 }
 
-/// How a list or a page is told.
+/// The form in which a list or a page is printed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub enum Listing {
     /// For a person
@@ -384,8 +384,8 @@ impl TypedValueParser for Quantities {
             .and_then(Arg::get_long)
             .map_or("QUANTITY".to_owned(), |long| format!("--{long}"));
         Quantity::named(text.trim()).ok_or_else(|| {
-            let Problem { cause, mend, .. } = unknown_quantity("", &text);
-            misused(format!("{name}: {cause}: {mend}"))
+            let Problem { cause, fix, .. } = unknown_quantity("", &text);
+            misused(format!("{name}: {cause}: {fix}"))
         })
     }
 
@@ -455,13 +455,13 @@ impl TypedValueParser for Settings {
         value: &OsStr,
     ) -> Result<Setting, Error> {
         let text = value.to_string_lossy();
-        setting(&text).map_err(|told| misused(format!("{SET} {text}: {told}")))
+        setting(&text).map_err(|cause| misused(format!("{SET} {text}: {cause}")))
     }
 }
 
 /// One line of wrong usage.
-fn misused(told: String) -> Error {
-    Error::raw(ErrorKind::ValueValidation, told + "\n")
+fn misused(cause: String) -> Error {
+    Error::raw(ErrorKind::ValueValidation, cause + "\n")
 }
 
 fn charts() -> PossibleValuesParser {
@@ -486,7 +486,7 @@ fn setting(text: &str) -> Result<Setting, String> {
         .ok_or("no value is given: write KEY=VALUE, such as \"operation.speed=3000 rpm\"")?;
     Case::empty()
         .set(key.trim(), value)
-        .map_err(|problem| format!("{}: {}", problem.cause, problem.mend))?;
+        .map_err(|problem| format!("{}: {}", problem.cause, problem.fix))?;
     Ok(Setting::by(SET, key.trim(), value))
 }
 

@@ -19,7 +19,7 @@ pub(super) struct Opened {
 }
 
 impl Opened {
-    /// Say why the model refuses the case, at the field where the mend begins.
+    /// Say why the model refuses the case, at the field where the fix begins.
     pub(super) fn refused(&self, refusal: &Refusal, streams: &mut Streams) -> Exit {
         self.report_problem(refusal.into(), streams);
         Exit::BadCase
@@ -208,5 +208,5 @@ fn placed(document: &Document, problem: Problem, settings: &[Setting]) -> String
 }
 
 fn on_command_line(setting: &Setting, problem: &Problem) -> String {
-    format!("{}: {}: {}", setting.written(), problem.cause, problem.mend)
+    format!("{}: {}: {}", setting.written(), problem.cause, problem.fix)
 }

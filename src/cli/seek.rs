@@ -37,7 +37,7 @@ pub(super) fn run(options: &Seek, streams: &mut Streams) -> io::Result<Exit> {
     if let Err(problem) = condition.check(opened.inputs.method) {
         streams.say(&format!(
             "--until {}: {}: {}",
-            options.until, problem.cause, problem.mend
+            options.until, problem.cause, problem.fix
         ));
         return Ok(Exit::Usage);
     }
@@ -57,7 +57,7 @@ pub(super) fn run(options: &Seek, streams: &mut Streams) -> io::Result<Exit> {
         Ok(Err(problem)) => {
             streams.say(&format!(
                 "--vary {}: {}: {}",
-                options.vary, problem.cause, problem.mend
+                options.vary, problem.cause, problem.fix
             ));
             Ok(Exit::Usage)
         }
@@ -72,13 +72,13 @@ fn question(options: &Seek) -> Result<(AxisRange, Condition), String> {
     let range = AxisRange::parse(&options.vary).map_err(|problem| {
         format!(
             "--vary {}: {}: {}",
-            options.vary, problem.cause, problem.mend
+            options.vary, problem.cause, problem.fix
         )
     })?;
     let condition = Condition::parse(&options.until).map_err(|problem| {
         format!(
             "--until {}: {}: {}",
-            options.until, problem.cause, problem.mend
+            options.until, problem.cause, problem.fix
         )
     })?;
     Ok((range, condition))

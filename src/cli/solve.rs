@@ -1,4 +1,4 @@
-//! Cases solved and told.
+//! `solve`: solves cases and prints the results.
 
 use super::cases::{self, Opened};
 use super::{Exit, Format, Setting, Solve, Streams};

@@ -22,7 +22,7 @@ pub(super) fn run(options: &Sweep, streams: &mut Streams) -> io::Result<Exit> {
         Err((text, problem)) => {
             streams.say(&format!(
                 "--vary {text}: {}: {}",
-                problem.cause, problem.mend
+                problem.cause, problem.fix
             ));
             return Ok(Exit::Usage);
         }
@@ -115,7 +115,7 @@ fn idle(grid: &Grid, opened: &Opened) -> Vec<String> {
     if grid.methods(&inputs).len() > 1 || grid.put(0, &mut inputs).is_err() {
         return Vec::new();
     }
-    let told = |axis: &Axis| match relevance(axis.field, &inputs) {
+    let warning = |axis: &Axis| match relevance(axis.field, &inputs) {
         Acting::Yes => partial_relevance(axis.field, &inputs)
             .map(|why| format!("{}: {}: {why}", opened.name, axis.key())),
         Acting::No(why) | Acting::Beside(why) => {
@@ -123,7 +123,7 @@ fn idle(grid: &Grid, opened: &Opened) -> Vec<String> {
             Some(format!("{name}: {key} changes no quantity: {why}"))
         }
     };
-    grid.axes.iter().filter_map(told).collect()
+    grid.axes.iter().filter_map(warning).collect()
 }
 
 /// The quantities that the user names, else the headline of every method of the grid.

@@ -4,7 +4,7 @@ use super::cases::{self, Opened};
 use super::progress::{Bar, Interrupt};
 use super::{Exit, Listing, Streams, Trading};
 use crate::model::Refusal;
-use crate::report::trade::{Told, write, write_json};
+use crate::report::trade::{TradeReport, write, write_json};
 use crate::study::trade::{Patience, Question, Trade, trade};
 use std::cell::Cell;
 use std::io;
@@ -24,11 +24,11 @@ pub(super) fn run(options: &Trading, streams: &mut Streams) -> io::Result<Exit> 
         bar.set(done.get(), planned.get());
         interrupt.go_on()
     };
-    let mut told = |sofar: &Trade| {
+    let mut show = |sofar: &Trade| {
         done.set((sofar.part * sofar.planned as f64) as usize);
         planned.set(sofar.planned);
     };
-    let found = trade(&opened.inputs, &question, &go_on, &mut told);
+    let found = trade(&opened.inputs, &question, &go_on, &mut show);
     if matches!(found, Err(Refusal::Stopped)) {
         bar.clear_after_interrupt();
         Interrupt::end();
@@ -41,14 +41,14 @@ pub(super) fn run(options: &Trading, streams: &mut Streams) -> io::Result<Exit> 
     match found {
         Err(refusal) => Ok(opened.refused(&refusal, streams)),
         Ok(trade) => {
-            let told = Told {
+            let report = TradeReport {
                 name,
                 title,
                 trade: &trade,
             };
             match options.format {
-                Listing::Text => write(&told, streams.output.as_mut())?,
-                Listing::Json => write_json(&told, streams.output.as_mut())?,
+                Listing::Text => write(&report, streams.output.as_mut())?,
+                Listing::Json => write_json(&report, streams.output.as_mut())?,
             }
             Ok(Exit::Done)
         }

@@ -62,13 +62,13 @@ pub enum Reason {
     LoadShared(f64),
 }
 
-/// The method that the pair needs, as far as the closed form can tell.
+/// The method that the pair needs, judged by the closed form.
 ///
 /// # Formula
 /// ```text
 /// exact:    T_S <= t_DE,  1 <= κ <= 2,  δ >= Δf  and  F0/F_S <= within
-/// static:   otherwise, while  most · T_n/(π t) <= within,  T_n = 2 π √(M q/b),  t = t_DE
-/// dynamic:  otherwise, where  least · T_n/(π t) >  within
+/// static:   else while  most · T_n/(π t) <= within,  T_n = 2 π √(M q/b),  t = t_DE
+/// dynamic:  else where  least · T_n/(π t) >  within
 /// ```
 /// A load that is taken over within a time t leaves a mesh of the period T_n swinging by at most
 /// T_n/(π t) of it: the response of an oscillator to a ramp. What of it `static` leaves out depends

@@ -5,7 +5,7 @@ use nalgebra::Point2;
 use super::gear_pose::{on_line_of_action, tip_point};
 use super::geometry::geometry;
 use super::inputs::Inputs;
-use super::interpolate::Told;
+use super::interpolate::Interpolated;
 use super::tip_gap::{TipContact, gap_without, tip_at};
 use super::velocity::velocity;
 use super::{Geometry, Solution};
@@ -43,7 +43,7 @@ pub struct ContactState {
     /// Sliding velocity ΔV_τ, in m/s.
     pub sliding_velocity: f64,
     /// What the method tells of the tooth here, where it is in contact.
-    pub told: Option<Told>,
+    pub interpolated: Option<Interpolated>,
 }
 
 /// Where in its course the incoming pair is.
@@ -99,7 +99,7 @@ impl ContactState {
     /// u = θ/i,   opening = max(0, S(u) − S₀),   S = 0 on the line of action
     /// ```
     /// where S₀ is the gap that is closed at the first contact: Δ in the methods `paper` and
-    /// `exact`, S at the first contact in `static` and `dynamic`. After B the same is told of the
+    /// `exact`, S at the first contact in `static` and `dynamic`. After B the same values are those of the
     /// driver's tip, by swapped gears, and S₀ is 0.
     ///
     /// # Source
@@ -146,9 +146,9 @@ impl ContactState {
     pub fn touches(&self) -> bool {
         self.opening <= 0.0
             && self
-                .told
+                .interpolated
                 .as_ref()
-                .and_then(Told::load)
+                .and_then(Interpolated::load)
                 .is_none_or(|load| load.force > 0.0)
     }
 
@@ -184,7 +184,7 @@ fn run_in(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> ContactState
         opening: opening(solution, gap),
         normal_velocity: velocity.normal,
         sliding_velocity: velocity.sliding,
-        told: Told::at(inputs, solution, roll_angle),
+        interpolated: Interpolated::at(inputs, solution, roll_angle),
     }
 }
 
@@ -203,7 +203,7 @@ fn line(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> ContactState {
         opening: opening(solution, 0.0),
         normal_velocity: 0.0,
         sliding_velocity: inputs.driven_speed() * rest - inputs.speed * curvature,
-        told: Told::at(inputs, solution, roll_angle),
+        interpolated: Interpolated::at(inputs, solution, roll_angle),
     }
 }
 
@@ -223,10 +223,10 @@ fn run_out(
     };
     let geometry = geometry::<f64>(&swapped.shape()).ok()?;
     let tip = tip_at(&geometry, last - roll_angle);
-    let (gap, velocity, told) = (
+    let (gap, velocity, interpolated) = (
         gap_of(&geometry, &tip),
         velocity(swapped.driven_speed(), &tip),
-        Told::at(inputs, solution, roll_angle),
+        Interpolated::at(inputs, solution, roll_angle),
     );
     let point = tip_point(&geometry, &tip);
     Some(ContactState {
@@ -236,10 +236,10 @@ fn run_out(
         point: Point2::new(geometry.centre_distance - point.x, -point.y),
         radius_driver: tip.radius_driven,
         gap,
-        opening: if told.is_some() { 0.0 } else { gap },
+        opening: if interpolated.is_some() { 0.0 } else { gap },
         normal_velocity: -velocity.normal,
         sliding_velocity: -velocity.sliding,
-        told,
+        interpolated,
     })
 }
 
@@ -292,7 +292,7 @@ mod tests {
     }
 
     fn force(moment: &ContactState) -> Option<f64> {
-        Some(moment.told?.impact()?.impact_force)
+        Some(moment.interpolated?.impact()?.impact_force)
     }
 
     #[test]
@@ -389,7 +389,7 @@ mod tests {
             let first = first_contact(&solution).unwrap() * inputs.ratio();
             let before = ContactState::at(&inputs, &solution, 1.001 * first).unwrap();
             assert!(
-                before.opening > 0.0 && before.told.is_none() && !before.touches(),
+                before.opening > 0.0 && before.interpolated.is_none() && !before.touches(),
                 "{before:?}"
             );
             let stations = solution.dynamic.map_or_else(
@@ -400,7 +400,11 @@ mod tests {
             for station in &stations {
                 let moment =
                     ContactState::at(&inputs, &solution, station.roll_angle_driver).unwrap();
-                let load = *moment.told.as_ref().and_then(Told::load).unwrap();
+                let load = *moment
+                    .interpolated
+                    .as_ref()
+                    .and_then(Interpolated::load)
+                    .unwrap();
                 assert!(
                     (load.force - station.force).abs() < 1e-9 * (1.0 + station.force),
                     "{load:?} {station:?}"

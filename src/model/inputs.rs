@@ -82,7 +82,7 @@ pub enum Drive {
 /// How much of the physics is taken in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Method {
-    /// Zhou & Chen 2014 as printed, typesetting mended.
+    /// Zhou & Chen 2014 as printed, without its misprints.
     Paper,
     /// The exact contact position and the spring's own duration.
     Exact,

@@ -1,5 +1,4 @@
-//! What a method tells of the incoming tooth at any roll angle, between its stations as well as on
-//! them.
+//! The results for the incoming tooth at any roll angle, at stations and between them.
 
 use super::compliance::Teeth;
 use super::impact::Masses;
@@ -11,9 +10,9 @@ use super::{MeshStation, Solution, Station, stations};
 /// An angle beyond the first contact by less than this share of it is at the first contact.
 const ROUNDING: f64 = 1e-9;
 
-/// What a method tells of the incoming tooth at a roll angle.
+/// The results for the incoming tooth at a roll angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Told {
+pub enum Interpolated {
     /// From D to E, the impact as if it happened there.
     Impact(Station),
     /// From the first contact to the last, with the load shared.
@@ -27,9 +26,9 @@ pub enum Told {
 /// 64 stations.
 pub const DIGITS_BETWEEN: usize = 3;
 
-impl Told {
-    /// What the solution's method tells where the driver stands `roll_angle` before E, in rad;
-    /// `None` where the tooth is not in contact, or has no force.
+impl Interpolated {
+    /// The results of the solution's method `roll_angle` before E, in rad of the driver; `None`
+    /// where the tooth is not in contact, or has no force.
     ///
     /// # Formula
     /// ```text
@@ -42,30 +41,29 @@ impl Told {
     /// All digits in closed form and in `static`, and on the stations of `dynamic`. Between those,
     /// with 64 of them, the force is good to 5e-3 of its peak.
     #[must_use]
-    pub fn at(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> Option<Told> {
+    pub fn at(inputs: &Inputs, solution: &Solution, roll_angle: f64) -> Option<Interpolated> {
         match (&solution.dynamic, &solution.static_load) {
             (Some(dynamic), _) => moving(solution.mesh.as_deref()?, &dynamic.stations, roll_angle),
-            (None, Some(load)) => {
-                at_rest(solution.mesh.as_deref()?, &load.stations, roll_angle).map(Told::Load)
-            }
-            (None, None) => struck(inputs, solution, roll_angle).map(Told::Impact),
+            (None, Some(load)) => at_rest(solution.mesh.as_deref()?, &load.stations, roll_angle)
+                .map(Interpolated::Load),
+            (None, None) => struck(inputs, solution, roll_angle).map(Interpolated::Impact),
         }
     }
 
-    /// The impact, where that is told.
+    /// The impact, in the methods `paper` and `exact`.
     #[must_use]
     pub fn impact(&self) -> Option<&Station> {
-        if let Told::Impact(station) = self {
+        if let Interpolated::Impact(station) = self {
             Some(station)
         } else {
             None
         }
     }
 
-    /// The load, where that is told.
+    /// The load, in the methods `static` and `dynamic`.
     #[must_use]
     pub fn load(&self) -> Option<&MeshStation> {
-        if let Told::Load(station) | Told::Between(station) = self {
+        if let Interpolated::Load(station) | Interpolated::Between(station) = self {
             Some(station)
         } else {
             None
@@ -108,11 +106,11 @@ fn at_rest(mesh: &Mesh, stations: &[MeshStation], roll_angle: f64) -> Option<Mes
 }
 
 /// The motion from the first contact to the last.
-fn moving(mesh: &Mesh, stations: &[MeshStation], roll_angle: f64) -> Option<Told> {
+fn moving(mesh: &Mesh, stations: &[MeshStation], roll_angle: f64) -> Option<Interpolated> {
     let next = stations.partition_point(|station| station.roll_angle_driver > roll_angle);
     let to = stations.get(next)?;
     if (to.roll_angle_driver..=to.roll_angle_driver).contains(&roll_angle) {
-        return Some(Told::Load(*to));
+        return Some(Interpolated::Load(*to));
     }
     let from = stations.get(next.checked_sub(1)?)?;
     let part =
@@ -124,7 +122,7 @@ fn moving(mesh: &Mesh, stations: &[MeshStation], roll_angle: f64) -> Option<Told
     let total = forces.iter().sum();
     let incoming = pairs.pairs().iter().position(|pair| pair.ahead == 0);
     let force = incoming.map_or(0.0, |incoming| forces[incoming]);
-    Some(Told::Between(MeshStation::at(
+    Some(Interpolated::Between(MeshStation::at(
         mesh,
         s,
         force,
@@ -161,7 +159,7 @@ mod tests {
         (inputs, solution)
     }
 
-    fn told(method: Method, stations: usize) -> (Inputs, Solution, Vec<(f64, f64)>) {
+    fn curve(method: Method, stations: usize) -> (Inputs, Solution, Vec<(f64, f64)>) {
         let (inputs, solution) = solved(method, stations);
         let of = |stations: &[MeshStation]| {
             stations
@@ -181,25 +179,25 @@ mod tests {
         (inputs, solution, curve)
     }
 
-    fn force(told: Told) -> f64 {
-        told.impact().map_or_else(
-            || told.load().unwrap().force,
+    fn force(interpolated: Interpolated) -> f64 {
+        interpolated.impact().map_or_else(
+            || interpolated.load().unwrap().force,
             |station| station.impact_force,
         )
     }
 
     #[test]
-    fn between_the_stations_of_one_solve_stands_what_those_of_a_finer_one_say() {
+    fn values_between_stations_agree_with_those_of_a_finer_solve() {
         for (method, good_to) in [
             (Method::Exact, 1e-12),
             (Method::Static, 1e-9),
             (Method::Dynamic, 5e-3),
         ] {
-            let (inputs, coarse, _) = told(method, 64);
-            let (_, _, fine) = told(method, 2048);
+            let (inputs, coarse, _) = curve(method, 64);
+            let (_, _, fine) = curve(method, 2048);
             let peak = fine.iter().map(|(_, force)| *force).fold(0.0, f64::max);
             let off = |(angle, expected): &(f64, f64)| {
-                Some((force(Told::at(&inputs, &coarse, *angle)?) - expected).abs())
+                Some((force(Interpolated::at(&inputs, &coarse, *angle)?) - expected).abs())
             };
             let off: Vec<f64> = fine[1..fine.len() - 1].iter().filter_map(off).collect();
             assert!(off.len() > 2000, "{method:?} {}", off.len());
@@ -209,25 +207,25 @@ mod tests {
     }
 
     #[test]
-    fn out_of_contact_nothing_is_told() {
+    fn there_are_no_values_without_contact() {
         for method in [
             Method::Paper,
             Method::Exact,
             Method::Static,
             Method::Dynamic,
         ] {
-            let (inputs, solution, curve) = told(method, 64);
+            let (inputs, solution, curve) = curve(method, 64);
             let (first, last) = (curve[0].0, curve[curve.len() - 1].0);
             for angle in [first * 1.001, last - 1e-3, f64::NAN, f64::INFINITY] {
                 assert_eq!(
-                    Told::at(&inputs, &solution, angle),
+                    Interpolated::at(&inputs, &solution, angle),
                     None,
                     "{method:?} {angle}"
                 );
             }
             assert!(
-                Told::at(&inputs, &solution, first).is_some()
-                    && Told::at(&inputs, &solution, 0.5 * first).is_some()
+                Interpolated::at(&inputs, &solution, first).is_some()
+                    && Interpolated::at(&inputs, &solution, 0.5 * first).is_some()
             );
         }
     }

@@ -311,11 +311,11 @@ impl fmt::Display for Bracket {
     }
 }
 
-/// A refusal's name, the field where its mend begins, and the mend.
+/// A refusal's name, the field where its fix begins, and the fix.
 struct Remedy {
     code: &'static str,
     field: &'static str,
-    mend: &'static str,
+    fix: &'static str,
 }
 
 impl Refusal {
@@ -343,21 +343,21 @@ impl Refusal {
         self.remedy().code
     }
 
-    /// The key of the field where the mend begins.
+    /// The key of the field where the fix begins.
     #[must_use]
     pub fn field(&self) -> &'static str {
         self.remedy().field
     }
 
-    /// How to mend it.
+    /// How to fix it.
     #[must_use]
-    pub fn mend(&self) -> &'static str {
-        self.remedy().mend
+    pub fn fix(&self) -> &'static str {
+        self.remedy().fix
     }
 
     #[expect(clippy::too_many_lines, reason = "one row per refusal")]
     fn remedy(&self) -> Remedy {
-        let (code, field, mend) = match self {
+        let (code, field, fix) = match self {
             Refusal::Interference { .. } => (
                 "interference",
                 "driven.addendum",
@@ -536,6 +536,6 @@ impl Refusal {
                 "lower the load or the speed, or widen the gears",
             ),
         };
-        Remedy { code, field, mend }
+        Remedy { code, field, fix }
     }
 }

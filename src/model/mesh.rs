@@ -440,7 +440,7 @@ impl Mesh {
         s + (self.zones[zone].series.serves_until(at, least) - at)
     }
 
-    /// Where a pair stands, and how near its place cannot be told from another.
+    /// The place of a pair, and the distance below which two places are the same.
     pub(super) fn above(&self, ahead: i32, s: f64) -> (f64, f64) {
         (
             s + f64::from(ahead) * self.base_pitch,

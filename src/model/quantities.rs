@@ -107,8 +107,8 @@ impl Quantity {
         matches!(self.key, "pitch_contact_jump" | "dynamic_friction_work")
     }
 
-    /// The symbol in a method: where the method defines the quantity otherwise than the closed form
-    /// does, another one.
+    /// The symbol in a method. It differs from the symbol of the closed form where the definition
+    /// differs.
     #[must_use]
     pub fn symbol_in(&self, method: Method) -> &'static str {
         if self.leaves_reliefs_out(method) {

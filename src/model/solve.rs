@@ -219,7 +219,7 @@ impl Solving<'_> {
         Ok(solution)
     }
 
-    /// The least relief, once the method has told its outcome.
+    /// The required relief, once the outcome is known.
     fn clear(&self, solution: &mut Solution, go_on: &dyn Fn(f64) -> bool) -> Result<(), Refusal> {
         let held = self
             .asked

@@ -110,8 +110,8 @@ impl Stage {
         }
     }
 
-    /// The stages on whose results the own one depends. The relief is found anew from the mesh and
-    /// the motion without their stations, and so does not depend on those.
+    /// The stages on whose results this stage depends. The relief search computes its own mesh and
+    /// motion, without stations, and so does not depend on `static` and `dynamic`.
     pub(super) const fn depends_on(self) -> Stages {
         match self {
             Stage::Clearing => self.reads().without(Stage::Static).without(Stage::Dynamic),

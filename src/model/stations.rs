@@ -111,7 +111,7 @@ impl MeshStation {
 /// rest.
 ///
 /// # Source
-/// Zhou & Chen 2014, Eqs. 58-60; Eq. 60 mended to the law of cosines: as printed, O₁J would lie
+/// Zhou & Chen 2014, Eqs. 58-60; Eq. 60 corrected to the law of cosines: as printed, O₁J would lie
 /// inside the base circle.
 #[must_use]
 pub fn stations(

@@ -53,7 +53,7 @@ pub struct TipContact<T = f64> {
 /// and Δ the growth since E.
 ///
 /// # Source
-/// Zhou & Chen 2014, Eqs. 7, 24-28, 48, 49, rewritten as increments from E; Eq. 27 mended to the
+/// Zhou & Chen 2014, Eqs. 7, 24-28, 48, 49, rewritten as increments from E; Eq. 27 corrected to the
 /// law of cosines.
 ///
 /// # Valid for

@@ -26,7 +26,7 @@ pub struct Velocity {
 /// finished products both velocities would lose their digits close to E and to the pitch point.
 ///
 /// # Source
-/// Zhou & Chen 2014, Eqs. 21-28. Eq. 27 is mended to the law of cosines: as printed, ΔV_n at E
+/// Zhou & Chen 2014, Eqs. 21-28. Eq. 27 is corrected to the law of cosines: as printed, ΔV_n at E
 /// would be 1.32 m/s for its Table 1 where it must be 0. Eq. 22 is ΔV_Dτ, whatever its label.
 #[must_use]
 pub fn velocity(driven_speed: f64, tip: &TipContact) -> Velocity {

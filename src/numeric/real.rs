@@ -78,7 +78,7 @@ impl Real for f64 {
 }
 
 /// Of the crate only sums, products and roots keep their 31 digits. Its quotient of two
-/// double-doubles keeps 17, its sine, cosine and arctangent 17 to 21, so that they are mended or
+/// double-doubles keeps 17, its sine, cosine and arctangent 17 to 21, so that they are corrected or
 /// built here.
 impl Real for TwoFloat {
     const EPSILON: f64 = 1e-30;

@@ -77,7 +77,7 @@ pub fn without_contact(solution: &Solution) -> &'static str {
 #[must_use]
 pub fn without_contact_in_full(solution: &Solution, system: System) -> String {
     let (why, total) = (without_contact(solution), solution.deviation.total);
-    let told = |value: f64| {
+    let printed = |value: f64| {
         let (number, unit) = units::system::shown(value, "um", 3, system);
         format!("{number} {unit}")
     };
@@ -87,13 +87,13 @@ pub fn without_contact_in_full(solution: &Solution, system: System) -> String {
                 .map(|quantity| shown_in(quantity, total + 0.0, system));
             shown.map_or_else(|| why.to_owned(), |shown| format!("{why}, Δ = {shown}"))
         }
-        Method::Paper => format!("{why} although Δ is {}", told(total)),
+        Method::Paper => format!("{why} although Δ is {}", printed(total)),
         Method::Static => solution.margin().map_or_else(
             || why.to_owned(),
-            |gap| format!("a gap of {} remains before E at rest", told(gap)),
+            |gap| format!("a gap of {} remains before E at rest", printed(gap)),
         ),
         _ => match solution.lead_at_rest().filter(|&lead| lead > 0.0) {
-            Some(lead) => format!("{why}; at rest the tooth touches, {} early", told(lead)),
+            Some(lead) => format!("{why}; at rest the tooth touches, {} early", printed(lead)),
             None => why.to_owned(),
         },
     }
@@ -148,7 +148,7 @@ impl fmt::Display for Absence {
             Absence::NoFreeImpact => f.write_str("the closed form finds no first contact at D"),
             Absence::NoFriction => f.write_str("the case has no operation.friction_coefficient"),
             Absence::NotReached => f.write_str("the event does not occur"),
-            Absence::Withheld(refusal) => write!(f, "{refusal}; {}", refusal.mend()),
+            Absence::Withheld(refusal) => write!(f, "{refusal}; {}", refusal.fix()),
             Absence::Unclosed => {
                 f.write_str("the impact has no end D': the triangle of Eq. 34 does not close")
             }

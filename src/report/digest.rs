@@ -69,7 +69,7 @@ impl Digest {
                 short: short(solution, system),
                 limits: verdict::verdicts(case, solution)
                     .iter()
-                    .map(|verdict| (verdict.standing, verdict.told(system)))
+                    .map(|verdict| (verdict.standing, verdict.sentence(system)))
                     .collect(),
                 notes: model::notes(inputs, solution)
                     .into_iter()
@@ -79,11 +79,11 @@ impl Digest {
             },
             Err(refusal) => Digest {
                 method: inputs.method.name().to_owned(),
-                outcome: format!("Not solved: {refusal}; {}.", refusal.mend()),
+                outcome: format!("Not solved: {refusal}; {}.", refusal.fix()),
                 short: "not solved".to_owned(),
                 limits: verdict::refused(case, refusal)
                     .iter()
-                    .map(|verdict| (verdict.standing, verdict.told(system)))
+                    .map(|verdict| (verdict.standing, verdict.sentence(system)))
                     .collect(),
                 ..written
             },
@@ -133,7 +133,7 @@ pub fn sentence(solution: &Solution, system: System) -> String {
                 let shown = shown_in(quantity, angle, system);
                 format!("{} = {shown} before E", quantity.symbol)
             });
-            let force = force(solution.method, |key| told(key, solution, system));
+            let force = force(solution.method, |key| printed(key, solution, system));
             let found: Vec<String> = angle.into_iter().chain(force).collect();
             let colon = if found.is_empty() { "" } else { ": " };
             format!("Corner contact{colon}{}.", found.join("; "))
@@ -151,14 +151,14 @@ pub fn short(solution: &Solution, system: System) -> String {
     if solution.outcome == Outcome::NoCornerContact {
         return "no corner contact".to_owned();
     }
-    let told = |key| told(key, solution, system);
+    let printed = |key| printed(key, solution, system);
     let overall = match solution.method {
-        Method::Static => told("static_peak_force"),
-        Method::Dynamic => told("dynamic_peak_force"),
+        Method::Static => printed("static_peak_force"),
+        Method::Dynamic => printed("dynamic_peak_force"),
         Method::Paper | Method::Exact | Method::Auto => None,
     };
     let force = Quantity::find("impact_force").and_then(|force| force.by(solution.method));
-    match (force.and_then(|force| told(force.key)), overall) {
+    match (force.and_then(|force| printed(force.key)), overall) {
         (Some(force), Some(overall)) => format!("strikes with {force}, {overall} overall"),
         (Some(force), None) => format!("strikes with {force}"),
         (None, _) => "strikes".to_owned(),
@@ -172,24 +172,27 @@ pub(super) fn first_touch(solution: &Solution) -> Option<(&'static Quantity, f64
 }
 
 /// The forces of the incoming tooth in words, where their stages ran.
-fn force(method: Method, told: impl Fn(&str) -> Option<String>) -> Option<String> {
+fn force(method: Method, printed: impl Fn(&str) -> Option<String>) -> Option<String> {
     match method {
         Method::Static => {
-            let (start, peak) = (told("static_force_at_start")?, told("static_peak_force")?);
+            let (start, peak) = (
+                printed("static_force_at_start")?,
+                printed("static_peak_force")?,
+            );
             Some(format!("force {start} at E, {peak} overall"))
         }
         Method::Dynamic => {
-            let before = told("dynamic_peak_approach_force")?;
-            let overall = told("dynamic_peak_force")?;
+            let before = printed("dynamic_peak_approach_force")?;
+            let overall = printed("dynamic_peak_force")?;
             Some(format!("peak force {before} before E, {overall} overall"))
         }
         Method::Paper | Method::Exact | Method::Auto => {
-            Some(format!("impact force {}", told("impact_force")?))
+            Some(format!("impact force {}", printed("impact_force")?))
         }
     }
 }
 
-fn told(key: &str, solution: &Solution, system: System) -> Option<String> {
+fn printed(key: &str, solution: &Solution, system: System) -> Option<String> {
     let quantity = Quantity::find(key)?;
     Some(shown_in(quantity, value(quantity, solution)?, system).to_string())
 }
@@ -263,18 +266,18 @@ mod tests {
 
     #[test]
     fn a_case_is_told_in_a_few_lines() {
-        let told = digest(&[]);
+        let digest = digest(&[]);
         assert_eq!(
-            (told.pair.as_str(), told.load.as_str()),
+            (digest.pair.as_str(), digest.load.as_str()),
             ("z 20/20, m 5 mm, α 20 deg, b 8 mm", "15 kW at 2000 rpm")
         );
         assert_eq!(
-            told.outcome,
+            digest.outcome,
             "Corner contact: θ_1 = 1.36628 deg before E; impact force 2191.0 N."
         );
-        assert_eq!(told.verdict(), "strikes with 2191.0 N; limit met");
-        assert_eq!(told.method, "exact");
-        assert!(!told.notes.is_empty());
+        assert_eq!(digest.verdict(), "strikes with 2191.0 N; limit met");
+        assert_eq!(digest.method, "exact");
+        assert!(!digest.notes.is_empty());
     }
 
     #[test]
@@ -325,24 +328,24 @@ mod tests {
             "strikes with 1410.8 N, 2003.0 N overall",
             "strikes with 1410.8 N, 2003.0 N overall",
         ];
-        assert_eq!(forces.each_ref().map(|told| told.short.as_str()), short);
+        assert_eq!(forces.each_ref().map(|digest| digest.short.as_str()), short);
         assert_eq!(forces[2].method, "dynamic, chosen by auto");
     }
 
     #[test]
     fn a_refusal_is_the_verdict() {
-        let told = digest(&[("driven.addendum", "1.9")]);
+        let digest = digest(&[("driven.addendum", "1.9")]);
         assert!(
-            told.outcome.starts_with("Not solved: ")
-                && told.verdict() == "not solved; 1 of 1 limit unknown",
-            "{told:?}"
+            digest.outcome.starts_with("Not solved: ")
+                && digest.verdict() == "not solved; 1 of 1 limit unknown",
+            "{digest:?}"
         );
     }
 
     #[test]
     fn no_byte_of_a_case_controls_a_terminal() {
-        let told = digest(&[("title", "a\u{1b}[2J\u{202e}b")]);
-        assert_eq!(told.title, r"a\u{1b}[2J\u{202e}b");
+        let digest = digest(&[("title", "a\u{1b}[2J\u{202e}b")]);
+        assert_eq!(digest.title, r"a\u{1b}[2J\u{202e}b");
     }
 
     #[test]
@@ -350,12 +353,12 @@ mod tests {
         for example in EXAMPLES {
             let case = example.document().case;
             let inputs = case.inputs().unwrap();
-            let told = Digest::solve(&case, &inputs, System::Metric, &|_| true).unwrap();
+            let digest = Digest::solve(&case, &inputs, System::Metric, &|_| true).unwrap();
             assert!(
                 ["strikes with", "no corner contact"]
                     .iter()
-                    .any(|start| told.short.starts_with(start)),
-                "{}: {told:?}",
+                    .any(|start| digest.short.starts_with(start)),
+                "{}: {digest:?}",
                 example.name
             );
             let slow = Inputs {

@@ -192,10 +192,16 @@ mod tests {
         assert_eq!(line["quantities"].get("mesh_force"), None);
         assert_eq!(line["quantities"].get("dynamic_factor"), None);
         assert_eq!(line["stations"][0].get("impact_force"), None);
-        let told = |note: &serde_json::Value| {
+        let is_of_mesh_force = |note: &serde_json::Value| {
             note["code"] == "not-finite" && note["message"].to_string().contains("mesh_force")
         };
-        assert!(line["notes"].as_array().unwrap().iter().any(told));
+        assert!(
+            line["notes"]
+                .as_array()
+                .unwrap()
+                .iter()
+                .any(is_of_mesh_force)
+        );
         assert!(!String::from_utf8(out).unwrap().contains("null"));
     }
 

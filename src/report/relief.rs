@@ -117,15 +117,15 @@ mod tests {
 
     #[test]
     fn a_relief_is_rounded_up_and_adds_up() {
-        let told = |least: f64, given: f64| {
+        let sums = |least: f64, given: f64| {
             rounded_up(least * 1e-6, given * 1e-6, "um", System::Metric).join(" ")
         };
-        assert_eq!(told(23.01, 25.0), "23.1 48.1");
-        assert_eq!(told(23.01, 25.03), "23.1 48.1");
-        assert_eq!(told(47.327, 0.0), "47.4 47.4");
-        assert_eq!(told(0.672_57, 48.0), "0.673 48.673");
-        assert_eq!(told(1e-9, 25.0), "0.001 25.001");
-        assert_eq!(told(1234.1, 0.0), "1235 1235");
+        assert_eq!(sums(23.01, 25.0), "23.1 48.1");
+        assert_eq!(sums(23.01, 25.03), "23.1 48.1");
+        assert_eq!(sums(47.327, 0.0), "47.4 47.4");
+        assert_eq!(sums(0.672_57, 48.0), "0.673 48.673");
+        assert_eq!(sums(1e-9, 25.0), "0.001 25.001");
+        assert_eq!(sums(1234.1, 0.0), "1235 1235");
         assert_eq!(
             rounded_up(22.328e-6, 25e-6, "thou", System::Inch).join(" "),
             "0.880 1.864"

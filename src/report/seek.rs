@@ -114,12 +114,17 @@ impl SeekReport<'_> {
     }
 
     fn values(&self, lower: &Sample, upper: &Sample) -> String {
-        let told = |sample: &Sample| match (self.condition.quantity(), sample.value) {
+        let printed = |sample: &Sample| match (self.condition.quantity(), sample.value) {
             (Some(quantity), Some(value)) => shown(quantity, value).to_string(),
             _ => "no value".to_owned(),
         };
         match self.condition.quantity() {
-            Some(quantity) => format!(", {} {} to {}", quantity.key, told(lower), told(upper)),
+            Some(quantity) => format!(
+                ", {} {} to {}",
+                quantity.key,
+                printed(lower),
+                printed(upper)
+            ),
             None => String::new(),
         }
     }

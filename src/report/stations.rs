@@ -2,7 +2,7 @@
 
 use crate::model::inputs::Method;
 use crate::model::interpolate::DIGITS_BETWEEN;
-use crate::model::{Inputs, MeshStation, Solution, Station, Told};
+use crate::model::{Inputs, Interpolated, MeshStation, Solution, Station};
 
 /// A place of the incoming tooth.
 #[derive(Debug, Clone, Copy)]
@@ -89,11 +89,11 @@ pub fn rows(solution: &Solution) -> Vec<Row<'_>> {
     loads.into_iter().flatten().map(Row::Load).collect()
 }
 
-impl<'a> From<&'a Told> for Row<'a> {
-    fn from(told: &'a Told) -> Row<'a> {
-        match told {
-            Told::Impact(station) => Row::Impact(station),
-            Told::Load(station) | Told::Between(station) => Row::Load(station),
+impl<'a> From<&'a Interpolated> for Row<'a> {
+    fn from(interpolated: &'a Interpolated) -> Row<'a> {
+        match interpolated {
+            Interpolated::Impact(station) => Row::Impact(station),
+            Interpolated::Load(station) | Interpolated::Between(station) => Row::Load(station),
         }
     }
 }
@@ -146,9 +146,9 @@ impl Column {
 
     /// Significant digits that a person reads of it there: no more than are good.
     #[must_use]
-    pub fn digits_of(&self, told: &Told) -> usize {
+    pub fn digits_of(&self, interpolated: &Interpolated) -> usize {
         let is_of_motion = ["force", "load_share", "transmission_error"].contains(&self.key);
-        let is_between = matches!(told, Told::Between(_)) && is_of_motion;
+        let is_between = matches!(interpolated, Interpolated::Between(_)) && is_of_motion;
         if is_between {
             self.digits.min(DIGITS_BETWEEN)
         } else {
@@ -166,7 +166,7 @@ impl Column {
 
     /// The station's value as a person reads it, without the unit; a dash where it has none.
     #[must_use]
-    pub fn told(&self, row: Row<'_>) -> String {
+    pub fn printed(&self, row: Row<'_>) -> String {
         (self.value)(row).map_or_else(
             || "-".to_owned(),
             |value| super::number(value, self.shown, self.digits),

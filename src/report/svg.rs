@@ -149,14 +149,14 @@ fn opening(title: &str, width: f64, height: f64) -> String {
 
 fn grid(text: &mut String, across: &Axis, up: &Axis, chart: &Chart) {
     let (left, top, right, bottom) = FIELD;
-    let told = |labelled: &Labelled, axis: &Axis, value: f64| {
+    let printed = |labelled: &Labelled, axis: &Axis, value: f64| {
         labelled
             .tick
             .map_or_else(|| axis.number(value), |tick| tick(value))
     };
     for value in across.ticks(9) {
         let x = across.at(value);
-        let number = escaped(&told(&chart.across, across, value));
+        let number = escaped(&printed(&chart.across, across, value));
         let below = bottom + 21.0;
         let _ = writeln!(
             text,
@@ -165,7 +165,7 @@ fn grid(text: &mut String, across: &Axis, up: &Axis, chart: &Chart) {
     }
     for value in up.ticks(6) {
         let y = up.at(value);
-        let number = escaped(&told(&chart.up, up, value));
+        let number = escaped(&printed(&chart.up, up, value));
         let (beside, base) = (left - 8.0, y + 5.0);
         let _ = writeln!(
             text,

@@ -150,7 +150,7 @@ impl Reason<'_> {
         Reason {
             field: &problem.field,
             cause: &problem.cause,
-            fix: &problem.mend,
+            fix: &problem.fix,
         }
     }
 }

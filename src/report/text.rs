@@ -28,7 +28,7 @@ const SECTIONS: [fn(&Report) -> Vec<String>; 7] = [
 ];
 
 /// The inputs that say which pair this is; one that is not given, zero or as usual goes unsaid.
-const TOLD_INPUTS: &[&str] = &[
+const SHOWN_INPUTS: &[&str] = &[
     "driver.teeth",
     "driven.teeth",
     "pair.module",
@@ -117,12 +117,12 @@ pub(super) fn verdict(report: &Report) -> Vec<String> {
             .filter(|other| other.method != Method::Paper)
             .collect();
         let is_given = report.inputs.deflection.is_some();
-        let told = [
+        let others = [
             differing(solution, &beside).map(|[words, ..]| words),
             relief(solution, &beside, System::Metric).map(|[words, ..]| words),
             closed_forms(solution, &others, is_given, System::Metric),
         ];
-        sentences.extend(told.into_iter().flatten().map(|words| words + "."));
+        sentences.extend(others.into_iter().flatten().map(|words| words + "."));
     }
     sentences
 }
@@ -151,19 +151,19 @@ fn inputs(report: &Report) -> Vec<String> {
     if !report.selection.is_whole() {
         return Vec::new();
     }
-    let told: Vec<String> = TOLD_INPUTS
+    let shown: Vec<String> = SHOWN_INPUTS
         .iter()
-        .filter_map(|key| told_input(report, key))
+        .filter_map(|key| shown_input(report, key))
         .collect();
     // Each input stays on one line with its unit.
-    let lines = flow(told.join(",\n").split('\n'), WIDTH);
+    let lines = flow(shown.join(",\n").split('\n'), WIDTH);
     lines
         .into_iter()
         .chain(item("Notes of the case: ", &sanitize(report.text("notes"))))
         .collect()
 }
 
-fn told_input(report: &Report, key: &str) -> Option<String> {
+fn shown_input(report: &Report, key: &str) -> Option<String> {
     let field = FIELDS.iter().find(|field| field.key == key)?;
     let text = report.text(key);
     let number = text.split_whitespace().next()?.parse::<f64>().ok();
@@ -318,7 +318,7 @@ fn station_table(report: &Report) -> Vec<String> {
             .collect();
         let stations = rows
             .iter()
-            .map(|row| columns.iter().map(|column| column.told(*row)).collect());
+            .map(|row| columns.iter().map(|column| column.printed(*row)).collect());
         std::iter::once(head)
             .chain(stations)
             .map(line)

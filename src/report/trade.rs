@@ -17,7 +17,7 @@ use crate::study::trade::{Differences, Measured, Setting, Subject, Trade, greate
 
 /// A trade and the case it was made of.
 #[derive(Debug, Clone, Copy)]
-pub struct Told<'a> {
+pub struct TradeReport<'a> {
     /// The case's name, as the user gave it.
     pub name: &'a str,
     /// The case's title, empty without one.
@@ -30,31 +30,31 @@ pub struct Told<'a> {
 ///
 /// # Errors
 /// What the writer refuses.
-pub fn write(told: &Told<'_>, out: &mut dyn Write) -> io::Result<()> {
+pub fn write(report: &TradeReport<'_>, out: &mut dyn Write) -> io::Result<()> {
     let sections = [
-        heading(told),
-        reference(told.trade),
-        table::models(told.trade),
-        table::settings(told.trade),
+        heading(report),
+        reference(report.trade),
+        table::models(report.trade),
+        table::settings(report.trade),
     ];
     for section in sections {
         writeln!(out, "{}\n", section.join("\n"))?;
     }
-    flow(conclusion(told.trade).split(' '), WIDTH)
+    flow(conclusion(report.trade).split(' '), WIDTH)
         .iter()
         .try_for_each(|line| writeln!(out, "{line}"))
 }
 
-fn heading(told: &Told<'_>) -> Vec<String> {
-    let title = if told.title.is_empty() {
+fn heading(report: &TradeReport<'_>) -> Vec<String> {
+    let title = if report.title.is_empty() {
         "Case without a title"
     } else {
-        told.title
+        report.title
     };
     let mut lines = flow(sanitize(title).split_whitespace(), WIDTH);
     lines.extend(flow(
         [
-            sanitize(told.name).as_str(),
+            sanitize(report.name).as_str(),
             "·",
             "accuracy against run time, measured on this machine",
         ],
@@ -225,11 +225,11 @@ fn count_or_auto<S: Serializer>(count: &Option<usize>, serializer: S) -> Result<
 ///
 /// # Errors
 /// What the writer refuses.
-pub fn write_json(told: &Told<'_>, out: &mut dyn Write) -> io::Result<()> {
-    let trade = told.trade;
+pub fn write_json(report: &TradeReport<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let trade = report.trade;
     let line = Line {
-        case: told.name,
-        title: told.title,
+        case: report.name,
+        title: report.title,
         version: env!("CARGO_PKG_VERSION"),
         within: trade.within,
         reference: reference_line(trade),

@@ -99,7 +99,7 @@ impl Beside {
 
     /// In words, the value in metric or inch units.
     #[must_use]
-    pub fn told(&self, system: System) -> String {
+    pub fn sentence(&self, system: System) -> String {
         let own = self
             .own
             .and_then(|(key, value)| Some((Quantity::find(key)?, value)));
@@ -219,7 +219,7 @@ impl Verdict<'_> {
 
     /// The verdict in a sentence, the value in metric or inch units; the limit as it was written.
     #[must_use]
-    pub fn told(&self, system: System) -> String {
+    pub fn sentence(&self, system: System) -> String {
         let said = self.said(system);
         let Some(beside) = self.beside else {
             return said;
@@ -231,7 +231,7 @@ impl Verdict<'_> {
             (false, true) => ", which has no limit of its own",
             (false, false) => "",
         };
-        format!("{said} for {}{also}", beside.told(system))
+        format!("{said} for {}{also}", beside.sentence(system))
     }
 
     /// Whether the counterpart in the method is above the limit on the free impact.
@@ -271,7 +271,7 @@ impl Verdict<'_> {
 
 impl fmt::Display for Verdict<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.told(System::Metric))
+        f.write_str(&self.sentence(System::Metric))
     }
 }
 
@@ -280,7 +280,7 @@ mod tests {
     use super::*;
     use crate::model::Stages;
 
-    fn told(limits: &[(&str, &str)], system: System) -> Vec<String> {
+    fn sentences(limits: &[(&str, &str)], system: System) -> Vec<String> {
         let mut case = Case::table_1();
         for (quantity, text) in limits {
             case.set_limit(quantity, text).unwrap();
@@ -288,7 +288,7 @@ mod tests {
         let solution = crate::model::solve(&case.inputs().unwrap(), Stages::ALL).unwrap();
         verdicts(&case, &solution)
             .iter()
-            .map(|verdict| format!("{} {}", verdict.standing.word(), verdict.told(system)))
+            .map(|verdict| format!("{} {}", verdict.standing.word(), verdict.sentence(system)))
             .collect()
     }
 
@@ -311,21 +311,21 @@ mod tests {
                 "impact_force 2191.0 N <= 2500 N (88 %)".to_owned()
             )]
         );
-        let [(standing, told)] = &verdicts("dynamic", "2100 N")[..] else {
+        let [(standing, sentence)] = &verdicts("dynamic", "2100 N")[..] else {
             panic!("one limit")
         };
         assert_eq!(*standing, Standing::Within);
         assert!(
-            told.ends_with(" for the free impact; dynamic finds dynamic_peak_approach_force 1410.8 N, which has no limit of its own"),
-            "{told}"
+            sentence.ends_with(" for the free impact; dynamic finds dynamic_peak_approach_force 1410.8 N, which has no limit of its own"),
+            "{sentence}"
         );
-        let [(standing, told)] = &verdicts("static", "1 kN")[..] else {
+        let [(standing, sentence)] = &verdicts("static", "1 kN")[..] else {
             panic!("one limit")
         };
         assert_eq!(*standing, Standing::Exceeded);
         assert!(
-            told.ends_with(" for the free impact; static finds static_force_at_start 1466.2 N, which is above this limit and has no limit of its own"),
-            "{told}"
+            sentence.ends_with(" for the free impact; static finds static_force_at_start 1466.2 N, which is above this limit and has no limit of its own"),
+            "{sentence}"
         );
     }
 
@@ -341,10 +341,10 @@ mod tests {
             let verdict = verdicts(&case, &solution).remove(0);
             (verdict.standing, verdict.to_string())
         };
-        let (standing, told) = stands("exact", "0 um", "dynamic_peak_force", "2 kN");
+        let (standing, sentence) = stands("exact", "0 um", "dynamic_peak_force", "2 kN");
         assert_eq!(standing, Standing::Unknown);
         assert_eq!(
-            told,
+            sentence,
             "dynamic_peak_force has no value (limit 2 kN): method exact does not compute it, only dynamic and auto do"
         );
         // The closed form decides nothing about the motion.
@@ -356,11 +356,11 @@ mod tests {
             stands("exact", "80 um", "impact_force", "2 kN").0,
             Standing::NotApplicable
         );
-        let (standing, told) = stands("static", "80 um", "pitch_contact_jump", "2 kN");
+        let (standing, sentence) = stands("static", "80 um", "pitch_contact_jump", "2 kN");
         assert_eq!(standing, Standing::Unknown);
         assert!(
-            told.ends_with("the case has no operation.friction_coefficient"),
-            "{told}"
+            sentence.ends_with("the case has no operation.friction_coefficient"),
+            "{sentence}"
         );
         assert_eq!(
             stands("static", "80 um", "static_first_contact_angle", "1 deg").0,
@@ -374,10 +374,10 @@ mod tests {
         case.set("model.method", "static").unwrap();
         case.set_limit("static_force_at_start", "1 kN").unwrap();
         let solution = crate::model::solve(&case.inputs().unwrap(), Stages::EVERY).unwrap();
-        let told = verdicts(&case, &solution)[0].to_string();
+        let sentence = verdicts(&case, &solution)[0].to_string();
         assert!(
-            told.ends_with("static finds static_force_at_start 1466.2 N"),
-            "{told}"
+            sentence.ends_with("static finds static_force_at_start 1466.2 N"),
+            "{sentence}"
         );
     }
 
@@ -385,14 +385,14 @@ mod tests {
     fn a_limit_stays_as_it_was_written_in_either_system() {
         let limits = [("impact_force", "500 lbf"), ("contact_ratio", "1.5")];
         assert_eq!(
-            told(&limits, System::Metric),
+            sentences(&limits, System::Metric),
             [
                 "ok impact_force 2191.0 N <= 500 lbf (99 %)",
                 "EXCEEDED contact_ratio 1.5568 > 1.5 (104 %)"
             ]
         );
         assert_eq!(
-            told(&limits, System::Inch)[0],
+            sentences(&limits, System::Inch)[0],
             "ok impact_force 492.56 lbf <= 500 lbf (99 %)"
         );
     }

@@ -263,11 +263,11 @@ pub fn with_unit(number: &str, unit: &str) -> String {
     }
 }
 
-fn problem(field: &Field, cause: impl Into<String>, mend: impl Into<String>) -> Problem {
+fn problem(field: &Field, cause: impl Into<String>, fix: impl Into<String>) -> Problem {
     Problem {
         field: field.key.to_owned(),
         cause: cause.into(),
-        mend: mend.into(),
+        fix: fix.into(),
     }
 }
 
@@ -277,7 +277,7 @@ fn assignment(text: &str) -> Result<(usize, &str), Problem> {
         return Err(Problem {
             field: text.to_owned(),
             cause: "no values are given".to_owned(),
-            mend: "write KEY=FROM..TO or KEY=A,B,C, such as 'operation.speed=500..3000 rpm'"
+            fix: "write KEY=FROM..TO or KEY=A,B,C, such as 'operation.speed=500..3000 rpm'"
                 .to_owned(),
         });
     };
@@ -343,7 +343,7 @@ fn unit_of<'t>(
         let (_, unit) = units::split(value, field.usual_unit()).map_err(|error| Problem {
             field: field.key.to_owned(),
             cause: error.cause,
-            mend: error.mend,
+            fix: error.fix,
         })?;
         if !unit.is_empty() {
             return Ok(unit.to_owned());

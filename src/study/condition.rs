@@ -227,11 +227,11 @@ fn flag(name: &str, value: &str) -> Result<Kind, Problem> {
     }
 }
 
-fn problem(field: &str, cause: impl Into<String>, mend: impl Into<String>) -> Problem {
+fn problem(field: &str, cause: impl Into<String>, fix: impl Into<String>) -> Problem {
     Problem {
         field: field.to_owned(),
         cause: cause.into(),
-        mend: mend.into(),
+        fix: fix.into(),
     }
 }
 
@@ -291,14 +291,14 @@ mod tests {
             ),
             ("dynamic_contact_lost=maybe", "neither true nor false"),
         ] {
-            let told = Condition::parse(text).unwrap_err().to_string();
-            assert!(told.contains(part), "{text}: {told}");
+            let message = Condition::parse(text).unwrap_err().to_string();
+            assert!(message.contains(part), "{text}: {message}");
         }
         let condition = Condition::parse("dynamic_peak_force<=1 kN").unwrap();
-        let told = condition.check(Method::Exact).unwrap_err().to_string();
+        let message = condition.check(Method::Exact).unwrap_err().to_string();
         assert!(
-            told.contains("use --method with one of dynamic, auto"),
-            "{told}"
+            message.contains("use --method with one of dynamic, auto"),
+            "{message}"
         );
     }
 }

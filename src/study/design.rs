@@ -120,7 +120,7 @@ fn outside(field: usize) -> Problem {
     Problem {
         field: known.key.to_owned(),
         cause: format!("the sample is outside the range {}", known.range_text()),
-        mend: "use a narrower distribution".to_owned(),
+        fix: "use a narrower distribution".to_owned(),
     }
 }
 

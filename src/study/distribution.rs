@@ -36,10 +36,10 @@ impl Distribution {
     /// # Errors
     /// Where the field has no value to spread around, or the distribution leaves its range.
     pub fn of(spread: &Spread, case: &Case, inputs: &Inputs) -> Result<Distribution, Problem> {
-        let refused = |cause: String, mend: String| Problem {
+        let refused = |cause: String, fix: String| Problem {
             field: format!("spread.\"{}\"", spread.field),
             cause,
-            mend,
+            fix,
         };
         let found = index_of(spread.field)
             .and_then(|field| Some((field, case.value(field)?)))
@@ -218,21 +218,21 @@ mod tests {
             let found = Distribution::of(&spread, &case, &case.inputs().unwrap());
             found.map_err(|problem| problem.to_string())
         };
-        let told = refusal("driven.tip_relief", "uniform", "12 um").unwrap_err();
+        let message = refusal("driven.tip_relief", "uniform", "12 um").unwrap_err();
         assert!(
-            told.starts_with("spread.\"driven.tip_relief\": uniform 12 um reaches -2.00000 um"),
-            "{told}"
+            message.starts_with("spread.\"driven.tip_relief\": uniform 12 um reaches -2.00000 um"),
+            "{message}"
         );
-        let told = refusal("driven.tip_relief", "normal", "3 um").unwrap_err();
+        let message = refusal("driven.tip_relief", "normal", "3 um").unwrap_err();
         assert!(
-            told.contains("-5.00000 um at 5 standard deviations"),
-            "{told}"
+            message.contains("-5.00000 um at 5 standard deviations"),
+            "{message}"
         );
         assert!(refusal("driven.tip_relief", "truncated", "10 um").is_ok());
-        let told = refusal("operation.torque", "normal", "1 N m").unwrap_err();
+        let message = refusal("operation.torque", "normal", "1 N m").unwrap_err();
         assert!(
-            told.contains("operation.torque has no value to spread around"),
-            "{told}"
+            message.contains("operation.torque has no value to spread around"),
+            "{message}"
         );
     }
 }

@@ -28,7 +28,7 @@ impl Refusals {
 
     fn add(&mut self, index: usize, problem: &Problem) {
         let is_same = |other: &&mut Refused| {
-            (&other.problem.field, &other.problem.mend) == (&problem.field, &problem.mend)
+            (&other.problem.field, &other.problem.fix) == (&problem.field, &problem.fix)
         };
         match self.0.iter_mut().find(is_same) {
             Some(same) => same.count += 1,

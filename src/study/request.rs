@@ -83,7 +83,7 @@ impl Request {
         let document = Document::parse(&self.name, &self.case).map_err(|faults| Problem {
             field: "case".to_owned(),
             cause: faults.first().map(ToString::to_string).unwrap_or_default(),
-            mend: "run the shard again".to_owned(),
+            fix: "run the shard again".to_owned(),
         })?;
         let case = document.case;
         let inputs = case

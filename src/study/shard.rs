@@ -165,8 +165,8 @@ fn line(rows: &Rows, row: usize) -> io::Result<String> {
     let outcome = rows.outcomes[row];
     let code = PointOutcome::ALL.iter().position(|known| *known == outcome);
     let mut line = code.unwrap_or_default().to_string();
-    if let Some(Problem { field, cause, mend }) = rows.refusal(row) {
-        let reason = Reason(field.clone(), cause.clone(), mend.clone());
+    if let Some(Problem { field, cause, fix }) = rows.refusal(row) {
+        let reason = Reason(field.clone(), cause.clone(), fix.clone());
         line.push(' ');
         line.push_str(&serde_json::to_string(&reason)?);
     } else {
@@ -294,9 +294,9 @@ fn add(line: &str, width: usize, rows: &mut Rows) -> io::Result<()> {
     let code: usize = code.parse().map_err(|_| bad())?;
     let outcome = *PointOutcome::ALL.get(code).ok_or_else(bad)?;
     if rest.starts_with('[') {
-        let Reason(field, cause, mend) = serde_json::from_str(rest)?;
+        let Reason(field, cause, fix) = serde_json::from_str(rest)?;
         let index = rows.range().end;
-        rows.refusals.push((index, Problem { field, cause, mend }));
+        rows.refusals.push((index, Problem { field, cause, fix }));
         rows.push(outcome, std::iter::repeat_n(None, width));
         return Ok(());
     }
@@ -394,8 +394,8 @@ mod tests {
             ("-1/3", "write I/N"),
             ("1/200000", "at most 100000"),
         ] {
-            let told = Shard::parse(text).unwrap_err();
-            assert!(told.contains(part), "{text}: {told}");
+            let message = Shard::parse(text).unwrap_err();
+            assert!(message.contains(part), "{text}: {message}");
         }
     }
 }

@@ -61,7 +61,7 @@ impl Grid {
             .ok_or_else(|| Problem {
                 field: self.axes.last().map_or("", Axis::key).to_owned(),
                 cause: format!("the grid has more than {MOST_SWEPT} points"),
-                mend: "write fewer --points".to_owned(),
+                fix: "write fewer --points".to_owned(),
             })
     }
 
@@ -122,7 +122,7 @@ fn apart(others: &[Axis], axis: &Axis) -> Result<(), Problem> {
         Err(Problem {
             field: axis.key().to_owned(),
             cause,
-            mend: "leave one of them out".to_owned(),
+            fix: "leave one of them out".to_owned(),
         })
     };
     for other in others {
@@ -144,6 +144,6 @@ fn unlike_points(points: usize, ranges: usize) -> Problem {
     Problem {
         field: "--points".to_owned(),
         cause: format!("--points is given {points} times for {ranges} ranges"),
-        mend: "give it once for all ranges, or once for each".to_owned(),
+        fix: "give it once for all ranges, or once for each".to_owned(),
     }
 }

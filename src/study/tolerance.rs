@@ -60,7 +60,7 @@ impl Tolerance {
             return Err(Problem {
                 field: "spread".to_owned(),
                 cause: "the case has no distributions".to_owned(),
-                mend: "add [spread] with a line such as \"deviations.base_pitch\" = { normal = \"4 um\" }"
+                fix: "add [spread] with a line such as \"deviations.base_pitch\" = { normal = \"4 um\" }"
                     .to_owned(),
             });
         }

@@ -119,7 +119,7 @@ pub fn greatest(differences: &Differences) -> Option<f64> {
 }
 
 /// Measure every setting on the case: first its errors, then all their times in rounds, until the
-/// median of each is steady. `told` sees what is known after each setting and each round.
+/// median of each is steady. `show` receives the results after each setting and each round.
 ///
 /// # Errors
 /// [`Refusal::Stopped`] where `go_on` says no; the model's refusal where no method at all can be
@@ -128,7 +128,7 @@ pub fn trade(
     inputs: &Inputs,
     question: &Question,
     go_on: &dyn Fn() -> bool,
-    told: &mut dyn FnMut(&Trade),
+    show: &mut dyn FnMut(&Trade),
 ) -> Result<Trade, Refusal> {
     let inputs = &Inputs {
         within: question.within,
@@ -136,14 +136,14 @@ pub fn trade(
     };
     let settings = settings(inputs);
     let (mut trade, standards) = Standards::find(inputs, question, settings.len(), go_on)?;
-    told(&trade);
+    show(&trade);
     let mut rounds = Rounds::begin(inputs, question.patience, go_on);
     for setting in settings {
         let measured = standards.measure(inputs, setting, &mut rounds)?;
         trade.settings.push(measured);
         trade.judge();
         trade.part = rounds.part(trade.planned);
-        told(&trade);
+        show(&trade);
     }
     while rounds.go_on() {
         for (measured, time) in trade.settings.iter_mut().zip(rounds.round()?) {
@@ -153,7 +153,7 @@ pub fn trade(
         }
         trade.judge();
         trade.part = rounds.part(trade.planned);
-        told(&trade);
+        show(&trade);
     }
     let refusals = trade
         .settings
@@ -305,7 +305,7 @@ impl Trade {
 
     /// The cheapest setting that qualifies of the methods among which `auto` chooses: what that
     /// takes is one of the others, and `paper` is the print, which says no more than `exact` even
-    /// where nothing strikes. Of those whose times cannot be told apart from it, the most accurate.
+    /// where nothing strikes. Of those whose times do not differ measurably, the most accurate.
     fn find_cheapest(&self) -> Option<usize> {
         let is_candidate = |measured: &&Measured| {
             measured.qualifies && auto::METHODS.contains(&measured.setting.method)
@@ -341,7 +341,7 @@ impl Measured {
         greatest(&figures.total).filter(|_| answers)
     }
 
-    /// Whether it cannot be told which of the two is the quicker.
+    /// Whether the measurements do not show which of the two is faster.
     fn ties(&self, other: &Measured) -> bool {
         let time = |measured: &Measured| measured.found.as_ref().ok().map(|figures| figures.time);
         time(self)

@@ -102,7 +102,7 @@ pub enum Effect {
     CancelWork,
     /// Stop what is being solved.
     CancelSolve,
-    /// Draw every cell anew.
+    /// Redraw every cell.
     Redraw,
     /// Give the terminal back to the shell, until it brings us back.
     Suspend,

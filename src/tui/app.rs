@@ -446,7 +446,7 @@ impl App {
         if waits { self.request() } else { None }
     }
 
-    /// What the worker shall solve anew because something came in sight that was not asked for.
+    /// A request for the stages that became visible after the last request.
     pub(super) fn catch_up(&mut self) -> Option<Request> {
         let lacks = !self.wanted().iter().all(|stage| self.tab.asked.has(stage));
         if lacks && self.tab.problems.is_empty() {

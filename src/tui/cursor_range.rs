@@ -175,7 +175,7 @@ fn measured(scope: &CursorScope<'_>, typed: &str) -> Result<f64, String> {
     let time = || units::parse(&whole, Dimension::Time, "us").map(|time| 0.0 - time * speed);
     angle.or_else(|_| time()).map_err(
         |_| match units::parse(typed.trim(), Dimension::Number, "") {
-            Err(misread) if typed.contains(',') => misread.mend,
+            Err(misread) if typed.contains(',') => misread.fix,
             _ => format!("{} is no angle, time or point", typed.trim()),
         },
     )

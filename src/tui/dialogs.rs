@@ -31,7 +31,7 @@ use picker::{Pick, Picker};
 use question::{Choice, Question};
 use save_as::SaveAs;
 
-/// What every dialog does. Unless it says otherwise, it ignores a key.
+/// What every dialog does. By default it ignores a key.
 pub trait Dialog {
     /// The keys that it takes.
     fn place(&self) -> Place;

@@ -168,7 +168,7 @@ fn end(last_words: &LastWords, sender: &SyncSender<Event>, cause: &Event) -> ! {
 fn is_gone() -> bool {
     let stdin = io::stdin();
     loop {
-        // The end of a terminal is told without being asked for; its keys are not our business.
+        // `poll` reports a hang-up even without requested events; keys are left to the reader.
         let mut line = [PollFd::new(&stdin, PollFlags::empty())];
         match poll(&mut line, None::<&Timespec>) {
             Err(Errno::INTR) => {}

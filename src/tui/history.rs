@@ -11,15 +11,15 @@ pub struct History {
     visited: Option<usize>,
 }
 
-/// The last state in full, and each one before it by what it says otherwise than the one after it,
-/// so that a long session stays small.
+/// The last state in full, and each earlier state as its difference from the next, so that a long
+/// session stays small.
 #[derive(Debug, Clone, Default)]
 struct States {
     last: Option<(Case, usize)>,
     before: Vec<(Difference, usize)>,
 }
 
-/// What a case says otherwise than another.
+/// The fields, limits and spreads in which a case differs from another.
 #[derive(Debug, Clone)]
 struct Difference {
     texts: Box<[(usize, Box<str>)]>,
@@ -99,7 +99,7 @@ impl States {
 }
 
 impl Difference {
-    /// What `case` says otherwise than `other`.
+    /// The difference of `case` from `other`.
     fn of(case: &Case, other: &Case) -> Difference {
         let texts = (0..FIELDS.len()).filter(|&field| case.text(field) != other.text(field));
         let differ = (&case.limits, &case.spread) != (&other.limits, &other.spread);

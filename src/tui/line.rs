@@ -13,7 +13,7 @@ pub struct Line {
     input: Input,
     /// In characters, and never empty.
     selected: Option<Range<usize>>,
-    /// The ending of a path whose stem is typed anew; `None` for a line that is not a path.
+    /// The extension that typing keeps; `None` for a line that is not a path.
     ending: Option<String>,
 }
 

@@ -52,7 +52,7 @@ pub fn text(case: &Case, at: usize) -> Option<&str> {
     }
 }
 
-/// Whether a row says otherwise than another case does.
+/// Whether a row differs from the same row of another case.
 #[must_use]
 pub fn differs(case: &Case, other: &Case, at: usize) -> bool {
     match row(case, at) {

@@ -131,7 +131,7 @@ impl Span {
 
     /// A new axis that covers the values, or this axis if there are no values.
     #[must_use]
-    pub fn anew(self, values: Span) -> Span {
+    pub fn refit(self, values: Span) -> Span {
         let fitted = Span::default().fitted(values);
         if fitted.is_empty() { self } else { fitted }
     }
@@ -274,8 +274,8 @@ mod tests {
         }
         assert_eq!(to(2000.0).fitted(to(2001.0)), to(3000.0));
         assert_eq!(to(3000.0).grown(to(100.0)), to(3000.0));
-        assert_eq!(to(3000.0).anew(to(1700.0)), to(2000.0));
-        assert_eq!(to(3000.0).anew(Span::NONE), to(3000.0));
+        assert_eq!(to(3000.0).refit(to(1700.0)), to(2000.0));
+        assert_eq!(to(3000.0).refit(Span::NONE), to(3000.0));
     }
 
     #[test]

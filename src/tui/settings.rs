@@ -139,8 +139,8 @@ impl Settings {
         })
     }
 
-    /// What the terminal is able to show, as far as the user does not want it otherwise. No setting
-    /// brings colours or letters back that the environment takes away.
+    /// The look for a terminal: its abilities, limited by the settings. No setting restores colours
+    /// or letters that the environment lacks.
     #[must_use]
     pub fn look(&self, able: Look, variable: impl Fn(&str) -> bool) -> Look {
         let theme = self

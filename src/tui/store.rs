@@ -20,7 +20,7 @@ pub struct Opening {
     pub document: Document,
     /// Where it was read from.
     pub path: Option<PathBuf>,
-    /// What the user must be told about what was asked for.
+    /// Why the requested file was not opened.
     pub trouble: Option<Trouble>,
 }
 

@@ -30,7 +30,7 @@ pub struct Tab {
     pub case: Case,
     /// The case as the file has it.
     pub saved: Case,
-    /// The case as it was when a save was asked for that has not been told of yet.
+    /// The case at the time of a save that is still running.
     pub being_saved: Option<Case>,
     /// Whether the file may be written.
     pub access: Access,
@@ -40,7 +40,7 @@ pub struct Tab {
     pub form: FormState,
     /// States to go back to.
     pub history: History,
-    /// The case as far as it can be read; read anew for each request.
+    /// The inputs as far as the form is valid; read again for each request.
     pub inputs_so_far: Inputs,
     /// What is wrong in the form.
     pub problems: Vec<(usize, Problem)>,
@@ -62,7 +62,7 @@ pub struct Tab {
     pub has_failed: bool,
     /// The axes of the charts.
     pub scale: Scale,
-    /// The first request after the last undo or redo: the axes are made anew by its answer.
+    /// The first request after the last undo or redo; its answer fits the axes again.
     pub undone: u64,
     /// What they were last fitted to.
     pub fitted: Occasion,

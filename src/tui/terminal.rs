@@ -63,8 +63,8 @@ pub(super) fn missing(variable: impl Fn(&str) -> Option<OsString>) -> Option<&'s
     (!is_terminal).then_some("standard input and output are not a terminal")
 }
 
-/// Keep the words of a panic until the terminal is given back. A panic of the worker is told on the
-/// screen.
+/// Keep the message of a panic until the terminal is restored. The screen reports a panic of the
+/// worker.
 pub(super) fn hold_panics() {
     panic::set_hook(Box::new(|panic: &PanicHookInfo<'_>| {
         *LAST_PANIC.lock().unwrap_or_else(PoisonError::into_inner) = Some(panic.to_string());
@@ -198,7 +198,7 @@ impl Screen {
         self.clear()
     }
 
-    /// Take the terminal again after a stop that nobody told us of, whatever the shell did with it.
+    /// Take the terminal again after a stop without a signal, whatever the shell did with it.
     ///
     /// # Errors
     /// When the terminal is gone.

@@ -85,11 +85,11 @@ pub(super) fn sentences(text: &str, width: usize, rows: usize) -> Vec<String> {
     let words = ends(" ").map(|at| format!("{}…", &text[..at]));
     let mut sayings = whole
         .chain(parts)
-        .filter(|told| told.width() >= least)
+        .filter(|shortened| shortened.width() >= least)
         .chain(words);
     sayings
-        .find(|told| fits(told))
-        .map_or_else(Vec::new, |told| wrap(&told, width))
+        .find(|shortened| fits(shortened))
+        .map_or_else(Vec::new, |shortened| wrap(&shortened, width))
 }
 
 /// A rule with a title, over the top line of an area; what is below it.
@@ -242,7 +242,7 @@ mod tests {
 
     #[test]
     fn wrapped_lines_keep_every_word_and_fit() {
-        let text = "cause: the value is out of its range -5000..5000 um: mend: averyverylongwordwithoutanybreak 歯車";
+        let text = "cause: the value is out of its range -5000..5000 um: fix: averyverylongwordwithoutanybreak 歯車";
         for width in 1..60 {
             let lines = wrap(text, width);
             assert!(

@@ -1,4 +1,4 @@
-//! Every bad file is refused at the right place, with the cause and the mend, all faults in one
+//! Every bad file is refused at the right place, with the cause and the fix, all faults in one
 //! run.
 use tipstrike::case::Document;
 use tipstrike::case::file::{Fault, FaultKind, MOST_BYTES};
@@ -17,14 +17,14 @@ fn printed(faults: &[Fault]) -> String {
         .join("\n")
 }
 
-/// A fault as a row expects it: line, column, field, part of the cause, part of the mend.
+/// A fault as a row expects it: line, column, field, part of the cause, part of the fix.
 type Row<'r> = (usize, usize, &'r str, &'r str, &'r str);
 
 #[track_caller]
 fn expect(text: &str, rows: &[Row<'_>]) {
     let found = faults(text);
     assert_eq!(found.len(), rows.len(), "{text:?}\n{}", printed(&found));
-    for (fault, &(line, column, field, cause, mend)) in found.iter().zip(rows) {
+    for (fault, &(line, column, field, cause, fix)) in found.iter().zip(rows) {
         let shown = printed(&found);
         assert_eq!(
             (fault.line, fault.column, fault.field.as_str()),
@@ -32,14 +32,14 @@ fn expect(text: &str, rows: &[Row<'_>]) {
             "{text:?}\n{shown}"
         );
         assert!(fault.cause.contains(cause), "cause {cause:?} of {shown}");
-        assert!(fault.mend.contains(mend), "mend {mend:?} of {shown}");
+        assert!(fault.fix.contains(fix), "fix {fix:?} of {shown}");
     }
 }
 
 const MODULE: &str = "module = \"5 mm\"";
 
 /// A line of the good case, what stands in its place, how many lines below and in which column the
-/// fault is, its field, a part of its cause and a part of its mend.
+/// fault is, its field, a part of its cause and a part of its fix.
 type OneLine = (
     &'static str,
     &'static str,
@@ -147,14 +147,14 @@ const ONE_BAD_LINE: &[OneLine] = &[
 
 #[test]
 fn one_bad_line() {
-    for &(line, bad, down, column, field, cause, mend) in ONE_BAD_LINE {
+    for &(line, bad, down, column, field, cause, fix) in ONE_BAD_LINE {
         let at = GOOD
             .find(line)
             .unwrap_or_else(|| panic!("the good case has no {line}"));
         let number = GOOD[..at].matches('\n').count() + 1 + down;
         expect(
             &GOOD.replacen(line, bad, 1),
-            &[(number, column, field, cause, mend)],
+            &[(number, column, field, cause, fix)],
         );
     }
 }
@@ -363,7 +363,7 @@ fn a_newer_format_is_told_apart_and_alone() {
         (found[0].kind, found[0].line, found[0].column),
         (FaultKind::NewerFormat, 6, 10)
     );
-    assert!(found[0].mend.contains("newer tipstrike"));
+    assert!(found[0].fix.contains("newer tipstrike"));
     let text = faults(&GOOD.replacen("format = 1", "format = \"1\"", 1));
     assert_eq!((text.len(), text[0].kind), (1, FaultKind::Bad));
 }

@@ -606,7 +606,7 @@ fn valid_text(field: usize) -> BoxedStrategy<String> {
     }
 }
 
-/// Table 1 with some fields written anew and some taken out, valid or nearly so.
+/// Table 1 with some fields written again and some taken out, valid or nearly so.
 fn any_case() -> impl Strategy<Value = Case> {
     let change = (0..FIELDS.len()).prop_flat_map(|field| {
         let text = prop_oneof![3 => valid_text(field), 1 => Just(String::new())];

@@ -51,7 +51,7 @@ fn err(output: &Output) -> String {
 }
 
 /// Standard output of a run that must succeed in silence.
-fn told(arguments: &[&str]) -> String {
+fn stdout_of(arguments: &[&str]) -> String {
     let output = run(arguments);
     assert_eq!(
         (code(&output), err(&output).as_str()),
@@ -62,7 +62,7 @@ fn told(arguments: &[&str]) -> String {
 }
 
 fn json(arguments: &[&str]) -> Value {
-    serde_json::from_str(&told(arguments)).unwrap()
+    serde_json::from_str(&stdout_of(arguments)).unwrap()
 }
 
 /// A copy of Table 1 with something changed, in a folder of its own.
@@ -78,7 +78,7 @@ fn changed(from: &str, to: &str) -> (tempfile::TempDir, String) {
 
 #[test]
 fn a_solve_is_told_for_a_person() {
-    let page = told(&["solve", TABLE_1]);
+    let page = stdout_of(&["solve", TABLE_1]);
     assert!(page.starts_with("Zhou & Chen 2014, Table 1\n"), "{page}");
     assert!(
         page.contains("Corner contact: θ_1 = 1.36628 deg before E; impact force 2191.0 N."),
@@ -89,7 +89,7 @@ fn a_solve_is_told_for_a_person() {
         "{page}"
     );
     assert!(!page.contains("Stations"), "{page}");
-    assert!(told(&["solve", TABLE_1, "--stations", "4"]).contains("Stations from D to E"));
+    assert!(stdout_of(&["solve", TABLE_1, "--stations", "4"]).contains("Stations from D to E"));
 }
 
 #[test]
@@ -155,7 +155,7 @@ fn what_does_not_exist_is_absent_and_the_outcome_says_why() {
     assert_eq!(solved["quantities"].get("impact_force"), None);
     assert_eq!(solved["quantities"]["total_deviation"]["value"], 0.0);
     assert!(
-        told(&[&["solve", TABLE_1], &on_time[..]].concat())
+        stdout_of(&[&["solve", TABLE_1], &on_time[..]].concat())
             .contains("No corner contact: no contact before E, Δ = 0 um")
     );
 }
@@ -232,7 +232,7 @@ fn an_unknown_quantity_is_wrong_usage_and_the_right_name_is_near() {
 
 #[test]
 fn csv_has_a_row_a_case_with_units_in_the_header() {
-    let table = told(&[
+    let table = stdout_of(&[
         "solve",
         TABLE_1,
         TABLE_1,
@@ -263,7 +263,7 @@ fn csv_has_a_row_a_case_with_units_in_the_header() {
 
 #[test]
 fn csv_with_stations_has_a_row_a_station() {
-    let table = told(&["solve", TABLE_1, "--stations", "10", "--format", "csv"]);
+    let table = stdout_of(&["solve", TABLE_1, "--stations", "10", "--format", "csv"]);
     let lines: Vec<&str> = table.lines().collect();
     assert_eq!(lines.len(), 12);
     assert!(
@@ -296,7 +296,7 @@ fn settings_and_method_change_the_case() {
 
 #[test]
 fn a_wrong_setting_is_told_with_its_mend() {
-    for (setting, mend) in [
+    for (setting, fix) in [
         ("pair.modul=5 mm", "pair.module"),
         ("pair.module", "KEY=VALUE"),
         ("pair.module=5", "5 mm"),
@@ -305,7 +305,7 @@ fn a_wrong_setting_is_told_with_its_mend() {
     ] {
         let output = run(&["solve", TABLE_1, "--set", setting]);
         assert_eq!((code(&output), out(&output).as_str()), (2, ""), "{setting}");
-        assert!(err(&output).contains(mend), "{setting}: {}", err(&output));
+        assert!(err(&output).contains(fix), "{setting}: {}", err(&output));
     }
 }
 
@@ -439,8 +439,8 @@ fn each_limit_has_its_line_whether_or_not_another_can_be_computed() {
     )
     .unwrap();
     let output = run(&["check", &path]);
-    let told = out(&output);
-    let lines: Vec<&str> = told.lines().collect();
+    let text = out(&output);
+    let lines: Vec<&str> = text.lines().collect();
     assert_eq!((code(&output), lines.len()), (3, 3), "{lines:?}");
     assert!(
         lines[0].starts_with(&format!("EXCEEDED {path}: contact_ratio 1."))
@@ -504,7 +504,7 @@ fn a_newer_format_and_a_missing_file_have_codes_of_their_own() {
 #[test]
 fn a_check_is_a_verdict_a_line() {
     assert_eq!(
-        told(&["check", TABLE_1]),
+        stdout_of(&["check", TABLE_1]),
         format!("ok {TABLE_1}: impact_force 2191.0 N <= 2500 N (88 %)\n")
     );
     let (_folder, strict) = changed(
@@ -520,7 +520,10 @@ fn a_check_is_a_verdict_a_line() {
     );
     assert!(lines[1].starts_with("ok "), "{}", lines[1]);
     let (_folder, free) = changed("[limits]\nimpact_force = \"2500 N\"", "");
-    assert_eq!(told(&["check", &free]), format!("ok {free}: no limits\n"));
+    assert_eq!(
+        stdout_of(&["check", &free]),
+        format!("ok {free}: no limits\n")
+    );
 }
 
 #[test]
@@ -558,7 +561,7 @@ fn what_a_method_resolves_itself_stands_before_the_free_impact() {
         ("static", "static: force at E"),
         ("dynamic", "dynamic: peak before E"),
     ] {
-        let text = told(&["solve", TABLE_1, "--method", method]);
+        let text = stdout_of(&["solve", TABLE_1, "--method", method]);
         let (own, free) = text
             .split_once("Free impact at D, closed form: first contact D")
             .unwrap();
@@ -570,7 +573,7 @@ fn what_a_method_resolves_itself_stands_before_the_free_impact() {
             free.contains("ok        impact_force 2011.2 N <= 2500 N (80 %) for the free impact; "),
             "{text}"
         );
-        let page = told(&["explain", "impact_force", TABLE_1, "--method", method]);
+        let page = stdout_of(&["explain", "impact_force", TABLE_1, "--method", method]);
         assert!(page.contains("This is the free impact; "), "{page}");
         assert!(
             !page.contains(&format!("{method} 2011.2 N"))
@@ -578,7 +581,7 @@ fn what_a_method_resolves_itself_stands_before_the_free_impact() {
             "{page}"
         );
     }
-    assert!(!told(&["solve", TABLE_1]).contains("Free impact"));
+    assert!(!stdout_of(&["solve", TABLE_1]).contains("Free impact"));
 }
 
 #[test]
@@ -601,8 +604,9 @@ fn the_relief_that_is_told_stops_it_and_a_little_less_does_not() {
                 format.into(),
             ]
         };
-        let run =
-            |options: Vec<String>| told(&options.iter().map(String::as_str).collect::<Vec<_>>());
+        let run = |options: Vec<String>| {
+            stdout_of(&options.iter().map(String::as_str).collect::<Vec<_>>())
+        };
         let text = run(with(given, "text"))
             .split_whitespace()
             .collect::<Vec<_>>()
@@ -614,10 +618,10 @@ fn the_relief_that_is_told_stops_it_and_a_little_less_does_not() {
         let mut figures = sentence
             .split([' ', ','])
             .skip_while(|word| *word != method);
-        let told: f64 = figures.nth(1).unwrap_or_default().parse().unwrap();
+        let amount: f64 = figures.nth(1).unwrap_or_default().parse().unwrap();
         for (part, outcome) in [(1.0, "no-corner-contact"), (0.99, "corner-contact")] {
             let solved: Value =
-                serde_json::from_str(&run(with(given + told * part, "json"))).unwrap();
+                serde_json::from_str(&run(with(given + amount * part, "json"))).unwrap();
             assert_eq!(
                 solved["outcome"], outcome,
                 "{method} from {given}: {sentence}"
@@ -628,7 +632,7 @@ fn the_relief_that_is_told_stops_it_and_a_little_less_does_not() {
 
 #[test]
 fn the_page_of_a_result_by_auto_says_which_tolerance_was_taken() {
-    let page = told(&["explain", "dynamic_peak_force", TABLE_1, "--method", "auto"]);
+    let page = stdout_of(&["explain", "dynamic_peak_force", TABLE_1, "--method", "auto"]);
     let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(page.contains("method dynamic, chosen by auto"), "{page}");
     assert!(
@@ -639,7 +643,7 @@ fn the_page_of_a_result_by_auto_says_which_tolerance_was_taken() {
         page.contains("model.within = ") && !page.contains("model.tolerance = 1e-6,"),
         "{page}"
     );
-    let given = told(&[
+    let given = stdout_of(&[
         "explain",
         "dynamic_peak_force",
         TABLE_1,
@@ -651,11 +655,11 @@ fn the_page_of_a_result_by_auto_says_which_tolerance_was_taken() {
 
 #[test]
 fn a_limit_is_tried_on_another_method_and_on_a_changed_field() {
-    let dynamic = told(&["check", TABLE_1, "--method", "dynamic"]);
+    let dynamic = stdout_of(&["check", TABLE_1, "--method", "dynamic"]);
     let beside = "for the free impact; dynamic finds dynamic_peak_approach_force 1410.8 N, which has no limit of its own";
     let held = format!("ok {TABLE_1}: impact_force 2011.2 N <= 2500 N (80 %) {beside}\n");
     assert_eq!(dynamic, held);
-    let by_auto = told(&["check", TABLE_1, "--method", "auto"]);
+    let by_auto = stdout_of(&["check", TABLE_1, "--method", "auto"]);
     assert_eq!(
         by_auto, dynamic,
         "the name means the same whatever the method"
@@ -664,13 +668,13 @@ fn a_limit_is_tried_on_another_method_and_on_a_changed_field() {
         "impact_force = \"2500 N\"",
         "dynamic_peak_approach_force = \"2500 N\"\ncontact_ratio = 1.7",
     );
-    let own = told(&["check", &own, "--method", "dynamic"]);
+    let own = stdout_of(&["check", &own, "--method", "dynamic"]);
     assert!(
         !own.contains("free impact")
             && own.contains("dynamic_peak_approach_force 1410.8 N <= 2500 N (56 %)\n"),
         "{own}"
     );
-    let relieved = told(&["check", TABLE_1, "--set", "driven.tip_relief=60 um"]);
+    let relieved = stdout_of(&["check", TABLE_1, "--set", "driven.tip_relief=60 um"]);
     assert_eq!(
         relieved,
         format!("ok {TABLE_1}: impact_force does not occur: no corner contact (limit 2500 N)\n")
@@ -690,7 +694,7 @@ fn a_bad_case_outranks_an_exceeded_limit() {
 fn a_limit_holds_where_no_tooth_strikes() {
     let (_folder, path) = changed("base_pitch = \"16 um\"", "base_pitch = \"-50 um\"");
     assert_eq!(
-        told(&["check", &path]),
+        stdout_of(&["check", &path]),
         format!("ok {path}: impact_force does not occur: no corner contact (limit 2500 N)\n")
     );
 }
@@ -753,9 +757,9 @@ fn a_new_case_names_its_missing_values_until_they_are_written() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("new.toml");
     let path = path.to_str().unwrap();
-    assert_eq!(told(&["new", path]), "");
+    assert_eq!(stdout_of(&["new", path]), "");
     let mut text = fs::read_to_string(path).unwrap();
-    assert_eq!(told(&["new"]), text);
+    assert_eq!(stdout_of(&["new"]), text);
     assert!(text.contains("\nmethod = \"auto\"\n"), "{text}");
     let output = run(&["solve", path]);
     assert_eq!((code(&output), out(&output).as_str()), (3, ""));
@@ -787,7 +791,7 @@ fn a_new_case_names_its_missing_values_until_they_are_written() {
 
 #[test]
 fn settings_complete_a_new_case() {
-    let text = told(&["new"]);
+    let text = stdout_of(&["new"]);
     let settings = REQUIRED.map(|(key, value)| format!("{key}={value}"));
     let mut words = vec!["solve", "-"];
     for setting in &settings {
@@ -806,13 +810,13 @@ fn settings_complete_a_new_case() {
 
 #[test]
 fn a_quantity_is_known_by_a_symbol_of_its_own() {
-    let of = |name: &str| told(&["explain", name]);
+    let of = |name: &str| stdout_of(&["explain", name]);
     assert_eq!(of("F_S"), of("impact_force"));
     assert_eq!(
-        told(&["solve", TABLE_1, "--only", "F_S"]),
-        told(&["solve", TABLE_1, "--only", "impact_force"])
+        stdout_of(&["solve", TABLE_1, "--only", "F_S"]),
+        stdout_of(&["solve", TABLE_1, "--only", "impact_force"])
     );
-    let page = told(&[
+    let page = stdout_of(&[
         "solve",
         TABLE_1,
         "--method",
@@ -835,7 +839,7 @@ fn the_angle_of_the_verdict_is_a_row_of_the_table() {
         ("static", "θ_st", "static: driver before E"),
         ("dynamic", "θ_d", "dynamic: driver before E"),
     ] {
-        let page = told(&["solve", TABLE_1, "--method", method]);
+        let page = stdout_of(&["solve", TABLE_1, "--method", method]);
         let start = format!("Corner contact: {symbol} = ");
         let (_, rest) = page.split_once(&start).unwrap_or_else(|| panic!("{page}"));
         let (angle, _) = rest.split_once(" before E").unwrap();
@@ -850,7 +854,7 @@ fn the_angle_of_the_verdict_is_a_row_of_the_table() {
 #[test]
 fn one_method_governs_and_the_others_follow_in_a_line() {
     let solve = |options: &[&str]| {
-        let page = told(&[&["solve", TABLE_1, "--method", "dynamic"], options].concat());
+        let page = stdout_of(&[&["solve", TABLE_1, "--method", "dynamic"], options].concat());
         page.split_whitespace().collect::<Vec<_>>().join(" ")
     };
     let page = solve(&[]);
@@ -907,7 +911,7 @@ fn a_new_case_begins_with_an_example_wherever_the_program_stands() {
         "{listed}"
     );
     assert_eq!(code(&elsewhere(&["new", "--from", "fzg-type-c", path])), 0);
-    assert!(told(&["solve", path]).contains("FZG type C"));
+    assert!(stdout_of(&["solve", path]).contains("FZG type C"));
     let again = elsewhere(&["new", "--from", "fzg-type-c", path]);
     assert!(code(&again) == 5 && err(&again).contains("it exists already"));
     let slip = elsewhere(&["new", "--from", "fzg-type"]);
@@ -921,7 +925,7 @@ fn a_new_case_begins_with_an_example_wherever_the_program_stands() {
 
 #[test]
 fn the_fields_are_listed_for_people_and_for_scripts() {
-    let table = told(&["fields"]);
+    let table = stdout_of(&["fields"]);
     assert!(table.lines().all(|line| line.chars().count() <= 100));
     assert!(
         table
@@ -929,25 +933,25 @@ fn the_fields_are_listed_for_people_and_for_scripts() {
             .any(|line| line.starts_with("pair.module ") && line.contains("0.05..50")),
         "{table}"
     );
-    let lines = told(&["fields", "--format", "json"]);
+    let lines = stdout_of(&["fields", "--format", "json"]);
     let fields: Vec<Value> = lines
         .lines()
         .map(|line| serde_json::from_str(line).unwrap())
         .collect();
     assert_eq!(fields.len(), tipstrike::case::FIELDS.len());
-    assert!(told(&["fields", "--results"]).contains("impact_force "));
+    assert!(stdout_of(&["fields", "--results"]).contains("impact_force "));
 }
 
 #[test]
 fn a_quantity_is_explained_for_people_and_for_scripts() {
-    let page = told(&["explain", "impact_force"]);
+    let page = stdout_of(&["explain", "impact_force"]);
     assert!(
         page.starts_with("impact force, F_S (Eq. 57)\nF_S = 2191.0 N\n"),
         "{page}"
     );
     assert!(page.contains("F_S = ΔV_n √(b M/q_s)"), "{page}");
     assert_eq!(
-        told(&["explain", "impact_force", TABLE_1])
+        stdout_of(&["explain", "impact_force", TABLE_1])
             .lines()
             .skip(3)
             .collect::<Vec<_>>(),
@@ -996,9 +1000,9 @@ fn a_quantity_is_explained_for_people_and_for_scripts() {
         (&effect["text"], &effect["change"]),
         (&"4000 rpm".into(), &"+1.00 %".into())
     );
-    let on_time = told(&["explain", "impact_force", "cases/tip-relief-enough.toml"]);
+    let on_time = stdout_of(&["explain", "impact_force", "cases/tip-relief-enough.toml"]);
     assert!(on_time.contains("No value: no corner contact"), "{on_time}");
-    assert!(told(&["fields", "--results"]).ends_with(
+    assert!(stdout_of(&["fields", "--results"]).ends_with(
         "`tipstrike explain KEY [CASE]` shows how one is found, with the numbers of a case.\n"
     ));
 }
@@ -1049,7 +1053,7 @@ fn what_cannot_be_explained_is_refused_as_a_solve_is() {
 
 #[test]
 fn a_trade_names_the_cheapest_setting_that_will_do() {
-    let page = told(&["trade", TABLE_1]);
+    let page = stdout_of(&["trade", TABLE_1]);
     assert!(
         page.contains("Reference: dynamic with 4096 stations and tolerance 1e-12"),
         "{page}"
@@ -1104,22 +1108,22 @@ fn a_trade_that_cannot_be_made_says_why() {
 fn every_shell_has_completions_and_the_manual_a_name() {
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         assert!(
-            told(&["completions", shell]).contains("tipstrike"),
+            stdout_of(&["completions", shell]).contains("tipstrike"),
             "{shell}"
         );
     }
-    let page = told(&["man"]);
+    let page = stdout_of(&["man"]);
     assert!(page.contains(".SH NAME\ntipstrike"), "{page}");
     assert!(page.contains(".SH \"EXIT STATUS\""), "{page}");
-    assert!(told(&["man", "solve"]).contains("stations"));
+    assert!(stdout_of(&["man", "solve"]).contains("stations"));
     assert_eq!(code(&run(&["man", "nonsense"])), 2);
 }
 
 #[test]
 fn help_and_version_are_results_and_wrong_usage_is_not() {
-    assert!(told(&["--version"]).starts_with("tipstrike "));
-    assert!(told(&["--help"]).contains("completions"));
-    assert!(told(&["solve", "--help"]).contains("--only"));
+    assert!(stdout_of(&["--version"]).starts_with("tipstrike "));
+    assert!(stdout_of(&["--help"]).contains("completions"));
+    assert!(stdout_of(&["solve", "--help"]).contains("--only"));
     for wrong in [
         &["solve"][..],
         &["solve", TABLE_1, "--stations", "0"],

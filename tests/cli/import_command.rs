@@ -51,8 +51,11 @@ fn edited(name: &str, from: &str, to: &str) -> Vec<u8> {
 
 #[test]
 fn a_spur_stage_becomes_a_case_with_the_source_of_each_value() {
-    let (code, case, told) = texts(&run(&["import", "two-stages-1.0.rexs"]));
-    insta::assert_snapshot!("import_two_stages", format!("exit {code}\n{told}\n{case}"));
+    let (code, case, message) = texts(&run(&["import", "two-stages-1.0.rexs"]));
+    insta::assert_snapshot!(
+        "import_two_stages",
+        format!("exit {code}\n{message}\n{case}")
+    );
     let read_back = Document::parse("case.toml", &case).unwrap();
     assert!(read_back.case.inputs().is_ok());
 }
@@ -92,18 +95,18 @@ fn units_signs_and_load_cases_of_a_model_become_si_values() {
 
 #[test]
 fn the_samples_are_refused_by_the_name_of_their_stages() {
-    let (code, case, told) = texts(&run(&["import", "planetary-1.1.rexsz"]));
+    let (code, case, message) = texts(&run(&["import", "planetary-1.1.rexsz"]));
     assert_eq!((code, case.as_str()), (3, ""));
-    assert!(told.contains("the model has no spur stage"), "{told}");
+    assert!(message.contains("the model has no spur stage"), "{message}");
     assert!(
-        told.contains("stage 9 \"Planetenstufe [9]\" is a planetary stage"),
-        "{told}"
+        message.contains("stage 9 \"Planetenstufe [9]\" is a planetary stage"),
+        "{message}"
     );
-    let (code, _, told) = texts(&run(&["import", "two-stages-1.0.rexs", "--stage", "7"]));
+    let (code, _, message) = texts(&run(&["import", "two-stages-1.0.rexs", "--stage", "7"]));
     assert_eq!(code, 3);
     assert!(
-        told.contains("is a helical stage (helix angle -10 deg)"),
-        "{told}"
+        message.contains("is a helical stage (helix angle -10 deg)"),
+        "{message}"
     );
     let bevel = edited(
         "two-stages-1.0.rexs",
@@ -135,10 +138,10 @@ fn unequal_flanks_and_load_cases_are_named_and_no_value_is_guessed() {
         "362\" name=\"\" type=\"flank_geometry\">\n      <attribute id=\"normal_pressure_angle\" unit=\"°\">20.0",
         "362\" name=\"\" type=\"flank_geometry\">\n      <attribute id=\"normal_pressure_angle\" unit=\"°\">25.0",
     );
-    let told = refusal_of(&unequal);
+    let message = refusal_of(&unequal);
     assert!(
-        told.contains("of flank_geometry 361 is 20 deg") && told.contains("362 is 25 deg"),
-        "{told}"
+        message.contains("of flank_geometry 361 is 20 deg") && message.contains("362 is 25 deg"),
+        "{message}"
     );
     let cases = edited(
         "spur-2.0.rexsj",
@@ -199,16 +202,16 @@ fn import_writes_a_new_file_and_solve_takes_a_model_as_it_is() {
     let out = out.to_str().unwrap();
     let (code, case, _) = texts(&run(&["import", "spur-2.0.rexsj", "--out", out]));
     assert_eq!((code, case.as_str()), (0, ""));
-    let (again, _, told) = texts(&run(&["import", "spur-2.0.rexsj", "--out", out]));
+    let (again, _, message) = texts(&run(&["import", "spur-2.0.rexsj", "--out", out]));
     assert_eq!(again, 5);
-    assert!(told.contains("it exists already"), "{told}");
+    assert!(message.contains("it exists already"), "{message}");
     let quantity = ["--only", "impact_force", "--format", "csv"];
     let (_, of_case, _) = texts(&run(&[&["solve", out][..], &quantity].concat()));
-    let (code, of_model, told) =
+    let (code, of_model, message) =
         texts(&run(&[&["solve", "spur-2.0.rexsj"][..], &quantity].concat()));
     let last = |text: &str| text.trim_end().rsplit(',').next().unwrap().to_owned();
     assert_eq!((code, last(&of_model)), (0, last(&of_case)));
-    assert!(told.contains("driven.young stays empty"), "{told}");
+    assert!(message.contains("driven.young stays empty"), "{message}");
 }
 
 #[test]

@@ -20,7 +20,7 @@ fn run(arguments: &[&str]) -> Output {
         .unwrap()
 }
 
-fn told(arguments: &[&str]) -> String {
+fn stdout_of(arguments: &[&str]) -> String {
     String::from_utf8(run(arguments).stdout).unwrap()
 }
 
@@ -42,7 +42,7 @@ fn relieved(method: &str, command: &[&str]) -> String {
         "--set",
         "driver.root_relief=5 um",
     ];
-    told(&[command, &reliefs].concat())
+    stdout_of(&[command, &reliefs].concat())
         .split_whitespace()
         .collect::<Vec<_>>()
         .join(" ")
@@ -71,7 +71,7 @@ fn an_equivalent_error_without_the_reliefs_is_called_so() {
         assert!(page.contains(row), "{method}: {page}");
     }
     let of = |method| -> Value {
-        let line = told(&[
+        let line = stdout_of(&[
             "solve",
             TABLE_1,
             "--method",
@@ -170,18 +170,18 @@ fn a_verdict_names_what_to_limit_for_the_force_of_the_method() {
         "--set",
         "limits.impact_force=2.1 kN",
     ];
-    let page = told(&limit);
+    let page = stdout_of(&limit);
     let own = " for the free impact; dynamic finds dynamic_peak_approach_force 1410.8 N, which has no limit of its own\n";
     assert!(page.ends_with(own), "{page}");
     let line: Value =
-        serde_json::from_str(&told(&[&limit[..], &["--format", "json"]].concat())).unwrap();
+        serde_json::from_str(&stdout_of(&[&limit[..], &["--format", "json"]].concat())).unwrap();
     assert_eq!(
         (&line["standing"], &line["of"]),
         (&"within".into(), &"free-impact".into())
     );
     assert_eq!(line["own"]["quantity"], "dynamic_peak_approach_force");
     assert!((line["own"]["value"].as_f64().unwrap() - 1410.76).abs() < 0.1);
-    let both = told(
+    let both = stdout_of(
         &[
             &limit[..],
             &["--set", "limits.dynamic_peak_approach_force=1400 N"],
@@ -333,18 +333,18 @@ fn the_printed_equations_say_what_they_miss() {
         "{page}"
     );
     assert!(!relieved("exact", &["solve", TABLE_1]).contains("leave the gap open"));
-    let page = told(&["solve", "cases/mill-coarse-slow.toml", "--method", "paper"]);
+    let page = stdout_of(&["solve", "cases/mill-coarse-slow.toml", "--method", "paper"]);
     assert!(
         page.contains("Eq. 32 describes two spheres") && !page.contains("lacks Hertz"),
         "{page}"
     );
-    let page = told(&["solve", "cases/turbo-fine-fast.toml", "--method", "paper"]);
+    let page = stdout_of(&["solve", "cases/turbo-fine-fast.toml", "--method", "paper"]);
     assert!(
         page.contains("the friction ratio is not computed: the triangle of Eq. 34 does not close"),
         "{page}"
     );
     // 60 um of relief count as 42 um as printed: the tooth strikes by the printed equations alone.
-    let page = told(&[
+    let page = stdout_of(&[
         "solve",
         TABLE_1,
         "--method",
@@ -387,7 +387,7 @@ fn headlines(solution: &Solution) -> Vec<String> {
             "normal_velocity",
         ],
     };
-    let told = |key: &&str| {
+    let printed = |key: &&str| {
         let quantity = Quantity::find(key).unwrap();
         value(quantity, solution).map_or_else(
             || "none".to_owned(),
@@ -395,7 +395,7 @@ fn headlines(solution: &Solution) -> Vec<String> {
         )
     };
     std::iter::once(solution.outcome.name().to_owned())
-        .chain(keys.iter().map(told))
+        .chain(keys.iter().map(printed))
         .collect()
 }
 
@@ -479,7 +479,7 @@ fn no_result_has_more_places_than_digits() {
         "--set",
         "operation.power=2 MW",
     ];
-    let page = told(&[&["solve", TABLE_1, "--set", "model.deflection="][..], &wide].concat());
+    let page = stdout_of(&[&["solve", TABLE_1, "--set", "model.deflection="][..], &wide].concat());
     assert!(
         page.contains("F_0      mesh force                203.24 kN"),
         "{page}"

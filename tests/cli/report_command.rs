@@ -19,7 +19,7 @@ fn run(arguments: &[&str]) -> Output {
 }
 
 /// Standard output of a run that succeeds in silence.
-fn told(arguments: &[&str]) -> String {
+fn stdout_of(arguments: &[&str]) -> String {
     let output = run(arguments);
     let errors = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(
@@ -35,7 +35,7 @@ fn report(cases: &[&str], ending: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join(format!("report.{ending}"));
     let to = ["--out", out.to_str().unwrap()];
-    assert_eq!(told(&[&["report"][..], cases, &to].concat()), "");
+    assert_eq!(stdout_of(&[&["report"][..], cases, &to].concat()), "");
     fs::read_to_string(out).unwrap()
 }
 
@@ -48,7 +48,7 @@ fn numbers_are_finite(text: &str) {
 fn every_chart_and_the_teeth_are_well_formed_pictures() {
     for name in GRAPHS.iter().map(|graph| graph.key).chain(["teeth"]) {
         for method in ["exact", "dynamic"] {
-            let picture = told(&["plot", TABLE_1, "--chart", name, "--method", method]);
+            let picture = stdout_of(&["plot", TABLE_1, "--chart", name, "--method", method]);
             numbers_are_finite(&picture);
             let xml = Document::parse(&picture).unwrap_or_else(|error| panic!("{name}: {error}"));
             assert!(
@@ -65,7 +65,7 @@ fn every_chart_and_the_teeth_are_well_formed_pictures() {
 
 #[test]
 fn a_chart_names_axes_with_units_and_the_legend_lies_below_the_field() {
-    let picture = told(&["plot", TABLE_1, "--chart", "gap"]);
+    let picture = stdout_of(&["plot", TABLE_1, "--chart", "gap"]);
     for text in [
         "Gap S, µm",
         "driver roll angle after E, deg",
@@ -84,7 +84,7 @@ fn a_chart_names_axes_with_units_and_the_legend_lies_below_the_field() {
     for name in legend.filter(|node| node.has_attribute("y")) {
         assert!(name.attribute("y").unwrap().parse::<f64>().unwrap() > field);
     }
-    let shared = told(&["plot", TABLE_1, "--chart", "load_share"]);
+    let shared = stdout_of(&["plot", TABLE_1, "--chart", "load_share"]);
     assert!(
         shared.contains(">method static<"),
         "a closed form has no load share"
@@ -108,7 +108,7 @@ fn a_chart_without_a_curve_is_refused_and_a_picture_replaces_an_older_one() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("force.svg");
     fs::write(&out, "old").unwrap();
-    told(&["plot", TABLE_1, "--out", out.to_str().unwrap()]);
+    stdout_of(&["plot", TABLE_1, "--out", out.to_str().unwrap()]);
     assert!(fs::read_to_string(out).unwrap().starts_with("<svg"));
 }
 
@@ -167,7 +167,10 @@ fn several_cases_are_side_by_side_in_every_format() {
     let csv = report(&[TABLE_1, FZG], "csv");
     assert_eq!(csv.lines().count(), 3);
     let json = report(&[TABLE_1, FZG], "json");
-    assert_eq!(json, told(&["solve", TABLE_1, FZG, "--format", "json"]));
+    assert_eq!(
+        json,
+        stdout_of(&["solve", TABLE_1, FZG, "--format", "json"])
+    );
 }
 
 #[test]

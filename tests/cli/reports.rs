@@ -60,11 +60,11 @@ fn json_tells_the_reference_answers() {
     for path in toml_files("tests/reference/solve") {
         let mut line = Vec::new();
         json::write(&report(&path, Selection::default()), &mut line).unwrap();
-        let told: Value = serde_json::from_slice(&line).unwrap();
+        let object: Value = serde_json::from_slice(&line).unwrap();
         let answers: Value =
             serde_json::from_str(&fs::read_to_string(path.with_extension("json")).unwrap())
                 .unwrap();
-        assert_eq!(told["outcome"], answers["outcome"], "{}", path.display());
+        assert_eq!(object["outcome"], answers["outcome"], "{}", path.display());
         for (key, answer) in answers
             .as_object()
             .unwrap()
@@ -72,7 +72,7 @@ fn json_tells_the_reference_answers() {
             .filter(|(_, answer)| answer.is_number())
         {
             let (value, answer) = (
-                told["quantities"][key]["value"].as_f64().unwrap(),
+                object["quantities"][key]["value"].as_f64().unwrap(),
                 answer.as_f64().unwrap(),
             );
             assert!(

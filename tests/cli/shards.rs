@@ -100,20 +100,20 @@ fn missing_repeated_half_changed_and_foreign_shards_are_refused() {
         assert_eq!((code, text.as_str()), (3, ""), "{errors}");
         errors
     };
-    let told = refusal(&files[1..]);
+    let message = refusal(&files[1..]);
     assert!(
-        told.contains("1 of 3 shards are missing: run --shard 3/3"),
-        "{told}"
+        message.contains("1 of 3 shards are missing: run --shard 3/3"),
+        "{message}"
     );
     let copy = folder.path().join("copy.shard");
     fs::copy(&files[0], &copy).unwrap();
-    let told = refusal(&[files.clone(), vec![copy.clone()]].concat());
+    let message = refusal(&[files.clone(), vec![copy.clone()]].concat());
     assert!(
-        told.contains("shard 3/3 is in") && told.contains("too"),
-        "{told}"
+        message.contains("shard 3/3 is in") && message.contains("too"),
+        "{message}"
     );
-    let told = refusal(&[files[0].clone(), files[1].clone(), others[2].clone()]);
-    assert!(told.contains("of another study than"), "{told}");
+    let message = refusal(&[files[0].clone(), files[1].clone(), others[2].clone()]);
+    assert!(message.contains("of another study than"), "{message}");
 
     let text = fs::read_to_string(&files[0]).unwrap();
     let whole_lines: Vec<&str> = text.split_inclusive('\n').collect();
@@ -124,14 +124,14 @@ fn missing_repeated_half_changed_and_foreign_shards_are_refused() {
     assert_ne!(other_case, text);
     for broken in [without_end, without_row, half_line, other_case] {
         fs::write(&copy, broken).unwrap();
-        let told = refusal(&[copy.clone(), files[1].clone(), files[2].clone()]);
+        let message = refusal(&[copy.clone(), files[1].clone(), files[2].clone()]);
         assert!(
-            told.contains("copy.shard: shard 3/3 is incomplete or changed: run it"),
-            "{told}"
+            message.contains("copy.shard: shard 3/3 is incomplete or changed: run it"),
+            "{message}"
         );
     }
-    let told = refusal(&[PathBuf::from(TABLE_1)]);
-    assert!(told.contains("this is no shard"), "{told}");
+    let message = refusal(&[PathBuf::from(TABLE_1)]);
+    assert!(message.contains("this is no shard"), "{message}");
     let (code, _, errors) = gather(&[folder.path().join("missing.shard")]);
     assert!(code == 5 && errors.contains("cannot be read"), "{errors}");
     let (code, _, errors) = run(&[&SWEEP[..], &["--shard", "4/3"]].concat());

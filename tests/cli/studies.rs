@@ -29,7 +29,7 @@ fn printed(arguments: &[&str]) -> (i32, String, String) {
 }
 
 /// Standard output of a study that must succeed in silence.
-fn told(arguments: &[&str]) -> String {
+fn stdout_of(arguments: &[&str]) -> String {
     let (code, text, errors) = printed(arguments);
     assert_eq!((code, errors.as_str()), (0, ""), "{arguments:?}");
     text
@@ -43,7 +43,7 @@ fn lines(text: &str) -> Vec<Value> {
 
 #[test]
 fn a_sweep_is_a_table_with_the_varied_fields_in_their_own_units() {
-    let text = told(&[
+    let text = stdout_of(&[
         "sweep",
         TABLE_1,
         "--vary",
@@ -67,9 +67,11 @@ fn a_sweep_is_a_table_with_the_varied_fields_in_their_own_units() {
 #[test]
 fn a_sweep_shows_the_gap_of_no_contact_as_empty_cells() {
     let arguments = ["sweep", TABLE_1, "--vary", "driven.tip_relief=0,60 um"];
-    let text = told(&arguments);
+    let text = stdout_of(&arguments);
     assert_eq!(text.lines().nth(2), Some("60,,no-corner-contact"));
-    let json = lines(&told(&[&arguments[..], &["--format", "json"]].concat()));
+    let json = lines(&stdout_of(
+        &[&arguments[..], &["--format", "json"]].concat(),
+    ));
     assert_eq!(json[1]["outcome"], "no-corner-contact");
     assert_eq!(json[1]["quantities"], serde_json::json!({}));
     assert_eq!(json[1]["varied"]["driven.tip_relief"]["unit"], "um");
@@ -188,7 +190,7 @@ fn a_varied_field_may_be_missing_in_the_case() {
         "--vary",
         "operation.speed=2000 rpm",
     ];
-    assert!(told(&arguments).ends_with("2000,2191.016153322617,corner-contact\n"));
+    assert!(stdout_of(&arguments).ends_with("2000,2191.016153322617,corner-contact\n"));
 }
 
 #[test]
@@ -196,10 +198,10 @@ fn a_file_has_the_same_bytes_as_standard_output_for_any_number_of_jobs() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("rows.csv");
     let arguments = ["sweep", TABLE_1, "--vary", "operation.speed=500..9000 rpm"];
-    let stream = told(&arguments);
+    let stream = stdout_of(&arguments);
     for jobs in ["1", "3"] {
         let to_file = ["--jobs", jobs, "--out", path.to_str().unwrap()];
-        assert_eq!(told(&[&arguments[..], &to_file].concat()), "");
+        assert_eq!(stdout_of(&[&arguments[..], &to_file].concat()), "");
         assert_eq!(fs::read_to_string(&path).unwrap(), stream);
     }
     let missing = folder.path().join("missing/rows.csv");
@@ -245,9 +247,11 @@ fn a_search_prints_its_crossing_with_bracket_and_segments() {
         "--until",
         "impact_force<=2000 N",
     ];
-    let text = told(&arguments);
+    let text = stdout_of(&arguments);
     insta::assert_snapshot!("seek_zhou", text);
-    let found = &lines(&told(&[&arguments[..], &["--format", "json"]].concat()))[0];
+    let found = &lines(&stdout_of(
+        &[&arguments[..], &["--format", "json"]].concat(),
+    ))[0];
     assert_eq!(found["answer"], "crossings");
     assert_eq!(
         (&found["unit"], &found["vary"]),
@@ -264,7 +268,7 @@ fn a_search_prints_its_crossing_with_bracket_and_segments() {
         "--until",
         "impact_force<9 N",
     ];
-    assert!(told(&[&["seek", TABLE_1], &never[..]].concat()).ends_with("\n  never\n"));
+    assert!(stdout_of(&[&["seek", TABLE_1], &never[..]].concat()).ends_with("\n  never\n"));
 }
 
 #[test]
@@ -326,10 +330,12 @@ fn a_tolerance_study_prints_percentiles_probabilities_and_the_ranking() {
         "--seed",
         "7",
     ];
-    let text = told(&arguments);
+    let text = stdout_of(&arguments);
     insta::assert_snapshot!("tolerance_zhou", text);
     assert!(text.lines().all(|line| line.chars().count() <= 80));
-    let found = &lines(&told(&[&arguments[..], &["--format", "json"]].concat()))[0];
+    let found = &lines(&stdout_of(
+        &[&arguments[..], &["--format", "json"]].concat(),
+    ))[0];
     let force = &found["quantities"]["impact_force"];
     assert_eq!(
         (&found["solved"], &force["ranked"]),
@@ -341,7 +347,7 @@ fn a_tolerance_study_prints_percentiles_probabilities_and_the_ranking() {
         .map(|share| share["total"]["value"].as_f64().unwrap())
         .sum();
     assert!((total - 1.0).abs() < 0.05, "{total}");
-    let rows = told(&[&arguments[..], &["--format", "csv", "--ranking", "100"]].concat());
+    let rows = stdout_of(&[&arguments[..], &["--format", "csv", "--ranking", "100"]].concat());
     assert_eq!(
         rows.lines().next(),
         Some(

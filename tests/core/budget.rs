@@ -183,7 +183,7 @@ fn outcome(name: &str, inputs: &Inputs, solved: &Result<Solution, Refusal>) -> S
     };
     match solved {
         Err(refusal) => {
-            sound(&format!("{refusal} {}", refusal.mend()));
+            sound(&format!("{refusal} {}", refusal.fix()));
             format!("refused: {}", refusal.code())
         }
         Ok(solution) => {

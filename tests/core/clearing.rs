@@ -9,7 +9,7 @@ use tipstrike::case::EXAMPLES;
 use tipstrike::case::units::{Dimension, System, parse};
 use tipstrike::model::inputs::{Gear, Method, ReliefShape};
 use tipstrike::model::{Inputs, Outcome, Solution, Stage, Stages, auto, solve};
-use tipstrike::report::relief::relief as told;
+use tipstrike::report::relief::relief as sentence;
 
 const METHODS: [Method; 4] = [
     Method::Paper,
@@ -239,7 +239,7 @@ fn the_required_relief_prevents_contact_when_it_is_typed_in() {
                 continue;
             };
             for system in System::ALL {
-                let Some(words) = told(&solution, &[], system) else {
+                let Some(words) = sentence(&solution, &[], system) else {
                     continue;
                 };
                 let read = |text: &str| {

@@ -95,7 +95,7 @@ fn solve(case: &Case) -> Option<Solution> {
 }
 
 /// Every quantity to the last bit, and every station.
-fn told(solution: &Solution) -> (Vec<Option<u64>>, String) {
+fn results(solution: &Solution) -> (Vec<Option<u64>>, String) {
     let quantities = QUANTITIES
         .iter()
         .map(|quantity| (quantity.value)(solution).map(f64::to_bits))
@@ -131,7 +131,7 @@ fn hold(
             for text in others(field, index, &case) {
                 let mut changed = case.clone();
                 if changed.set(field.key, &text).is_err()
-                    || solve(&changed).is_none_or(|after| told(&after) == told(&before))
+                    || solve(&changed).is_none_or(|after| results(&after) == results(&before))
                 {
                     continue;
                 }

@@ -1,7 +1,7 @@
 //! Speed against accuracy: what the trade promises, and the stored errors of the cases in `cases/`.
 //!
 //! `TIPSTRIKE_REGENERATE=1 cargo bench --bench trade` makes the stored table, the lines of docs/speed.md
-//! and its picture anew.
+//! and its picture again.
 use crate::table;
 
 use std::cell::Cell;
@@ -10,7 +10,7 @@ use serde_json::Value;
 use tipstrike::case::Case;
 use tipstrike::model::inputs::Method;
 use tipstrike::model::{Inputs, Refusal, Stage, Stages, solve};
-use tipstrike::report::trade::{Told, write, write_json};
+use tipstrike::report::trade::{TradeReport, write, write_json};
 use tipstrike::study::trade::{
     METHODS, Measured, Patience, Question, STATIONS, Setting, Subject, Trade, greatest, trade,
 };
@@ -48,7 +48,7 @@ fn numerical(measured: &Measured, subject: Subject) -> f64 {
 fn json(trade: &Trade) -> Value {
     let mut out = Vec::new();
     write_json(
-        &Told {
+        &TradeReport {
             name: "case.toml",
             title: "a title",
             trade,
@@ -62,7 +62,7 @@ fn json(trade: &Trade) -> Value {
 fn text(trade: &Trade) -> String {
     let mut out = Vec::new();
     write(
-        &Told {
+        &TradeReport {
             name: "case.toml",
             title: "a title",
             trade,
@@ -305,25 +305,25 @@ fn a_trade_is_told_as_it_goes_and_stops_when_told() {
 #[test]
 fn json_has_every_setting_with_its_errors() {
     let trade = traded(&table_1(), 0.05);
-    let told = json(&trade);
+    let object = json(&trade);
     assert_eq!(
-        (&told["case"], &told["title"], &told["within"]),
+        (&object["case"], &object["title"], &object["within"]),
         (&"case.toml".into(), &"a title".into(), &0.05.into())
     );
-    assert_eq!(told["reference"]["tolerance"], 1e-12);
+    assert_eq!(object["reference"]["tolerance"], 1e-12);
     assert!(
-        told["reference"]["quantities"]["dynamic_peak_force"]
+        object["reference"]["quantities"]["dynamic_peak_force"]
             .as_f64()
             .unwrap()
             > 1000.0
     );
     assert!(
-        told["reference"]["disagreement"]["peak_force"]
+        object["reference"]["disagreement"]["peak_force"]
             .as_f64()
             .unwrap()
             < 1e-9
     );
-    let settings = told["settings"].as_array().unwrap();
+    let settings = object["settings"].as_array().unwrap();
     assert_eq!(settings.len(), trade.settings.len());
     for setting in settings {
         for key in [
@@ -347,8 +347,8 @@ fn json_has_every_setting_with_its_errors() {
                 && total <= setting["total"].as_f64().unwrap()
         );
     }
-    assert_eq!(told["recommended"]["method"], "dynamic");
-    assert_eq!(told["recommended"]["qualifies"], true);
+    assert_eq!(object["recommended"]["method"], "dynamic");
+    assert_eq!(object["recommended"]["qualifies"], true);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! `docs/validation.md`: published figures beside those of the program.
 //!
-//! `TIPSTRIKE_REGENERATE=1 cargo test --test core validation::` writes the page anew.
+//! `TIPSTRIKE_REGENERATE=1 cargo test --test core validation::` writes the page again.
 
 mod changes;
 mod sources;
@@ -24,7 +24,7 @@ dynamic transmission errors of Kubur and Kahraman are the ones to get.
 This page compares tipstrike with figures of other programs and of standards. Such a figure is a
 model too: agreement shows that two models agree. Misses stay on the page. The cases are in
 `tests/validation/`; `TIPSTRIKE_REGENERATE=1 cargo test --test core validation::` writes the page
-anew, and the same test without the variable checks it.
+again, and the same test without the variable checks it.
 ";
 
 /// A program or standard with published figures.

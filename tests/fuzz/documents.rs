@@ -204,9 +204,9 @@ fn a_setting_is_taken_or_leaves_the_case_as_it_was() {
         match case.set(&key, &value) {
             Ok(()) => drop(Document::new(case).render()),
             Err(problem) => {
-                let told = problem.to_string();
-                assert_safe(&told);
-                assert!(!told.contains('\n'), "{told}");
+                let message = problem.to_string();
+                assert_safe(&message);
+                assert!(!message.contains('\n'), "{message}");
                 assert_eq!(case, Case::table_1());
             }
         }

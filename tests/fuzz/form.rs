@@ -216,8 +216,8 @@ fn ctrl(letter: char) -> KeyEvent {
     KeyEvent::new(KeyCode::Char(letter), KeyModifiers::CONTROL)
 }
 
-fn done(errand: Job) -> Option<Action> {
-    worker::jobs::perform(errand, &|_| true)
+fn done(job: Job) -> Option<Action> {
+    worker::jobs::perform(job, &|_| true)
 }
 
 impl Bench {
@@ -410,7 +410,7 @@ impl Bench {
                 below.asked = (base, typed);
                 Some(Action::Found(Box::new(below)))
             }
-            Effect::Job(errand) => done(errand),
+            Effect::Job(job) => done(job),
             Effect::Play(plays) => {
                 assert_eq!(plays, self.app.is_playing, "it ticks while something plays");
                 None

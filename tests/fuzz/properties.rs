@@ -20,7 +20,7 @@ pub(crate) enum Fate {
     Solved,
 }
 
-/// A text is a case, or everything that is wrong with it is told in its place; a case is solved, or
+/// A text is a case, or every fault in it is reported at its place; a case is solved, or
 /// refused by name.
 pub(crate) fn read_and_solve(text: &str) -> Fate {
     match Document::parse("a case.toml", text) {
@@ -39,7 +39,7 @@ pub(crate) fn read_and_solve(text: &str) -> Fate {
     }
 }
 
-/// Faults have a place inside the text, and are told on one line that a terminal may be shown.
+/// Faults have a place inside the text, and print on one line that is safe for a terminal.
 pub(crate) fn assert_placed(faults: &[Fault], text: &str) {
     assert!(!faults.is_empty(), "a refusal has a reason");
     let lines: Vec<&str> = text
@@ -54,13 +54,16 @@ pub(crate) fn assert_placed(faults: &[Fault], text: &str) {
             (1..=columns).contains(&fault.column),
             "{fault} is not in {text:?}"
         );
-        let told = fault.to_string();
+        let message = fault.to_string();
         assert!(
-            !told.contains('\n') && told.chars().count() < 1000,
-            "{told}"
+            !message.contains('\n') && message.chars().count() < 1000,
+            "{message}"
         );
-        assert!(!fault.cause.is_empty() && !fault.mend.is_empty(), "{told}");
-        assert_safe(&told);
+        assert!(
+            !fault.cause.is_empty() && !fault.fix.is_empty(),
+            "{message}"
+        );
+        assert_safe(&message);
     }
     let ordered = faults.is_sorted_by_key(|fault| (fault.line, fault.column));
     assert!(ordered, "in the order of the places: {faults:?}");
@@ -96,18 +99,18 @@ fn solve(document: &Document) -> Fate {
     }
 }
 
-/// A refusal has a name, a field and a mend, and its numbers are numbers.
+/// A refusal has a name, a field and a fix, and its numbers are numbers.
 pub(crate) fn assert_named(refusal: &Refusal) {
-    let told = refusal.to_string();
+    let message = refusal.to_string();
     assert!(
-        !refusal.code().is_empty() && !refusal.mend().is_empty() && !told.contains('\n'),
+        !refusal.code().is_empty() && !refusal.fix().is_empty() && !message.contains('\n'),
         "{refusal:?}"
     );
     assert!(index_of(refusal.field()).is_some(), "{refusal:?}");
-    assert_numbers(&told);
+    assert_numbers(&message);
 }
 
-/// No number of a report is none, in whatever form it is told.
+/// No report prints a NaN or an infinity, in any format.
 pub(crate) fn assert_sound(report: &Report) {
     assert_finite(&report.solution);
     report
@@ -145,7 +148,7 @@ fn has_none(key: &str, row: report::stations::Row) -> bool {
     matches!(row, report::stations::Row::Impact(station) if key == "pair_compliance" && station.impact_force == 0.0)
 }
 
-/// Words without a NaN, an infinity or a number that could not be told.
+/// Text without a NaN, an infinity or a number that could not be printed.
 fn assert_numbers(words: &str) {
     let no_number = |word: &str| ["NaN", "inf", "-inf", "n/a"].contains(&word);
     let found = words
@@ -161,8 +164,8 @@ fn assert_json(report: &Report) {
     let value: Value = serde_json::from_str(&line).expect("JSON parses again");
     assert_eq!(value["title"], report.title());
     assert!(!line.contains("null"));
-    let told = value["quantities"].as_object().expect("an object");
-    assert_eq!(told.len(), report.values().count());
+    let message = value["quantities"].as_object().expect("an object");
+    assert_eq!(message.len(), report.values().count());
     for (quantity, value) in report.values() {
         let start = format!("\"{}\":{{\"value\":", quantity.key);
         let number = line

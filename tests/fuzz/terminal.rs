@@ -1,4 +1,4 @@
-//! Bytes into the built program on a real terminal: it stays, it leaves when told to, and gives the
+//! Bytes into the built program on a real terminal: it stays, it leaves on request, and gives the
 //! terminal back.
 
 use std::fs;

@@ -255,7 +255,7 @@ fn with_lines(text: &str, change: impl FnOnce(&mut Vec<String>)) -> String {
     lines.join("\n")
 }
 
-/// One of the lines with an equals sign, its two sides written anew.
+/// One of the lines with an equals sign, its two sides written again.
 fn with_side(text: &str, at: Index, side: impl FnOnce(&str, &str) -> String) -> String {
     with_lines(text, |lines| {
         let mut sides: Vec<&mut String> =

@@ -168,8 +168,8 @@ impl Desk {
                     Effect::Job(Job::Recents) => {
                         actions.push(Action::Recents(recents::looked_at(self.recents.clone())));
                     }
-                    Effect::Job(errand) => {
-                        actions.extend(jobs::perform(errand, &|_| true));
+                    Effect::Job(job) => {
+                        actions.extend(jobs::perform(job, &|_| true));
                     }
                     Effect::Remember(_) => (),
                     other => actions.extend(effects::perform(other, &mut self.autosave)),
@@ -198,7 +198,7 @@ impl Desk {
         self
     }
 
-    /// Write a field anew.
+    /// Write a field again.
     pub(crate) fn fill(&mut self, key: &str, text: &str) -> &mut Desk {
         self.go_to(key);
         if !self.app.has_line() {

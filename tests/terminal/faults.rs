@@ -483,7 +483,7 @@ fn a_file_of_someone_else_keeps_its_owner_or_is_left_alone() {
     }
     // Where all may write: in a folder that lets each rename all, and in one that lets each rename
     // but his own.
-    for (folder_mode, told) in [(0o777, "belongs to user 0"), (0o1777, "belongs to user 0")] {
+    for (folder_mode, expected) in [(0o777, "belongs to user 0"), (0o1777, "belongs to user 0")] {
         let (folder, path) = folder_with_case();
         fs::set_permissions(folder.path(), fs::Permissions::from_mode(folder_mode))
             .expect("our own folder");
@@ -495,7 +495,7 @@ fn a_file_of_someone_else_keeps_its_owner_or_is_left_alone() {
         }
         assert_eq!(output.status.code(), Some(REFUSED), "{words}");
         assert!(
-            words.contains(told) && words.contains("save under another name"),
+            words.contains(expected) && words.contains("save under another name"),
             "{words}"
         );
         assert_eq!(fs::read_to_string(&path).expect("it is there"), TABLE_1);

@@ -268,7 +268,7 @@ fn the_mend_of_a_failed_save_is_on_the_smallest_screen() {
 
 #[test]
 fn other_comments_and_no_case_at_all_are_told_as_such() {
-    for (text, told) in [
+    for (text, expected) in [
         (
             format!("{TABLE_1}# mine\n"),
             "only comments or spacing differ",
@@ -280,7 +280,7 @@ fn other_comments_and_no_case_at_all_are_told_as_such() {
         let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
         meddle(&desk, "newer", &text);
         desk.keys(&["Ctrl-S"]);
-        assert!(desk.shows(told), "{told}\n{}", desk.screen());
+        assert!(desk.shows(expected), "{expected}\n{}", desk.screen());
     }
 }
 
@@ -371,7 +371,7 @@ fn links_and_modes_stay_and_hard_links_are_refused() {
 
 #[test]
 fn what_is_no_file_is_told_by_the_workbench() {
-    for (name, told) in [
+    for (name, expected) in [
         ("pipe.toml", "not a regular file"),
         ("folder.toml", "this is a folder"),
         ("loop.toml", "cannot be"),
@@ -391,7 +391,7 @@ fn what_is_no_file_is_told_by_the_workbench() {
             desk.keys(&["o"]);
         }
         assert!(
-            desk.shows("not saved: ") && desk.shows(told),
+            desk.shows("not saved: ") && desk.shows(expected),
             "{name}\n{}",
             desk.screen()
         );

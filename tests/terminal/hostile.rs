@@ -168,7 +168,7 @@ fn no_screen_shows_a_control() {
             assert_harmless(&desk.buffer(size), &format!("{keys:?} {path:?}"));
             desk.keys(&["Esc"]);
         }
-        for action in told() {
+        for action in foreign_texts() {
             let what = format!("{keys:?} {action:?}");
             desk.act(action);
             assert_harmless(&desk.buffer(size), &what);
@@ -176,8 +176,8 @@ fn no_screen_shows_a_control() {
     }
 }
 
-/// What is told of the world outside in words that others choose: of files, of locks, of journals.
-fn told() -> Vec<Action> {
+/// Messages with texts from outside: file names, locks, journals.
+fn foreign_texts() -> Vec<Action> {
     let words = || HOSTILE.to_owned();
     let saved = |fault| Action::Saved(HOSTILE.into(), Next::Stay, Err(fault));
     let change = Change {

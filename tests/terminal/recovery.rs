@@ -183,20 +183,20 @@ fn edits_that_cannot_be_kept_are_told() {
     autosave.follow(&app.sheets(), Instant::now());
     fs::write(folder.path().join("tipstrike"), "no folder").expect("room on the disk");
     write(&mut app, "pair.module", "6 mm");
-    let told = autosave.follow(&app.sheets(), Instant::now());
+    let claims = autosave.follow(&app.sheets(), Instant::now());
     assert!(
-        matches!(&told[..], [Err(text)] if text.contains("save soon")),
-        "{told:?}"
+        matches!(&claims[..], [Err(text)] if text.contains("save soon")),
+        "{claims:?}"
     );
     drop(autosave);
     let mut homeless = Autosave::new(
         State::choose(None, Vec::new()),
         Arc::new(JournalWriter::default()),
     );
-    let told = homeless.follow(&app.sheets(), Instant::now());
+    let claims = homeless.follow(&app.sheets(), Instant::now());
     assert!(
-        matches!(&told[..], [Ok(claim)] if claim.notices[0].contains("HOME")),
-        "{told:?}"
+        matches!(&claims[..], [Ok(claim)] if claim.notices[0].contains("HOME")),
+        "{claims:?}"
     );
 }
 
@@ -439,8 +439,8 @@ fn a_terminal_that_goes_without_a_signal_is_noticed() {
         return;
     }
     for fault in ["", "stuck screen"] {
-        // In a session of its own the terminal is not its terminal, whose end then is told to
-        // nobody.
+        // In its own session the program has no controlling terminal, so no signal reports the end
+        // of the terminal.
         let launch = Launch::on_table_1()
             .through(&["setsid", "--wait"])
             .variable("TIPSTRIKE_FAULT", fault);
@@ -522,7 +522,7 @@ fn edits_of_the_built_in_case_are_kept_too() {
     tty.wait_for("1.25 in");
     tty.send_signal("TERM");
     tty.wait_for_end();
-    // On another case, they are only told of.
+    // On another case, they are only reported.
     let other = folder.path().join("other.toml");
     fs::write(&other, TABLE_1).expect("room on the disk");
     let mut tty = Launch::of(Arc::clone(&folder)).argument(&other).start();

@@ -25,8 +25,8 @@ const QUIET: Duration = Duration::from_millis(60);
 /// Actions from one look at the files to the next, and to the next comparison of form and file.
 const LOOK: usize = 100;
 const COMPARE: usize = 500;
-/// Values that mend one field or another of what a random session has left behind.
-const MENDS: [&[u8]; 10] = [
+/// Values that fix one field or another of what a random session has left behind.
+const FIXES: [&[u8]; 10] = [
     b"",
     b"5 mm",
     b"20 deg",
@@ -38,7 +38,7 @@ const MENDS: [&[u8]; 10] = [
     b"2000 rpm",
     b"exact",
 ];
-const MOST_MENDS: usize = 60;
+const MOST_FIXES: usize = 60;
 
 /// What a session is made of. None leaves the folder, and none quits but where the question to quit
 /// is refused.
@@ -57,7 +57,7 @@ const ACTIONS: [&[u8]; 77] = [
     b"\x1b[6;5~", b"\x1br", b"\x1bwd", b"\x1bwd",
     // Panes, cursor, teeth.
     b"1", b"2", b"3", b"4", b"\x1b[15~", b"\x1b[20~", b"b", b"y", b"v", b"x",
-    // Help, palette, settings, drawing anew.
+    // Help, palette, settings, redrawing.
     b"\x1bOP", b"\x10", b"\x10units\r", b"\x10ascii\r", b"\x10theme\r", b"\x10mouse\r", b"\x1bm", b"\x0c",
     // Back.
     b"\x1b", b"\x1b", b"\x1b\x1b", b"\x1b[<0;20;8M",
@@ -202,12 +202,12 @@ impl Soak {
         current.unwrap_or(1)
     }
 
-    /// Save, mending what stands in the way; the file, where the form has one.
+    /// Save, fixing what stands in the way; the file, where the form has one.
     fn saved(&mut self) -> Option<PathBuf> {
         for keys in [b"\x1b", b"\x1b", b"\x1b", b"1", b"i", b"\x13"] {
             self.press(keys);
         }
-        for mend in MENDS.iter().cycle().take(MOST_MENDS) {
+        for fix in FIXES.iter().cycle().take(MOST_FIXES) {
             let (name, is_unsaved) = self.case()?;
             if name.starts_with("built-in") {
                 // The built-in case has no file.
@@ -228,7 +228,7 @@ impl Soak {
             } else if is_unsaved {
                 // The first field that is wrong has the focus.
                 self.press(b"\x1b");
-                self.press(&[b"1i\x15", *mend, b"\x13"].concat());
+                self.press(&[b"1i\x15", *fix, b"\x13"].concat());
             } else {
                 // Names may end in what no screen shows.
                 let is_it = |path: &PathBuf| {

@@ -96,7 +96,7 @@ fn esc_ends_a_measurement_at_once() {
     tty.wait_for("measuring");
     tty.type_in("\x1b");
     let time = time_until(&mut tty, "the measurement is stopped");
-    // A lone Esc is told from the start of an arrow key by 50 ms of silence.
+    // 50 ms of silence separate a lone Esc from the start of an arrow key.
     warn_beyond(
         "Esc to the end of a measurement",
         time,

@@ -164,9 +164,9 @@ impl Table {
             .map(|setting| format!("| {setting} |"))
             .collect();
         let lines = text.lines().enumerate();
-        let told =
+        let found =
             lines.filter(|(at, line)| *at < 2 || names.iter().any(|name| line.starts_with(name)));
-        told.map(|(_, line)| line.to_owned()).collect()
+        found.map(|(_, line)| line.to_owned()).collect()
     }
 
     /// No error of the other table is more than twice the one of this; times may differ.

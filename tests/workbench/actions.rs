@@ -251,13 +251,13 @@ fn every_key_does_what_its_line_says() {
                 .filter(|line| !without.contains(line))
                 .collect();
             let (first, last) = (new.iter().take(3), new.iter().rev().take(4));
-            let told: Vec<_> = first
+            let lines: Vec<_> = first
                 .chain(last)
                 .map(|line| line.chars().take(90).collect::<String>())
                 .collect();
             wrong.push(format!(
                 "{key} after {before:?} is to bring {says:?}; it brings:\n{}",
-                told.join("\n")
+                lines.join("\n")
             ));
         }
     }

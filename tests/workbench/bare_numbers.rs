@@ -122,7 +122,7 @@ fn a_unit_is_never_guessed_against_what_is_typed() {
     desk.fill("driver.poisson", "0.9");
     assert!(
         desk.shows("! 0.9 is above the limit of 0.499"),
-        "no digit mends it:\n{}",
+        "no digit fixes it:\n{}",
         desk.screen()
     );
 }

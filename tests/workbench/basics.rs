@@ -777,7 +777,7 @@ fn a_slow_solve_shows_how_far_it_is_and_esc_stops_it() {
     );
     assert!(desk.app.has_line(), "the field keeps the keys");
     desk.act(Action::Solving(request.serial, 0.5));
-    assert!(!desk.shows("solving"), "what is told late is not believed");
+    assert!(!desk.shows("solving"), "a late message is not shown");
 }
 
 #[test]
@@ -832,11 +832,11 @@ fn recent_cases_are_a_key_away() {
 fn torque_takes_the_place_of_power_and_gives_it_back() {
     let mut desk = Desk::new(SMALL);
     desk.fill("operation.torque", "7");
-    let told = "power 15 kW replaced by the torque";
-    assert!(desk.shows(told), "{}", desk.screen());
+    let notice = "power 15 kW replaced by the torque";
+    assert!(desk.shows(notice), "{}", desk.screen());
     desk.keys(&["0 N m"]);
     assert!(
-        desk.shows(told),
+        desk.shows(notice),
         "as long as it is typed\n{}",
         desk.screen()
     );
@@ -970,7 +970,7 @@ fn the_screens() {
 }
 
 #[test]
-fn no_range_is_told_of_a_strike_that_is_denied() {
+fn no_range_is_notice_of_a_strike_that_is_denied() {
     let mut desk = Desk::on(
         SMALL,
         "case.toml",

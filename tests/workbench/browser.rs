@@ -93,7 +93,7 @@ fn the_case_under_the_cursor_is_told_with_its_verdict() {
         "case.toml",
         "the present case, among the others"
     );
-    for (file, told) in [
+    for (file, expected) in [
         (
             "a-str",
             &[
@@ -136,10 +136,10 @@ fn the_case_under_the_cursor_is_told_with_its_verdict() {
         ("sub", &["A folder with 1 case, 0 folders."]),
     ] {
         desk.keys(&["Ctrl-U", file]);
-        for told in told {
+        for expected in expected {
             assert!(
-                preview(&desk).contains(told),
-                "{file}: {told}\n{}",
+                preview(&desk).contains(expected),
+                "{file}: {expected}\n{}",
                 desk.screen()
             );
         }
@@ -318,7 +318,7 @@ fn what_is_no_case_is_refused_in_words() {
     fs::write(desk.path("n-zeroes.toml"), vec![0; 1 << 20]).expect("room");
     fs::write(desk.path("o-words.toml"), "no case at all\n".repeat(60_000)).expect("room");
     fs::write(desk.path("q-empty.toml"), "").expect("room");
-    for (file, told) in [
+    for (file, expected) in [
         ("p-pipe", "this is not a regular file"),
         ("l-loop", "cannot be read"),
         ("m-long", "longer than 1024 KiB"),
@@ -328,13 +328,13 @@ fn what_is_no_case_is_refused_in_words() {
     ] {
         desk.keys(&["Ctrl-O", file]);
         assert!(
-            preview(&desk).contains("It cannot be opened:") && preview(&desk).contains(told),
+            preview(&desk).contains("It cannot be opened:") && preview(&desk).contains(expected),
             "{file}\n{}",
             desk.screen()
         );
         desk.keys(&["Enter"]);
         assert!(
-            desk.shows(" cannot be opened ") && desk.shows(told),
+            desk.shows(" cannot be opened ") && desk.shows(expected),
             "{file}\n{}",
             desk.screen()
         );
@@ -412,7 +412,7 @@ fn while_a_folder_is_read_keys_are_taken_and_a_late_answer_is_dropped() {
 
 #[test]
 fn the_threads_answer_and_the_latest_wish_counts() {
-    let (sender, told) = channel();
+    let (sender, expected) = channel();
     let mut workers =
         Workers::start(Arc::new(move |action| sender.send(action).is_ok())).expect("a thread");
     let folder = tempfile::tempdir().expect("a folder");
@@ -424,7 +424,7 @@ fn the_threads_answer_and_the_latest_wish_counts() {
     }
     let mut last = String::new();
     while last != "three/" {
-        let Ok(Action::Listed(listing)) = told.recv_timeout(Duration::from_secs(20)) else {
+        let Ok(Action::Listed(listing)) = expected.recv_timeout(Duration::from_secs(20)) else {
             panic!("an answer comes")
         };
         assert!(listing.entries.is_ok());
@@ -434,7 +434,7 @@ fn the_threads_answer_and_the_latest_wish_counts() {
         .job(Job::Examples(tipstrike::case::units::System::Metric))
         .expect("a thread");
     assert!(
-        matches!(told.recv_timeout(Duration::from_secs(20)), Ok(Action::Examples(digests)) if digests.len() >= 8)
+        matches!(expected.recv_timeout(Duration::from_secs(20)), Ok(Action::Examples(digests)) if digests.len() >= 8)
     );
 }
 

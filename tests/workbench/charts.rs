@@ -409,23 +409,23 @@ fn the_readout_and_the_teeth_pane_show_the_same_numbers() {
             let solved = (&answer.inputs, answer.of(answer.active).expect("solved"));
             let moment = ContactState::at(solved.0, solved.1, angle).expect("in sight");
             let said = chart::readout(&desk.app.charts(), angle);
-            let told = |symbol| {
+            let readout = |symbol| {
                 readings(&moment, solved, System::Metric)
                     .into_iter()
                     .find(|reading| reading.symbol == symbol && reading.number.is_some())
                     .map(|one| one.to_string())
             };
             for symbol in ["F_S", "F", "S", "ΔV_n", "ΔV_τ", "x", "F/ΣF", "q_s", "E_k"] {
-                if let Some(told) = told(symbol) {
-                    let alone = format!(" {told}");
+                if let Some(readout) = readout(symbol) {
+                    let alone = format!(" {readout}");
                     let same = said
                         .split([':', ',', ';'])
                         .any(|part| part.trim_end_matches('.') == alone);
-                    assert!(same, "{method}: {told} in {said}");
+                    assert!(same, "{method}: {readout} in {said}");
                 }
             }
             assert!(
-                told("S").is_some() && (told("F_S").is_some() || told("F").is_some()),
+                readout("S").is_some() && (readout("F_S").is_some() || readout("F").is_some()),
                 "{method}"
             );
         }

@@ -51,7 +51,7 @@ fn of(desk: &Desk) -> &Explanation {
     }
 }
 
-fn told(arguments: &[&str]) -> String {
+fn stdout_of(arguments: &[&str]) -> String {
     let output = Command::new(env!("CARGO_BIN_EXE_tipstrike"))
         .args(arguments)
         .output()
@@ -82,7 +82,7 @@ fn the_page_of_every_result_is_that_of_the_command_and_can_be_read_through() {
             let page = read_through(&mut desk)
                 .join("\n")
                 .replace("DIR", &desk.folder.path().display().to_string());
-            let command = told(&["explain", key, &path]);
+            let command = stdout_of(&["explain", key, &path]);
             assert_eq!(words(&page), words(&command), "{key}");
             desk.keys(&["Esc"]);
         }
@@ -129,10 +129,10 @@ fn a_page_that_is_being_written_says_so_and_a_late_one_is_dropped() {
     desk.keys(&["Esc", "j", "Enter"]);
     let before = desk.screen();
     for effect in effects {
-        let tipstrike::tui::actions::Effect::Job(errand) = effect else {
+        let tipstrike::tui::actions::Effect::Job(job) = effect else {
             continue;
         };
-        let late = tipstrike::tui::worker::jobs::perform(errand, &|_| true).expect("an answer");
+        let late = tipstrike::tui::worker::jobs::perform(job, &|_| true).expect("an answer");
         desk.act(late);
     }
     assert_eq!(desk.screen(), before);

@@ -176,7 +176,7 @@ fn a_limit_that_is_no_value_is_not_saved() {
     assert_eq!(
         desk.app.tab.form.input.value(),
         "much",
-        "the focus is on what must be mended"
+        "the focus is on the invalid field"
     );
 }
 

@@ -104,7 +104,7 @@ fn the_method_that_is_switched_through_is_one_step_of_undo() {
 #[test]
 fn what_no_value_begins_with_is_a_command_in_a_field_of_a_value() {
     let mut desk = Desk::new(LARGE);
-    for (keys, told) in [
+    for (keys, expected) in [
         (&["/power", "Enter", "16"][..], "16 kW"),
         (
             &["Ctrl-U", ":undo", "Enter"],
@@ -116,7 +116,11 @@ fn what_no_value_begins_with_is_a_command_in_a_field_of_a_value() {
             "Go to a field or a result",
         ),
     ] {
-        assert!(desk.keys(keys).shows(told), "{keys:?}\n{}", desk.screen());
+        assert!(
+            desk.keys(keys).shows(expected),
+            "{keys:?}\n{}",
+            desk.screen()
+        );
     }
     desk.keys(&["Esc"]).go_to("pair.module").keys(&["End", "/"]);
     assert!(desk.shows("5 mm/") && desk.shows("! "), "{}", desk.screen());
@@ -584,7 +588,7 @@ fn escape_keeps_every_other_edit() {
 
 #[test]
 fn a_letter_that_is_no_command_is_told_as_such() {
-    for (pane, letter, told) in [
+    for (pane, letter, expected) in [
         (
             "1",
             "7",
@@ -599,7 +603,7 @@ fn a_letter_that_is_no_command_is_told_as_such() {
     ] {
         let mut desk = Desk::new(SMALL);
         desk.keys(&["Esc", pane, letter]);
-        assert!(desk.shows(told), "{}", desk.screen());
+        assert!(desk.shows(expected), "{}", desk.screen());
     }
 }
 
@@ -666,7 +670,7 @@ fn a_baseline_of_other_values_than_were_saved_keeps_its_name() {
 
 #[test]
 fn results_are_found_as_fields_are() {
-    for (keys, told) in [
+    for (keys, expected) in [
         (&["Esc", "/", "fs", "Enter"][..], "F_S impact force, Eq. 57"),
         (&["Esc", "2", "/", "friction", "Enter"], "f friction ratio"),
         (
@@ -683,7 +687,7 @@ fn results_are_found_as_fields_are() {
         let mut desk = Desk::new(LARGE);
         desk.keys(keys);
         assert!(
-            desk.app.prompts.is_empty() && desk.shows(told),
+            desk.app.prompts.is_empty() && desk.shows(expected),
             "{keys:?}\n{}",
             desk.screen()
         );
@@ -699,7 +703,7 @@ fn results_are_found_as_fields_are() {
 
 #[test]
 fn what_no_digit_mends_is_wrong_at_once() {
-    for (typed, told) in [
+    for (typed, expected) in [
         ("-48", "! -48 um is below"),
         ("48 mm", "! 48 mm is above"),
         (
@@ -710,7 +714,7 @@ fn what_no_digit_mends_is_wrong_at_once() {
     ] {
         let mut desk = Desk::new(LARGE);
         desk.fill("driven.tip_relief", typed);
-        assert!(desk.shows(told), "{typed}\n{}", desk.screen());
+        assert!(desk.shows(expected), "{typed}\n{}", desk.screen());
     }
 }
 

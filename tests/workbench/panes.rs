@@ -14,9 +14,11 @@ fn beside_last_valid_results_stands_why_they_are_and_a_key_that_goes_there() {
     for size in [TINY, SMALL, LARGE] {
         let mut desk = Desk::new(size);
         desk.fill("pair.module", "2 mm").keys(&["Down", "Down"]);
-        let told = desk.screen().replace('\n', " ");
+        let shown = desk.screen().replace('\n', " ");
         assert!(
-            told.contains("! rh1 bore radius") && told.contains("1 more") && told.contains("Alt-E"),
+            shown.contains("! rh1 bore radius")
+                && shown.contains("1 more")
+                && shown.contains("Alt-E"),
             "{}",
             desk.screen()
         );
@@ -92,7 +94,7 @@ fn the_baseline_is_drawn_by_the_method_in_force() {
     desk.keys(&["Alt-B"])
         .fill("operation.speed", "1900 rpm")
         .keys(&["Ctrl-T", "Ctrl-T", "Ctrl-T", "Ctrl-T", "Esc", "3", "Home"]);
-    let told = |desk: &Desk| {
+    let shown = |desk: &Desk| {
         desk.screen()
             .lines()
             .find(|line| line.contains("before E: F_S"))
@@ -100,9 +102,9 @@ fn the_baseline_is_drawn_by_the_method_in_force() {
             .to_owned()
     };
     assert!(
-        told(&desk).contains("F_S 80.39") && told(&desk).contains("baseline 84.6"),
+        shown(&desk).contains("F_S 80.39") && shown(&desk).contains("baseline 84.6"),
         "{}",
-        told(&desk)
+        shown(&desk)
     );
     desk.keys(&["Ctrl-T", "Ctrl-T", "3", "Home"]);
     assert!(desk.shows("baseline (exact)"), "{}", desk.screen());

@@ -1,5 +1,5 @@
 //! The README's pictures are what the workbench shows: `TIPSTRIKE_REGENERATE=1 cargo test --test
-//! picture` draws them anew.
+//! picture` draws them again.
 use crate::harness;
 
 use std::fmt::Write;
@@ -35,7 +35,7 @@ fn the_pictures_of_the_readme() {
         let kept = std::fs::read_to_string(&path).unwrap_or_default();
         assert!(
             kept == picture,
-            "assets/{name}.svg is not what the workbench shows: draw it anew with TIPSTRIKE_REGENERATE=1"
+            "assets/{name}.svg is not what the workbench shows: draw it again with TIPSTRIKE_REGENERATE=1"
         );
     }
 }

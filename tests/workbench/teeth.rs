@@ -206,7 +206,7 @@ fn the_cursor_turns_the_gears_and_shows_the_values_of_the_solution() {
 
 #[test]
 fn static_and_dynamic_show_their_own_first_contact_and_force() {
-    for (method, told) in [
+    for (method, expected) in [
         (Method::Static, ["F ", "x "]),
         (Method::Dynamic, ["t ", "F/ΣF "]),
     ] {
@@ -233,7 +233,7 @@ fn static_and_dynamic_show_their_own_first_contact_and_force() {
             "{method:?}: no {exact} in\n{}",
             at(1.0)
         );
-        for word in told {
+        for word in expected {
             assert!(
                 at(0.5).contains(word)
                     && at(1.5).contains(&format!("{word}–"))
@@ -309,7 +309,7 @@ fn keys_change_the_view_and_0_resets_it() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Esc", "4"]);
     let at_first = desk.screen();
-    for (keys, told) in [
+    for (keys, expected) in [
         (&["+"][..], "Teeth, true to scale, around the strike"),
         (&["=", "="], "Teeth, true to scale"),
         (&["-"], "Teeth, true to scale"),
@@ -320,7 +320,7 @@ fn keys_change_the_view_and_0_resets_it() {
         let before = desk.screen();
         desk.keys(keys);
         assert!(
-            desk.shows(told) && desk.screen() != before,
+            desk.shows(expected) && desk.screen() != before,
             "{keys:?}\n{}",
             desk.screen()
         );
@@ -487,17 +487,22 @@ fn every_pair_zoom_angle_and_size_gives_a_valid_picture() {
                 is_stale,
             };
             let size = (random.one_of(&WIDTHS), random.one_of(&HEIGHTS));
-            let told = || format!("{view:?} {cursor:?} {size:?} {marker:?} {look:?} {inputs:?}");
+            let expected =
+                || format!("{view:?} {cursor:?} {size:?} {marker:?} {look:?} {inputs:?}");
             let screen = screen(&picture, size);
             assert!(
                 !["NaN", "inf", "n/a"].iter().any(|bad| screen.contains(bad)),
                 "{screen}\n{}",
-                told()
+                expected()
             );
-            assert!(!look.ascii || screen.is_ascii(), "{screen}\n{}", told());
-            let share = examine(&picture, Size::new(size.0.max(12), size.1.max(4)), &told);
+            assert!(!look.ascii || screen.is_ascii(), "{screen}\n{}", expected());
+            let share = examine(
+                &picture,
+                Size::new(size.0.max(12), size.1.max(4)),
+                &expected,
+            );
             if share > most.0 {
-                most = (share, told());
+                most = (share, expected());
             }
         }
         drawn_pairs += 1;
@@ -511,14 +516,14 @@ fn every_pair_zoom_angle_and_size_gives_a_valid_picture() {
 
 /// Every stroke is finite and visible, and no two words overlap. Returns the share of the allowed
 /// strokes.
-fn examine(picture: &Picture, size: Size, told: &dyn Fn() -> String) -> f64 {
+fn examine(picture: &Picture, size: Size, expected: &dyn Fn() -> String) -> f64 {
     let moment = ContactState::at(picture.inputs, picture.solution, picture.angle());
     let scene = Scene::of(picture, moment.as_ref(), size);
     let ([left, right], [low, high]) = (scene.window.across(), scene.window.upright());
     assert!(
         left < right && low < high && (right - left).is_finite() && (high - low).is_finite(),
         "{}",
-        told()
+        expected()
     );
     let margin = 1e-6 * (right - left) + scene.window.dot + scene.window.dot_height();
     for stroke in &scene.strokes {
@@ -528,7 +533,7 @@ fn examine(picture: &Picture, size: Size, told: &dyn Fn() -> String) -> f64 {
             assert!(
                 in_sight,
                 "{stroke:?} out of {left}..{right}, {low}..{high}: {}",
-                told()
+                expected()
             );
         }
     }
@@ -538,11 +543,16 @@ fn examine(picture: &Picture, size: Size, told: &dyn Fn() -> String) -> f64 {
         assert!(
             words[..number].iter().all(|other| !other.intersects(*word)),
             "{words:?}: {}",
-            told()
+            expected()
         );
     }
     let share = scene.strokes.len() as f64 / most_strokes(size) as f64;
-    assert!(share <= 1.0, "{} strokes: {}", scene.strokes.len(), told());
+    assert!(
+        share <= 1.0,
+        "{} strokes: {}",
+        scene.strokes.len(),
+        expected()
+    );
     share
 }
 

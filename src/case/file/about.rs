@@ -11,8 +11,8 @@ use std::path::Path;
 
 use xattr::FileExt;
 
-/// What the system itself says of a file, some of it of its bytes: labels and hashes, which it
-/// gives anew.
+/// Attributes that the system itself sets, some of them from the bytes of the file: labels and
+/// hashes.
 const OF_THE_SYSTEM: &[u8] = b"security.";
 
 /// Give a new file all that the old one has, but for its bytes.

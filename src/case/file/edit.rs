@@ -16,8 +16,8 @@ pub(super) fn render(document: &Document) -> String {
         entries
     };
     let kept = sorted(&tree::read(&text).case) == sorted(&document.case);
-    // A layout that does not take the changes is written anew; a case that is not valid keeps its
-    // layout.
+    // If the changes do not fit into the layout, the file gets the default layout; an invalid case
+    // keeps its layout.
     if kept || document.case.inputs().is_err() {
         text
     } else {

@@ -74,7 +74,7 @@ pub enum SaveError {
     )]
     HardLinked(String, u64),
     /// The system refuses to write it.
-    #[error("{0}: cannot be written: {1}: {mend}", mend = mend(.1))]
+    #[error("{0}: cannot be written: {1}: {fix}", fix = fix(.1))]
     Unwritable(String, io::Error),
 }
 
@@ -92,7 +92,7 @@ fn one_a_line(faults: &[Fault]) -> String {
 }
 
 /// What to do about a file that the system does not let us write.
-fn mend(error: &io::Error) -> &'static str {
+fn fix(error: &io::Error) -> &'static str {
     match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
             "make room on the disk, or save elsewhere"

@@ -17,7 +17,7 @@ pub enum FaultKind {
     NewerFormat,
 }
 
-/// What is wrong at one place of a file. It prints as `file:line:column: field: cause: mend`, on
+/// What is wrong at one place of a file. It prints as `file:line:column: field: cause: fix`, on
 /// one line and without control characters.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fault {
@@ -32,22 +32,22 @@ pub struct Fault {
     pub field: String,
     /// What is wrong.
     pub cause: String,
-    /// How to mend it.
-    pub mend: String,
+    /// How to fix it.
+    pub fix: String,
     /// Why the file is refused.
     pub kind: FaultKind,
 }
 
 impl Fault {
     pub(super) fn new(file: &str, (line, column): (usize, usize), problem: Problem) -> Fault {
-        let Problem { field, cause, mend } = problem;
+        let Problem { field, cause, fix } = problem;
         Fault {
             file: file.to_owned(),
             line,
             column,
             field,
             cause,
-            mend,
+            fix,
             kind: FaultKind::Bad,
         }
     }
@@ -61,7 +61,7 @@ impl fmt::Display for Fault {
             column,
             field,
             cause,
-            mend,
+            fix,
             ..
         } = self;
         write!(
@@ -70,7 +70,7 @@ impl fmt::Display for Fault {
             sanitize(file),
             cut(field),
             sanitize(cause),
-            sanitize(mend)
+            sanitize(fix)
         )
     }
 }

@@ -109,14 +109,14 @@ fn first_of_each_line(errors: &[(usize, Error)], lines: &Lines<'_>, source: &str
         let line = lines.around(*at);
         if line.start != last {
             last = line.start;
-            found.push(told(*at, error, source, line));
+            found.push(fault(*at, error, source, line));
         }
     }
     found
 }
 
 /// The error in a case's terms where the line is a field's, else in TOML's.
-fn told(at: usize, error: &Error, source: &str, line: std::ops::Range<usize>) -> Found {
+fn fault(at: usize, error: &Error, source: &str, line: std::ops::Range<usize>) -> Found {
     if let Some(control) = source[at..]
         .chars()
         .next()
@@ -143,10 +143,10 @@ fn told(at: usize, error: &Error, source: &str, line: std::ops::Range<usize>) ->
     if let Some((key, _)) = text.split_once(':').filter(|_| field.is_none())
         && let Some(field) = field_of(source, line.start, key.trim())
     {
-        let mend = format!("write {}", check::assignment(field));
+        let fix = format!("write {}", check::assignment(field));
         return Found::new(
             line.start + key.len(),
-            Problem::new(field.key, "`:` stands where `=` is due", mend),
+            Problem::new(field.key, "`:` stands where `=` is due", fix),
         );
     }
     Found::new(at, in_general(error, &field_name(source, &line)))
@@ -182,7 +182,7 @@ fn field_of(source: &str, line: usize, key: &str) -> Option<&'static Field> {
 /// What the writer of a field's value most likely missed: the quotes, the point, the value itself.
 fn mistaken(field: &Field, value: &str) -> Option<Problem> {
     let inner = value.trim_matches(['"', '\'']);
-    let problem = |cause: String, mend: String| Some(Problem::new(field.key, cause, mend));
+    let problem = |cause: String, fix: String| Some(Problem::new(field.key, cause, fix));
     if value.is_empty() {
         return problem(
             "there is no value after `=`".to_owned(),
@@ -203,14 +203,14 @@ fn mistaken(field: &Field, value: &str) -> Option<Problem> {
     match read {
         _ if value.contains(['"', '\'', '[', '{']) => None,
         Err(misread)
-            if matches!(field.kind, Kind::Count(..)) && misread.mend.contains("such as") =>
+            if matches!(field.kind, Kind::Count(..)) && misread.fix.contains("such as") =>
         {
             problem(
                 misread.cause,
                 format!("write a whole number, such as {}", field.example()),
             )
         }
-        Err(misread) => problem(misread.cause, misread.mend),
+        Err(misread) => problem(misread.cause, misread.fix),
         Ok(_) if field.is_flag() => problem(
             format!("{} is neither true nor false", quoted(value)),
             "write true or false".to_owned(),
@@ -226,8 +226,8 @@ fn mistaken(field: &Field, value: &str) -> Option<Problem> {
     }
 }
 
-/// How to mend what TOML refuses, by a part of its message.
-const MENDS: [(&str, &str); 16] = [
+/// How to fix what TOML refuses, by a part of its message.
+const FIXES: [(&str, &str); 16] = [
     ("unclosed table", "close the table's name with ]"),
     ("unclosed array", "close it with ]; a case has no arrays"),
     ("recurse", "a case has no nested arrays"),
@@ -270,11 +270,11 @@ const MENDS: [(&str, &str); 16] = [
 fn in_general(error: &Error, field: &str) -> Problem {
     let message = error.message();
     let cause = message.split(", expected").next().unwrap_or(message);
-    let mend = MENDS
+    let fix = FIXES
         .iter()
         .find(|(part, _)| message.contains(part))
-        .map_or("write it as TOML has it", |(_, mend)| mend);
-    Problem::new(field, cause, mend)
+        .map_or("write it as TOML has it", |(_, fix)| fix);
+    Problem::new(field, cause, fix)
 }
 
 fn is_double(error: &Error) -> bool {

@@ -171,7 +171,7 @@ impl Reader {
         }
     }
 
-    /// A newer format is the only fault that is told of such a file.
+    /// In a file of a newer format, the format is the only reported fault.
     fn format(&mut self, root: &DeTable<'_>) -> FaultKind {
         let Some(value) = root.get("format") else {
             self.fault(

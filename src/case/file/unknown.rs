@@ -31,9 +31,8 @@ pub(super) fn unknown_at_top(name: &str) -> Problem {
             .find(|field| field.name() == name)
             .map(|field| format!("put it under [{}]", field.table()))
     };
-    let mend =
-        elsewhere().unwrap_or_else(|| suggest::mend(name, known, || "take it out".to_owned()));
-    Problem::new(name, format!("unknown key or table {}", quoted(name)), mend)
+    let fix = elsewhere().unwrap_or_else(|| suggest::fix(name, known, || "take it out".to_owned()));
+    Problem::new(name, format!("unknown key or table {}", quoted(name)), fix)
 }
 
 /// The refusal of a name in a table.
@@ -48,8 +47,8 @@ pub(super) fn unknown_in_table(table: &str, name: &str) -> Problem {
             .find(|field| field.name() == name)
             .map(|field| format!("it belongs under [{}]", field.table()))
     };
-    let mend = elsewhere().unwrap_or_else(|| {
-        suggest::mend(name, here.clone(), || {
+    let fix = elsewhere().unwrap_or_else(|| {
+        suggest::fix(name, here.clone(), || {
             format!(
                 "[{table}] has {}",
                 here.clone().collect::<Vec<_>>().join(", ")
@@ -59,6 +58,6 @@ pub(super) fn unknown_in_table(table: &str, name: &str) -> Problem {
     Problem::new(
         &format!("{table}.{name}"),
         format!("unknown key {}", quoted(name)),
-        mend,
+        fix,
     )
 }

@@ -40,12 +40,12 @@ pub(super) fn bare_number(
                 quoted(text)
             );
             let is_number = text.trim().parse::<f64>().is_ok();
-            let mend = if is_number {
+            let fix = if is_number {
                 "write the number without quotes".to_owned()
             } else {
                 format!("write {example}, without quotes")
             };
-            Err(Some(ParseError::new(cause, mend)))
+            Err(Some(ParseError::new(cause, fix)))
         }
         None => scalar(value).ok_or(None),
     }

@@ -85,6 +85,6 @@ fn is_model(name: &str) -> bool {
 fn damaged(error: &ZipError) -> Refusal {
     Refusal::new(
         format!("the archive cannot be unpacked: {error}"),
-        "pack it anew as a plain zip file, deflated and without password",
+        "pack it again as a plain zip file, deflated and without password",
     )
 }

@@ -96,7 +96,7 @@ pub(super) fn parse(text: &str) -> Result<Model, Refusal> {
         let cause = words.split(" at line ").next().unwrap_or(&words);
         Refusal::new(
             format!("this is no REXS model in JSON: {cause}"),
-            "export the model anew",
+            "export the model again",
         )
         .at(error.line(), error.column())
     })?;

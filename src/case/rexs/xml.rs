@@ -53,7 +53,10 @@ fn refused(error: &roxmltree::Error) -> Refusal {
             let cause = words
                 .rsplit_once(" at ")
                 .map_or(words.as_str(), |(cause, _)| cause);
-            Refusal::new(format!("this is no XML: {cause}"), "export the model anew")
+            Refusal::new(
+                format!("this is not XML: {cause}"),
+                "export the model again",
+            )
         }
     };
     refusal.at(place.row as usize, place.col as usize)

@@ -3,14 +3,14 @@
 use super::{Dimension, System, find, number, parse, text, units_of};
 use crate::numeric::decimal::significant;
 
-/// The least digits of a hint: as many as results have, so that "20 hp" is told as 14.914 kW and
-/// not as 15.
+/// The least digits of a hint: as many as results have, so that "20 hp" becomes 14.914 kW and
+/// not 15.
 const LEAST_DIGITS: usize = 5;
 
 /// The most digits that a double carries.
 const MOST_DIGITS: usize = 15;
 
-/// Units that are no decimal multiple of SI and no inch unit: beside them the SI value is told too.
+/// Units that are no decimal multiple of SI and no inch unit: their hint also gives the SI value.
 const BESIDE: [(&str, &str); 2] = [("rpm", "rad/s"), ("deg", "rad")];
 
 /// What a typed value is in the field's usual unit, such as `= 14.914 kW` for "20 hp" where kW is
@@ -18,8 +18,8 @@ const BESIDE: [(&str, &str); 2] = [("rpm", "rad/s"), ("deg", "rad")];
 /// nothing to add, or the text is no value.
 ///
 /// Digits: one more than were typed, but at least five and at most fifteen; rounded to the nearest,
-/// and zeros at the end left out. A number typed is meant exactly, so that a nominal "20 hp" is
-/// told to the digits of a result.
+/// and zeros at the end left out. A number typed is meant exactly, so that a nominal "20 hp" gets
+/// the digits of a result.
 #[must_use]
 pub fn converted(
     typed: &str,
@@ -36,12 +36,12 @@ pub fn converted(
         .iter()
         .find(|(unit, _)| *unit == usual)
         .map(|(_, si)| *si);
-    let told: Vec<String> = std::iter::once(usual)
+    let text: Vec<String> = std::iter::once(usual)
         .chain(beside)
         .filter(|unit| *unit != written)
         .map(|unit| format!("= {} {unit}", rounded(value, unit, digits)))
         .collect();
-    (!told.is_empty()).then(|| told.join(" "))
+    (!text.is_empty()).then(|| text.join(" "))
 }
 
 /// Significant digits of a number as it was typed: 3 in "0.0250", 2 in "20", 1 in "0".
@@ -147,9 +147,9 @@ mod tests {
         fn what_is_told_is_the_value(number in -1e6f64..1e6, decimals in 0usize..9) {
             let typed = format!("{number:.decimals$} in");
             let value = parse(&typed, Dimension::Length, "mm").unwrap();
-            let told = metric(&typed, Dimension::Length, "mm").unwrap();
-            let read = parse(told.trim_start_matches("= "), Dimension::Length, "mm").unwrap();
-            prop_assert!((read - value).abs() <= 0.51e-4 * value.abs(), "{typed} is told as {told}");
+            let text = metric(&typed, Dimension::Length, "mm").unwrap();
+            let read = parse(text.trim_start_matches("= "), Dimension::Length, "mm").unwrap();
+            prop_assert!((read - value).abs() <= 0.51e-4 * value.abs(), "{typed} is text as {text}");
         }
     }
 }

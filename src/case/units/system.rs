@@ -156,7 +156,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn the_units_are_worth_what_their_definitions_say() {
+    fn the_units_are_scale_what_their_definitions_say() {
         for (unit, si) in [
             ("in", 25.4e-3),
             ("thou", 25.4e-6),
@@ -172,10 +172,10 @@ mod tests {
             ("ft/s", 0.3048),
             ("in2/lbf", 0.00064516 / 4.4482216152605),
         ] {
-            let worth = factor(unit).unwrap_or(f64::NAN);
+            let scale = factor(unit).unwrap_or(f64::NAN);
             assert!(
-                (worth / si - 1.0).abs() < 4e-16,
-                "{unit}: {worth:e} for {si:e}"
+                (scale / si - 1.0).abs() < 4e-16,
+                "{unit}: {scale:e} for {si:e}"
             );
         }
     }
@@ -194,41 +194,41 @@ mod tests {
 
     #[test]
     fn results_in_inch_units_read_as_an_engineer_writes_them() {
-        let told = |value, metric, digits| {
+        let text = |value, metric, digits| {
             let (number, unit) = shown(value, metric, digits, System::Inch);
             format!("{number} {unit}").trim_end().to_owned()
         };
-        assert_eq!(told(0.047891485, "mm", 6), "1.88549 in");
-        assert_eq!(told(47.327e-6, "um", 5), "1.8633 thou");
-        assert_eq!(told(2191.016, "N", 5), "492.56 lbf");
-        assert_eq!(told(0.8210639, "m/s", 5), "2.6938 ft/s");
-        assert_eq!(told(206e9, "GPa", 5), "29878 ksi");
-        assert_eq!(told(15e3, "kW", 5), "20.115 hp");
-        assert_eq!(told(71.6197, "N m", 5), "52.824 lbf ft");
-        assert_eq!(told(7800.0, "kg/m3", 5), "0.28179 lb/in3");
+        assert_eq!(text(0.047891485, "mm", 6), "1.88549 in");
+        assert_eq!(text(47.327e-6, "um", 5), "1.8633 thou");
+        assert_eq!(text(2191.016, "N", 5), "492.56 lbf");
+        assert_eq!(text(0.8210639, "m/s", 5), "2.6938 ft/s");
+        assert_eq!(text(206e9, "GPa", 5), "29878 ksi");
+        assert_eq!(text(15e3, "kW", 5), "20.115 hp");
+        assert_eq!(text(71.6197, "N m", 5), "52.824 lbf ft");
+        assert_eq!(text(7800.0, "kg/m3", 5), "0.28179 lb/in3");
         assert_eq!(
-            told(2000.0 * factor("rpm").unwrap(), "rpm", 5),
+            text(2000.0 * factor("rpm").unwrap(), "rpm", 5),
             "2000.0 rpm"
         );
-        assert_eq!(told(1.5568, "1", 5), "1.5568");
-        assert_eq!(told(133.9e-6, "us", 4), "133.9 us");
+        assert_eq!(text(1.5568, "1", 5), "1.5568");
+        assert_eq!(text(133.9e-6, "us", 4), "133.9 us");
     }
 
     #[test]
     fn no_value_is_told_in_more_places_than_it_has_digits() {
-        let told = |value, metric, digits, system| {
+        let text = |value, metric, digits, system| {
             let (number, unit) = shown(value, metric, digits, system);
             format!("{number} {unit}").trim_end().to_owned()
         };
-        assert_eq!(told(174_558.0, "N", 5, System::Metric), "174.56 kN");
-        assert_eq!(told(99_999.4, "N", 5, System::Metric), "99999 N");
-        assert_eq!(told(99_999.6, "N", 5, System::Metric), "100.00 kN");
-        assert_eq!(told(133_172e-6, "us", 4, System::Metric), "133.2 ms");
-        assert_eq!(told(-0.123_456_7, "um", 5, System::Metric), "-123.46 mm");
-        assert_eq!(told(3e12, "N", 5, System::Metric), "3.0000e6 MN");
-        assert_eq!(told(1_234_567.0, "1", 4, System::Metric), "1.235e6");
-        assert_eq!(told(3e6, "N", 5, System::Inch), "6.7443e5 lbf");
-        assert_eq!(told(3.0, "um", 5, System::Inch), "118.11 in");
+        assert_eq!(text(174_558.0, "N", 5, System::Metric), "174.56 kN");
+        assert_eq!(text(99_999.4, "N", 5, System::Metric), "99999 N");
+        assert_eq!(text(99_999.6, "N", 5, System::Metric), "100.00 kN");
+        assert_eq!(text(133_172e-6, "us", 4, System::Metric), "133.2 ms");
+        assert_eq!(text(-0.123_456_7, "um", 5, System::Metric), "-123.46 mm");
+        assert_eq!(text(3e12, "N", 5, System::Metric), "3.0000e6 MN");
+        assert_eq!(text(1_234_567.0, "1", 4, System::Metric), "1.235e6");
+        assert_eq!(text(3e6, "N", 5, System::Inch), "6.7443e5 lbf");
+        assert_eq!(text(3.0, "um", 5, System::Inch), "118.11 in");
     }
 
     #[test]

@@ -20,7 +20,7 @@ pub(super) struct Unit {
     pub(super) symbol: &'static str,
     /// Other spellings.
     pub(super) aliases: &'static [&'static str],
-    /// Its worth in SI.
+    /// Its value in SI.
     pub(super) scale: Scale,
 }
 

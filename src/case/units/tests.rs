@@ -12,12 +12,12 @@ fn length(text: &str) -> Result<f64, ParseError> {
 }
 
 #[track_caller]
-fn refused(text: &str, dimension: Dimension, usual: &str, cause: &str, mend: &str) {
+fn refused(text: &str, dimension: Dimension, usual: &str, cause: &str, fix: &str) {
     match parse(text, dimension, usual) {
         Ok(value) => panic!("{text} was read as {value}"),
         Err(misread) => {
             assert!(misread.cause.contains(cause), "{text}: {}", misread.cause);
-            assert!(misread.mend.contains(mend), "{text}: {}", misread.mend);
+            assert!(misread.fix.contains(fix), "{text}: {}", misread.fix);
         }
     }
 }
@@ -86,7 +86,7 @@ fn other_units_are_right_to_the_last_place() {
 
 #[test]
 fn what_is_no_value_is_refused_with_its_mend() {
-    for (text, cause, mend) in [
+    for (text, cause, fix) in [
         ("", "no value", "\"20 mm\""),
         ("5", "bare number", "\"5 mm\""),
         ("4,5 mm", "comma", "write 4.5, not 4,5"),
@@ -117,7 +117,7 @@ fn what_is_no_value_is_refused_with_its_mend() {
         ("5.5.5 mm", "not one number", "20 mm"),
         ("1_000 mm", "not one number", "20 mm"),
     ] {
-        refused(text, Dimension::Length, "mm", cause, mend);
+        refused(text, Dimension::Length, "mm", cause, fix);
     }
     refused(
         "0.3 mm",

@@ -57,7 +57,7 @@ type Build = fn(&ElasticGear, &Circles) -> Result<Arc<dyn LoadedTooth>, Refusal>
 /// Computes the compliance of one tooth, contact excluded, per unit width, in m²/N.
 #[derive(Debug, Clone, Copy)]
 pub enum Compliance {
-    /// From the radius of the load point, each time anew.
+    /// Computed from the radius of the load point at each call.
     AtRadius(ByRadius),
     /// From an object that is built once per gear and then read at each radius.
     PerGear(Build),

@@ -152,11 +152,11 @@ fn energies_balance_to_the_tolerance() {
             let meter = Meter::new(MOTION_WORK);
             let run = ran(&motion, &settings, &meter);
             let (unexplained, turned_over) = run.watch.energies(&motion, &mesh);
-            let told = format!(
+            let text = format!(
                 "teeth {teeth}, damping {damping_ratio}, friction {friction}: {unexplained:e} of \
                  {turned_over:e} J"
             );
-            assert!(unexplained < 1e-9 * turned_over, "{told}");
+            assert!(unexplained < 1e-9 * turned_over, "{text}");
         }
     }
 }

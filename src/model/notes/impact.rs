@@ -16,7 +16,7 @@ pub(super) fn withheld(_: &Inputs, solution: &Solution) -> Option<Note> {
         refusal.code(),
         format!(
             "{refusal}; force, energy and duration are not computed; {}",
-            refusal.mend()
+            refusal.fix()
         ),
     ))
 }
@@ -233,14 +233,14 @@ mod tests {
             let solution = solve(&inputs, Stages::EVERY).unwrap();
             let clear = solution.margin().unwrap();
             assert!(clear > 0.0 && clear < 0.01 * least, "{method:?}: {clear:e}");
-            let told = notes::notes(&inputs, &solution)
+            let text = notes::notes(&inputs, &solution)
                 .into_iter()
                 .find(|note| note.code == "barely-clear")
                 .unwrap()
                 .message;
             assert!(
-                told.contains("clears by only ") && told.contains("or the load rises by about "),
-                "{method:?}: {told}"
+                text.contains("clears by only ") && text.contains("or the load rises by about "),
+                "{method:?}: {text}"
             );
             let outcome = |part: f64| {
                 let base_pitch_deviation = 9e-6 + part * clear / SQRT_2;

@@ -90,7 +90,7 @@ pub fn explain(
             .then(|| format!("No value: {}", Absence::of(quantity, solution))),
         meaning: quantity.meaning_in(&used),
         beside: Beside::of(quantity, solution)
-            .map(|beside| format!("This is {}.", beside.told(System::Metric))),
+            .map(|beside| format!("This is {}.", beside.sentence(System::Metric))),
         derivation,
         leaves,
         source: quantity.source,

@@ -184,7 +184,7 @@ fn points(text: &mut String, solution: &Solution, view: &View) {
 /// What the picture shows, and a bar of a round length.
 fn caption(text: &mut String, view: &View) {
     let length = round_below(150.0 / view.scale);
-    let (dots, name) = (length * view.scale, told(length));
+    let (dots, name) = (length * view.scale, printed(length));
     let (left, base) = (WINDOW.0, HEIGHT - 14.0);
     let first = base - 21.0;
     let bar = WIDTH - WINDOW.0 - dots;
@@ -207,7 +207,7 @@ fn round_below(length: f64) -> f64 {
     times.unwrap_or(1.0) * power
 }
 
-fn told(length: f64) -> String {
+fn printed(length: f64) -> String {
     let millimetres = length * 1e3;
     if millimetres >= 1.0 {
         format!("{millimetres:.0} mm")

@@ -152,7 +152,7 @@ fn refused<'a>(report: &ToleranceReport<'a>) -> Vec<Refused<'a>> {
             of: report.study.design.count(),
             field: &refused.problem.field,
             cause: &refused.problem.cause,
-            fix: &refused.problem.mend,
+            fix: &refused.problem.fix,
         })
         .collect()
 }

@@ -107,30 +107,30 @@ fn quantity(report: &ToleranceReport, of: &OfQuantity, out: &mut dyn Write) -> i
     writeln!(out, "{heading}, {} values", figures.count)?;
     let ends = [figures.range.0, figures.range.1].into_iter();
     let unit = unit_beside(quantity, ends, System::Metric);
-    let told = |value: f64| shown_with(quantity, value, unit).to_string();
+    let printed = |value: f64| shown_with(quantity, value, unit).to_string();
     let mut row = |name: &str, estimate: &Estimate| {
-        let [value, from, to] = [estimate.value, estimate.from, estimate.to].map(told);
+        let [value, from, to] = [estimate.value, estimate.from, estimate.to].map(printed);
         writeln!(out, "  {name:<6}{value:>14} ({from} to {to})")
     };
     for (percent, estimate) in PERCENTILES.iter().zip(&figures.percentiles) {
         row(&format!("P{percent}"), estimate)?;
     }
     row("mean", &figures.mean)?;
-    writeln!(out, "  standard deviation {}", told(figures.deviation))?;
-    histogram(figures, &told, out)?;
+    writeln!(out, "  standard deviation {}", printed(figures.deviation))?;
+    histogram(figures, &printed, out)?;
     ranking(report, of, out)
 }
 
 fn histogram(
     figures: &Figures,
-    told: &dyn Fn(f64) -> String,
+    printed: &dyn Fn(f64) -> String,
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let most = figures.histogram.iter().copied().max().unwrap_or(0).max(1);
     let (from, to) = figures.range;
     let step = (to - from) / figures.histogram.len() as f64;
     let lower: Vec<String> = (0..figures.histogram.len())
-        .map(|bin| told(from + step * bin as f64))
+        .map(|bin| printed(from + step * bin as f64))
         .collect();
     let width = lower
         .iter()

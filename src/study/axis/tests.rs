@@ -176,7 +176,7 @@ fn a_bad_axis_gets_place_cause_and_fix() {
         ),
         ("driver.teeth=18.5..30", None, false, "whole number"),
     ] {
-        let told = refused(text, points, is_log);
-        assert!(told.contains(part), "{text}: {told}");
+        let message = refused(text, points, is_log);
+        assert!(message.contains(part), "{text}: {message}");
     }
 }

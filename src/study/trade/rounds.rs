@@ -72,8 +72,8 @@ impl<'a> Rounds<'a> {
         Ok(found.and_then(|solution| Ok((Answer::of(&solution), time.ok_or(Refusal::Stopped)?))))
     }
 
-    /// Whether another round is worth it: some time is not steady yet, and the round would not go
-    /// beyond the patience.
+    /// Whether to measure another round: some time is not steady yet, and the round ends within the
+    /// patience.
     pub(super) fn go_on(&self) -> bool {
         let gone = self.begun.elapsed().saturating_sub(self.first_look);
         let round = if self.done == 0 {

@@ -309,14 +309,14 @@ fn draw_preview(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffe
             lines.push(("There is no such file any more.".to_owned(), theme.problem));
         }
         None => lines.push(("reading ...".to_owned(), theme.faint)),
-        Some(preview) => lines.extend(told(preview, area.width.into(), theme)),
+        Some(preview) => lines.extend(lines_of(preview, area.width.into(), theme)),
     }
     for ((line, style), y) in lines.iter().zip(area.top()..area.bottom()) {
         buffer.set_stringn(area.x, y, line, area.width.into(), *style);
     }
 }
 
-fn told(preview: &Preview, width: usize, theme: &Theme) -> Vec<(String, Style)> {
+fn lines_of(preview: &Preview, width: usize, theme: &Theme) -> Vec<(String, Style)> {
     match preview {
         Preview::Case(case, is_newer) => {
             let newer = is_newer.then(|| {

@@ -32,13 +32,13 @@ pub(super) fn lines(digest: &Digest, width: usize, theme: &Theme) -> Vec<(String
         .flat_map(|text| said(text, plain)),
     );
     lines.extend(empty().chain(said(&digest.outcome, theme.focus)));
-    for (standing, told) in &digest.limits {
+    for (standing, text) in &digest.limits {
         let style = if standing.holds() {
             plain
         } else {
             theme.problem
         };
-        lines.extend(said(&format!("{} {told}", standing.word()), style));
+        lines.extend(said(&format!("{} {text}", standing.word()), style));
     }
     if digest.limits.is_empty() {
         lines.extend(said("No limits.", plain));

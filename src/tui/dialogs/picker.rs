@@ -87,7 +87,7 @@ fn draw(picker: &Picker, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> Op
             height: list.height - above.height,
             ..list
         };
-        draw_told(items.get(picker.marked), below, theme, buffer);
+        draw_detail(items.get(picker.marked), below, theme, buffer);
     }
     text::edited(
         &picker.input,
@@ -122,7 +122,7 @@ fn below_line(inner: Rect) -> Rect {
 
 fn above_told(items: &[Item], list: Rect) -> Rect {
     Rect {
-        height: list.height - told_lines(items, list),
+        height: list.height - detail_lines(items, list),
         ..list
     }
 }
@@ -170,13 +170,13 @@ fn draw_items(items: &[Item], marked: usize, area: Rect, theme: &Theme, buffer: 
 
 // What is said of any of the lines takes so many lines, a rule above them counted, so that the list
 // stays where it is.
-fn told_lines(items: &[Item], list: Rect) -> u16 {
-    let lines = |item: &Item| text::wrap(&told(item), list.width.into()).len();
+fn detail_lines(items: &[Item], list: Rect) -> u16 {
+    let lines = |item: &Item| text::wrap(&detail(item), list.width.into()).len();
     let most = items.iter().map(lines).max().unwrap_or(0) as u16 + 1;
     most.min(list.height / 3)
 }
 
-fn told(item: &Item) -> String {
+fn detail(item: &Item) -> String {
     let keys = if item.keys.is_empty() {
         String::new()
     } else {
@@ -185,7 +185,7 @@ fn told(item: &Item) -> String {
     format!("{}{keys}: {}", item.name, item.about)
 }
 
-fn draw_told(item: Option<&Item>, area: Rect, theme: &Theme, buffer: &mut Buffer) {
+fn draw_detail(item: Option<&Item>, area: Rect, theme: &Theme, buffer: &mut Buffer) {
     let Some(item) = item.filter(|_| area.height > 1) else {
         return;
     };
@@ -196,7 +196,7 @@ fn draw_told(item: Option<&Item>, area: Rect, theme: &Theme, buffer: &mut Buffer
         area.width.into(),
         theme.rule,
     );
-    for (line, y) in text::wrap(&told(item), area.width.into())
+    for (line, y) in text::wrap(&detail(item), area.width.into())
         .iter()
         .zip(area.y + 1..area.bottom())
     {

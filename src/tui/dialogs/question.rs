@@ -89,7 +89,7 @@ impl Question {
         }
     }
 
-    /// A file of that name is there, which says this otherwise than the form.
+    /// Asks before overwriting an existing file; `details` are its differences from the form.
     #[must_use]
     pub fn exists(path: &Path, details: Vec<String>, next: &Next) -> Question {
         Question {
@@ -111,7 +111,7 @@ impl Question {
         }
     }
 
-    /// Someone else wrote the file, which says this otherwise than the form.
+    /// Asks after another program wrote the file; `details` are its differences from the form.
     #[must_use]
     pub fn changed(path: &Path, details: Vec<String>, next: &Next) -> Question {
         Question {

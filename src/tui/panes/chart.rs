@@ -20,7 +20,7 @@ use crate::tui::solver::Answer;
 use crate::tui::theme::Look;
 
 use curves::{curves, way, way_by};
-use range::{Anew, ChartView, Frame, Occasion, Scale};
+use range::{ChartView, Frame, Occasion, Refit, Scale};
 
 pub use curves::first_contact;
 pub(crate) use curves::last_contact;
@@ -171,12 +171,12 @@ impl Charts<'_> {
     /// The axes, if they must change since an earlier occasion, with the new occasion.
     pub(crate) fn fitted_since(&self, before: Occasion) -> Option<(Occasion, Scale)> {
         let mut occasion = self.occasion();
-        let anew = occasion.since(before);
-        (before != occasion).then(|| (occasion, self.fitted(anew)))
+        let refit = occasion.since(before);
+        (before != occasion).then(|| (occasion, self.fitted(refit)))
     }
 
     /// Axes that contain every visible curve. Keeps the present axes while they serve.
-    fn fitted(&self, anew: Anew) -> Scale {
+    fn fitted(&self, refit: Refit) -> Scale {
         let mut scale = *self.scale;
         let Some(answer) = self.answer.filter(|_| !self.area.is_empty()) else {
             return scale;
@@ -188,9 +188,9 @@ impl Charts<'_> {
         let way = pinned
             .map_or(Span::NONE, |(base, method)| way_by(base, method))
             .and(way(answer));
-        scale.across = match (answer.pending, anew.all) {
+        scale.across = match (answer.pending, refit.all) {
             (Some(_), _) => scale.across.grown(way),
-            (None, true) => scale.across.anew(way),
+            (None, true) => scale.across.refit(way),
             (None, false) => scale.across.fitted(way),
         };
         let touches = [Some((answer, answer.active)), pinned];
@@ -200,9 +200,9 @@ impl Charts<'_> {
             .filter_map(|(answer, method)| first_contact(answer.of(method)?));
         let first = touches.fold(0.0, f64::max).to_degrees();
         let strike = Span::new(-first, AFTER_E * first);
-        scale.strike = match (strike.is_empty(), anew.all) {
+        scale.strike = match (strike.is_empty(), refit.all) {
             (true, _) => Span::default(),
-            (false, true) => scale.strike.anew(strike),
+            (false, true) => scale.strike.refit(strike),
             (false, false) => scale.strike.fitted(strike),
         };
         let window = self.pane.view.window(&scale);
@@ -213,8 +213,8 @@ impl Charts<'_> {
                 .map(|curve| curve.upright_within(window))
                 .fold(Span::NONE, Span::and);
             let now = scale.upright[graph];
-            scale.upright[graph] = if anew.upright || anew.all {
-                now.anew(values)
+            scale.upright[graph] = if refit.upright || refit.all {
+                now.refit(values)
             } else {
                 now.fitted(values)
             };

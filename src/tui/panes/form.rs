@@ -224,7 +224,7 @@ fn reasons(pane: &Form<'_>, field: usize, width: u16) -> impl Iterator<Item = St
         .filter(move |(at, _)| *at == field && has_reason);
     own.flat_map(move |(_, problem)| {
         let lines = text::wrap(
-            &format!("{}: {}", problem.cause, problem.mend),
+            &format!("{}: {}", problem.cause, problem.fix),
             usize::from(width).saturating_sub(5),
         );
         lines

@@ -311,7 +311,7 @@ pub fn sentence(pane: &Results<'_>, solution: &Solution) -> String {
 
 /// The outcome, the gauges and the notes in full, a line each.
 #[must_use]
-pub fn told(pane: &Results<'_>) -> Vec<String> {
+pub fn in_full(pane: &Results<'_>) -> Vec<String> {
     let Some(answer) = pane.answer else {
         return Vec::new();
     };
@@ -400,7 +400,7 @@ fn title(pane: &Results<'_>, rows: usize, room: usize) -> String {
         .unwrap_or_else(|| short.to_owned())
 }
 
-// With room every gauge and note is told in full, else each in a line, and the notes in one.
+// With room every gauge and note is printed in full, else each gauge in a line and the notes in one.
 fn parts(pane: &Results<'_>) -> Parts {
     let area = pane.area;
     let width = usize::from(area.width.saturating_sub(1));
@@ -473,13 +473,13 @@ fn shortened(notes: &[Note], width: usize) -> Option<String> {
         .map(|note| note.code.replace('-', " "))
         .collect();
     let noun = if count == 1 { "note" } else { "notes" };
-    let by_names = (1..=count).rev().map(|told| {
-        let others = if told < count {
-            format!(", {} more", count - told)
+    let by_names = (1..=count).rev().map(|shown| {
+        let others = if shown < count {
+            format!(", {} more", count - shown)
         } else {
             String::new()
         };
-        format!("key n: {}{others}", names[..told].join(", "))
+        format!("key n: {}{others}", names[..shown].join(", "))
     });
     let counted = format!("{count} {noun}: press n");
     let mut sayings = in_full.into_iter().chain(by_names).chain([counted.clone()]);
@@ -506,7 +506,7 @@ fn banner(pane: &Results<'_>, width: usize) -> Vec<Line<'static>> {
     let cause = said(format!("! Not solved: {refusal}."), theme.problem);
     cause
         .chain(said(
-            format!("Correction: {}.", refusal.mend()),
+            format!("Correction: {}.", refusal.fix()),
             Style::new(),
         ))
         .collect()

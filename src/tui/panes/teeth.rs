@@ -120,12 +120,12 @@ pub fn draw(picture: &Picture, area: Rect, buffer: &mut Buffer) {
 /// The values at the cursor, in lines.
 fn values(picture: &Picture, moment: Option<&ContactState>, width: u16) -> Vec<String> {
     let ascii = picture.look.ascii;
-    let told = moment
+    let values = moment
         .map(|moment| readings::readings(moment, (picture.inputs, picture.solution), picture.units))
         .unwrap_or_default();
-    let told = told.iter().map(|reading| {
+    let values = values.iter().map(|reading| {
         let cells = reading.width(symbol(reading.symbol, ascii).width());
         (symbol(&reading.to_string(), ascii).into_owned(), cells)
     });
-    readings::lines(told, usize::from(width.saturating_sub(1)))
+    readings::lines(values, usize::from(width.saturating_sub(1)))
 }

@@ -59,7 +59,11 @@ pub fn draw(pane: &TradePane<'_>, buffer: &mut Buffer) {
     if plot.height >= 3 && plot.width >= 20 {
         draw_plot(pane, traded, trade, plot, buffer);
     }
-    write(&fitting(&told(pane, traded, trade), words), words, buffer);
+    write(
+        &fitting(&phrases(pane, traded, trade), words),
+        words,
+        buffer,
+    );
 }
 
 /// The settings that have an error and a time, the quicker ones first.
@@ -124,7 +128,7 @@ fn split(inner: Rect) -> (Rect, Rect, Rect) {
 }
 
 /// The marked setting in words, what matters most first; else how far the measurement is.
-fn told(pane: &TradePane<'_>, traded: &Traded, trade: &Trade) -> Vec<String> {
+fn phrases(pane: &TradePane<'_>, traded: &Traded, trade: &Trade) -> Vec<String> {
     let marked = traded.marked.and_then(|marked| {
         trade
             .settings
@@ -182,15 +186,15 @@ fn told(pane: &TradePane<'_>, traded: &Traded, trade: &Trade) -> Vec<String> {
 }
 
 /// As much of it as has room in that many lines, so that nothing is cut.
-fn fitting(told: &[String], area: Rect) -> String {
+fn fitting(phrases: &[String], area: Rect) -> String {
     let width = usize::from(area.width).saturating_sub(2);
     let fits = |words: &String| text::wrap(words, width).len() <= area.height.into();
-    let joined = |count: usize| told[..count].concat();
-    (1..=told.len())
+    let joined = |count: usize| phrases[..count].concat();
+    (1..=phrases.len())
         .rev()
         .map(joined)
         .find(fits)
-        .unwrap_or_else(|| joined(told.len().min(1)))
+        .unwrap_or_else(|| joined(phrases.len().min(1)))
 }
 
 /// What the signs in the pane mean.
@@ -461,7 +465,7 @@ mod tests {
 
     #[test]
     fn powers_of_ten_in_percent_are_short() {
-        let told: Vec<String> = [-16, -5, -2, 0, 3].map(in_percent).to_vec();
-        assert_eq!(told, ["1e-14", "0.001", "1", "100", "100000"]);
+        let phrases: Vec<String> = [-16, -5, -2, 0, 3].map(in_percent).to_vec();
+        assert_eq!(phrases, ["1e-14", "0.001", "1", "100", "100000"]);
     }
 }

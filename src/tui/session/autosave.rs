@@ -195,7 +195,7 @@ impl Autosave {
         (open.is_held || !claim.is_silent()).then_some(claim)
     }
 
-    // A save may have found that the other session has ended; or the same file was opened anew.
+    // A save may have found that the other session has ended; or the same file was opened again.
     fn claim_again(&mut self, open: &OpenCase<'_>) -> Option<Claim> {
         let is_locked = open
             .path

@@ -28,9 +28,9 @@ mod tests {
 
     #[test]
     fn lengths_of_time_are_told_as_people_do() {
-        let told = [0, 59, 60, 3599, 3600, 7260, 100_000, 172_800].map(age);
+        let ages = [0, 59, 60, 3599, 3600, 7260, 100_000, 172_800].map(age);
         assert_eq!(
-            told,
+            ages,
             [
                 "0 s",
                 "59 s",

@@ -157,7 +157,7 @@ fn read(path: &Path) -> Result<Journal, Untrusted> {
     Journal::from_text(&text).map_err(Untrusted::Fault)
 }
 
-// In words. One that cannot be moved stays, and is told again.
+// Returns the report. A journal that cannot be moved stays, and is reported again.
 fn set_aside(path: &Path, fault: &JournalFault) -> String {
     let free = (1..100)
         .map(|number| path.with_extension(format!("damaged-{number}")))

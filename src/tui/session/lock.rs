@@ -172,7 +172,7 @@ impl Holder {
         )
     }
 
-    /// Whether that very process is still there, as far as can be told from this machine.
+    /// Whether the same process still runs, as far as this machine can see.
     pub(crate) fn is_alive(&self) -> bool {
         self.host == host() && self.boot == boot() && started(self.process) == Some(self.started)
     }

@@ -1,4 +1,4 @@
-//! Saving a case, and what its file says otherwise than the form.
+//! Saving a case, and the difference between its file and the form.
 
 use std::path::PathBuf;
 

@@ -64,7 +64,7 @@ pub(crate) fn place_of(base: &Path, typed: &str) -> PathBuf {
     }
 }
 
-/// The path of what is typed while the browser is in `base`; `~` and `/` begin anew.
+/// The path of a text typed into a browser of `base`; `~` and `/` make it absolute.
 #[must_use]
 pub fn beneath(base: &Path, typed: &str) -> PathBuf {
     if typed.starts_with('~') {

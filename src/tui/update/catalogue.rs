@@ -59,14 +59,14 @@ pub(super) fn make(app: &mut App, gears: &[&str], material: &Material) -> Vec<Ef
     };
     app.say(format!(
         "{whose}: {} {verb} {}",
-        told(app, material),
+        assignments(app, material),
         material.name
     ));
     effects
 }
 
 // What a material sets, by its symbols.
-fn told(app: &App, material: &Material) -> String {
+fn assignments(app: &App, material: &Material) -> String {
     let values = material.texts().map(|(name, text)| {
         let field = FIELDS.iter().find(|field| field.name() == name);
         let name = field.map_or("", |field| {

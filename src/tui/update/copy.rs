@@ -81,11 +81,11 @@ fn copy(app: &mut App, text: String, what: &str) -> Vec<Effect> {
         ));
         return Vec::new();
     }
-    let told = if text.lines().count() > 1 {
+    let copied = if text.lines().count() > 1 {
         what.to_owned()
     } else {
         ascii::printable(&text).into_owned()
     };
-    app.say(format!("copied {told}"));
+    app.say(format!("copied {copied}"));
     vec![Effect::Copy(text)]
 }

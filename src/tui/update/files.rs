@@ -104,7 +104,7 @@ pub(super) fn choose(app: &mut App, choice: Choice) -> Vec<Effect> {
     }
 }
 
-/// A file was read, or its faults were found: then nothing changes but what is told.
+/// Opens a file that was read; reports its faults if there are any.
 pub(super) fn loaded(
     app: &mut App,
     path: PathBuf,

@@ -48,7 +48,7 @@ pub(super) fn explain(app: &mut App) -> Vec<Effect> {
 
 /// Open a page with all that stands above and below the results, however little room they have.
 pub(super) fn notes(app: &mut App) {
-    let lines = results::told(&app.results());
+    let lines = results::in_full(&app.results());
     if lines.is_empty() {
         app.complain("there are no results to show");
     } else {

@@ -65,7 +65,7 @@ pub(super) fn show_result(app: &mut App, key: &str) {
     show(app, Pane::Results);
 }
 
-/// A letter that is not a command in the focused pane is told as such, with what may have been meant.
+/// Reports a letter without a command in the focused pane, and suggests a command.
 pub(super) fn stray(app: &mut App, letter: char) {
     let name = if letter == ' ' {
         "Space".to_owned()

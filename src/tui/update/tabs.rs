@@ -53,7 +53,7 @@ pub(super) fn show(app: &mut App, document: Document, path: PathBuf) -> Option<R
     let replaces = own.is_some() || app.tab.is_untouched();
     let before = own.map(|_| app.tab.id);
     let request = put(app, Tab::new(document, Some(path)), replaces);
-    // The same file read anew is still the same one that is open.
+    // A file that is read again keeps its tab.
     app.tab.id = before.unwrap_or(app.tab.id);
     request
 }

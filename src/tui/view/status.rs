@@ -39,13 +39,16 @@ pub fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
         } else {
             ("", theme.note)
         };
-        let told = text::wrap(&format!("{mark}{}", message.text), width);
-        // A fault's mend stands at its end: a long message takes the place of what is focused.
-        is_long = told.len() > 1;
+        let wrapped = text::wrap(&format!("{mark}{}", message.text), width);
+        // A fault's fix stands at its end: a long message takes the place of what is focused.
+        is_long = wrapped.len() > 1;
         if is_long {
             lines.clear();
         }
-        lines.splice(0..0, told.into_iter().map(|line| Line::styled(line, style)));
+        lines.splice(
+            0..0,
+            wrapped.into_iter().map(|line| Line::styled(line, style)),
+        );
     }
     let room = usize::from(area.height);
     if !is_long {
@@ -79,7 +82,7 @@ pub fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.look.theme;
     let place = app.place();
     let mut spans = Vec::new();
-    let mut told: Vec<&str> = Vec::new();
+    let mut shown: Vec<&str> = Vec::new();
     let mut left = usize::from(area.width);
     for binding in BINDINGS
         .iter()
@@ -90,10 +93,10 @@ pub fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
         if used > left + 2 {
             break;
         }
-        if told.contains(&binding.name) {
+        if shown.contains(&binding.name) {
             continue;
         }
-        told.push(binding.name);
+        shown.push(binding.name);
         left = left.saturating_sub(used);
         spans.extend([
             Span::styled(key, theme.key),
@@ -178,7 +181,7 @@ fn typed(app: &App) -> Option<String> {
             .iter()
             .find(|(at, _)| *at == app.tab.form.focus)
     {
-        return Some(format!("Not yet: {}: {}.", problem.cause, problem.mend));
+        return Some(format!("Not yet: {}: {}.", problem.cause, problem.fix));
     }
     app.ending()?;
     rows::written_unit(&app.tab.case, app.tab.form.focus).map(|unit| format!("Unit added: {unit}."))
@@ -236,16 +239,16 @@ fn about_limit(app: &App, limit: &Limit) -> String {
     let verdict = solution
         .filter(|_| !limit.text.is_empty())
         .and_then(of_case);
-    let told = verdict.map(|verdict| {
+    let sentence = verdict.map(|verdict| {
         format!(
             "{} {}. ",
             verdict.standing.word(),
-            verdict.told(app.settings.units)
+            verdict.sentence(app.settings.units)
         )
     });
     format!(
         "{}The greatest value that {} may take; empty: none.",
-        told.unwrap_or_default(),
+        sentence.unwrap_or_default(),
         rows::label(&app.tab.case, app.tab.form.focus)
     )
 }

@@ -72,7 +72,7 @@ fn explained(asked: Asked) -> Explained {
         ))),
         Err(refusal) => Err(format!(
             "Not solved: {refusal}. Correction: {}.",
-            refusal.mend()
+            refusal.fix()
         )),
     };
     Explained { quantity, page }

@@ -119,8 +119,8 @@ mod tests {
             let mut asked = request(serial);
             asked.inputs.method = method;
             solver.request(asked);
-            let mut told = Vec::new();
-            while told.last() != Some(&true) {
+            let mut found = Vec::new();
+            while found.last() != Some(&true) {
                 let Ok(Action::Solved(answer)) = replies.recv() else {
                     continue;
                 };
@@ -131,10 +131,10 @@ mod tests {
                     .and_then(|solution| solution.clearing);
                 if answer.pending.is_none() {
                     assert_eq!(clearing.is_none(), answer.lacks(Stage::Clearing));
-                    told.push(clearing.is_some_and(|clearing| clearing.relief.is_some()));
+                    found.push(clearing.is_some_and(|clearing| clearing.relief.is_some()));
                 }
             }
-            assert_eq!(told, expected, "{}", method.name());
+            assert_eq!(found, expected, "{}", method.name());
         }
     }
 

@@ -99,7 +99,7 @@ pub(crate) fn frozen() -> Vec<Row> {
         .collect()
 }
 
-/// Make the rows anew, on two threads, and freeze them.
+/// Make the rows again, on two threads, and freeze them.
 pub(crate) fn regenerate() {
     let rows: Vec<Row> = thread::scope(|scope| {
         let (first, second) = COUNTS.split_at(2);

@@ -54,7 +54,7 @@ class Gear:
         self.give = (1 - self.poisson**2) / self.young
 
     def inertia(self, pi):
-        """Moment of inertia of the disc between bore and base circle, Eq. 47 mended."""
+        """Moment of inertia of the disc between bore and base circle, Eq. 47 corrected."""
         return pi * self.density * self.width / 2 * (self.base**4 - self.bore**4)
 
     def kuang_yang(self, module):

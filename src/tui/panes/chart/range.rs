@@ -152,9 +152,9 @@ pub struct Occasion {
     pub ground: (Option<Method>, u64),
 }
 
-/// The axes that are fitted anew even if the old ones would serve.
+/// The axes to fit again even if they still cover the values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Anew {
+pub struct Refit {
     /// The value axes: for other charts or other units.
     pub upright: bool,
     /// All axes: for another method, or after an undo.
@@ -165,14 +165,14 @@ impl Occasion {
     /// Compares with an earlier occasion. While an answer is incomplete, the method and the undo of
     /// the earlier occasion still count.
     #[must_use]
-    pub fn since(&mut self, before: Occasion) -> Anew {
+    pub fn since(&mut self, before: Occasion) -> Refit {
         if self
             .answered
             .is_some_and(|(serial, is_pending)| is_pending || serial < self.ground.1)
         {
             self.ground = before.ground;
         }
-        Anew {
+        Refit {
             upright: self.shown != before.shown,
             all: self.ground != before.ground,
         }

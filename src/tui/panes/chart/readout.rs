@@ -3,7 +3,7 @@
 use super::Charts;
 use super::curves::{Curve, Whose, curves};
 use crate::case::units;
-use crate::model::Told;
+use crate::model::Interpolated;
 use crate::model::inputs::Method;
 use crate::model::interpolate::DIGITS_BETWEEN;
 use crate::numeric::decimal::significant;
@@ -105,19 +105,22 @@ fn value(charts: &Charts, graph: &Graph, curve: &Curve, cursor: f64) -> Option<(
         answer.active
     };
     let solution = answer.of(method)?;
-    let told = Told::at(&answer.inputs, solution, cursor)?;
+    let interpolated = Interpolated::at(&answer.inputs, solution, cursor)?;
     if let Whose::Bound(_) = curve.whose {
-        let digits = if matches!(told, Told::Between(_)) {
+        let digits = if matches!(interpolated, Interpolated::Between(_)) {
             DIGITS_BETWEEN
         } else {
             curve.column.digits
         };
-        Some(((graph.bound?.value)(solution, Row::from(&told))?, digits))
+        Some((
+            (graph.bound?.value)(solution, Row::from(&interpolated))?,
+            digits,
+        ))
     } else {
-        let value = curve.column.of(Row::from(&told))?;
+        let value = curve.column.of(Row::from(&interpolated))?;
         Some((
             curve.column.resolved(value, &answer.inputs, solution),
-            curve.column.digits_of(&told),
+            curve.column.digits_of(&interpolated),
         ))
     }
 }

@@ -118,13 +118,13 @@ fn ratios(answer: &Answer, ascii: bool) -> Option<Gauge> {
 
 // A ratio as a multiple, a fraction or a percentage.
 fn times(ratio: f64) -> Option<String> {
-    let told = match ratio {
+    let line = match ratio {
         _ if !ratio.is_finite() || ratio <= 0.0 => return None,
         _ if ratio >= 2.0 => format!("{} times", rounded(ratio)),
         _ if ratio <= 0.5 => format!("1/{}", rounded(1.0 / ratio)),
         _ => format!("{:.1} %", 100.0 * ratio),
     };
-    Some(told)
+    Some(line)
 }
 
 fn rounded(ratio: f64) -> String {

@@ -228,8 +228,8 @@ fn is_changed(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> bool 
         .position(|known| known.key == quantity.key);
     let before = at.and_then(|at| earlier.get(at).copied().flatten());
     let now = answer.of(answer.active).and_then(quantity.value);
-    let told = |value: Option<f64>| value.map(|value| shown_in(pane, quantity, value));
-    told(before) != told(now)
+    let printed = |value: Option<f64>| value.map(|value| shown_in(pane, quantity, value));
+    printed(before) != printed(now)
 }
 
 fn value(answer: &Answer, method: Method, quantity: &Quantity) -> Option<f64> {

@@ -103,19 +103,19 @@ fn reading(
     system: System,
 ) -> Option<Reading> {
     let column: &Column = COLUMNS.iter().find(|column| column.key == key)?;
-    let told = moment
-        .told
+    let interpolated = moment
+        .interpolated
         .as_ref()
         .map(Row::from)
         .and_then(|row| column.of(row));
-    let value = told.or_else(|| without_contact(moment, key));
+    let value = interpolated.or_else(|| without_contact(moment, key));
     if value.is_none() && !column.methods.contains(&solution.method) {
         return None;
     }
     let digits = moment
-        .told
+        .interpolated
         .as_ref()
-        .map_or(column.digits, |told| column.digits_of(told));
+        .map_or(column.digits, |interpolated| column.digits_of(interpolated));
     let usual = if column.shown == "1" {
         ""
     } else {

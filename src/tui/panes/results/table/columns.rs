@@ -16,7 +16,7 @@ use crate::tui::text;
 const NUMBER: usize = 9;
 /// A blank and the mark behind a unit.
 const MARK: usize = 2;
-/// Labels are worth more than a further method from so many on.
+/// With this many methods, labels get the room before a further method.
 const ENOUGH_METHODS: usize = 2;
 /// So many columns at least for the equations.
 const EQUATIONS: usize = 12;

@@ -53,7 +53,7 @@ pub(in crate::tui::panes::results) fn compared(
     quantity: &Quantity,
 ) -> Option<String> {
     let (method, base) = base(pane, answer, quantity)?;
-    let told = |value: Option<f64>| {
+    let printed = |value: Option<f64>| {
         value.map_or_else(
             || "none".to_owned(),
             |value| shown_in(pane, quantity, value).to_string(),
@@ -66,8 +66,8 @@ pub(in crate::tui::panes::results) fn compared(
     };
     Some(format!(
         "{}; baseline{whose}: {}.",
-        told(value(answer, answer.active, quantity)),
-        told(base)
+        printed(value(answer, answer.active, quantity)),
+        printed(base)
     ))
 }
 
@@ -105,28 +105,32 @@ mod tests {
 
     #[test]
     fn a_difference_is_in_percent_of_the_baseline_and_fits() {
-        for (now, base, told) in [
+        for (now, base, expected) in [
             (110.0, 100.0, "+10.0 %"),
             (99.99, 100.0, "-0.010 %"),
             (-2.0, -1.0, "-100 %"),
             (1.0, 1.0, UNCHANGED),
             (0.0, 0.0, UNCHANGED),
         ] {
-            assert_eq!(against(now, base).as_deref(), Some(told), "{now} {base}");
-            assert!(told.len() <= WIDTH);
+            assert_eq!(
+                against(now, base).as_deref(),
+                Some(expected),
+                "{now} {base}"
+            );
+            assert!(expected.len() <= WIDTH);
         }
     }
 
     #[test]
     fn a_value_many_times_the_baseline_shows_the_baseline() {
-        for (now, base, told) in [
+        for (now, base, expected) in [
             (1.0, 0.0, "was 0"),
             (18.0, 0.0169, "was 0.017"),
             (1e9, 1.0, "was 1.00"),
             (500.0, 47.3, "was 47.3"),
         ] {
             assert_eq!(against(now, base), None, "{now} {base}");
-            assert_eq!(was(base, "1", WIDTH), told);
+            assert_eq!(was(base, "1", WIDTH), expected);
         }
     }
 }
