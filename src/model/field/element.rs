@@ -63,6 +63,26 @@ pub(super) fn stiffness(places: &[Vector2<f64>; 9], material: Material) -> Optio
     Some(products.stiffness(material))
 }
 
+/// Node of an element in its middle, which no other element shares.
+pub(super) const MIDDLE: usize = 4;
+
+/// Takes the middle node out of a stiffness: no load acts on it, so that it moves as the others
+/// make it. Its rows and columns become zero.
+pub(super) fn take_middle_out(stiffness: &mut Stiffness) {
+    for unknown in [2 * MIDDLE, 2 * MIDDLE + 1] {
+        let taken = stiffness[unknown];
+        let pivot = taken[unknown];
+        for row in stiffness.iter_mut() {
+            let share = row[unknown] / pivot;
+            for (entry, taken) in row.iter_mut().zip(&taken) {
+                *entry -= share * taken;
+            }
+            row[unknown] = 0.0;
+        }
+        stiffness[unknown] = [0.0; 18];
+    }
+}
+
 /// Whether the map folds at a point of the rule.
 pub(super) fn folds(places: &[Vector2<f64>; 9]) -> bool {
     let points = GAUSS.map(|(place, _)| place);

@@ -1,6 +1,6 @@
 //! Half a tooth pitch condensed to the cut in the middle of the space.
 
-use super::element::Stiffness;
+use super::element::{self, Stiffness};
 use super::envelope::{Envelope, dot};
 use super::load::{Load, NodeVector};
 use super::mesh::Mesh;
@@ -57,6 +57,10 @@ struct Unknowns {
 impl Unknowns {
     fn of(mesh: &Mesh, mode: Mode) -> Unknowns {
         let (inner_nodes, cut) = (mesh.inner(), mesh.on_cut());
+        let mut is_free = vec![true; inner_nodes];
+        for element in &mesh.elements {
+            is_free[element[element::MIDDLE]] = false;
+        }
         let mut count = 0;
         let mut next = |is_free: bool| {
             let unknown = if is_free { count } else { FIXED };
@@ -66,7 +70,8 @@ impl Unknowns {
         let mut of_node: Vec<_> = (0..inner_nodes)
             .map(|node| {
                 let is_central = mesh.is_central(node);
-                [Mode::Symmetric, Mode::Antisymmetric].map(|held| next(!is_central || mode != held))
+                [Mode::Symmetric, Mode::Antisymmetric]
+                    .map(|held| next(is_free[node] && (!is_central || mode != held)))
             })
             .collect();
         let inner = count;
