@@ -53,9 +53,8 @@ fn the_first_frame_comes_within_two_and_a_half_times_vims() {
 #[test]
 fn a_headless_solve_is_soon_done() {
     const PAIRS: usize = 15;
-    /// Of what it takes to start a program that does nothing; the promise is 10 ms. Without the
-    /// optimisation of a release, the two elastic fields of the stiffness spread take most of it.
-    const MOST: f64 = if cfg!(debug_assertions) { 40.0 } else { 10.0 };
+    /// Of what it takes to start a program that does nothing; the promise is 10 ms.
+    const MOST: f64 = 10.0;
     let launch = Launch::on_table_1();
     let case = launch.case();
     let run = |program: &str, words: &[&str]| {

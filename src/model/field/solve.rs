@@ -174,14 +174,15 @@ fn stiffnesses(
 ) -> Result<Vec<element::Stiffness>, FieldRefusal> {
     let material = Material::of(poisson);
     let cut = mesh.inner()..mesh.inner() + mesh.on_cut();
-    let stiffness = |(index, nodes): (usize, &mesh::Nodes)| {
+    let mut stiffnesses = Vec::with_capacity(mesh.elements.len());
+    for (index, nodes) in mesh.elements.iter().enumerate() {
         let places = nodes.map(|node| mesh.places[node]);
         let mut stiffness =
             element::stiffness(&places, material).ok_or_else(|| folded(index, mesh))?;
         let is_on_cut = nodes.map(|node| cut.contains(&node));
         mode::turn(&mut stiffness, is_on_cut, boundary.half_pitch);
         element::take_middle_out(&mut stiffness);
-        Ok(stiffness)
-    };
-    mesh.elements.iter().enumerate().map(stiffness).collect()
+        stiffnesses.push(stiffness);
+    }
+    Ok(stiffnesses)
 }
