@@ -7,35 +7,27 @@ pub mod evaluate;
 pub mod examples;
 pub mod fields;
 pub mod file;
-mod hint;
-pub mod materials;
 mod relevance;
 pub mod rexs;
 pub mod sanitize;
-pub mod search;
 pub mod spread;
 pub mod stamp;
-pub mod step;
 pub(crate) mod suggest;
-mod typing;
 pub mod units;
-pub mod words;
 
 use std::sync::Arc;
 
 use crate::model::inputs::Method;
 use crate::model::{Inputs, QUANTITIES, Quantity};
 pub use changes::Change;
+pub(crate) use check::put as put_field;
 pub use check::{Problem, field_range, field_value, misfit_between, unknown_key, unknown_quantity};
 pub use evaluate::Evaluator;
 pub use examples::{EXAMPLES, Example};
 pub use fields::{FIELDS, Field};
 pub use file::Document;
 pub use relevance::{Acting, partial_relevance, relevance};
-pub use search::search;
 pub use spread::Spread;
-pub use step::step;
-pub use typing::Measure;
 
 /// A case: what the user wrote in each field, in the order of [`FIELDS`], and the limits it is held
 /// to.

@@ -23,6 +23,8 @@ pub mod effects;
 #[doc(hidden)]
 pub mod events;
 #[doc(hidden)]
+pub mod form_aids;
+#[doc(hidden)]
 pub mod help;
 #[doc(hidden)]
 pub mod jobs;

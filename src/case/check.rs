@@ -106,7 +106,7 @@ fn limits(case: &Case) -> impl Iterator<Item = Problem> {
 }
 
 /// Read one field, or its default, into the inputs.
-pub(super) fn put(case: &Case, field: usize, inputs: &mut Inputs) -> Result<(), Problem> {
+pub(crate) fn put(case: &Case, field: usize, inputs: &mut Inputs) -> Result<(), Problem> {
     let known = &FIELDS[field];
     match (case.text(field), known.absent) {
         (Some(text), _) | (None, Absent::Default(text)) => put_text(known, field, text, inputs),

@@ -2,8 +2,9 @@
 
 use crate::case::fields::{Absent, Field, Kind, index_of};
 use crate::case::units::{self, System};
-use crate::case::{Case, FIELDS, Limit, Measure, step};
+use crate::case::{Case, FIELDS, Limit};
 use crate::model::Quantity;
+use crate::tui::form_aids::{Measure, step_limit};
 
 /// What stands in a row.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -112,7 +113,7 @@ pub(crate) fn is_unfinished(case: &Case, at: usize, typed: &str) -> bool {
 pub fn stepped(case: &Case, at: usize, by: i32) -> Option<String> {
     match row(case, at) {
         Row::Field(field) => case.stepped(field, by),
-        Row::Limit(limit) => step::step_limit(&limit.text, limit.quantity, by),
+        Row::Limit(limit) => step_limit(&limit.text, limit.quantity, by),
     }
 }
 

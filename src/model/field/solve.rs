@@ -156,7 +156,10 @@ pub(super) fn under_loads(
     let (even, odd) = thread::scope(|scope| {
         let even = scope.spawn(|| condense(Mode::Symmetric));
         let odd = condense(Mode::Antisymmetric);
-        (even.join().unwrap_or_else(|panic| resume_unwind(panic)), odd)
+        (
+            even.join().unwrap_or_else(|panic| resume_unwind(panic)),
+            odd,
+        )
     });
     let modes = even.zip(odd);
     let displacements =

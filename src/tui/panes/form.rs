@@ -7,9 +7,10 @@ use unicode_width::UnicodeWidthStr;
 
 use super::title::Title;
 use crate::case::fields::{GROUPS, Kind};
-use crate::case::{Acting, Case, FIELDS, Problem, materials, relevance};
+use crate::case::{Acting, Case, FIELDS, Problem, relevance};
 use crate::model::Inputs;
 use crate::tui::ascii::{self, symbol};
+use crate::tui::form_aids::materials;
 use crate::tui::line::Line as Text;
 use crate::tui::rows;
 use crate::tui::solver::Answer;

@@ -2,8 +2,6 @@
 
 use super::edit;
 use crate::case::fields::index_of;
-use crate::case::materials::{self, Material};
-use crate::case::step::step_limit;
 use crate::case::{FIELDS, Limit};
 use crate::model::Quantity;
 use crate::report;
@@ -12,6 +10,8 @@ use crate::tui::app::App;
 use crate::tui::ascii::symbol;
 use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::picker::{List, Picker};
+use crate::tui::form_aids::materials::{self, Material};
+use crate::tui::form_aids::step_limit;
 use crate::tui::jobs::Job;
 use crate::tui::pane::Pane;
 use crate::tui::panes::results;

@@ -8,7 +8,7 @@ use unicode_width::UnicodeWidthStr;
 
 use crate::case::fields::{Absent, Field, Kind};
 use crate::case::units::System;
-use crate::case::{Acting, FIELDS, Limit, materials, partial_relevance, relevance};
+use crate::case::{Acting, FIELDS, Limit, partial_relevance, relevance};
 use crate::model::inputs::Method;
 use crate::numeric::decimal::shortest;
 use crate::report::verdict::verdicts;
@@ -16,6 +16,7 @@ use crate::tui::actions::Progress;
 use crate::tui::app::App;
 use crate::tui::ascii::symbol;
 use crate::tui::commands::{BINDINGS, Binding};
+use crate::tui::form_aids::materials;
 use crate::tui::keys::Chord;
 use crate::tui::pane::Pane;
 use crate::tui::panes::{chart, results, trade};

@@ -1,12 +1,12 @@
 //! The lines of lists: their names, descriptions and effects, and how well they match.
 
-use crate::case::materials::Material;
 use crate::case::{Example, FIELDS};
 use crate::model::Quantity;
 use crate::report::digest::Digest;
 use crate::report::graphs::Graph;
 use crate::tui::ascii::symbol;
 use crate::tui::commands::{self, Command};
+use crate::tui::form_aids::materials::Material;
 use crate::tui::panes::chart::ChartCommand;
 
 /// The rank of a word that occurs in the description only.

@@ -2,11 +2,12 @@
 
 use std::cmp::Reverse;
 
-use crate::case::{EXAMPLES, FIELDS, materials, search};
+use crate::case::{EXAMPLES, FIELDS};
 use crate::model::{QUANTITIES, Quantity};
 use crate::report::digest::Digest;
 use crate::report::graphs::GRAPHS;
 use crate::tui::commands::{self, Command};
+use crate::tui::form_aids::{materials, search, search_results};
 use crate::tui::line::Line;
 
 use super::item::{
@@ -161,7 +162,7 @@ impl Picker {
         } = &self.context;
         let words = typed.split_whitespace().count();
         let more_words = |label: &str| label.split_whitespace().count().saturating_sub(words);
-        let fields = search::search(typed).into_iter().map(|(at, score)| {
+        let fields = search(typed).into_iter().map(|(at, score)| {
             let loss = if idle.contains(&at) { IDLE } else { 0 };
             let order = (more_words(FIELDS[at].label), *are_results_first);
             let is_later = FIELDS[at].key != FOREMOST;
@@ -169,7 +170,7 @@ impl Picker {
             Place::new(score, rank, field(at))
         });
         let known = |quantity: &&'static Quantity| results.contains(&quantity.key);
-        let found = search::search_results(typed)
+        let found = search_results(typed)
             .into_iter()
             .filter_map(|(at, score)| Some((score, Some(&QUANTITIES[at]).filter(known)?)));
         let found = found.map(|(score, quantity)| {

@@ -5,8 +5,8 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
-use super::fields::index_of;
-use super::{Case, Problem, check};
+use crate::case::fields::index_of;
+use crate::case::{Case, Problem, put_field};
 use crate::model::Inputs;
 use crate::model::inputs::Gear;
 
@@ -34,7 +34,7 @@ struct Catalogue {
     material: Vec<Material>,
 }
 
-const TEXT: &str = include_str!("../../assets/materials.toml");
+const TEXT: &str = include_str!("../../../assets/materials.toml");
 
 static ALL: LazyLock<Vec<Material>> = LazyLock::new(|| {
     toml::from_str::<Catalogue>(TEXT)
@@ -135,7 +135,7 @@ pub fn name_of_gear(case: &Case, gear: &str) -> Option<String> {
 fn constants(case: &Case, gear: &str) -> Option<[f64; 3]> {
     let mut inputs = Inputs::default();
     for name in ["young", "poisson", "density"] {
-        check::put(case, index_of(&format!("{gear}.{name}"))?, &mut inputs).ok()?;
+        put_field(case, index_of(&format!("{gear}.{name}"))?, &mut inputs).ok()?;
     }
     let Gear {
         young,

@@ -1,9 +1,9 @@
 //! What a form says about a field beside its text: its usual unit, its range, its value in other
 //! units.
 
-use super::Case;
-use super::fields::{Absent, FIELDS, Field, Kind};
-use super::units::{self, System};
+use crate::case::Case;
+use crate::case::fields::{Absent, FIELDS, Field, Kind};
+use crate::case::units::{self, System};
 use crate::model::explanation::tidy;
 use crate::numeric::decimal::significant;
 

@@ -3,8 +3,8 @@
 
 use std::sync::LazyLock;
 
-use super::Problem;
-use super::fields::{FIELDS, Field, index_of};
+use crate::case::Problem;
+use crate::case::fields::{FIELDS, Field, index_of};
 use crate::model::QUANTITIES;
 
 /// The quantity of a key such as `limits.impact_force`.
@@ -40,7 +40,7 @@ impl Problem {
 
 /// A sentence for a file or a command line as a form says it.
 #[must_use]
-pub fn for_form(sentence: &str) -> String {
+fn for_form(sentence: &str) -> String {
     let sentence = written(sentence).unwrap_or_else(|| sentence.to_owned());
     let labelled = if sentence.contains('.') {
         with_labels(sentence)
@@ -53,7 +53,7 @@ pub fn for_form(sentence: &str) -> String {
 /// What a person calls the field of a key: `module`, `the driver's tip relief`, `limit of impact
 /// force`; the key itself where no field has it.
 #[must_use]
-pub fn called(key: &str) -> String {
+fn called(key: &str) -> String {
     if let Some(field) = index_of(key) {
         return name(&FIELDS[field]);
     }

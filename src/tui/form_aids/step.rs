@@ -1,7 +1,7 @@
 //! A value one step up or down: its last digit moves, and all else stays as it was typed.
 
-use super::fields::{Absent, FIELDS, Kind};
-use super::{Case, Limit};
+use crate::case::fields::{Absent, FIELDS, Kind};
+use crate::case::{Case, Limit};
 
 /// The text of a field moved by that many units of its last digit, and kept within the field's
 /// range: "16 um" becomes "17 um", "0.50" becomes "0.51", "1e3 um" becomes "2e3 um". A count moves

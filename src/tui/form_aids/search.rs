@@ -3,7 +3,7 @@
 
 use std::sync::LazyLock;
 
-use super::fields::{FIELDS, Field, GROUPS};
+use crate::case::fields::{FIELDS, Field, GROUPS};
 use crate::model::{QUANTITIES, Quantity};
 
 /// Greek letters as they are spelled on a keyboard.

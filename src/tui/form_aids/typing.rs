@@ -1,9 +1,9 @@
 //! What a form makes of a text while it is typed: the unit that completes it, and whether it is
 //! wrong or merely unfinished.
 
-use super::fields::{AUTO, Field, Kind};
-use super::units::{self, Dimension, Open, System};
-use super::{Limit, Problem};
+use crate::case::fields::{AUTO, Field, Kind};
+use crate::case::units::{self, Dimension, Open, System};
+use crate::case::{Limit, Problem};
 use crate::model::Quantity;
 
 /// What a number is measured in, where it is shown.
