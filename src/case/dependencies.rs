@@ -8,6 +8,7 @@ use super::fields::{Kind, Range};
 use super::units::{self, Dimension};
 use super::{Case, FIELDS};
 use crate::model::compliance::model_of;
+use crate::model::inputs::ToothCompliance;
 use crate::model::{self, Inputs, Quantity, Stage, Stages};
 
 /// A field that a quantity depends on.
@@ -41,16 +42,17 @@ pub fn fields_of(
 ) -> Vec<Dependence> {
     let behind = Stages::of(quantity.stage);
     let is_behind = |&field: &usize| stages_of(field, inputs).within(behind) != Stages::NONE;
+    let quick = quickest_of(quantity, inputs, own);
     let dependence = |field| {
-        let small = small_step(field, case, inputs);
+        let small = small_step(field, case, &quick);
         let after = small
             .as_ref()
             .map(|(_, inputs)| Outcome::of(quantity, inputs));
         let moves = own.is_none()
             || quantity.is_flag()
             || after.is_some_and(|after| after.differs(own) == Some(true))
-            || is_moved(quantity, own, field, case, inputs)
-                .or_else(|| is_moved_freely(quantity, field, case, inputs))
+            || is_moved(quantity, own, field, case, &quick)
+                .or_else(|| is_moved_freely(quantity, field, case, &quick))
                 .unwrap_or_default();
         let step = small.zip(after).map(|((text, _), after)| Step {
             text,
@@ -62,6 +64,23 @@ pub fn fields_of(
         .filter(is_behind)
         .filter_map(dependence)
         .collect()
+}
+
+/// The inputs without an elastic field, if the quantity does not depend on the tooth compliance; else
+/// the same inputs. The field of every changed gear would take longer than all other stages.
+fn quickest_of(quantity: &Quantity, inputs: &Inputs, own: Option<f64>) -> Inputs {
+    let quick = Inputs {
+        tooth_compliance: Some(ToothCompliance::BEAM),
+        ..inputs.clone()
+    };
+    let has_field = model_of(inputs) == ToothCompliance::FINITE_ELEMENT;
+    // A value of 0, and a flag, may be that of any compliance until a field changes.
+    let is_telling = has_field && !quantity.is_flag() && own.is_some_and(|own| own != 0.0);
+    if is_telling && Outcome::of(quantity, &quick).differs(own) == Some(false) {
+        quick
+    } else {
+        inputs.clone()
+    }
 }
 
 /// The value of a quantity with these inputs, in SI, if it has one.

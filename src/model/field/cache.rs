@@ -8,8 +8,8 @@ use crate::model::Refusal;
 use crate::model::geometry::{GearShape, circles};
 use crate::model::profile::{Profile, Rack};
 
-/// Most gears that are kept; the one that was read longest ago gives way.
-const MOST: usize = 64;
+/// Most gears that are kept, of 2 kB each; the one that was read longest ago gives way.
+const MOST: usize = 256;
 
 /// All that the field of a gear depends on.
 #[derive(Debug, Clone, Copy, PartialEq)]
