@@ -66,23 +66,29 @@ pub(super) fn share(
 }
 
 /// The mesh is computed no further than the pairs yield: where that was not far enough, again and
-/// further.
+/// further. An earlier mesh that reaches further serves earlier results alone, since another reach
+/// changes the last digits of new ones.
 fn within_reach(
     solution: &Solution,
     asked: &Request<'_>,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Shared, Refusal> {
+    let inputs = asked.inputs.mesh();
+    let first = first_reach(&inputs, solution);
+    let serves = |mesh: &&Arc<Mesh>| mesh.reach().to_bits() == first.to_bits() || all_kept(asked);
     if let Some(mesh) = asked
         .kept(Stage::Mesh)
-        .and_then(|earlier| earlier.mesh.clone())
+        .and_then(|earlier| earlier.mesh.as_ref())
+        .filter(serves)
     {
+        let mesh = mesh.turning_at(asked.inputs.speed);
         match run(&mesh, solution.reduced_mass, asked, Stages::NONE, go_on) {
             Err(Refusal::BeyondReach) if !mesh.is_whole() => (),
             found => return found,
         }
     }
     asked.note(Stage::Mesh, |_| false);
-    on_mesh(&asked.inputs.mesh(), solution, |mesh| {
+    on_mesh(&inputs, solution, |mesh| {
         run(
             mesh,
             solution.reduced_mass,
@@ -91,6 +97,23 @@ fn within_reach(
             go_on,
         )
     })
+}
+
+/// Whether every wanted result on the mesh is an earlier one.
+fn all_kept(asked: &Request<'_>) -> bool {
+    [Stage::Static, Stage::Dynamic]
+        .into_iter()
+        .filter(|&stage| asked.wanted.has(stage))
+        .all(|stage| asked.kept(stage).is_some())
+}
+
+/// Up to what gaps the mesh is computed at first, in m.
+fn first_reach(inputs: &MeshInputs, solution: &Solution) -> f64 {
+    const TIMES: f64 = 8.0;
+    let deviation = &solution.deviation;
+    let yields =
+        deviation.loaded_deflection() + deviation.equivalent_error.abs() + inputs.reliefs.sum();
+    TIMES * yields
 }
 
 /// What `find` finds on the mesh of a pair with the geometry, the load and the deviation of the
@@ -103,12 +126,9 @@ pub(super) fn on_mesh<T>(
     solution: &Solution,
     find: impl Fn(&Arc<Mesh>) -> Result<T, Refusal>,
 ) -> Result<T, Refusal> {
-    const AT_FIRST: f64 = 8.0;
     const FURTHER: f64 = 16.0;
     let deviation = &solution.deviation;
-    let yields =
-        deviation.loaded_deflection() + deviation.equivalent_error.abs() + inputs.reliefs.sum();
-    let mut reach = AT_FIRST * yields;
+    let mut reach = first_reach(inputs, solution);
     let mut known = solution.mesh.as_ref().map(|mesh| Arc::clone(mesh.flanks()));
     loop {
         let (force, error) = (solution.mesh_force, deviation.equivalent_error);

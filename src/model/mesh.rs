@@ -33,6 +33,8 @@ pub struct Mesh {
     pub force: f64,
     /// Speed along the line of action ω₁ r_b1, in m/s.
     pub speed: f64,
+    /// Speed of the driver ω₁, in rad/s.
+    driver_speed: f64,
     /// Equivalent error of the incoming pair without its reliefs, in m.
     pub error: f64,
     /// Mean stiffness of the mesh over a base pitch, pairs on the line of action alone, in N/m.
@@ -44,9 +46,12 @@ pub struct Mesh {
     friction: f64,
     pitch_point: f64,
     flanks: Arc<Flanks>,
-    zones: Vec<Zone>,
+    /// Those of any speed: they have the sliding velocity per unit of it.
+    zones: Arc<Vec<Zone>>,
     /// None if the pairs are independent springs.
-    couplings: Option<Couplings>,
+    couplings: Option<Arc<Couplings>>,
+    /// Up to what gaps it is known, in m.
+    reach: f64,
     is_whole: bool,
     work: u64,
 }
@@ -121,6 +126,8 @@ impl Mesh {
         neighbour: Neighbour<'_>,
     ) -> Result<Mesh, Refusal> {
         let relief = Relief::of(&inputs.reliefs, geometry);
+        let pace = inputs.speed;
+        let inputs = &inputs.at_speed(1.0);
         let run_in = End {
             inputs: *inputs,
             geometry: *geometry,
@@ -181,7 +188,8 @@ impl Mesh {
             base_pitch: geometry.base_pitch,
             length,
             force,
-            speed: inputs.speed * geometry.driver.base,
+            speed: pace * geometry.driver.base,
+            driver_speed: pace,
             error,
             mean_stiffness: 0.0,
             base_radii: (geometry.driver.base, geometry.driven.base),
@@ -194,12 +202,25 @@ impl Mesh {
                     .map(|zone| zone.series.evaluations() as u64)
                     .sum::<u64>(),
             flanks: Arc::clone(flanks),
-            zones,
-            couplings,
+            zones: Arc::new(zones),
+            couplings: couplings.map(Arc::new),
+            reach,
             is_whole: is_whole_before && is_whole_after,
         };
         mesh.check_couplings()?;
         Ok(mesh.with_mean_stiffness())
+    }
+
+    /// The same mesh while the driver turns at a speed, in rad/s.
+    pub(super) fn turning_at(self: &Arc<Mesh>, driver_speed: f64) -> Arc<Mesh> {
+        if driver_speed.to_bits() == self.driver_speed.to_bits() {
+            return Arc::clone(self);
+        }
+        Arc::new(Mesh {
+            speed: driver_speed * self.base_radii.0,
+            driver_speed,
+            ..Mesh::clone(self)
+        })
     }
 
     /// The same mesh if the force on a pair displaced no other.
@@ -274,6 +295,11 @@ impl Mesh {
     pub fn ends(&self) -> (f64, f64) {
         let from = self.zones.first().map_or(0.0, |zone| zone.from);
         (from, self.zones.last().map_or(0.0, |zone| zone.to))
+    }
+
+    /// Up to what gaps it is known, in m.
+    pub(super) fn reach(&self) -> f64 {
+        self.reach
     }
 
     /// Whether it reaches to the circles on which the tips end.
@@ -367,7 +393,7 @@ impl Mesh {
             stiffness,
             gap: gap - self.error_of(ahead),
             lever,
-            sliding,
+            sliding: self.driver_speed * sliding,
         };
         let direction = if self.friction > 0.0 {
             series.one(SLIDING, inside + way).signum()
@@ -429,9 +455,11 @@ impl Mesh {
         s: f64,
         length: f64,
     ) -> [Polynomial<TERMS>; 2] {
-        self.zones[zone]
-            .series
-            .local(LEVER, self.above(ahead, s), length)
+        let [lever, sliding] =
+            self.zones[zone]
+                .series
+                .local(LEVER, self.above(ahead, s), length);
+        [lever, sliding.scaled(self.driver_speed)]
     }
 
     /// How far up from `s` those polynomials serve, within the zone.
@@ -458,7 +486,7 @@ impl Mesh {
                 stiffness,
                 gap,
                 lever,
-                sliding,
+                sliding: self.driver_speed * sliding,
             },
             series.slope(GAP, s),
         )
@@ -468,7 +496,7 @@ impl Mesh {
     pub(super) fn slide(&self, ahead: i32, zone: usize, s: f64) -> (f64, f64) {
         let at = s + f64::from(ahead) * self.base_pitch;
         let [_, _, lever, sliding] = self.zones[zone].series.at(at);
-        (lever, sliding)
+        (lever, self.driver_speed * sliding)
     }
 
     fn error_of(&self, ahead: i32) -> f64 {

@@ -35,12 +35,12 @@ pub enum StageInputs {
     StiffnessSpread(PairShape, DeviationInputs, ImpactInputs),
     /// Impacts between D and E.
     Stations(ImpactInputs, Spacing),
-    /// Every pair along the line of action.
+    /// Every pair along the line of action, at any speed.
     Mesh(MeshInputs),
-    /// Stations of the load at rest.
-    Static(Spacing),
-    /// The motion.
-    Dynamic(Settings),
+    /// Stations of the load at rest, and the speed of the driver in rad/s, by which they slide.
+    Static(Spacing, f64),
+    /// The motion, and the speed of the driver in rad/s.
+    Dynamic(Settings, f64),
     /// The search for the relief: the mesh and the motion of the methods that have them.
     Clearing(DeviationInputs, Option<MeshInputs>, Option<Settings>),
 }
@@ -65,9 +65,9 @@ impl Stage {
                 StageInputs::StiffnessSpread(inputs.shape(), inputs.deviation(), inputs.impact())
             }
             Stage::Stations => StageInputs::Stations(inputs.impact(), Spacing::of(inputs)),
-            Stage::Mesh => StageInputs::Mesh(inputs.mesh()),
-            Stage::Static => StageInputs::Static(Spacing::of(inputs)),
-            Stage::Dynamic => StageInputs::Dynamic(inputs.motion()),
+            Stage::Mesh => StageInputs::Mesh(inputs.mesh().at_speed(1.0)),
+            Stage::Static => StageInputs::Static(Spacing::of(inputs), inputs.speed),
+            Stage::Dynamic => StageInputs::Dynamic(inputs.motion(), inputs.speed),
             Stage::Clearing => StageInputs::Clearing(
                 inputs.deviation(),
                 inputs.method.shares_load().then(|| inputs.mesh()),

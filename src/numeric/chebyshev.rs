@@ -334,7 +334,8 @@ fn values<const N: usize, const M: usize>(powers: &Terms<N>, first: usize, t: f6
     from_fn(|function| eight(0, first + function) + eight(8, first + function) * (fourth * fourth))
 }
 
-/// The coefficients of the powers of t − `at`, by Horner's rule once for each of them.
+/// The coefficients of the powers of t − `at`, by Horner's rule for all of them at once: no sum waits
+/// for another of the same round.
 fn about<const N: usize, const M: usize>(
     powers: &Terms<N>,
     first: usize,
@@ -344,13 +345,11 @@ fn about<const N: usize, const M: usize>(
     rest.iter_mut()
         .zip(powers)
         .for_each(|(rest, powers)| rest.copy_from_slice(&powers[first..first + M]));
-    for lowest in 0..TERMS - 1 {
-        let mut sums = rest[TERMS - 1];
-        for others in rest[lowest..TERMS - 1].iter_mut().rev() {
-            for (sum, other) in sums.iter_mut().zip(others.iter()) {
-                *sum = other + at * *sum;
+    for lowest in (0..TERMS - 1).rev() {
+        for power in lowest..TERMS - 1 {
+            for function in 0..M {
+                rest[power][function] += at * rest[power + 1][function];
             }
-            *others = sums;
         }
     }
     let mut all = [[0.0; TERMS]; M];

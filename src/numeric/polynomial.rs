@@ -55,10 +55,13 @@ impl<const N: usize> Polynomial<N> {
     /// The same over another measure of the way: a(`by` t).
     #[must_use]
     pub fn stretched(mut self, by: f64) -> Polynomial<N> {
-        let mut factor = 1.0;
-        for coefficient in &mut self.0 {
-            *coefficient *= factor;
-            factor *= by;
+        let square = by * by;
+        let (mut factors, fourth) = ([1.0, by, square, square * by], square * square);
+        for four in self.0.chunks_mut(factors.len()) {
+            for (coefficient, factor) in four.iter_mut().zip(&mut factors) {
+                *coefficient *= *factor;
+                *factor *= fourth;
+            }
         }
         self
     }

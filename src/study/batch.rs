@@ -323,6 +323,8 @@ impl<'a> PointSolver<'a> {
     ) -> Result<Option<Refusal>, Unsolved> {
         let batch = self.batch;
         batch.points.put(index, &mut self.inputs)?;
+        // No quantity reads the stations.
+        self.inputs.stations = Some(1);
         if let Some(problem) = misfit_between(&self.inputs) {
             return Err(problem.into());
         }

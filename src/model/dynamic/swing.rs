@@ -15,9 +15,10 @@ pub(super) struct Swing {
     turns: Vec<f64>,
 }
 
-/// A stretch on which the force rises throughout or falls throughout: when it ends, and by how much
-/// it rises, in N.
-struct Phase {
+/// A stretch on which the force rises throughout or falls throughout: when its step begins and when
+/// it ends, in s, and by how much it rises, in N.
+pub(super) struct Phase {
+    step: f64,
     end: f64,
     rise: f64,
 }
@@ -47,10 +48,11 @@ impl Swing {
         self.turns.iter().map(|&part| self.time(part))
     }
 
-    fn phases(&self) -> impl Iterator<Item = Phase> {
+    pub(super) fn phases(&self) -> impl Iterator<Item = Phase> {
         let begins = std::iter::once(0.0).chain(self.turns.iter().copied());
         let ends = self.turns.iter().copied().chain([1.0]);
         begins.zip(ends).map(|(begin, end)| Phase {
+            step: self.begin,
             end: self.time(end),
             rise: self.force.at(end) - self.force.at(begin),
         })
@@ -68,20 +70,18 @@ impl Swing {
 }
 
 /// When the force is least for the first time after its first peak, or the contact is lost; `peak`
-/// is the greatest force of all swings, in N.
-pub(super) fn end_of_first_impact(swings: impl Iterator<Item = Swing>, peak: f64) -> Option<f64> {
+/// is the greatest force of all phases, in N.
+pub(super) fn end_of_first_impact(phases: &[Phase], peak: f64) -> Option<f64> {
     const ROUNDING: f64 = 1e-12;
     let none = ROUNDING * peak;
     let (mut has_fallen, mut last) = (false, None);
-    for swing in swings {
-        let is_apart = |last: f64| swing.begin - last > ROUNDING * swing.begin.abs();
-        for phase in swing.phases() {
-            if has_fallen && (phase.rise > none || last.is_some_and(is_apart)) {
-                return last;
-            }
-            has_fallen |= phase.rise < -none;
-            last = Some(phase.end);
+    for phase in phases {
+        let is_apart = |last: f64| phase.step - last > ROUNDING * phase.step.abs();
+        if has_fallen && (phase.rise > none || last.is_some_and(is_apart)) {
+            return last;
         }
+        has_fallen |= phase.rise < -none;
+        last = Some(phase.end);
     }
     last.filter(|_| has_fallen)
 }

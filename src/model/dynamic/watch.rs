@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use super::motion::{Motion, State, Window};
 use super::step::{Course, Step};
-use super::swing::{self, Swing};
+use super::swing::{self, Phase, Swing};
 use super::{Dynamic, Effort};
 use crate::model::Refusal;
 use crate::model::budget::{CURVE_WORK, STATIONS, TURNS};
@@ -55,6 +55,7 @@ struct Swings {
     peak_before_start: f64,
     /// When it neither grew nor fell, in s.
     turns: Vec<f64>,
+    phases: Vec<Phase>,
 }
 
 impl Watch {
@@ -141,7 +142,7 @@ impl Watch {
             Some((motion.place(t) - mesh.length) / mesh.base_radii.0).filter(|&angle| angle > 0.0)
         };
         let swings = self.swings(motion);
-        let end = || swing::end_of_first_impact(self.each_swing(motion), swings.peak);
+        let end = || swing::end_of_first_impact(&swings.phases, swings.peak);
         let (stations, resolution) = first
             .zip(last)
             .map_or((Vec::new(), Resolution::Full), |contact| {
@@ -223,6 +224,7 @@ impl Watch {
             peak: 0.0,
             peak_before_start: 0.0,
             turns: Vec::new(),
+            phases: Vec::new(),
         };
         for swing in self.each_swing(motion) {
             swings.peak = swings.peak.max(swing.peak());
@@ -230,6 +232,7 @@ impl Watch {
                 swings.peak_before_start = swings.peak;
             }
             swings.turns.extend(swing.turns());
+            swings.phases.extend(swing.phases());
         }
         swings
     }

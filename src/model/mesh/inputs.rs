@@ -42,6 +42,12 @@ impl MeshInputs {
         self.speed / (f64::from(self.shape.driven.teeth) / f64::from(self.shape.driver.teeth))
     }
 
+    /// The same at another speed of the driver, in rad/s.
+    #[must_use]
+    pub fn at_speed(self, speed: f64) -> MeshInputs {
+        MeshInputs { speed, ..self }
+    }
+
     /// The same with the gears swapped.
     pub(super) fn swapped(&self) -> MeshInputs {
         let MeshInputs {
