@@ -8,7 +8,13 @@ use crate::model::{Inputs, Refusal, Solution, Stages};
 /// The last solve by each method.
 #[derive(Debug, Clone, Default)]
 pub struct Evaluator {
-    solved: Vec<(Method, Inputs, Solution)>,
+    solved: Vec<Solved>,
+}
+
+#[derive(Debug, Clone)]
+struct Solved {
+    inputs: Inputs,
+    solution: Solution,
 }
 
 impl Evaluator {
@@ -38,23 +44,32 @@ impl Evaluator {
         wanted: Stages,
         go_on: &dyn Fn(f64) -> bool,
     ) -> Result<&Solution, Refusal> {
-        let inputs = Inputs {
-            method,
-            ..inputs.clone()
+        let by_method;
+        let inputs = if inputs.method == method {
+            inputs
+        } else {
+            by_method = Inputs {
+                method,
+                ..inputs.clone()
+            };
+            &by_method
         };
-        let at = self.solved.iter().position(|(by, ..)| *by == method);
-        let earlier = at.map(|at| {
-            let (_, inputs, solution) = &self.solved[at];
-            Earlier { inputs, solution }
-        });
-        let solution = solve_after(&inputs, wanted, earlier, go_on)?;
-        let solved = (method, inputs, solution);
-        let at = at.unwrap_or(self.solved.len());
-        match self.solved.get_mut(at) {
-            Some(earlier) => *earlier = solved,
-            None => self.solved.push(solved),
-        }
-        Ok(&self.solved[at].2)
+        let by = |solved: &Solved| solved.inputs.method == method;
+        let Some(at) = self.solved.iter().position(by) else {
+            let solution = solve_after(inputs, wanted, None, go_on)?;
+            let at = self.solved.len();
+            let inputs = inputs.clone();
+            self.solved.push(Solved { inputs, solution });
+            return Ok(&self.solved[at].solution);
+        };
+        let solved = &mut self.solved[at];
+        let earlier = Earlier {
+            inputs: &solved.inputs,
+            solution: &solved.solution,
+        };
+        solved.solution = solve_after(inputs, wanted, Some(earlier), go_on)?;
+        solved.inputs.clone_from(inputs);
+        Ok(&solved.solution)
     }
 }
 

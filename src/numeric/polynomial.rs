@@ -125,8 +125,7 @@ fn horner(powers: &[f64], t: f64) -> f64 {
 
 /// Σ a_i b_(n−i), n the power, in four sums that do not wait for each other.
 #[inline]
-#[must_use]
-pub fn term_of_product(one: &[f64], other: &[f64], power: usize) -> f64 {
+fn term_of_product(one: &[f64], other: &[f64], power: usize) -> f64 {
     let (first, end) = (
         (power + 1).saturating_sub(other.len()),
         one.len().min(power + 1),

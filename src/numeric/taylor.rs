@@ -1,6 +1,6 @@
 //! Steps of a linear oscillator whose stiffness and load vary, by the power series of its motion.
 
-use super::polynomial::{Polynomial, term_of_product};
+use super::polynomial::Polynomial;
 
 /// x'' = load − damping x' − stiffness x over a step that goes from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,16 +27,27 @@ impl<const N: usize> Oscillator<N> {
     /// of the Taylor series method for ODEs/DAEs", Applied Mathematics and Computation 163.
     #[must_use]
     pub fn series(&self, x: f64, v: f64) -> Polynomial<N> {
-        let mut series = [0.0; N];
-        (series[0], series[1]) = (x, v);
+        let (mut series, mut pulls) = ([0.0; N], [0.0; N]);
         let stiffness = self.stiffness.terms();
+        (series[0], series[1]) = (x, v);
+        add_pull(&mut pulls, stiffness, x);
+        add_pull(&mut pulls[1..], stiffness, v);
         for order in 2..N {
-            let pull = term_of_product(stiffness, &series[..order - 1], order - 2);
             let rate = (order - 1) as f64;
-            let push = self.load.0[order - 2] - self.damping * rate * series[order - 1] - pull;
+            let last = self.damping * rate * series[order - 1];
+            let push = self.load.0[order - 2] - last - pulls[order - 2];
             series[order] = push / (rate * order as f64);
+            add_pull(&mut pulls[order..], stiffness, series[order]);
         }
         Polynomial(series)
+    }
+}
+
+/// Adds the share of one term of the series to the sums of its order and of all later ones, which do
+/// not wait for each other.
+fn add_pull(pulls: &mut [f64], stiffness: &[f64], term: f64) {
+    for (pull, stiffness) in pulls.iter_mut().zip(stiffness) {
+        *pull += stiffness * term;
     }
 }
 

@@ -34,15 +34,16 @@ pub struct Figures {
     pub histogram: Vec<usize>,
 }
 
-/// The figures of values, which are put in order. `None` without values.
+/// The figures of values, of which those that a percentile needs are put in their places in order.
+/// `None` without values.
 ///
 /// A percentile is interpolated between two values (type 7 of Hyndman & Fan 1996). Its interval
 /// ends at values whose ranks enclose it with 95 % by the normal approximation of the binomial
 /// distribution, whatever the distribution of the values.
 #[must_use]
 pub fn figures(values: &mut [f64], bins: usize) -> Option<Figures> {
-    values.sort_unstable_by(f64::total_cmp);
-    let (&least, &most) = (values.first()?, values.last()?);
+    let least = values.iter().copied().min_by(f64::total_cmp)?;
+    let most = values.iter().copied().max_by(f64::total_cmp)?;
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
     let squares = values
@@ -51,6 +52,11 @@ pub fn figures(values: &mut [f64], bins: usize) -> Option<Figures> {
         .sum::<f64>();
     let deviation = (squares / (count - 1.0).max(1.0)).sqrt();
     let error = NORMAL_95 * deviation / count.sqrt();
+    let places = PERCENTILES.map(|percent| Places::of(percent / 100.0, values.len()));
+    let mut ranks: Vec<usize> = places.iter().flat_map(|places| places.ranks).collect();
+    ranks.sort_unstable();
+    ranks.dedup();
+    put_in_order(values, 0, &ranks);
     Some(Figures {
         count: values.len(),
         mean: Estimate {
@@ -59,31 +65,59 @@ pub fn figures(values: &mut [f64], bins: usize) -> Option<Figures> {
             to: mean + error,
         },
         deviation,
-        percentiles: PERCENTILES.map(|percent| percentile(values, percent / 100.0)),
+        percentiles: places.map(|places| places.percentile(values)),
         range: (least, most),
-        histogram: histogram(values, bins),
+        histogram: histogram(values, (least, most), bins),
     })
 }
 
-/// A percentile of values in order.
-fn percentile(values: &[f64], part: f64) -> Estimate {
-    let last = (values.len() - 1) as f64;
-    let at = |rank: f64| values[rank.clamp(0.0, last) as usize];
-    let rank = part * last;
-    let (below, above) = (at(rank.floor()), at(rank.ceil()));
-    let count = values.len() as f64;
-    let margin = NORMAL_95 * (count * part * (1.0 - part)).sqrt();
-    Estimate {
-        value: below + (rank - rank.floor()) * (above - below),
-        from: at((count * part - margin).floor() - 1.0),
-        to: at((count * part + margin).ceil()),
+/// The places of a percentile among values in order.
+struct Places {
+    /// Of the values below and above the percentile, and of the ends of its interval.
+    ranks: [usize; 4],
+    /// The part of the way from the value below to the one above.
+    part: f64,
+}
+
+impl Places {
+    fn of(part: f64, count: usize) -> Places {
+        let (count, last) = (count as f64, (count - 1) as f64);
+        let rank = part * last;
+        let margin = NORMAL_95 * (count * part * (1.0 - part)).sqrt();
+        let (from, to) = (
+            (count * part - margin).floor() - 1.0,
+            (count * part + margin).ceil(),
+        );
+        let ranks = [rank.floor(), rank.ceil(), from, to];
+        Places {
+            ranks: ranks.map(|rank| rank.clamp(0.0, last) as usize),
+            part: rank - rank.floor(),
+        }
+    }
+
+    fn percentile(&self, values: &[f64]) -> Estimate {
+        let [below, above, from, to] = self.ranks.map(|rank| values[rank]);
+        Estimate {
+            value: below + self.part * (above - below),
+            from,
+            to,
+        }
     }
 }
 
-fn histogram(values: &[f64], bins: usize) -> Vec<usize> {
-    let (Some(&least), Some(&most)) = (values.first(), values.last()) else {
-        return Vec::new();
+/// Puts the values of these ranks, which are in order, in their places; `first` is the rank of the
+/// first value. Sorting all values would take several times as long.
+fn put_in_order(values: &mut [f64], first: usize, ranks: &[usize]) {
+    let (low, rest) = ranks.split_at(ranks.len() / 2);
+    let Some((&middle, high)) = rest.split_first() else {
+        return;
     };
+    let (below, _, above) = values.select_nth_unstable_by(middle - first, f64::total_cmp);
+    put_in_order(below, first, low);
+    put_in_order(above, middle + 1, high);
+}
+
+fn histogram(values: &[f64], (least, most): (f64, f64), bins: usize) -> Vec<usize> {
     let bins = if least < most { bins } else { 1 };
     let mut counts = vec![0; bins];
     let width = (most - least) / bins as f64;

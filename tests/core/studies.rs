@@ -80,6 +80,11 @@ fn plain(case: &Case, grid: &Grid, index: usize, quantities: &[&'static Quantity
     row
 }
 
+fn bits(rows: &Rows, row: usize) -> Vec<Option<u64>> {
+    let values = rows.values(row);
+    values.map(|value| value.map(f64::to_bits)).collect()
+}
+
 #[test]
 fn every_row_of_a_sweep_is_a_plain_solve_to_the_last_bit() {
     let mut case = Case::table_1();
@@ -108,13 +113,31 @@ fn every_row_of_a_sweep_is_a_plain_solve_to_the_last_bit() {
                 let plain = plain(&case, &grid, index, &quantities);
                 let place = format!("{} at {}", method.name(), grid.point(index));
                 assert_eq!(rows.outcomes[index], plain.outcomes[0], "{place}");
-                let bits = |rows: &Rows, row| {
-                    let values = rows.values(row).map(|value| value.map(f64::to_bits));
-                    values.collect::<Vec<_>>()
-                };
                 assert_eq!(bits(&rows, index), bits(&plain, 0), "{place}");
             }
         }
+    }
+}
+
+#[test]
+fn one_mesh_serves_every_speed_under_a_torque_to_the_last_bit() {
+    let mut case = Case::table_1();
+    for (key, text) in [
+        ("model.deflection", ""),
+        ("model.method", "dynamic"),
+        ("model.damping_ratio", "0.01"),
+        ("operation.power", ""),
+        ("operation.torque", "20 N m"),
+        ("operation.friction_coefficient", "0.08"),
+    ] {
+        case.set(key, text).unwrap();
+    }
+    let quantities = quick_quantities();
+    let grid = grid(&["operation.speed=500..9000 rpm"], 12);
+    let rows = solved(&case.inputs().unwrap(), &grid, 1, &quantities);
+    for index in 0..grid.count() {
+        let plain = plain(&case, &grid, index, &quantities);
+        assert_eq!(bits(&rows, index), bits(&plain, 0), "{}", grid.point(index));
     }
 }
 
