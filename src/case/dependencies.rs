@@ -7,8 +7,7 @@ mod tests;
 use super::fields::{Kind, Range};
 use super::units::{self, Dimension};
 use super::{Case, FIELDS};
-use crate::model::compliance::model_of;
-use crate::model::inputs::ToothCompliance;
+use crate::model::compliance::{model_of, without_field};
 use crate::model::{self, Inputs, Quantity, Stage, Stages};
 
 /// A field that a quantity depends on.
@@ -69,18 +68,16 @@ pub fn fields_of(
 /// The inputs without an elastic field, if the quantity does not depend on the tooth compliance; else
 /// the same inputs. The field of every changed gear would take longer than all other stages.
 fn quickest_of(quantity: &Quantity, inputs: &Inputs, own: Option<f64>) -> Inputs {
-    let quick = Inputs {
-        tooth_compliance: Some(ToothCompliance::BEAM),
-        ..inputs.clone()
-    };
-    let has_field = model_of(inputs) == ToothCompliance::FINITE_ELEMENT;
     // A value of 0, and a flag, may be that of any compliance until a field changes.
-    let is_telling = has_field && !quantity.is_flag() && own.is_some_and(|own| own != 0.0);
-    if is_telling && Outcome::of(quantity, &quick).differs(own) == Some(false) {
-        quick
-    } else {
-        inputs.clone()
-    }
+    let is_telling = !quantity.is_flag() && own.is_some_and(|own| own != 0.0);
+    let quick = without_field(inputs)
+        .filter(|_| is_telling)
+        .map(|tooth| Inputs {
+            tooth_compliance: Some(tooth),
+            ..inputs.clone()
+        });
+    let is_same = |quick: &Inputs| Outcome::of(quantity, quick).differs(own) == Some(false);
+    quick.filter(is_same).unwrap_or_else(|| inputs.clone())
 }
 
 /// The value of a quantity with these inputs, in SI, if it has one.

@@ -15,7 +15,7 @@ use super::tip_gap::TipContact;
 use contact::{ContactLaw, ContactSpring};
 use tooth::Tooth;
 
-pub use tooth::{contact_of, model_of};
+pub use tooth::{contact_of, model_of, without_field};
 
 /// Elasticity of a pair: all that its compliances read beside its geometry.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -211,6 +211,13 @@ pub fn model_of(inputs: &Inputs) -> ToothCompliance {
     inputs.tooth_compliance.unwrap_or_else(by_range)
 }
 
+/// A tooth compliance that is quick to build, if that of the pair needs an elastic field.
+#[must_use]
+pub fn without_field(inputs: &Inputs) -> Option<ToothCompliance> {
+    let has_field = model_of(inputs) == ToothCompliance::FINITE_ELEMENT;
+    has_field.then_some(ToothCompliance::BEAM)
+}
+
 /// The contact compliance of a pair; `None` if the tooth compliance includes the contact.
 #[must_use]
 pub fn contact_of(inputs: &Inputs) -> Option<ContactCompliance> {
