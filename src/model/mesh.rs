@@ -455,10 +455,9 @@ impl Mesh {
         s: f64,
         length: f64,
     ) -> [Polynomial<TERMS>; 2] {
-        let [lever, sliding] =
-            self.zones[zone]
-                .series
-                .local(LEVER, self.above(ahead, s), length);
+        let [lever, sliding] = self.zones[zone]
+            .series
+            .local(LEVER, self.above(ahead, s), length);
         [lever, sliding.scaled(self.driver_speed)]
     }
 

@@ -347,8 +347,9 @@ fn about<const N: usize, const M: usize>(
         .for_each(|(rest, powers)| rest.copy_from_slice(&powers[first..first + M]));
     for lowest in (0..TERMS - 1).rev() {
         for power in lowest..TERMS - 1 {
-            for function in 0..M {
-                rest[power][function] += at * rest[power + 1][function];
+            let above = rest[power + 1];
+            for (sum, above) in rest[power].iter_mut().zip(above) {
+                *sum += at * above;
             }
         }
     }
