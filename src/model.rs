@@ -18,6 +18,7 @@ pub mod friction;
 pub mod gear_pose;
 pub mod geometry;
 pub mod grade;
+pub mod harmonics;
 pub mod impact;
 pub mod inertia;
 pub mod inputs;
@@ -34,6 +35,7 @@ pub mod profile;
 pub mod quantities;
 pub mod relief;
 pub mod request;
+pub mod resonance;
 #[cfg(test)]
 pub(crate) mod sample;
 pub mod solve;
@@ -41,6 +43,7 @@ pub mod spacing;
 pub mod stage;
 pub mod stage_inputs;
 pub mod static_load;
+pub mod static_spectrum;
 pub mod stations;
 pub mod stiffness_spread;
 pub mod tip_gap;
@@ -52,6 +55,7 @@ pub use compliance::TeethCompliance;
 pub use contact_state::ContactState;
 pub use deviation::Deviation;
 pub use dynamic::Dynamic;
+pub use dynamic::steady::Steady;
 pub use explanation::Context;
 pub use friction::Friction;
 pub use gear_pose::GearPose;
@@ -66,10 +70,12 @@ pub use outline::Outline;
 pub use position::Position;
 pub use quantities::{QUANTITIES, Quantity};
 pub use request::Earlier;
+pub use resonance::Resonance;
 pub use solve::{solve, solve_after, solve_while};
 pub use stage::{Stage, Stages};
 pub use stage_inputs::StageInputs;
 pub use static_load::StaticLoad;
+pub use static_spectrum::StaticSpectrum;
 pub use stations::{MeshStation, Station};
 pub use stiffness_spread::Band;
 pub use velocity::Velocity;
@@ -152,6 +158,12 @@ pub struct Solution {
     pub static_load: Option<StaticLoad>,
     /// The same with inertia.
     pub dynamic: Option<Dynamic>,
+    /// Mesh frequency and natural frequency.
+    pub resonance: Option<Resonance>,
+    /// The transmission error at rest over the mesh period.
+    pub static_spectrum: Option<StaticSpectrum>,
+    /// The steady motion of a pair without deviations, or why there is none.
+    pub steady: Option<Result<Steady, Refusal>>,
     /// The least tip relief with which the tooth comes in on time.
     pub clearing: Option<Clearing>,
     /// Why the tooth strikes and yet compliance, force and what follows are absent, where that is

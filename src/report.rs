@@ -23,6 +23,7 @@ pub mod text;
 pub mod tolerance;
 pub mod trade;
 pub mod verdict;
+pub mod whine;
 
 use crate::case::fields::index_of;
 use crate::case::units::System;

@@ -152,7 +152,10 @@ mod tests {
         let damping = ran(Method::Dynamic, "model.damping_ratio", "0.1");
         assert_eq!(
             damping,
-            Stages::NONE.with(Stage::Dynamic).with(Stage::Clearing)
+            Stages::NONE
+                .with(Stage::Dynamic)
+                .with(Stage::SteadyMotion)
+                .with(Stage::Clearing)
         );
         let stations = ran(Method::Exact, "model.stations", "32");
         assert_eq!(stations, Stages::NONE.with(Stage::Stations));

@@ -48,6 +48,8 @@ pub enum Dimension {
     Compliance,
     /// N/m.
     Stiffness,
+    /// Hz.
+    Frequency,
 }
 
 impl Dimension {

@@ -11,6 +11,7 @@ use crate::case::{Case, EXAMPLES, Example, Problem, unknown_quantity};
 use crate::model::inputs::Method;
 use crate::model::{QUANTITIES, Quantity};
 use crate::report::graphs::GRAPHS;
+use crate::report::whine::charts::{SPECTRUM, SPEED};
 use crate::study::stiffness::{LEAST_POINTS, MOST_POINTS};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::{Error, ErrorKind};
@@ -38,7 +39,8 @@ const STIFFNESS_SHAPE: &str = "The finite elements are plane strain on the whole
     object in SI units; missing values are absent, and gaps and refusal give the reason.";
 
 const PLOT_SHAPE: &str = "The chart shows the method of the case. A chart that this method lacks shows another one: load_share of a \
-    closed form shows static, impact_energy of static or dynamic shows exact. The legend names the method. The picture follows the light or dark setting of the browser.";
+    closed form shows static, impact_energy of static or dynamic shows exact. The legend names the method. The chart speed shows method dynamic at the torque of \
+    the case, with the speed rising and falling. The picture follows the light or dark setting of the browser.";
 
 const REPORT_SHAPE: &str = "The HTML page is complete in itself: verdict, inputs, results, charts, teeth, limits, notes and the case \
     files; one case prints on two A4 pages. Markdown has the same without charts. CSV and JSON are those of `solve`, JSON with the \
@@ -466,7 +468,7 @@ fn misused(cause: String) -> Error {
 
 fn charts() -> PossibleValuesParser {
     let names = GRAPHS.iter().map(|graph| graph.key);
-    PossibleValuesParser::new(names.chain([super::plot::TEETH]))
+    PossibleValuesParser::new(names.chain([SPECTRUM, SPEED, super::plot::TEETH]))
 }
 
 fn examples() -> impl TypedValueParser<Value = &'static Example> {

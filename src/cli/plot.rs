@@ -1,11 +1,15 @@
 //! Writes a chart of a case, or its teeth, as a picture.
 
 use super::cases::{self, Opened};
+use super::progress::{Bar, Interrupt};
 use super::{Exit, Plot, Streams};
 use crate::case::file;
+use crate::model::{Inputs, Refusal};
 use crate::report::charts::{Drawn, find, picture, with_other_method};
 use crate::report::svg::teeth::teeth;
+use crate::report::whine::charts::{SPECTRUM, SPEED, spectrum, speed};
 use crate::report::{Report, Selection};
+use crate::study::speeds::{SPEEDS, SpeedCurve, speeds};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -22,6 +26,18 @@ pub(super) fn run(options: &Plot, streams: &mut Streams) -> io::Result<Exit> {
 }
 
 fn draw(opened: &Opened, options: &Plot, streams: &mut Streams) -> Result<String, Exit> {
+    if options.chart == SPEED {
+        let curve =
+            speeds_of(&opened.inputs).map_err(|refusal| opened.refused(&refusal, streams))?;
+        return speed(&[("", &curve)]).ok_or_else(|| {
+            streams.say(&format!(
+                "{}: the chart {SPEED} has no curve: no motion becomes steady: give a greater \
+                 model.damping_ratio",
+                opened.name
+            ));
+            Exit::BadCase
+        });
+    }
     let report = solve(opened, true, streams)?;
     if options.chart == TEETH {
         return Ok(teeth(&report.inputs, &report.solution));
@@ -31,7 +47,11 @@ fn draw(opened: &Opened, options: &Plot, streams: &mut Streams) -> Result<String
         name: "",
         reports: &reports,
     };
-    let drawn = find(&options.chart).and_then(|graph| picture(graph, &[drawn]));
+    let drawn = if options.chart == SPECTRUM {
+        spectrum(&[drawn])
+    } else {
+        find(&options.chart).and_then(|graph| picture(graph, &[drawn]))
+    };
     drawn.ok_or_else(|| {
         streams.say(&format!(
             "{}: the chart {} has no curve: no corner contact is found: choose another chart",
@@ -39,6 +59,23 @@ fn draw(opened: &Opened, options: &Plot, streams: &mut Streams) -> Result<String
         ));
         Exit::BadCase
     })
+}
+
+/// The dynamic factor over speed, with a bar while it takes long.
+pub(super) fn speeds_of(inputs: &Inputs) -> Result<SpeedCurve, Refusal> {
+    let (bar, interrupt) = (Bar::new("speeds"), Interrupt::heeded());
+    let found = speeds(inputs, &mut |curve| {
+        let done = curve.up.iter().chain(&curve.down).flatten().count();
+        bar.set(done, 2 * SPEEDS);
+        interrupt.go_on()
+    });
+    if interrupt.go_on() {
+        bar.clear();
+    } else {
+        bar.clear_after_interrupt();
+        Interrupt::end();
+    }
+    found
 }
 
 /// Solves a case with every quantity, and the stations on request.

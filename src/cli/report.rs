@@ -52,7 +52,14 @@ pub(super) fn run(options: &Export, streams: &mut Streams) -> io::Result<Exit> {
                 } else {
                     vec![report]
                 };
-                subjects.push(Subject { reports, file });
+                let speeds = (ending == Ending::Html)
+                    .then(|| plot::speeds_of(&reports[0].inputs))
+                    .and_then(Result::ok);
+                subjects.push(Subject {
+                    reports,
+                    speeds,
+                    file,
+                });
             }
             Err(exit) => worst = worst.max(exit),
         }

@@ -6,6 +6,7 @@ mod laps;
 mod lead;
 mod motion;
 mod sharing;
+pub mod steady;
 mod step;
 mod swing;
 #[cfg(test)]
@@ -23,8 +24,11 @@ use events::Event;
 use laps::Laps;
 use lead::TERMS;
 use motion::{Motion, State, Window};
-use step::Course;
+use step::{Course, Step};
 use watch::Watch;
+
+/// Measured over the reference pairs, the peak force then keeps the tolerance with room to spare.
+const SHARE_OF_A_STEP: f64 = 0.3;
 
 /// What the incoming tooth carries, with inertia.
 #[derive(Debug, Clone, PartialEq)]
@@ -96,6 +100,12 @@ impl Inputs {
             spacing: Spacing::of(self),
         }
     }
+
+    /// How the steady motion is computed; the mass at the line of action is not known yet.
+    #[must_use]
+    pub fn steady_motion(&self) -> Settings {
+        self.motion().without_warmup()
+    }
 }
 
 impl Settings {
@@ -105,6 +115,15 @@ impl Settings {
         Settings {
             mass,
             ..inputs.motion()
+        }
+    }
+
+    /// The same without warm-up and stations.
+    #[must_use]
+    pub fn without_warmup(self) -> Settings {
+        Settings {
+            warmup_cycles: 0,
+            ..self.without_stations()
         }
     }
 
@@ -235,9 +254,6 @@ struct Run<'a> {
 
 impl<'a> Run<'a> {
     fn begin(motion: &'a Motion<'a>, tolerance: f64, meter: &'a Meter) -> Result<Run<'a>, Refusal> {
-        /// Measured over the reference pairs, the peak force then keeps the tolerance with room to
-        /// spare.
-        const SHARE_OF_A_STEP: f64 = 0.3;
         /// Borders that are found and sorted in the time of one series.
         const BORDERS: usize = 8;
         let mesh = motion.mesh;
@@ -290,7 +306,7 @@ impl<'a> Run<'a> {
         self.turned = Touching::NONE;
         let end = self.motion.time(to);
         while self.t < end {
-            touching = self.advance(&window, touching, end)?;
+            (touching, _) = self.advance(&window, touching, end)?;
         }
         self.ahead = window.ahead(touching);
         Ok(())
@@ -319,13 +335,13 @@ impl<'a> Run<'a> {
             .for_each(|ahead| *ahead -= pitches as i32);
     }
 
-    /// One step, to `end` at most; the pairs that touch after it.
+    /// One step, to `end` at most; the pairs that touch after it, and the step.
     fn advance(
         &mut self,
         window: &Window,
         touching: Touching,
         end: f64,
-    ) -> Result<Touching, Refusal> {
+    ) -> Result<(Touching, Step), Refusal> {
         let course = Course::new(self.motion, window, touching);
         let (step, leads) = course.step(self.t, &self.y, end, self.allowed)?;
         self.effort.steps += 1;
@@ -351,10 +367,10 @@ impl<'a> Run<'a> {
             self.watch.keep(self.motion, touching, step, range.1);
         }
         let Some(event) = event else {
-            return Ok(touching);
+            return Ok((touching, step));
         };
         self.count(EVENT_WORK)?;
-        Ok(self.turn(window, touching, event))
+        Ok((self.turn(window, touching, event), step))
     }
 
     /// Counts work of the motion.

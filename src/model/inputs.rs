@@ -117,10 +117,15 @@ impl Method {
     #[must_use]
     pub fn stages(self) -> Stages {
         let impact = Stages::CLOSED_FORM.with(Stage::Band).with(Stage::Clearing);
+        let at_rest = Stages::of(Stage::StaticSpectrum).with(Stage::Resonance);
         match self {
             Method::Paper | Method::Exact => Stages::ALL.with(Stage::Clearing),
-            Method::Static => impact.and(Stages::of(Stage::Static)),
-            Method::Dynamic => impact.and(Stages::of(Stage::Static)).with(Stage::Dynamic),
+            Method::Static => impact.and(Stages::of(Stage::Static)).and(at_rest),
+            Method::Dynamic => impact
+                .and(Stages::of(Stage::Static))
+                .with(Stage::Dynamic)
+                .and(at_rest)
+                .with(Stage::SteadyMotion),
             Method::Auto => Stages::EVERY,
         }
     }

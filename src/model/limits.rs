@@ -232,6 +232,12 @@ pub enum Refusal {
         /// How much of the way they are, from 0 to 1.
         done: f64,
     },
+    /// The motion does not become periodic.
+    #[error("no steady motion: after {pitches} base pitches the motion does not repeat")]
+    NoSteadyMotion {
+        /// Base pitches that were followed.
+        pitches: u32,
+    },
     /// A set of pairs has no room for all that may touch.
     #[error("{pairs} tooth pairs may touch at a time, and the limit is {limit}")]
     TooManyPairs {
@@ -508,6 +514,11 @@ impl Refusal {
                 "motion-too-long",
                 "model.warmup_cycles",
                 "give fewer warm-up cycles or a greater damping ratio, or set model.method to static",
+            ),
+            Refusal::NoSteadyMotion { .. } => (
+                "no-steady-motion",
+                "model.damping_ratio",
+                "give a greater damping ratio or another speed",
             ),
             Refusal::TooManyPairs { .. } => (
                 "too-many-pairs",

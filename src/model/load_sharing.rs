@@ -3,12 +3,16 @@
 
 use std::sync::Arc;
 
+use super::budget::{MOTION_WORK, Meter};
+use super::dynamic::steady::{Steady, steady};
 use super::dynamic::{Dynamic, Settings, dynamic};
 use super::mesh::{Mesh, MeshInputs};
 use super::request::Request;
+use super::resonance::Resonance;
 use super::spacing::{Resolution, Spacing};
 use super::stage::{Stage, Stages};
 use super::static_load::{StaticLoad, static_load};
+use super::static_spectrum::{StaticSpectrum, static_spectrum};
 use super::{Outcome, Refusal, Solution};
 
 /// What the wanted methods found.
@@ -16,6 +20,9 @@ struct Shared {
     mesh: Arc<Mesh>,
     static_load: Option<StaticLoad>,
     dynamic: Option<Dynamic>,
+    resonance: Option<Resonance>,
+    static_spectrum: Option<StaticSpectrum>,
+    steady: Option<Result<Steady, Refusal>>,
     ran: Stages,
 }
 
@@ -30,9 +37,15 @@ pub(super) fn share(
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<(), Refusal> {
     let shared = within_reach(solution, asked, go_on)?;
-    let present = [Stage::Mesh, Stage::Static, Stage::Dynamic]
-        .into_iter()
-        .filter(|&stage| asked.wanted.has(stage));
+    let own = [
+        Stage::Mesh,
+        Stage::Static,
+        Stage::Dynamic,
+        Stage::Resonance,
+        Stage::StaticSpectrum,
+        Stage::SteadyMotion,
+    ];
+    let present = own.into_iter().filter(|&stage| asked.wanted.has(stage));
     solution.stages = present.fold(solution.stages, Stages::with);
     solution.ran = solution.ran.and(shared.ran);
     let static_angle = shared
@@ -62,6 +75,9 @@ pub(super) fn share(
     solution.mesh = Some(shared.mesh);
     solution.static_load = shared.static_load;
     solution.dynamic = shared.dynamic;
+    solution.resonance = shared.resonance;
+    solution.static_spectrum = shared.static_spectrum;
+    solution.steady = shared.steady;
     Ok(())
 }
 
@@ -101,8 +117,13 @@ fn within_reach(
 
 /// Whether every wanted result on the mesh is an earlier one.
 fn all_kept(asked: &Request<'_>) -> bool {
-    [Stage::Static, Stage::Dynamic]
-        .into_iter()
+    let own = [
+        Stage::Static,
+        Stage::Dynamic,
+        Stage::StaticSpectrum,
+        Stage::SteadyMotion,
+    ];
+    own.into_iter()
         .filter(|&stage| asked.wanted.has(stage))
         .all(|stage| asked.kept(stage).is_some())
 }
@@ -145,38 +166,88 @@ pub(super) fn on_mesh<T>(
     }
 }
 
-/// The wanted methods on this mesh, as far as nothing earlier holds.
+/// The wanted stages on this mesh, as far as nothing earlier holds.
 fn run(
     mesh: &Arc<Mesh>,
     mass: f64,
     asked: &Request<'_>,
-    mut ran: Stages,
+    ran: Stages,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Shared, Refusal> {
-    let (inputs, wanted) = (asked.inputs, asked.wanted);
-    let spacing = Spacing::of(inputs);
-    let held = asked
-        .kept(Stage::Static)
-        .and_then(|earlier| earlier.static_load.clone());
-    let static_load = if !wanted.has(Stage::Static) || held.is_some() {
-        held.filter(|_| wanted.has(Stage::Static))
-    } else {
-        ran = ran.with(Stage::Static);
-        Some(static_load(mesh, spacing)?)
-    };
-    let held = asked
-        .kept(Stage::Dynamic)
-        .and_then(|earlier| earlier.dynamic.clone());
-    let dynamic = if !wanted.has(Stage::Dynamic) || held.is_some() {
-        held.filter(|_| wanted.has(Stage::Dynamic))
-    } else {
-        ran = ran.with(Stage::Dynamic);
-        Some(dynamic(mesh, &Settings::of(inputs, mass), go_on)?)
-    };
+    let inputs = asked.inputs;
+    let settings = Settings::of(inputs, mass);
+    let mut run = Stretch { asked, ran };
+    let static_load = run.stage(
+        Stage::Static,
+        |earlier| earlier.static_load.clone(),
+        || static_load(mesh, Spacing::of(inputs)),
+    )?;
+    let dynamic = run.stage(
+        Stage::Dynamic,
+        |earlier| earlier.dynamic.clone(),
+        || dynamic(mesh, &settings, go_on),
+    )?;
+    let resonance = run.stage(
+        Stage::Resonance,
+        |earlier| earlier.resonance,
+        || Ok(Resonance::of(mesh, mass)),
+    )?;
+    let static_spectrum = run.stage(
+        Stage::StaticSpectrum,
+        |earlier| earlier.static_spectrum,
+        || static_spectrum(mesh),
+    )?;
+    let steady = run.stage(
+        Stage::SteadyMotion,
+        |earlier| earlier.steady.clone(),
+        || steady_motion(mesh, &settings, go_on),
+    )?;
     Ok(Shared {
         mesh: Arc::clone(mesh),
         static_load,
         dynamic,
-        ran,
+        resonance,
+        static_spectrum,
+        steady,
+        ran: run.ran,
     })
+}
+
+/// The steady motion, or why there is none.
+fn steady_motion(
+    mesh: &Mesh,
+    settings: &Settings,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Result<Steady, Refusal>, Refusal> {
+    let settings = settings.without_warmup();
+    match steady(mesh, &settings, None, &Meter::new(MOTION_WORK), go_on) {
+        Err(Refusal::Stopped) => Err(Refusal::Stopped),
+        Err(Refusal::BeyondReach) if !mesh.is_whole() => Err(Refusal::BeyondReach),
+        found => Ok(found),
+    }
+}
+
+/// Stages on their way.
+struct Stretch<'a> {
+    asked: &'a Request<'a>,
+    ran: Stages,
+}
+
+impl Stretch<'_> {
+    /// A stage's result where it is wanted: the earlier one where that still holds.
+    fn stage<T>(
+        &mut self,
+        stage: Stage,
+        earlier: impl Fn(&Solution) -> Option<T>,
+        new: impl FnOnce() -> Result<T, Refusal>,
+    ) -> Result<Option<T>, Refusal> {
+        if !self.asked.wanted.has(stage) {
+            return Ok(None);
+        }
+        if let Some(held) = self.asked.kept(stage).and_then(earlier) {
+            return Ok(Some(held));
+        }
+        self.ran = self.ran.with(stage);
+        new().map(Some)
+    }
 }

@@ -212,7 +212,8 @@ impl Mesh {
     }
 
     /// The same mesh while the driver turns at a speed, in rad/s.
-    pub(super) fn turning_at(self: &Arc<Mesh>, driver_speed: f64) -> Arc<Mesh> {
+    #[must_use]
+    pub fn turning_at(self: &Arc<Mesh>, driver_speed: f64) -> Arc<Mesh> {
         if driver_speed.to_bits() == self.driver_speed.to_bits() {
             return Arc::clone(self);
         }
@@ -231,6 +232,15 @@ impl Mesh {
             ..self.clone()
         };
         alone.with_mean_stiffness()
+    }
+
+    /// The same in which no pair deviates.
+    #[must_use]
+    pub fn without_error(&self) -> Mesh {
+        Mesh {
+            error: 0.0,
+            ..self.clone()
+        }
     }
 
     fn with_mean_stiffness(self) -> Mesh {

@@ -16,6 +16,7 @@ mod geometry;
 mod impact;
 mod motion;
 mod position;
+mod whine;
 
 pub use impact::spread_force;
 
@@ -227,7 +228,7 @@ const RESOLVED: [[&str; 3]; 4] = [
 ];
 
 /// The rows by groups, in the order in which a person reads them.
-const GROUPS: [&[Quantity]; 7] = [
+const GROUPS: [&[Quantity]; 8] = [
     geometry::TABLE,
     deviation::TABLE,
     position::TABLE,
@@ -235,6 +236,7 @@ const GROUPS: [&[Quantity]; 7] = [
     friction::TABLE,
     at_rest::TABLE,
     motion::TABLE,
+    whine::TABLE,
 ];
 
 const COUNT: usize = {

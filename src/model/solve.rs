@@ -85,9 +85,9 @@ fn solve_by_choice(
             ran: Stages::NONE,
             ..earlier.solution.clone()
         },
-        None => chosen(inputs, wanted.without(Stage::Clearing), go_on)?,
+        None => chosen(inputs, wanted.except(Stages::LATE), go_on)?,
     };
-    if before.is_none() && !wanted.has(Stage::Clearing) {
+    if before.is_none() && wanted.within(Stages::LATE) == Stages::NONE {
         return Ok(chosen);
     }
     let taken = auto::taken(inputs, chosen.method);
@@ -300,6 +300,9 @@ impl Solving<'_> {
             mesh: None,
             static_load: None,
             dynamic: None,
+            resonance: None,
+            static_spectrum: None,
+            steady: None,
             clearing: None,
             withheld: None,
             stations_withheld: None,

@@ -28,17 +28,23 @@ pub enum Stage {
     Stations,
     /// Gap and stiffness of every pair along the line of action.
     Mesh,
+    /// Mesh frequency and natural frequency.
+    Resonance,
     /// The load shared by every pair.
     Static,
     /// The same with inertia.
     Dynamic,
+    /// Harmonics of the transmission error at rest.
+    StaticSpectrum,
+    /// The motion that every base pitch repeats.
+    SteadyMotion,
     /// The least tip relief with which the tooth comes in on time.
     Clearing,
 }
 
 impl Stage {
     /// Every stage, in order.
-    pub const ALL: [Stage; 15] = [
+    pub const ALL: [Stage; 18] = [
         Stage::Geometry,
         Stage::Load,
         Stage::Masses,
@@ -51,8 +57,11 @@ impl Stage {
         Stage::Band,
         Stage::Stations,
         Stage::Mesh,
+        Stage::Resonance,
         Stage::Static,
         Stage::Dynamic,
+        Stage::StaticSpectrum,
+        Stage::SteadyMotion,
         Stage::Clearing,
     ];
 
@@ -74,6 +83,9 @@ impl Stage {
             Stage::Mesh => "mesh",
             Stage::Static => "static",
             Stage::Dynamic => "dynamic",
+            Stage::Resonance => "resonance",
+            Stage::StaticSpectrum => "static-spectrum",
+            Stage::SteadyMotion => "steady-motion",
             Stage::Clearing => "clearing-relief",
         }
     }
@@ -87,8 +99,17 @@ impl Stage {
             Stage::Load | Stage::Masses => geometry,
             Stage::Deviation => geometry.with(Stage::Load),
             Stage::Mesh => geometry.with(Stage::Load).with(Stage::Deviation),
-            Stage::Static => Stages::NONE.with(Stage::Mesh),
-            Stage::Dynamic => Stages::NONE.with(Stage::Mesh).with(Stage::Masses),
+            Stage::Static | Stage::StaticSpectrum => Stages::NONE.with(Stage::Mesh),
+            Stage::Dynamic => Stages::NONE
+                .with(Stage::Mesh)
+                .with(Stage::Masses)
+                .with(Stage::Resonance),
+            Stage::Resonance => Stages::NONE.with(Stage::Mesh).with(Stage::Masses),
+            Stage::SteadyMotion => Stages::NONE
+                .with(Stage::Mesh)
+                .with(Stage::Masses)
+                .with(Stage::Resonance)
+                .with(Stage::StaticSpectrum),
             Stage::Position => geometry.with(Stage::Deviation),
             // Stages that the method does not have are left out.
             Stage::Clearing => pair
@@ -122,7 +143,7 @@ impl Stage {
 
 /// A set of stages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Stages(u16);
+pub struct Stages(u32);
 
 impl Stages {
     /// No stage.
@@ -136,7 +157,15 @@ impl Stages {
         .and(Stages::of(Stage::Static))
         .with(Stage::Dynamic);
     /// Every stage there is.
-    pub const EVERY: Stages = Stages::ALL.and(Stages::of(Stage::Clearing));
+    pub const EVERY: Stages = Stages::ALL
+        .and(Stages::of(Stage::Resonance))
+        .and(Stages::of(Stage::SteadyMotion))
+        .and(Stages::of(Stage::Clearing));
+    /// The stages that neither the outcome nor a note waits for.
+    pub const LATE: Stages = Stages::NONE
+        .with(Stage::StaticSpectrum)
+        .with(Stage::SteadyMotion)
+        .with(Stage::Clearing);
 
     /// The stage and all that it needs.
     #[must_use]
@@ -162,6 +191,12 @@ impl Stages {
     #[must_use]
     pub const fn without(self, stage: Stage) -> Stages {
         Stages(self.0 & !(1 << stage as u8))
+    }
+
+    /// This set without another.
+    #[must_use]
+    pub const fn except(self, other: Stages) -> Stages {
+        Stages(self.0 & !other.0)
     }
 
     /// The union of two sets.

@@ -41,6 +41,13 @@ pub enum StageInputs {
     Static(Spacing, f64),
     /// The motion, and the speed of the driver in rad/s.
     Dynamic(Settings, f64),
+    /// Mesh frequency, by the speed of the driver in rad/s.
+    Resonance(f64),
+    /// Results of other stages alone.
+    Results,
+    /// The steady motion, which has neither warm-up nor stations, and the speed of the driver in
+    /// rad/s.
+    SteadyMotion(Settings, f64),
     /// The search for the relief: the mesh and the motion of the methods that have them.
     Clearing(DeviationInputs, Option<MeshInputs>, Option<Settings>),
 }
@@ -68,6 +75,11 @@ impl Stage {
             Stage::Mesh => StageInputs::Mesh(inputs.mesh().at_speed(1.0)),
             Stage::Static => StageInputs::Static(Spacing::of(inputs), inputs.speed),
             Stage::Dynamic => StageInputs::Dynamic(inputs.motion(), inputs.speed),
+            Stage::Resonance => StageInputs::Resonance(inputs.speed),
+            Stage::StaticSpectrum => StageInputs::Results,
+            Stage::SteadyMotion => {
+                StageInputs::SteadyMotion(inputs.steady_motion(), inputs.speed)
+            }
             Stage::Clearing => StageInputs::Clearing(
                 inputs.deviation(),
                 inputs.method.shares_load().then(|| inputs.mesh()),

@@ -119,6 +119,12 @@ fn lead(mesh: &Mesh, s: f64) -> f64 {
     lead.clamp(-mesh.length, mesh.length)
 }
 
+/// Whether a pair still carries at an end of the mesh.
+pub(super) fn reaches_ends(mesh: &Mesh) -> bool {
+    let (from, to) = mesh.ends();
+    lead(mesh, from) > 0.0 || lead(mesh, to) > 0.0
+}
+
 /// Every border and some places between.
 fn grid(mesh: &Mesh, from: f64, to: f64) -> Vec<f64> {
     let borders = mesh.borders(from, to);
@@ -204,7 +210,7 @@ fn peak(mesh: &Mesh, balances: &[(f64, Balance)], value: impl Fn(&Balance) -> f6
 }
 
 /// The greatest value and its place: the best of the known places, improved between its neighbours.
-fn greatest(known: &[(f64, f64)], at: impl Fn(f64) -> f64) -> (f64, f64) {
+pub(super) fn greatest(known: &[(f64, f64)], at: impl Fn(f64) -> f64) -> (f64, f64) {
     const STEPS: usize = 60;
     const GOLDEN: f64 = 0.618_033_988_749_894_8;
     let best = (0..known.len()).max_by(|&one, &other| known[one].1.total_cmp(&known[other].1));

@@ -46,6 +46,7 @@ impl Absence {
             }
             (Stage::Static | Stage::Dynamic, _) if is_without => no_contact,
             (Stage::Static | Stage::Dynamic, _) => Absence::NotReached,
+            (Stage::SteadyMotion, _) => not_steady(solution),
             (Stage::Clearing, _) if !is_without => cleared(solution),
             (_, Some(refusal)) => Absence::Withheld(refusal),
             _ if is_without => no_contact,
@@ -106,6 +107,14 @@ pub fn listed(names: &[&str]) -> String {
         [] => String::new(),
         [one] => (*one).to_owned(),
         [others @ .., last] => format!("{} and {last}", others.join(", ")),
+    }
+}
+
+/// Why there is no steady motion.
+fn not_steady(solution: &Solution) -> Absence {
+    match &solution.steady {
+        Some(Err(refusal)) => Absence::Withheld(*refusal),
+        _ => Absence::NotReached,
     }
 }
 

@@ -17,7 +17,7 @@ pub struct Group {
 }
 
 /// Every group, in the order of a method in closed form.
-static GROUPS: [Group; 12] = [
+static GROUPS: [Group; 15] = [
     Group {
         title: "Geometry",
         stages: &[Stage::Geometry],
@@ -66,6 +66,18 @@ static GROUPS: [Group; 12] = [
         title: "Load sharing with inertia",
         stages: &[Stage::Dynamic],
     },
+    Group {
+        title: "Resonance",
+        stages: &[Stage::Resonance],
+    },
+    Group {
+        title: "Transmission error without deviations",
+        stages: &[Stage::StaticSpectrum],
+    },
+    Group {
+        title: "Steady motion without deviations",
+        stages: &[Stage::SteadyMotion],
+    },
 ];
 
 impl Group {
@@ -89,7 +101,13 @@ impl Group {
             _ if !method.shares_load() => 0,
             [Stage::Dynamic] => 1,
             [Stage::Static] => 2,
-            [Stage::Clearing | Stage::Mesh] => 3,
+            [
+                Stage::Clearing
+                | Stage::Mesh
+                | Stage::Resonance
+                | Stage::StaticSpectrum
+                | Stage::SteadyMotion,
+            ] => 3,
             _ if self.is_beside(method) => 5,
             _ => 4,
         }

@@ -11,12 +11,14 @@ use super::graphs::GRAPHS;
 use super::groups::{FREE_IMPACT, groups};
 use super::svg::teeth::teeth;
 use super::verdict::verdicts;
+use super::whine::charts::{spectrum, speed};
 use super::{Report, shown_with, text, unit_beside, value};
 use crate::case::changes::label;
 use crate::case::sanitize::sanitize;
 use crate::case::units::System;
 use crate::case::{Case, FIELDS};
 use crate::model::{Quantity, Solution};
+use crate::study::speeds::SpeedCurve;
 
 /// Charts that a page leaves out, so that one case prints on two sheets.
 const LEFT_OUT: [&str; 4] = [
@@ -31,6 +33,8 @@ const LEFT_OUT: [&str; 4] = [
 pub struct Subject {
     /// The solve by the method of the case, then one for the charts that this method lacks.
     pub reports: Vec<Report>,
+    /// The dynamic factor over speed, where it is known.
+    pub speeds: Option<SpeedCurve>,
     /// The text of the case file.
     pub file: String,
 }
@@ -123,6 +127,11 @@ impl Page {
                 reports: &subject.reports,
             })
             .collect();
+        let curves: Vec<(&str, &SpeedCurve)> = drawn
+            .iter()
+            .zip(subjects)
+            .filter_map(|(drawn, subject)| Some((drawn.name, subject.speeds.as_ref()?)))
+            .collect();
         Page {
             title: match columns.as_slice() {
                 [] => String::new(),
@@ -136,6 +145,8 @@ impl Page {
                 .iter()
                 .filter(|graph| !LEFT_OUT.contains(&graph.key))
                 .filter_map(|graph| picture(graph, &drawn))
+                .chain(spectrum(&drawn))
+                .chain(speed(&curves))
                 .collect(),
             columns,
         }

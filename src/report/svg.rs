@@ -69,6 +69,20 @@ pub enum Kind {
     Bound,
     /// A mark at each point; the point with this number has a ring.
     Marks(Option<usize>),
+    /// A bar from 0 at each whole number, in this place of so many side by side.
+    Bars(usize, usize),
+}
+
+impl Series {
+    fn is_bars(&self) -> bool {
+        matches!(self.kind, Kind::Bars(..))
+    }
+
+    /// The ends of the field of bars.
+    fn bar_edges(&self) -> impl Iterator<Item = f64> {
+        let points = self.pieces.iter().flatten();
+        points.flat_map(|point| [point.0 - BARS, point.0 + BARS])
+    }
 }
 
 const WIDTH: f64 = 760.0;
@@ -77,6 +91,8 @@ const FIELD: (f64, f64, f64, f64) = (92.0, 58.0, 736.0, 316.0);
 /// The first line of the legend.
 const LEGEND: f64 = 388.0;
 const LINE: f64 = 23.0;
+/// Width of all bars at a number, in numbers.
+const BARS: f64 = 0.7;
 /// Width of a letter of the legend, at most.
 const LETTER: f64 = 9.4;
 /// Width of a symbol of the legend with its gaps.
@@ -94,16 +110,18 @@ pub fn chart(chart: &Chart) -> String {
             .iter()
             .flat_map(|series| series.pieces.iter().flatten())
     };
+    let bars = || chart.series.iter().filter(|series| series.is_bars());
+    let edges = bars().flat_map(Series::bar_edges);
     let across = Axis::of(
         chart.across.scale,
-        points().map(|point| point.0),
+        points().map(|point| point.0).chain(edges),
         left,
         right,
         false,
     );
     let up = Axis::of(
         chart.up.scale,
-        points().map(|point| point.1),
+        points().map(|point| point.1).chain(bars().map(|_| 0.0)),
         bottom,
         top,
         true,
@@ -197,6 +215,10 @@ fn draw(text: &mut String, series: &Series, at: usize, place: impl Fn((f64, f64)
         Kind::Curve => format!("curve s{look}"),
         Kind::Bound => "bound".to_owned(),
         Kind::Marks(_) => format!("thin s{look}"),
+        Kind::Bars(slot, slots) => {
+            bars(text, series, (slot, slots), look, &place);
+            return;
+        }
     };
     for piece in &series.pieces {
         let points: Vec<String> = piece
@@ -224,6 +246,26 @@ fn draw(text: &mut String, series: &Series, at: usize, place: impl Fn((f64, f64)
             text,
             "<g transform=\"translate({x:.1} {y:.1})\"><path d=\"{}\" class=\"f{look}\"/>{ring}</g>",
             LOOKS[look]
+        );
+    }
+}
+
+/// Bars from 0, a half of the room between two whole numbers wide together.
+fn bars(
+    text: &mut String,
+    series: &Series,
+    (slot, slots): (usize, usize),
+    look: usize,
+    place: &impl Fn((f64, f64)) -> (f64, f64),
+) {
+    let width = BARS / slots.max(1) as f64;
+    for &(x, y) in series.pieces.iter().flatten() {
+        let from = x - 0.5 * BARS + width * slot as f64;
+        let ((left, top), (right, bottom)) = (place((from, y)), place((from + width, 0.0)));
+        let (across, up) = (right - left, bottom - top);
+        let _ = writeln!(
+            text,
+            "<rect x=\"{left:.1}\" y=\"{top:.1}\" width=\"{across:.1}\" height=\"{up:.1}\" class=\"f{look}\"/>"
         );
     }
 }
@@ -256,6 +298,11 @@ fn legend(text: &mut String, series: &Series, at: usize, x: f64, y: f64) {
     let symbol = match series.kind {
         Kind::Curve => format!("<path d=\"M{x} {middle}h30\" class=\"curve s{look}\"/>"),
         Kind::Bound => format!("<path d=\"M{x} {middle}h30\" class=\"bound\"/>"),
+        Kind::Bars(..) => format!(
+            "<rect x=\"{}\" y=\"{}\" width=\"14\" height=\"12\" class=\"f{look}\"/>",
+            x + 8.0,
+            middle - 6.0
+        ),
         Kind::Marks(_) => format!(
             "<path d=\"{}\" transform=\"translate({} {middle})\" class=\"f{look}\"/>",
             LOOKS[look],

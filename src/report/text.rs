@@ -7,6 +7,7 @@ use super::layout::{WIDTH, flow, item, widest};
 use super::relief::relief;
 use super::stations::{Column, columns, rows};
 use super::verdict::{Verdict, verdicts};
+use super::whine::whine;
 use super::{Report, Shown, shown};
 use crate::case::FIELDS;
 use crate::case::fields::Absent;
@@ -121,6 +122,7 @@ pub(super) fn verdict(report: &Report) -> Vec<String> {
             differing(solution, &beside).map(|[words, ..]| words),
             relief(solution, &beside, System::Metric).map(|[words, ..]| words),
             closed_forms(solution, &others, is_given, System::Metric),
+            whine(solution).map(|[words, ..]| words),
         ];
         sentences.extend(others.into_iter().flatten().map(|words| words + "."));
     }

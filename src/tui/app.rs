@@ -367,11 +367,11 @@ impl App {
             .into_iter()
             .filter(|&pane| !plan.area(pane).is_empty());
         // The verdict, with the outcome and its notes, stands there even where only the chart is in
-        // sight: all but the band and what stops it.
+        // sight: all but the band and the late stages.
         let verdict = Pane::Results
             .needs()
             .without(Stage::Band)
-            .without(Stage::Clearing);
+            .except(Stages::LATE);
         seen.fold(verdict, |stages, pane| stages.and(pane.needs()))
     }
 

@@ -91,6 +91,8 @@ impl Pane {
             Pane::Form | Pane::Trade => Stages::NONE,
             Pane::Results => Stages::CLOSED_FORM
                 .with(Stage::Band)
+                .and(Stages::of(Stage::Resonance))
+                .and(Stages::of(Stage::SteadyMotion))
                 .and(Stages::of(Stage::Clearing)),
             Pane::Chart => Stages::STATIONS,
             Pane::Teeth => Stages::of(Stage::Impact)

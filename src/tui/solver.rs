@@ -33,7 +33,7 @@ pub struct Answer {
     /// The request's.
     pub serial: u64,
     /// The stages that it holds, as far as the methods have them: those that were asked for, or all
-    /// but the least relief while that one is still being sought.
+    /// but the late ones while those are still being computed.
     pub stages: Stages,
     /// The stages that were asked for.
     pub asked: Stages,
@@ -90,6 +90,12 @@ impl Answer {
     pub fn strikes(&self) -> bool {
         self.of(self.active)
             .is_some_and(|solution| solution.outcome == Outcome::CornerContact)
+    }
+
+    /// Whether no stage that was asked for is still to come.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.stages.covers(self.asked)
     }
 
     /// Whether a stage that was asked for is still to come.

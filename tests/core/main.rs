@@ -38,3 +38,4 @@ mod stiffness;
 mod studies;
 mod trade;
 mod validation;
+mod whine;

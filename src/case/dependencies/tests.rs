@@ -242,6 +242,9 @@ fn same(stage: Stage, one: &Solution, other: &Solution) -> bool {
         Stage::Mesh => one.mesh == other.mesh,
         Stage::Static => one.static_load == other.static_load,
         Stage::Dynamic => one.dynamic == other.dynamic,
+        Stage::Resonance => one.resonance == other.resonance,
+        Stage::StaticSpectrum => one.static_spectrum == other.static_spectrum,
+        Stage::SteadyMotion => one.steady == other.steady,
         Stage::Clearing => one.clearing == other.clearing,
     }
 }

@@ -84,7 +84,7 @@ pub(super) fn name_of(dimension: Dimension) -> &'static str {
 // digits.
 /// Every dimension but the bare number.
 #[rustfmt::skip]
-pub(super) static FAMILIES: [Family; 15] = [
+pub(super) static FAMILIES: [Family; 16] = [
     family(Dimension::Length, "a length", &[
         ten("mm", &[], -3),
         ten("um", &["micron", "microns"], -6),
@@ -195,5 +195,9 @@ pub(super) static FAMILIES: [Family; 15] = [
         ten("N/m", &[], 0),
         ten("N/mm", &[], 3),
         times("lbf/in", &["lb/in"], 175.1268352464764, -1.1376717116859719e-14),
+    ]),
+    family(Dimension::Frequency, "a frequency", &[
+        ten("Hz", &[], 0),
+        ten("kHz", &[], 3),
     ]),
 ];

@@ -1,7 +1,5 @@
 //! Rows of the motion: the load that the pairs share with inertia.
 
-use std::f64::consts::TAU;
-
 use super::{Quantity, checks, of_driver};
 use crate::model::Context;
 use crate::model::Stage::Dynamic;
@@ -181,26 +179,10 @@ fn stiffness(k: &Context) -> Option<f64> {
     Some(k.solution.mesh.as_ref()?.mean_stiffness)
 }
 
-pub(super) const STEPS: &[Step] = &[
-    step(
-        "f_n",
-        "natural frequency of the mesh at its mean stiffness",
-        "Hz",
-        Text("√(k_m/m_red)/(2 π)"),
-        |k| Some((stiffness(k)? / k.solution.reduced_mass).sqrt() / TAU),
-    ),
-    step(
-        "f_z",
-        "tooth frequency",
-        "Hz",
-        Text("z1 ω_1/(2 π)"),
-        |k| Some(f64::from(k.inputs.driver.teeth) * k.inputs.speed / TAU),
-    ),
-    step(
-        "c",
-        "damping of the mesh while a pair is in contact",
-        "N s/m",
-        Text("2 ζ √(k_m m_red)"),
-        |k| Some(2.0 * k.inputs.damping_ratio * (stiffness(k)? * k.solution.reduced_mass).sqrt()),
-    ),
-];
+pub(super) const STEPS: &[Step] = &[step(
+    "c",
+    "damping of the mesh while a pair is in contact",
+    "N s/m",
+    Text("2 ζ √(k_m m_red)"),
+    |k| Some(2.0 * k.inputs.damping_ratio * (stiffness(k)? * k.solution.reduced_mass).sqrt()),
+)];

@@ -14,10 +14,12 @@ pub(super) fn noise(quantity: &Quantity, inputs: &Inputs) -> f64 {
     const AT_REST: f64 = 1e-10;
     const STEPS: f64 = 10.0;
     const CLOSENESS: f64 = 1e-4;
+    const STEADY: f64 = 1e-5;
     match quantity.stage {
         Stage::Dynamic => STEPS * inputs.tolerance,
         Stage::Clearing if inputs.method.shares_load() => CLOSENESS,
-        Stage::Mesh | Stage::Static => AT_REST,
+        Stage::SteadyMotion => STEADY,
+        Stage::Mesh | Stage::Static | Stage::Resonance | Stage::StaticSpectrum => AT_REST,
         _ => ROUNDING,
     }
 }
@@ -49,7 +51,8 @@ fn numerical(quantity: &Quantity, known: &Known) -> Option<String> {
         Stage::Clearing if inputs.method.shares_load() => {
             "with 1/20,000 less relief the tooth touches".to_owned()
         }
-        Stage::Static => "at most 1e-11 of the value".to_owned(),
+        Stage::SteadyMotion => "at most 1e-5 of the greatest amplitude".to_owned(),
+        Stage::Static | Stage::StaticSpectrum => "at most 1e-11 of the value".to_owned(),
         _ if inputs.accurate => "at most 1e-13 of the value".to_owned(),
         _ => "at most 1e-12 of the value".to_owned(),
     };

@@ -9,7 +9,7 @@ use crate::case::Evaluator;
 use crate::model::compliance::model_of;
 use crate::model::compliance::tooth::Compliance;
 use crate::model::inputs::Method;
-use crate::model::{self, Inputs, Refusal, Solution, Stage};
+use crate::model::{self, Inputs, Refusal, Solution, Stage, Stages};
 
 /// Solve with the closed forms, which cost nothing, and the method of the case: their difference is
 /// what the engineer came for.
@@ -66,7 +66,7 @@ fn answer_while(request: &Request, go_on: &dyn Fn() -> bool) -> Answer {
 }
 
 /// The answers of the closed forms, of the method of the case and of the load at rest below its
-/// inertia; of a method that takes its time for it without the least relief. None where `go_on`,
+/// inertia; of a method that takes its time without the late stages. None where `go_on`,
 /// which may show what stands at once, says no.
 pub(in crate::tui) fn solved(
     evaluator: &mut Evaluator,
@@ -78,7 +78,7 @@ pub(in crate::tui) fn solved(
     let Some(method) = first.pending else {
         return Some(first);
     };
-    let stages = request.stages.without(Stage::Clearing);
+    let stages = request.stages.except(Stages::LATE);
     let found = evaluator.solve(&request.inputs, method, stages, &|part| {
         go_on(part, &|| first.clone())
     });
@@ -96,7 +96,8 @@ pub(in crate::tui) fn solved(
     answer.methods.retain(|(known, _)| *known != active);
     if active == Method::Dynamic {
         // Its required relief costs little and is compared with that of the motion.
-        let shared = evaluator.solve(&request.inputs, Method::Static, request.stages, &|_| {
+        let stages = request.stages.without(Stage::StaticSpectrum);
+        let shared = evaluator.solve(&request.inputs, Method::Static, stages, &|_| {
             go_on(1.0, &|| first.clone())
         });
         if matches!(shared, Err(Refusal::Stopped)) {
@@ -116,7 +117,7 @@ pub(in crate::tui) fn solved(
     Some(answer)
 }
 
-/// The answer with the least relief, where that was asked for and is still to come; none where
+/// The answer with the late stages, where those were asked for and are still to come; none where
 /// `go_on` says no.
 pub(in crate::tui) fn cleared(
     evaluator: &mut Evaluator,
@@ -125,7 +126,7 @@ pub(in crate::tui) fn cleared(
     begun: Instant,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Option<Answer> {
-    if !answer.lacks(Stage::Clearing) {
+    if answer.is_whole() {
         return Some(answer);
     }
     if answer.refusal().is_some() {

@@ -7,7 +7,6 @@ use std::time::{Duration, Instant};
 
 use super::latest::{Running, Send, Worker};
 use crate::case::Evaluator;
-use crate::model::Stage;
 use crate::tui::actions::Action;
 use crate::tui::solver::{Answer, PATIENCE, Request, cleared, solved};
 
@@ -50,7 +49,7 @@ fn solve(evaluator: &mut Evaluator, request: &Request, running: Running<'_>) -> 
         (running.is_wanted)()
     };
     let answer = solved(evaluator, request, begun, &go_on)?;
-    if answer.lacks(Stage::Clearing) && answer.strikes() {
+    if !answer.is_whole() && answer.refusal().is_none() {
         (running.send)(Action::Solved(Box::new(answer.clone())));
     }
     cleared(evaluator, request, answer, begun, &|_| {
@@ -65,8 +64,8 @@ mod tests {
 
     use super::*;
     use crate::case::Case;
-    use crate::model::Stages;
     use crate::model::inputs::Method;
+    use crate::model::{Stage, Stages};
 
     fn request(serial: u64) -> Request {
         let case = Case::table_1();

@@ -1,10 +1,11 @@
-//! The lines between outcome and table: methods that differ, the required relief, the spread of the
-//! stiffness models, the error of the printed equations.
+//! The lines between outcome and table: methods that differ, the required relief, mesh frequency and
+//! resonance, the spread of the stiffness models, the error of the printed equations.
 
 use crate::model::inputs::Method;
 use crate::model::{Outcome, Quantity, Solution, Stage};
 use crate::report;
 use crate::report::comparison::differing;
+use crate::report::whine::whine;
 use crate::tui::ascii::symbol;
 use crate::tui::panes::results::Results;
 use crate::tui::solver::Answer;
@@ -37,7 +38,8 @@ pub(super) fn gauges(pane: &Results<'_>, answer: &Answer) -> Vec<Gauge> {
         .collect();
     let differing = other_outcomes(answer, solution, &others);
     let relief = relief(pane, answer, solution, &others);
-    [differing, relief, band(pane, solution), ratios]
+    let whine = whine(solution).map(|words| Gauge(words.into()));
+    [differing, relief, whine, band(pane, solution), ratios]
         .into_iter()
         .flatten()
         .collect()

@@ -1,0 +1,307 @@
+//! The motion that every base pitch repeats where all pairs are alike: the steady state that
+//! whines.
+
+use super::laps::Laps;
+use super::lead::FORCE_TERMS;
+use super::motion::{Motion, State, Window};
+use super::step::{Course, Step};
+use super::watch::Watch;
+use super::{Effort, Run, SHARE_OF_A_STEP, Settings};
+use crate::model::Refusal;
+use crate::model::budget::Meter;
+use crate::model::harmonics::{Fourier, Spectrum};
+use crate::model::mesh::Mesh;
+use crate::model::pair_forces::Touching;
+use crate::numeric::bernstein::sign_changes;
+use crate::numeric::polynomial::Polynomial;
+
+/// Base pitches after which the motion may repeat itself: contact that is lost and found may double
+/// the period.
+const PERIODS: usize = 4;
+
+/// Base pitches after which a motion that does not repeat itself counts as chaotic.
+const MOST_LAPS: u32 = 4000;
+
+/// The greatest relative error of the motion's steps here.
+const TOLERANCE: f64 = 1e-6;
+
+/// The steady motion of a pair without deviations.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Steady {
+    /// The transmission error over the mesh period.
+    pub spectrum: Spectrum,
+    /// Greatest sum of the forces of all pairs, in N.
+    pub mesh_force: f64,
+    /// Greatest force of a tooth, in N.
+    pub tooth_force: f64,
+    /// Whether no pair touches at some moment.
+    pub contact_lost: bool,
+    /// Base pitches after which the motion repeats itself.
+    pub periods: u32,
+    /// Base pitches until it did.
+    pub laps: u32,
+    /// What it took, in units of the [budget](crate::model::budget).
+    pub work: u64,
+    /// Where it begins a base pitch.
+    pub start: Start,
+}
+
+/// A state of the motion at the beginning of a base pitch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Start {
+    /// Displacement of the driver ahead in m, and its rate in m/s.
+    state: [f64; 2],
+    /// How many base pitches ahead the touching pairs are.
+    ahead: Vec<i32>,
+}
+
+/// The motion of a mesh in which no pair deviates, once it repeats itself; from rest, or from the
+/// steady motion at another speed.
+///
+/// # Formula
+/// ```text
+/// me x'' + c x' + Σ w_k F_k(x, s) = F0,   e_k = 0,   x(t + p T_z) = x(t),   p from 1 to 4
+/// ```
+/// followed base pitch by base pitch until displacement, rate and touching pairs are those of p
+/// base pitches before.
+///
+/// # Source
+/// The oscillator of [`dynamic`](super::dynamic); period doubling: Kahraman & Singh 1990.
+///
+/// # Errors
+/// [`Refusal::NoSteadyMotion`] where it never repeats itself, [`Refusal::MotionTooLong`] where the
+/// steps exceed the budget of the meter, [`Refusal::BeyondReach`] where the gears move apart further
+/// than the mesh is known, [`Refusal::Stopped`] where `go_on` says no.
+pub fn steady(
+    mesh: &Mesh,
+    settings: &Settings,
+    from: Option<&Start>,
+    meter: &Meter,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Steady, Refusal> {
+    let mesh = mesh.without_error();
+    let motion = Motion::new(&mesh, settings);
+    let mut round = Round::begin(&motion, settings, from, meter)?;
+    let mut before: Vec<Start> = Vec::with_capacity(PERIODS);
+    for laps in 0..MOST_LAPS {
+        if !go_on(f64::from(laps) / f64::from(MOST_LAPS)) {
+            return Err(Refusal::Stopped);
+        }
+        let start = round.start();
+        if let Some(periods) = repetition(&motion, &before, &start) {
+            return round.measured(periods, laps);
+        }
+        before.insert(0, start);
+        before.truncate(PERIODS);
+        round.lap(|_, _, _| ()).map_err(|refusal| match refusal {
+            Refusal::MotionTooLong { steps, .. } => Refusal::MotionTooLong {
+                steps,
+                done: f64::from(laps) / f64::from(MOST_LAPS),
+            },
+            other => other,
+        })?;
+    }
+    Err(Refusal::NoSteadyMotion { pitches: MOST_LAPS })
+}
+
+/// After how many base pitches the motion repeats itself, if it does; the last start first.
+fn repetition(motion: &Motion<'_>, before: &[Start], now: &Start) -> Option<u32> {
+    /// Over the state's scale.
+    const NONE: f64 = 1e-9;
+    /// A motion that repeats itself after several base pitches so nearly repeats itself after fewer.
+    const NEARLY: f64 = 1e-6;
+    let scale = motion.scale();
+    let moved = |then: &Start| {
+        let by = |at: usize| ((now.state[at] - then.state[at]) / scale[at]).abs();
+        if then.ahead == now.ahead {
+            by(0).max(by(1))
+        } else {
+            f64::INFINITY
+        }
+    };
+    let moved: Vec<f64> = before.iter().map(moved).collect();
+    moved.iter().position(|&moved| moved <= NONE)?;
+    let first = moved.iter().position(|&moved| moved <= NEARLY)?;
+    Some(first as u32 + 1)
+}
+
+/// A run round and round over one base pitch.
+struct Round<'a> {
+    motion: &'a Motion<'a>,
+    windows: Vec<Window>,
+    run: Run<'a>,
+}
+
+impl<'a> Round<'a> {
+    fn begin(
+        motion: &'a Motion<'a>,
+        settings: &Settings,
+        from: Option<&Start>,
+        meter: &'a Meter,
+    ) -> Result<Round<'a>, Refusal> {
+        let mesh = motion.mesh;
+        motion.check_pace(mesh.base_pitch)?;
+        let borders = mesh.borders(0.0, mesh.base_pitch);
+        let windows: Vec<Window> = borders
+            .windows(2)
+            .map(|ends| motion.window(ends[0], ends[1]))
+            .collect();
+        let start = match from {
+            Some(start) => start.clone(),
+            None => at_rest(mesh, &borders)?,
+        };
+        let tolerance = settings.tolerance.min(TOLERANCE);
+        let run = Run {
+            motion,
+            next: 1,
+            t: 0.0,
+            y: State::from(start.state),
+            ahead: start.ahead,
+            borders,
+            turned: Touching::NONE,
+            allowed: SHARE_OF_A_STEP * tolerance * motion.scale()[0],
+            laps: Laps::new(0.0, tolerance),
+            watch: Watch::of_contact_alone(),
+            effort: Effort::default(),
+            meter,
+            lead: None,
+        };
+        Ok(Round {
+            motion,
+            windows,
+            run,
+        })
+    }
+
+    fn start(&self) -> Start {
+        let mut ahead = self.run.ahead.clone();
+        ahead.sort_unstable();
+        Start {
+            state: [self.run.y[0], self.run.y[1]],
+            ahead,
+        }
+    }
+
+    /// Follows one base pitch and shows every step.
+    fn lap(&mut self, mut show: impl FnMut(&Window, Touching, &Step)) -> Result<(), Refusal> {
+        let run = &mut self.run;
+        for window in &self.windows {
+            let mut touching = window.touching(&run.ahead).ok_or(Refusal::BeyondReach)?;
+            run.turned = Touching::NONE;
+            let end = self.motion.time(window.ends.1);
+            while run.t < end {
+                let (next, step) = run.advance(window, touching, end)?;
+                if step.length > 0.0 {
+                    show(window, touching, &step);
+                }
+                touching = next;
+            }
+            run.ahead = window.ahead(touching);
+        }
+        run.t = 0.0;
+        run.ahead.iter_mut().for_each(|ahead| *ahead += 1);
+        Ok(())
+    }
+
+    /// Follows the periods once more and reads off what they show.
+    fn measured(mut self, periods: u32, laps: u32) -> Result<Steady, Refusal> {
+        let mut seen = Seen::new(self.motion);
+        let start = self.start();
+        for _ in 0..periods {
+            self.lap(|window, touching, step| seen.see(window, touching, step))?;
+        }
+        if seen.most_ahead() >= seen.reach() {
+            return Err(Refusal::BeyondReach);
+        }
+        Ok(Steady {
+            spectrum: seen.fourier.spectrum(periods),
+            mesh_force: seen.mesh_force,
+            tooth_force: seen.tooth_force,
+            contact_lost: seen.contact_lost,
+            periods,
+            laps,
+            work: self.run.meter.spent(),
+            start,
+        })
+    }
+}
+
+/// The balance at rest at the beginning of a base pitch.
+fn at_rest(mesh: &Mesh, borders: &[f64]) -> Result<Start, Refusal> {
+    let inside = 0.5 * borders.get(1).copied().unwrap_or(mesh.base_pitch);
+    let pairs = mesh.pair_set(0.0, inside);
+    let (displacement, forces) = pairs.shared(mesh.force);
+    if !displacement.is_finite() {
+        return Err(Refusal::BeyondReach);
+    }
+    let carries = pairs.pairs().iter().zip(forces);
+    let touching = carries.filter(|(_, force)| *force > 0.0);
+    Ok(Start {
+        state: [displacement, 0.0],
+        ahead: touching.map(|(pair, _)| pair.ahead).collect(),
+    })
+}
+
+/// What the steps of a period show.
+struct Seen<'a> {
+    motion: &'a Motion<'a>,
+    period: f64,
+    fourier: Fourier,
+    ahead: f64,
+    mesh_force: f64,
+    tooth_force: f64,
+    contact_lost: bool,
+}
+
+impl<'a> Seen<'a> {
+    fn new(motion: &'a Motion<'a>) -> Seen<'a> {
+        Seen {
+            motion,
+            period: motion.time(motion.mesh.base_pitch),
+            fourier: Fourier::new(),
+            ahead: f64::NEG_INFINITY,
+            mesh_force: 0.0,
+            tooth_force: 0.0,
+            contact_lost: false,
+        }
+    }
+
+    fn see(&mut self, window: &Window, touching: Touching, step: &Step) {
+        let ends = (step.t / self.period, step.end() / self.period);
+        self.fourier.add(ends, |part| step.ahead.at(part));
+        for value in extremes(&step.ahead) {
+            self.fourier.reach(value);
+            self.ahead = self.ahead.max(value);
+        }
+        self.contact_lost |= touching.is_none();
+        let course = Course::new(self.motion, window, touching);
+        let mut sum = Polynomial::<FORCE_TERMS>::ZERO;
+        for pair in touching.pairs() {
+            let force = course.force_along(pair, step);
+            sum = sum.plus(1.0, &force);
+            self.tooth_force = extremes(&force).fold(self.tooth_force, f64::max);
+        }
+        self.mesh_force = extremes(&sum).fold(self.mesh_force, f64::max);
+    }
+
+    fn most_ahead(&self) -> f64 {
+        self.ahead
+    }
+
+    /// The displacement up to which no pair beyond the ends of the mesh touches, in m.
+    fn reach(&self) -> f64 {
+        let mesh = self.motion.mesh;
+        if mesh.is_whole() {
+            return f64::INFINITY;
+        }
+        let (from, to) = mesh.ends();
+        mesh.incoming(from).0.gap.min(mesh.incoming(to).0.gap)
+    }
+}
+
+/// The values among which the greatest and the least of a polynomial from 0 to 1 are.
+fn extremes<const N: usize>(polynomial: &Polynomial<N>) -> impl Iterator<Item = f64> {
+    let turns = sign_changes(&polynomial.derivative());
+    let places = turns.into_iter().chain([0.0, 1.0]);
+    places.map(|part| polynomial.at(part))
+}

@@ -1,0 +1,449 @@
+//! Rows of whine: frequencies, harmonics of the transmission error and dynamic factors of a pair in
+//! which no tooth deviates.
+
+use super::{Quantity, checks};
+use crate::model::Solution;
+use crate::model::Stage::{Resonance, StaticSpectrum, SteadyMotion};
+use crate::model::dynamic::steady::Steady;
+use crate::model::explanation::Formula::{self, Found, Text};
+use crate::model::explanation::{Check, Context, Finding, four};
+
+const ISO: &str = "ISO 6336-1:2019, 6.5: resonance ratio N = n1/n_E1 with n_E1 = 30 000 √(c_γ/m_red)/(π \
+    z1), here with the mean stiffness k_m of the model in place of c_γ.";
+const RIGID: &str = "One mass m_red on the mean stiffness of the mesh; shafts, bearings and masses \
+    beside the gears are left out.";
+const AT_REST: &str = "All pairs share the mesh force at rest. No pair has a deviation, so the \
+    transmission error repeats with every base pitch; the reliefs of all pairs count.";
+const IN_MOTION: &str = "One mass m_red moves on the springs and gaps of all pairs, with damping \
+    while a pair is in contact. No pair has a deviation, and the motion has become periodic: it \
+    repeats after one to four base pitches.";
+const SPECTRUM: &str = "Fourier series 2 |c_n| and max x − min x of the transmission error over a base \
+    pitch; transmission error as the cause of whine: Gregory, Harris & Munro 1963. Each smooth piece is integrated by the \
+    12-point Gauss-Legendre rule.";
+const MOTION: &str = "Oscillator of gear dynamics with backlash, Özgüven & Houser 1988; steady motion \
+    with more than one base pitch per period: Kahraman & Singh 1990. Over the period: Fourier series 2 \
+    |c_n|, max x − min x, max ΣF.";
+const STEADY: &[&str] = &["m_red", "f_n", "f_z", "F_0"];
+const CHECKS: &[Check] = &[checks::teeth, contact_kept];
+const PERIODIC_AT_REST: Formula = Found(
+    "max x - min x over a base pitch, x by Σ w_k F_k = F_0",
+    &["F_0", "k_m"],
+);
+const PERIODIC: Formula = Found(
+    "max x - min x over the base pitches after which the motion repeats",
+    STEADY,
+);
+
+macro_rules! harmonics {
+    ($($order:literal $at_rest:ident $in_motion:ident)*) => {
+        $(
+            const fn $at_rest() -> Formula {
+                Found(
+                    concat!("2 |∫ x exp(-2 π i ", $order, " s/p_b) ds|/p_b over a base pitch, x by Σ \
+                        w_k F_k = F_0"),
+                    &["F_0", "k_m"],
+                )
+            }
+
+            const fn $in_motion() -> Formula {
+                Found(
+                    concat!("2 |∫ x exp(-2 π i ", $order, " f_z t) dt|/T over the period T of the \
+                        steady motion"),
+                    STEADY,
+                )
+            }
+        )*
+    };
+}
+
+harmonics! {
+    1 harmonic_1_st harmonic_1_d
+    2 harmonic_2_st harmonic_2_d
+    3 harmonic_3_st harmonic_3_d
+    4 harmonic_4_st harmonic_4_d
+    5 harmonic_5_st harmonic_5_d
+}
+
+pub(super) const TABLE: &[Quantity] = &[
+    Quantity {
+        key: "mesh_frequency",
+        symbol: "f_z",
+        label: "mesh frequency",
+        unit: "Hz",
+        shown: "Hz",
+        digits: 5,
+        equation: "z1 n1",
+        stage: Resonance,
+        value: |s| Some(s.resonance?.mesh_frequency),
+        meaning: "The number of tooth pairs that come into contact per second. A pair whines at this frequency and at its multiples.",
+        formula: Text("z1 ω_1/(2 π)"),
+        source: "Kinematics of the pair: z1 n1 tooth pairs per second.",
+        corrections: &[],
+        assumptions: "Constant speed.",
+        checks: &[],
+        variants: &[],
+    },
+    Quantity {
+        key: "natural_frequency",
+        symbol: "f_n",
+        label: "natural frequency",
+        unit: "Hz",
+        shown: "Hz",
+        digits: 5,
+        equation: "ISO 6336-1",
+        stage: Resonance,
+        value: |s| Some(s.resonance?.natural_frequency),
+        meaning: "The natural frequency of the two gears on the mean stiffness of the mesh.",
+        formula: Text("√(k_m/m_red)/(2 π)"),
+        source: ISO,
+        corrections: &[],
+        assumptions: RIGID,
+        checks: &[checks::teeth],
+        variants: &[],
+    },
+    Quantity {
+        key: "resonance_ratio",
+        symbol: "N",
+        label: "resonance ratio",
+        unit: "1",
+        shown: "1",
+        digits: 4,
+        equation: "ISO 6336-1",
+        stage: Resonance,
+        value: |s| Some(s.resonance?.ratio()),
+        meaning: "The mesh frequency over the natural frequency. The pair is in resonance at N = 1, and its second and third mesh harmonics are at N = 1/2 and 1/3. ISO 6336-1 calls N < 0.85 subcritical and N > 1.15 supercritical.",
+        formula: Text("f_z/f_n"),
+        source: ISO,
+        corrections: &[],
+        assumptions: RIGID,
+        checks: &[checks::teeth, subcritical],
+        variants: &[],
+    },
+    Quantity {
+        key: "resonance_speed",
+        symbol: "n_E",
+        label: "resonance speed",
+        unit: "rad/s",
+        shown: "rpm",
+        digits: 5,
+        equation: "ISO 6336-1",
+        stage: Resonance,
+        value: |s| {
+            Some(s.resonance?.natural_frequency * s.geometry.base_pitch / s.geometry.driver.base)
+        },
+        meaning: "The speed of the driver at which the mesh frequency equals the natural frequency, N = 1.",
+        formula: Text("2 π f_n/z1"),
+        source: ISO,
+        corrections: &[],
+        assumptions: RIGID,
+        checks: &[checks::teeth],
+        variants: &[],
+    },
+    Quantity {
+        key: "static_te_peak_to_peak",
+        symbol: "TE_st,pp",
+        label: "static: TE peak to peak",
+        unit: "m",
+        shown: "um",
+        digits: 5,
+        equation: "max x − min x",
+        stage: StaticSpectrum,
+        value: |s| Some(s.static_spectrum?.spectrum.peak_to_peak),
+        meaning: "The difference between the largest and the smallest transmission error over one base pitch at rest, of a pair in which no tooth deviates: the static excitation of whine.",
+        formula: PERIODIC_AT_REST,
+        source: SPECTRUM,
+        corrections: &[],
+        assumptions: AT_REST,
+        checks: &[checks::teeth],
+        variants: &[],
+    },
+    Quantity {
+        key: "static_te_harmonic_1",
+        symbol: "TE_st,1",
+        label: "static: TE harmonic 1",
+        unit: "m",
+        shown: "um",
+        digits: 4,
+        equation: "2 |c_1|",
+        stage: StaticSpectrum,
+        value: |s| Some(s.static_spectrum?.spectrum.amplitudes[0]),
+        meaning: "The amplitude of the first mesh harmonic of the transmission error at rest, at the mesh frequency.",
+        formula: harmonic_1_st(),
+        source: SPECTRUM,
+        corrections: &[],
+        assumptions: AT_REST,
+        checks: &[checks::teeth],
+        variants: &[],
+    },
+    Quantity {
+        key: "static_te_harmonic_2",
+        symbol: "TE_st,2",
+        label: "static: TE harmonic 2",
+        unit: "m",
+        shown: "um",
+        digits: 4,
+        equation: "2 |c_2|",
+        stage: StaticSpectrum,
+        value: |s| Some(s.static_spectrum?.spectrum.amplitudes[1]),
+        meaning: "The amplitude of the second mesh harmonic of the transmission error at rest, at 2 times the mesh frequency.",
+        formula: harmonic_2_st(),
+        source: SPECTRUM,
+        corrections: &[],
+        assumptions: AT_REST,
+        checks: &[checks::teeth],
+        variants: &[],
+    },
+    Quantity {
+        key: "static_te_harmonic_3",
+        symbol: "TE_st,3",
+        label: "static: TE harmonic 3",
+        unit: "m",
+        shown: "um",
+        digits: 4,
+        equation: "2 |c_3|",
+        stage: StaticSpectrum,
+        value: |s| Some(s.static_spectrum?.spectrum.amplitudes[2]),
+        meaning: "The amplitude of the third mesh harmonic of the transmission error at rest, at 3 times the mesh frequency.",
+        formula: harmonic_3_st(),
+        source: SPECTRUM,
+        corrections: &[],
+        assumptions: AT_REST,
+        checks: &[checks::teeth],
+        variants: &[],
+    },
+    Quantity {
+        key: "static_te_harmonic_4",
+        symbol: "TE_st,4",
+        label: "static: TE harmonic 4",
+        unit: "m",
+        shown: "um",
+        digits: 4,
+        equation: "2 |c_4|",
+        stage: StaticSpectrum,
+        value: |s| Some(s.static_spectrum?.spectrum.amplitudes[3]),
+        meaning: "The amplitude of the fourth mesh harmonic of the transmission error at rest, at 4 times the mesh frequency.",
+        formula: harmonic_4_st(),
+        source: SPECTRUM,
+        corrections: &[],
+        assumptions: AT_REST,
+        checks: &[checks::teeth],
+        variants: &[],
+    },
+    Quantity {
+        key: "static_te_harmonic_5",
+        symbol: "TE_st,5",
+        label: "static: TE harmonic 5",
+        unit: "m",
+        shown: "um",
+        digits: 4,
+        equation: "2 |c_5|",
+        stage: StaticSpectrum,
+        value: |s| Some(s.static_spectrum?.spectrum.amplitudes[4]),
+        meaning: "The amplitude of the fifth mesh harmonic of the transmission error at rest, at 5 times the mesh frequency.",
+        formula: harmonic_5_st(),
+        source: SPECTRUM,
+        corrections: &[],
+        assumptions: AT_REST,
+        checks: &[checks::teeth],
+        variants: &[],
+    },
+    Quantity {
+        key: "dynamic_te_peak_to_peak",
+        symbol: "TE_d,pp",
+        label: "dynamic: TE peak to peak",
+        unit: "m",
+        shown: "um",
+        digits: 5,
+        equation: "max x − min x",
+        stage: SteadyMotion,
+        value: |s| Some(steady(s)?.spectrum.peak_to_peak),
+        meaning: "The difference between the largest and the smallest transmission error in the steady motion of a pair in which no tooth deviates.",
+        formula: PERIODIC,
+        source: MOTION,
+        corrections: &[],
+        assumptions: IN_MOTION,
+        checks: CHECKS,
+        variants: &[],
+    },
+    Quantity {
+        key: "dynamic_te_harmonic_1",
+        symbol: "TE_d,1",
+        label: "dynamic: TE harmonic 1",
+        unit: "m",
+        shown: "um",
+        digits: 4,
+        equation: "2 |c_1|",
+        stage: SteadyMotion,
+        value: |s| Some(steady(s)?.spectrum.amplitudes[0]),
+        meaning: "The amplitude of the first mesh harmonic of the transmission error in the steady motion, at the mesh frequency.",
+        formula: harmonic_1_d(),
+        source: MOTION,
+        corrections: &[],
+        assumptions: IN_MOTION,
+        checks: CHECKS,
+        variants: &[],
+    },
+    Quantity {
+        key: "dynamic_te_harmonic_2",
+        symbol: "TE_d,2",
+        label: "dynamic: TE harmonic 2",
+        unit: "m",
+        shown: "um",
+        digits: 4,
+        equation: "2 |c_2|",
+        stage: SteadyMotion,
+        value: |s| Some(steady(s)?.spectrum.amplitudes[1]),
+        meaning: "The amplitude of the second mesh harmonic of the transmission error in the steady motion, at 2 times the mesh frequency.",
+        formula: harmonic_2_d(),
+        source: MOTION,
+        corrections: &[],
+        assumptions: IN_MOTION,
+        checks: CHECKS,
+        variants: &[],
+    },
+    Quantity {
+        key: "dynamic_te_harmonic_3",
+        symbol: "TE_d,3",
+        label: "dynamic: TE harmonic 3",
+        unit: "m",
+        shown: "um",
+        digits: 4,
+        equation: "2 |c_3|",
+        stage: SteadyMotion,
+        value: |s| Some(steady(s)?.spectrum.amplitudes[2]),
+        meaning: "The amplitude of the third mesh harmonic of the transmission error in the steady motion, at 3 times the mesh frequency.",
+        formula: harmonic_3_d(),
+        source: MOTION,
+        corrections: &[],
+        assumptions: IN_MOTION,
+        checks: CHECKS,
+        variants: &[],
+    },
+    Quantity {
+        key: "dynamic_te_harmonic_4",
+        symbol: "TE_d,4",
+        label: "dynamic: TE harmonic 4",
+        unit: "m",
+        shown: "um",
+        digits: 4,
+        equation: "2 |c_4|",
+        stage: SteadyMotion,
+        value: |s| Some(steady(s)?.spectrum.amplitudes[3]),
+        meaning: "The amplitude of the fourth mesh harmonic of the transmission error in the steady motion, at 4 times the mesh frequency.",
+        formula: harmonic_4_d(),
+        source: MOTION,
+        corrections: &[],
+        assumptions: IN_MOTION,
+        checks: CHECKS,
+        variants: &[],
+    },
+    Quantity {
+        key: "dynamic_te_harmonic_5",
+        symbol: "TE_d,5",
+        label: "dynamic: TE harmonic 5",
+        unit: "m",
+        shown: "um",
+        digits: 4,
+        equation: "2 |c_5|",
+        stage: SteadyMotion,
+        value: |s| Some(steady(s)?.spectrum.amplitudes[4]),
+        meaning: "The amplitude of the fifth mesh harmonic of the transmission error in the steady motion, at 5 times the mesh frequency.",
+        formula: harmonic_5_d(),
+        source: MOTION,
+        corrections: &[],
+        assumptions: IN_MOTION,
+        checks: CHECKS,
+        variants: &[],
+    },
+    Quantity {
+        key: "mesh_force_factor",
+        symbol: "K_mesh",
+        label: "mesh dynamic factor",
+        unit: "1",
+        shown: "1",
+        digits: 5,
+        equation: "max ΣF/F0",
+        stage: SteadyMotion,
+        value: |s| Some(steady(s)?.mesh_force / s.mesh_force),
+        meaning: "The greatest sum of the forces of all tooth pairs in the steady motion over the mesh force.",
+        formula: Found(
+            "max ΣF/F_0, ΣF over the base pitches after which the motion repeats",
+            STEADY,
+        ),
+        source: MOTION,
+        corrections: &[],
+        assumptions: IN_MOTION,
+        checks: CHECKS,
+        variants: &[],
+    },
+    Quantity {
+        key: "tooth_force_factor",
+        symbol: "K_tooth",
+        label: "tooth dynamic factor",
+        unit: "1",
+        shown: "1",
+        digits: 5,
+        equation: "max F/max F_st",
+        stage: SteadyMotion,
+        value: |s| Some(steady(s)?.tooth_force / s.static_spectrum?.tooth_force),
+        meaning: "The greatest force on a tooth in the steady motion over its greatest force at rest, without deviations. ISO 6336-1 estimates this ratio by K_v, with deviations.",
+        formula: Found("max F_k in the steady motion over max F_k at rest", STEADY),
+        source: MOTION,
+        corrections: &[],
+        assumptions: IN_MOTION,
+        checks: CHECKS,
+        variants: &[],
+    },
+    Quantity {
+        key: "steady_contact_lost",
+        symbol: "lost_z",
+        label: "steady: contact lost",
+        unit: "1",
+        shown: "yes/no",
+        digits: 1,
+        equation: "no pair touches",
+        stage: SteadyMotion,
+        value: |s| Some(f64::from(u8::from(steady(s)?.contact_lost))),
+        meaning: "Whether no pair touches at some moment of the steady motion of a pair without deviations.",
+        formula: Found("taken from the steady motion", STEADY),
+        source: MOTION,
+        corrections: &[],
+        assumptions: IN_MOTION,
+        checks: &[checks::teeth],
+        variants: &[],
+    },
+];
+
+fn steady(solution: &Solution) -> Option<&Steady> {
+    solution.steady.as_ref()?.as_ref().ok()
+}
+
+/// The pair runs below its main resonance.
+fn subcritical(k: &Context) -> Option<Finding> {
+    const RESONANCE: f64 = 0.85;
+    let ratio = k.solution.resonance?.ratio();
+    Finding::new(
+        "N <= 0.85: below the main resonance",
+        format!("N = {}", four(ratio)),
+        ratio <= RESONANCE,
+    )
+}
+
+/// The teeth stay in contact.
+fn contact_kept(k: &Context) -> Option<Finding> {
+    let steady = steady(k.solution)?;
+    let here = match (steady.contact_lost, steady.periods) {
+        (false, 1) => "the teeth stay in contact".to_owned(),
+        (true, 1) => "contact is lost at times".to_owned(),
+        (true, periods) => {
+            format!("contact is lost; the motion repeats after {periods} base pitches")
+        }
+        (false, periods) => format!("the motion repeats after {periods} base pitches"),
+    };
+    Finding::new(
+        "the teeth stay in contact; where contact is lost, a run from another speed may find another \
+            steady motion",
+        here,
+        !steady.contact_lost,
+    )
+}

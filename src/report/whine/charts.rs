@@ -1,0 +1,160 @@
+//! The charts of whine: harmonics of the transmission error, dynamic factor over speed.
+
+use std::f64::consts::PI;
+
+use crate::model::Solution;
+use crate::model::harmonics::Spectrum;
+use crate::report::Report;
+use crate::report::charts::Drawn;
+use crate::report::svg::{Chart, Kind, Labelled, Series, chart};
+use crate::study::speeds::{AtSpeed, SpeedCurve};
+
+/// The name of the chart of harmonics.
+pub const SPECTRUM: &str = "spectrum";
+/// The name of the chart over speed.
+pub const SPEED: &str = "speed";
+
+/// A curve over speed with the name of its case, empty where there is one case.
+pub type NamedCurve<'a> = (&'a str, &'a SpeedCurve);
+
+/// Harmonics of the transmission error at rest and in steady motion as a picture; none where no case
+/// has them.
+#[must_use]
+pub fn spectrum(cases: &[Drawn]) -> Option<String> {
+    let all: Vec<(String, Spectrum)> = cases.iter().flat_map(spectra).collect();
+    let slots = all.len();
+    let bars = all.into_iter().enumerate().map(|(slot, (name, spectrum))| {
+        let amplitudes = (1..).zip(spectrum.amplitudes);
+        let points = amplitudes.map(|(order, amplitude)| (f64::from(order), amplitude * 1e6));
+        Series {
+            name,
+            pieces: vec![points.collect()],
+            kind: Kind::Bars(slot, slots),
+        }
+    });
+    (slots > 0).then(|| {
+        chart(&Chart {
+            title: "Harmonics of the transmission error".to_owned(),
+            across: Labelled::linear("harmonic of the mesh frequency"),
+            up: Labelled::linear("amplitude, µm"),
+            series: bars.collect(),
+            marks: Vec::new(),
+        })
+    })
+}
+
+/// The spectra of a case: at rest and, where the motion is steady, in motion; of a case among others
+/// the last of them alone.
+fn spectra(case: &Drawn) -> Vec<(String, Spectrum)> {
+    let has_mesh = |report: &&Report| report.solution.static_spectrum.is_some();
+    let Some(report) = case.reports.iter().find(has_mesh) else {
+        return Vec::new();
+    };
+    let solution = &report.solution;
+    let at_rest = solution
+        .static_spectrum
+        .map(|found| ("at rest", found.spectrum));
+    let moving = in_motion(solution).map(|spectrum| ("in steady motion", spectrum));
+    if case.name.is_empty() {
+        let both = at_rest.into_iter().chain(moving);
+        return both
+            .map(|(name, spectrum)| (name.to_owned(), spectrum))
+            .collect();
+    }
+    let one = moving.or(at_rest).into_iter();
+    one.map(|(name, spectrum)| (format!("{}, {name}", case.name), spectrum))
+        .collect()
+}
+
+fn in_motion(solution: &Solution) -> Option<Spectrum> {
+    Some(solution.steady.as_ref()?.as_ref().ok()?.spectrum)
+}
+
+/// The dynamic factor of a tooth over speed as a picture; none without a curve.
+#[must_use]
+pub fn speed(curves: &[NamedCurve]) -> Option<String> {
+    let (_, first) = curves.first()?;
+    let series: Vec<Series> = curves.iter().flat_map(|curve| runs(*curve)).collect();
+    let has_points = series.iter().any(|series| !series.pieces.is_empty());
+    let mut marks: Vec<(f64, &'static str)> =
+        [(1.0, "N=1"), (1.0 / 2.0, "1/2"), (1.0 / 3.0, "1/3")]
+            .map(|(ratio, name)| (rpm(ratio * first.resonance), name))
+            .into();
+    marks.push((rpm(first.present), "now"));
+    marks.sort_by(|one, other| one.0.total_cmp(&other.0));
+    has_points.then(|| {
+        chart(&Chart {
+            title: "Dynamic factor of a tooth over speed".to_owned(),
+            across: Labelled::linear("speed of the driver, rpm"),
+            up: Labelled::linear("largest tooth force / that at rest"),
+            series,
+            marks,
+        })
+    })
+}
+
+fn rpm(speed: f64) -> f64 {
+    speed * 30.0 / PI
+}
+
+/// The run up, the run down where it is another motion, and the points without contact at times.
+fn runs((name, curve): NamedCurve) -> Vec<Series> {
+    let called = |run: &str| {
+        if name.is_empty() {
+            format!("{run}, method dynamic, torque of the case")
+        } else {
+            format!("{name}, {run}")
+        }
+    };
+    let jumps: Vec<AtSpeed> = curve.jumps().copied().collect();
+    let is_jump = |point: &AtSpeed| jumps.iter().any(|jump| jump == point);
+    let up = Series {
+        name: called(if jumps.is_empty() {
+            "speed rising or falling"
+        } else {
+            "speed rising"
+        }),
+        pieces: pieces(curve.up.iter().map(Option::as_ref)),
+        kind: Kind::Curve,
+    };
+    let down = curve
+        .down
+        .iter()
+        .map(|point| point.as_ref().filter(|point| is_jump(point)));
+    let down = Series {
+        name: called("speed falling"),
+        pieces: pieces(down),
+        kind: Kind::Curve,
+    };
+    let points = curve.up.iter().flatten().chain(&jumps);
+    let lost: Vec<(f64, f64)> = points
+        .filter(|point| point.contact_lost)
+        .map(place)
+        .collect();
+    let lost = Series {
+        name: "contact lost".to_owned(),
+        pieces: lost.into_iter().map(|point| vec![point]).collect(),
+        kind: Kind::Marks(None),
+    };
+    let all = [up, down, lost];
+    all.into_iter()
+        .filter(|series| !series.pieces.is_empty())
+        .collect()
+}
+
+fn place(point: &AtSpeed) -> (f64, f64) {
+    (rpm(point.speed), point.tooth_factor)
+}
+
+/// Runs of neighbouring points.
+fn pieces<'a>(points: impl Iterator<Item = Option<&'a AtSpeed>>) -> Vec<Vec<(f64, f64)>> {
+    let mut pieces: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
+    for point in points {
+        match (point, pieces.last_mut()) {
+            (Some(point), Some(piece)) => piece.push(place(point)),
+            _ => pieces.push(Vec::new()),
+        }
+    }
+    pieces.retain(|piece| !piece.is_empty());
+    pieces
+}

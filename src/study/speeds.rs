@@ -1,0 +1,203 @@
+//! The dynamic factors of a pair over its speed, in a run up and a run down.
+
+use std::sync::Arc;
+
+use crate::model::budget::Meter;
+use crate::model::dynamic::Settings;
+use crate::model::dynamic::steady::{Start, Steady, steady};
+use crate::model::inputs::{Drive, Method};
+use crate::model::mesh::Mesh;
+use crate::model::static_spectrum::static_spectrum;
+use crate::model::{Inputs, Refusal, Resonance, Solution, Stage, Stages, solve_while};
+
+/// Number of speeds of a run.
+pub const SPEEDS: usize = 121;
+
+/// From this resonance ratio,
+const FROM: f64 = 0.1;
+/// to this one or to so many times the present one.
+const TO: f64 = 1.6;
+const BEYOND_PRESENT: f64 = 1.15;
+
+/// Work of one speed, and of all of them.
+const WORK_OF_SPEED: u64 = 60_000;
+const WORK: u64 = 5_000_000;
+
+/// A factor of the run down that differs by more than this from the run up is another motion.
+const SAME: f64 = 1e-3;
+
+/// The steady motion at one speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AtSpeed {
+    /// Speed of the driver, in rad/s.
+    pub speed: f64,
+    /// N.
+    pub ratio: f64,
+    /// Greatest force of a tooth over that at rest.
+    pub tooth_factor: f64,
+    /// Greatest sum of forces over the mesh force.
+    pub mesh_factor: f64,
+    /// Peak-to-peak transmission error, in m.
+    pub peak_to_peak: f64,
+    /// Whether no pair touches at some moment.
+    pub contact_lost: bool,
+}
+
+/// The steady motions over the speed, at the torque of the case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpeedCurve {
+    /// The speeds, in rad/s, in rising order.
+    pub speeds: Vec<f64>,
+    /// The run up, in the order of the speeds; none where there is no steady motion, or not yet.
+    pub up: Vec<Option<AtSpeed>>,
+    /// The run down, in the same order.
+    pub down: Vec<Option<AtSpeed>>,
+    /// The speed of the case, in rad/s.
+    pub present: f64,
+    /// The speed at which N = 1, in rad/s.
+    pub resonance: f64,
+    /// Whether the budget ended before the last speed.
+    pub is_cut: bool,
+}
+
+impl SpeedCurve {
+    /// The points of the run down that are another motion than those of the run up.
+    pub fn jumps(&self) -> impl Iterator<Item = &AtSpeed> {
+        let pairs = self.up.iter().zip(&self.down);
+        pairs.filter_map(|(up, down)| {
+            let (up, down) = (up.as_ref()?, down.as_ref()?);
+            let differs = (up.tooth_factor - down.tooth_factor).abs() > SAME * up.tooth_factor;
+            differs.then_some(down)
+        })
+    }
+
+    /// The speeds from which to which contact is lost in a run up or down, in rad/s.
+    #[must_use]
+    pub fn lost(&self) -> Vec<(f64, f64)> {
+        let mut found: Vec<(usize, usize)> = Vec::new();
+        for (at, (up, down)) in self.up.iter().zip(&self.down).enumerate() {
+            let is_lost = [up, down].into_iter().flatten().any(|one| one.contact_lost);
+            match found.last_mut() {
+                _ if !is_lost => {}
+                Some((_, to)) if *to + 1 == at => *to = at,
+                _ => found.push((at, at)),
+            }
+        }
+        let speed = |(from, to): (usize, usize)| (self.speeds[from], self.speeds[to]);
+        found.into_iter().map(speed).collect()
+    }
+}
+
+/// The steady motion of a pair at each of [`SPEEDS`] speeds, first with the speed rising from motion
+/// to motion, then falling. `show` receives the curve as it grows and says whether to go on.
+///
+/// # Errors
+/// The [`Refusal`] of the pair, and [`Refusal::Stopped`] where `show` says no.
+pub fn speeds(
+    inputs: &Inputs,
+    show: &mut dyn FnMut(&SpeedCurve) -> bool,
+) -> Result<SpeedCurve, Refusal> {
+    let inputs = Inputs {
+        method: Method::Dynamic,
+        drive: Drive::Torque(inputs.torque()),
+        ..inputs.clone()
+    };
+    let solution = solve_while(&inputs, Stages::of(Stage::Resonance), &|_| true)?;
+    let mesh = Arc::new(wide_mesh(&inputs, &solution)?);
+    let resonance = Resonance::of(&mesh, solution.reduced_mass);
+    let at_resonance = inputs.speed / resonance.ratio();
+    let most = TO.max(BEYOND_PRESENT * resonance.ratio());
+    let step = (most - FROM) / (SPEEDS - 1) as f64;
+    let speeds = (0..SPEEDS).map(|at| (FROM + step * at as f64) * at_resonance);
+    let mut curve = SpeedCurve {
+        speeds: speeds.collect(),
+        up: vec![None; SPEEDS],
+        down: vec![None; SPEEDS],
+        present: inputs.speed,
+        resonance: at_resonance,
+        is_cut: false,
+    };
+    let runs = Runs {
+        mesh: &mesh,
+        settings: Settings {
+            mass: solution.reduced_mass,
+            ..inputs.steady_motion()
+        },
+        tooth_force: static_spectrum(&mesh)?.tooth_force,
+        resonance: at_resonance,
+        work: Meter::new(WORK),
+    };
+    let mut last = None;
+    for at in 0..SPEEDS {
+        let speed = curve.speeds[at];
+        curve.up[at] = runs.at(speed, &mut last)?;
+        if !show(&curve) {
+            return Err(Refusal::Stopped);
+        }
+    }
+    for at in (0..SPEEDS).rev() {
+        let speed = curve.speeds[at];
+        curve.down[at] = runs.at(speed, &mut last)?;
+        if !show(&curve) {
+            return Err(Refusal::Stopped);
+        }
+    }
+    curve.is_cut = !runs.work.spend(0);
+    Ok(curve)
+}
+
+/// The mesh of the pair without deviations, wide enough for the motion in resonance.
+fn wide_mesh(inputs: &Inputs, solution: &Solution) -> Result<Mesh, Refusal> {
+    const REACH: f64 = 60.0;
+    let yields = solution.deviation.loaded_deflection() + inputs.reliefs().sum();
+    Mesh::new(
+        &inputs.mesh(),
+        &solution.geometry,
+        solution.mesh_force,
+        0.0,
+        REACH * yields,
+    )
+}
+
+/// Runs over the speed.
+struct Runs<'a> {
+    mesh: &'a Arc<Mesh>,
+    settings: Settings,
+    /// Greatest force of a tooth at rest, in N.
+    tooth_force: f64,
+    resonance: f64,
+    work: Meter,
+}
+
+impl Runs<'_> {
+    /// The steady motion at a speed, from that of the speed before.
+    fn at(&self, speed: f64, last: &mut Option<Start>) -> Result<Option<AtSpeed>, Refusal> {
+        let meter = Meter::new(WORK_OF_SPEED.min(self.work.limit() - self.work.spent().min(WORK)));
+        let mesh = self.mesh.turning_at(speed);
+        let found = steady(&mesh, &self.settings, last.as_ref(), &meter, &|_| true);
+        self.work.spend(meter.spent());
+        let steady = match found {
+            Ok(steady) => steady,
+            Err(Refusal::Stopped) => return Err(Refusal::Stopped),
+            // The next speed begins at rest.
+            Err(_) => {
+                *last = None;
+                return Ok(None);
+            }
+        };
+        let found = self.told(speed, &steady);
+        *last = Some(steady.start);
+        Ok(Some(found))
+    }
+
+    fn told(&self, speed: f64, steady: &Steady) -> AtSpeed {
+        AtSpeed {
+            speed,
+            ratio: speed / self.resonance,
+            tooth_factor: steady.tooth_force / self.tooth_force,
+            mesh_factor: steady.mesh_force / self.mesh.force,
+            peak_to_peak: steady.spectrum.peak_to_peak,
+            contact_lost: steady.contact_lost,
+        }
+    }
+}
