@@ -77,9 +77,7 @@ impl Stage {
             Stage::Dynamic => StageInputs::Dynamic(inputs.motion(), inputs.speed),
             Stage::Resonance => StageInputs::Resonance(inputs.speed),
             Stage::StaticSpectrum => StageInputs::Results,
-            Stage::SteadyMotion => {
-                StageInputs::SteadyMotion(inputs.steady_motion(), inputs.speed)
-            }
+            Stage::SteadyMotion => StageInputs::SteadyMotion(inputs.steady_motion(), inputs.speed),
             Stage::Clearing => StageInputs::Clearing(
                 inputs.deviation(),
                 inputs.method.shares_load().then(|| inputs.mesh()),
