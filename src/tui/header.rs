@@ -1,5 +1,7 @@
 //! The header: the open cases.
 
+use std::ops::Range;
+
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
@@ -77,19 +79,10 @@ pub(super) fn tab_at(app: &App, area: Rect, at: Position) -> Option<usize> {
     if app.others.is_empty() || !area.contains(at) {
         return None;
     }
-    let names: Vec<String> = app
-        .tabs()
-        .enumerate()
-        .map(|(at, tab)| tab_name(at, tab))
-        .collect();
-    let (from, to) = window(
-        &names,
-        app.place_of_tab,
-        usize::from(area.width).saturating_sub(15),
-    );
+    let (names, Range { start, end }) = shown_tabs(app, area.width);
     let mut right =
-        usize::from(area.x) + HEAD.width() + 2 + if from > 0 { BEFORE.width() } else { 0 };
-    (from..to).find(|&tab| {
+        usize::from(area.x) + HEAD.width() + 2 + if start > 0 { BEFORE.width() } else { 0 };
+    (start..end).find(|&tab| {
         let left = right;
         right += names[tab].width() + 2;
         (left..right).contains(&at.x.into())
@@ -99,26 +92,27 @@ pub(super) fn tab_at(app: &App, area: Rect, at: Position) -> Option<usize> {
 // The open cases by their numbers, as many around the current one as have room; a mark at the end
 // where others are.
 fn tabs(app: &App, width: u16) -> Vec<Span<'static>> {
-    let names: Vec<String> = app
-        .tabs()
-        .enumerate()
-        .map(|(at, tab)| tab_name(at, tab))
-        .collect();
-    let (from, to) = window(
-        &names,
-        app.place_of_tab,
-        usize::from(width).saturating_sub(15),
-    );
-    let mut spans = vec![Span::raw(if from > 0 { BEFORE } else { "" })];
-    for (at, name) in names.iter().enumerate().take(to).skip(from) {
+    let (names, Range { start, end }) = shown_tabs(app, width);
+    let mut spans = vec![Span::raw(if start > 0 { BEFORE } else { "" })];
+    for (at, name) in names.iter().enumerate().take(end).skip(start) {
         if at == app.place_of_tab {
             spans.push(Span::styled(format!("[{name}]"), app.look.theme.key));
         } else {
             spans.push(Span::raw(format!(" {name} ")));
         }
     }
-    spans.push(Span::raw(if to < names.len() { " ›" } else { "" }));
+    spans.push(Span::raw(if end < names.len() { " ›" } else { "" }));
     spans
+}
+
+/// The names of the open cases, and which of them have room beside the current one.
+fn shown_tabs(app: &App, width: u16) -> (Vec<String>, Range<usize>) {
+    const OTHER_TEXT: usize = 15;
+    let tabs = app.tabs().enumerate();
+    let names: Vec<String> = tabs.map(|(at, tab)| tab_name(at, tab)).collect();
+    let room = usize::from(width).saturating_sub(OTHER_TEXT);
+    let shown = window(&names, app.place_of_tab, room);
+    (names, shown)
 }
 
 fn tab_name(at: usize, tab: &Tab) -> String {
@@ -131,8 +125,8 @@ fn tab_name(at: usize, tab: &Tab) -> String {
     )
 }
 
-// The first and the last but one of the names that have room, grown from the one in the middle.
-fn window(names: &[String], middle: usize, width: usize) -> (usize, usize) {
+/// The names that have room, grown from the one in the middle.
+fn window(names: &[String], middle: usize, width: usize) -> Range<usize> {
     let size = |at: usize| names.get(at).map_or(0, |name| name.width() + 2);
     let (mut from, mut to, mut used) = (middle, middle + 1, size(middle));
     loop {
@@ -143,7 +137,7 @@ fn window(names: &[String], middle: usize, width: usize) -> (usize, usize) {
             from -= 1;
             used += size(from);
         } else {
-            return (from, to);
+            return from..to;
         }
     }
 }
