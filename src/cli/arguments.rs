@@ -19,7 +19,18 @@ use clap::{Arg, Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
 use std::ffi::OsStr;
 use std::path::PathBuf;
+use std::sync::LazyLock;
 pub use studies::{Gather, RowFormat, Running, Seek, Sweep, Tolerance};
+
+/// The version, with the commit where the build names it, as `.ci/release` does.
+static VERSION: LazyLock<String> = LazyLock::new(|| {
+    let version = env!("CARGO_PKG_VERSION");
+    let commit = option_env!("TIPSTRIKE_COMMIT");
+    commit.map_or_else(
+        || version.to_owned(),
+        |commit| format!("{version} ({commit})"),
+    )
+});
 
 const CSV_SHAPE: &str = "CSV is in SI units: a row a case with a column a quantity, such as `impact_force [N]`; with --stations \
     instead a row a station. JSON is an object a case, one a line, in SI units; what does not exist is absent.";
@@ -52,7 +63,7 @@ const IMPORT_SHAPE: &str = "REXS is the exchange format of gear programs such as
 
 /// Corner contact in spur gear pairs: where, how hard and how long an incoming tooth strikes
 #[derive(Debug, Parser)]
-#[command(name = "tipstrike", version, args_conflicts_with_subcommands = true, after_help = exit_codes())]
+#[command(name = "tipstrike", version = VERSION.as_str(), args_conflicts_with_subcommands = true, after_help = exit_codes())]
 pub struct Arguments {
     /// Case to open in the workbench; else the last one, else Table 1 of Zhou & Chen 2014
     #[arg(value_hint = ValueHint::FilePath)]
