@@ -6,6 +6,7 @@ pub mod comparison;
 pub mod csv;
 pub mod digest;
 pub mod explain;
+pub mod export;
 pub mod fields;
 pub mod graphs;
 pub mod groups;

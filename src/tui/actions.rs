@@ -7,7 +7,7 @@ use ratatui::layout::{Position, Size};
 
 use super::benchmark::{Measured, Measuring};
 use super::commands::{self, Command};
-use super::jobs::{Explained, Job};
+use super::jobs::{Explained, ExportFault, Job};
 use super::keys::{Chord, Place};
 use super::session::recovery::Claim;
 use super::session::save::{Next, SaveFault, Saving, Written};
@@ -54,6 +54,8 @@ pub enum Action {
     Loaded(PathBuf, Result<Box<Document>, Vec<String>>),
     /// A file was written, or not; and what comes next.
     Saved(PathBuf, Next, Result<Box<Written>, SaveFault>),
+    /// An export was written, or not.
+    Exported(PathBuf, Result<(), ExportFault>),
     /// What stands in a folder.
     Listed(Box<Listing>),
     /// Which cases stand below a folder.

@@ -24,6 +24,7 @@ pub enum Command {
     SearchField,
     Save,
     SaveAs,
+    Export,
     Open,
     Recent,
     FolderUp,

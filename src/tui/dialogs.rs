@@ -5,6 +5,7 @@ pub mod browser;
 pub mod cursor_to;
 mod digest;
 pub mod explanation;
+pub mod export;
 pub mod page;
 pub mod picker;
 pub mod question;
@@ -26,6 +27,7 @@ use crate::case::units::System;
 use browser::Browser;
 use cursor_to::CursorTo;
 use explanation::Explanation;
+use export::ExportTo;
 use page::Page;
 use picker::{Pick, Picker};
 use question::{Choice, Question};
@@ -112,6 +114,8 @@ pub enum Outcome {
     Choose(Choice),
     /// Save under that name, then go on.
     SaveAs(String, Next),
+    /// Export to the file of that name.
+    Export(String),
     /// Move the cursor to that angle, in rad before E; or why there is none.
     CursorTo(Result<f64, String>),
     /// A line of a list.
@@ -134,6 +138,8 @@ pub enum Prompt {
     /// Which file to open.
     Browse(Box<Browser>),
     SaveAs(SaveAs),
+    /// The file to export to.
+    Export(ExportTo),
     /// Where the cursor is to go.
     CursorTo(CursorTo),
     /// A question with buttons.
@@ -151,6 +157,7 @@ impl Prompt {
         match self {
             Prompt::Browse(dialog) => &**dialog,
             Prompt::SaveAs(dialog) => dialog,
+            Prompt::Export(dialog) => dialog,
             Prompt::CursorTo(dialog) => dialog,
             Prompt::Ask(dialog) => dialog,
             Prompt::Read(dialog) => dialog,
@@ -164,6 +171,7 @@ impl Prompt {
         match self {
             Prompt::Browse(dialog) => &mut **dialog,
             Prompt::SaveAs(dialog) => dialog,
+            Prompt::Export(dialog) => dialog,
             Prompt::CursorTo(dialog) => dialog,
             Prompt::Ask(dialog) => dialog,
             Prompt::Read(dialog) => dialog,
@@ -183,5 +191,10 @@ impl Prompt {
     /// Whether it asks for the name of a file to save to.
     pub(crate) fn is_save_as(&self) -> bool {
         matches!(self, Prompt::SaveAs(_))
+    }
+
+    /// Whether it asks for the name of a file to export to.
+    pub(crate) fn is_export(&self) -> bool {
+        matches!(self, Prompt::Export(_))
     }
 }

@@ -1,10 +1,10 @@
-//! Jobs that must not delay the screen: reading folders and files, explaining a result.
+//! Jobs that must not delay the screen: reading folders and files, explaining and exporting results.
 
 use std::path::PathBuf;
 
 use super::store::preview::Viewport;
-use crate::case::Case;
 use crate::case::units::System;
+use crate::case::{Case, Document};
 use crate::model::{Inputs, Quantity};
 use crate::report::explain::Page;
 
@@ -23,6 +23,8 @@ pub enum Job {
     Examples(System),
     /// Where a result comes from.
     Explain(Box<Asked>),
+    /// Write results to a file.
+    Export(Box<Exporting>),
 }
 
 /// A result to be explained.
@@ -35,6 +37,40 @@ pub struct Asked {
     pub inputs: Inputs,
 }
 
+/// Results to be written to a file.
+#[derive(Debug, Clone)]
+pub struct Exporting {
+    /// The file; its ending chooses the format.
+    pub path: PathBuf,
+    /// Whether it may replace a file of that name.
+    pub replaces: bool,
+    /// The name of the case.
+    pub name: String,
+    /// The case with the text of its file.
+    pub document: Document,
+    /// The pair.
+    pub inputs: Inputs,
+    /// What a picture shows.
+    pub figure: Figure,
+}
+
+/// The subject of a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Figure {
+    /// The chart of that key.
+    Chart(&'static str),
+    Teeth,
+}
+
+/// Why an export was not written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum ExportFault {
+    /// There is a file of that name.
+    Exists,
+    /// Anything else, in a sentence.
+    Failed(String),
+}
+
 /// The explanation of a result, or why there is none.
 #[derive(Debug, Clone)]
 pub struct Explained {
@@ -45,7 +81,7 @@ pub struct Explained {
 
 impl Job {
     /// How many kinds there are.
-    pub(super) const KINDS: usize = 6;
+    pub(super) const KINDS: usize = 7;
 
     /// The kind and its name. Of a kind the latest job replaces the others.
     pub(super) const fn kind(&self) -> (usize, &'static str) {
@@ -56,6 +92,7 @@ impl Job {
             Job::Examples(_) => (3, "examples"),
             Job::Explain(_) => (4, "explain"),
             Job::Below(..) => (5, "search"),
+            Job::Export(_) => (6, "export"),
         }
     }
 }

@@ -127,6 +127,13 @@ impl Tab {
         self.problems.is_empty().then_some(&self.inputs_so_far)
     }
 
+    /// The document with the edits of the form.
+    pub(crate) fn as_edited(&self) -> Document {
+        let mut document = self.document.clone();
+        document.case = self.case.clone();
+        document
+    }
+
     /// Whether the form differs from the file.
     #[must_use]
     pub fn is_unsaved(&self) -> bool {

@@ -10,6 +10,7 @@ mod copy;
 mod cursor;
 mod dialogs;
 mod edit;
+mod export;
 pub(super) mod files;
 mod navigation;
 mod options;
@@ -126,6 +127,7 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
         Action::Progress(progress) => app.progress = progress,
         Action::Loaded(path, result) => return files::loaded(app, path, result),
         Action::Saved(path, next, result) => return files::saved(app, path, next, result),
+        Action::Exported(path, result) => export::done(app, &path, result),
         Action::Claimed(claim) => recovery::claimed(app, *claim),
         Action::Failed(reason) => app.complain(reason),
         result @ (Action::Listed(_)
@@ -143,6 +145,7 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::Edit(request) => edit::handle(app, request),
         Command::Save => files::save(app, Next::Stay),
         Command::SaveAs => files::ask_where(app, Next::Stay),
+        Command::Export => export::ask(app),
         Command::Open => browse::open(app, false),
         Command::Recent => browse::recent(app),
         Command::FolderUp => browse::up(app),

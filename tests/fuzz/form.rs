@@ -302,6 +302,7 @@ impl Bench {
         let prompt = self.app.prompts.last().map(|prompt| match prompt {
             Prompt::Browse(_) => "browse",
             Prompt::SaveAs(_) => "save as",
+            Prompt::Export(_) => "export",
             Prompt::CursorTo(_) => "aim",
             Prompt::Ask(_) => "ask",
             Prompt::Read(_) | Prompt::Explain(_) => "page",
@@ -409,6 +410,10 @@ impl Bench {
                 )?;
                 below.asked = (base, typed);
                 Some(Action::Found(Box::new(below)))
+            }
+            Effect::Job(Job::Export(mut exporting)) => {
+                exporting.path = self.within(&exporting.path);
+                done(Job::Export(exporting))
             }
             Effect::Job(job) => done(job),
             Effect::Play(plays) => {

@@ -21,6 +21,7 @@ mod browser;
 mod charts;
 mod cursor;
 mod explanation;
+mod export;
 mod form_aids;
 mod frozen;
 mod keys;

@@ -6,6 +6,7 @@ use ratatui::style::Style;
 use ratatui::text::Line;
 use ratatui::widgets::{Block, Clear, Widget};
 
+use crate::tui::line::Line as Input;
 use crate::tui::text;
 use crate::tui::theme::Theme;
 use unicode_width::UnicodeWidthStr;
@@ -54,6 +55,27 @@ pub(super) fn frame(
     );
     Block::bordered().title(title).render(area, buffer);
     inside(wanted, screen)
+}
+
+/// A box in which a path is typed, with a sentence on how. Returns the place of the text cursor.
+pub(super) fn path_box(
+    title: &str,
+    how: &str,
+    input: &Input,
+    theme: &Theme,
+    (screen, buffer): (Rect, &mut Buffer),
+) -> Option<Position> {
+    let how = text::wrap(how, usize::from(room(screen.as_size()).width));
+    let size = Size::new(WIDEST, how.len() as u16 + 1);
+    let inner = frame(title, size, screen, theme, buffer);
+    for (line, y) in how.iter().zip(inner.top() + 1..inner.bottom()) {
+        buffer.set_stringn(inner.x, y, line, inner.width.into(), theme.faint);
+    }
+    let line = Rect {
+        height: inner.height.min(1),
+        ..inner
+    };
+    text::edited(input, line, theme.focus, buffer)
 }
 
 fn outside(wanted: Size, screen: Rect) -> Rect {

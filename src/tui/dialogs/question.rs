@@ -43,6 +43,8 @@ pub enum Choice {
     Proceed(Next),
     /// Write over what is in the file.
     Overwrite(PathBuf, Next),
+    /// Export over what is in the file.
+    ExportOver(PathBuf),
     /// Ask for another name.
     SaveAs(Next),
     /// Put kept edits into the form.
@@ -108,6 +110,23 @@ impl Question {
                 ("Cancel", Choice::Cancel),
             ],
             marked: 2,
+        }
+    }
+
+    /// Asks before an export replaces an existing file.
+    pub(crate) fn export_exists(path: &Path) -> Question {
+        Question {
+            title: "The file exists",
+            text: format!(
+                "{} exists. Replace writes the export over it.",
+                path.display()
+            ),
+            details: Vec::new(),
+            buttons: vec![
+                ("Replace", Choice::ExportOver(path.to_owned())),
+                ("Cancel", Choice::Cancel),
+            ],
+            marked: 1,
         }
     }
 

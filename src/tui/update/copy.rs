@@ -1,7 +1,7 @@
 //! Copying to the clipboard of the user's own terminal.
 
-use crate::model::QUANTITIES;
-use crate::report;
+use crate::report::page::{Page, Subject};
+use crate::report::{self, Report, Selection};
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::ascii;
@@ -48,25 +48,30 @@ pub(super) fn value(app: &mut App) -> Vec<Effect> {
     copy(app, text, quantity.label.trim())
 }
 
-/// Every result of the active method, a line each: key, value in SI, unit.
+/// The report of the active method as Markdown: title, verdict, inputs, results with their units.
 pub(super) fn results(app: &mut App) -> Vec<Effect> {
-    let solution = app
-        .tab
-        .answer
-        .as_ref()
-        .filter(|_| !app.tab.is_stale())
-        .and_then(|answer| answer.of(answer.active));
-    let Some(solution) = solution else {
+    let answer = app.tab.answer.as_ref().filter(|_| !app.tab.is_stale());
+    let solved = answer.and_then(|answer| Some((answer, answer.of(answer.active)?)));
+    let Some((answer, solution)) = solved else {
         app.complain("there are no valid results to copy");
         return Vec::new();
     };
-    let values = QUANTITIES
-        .iter()
-        .filter_map(|quantity| Some((quantity, report::value(quantity, solution)?)));
-    let lines =
-        values.map(|(quantity, value)| format!("{}\t{value}\t{}", quantity.key, quantity.unit));
-    let lines = lines.collect::<Vec<_>>().join("\n");
-    copy(app, lines, "all results in SI")
+    let report = Report::of(
+        app.tab.name(),
+        app.tab.case.clone(),
+        answer.inputs.clone(),
+        solution.clone(),
+        Selection::default(),
+    );
+    let subject = Subject {
+        reports: vec![report],
+        file: app.tab.as_edited().render(),
+    };
+    copy(
+        app,
+        Page::of(&[subject]).markdown(),
+        "the report of the results",
+    )
 }
 
 fn copy(app: &mut App, text: String, what: &str) -> Vec<Effect> {

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{baseline, recovery, solve, tabs};
+use super::{baseline, export, recovery, solve, tabs};
 use crate::case::Document;
 use crate::case::file::Saved;
 use crate::case::rexs;
@@ -93,6 +93,7 @@ pub(super) fn choose(app: &mut App, choice: Choice) -> Vec<Effect> {
         Choice::Save(next) => save(app, next),
         Choice::Proceed(next) => go(app, next),
         Choice::Overwrite(path, next) => vec![saving(app, path, Over::Anything, next)],
+        Choice::ExportOver(path) => export::begin(app, path, true),
         Choice::Recover(offer) => recovery::recover(app, &offer),
         Choice::Forget(journal) => vec![Effect::Forget(journal)],
         Choice::SaveAs(next) => {
@@ -262,8 +263,7 @@ fn refuse_faulty(app: &mut App) -> bool {
 }
 
 fn saving(app: &mut App, path: PathBuf, over: Over, next: Next) -> Effect {
-    let mut document = app.tab.document.clone();
-    document.case = app.tab.case.clone();
+    let document = app.tab.as_edited();
     app.tab.being_saved = Some(app.tab.case.clone());
     Effect::Save(
         Box::new(Saving {

@@ -10,7 +10,7 @@ use crate::report::digest::Digest;
 use crate::report::explain;
 use crate::tui::actions::Action;
 use crate::tui::jobs::{Asked, Explained, Job};
-use crate::tui::store::{case_search, folder, preview, recents};
+use crate::tui::store::{case_search, export, folder, preview, recents};
 
 /// Starts the worker of a kind of jobs.
 ///
@@ -44,6 +44,10 @@ pub fn perform(job: Job, go_on: &dyn Fn(f64) -> bool) -> Option<Action> {
         }
         Job::Recents => Action::Recents(recents::looked_at(recents::list())),
         Job::Examples(system) => Action::Examples(examples(system, go_on)?),
+        Job::Export(exporting) => {
+            let (path, result) = export::write(&exporting);
+            Action::Exported(path, result)
+        }
         Job::Explain(asked) => Action::Explained(Box::new(explained(*asked))),
     })
 }

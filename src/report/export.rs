@@ -1,0 +1,78 @@
+//! Solved cases as a file: a page, a table or data, by the ending of the file's name.
+
+use std::io;
+use std::path::Path;
+
+use super::page::{Page, Subject};
+use super::{csv, json};
+
+/// The format of a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// A page for a browser and a printer.
+    Html,
+    /// A page as text.
+    Markdown,
+    /// A table in SI units.
+    Csv,
+    /// An object for each case in SI units.
+    Json,
+}
+
+impl Format {
+    /// The endings, as a sentence names them.
+    pub const ENDINGS: &str = ".html, .md, .csv or .json";
+
+    /// The format that the ending of a file's name chooses.
+    #[must_use]
+    pub fn of(path: &Path) -> Option<Format> {
+        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+        Some(match ending.as_str() {
+            "html" | "htm" => Format::Html,
+            "md" | "markdown" => Format::Markdown,
+            "csv" => Format::Csv,
+            "json" | "jsonl" => Format::Json,
+            _ => return None,
+        })
+    }
+
+    /// Whether it is a page for a reader.
+    #[must_use]
+    pub const fn is_page(self) -> bool {
+        matches!(self, Format::Html | Format::Markdown)
+    }
+
+    /// Whether it shows the stations.
+    #[must_use]
+    pub const fn has_stations(self) -> bool {
+        !matches!(self, Format::Csv)
+    }
+
+    /// The cases in this format.
+    ///
+    /// # Errors
+    /// When a template or a value cannot be written.
+    pub fn render(self, subjects: &[Subject]) -> io::Result<String> {
+        let reports = || {
+            subjects
+                .iter()
+                .filter_map(|subject| subject.reports.first())
+        };
+        let mut bytes = Vec::new();
+        match self {
+            Format::Html => return Page::of(subjects).html().map_err(io::Error::other),
+            Format::Markdown => return Ok(Page::of(subjects).markdown()),
+            Format::Csv => {
+                for (at, report) in reports().enumerate() {
+                    csv::write(report, at == 0, &mut bytes)?;
+                }
+            }
+            Format::Json => {
+                for report in reports() {
+                    json::write(report, &mut bytes)?;
+                }
+            }
+        }
+        String::from_utf8(bytes).map_err(io::Error::other)
+    }
+}

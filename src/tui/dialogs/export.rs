@@ -1,0 +1,43 @@
+//! The path to export to.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect};
+
+use super::boxes::path_box;
+use super::{Dialog, Outcome, Surroundings};
+use crate::tui::keys::Place;
+use crate::tui::line::Line;
+
+/// How a name is given.
+const NAMING: &str = "A name or a path, ~ is the home folder. The ending chooses what is written: .html, .md, .csv or .json the report, .svg the shown chart or the teeth.";
+
+/// The path to export to.
+#[derive(Debug, Clone)]
+pub struct ExportTo {
+    /// The typed path.
+    pub input: Line,
+}
+
+impl Dialog for ExportTo {
+    fn place(&self) -> Place {
+        Place::PATH
+    }
+
+    fn input(&mut self) -> Option<&mut Line> {
+        Some(&mut self.input)
+    }
+
+    fn accept(&mut self, _: &Surroundings<'_>) -> Outcome {
+        Outcome::Export(self.input.value().to_owned())
+    }
+
+    fn draw(&self, around: &Surroundings<'_>, area: Rect, buffer: &mut Buffer) -> Option<Position> {
+        path_box(
+            "Export",
+            NAMING,
+            &self.input,
+            around.look.theme,
+            (area, buffer),
+        )
+    }
+}

@@ -1,0 +1,80 @@
+//! Results written to a file: a report, or a picture of a chart or the teeth.
+
+use std::path::{Path, PathBuf};
+
+use super::at_home;
+use crate::case::file::{self, SaveError};
+use crate::report::charts::{Drawn, find, picture, with_other_method};
+use crate::report::export::Format;
+use crate::report::page::Subject;
+use crate::report::svg::teeth::teeth;
+use crate::report::{Report, Selection};
+use crate::tui::jobs::{ExportFault, Exporting, Figure};
+
+/// Solves the case and writes the file. Returns the whole path.
+#[must_use]
+pub fn write(exporting: &Exporting) -> (PathBuf, Result<(), ExportFault>) {
+    let path = at_home(&exporting.path);
+    let path = std::path::absolute(&path).unwrap_or(path);
+    let written = text(exporting, &path).map_err(ExportFault::Failed);
+    let written = written.and_then(|text| {
+        file::write(&path, text.as_bytes(), exporting.replaces).map_err(|error| match error {
+            SaveError::AlreadyThere(_) => ExportFault::Exists,
+            error => ExportFault::Failed(error.to_string()),
+        })
+    });
+    (path, written)
+}
+
+fn text(exporting: &Exporting, path: &Path) -> Result<String, String> {
+    let format = Format::of(path);
+    let is_picture = path
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("svg"));
+    if format.is_none() && !is_picture {
+        return Err(format!(
+            "the ending chooses what is written: use {} for the report, .svg for the picture",
+            Format::ENDINGS
+        ));
+    }
+    let selection = Selection {
+        only: Vec::new(),
+        stations: format.is_none_or(Format::has_stations),
+    };
+    let case = exporting.document.case.clone();
+    let report = Report::solve(
+        exporting.name.clone(),
+        case,
+        exporting.inputs.clone(),
+        selection,
+    )
+    .map_err(|refusal| format!("{refusal}: {}", refusal.fix()))?;
+    let Some(format) = format else {
+        return drawn(report, exporting.figure);
+    };
+    let reports = if format.is_page() {
+        with_other_method(report)
+    } else {
+        vec![report]
+    };
+    let file = exporting.document.render();
+    let subject = Subject { reports, file };
+    format.render(&[subject]).map_err(|error| error.to_string())
+}
+
+fn drawn(report: Report, figure: Figure) -> Result<String, String> {
+    let key = match figure {
+        Figure::Teeth => return Ok(teeth(&report.inputs, &report.solution)),
+        Figure::Chart(key) => key,
+    };
+    let reports = with_other_method(report);
+    let drawn = Drawn {
+        name: "",
+        reports: &reports,
+    };
+    find(key)
+        .and_then(|graph| picture(graph, &[drawn]))
+        .ok_or_else(|| {
+            format!("the chart {key} has no curve: no corner contact is found: show another chart")
+        })
+}

@@ -1,0 +1,85 @@
+//! Writing the report or a picture to a file.
+
+use std::path::{Path, PathBuf};
+
+use crate::report::graphs::GRAPHS;
+use crate::tui::actions::Effect;
+use crate::tui::app::App;
+use crate::tui::dialogs::Prompt;
+use crate::tui::dialogs::export::ExportTo;
+use crate::tui::dialogs::question::Question;
+use crate::tui::jobs::{ExportFault, Exporting, Figure, Job};
+use crate::tui::line::Line;
+use crate::tui::pane::Pane;
+
+/// Ask for the file: a picture where a chart or the teeth have the focus, else the report.
+pub(super) fn ask(app: &mut App) -> Vec<Effect> {
+    if refuse_faulty(app) {
+        return Vec::new();
+    }
+    let ending = match app.panes.focus {
+        Pane::Chart | Pane::Teeth => "svg",
+        _ => "html",
+    };
+    let beside = app.tab.path.as_deref().unwrap_or(Path::new("case.toml"));
+    let input = Line::named(beside.with_extension(ending).display().to_string());
+    app.prompts.push(Prompt::Export(ExportTo { input }));
+    Vec::new()
+}
+
+/// Write the file on the worker.
+pub(super) fn begin(app: &mut App, path: PathBuf, replaces: bool) -> Vec<Effect> {
+    let inputs = match app.tab.inputs() {
+        _ if path.as_os_str().is_empty() => {
+            app.complain("a file needs a name");
+            return Vec::new();
+        }
+        Some(inputs) => inputs.clone(),
+        None => {
+            refuse_faulty(app);
+            return Vec::new();
+        }
+    };
+    let is_of_teeth = app.panes.focus == Pane::Teeth;
+    let exporting = Exporting {
+        path,
+        replaces,
+        name: app.tab.name(),
+        document: app.tab.as_edited(),
+        inputs,
+        figure: if is_of_teeth {
+            Figure::Teeth
+        } else {
+            Figure::Chart(GRAPHS[app.chart.graph].key)
+        },
+    };
+    app.say("exporting");
+    vec![Effect::Job(Job::Export(Box::new(exporting)))]
+}
+
+/// The export was written, or not.
+pub(super) fn done(app: &mut App, path: &Path, result: Result<(), ExportFault>) {
+    let is_asking = app.prompts.last().is_some_and(Prompt::is_export);
+    match result {
+        Ok(()) => {
+            if is_asking {
+                app.prompts.pop();
+            }
+            app.say(format!("exported to {}", path.display()));
+        }
+        Err(ExportFault::Exists) => {
+            app.message = None;
+            app.prompts.push(Prompt::Ask(Question::export_exists(path)));
+        }
+        Err(ExportFault::Failed(reason)) => app.complain(format!("not exported: {reason}")),
+    }
+}
+
+fn refuse_faulty(app: &mut App) -> bool {
+    let Some(&(field, _)) = app.tab.problems.first() else {
+        return false;
+    };
+    app.focus_on(field);
+    app.complain("not exported: complete the fields marked with ! or as required first");
+    true
+}

@@ -1,0 +1,104 @@
+//! Reports and pictures written from the workbench.
+
+use crate::harness;
+
+use std::fs;
+
+use harness::{Desk, LARGE, TABLE_1};
+
+/// A workbench on `pair.toml` with an edit that is not saved.
+fn edited() -> Desk {
+    let mut desk = Desk::on(LARGE, "pair.toml", TABLE_1);
+    desk.fill("deviations.base_pitch", "24 um");
+    desk
+}
+
+fn names(desk: &Desk) -> Vec<String> {
+    let entries = fs::read_dir(desk.folder.path()).expect("the folder");
+    let mut names: Vec<_> = entries
+        .map(|entry| {
+            entry
+                .expect("an entry")
+                .file_name()
+                .into_string()
+                .expect("a name")
+        })
+        .collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn the_report_of_the_form_is_written_and_the_status_line_says_where() {
+    let mut desk = edited();
+    desk.keys(&["Alt-X"]);
+    assert!(desk.shows("Export") && desk.shows("pair.html"));
+    desk.keys(&["sent", "Enter"]);
+    let page = desk.read("sent.html");
+    assert!(
+        page.contains("<html") && page.contains("24 um"),
+        "the edit is in the page"
+    );
+    assert!(desk.shows("exported to ") && desk.shows("sent.html") && desk.app.prompts.is_empty());
+    assert!(desk.app.tab.is_unsaved(), "an export saves no case");
+}
+
+#[test]
+fn the_ending_and_the_focused_pane_choose_what_is_written() {
+    let cases = [
+        ("1", "a.md", "# Zhou & Chen 2014, Table 1"),
+        ("1", "a.csv", "case,"),
+        ("1", "a.json", "{\"case\":"),
+        ("3", "a.svg", "Force"),
+        ("4", "b.svg", "<path"),
+    ];
+    for (pane, name, part) in cases {
+        let mut desk = edited();
+        desk.keys(&[
+            "Esc",
+            pane,
+            ":",
+            "export",
+            "Enter",
+            "Ctrl-U",
+            &desk_path(&desk, name),
+            "Enter",
+        ]);
+        let text = desk.read(name);
+        assert!(text.contains(part), "{name}: {text}");
+    }
+    let mut desk = edited();
+    desk.keys(&["Esc", "3", "Alt-X"]);
+    assert!(desk.shows("pair.svg"));
+}
+
+fn desk_path(desk: &Desk, name: &str) -> String {
+    desk.path(name).display().to_string()
+}
+
+#[test]
+fn a_file_that_exists_is_replaced_on_demand_alone() {
+    let mut desk = edited();
+    desk.write("pair.html", "mine");
+    desk.keys(&["Alt-X", "Enter"]);
+    assert!(desk.shows("The file exists"));
+    desk.keys(&["Enter"]);
+    assert_eq!(desk.read("pair.html"), "mine");
+    assert!(desk.shows("Export"), "another name may be typed");
+    desk.keys(&["Enter", "r"]);
+    assert!(desk.read("pair.html").contains("24 um") && desk.app.prompts.is_empty());
+}
+
+#[test]
+fn what_cannot_be_exported_is_refused_in_words_and_writes_nothing() {
+    let mut desk = edited();
+    desk.keys(&["Alt-X", "Ctrl-U", &desk_path(&desk, "page.pdf"), "Enter"]);
+    assert!(desk.shows("not exported: the ending chooses"));
+    desk.keys(&["Ctrl-U", "Enter"]);
+    assert!(desk.shows("a file needs a name"));
+    desk.keys(&["Esc"]);
+    desk.fill("deviations.base_pitch", "24 lb");
+    desk.keys(&["Alt-X"]);
+    assert!(desk.shows("not exported: complete the fields marked with !"));
+    assert_eq!(names(&desk), ["pair.toml"]);
+}
