@@ -15,6 +15,7 @@ fn edited() -> Desk {
 
 fn names(desk: &Desk) -> Vec<String> {
     let entries = fs::read_dir(desk.folder.path()).expect("the folder");
+    // The lock of the open case is hidden.
     let mut names: Vec<_> = entries
         .map(|entry| {
             entry
@@ -24,6 +25,7 @@ fn names(desk: &Desk) -> Vec<String> {
                 .expect("a name")
         })
         .collect();
+    names.retain(|name: &String| !name.starts_with('.'));
     names.sort();
     names
 }
