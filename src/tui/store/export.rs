@@ -12,7 +12,6 @@ use crate::report::{Report, Selection};
 use crate::tui::jobs::{ExportFault, Exporting, Figure};
 
 /// Solves the case and writes the file. Returns the whole path.
-#[must_use]
 pub fn write(exporting: &Exporting) -> (PathBuf, Result<(), ExportFault>) {
     let path = at_home(&exporting.path);
     let path = std::path::absolute(&path).unwrap_or(path);
