@@ -29,7 +29,7 @@ pub(super) fn run(options: &Export, streams: &mut Streams) -> io::Result<Exit> {
                 } else {
                     vec![report]
                 };
-                let speeds = (ending == Ending::Html)
+                let speeds = (format == Format::Html)
                     .then(|| plot::speeds_of(&reports[0].inputs))
                     .and_then(Result::ok);
                 subjects.push(Subject {

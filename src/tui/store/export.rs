@@ -9,13 +9,17 @@ use crate::report::export::Format;
 use crate::report::page::Subject;
 use crate::report::svg::teeth::teeth;
 use crate::report::{Report, Selection};
+use crate::study::speeds::speeds;
 use crate::tui::jobs::{ExportFault, Exporting, Figure};
 
 /// Solves the case and writes the file. Returns the whole path.
-pub fn write(exporting: &Exporting) -> (PathBuf, Result<(), ExportFault>) {
+pub fn write(
+    exporting: &Exporting,
+    go_on: &dyn Fn(f64) -> bool,
+) -> (PathBuf, Result<(), ExportFault>) {
     let path = at_home(&exporting.path);
     let path = std::path::absolute(&path).unwrap_or(path);
-    let written = text(exporting, &path).map_err(ExportFault::Failed);
+    let written = text(exporting, &path, go_on).map_err(ExportFault::Failed);
     let written = written.and_then(|text| {
         file::write(&path, text.as_bytes(), exporting.replaces).map_err(|error| match error {
             SaveError::AlreadyThere(_) => ExportFault::Exists,
@@ -25,7 +29,7 @@ pub fn write(exporting: &Exporting) -> (PathBuf, Result<(), ExportFault>) {
     (path, written)
 }
 
-fn text(exporting: &Exporting, path: &Path) -> Result<String, String> {
+fn text(exporting: &Exporting, path: &Path, go_on: &dyn Fn(f64) -> bool) -> Result<String, String> {
     let format = Format::of(path);
     let is_picture = path
         .extension()
@@ -57,7 +61,14 @@ fn text(exporting: &Exporting, path: &Path) -> Result<String, String> {
         vec![report]
     };
     let file = exporting.document.render();
-    let subject = Subject { reports, file };
+    let speeds = (format == Format::Html)
+        .then(|| speeds(&exporting.inputs, &mut |_| go_on(0.0)))
+        .and_then(Result::ok);
+    let subject = Subject {
+        reports,
+        speeds,
+        file,
+    };
     format.render(&[subject]).map_err(|error| error.to_string())
 }
 

@@ -65,6 +65,7 @@ pub(super) fn results(app: &mut App) -> Vec<Effect> {
     );
     let subject = Subject {
         reports: vec![report],
+        speeds: None,
         file: app.tab.as_edited().render(),
     };
     copy(

@@ -45,7 +45,7 @@ pub fn perform(job: Job, go_on: &dyn Fn(f64) -> bool) -> Option<Action> {
         Job::Recents => Action::Recents(recents::looked_at(recents::list())),
         Job::Examples(system) => Action::Examples(examples(system, go_on)?),
         Job::Export(exporting) => {
-            let (path, result) = export::write(&exporting);
+            let (path, result) = export::write(&exporting, go_on);
             Action::Exported(path, result)
         }
         Job::Explain(asked) => Action::Explained(Box::new(explained(*asked))),
