@@ -1,8 +1,6 @@
 //! From a gear to the displacements under its loads, twist and shift of the body taken out.
 
 use std::f64::consts::PI;
-use std::panic::resume_unwind;
-use std::thread;
 
 use super::body;
 use super::boundary::Boundary;
@@ -152,19 +150,11 @@ pub(super) fn under_loads(
 ) -> Result<Displacements, FieldRefusal> {
     let stiffnesses = stiffnesses(mesh, boundary, input.poisson)?;
     let condense = |mode| mode::condense(mesh, &stiffnesses, loads, mode);
-    // The modes take the same time and know nothing of each other.
-    let (even, odd) = thread::scope(|scope| {
-        let even = scope.spawn(|| condense(Mode::Symmetric));
-        let odd = condense(Mode::Antisymmetric);
-        (
-            even.join().unwrap_or_else(|panic| resume_unwind(panic)),
-            odd,
-        )
-    });
-    let modes = even.zip(odd);
-    let displacements =
-        modes.and_then(|(even, odd)| harmonics::displacements(&even, &odd, loads, input.teeth));
-    displacements.ok_or(FieldRefusal::NotPositive {
+    let solve = || {
+        let (even, odd) = (condense(Mode::Symmetric)?, condense(Mode::Antisymmetric)?);
+        harmonics::displacements(&even, &odd, loads, input.teeth)
+    };
+    solve().ok_or(FieldRefusal::NotPositive {
         unknowns: 2 * mesh.places.len(),
     })
 }
