@@ -91,11 +91,11 @@ pub struct Message {
 }
 
 impl App {
-    /// A document that was just opened, solved at once so that the first frame is whole.
+    /// The workbench on a document with all its results, however long they take.
     #[must_use]
     pub fn new(document: Document, path: Option<PathBuf>, look: Look, size: Size) -> App {
         App::answered(document, path, (look, size), |request| {
-            Some(solver::first_answer(request))
+            Some(solver::answer(request))
         })
     }
 
@@ -438,7 +438,7 @@ impl App {
         None
     }
 
-    /// What the worker shall solve because the first picture could not wait for it.
+    /// The request for the results that the first frame could not wait for.
     pub(super) fn unanswered(&mut self) -> Option<Request> {
         let asked = self.tab.asked;
         let is_partial = |answer: &Answer| answer.stages != asked;
@@ -476,5 +476,61 @@ impl App {
         std::iter::once(&mut self.tab)
             .chain(&mut self.others)
             .find(|tab| tab.serial == serial)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Case;
+    use crate::model::inputs::Method;
+    use crate::model::{Refusal, Solution};
+    use crate::tui::store;
+
+    fn on_dynamic(first_frame: impl Fn(&Request) -> Option<Answer>) -> App {
+        let mut document = store::built_in();
+        let mut case = Case::table_1();
+        case.set("model.method", "dynamic").expect("a method");
+        document.case = case;
+        App::answered(
+            document,
+            None,
+            (Look::FULL, Size::new(140, 45)),
+            first_frame,
+        )
+    }
+
+    #[test]
+    fn the_worker_solves_the_results_that_the_first_frame_leaves_out() {
+        let whole = |request: &Request| Some(solver::answer(request));
+        assert_eq!(on_dynamic(whole).unanswered(), None);
+
+        let without_relief = |request: &Request| {
+            let answer = solver::answer(request);
+            let stages = answer.stages.without(Stage::Clearing);
+            Some(Answer { stages, ..answer })
+        };
+        let closed_form = |exact: Result<Solution, Refusal>| {
+            move |request: &Request| {
+                Some(Answer {
+                    active: Method::Exact,
+                    pending: Some(Method::Dynamic),
+                    methods: vec![(Method::Exact, exact.clone())],
+                    ..solver::answer(request)
+                })
+            }
+        };
+        let inputs = Case::table_1().inputs().expect("Table 1 is valid");
+        let found = crate::model::solve(&inputs, Stages::EVERY);
+        let assert_asks = |mut app: App| {
+            let request = app.unanswered().expect("a request for the worker");
+            assert_eq!(request.inputs.method, Method::Dynamic);
+            assert_eq!(request.serial, app.tab.serial);
+            assert!(!app.tab.is_settled);
+        };
+        assert_asks(on_dynamic(|_| None));
+        assert_asks(on_dynamic(without_relief));
+        assert_asks(on_dynamic(closed_form(found)));
+        assert_asks(on_dynamic(closed_form(Err(Refusal::Stopped))));
     }
 }

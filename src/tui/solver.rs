@@ -4,7 +4,7 @@ mod methods;
 
 use std::time::Duration;
 
-pub use methods::{answer, answer_without_fields, first_answer};
+pub use methods::{answer, answer_without_fields};
 pub(super) use methods::{cleared, solved};
 
 use crate::case::Case;

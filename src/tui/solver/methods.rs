@@ -20,8 +20,7 @@ pub fn answer(request: &Request) -> Answer {
 
 /// The same for a first picture: where the method of the case takes long, the closed forms alone,
 /// and where the least relief does, all but that.
-#[must_use]
-pub fn first_answer(request: &Request) -> Answer {
+fn first_answer(request: &Request) -> Answer {
     // The closed forms are done by then, and with them the fields of new gears.
     let begun = OnceCell::new();
     answer_while(request, &|| {
