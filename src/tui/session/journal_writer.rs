@@ -51,7 +51,7 @@ impl JournalWriter {
                 while theirs.wait() {
                     if let Err(error) = theirs.write(true) {
                         tell(format!(
-                            "unsaved edits cannot be kept for a crash: {error}: save soon"
+                            "a crash would lose unsaved edits: {error}: save soon"
                         ));
                     }
                 }
@@ -153,11 +153,49 @@ impl Shelf {
             .collect()
     }
 
+    // The journal of a case that was closed during the write may have no page any more; the page
+    // comes back, so that the next write removes the file.
     fn settle(&mut self, path: &Path, written: Option<Journal>) {
-        if let Some(page) = self.pages.get_mut(path) {
-            page.written = written;
-        }
+        self.pages.entry(path.to_owned()).or_default().written = written;
         self.pages
             .retain(|_, page| page.wanted.is_some() || page.written.is_some());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::stamp::Stamp;
+
+    fn journal(session: &str) -> Journal {
+        Journal {
+            case: None,
+            stands_on: Stamp::of(b""),
+            written: 0,
+            session: session.to_owned(),
+            changes: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn the_journal_of_a_case_closed_during_a_write_is_removed_afterwards() {
+        let writer = JournalWriter::default();
+        let paths = ["first", "second"].map(PathBuf::from);
+        for path in &paths {
+            writer.put(path, Some(journal("one")));
+        }
+        let being_written = writer.shelf().changed();
+        for path in &paths {
+            writer.put(path, None);
+        }
+        for (path, written) in being_written {
+            writer.shelf().settle(&path, written);
+        }
+        let removed = writer.shelf().changed();
+        assert_eq!(removed, paths.map(|path| (path, None)));
+        for (path, _) in removed {
+            writer.shelf().settle(&path, None);
+        }
+        assert!(writer.shelf().pages.is_empty());
     }
 }
