@@ -69,12 +69,23 @@ impl Decoder {
 
     /// Takes the bytes of one read. `is_full` if more bytes may be ready.
     pub(super) fn feed(&mut self, bytes: &[u8], is_full: bool, inputs: &mut Vec<Event>) {
+        if self.is_key_after_a_paste(bytes) {
+            self.expire(inputs);
+        }
         for &byte in bytes {
             self.take(byte, inputs);
         }
         if let State::Escape { is_apart, .. } = &mut self.state {
             *is_apart |= !is_full;
         }
+    }
+
+    /// Pastes arrive in bulk. In a paste without an end, a control character that arrives alone after
+    /// a pause is a key, such as Ctrl-Q.
+    fn is_key_after_a_paste(&self, bytes: &[u8]) -> bool {
+        let has_paused = self.patience + SEQUENCE <= PASTE;
+        let is_key = matches!(bytes, [0..=0x08 | 0x0b | 0x0c | 0x0e..=0x1a | 0x1c..=0x1f]);
+        self.state == State::Paste { matched: 0 } && has_paused && is_key
     }
 
     /// The rest of what is unfinished did not arrive in time.

@@ -243,3 +243,26 @@ fn a_paste_ends_with_its_mark_with_silence_or_with_a_lone_escape() {
     assert_eq!(inputs[1..], keys("x"));
     assert!(matches!(&inputs[0], Event::Paste(text) if text.len() == LONGEST_PASTE));
 }
+
+#[test]
+fn a_control_key_after_a_pause_ends_a_paste_without_an_end() {
+    let after = |pause: Duration, bytes: &[u8]| {
+        let (mut decoder, mut inputs) = (Decoder::default(), Vec::new());
+        decoder.feed(b"\x1b[200~abc", false, &mut inputs);
+        decoder.has_waited(pause);
+        decoder.feed(bytes, false, &mut inputs);
+        inputs
+    };
+    let ctrl_q = key(KeyCode::Char('q'), CTRL);
+    let ended = vec![Event::Paste("abc".to_owned()), ctrl_q];
+    assert_eq!(after(SEQUENCE, b"\x11"), ended);
+    for (pause, bytes) in [
+        (Duration::ZERO, &b"\x11"[..]),
+        (SEQUENCE, b"d"),
+        (SEQUENCE, b"\r"),
+        (SEQUENCE, b"x\x11"),
+        (SEQUENCE, b"\x1b"),
+    ] {
+        assert_eq!(after(pause, bytes), [], "{pause:?} {bytes:?}");
+    }
+}
