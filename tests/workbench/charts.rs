@@ -192,6 +192,42 @@ fn the_axis_shows_the_direction_of_time_and_the_title_its_quantity() {
     assert!(desk.shows("Force F in N over time after E in us "));
 }
 
+/// The title lines of the chart pane.
+fn titles(desk: &Desk) -> Vec<String> {
+    let is_title = |line: &String| line.starts_with('─') || line.starts_with('▸');
+    chart(desk).into_iter().filter(is_title).collect()
+}
+
+#[test]
+fn no_title_is_cut_in_any_chart_at_any_size() {
+    let assert_whole = |desk: &Desk| {
+        let titles = titles(desk);
+        let is_cut = |title: &String| title.contains('…');
+        assert!(!titles.iter().any(is_cut), "{titles:#?}\n{}", desk.screen());
+        titles.len()
+    };
+    for size in [TINY, SMALL, LARGE, HUGE] {
+        for method in ["exact", "static", "dynamic"] {
+            let mut desk = at_method(size, method);
+            for _ in 0..GRAPHS.len() {
+                for key in ["z", "z", "t", "t"] {
+                    let has_title = assert_whole(desk.keys(&[key])) > 0;
+                    assert!(has_title, "{}", desk.screen());
+                }
+                // A field that takes digits has longer keys in the titles.
+                assert_whole(desk.keys(&["1", "Enter"]));
+                desk.keys(&["Esc", "3", "j"]);
+            }
+            desk.app.settings.units = System::Inch;
+            desk.fill("pair.module", "x").keys(&["Esc", "3"]);
+            for _ in 0..GRAPHS.len() {
+                assert_whole(desk.keys(&["j"]));
+                assert!(desk.shows("LAST VALID"), "{}", desk.screen());
+            }
+        }
+    }
+}
+
 #[test]
 fn a_chart_of_the_free_impact_says_so_in_its_title() {
     for (method, is_free) in [("exact", false), ("static", true), ("dynamic", true)] {

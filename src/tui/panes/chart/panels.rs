@@ -166,7 +166,8 @@ fn draw_curves(charts: &Charts, axes: &Axes, curves: &[Curve], buffer: &mut Buff
     axes.draw_marks(charts, buffer);
 }
 
-/// The longest title with a unit for both axes that has room, else the shortest.
+/// The longest title that has room: the name, the symbol with its unit, and the x axis with its
+/// unit. A title without room for all shortens the x axis, then leaves out the x axis, then the name.
 fn title(charts: &Charts, graph: &Graph, axes: &Axes, room: usize) -> String {
     let answer = charts.answer;
     let own = answer.and_then(|answer| graph.column(answer.active));
@@ -182,26 +183,28 @@ fn title(charts: &Charts, graph: &Graph, axes: &Axes, room: usize) -> String {
             unit(shown, axes.beside.power)
         )
     });
-    let names: Vec<String> = if is_free_impact {
+    let (names, unnamed) = if is_free_impact {
         let label = graph.label.to_lowercase();
-        vec![
-            format!("Free impact, closed form: {label}"),
-            format!("Free impact: {label}"),
-        ]
+        let names = vec![
+            format!("Free impact, closed form: {label} {value}"),
+            format!("Free impact: {label} {value}"),
+        ];
+        (names, format!("Free impact: {value}"))
     } else {
-        vec![graph.label.to_owned()]
+        (vec![format!("{} {value}", graph.label)], value)
     };
     let ruler = axes.ruler;
     let below = unit(ruler.unit, axes.below.power);
-    let titles = ruler.labels.iter().flat_map(|label| {
-        names
-            .iter()
-            .map(|name| format!("{name} {value} over {label}{below}"))
-            .collect::<Vec<_>>()
-    });
-    let titles: Vec<String> = titles.collect();
-    let fitting = titles.iter().find(|title| title.width() <= room);
-    fitting.or(titles.last()).cloned().unwrap_or_default()
+    let mut titles = Vec::new();
+    for names in [&names[..], std::slice::from_ref(&unnamed)] {
+        for label in ruler.labels {
+            titles.extend(names.iter().map(|name| format!("{name} over {label}{below}")));
+        }
+        titles.extend(names.last().map(|name| format!("{name}, x{below}")));
+        titles.extend(names.last().cloned());
+    }
+    let fitting = titles.into_iter().find(|title| title.width() <= room);
+    fitting.unwrap_or(unnamed)
 }
 
 fn unit(unit: &str, power: i32) -> String {
