@@ -206,6 +206,32 @@ mod tests {
         }
     }
 
+    /// Contact begins and ends without force. The balance there is a difference of large numbers.
+    #[test]
+    fn the_force_at_the_ends_of_contact_is_zero_without_rounding() {
+        for (teeth, deviation) in [(30, 10e-6), (25, 16e-6), (41, 23e-6), (67, 7e-6)] {
+            for method in [Method::Static, Method::Dynamic] {
+                let mut inputs = standard_pair(20, teeth, 5e-3);
+                (inputs.method, inputs.base_pitch_deviation) = (method, deviation);
+                let solution = solve(&inputs, Stages::EVERY).unwrap();
+                let stations = match method {
+                    Method::Static => &solution.static_load.as_ref().unwrap().stations,
+                    _ => &solution.dynamic.as_ref().unwrap().stations,
+                };
+                let of_stations = stations.iter().map(|station| station.force);
+                let interpolated = stations.iter().map(|station| {
+                    let angle = station.roll_angle_driver;
+                    force(Interpolated::at(&inputs, &solution, angle).unwrap())
+                });
+                for force in of_stations.chain(interpolated) {
+                    let is_rounding = force != 0.0 && force < 1e-9 * solution.mesh_force;
+                    assert!(!is_rounding, "20/{teeth} {method:?}: {force:e} N");
+                }
+                assert_eq!(stations[0].force.to_bits(), 0f64.to_bits());
+            }
+        }
+    }
+
     #[test]
     fn there_are_no_values_without_contact() {
         for method in [

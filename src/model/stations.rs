@@ -13,6 +13,9 @@ use super::{Refusal, velocity};
 /// The gap in closed form may lose this factor of its digits before the quadrature serves.
 const LOSS: f64 = 1e4;
 
+/// A force below this part of the forces of all pairs is the rounding of their balance, and 0.
+const ROUNDING: f64 = 1e-12;
+
 /// A place between D and E at which the impact is computed as if it were D.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Station {
@@ -90,6 +93,8 @@ impl MeshStation {
         time: Option<f64>,
     ) -> MeshStation {
         let (own, slope) = mesh.incoming(s);
+        let least = ROUNDING * total.max(mesh.force);
+        let force = if force > least { force } else { 0.0 };
         MeshStation {
             roll_angle_driver: 0.0 - s / mesh.base_radii.0,
             roll_angle_driven: 0.0 - s / mesh.base_radii.1,
