@@ -156,8 +156,9 @@ impl Settings {
 ///
 /// # Errors
 /// [`Refusal::BeyondReach`] where the gears move apart further than the mesh is known,
-/// [`Refusal::TooSlow`] where the mesh swings too often on the way, [`Refusal::MotionTooLong`] where
-/// the steps exceed the [budget](super::budget), [`Refusal::Stopped`] where `go_on` says no.
+/// [`Refusal::TooSlow`] where the mesh swings too often on the way, [`Refusal::MotionTooLong`] or
+/// [`Refusal::MotionTooLarge`] where the steps exceed the [budget](super::budget) of work or of
+/// memory, [`Refusal::Stopped`] where `go_on` says no.
 pub fn dynamic(
     mesh: &Mesh,
     settings: &Settings,
@@ -375,8 +376,13 @@ impl<'a> Run<'a> {
 
     /// Counts work of the motion.
     fn count(&self, work: u64) -> Result<(), Refusal> {
-        let is_too_large = self.watch.bytes() + self.motion.bytes() > MOTION_BYTES;
-        if self.meter.spend(work) && !is_too_large {
+        if self.watch.bytes() + self.motion.bytes() > MOTION_BYTES {
+            return Err(Refusal::MotionTooLarge {
+                bytes: MOTION_BYTES,
+                done: self.part_done(),
+            });
+        }
+        if self.meter.spend(work) {
             return Ok(());
         }
         Err(Refusal::MotionTooLong {

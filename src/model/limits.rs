@@ -224,7 +224,7 @@ pub enum Refusal {
     Unsettled,
     /// The motion exceeds its budget of work.
     #[error(
-        "the motion is too long to compute: {steps} steps, the most that the budget allows, are {:.2} % of it", 100.0 * .done
+        "the motion is too long to compute: {steps} steps, the most that the budget allows, are {} of it", percent(*.done)
     )]
     MotionTooLong {
         /// Steps.
@@ -237,6 +237,16 @@ pub enum Refusal {
     NoSteadyMotion {
         /// Base pitches that were followed.
         pitches: u32,
+    },
+    /// The steps of the motion exceed the memory of a solve.
+    #[error(
+        "the speed is too low to compute the motion: the steps of a mesh exceed the memory of a solve, {} MB, after {} of the motion", .bytes / 1_000_000, percent(*.done)
+    )]
+    MotionTooLarge {
+        /// The memory of the steps.
+        bytes: usize,
+        /// The computed part of the motion, from 0 to 1.
+        done: f64,
     },
     /// A set of pairs has no room for all that may touch.
     #[error("{pairs} tooth pairs may touch at a time, and the limit is {limit}")]
@@ -315,6 +325,11 @@ impl fmt::Display for Bracket {
         }
         clear.map_or(Ok(()), |clear| write!(f, ", and not with {clear} um more"))
     }
+}
+
+/// A part of a motion that is not over: never 100 %.
+fn percent(done: f64) -> String {
+    format!("{:.2} %", (1e4 * done).floor().min(9999.0) / 100.0)
 }
 
 /// A refusal's name, the field where its fix begins, and the fix.
@@ -519,6 +534,11 @@ impl Refusal {
                 "no-steady-motion",
                 "model.damping_ratio",
                 "give a greater damping ratio or another speed",
+            ),
+            Refusal::MotionTooLarge { .. } => (
+                "motion-too-long",
+                "operation.speed",
+                "give a higher speed, or set model.method to static: at this speed the pairs share the load nearly as at rest",
             ),
             Refusal::TooManyPairs { .. } => (
                 "too-many-pairs",

@@ -142,7 +142,7 @@ fn taken(name: &str, number: u64, inputs: &Inputs) -> Taken {
         outcome: outcome(name, inputs, &solved),
         work: match &solved {
             Ok(solution) => work(name, solution),
-            Err(Refusal::MotionTooLong { .. }) => MOTION_WORK,
+            Err(Refusal::MotionTooLong { .. } | Refusal::MotionTooLarge { .. }) => MOTION_WORK,
             Err(_) => 0,
         },
         time,
@@ -427,6 +427,12 @@ fn a_motion_whose_steps_need_more_memory_than_a_solve_may_take_is_refused() {
     let inputs = case.inputs().expect("a valid case");
     let outcome = taken("0.25 rpm", 0, &inputs).outcome;
     assert_eq!(outcome, "refused: motion-too-long");
+    let refusal = solve(&inputs, Stages::of(Stage::Dynamic)).unwrap_err();
+    assert_eq!(refusal.field(), "operation.speed");
+    let fix = "give a higher speed, or set model.method to static";
+    assert!(refusal.fix().starts_with(fix), "{}", refusal.fix());
+    let sentence = refusal.to_string();
+    assert!(sentence.contains("memory") && !sentence.contains("100"), "{sentence}");
 }
 
 #[test]
