@@ -1,5 +1,6 @@
 //! A solve as a page of text for a person, 80 columns wide.
 
+use super::absence::Absence;
 use super::comparison::{closed_forms, differing};
 use super::digest;
 use super::groups::{FREE_IMPACT, Group, groups};
@@ -8,7 +9,7 @@ use super::relief::relief;
 use super::stations::{Column, columns, rows};
 use super::verdict::{Verdict, verdicts};
 use super::whine::whine;
-use super::{Report, Shown, shown};
+use super::{Report, Shown, shown, value};
 use crate::case::FIELDS;
 use crate::case::fields::Absent;
 use crate::case::sanitize::sanitize;
@@ -17,7 +18,7 @@ use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Quantity, Solution, Stage, Stages};
 use std::io::{self, Write};
 
-/// The parts of a page, in order; an empty one leaves no trace.
+/// The sections of a page, in order; empty sections are left out.
 const SECTIONS: [fn(&Report) -> Vec<String>; 7] = [
     heading,
     outcome,
@@ -28,7 +29,7 @@ const SECTIONS: [fn(&Report) -> Vec<String>; 7] = [
     station_table,
 ];
 
-/// The inputs that say which pair this is; one that is not given, zero or as usual goes unsaid.
+/// The inputs that identify the pair. A missing input, a zero and a usual value are left out.
 const SHOWN_INPUTS: &[&str] = &[
     "driver.teeth",
     "driven.teeth",
@@ -189,7 +190,7 @@ fn quantities(report: &Report) -> Vec<String> {
         let is_beside = |row: &Row| method.shares_load() && row.quantity.is_of_free_impact();
         let line =
             |row: &Row| columns.line(row) + if is_beside(row) { ", free impact" } else { "" };
-        return rows.iter().map(line).collect();
+        return rows.iter().map(line).chain(absent(report)).collect();
     }
     let group = |group: &'static Group| {
         let line = |quantity: &Quantity| {
@@ -206,6 +207,21 @@ fn quantities(report: &Report) -> Vec<String> {
         titled(&title, lines)
     };
     groups(method).into_iter().flat_map(group).collect()
+}
+
+/// The selected quantities without a value, each with the reason.
+fn absent(report: &Report) -> Vec<String> {
+    let solution = &report.solution;
+    let line = |quantity: &Quantity| {
+        let symbol = quantity.symbol_in(solution.method);
+        let start = format!("  {symbol} has no value: ");
+        item(&start, &Absence::of(quantity, solution).to_string())
+    };
+    let selected = report.selection.quantities();
+    selected
+        .filter(|quantity| value(quantity, solution).is_none())
+        .flat_map(line)
+        .collect()
 }
 
 // A heading within another.

@@ -161,6 +161,22 @@ fn what_does_not_exist_is_absent_and_the_outcome_says_why() {
 }
 
 #[test]
+fn a_selected_quantity_without_a_value_gives_the_reason() {
+    let without_motion = stdout_of(&["solve", TABLE_1, "--only", "F_d,max,F_S"]);
+    assert!(
+        without_motion.contains("  F_S impact force 2191.0 N")
+            && without_motion.contains("  F_d,max has no value: method exact does not compute it"),
+        "{without_motion}"
+    );
+    let relief = "driven.tip_relief=80 um";
+    let without_contact = stdout_of(&["solve", TABLE_1, "--only", "F_S", "--set", relief]);
+    assert!(
+        without_contact.contains("  F_S has no value: no corner contact: "),
+        "{without_contact}"
+    );
+}
+
+#[test]
 fn the_outcome_is_the_methods_own_whatever_is_asked_for() {
     // Between the relief that stops it by the printed equations, 61.8 um, and Δ = 0 by Eq. 1 as
     // printed, 66.9 um.
