@@ -60,7 +60,7 @@ impl Exit {
         (Exit::Done, "done"),
         (
             Exit::Exceeded,
-            "a limit is exceeded, or there is no value to hold against it",
+            "a limit is exceeded, or its quantity has no value",
         ),
         (Exit::Usage, "wrong usage, or no terminal for the workbench"),
         (Exit::BadCase, "a bad case"),

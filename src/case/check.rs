@@ -162,7 +162,7 @@ fn misfit(case: &Case, field: usize) -> Option<Problem> {
         }
         (Some(_), Some(_)) if field > other => {
             let cause = format!("{} and {} are both given", named.key, known.key);
-            Some(Problem::new(known.key, cause, "take one of them out"))
+            Some(Problem::new(known.key, cause, "remove one of them"))
         }
         _ => None,
     }

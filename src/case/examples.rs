@@ -40,7 +40,7 @@ impl Example {
         let found = EXAMPLES.iter().find(|example| example.name == name);
         found.ok_or_else(|| {
             fix(name, EXAMPLES.iter().map(|example| example.name), || {
-                "take one of the list".to_owned()
+                "use one of the list".to_owned()
             })
         })
     }

@@ -110,7 +110,7 @@ fn width(place: &str, dimension: Dimension, field: &Field, text: &str) -> Result
     Err(Problem::new(
         place,
         format!("the width {} is not above 0", quoted(text)),
-        "write a width above 0, or take the distribution out",
+        "write a width above 0, or remove the distribution",
     ))
 }
 
@@ -120,7 +120,7 @@ fn grade(place: &str, field: &Field, text: &str) -> Result<f64, Problem> {
         return Err(Problem::new(
             place,
             format!(
-                "a grade gives a base pitch deviation, and {} is none",
+                "a grade gives a base pitch deviation, and {} is not one",
                 field.key
             ),
             "use normal, uniform, triangular or truncated",

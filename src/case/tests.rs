@@ -217,7 +217,7 @@ fn set_refuses_and_leaves_the_case_as_it_was() {
     for (key, value, cause, fix) in [
         ("pair.modul", "4 mm", "unknown key", "pair.module"),
         ("module", "4 mm", "unknown key", "did you mean pair.module?"),
-        ("pair.module", "4", "bare number", "\"4 mm\""),
+        ("pair.module", "4", "has no unit", "\"4 mm\""),
         ("driver.teeth", "20 mm", "unit `mm`", "write 20"),
         (
             "limits.impact_forc",
@@ -225,11 +225,11 @@ fn set_refuses_and_leaves_the_case_as_it_was() {
             "unknown quantity",
             "did you mean impact_force?",
         ),
-        ("limits.impact_force", "4", "bare number", "\"4 N\""),
+        ("limits.impact_force", "4", "has no unit", "\"4 N\""),
         (
             "limits.dynamic_factor",
             "4 N",
-            "bare number is due",
+            "unit `N` is not allowed here",
             "write 4",
         ),
     ] {

@@ -230,7 +230,7 @@ fn plain_spelling(unit: &str) -> String {
 
 fn unit_unwanted(number: &str, unit: &str) -> ParseError {
     ParseError::new(
-        format!("unit {} where a bare number is due", quoted(unit)),
+        format!("unit {} is not allowed here", quoted(unit)),
         format!("write {}", cut(number)),
     )
 }
@@ -238,10 +238,7 @@ fn unit_unwanted(number: &str, unit: &str) -> ParseError {
 fn unit_missing(number: &str, dimension: Dimension, usual: &str) -> ParseError {
     let number = cut(number);
     ParseError::new(
-        format!(
-            "{number} is a bare number where {} with its unit is due",
-            dimension.name()
-        ),
+        format!("{number} has no unit, and {} needs one", dimension.name()),
         format!("write \"{number} {usual}\""),
     )
 }

@@ -102,7 +102,7 @@ pub enum Command {
     Fields(Fields),
     /// Write the JSON Schema of a case file, with which editors complete keys
     Schema {
-        /// Write that of `solve --format json` instead
+        /// Write the schema of `solve --format json` instead
         #[arg(long)]
         results: bool,
     },
@@ -209,7 +209,7 @@ pub struct Solve {
     /// Print the stations as well, in this many intervals between D and E, or auto
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = station_count)]
     pub stations: Option<String>,
-    /// How to tell it
+    /// Format of the output
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
 }
@@ -224,7 +224,7 @@ pub struct Check {
     /// What differs from the case
     #[command(flatten)]
     pub changes: Changes,
-    /// How to tell it
+    /// Format of the output
     #[arg(long, value_enum, default_value_t)]
     pub format: Listing,
 }
@@ -241,7 +241,7 @@ pub struct Explain {
     /// What differs from the case
     #[command(flatten)]
     pub changes: Changes,
-    /// How to tell it
+    /// Format of the output
     #[arg(long, value_enum, default_value_t)]
     pub format: Listing,
 }
@@ -256,11 +256,11 @@ pub struct Trading {
     /// Change a field of the case, such as "operation.speed=3000 rpm"
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Settings)]
     pub settings: Vec<Setting>,
-    /// Name the cheapest setting whose error is no greater, such as 5% or 0.05; else that of the
-    /// case's model.within
+    /// Greatest error of the recommended setting, such as 5% or 0.05; else model.within of the
+    /// case
     #[arg(long, value_name = "ERROR", allow_negative_numbers = true, value_parser = part)]
     pub within: Option<f64>,
-    /// How to tell it
+    /// Format of the output
     #[arg(long, value_enum, default_value_t)]
     pub format: Listing,
 }
@@ -286,10 +286,10 @@ pub struct Stiffness {
 /// What `fields` is asked.
 #[derive(Debug, Args)]
 pub struct Fields {
-    /// List the quantities of a result instead: what --only and [limits] may name
+    /// List the quantities instead: the names for --only and [limits]
     #[arg(long)]
     pub results: bool,
-    /// How to list them
+    /// Format of the output
     #[arg(long, value_enum, default_value_t)]
     pub format: Listing,
 }
@@ -297,7 +297,7 @@ pub struct Fields {
 /// What `new` is asked.
 #[derive(Debug, Args)]
 pub struct New {
-    /// Begin with this example instead of every field of Table 1
+    /// Start from this example instead of an empty case
     #[arg(long, value_name = "EXAMPLE", value_parser = examples())]
     pub from: Option<&'static Example>,
     /// List the examples instead, each with its pair and its verdict
@@ -311,22 +311,22 @@ pub struct New {
 /// The form in which a solve is printed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub enum Format {
-    /// A page for a person, in the units of the craft
+    /// Text in usual units
     #[default]
     Text,
-    /// An object a line
+    /// One JSON object per line
     Json,
-    /// A table
+    /// Comma-separated values
     Csv,
 }
 
 /// The form in which a list or a page is printed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub enum Listing {
-    /// For a person
+    /// Text
     #[default]
     Text,
-    /// An object a line
+    /// One JSON object per line
     Json,
 }
 

@@ -78,7 +78,8 @@ pub fn clearing(
                     .transpose();
                 match tried {
                     Ok(Some(tried)) => Ok(search.noted(tried)),
-                    Ok(None) | Err(Refusal::MotionTooLong { .. } | Refusal::MotionTooLarge { .. }) => {
+                    Ok(None)
+                    | Err(Refusal::MotionTooLong { .. } | Refusal::MotionTooLarge { .. }) => {
                         Err(search.ended(is_in_motion))
                     }
                     Err(refusal) => Err(refusal),

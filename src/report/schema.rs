@@ -37,7 +37,7 @@ pub fn write_case(out: &mut dyn Write) -> io::Result<()> {
     let limits = QUANTITIES
         .iter()
         .map(|known| (known.key.to_owned(), of_limit(known)));
-    let help = "Greatest value allowed, of any quantity of the results.";
+    let help = "Greatest allowed value of any quantity of the results.";
     tables.insert("limits".to_owned(), object(help, limits.collect()));
     let spread = FIELDS
         .iter()

@@ -107,7 +107,7 @@ impl AxisRange {
         if !is_range(values) {
             return Err(problem(
                 known,
-                "this is no range",
+                "this is not a range",
                 format!("write {}=FROM..TO", known.key),
             ));
         }

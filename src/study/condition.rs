@@ -95,7 +95,7 @@ impl Condition {
             (None, None) => {
                 return Err(problem(
                     text,
-                    "this is no condition",
+                    "this is not a condition",
                     "write QUANTITY<=VALUE, such as 'impact_force<=2500 N', or outcome=no-corner-contact",
                 ));
             }
@@ -276,10 +276,10 @@ mod tests {
         for (text, part) in [
             (
                 "impact_force",
-                "this is no condition: write QUANTITY<=VALUE",
+                "this is not a condition: write QUANTITY<=VALUE",
             ),
             ("impact_forc<=2500 N", "did you mean impact_force?"),
-            ("impact_force<=2500", "2500 is a bare number"),
+            ("impact_force<=2500", "2500 has no unit"),
             ("impact_force<=2500 mm", "unit of length"),
             (
                 "impact_force=2500 N",

@@ -52,7 +52,7 @@ impl Shard {
                 Err(format!("there is no such shard: write 1/{of} to {of}/{of}"))
             }
             _ => Err(format!(
-                "{} is no shard: write I/N, such as 3/8",
+                "{} is not a shard: write I/N, such as 3/8",
                 quoted(text)
             )),
         }
@@ -221,7 +221,7 @@ impl Complete {
             .filter(|header| header.kind == KIND && header.shard.of <= MOST)
             .ok_or_else(|| {
                 Unfit::Wrong(format!(
-                    "{name}: this is no shard: name files that --shard wrote"
+                    "{name}: this is not a shard: name files that --shard wrote"
                 ))
             })?;
         let version = env!("CARGO_PKG_VERSION");

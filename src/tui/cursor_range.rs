@@ -176,7 +176,7 @@ fn measured(scope: &CursorScope<'_>, typed: &str) -> Result<f64, String> {
     angle.or_else(|_| time()).map_err(
         |_| match units::parse(typed.trim(), Dimension::Number, "") {
             Err(misread) if typed.contains(',') => misread.fix,
-            _ => format!("{} is no angle, time or point", typed.trim()),
+            _ => format!("{} is not an angle, time or point", typed.trim()),
         },
     )
 }

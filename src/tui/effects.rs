@@ -31,7 +31,7 @@ pub fn perform(effect: Effect, autosave: &mut Autosave) -> Option<Action> {
         Effect::Keep(settings) => {
             let kept = settings.keep();
             kept.err()
-                .map(|reason| Action::Failed(format!("the settings are not kept: {reason}")))
+                .map(|reason| Action::Failed(format!("the settings are not saved: {reason}")))
         }
         Effect::Forget(journal) => {
             // One that stays is offered again.

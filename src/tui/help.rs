@@ -4,7 +4,7 @@ use crate::tui::commands::{BINDINGS, Binding};
 use crate::tui::keys::Place;
 
 const BEFORE: [&str; 6] = [
-    "Every valid keystroke updates the results and the chart.",
+    "Every valid edit updates the results and the chart.",
     "Enter a value with its unit: 5 mm, 16 um, 0.2 in, 15 kW, 20 hp, 2000 rpm, 20 deg. A number without a unit takes the unit of its field.",
     "The frame of a pane shows its keys: a digit outside a field, Esc and the digit in a field. In a field digits are part of the value; the status line announces the first digit, and Esc takes it back.",
     "In an empty or fully selected field, / and : start a command.",

@@ -81,7 +81,7 @@ impl Settings {
     pub fn render(&self, old: &str) -> Result<String, String> {
         let mut file: DocumentMut = old
             .parse()
-            .map_err(|_| "the settings are no TOML: fix or delete the file".to_owned())?;
+            .map_err(|_| "the settings are not valid TOML: fix or delete the file".to_owned())?;
         let mut set = |key: &str, new: Option<Value>| match (
             new,
             file.get_mut(key).and_then(Item::as_value_mut),
@@ -174,7 +174,7 @@ fn old_text(file: &Path) -> io::Result<String> {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(String::new()),
         Err(error) => Err(error),
         Ok(about) if !about.is_file() || about.len() > MOST_BYTES => {
-            Err(io::Error::other("this is not a file of settings"))
+            Err(io::Error::other("this is not a settings file"))
         }
         Ok(_) => fs::read_to_string(file),
     }

@@ -80,7 +80,7 @@ pub(super) fn load(path: &Path) -> Result<Box<Document>, Vec<String>> {
     // Standard input is the keyboard here: reading a case from it would wait for ever.
     if path == Path::new("-") {
         return Err(vec![
-            "standard input is no case for the workbench: name a file, or use tipstrike solve -"
+            "the workbench does not read standard input: name a file, or use tipstrike solve -"
                 .to_owned(),
         ]);
     }

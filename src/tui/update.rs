@@ -312,7 +312,7 @@ fn set_method(app: &mut App, method: Option<Method>) -> Vec<Effect> {
         None => edit::choose(app, field, &names, 1),
     };
     let waits = if app.tab.is_stale() {
-        ", solved when every field is right"
+        ", solved once every field is valid"
     } else {
         ""
     };

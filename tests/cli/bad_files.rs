@@ -53,9 +53,9 @@ type OneLine = (
 #[rustfmt::skip]
 const ONE_BAD_LINE: &[OneLine] = &[
     // values with units
-    (MODULE, "module = 5", 0, 10, "pair.module", "bare number where a length", "\"5 mm\""),
-    (MODULE, "module = 5.0", 0, 10, "pair.module", "bare number", "\"5.0 mm\""),
-    (MODULE, "module = \"5\"", 0, 10, "pair.module", "bare number", "\"5 mm\""),
+    (MODULE, "module = 5", 0, 10, "pair.module", "has no unit, and a length", "\"5 mm\""),
+    (MODULE, "module = 5.0", 0, 10, "pair.module", "has no unit", "\"5.0 mm\""),
+    (MODULE, "module = \"5\"", 0, 10, "pair.module", "has no unit", "\"5 mm\""),
     (MODULE, "module = \"4,5 mm\"", 0, 10, "pair.module", "comma", "write 4.5, not 4,5"),
     (MODULE, "module = \"−5 mm\"", 0, 10, "pair.module", "not the minus sign", "write -5 mm"),
     (MODULE, "module = \"1e-400 mm\"", 0, 10, "pair.module", "too near to zero", "write 0"),
@@ -99,36 +99,36 @@ const ONE_BAD_LINE: &[OneLine] = &[
     ("teeth = 20", "teeth = twenty", 0, 9, "driver.teeth", "does not begin with a number", "whole number, such as 20"),
     ("poisson = 0.3", "poisson = \"30 %\"", 0, 11, "driver.poisson", "quotes", "write poisson = 0.3, without quotes"),
     ("stations = 64", "stations = \"many\"", 0, 12, "model.stations", "quotes", "write stations = "),
-    ("young = \"205 GPa\"", "young = \"205000\"", 0, 9, "driver.young", "bare number", "\"205000 MPa\""),
-    (MODULE, "module = “5 mm”", 0, 10, "pair.module", "not the straight ones", "\"5 mm\""),
-    (MODULE, "module: \"5 mm\"", 0, 7, "pair.module", "`:` stands where `=` is due", "module = \"5 mm\""),
+    ("young = \"205 GPa\"", "young = \"205000\"", 0, 9, "driver.young", "has no unit", "\"205000 MPa\""),
+    (MODULE, "module = “5 mm”", 0, 10, "pair.module", "has curly quotes", "\"5 mm\""),
+    (MODULE, "module: \"5 mm\"", 0, 7, "pair.module", "`:` instead of `=`", "module = \"5 mm\""),
     // words and choices
     ("method = \"exact\"", "method = \"exat\"", 0, 10, "model.method", "unknown choice `exat`", "did you mean exact?"),
     ("method = \"exact\"", "method = \"dinamic\"", 0, 10, "model.method", "unknown choice `dinamic`", "did you mean dynamic?"),
-    ("method = \"exact\"", "method = 2", 0, 10, "model.method", "a number stands where a text in quotes", "\"exact\""),
+    ("method = \"exact\"", "method = 2", 0, 10, "model.method", "expected a text in quotes, found a number", "\"exact\""),
     ("method = \"exact\"", "method = exact", 0, 10, "model.method", "not in quotes", "write \"exact\""),
     ("title = \"Zhou & Chen 2014, Table 1\"", "title = [1]", 0, 9, "title", "an array", "title = "),
     // keys and tables
     (MODULE, "modul = \"5 mm\"\nmodule = \"5 mm\"", 0, 1, "pair.modul", "unknown key `modul`", "did you mean module?"),
     (MODULE, "module = \"5 mm\"\nteeth = 20", 1, 1, "pair.teeth", "unknown key `teeth`", "belongs under [driver]"),
-    (MODULE, "module = \"5 mm\"\nmodule = \"6 mm\"", 1, 1, "pair.module", "there twice", "keep one"),
+    (MODULE, "module = \"5 mm\"\nmodule = \"6 mm\"", 1, 1, "pair.module", "appears twice", "keep one"),
     ("[limits]", "[lmits]", 0, 2, "lmits", "unknown key or table", "did you mean limits?"),
-    ("[limits]", "[limits]\n[limits]", 1, 2, "limits", "there twice", "under one header"),
+    ("[limits]", "[limits]\n[limits]", 1, 2, "limits", "appears twice", "under one header"),
     ("impact_force = \"2500 N\"", "impact_forse = \"2500 N\"", 0, 1, "limits.impact_forse", "unknown quantity", "did you mean impact_force?"),
     ("impact_force = \"2500 N\"", "F_S = \"2500 N\"", 0, 1, "limits.F_S", "symbol of impact_force", "write impact_force"),
     ("impact_force = \"2500 N\"", "dynamic_contact_lost = false", 0, 24, "limits.dynamic_contact_lost", "true or false", "dynamic_contact_lost = 0"),
     ("impact_force = \"2500 N\"", "normal_velocity = [1]", 0, 19, "limits.normal_velocity", "an array", "normal_velocity = \"1 m/s\""),
-    ("impact_force = \"2500 N\"", "impact_force = 2500", 0, 16, "limits.impact_force", "bare number", "\"2500 N\""),
+    ("impact_force = \"2500 N\"", "impact_force = 2500", 0, 16, "limits.impact_force", "has no unit", "\"2500 N\""),
     ("impact_force = \"2500 N\"", "impact_force = \"2500 mm\"", 0, 16, "limits.impact_force", "length, not of force", "use one of N"),
     ("impact_force = \"2500 N\"", "dynamic_factor = \"1.5 N\"", 0, 18, "limits.dynamic_factor", "quotes", "without quotes"),
     ("impact_force = \"2500 N\"", "[spread]\n\"driver.teet\" = { normal = \"1 um\" }", 1, 1, "spread.\"driver.teet\"", "unknown key", "driver.teeth"),
     ("impact_force = \"2500 N\"", "[spread]\n\"pair.module\" = { norml = \"1 um\" }", 1, 17, "spread.\"pair.module\"", "unknown distribution", "normal"),
-    ("impact_force = \"2500 N\"", "[spread]\n\"pair.module\" = \"1 um\"", 1, 17, "spread.\"pair.module\"", "no distribution", "normal"),
+    ("impact_force = \"2500 N\"", "[spread]\n\"pair.module\" = \"1 um\"", 1, 17, "spread.\"pair.module\"", "not a distribution", "normal"),
     ("impact_force = \"2500 N\"", "[spread]\n\"pair.module\" = { normal = \"1 kg\" }", 1, 17, "spread.\"pair.module\"", "mass, not of length", "mm"),
-    ("impact_force = \"2500 N\"", "[spread]\n\"pair.module\" = { normal = 1 }", 1, 17, "spread.\"pair.module\"", "bare number", "\"1 mm\""),
+    ("impact_force = \"2500 N\"", "[spread]\n\"pair.module\" = { normal = 1 }", 1, 17, "spread.\"pair.module\"", "has no unit", "\"1 mm\""),
     // one field against another
     ("bore_radius = \"20 mm\"", "bore_radius = \"50 mm\"", 0, 15, "driver.bore_radius", "root circle's 43.75 mm", "radius (not a diameter)"),
-    ("power = \"15 kW\"", "power = \"15 kW\"\ntorque = \"71.6 N m\"", 1, 10, "operation.torque", "both given", "take one"),
+    ("power = \"15 kW\"", "power = \"15 kW\"\ntorque = \"71.6 N m\"", 1, 10, "operation.torque", "both given", "remove one"),
     // TOML itself
     (MODULE, "module = 5 mm", 0, 10, "pair.module", "not in quotes", "write \"5 mm\""),
     (MODULE, "module = 4,5 mm", 0, 10, "pair.module", "comma", "write 4.5"),
@@ -137,12 +137,12 @@ const ONE_BAD_LINE: &[OneLine] = &[
     (MODULE, "module", 0, 7, "toml", "no value", "key = value"),
     (MODULE, "module = \"5\" mm", 0, 14, "pair.module", "unexpected", "# comment"),
     (MODULE, "module = \"5\\q mm\"", 0, 13, "pair.module", "escape", "backslash"),
-    (MODULE, "module = \"5 \u{1b}[2Jmm\"", 0, 13, "pair.module", r"control character `\u{1b}`", "take it out"),
+    (MODULE, "module = \"5 \u{1b}[2Jmm\"", 0, 13, "pair.module", r"control character `\u{1b}`", "remove it"),
     (MODULE, "module = \"5 \\u001b[2Jmm\"", 0, 10, "pair.module", r"unknown unit `\u{1b}[2Jmm`", "use one of"),
-    (MODULE, "mod\u{1b}ule = \"5 mm\"\nmodule = \"5 mm\"", 0, 4, "toml", "control character", "take it out"),
+    (MODULE, "mod\u{1b}ule = \"5 mm\"\nmodule = \"5 mm\"", 0, 4, "toml", "control character", "remove it"),
     (MODULE, "\u{202e}x = 1\nmodule = \"5 mm\"", 0, 1, "toml", "invalid unquoted key", "letters, digits"),
     (MODULE, "\"\u{202e}x\" = 1\nmodule = \"5 mm\"", 0, 1, "pair.\u{202e}x", r"unknown key `\u{202e}x`", "module"),
-    (MODULE, "mod\0ule = 1\nmodule = \"5 mm\"", 0, 4, "toml", r"control character `\u{0}`", "take it out"),
+    (MODULE, "mod\0ule = 1\nmodule = \"5 mm\"", 0, 4, "toml", r"control character `\u{0}`", "remove it"),
 ];
 
 #[test]
@@ -286,7 +286,7 @@ fn faults_of_one_field_do_not_hide_those_between_others() {
         &text,
         &[
             (19, 15, "driver.bore_radius", "root circle", "radius"),
-            (20, 9, "driver.young", "bare number", "\"205 GPa\""),
+            (20, 9, "driver.young", "has no unit", "\"205 GPa\""),
         ],
     );
 }
@@ -301,12 +301,12 @@ fn columns_count_characters_and_lines_end_in_either_way() {
     let windows = GOOD.replace('\n', "\r\n").replacen(MODULE, "module = 5", 1);
     expect(
         &windows,
-        &[(11, 10, "pair.module", "bare number", "\"5 mm\"")],
+        &[(11, 10, "pair.module", "has no unit", "\"5 mm\"")],
     );
     let marked = format!("\u{feff}{}", GOOD.replacen("format = 1", "format = 0", 1));
     expect(
         &marked,
-        &[(6, 10, "format", "no known format", "format = 1")],
+        &[(6, 10, "format", "format is unknown", "format = 1")],
     );
     let inline = "format = 1\npair = { modul = \"5 mm\" }\n".to_owned()
         + &without("pair").replace("format = 1\n", "");

@@ -298,7 +298,7 @@ fn a_command_line_that_cannot_be_meant_is_told_in_a_line() {
         (
             &["solve", TABLE_1, "--set", "driver.young=205000"],
             2,
-            "error: --set driver.young=205000: 205000 is a bare number",
+            "error: --set driver.young=205000: 205000 has no unit",
         ),
         (
             &["solve", TABLE_1, "--set", "pair.centre_distance=200 mm"],

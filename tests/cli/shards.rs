@@ -131,7 +131,7 @@ fn missing_repeated_half_changed_and_foreign_shards_are_refused() {
         );
     }
     let message = refusal(&[PathBuf::from(TABLE_1)]);
-    assert!(message.contains("this is no shard"), "{message}");
+    assert!(message.contains("this is not a shard"), "{message}");
     let (code, _, errors) = gather(&[folder.path().join("missing.shard")]);
     assert!(code == 5 && errors.contains("cannot be read"), "{errors}");
     let (code, _, errors) = run(&[&SWEEP[..], &["--shard", "4/3"]].concat());

@@ -287,7 +287,7 @@ fn a_bad_search_gets_place_cause_and_fix() {
         (
             "operation.speed=1,2 rpm",
             "impact_force<=1 N",
-            "this is no range",
+            "this is not a range",
         ),
         (
             "driver.teeth=18..30",

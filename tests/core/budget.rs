@@ -432,7 +432,10 @@ fn a_motion_whose_steps_need_more_memory_than_a_solve_may_take_is_refused() {
     let fix = "give a higher speed, or set model.method to static";
     assert!(refusal.fix().starts_with(fix), "{}", refusal.fix());
     let sentence = refusal.to_string();
-    assert!(sentence.contains("memory") && !sentence.contains("100"), "{sentence}");
+    assert!(
+        sentence.contains("memory") && !sentence.contains("100"),
+        "{sentence}"
+    );
 }
 
 #[test]

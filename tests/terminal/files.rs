@@ -69,12 +69,12 @@ fn a_file_that_someone_else_changed_is_refused_and_what_differs_is_shown() {
         desk.keys(&["Ctrl-S"]);
         assert!(desk.shows("has changed on disk"), "{how}");
         assert!(
-            desk.shows("module: 6 mm in the file, 5 mm here (changed there)"),
+            desk.shows("module: 6 mm in the file, 5 mm in the form (changed in the file)"),
             "{how}\n{}",
             desk.screen()
         );
         assert!(
-            desk.shows("speed: 2100 rpm in the file, 1500 rpm here (changed here"),
+            desk.shows("speed: 2100 rpm in the file, 1500 rpm in the form (changed in"),
             "{how}\n{}",
             desk.screen()
         );

@@ -190,7 +190,7 @@ fn the_last_case_is_opened_again_and_a_broken_one_is_told() {
 fn standard_input_is_refused_as_a_case_and_not_waited_for() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut tty = Launch::of(folder.into()).argument("-").start();
-    tty.wait_for("standard input is no case");
+    tty.wait_for("the workbench does not read standard input");
     tty.type_in("q\x11");
     assert_eq!(tty.wait_for_end().exit_code(), 0);
 }

@@ -328,7 +328,7 @@ fn a_folder_of_journals_that_goes_away_is_told_and_a_save_still_works() {
     wait_for_journal(&mut tty, "1.25 in");
     fs::remove_dir_all(tty.folder.path().join("tipstrike/journals")).expect("our own folder");
     tty.type_in("\x151.5 in");
-    tty.wait_for("unsaved edits cannot be kept for a crash");
+    tty.wait_for("a crash would lose unsaved edits");
     tty.type_in("\x13");
     tty.wait_for("saved ");
     tty.quit();
@@ -596,7 +596,7 @@ fn a_damaged_journal_is_set_aside_told_and_never_trusted_nor_deleted() {
     for (count, text) in damaged.into_iter().enumerate() {
         fs::write(&path, &text).expect("room on the disk");
         let mut next = again(&tty);
-        next.wait_for("unsaved edits of this case were kept, but");
+        next.wait_for("unsaved edits of this case cannot be restored: ");
         assert!(!next.shows(OFFER) && !next.shows("9 mm"));
         next.quit();
         assert!(!path.exists());
@@ -614,11 +614,11 @@ fn a_damaged_journal_is_set_aside_told_and_never_trusted_nor_deleted() {
     // Bytes that are no text, and what is no file.
     fs::write(&path, b"\xff\xfe").expect("room on the disk");
     let mut next = again(&tty);
-    next.wait_for("unsaved edits of this case were kept, but");
+    next.wait_for("unsaved edits of this case cannot be restored: ");
     next.quit();
     symlink("/dev/zero", &path).expect("a link");
     let mut next = again(&tty);
-    next.wait_for("unsaved edits of this case were kept, but");
+    next.wait_for("unsaved edits of this case cannot be restored: ");
     next.quit();
 }
 

@@ -61,7 +61,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     // Outside a field, in every pane.
     ("Esc 3", ":", "", "Commands"),
     ("Esc 3", "q", "", "[quit]"),
-    ("Esc 3", "?", "", "Every valid keystroke"),
+    ("Esc 3", "?", "", "Every valid edit"),
     ("Esc", "Tab", "", "▸ 2 Results"),
     ("Esc", "BackTab", "", "▸ 5"),
     ("X Esc", "u", "", "module               5 mm "),
@@ -77,7 +77,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc", "%", "", "stages in"),
     ("Esc 4", "Esc", "", "▸ 1 Form"),
     // Everywhere.
-    ("", "F1", "", "Every valid keystroke"),
+    ("", "F1", "", "Every valid edit"),
     ("X", "Ctrl-S", "", "not saved: fix"),
     ("", "Ctrl-P", "", "Commands"),
     ("", "Ctrl-O", "", "Open a case"),
@@ -131,7 +131,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("METHOD", "Right", "", "‹ static ›"),
     ("METHOD", "Left", "", "‹ paper ›"),
     ("METHOD Right", "Backspace", "", "‹ (exact) ›"),
-    ("METHOD", "?", "", "Every valid keystroke"),
+    ("METHOD", "?", "", "Every valid edit"),
     // In prompts.
     ("Ctrl-O", "Tab", "", "│ DIR/case.toml"),
     ("Ctrl-O sub/", "Alt-Up", "", "▸ sub/"),

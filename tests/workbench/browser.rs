@@ -128,7 +128,7 @@ fn the_case_under_the_cursor_is_told_with_its_verdict() {
         (
             "e-new",
             &[
-                "Of a newer format: it opens read-only.",
+                "Newer format: opens read-only.",
                 "Corner contact: θ_1 = 1.36628 deg",
             ],
         ),
@@ -241,7 +241,7 @@ fn recent_cases_stand_on_the_same_page_and_missing_ones_are_said_to_be() {
             && desk.shows("deep.toml  in sub/")
     );
     desk.keys(&["Alt-R", "Down"]);
-    assert!(preview(&desk).contains("There is no such file any more."));
+    assert!(preview(&desk).contains("The file does not exist any more."));
     desk.keys(&["Enter"]);
     assert!(desk.shows("gone.toml cannot be opened") && desk.shows("there is no such file"));
     desk.keys(&["Esc", "Alt-R"]);
@@ -536,7 +536,7 @@ fn what_is_typed_is_looked_for_below_the_folder_and_among_the_examples() {
         desk.screen()
     );
     desk.keys(&["Ctrl-O", "no such"]);
-    assert!(desk.shows("Nothing here or below."), "{}", desk.screen());
+    assert!(desk.shows("No match here or below."), "{}", desk.screen());
 }
 
 #[test]
@@ -573,10 +573,10 @@ fn a_search_below_is_bounded_and_asked_once_for_a_folder() {
             .count();
     }
     assert_eq!(asked, 1);
-    assert!(desk.shows("Looking below ..."), "{}", desk.screen());
+    assert!(desk.shows("Searching below ..."), "{}", desk.screen());
     desk.act(Action::Found(Box::new(case_search::Below {
         cases: Vec::new(),
         ..below
     })));
-    assert!(desk.shows("Nothing here or below."), "{}", desk.screen());
+    assert!(desk.shows("No match here or below."), "{}", desk.screen());
 }

@@ -62,9 +62,9 @@ fn a_wrong_text_shows_the_reason_and_stays() {
             "30 deg",
             "30.0000 deg (2500.0 us) before E is out of range: from",
         ),
-        ("there", "there is no angle, time or point"),
-        ("5 mm", "5 mm is no angle, time or point"),
-        ("1 m", "1 m is no angle, time or point"),
+        ("there", "there is not an angle, time or point"),
+        ("5 mm", "5 mm is not an angle, time or point"),
+        ("1 m", "1 m is not an angle, time or point"),
         ("L", "only static and dynamic compute the last contact L"),
     ] {
         desk.keys(&["Esc", "Esc", "a", typed, "Enter"]);

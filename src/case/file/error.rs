@@ -18,7 +18,7 @@ pub enum ReadError {
     #[error("{0}: this is not a regular file")]
     NotAFile(String),
     /// It is longer than so many KiB.
-    #[error("{0}: the file is longer than {1} KiB, so it is no case")]
+    #[error("{0}: the file is longer than {1} KiB, the limit for a case")]
     TooLarge(String, usize),
     /// The system refuses to read it.
     #[error("{0}: cannot be read: {1}")]
@@ -38,19 +38,19 @@ pub enum ReadError {
 #[derive(Debug, Error)]
 pub enum SaveError {
     /// Someone else changed the file after it was read.
-    #[error("{0}: the file was changed by someone else since it was read")]
+    #[error("{0}: the file has changed on disk since it was read")]
     ChangedOnDisk(String),
     /// The system refuses to read the file, so that a change by someone else would go unseen.
     #[error(
-        "{0}: cannot be read, so changes by others would go unseen: {1}: try again, or save under another name"
+        "{0}: cannot be read to check for changes by others: {1}: try again, or save under another name"
     )]
     Unreadable(String, io::Error),
     /// Another file is there already.
-    #[error("{0}: there is a file of that name already")]
+    #[error("{0}: the file exists already")]
     AlreadyThere(String),
     /// It is of a newer format, of which not everything is understood.
     #[error(
-        "{0}: this case is of a newer format, and saving it here would lose what this version does not know"
+        "{0}: the case has a newer format; saving it would lose fields that this version does not know"
     )]
     NewerFormat(String),
     /// It is a folder, a pipe or a device.

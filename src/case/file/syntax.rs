@@ -123,12 +123,12 @@ fn fault(at: usize, error: &Error, source: &str, line: std::ops::Range<usize>) -
         .filter(|c| c.is_control() && !matches!(c, '\n' | '\r'))
     {
         let cause = format!(
-            "the control character {} stands in the text",
+            "control character {} in the text",
             quoted(&control.to_string())
         );
         return Found::new(
             at,
-            Problem::new(&field_name(source, &line), cause, "take it out"),
+            Problem::new(&field_name(source, &line), cause, "remove it"),
         );
     }
     let text = &source[line.clone()];
@@ -146,7 +146,7 @@ fn fault(at: usize, error: &Error, source: &str, line: std::ops::Range<usize>) -
         let fix = format!("write {}", check::assignment(field));
         return Found::new(
             line.start + key.len(),
-            Problem::new(field.key, "`:` stands where `=` is due", fix),
+            Problem::new(field.key, "`:` instead of `=`", fix),
         );
     }
     Found::new(at, in_general(error, &field_name(source, &line)))
@@ -185,7 +185,7 @@ fn mistaken(field: &Field, value: &str) -> Option<Problem> {
     let problem = |cause: String, fix: String| Some(Problem::new(field.key, cause, fix));
     if value.is_empty() {
         return problem(
-            "there is no value after `=`".to_owned(),
+            "no value after `=`".to_owned(),
             format!("write {}", check::assignment(field)),
         );
     }
@@ -273,7 +273,7 @@ fn in_general(error: &Error, field: &str) -> Problem {
     let fix = FIXES
         .iter()
         .find(|(part, _)| message.contains(part))
-        .map_or("write it as TOML has it", |(_, fix)| fix);
+        .map_or("write valid TOML", |(_, fix)| fix);
     Problem::new(field, cause, fix)
 }
 
@@ -289,7 +289,7 @@ fn double(at: usize, error: &Error, lines: &Lines<'_>, source: &str) -> Found {
         .unwrap_or_default();
     let line = lines.around(at);
     if source[line.clone()].trim_start().starts_with('[') {
-        let cause = format!("the table {} is there twice", quoted(name));
+        let cause = format!("the table {} appears twice", quoted(name));
         return Found::new(
             at,
             Problem::new(name, cause, "put its keys under one header"),
@@ -300,7 +300,7 @@ fn double(at: usize, error: &Error, lines: &Lines<'_>, source: &str) -> Found {
         at,
         Problem::new(
             field,
-            format!("the key {} is there twice", quoted(name)),
+            format!("the key {} appears twice", quoted(name)),
             "keep one of the two",
         ),
     )

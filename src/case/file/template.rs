@@ -110,7 +110,7 @@ pub(super) fn text(case: &Case, comments: &[(&str, String)]) -> String {
     text.push_str(&rest(
         &entries,
         "limits",
-        "Greatest value allowed, of any quantity of the results.",
+        "Greatest allowed value of any quantity of the results.",
         "impact_force = \"2500 N\"",
     ));
     text.push_str(&rest(

@@ -208,7 +208,7 @@ impl Reader {
                 at,
                 Problem::new(
                     "format",
-                    "this is no known format",
+                    "this format is unknown",
                     format!("write format = {FORMAT}"),
                 ),
             ),
@@ -220,7 +220,7 @@ impl Reader {
         let name = key.get_ref().as_ref();
         let Some(table) = value.get_ref().as_table() else {
             let cause = format!(
-                "{} stands where the table [{name}] is due",
+                "expected the table [{name}], found {}",
                 kind_of(value.get_ref())
             );
             self.fault(
@@ -275,7 +275,7 @@ impl Reader {
                     field,
                     value,
                     ParseError::new(
-                        "there is no value",
+                        "the value is missing",
                         format!("write {}", check::assignment(known)),
                     ),
                 );
@@ -350,7 +350,7 @@ impl Reader {
             Some((shape, Some(width))) => Spread::new(&path, shape, &width),
             _ => Err(Problem::new(
                 &place,
-                "this is no distribution",
+                "this is not a distribution",
                 "write { normal = \"4 um\" }, or uniform, triangular, truncated or grade in its place",
             )),
         };

@@ -16,7 +16,7 @@ pub(super) fn unknown_at_top(name: &str) -> Problem {
         return Problem::new(
             name,
             cause,
-            "the gears are [driver] and [driven], whichever is the smaller",
+            "the gears are [driver] and [driven], whatever their sizes",
         );
     }
 
@@ -31,7 +31,7 @@ pub(super) fn unknown_at_top(name: &str) -> Problem {
             .find(|field| field.name() == name)
             .map(|field| format!("put it under [{}]", field.table()))
     };
-    let fix = elsewhere().unwrap_or_else(|| suggest::fix(name, known, || "take it out".to_owned()));
+    let fix = elsewhere().unwrap_or_else(|| suggest::fix(name, known, || "remove it".to_owned()));
     Problem::new(name, format!("unknown key or table {}", quoted(name)), fix)
 }
 

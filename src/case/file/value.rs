@@ -16,7 +16,7 @@ pub(super) fn flag(value: &DeValue<'_>) -> Result<String, Option<ParseError>> {
     match value {
         DeValue::Boolean(value) => Ok(value.to_string()),
         _ => Err(Some(ParseError::new(
-            format!("{} stands where true or false is due", kind_of(value)),
+            format!("expected true or false, found {}", kind_of(value)),
             "write true or false without quotes",
         ))),
     }
@@ -35,10 +35,7 @@ pub(super) fn bare_number(
 ) -> Result<String, Option<ParseError>> {
     match value.as_str() {
         Some(text) => {
-            let cause = format!(
-                "{} stands in quotes where a bare number is due",
-                quoted(text)
-            );
+            let cause = format!("{} is in quotes, and a number is not", quoted(text));
             let is_number = text.trim().parse::<f64>().is_ok();
             let fix = if is_number {
                 "write the number without quotes".to_owned()
@@ -74,7 +71,7 @@ pub(super) fn untaken(value: &DeValue<'_>, kind: Kind, example: &str) -> ParseEr
 
 pub(super) fn misplaced(value: &DeValue<'_>, due: &str, example: &str) -> ParseError {
     ParseError::new(
-        format!("{} stands where {due} is due", kind_of(value)),
+        format!("expected {due}, found {}", kind_of(value)),
         format!("write {example}"),
     )
 }

@@ -95,7 +95,7 @@ pub(super) fn parse(text: &str) -> Result<Model, Refusal> {
         let words = error.to_string();
         let cause = words.split(" at line ").next().unwrap_or(&words);
         Refusal::new(
-            format!("this is no REXS model in JSON: {cause}"),
+            format!("this is not a REXS model in JSON: {cause}"),
             "export the model again",
         )
         .at(error.line(), error.column())

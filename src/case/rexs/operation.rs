@@ -28,7 +28,7 @@ pub(super) fn ordered<'a>(
         _ => {
             let label = first.label();
             values.remarks.push(format!(
-                "the model leaves open which gear drives; the driver is gear_1, {label}"
+                "the model does not name the driving gear; the driver is gear_1, {label}"
             ));
             gears
         }

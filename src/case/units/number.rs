@@ -72,7 +72,7 @@ fn no_number(text: &str, usual: &str) -> ParseError {
     let signless = text.trim_start_matches(['+', '-']);
     let word = signless.get(..3).unwrap_or_default().to_ascii_lowercase();
     if text.is_empty() {
-        ParseError::new("there is no value", example(usual))
+        ParseError::new("the value is missing", example(usual))
     } else if text.starts_with(['−', '–', '—', '‐', '‑', '－']) {
         let rest: String = text.chars().skip(1).collect();
         let cause = format!(
@@ -81,10 +81,7 @@ fn no_number(text: &str, usual: &str) -> ParseError {
         );
         ParseError::new(cause, format!("write -{}", cut(&rest)))
     } else if text.starts_with(CURLY) {
-        let cause = format!(
-            "{} stands in quotes that are not the straight ones",
-            quoted(text)
-        );
+        let cause = format!("{} has curly quotes", quoted(text));
         ParseError::new(
             cause,
             format!("write \"{}\"", cut(text.trim_matches(CURLY))),

@@ -87,8 +87,8 @@ fn other_units_are_right_to_the_last_place() {
 #[test]
 fn what_is_no_value_is_refused_with_its_mend() {
     for (text, cause, fix) in [
-        ("", "no value", "\"20 mm\""),
-        ("5", "bare number", "\"5 mm\""),
+        ("", "value is missing", "\"20 mm\""),
+        ("5", "has no unit", "\"5 mm\""),
         ("4,5 mm", "comma", "write 4.5, not 4,5"),
         ("1,000.5 mm", "comma", "write 1000.5"),
         ("−5 mm", "not the minus sign", "write -5 mm"),
@@ -123,7 +123,7 @@ fn what_is_no_value_is_refused_with_its_mend() {
         "0.3 mm",
         Dimension::Number,
         "",
-        "bare number is due",
+        "is not allowed here",
         "write 0.3",
     );
     refused(

@@ -29,7 +29,7 @@ pub(super) fn contact_ratio_below_one(_: &Inputs, solution: &Solution) -> Option
     let ratio = solution.geometry.contact_ratio;
     let message = || {
         format!(
-            "the contact ratio is {}, below 1: no pair is in contact when the next comes in",
+            "the contact ratio is {}, below 1: at some angles no pair is in contact",
             four(ratio)
         )
     };

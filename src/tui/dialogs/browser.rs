@@ -139,7 +139,7 @@ fn draw(browser: &Browser, screen: Rect, theme: &Theme, buffer: &mut Buffer) -> 
         buffer.set_stringn(
             line.x + 1,
             line.y,
-            " type a part of a name, or a path; ~ is the home folder",
+            " type part of a name or a path; ~ is the home folder",
             width - 1,
             theme.faint,
         );
@@ -235,10 +235,10 @@ fn draw_folder(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffer
         None => "reading ...",
         Some(listing) => match &listing.entries {
             Err(reason) => reason,
-            Ok(_) if listing.is_cut => "There are more than are listed.",
+            Ok(_) if listing.is_cut => "The list is not complete.",
             Ok(entries) if entries.is_empty() => "No folders and no *.toml here.",
-            Ok(_) if count == 0 && browser.is_seeking() => "Looking below ...",
-            Ok(_) if count == 0 => "Nothing here or below.",
+            Ok(_) if count == 0 && browser.is_seeking() => "Searching below ...",
+            Ok(_) if count == 0 => "No match here or below.",
             Ok(_) => return,
         },
     };
@@ -306,7 +306,10 @@ fn draw_preview(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffe
     }
     match preview {
         _ if is_missing => {
-            lines.push(("There is no such file any more.".to_owned(), theme.problem));
+            lines.push((
+                "The file does not exist any more.".to_owned(),
+                theme.problem,
+            ));
         }
         None => lines.push(("reading ...".to_owned(), theme.faint)),
         Some(preview) => lines.extend(lines_of(preview, area.width.into(), theme)),
@@ -319,12 +322,8 @@ fn draw_preview(browser: &Browser, area: Rect, theme: &Theme, buffer: &mut Buffe
 fn lines_of(preview: &Preview, width: usize, theme: &Theme) -> Vec<(String, Style)> {
     match preview {
         Preview::Case(case, is_newer) => {
-            let newer = is_newer.then(|| {
-                (
-                    "Of a newer format: it opens read-only.".to_owned(),
-                    theme.problem,
-                )
-            });
+            let newer =
+                is_newer.then(|| ("Newer format: opens read-only.".to_owned(), theme.problem));
             newer
                 .into_iter()
                 .chain(digest::lines(case, width, theme))

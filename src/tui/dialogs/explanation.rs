@@ -207,7 +207,7 @@ fn text(explanation: &Explanation, screen: Size, ascii: bool) -> Vec<Line> {
         }]
     };
     let page = match &explanation.page {
-        None => said("being computed: each field behind it is moved a small step"),
+        None => said("computing: each field is changed by a small step"),
         Some(Err(reason)) => said(reason),
         Some(Ok(page)) => lines(page, &explanation.case, width),
     };

@@ -175,14 +175,14 @@ impl Question {
     #[must_use]
     pub fn recover(name: &str, offer: Offer) -> Question {
         let changed = if offer.is_file_changed {
-            " The file has been changed since."
+            " The file has changed since."
         } else {
             ""
         };
         Question {
             title: "Unsaved edits found",
             text: format!(
-                "Edits of {name} that were not saved, {} old.{changed} In the file now -> as typed:",
+                "Unsaved edits of {name}, {} old.{changed} Value in the file -> edited value:",
                 offer.age
             ),
             details: offer.changes.iter().map(recovery::line).collect(),

@@ -10,7 +10,8 @@ use crate::tui::line::Line;
 use crate::tui::session::save::Next;
 
 /// How a name is given.
-const NAMING: &str = "A name or a path, ~ is the home folder; without an ending it gets .toml. What is there already is asked about.";
+const NAMING: &str =
+    "A name or a path; ~ is the home folder, .toml is added if missing. Asks before overwriting.";
 
 /// The path to save to.
 #[derive(Debug, Clone)]

@@ -127,7 +127,7 @@ mod tests {
             (
                 "pair.module",
                 "5",
-                "5 is a bare number where a length with its unit is due: write 5 mm",
+                "5 has no unit, and a length needs one: write 5 mm",
             ),
             (
                 "pair.module",
@@ -142,7 +142,7 @@ mod tests {
             (
                 "operation.torque",
                 "70 N m",
-                "power and torque are both given: take one of them out",
+                "power and torque are both given: remove one of them",
             ),
             (
                 "model.method",

@@ -293,7 +293,7 @@ impl Autosave {
         if self.session.is_none() {
             let begun = journals
                 .begin()
-                .map_err(|error| format!("edits are not kept for a crash: {error}: save soon"));
+                .map_err(|error| format!("a crash would lose unsaved edits: {error}: save soon"));
             self.session = Some(begun?);
         }
         let session = self

@@ -40,16 +40,16 @@ pub struct Journal {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum JournalFault {
     /// It is no journal at all.
-    #[error("it is no journal")]
+    #[error("the file is not a journal")]
     NotOne,
     /// It is of a newer format.
-    #[error("its format {0} is newer than this version knows")]
+    #[error("the format {0} of the journal is newer than this version")]
     NewerFormat(i64),
     /// It was cut or changed after it was written.
-    #[error("it is damaged")]
+    #[error("the journal is damaged")]
     Damaged,
     /// It is whole, but says something that no journal says.
-    #[error("it has no valid `{0}`")]
+    #[error("the journal has no valid `{0}`")]
     Misformed(&'static str),
 }
 

@@ -165,7 +165,7 @@ fn set_aside(path: &Path, fault: &JournalFault) -> String {
     let moved = free.and_then(|name| fs::rename(path, &name).ok().map(|()| name));
     let place = moved.unwrap_or_else(|| path.to_owned());
     format!(
-        "unsaved edits of this case were kept, but {fault}: what there is stays in {}",
+        "unsaved edits of this case cannot be restored: {fault}; the file is now {}",
         shown(&place)
     )
 }

@@ -79,7 +79,7 @@ impl Lock {
                 });
             }
         }
-        Err(io::Error::other("changes all the time"))
+        Err(io::Error::other("changes too often"))
     }
 
     /// A new lock under a name of its own. Its file has that name only once it is locked, so that
@@ -162,7 +162,7 @@ impl Holder {
     #[must_use]
     pub fn words(&self, now: u64) -> String {
         if self.process == 0 {
-            return "a process that does not say which".to_owned();
+            return "an unknown process".to_owned();
         }
         format!(
             "process {} on {} for {}",

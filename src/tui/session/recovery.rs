@@ -7,7 +7,8 @@ use crate::case::changes::{self, Change};
 use crate::case::{Case, Document};
 
 /// The message for a case of a newer format.
-pub const NEWER: &str = "read-only: of a newer format; only what this version knows is shown";
+pub const NEWER: &str =
+    "read-only: newer format; fields that this version does not know are hidden";
 
 /// Whether this workbench may write the file of a case.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]

@@ -24,7 +24,7 @@ pub enum Next {
 }
 
 const ONLY_SPACING: &str = "Every field is the same: only comments or spacing differ.";
-const ALL_THE_SAME: &str = "Every field in it is as in the form.";
+const ALL_THE_SAME: &str = "The file and the form have the same values.";
 
 /// A case that was written.
 #[derive(Debug, Clone)]
@@ -111,7 +111,11 @@ impl Saving {
                 let is_case = !matches!(error, ReadError::Bad(_) | ReadError::NewerFormat(_));
                 let error = error.to_string();
                 let first = error.lines().next().unwrap_or_default();
-                let cause = if is_case { "" } else { "It is no valid case: " };
+                let cause = if is_case {
+                    ""
+                } else {
+                    "It is not a valid case: "
+                };
                 return vec![format!("{cause}{first}")];
             }
         };
@@ -123,7 +127,7 @@ impl Saving {
                     recovery::shown(change.to.as_deref()),
                 );
                 format!(
-                    "{}: {there} in the file, {here} here{}",
+                    "{}: {there} in the file, {here} in the form{}",
                     changes::label(&change.key),
                     remark(&change)
                 )
@@ -144,9 +148,9 @@ impl Saving {
     fn by_whom(&self, change: &Change) -> String {
         let before = changes::text_of(self.document.loaded(), &change.key);
         let by = match (before == change.from, before == change.to) {
-            (true, _) => "changed here",
-            (_, true) => "changed there",
-            (false, false) => "changed here and there",
+            (true, _) => "changed in the form",
+            (_, true) => "changed in the file",
+            (false, false) => "changed in both",
         };
         format!(" ({by})")
     }

@@ -68,7 +68,7 @@ impl State {
                 "{problem}; until then, unsaved edits are kept in {}, which a restart empties",
                 shown(place)
             ),
-            None => format!("{problem}; until then, unsaved edits are not kept for a crash"),
+            None => format!("{problem}; until then, a crash loses unsaved edits"),
         });
         State {
             folder,
@@ -269,7 +269,7 @@ mod tests {
             assert!(
                 nowhere
                     .notice
-                    .is_some_and(|notice| notice.contains("are not kept"))
+                    .is_some_and(|notice| notice.contains("a crash loses unsaved edits"))
             );
         }
     }

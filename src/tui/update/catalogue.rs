@@ -52,11 +52,7 @@ pub(super) fn make(app: &mut App, gears: &[&str], material: &Material) -> Vec<Ef
     } else {
         "both gears"
     };
-    let verb = if is_other {
-        "from"
-    } else {
-        "as they were, from"
-    };
+    let verb = if is_other { "from" } else { "unchanged, from" };
     app.say(format!(
         "{whose}: {} {verb} {}",
         assignments(app, material),

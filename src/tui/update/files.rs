@@ -290,7 +290,7 @@ fn named(name: &str) -> PathBuf {
 /// Save under the name that is typed.
 pub(super) fn save_under(app: &mut App, name: &str, next: Next) -> Vec<Effect> {
     if name.trim().is_empty() {
-        app.complain("a file needs a name");
+        app.complain("type a name for the file");
         return Vec::new();
     }
     let is_own = app.tab.path.as_deref() == Some(Path::new(name));

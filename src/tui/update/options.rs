@@ -35,8 +35,7 @@ pub(super) fn cycle_theme(app: &mut App) -> Vec<Effect> {
     keep(app)
 }
 
-const UNICODE: &str =
-    "drawn with the whole of Unicode; in this session alone where the locale has no UTF-8";
+const UNICODE: &str = "drawn in Unicode; a locale without UTF-8 keeps it for this session only";
 
 /// ASCII alone, from now on; or, in this session whatever the environment says, the whole of
 /// Unicode.

@@ -125,7 +125,7 @@ pub(super) fn take(app: &mut App) -> Vec<Effect> {
         if is_other {
             "; u undoes"
         } else {
-            ", as it was"
+            ", unchanged"
         }
     ));
     effects

@@ -198,7 +198,11 @@ fn title(charts: &Charts, graph: &Graph, axes: &Axes, room: usize) -> String {
     let mut titles = Vec::new();
     for names in [&names[..], std::slice::from_ref(&unnamed)] {
         for label in ruler.labels {
-            titles.extend(names.iter().map(|name| format!("{name} over {label}{below}")));
+            titles.extend(
+                names
+                    .iter()
+                    .map(|name| format!("{name} over {label}{below}")),
+            );
         }
         titles.extend(names.last().map(|name| format!("{name}, x{below}")));
         titles.extend(names.last().cloned());
