@@ -125,7 +125,7 @@ fn a_page_that_is_being_written_says_so_and_a_late_one_is_dropped() {
     let event = harness::event("Enter");
     let action = tipstrike::tui::actions::of_key(event, desk.app.place()).expect("a key");
     let effects = tipstrike::tui::update::update(&mut desk.app, action);
-    assert!(desk.shows("being computed") && of(&desk).quantity.key == "impact_force");
+    assert!(desk.shows("computing: each field") && of(&desk).quantity.key == "impact_force");
     desk.keys(&["Esc", "j", "Enter"]);
     let before = desk.screen();
     for effect in effects {

@@ -186,7 +186,7 @@ fn what_would_be_written_over_is_told() {
     desk.write("other.toml", &TABLE_1.replace("2000 rpm", "900 rpm"));
     desk.keys(&["F2", "other", "Enter"]);
     assert!(
-        desk.shows("speed: 900 rpm in the file, 2000 rpm here"),
+        desk.shows("speed: 900 rpm in the file, 2000 rpm in the form"),
         "{}",
         desk.screen()
     );
