@@ -41,8 +41,9 @@ fn models(trades: &[(String, tipstrike::study::trade::Trade)]) -> String {
     ];
     for (name, trade) in trades {
         let percent = |method: Method| {
-            let off = trade
-                .model(method)
+            let mut models = trade.models.iter();
+            let off = models
+                .find(|model| model.setting.method == method)
                 .map_or([None; Subject::ALL.len()], |model| model.off);
             let needed = Subject::NEEDED.map(|subject| {
                 off[subject as usize].map_or("-".to_owned(), |off| format!("{:.1}", 100.0 * off))
@@ -67,16 +68,18 @@ fn models(trades: &[(String, tipstrike::study::trade::Trade)]) -> String {
 
 /// Numerical error against time: a line a method over its stations, and one over the tolerances.
 fn picture(table: &Table) -> String {
+    let table_1 = tipstrike::case::Case::table_1();
+    let pair = table_1.inputs().expect("the built-in case is valid");
     let stations = METHODS.map(|method| {
         (
             format!("{}: stations", method.name()),
-            Setting::usual(method),
+            Setting::usual(method, &pair),
             1,
         )
     });
     let tolerances = (
         "dynamic: tolerance".to_owned(),
-        Setting::usual(Method::Dynamic),
+        Setting::usual(Method::Dynamic, &pair),
         0,
     );
     let series: Vec<Series> = stations
@@ -89,12 +92,12 @@ fn picture(table: &Table) -> String {
                 } else {
                     setting.stations == usual.stations
                 };
-                setting.method == usual.method
+                setting.is_finer_or_coarser(&usual)
                     && setting.accurate == usual.accurate
                     && setting.stations.is_some()
                     && same
             };
-            let mut settings: Vec<Setting> = Setting::all().into_iter().filter(alike).collect();
+            let mut settings: Vec<Setting> = table::settings().into_iter().filter(alike).collect();
             settings.sort_by(|one, other| {
                 other
                     .tolerance

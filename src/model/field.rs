@@ -1,6 +1,6 @@
 //! Compliance of a gear's teeth and body, from plane-strain finite elements on the whole gear.
 
-mod body;
+pub mod body;
 mod boundary;
 pub mod cache;
 mod element;

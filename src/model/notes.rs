@@ -57,6 +57,7 @@ const LOOKS: &[Look] = &[
     gear::inertia_driven,
     compliance::chosen_by_range,
     compliance::outside_range,
+    compliance::without_coupling,
     compliance::hertz_width,
     pair::contact_ratio_above_two,
     pair::contact_ratio_below_one,

@@ -2,6 +2,7 @@
 
 use super::compliance::contact::{self, ContactModel};
 use super::compliance::tooth::{self, ToothModel};
+use super::compliance::{contact_of, model_of};
 use super::inputs::{ContactCompliance, Inputs, ToothCompliance};
 
 /// Least and greatest impact force over the stiffness models that cover the pair, in N.
@@ -22,7 +23,32 @@ pub struct StiffnessModels {
     pub contact: Option<&'static ContactModel>,
 }
 
+impl PartialEq for StiffnessModels {
+    fn eq(&self, other: &StiffnessModels) -> bool {
+        let contact = |models: &StiffnessModels| models.contact.map(|contact| contact.name);
+        self.tooth.name == other.tooth.name && contact(self) == contact(other)
+    }
+}
+
 impl StiffnessModels {
+    /// The models of a pair: those of the case, else by range and method.
+    #[must_use]
+    pub fn of(inputs: &Inputs) -> StiffnessModels {
+        StiffnessModels {
+            tooth: model_of(inputs).model(),
+            contact: contact_of(inputs).map(ContactCompliance::model),
+        }
+    }
+
+    /// The models of a pair whose case names no tooth compliance.
+    #[must_use]
+    pub fn by_default(inputs: &Inputs) -> StiffnessModels {
+        StiffnessModels::of(&Inputs {
+            tooth_compliance: None,
+            ..inputs.clone()
+        })
+    }
+
     /// Every model of the teeth with every model of the contact that it needs.
     pub fn all() -> impl Iterator<Item = StiffnessModels> {
         tooth::MODELS.into_iter().flat_map(|tooth| {

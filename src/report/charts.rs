@@ -2,12 +2,14 @@
 
 use super::Report;
 use super::graphs::{GRAPHS, Graph};
-use super::stations::{Row, rows};
+use super::stations::{Column, Row, rows};
 use super::svg::{Chart, Kind, Labelled, Series, chart};
 use crate::case::units;
-use crate::model::inputs::Method;
+use crate::model::compliance::model_of;
+use crate::model::inputs::{Method, ToothCompliance};
 use crate::model::spacing::Spacing;
 use crate::model::{Inputs, Solution, contact_state};
+use crate::study::stiffness::compare_path;
 
 /// A longer interval between stations, in requested intervals, is a gap in the curve.
 const LEFT_OUT: f64 = 1.5;
@@ -30,6 +32,9 @@ pub fn find(key: &str) -> Option<&'static Graph> {
 /// The chart as a picture; none where no case has a curve in it.
 #[must_use]
 pub fn picture(graph: &Graph, cases: &[Drawn]) -> Option<String> {
+    if let Some(column) = graph.by_model {
+        return stiffness(graph, column, cases);
+    }
     let found: Vec<_> = cases
         .iter()
         .filter_map(|case| {
@@ -62,6 +67,67 @@ pub fn picture(graph: &Graph, cases: &[Drawn]) -> Option<String> {
         series: series.chain(bound).collect(),
         marks,
     }))
+}
+
+/// Places of the path of contact at which a stiffness is drawn.
+pub const STIFFNESS_POINTS: usize = 129;
+
+/// The stiffness of the mesh by every model for one case, by the model of each for several.
+fn stiffness(graph: &Graph, column: &Column, cases: &[Drawn]) -> Option<String> {
+    let factor = units::factor(column.shown).unwrap_or(1.0);
+    let mut series = Vec::new();
+    for case in cases {
+        let Some(report) = case.reports.first() else {
+            continue;
+        };
+        let Ok(found) = compare_path(&report.inputs, STIFFNESS_POINTS) else {
+            continue;
+        };
+        let own = model_of(&report.inputs);
+        for (at, model) in found.models.iter().enumerate() {
+            let points: Vec<_> = found.mesh_curve(at).collect();
+            if points.len() < 2 || (cases.len() > 1 && *model != own) {
+                continue;
+            }
+            let name = stiffness_name(*model, own);
+            series.push(Series {
+                name: if case.name.is_empty() {
+                    name
+                } else {
+                    format!("{}, {}", case.name, model.name())
+                },
+                pieces: vec![
+                    points
+                        .into_iter()
+                        .map(|(angle, value)| (angle.to_degrees(), value / factor))
+                        .collect(),
+                ],
+                kind: Kind::Curve,
+            });
+        }
+    }
+    let unit = shown_unit(column.shown);
+    (!series.is_empty()).then(|| {
+        chart(&Chart {
+            title: graph.label.to_owned(),
+            across: Labelled::linear("driver roll angle after E, deg"),
+            up: Labelled::linear(format!("{} {}, {unit}", graph.label, column.symbol)),
+            series,
+            marks: vec![(0.0, "E")],
+        })
+    })
+}
+
+/// The name of a model's curve: the elastic field and the model of the case are marked.
+#[must_use]
+pub fn stiffness_name(model: ToothCompliance, own: ToothCompliance) -> String {
+    let field = if model.model().has_coupling {
+        ", elastic field"
+    } else {
+        ""
+    };
+    let case = if model == own { " (case)" } else { "" };
+    format!("{}{field}{case}", model.name())
 }
 
 fn label(case: &Drawn, report: &Report) -> String {

@@ -1,11 +1,11 @@
 //! The table of charts: the name of each chart and its columns of the stations.
 
-use super::stations::{self, COLUMNS, Column, Row};
+use super::stations::{self, COLUMNS, Column, MESH_STIFFNESS, Row};
 use crate::model::Solution;
 use crate::model::inputs::Method;
 
-/// A chart over the roll angle. Columns of different methods share a chart if they are the same
-/// value.
+/// A chart over the roll angle, with a curve for each method or for each compliance model. Columns
+/// of different methods share a chart if they are the same value.
 #[derive(Debug, Clone, Copy)]
 pub struct Graph {
     /// The key in the settings.
@@ -16,6 +16,8 @@ pub struct Graph {
     pub columns: &'static [&'static str],
     /// The value that the curve is compared with.
     pub bound: Option<Bound>,
+    /// The value whose curves are those of the compliance models; `None` for a chart of the stations.
+    pub by_model: Option<&'static Column>,
 }
 
 /// A value that a curve is compared with.
@@ -34,6 +36,7 @@ macro_rules! graph {
             label: $label,
             columns: &$columns,
             bound: $bound,
+            by_model: None,
         }
     };
 }
@@ -49,13 +52,14 @@ const CLOSED: Bound = Bound {
 
 /// Every chart, the most important first.
 #[rustfmt::skip]
-pub static GRAPHS: [Graph; 9] = [
+pub static GRAPHS: [Graph; 10] = [
     graph!("force", "Force", ["impact_force", "force"], None),
     graph!("gap", "Gap", ["gap"], Some(CLOSED)),
     graph!("normal_velocity", "Approach velocity", ["normal_velocity"], None),
     graph!("sliding_velocity", "Sliding velocity", ["sliding_velocity"], None),
     graph!("load_share", "Load share", ["load_share"], None),
     graph!("pair_compliance", "Pair compliance", ["pair_compliance"], None),
+    Graph { by_model: Some(&MESH_STIFFNESS), ..graph!("mesh_stiffness", "Mesh stiffness", [], None) },
     graph!("impact_energy", "Impact energy", ["impact_energy"], None),
     graph!("transmission_error", "Transmission error", ["transmission_error"], None),
     graph!("radius_driver", "Driver contact radius", ["radius_driver"], None),
@@ -65,7 +69,8 @@ impl Graph {
     /// The column of a method.
     #[must_use]
     pub fn column(&self, method: Method) -> Option<&'static Column> {
-        stations::columns(method).find(|column| self.columns.contains(&column.key))
+        let own = stations::columns(method).find(|column| self.columns.contains(&column.key));
+        own.or(self.by_model)
     }
 
     /// The columns of every method.
@@ -74,6 +79,7 @@ impl Graph {
         COLUMNS
             .iter()
             .filter(move |column| keys.contains(&column.key))
+            .chain(self.by_model)
     }
 
     /// The methods with a curve.
@@ -107,7 +113,7 @@ mod tests {
         for graph in &GRAPHS {
             assert_eq!(
                 graph.all_columns().count(),
-                graph.columns.len(),
+                graph.columns.len().max(1),
                 "{}",
                 graph.key
             );

@@ -127,6 +127,18 @@ impl<'a> Row<'a> {
 /// what rounding leaves of 0.
 const RESOLUTION: f64 = 1e-12;
 
+/// The stiffness of the mesh over the path of contact, which no station has: each compliance model
+/// has a curve of its own.
+pub static MESH_STIFFNESS: Column = Column {
+    key: "mesh_stiffness",
+    symbol: "k",
+    unit: "N/m",
+    shown: "N/um",
+    digits: 4,
+    methods: EVERY,
+    value: |_| None,
+};
+
 impl Column {
     /// The value in SI, 0 where it is below the resolution of what it is a difference of.
     #[must_use]

@@ -72,11 +72,11 @@ fn legend(comparison: &Comparison) -> Vec<String> {
     let notes = [
         "Compliances in um mm/N, per unit face width.".to_owned(),
         format!(
-            "{}: tooth without contact; in brackets the difference from FE plus twist.",
+            "{}: tooth without contact; in brackets the difference from FE.",
             names.join(", ")
         ),
-        "FE: finite elements (plane strain, whole gear), without contact. FE, surface and \
-         neighbour leave out the twist of the body."
+        "FE: finite elements (plane strain, whole gear), without contact. FE, surface, \
+         neighbour and the beam leave out the twist of the body."
             .to_owned(),
         format!(
             "surface: FE with a contact of half-width {half_width} mm (Hertz, mesh force at the \
@@ -100,8 +100,7 @@ fn gear_section(comparison: &Comparison, gear: &GearComparison) -> Vec<String> {
     )];
     if !gear.points.is_empty() {
         lines.push(head(&comparison.models));
-        let twist = gear.twist.unwrap_or_default();
-        lines.extend(gear.points.iter().map(|point| row(point, twist)));
+        lines.extend(gear.points.iter().map(row));
     }
     lines.extend(remarks(gear).iter().flat_map(|remark| item("  - ", remark)));
     lines
@@ -168,8 +167,8 @@ fn difference(value: Option<f64>, reference: Option<f64>) -> String {
         .unwrap_or_default()
 }
 
-fn row(point: &Point, twist: f64) -> String {
-    let whole = point.field.map(|field| field.depth + twist);
+fn row(point: &Point) -> String {
+    let whole = point.field.map(|field| field.depth);
     let models: Vec<_> = point
         .models
         .iter()

@@ -3,6 +3,8 @@
 pub mod plot;
 mod table;
 
+pub use table::{Cell, compliance_name, compliances};
+
 use std::io::{self, Write};
 
 use serde::{Serialize, Serializer};
@@ -13,7 +15,7 @@ use crate::case::fields::AUTO;
 use crate::case::sanitize::sanitize;
 use crate::model::inputs::Method;
 use crate::numeric::decimal::significant;
-use crate::study::trade::{Differences, Measured, Setting, Subject, Trade, greatest};
+use crate::study::trade::{Build, Differences, Measured, Setting, Subject, Trade, greatest};
 
 /// A trade and the case it was made of.
 #[derive(Debug, Clone, Copy)]
@@ -34,6 +36,7 @@ pub fn write(report: &TradeReport<'_>, out: &mut dyn Write) -> io::Result<()> {
     let sections = [
         heading(report),
         reference(report.trade),
+        table::by_compliance(report.trade),
         table::models(report.trade),
         table::settings(report.trade),
     ];
@@ -76,10 +79,28 @@ fn reference(trade: &Trade) -> Vec<String> {
                     format!("a second integration method could not check it: {refusal}")
                 }
             };
-            format!("Reference: {}; {check}.", reference.setting)
+            format!(
+                "Reference: {}; {check}. {}",
+                reference.setting,
+                build(trade)
+            )
         }
     };
     flow(sentence.split(' '), WIDTH)
+}
+
+/// The time of the fields, in a sentence.
+#[must_use]
+pub fn build(trade: &Trade) -> String {
+    match &trade.build {
+        Ok(Build { driver, driven }) => format!(
+            "The fields of the finite elements are built once per gear: {} for the driver, {} for the driven gear; \
+             the times below read them.",
+            duration(*driver),
+            duration(*driven)
+        ),
+        Err(refusal) => format!("There is no elastic field to compare with: {refusal}."),
+    }
 }
 
 /// The conclusion where no method finds corner contact.
@@ -118,13 +139,13 @@ pub fn summary(measured: &Measured) -> String {
 pub fn parts(trade: &Trade, measured: &Measured) -> Option<String> {
     let figures = measured.found.as_ref().ok()?;
     let (numbers, curve) = table::parts(&figures.numerical);
-    let model = greatest(&model_off(trade, figures.method));
+    let model = greatest(&model_off(trade, &figures.taken));
     let [numbers, curve, model] =
         [numbers, curve, model].map(|off| off.map_or_else(|| "-".to_owned(), percent));
     let is_reference = trade
         .reference
         .as_ref()
-        .is_ok_and(|reference| reference.setting.method == figures.method);
+        .is_ok_and(|reference| reference.setting.is_finer_or_coarser(&figures.taken));
     let model = if is_reference {
         "model: the reference".to_owned()
     } else {
@@ -158,6 +179,9 @@ struct Line<'a> {
     within: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     reference: Option<ReferenceLine>,
+    /// Times of the fields of driver and driven gear, apart from every other time.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    field_seconds: Option<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     no_reference: Option<String>,
     settings: Vec<SettingLine>,
@@ -165,9 +189,31 @@ struct Line<'a> {
     recommended: Option<SettingLine>,
 }
 
+/// The compliance that was taken.
+#[derive(Serialize)]
+struct ModelsLine {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tooth_compliance: Option<&'static str>,
+    /// Absent if the tooth compliance includes the contact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    contact_compliance: Option<&'static str>,
+}
+
+impl ModelsLine {
+    fn of(setting: &Setting) -> ModelsLine {
+        let models = setting.models;
+        ModelsLine {
+            tooth_compliance: models.map(|models| models.tooth.name),
+            contact_compliance: models.and_then(|models| Some(models.contact?.name)),
+        }
+    }
+}
+
 #[derive(Serialize)]
 struct ReferenceLine {
     method: &'static str,
+    #[serde(flatten)]
+    models: ModelsLine,
     #[serde(serialize_with = "count_or_auto")]
     stations: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -189,6 +235,8 @@ struct SettingLine {
     /// What the method `auto` took.
     #[serde(skip_serializing_if = "Option::is_none")]
     took: Option<&'static str>,
+    #[serde(flatten)]
+    models: ModelsLine,
     #[serde(serialize_with = "count_or_auto")]
     stations: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -233,6 +281,7 @@ pub fn write_json(report: &TradeReport<'_>, out: &mut dyn Write) -> io::Result<(
         version: env!("CARGO_PKG_VERSION"),
         within: trade.within,
         reference: reference_line(trade),
+        field_seconds: trade.build.ok().map(|build| [build.driver, build.driven]),
         no_reference: trade.reference.as_ref().err().map(ToString::to_string),
         settings: trade
             .settings
@@ -263,6 +312,7 @@ fn reference_line(trade: &Trade) -> Option<ReferenceLine> {
     });
     Some(ReferenceLine {
         method: method.name(),
+        models: ModelsLine::of(&reference.setting),
         stations,
         tolerance,
         quantities: quantities.collect(),
@@ -285,14 +335,16 @@ fn setting_line(trade: &Trade, measured: &Measured) -> SettingLine {
         stations,
         tolerance,
         accurate,
+        models: _,
     } = measured.setting;
     let figures = measured.found.as_ref().ok();
     SettingLine {
         method: method.name(),
         took: figures
-            .map(|figures| figures.method)
+            .map(|figures| figures.taken.method)
             .filter(|&took| took != method)
             .map(Method::name),
+        models: ModelsLine::of(&table::taken(measured)),
         stations,
         tolerance,
         accurate,
@@ -314,7 +366,7 @@ fn setting_line(trade: &Trade, measured: &Measured) -> SettingLine {
 /// The three errors of a subject, where there are any.
 fn errors(trade: &Trade, measured: &Measured, subject: Subject) -> Option<serde_json::Value> {
     let figures = measured.found.as_ref().ok()?;
-    let model = model_off(trade, figures.method);
+    let model = model_off(trade, &figures.taken);
     let of = |differences: &Differences| differences[subject as usize];
     let parts = [
         ("numerical", of(&figures.numerical)),
@@ -337,10 +389,10 @@ fn by_subject(
         .collect()
 }
 
-/// What a method's physics leaves out.
-fn model_off(trade: &Trade, method: Method) -> Differences {
+/// What the physics of a setting leaves out.
+fn model_off(trade: &Trade, setting: &Setting) -> Differences {
     trade
-        .model(method)
+        .model(setting)
         .map_or([None; Subject::ALL.len()], |model| model.off)
 }
 

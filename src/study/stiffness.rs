@@ -116,6 +116,17 @@ pub fn compare(inputs: &Inputs, points: usize) -> Result<Comparison, Refusal> {
     })
 }
 
+/// Compares the models at `points` places of the path of contact.
+///
+/// # Errors
+/// Those of [`compare`].
+pub fn compare_path(inputs: &Inputs, points: usize) -> Result<PathComparison, Refusal> {
+    let geometry = geometry::<f64>(&inputs.shape())?;
+    Masses::of(&inputs.bodies(), &geometry)?;
+    let mesh_force = inputs.torque() / geometry.driver.base;
+    Ok(path::compare(inputs, &geometry, mesh_force, points))
+}
+
 /// One gear of the pair.
 struct Flank<'a> {
     name: &'static str,

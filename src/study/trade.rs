@@ -1,7 +1,8 @@
-//! Speed against accuracy: every method by several settings, each timed and held against one
-//! reference, here and now.
+//! Speed against accuracy: every method by several settings and with every compliance, each timed
+//! and compared with one reference.
 
 mod answer;
+mod build;
 mod clock;
 mod rounds;
 mod second;
@@ -10,10 +11,12 @@ mod setting;
 use std::sync::Arc;
 
 pub use answer::{Answer, Subject, stages};
+pub use build::Build;
 pub use clock::{Patience, Time};
 pub use setting::{METHODS, STATIONS, Setting};
 
 use crate::model::inputs::Method;
+use crate::model::stiffness_spread::StiffnessModels;
 use crate::model::{Inputs, Outcome, Refusal, auto};
 use rounds::Rounds;
 
@@ -40,13 +43,17 @@ pub struct Trade {
     pub part: f64,
     /// What they are held against, or why there is nothing.
     pub reference: Result<Reference, Refusal>,
-    /// Each method's best setting against the reference: what its physics leaves out.
+    /// The best setting of each method and compliance whose fineness varies, against the
+    /// reference: what its physics leaves out.
     pub models: Vec<Model>,
+    /// Time of the fields that the reference reads, or why it reads none.
+    pub build: Result<Build, Refusal>,
     /// The place of the cheapest setting that qualifies.
     pub cheapest: Option<usize>,
 }
 
-/// The answer that counts as true.
+/// The answer of the method `dynamic` with the finest setting, by the compliance of a case that
+/// names none: the elastic field, where both gears have one.
 #[derive(Debug, Clone)]
 pub struct Reference {
     /// How it was found.
@@ -67,15 +74,15 @@ const NO_DIFFERENCES: Differences = [None; Subject::ALL.len()];
 /// measured, and no longer.
 struct Standards {
     truth: Option<Arc<Answer>>,
-    /// Each method's by its best setting, where there is one.
-    best: Vec<(Method, Arc<Answer>)>,
+    /// Best settings with their answers.
+    best: Vec<(Setting, Arc<Answer>)>,
 }
 
 /// What a method's physics leaves out.
 #[derive(Debug, Clone)]
 pub struct Model {
-    /// The method.
-    pub method: Method,
+    /// Its best setting.
+    pub setting: Setting,
     /// How far its best setting is from the reference.
     pub off: Differences,
     /// Whether the tooth strikes by its best setting, where that solves the case.
@@ -100,8 +107,8 @@ pub struct Measured {
 /// Time and errors.
 #[derive(Debug, Clone)]
 pub struct Figures {
-    /// The method of the answer.
-    pub method: Method,
+    /// The setting of the answer: another one where the method `auto` chose.
+    pub taken: Setting,
     /// Of a whole solve, as far as the answer needs it.
     pub time: Time,
     /// What the motion took in the method `dynamic`, see [`Effort`](crate::model::dynamic::Effort).
@@ -167,9 +174,22 @@ pub fn trade(
 
 /// Every setting, the case's own among them.
 fn settings(inputs: &Inputs) -> Vec<Setting> {
-    let (mut settings, current) = (Setting::all(), Setting::of(inputs));
+    let (mut settings, current) = (Setting::all(inputs), Setting::of(inputs));
     if !settings.contains(&current) {
         settings.push(current);
+    }
+    settings
+}
+
+/// The best setting of each method, and of the case's own method and compliance.
+fn finest(inputs: &Inputs) -> Vec<Setting> {
+    let mut settings: Vec<Setting> = METHODS
+        .iter()
+        .map(|&method| Setting::usual(method, inputs).best())
+        .collect();
+    let own = Setting::of(inputs).best();
+    if own.models.is_some() && own.method != Method::Auto && !settings.contains(&own) {
+        settings.push(own);
     }
     settings
 }
@@ -187,12 +207,12 @@ impl Standards {
             |(reference, truth)| (Ok(reference), Some(Arc::new(truth))),
         );
         let (mut models, mut best) = (Vec::new(), Vec::new());
-        for method in METHODS {
+        for setting in finest(inputs) {
             let found = match (&reference, &truth) {
-                (Ok(reference), Some(truth)) if method == reference.setting.method => {
+                (Ok(reference), Some(truth)) if setting == reference.setting => {
                     Some(Arc::clone(truth))
                 }
-                _ => stopped(answer_of(inputs, Setting::best(method), go_on))?
+                _ => stopped(answer_of(inputs, setting, go_on))?
                     .ok()
                     .map(Arc::new),
             };
@@ -201,11 +221,11 @@ impl Standards {
                 .zip(truth.as_ref())
                 .map_or(NO_DIFFERENCES, |(found, truth)| differences(found, truth));
             models.push(Model {
-                method,
+                setting,
                 off,
                 outcome: found.as_ref().map(|found| found.outcome),
             });
-            best.extend(found.map(|found| (method, found)));
+            best.extend(found.map(|found| (setting, found)));
         }
         // A measurement is kept with its case: it has room for what it will hold, and no more.
         let settings = Vec::with_capacity(planned);
@@ -216,6 +236,7 @@ impl Standards {
             part: 0.0,
             reference,
             models,
+            build: Build::measure(inputs, question.patience),
             cheapest: None,
         };
         Ok((trade, Standards { truth, best }))
@@ -228,9 +249,10 @@ impl Standards {
         setting: Setting,
         rounds: &mut Rounds<'_>,
     ) -> Result<Measured, Refusal> {
-        let found = rounds
-            .first(setting)?
-            .map(|(answer, time)| self.figures(&answer, time));
+        let found = rounds.first(setting)?.map(|(answer, time)| {
+            let taken = setting.taken(inputs, answer.method);
+            self.figures(&answer, taken, time)
+        });
         let is_current = setting == Setting::of(inputs);
         Ok(Measured {
             setting,
@@ -241,18 +263,18 @@ impl Standards {
         })
     }
 
-    fn figures(&self, answer: &Answer, time: Time) -> Figures {
+    fn figures(&self, answer: &Answer, taken: Setting, time: Time) -> Figures {
         let best = self
             .best
             .iter()
-            .find(|(method, _)| *method == answer.method);
+            .find(|(setting, _)| setting.is_finer_or_coarser(&taken));
         let numerical = best.map_or(NO_DIFFERENCES, |(_, best)| differences(answer, best));
         let total = self
             .truth
             .as_ref()
             .map_or(NO_DIFFERENCES, |truth| differences(answer, truth));
         Figures {
-            method: answer.method,
+            taken,
             time,
             evaluations: answer.evaluations,
             numerical,
@@ -262,10 +284,42 @@ impl Standards {
 }
 
 impl Trade {
-    /// How far the method's best answer is from the reference.
+    /// How far the best setting of the same method and compliance is from the reference.
     #[must_use]
-    pub fn model(&self, method: Method) -> Option<&Model> {
-        self.models.iter().find(|model| model.method == method)
+    pub fn model(&self, setting: &Setting) -> Option<&Model> {
+        self.models
+            .iter()
+            .find(|model| model.setting.is_finer_or_coarser(setting))
+    }
+
+    /// The compliances that are compared, that of the reference first.
+    #[must_use]
+    pub fn compliances(&self) -> Vec<StiffnessModels> {
+        let mut found: Vec<StiffnessModels> = Vec::new();
+        let reference = self.reference.as_ref().ok();
+        let of_settings = self.settings.iter().map(|measured| measured.setting.models);
+        for models in reference
+            .map(|reference| reference.setting.models)
+            .into_iter()
+            .chain(of_settings)
+            .flatten()
+        {
+            if !found.contains(&models) {
+                found.push(models);
+            }
+        }
+        found
+    }
+
+    /// The setting of a method and compliance that a case has which names both alone.
+    #[must_use]
+    pub fn usual(&self, method: Method, models: StiffnessModels) -> Option<&Measured> {
+        self.settings.iter().find(|measured| {
+            let setting = &measured.setting;
+            *setting == setting.usual_fineness()
+                && setting.method == method
+                && setting.models == Some(models)
+        })
     }
 
     /// The cheapest setting that qualifies, or none where no method finds corner contact: there is
@@ -307,18 +361,26 @@ impl Trade {
     /// takes is one of the others, and `paper` is the print, which says no more than `exact` even
     /// where nothing strikes. Of those whose times do not differ measurably, the most accurate.
     fn find_cheapest(&self) -> Option<usize> {
+        let best = self.cheapest_where(|_| true)?;
+        self.settings
+            .iter()
+            .position(|measured| std::ptr::eq(measured, best))
+    }
+
+    /// The cheapest of some settings that qualifies, see [`Trade::cheapest`].
+    #[must_use]
+    pub fn cheapest_where(&self, admitted: impl Fn(&Setting) -> bool) -> Option<&Measured> {
         let is_candidate = |measured: &&Measured| {
-            measured.qualifies && auto::METHODS.contains(&measured.setting.method)
+            measured.qualifies
+                && auto::METHODS.contains(&measured.setting.method)
+                && admitted(&measured.setting)
         };
         let candidates = || self.settings.iter().filter(is_candidate);
         let quickest =
             candidates().min_by(|one, other| one.seconds().total_cmp(&other.seconds()))?;
         let tied = candidates().filter(|measured| measured.ties(quickest));
         let error = |measured: &Measured| measured.total().unwrap_or(f64::INFINITY);
-        let best = tied.min_by(|one, other| error(one).total_cmp(&error(other)))?;
-        self.settings
-            .iter()
-            .position(|measured| std::ptr::eq(measured, best))
+        tied.min_by(|one, other| error(one).total_cmp(&error(other)))
     }
 }
 
@@ -362,7 +424,7 @@ impl Measured {
 impl Reference {
     /// The reference and its whole answer.
     fn of(inputs: &Inputs, go_on: &dyn Fn() -> bool) -> Result<(Reference, Answer), Refusal> {
-        let setting = Setting::best(Method::Dynamic);
+        let setting = Setting::usual(Method::Dynamic, inputs).best();
         let inputs = setting.inputs(inputs);
         let solution = answer::solve(&inputs, go_on)?;
         let answer = Answer::of(&solution);

@@ -6,6 +6,7 @@ use ratatui::layout::Size;
 
 use super::actions::Progress;
 use super::baseline::Baseline;
+use super::benchmark::TradeView;
 use super::benchmark::Traded;
 use super::commands::{Command, key_of};
 use super::cursor_range::CursorScope;
@@ -28,6 +29,7 @@ use super::theme::Look;
 use crate::case::fields::Kind;
 use crate::case::{Case, Document, Problem};
 use crate::model::{Stage, Stages};
+use crate::report::graphs::GRAPHS;
 
 /// Everything that the screen shows.
 #[derive(Debug, Clone)]
@@ -55,6 +57,8 @@ pub struct App {
     pub is_pinning: bool,
     /// Whether the results tell what they took.
     pub shows_cost: bool,
+    /// How the trade pane shows its measurement.
+    pub trade_view: TradeView,
     /// The cursor of charts and teeth: the driver's roll angle before E, in rad, negative after E.
     pub cursor: Option<f64>,
     /// The view of the teeth pane.
@@ -123,6 +127,7 @@ impl App {
             baseline: None,
             is_pinning: false,
             shows_cost: false,
+            trade_view: TradeView::default(),
             cursor: None,
             teeth: TeethView::default(),
             chart: ChartPane::default(),
@@ -255,6 +260,7 @@ impl App {
         TradePane {
             traded: self.tab.traded.as_ref(),
             inputs: self.tab.inputs(),
+            view: self.trade_view,
             look: self.look,
             title: self.title(Pane::Trade),
             area: self.plan().trade,
@@ -375,6 +381,12 @@ impl App {
         seen.fold(verdict, |stages, pane| stages.and(pane.needs()))
     }
 
+    /// Whether the chart of the mesh stiffness is in sight.
+    fn wants_stiffness(&self) -> bool {
+        let is_visible = !self.plan().area(Pane::Chart).is_empty();
+        is_visible && GRAPHS[self.chart.graph].by_model.is_some()
+    }
+
     /// Say something until the next key.
     pub(super) fn say(&mut self, text: impl Into<String>) {
         self.message = Some(Message {
@@ -412,12 +424,13 @@ impl App {
 
     /// Check the form; when it is valid, what the worker shall solve.
     pub(super) fn request(&mut self) -> Option<Request> {
-        let stages = self.wanted();
+        let (stages, wants_stiffness) = (self.wanted(), self.wants_stiffness());
         let (inputs, problems) = self.tab.case.read();
         self.tab.inputs_so_far = inputs.clone();
         if problems.is_empty() {
             self.last_serial += 1;
             let tab = &mut self.tab;
+            tab.asked_stiffness = wants_stiffness;
             (tab.serial, tab.asked, tab.is_settled, tab.solving) =
                 (self.last_serial, stages, false, None);
             tab.problems.clear();
@@ -426,6 +439,7 @@ impl App {
                 case: tab.case.clone(),
                 inputs,
                 stages,
+                stiffness: wants_stiffness,
             });
         }
         self.tab.refusal = None;
@@ -441,7 +455,10 @@ impl App {
     /// The request for the results that the first frame could not wait for.
     pub(super) fn unanswered(&mut self) -> Option<Request> {
         let asked = self.tab.asked;
-        let is_partial = |answer: &Answer| answer.stages != asked;
+        let lacks_stiffness = self.wants_stiffness();
+        let is_partial = |answer: &Answer| {
+            answer.stages != asked || (lacks_stiffness && answer.stiffness.is_none())
+        };
         let waits = !self.tab.is_settled || self.tab.answer.as_ref().is_some_and(is_partial);
         if waits { self.request() } else { None }
     }
@@ -449,6 +466,7 @@ impl App {
     /// A request for the stages that became visible after the last request.
     pub(super) fn catch_up(&mut self) -> Option<Request> {
         let lacks = !self.wanted().iter().all(|stage| self.tab.asked.has(stage));
+        let lacks = lacks || (self.wants_stiffness() && !self.tab.asked_stiffness);
         if lacks && self.tab.problems.is_empty() {
             self.request()
         } else {

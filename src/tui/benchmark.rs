@@ -49,12 +49,35 @@ pub struct Traded {
     pub marked: Option<Setting>,
 }
 
+/// How the pane shows a measurement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum TradeView {
+    /// Error against time of every setting.
+    #[default]
+    Chart,
+    /// Time and error of every method with every compliance.
+    Table,
+}
+
+impl TradeView {
+    /// The other view.
+    #[must_use]
+    pub fn other(self) -> TradeView {
+        match self {
+            TradeView::Chart => TradeView::Table,
+            TradeView::Table => TradeView::Chart,
+        }
+    }
+}
+
 impl Traded {
     /// Whether the case is another one by now, but for the setting.
     #[must_use]
     pub fn is_stale(&self, inputs: &Inputs) -> bool {
         let Inputs {
             method,
+            tooth_compliance,
+            contact_compliance,
             tolerance,
             within,
             stations,
@@ -64,6 +87,8 @@ impl Traded {
         } = inputs.clone();
         Inputs {
             method,
+            tooth_compliance,
+            contact_compliance,
             tolerance,
             within,
             stations,

@@ -49,6 +49,7 @@ pub enum Command {
     Explain,
     Measure,
     TakeSetting,
+    SwitchTradeView,
     Notes,
     NextReason,
     PreviousReason,

@@ -2,14 +2,16 @@
 
 mod methods;
 
+use std::sync::Arc;
 use std::time::Duration;
 
 pub use methods::{answer, answer_without_fields};
-pub(super) use methods::{cleared, solved};
+pub(super) use methods::{cleared, solved, with_stiffness};
 
 use crate::case::Case;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Note, Outcome, QUANTITIES, Refusal, Solution, Stage, Stages};
+use crate::study::stiffness::PathComparison;
 
 /// After this time the closed form's answer is shown in place of that of a slow method.
 pub(super) const PATIENCE: Duration = Duration::from_millis(30);
@@ -25,6 +27,8 @@ pub struct Request {
     pub inputs: Inputs,
     /// The stages whose results are in sight.
     pub stages: Stages,
+    /// Whether the chart of the mesh stiffness is in sight.
+    pub stiffness: bool,
 }
 
 /// What the methods say of a request.
@@ -50,6 +54,8 @@ pub struct Answer {
     pub methods: Vec<(Method, Result<Solution, Refusal>)>,
     /// What a reader must know beside the active result.
     pub notes: Vec<Note>,
+    /// The mesh stiffness by every model, if it was asked for and is known.
+    pub stiffness: Option<Arc<PathComparison>>,
 }
 
 /// A value of each quantity, in SI, in the order of [`QUANTITIES`].

@@ -48,6 +48,8 @@ pub struct Tab {
     pub serial: u64,
     /// The stages that were asked for with it.
     pub asked: Stages,
+    /// Whether the mesh stiffness was asked for with it.
+    pub asked_stiffness: bool,
     /// How much of it is done, where it takes its time.
     pub solving: Option<f64>,
     /// Whether the worker has answered it, in whatever way.
@@ -107,6 +109,7 @@ impl Tab {
             problems: Vec::new(),
             serial: 0,
             asked: Stages::NONE,
+            asked_stiffness: false,
             solving: None,
             is_settled: false,
             answer: None,

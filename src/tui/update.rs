@@ -170,6 +170,10 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::CopyResults => copy::results(app),
         Command::Measure => trade::measure(app),
         Command::TakeSetting => trade::take(app),
+        Command::SwitchTradeView => {
+            app.trade_view = app.trade_view.other();
+            Vec::new()
+        }
         Command::CursorBy(columns) => cursor::step(app, columns),
         Command::CursorToD => cursor::to_start(app),
         Command::CursorToE => cursor::to_end(app),

@@ -92,6 +92,19 @@ fn a_chart_names_axes_with_units_and_the_legend_lies_below_the_field() {
 }
 
 #[test]
+fn the_mesh_stiffness_has_a_curve_for_every_model() {
+    let picture = stdout_of(&["plot", TABLE_1, "--chart", "mesh_stiffness"]);
+    for text in [
+        "Mesh stiffness k, N/µm",
+        ">kuang-yang (case)<",
+        ">beam<",
+        ">finite-element, elastic field<",
+    ] {
+        assert!(picture.contains(text), "{text}: {picture}");
+    }
+}
+
+#[test]
 fn a_chart_without_a_curve_is_refused_and_a_picture_replaces_an_older_one() {
     let late = run(&[
         "plot",

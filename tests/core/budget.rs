@@ -12,7 +12,9 @@ use envelope::Random;
 use tipstrike::case::fields::{AUTO, Absent, FIELDS, Kind, Range, index_of};
 use tipstrike::case::{Case, Document};
 use tipstrike::model::budget::{MOTION_WORK, SEARCH_TRIES, SEARCH_WORK};
-use tipstrike::model::inputs::Method;
+use tipstrike::model::compliance::tooth::field_gear;
+use tipstrike::model::compliance::{ElasticGear, model_of};
+use tipstrike::model::inputs::{Method, ToothCompliance};
 use tipstrike::model::{Inputs, QUANTITIES, Refusal, Solution, Stage, Stages, notes, solve};
 
 /// Heap that one solve may take, in bytes.
@@ -101,6 +103,56 @@ fn move_field(case: &mut Case, field: usize, random: &mut Random) {
     {
         case.write(other, "");
     }
+}
+
+/// Every gear that the form accepts has a field, or a named refusal with which the beam serves and
+/// says so.
+#[test]
+fn every_valid_gear_has_a_field_or_the_beam_with_a_note() {
+    const CASES: u64 = 400;
+    let mut seen = BTreeMap::new();
+    for number in 0..CASES {
+        let mut case = drawn(number);
+        for (key, value) in [("model.tooth_compliance", ""), ("model.method", "exact")] {
+            case.set(key, value).expect("a field");
+        }
+        let Ok(inputs) = case.inputs() else { continue };
+        let gears = [&inputs.driver, &inputs.driven];
+        let refused = gears.into_iter().find_map(|gear| {
+            let gear = ElasticGear::of(&inputs, gear);
+            field_gear(&gear).build().err()
+        });
+        let served = model_of(&inputs);
+        let what = refused.map_or("field", |refusal| refusal.code());
+        *seen.entry(what).or_insert(0) += 1;
+        let Some(refusal) = refused else {
+            assert_eq!(served, ToothCompliance::FINITE_ELEMENT, "{number}");
+            continue;
+        };
+        // A pair that no compliance solves has no note on one.
+        let Ok(solution) = solve(&inputs, Stages::CLOSED_FORM) else {
+            continue;
+        };
+        if solution.withheld.is_some() {
+            continue;
+        }
+        assert!(
+            matches!(refusal, Refusal::NoField { .. }),
+            "{number}: {refusal}"
+        );
+        assert_eq!(served, ToothCompliance::BEAM, "{number}: {refusal}");
+        let notes = notes(&inputs, &solution);
+        let note = notes
+            .iter()
+            .find(|note| note.code == "tooth-compliance-beam");
+        assert!(
+            note.is_some_and(|note| note.message.contains(&refusal.to_string()))
+                || solution.compliance.is_none(),
+            "{number}: {notes:?}"
+        );
+    }
+    println!("{seen:?}");
+    assert!(seen.len() > 1 && seen["field"] > 100, "{seen:?}");
 }
 
 /// An end of a range, or anywhere in it with every decade as likely; of a range about 0, twelve

@@ -1,4 +1,5 @@
 //! The load that coupled pairs share, held against a whole gear by other finite elements.
+pub(crate) mod uncoupled;
 mod whole_gear;
 
 use std::fs;
@@ -12,7 +13,7 @@ use tipstrike::model::mesh::Mesh;
 use tipstrike::model::spacing::Spacing;
 use tipstrike::model::static_load::{balance, static_load};
 use tipstrike::model::tip_gap::tip_at;
-use tipstrike::model::{Geometry, Inputs, Outline, Solution, Stages, solve};
+use tipstrike::model::{Geometry, Inputs, Outline, Solution, Stage, Stages, notes, solve};
 
 use crate::support::standard_pair;
 use whole_gear::{Line, WholeGear};
@@ -344,4 +345,56 @@ fn coupling_changes_the_cases_as_much_as_the_documentation_says() {
         }
     }
     assert!(seen > 40, "{seen}");
+}
+
+/// The note on a compliance without coupling states the range over the cases in `cases/`.
+#[test]
+fn the_cost_of_no_coupling_is_what_the_note_states() {
+    let mut changes = [[f64::INFINITY, f64::NEG_INFINITY]; 3];
+    for path in crate::table::cases() {
+        let inputs = Inputs {
+            method: Method::Dynamic,
+            deflection: None,
+            ..crate::table::inputs(&path)
+        };
+        let solution = solve(&inputs, Stages::EVERY).expect("a solution");
+        let coupled = solution.dynamic.as_ref().expect("the method");
+        let alone = uncoupled::motion(&inputs, &solution).expect("a motion");
+        let angles = alone.first_contact_angle.zip(coupled.first_contact_angle);
+        let found = [
+            angles.map(|(alone, coupled)| alone / coupled),
+            Some(alone.peak_force / coupled.peak_force),
+            angles.map(|_| alone.peak_approach_force / coupled.peak_approach_force),
+        ];
+        println!("{}: {found:?}", path.display());
+        for (range, found) in changes.iter_mut().zip(found) {
+            if let Some(ratio) = found {
+                let change = 100.0 * (ratio - 1.0);
+                *range = [range[0].min(change), range[1].max(change)];
+            }
+        }
+    }
+    let beam = Inputs {
+        tooth_compliance: Some(ToothCompliance::BEAM),
+        method: Method::Dynamic,
+        ..crate::table::inputs(&crate::table::cases()[0])
+    };
+    let solution = solve(&beam, Stages::of(Stage::Dynamic)).expect("a solution");
+    let found = notes(&beam, &solution);
+    let note = found.iter().find(|note| note.code == "no-coupling");
+    let message = &note.expect("a note").message;
+    let [angles, peaks, _] = changes;
+    let earlier = format!("{:.0} to {:.0} % earlier", angles[0], angles[1]);
+    let force = format!("{:+.0} to {:+.0} %", peaks[0], peaks[1]);
+    assert!(
+        message.contains(&earlier) && message.contains(&force),
+        "{message}: {changes:?}"
+    );
+    let own = crate::table::inputs(&crate::table::cases()[0]);
+    let solution = solve(&own, Stages::CLOSED_FORM).expect("a solution");
+    let notes = notes(&own, &solution);
+    assert!(
+        notes.iter().all(|note| note.code != "no-coupling"),
+        "{notes:?}"
+    );
 }

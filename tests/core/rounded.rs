@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::Value;
 use tipstrike::case::file::Document;
-use tipstrike::model::inputs::Method;
+use tipstrike::model::inputs::{Method, ToothCompliance};
 use tipstrike::model::{Inputs, Quantity, Refusal, Solution, Stages, solve};
 
 use crate::support::standard_pair;
@@ -167,4 +167,30 @@ fn a_tip_radius_beyond_its_limits_is_refused_by_name() {
         matches!(apart, Refusal::RoundingBreaksContact { .. }),
         "{apart}"
     );
+}
+
+/// A driven gear of five teeth: a large deviation turns the contact normal past its centre, where the
+/// contact leaves the arc of its tip.
+#[test]
+fn a_contact_beyond_the_arc_of_the_tip_is_refused() {
+    let mut inputs = standard_pair(20, 5, 4e-3);
+    inputs.pressure_angle = 28f64.to_radians();
+    inputs.driven.addendum = 0.6;
+    inputs.deflection = Some(1e-6);
+    inputs.tooth_compliance = Some(ToothCompliance::BEAM);
+    inputs.driven.tip_radius = Some(0.05e-3);
+    for (deviation, is_beyond) in [(1e-3, false), (2e-3, true)] {
+        inputs.base_pitch_deviation = deviation;
+        let solved = solve(&inputs, Stages::CLOSED_FORM);
+        let refusal = match &solved {
+            Ok(solution) => solution.withheld,
+            Err(refusal) => Some(*refusal),
+        };
+        let beyond = matches!(refusal, Some(Refusal::BeyondRounding { .. }));
+        assert_eq!(beyond, is_beyond, "{deviation}: {refusal:?}");
+        if let Some(refusal) = refusal.filter(|_| beyond) {
+            assert_eq!(refusal.code(), "beyond-tip-rounding");
+            assert!(refusal.to_string().contains("rb2' is -"), "{refusal}");
+        }
+    }
 }

@@ -3,6 +3,7 @@
 //! `TIPSTRIKE_REGENERATE=1 cargo test --test core validation::` writes the page again.
 
 mod changes;
+mod compliance;
 mod sources;
 
 use std::fmt::Write as _;
@@ -124,6 +125,7 @@ fn page() -> String {
         text += &source(one);
     }
     text += &sources::iso_table();
+    text += &compliance::section();
     text += &changes::section();
     text
 }

@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 
 use tipstrike::case::file::Document;
 use tipstrike::model::Inputs;
-use tipstrike::model::compliance::model_of;
 use tipstrike::model::inputs::Method;
-use tipstrike::report::trade::duration;
+use tipstrike::model::stiffness_spread::StiffnessModels;
+use tipstrike::report::trade::{duration, percent};
 use tipstrike::study::trade::{
-    Differences, Patience, Question, Setting, Subject, Trade, greatest, trade,
+    Differences, METHODS, Patience, Question, Setting, Subject, Trade, greatest, trade,
 };
 
 /// Below this an error is rounding, and one machine may differ from another.
@@ -29,22 +29,23 @@ pub(crate) fn cases() -> Vec<PathBuf> {
     cases
 }
 
-/// The inputs of a case; without a tooth compliance, with that of the method `paper`, whose time
-/// includes no field.
+/// The inputs of a case without its tooth compliance, so that every case has the same settings.
 pub(crate) fn inputs(path: &Path) -> Inputs {
     let document = Document::read(path).unwrap_or_else(|error| panic!("{error}"));
     let inputs = document
         .case
         .inputs()
         .unwrap_or_else(|problems| panic!("{}: {}", path.display(), problems[0]));
-    let printed = Inputs {
-        method: Method::Paper,
-        ..inputs.clone()
-    };
     Inputs {
-        tooth_compliance: Some(model_of(&printed)),
+        tooth_compliance: None,
         ..inputs
     }
+}
+
+/// Every setting that is compared in each of the cases.
+pub(crate) fn settings() -> Vec<Setting> {
+    let table_1 = tipstrike::case::Case::table_1();
+    Setting::all(&table_1.inputs().expect("the built-in case is valid"))
 }
 
 /// A power of ten as it is read from a file.
@@ -100,7 +101,7 @@ impl Table {
 
     pub(crate) fn of(trades: &[(String, Trade)]) -> Table {
         Table(
-            Setting::all()
+            settings()
                 .iter()
                 .map(|setting| row(setting, trades))
                 .collect(),
@@ -121,12 +122,20 @@ impl Table {
         const TIMES: usize = 4;
         let stored = std::fs::read_to_string(path()).expect("the stored table");
         let made = self.markdown();
-        let line = |(stored, made): (&str, &str)| {
-            let times = stored.split('|').take(TIMES);
-            let cells: Vec<&str> = times.chain(made.split('|').skip(TIMES)).collect();
+        let line = |made: &str| {
+            let name = made.split('|').nth(1);
+            let mut lines = stored.lines();
+            let times = lines.find(|line| line.split('|').nth(1) == name);
+            let times = times
+                .unwrap_or("| | - | - |")
+                .split('|')
+                .skip(2)
+                .take(TIMES - 2);
+            let before = made.split('|').take(2).chain(times);
+            let cells: Vec<&str> = before.chain(made.split('|').skip(TIMES)).collect();
             cells.join("|") + "\n"
         };
-        let text: String = stored.lines().zip(made.lines()).map(line).collect();
+        let text: String = made.lines().map(line).collect();
         std::fs::write(path(), text).expect("the table is written");
     }
 
@@ -158,7 +167,7 @@ impl Table {
     /// The lines of docs/speed.md: a selection of the stored ones.
     pub(crate) fn of_docs() -> Vec<String> {
         let text = std::fs::read_to_string(path()).expect("the stored table");
-        let names: Vec<String> = Setting::all()
+        let names: Vec<String> = settings()
             .iter()
             .filter(|setting| is_listed(setting))
             .map(|setting| format!("| {setting} |"))
@@ -167,6 +176,40 @@ impl Table {
         let found =
             lines.filter(|(at, line)| *at < 2 || names.iter().any(|name| line.starts_with(name)));
         found.map(|(_, line)| line.to_owned()).collect()
+    }
+
+    /// The lines of docs/speed.md on every compliance: time and total error of each method, from
+    /// the stored lines.
+    pub(crate) fn of_compliances() -> Vec<String> {
+        let text = std::fs::read_to_string(path()).expect("the stored table");
+        let table_1 = tipstrike::case::Case::table_1();
+        let pair = table_1.inputs().expect("the built-in case is valid");
+        let cell = |method: Method, models: StiffnessModels| {
+            let setting = Setting {
+                models: Some(models),
+                ..Setting::usual(method, &pair)
+            };
+            let mut lines = text
+                .lines()
+                .map(|line| line.split(" | ").collect::<Vec<_>>());
+            let line = lines.find(|cells| cells[0] == format!("| {setting}"));
+            let line = line.unwrap_or_else(|| panic!("no {setting}"));
+            let total = line[5].trim_end_matches(" |").split(" / ");
+            let total: Vec<String> = total
+                .map(|total| percent(total.parse().expect("a number")))
+                .collect();
+            format!("{}, {} %", line[1], total.join(" / "))
+        };
+        let row = |models: StiffnessModels| {
+            let cells = METHODS.map(|method| cell(method, models));
+            format!("| {} | {} |", models.names(), cells.join(" | "))
+        };
+        let heads = [
+            "| compliance | paper | exact | static | dynamic |",
+            "|---|---|---|---|---|",
+        ];
+        let rows = StiffnessModels::covering(&pair).map(row);
+        heads.map(str::to_owned).into_iter().chain(rows).collect()
     }
 
     /// No error of the other table is more than twice the one of this; times may differ.
@@ -214,12 +257,22 @@ pub(crate) fn write_docs() {
     let (before, rest) = text.split_once(MARKS[0]).expect("the first mark");
     let (_, after) = rest.split_once(MARKS[1]).expect("the second mark");
     let lines = Table::of_docs().join("\n");
-    std::fs::write(
-        &path,
-        format!("{before}{}{lines}\n{}{after}", MARKS[0], MARKS[1]),
-    )
-    .expect("docs/speed.md is written");
+    let text = format!("{before}{}{lines}\n{}{after}", MARKS[0], MARKS[1]);
+    let (before, rest) = text
+        .split_once(COMPLIANCE_MARKS[0])
+        .expect("the first mark");
+    let (_, after) = rest
+        .split_once(COMPLIANCE_MARKS[1])
+        .expect("the second mark");
+    let lines = Table::of_compliances().join("\n");
+    let text = format!(
+        "{before}{}{lines}\n{}{after}",
+        COMPLIANCE_MARKS[0], COMPLIANCE_MARKS[1]
+    );
+    std::fs::write(&path, text).expect("docs/speed.md is written");
 }
+
+const COMPLIANCE_MARKS: [&str; 2] = ["<!-- compliances -->\n", "<!-- /compliances -->"];
 
 /// Whether docs/speed.md has it.
 fn is_listed(setting: &Setting) -> bool {
@@ -227,7 +280,15 @@ fn is_listed(setting: &Setting) -> bool {
         .stations
         .is_none_or(|stations| [8, 64, 1024].contains(&stations));
     // At the coarsest tolerance and at the usual one; each other tolerance once.
-    few && !setting.accurate
+    few && !setting.accurate && has_default_compliance(setting)
+}
+
+/// Whether the compliance is that of a case that names none.
+fn has_default_compliance(setting: &Setting) -> bool {
+    let usual = settings()
+        .into_iter()
+        .find(|usual| usual.method == setting.method);
+    usual.is_none_or(|usual| usual.models == setting.models)
 }
 
 fn row(setting: &Setting, trades: &[(String, Trade)]) -> Row {

@@ -33,6 +33,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     // Error against time.
     ("Esc 5 m", "Enter", "", "; u undoes"),
     ("Esc 5", "m", "", "Within 5.0 %: dynamic with"),
+    ("Esc 5 m", "v", "", "▸ 5 Run time and difference from the reference"),
     ("Esc 5 m h", "l", "", "] within 5.0 %"),
     ("Esc 5 m", "h", "", "] not within 5.0 %"),
     // Chart and teeth.

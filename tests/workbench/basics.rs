@@ -10,12 +10,15 @@ use insta::assert_snapshot;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 use ratatui::symbols::Marker;
-use tipstrike::case::fields;
+use tipstrike::case::{Document, fields};
+use tipstrike::model::compliance::ElasticGear;
+use tipstrike::model::compliance::tooth::field_gear;
 use tipstrike::model::inputs::Method;
 use tipstrike::model::{Stage, Stages};
 use tipstrike::tui::actions::Effect;
 use tipstrike::tui::actions::Progress;
 use tipstrike::tui::actions::{self, Action};
+use tipstrike::tui::app::App;
 use tipstrike::tui::commands::Command;
 use tipstrike::tui::dialogs::Prompt;
 use tipstrike::tui::dialogs::picker::Item;
@@ -986,6 +989,38 @@ fn no_range_is_notice_of_a_strike_that_is_denied() {
             desk.shows(method) && desk.shows("No corner contact") && !desk.shows("stiffness"),
             "{method}: {}",
             desk.screen()
+        );
+    }
+}
+
+/// Gears that no other test has, so that no field of theirs is kept.
+#[test]
+fn the_first_frame_waits_for_no_elastic_field() {
+    for (method, compliance, teeth) in [
+        ("exact", "", 41),
+        ("dynamic", "", 43),
+        ("auto", "", 47),
+        ("exact", "tooth_compliance = \"kuang-yang\"", 53),
+        ("dynamic", "tooth_compliance = \"beam\"", 59),
+    ] {
+        let text = TABLE_1
+            .replace("teeth = 20", &format!("teeth = {teeth}"))
+            .replace("tooth_compliance = \"kuang-yang\"", compliance)
+            .replace("method = \"exact\"", &format!("method = \"{method}\""));
+        let document = Document::parse("case.toml", &text).expect("a good case");
+        let inputs = document.case.inputs().expect("valid inputs");
+        let is_built = || {
+            let gears = [&inputs.driver, &inputs.driven];
+            gears.map(|gear| field_gear(&ElasticGear::of(&inputs, gear)).is_built())
+        };
+        let app = App::at_start(document, None, Look::FULL, LARGE);
+        let area = Rect::from((Position::ORIGIN, LARGE));
+        view::draw(&app, area, &mut Buffer::empty(area));
+        assert_eq!(is_built(), [false, false], "{method} {compliance}");
+        assert_eq!(
+            app.tab.answer.is_some(),
+            !compliance.is_empty(),
+            "{method} {compliance}"
         );
     }
 }

@@ -500,7 +500,7 @@ fn the_baseline_is_drawn_in_the_same_chart() {
         assert!(desk.shows("+ baseline"), "{}", desk.screen());
         desk.keys(&["j", "j"]);
     }
-    desk.keys(&["jjj", "l", "L"]);
+    desk.keys(&["jjjj", "l", "L"]);
     assert!(desk.shows("baseline "), "{}", desk.screen());
 }
 
@@ -635,6 +635,7 @@ fn assert_legends(desk: &Desk) {
                 Whose::Other(method) => method.name().to_owned(),
                 Whose::Pinned(_) => "+ baseline".to_owned(),
                 Whose::Bound(symbol) => format!("╌ {symbol}"),
+                Whose::Model { model, .. } => model.name().to_owned(),
             };
             assert!(text.contains(&name), "{name} is missing\n{text}");
         }
@@ -796,4 +797,34 @@ fn a_key_changes_few_bytes_of_a_chart() {
         );
         assert!(late <= most, "{late} bytes at {size}");
     }
+}
+
+#[test]
+fn the_mesh_stiffness_has_a_curve_for_every_model_with_the_field_on_top() {
+    let mut desk = at_method(SMALL, "exact");
+    let request = |desk: &Desk| desk.app.tab.asked_stiffness;
+    assert!(!request(&desk), "a chart out of sight costs nothing");
+    desk.keys(&["1", ":", "chart: mesh stiffness", "Enter", "3"]);
+    assert!(request(&desk));
+    for name in ["kuang-yang (case)", "beam", "finite-element"] {
+        assert!(desk.shows(name), "{name}\n{}", desk.screen());
+    }
+    let charts = desk.app.charts();
+    let graph = &GRAPHS[charts.shown()[0]];
+    let curves = curves::curves(&charts, graph);
+    assert!(curves::is_field(curves.last().expect("a curve").whose));
+    // From E to the end of the path of contact, the strike left aside.
+    let window = charts.window();
+    assert!(window.from < 0.0 && window.to > 20.0, "{window:?}");
+    let geometry = &charts.solution().expect("a solution").geometry;
+    let end = (geometry.end - geometry.start) / geometry.driver.base;
+    let last = curves[0].pieces[0].last().expect("a point");
+    assert!((last.0 - end.to_degrees()).abs() < 1e-9);
+    desk.keys(&["l", "l"]);
+    assert_snapshot!("mesh_stiffness_80x24", chart(&desk).join("\n"));
+    assert_snapshot!("mesh_stiffness_140x45", {
+        let mut desk = at_method(LARGE, "dynamic");
+        desk.keys(&["1", ":", "chart: mesh stiffness", "Enter"]);
+        chart(&desk).join("\n")
+    });
 }

@@ -453,6 +453,7 @@ fn a_late_answer_is_dropped() {
         case: desk.app.tab.case.clone(),
         inputs,
         stages: Stages::EVERY,
+        stiffness: false,
     };
     desk.fill("operation.speed", "500 rpm");
     let screen = desk.screen();

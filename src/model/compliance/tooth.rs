@@ -7,7 +7,7 @@ pub mod kuang_yang;
 
 use std::sync::Arc;
 
-pub use finite_element::field_of;
+pub use finite_element::{field_gear, field_of};
 
 use super::ElasticGear;
 use super::contact::ContactLaw;
@@ -45,6 +45,8 @@ pub struct ToothModel {
     pub reads_root: bool,
     /// Whether the model includes the contact, so that the case's contact compliance is not used.
     pub has_contact: bool,
+    /// Whether the force on a tooth displaces its neighbours, see [`Tooth::neighbour`].
+    pub has_coupling: bool,
     /// q_1, q_2 and the steps before them; q_H as well if the model includes the contact.
     pub steps: &'static [Step],
     /// The compliance itself.
@@ -259,6 +261,24 @@ mod tests {
             assert_eq!(tooth.at(radius), Ok(1.0 / inputs.driver.young * radius));
         }
         assert_eq!(BUILT.load(Ordering::Relaxed), 1);
+    }
+
+    #[test]
+    fn a_model_has_coupling_where_a_force_displaces_the_next_tooth() {
+        let inputs = standard_pair(20, 30, 5e-3);
+        let geometry = geometry::<f64>(&inputs.shape()).unwrap();
+        let gear = inputs.elasticity().driver;
+        let [loaded, measured] = [0.95, 0.97].map(|part| part * geometry.driver.tip);
+        for model in ToothCompliance::ALL {
+            let tooth = Tooth::of(model, &gear, &geometry.driver).unwrap();
+            let neighbour = tooth.neighbour(loaded, measured, 1).unwrap();
+            assert_eq!(
+                neighbour != 0.0,
+                model.model().has_coupling,
+                "{}",
+                model.name()
+            );
+        }
     }
 
     #[test]

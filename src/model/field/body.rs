@@ -12,7 +12,8 @@ use std::f64::consts::PI;
 ///
 /// # Source
 /// A ring under shear at its rim (Timoshenko & Goodier, "Theory of Elasticity").
-pub(super) fn twist(base: f64, root: f64, bore: f64, poisson: f64) -> f64 {
+#[must_use]
+pub fn twist(base: f64, root: f64, bore: f64, poisson: f64) -> f64 {
     base * base * (1.0 + poisson) / (2.0 * PI) * (root - bore) * (root + bore)
         / (bore * root * bore * root)
 }
@@ -24,6 +25,7 @@ pub(super) fn twist(base: f64, root: f64, bore: f64, poisson: f64) -> f64 {
 /// ```text
 /// (3 − 4ν)(1 + ν)/(4π (1 − ν))
 /// ```
-pub(super) fn shift(poisson: f64) -> f64 {
+#[must_use]
+pub fn shift(poisson: f64) -> f64 {
     (3.0 - 4.0 * poisson) * (1.0 + poisson) / (4.0 * PI * (1.0 - poisson))
 }

@@ -32,11 +32,18 @@ impl FieldGear {
     pub fn field(&self) -> Result<Arc<Field>, Refusal> {
         let entry = self.entry();
         // The list is free while a field is built: other gears need not wait.
-        let build = || {
-            let field = Field::build(&self.input()?).map_err(|reason| self.refusal(reason))?;
-            Ok(Arc::new(field))
-        };
-        entry.field.get_or_init(build).clone()
+        entry
+            .field
+            .get_or_init(|| self.build().map(Arc::new))
+            .clone()
+    }
+
+    /// The field of the gear, built anew.
+    ///
+    /// # Errors
+    /// Those of [`FieldGear::field`].
+    pub fn build(&self) -> Result<Field, Refusal> {
+        Field::build(&self.input()?).map_err(|reason| self.refusal(reason))
     }
 
     /// Whether the gear has a field, without building it.

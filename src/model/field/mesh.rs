@@ -109,6 +109,21 @@ impl Mesh {
         }
     }
 
+    /// The places of loads between all rows of the involute, every other one a place of its own
+    /// loads.
+    #[cfg(test)]
+    pub(super) fn all_load_places(
+        &self,
+        boundary: &Boundary,
+        bore: f64,
+        grading: &Grading,
+    ) -> Vec<LoadPlace> {
+        let flank = grading.flank_rows(boundary.flank_length);
+        let lines = Lines::of(boundary, bore, grading, &flank);
+        let place = |row| load_place(boundary, &self.layout, &lines.arcs, row);
+        (0..flank.heights.len() - 1).map(place).collect()
+    }
+
     /// Number of nodes off the cut and off the bore.
     pub(super) fn inner(&self) -> usize {
         self.layout.rim(self.layout.rim_columns - 1, 0)

@@ -341,3 +341,53 @@ fn a_matrix_that_is_not_positive_definite_is_not_eliminated() {
     }
     assert!(!matrix.eliminate(2));
 }
+
+/// The series meet the loads that they are made of, and loads of the same mesh between them. Those
+/// lie between rows of equal height as well: the elements under a patch between unequal rows err
+/// otherwise, by up to 1e-2.
+#[test]
+fn the_series_of_the_surface_is_within_1e_4_of_the_loads_of_its_mesh() {
+    let mut seen = 0;
+    for input in gears() {
+        let boundary = solve::boundary(&input).unwrap();
+        let bore = input.bore_radius.max(boundary.root / 5.0);
+        let mesh = mesh::Mesh::of(&boundary, bore, &Grading::STANDARD);
+        let places = mesh.all_load_places(&boundary, bore, &Grading::STANDARD);
+        let loads: Vec<_> = places
+            .iter()
+            .map(|place| Load::at(&mesh, &boundary, place))
+            .collect();
+        let values = solve::under_loads(&input, &boundary, &mesh, &loads).unwrap();
+        let even = |all: &[f64]| all.iter().copied().step_by(2).collect::<Vec<_>>();
+        let own: Vec<_> = loads.iter().step_by(2).cloned().collect();
+        let fitted = Field::fitted(
+            &input,
+            &boundary,
+            &own,
+            &Displacements {
+                surface: even(&values.surface),
+                centre: even(&values.centre),
+                cross: values.cross.each_ref().map(|cross| {
+                    let rows = cross.chunks_exact(loads.len()).step_by(2);
+                    rows.flat_map(even).collect()
+                }),
+            },
+        );
+        for (index, (load, place)) in loads.iter().zip(&places).enumerate() {
+            let [above, below] = place.heights;
+            if index % 2 == 1 && (above / below - 1.0).abs() > 1e-6 {
+                continue;
+            }
+            let radius = boundary.base.hypot(boundary.base * load.roll);
+            let found = fitted.surface(radius, load.half_width);
+            let off = found / values.surface[index] - 1.0;
+            assert!(
+                off.abs() < 1e-4,
+                "z {} at load {index}: {off:e}",
+                input.teeth
+            );
+            seen += index % 2;
+        }
+    }
+    assert!(seen >= 10, "{seen}");
+}

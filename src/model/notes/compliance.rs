@@ -1,7 +1,9 @@
 //! Notes on the range of the stiffness models.
 
 use super::{Note, four};
+use crate::model::compliance::model_of;
 use crate::model::compliance::tooth::preferences;
+use crate::model::inputs::Method;
 use crate::model::{Inputs, Solution};
 
 /// The range chose the model.
@@ -37,3 +39,25 @@ pub(super) fn hertz_width(inputs: &Inputs, solution: &Solution) -> Option<Note> 
     };
     (half_width > limit).then(|| Note::new("hertz-width-not-small", message()))
 }
+
+/// The model takes neighbouring teeth for independent springs where the method would couple them.
+pub(super) fn without_coupling(inputs: &Inputs, solution: &Solution) -> Option<Note> {
+    let is_coupled = match solution.method {
+        Method::Static | Method::Dynamic => true,
+        Method::Exact => inputs.deflection.is_none(),
+        Method::Paper | Method::Auto => false,
+    };
+    let model = model_of(inputs).model();
+    let message = || {
+        format!(
+            "`{}` has no coupling of neighbouring teeth: over the cases in cases/, that places the \
+             first contact {} earlier and changes the peak force by {}",
+            model.name, UNCOUPLED.0, UNCOUPLED.1
+        )
+    };
+    (is_coupled && !model.has_coupling).then(|| Note::new("no-coupling", message()))
+}
+
+/// Changes of first contact and peak force in `dynamic` with the finite elements over `cases/` if
+/// the coupling is left out.
+const UNCOUPLED: (&str, &str) = ("2 to 13 %", "-12 to +14 %");

@@ -2,12 +2,19 @@
 //! method.
 
 use super::{Note, four};
+use crate::model::compliance::model_of;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, Solution};
 
 /// The method that was taken, and why.
-pub(super) fn method_taken(_: &Inputs, solution: &Solution) -> Option<Note> {
-    Some(Note::new("method-taken", solution.choice?.to_string()))
+pub(super) fn method_taken(inputs: &Inputs, solution: &Solution) -> Option<Note> {
+    let choice = solution.choice?;
+    let message = if inputs.tooth_compliance.is_none() {
+        format!("{choice}; tooth compliance `{}`", model_of(inputs).name())
+    } else {
+        choice.to_string()
+    };
+    Some(Note::new("method-taken", message))
 }
 
 /// The case gives a deflection that this method computes itself.

@@ -1,45 +1,152 @@
 //! The tables of a trade for a person.
 
+use std::fmt;
+
 use super::{duration, model_off, percent};
+use crate::model::inputs::Method;
+use crate::model::stiffness_spread::StiffnessModels;
 use crate::report::layout::{WIDTH, flow, item};
-use crate::study::trade::{Differences, METHODS, Measured, Subject, Trade, greatest};
+use crate::study::trade::{
+    Differences, METHODS, Measured, Model, Setting, Subject, Trade, greatest,
+};
+
+/// A method with a compliance at the fineness of a case that leaves it out.
+#[derive(Debug, Clone)]
+pub struct Cell {
+    /// Time of a solve, or the word for a refusal.
+    pub time: String,
+    /// Greatest difference from the reference, in %.
+    pub total: String,
+    /// The measured setting.
+    pub setting: Setting,
+}
+
+impl fmt::Display for Cell {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {:>5}", self.time, self.total)
+    }
+}
+
+/// Each compliance with its cell for each of [`METHODS`], that of the reference first.
+#[must_use]
+pub fn compliances(trade: &Trade) -> Vec<(StiffnessModels, [Option<Cell>; METHODS.len()])> {
+    let cell = |measured: &Measured| {
+        let figures = measured.found.as_ref();
+        Cell {
+            time: figures.map_or("refused".to_owned(), |figures| {
+                duration(figures.time.seconds)
+            }),
+            total: measured.total().map_or("-".to_owned(), percent),
+            setting: measured.setting,
+        }
+    };
+    let rows = trade.compliances().into_iter();
+    rows.map(|models| {
+        let cells = METHODS.map(|method| trade.usual(method, models).map(cell));
+        (models, cells)
+    })
+    .collect()
+}
+
+/// Time and difference of each method with each compliance, a line a compliance.
+pub(super) fn by_compliance(trade: &Trade) -> Vec<String> {
+    let title = "Time of a solve and greatest difference from the reference in %, by compliance and method, \
+        with 64 stations and tolerance 1e-6. >: the compliance of the case.";
+    let own = |models: StiffnessModels| {
+        let is_own = |measured: &&Measured| measured.is_current;
+        let current = trade.settings.iter().find(is_own);
+        current.is_some_and(|current| taken(current).models == Some(models))
+    };
+    let line = |(models, cells): (StiffnessModels, [Option<Cell>; METHODS.len()])| {
+        let mark = if own(models) { '>' } else { ' ' };
+        let cells = cells.map(|cell| cell.map_or_else(String::new, |cell| cell.to_string()));
+        format!("{mark} {:<22}", compliance_name(models)) + &wide(cells, 14)
+    };
+    let methods = METHODS.map(|method| method.name().to_owned());
+    let head = format!("  {:<22}", "") + &wide(methods, 14);
+    let rows = compliances(trade).into_iter().map(line);
+    let title = flow(title.split(' '), WIDTH);
+    title.into_iter().chain([head]).chain(rows).collect()
+}
+
+/// The models of tooth and contact in at most 22 characters.
+#[must_use]
+pub fn compliance_name(models: StiffnessModels) -> String {
+    let contact = models.contact.map(|contact| format!(" {}", contact.name));
+    models.tooth.name.to_owned() + &contact.unwrap_or_default()
+}
+
+/// What a setting took.
+pub(super) fn taken(measured: &Measured) -> Setting {
+    let figures = measured.found.as_ref();
+    figures.map_or(measured.setting, |figures| figures.taken)
+}
 
 /// What each method leaves out, a line a subject.
 pub(super) fn models(trade: &Trade) -> Vec<String> {
-    let title = "Model error: the best setting of each method against the reference, in %";
+    let title = "Model error: the best setting of each method, with the compliance of a case that names \
+        none, against the reference, in %";
     let head = row("", METHODS.map(|method| method.name().to_owned()));
+    let of = |method: Method| -> Option<&Model> {
+        let mut models = trade.models.iter();
+        models.find(|model| model.setting.method == method)
+    };
     let lines = Subject::ALL.into_iter().filter_map(|subject| {
-        let cells = METHODS.map(|method| model_off(trade, method)[subject as usize]);
+        let cells = METHODS.map(|method| of(method)?.off[subject as usize]);
         cells
             .iter()
             .any(Option::is_some)
             .then(|| row(subject.label(), cells.map(cell)))
     });
-    [title.to_owned(), head].into_iter().chain(lines).collect()
+    let title = flow(title.split(' '), WIDTH);
+    title.into_iter().chain([head]).chain(lines).collect()
+}
+
+fn wide<const N: usize>(cells: [String; N], width: usize) -> String {
+    cells.map(|cell| format!("{cell:>width$}")).concat()
 }
 
 fn row<const N: usize>(label: &str, cells: [String; N]) -> String {
-    format!("    {label:<22}") + &cells.map(|cell| format!("{cell:>10}")).concat()
+    format!("    {label:<22}") + &wide(cells, 10)
 }
 
 /// Every setting with time and errors; those that refuse the case with the reason.
 pub(super) fn settings(trade: &Trade) -> Vec<String> {
     let title = "Settings, with the greatest errors in %. numbers and curve: against the best setting of the same \
-        method. model: as above. total: against the reference. *: no other setting is both faster and more accurate. \
-        >: the setting of the case.";
+        method and compliance. model: as above. total: difference from the reference. *: no other setting is both faster and \
+        more accurate. >: the setting of the case.";
     let head = format!(
         "  {:<16}{:>5}{:>7}{:>9}{:>7}{:>9}{:>9}{:>8}{:>8}",
         "method", "stat.", "tol.", "time", "spread", "numbers", "curve", "model", "total"
     );
-    let lines = trade
-        .settings
-        .iter()
-        .flat_map(|measured| lines(trade, measured));
+    let lines = by_models(trade).into_iter().flat_map(|(models, settings)| {
+        let names = models.map_or("chosen by auto".to_owned(), |models| models.names());
+        let settings = settings
+            .into_iter()
+            .flat_map(|measured| lines(trade, measured));
+        [format!("  {names}")]
+            .into_iter()
+            .chain(settings)
+            .collect::<Vec<_>>()
+    });
     flow(title.split(' '), WIDTH)
         .into_iter()
         .chain([head])
         .chain(lines)
         .collect()
+}
+
+/// The settings of each compliance.
+fn by_models(trade: &Trade) -> Vec<(Option<StiffnessModels>, Vec<&Measured>)> {
+    let mut found: Vec<(Option<StiffnessModels>, Vec<&Measured>)> = Vec::new();
+    for measured in &trade.settings {
+        let models = measured.setting.models;
+        match found.iter_mut().find(|(own, _)| *own == models) {
+            Some((_, settings)) => settings.push(measured),
+            None => found.push((models, vec![measured])),
+        }
+    }
+    found
 }
 
 fn lines(trade: &Trade, measured: &Measured) -> Vec<String> {
@@ -60,7 +167,7 @@ fn lines(trade: &Trade, measured: &Measured) -> Vec<String> {
             let time = &figures.time;
             let spread = format!("{:.0} %", 100.0 * time.spread / time.seconds);
             let (numbers, curve) = parts(&figures.numerical);
-            let model = greatest(&model_off(trade, figures.method));
+            let model = greatest(&model_off(trade, &figures.taken));
             let [numbers, curve, model, total] =
                 [numbers, curve, model, greatest(&figures.total)].map(cell);
             vec![format!(
@@ -73,13 +180,7 @@ fn lines(trade: &Trade, measured: &Measured) -> Vec<String> {
 
 /// The method, what it took where it chose, and whether it took care.
 fn name(measured: &Measured) -> String {
-    let (method, took) = (
-        measured.setting.method,
-        measured
-            .found
-            .as_ref()
-            .map_or(measured.setting.method, |figures| figures.method),
-    );
+    let (method, took) = (measured.setting.method, taken(measured).method);
     let accurate = if measured.setting.accurate {
         ", accurate"
     } else {

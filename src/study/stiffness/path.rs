@@ -9,8 +9,12 @@ use crate::model::inputs::ToothCompliance;
 use crate::model::{Inputs, Refusal};
 
 /// Stiffness over the path of contact.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct PathComparison {
+    /// Base radius of the driver, in m: a way over it is the driver's roll angle after E.
+    pub base_radius: f64,
+    /// Common face width, in m.
+    pub width: f64,
     /// The models in the order of [`PathPoint`].
     pub models: Vec<ToothCompliance>,
     /// From E to B.
@@ -64,8 +68,24 @@ pub(super) fn compare(
         }
     };
     PathComparison {
+        base_radius: geometry.driver.base,
+        width: inputs.common_width(),
         models,
         points: (0..=last).map(at).collect(),
+    }
+}
+
+impl PathComparison {
+    /// A model's stiffness of the whole mesh over the driver's roll angle after E, in rad and N/m;
+    /// empty if the model does not cover the gears.
+    pub fn mesh_curve(&self, model: usize) -> impl Iterator<Item = (f64, f64)> {
+        let points = self.points.iter();
+        points.filter_map(move |point| {
+            Some((
+                point.way / self.base_radius,
+                point.mesh[model]? * self.width,
+            ))
+        })
     }
 }
 

@@ -1,4 +1,5 @@
-//! The settings that a trade compares: a method, and how finely it is computed.
+//! The settings that a trade compares: a method, the compliance of the teeth, and the fineness of
+//! the computation.
 
 use std::fmt;
 
@@ -6,6 +7,7 @@ use crate::case::Case;
 use crate::case::fields::{AUTO, index_of};
 use crate::model::Inputs;
 use crate::model::inputs::Method;
+use crate::model::stiffness_spread::StiffnessModels;
 
 /// The methods that are compared, cheapest first.
 pub const METHODS: [Method; 4] = [
@@ -27,11 +29,13 @@ const BEST_STATIONS: usize = 4096;
 /// Tolerance of the best setting.
 const BEST_TOLERANCE: f64 = 1e-12;
 
-/// A method and how finely it is computed.
+/// A method with a compliance, and how finely it is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Setting {
     /// How much of the physics is taken in.
     pub method: Method,
+    /// Compliance of teeth and contact; `None` for the choice of the method `auto`.
+    pub models: Option<StiffnessModels>,
     /// Intervals between the first contact and E; without a number as many as the curve needs.
     pub stations: Option<usize>,
     /// Relative error that the peak force may have; in the method `dynamic` alone.
@@ -41,11 +45,30 @@ pub struct Setting {
 }
 
 impl Setting {
-    /// Every setting that is compared, the cheaper methods first, the program's own choice last.
+    /// Every setting that is compared: each method coarse and fine with the compliance of a case
+    /// that names none, then the usual setting of each method with every other compliance that
+    /// covers the pair.
     #[must_use]
-    pub fn all() -> Vec<Setting> {
+    pub fn all(inputs: &Inputs) -> Vec<Setting> {
+        let mut settings = Setting::fineness(inputs);
+        for models in StiffnessModels::covering(inputs) {
+            let others = METHODS.map(|method| Setting {
+                models: Some(models),
+                ..Setting::usual(method, inputs)
+            });
+            for other in others {
+                if !settings.contains(&other) {
+                    settings.push(other);
+                }
+            }
+        }
+        settings
+    }
+
+    /// Each method coarse and fine, the cheaper methods first, the program's own choice last.
+    fn fineness(inputs: &Inputs) -> Vec<Setting> {
         let closed_form = Method::CLOSED_FORM.into_iter().flat_map(|method| {
-            let plain = Setting::usual(method);
+            let plain = Setting::usual(method, inputs);
             [
                 plain,
                 Setting {
@@ -56,8 +79,8 @@ impl Setting {
             .into_iter()
             .flat_map(Setting::with_stations)
         });
-        let shared = Setting::usual(Method::Static).with_stations();
-        let inertia = Setting::usual(Method::Dynamic);
+        let shared = Setting::usual(Method::Static, inputs).with_stations();
+        let inertia = Setting::usual(Method::Dynamic, inputs);
         let tolerances = TOLERANCE_EXPONENTS
             .map(move |exponent| Setting {
                 tolerance: Some(power_of_ten(-exponent)),
@@ -66,7 +89,8 @@ impl Setting {
             .filter(move |setting| *setting != inertia);
         let choice = Setting {
             stations: None,
-            ..Setting::usual(Method::Auto)
+            models: None,
+            ..Setting::usual(Method::Auto, inputs)
         };
         let coarse = Setting {
             tolerance: Some(power_of_ten(-TOLERANCE_EXPONENTS.start())),
@@ -86,13 +110,29 @@ impl Setting {
 
     /// The setting of a case that names the method alone.
     #[must_use]
-    pub fn usual(method: Method) -> Setting {
-        let tolerance = (method == Method::Dynamic).then_some(USUAL_TOLERANCE);
+    pub fn usual(method: Method, inputs: &Inputs) -> Setting {
+        let inputs = Inputs {
+            method,
+            ..inputs.clone()
+        };
         Setting {
             method,
-            stations: Some(USUAL_STATIONS),
-            tolerance,
+            models: Some(StiffnessModels::by_default(&inputs)),
+            stations: None,
+            tolerance: None,
             accurate: false,
+        }
+        .usual_fineness()
+    }
+
+    /// The same method and compliance as finely as a case has it that leaves the rest out.
+    #[must_use]
+    pub fn usual_fineness(self) -> Setting {
+        Setting {
+            stations: Some(USUAL_STATIONS),
+            tolerance: (self.method == Method::Dynamic).then_some(USUAL_TOLERANCE),
+            accurate: false,
+            ..self
         }
     }
 
@@ -105,15 +145,22 @@ impl Setting {
             .map(move |stations| Setting { stations, ..self })
     }
 
-    /// The finest setting of a method, against which its numerical error is measured.
+    /// The finest setting of the same method and compliance, against which the numerical error is
+    /// measured.
     #[must_use]
-    pub fn best(method: Method) -> Setting {
+    pub fn best(self) -> Setting {
         Setting {
-            method,
             stations: Some(BEST_STATIONS),
-            tolerance: (method == Method::Dynamic).then_some(BEST_TOLERANCE),
-            accurate: !method.shares_load(),
+            tolerance: (self.method == Method::Dynamic).then_some(BEST_TOLERANCE),
+            accurate: !self.method.shares_load(),
+            ..self
         }
+    }
+
+    /// Whether the two differ in no more than their fineness.
+    #[must_use]
+    pub fn is_finer_or_coarser(&self, other: &Setting) -> bool {
+        self.method == other.method && self.models == other.models
     }
 
     /// The setting that the inputs ask for.
@@ -121,6 +168,7 @@ impl Setting {
     pub fn of(inputs: &Inputs) -> Setting {
         Setting {
             method: inputs.method,
+            models: (!is_left_to_auto(inputs)).then(|| StiffnessModels::of(inputs)),
             stations: inputs.stations,
             tolerance: (inputs.method == Method::Dynamic).then_some(inputs.tolerance),
             accurate: inputs.accurate,
@@ -130,12 +178,33 @@ impl Setting {
     /// The same pair, solved by this setting.
     #[must_use]
     pub fn inputs(&self, inputs: &Inputs) -> Inputs {
+        let inputs = self.models.map_or_else(
+            || Inputs {
+                tooth_compliance: None,
+                ..inputs.clone()
+            },
+            |models| models.in_place_of(inputs),
+        );
         Inputs {
             method: self.method,
             stations: self.stations,
             tolerance: self.tolerance.unwrap_or(inputs.tolerance),
             accurate: self.accurate,
-            ..inputs.clone()
+            ..inputs
+        }
+    }
+
+    /// The setting that the solve of this one took: another one where the method `auto` chose.
+    #[must_use]
+    pub fn taken(&self, inputs: &Inputs, method: Method) -> Setting {
+        let inputs = Inputs {
+            method,
+            ..self.inputs(inputs)
+        };
+        Setting {
+            method,
+            models: Some(StiffnessModels::of(&inputs)),
+            ..*self
         }
     }
 
@@ -146,7 +215,8 @@ impl Setting {
             .map_or_else(|| AUTO.to_owned(), |stations| stations.to_string())
     }
 
-    /// Make it the case's own.
+    /// Makes it the case's own; a case that names no compliance names none afterwards if this is
+    /// its default.
     pub fn apply(&self, case: &mut Case) {
         let mut write = |key: &str, text: &str| {
             if let Some(field) = index_of(key) {
@@ -162,17 +232,35 @@ impl Setting {
         if let Some(tolerance) = self.tolerance {
             write("model.tolerance", &format!("{tolerance:e}"));
         }
+        let own = case
+            .inputs()
+            .ok()
+            .and_then(|inputs| Setting::of(&inputs).models);
+        if own == self.models {
+            return;
+        }
+        let mut write = |key: &str, text: &str| {
+            if let Some(field) = index_of(key) {
+                case.write(field, text);
+            }
+        };
+        write(
+            "model.tooth_compliance",
+            self.models.map_or("", |models| models.tooth.name),
+        );
+        if let Some(contact) = self.models.and_then(|models| models.contact) {
+            write("model.contact_compliance", contact.name);
+        }
     }
 }
 
 impl fmt::Display for Setting {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{} with {} stations",
-            self.method.name(),
-            self.stations_text()
-        )?;
+        write!(f, "{} with ", self.method.name())?;
+        if let Some(models) = self.models {
+            write!(f, "{}, ", models.names())?;
+        }
+        write!(f, "{} stations", self.stations_text())?;
         if let Some(tolerance) = self.tolerance {
             write!(f, " and tolerance {tolerance:e}")?;
         }
@@ -184,6 +272,11 @@ impl fmt::Display for Setting {
     }
 }
 
+/// Whether the method `auto` chooses the compliance as well.
+fn is_left_to_auto(inputs: &Inputs) -> bool {
+    inputs.method == Method::Auto && inputs.tooth_compliance.is_none()
+}
+
 /// 10^exponent as it is read from a file: the nearest double.
 fn power_of_ten(exponent: i32) -> f64 {
     format!("1e{exponent}").parse().unwrap_or(f64::NAN)
@@ -193,10 +286,17 @@ fn power_of_ten(exponent: i32) -> f64 {
 mod tests {
     use super::*;
 
+    fn table_1() -> Inputs {
+        Case::table_1().inputs().unwrap()
+    }
+
     #[test]
     fn every_setting_stands_once_and_becomes_the_case() {
-        let settings = Setting::all();
-        assert_eq!(settings.len(), 2 * 2 * 9 + 9 + 7 + 9 + 8 + 1);
+        let settings = Setting::all(&table_1());
+        let fineness = 2 * 2 * 9 + 9 + 7 + 9 + 8 + 1;
+        let compliances = StiffnessModels::covering(&table_1()).count();
+        assert_eq!(compliances, 7);
+        assert_eq!(settings.len(), fineness + METHODS.len() * (compliances - 1));
         for (at, setting) in settings.iter().enumerate() {
             assert!(!settings[..at].contains(setting), "{setting} twice");
             let mut case = Case::table_1();
@@ -208,8 +308,11 @@ mod tests {
     #[test]
     fn the_usual_setting_is_that_of_a_case_that_names_the_method_alone() {
         let mut case = Case::table_1();
-        let usual = Setting::usual(Method::Dynamic);
+        let usual = Setting::usual(Method::Dynamic, &table_1());
+        case.set("model.tooth_compliance", "").unwrap();
         usual.apply(&mut case);
+        let compliance = index_of("model.tooth_compliance").unwrap();
+        assert_eq!(case.text(compliance), None, "the default needs no name");
         for key in ["model.stations", "model.tolerance", "model.accurate"] {
             case.set(key, "").unwrap();
         }
@@ -218,17 +321,18 @@ mod tests {
 
     #[test]
     fn a_setting_tells_what_it_is() {
+        let inputs = table_1();
         assert_eq!(
-            Setting::best(Method::Dynamic).to_string(),
-            "dynamic with 4096 stations and tolerance 1e-12"
+            Setting::usual(Method::Dynamic, &inputs).best().to_string(),
+            "dynamic with finite-element, 4096 stations and tolerance 1e-12"
         );
         assert_eq!(
-            Setting::all().last().unwrap().to_string(),
+            Setting::fineness(&inputs).last().unwrap().to_string(),
             "auto with auto stations"
         );
         assert_eq!(
-            Setting::best(Method::Exact).to_string(),
-            "exact with 4096 stations, accurate"
+            Setting::usual(Method::Paper, &inputs).best().to_string(),
+            "paper with kuang-yang and logarithmic, 4096 stations, accurate"
         );
     }
 }

@@ -19,7 +19,7 @@ use crate::tui::scale::Span;
 use crate::tui::solver::Answer;
 use crate::tui::theme::Look;
 
-use curves::{curves, way, way_by};
+use curves::{curves, path, way, way_by};
 use range::{ChartView, Frame, Occasion, Refit, Scale};
 
 pub use curves::first_contact;
@@ -97,7 +97,23 @@ impl Charts<'_> {
     /// The visible roll angles, in deg after E.
     #[must_use]
     pub fn window(&self) -> Span {
-        self.pane.view.window(self.scale)
+        self.view().window(self.scale)
+    }
+
+    /// The view of the pane: a chart of the path of contact opens on the whole contact.
+    fn view(&self) -> ChartView {
+        match self.pane.view.frame {
+            Frame::Opening if self.is_by_model() => ChartView {
+                frame: Frame::Whole,
+                ..self.pane.view
+            },
+            _ => self.pane.view,
+        }
+    }
+
+    /// Whether the chosen chart has a curve for each compliance model.
+    fn is_by_model(&self) -> bool {
+        GRAPHS[self.pane.graph].by_model.is_some()
     }
 
     /// The state after a command, and a message.
@@ -188,6 +204,11 @@ impl Charts<'_> {
         let way = pinned
             .map_or(Span::NONE, |(base, method)| way_by(base, method))
             .and(way(answer));
+        let way = if self.is_by_model() {
+            way.and(path(answer))
+        } else {
+            way
+        };
         scale.across = match (answer.pending, refit.all) {
             (Some(_), _) => scale.across.grown(way),
             (None, true) => scale.across.refit(way),
@@ -205,7 +226,7 @@ impl Charts<'_> {
             (false, true) => scale.strike.refit(strike),
             (false, false) => scale.strike.fitted(strike),
         };
-        let window = self.pane.view.window(&scale);
+        let window = self.view().window(&scale);
         for graph in self.shown() {
             let curves = curves(self, &GRAPHS[graph]);
             let values = curves
@@ -228,8 +249,10 @@ impl Charts<'_> {
         let chosen = self.pane.graph;
         let method = self.answer.map(|answer| answer.active);
         let others = (1..GRAPHS.len()).map(|by| (chosen + by) % GRAPHS.len());
-        let has_curve =
-            |graph: &usize| method.is_some_and(|method| GRAPHS[*graph].column(method).is_some());
+        let has_curve = |graph: &usize| {
+            let graph = &GRAPHS[*graph];
+            graph.by_model.is_none() && method.is_some_and(|method| graph.column(method).is_some())
+        };
         std::iter::once(chosen)
             .chain(others.filter(has_curve))
             .take(self.count())

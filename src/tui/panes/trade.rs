@@ -1,4 +1,6 @@
-//! Error of every setting against its time, both on logarithmic scales.
+//! Error of every setting against its time, as a chart or as a table of methods and compliances.
+
+mod compliances;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -8,9 +10,9 @@ use super::title::Title;
 use crate::model::Inputs;
 use crate::model::inputs::Method;
 use crate::report::trade::plot::{Axis, shown, time};
-use crate::report::trade::{NO_CONTACT, parts, percent, summary};
+use crate::report::trade::{NO_CONTACT, build, parts, percent, summary};
 use crate::study::trade::{METHODS, Measured, Setting, Trade};
-use crate::tui::benchmark::Traded;
+use crate::tui::benchmark::{TradeView, Traded};
 use crate::tui::text;
 use crate::tui::theme::Look;
 
@@ -30,6 +32,8 @@ pub struct TradePane<'a> {
     pub traded: Option<&'a Traded>,
     /// The case in the form, if it is valid.
     pub inputs: Option<&'a Inputs>,
+    /// Chart or table.
+    pub view: TradeView,
     /// The capabilities of the terminal.
     pub look: Look,
     /// The title line.
@@ -54,6 +58,9 @@ pub fn draw(pane: &TradePane<'_>, buffer: &mut Buffer) {
         };
         return write(words, inner, buffer);
     };
+    if pane.view == TradeView::Table {
+        return draw_table(pane, traded, trade, inner, buffer);
+    }
     let (legend, plot, words) = split(inner);
     draw_legend(pane, trade, legend, buffer);
     if plot.height >= 3 && plot.width >= 20 {
@@ -64,6 +71,45 @@ pub fn draw(pane: &TradePane<'_>, buffer: &mut Buffer) {
         words,
         buffer,
     );
+}
+
+/// The table of methods and compliances, with the selected setting in words below it.
+fn draw_table(
+    pane: &TradePane<'_>,
+    traded: &Traded,
+    trade: &Trade,
+    inner: Rect,
+    buffer: &mut Buffer,
+) {
+    let marks = compliances::Marks {
+        selected: traded.marked,
+        own: own(pane).and_then(|own| own.models),
+    };
+    let words = inner.height.min(if inner.height > TALL { 2 } else { 1 });
+    let table = Rect {
+        height: inner.height - words,
+        ..inner
+    };
+    let rows = compliances::draw(trade, &marks, pane.look.theme, table, buffer);
+    let rest = Rect {
+        y: table.y + rows,
+        height: table.height - rows,
+        ..inner
+    };
+    if rest.height > 1 {
+        let below = Rect {
+            y: rest.y + 1,
+            height: rest.height - 1,
+            ..rest
+        };
+        write(&build(trade), below, buffer);
+    }
+    let words = Rect {
+        y: inner.bottom() - words,
+        height: words,
+        ..inner
+    };
+    write(&fitting(&phrases(pane, traded, trade), words), words, buffer);
 }
 
 /// The settings that have an error and a time, the quicker ones first.
@@ -97,10 +143,13 @@ pub fn stepped(traded: &Traded, by: isize) -> Option<Setting> {
 
 fn title(pane: &TradePane<'_>) -> &'static str {
     let is_stale = |traded: &Traded| pane.inputs.is_none_or(|inputs| traded.is_stale(inputs));
-    if pane.traded.is_some_and(is_stale) {
-        "OUTDATED, m runs it again: Accuracy against run time, both logarithmic"
-    } else {
-        "Accuracy against run time, both logarithmic"
+    match (pane.traded.is_some_and(is_stale), pane.view) {
+        (true, TradeView::Chart) => {
+            "OUTDATED, m runs it again: Accuracy against run time, both logarithmic"
+        }
+        (false, TradeView::Chart) => "Accuracy against run time, both logarithmic",
+        (true, TradeView::Table) => "OUTDATED, m runs it again: Run time and difference in %",
+        (false, TradeView::Table) => "Run time and difference from the reference in %",
     }
 }
 
@@ -204,6 +253,11 @@ pub fn signs(pane: &TradePane<'_>) -> String {
         .traded
         .and_then(|traded| traded.trade.as_ref())
         .map(|trade| percent(trade.within));
+    if pane.view == TradeView::Table {
+        return "Time of a solve with 64 stations and tolerance 1e-6, and its greatest difference from the reference \
+            in %; * compliance of the case, ▸ selected."
+            .to_owned();
+    }
     let level = within.map_or_else(String::new, |within| {
         format!("; {LEVEL} tolerance {within} %")
     });

@@ -2,6 +2,7 @@
 //! the least relief.
 
 use std::cell::OnceCell;
+use std::sync::Arc;
 use std::time::Instant;
 
 use super::{Answer, Cost, PATIENCE, Request};
@@ -10,6 +11,8 @@ use crate::model::compliance::model_of;
 use crate::model::compliance::tooth::Compliance;
 use crate::model::inputs::Method;
 use crate::model::{self, Inputs, Refusal, Solution, Stage, Stages};
+use crate::report::charts::STIFFNESS_POINTS;
+use crate::study::stiffness::compare_path;
 
 /// Solve with the closed forms, which cost nothing, and the method of the case: their difference is
 /// what the engineer came for.
@@ -47,6 +50,7 @@ pub fn answer_without_fields(request: &Request) -> Option<Answer> {
     }
     let quick = Request {
         stages: request.stages.without(Stage::Band),
+        stiffness: false,
         ..request.clone()
     };
     let answer = first_answer(&quick);
@@ -61,7 +65,19 @@ fn answer_while(request: &Request, go_on: &dyn Fn() -> bool) -> Answer {
     let Some(found) = solved(evaluator, request, begun, &|_, _| go_on()) else {
         return at_once(evaluator, request, begun);
     };
-    cleared(evaluator, request, found.clone(), begun, &|_| go_on()).unwrap_or(found)
+    let found = cleared(evaluator, request, found.clone(), begun, &|_| go_on()).unwrap_or(found);
+    with_stiffness(request, found)
+}
+
+/// The answer with the mesh stiffness by every model, if it is asked for.
+pub(in crate::tui) fn with_stiffness(request: &Request, answer: Answer) -> Answer {
+    let found = request
+        .stiffness
+        .then(|| compare_path(&request.inputs, STIFFNESS_POINTS).ok());
+    Answer {
+        stiffness: found.flatten().map(Arc::new),
+        ..answer
+    }
 }
 
 /// The answers of the closed forms, of the method of the case and of the load at rest below its
@@ -187,6 +203,7 @@ fn at_once(evaluator: &mut Evaluator, request: &Request, begun: Instant) -> Answ
         },
         methods,
         notes: Vec::new(),
+        stiffness: None,
     };
     answer.notes = answer
         .of(answer.active)
@@ -228,6 +245,7 @@ mod tests {
                 inputs,
                 case,
                 stages: Stages::EVERY,
+                stiffness: false,
             };
             let found = answer(&asked);
             assert_eq!((found.active, found.pending), (active, None));

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use super::latest::{Running, Send, Worker};
 use crate::case::Evaluator;
 use crate::tui::actions::Action;
-use crate::tui::solver::{Answer, PATIENCE, Request, cleared, solved};
+use crate::tui::solver::{Answer, PATIENCE, Request, cleared, solved, with_stiffness};
 
 /// A solve that takes longer shows its progress,
 const LONG: Duration = Duration::from_secs(1);
@@ -49,6 +49,7 @@ fn solve(evaluator: &mut Evaluator, request: &Request, running: Running<'_>) -> 
         (running.is_wanted)()
     };
     let answer = solved(evaluator, request, begun, &go_on)?;
+    let answer = with_stiffness(request, answer);
     if !answer.is_whole() && answer.refusal().is_none() {
         (running.send)(Action::Solved(Box::new(answer.clone())));
     }
@@ -74,6 +75,7 @@ mod tests {
             inputs: case.inputs().expect("Table 1 is valid"),
             case,
             stages: Stages::EVERY,
+            stiffness: false,
         }
     }
 

@@ -1,12 +1,13 @@
-//! What inertia and tooth compliance change in three pairs.
+//! What inertia, elastic field and coupling change in three pairs.
 
 use std::fmt::Write as _;
 
 use tipstrike::model::inputs::{InertiaModel, Method, ToothCompliance};
-use tipstrike::model::{Inputs, Outcome, Quantity, Solution, Stages, solve};
+use tipstrike::model::{Inputs, Solution, Stages, solve};
 use tipstrike::numeric::decimal::significant;
 
 use super::{inputs, with_model};
+use crate::coupling::uncoupled;
 
 const PAIRS: [(&str, &str); 3] = [
     ("Table 1", "cases/zhou-chen-2014.toml"),
@@ -19,60 +20,113 @@ const INERTIAS: [(InertiaModel, &str); 2] = [
     (InertiaModel::Outline, "outline"),
 ];
 
-fn shown(solution: &Solution, key: &str, factor: f64) -> String {
-    let value = Quantity::find(key).and_then(|quantity| (quantity.value)(solution));
-    value.map_or("-".to_owned(), |value| significant(factor * value, 4))
+/// First contact in degrees of the driver, peak force before E and overall in N, and required
+/// additional tip relief in um.
+#[derive(Clone, Copy)]
+struct Found([Option<f64>; 4]);
+
+impl Found {
+    fn of(inputs: &Inputs, is_coupled: bool) -> Found {
+        let solution = solve(inputs, Stages::EVERY).unwrap_or_else(|refusal| panic!("{refusal}"));
+        let (motion, relief) = if is_coupled {
+            let relief = solution.clearing.and_then(|clearing| clearing.relief);
+            (solution.dynamic.clone(), relief)
+        } else {
+            let relief = uncoupled::required_relief(inputs, &solution);
+            (uncoupled::motion(inputs, &solution), relief)
+        };
+        let motion = motion.expect("a motion");
+        let angle = motion.first_contact_angle;
+        Found([
+            angle.map(|angle| driver_degrees(&solution, angle)),
+            angle.map(|_| motion.peak_approach_force),
+            Some(motion.peak_force),
+            relief.map(|relief| 1e6 * relief),
+        ])
+    }
+
+    fn row(&self) -> String {
+        let cells = self
+            .0
+            .map(|value| value.map_or("-".to_owned(), |value| significant(value, 4)));
+        cells.join(" | ")
+    }
+
+    /// The change from another one to this one, in %.
+    fn change(&self, from: &Found) -> String {
+        let mut cells = Vec::new();
+        for (to, from) in self.0.iter().zip(from.0) {
+            let change = to.zip(from).map(|(to, from)| 100.0 * (to / from - 1.0));
+            cells.push(change.map_or("-".to_owned(), |change| format!("{change:+.1} %")));
+        }
+        cells.join(" | ")
+    }
 }
 
-fn row(inputs: &Inputs) -> String {
-    let degree = 1f64.to_degrees();
-    match solve(inputs, Stages::EVERY) {
-        Ok(solution) if solution.outcome == Outcome::NoCornerContact => {
-            format!(
-                "no contact before E | - | {} | {}",
-                shown(&solution, "dynamic_peak_force", 1.0),
-                shown(&solution, "clearing_relief", 1e6)
-            )
-        }
-        Ok(solution) => [
-            shown(&solution, "dynamic_first_contact_angle_driver", degree),
-            shown(&solution, "dynamic_peak_approach_force", 1.0),
-            shown(&solution, "dynamic_peak_force", 1.0),
-            shown(&solution, "clearing_relief", 1e6),
-        ]
-        .join(" | "),
-        Err(refusal) => format!("{refusal} | - | - | -"),
-    }
+fn driver_degrees(solution: &Solution, driven_angle: f64) -> f64 {
+    let circles = &solution.geometry;
+    (driven_angle * circles.driven.base / circles.driver.base).to_degrees()
 }
 
 /// The section of the page.
 pub(super) fn section() -> String {
-    let mut text = "\n## What inertia and tooth compliance change\n\nMethod `dynamic`: first contact \
+    let mut text = "\n## What inertia, elastic field and coupling change\n\nMethod `dynamic`: first contact \
         before E in degrees of the driver, peak force before E and overall in N, and required \
         additional tip relief in um. `base-circle` is the disc of Eq. 47, `outline` the true inertia. \
         `kuang-yang` and `beam` take neighbouring teeth as independent springs; \
-        `finite-element` adds the field and the coupling of neighbours together.\n"
+        `finite-element` couples them. The rows without coupling are the same elastic field with \
+        independent springs.\n"
         .to_owned();
     for (name, file) in PAIRS {
-        let pair = Inputs {
-            method: Method::Dynamic,
-            ..inputs(file)
-        };
-        write!(
-            text,
-            "\n{name} (`{file}`):\n\n| tooth compliance | inertia | first contact | peak before E | \
-             peak | relief |\n|---|---|---|---|---|---|\n"
-        )
-        .unwrap();
-        for model in ToothCompliance::ALL {
-            for (inertia, word) in INERTIAS {
-                let inputs = Inputs {
-                    inertia,
-                    ..with_model(&pair, model)
-                };
-                writeln!(text, "| {} | {word} | {} |", model.name(), row(&inputs)).unwrap();
-            }
-        }
+        text += &pair(name, file);
+    }
+    text
+}
+
+fn pair(name: &str, file: &str) -> String {
+    let pair = Inputs {
+        method: Method::Dynamic,
+        ..inputs(file)
+    };
+    let mut text = format!(
+        "\n{name} (`{file}`):\n\n| tooth compliance | inertia | first contact | peak before E | \
+         peak | relief |\n|---|---|---|---|---|---|\n"
+    );
+    let kinds = [
+        (ToothCompliance::KUANG_YANG, true, ""),
+        (ToothCompliance::BEAM, true, ""),
+        (ToothCompliance::FINITE_ELEMENT, false, " without coupling"),
+        (ToothCompliance::FINITE_ELEMENT, true, ""),
+    ];
+    let found = kinds.map(|(model, is_coupled, words)| {
+        INERTIAS.map(|(inertia, inertia_name)| {
+            let inputs = Inputs {
+                inertia,
+                ..with_model(&pair, model)
+            };
+            let found = Found::of(&inputs, is_coupled);
+            let row = found.row();
+            writeln!(text, "| {}{words} | {inertia_name} | {row} |", model.name()).unwrap();
+            found
+        })
+    });
+    text += "\n| change | first contact | peak before E | peak | relief |\n|---|---|---|---|---|\n";
+    let [_, [_, beam], [_, alone], [disc, whole]] = &found;
+    let changes = [
+        (
+            "true inertia for the disc of Eq. 47, with finite-element",
+            disc,
+            whole,
+        ),
+        ("elastic field for the beam, without coupling", beam, alone),
+        (
+            "coupling for independent springs, with finite-element",
+            alone,
+            whole,
+        ),
+    ];
+    for (words, from, to) in changes {
+        writeln!(text, "| {words} | {} |", to.change(from)).unwrap();
     }
     text
 }

@@ -1,4 +1,5 @@
-"""Compliance of a tooth by the potential-energy method on its true profile, with Sainsot's foundation (model.md, section 6).
+"""Compliance of a tooth by Weber & Banaschek's energy method on its true profile in plane strain, with Sainsot's foundation
+less the twist of the body about its bore (model.md, sections 6 and 9).
 
 For teeth without undercut. The integrals are taken by SciPy's adaptive quadrature; along the flank the compliance is then
 a Chebyshev series in the curvature radius of the involute, whose last terms are below 1e-13 of it.
@@ -8,6 +9,7 @@ import math
 
 from numpy.polynomial import chebyshev
 from scipy.integrate import quad
+from scipy.optimize import brentq
 
 ROUNDING = 0.38
 FOUNDATION = (
@@ -61,24 +63,42 @@ class Tooth:
         roll = curvature / self.gear.base
         angle = roll - self.half_angle
         sine, cosine = math.sin(angle), math.cos(angle)
-        along, half, _ = self.involute(roll)
+        crossing = self.gear.base / cosine
+        strain = 1 - self.gear.poisson**2
 
         def energy(section):
             x, h, slope = section
-            moment = (along - x) * cosine - half * sine
-            strain = 1.2 * 2 * (1 + self.gear.poisson) * cosine**2 + sine**2
-            return (1.5 * moment**2 / h**3 + strain / (2 * h)) * slope
+            moment = (crossing - x) * cosine
+            shear = 1.2 * 2 * (1 + self.gear.poisson) * cosine**2
+            return (strain * 1.5 * moment**2 / h**3 + (shear + strain * sine**2) / (2 * h)) * slope
 
+        height = lambda t: self.involute(t)[0] - crossing
+        ends = (self.half_angle, roll) if angle > 0 else (roll, 2 * self.half_angle - roll)
+        last = brentq(height, *ends, xtol=1e-15, rtol=1e-15) if angle else roll
         within = {"epsabs": 0.0, "epsrel": 1e-13, "limit": 400}
         fillet = quad(lambda normal: -energy(self.fillet(normal)), self.alpha, math.pi / 2, **within)[0]
-        flank = quad(lambda t: energy(self.involute(t)), self.junction, roll, **within)[0]
-        return (fillet + flank + self.foundation(sine, cosine)) / self.gear.young
+        flank = quad(lambda t: energy(self.involute(t)), self.junction, last, **within)[0]
+        return (fillet + flank + strain * (self.foundation(sine, cosine) - self.twist()) - self.shift()) / self.gear.young
+
+    def body(self):
+        """r_f/r_h within the range of the foundation; 3 for a gear without a bore."""
+        return min(max(self.root / self.gear.bore if self.gear.bore else 3.0, 1.4), 7.0)
+
+    def twist(self):
+        """Displacement of all teeth by the twist of the body about its bore, times E."""
+        return self.gear.base**2 / self.root**2 * (1 + self.gear.poisson) / (2 * math.pi) * (self.body() ** 2 - 1)
+
+    def shift(self):
+        """Displacement of a body without a bore, times E."""
+        nu = self.gear.poisson
+        c = (3 - 4 * nu) * (1 + nu) / (4 * math.pi * (1 - nu))
+        return 0.0 if self.gear.bore else c * math.log(self.body())
 
     def foundation(self, sine, cosine):
-        """Sainsot, Velex & Duverger 2004, times E; a gear without a bore is held at a third of its root radius."""
+        """Sainsot, Velex & Duverger 2004, times E."""
         theta = self.half_pitch - self.offset / self.gear.reference
         arm = (self.gear.base / cosine - self.root) / (2 * theta * self.root)
-        body = min(max(self.root / self.gear.bore if self.gear.bore else 3.0, 1.4), 7.0)
+        body = self.body()
         t = min(max(theta, 0.01), 0.12)
         l, m, p, q = (
             a / t**2 + b * body**2 + c * body / t + d / t + e * body + f for a, b, c, d, e, f in FOUNDATION

@@ -26,6 +26,7 @@ pub const MODEL: ToothModel = ToothModel {
     chosen: "tooth-compliance-finite-element",
     reads_root: true,
     has_contact: true,
+    has_coupling: true,
     steps: STEPS,
     compliance: Compliance::PerGear(build),
 };
@@ -129,7 +130,9 @@ pub fn field_of(gear: &ElasticGear) -> Result<Arc<Field>, Refusal> {
     field_gear(gear).field()
 }
 
-fn field_gear(gear: &ElasticGear) -> FieldGear {
+/// All of a gear that its field depends on.
+#[must_use]
+pub fn field_gear(gear: &ElasticGear) -> FieldGear {
     FieldGear {
         rack: gear.rack,
         shape: gear.shape,

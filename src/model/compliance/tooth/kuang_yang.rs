@@ -23,6 +23,7 @@ pub const MODEL: ToothModel = ToothModel {
     chosen: "tooth-compliance-kuang-yang",
     reads_root: false,
     has_contact: false,
+    has_coupling: false,
     steps: STEPS,
     compliance: Compliance::AtRadius(tooth),
 };

@@ -3,7 +3,8 @@
 
 use super::Charts;
 use crate::case::units::{self, System};
-use crate::model::inputs::Method;
+use crate::model::compliance::model_of;
+use crate::model::inputs::{Method, ToothCompliance};
 use crate::model::spacing::Spacing;
 use crate::model::{Inputs, Solution, contact_state};
 use crate::report::graphs::Graph;
@@ -27,6 +28,13 @@ pub enum Whose {
     Pinned(Method),
     /// The value that the active method's curve is compared with.
     Bound(&'static str),
+    /// A compliance model.
+    Model {
+        /// The model.
+        model: ToothCompliance,
+        /// Whether it is the model of the case.
+        is_own: bool,
+    },
 }
 
 /// A point: the driver's roll angle after E in deg, and the value in the display unit.
@@ -55,6 +63,9 @@ pub fn curves(charts: &Charts, graph: &Graph) -> Vec<Curve> {
         graph,
         system: charts.units,
     };
+    if let Some(column) = graph.by_model {
+        return drawn.models(answer, column);
+    }
     let pinned = charts
         .baseline
         .and_then(|baseline| drawn.pinned(baseline, answer.active));
@@ -84,6 +95,33 @@ struct Drawn<'a> {
 impl Drawn<'_> {
     fn active(self, answer: &Answer, whose: Whose) -> Option<Curve> {
         self.curve(&answer.inputs, answer.of(answer.active)?, whose)
+    }
+
+    // The elastic field last, on top of the others.
+    fn models(self, answer: &Answer, column: &'static Column) -> Vec<Curve> {
+        let Some(found) = &answer.stiffness else {
+            return Vec::new();
+        };
+        let unit = self.system.unit(column.shown);
+        let factor = units::factor(unit).unwrap_or(1.0);
+        let own = model_of(&answer.inputs);
+        let curve = |(at, &model): (usize, &ToothCompliance)| {
+            let points = found.mesh_curve(at);
+            let points = points.map(|(angle, value)| (angle.to_degrees(), Some(value / factor)));
+            Curve {
+                whose: Whose::Model {
+                    model,
+                    is_own: model == own,
+                },
+                column,
+                unit,
+                pieces: pieces(points, f64::INFINITY),
+            }
+        };
+        let mut curves: Vec<Curve> = found.models.iter().enumerate().map(curve).collect();
+        curves.retain(|curve| !curve.pieces.is_empty());
+        curves.sort_by_key(|curve| is_field(curve.whose));
+        curves
     }
 
     fn pinned(self, base: &Answer, active: Method) -> Option<Curve> {
@@ -128,6 +166,13 @@ impl Drawn<'_> {
     }
 }
 
+/// Whether it is the elastic field, which couples neighbouring teeth: the other models are compared
+/// with it.
+#[must_use]
+pub fn is_field(whose: Whose) -> bool {
+    matches!(whose, Whose::Model { model, .. } if model.model().has_coupling)
+}
+
 /// The curves without the parts that coincide with the active curve.
 #[must_use]
 pub fn apart(curves: Vec<Curve>) -> Vec<Curve> {
@@ -147,7 +192,7 @@ pub fn apart(curves: Vec<Curve>) -> Vec<Curve> {
     let coincides = |(x, y): Point| own.at(x).is_some_and(|value| (value - y).abs() <= alike);
     let shown = curves.into_iter().map(|curve| match curve.whose {
         Whose::Other(_) | Whose::Pinned(_) => curve.without(coincides),
-        Whose::Active(_) | Whose::Bound(_) => curve,
+        Whose::Active(_) | Whose::Bound(_) | Whose::Model { .. } => curve,
     });
     // The legend names the baseline even if its curve coincides.
     shown
@@ -240,6 +285,18 @@ pub fn way(answer: &Answer) -> Span {
         .filter_map(|(_, found)| found.as_ref().ok())
         .map(way_of)
         .fold(Span::NONE, Span::and)
+}
+
+/// The range of the path of contact with its mesh stiffness, in deg after E.
+pub(crate) fn path(answer: &Answer) -> Span {
+    let Some(found) = &answer.stiffness else {
+        return Span::NONE;
+    };
+    let ways = found
+        .points
+        .iter()
+        .map(|point| point.way / found.base_radius);
+    ways.fold(Span::NONE, |span, angle| span.with(angle.to_degrees()))
 }
 
 /// The range of the stations of one method, in deg after E.

@@ -12,6 +12,7 @@ use super::Charts;
 use super::curves::{Curve, Whose};
 use super::raster;
 use super::readout::base_name;
+use crate::model::inputs::ToothCompliance;
 use crate::tui::ascii::symbol;
 
 /// The blocks of text of a legend.
@@ -199,10 +200,16 @@ impl Block {
     }
 }
 
+fn model_name(model: ToothCompliance, is_own: bool) -> String {
+    let case = if is_own { " (case)" } else { "" };
+    format!("{}{case}", model.name())
+}
+
 fn name(charts: &Charts, curve: &Curve) -> Line<'static> {
     let name = match curve.whose {
         Whose::Active(method) | Whose::Other(method) => method.name().to_owned(),
         Whose::Pinned(method) => base_name(charts, method),
+        Whose::Model { model, is_own } => model_name(model, is_own),
         Whose::Bound(name) => symbol(name, charts.look.ascii).into_owned(),
     };
     let sample = match raster::marker(charts, curve.whose) {

@@ -225,16 +225,19 @@ fn missing(charts: &Charts, graph: &Graph, curves: &[Curve]) -> Option<String> {
     let Some(answer) = charts.answer else {
         return Some("No results yet.".to_owned());
     };
-    if curves
-        .iter()
-        .any(|curve| matches!(curve.whose, Whose::Active(_)))
-    {
+    let is_main = |curve: &Curve| matches!(curve.whose, Whose::Active(_) | Whose::Model { .. });
+    if curves.iter().any(is_main) {
         return None;
     }
     if charts.is_stale {
         return Some("The charts are not redrawn while a field is invalid.".to_owned());
     }
     let label = graph.label.to_lowercase();
+    if graph.by_model.is_some() {
+        return Some(format!(
+            "The {label} is being computed, or the pair has none."
+        ));
+    }
     let active = answer.active;
     if graph.column(active).is_none() {
         let methods: Vec<_> = graph.methods().map(Method::name).collect();

@@ -193,7 +193,7 @@ mod tests {
             from: -1.5,
             to: 0.5,
         },
-        upright: [Span { from: 0.0, to: 1.0 }; 9],
+        upright: [Span { from: 0.0, to: 1.0 }; GRAPHS.len()],
     };
 
     #[test]

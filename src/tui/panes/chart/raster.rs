@@ -8,8 +8,8 @@ use ratatui::widgets::Widget;
 use ratatui::widgets::canvas::{Canvas, Line, Points};
 
 use super::Charts;
-use super::curves::{Curve, Point, Whose};
-use crate::model::inputs::Method;
+use super::curves::{Curve, Point, Whose, is_field};
+use crate::model::inputs::{Method, ToothCompliance};
 use crate::tui::scale::{Span, bounds};
 
 /// Marks the cells of a curve until they get its style.
@@ -22,14 +22,22 @@ const MANY: usize = 8;
 pub fn marker(charts: &Charts, whose: Whose) -> Marker {
     let plain = charts.look.ascii;
     match whose {
-        Whose::Active(_) if plain => Marker::Custom('*'),
-        Whose::Active(_) => charts.marker,
+        whose if is_main(whose) && plain => Marker::Custom('*'),
+        whose if is_main(whose) => charts.marker,
+        Whose::Model { model, .. } if Some(&model) == ToothCompliance::ALL.first() => {
+            Marker::Custom(if plain { 'x' } else { '×' })
+        }
         Whose::Other(Method::Paper) => Marker::Custom(if plain { '.' } else { '·' }),
         Whose::Other(Method::Static) => Marker::Custom(if plain { 'x' } else { '×' }),
-        Whose::Other(_) => Marker::Custom(if plain { 'o' } else { '∘' }),
+        Whose::Model { .. } | Whose::Other(_) | Whose::Active(_) => Marker::Custom(if plain { 'o' } else { '∘' }),
         Whose::Pinned(_) => Marker::Custom('+'),
         Whose::Bound(_) => Marker::Custom(if plain { '-' } else { '╌' }),
     }
+}
+
+/// Whether it is the curve with which the others are compared.
+fn is_main(whose: Whose) -> bool {
+    matches!(whose, Whose::Active(_)) || is_field(whose)
 }
 
 /// The style of a curve.
@@ -37,8 +45,8 @@ pub fn marker(charts: &Charts, whose: Whose) -> Marker {
 pub fn style(charts: &Charts, whose: Whose) -> Style {
     let theme = charts.look.theme;
     let style = match whose {
-        Whose::Active(_) => theme.active,
-        Whose::Other(_) => theme.other,
+        whose if is_main(whose) => theme.active,
+        Whose::Active(_) | Whose::Other(_) | Whose::Model { .. } => theme.other,
         Whose::Pinned(_) => theme.baseline,
         Whose::Bound(_) => theme.rule,
     };

@@ -93,6 +93,11 @@ fn own(charts: &Charts, graph: &Graph, cursor: f64) -> Option<String> {
 // The value from the same evaluation as in the teeth pane, not from the drawn line, and its number
 // of significant digits.
 fn value(charts: &Charts, graph: &Graph, curve: &Curve, cursor: f64) -> Option<(f64, usize)> {
+    if let Whose::Model { .. } = curve.whose {
+        let factor = units::factor(curve.unit).unwrap_or(1.0);
+        let value = curve.at(0.0 - cursor.to_degrees())?;
+        return Some((value * factor, curve.column.digits));
+    }
     let is_pinned = matches!(curve.whose, Whose::Pinned(_));
     let answer = if is_pinned {
         charts.baseline?
@@ -157,5 +162,6 @@ fn reading(charts: &Charts, graph: &Graph, curve: &Curve, cursor: f64) -> Option
         Whose::Other(method) => format!("{} {number}", method.name()),
         Whose::Pinned(method) => format!("{} {number}", base_name(charts, method)),
         Whose::Bound(bound) => format!("{} {number}", name(bound)),
+        Whose::Model { model, .. } => format!("{} {number}", model.name()),
     })
 }

@@ -1,0 +1,50 @@
+//! Time of the elastic fields of a pair, apart from the solves that read them.
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use super::clock::Patience;
+use crate::model::compliance::ElasticGear;
+use crate::model::compliance::tooth::field_gear;
+use crate::model::inputs::Gear;
+use crate::model::{Inputs, Refusal};
+
+/// Seconds in which the field of each gear is built: driver and driven gear; the solves that
+/// follow read the kept fields.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Build {
+    /// Driver.
+    pub driver: f64,
+    /// Driven gear.
+    pub driven: f64,
+}
+
+impl Build {
+    /// Builds both fields anew, several times if there is patience; the least time counts.
+    ///
+    /// # Errors
+    /// The refusal of a gear without a field.
+    pub(super) fn measure(inputs: &Inputs, patience: Patience) -> Result<Build, Refusal> {
+        let of = |gear: &Gear| seconds(&ElasticGear::of(inputs, gear), patience);
+        Ok(Build {
+            driver: of(&inputs.driver)?,
+            driven: of(&inputs.driven)?,
+        })
+    }
+}
+
+fn seconds(gear: &ElasticGear, patience: Patience) -> Result<f64, Refusal> {
+    const REPEATS: usize = 3;
+    let repeats = if patience.most == Duration::ZERO {
+        1
+    } else {
+        REPEATS
+    };
+    let mut least = f64::INFINITY;
+    for _ in 0..repeats {
+        let begun = Instant::now();
+        black_box(field_gear(black_box(gear)).build()?);
+        least = least.min(begun.elapsed().as_secs_f64());
+    }
+    Ok(least)
+}
