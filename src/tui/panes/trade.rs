@@ -109,7 +109,11 @@ fn draw_table(
         height: words,
         ..inner
     };
-    write(&fitting(&phrases(pane, traded, trade), words), words, buffer);
+    write(
+        &fitting(&phrases(pane, traded, trade), words),
+        words,
+        buffer,
+    );
 }
 
 /// The settings that have an error and a time, the quicker ones first.

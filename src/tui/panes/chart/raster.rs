@@ -29,7 +29,9 @@ pub fn marker(charts: &Charts, whose: Whose) -> Marker {
         }
         Whose::Other(Method::Paper) => Marker::Custom(if plain { '.' } else { '·' }),
         Whose::Other(Method::Static) => Marker::Custom(if plain { 'x' } else { '×' }),
-        Whose::Model { .. } | Whose::Other(_) | Whose::Active(_) => Marker::Custom(if plain { 'o' } else { '∘' }),
+        Whose::Model { .. } | Whose::Other(_) | Whose::Active(_) => {
+            Marker::Custom(if plain { 'o' } else { '∘' })
+        }
         Whose::Pinned(_) => Marker::Custom('+'),
         Whose::Bound(_) => Marker::Custom(if plain { '-' } else { '╌' }),
     }
