@@ -14,6 +14,7 @@ pub mod spread;
 pub mod stamp;
 pub(crate) mod suggest;
 pub mod units;
+pub mod variant;
 
 use std::sync::Arc;
 
@@ -28,6 +29,7 @@ pub use fields::{FIELDS, Field};
 pub use file::Document;
 pub use relevance::{Acting, partial_relevance, relevance};
 pub use spread::Spread;
+pub use variant::{Override, Variant};
 
 /// A case: what the user wrote in each field, in the order of [`FIELDS`], and the limits it is held
 /// to.
@@ -39,6 +41,8 @@ pub struct Case {
     pub limits: Vec<Limit>,
     /// Distributions of fields around their values.
     pub spread: Vec<Spread>,
+    /// Named overrides, in the order of the file.
+    pub variants: Vec<Variant>,
 }
 
 /// The greatest value that a quantity may take.
@@ -82,6 +86,7 @@ impl Case {
             texts: Arc::new(vec![None; FIELDS.len()]),
             limits: Vec::new(),
             spread: Vec::new(),
+            variants: Vec::new(),
         }
     }
 

@@ -4,6 +4,7 @@
 mod arguments;
 mod cases;
 mod check;
+mod compare;
 mod explain;
 mod gather;
 mod import;
@@ -26,7 +27,7 @@ use crate::case::suggest;
 use crate::report::{fields, schema};
 
 pub use arguments::{
-    Arguments, Check, Command, Explain, Export, Fields, Format, Gather, Import, Listing, New, Plot,
+    Arguments, Check, Command, Compare, CompareFormat, Edits, Explain, Export, Fields, Format, Gather, Import, Listing, New, Plot,
     RowFormat, Running, Seek, Setting, Solve, Stiffness, Sweep, Tolerance, Trading,
 };
 use clap::error::ErrorKind;
@@ -175,6 +176,7 @@ pub fn run(command: &Command, streams: &mut Streams) -> Exit {
         Command::Stiffness(options) => stiffness::run(options, streams),
         Command::Sweep(options) => sweep::run(options, streams),
         Command::Seek(options) => seek::run(options, streams),
+        Command::Compare(options) => compare::run(options, streams),
         Command::Tolerance(options) => tolerance::run(options, streams),
         Command::Gather(options) => gather::run(options, streams),
         Command::Fields(options) => list_fields(options, streams.output.as_mut()),

@@ -2,8 +2,10 @@
 
 pub mod absence;
 pub mod charts;
+pub mod compare;
 pub mod comparison;
 pub mod csv;
+pub mod difference;
 pub mod digest;
 pub mod explain;
 pub mod export;

@@ -1,12 +1,12 @@
 //! The differences between two cases, field by field, and how to put them into a case.
 
 use super::fields::{self, FIELDS};
-use super::{Case, Problem, Spread, spread};
+use super::{Case, Override, Problem, Spread, spread, variant};
 
 /// A text that differs between two cases.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Change {
-    /// The field's key, or `limits.…` or `spread."…"`.
+    /// The field's key, or `limits.…`, `spread."…"` or `variants.…`.
     pub key: String,
     /// As the one case has it; `None` where it leaves it out.
     pub from: Option<String>,
@@ -75,6 +75,9 @@ impl Case {
     /// Where there is no such key, or a limit or a distribution is no valid one; the case then
     /// stays as it was.
     pub fn apply(&mut self, key: &str, text: Option<&str>) -> Result<(), Problem> {
+        if let Some(path) = key.strip_prefix(variant::PREFIX) {
+            return self.apply_override(path, text);
+        }
         let text = text.unwrap_or_default();
         if let Some(quantity) = key.strip_prefix("limits.") {
             return self.set_limit(quantity, text);
@@ -115,13 +118,17 @@ fn texts(case: &Case) -> Vec<(String, String)> {
         .spread
         .iter()
         .map(|held| (spread::place(held.field), held.in_words()));
-    fields.chain(limits).chain(spreads).collect()
+    let overrides = case.variants.iter().flat_map(|variant| {
+        let of = |change: &Override| (variant.place(&change.key), change.text.clone());
+        variant.overrides.iter().map(of)
+    });
+    fields.chain(limits).chain(spreads).chain(overrides).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::Limit;
+    use crate::case::{Limit, Variant};
 
     fn varied() -> Case {
         let mut case = Case::table_1();
@@ -136,6 +143,16 @@ mod tests {
         case.limits = vec![Limit::new("dynamic_factor", "1.5").expect("a limit")];
         case.spread
             .push(Spread::new("pair.module", "normal", "4 um").expect("a distribution"));
+        let change = |key: &str, text: &str| Override {
+            key: key.to_owned(),
+            text: text.to_owned(),
+        };
+        let overrides = vec![
+            change("driven.tip_relief", "48 um"),
+            change("model.deflection", ""),
+            change("spread.\"pair.module\"", "uniform 2 um"),
+        ];
+        case.keep_variant(Variant::new("relieved", overrides));
         case
     }
 
@@ -170,6 +187,9 @@ mod tests {
             ("limits.force", "5 N"),
             ("spread.\"title\"", "normal 1"),
             ("limits.impact_force", "x"),
+            ("variants.a", "x"),
+            ("variants.a.pair.modul", "5 mm"),
+            ("variants.a b.pair.module", "5 mm"),
         ] {
             assert!(case.apply(key, Some(text)).is_err(), "{key}");
         }

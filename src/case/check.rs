@@ -160,12 +160,19 @@ fn misfit(case: &Case, field: usize) -> Option<Problem> {
                 format!("write {}", addition(known)),
             ))
         }
-        (Some(_), Some(_)) if field > other => {
-            let cause = format!("{} and {} are both given", named.key, known.key);
-            Some(Problem::new(known.key, cause, "remove one of them"))
-        }
+        (Some(_), Some(_)) => given_twice(case, field),
         _ => None,
     }
+}
+
+/// Both of two fields that exclude each other are given: reported at the second one.
+pub(super) fn given_twice(case: &Case, field: usize) -> Option<Problem> {
+    let other = partner(field).filter(|&other| field > other)?;
+    let (known, named) = (&FIELDS[field], &FIELDS[other]);
+    case.text(field).and(case.text(other)).map(|_| {
+        let cause = format!("{} and {} are both given", named.key, known.key);
+        Problem::new(known.key, cause, "remove one of them")
+    })
 }
 
 fn put_text(known: &Field, field: usize, text: &str, inputs: &mut Inputs) -> Result<(), Problem> {

@@ -4,9 +4,11 @@
     reason = "the help names tables of the case file, such as [limits]"
 )]
 
+mod compare;
 mod studies;
 
 use super::Exit;
+pub use compare::{Compare, CompareFormat};
 use crate::case::{Case, EXAMPLES, Example, Problem, unknown_quantity};
 use crate::model::inputs::Method;
 use crate::model::{QUANTITIES, Quantity};
@@ -92,6 +94,8 @@ pub enum Command {
     Tolerance(Tolerance),
     /// Put the shards of a sweep or a tolerance study together
     Gather(Gather),
+    /// Compare the variants of a case, or several cases, side by side with their differences
+    Compare(Compare),
     /// Find every value of a field at which a condition on the results changes
     Seek(Seek),
     /// Write a chart of a case, or its teeth, as a picture (SVG)
@@ -122,26 +126,61 @@ pub enum Command {
     },
 }
 
-/// What is asked of a case in place of what it says itself.
+/// Values that replace those of a case.
 #[derive(Debug, Args)]
-pub struct Changes {
-    /// Solve on this method instead of the case's
-    #[arg(long, value_parser = methods())]
-    method: Option<Method>,
+pub struct Overrides {
+    /// Use this variant of the case, a table [variants.NAME]
+    #[arg(long, value_name = "NAME")]
+    variant: Option<String>,
     /// Change a field of the case, such as "operation.speed=3000 rpm"
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Settings)]
     settings: Vec<Setting>,
 }
 
-impl Changes {
-    /// The fields that change; the method is one of them, and the last word on it.
+/// The method and the values that replace those of a case.
+#[derive(Debug, Args)]
+pub struct Changes {
+    /// Solve on this method instead of the case's
+    #[arg(long, value_parser = methods())]
+    method: Option<Method>,
+    /// The values
+    #[command(flatten)]
+    overrides: Overrides,
+}
+
+/// What the command line changes in a case: its variant first, then single fields.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Edits {
+    /// The variant.
+    pub variant: Option<String>,
+    /// The fields.
+    pub settings: Vec<Setting>,
+}
+
+impl Overrides {
+    /// The variant and the fields.
     #[must_use]
-    pub fn settings(&self) -> Vec<Setting> {
-        let method = self
-            .method
-            .map(|method| Setting::by("--method", "model.method", method.name()));
-        self.settings.iter().cloned().chain(method).collect()
+    pub fn edits(&self) -> Edits {
+        Edits {
+            variant: self.variant.clone(),
+            settings: self.settings.clone(),
+        }
     }
+}
+
+impl Changes {
+    /// The variant and the fields; the method is a field, and the last one.
+    #[must_use]
+    pub fn edits(&self) -> Edits {
+        let mut edits = self.overrides.edits();
+        edits.settings.extend(by_method(self.method));
+        edits
+    }
+}
+
+/// `--method` as a field.
+fn by_method(method: Option<Method>) -> Option<Setting> {
+    method.map(|method| Setting::by("--method", "model.method", method.name()))
 }
 
 /// The arguments of `plot`.
@@ -253,9 +292,9 @@ pub struct Trading {
     /// Case file; - is standard input
     #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub case: PathBuf,
-    /// Change a field of the case, such as "operation.speed=3000 rpm"
-    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Settings)]
-    pub settings: Vec<Setting>,
+    /// What differs from the case
+    #[command(flatten)]
+    pub overrides: Overrides,
     /// Greatest error of the recommended setting, such as 5% or 0.05; else model.within of the
     /// case
     #[arg(long, value_name = "ERROR", allow_negative_numbers = true, value_parser = part)]
@@ -272,9 +311,9 @@ pub struct Stiffness {
     /// Case file; - is standard input
     #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub case: PathBuf,
-    /// Change a field of the case, such as "operation.speed=3000 rpm"
-    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Settings)]
-    pub settings: Vec<Setting>,
+    /// What differs from the case
+    #[command(flatten)]
+    pub overrides: Overrides,
     /// Number of radii on each flank, from the form circle to the tip
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 9, value_parser = point_count)]
     pub points: usize,

@@ -1,6 +1,6 @@
 //! Opens cases for a command and prints what is wrong with them.
 
-use super::{Exit, Setting, Streams};
+use super::{Edits, Exit, Setting, Streams};
 use crate::case::fields::FIELDS;
 use crate::case::file::{MOST_MODEL_BYTES, ReadError, read_bytes};
 use crate::case::rexs::{self, Imported};
@@ -15,7 +15,7 @@ pub(super) struct Opened {
     pub(super) document: Document,
     pub(super) inputs: Inputs,
     /// What the command line changed.
-    settings: Vec<Setting>,
+    edits: Edits,
 }
 
 impl Opened {
@@ -27,25 +27,21 @@ impl Opened {
 
     /// Report a problem of the case at its place.
     pub(super) fn report_problem(&self, problem: Problem, streams: &mut Streams) {
-        streams.say(&placed(&self.document, problem, &self.settings));
+        streams.say(&placed(&self.document, problem, &self.edits));
     }
 }
 
-/// Read a case and change what the settings name.
-pub(super) fn open(
-    path: &Path,
-    settings: &[Setting],
-    streams: &mut Streams,
-) -> Result<Opened, Exit> {
+/// Read a case and change what the command line names.
+pub(super) fn open(path: &Path, edits: &Edits, streams: &mut Streams) -> Result<Opened, Exit> {
     let document = read(path, streams)?;
-    changed(path.display().to_string(), document, settings, streams)
+    changed(path.display().to_string(), document, edits, streams)
 }
 
 /// Read a case whose missing values may be among those that a study varies, each given as the place
 /// of its field and one of its values.
 pub(super) fn open_varied(
     path: &Path,
-    settings: &[Setting],
+    edits: &Edits,
     varied: &[(usize, String)],
     streams: &mut Streams,
 ) -> Result<Opened, Exit> {
@@ -56,7 +52,7 @@ pub(super) fn open_varied(
             drop(document.case.set(FIELDS[*field].key, value));
         }
     }
-    changed(path.display().to_string(), document, settings, streams)
+    changed(path.display().to_string(), document, edits, streams)
 }
 
 /// Why a field cannot be set: a study varies it.
@@ -74,7 +70,7 @@ pub(super) fn set_and_varied(settings: &[Setting], varied: &[&str]) -> Option<St
 }
 
 /// Reads a case whose values may be missing yet, or the only spur stage of a model.
-fn read(path: &Path, streams: &mut Streams) -> Result<Document, Exit> {
+pub(super) fn read(path: &Path, streams: &mut Streams) -> Result<Document, Exit> {
     if rexs::is_model(path) {
         return Ok(read_model(path, None, streams)?.document);
     }
@@ -114,43 +110,55 @@ pub(super) fn read_model(
     Ok(imported)
 }
 
-/// A document as it is once the settings have changed what they name.
+/// A document as it is once the command line has changed its values.
 pub(super) fn changed(
     name: String,
     mut document: Document,
-    settings: &[Setting],
+    edits: &Edits,
     streams: &mut Streams,
 ) -> Result<Opened, Exit> {
-    for (index, setting) in settings.iter().enumerate() {
-        if let Some(other) = settings[..index]
-            .iter()
-            .find(|other| Case::are_exclusive(&other.key, &setting.key))
-        {
-            streams.say(&format!(
-                "{}: {} is set as well: leave one of them out",
-                setting.written(),
-                other.key
-            ));
-            return Err(Exit::Usage);
-        }
-        document
-            .case
-            .set(&setting.key, &setting.value)
-            .map_err(|problem| {
-                streams.say(&on_command_line(setting, &problem));
-                Exit::Usage
-            })?;
-    }
+    let edited = edit(&mut document, edits);
+    edited.map_err(|line| {
+        streams.say(&line);
+        Exit::Usage
+    })?;
+    let name = match &edits.variant {
+        Some(variant) => format!("{name}:{variant}"),
+        None => name,
+    };
     match document.case.inputs() {
         // Nothing waits for a report, so it is given the digits.
         Ok(inputs) => Ok(Opened {
             name,
             document,
             inputs,
-            settings: settings.to_vec(),
+            edits: edits.clone(),
         }),
-        Err(problems) => Err(unfit(&document, problems, settings, streams)),
+        Err(problems) => Err(unfit(&document, problems, edits, streams)),
     }
+}
+
+/// Puts the variant and the settings into the case, or returns what is wrong with them.
+pub(super) fn edit(document: &mut Document, edits: &Edits) -> Result<(), String> {
+    if let Some(name) = &edits.variant {
+        let found = document.case.variant(name).cloned();
+        let variant = found.map_err(|problem| {
+            let (file, Problem { cause, fix, .. }) = (document.name(), problem);
+            format!("{file}, --variant {name}: {cause}: {fix}")
+        })?;
+        document.case = document.case.with(&variant);
+    }
+    let settings = &edits.settings;
+    for (index, setting) in settings.iter().enumerate() {
+        let is_partner = |other: &&Setting| Case::are_exclusive(&other.key, &setting.key);
+        if let Some(other) = settings[..index].iter().find(is_partner) {
+            let (written, key) = (setting.written(), &other.key);
+            return Err(format!("{written}: {key} is set as well: leave one of them out"));
+        }
+        let set = document.case.set(&setting.key, &setting.value);
+        set.map_err(|problem| on_command_line(setting, &problem))?;
+    }
+    Ok(())
 }
 
 fn unread(error: &ReadError, streams: &mut Streams) -> Exit {
@@ -176,34 +184,52 @@ fn unread(error: &ReadError, streams: &mut Streams) -> Exit {
 fn unfit(
     document: &Document,
     mut problems: Vec<Problem>,
-    settings: &[Setting],
+    edits: &Edits,
     streams: &mut Streams,
 ) -> Exit {
     problems.sort_by_key(|problem| document.place(&problem.field));
     for problem in problems {
-        streams.say(&placed(document, problem, settings));
+        streams.say(&placed(document, problem, edits));
     }
     Exit::BadCase
 }
 
 /// A problem at its place: a field that was set is wrong on the command line and not in the file;
 /// another may be wrong beside what was set.
-fn placed(document: &Document, problem: Problem, settings: &[Setting]) -> String {
-    match settings
+fn placed(document: &Document, problem: Problem, edits: &Edits) -> String {
+    let settings = &edits.settings;
+    if let Some(setting) = settings
         .iter()
         .rev()
         .find(|setting| setting.key == problem.field)
     {
-        Some(setting) => format!(
-            "{}, {}",
-            document.name(),
-            on_command_line(setting, &problem)
-        ),
-        None if settings.is_empty() => document.fault(problem).to_string(),
-        None => {
-            let written: Vec<String> = settings.iter().map(Setting::written).collect();
-            format!("{} (with {})", document.fault(problem), written.join(" "))
-        }
+        let told = on_command_line(setting, &problem);
+        return format!("{}, {told}", document.name());
+    }
+    let written: Vec<String> = edits
+        .variant
+        .iter()
+        .map(|variant| format!("--variant {variant}"))
+        .chain(settings.iter().map(Setting::written))
+        .collect();
+    let fault = document.fault(in_variant(document, problem, edits));
+    if written.is_empty() {
+        fault.to_string()
+    } else {
+        format!("{fault} (with {})", written.join(" "))
+    }
+}
+
+/// A problem with the key of the variant's override, where it has one.
+fn in_variant(document: &Document, problem: Problem, edits: &Edits) -> Problem {
+    let variant = edits.variant.as_deref();
+    let variant = variant.and_then(|name| document.case.variant(name).ok());
+    match variant.filter(|variant| variant.overrides(&problem.field)) {
+        Some(variant) => Problem {
+            field: variant.place(&problem.field),
+            ..problem
+        },
+        None => problem,
     }
 }
 

@@ -11,10 +11,10 @@ use crate::report::verdict::{
 use std::io::{self, Write};
 
 pub(super) fn run(options: &Check, streams: &mut Streams) -> io::Result<Exit> {
-    let settings = options.changes.settings();
+    let edits = options.changes.edits();
     let mut worst = Exit::Done;
     for path in &options.cases {
-        let exit = match cases::open(path, &settings, streams) {
+        let exit = match cases::open(path, &edits, streams) {
             Ok(opened) => check(&opened, options.format, streams)?,
             Err(exit) => exit,
         };

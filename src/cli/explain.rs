@@ -11,10 +11,10 @@ use std::io::{self, Write};
 const BUILT_IN: &str = "Table 1 of Zhou & Chen 2014";
 
 pub(super) fn run(options: &Explain, streams: &mut Streams) -> io::Result<Exit> {
-    let settings = options.changes.settings();
+    let edits = options.changes.edits();
     let opened = match &options.case {
-        Some(path) => cases::open(path, &settings, streams),
-        None => cases::changed(BUILT_IN.to_owned(), Document::table_1(), &settings, streams),
+        Some(path) => cases::open(path, &edits, streams),
+        None => cases::changed(BUILT_IN.to_owned(), Document::table_1(), &edits, streams),
     };
     match opened {
         Ok(opened) => tell(options, &opened, streams),

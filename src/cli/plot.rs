@@ -17,7 +17,7 @@ use std::path::Path;
 pub(super) const TEETH: &str = "teeth";
 
 pub(super) fn run(options: &Plot, streams: &mut Streams) -> io::Result<Exit> {
-    let drawn = cases::open(&options.case, &options.changes.settings(), streams)
+    let drawn = cases::open(&options.case, &options.changes.edits(), streams)
         .and_then(|opened| draw(&opened, options, streams));
     match drawn {
         Ok(text) => write(options.out.as_deref(), &text, streams),

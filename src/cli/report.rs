@@ -15,10 +15,10 @@ pub(super) fn run(options: &Export, streams: &mut Streams) -> io::Result<Exit> {
         ));
         return Ok(Exit::Usage);
     };
-    let settings = options.changes.settings();
+    let edits = options.changes.edits();
     let (mut subjects, mut worst) = (Vec::new(), Exit::Done);
     for path in &options.cases {
-        let solved = cases::open(path, &settings, streams).and_then(|opened| {
+        let solved = cases::open(path, &edits, streams).and_then(|opened| {
             let report = plot::solve(&opened, format.has_stations(), streams)?;
             Ok((report, opened.document.render()))
         });

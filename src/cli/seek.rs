@@ -20,17 +20,17 @@ pub(super) fn run(options: &Seek, streams: &mut Streams) -> io::Result<Exit> {
             return Ok(Exit::Usage);
         }
     };
-    let settings = options.changes.settings();
+    let edits = options.changes.edits();
     let key = FIELDS[range.field].key;
     let out = options.out.as_deref();
     if let Some(refusal) =
-        cases::set_and_varied(&settings, &[key]).or_else(|| overwrites(out, &[&options.case]))
+        cases::set_and_varied(&edits.settings, &[key]).or_else(|| overwrites(out, &[&options.case]))
     {
         streams.say(&refusal);
         return Ok(Exit::Usage);
     }
     let first = (range.field, with_unit(&shortest(range.from), &range.unit));
-    let opened = match cases::open_varied(&options.case, &settings, &[first], streams) {
+    let opened = match cases::open_varied(&options.case, &edits, &[first], streams) {
         Ok(opened) => opened,
         Err(exit) => return Ok(exit),
     };

@@ -1,17 +1,17 @@
 //! `solve`: solves cases and prints the results.
 
 use super::cases::{self, Opened};
-use super::{Exit, Format, Setting, Solve, Streams};
+use super::{Edits, Exit, Format, Setting, Solve, Streams};
 use crate::model::{Quantity, Refusal};
 use crate::report::{Report, Selection, csv, json, text};
 use std::io::{self, Write};
 
 pub(super) fn run(options: &Solve, streams: &mut Streams) -> io::Result<Exit> {
-    let settings = settings(options);
+    let edits = edits(options);
     let selection = selection(options);
     let (mut first, mut worst) = (true, Exit::Done);
     for path in &options.cases {
-        let report = cases::open(path, &settings, streams)
+        let report = cases::open(path, &edits, streams)
             .and_then(|opened| solve(&opened, &selection, streams));
         match report {
             Ok(report) => {
@@ -25,17 +25,14 @@ pub(super) fn run(options: &Solve, streams: &mut Streams) -> io::Result<Exit> {
 }
 
 /// `--stations` is a field as well.
-fn settings(options: &Solve) -> Vec<Setting> {
+fn edits(options: &Solve) -> Edits {
     let stations = options
         .stations
         .clone()
         .map(|value| Setting::by("--stations", "model.stations", &value));
-    options
-        .changes
-        .settings()
-        .into_iter()
-        .chain(stations)
-        .collect()
+    let mut edits = options.changes.edits();
+    edits.settings.extend(stations);
+    edits
 }
 
 fn selection(options: &Solve) -> Selection {

@@ -8,7 +8,7 @@ use crate::study::stiffness::compare;
 use std::io;
 
 pub(super) fn run(options: &Stiffness, streams: &mut Streams) -> io::Result<Exit> {
-    let opened = match cases::open(&options.case, &options.settings, streams) {
+    let opened = match cases::open(&options.case, &options.overrides.edits(), streams) {
         Ok(opened) => opened,
         Err(exit) => return Ok(exit),
     };

@@ -32,15 +32,15 @@ pub(super) fn run(options: &Sweep, streams: &mut Streams) -> io::Result<Exit> {
         streams.say(&refusal);
         return Ok(Exit::Usage);
     }
-    let settings = options.changes.settings();
+    let edits = options.changes.edits();
     let keys: Vec<&str> = grid.axes.iter().map(Axis::key).collect();
-    if let Some(refusal) = cases::set_and_varied(&settings, &keys) {
+    if let Some(refusal) = cases::set_and_varied(&edits.settings, &keys) {
         streams.say(&refusal);
         return Ok(Exit::Usage);
     }
     let first = grid.axes.iter().map(|axis| (axis.field, axis.with_unit(0)));
     let first: Vec<(usize, String)> = first.collect();
-    let opened = match cases::open_varied(&options.case, &settings, &first, streams) {
+    let opened = match cases::open_varied(&options.case, &edits, &first, streams) {
         Ok(opened) => opened,
         Err(exit) => return Ok(exit),
     };

@@ -17,7 +17,7 @@ pub(super) fn run(options: &Options, streams: &mut Streams) -> io::Result<Exit> 
         streams.say(&refusal);
         return Ok(Exit::Usage);
     }
-    let opened = match cases::open(&options.case, &options.changes.settings(), streams) {
+    let opened = match cases::open(&options.case, &options.changes.edits(), streams) {
         Ok(opened) => opened,
         Err(exit) => return Ok(exit),
     };

@@ -10,7 +10,7 @@ use std::cell::Cell;
 use std::io;
 
 pub(super) fn run(options: &Trading, streams: &mut Streams) -> io::Result<Exit> {
-    let opened = match cases::open(&options.case, &options.settings, streams) {
+    let opened = match cases::open(&options.case, &options.overrides.edits(), streams) {
         Ok(opened) => opened,
         Err(exit) => return Ok(exit),
     };

@@ -102,6 +102,15 @@ impl Quantity {
         self.shown == "yes/no"
     }
 
+    /// Whether it may be negative.
+    #[must_use]
+    pub fn is_signed(&self) -> bool {
+        matches!(
+            self.key,
+            "equivalent_error" | "total_deviation" | "modification" | "pitch_contact_jump"
+        )
+    }
+
     /// Whether there is nothing of it without a friction coefficient.
     #[must_use]
     pub fn needs_friction(&self) -> bool {

@@ -44,6 +44,7 @@ pub fn write_case(out: &mut dyn Write) -> io::Result<()> {
         .filter_map(|field| Some((field.key.to_owned(), of_spread(field)?)));
     let help = "Distribution of a field around its value.";
     tables.insert("spread".to_owned(), object(help, spread.collect()));
+    tables.insert("variants".to_owned(), of_variants(&tables));
     let mut schema = object("A case of tipstrike: a gear pair in operation.", tables);
     schema["$schema"] = DRAFT.into();
     schema["required"] = json!(["format"]);
@@ -176,6 +177,33 @@ fn of_quantity(quantity: &Quantity) -> Value {
         },
         "required": ["value", "unit"],
         "additionalProperties": false,
+    })
+}
+
+/// The variants: the tables of a case without their required keys, or dotted keys. An empty text
+/// leaves a key out.
+fn of_variants(tables: &Map<String, Value>) -> Value {
+    let or_empty = |value: &Value| json!({"anyOf": [value, {"const": ""}]});
+    let mut members = Map::new();
+    for (name, of_table) in tables.iter().filter(|(name, _)| *name != "format") {
+        let Some(keys) = of_table["properties"].as_object() else {
+            members.insert(name.clone(), of_table.clone());
+            continue;
+        };
+        let mut table = Map::new();
+        for (key, value) in keys {
+            table.insert(key.clone(), or_empty(value));
+            members.insert(format!("{name}.{key}"), or_empty(value));
+        }
+        members.insert(name.clone(), object(name, table));
+    }
+    let mut variant = object("Values in place of those of the case.", members);
+    variant["minProperties"] = 1.into();
+    json!({
+        "description": "Named overrides of the case.",
+        "type": "object",
+        "propertyNames": {"pattern": r"^[\p{L}\p{N}_-]{1,40}$"},
+        "additionalProperties": variant,
     })
 }
 

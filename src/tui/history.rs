@@ -1,6 +1,6 @@
 //! Undo and redo: states of a case to go back to, one for each visit of a field, without a limit.
 
-use crate::case::{Case, FIELDS, Limit, Spread};
+use crate::case::{Case, FIELDS, Limit, Spread, Variant};
 
 /// States of a case, each with the field that had the focus.
 #[derive(Debug, Clone, Default)]
@@ -23,9 +23,11 @@ struct States {
 #[derive(Debug, Clone)]
 struct Difference {
     texts: Box<[(usize, Box<str>)]>,
-    /// Limits and spreads, which seldom change.
-    others: Option<Box<(Vec<Limit>, Vec<Spread>)>>,
+    /// Limits, spreads and variants, which seldom change.
+    others: Option<Box<Others>>,
 }
+
+type Others = (Vec<Limit>, Vec<Spread>, Vec<Variant>);
 
 impl History {
     /// Remember the state before the first edit of a visit to a row; whether this is the first.
@@ -102,12 +104,12 @@ impl Difference {
     /// The difference of `case` from `other`.
     fn of(case: &Case, other: &Case) -> Difference {
         let texts = (0..FIELDS.len()).filter(|&field| case.text(field) != other.text(field));
-        let differ = (&case.limits, &case.spread) != (&other.limits, &other.spread);
+        let differ = others_of(case) != others_of(other);
         Difference {
             texts: texts
                 .map(|field| (field, case.text(field).unwrap_or_default().into()))
                 .collect(),
-            others: differ.then(|| Box::new((case.limits.clone(), case.spread.clone()))),
+            others: differ.then(|| Box::new(others_of(case))),
         }
     }
 
@@ -117,10 +119,19 @@ impl Difference {
             other.write(field, &text);
         }
         if let Some(others) = self.others {
-            (other.limits, other.spread) = *others;
+            (other.limits, other.spread, other.variants) = *others;
         }
         other
     }
+}
+
+// All that a case says besides its fields.
+fn others_of(case: &Case) -> Others {
+    (
+        case.limits.clone(),
+        case.spread.clone(),
+        case.variants.clone(),
+    )
 }
 
 #[cfg(test)]

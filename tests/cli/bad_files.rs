@@ -37,6 +37,7 @@ fn expect(text: &str, rows: &[Row<'_>]) {
 }
 
 const MODULE: &str = "module = \"5 mm\"";
+const LIMIT: &str = "impact_force = \"2500 N\"";
 
 /// A line of the good case, what stands in its place, how many lines below and in which column the
 /// fault is, its field, a part of its cause and a part of its fix.
@@ -126,6 +127,24 @@ const ONE_BAD_LINE: &[OneLine] = &[
     ("impact_force = \"2500 N\"", "[spread]\n\"pair.module\" = \"1 um\"", 1, 17, "spread.\"pair.module\"", "not a distribution", "normal"),
     ("impact_force = \"2500 N\"", "[spread]\n\"pair.module\" = { normal = \"1 kg\" }", 1, 17, "spread.\"pair.module\"", "mass, not of length", "mm"),
     ("impact_force = \"2500 N\"", "[spread]\n\"pair.module\" = { normal = 1 }", 1, 17, "spread.\"pair.module\"", "has no unit", "\"1 mm\""),
+    // variants
+    (LIMIT, "[variants.a]\n\"driven.tip_relif\" = \"1 um\"", 1, 1, "variants.a.driven.tip_relif", "unknown key `tip_relif`", "did you mean tip_relief?"),
+    (LIMIT, "[variants.a]\ndriven.tip_relief = \"1 kg\"", 1, 21, "variants.a.driven.tip_relief", "mass, not of length", "mm"),
+    (LIMIT, "[variants.a.driver]\nteeth = 2", 1, 9, "variants.a.driver.teeth", "below the limit of 5", "from 5 to 1000"),
+    (LIMIT, "[variants.a]\n\"driver.teeth\" = \"\"", 1, 18, "variants.a.driver.teeth", "the case needs this value", "teeth = 20"),
+    (LIMIT, "[variants.a]\nlimits.impact_forse = \"1 N\"", 1, 8, "variants.a.limits.impact_forse", "unknown quantity", "did you mean impact_force?"),
+    (LIMIT, "[variants.a]\n\"limits.impact_force\" = \"1 m\"", 1, 25, "variants.a.limits.impact_force", "length, not of force", "use one of N"),
+    (LIMIT, "[variants.a]\nspread.\"pair.module\" = { norml = \"1 um\" }", 1, 24, "variants.a.spread.\"pair.module\"", "unknown distribution", "normal"),
+    (LIMIT, "[variants.a]\noperation.power = \"1 kW\"\noperation.torque = \"1 N m\"", 2, 20, "variants.a.operation.torque", "both given", "remove one of them"),
+    (LIMIT, "[variants.a]\n\"pair.module\" = \"1 mm\"\npair.module = \"2 mm\"", 2, 15, "variants.a.pair.module", "twice", "keep one"),
+    (LIMIT, "[variants.a]\nformat = 1", 1, 1, "variants.a.format", "the format of its case", "remove this key"),
+    (LIMIT, "[variants.a]\npinion = 1", 1, 1, "variants.a.pinion", "unknown key or table", "[driver] and [driven]"),
+    (LIMIT, "[variants.a]\nmodule = \"1 mm\"", 1, 1, "variants.a.module", "unknown key or table", "put it under [pair]"),
+    (LIMIT, "[variants.a]", 0, 11, "variants.a", "changes nothing", "remove the table"),
+    (LIMIT, "[variants.\"a b\"]\nmodel.method = \"exact\"", 0, 11, "variants.a b", "no name of a variant", "letters, digits"),
+    (LIMIT, "[variants]\na = 1", 1, 5, "variants.a", "expected a table of overrides, found a number", "[variants.a]"),
+    ("title = \"Zhou & Chen 2014, Table 1\"", "variants = 1", 0, 12, "variants", "expected the table [variants], found a number", "[variants]"),
+    (LIMIT, "[variants.a]\n\"pair.module\" = 5 mm", 1, 17, "pair.module", "not in quotes", "\"5 mm\""),
     // one field against another
     ("bore_radius = \"20 mm\"", "bore_radius = \"50 mm\"", 0, 15, "driver.bore_radius", "root circle's 43.75 mm", "radius (not a diameter)"),
     ("power = \"15 kW\"", "power = \"15 kW\"\ntorque = \"71.6 N m\"", 1, 10, "operation.torque", "both given", "remove one"),

@@ -10,7 +10,7 @@ use std::time::{Duration, SystemTime};
 use proptest::prelude::*;
 use tipstrike::case::fields::{Kind, index_of};
 use tipstrike::case::file::{MOST_BYTES, ReadError, SaveError};
-use tipstrike::case::{Case, Document, FIELDS, Limit, Spread};
+use tipstrike::case::{Case, Document, FIELDS, Limit, Spread, Variant};
 use tipstrike::model::Stages;
 
 const TABLE_1: &str = include_str!("../../cases/zhou-chen-2014.toml");
@@ -253,6 +253,63 @@ fn other_layouts_of_the_same_case_are_edited_in_place() {
         [operation]\nspeed = \"2000 rpm\"\ntorque = \"70 N m\"\nfriction_coefficient = 0.1\n";
     assert_eq!(document.render(), expected);
     assert_eq!(parsed(&document.render()).case, document.case);
+}
+
+/// Variants in every layout of TOML, with comments.
+const VARIANTS: &str = "
+# what the workshop offers
+[variants.relieved] # longer
+\"driven.tip_relief\" = \"48 um\" # amount
+model.method = \"paper\"
+operation = { speed = \"500 rpm\" }
+
+[variants.slow.operation]
+speed = \"100 rpm\" # crawling
+";
+
+#[test]
+fn changed_variants_are_edited_in_place_and_keep_their_comments() {
+    let text = format!("{TABLE_1}{VARIANTS}");
+    let mut document = parsed(&text);
+    assert_eq!(document.render(), text);
+    let mut edited = document.case.clone();
+    for (key, value) in [
+        ("driven.tip_relief", "30 um"),
+        ("operation.speed", "700 rpm"),
+        ("operation.torque", "50 N m"),
+        ("limits.impact_force", "1 kN"),
+    ] {
+        edited.set(key, value).unwrap();
+    }
+    let variant = Variant::between("relieved", &document.case, &edited);
+    document.case.keep_variant(variant);
+    let expected = text
+        .replace("48 um\" # amount", "30 um\" # amount")
+        .replace("model.method = \"paper\"\n", "")
+        .replace("{ speed = \"500 rpm\" }\n", "{ speed = \"700 rpm\" }\n\"operation.torque\" = \"50 N m\"\n\"limits.impact_force\" = \"1 kN\"\n");
+    assert_eq!(document.render(), expected);
+    assert_eq!(parsed(&document.render()).case, document.case);
+
+    document.case.variants.remove(0);
+    let slow = VARIANTS.split("\n\n").nth(1).unwrap();
+    assert!(document.render().contains(slow), "{}", document.render());
+    assert_eq!(parsed(&document.render()).case, document.case);
+}
+
+#[test]
+fn a_new_variant_goes_to_the_end_and_leaves_the_rest_alone() {
+    let mut document = parsed(TABLE_1);
+    let mut edited = document.case.clone();
+    edited.set("model.deflection", "").unwrap();
+    edited.set("title", "no deflection").unwrap();
+    let variant = Variant::between("computed", &document.case, &edited);
+    document.case.keep_variant(variant);
+    let added = "\n[variants.computed]\ntitle = \"no deflection\"\n\"model.deflection\" = \"\"\n";
+    assert_eq!(document.render(), format!("{TABLE_1}{added}"));
+    assert_eq!(parsed(&document.render()).case, document.case);
+    let template = Document::new(document.case.clone()).render();
+    assert!(template.contains(added), "{template}");
+    assert_eq!(parsed(&template).case, document.case);
 }
 
 #[test]

@@ -11,6 +11,7 @@
 mod bad_files;
 mod case_files;
 mod commands;
+mod compare;
 mod explain;
 mod import_command;
 mod meaning;

@@ -46,6 +46,12 @@ fn the_schema_of_a_case_has_every_field_and_limit() {
             .all(|quantity| limits.contains(quantity.key))
     );
     assert!(properties["spread"]["properties"]["pair.module"]["properties"]["normal"].is_object());
+    let variant = &properties["variants"]["additionalProperties"]["properties"];
+    for field in &FIELDS {
+        assert!(!variant[field.key].is_null(), "{}", field.key);
+    }
+    assert!(variant["driven"]["properties"]["tip_relief"].is_object());
+    assert!(variant["limits.impact_force"].is_object());
     assert_eq!(schema["additionalProperties"], false);
 }
 

@@ -8,7 +8,7 @@ use std::path::Path;
 use proptest::prelude::*;
 use proptest::sample::Index;
 use tipstrike::case::fields::index_of;
-use tipstrike::case::{Case, Document, FIELDS};
+use tipstrike::case::{Case, Document, FIELDS, Variant};
 use tipstrike::cli::{self, Exit, Streams};
 use tipstrike::model::QUANTITIES;
 
@@ -22,6 +22,10 @@ enum Edit {
     Field(usize, String),
     Limit(Index, String),
     Unspread,
+    /// A variant with this override, where the field takes it.
+    Variant(usize, String),
+    /// No variants.
+    Invariant,
 }
 
 #[test]
@@ -229,6 +233,8 @@ fn edits() -> impl Strategy<Value = Vec<Edit>> {
         8 => field_and_text().prop_map(|(field, text)| Edit::Field(field, text)),
         2 => (any::<Index>(), text).prop_map(|(at, text)| Edit::Limit(at, text)),
         1 => Just(Edit::Unspread),
+        1 => field_and_text().prop_map(|(field, text)| Edit::Variant(field, text)),
+        1 => Just(Edit::Invariant),
     ];
     prop::collection::vec(edit, 0..6)
 }
@@ -242,6 +248,15 @@ impl Edit {
                 drop(case.set_limit(QUANTITIES[at.index(QUANTITIES.len())].key, text));
             }
             Edit::Unspread => case.spread.clear(),
+            Edit::Variant(field, text) => {
+                let (mut edited, base) = (case.clone(), case.clone());
+                edited.write(*field, text);
+                let variant = Variant::between("fuzzed", &base, &edited);
+                if edited.check_field(*field).is_ok() && !variant.overrides.is_empty() {
+                    case.keep_variant(variant);
+                }
+            }
+            Edit::Invariant => case.variants.clear(),
         }
     }
 }

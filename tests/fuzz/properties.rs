@@ -294,7 +294,7 @@ pub(crate) fn assert_same(one: &Document, other: &Document) {
             .collect::<Vec<_>>()
     };
     assert_eq!(
-        (limits(one), &one.case.spread),
-        (limits(other), &other.case.spread)
+        (limits(one), &one.case.spread, &one.case.variants),
+        (limits(other), &other.case.spread, &other.case.variants)
     );
 }

@@ -32,6 +32,13 @@ spread."deviations.base_pitch" = { normal = "4 um" }
 [limits]
 "impact_force" = "2500 N"
 dynamic_factor = 1.5
+[variants.relieved] # more relief
+"driven.tip_relief" = "48 um" # amount
+driver.teeth = 2_1
+operation = { torque = "70 N m" }
+spread."deviations.base_pitch" = ""
+[variants.slow.limits]
+impact_force = "900 N"
 "#;
 
 /// What stands on the right of a line.
@@ -52,12 +59,13 @@ const NAMES: [&str; 14] = [
 
 /// What is put in anywhere.
 #[rustfmt::skip]
-const PIECES: [&str; 38] = [
+const PIECES: [&str; 40] = [
     "\u{1b}[2J", "\0", "\u{9b}", "\u{85}", "\u{202e}", "\u{200b}", "\u{feff}", "\u{e0041}", "\u{2028}", "\u{ffa0}", "\u{34f}",
     "\r", "\n", "\t", "\"", "'", "\"\"\"", "'''", "[", "]", "{", "}", "=", "#", ".", ",", "\\", "é", "歯", "e999",
     "\n[driver]\n", "\n[[pair]]\n", "\n[pair.x]\n", "\n[limits]\nimpact_force = \"2 kN\"\n",
     "\n[spread]\n\"driven.teeth\" = { normal = 1 }\n", "\nformat = 2\n", "\n# a comment\n",
     "\n[spread.driver]\nyoung = { uniform = \"1 GPa\" }\n",
+    "\n[variants.a]\n\"driven.tip_relief\" = \"1 um\"\n", "\n[variants.\"ключ\"]\npair.module = \"4 mm\"\n",
 ];
 
 /// One change of a text.

@@ -1,21 +1,19 @@
 //! Changed values put into the text that was read; comments, order and spacing stay.
 
+mod variants;
+
 use toml_edit::{DocumentMut, Item, Key, RawString, Table, TableLike, Value};
 
-use super::template::{self, Entry, entries};
+use super::template::{self, Entry, entries, override_entry};
 use super::{Document, tree};
+use crate::case::{Case, Variant};
 
 /// The document's text with its changes.
 pub(super) fn render(document: &Document) -> String {
     let Some(text) = edited(document) else {
         return template::text(&document.case, &[]);
     };
-    let sorted = |case| {
-        let mut entries = entries(case);
-        entries.sort();
-        entries
-    };
-    let kept = sorted(&tree::read(&text).case) == sorted(&document.case);
+    let kept = content(&tree::read(&text).case) == content(&document.case);
     // If the changes do not fit into the layout, the file gets the default layout; an invalid case
     // keeps its layout.
     if kept || document.case.inputs().is_err() {
@@ -24,6 +22,22 @@ pub(super) fn render(document: &Document) -> String {
         template::text(&document.case, &[])
     }
 }
+
+/// What a case says, in whatever order.
+fn content(case: &Case) -> (Vec<Entry>, Vec<Overrides<'_>>) {
+    let mut entries = entries(case);
+    entries.sort();
+    let overrides = |variant: &'_ Variant| variant.overrides.iter().map(override_entry).collect();
+    let variants = case.variants.iter();
+    let mut variants: Vec<Overrides<'_>> = variants
+        .map(|variant| (variant.name.as_str(), overrides(variant)))
+        .collect();
+    variants.sort();
+    (entries, variants)
+}
+
+/// The name of a variant, and its overrides as a file has them.
+type Overrides<'v> = (&'v str, Vec<(String, String)>);
 
 fn edited(document: &Document) -> Option<String> {
     let mut toml: DocumentMut = document.text.parse().ok()?;
@@ -44,6 +58,7 @@ fn edited(document: &Document) -> Option<String> {
     for entry in after.iter().filter(|entry| !before.contains(entry)) {
         write(table(&mut toml, entry.table)?, entry)?;
     }
+    variants::edit(&mut toml, &document.loaded.variants, &document.case.variants)?;
     Some(with_line_ends_of(&document.text, toml.to_string()))
 }
 
@@ -59,15 +74,17 @@ fn table<'t>(toml: &'t mut DocumentMut, name: &str) -> Option<&'t mut dyn TableL
 
 /// Write an entry, in its place where it has one.
 fn write(table: &mut dyn TableLike, entry: &Entry) -> Option<()> {
-    let mut value: Value = entry.value.parse().ok()?;
-    if let Some(old) = table
-        .get_mut(entry.bare_name())
-        .and_then(Item::as_value_mut)
-    {
+    put(table, entry.bare_name(), &entry.name, &entry.value)
+}
+
+/// Write a value under a key, given as it is and as TOML writes it.
+fn put(table: &mut dyn TableLike, name: &str, key: &str, value: &str) -> Option<()> {
+    let mut value: Value = value.parse().ok()?;
+    if let Some(old) = table.get_mut(name).and_then(Item::as_value_mut) {
         *value.decor_mut() = old.decor().clone();
         *old = value;
     } else {
-        let key = Key::parse(&entry.name).ok()?.pop()?;
+        let key = Key::parse(key).ok()?.pop()?;
         value.decor_mut().clear();
         table.entry_format(&key).or_insert(Item::Value(value));
     }

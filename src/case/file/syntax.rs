@@ -171,6 +171,11 @@ fn field_of(source: &str, line: usize, key: &str) -> Option<&'static Field> {
         .rev()
         .find_map(|line| line.trim().strip_prefix('['));
     let table = header.map_or("", |rest| rest.split(']').next().unwrap_or_default().trim());
+    let table = match table.strip_prefix("variants.") {
+        Some(variant) => variant.split_once('.').map_or("", |(_, table)| table),
+        None => table,
+    };
+    let key = key.trim_matches('"');
     let path = if table.is_empty() {
         key.to_owned()
     } else {

@@ -4,10 +4,10 @@
 use std::fmt::Write;
 
 use super::FORMAT;
-use crate::case::fields::{Absent, FIELDS, FLAG, Field, GROUPS};
+use crate::case::fields::{Absent, FIELDS, FLAG, Field, GROUPS, index_of};
 use crate::case::sanitize::sanitize;
 use crate::case::units::{self, Dimension};
-use crate::case::{Case, check};
+use crate::case::{Case, Override, Variant, check};
 
 /// A key and its value as they stand in a file.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -55,34 +55,47 @@ pub(super) fn entries(case: &Case) -> Vec<Entry> {
         .limits
         .iter()
         .filter(|limit| !limit.text.is_empty())
-        .map(|limit| {
-            let bare = units::parse(&limit.text, Dimension::Number, "").is_ok();
-            let value = if bare {
-                number(&limit.text)
-            } else {
-                string(&limit.text)
-            };
-            Entry {
-                table: "limits",
-                name: limit.quantity.to_owned(),
-                value,
-            }
+        .map(|limited| Entry {
+            table: "limits",
+            name: limited.quantity.to_owned(),
+            value: limit(&limited.text),
         });
-    let spread = case.spread.iter().map(|spread| {
-        let bare = units::parse(&spread.text, Dimension::Number, "").is_ok();
-        let width = if bare {
-            number(&spread.text)
-        } else {
-            string(&spread.text)
-        };
-        let value = format!("{{ {} = {width} }}", spread.shape.name());
-        Entry {
-            table: "spread",
-            name: format!("\"{}\"", spread.field),
-            value,
-        }
+    let spread = case.spread.iter().map(|spread| Entry {
+        table: "spread",
+        name: format!("\"{}\"", spread.field),
+        value: distribution(spread.shape.name(), &spread.text),
     });
     fields.chain(limits).chain(spread).collect()
+}
+
+/// An override of a variant as it stands in its table: the key in quotes, and the value.
+pub(super) fn override_entry(change: &Override) -> (String, String) {
+    let (key, text) = (&change.key, &change.text);
+    let field = index_of(key).map(|field| &FIELDS[field]);
+    let name = if field.is_some_and(|field| field.table().is_empty()) {
+        key.clone()
+    } else {
+        format!("\"{}\"", key.replace('"', ""))
+    };
+    let value = match (field, text.split_once(' ')) {
+        _ if text.is_empty() => string(""),
+        (Some(field), _) => value(field, text),
+        (None, Some((shape, width))) if key.starts_with("spread.") => distribution(shape, width),
+        _ => limit(text),
+    };
+    (name, value)
+}
+
+fn limit(text: &str) -> String {
+    if units::parse(text, Dimension::Number, "").is_ok() {
+        number(text)
+    } else {
+        string(text)
+    }
+}
+
+fn distribution(shape: &str, width: &str) -> String {
+    format!("{{ {shape} = {} }}", limit(width))
 }
 
 /// A commented case; valid where the case is. The comments are for single fields, by their keys.
@@ -119,7 +132,35 @@ pub(super) fn text(case: &Case, comments: &[(&str, String)]) -> String {
         "Distribution of a field around its value, for tolerance.",
         "\"deviations.base_pitch\" = { normal = \"4 um\" }",
     ));
+    text.push_str(&variants(&case.variants));
     text
+}
+
+fn variants(variants: &[Variant]) -> String {
+    let mut text =
+        "\n# Overrides of the case, for compare, --variant and the workbench.\n".to_owned();
+    if variants.is_empty() {
+        text.push_str("# [variants.relieved]\n# \"driven.tip_relief\" = \"48 um\"\n");
+    }
+    for (at, variant) in variants.iter().enumerate() {
+        let blank = if at > 0 { "\n" } else { "" };
+        let _ = writeln!(text, "{blank}[variants.{}]", key_of(&variant.name));
+        for change in &variant.overrides {
+            let (name, value) = override_entry(change);
+            let _ = writeln!(text, "{name} = {value}");
+        }
+    }
+    text
+}
+
+/// A name as a key: in quotes where TOML needs them.
+pub(super) fn key_of(name: &str) -> String {
+    let is_bare = |byte: u8| byte.is_ascii_alphanumeric() || b"-_".contains(&byte);
+    if name.bytes().all(is_bare) {
+        name.to_owned()
+    } else {
+        string(name)
+    }
 }
 
 fn described<'a>(field: &Field, line: &str, comments: impl Iterator<Item = &'a str>) -> String {

@@ -1,6 +1,8 @@
 //! Reads a case from TOML: looks every key up in the table of fields and records its place in the
 //! text.
 
+mod variants;
+
 use std::ops::Range;
 
 use toml::de::{DeTable, DeValue};
@@ -25,7 +27,7 @@ const ENOUGH: usize = 200;
 /// Where a key and its value stand in the text.
 #[derive(Debug, Clone)]
 pub(super) struct Place {
-    /// The field's key, or `limits.…` or `spread."…"`.
+    /// The field's key, or `limits.…`, `spread."…"` or `variants.…`.
     pub(super) key: String,
     /// The value as written.
     pub(super) value: Range<usize>,
@@ -111,6 +113,9 @@ pub(super) fn read(text: &str) -> Reading {
     if !reader.faults.iter().any(is_newer) {
         // What seems to be missing may be in the rest.
         if recovered.tables_known && unread == 0 {
+            if recovered.faults.is_empty() {
+                reader.empty_variants();
+            }
             reader.fields_together(&recovered.broken);
         }
         reader.faults.extend(recovered.faults);
@@ -238,8 +243,9 @@ impl Reader {
         self.places.tables.push((name.to_owned(), value.span()));
         for (key, value) in in_order(table) {
             match name {
-                "limits" => self.limit(key, value),
+                "limits" => self.limit(key.get_ref(), key, value),
                 "spread" => self.spread("", key, value),
+                "variants" => self.variant(key, value),
                 _ => self.member(name, key, value),
             }
         }
@@ -296,8 +302,7 @@ impl Reader {
         self.fault(value.span().start, Problem::of(FIELDS[field].key, misread));
     }
 
-    fn limit(&mut self, key: Key<'_, '_>, value: Value<'_, '_>) {
-        let name = key.get_ref().as_ref();
+    fn limit(&mut self, name: &str, key: Key<'_, '_>, value: Value<'_, '_>) {
         let place = format!("limits.{name}");
         let Some(known) = Quantity::find(name) else {
             return self.unknown(key, || check::unknown_quantity(&place, name));
@@ -326,28 +331,28 @@ impl Reader {
 
     /// A field's spread, under its dotted key in quotes or, just as well, without.
     fn spread(&mut self, above: &str, key: Key<'_, '_>, value: Value<'_, '_>) {
-        let name = key.get_ref().as_ref();
-        let path = if above.is_empty() {
-            name.to_owned()
-        } else {
-            format!("{above}.{name}")
-        };
-        let place = spread::place(&path);
+        let path = joined(above, key.get_ref());
         let table = value.get_ref().as_table();
         if let (Some(table), true) = (table, GROUPS.iter().any(|(group, _)| *group == path)) {
             in_order(table).for_each(|(key, value)| self.spread(&path, key, value));
             return;
         }
-        if index_of(&path).is_none() {
+        self.distribution(&path, key, value);
+    }
+
+    fn distribution(&mut self, path: &str, key: Key<'_, '_>, value: Value<'_, '_>) {
+        let place = spread::place(path);
+        if index_of(path).is_none() {
             return self.unknown(key, || Problem {
                 field: place,
-                ..check::unknown_key(&path)
+                ..check::unknown_key(path)
             });
         }
+        let table = value.get_ref().as_table();
         self.note(&place, value);
         let only = table.and_then(|table| table.iter().next().filter(|_| table.len() == 1));
         let taken = match only.map(|(shape, width)| (shape.get_ref(), scalar(width.get_ref()))) {
-            Some((shape, Some(width))) => Spread::new(&path, shape, &width),
+            Some((shape, Some(width))) => Spread::new(path, shape, &width),
             _ => Err(Problem::new(
                 &place,
                 "this is not a distribution",
@@ -412,8 +417,17 @@ fn in_order<'k, 'i>(table: &'k DeTable<'i>) -> impl Iterator<Item = (Key<'k, 'i>
     members.into_iter()
 }
 
+/// A key behind that of its table.
+fn joined(table: &str, name: &str) -> String {
+    if table.is_empty() {
+        name.to_owned()
+    } else {
+        format!("{table}.{name}")
+    }
+}
+
 fn is_table(name: &str) -> bool {
-    matches!(name, "limits" | "spread")
+    matches!(name, "limits" | "spread" | "variants")
         || GROUPS
             .iter()
             .any(|(group, _)| *group == name && !name.is_empty())

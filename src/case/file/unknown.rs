@@ -24,7 +24,7 @@ pub(super) fn unknown_at_top(name: &str) -> Problem {
         .iter()
         .map(|(table, _)| *table)
         .filter(|table| !table.is_empty())
-        .chain(["limits", "spread", "format", "title", "notes"]);
+        .chain(["limits", "spread", "variants", "format", "title", "notes"]);
     let elsewhere = || {
         FIELDS
             .iter()

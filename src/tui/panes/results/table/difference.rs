@@ -5,14 +5,11 @@ use crate::case::units::system::counted;
 use crate::model::Quantity;
 use crate::model::inputs::Method;
 use crate::report;
+use crate::report::difference::{UNCHANGED, in_percent, is_unchanged, percent};
 use crate::tui::panes::results::Results;
 use crate::tui::panes::results::shown_in;
 use crate::tui::solver::Answer;
 
-/// Below this part of the baseline a difference is rounding.
-const NO_DIFFERENCE: f64 = 5e-6;
-/// A value as in the baseline.
-const UNCHANGED: &str = "unchanged";
 /// Columns of a difference.
 pub(super) const WIDTH: usize = UNCHANGED.len();
 
@@ -27,7 +24,9 @@ pub(super) fn difference(
 ) -> String {
     let now = value(answer, answer.active, quantity);
     match (now, base(pane, answer, quantity).and_then(|(_, base)| base)) {
-        (Some(now), Some(base)) => against(now, base).unwrap_or_else(|| was(base, unit, room)),
+        (Some(now), Some(base)) => {
+            against(quantity, now, base).unwrap_or_else(|| was(base, unit, room))
+        }
         (Some(_), None) => "was none".to_owned(),
         (None, Some(base)) => was(base, unit, room),
         (None, None) => String::new(),
@@ -81,22 +80,12 @@ fn base(pane: &Results<'_>, answer: &Answer, quantity: &Quantity) -> Option<(Met
     ))
 }
 
-// In percent, unless the value is more than so many times the baseline's.
-fn against(now: f64, base: f64) -> Option<String> {
-    const MOST_TIMES: f64 = 10.0;
-    let part = (now - base) / base.abs();
-    if now.to_bits() == base.to_bits() || part.abs() < NO_DIFFERENCE {
+// In percent, where a percentage has a meaning.
+fn against(quantity: &Quantity, now: f64, base: f64) -> Option<String> {
+    if is_unchanged(now, base) {
         return Some(UNCHANGED.to_owned());
     }
-    if !part.is_finite() || now.abs() > MOST_TIMES * base.abs() {
-        return None;
-    }
-    let percent = 100.0 * part;
-    Some(match percent.abs() {
-        size if size >= 100.0 => format!("{percent:+.0} %"),
-        size if size >= 1.0 => format!("{percent:+.1} %"),
-        _ => format!("{percent:+.3} %"),
-    })
+    percent(quantity, now, base).map(in_percent)
 }
 
 #[cfg(test)]
@@ -104,33 +93,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_difference_is_in_percent_of_the_baseline_and_fits() {
-        for (now, base, expected) in [
-            (110.0, 100.0, "+10.0 %"),
-            (99.99, 100.0, "-0.010 %"),
-            (-2.0, -1.0, "-100 %"),
-            (1.0, 1.0, UNCHANGED),
-            (0.0, 0.0, UNCHANGED),
-        ] {
-            assert_eq!(
-                against(now, base).as_deref(),
-                Some(expected),
-                "{now} {base}"
-            );
-            assert!(expected.len() <= WIDTH);
-        }
-    }
-
-    #[test]
-    fn a_value_many_times_the_baseline_shows_the_baseline() {
-        for (now, base, expected) in [
+    fn a_value_many_times_the_baseline_or_that_may_be_negative_shows_the_baseline() {
+        let force = Quantity::find("impact_force").expect("a quantity");
+        for (now, base, told) in [
             (1.0, 0.0, "was 0"),
             (18.0, 0.0169, "was 0.017"),
             (1e9, 1.0, "was 1.00"),
             (500.0, 47.3, "was 47.3"),
         ] {
-            assert_eq!(against(now, base), None, "{now} {base}");
-            assert_eq!(was(base, "1", WIDTH), expected);
+            assert_eq!(against(force, now, base), None, "{now} {base}");
+            assert_eq!(was(base, "1", WIDTH), told);
         }
+        let deviation = Quantity::find("total_deviation").expect("a quantity");
+        assert_eq!(against(deviation, 2e-6, 1e-6), None);
+        assert_eq!(against(force, 2.0, 2.0).as_deref(), Some(UNCHANGED));
     }
 }

@@ -1,0 +1,208 @@
+//! A comparison as text for a person, and as Markdown.
+
+use std::io::{self, Write};
+
+use super::{Column, Comparison, Group, NONE, REFUSED, Row};
+use crate::case::sanitize::sanitize;
+use crate::case::units::System;
+use crate::report::digest;
+use crate::report::layout::{WIDTH, count, item, widest};
+
+impl Comparison {
+    /// Writes the comparison as text, at most 80 columns wide.
+    ///
+    /// # Errors
+    /// What the writer refuses.
+    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        for (at, column) in self.columns.iter().enumerate() {
+            for line in self.heading(at, column) {
+                writeln!(out, "{line}")?;
+            }
+        }
+        let groups: Vec<Group> = std::iter::once(self.inputs())
+            .chain(self.groups())
+            .filter(|group| !group.rows.is_empty())
+            .collect();
+        let layout = Layout::of(&groups, self.columns.len());
+        let others: Vec<usize> = (1..self.columns.len()).collect();
+        for others in others.chunks(layout.others.max(1)) {
+            let is_refused = |at: &&usize| self.columns[**at].found.is_err();
+            let inputs_alone = others.iter().filter(is_refused).count() == others.len();
+            let shown = groups.iter().take(if inputs_alone { 1 } else { groups.len() });
+            for group in shown {
+                writeln!(out, "\n{}", layout.title(group, others))?;
+                for row in &group.rows {
+                    writeln!(out, "{}", layout.line(row, others).trim_end())?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The column's letter, name, title and outcome.
+    fn heading(&self, at: usize, column: &Column) -> Vec<String> {
+        let name = sanitize(&column.name);
+        let (method, outcome) = match &column.found {
+            Ok(report) => (
+                format!(" ({})", report.solution.method.name()),
+                digest::sentence(&report.solution, System::Metric),
+            ),
+            Err(problem) => (String::new(), format!("Refused: {problem}.")),
+        };
+        let mut lines = item(&format!("{}  ", letter(at)), &format!("{name}{method}"));
+        lines.extend(item("   ", &outcome));
+        lines
+    }
+
+    /// Writes the comparison as Markdown.
+    ///
+    /// # Errors
+    /// What the writer refuses.
+    pub fn write_markdown(&self, out: &mut dyn Write) -> io::Result<()> {
+        for (at, column) in self.columns.iter().enumerate() {
+            let words = self.heading(at, column).join(" ");
+            let words: Vec<&str> = words.split_whitespace().skip(1).collect();
+            writeln!(out, "- **{}** {}", letter(at), plain(&words.join(" ")))?;
+        }
+        let all = std::iter::once(self.inputs()).chain(self.groups());
+        for group in all.filter(|group| !group.rows.is_empty()) {
+            writeln!(out, "\n{}", self.table(&group).join("\n"))?;
+        }
+        Ok(())
+    }
+
+    fn table(&self, group: &Group) -> Vec<String> {
+        let mut head = format!("| {} | | A |", group.title);
+        let mut rule = "|---|---|--:|".to_owned();
+        for at in 1..self.columns.len() {
+            let letter = letter(at);
+            head += &format!(" {letter} | {letter} - A |");
+            rule += "--:|--:|";
+        }
+        let line = |row: &Row| {
+            let (label, symbol) = (plain(&row.label), plain(&row.symbol));
+            let mut line = format!("| {label} | {symbol} |");
+            for (at, value) in row.values.iter().enumerate() {
+                line += &format!(" {} |", plain(&with_unit(value, row.unit)));
+                if at > 0 {
+                    line += &format!(" {} |", plain(&row.differences[at]));
+                }
+            }
+            line
+        };
+        [head, rule].into_iter().chain(group.rows.iter().map(line)).collect()
+    }
+}
+
+fn with_unit(value: &str, unit: &str) -> String {
+    if unit.is_empty() || [NONE, REFUSED].contains(&value) {
+        value.to_owned()
+    } else {
+        format!("{value} {unit}")
+    }
+}
+
+/// A text without a sign of Markdown that would break a table.
+fn plain(text: &str) -> String {
+    sanitize(text).replace('|', "\\|").replace('*', "\\*")
+}
+
+/// A to Z, then AA and so on.
+fn letter(at: usize) -> String {
+    let last = char::from(b'A' + (at % 26) as u8);
+    match at / 26 {
+        0 => last.to_string(),
+        more => letter(more - 1) + &last.to_string(),
+    }
+}
+
+/// Widths of the columns, and how many columns stand beside the reference.
+struct Layout {
+    symbol: usize,
+    /// 0 where labels have no room.
+    label: usize,
+    value: usize,
+    difference: usize,
+    unit: usize,
+    others: usize,
+}
+
+impl Layout {
+    fn of(groups: &[Group], columns: usize) -> Layout {
+        let rows = || groups.iter().flat_map(|group| &group.rows);
+        let most = |of: &dyn Fn(&Row) -> usize| rows().map(of).max().unwrap_or(0);
+        let wide = Layout {
+            symbol: 1 + most(&|row| count(&row.symbol)),
+            label: 1 + most(&|row| count(&row.label)),
+            value: 2 + most(&|row| widest(row.values.iter().map(String::as_str))).max(6),
+            difference: 2 + most(&|row| widest(row.differences.iter().map(String::as_str))).max(5),
+            unit: 1 + most(&|row| count(row.unit)),
+            others: columns.saturating_sub(1),
+        };
+        let fitting = |label: usize| {
+            let before = 2 + wide.symbol + label + wide.value + wide.unit;
+            WIDTH.saturating_sub(before) / (wide.value + wide.difference)
+        };
+        if fitting(wide.label) >= wide.others {
+            return wide;
+        }
+        let (with_labels, without) = (fitting(wide.label), fitting(0).max(1));
+        // Labels go where they have no room, or where that saves tables.
+        let tables = |others: usize| wide.others.div_ceil(others.max(1));
+        if with_labels == 0 || tables(without) < tables(with_labels) {
+            return Layout {
+                label: 0,
+                others: without,
+                ..wide
+            };
+        }
+        Layout {
+            others: with_labels,
+            ..wide
+        }
+    }
+
+    fn title(&self, group: &Group, others: &[usize]) -> String {
+        let names = 2 + self.symbol + self.label + self.unit;
+        let mut cells = format!("{:>1$}", "A", self.value);
+        for &at in others {
+            let letter = letter(at);
+            let against = format!("{letter} - A");
+            cells += &format!("{letter:>0$}{against:>1$}", self.value, self.difference);
+        }
+        // A long title keeps its place, and the letters move on.
+        let title = &group.title;
+        if count(title) < names + self.value - 1 {
+            let room = names.saturating_sub(count(title));
+            let blank = " ".repeat(room);
+            let cut = count(title).saturating_sub(names);
+            format!("{title}{blank}{}", &cells[cut..])
+        } else {
+            let blank = " ".repeat(names);
+            format!("{title}\n{blank}{cells}")
+        }
+    }
+
+    fn line(&self, row: &Row, others: &[usize]) -> String {
+        let label = if self.label > 0 { row.label.as_str() } else { "" };
+        let mut line = format!("  {:1$}", row.symbol, self.symbol);
+        line += &format!("{label:0$}{1:2$}", self.label, row.unit, self.unit);
+        line += &format!("{:>1$}", sanitize(&row.values[0]), self.value);
+        for &at in others {
+            let (value, difference) = (sanitize(&row.values[at]), &row.differences[at]);
+            line += &format!("{value:>0$}{difference:>1$}", self.value, self.difference);
+        }
+        line
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::letter;
+
+    #[test]
+    fn letters_go_on_behind_z() {
+        let letters = [0, 25, 26, 27, 52].map(letter);
+        assert_eq!(letters, ["A", "Z", "AA", "AB", "BA"]);
+    }
+}

@@ -1,0 +1,151 @@
+//! Variants of a case, and cases side by side, from a script's side.
+
+use std::fs;
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+const TABLE_1: &str = "cases/zhou-chen-2014.toml";
+
+const VARIANTS: &str = r#"
+[variants.relieved]
+"driven.tip_relief" = "30 um"
+
+[variants.slow]
+operation.speed = "500 rpm"
+operation.torque = "30 N m"
+limits.impact_force = "900 N"
+
+[variants.far.pair]
+centre_distance = "200 mm"
+"#;
+
+fn printed(arguments: &[&str]) -> (i32, String, String) {
+    let Output {
+        status,
+        stdout,
+        stderr,
+    } = Command::new(env!("CARGO_BIN_EXE_tipstrike"))
+        .args(arguments)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (status.code().unwrap(), text(stdout), text(stderr))
+}
+
+/// Table 1 with variants, and its path.
+fn case() -> (TempDir, String) {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("gear.toml");
+    let text = fs::read_to_string(TABLE_1).unwrap();
+    fs::write(&path, text + VARIANTS).unwrap();
+    let path = path.to_str().unwrap().to_owned();
+    (folder, path)
+}
+
+fn json(arguments: &[&str]) -> Value {
+    let (code, text, errors) = printed(arguments);
+    assert_eq!(code, 0, "{errors}");
+    serde_json::from_str(&text).unwrap()
+}
+
+#[test]
+fn each_variant_equals_a_solve_with_its_overrides() {
+    let (_folder, case) = case();
+    let compared = json(&["compare", &case, "--format", "json"]);
+    let columns = compared["columns"].as_array().unwrap();
+    let names: Vec<&Value> = columns.iter().map(|column| &column["variant"]).collect();
+    assert_eq!(names, [&Value::Null, &"relieved".into(), &"slow".into(), &"far".into()]);
+    let of_slow = ["--set", "operation.speed=500 rpm", "--set", "operation.torque=30 N m"];
+    for (column, settings) in [
+        (&columns[0], &[][..]),
+        (&columns[1], &["--set", "driven.tip_relief=30 um"]),
+        (&columns[2], &of_slow),
+    ] {
+        let solved = json(&[&["solve", &case, "--format", "json"], settings].concat());
+        for (key, quantity) in solved["quantities"].as_object().unwrap() {
+            assert_eq!(column["quantities"][key]["value"], quantity["value"], "{key}");
+        }
+        assert_eq!(column["outcome"], solved["outcome"]);
+    }
+    let difference = &columns[1]["quantities"]["total_deviation"];
+    assert!((difference["difference"].as_f64().unwrap() + 30e-6).abs() < 1e-12);
+    assert_eq!(difference.get("percent"), None);
+    assert!(columns[2]["quantities"]["impact_force"]["percent"].as_f64().unwrap() < 0.0);
+}
+
+#[test]
+fn a_refused_variant_keeps_its_column_and_names_the_reason() {
+    let (_folder, case) = case();
+    let (code, text, errors) = printed(&["compare", &case]);
+    assert_eq!(code, 0);
+    assert!(errors.contains(":far: pair.centre_distance: the tips do not reach each other"));
+    assert!(text.contains("Refused: pair.centre_distance"), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    let (code, text, _) = printed(&["compare", &case, "--variant", "far", "--format", "csv"]);
+    assert_eq!(code, 0);
+    assert_eq!(text.lines().nth(2), Some("outcome,,corner-contact,refused,"));
+    let refused = ["compare", &case, "--set", "pair.centre_distance=200 mm"];
+    assert_eq!(printed(&refused).0, 3);
+}
+
+#[test]
+fn cases_and_variants_stand_side_by_side_with_differences_and_units() {
+    let (_folder, case) = case();
+    let only = ["--only", "F_S,total_deviation,u", "--variant", "relieved,slow"];
+    let (_, text, _) = printed(&[&["compare", &case], &only[..]].concat());
+    insta::assert_snapshot!("compare_text", text.replace(&case, "gear.toml"));
+    let (_, text, _) = printed(&[&["compare", &case, "--format", "md"], &only[..]].concat());
+    insta::assert_snapshot!("compare_markdown", text.replace(&case, "gear.toml"));
+    let others = ["compare", TABLE_1, "cases/tip-relief-enough.toml", "--only", "F_S", "--format", "csv"];
+    let (code, text, _) = printed(&others);
+    assert_eq!(code, 0);
+    let names: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+    assert_eq!(names[2..4], [TABLE_1, "cases/tip-relief-enough.toml"]);
+}
+
+#[test]
+fn every_command_that_takes_a_case_takes_a_variant() {
+    let (_folder, case) = case();
+    let page = format!("{case}.md");
+    let vary = ["--vary", "deviations.base_pitch=0..20 um"];
+    for arguments in [
+        &["solve"][..],
+        &["check"],
+        &["plot"],
+        &["stiffness", "--points", "3"],
+        &["sweep", vary[0], vary[1], "--points", "3"],
+        &["seek", vary[0], vary[1], "--until", "impact_force<=1 kN"],
+        &["report", "--out", &page],
+        &["trade", "--within", "5%"],
+    ] {
+        let rest = [&arguments[1..], &["--variant", "releived"]].concat();
+        let (code, _, errors) = printed(&[&[arguments[0], &case], &rest[..]].concat());
+        assert_eq!(code, 2, "{arguments:?}: {errors}");
+        assert!(errors.contains("did you mean relieved?"), "{errors}");
+    }
+    let (_, own, _) = printed(&["explain", "impact_force", &case]);
+    let (code, varied, _) = printed(&["explain", "impact_force", &case, "--variant", "slow"]);
+    assert!(code == 0 && own != varied);
+    let (code, text, _) = printed(&["check", &case, "--variant", "slow"]);
+    assert_eq!(code, 0, "{text}");
+    assert!(text.contains("900") && text.contains("gear.toml:slow"), "{text}");
+    let (code, _, errors) = printed(&["solve", &case, "--variant", "far"]);
+    assert_eq!(code, 3);
+    assert!(errors.contains("variants.far.pair.centre_distance"), "{errors}");
+    assert!(errors.ends_with("(with --variant far)\n"), "{errors}");
+}
+
+#[test]
+fn a_comparison_with_nothing_or_with_an_unknown_variant_is_wrong_usage() {
+    let (code, _, errors) = printed(&["compare", TABLE_1]);
+    assert_eq!(code, 2);
+    assert!(errors.contains("nothing to compare with"), "{errors}");
+    let (_folder, case) = case();
+    let (code, _, errors) = printed(&["compare", &case, "--variant", "lsow"]);
+    assert_eq!(code, 2);
+    assert!(errors.contains("did you mean slow?"), "{errors}");
+}
