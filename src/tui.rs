@@ -43,6 +43,8 @@ pub mod settings;
 #[doc(hidden)]
 pub mod solver;
 #[doc(hidden)]
+pub mod study;
+#[doc(hidden)]
 pub mod store;
 #[doc(hidden)]
 pub mod tab;
@@ -50,6 +52,8 @@ pub mod tab;
 pub mod theme;
 #[doc(hidden)]
 pub mod update;
+#[doc(hidden)]
+pub mod variants;
 #[doc(hidden)]
 pub mod view;
 #[doc(hidden)]
@@ -321,6 +325,8 @@ impl Workbench {
                     Effect::Solve(request) => self.workers.solve(*request),
                     Effect::Measure(measuring) => self.workers.measure(*measuring)?,
                     Effect::CancelWork => self.workers.stop_benchmark(),
+                    Effect::Study(request) => self.workers.study(*request)?,
+                    Effect::CancelStudy => self.workers.stop_study(),
                     Effect::CancelSolve => self.workers.stop_solve(),
                     Effect::Job(job) => self.workers.job(job)?,
                     Effect::Keep(settings) => self.chosen = Some(settings),

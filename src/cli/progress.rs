@@ -2,9 +2,10 @@
 //! terminal, and Ctrl-C.
 
 use crate::study::batch::{Control, Stopped};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use signal_hook::consts::SIGINT;
 use std::cell::Cell;
+use std::fmt;
 use std::io::{self, IsTerminal, Write};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -38,8 +39,13 @@ impl Bar {
     /// The same with the rate.
     pub(super) fn with_rate(what: &'static str) -> Bar {
         let bar = Bar::new(what);
-        let template = "{bar:30} {human_pos}/{human_len} {msg}, {per_sec:.0}, {eta} left";
+        let template = "{bar:30} {human_pos}/{human_len} {msg}, {rate}, {eta} left";
         if let Ok(style) = ProgressStyle::with_template(template) {
+            let rate = |state: &ProgressState, out: &mut dyn fmt::Write| {
+                // A bar that cannot be written is left out.
+                let _ = write!(out, "{}/s", HumanCount(state.per_sec() as u64));
+            };
+            let style = style.with_key("rate", rate);
             bar.shown.set_style(style.progress_chars("=> "));
         }
         bar

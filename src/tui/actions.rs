@@ -17,6 +17,8 @@ use super::store::case_search::Below;
 use super::store::folder::Listing;
 use super::store::preview::{Preview, Viewport};
 use super::store::recents::Recent;
+use super::study::{StudyPart, StudyRequest};
+use super::variants::Variants;
 use crate::case::Document;
 use crate::report::digest::Digest;
 
@@ -46,6 +48,10 @@ pub enum Action {
     Solving(u64, f64),
     /// More is known of a measurement.
     Measured(Box<Measured>),
+    /// The solved variants of a case.
+    Compared(Box<Variants>),
+    /// The next results of a study.
+    Studied(Box<StudyPart>),
     /// The worker failed on the request of that serial.
     SolverFailed(u64),
     /// Long work goes on, or is over.
@@ -102,6 +108,10 @@ pub enum Effect {
     Measure(Box<Measuring>),
     /// Stop the long work.
     CancelWork,
+    /// Compute a study, and send its results as [`Action::Studied`].
+    Study(Box<StudyRequest>),
+    /// Stop the study.
+    CancelStudy,
     /// Stop what is being solved.
     CancelSolve,
     /// Redraw every cell.
@@ -173,6 +183,7 @@ mod tests {
             Place::CHART,
             Place::TEETH,
             Place::TRADE,
+            Place::STUDY,
             Place::READ,
         ] {
             for letter in '!'..='~' {

@@ -16,7 +16,8 @@ use super::layout::{Plan, plan};
 use super::pane::{Pane, Panes};
 use super::panes::chart::{ChartPane, Charts};
 use super::panes::form::Form;
-use super::panes::results::Results;
+use super::panes::results::{self, Results};
+use super::panes::study::{StudyPane, StudyState};
 use super::panes::teeth::{Picture, TeethView};
 use super::panes::title::Title;
 use super::panes::trade::TradePane;
@@ -29,6 +30,7 @@ use super::theme::Look;
 use crate::case::fields::Kind;
 use crate::case::{Case, Document, Problem};
 use crate::model::{Stage, Stages};
+use crate::report;
 use crate::report::graphs::GRAPHS;
 
 /// Everything that the screen shows.
@@ -65,6 +67,12 @@ pub struct App {
     pub teeth: TeethView,
     /// The state of the chart pane.
     pub chart: ChartPane,
+    /// The first variant beside the case in the results; `None` while the methods are shown.
+    pub first_variant: Option<usize>,
+    /// The state of the study pane.
+    pub study: StudyState,
+    /// The serial of the study that runs.
+    pub studying: Option<u64>,
     /// Whether the run plays.
     pub is_playing: bool,
     /// Long work that goes on.
@@ -131,6 +139,9 @@ impl App {
             cursor: None,
             teeth: TeethView::default(),
             chart: ChartPane::default(),
+            first_variant: None,
+            study: StudyState::default(),
+            studying: None,
             is_playing: false,
             progress: None,
             measuring: None,
@@ -237,6 +248,8 @@ impl App {
             state: tab.results,
             answer: tab.answer.as_ref(),
             baseline: self.baseline.as_ref(),
+            variants: tab.variants.as_ref().filter(|_| self.first_variant.is_some()),
+            first_variant: self.first_variant.unwrap_or(0),
             earlier: tab.earlier.as_ref(),
             refusal: tab.refusal.as_ref(),
             problems: &tab.problems,
@@ -264,6 +277,27 @@ impl App {
             look: self.look,
             title: self.title(Pane::Trade),
             area: self.plan().trade,
+        }
+    }
+
+    /// The study pane with the study that it shows.
+    #[must_use]
+    pub fn study(&self) -> StudyPane<'_> {
+        let tab = &self.tab;
+        let answer = tab.answer.as_ref().filter(|_| !tab.is_stale());
+        let present = results::marked(&self.results())
+            .zip(answer)
+            .and_then(|(quantity, answer)| report::value(quantity, answer.of(answer.active)?));
+        StudyPane {
+            state: self.study,
+            study: &tab.study,
+            case: &tab.case,
+            present,
+            units: self.settings.units,
+            marker: self.settings.marker,
+            look: self.look,
+            title: self.title(Pane::Study),
+            area: self.plan().study,
         }
     }
 

@@ -7,6 +7,7 @@ use tui_input::InputRequest;
 use super::keys::{self, Chord, Place};
 use super::pane::Pane;
 use super::panes::chart::ChartCommand;
+use super::panes::study::StudyCommand;
 use super::panes::teeth::TeethCommand;
 use crate::model::inputs::Method;
 
@@ -64,6 +65,9 @@ pub enum Command {
     Play,
     Chart(ChartCommand),
     Teeth(TeethCommand),
+    Study(StudyCommand),
+    Variant,
+    NextVariants,
     CycleMarker,
     ShowCost,
     CycleTheme,
@@ -257,6 +261,7 @@ mod tests {
             Place::CHART,
             Place::TEETH,
             Place::TRADE,
+            Place::STUDY,
         ] {
             for (letter, arrow) in [
                 ('h', KeyCode::Left),

@@ -46,6 +46,8 @@ pub fn perform(effect: Effect, autosave: &mut Autosave) -> Option<Action> {
         | Effect::Measure(_)
         | Effect::CancelWork
         | Effect::CancelSolve
+        | Effect::Study(_)
+        | Effect::CancelStudy
         | Effect::Redraw
         | Effect::Suspend
         | Effect::Quit => None,

@@ -22,7 +22,7 @@ const SIGNS: [&str; 6] = [
     "In the teeth: solid the flanks, bold those of the incoming pair; solid from E to B the path of contact, dashed the line of action, dotted the base circles and, before E, the path of the driven tip; crosses the named points, bold dots where flanks touch.",
 ];
 
-const PLACES: [(&str, Place); 12] = [
+const PLACES: [(&str, Place); 13] = [
     ("Everywhere", Place::WORK),
     ("In a field", Place::TEXT),
     ("Outside a field (Esc leaves one)", Place::FIELD),
@@ -30,6 +30,7 @@ const PLACES: [(&str, Place); 12] = [
     ("In the results", Place::RESULTS),
     ("In chart and teeth", Place::CURSOR),
     ("In accuracy against run time", Place::TRADE),
+    ("In the study", Place::STUDY),
     ("In a list", Place::PICK),
     ("In the list of files", Place::BROWSE),
     ("In a question (or its first letter)", Place::ASK),

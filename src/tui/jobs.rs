@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::store::preview::Viewport;
+use super::variants::VariantsRequest;
 use crate::case::units::System;
 use crate::case::{Case, Document};
 use crate::model::{Inputs, Quantity};
@@ -25,6 +26,8 @@ pub enum Job {
     Explain(Box<Asked>),
     /// Write results to a file.
     Export(Box<Exporting>),
+    /// What the variants of a case give.
+    Variants(Box<VariantsRequest>),
 }
 
 /// A result to be explained.
@@ -81,7 +84,7 @@ pub struct Explained {
 
 impl Job {
     /// How many kinds there are.
-    pub(super) const KINDS: usize = 7;
+    pub(super) const KINDS: usize = 8;
 
     /// The kind and its name. Of a kind the latest job replaces the others.
     pub(super) const fn kind(&self) -> (usize, &'static str) {
@@ -93,6 +96,7 @@ impl Job {
             Job::Explain(_) => (4, "explain"),
             Job::Below(..) => (5, "search"),
             Job::Export(_) => (6, "export"),
+            Job::Variants(_) => (7, "variants"),
         }
     }
 }

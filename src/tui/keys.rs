@@ -8,7 +8,7 @@ pub(in crate::tui) const SHIFT: KeyModifiers = KeyModifiers::SHIFT;
 
 /// Where keys go.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Place(u16);
+pub struct Place(u32);
 
 /// A key with the modifiers held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,13 +46,16 @@ impl Place {
     /// A field of a value, into which nothing is typed yet: what no value begins with is a command
     /// there.
     pub const FRESH: Place = Place(8192);
+    /// The study.
+    pub const STUDY: Place = Place(16384);
     /// A field that takes text or a name.
     pub const FORM: Place = Place::TEXT.or(Place::CHOICE);
     /// The panes in which letters are commands.
     pub const OUTSIDE: Place = Place::FIELD
         .or(Place::RESULTS)
         .or(Place::CURSOR)
-        .or(Place::TRADE);
+        .or(Place::TRADE)
+        .or(Place::STUDY);
     /// Everywhere but in a prompt.
     pub const WORK: Place = Place::FORM.or(Place::OUTSIDE);
     /// Where `/` and `:` are commands.

@@ -42,6 +42,8 @@ pub struct Plan {
     pub teeth: Rect,
     /// Error against time and its title.
     pub trade: Rect,
+    /// The study and its title.
+    pub study: Rect,
     /// What the focused field is, and messages.
     pub hint: Rect,
     pub keys: Rect,
@@ -87,10 +89,9 @@ fn holds(size: Size, least: Size) -> bool {
 
 // Where the teeth have a place of their own, the rest of the lower area is for the others.
 fn beside_teeth(panes: Panes) -> Pane {
-    if panes.lower == Pane::Trade {
-        Pane::Trade
-    } else {
-        Pane::Chart
+    match panes.lower {
+        Pane::Trade | Pane::Study => panes.lower,
+        _ => Pane::Chart,
     }
 }
 
@@ -104,6 +105,7 @@ impl Plan {
             Pane::Chart => self.chart,
             Pane::Teeth => self.teeth,
             Pane::Trade => self.trade,
+            Pane::Study => self.study,
         }
     }
 
@@ -118,7 +120,8 @@ impl Plan {
     /// The pane in whose title the hidden ones are named: the lowest in sight that they could take
     /// the place of.
     pub(crate) fn names_hidden(&self) -> Option<Pane> {
-        [Pane::Trade, Pane::Chart, Pane::Teeth, Pane::Results]
+        let lowest = [Pane::Study, Pane::Trade, Pane::Chart, Pane::Teeth, Pane::Results];
+        lowest
             .into_iter()
             .find(|&pane| !self.area(pane).is_empty())
     }
@@ -130,6 +133,7 @@ impl Plan {
             Pane::Chart => &mut self.chart,
             Pane::Teeth => &mut self.teeth,
             Pane::Trade => &mut self.trade,
+            Pane::Study => &mut self.study,
         }
     }
 
@@ -308,6 +312,7 @@ mod tests {
                         plan.chart,
                         plan.teeth,
                         plan.trade,
+                        plan.study,
                         plan.hint,
                         plan.keys,
                     ];

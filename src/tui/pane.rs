@@ -17,6 +17,8 @@ pub enum Pane {
     Teeth,
     /// Error of every method against its time.
     Trade,
+    /// A field over its range against a result, a map of two fields, the tolerance.
+    Study,
 }
 
 /// What of the panes is on the screen.
@@ -43,15 +45,16 @@ impl Default for Panes {
 
 impl Pane {
     /// Every pane, by its number.
-    pub const ALL: [Pane; 5] = [
+    pub const ALL: [Pane; 6] = [
         Pane::Form,
         Pane::Results,
         Pane::Chart,
         Pane::Teeth,
         Pane::Trade,
+        Pane::Study,
     ];
     /// Those that share the lower area.
-    pub const LOWER: [Pane; 3] = [Pane::Chart, Pane::Teeth, Pane::Trade];
+    pub const LOWER: [Pane; 4] = [Pane::Chart, Pane::Teeth, Pane::Trade, Pane::Study];
 
     /// In a word.
     #[must_use]
@@ -62,6 +65,7 @@ impl Pane {
             Pane::Chart => "Chart",
             Pane::Teeth => "Teeth",
             Pane::Trade => "Trade",
+            Pane::Study => "Study",
         }
     }
 
@@ -81,14 +85,14 @@ impl Pane {
 
     /// Whether it shares the lower area.
     pub(crate) const fn is_lower(self) -> bool {
-        matches!(self, Pane::Chart | Pane::Teeth | Pane::Trade)
+        matches!(self, Pane::Chart | Pane::Teeth | Pane::Trade | Pane::Study)
     }
 
     /// The stages of a solve whose results it shows, as far as the method has them.
     #[must_use]
     pub const fn needs(self) -> Stages {
         match self {
-            Pane::Form | Pane::Trade => Stages::NONE,
+            Pane::Form | Pane::Trade | Pane::Study => Stages::NONE,
             Pane::Results => Stages::CLOSED_FORM
                 .with(Stage::Band)
                 .and(Stages::of(Stage::Resonance))
@@ -110,6 +114,7 @@ impl Pane {
             Pane::Chart => Place::CHART,
             Pane::Teeth => Place::TEETH,
             Pane::Trade => Place::TRADE,
+            Pane::Study => Place::STUDY,
         }
     }
 

@@ -4,6 +4,7 @@
 pub mod chart;
 pub mod form;
 pub mod results;
+pub mod study;
 pub mod teeth;
 pub mod title;
 pub mod trade;

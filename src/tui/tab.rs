@@ -12,6 +12,8 @@ use super::panes::results::ResultsState;
 use super::rows::{self, Row};
 use super::session::recovery::{Access, OpenCase};
 use super::solver::{Answer, Values};
+use super::study::Study;
+use super::variants::Variants;
 use crate::case::{Case, Document, Problem, fields};
 use crate::model::{Inputs, Refusal, Stages};
 
@@ -70,6 +72,12 @@ pub struct Tab {
     pub fitted: Occasion,
     /// What was measured of error and time.
     pub traded: Option<Traded>,
+    /// The solved variants.
+    pub variants: Option<Variants>,
+    /// The request beside which they were asked for.
+    pub variants_asked: u64,
+    /// The study of the case.
+    pub study: Study,
     /// Selection and scrolling of the results.
     pub results: ResultsState,
 }
@@ -120,6 +128,9 @@ impl Tab {
             undone: 0,
             fitted: Occasion::default(),
             traded: None,
+            variants: None,
+            variants_asked: 0,
+            study: Study::default(),
             results: ResultsState::default(),
         }
     }

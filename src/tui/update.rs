@@ -19,9 +19,11 @@ mod panes;
 mod pointer;
 mod recovery;
 mod selection;
+mod study;
 mod tabs;
 mod teeth;
 mod trade;
+mod variants;
 
 use std::mem;
 use std::path::PathBuf;
@@ -73,6 +75,8 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
     settle(app);
     chart::follow_cursor(app, cursor);
     effects.extend(dialogs::preview(app));
+    effects.extend(study::ask(app));
+    effects.extend(variants::request(app));
     effects.extend(trade::stop_unseen(app));
     effects
 }
@@ -118,6 +122,8 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
             baseline::pin(app);
         }
         Action::Measured(measured) => trade::measured(app, *measured),
+        Action::Studied(part) => study::take(app, *part),
+        Action::Compared(found) => variants::take(app, *found),
         Action::SolverFailed(serial) => solver_failed(app, serial),
         Action::Solving(serial, part) => {
             if let Some(tab) = app.tab_of(serial).filter(|tab| !tab.is_settled) {
@@ -192,6 +198,7 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::CycleUnits => options::cycle_units(app),
         Command::Step(by) => edit::step(app, by),
         Command::Limit => catalogue::limit(app),
+        Command::Study(command) => study::run(app, command),
         Command::ToggleMouse => options::toggle_mouse(app),
         other => {
             show(app, other);
@@ -211,6 +218,8 @@ fn show(app: &mut App, command: Command) {
         Command::Material => catalogue::materials(app),
         Command::Notes => page::notes(app),
         Command::CursorTo => cursor::ask(app),
+        Command::Variant => variants::ask(app),
+        Command::NextVariants => variants::next(app),
         Command::NextReason => page::step(app, 1),
         Command::PreviousReason => page::step(app, -1),
         Command::PinBaseline => baseline::toggle(app),

@@ -14,6 +14,7 @@ use super::pane::Pane;
 use super::panes::chart::{Charts, panels};
 use super::panes::form::{self, Form};
 use super::panes::results::{self, Results};
+use super::panes::study::{self, StudyPane};
 use super::panes::teeth;
 use super::panes::trade::{self, TradePane};
 
@@ -103,6 +104,10 @@ fn draw_pane(app: &App, pane: Pane, area: Rect, buffer: &mut Buffer) {
         Pane::Trade => {
             let trade = app.trade();
             trade::draw(&TradePane { area, ..trade }, buffer);
+        }
+        Pane::Study => {
+            let study = app.study();
+            study::draw(&StudyPane { area, ..study }, buffer);
         }
     }
 }

@@ -4,6 +4,7 @@ pub mod jobs;
 pub mod latest;
 pub mod measuring;
 pub mod solving;
+pub mod studying;
 
 use std::io;
 
@@ -12,12 +13,14 @@ use latest::{Send, Worker};
 use super::benchmark::Measuring;
 use super::jobs::Job;
 use super::solver::Request;
+use super::study::StudyRequest;
 
 /// The threads. Those of the benchmark and the jobs start with their first request.
 pub struct Workers {
     send: Send,
     solver: Worker<Request>,
     benchmark: Option<Worker<Measuring>>,
+    study: Option<Worker<StudyRequest>>,
     jobs: [Option<Worker<Job>>; Job::KINDS],
 }
 
@@ -30,6 +33,7 @@ impl Workers {
         Ok(Workers {
             solver: solving::start(Send::clone(&send))?,
             benchmark: None,
+            study: None,
             jobs: [const { None }; Job::KINDS],
             send,
         })
@@ -58,6 +62,23 @@ impl Workers {
         };
         worker.request(measuring);
         Ok(())
+    }
+
+    /// Computes a study, in place of one that runs.
+    ///
+    /// # Errors
+    /// When the system gives no thread.
+    pub fn study(&mut self, request: StudyRequest) -> io::Result<()> {
+        let worker = match &self.study {
+            Some(worker) => worker,
+            None => self.study.insert(studying::start(Send::clone(&self.send))?),
+        };
+        worker.request(request);
+        Ok(())
+    }
+
+    pub(crate) fn stop_study(&self) {
+        self.study.iter().for_each(Worker::stop);
     }
 
     pub(crate) fn stop_benchmark(&self) {

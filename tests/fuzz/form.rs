@@ -433,7 +433,9 @@ impl Bench {
             | Effect::CancelSolve
             | Effect::Redraw
             | Effect::Suspend
-            | Effect::Measure(_) => None,
+            | Effect::Measure(_)
+            | Effect::Study(_)
+            | Effect::CancelStudy => None,
         }
     }
 

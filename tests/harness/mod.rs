@@ -26,11 +26,13 @@ use tipstrike::tui::session::journal_writer::JournalWriter;
 use tipstrike::tui::settings::Settings;
 use tipstrike::tui::store::recents;
 use tipstrike::tui::store::state::State;
+use tipstrike::tui::study::StudyRequest;
 use tipstrike::tui::theme::Look;
 use tipstrike::tui::update::update;
 use tipstrike::tui::worker::jobs;
 use tipstrike::tui::worker::latest::Running;
 use tipstrike::tui::worker::measuring::measure;
+use tipstrike::tui::worker::studying::study;
 use tipstrike::tui::{effects, solver, store, update, view};
 
 pub(crate) const SMALL: Size = Size {
@@ -157,11 +159,12 @@ impl Desk {
                         actions.push(Action::Solved(Box::new(solver::answer(&request))));
                     }
                     Effect::Measure(measuring) => actions.extend(measured(*measuring)),
+                    Effect::Study(request) => actions.extend(studied(&request)),
                     Effect::Quit => self.has_quit = true,
                     Effect::Copy(text) => self.copied = Some(text),
                     Effect::Mouse(takes) => self.has_mouse = takes,
                     Effect::Play(plays) => self.ticks = plays,
-                    Effect::CancelWork | Effect::CancelSolve => self.has_cancelled = true,
+                    Effect::CancelWork | Effect::CancelSolve | Effect::CancelStudy => self.has_cancelled = true,
                     Effect::Redraw => self.has_redrawn = true,
                     Effect::Suspend => self.is_suspended = true,
                     Effect::Keep(settings) => self.kept = Some(settings),
@@ -278,6 +281,19 @@ fn measured(measuring: Measuring) -> Vec<Action> {
         send: &|action| sent.borrow_mut().push(action),
     };
     measure(&once, running);
+    let mut sent = sent.into_inner();
+    sent.reverse();
+    sent
+}
+
+/// All that a study sends, the last first.
+fn studied(request: &StudyRequest) -> Vec<Action> {
+    let sent = RefCell::new(Vec::new());
+    let running = Running {
+        is_wanted: &|| true,
+        send: &|action| sent.borrow_mut().push(action),
+    };
+    study(request, running);
     let mut sent = sent.into_inner();
     sent.reverse();
     sent

@@ -243,6 +243,7 @@ fn tab_goes_round_the_panes_and_letters_are_never_text_there() {
         Pane::Chart,
         Pane::Teeth,
         Pane::Trade,
+        Pane::Study,
         Pane::Form,
     ] {
         desk.keys(&["Tab"]);
@@ -256,7 +257,7 @@ fn tab_goes_round_the_panes_and_letters_are_never_text_there() {
         assert!(!desk.app.tab.is_unsaved());
     }
     desk.keys(&["BackTab"]);
-    assert_eq!(desk.app.panes.focus, Pane::Trade);
+    assert_eq!(desk.app.panes.focus, Pane::Study);
     desk.keys(&["Esc"]);
     assert_eq!(desk.app.panes.focus, Pane::Form);
 }

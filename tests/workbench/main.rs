@@ -34,4 +34,5 @@ mod prompts;
 mod readme_session;
 mod screens;
 mod teeth;
+mod study_pane;
 mod trade_pane;

@@ -18,7 +18,7 @@ fn press(desk: &mut Desk, word: &str) {
 
 #[test]
 fn the_name_of_a_pane_out_of_sight_brings_it() {
-    for size in [SMALL, Size::new(60, 24)] {
+    for size in [SMALL, Size::new(64, 24)] {
         let mut desk = Desk::new(size);
         for (name, title) in [
             ("4 Teeth", "▸ 4 Teeth"),

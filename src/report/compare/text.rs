@@ -15,7 +15,7 @@ impl Comparison {
     /// What the writer refuses.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         for (at, column) in self.columns.iter().enumerate() {
-            for line in self.heading(at, column) {
+            for line in heading(at, column) {
                 writeln!(out, "{line}")?;
             }
         }
@@ -39,28 +39,13 @@ impl Comparison {
         Ok(())
     }
 
-    /// The column's letter, name, title and outcome.
-    fn heading(&self, at: usize, column: &Column) -> Vec<String> {
-        let name = sanitize(&column.name);
-        let (method, outcome) = match &column.found {
-            Ok(report) => (
-                format!(" ({})", report.solution.method.name()),
-                digest::sentence(&report.solution, System::Metric),
-            ),
-            Err(problem) => (String::new(), format!("Refused: {problem}.")),
-        };
-        let mut lines = item(&format!("{}  ", letter(at)), &format!("{name}{method}"));
-        lines.extend(item("   ", &outcome));
-        lines
-    }
-
     /// Writes the comparison as Markdown.
     ///
     /// # Errors
     /// What the writer refuses.
     pub fn write_markdown(&self, out: &mut dyn Write) -> io::Result<()> {
         for (at, column) in self.columns.iter().enumerate() {
-            let words = self.heading(at, column).join(" ");
+            let words = heading(at, column).join(" ");
             let words: Vec<&str> = words.split_whitespace().skip(1).collect();
             writeln!(out, "- **{}** {}", letter(at), plain(&words.join(" ")))?;
         }
@@ -72,26 +57,46 @@ impl Comparison {
     }
 
     fn table(&self, group: &Group) -> Vec<String> {
-        let mut head = format!("| {} | | A |", group.title);
-        let mut rule = "|---|---|--:|".to_owned();
-        for at in 1..self.columns.len() {
-            let letter = letter(at);
-            head += &format!(" {letter} | {letter} - A |");
-            rule += "--:|--:|";
-        }
+        let others = (1..self.columns.len()).map(letter);
+        let others: Vec<String> = others
+            .map(|letter| format!(" {letter} | {letter} - A |"))
+            .collect();
+        let head = format!("| {} | | A |{}", group.title, others.concat());
+        let rule = format!("|---|---|--:|{}", "--:|--:|".repeat(others.len()));
+        let cells = |row: &Row| {
+            let values = row.values.iter().zip(&row.differences).enumerate();
+            let cell = |(at, (value, difference)): (usize, (&String, &String))| {
+                let value = plain(&with_unit(value, row.unit));
+                if at == 0 {
+                    format!(" {value} |")
+                } else {
+                    format!(" {value} | {} |", plain(difference))
+                }
+            };
+            values.map(cell).collect::<String>()
+        };
         let line = |row: &Row| {
             let (label, symbol) = (plain(&row.label), plain(&row.symbol));
-            let mut line = format!("| {label} | {symbol} |");
-            for (at, value) in row.values.iter().enumerate() {
-                line += &format!(" {} |", plain(&with_unit(value, row.unit)));
-                if at > 0 {
-                    line += &format!(" {} |", plain(&row.differences[at]));
-                }
-            }
-            line
+            format!("| {label} | {symbol} |{}", cells(row))
         };
-        [head, rule].into_iter().chain(group.rows.iter().map(line)).collect()
+        let rows = group.rows.iter().map(line);
+        [head, rule].into_iter().chain(rows).collect()
     }
+}
+
+/// The column's letter, name, method and outcome.
+fn heading(at: usize, column: &Column) -> Vec<String> {
+    let name = sanitize(&column.name);
+    let (method, outcome) = match &column.found {
+        Ok(report) => (
+            format!(" ({})", report.solution.method.name()),
+            digest::sentence(&report.solution, System::Metric),
+        ),
+        Err(problem) => (String::new(), format!("Refused: {problem}.")),
+    };
+    let mut lines = item(&format!("{}  ", letter(at)), &format!("{name}{method}"));
+    lines.extend(item("   ", &outcome));
+    lines
 }
 
 fn with_unit(value: &str, unit: &str) -> String {
@@ -164,12 +169,13 @@ impl Layout {
 
     fn title(&self, group: &Group, others: &[usize]) -> String {
         let names = 2 + self.symbol + self.label + self.unit;
-        let mut cells = format!("{:>1$}", "A", self.value);
-        for &at in others {
+        let of = |&at: &usize| {
             let letter = letter(at);
             let against = format!("{letter} - A");
-            cells += &format!("{letter:>0$}{against:>1$}", self.value, self.difference);
-        }
+            format!("{letter:>0$}{against:>1$}", self.value, self.difference)
+        };
+        let others: String = others.iter().map(of).collect();
+        let cells = format!("{:>1$}{others}", "A", self.value);
         // A long title keeps its place, and the letters move on.
         let title = &group.title;
         if count(title) < names + self.value - 1 {
@@ -185,14 +191,14 @@ impl Layout {
 
     fn line(&self, row: &Row, others: &[usize]) -> String {
         let label = if self.label > 0 { row.label.as_str() } else { "" };
-        let mut line = format!("  {:1$}", row.symbol, self.symbol);
-        line += &format!("{label:0$}{1:2$}", self.label, row.unit, self.unit);
-        line += &format!("{:>1$}", sanitize(&row.values[0]), self.value);
-        for &at in others {
+        let (symbol, unit, base) = (&row.symbol, row.unit, sanitize(&row.values[0]));
+        let (first, second, third, fourth) = (self.symbol, self.label, self.unit, self.value);
+        let head = format!("  {symbol:first$}{label:second$}{unit:third$}{base:>fourth$}");
+        let cells = others.iter().map(|&at| {
             let (value, difference) = (sanitize(&row.values[at]), &row.differences[at]);
-            line += &format!("{value:>0$}{difference:>1$}", self.value, self.difference);
-        }
-        line
+            format!("{value:>0$}{difference:>1$}", self.value, self.difference)
+        });
+        head + &cells.collect::<String>()
     }
 }
 

@@ -9,6 +9,7 @@ use crate::model::inputs::Method;
 use crate::tui::keys::{ALT, CTRL, Chord, Place, SHIFT, alt, ctrl, function, key, letter, with};
 use crate::tui::pane::Pane;
 use crate::tui::panes::chart::ChartCommand as Chart;
+use crate::tui::panes::study::StudyCommand as Study;
 use crate::tui::panes::teeth::TeethCommand as Teeth;
 
 // In the status line, the palette and the help.
@@ -68,6 +69,7 @@ pub static BINDINGS: &[Binding] = &[
     // Outside a field, where letters are commands.
     shown(Place::FIELD, &[key(KeyCode::Enter), letter('i')], Do::StartEdit, "edit", "Type into the focused field; Esc leaves it."),
     shown(Place::RESULTS, &[key(KeyCode::Enter)], Do::Explain, "explain", "Explain the selected result."),
+    shown(Place::RESULTS, &[letter('v')], Do::NextVariants, "variants", "Show the variants of the case beside it with their differences, the next ones, or the methods again."),
     shown(Place::TRADE, &[key(KeyCode::Enter)], Do::TakeSetting, "take setting", "Use the selected setting in the case."),
     shown(Place::TRADE, &[letter('m')], Do::Measure, "measure", "Benchmark every method and setting with this case on this machine."),
     shown(Place::TRADE, &[letter('v')], Do::SwitchTradeView, "view", "Switch between the chart of all settings and the table of methods and compliances."),
@@ -95,6 +97,18 @@ pub static BINDINGS: &[Binding] = &[
     shown(Place::TEETH, &[letter('v'), letter('j'), key(KeyCode::Down)], Do::Teeth(Teeth::Centre(1)), "view", "Switch the view of the teeth: strike, pitch point or whole pair."),
     helped(Place::TEETH, &[letter('k'), key(KeyCode::Up)], Do::Teeth(Teeth::Centre(-1)), "Show the previous view."),
     listed(Place::TEETH, &[letter('x')], Do::Teeth(Teeth::Gap), "gap", "Draw the gap between the teeth enlarged by the printed factor, or true to scale."),
+    shown(Place::STUDY, &[key(KeyCode::Enter)], Do::Study(Study::Take), "use value", "Use the value at the cursor in the case."),
+    helped(Place::STUDY, &[letter('h'), key(KeyCode::Left)], Do::Study(Study::Move(-1, 0)), "Move the cursor of the study left."),
+    shown(Place::STUDY, &[letter('l'), key(KeyCode::Right)], Do::Study(Study::Move(1, 0)), "move", "Move the cursor of the study right."),
+    helped(Place::STUDY, &[with(SHIFT, KeyCode::Left)], Do::Study(Study::Move(-10, 0)), "Move the cursor of the study ten points left."),
+    helped(Place::STUDY, &[with(SHIFT, KeyCode::Right)], Do::Study(Study::Move(10, 0)), "Move the cursor of the study ten points right."),
+    helped(Place::STUDY, &[letter('j'), key(KeyCode::Down)], Do::Study(Study::Move(0, -1)), "Move the cursor of the map down, or scroll the tolerance."),
+    helped(Place::STUDY, &[letter('k'), key(KeyCode::Up)], Do::Study(Study::Move(0, 1)), "Move the cursor of the map up, or scroll the tolerance."),
+    shown(Place::STUDY, &[letter('+'), letter('=')], Do::Study(Study::Zoom(1)), "narrower", "Halve the range of the study around the present value."),
+    shown(Place::STUDY, &[letter('-')], Do::Study(Study::Zoom(-1)), "wider", "Double the range of the study, up to the limits of the field."),
+    listed(Place::STUDY, &[letter('0')], Do::Study(Study::Reset), "usual range", "Show the usual range of the study again."),
+    shown(Place::STUDY, &[letter('s')], Do::Study(Study::Second), "second field", "Choose a second field for a map, or go back to the curve."),
+    shown(Place::STUDY, &[letter('d')], Do::Study(Study::Tolerance), "tolerance", "Sample the [spread] of the case, or show the field over its range again."),
     shown_in(Place::OUTSIDE, Place::COMMANDED, &[letter('/')], Do::SearchField, "search", "Find a field or a result by name, symbol, key or a word of its help."),
     shown_in(Place::FIELD, Place::WORK, &[alt('g')], Do::Material, "material", "Give this gear, or both gears, a material of the catalogue."),
     shown_in(Place::RESULTS, Place::OUTSIDE, &[letter('n')], Do::Notes, "notes", "Show the outcome, the limits and every note in full."),
@@ -114,6 +128,7 @@ pub static BINDINGS: &[Binding] = &[
     listed(Place::OUTSIDE, &[letter('3')], Do::Show(Pane::Chart), "chart", "Go to the chart."),
     listed(Place::OUTSIDE, &[letter('4')], Do::Show(Pane::Teeth), "teeth", "Go to the teeth."),
     listed(Place::OUTSIDE, &[letter('5')], Do::Show(Pane::Trade), "trade", "Go to accuracy against run time."),
+    listed(Place::OUTSIDE, &[letter('6')], Do::Show(Pane::Study), "study", "Go to the study: the focused field over its range, against the selected result."),
     helped(Place::FIELD.or(Place::RESULTS), &[letter('j'), key(KeyCode::Down)], Do::Next, "Go to the next line."),
     helped(Place::FIELD.or(Place::RESULTS), &[letter('k'), key(KeyCode::Up)], Do::Previous, "Go to the previous line."),
     helped(Place::FIELD.or(Place::RESULTS), &[letter('l'), key(KeyCode::Right)], Do::NextGroup, "Go to the next group, or page of results."),
@@ -134,7 +149,7 @@ pub static BINDINGS: &[Binding] = &[
     listed(Place::WORK, &[], Do::Method(Method::Dynamic), "method dynamic", "Use the motion with inertia and damping."),
     listed(Place::WORK, &[], Do::Method(Method::Auto), "method auto", "Use the fastest of exact, static and dynamic within the tolerance."),
     shown(Place::WORK, &[ctrl('z')], Do::Undo, "undo", "Undo the last edit."),
-    shown(Place::WORK, &[function(5), alt('p')], Do::CycleLower, "switch", "Switch the lower area: chart, teeth, trade."),
+    shown(Place::WORK, &[function(5), alt('p')], Do::CycleLower, "switch", "Switch the lower area: chart, teeth, trade, study."),
     listed(Place::WORK, &[function(9)], Do::Zoom, "zoom", "Show the focused pane alone, or all panes."),
     listed(Place::WORK, &[function(4), with(CTRL, KeyCode::Down)], Do::ResultsDown, "results down", "Scroll the results down."),
     listed(Place::WORK, &[function(3), with(CTRL, KeyCode::Up)], Do::ResultsUp, "results up", "Scroll the results up."),
@@ -156,6 +171,7 @@ pub static BINDINGS: &[Binding] = &[
     helped(Place::WORK, &[alt('7')], Do::Tab(6), ""),
     helped(Place::WORK, &[alt('8')], Do::Tab(7), ""),
     helped(Place::WORK, &[alt('9')], Do::Tab(8), ""),
+    listed(Place::WORK, &[], Do::Variant, "variant", "Keep the edits since the last save as a variant: variant and its name; without edits, show that variant in the form."),
     listed(Place::WORK, &[alt('e')], Do::NextFault, "next error", "Go to the next field with an error or a missing required value."),
     listed(Place::WORK, &[ctrl('y'), ctrl('r')], Do::Redo, "redo", "Redo the last undone edit."),
     listed(Place::WORK, &[alt('b')], Do::PinBaseline, "baseline", "Pin the results as the baseline to compare with, or unpin them."),

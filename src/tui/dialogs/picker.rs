@@ -19,7 +19,7 @@ use crate::tui::theme::Theme;
 mod item;
 mod state;
 
-pub use item::{Item, Pick};
+pub use item::{Item, Pick, VARIANT};
 pub use state::{Context, List, Picker};
 
 /// A list has so many columns and lines where there is room.

@@ -24,6 +24,7 @@ use crate::tui::rows;
 use crate::tui::solver::{Answer, Values};
 use crate::tui::text;
 use crate::tui::theme::Look;
+use crate::tui::variants::Variants;
 
 /// So many quantities are to be in sight before gauges and notes get more than a line each.
 const ENOUGH_ROWS: usize = 8;
@@ -59,6 +60,10 @@ pub struct Results<'a> {
     pub answer: Option<&'a Answer>,
     /// The pinned results.
     pub baseline: Option<&'a Baseline>,
+    /// The variants, if they stand in place of the methods.
+    pub variants: Option<&'a Variants>,
+    /// The first visible one.
+    pub first_variant: usize,
     /// The values before the last edit.
     pub earlier: Option<&'a Values>,
     /// Why the model refuses the case.
@@ -325,8 +330,23 @@ pub fn in_full(pane: &Results<'_>) -> Vec<String> {
         .notes
         .iter()
         .map(|note| format!("{NOTE}{}.", note.message));
-    let lines = outcome.into_iter().chain(gauges).chain(notes);
+    let lines = outcome.into_iter().chain(gauges).chain(notes).chain(refused_variants(pane));
     lines.flat_map(|line| [line, String::new()]).collect()
+}
+
+// A line for each variant that the model refuses.
+fn refused_variants<'a>(pane: &Results<'a>) -> impl Iterator<Item = String> + use<'a> {
+    let columns = pane.variants.into_iter().flat_map(|variants| &variants.columns);
+    columns.filter_map(|(name, found)| {
+        let reason = found.as_ref().err()?;
+        Some(format!("{NOTE}variant {name} is refused: {reason}."))
+    })
+}
+
+/// How many variants have room beside each other.
+#[must_use]
+pub fn variants_page(pane: &Results<'_>) -> usize {
+    table::variants_page(pane, usize::from(pane.area.width.saturating_sub(1)))
 }
 
 fn draw_lines(lines: &[Line<'static>], area: Rect, buffer: &mut Buffer) {
@@ -417,6 +437,7 @@ fn parts(pane: &Results<'_>) -> Parts {
             .notes
             .iter()
             .map(|note| format!("{NOTE}{}", note.message))
+            .chain(refused_variants(pane))
             .collect();
     }
     let whole = |texts: &[String]| {

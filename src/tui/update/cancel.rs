@@ -1,6 +1,6 @@
 //! What Esc and Ctrl-C end: what is topmost first.
 
-use super::{cursor, edit, files, panes};
+use super::{cursor, edit, files, panes, study};
 use crate::model::Stage;
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
@@ -78,6 +78,7 @@ fn stop(app: &mut App) -> Vec<Effect> {
     });
     measuring
         .into_iter()
+        .chain(study::stop(app))
         .chain(solving.or_else(|| stop_seeking(app)))
         .collect()
 }

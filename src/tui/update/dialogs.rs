@@ -1,11 +1,11 @@
 //! Keys, mouse and results for the topmost dialog, and what follows from its outcome.
 
-use super::{catalogue, cursor, export, files, panes, run, solve, tabs};
+use super::{catalogue, cursor, export, files, panes, run, solve, study, tabs, variants};
 use crate::model::Quantity;
 use crate::tui::actions::{Action, Effect};
 use crate::tui::app::App;
 use crate::tui::dialogs::picker::Pick;
-use crate::tui::dialogs::{Dialog, Outcome, Surroundings};
+use crate::tui::dialogs::{Dialog, Outcome, Prompt, Surroundings};
 
 /// Lets the topmost dialog act. `None` if there is no dialog.
 pub(super) fn with<T>(
@@ -61,13 +61,24 @@ fn decided(app: &mut App, outcome: Outcome) -> Vec<Effect> {
 }
 
 fn pick(app: &mut App, pick: Pick) -> Vec<Effect> {
-    app.prompts.pop();
+    let prompt = app.prompts.pop();
     match pick {
+        Pick::Variant => {
+            let name = match &prompt {
+                Some(Prompt::Pick(picker)) => picker.variant_name().unwrap_or_default(),
+                _ => "",
+            };
+            variants::keep(app, name)
+        }
         Pick::Run(command) => run(app, command),
         Pick::Begin(example) => solve(tabs::begin(app, example)),
         Pick::Make(gears, material) => catalogue::make(app, gears, material),
         Pick::Limit(key) => {
             Quantity::find(key).map_or_else(Vec::new, |quantity| catalogue::hold(app, quantity))
+        }
+        Pick::Second(field) => {
+            study::choose(app, field);
+            Vec::new()
         }
         Pick::Show(key) => {
             panes::show_result(app, key);

@@ -2,12 +2,13 @@
 
 use ratatui::layout::Position;
 
-use super::{chart, cursor, dialogs, edit, page, panes, tabs, teeth};
+use super::{chart, cursor, dialogs, edit, page, panes, study, tabs, teeth};
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::header;
 use crate::tui::pane::Pane;
 use crate::tui::panes::chart::{ChartCommand, panels};
+use crate::tui::panes::study::StudyCommand;
 use crate::tui::panes::teeth::TeethCommand;
 use crate::tui::panes::{form, results};
 
@@ -56,7 +57,7 @@ fn in_pane(app: &mut App, pane: Pane, at: Position) -> Vec<Effect> {
                 return cursor::stop(app);
             }
         }
-        Pane::Teeth | Pane::Trade => panes::show(app, pane),
+        Pane::Teeth | Pane::Trade | Pane::Study => panes::show(app, pane),
     }
     Vec::new()
 }
@@ -86,6 +87,7 @@ pub(super) fn wheel(app: &mut App, at: Position, by: isize) {
         Some(Pane::Results) => app.tab.results.top = results::scrolled(&app.results(), by),
         Some(Pane::Chart) => chart::run(app, ChartCommand::Zoom(nearer)),
         Some(Pane::Teeth) => teeth::run(app, TeethCommand::Zoom(nearer)),
+        Some(Pane::Study) => drop(study::run(app, StudyCommand::Zoom(nearer))),
         Some(Pane::Trade) | None => (),
     }
 }

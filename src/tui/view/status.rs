@@ -19,7 +19,7 @@ use crate::tui::commands::{BINDINGS, Binding};
 use crate::tui::form_aids::materials;
 use crate::tui::keys::Chord;
 use crate::tui::pane::Pane;
-use crate::tui::panes::{chart, results, trade};
+use crate::tui::panes::{chart, results, study, trade};
 use crate::tui::rows::{self, Row};
 use crate::tui::text;
 
@@ -165,6 +165,7 @@ fn focused(app: &App) -> String {
         }),
         Pane::Chart | Pane::Teeth => at_cursor(app),
         Pane::Trade => trade::signs(&app.trade()),
+        Pane::Study => study::hint(&app.study()),
     }
 }
 

@@ -4,13 +4,14 @@ use std::io;
 
 use super::latest::{Send, Worker};
 use crate::case::units::System;
-use crate::case::{Case, EXAMPLES};
-use crate::model::{self, Stages};
+use crate::case::{Case, EXAMPLES, Evaluator};
+use crate::model::{self, Inputs, Refusal, Stages};
 use crate::report::digest::Digest;
 use crate::report::explain;
 use crate::tui::actions::Action;
 use crate::tui::jobs::{Asked, Explained, Job};
 use crate::tui::store::{case_search, export, folder, preview, recents};
+use crate::tui::variants::{Variants, VariantsRequest};
 
 /// Starts the worker of a kind of jobs.
 ///
@@ -49,6 +50,7 @@ pub fn perform(job: Job, go_on: &dyn Fn(f64) -> bool) -> Option<Action> {
             Action::Exported(path, result)
         }
         Job::Explain(asked) => Action::Explained(Box::new(explained(*asked))),
+        Job::Variants(request) => Action::Compared(Box::new(compared(*request, go_on)?)),
     })
 }
 
@@ -61,6 +63,28 @@ fn examples(system: System, go_on: &dyn Fn(f64) -> bool) -> Option<Vec<Digest>> 
         .iter()
         .map(|example| digest(&example.document().case))
         .collect()
+}
+
+// As `tipstrike compare` does it.
+fn compared(request: VariantsRequest, go_on: &dyn Fn(f64) -> bool) -> Option<Variants> {
+    let stages = request.stages;
+    let solved = |inputs: &Inputs| {
+        match Evaluator::default().solve(inputs, inputs.method, stages, go_on) {
+            Err(Refusal::Stopped) => None,
+            found => Some(found.map_err(|refusal| format!("{refusal}: {}", refusal.fix()))),
+        }
+    };
+    let columns = request.columns.into_iter().map(|(name, inputs)| {
+        let found = match &inputs {
+            Ok(inputs) => solved(inputs)?,
+            Err(problem) => Err(problem.clone()),
+        };
+        Some((name, found))
+    });
+    Some(Variants {
+        serial: request.serial,
+        columns: columns.collect::<Option<_>>()?,
+    })
 }
 
 // As `tipstrike explain` does it.

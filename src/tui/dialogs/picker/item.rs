@@ -9,6 +9,8 @@ use crate::tui::commands::{self, Command};
 use crate::tui::form_aids::materials::Material;
 use crate::tui::panes::chart::ChartCommand;
 
+/// Stands before the name of a variant in the list of commands.
+pub const VARIANT: &str = "variant";
 /// The rank of a word that occurs in the description only.
 pub(super) const DESCRIBED: usize = 100;
 
@@ -24,6 +26,10 @@ pub enum Pick {
     Make(&'static [&'static str], &'static Material),
     /// Set a limit on a quantity.
     Limit(&'static str),
+    /// Keep the edits as the variant whose name is typed.
+    Variant,
+    /// Choose the second field of a map.
+    Second(usize),
     /// Start a case from an example.
     Begin(&'static Example),
 }
@@ -45,6 +51,15 @@ pub(super) fn command(binding: &commands::Binding) -> Item {
         name: binding.name.to_owned(),
         about: binding.sentence.to_owned(),
         keys: commands::keys_of(binding.command),
+    }
+}
+
+pub(super) fn variant(name: &str) -> Item {
+    Item {
+        pick: Pick::Variant,
+        name: format!("{VARIANT} {name}"),
+        about: format!("Keep the edits as variant {name}, or show that variant in the form."),
+        keys: String::new(),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::cmp::Reverse;
 
+use crate::case::fields::Kind;
 use crate::case::{EXAMPLES, FIELDS};
 use crate::model::{QUANTITIES, Quantity};
 use crate::report::digest::Digest;
@@ -11,7 +12,8 @@ use crate::tui::form_aids::{materials, search, search_results};
 use crate::tui::line::Line;
 
 use super::item::{
-    DESCRIBED, Item, command, example, field, graph, of_material, quantity, rank, result,
+    DESCRIBED, Item, Pick, VARIANT, command, example, field, graph, of_material, quantity, rank, result,
+    variant,
 };
 
 /// The least similarity of a name that is offered when no name contains the typed words.
@@ -65,6 +67,8 @@ pub enum List {
     Materials(&'static [&'static str]),
     /// Every quantity that may have a limit.
     Limits,
+    /// Every field that a map can vary.
+    SecondField,
     /// The examples, each with its digest as soon as it is there.
     Examples(Vec<Digest>),
 }
@@ -99,6 +103,7 @@ impl Picker {
             List::Materials(["driven"]) => "Material of the driven gear",
             List::Materials(_) => "Material of both gears",
             List::Limits => "Set a limit on a result",
+            List::SecondField => "Second field of the map",
             List::Examples(_) => "New case from an example",
         }
     }
@@ -109,6 +114,9 @@ impl Picker {
     pub fn fitting(&self) -> Vec<Item> {
         if self.list == List::Places {
             return self.places().into_iter().map(|place| place.item).collect();
+        }
+        if let Some(name) = self.variant_name() {
+            return vec![variant(name)];
         }
         let typed = self.input.value().to_lowercase();
         let words: Vec<&str> = typed.split_whitespace().collect();
@@ -148,6 +156,14 @@ impl Picker {
             .chain(described)
             .chain(described_places.into_iter().map(place))
             .collect()
+    }
+
+    /// The name of a variant, typed behind the command.
+    #[must_use]
+    pub fn variant_name(&self) -> Option<&str> {
+        let (command, name) = self.input.value().trim_start().split_once(' ')?;
+        let is_meant = self.list == List::Commands && command == VARIANT;
+        Some(name.trim()).filter(|name| is_meant && !name.is_empty())
     }
 
     // The matching fields and results, the best first. Without a typed word the order of form and
@@ -219,6 +235,13 @@ impl Picker {
                 .map(|material| of_material(gears, material))
                 .collect(),
             List::Limits => QUANTITIES.iter().map(quantity).collect(),
+            List::SecondField => (0..FIELDS.len())
+                .filter(|&at| !matches!(FIELDS[at].kind, Kind::Text))
+                .map(|at| Item {
+                    pick: Pick::Second(at),
+                    ..field(at)
+                })
+                .collect(),
             List::Examples(digests) => EXAMPLES
                 .iter()
                 .enumerate()

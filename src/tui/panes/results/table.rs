@@ -3,12 +3,14 @@
 
 mod columns;
 mod difference;
+mod variants;
 
 use ratatui::style::Style;
 use ratatui::text::Line;
 use unicode_width::UnicodeWidthStr;
 
 pub(super) use difference::compared;
+pub(super) use variants::page as variants_page;
 
 use super::{shown_in, text};
 use crate::model::inputs::Method;
@@ -122,6 +124,9 @@ pub(super) fn row_of(answer: &Answer, line: usize) -> Option<usize> {
 
 /// The whole table in that width.
 pub(super) fn lines(pane: &Results<'_>, answer: &Answer, width: usize) -> Table {
+    if let Some(variants) = pane.variants {
+        return variants::lines(pane, answer, variants, width);
+    }
     let cells: Vec<Cells> = order(answer)
         .map(|quantity| Cells::of(pane, answer, quantity))
         .collect();

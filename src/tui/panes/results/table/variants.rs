@@ -1,0 +1,155 @@
+//! The variants of the case beside the case, each with its difference.
+
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+use unicode_width::UnicodeWidthStr;
+
+use super::{Table, above_heading, order};
+use crate::model::{Quantity, Solution};
+use crate::report::difference::difference;
+use crate::report::groups::FREE_IMPACT;
+use crate::report::{shown_with, unit_beside, value_as_in};
+use crate::tui::ascii::symbol;
+use crate::tui::panes::results::Results;
+use crate::tui::solver::Answer;
+use crate::tui::text;
+use crate::tui::variants::Variants;
+
+/// The least columns of a value and of a difference.
+const LEAST: usize = 7;
+/// A value that does not exist, and one that the model refuses.
+const NONE: &str = "–";
+const REFUSED: &str = "refused";
+
+/// The texts of a row.
+struct Cells {
+    symbol: String,
+    unit: &'static str,
+    own: String,
+    /// The value and the difference of each variant.
+    others: Vec<(String, String)>,
+}
+
+/// Widths of the columns.
+struct Layout {
+    symbol: usize,
+    /// 0 where the values of the case have no room.
+    own: usize,
+    value: usize,
+    difference: usize,
+    unit: usize,
+    /// How many variants have room.
+    count: usize,
+}
+
+/// How many variants have room beside each other.
+pub(in crate::tui::panes::results) fn page(pane: &Results<'_>, width: usize) -> usize {
+    let (Some(answer), Some(variants)) = (pane.answer, pane.variants) else {
+        return 1;
+    };
+    let cells: Vec<Cells> = order(answer).map(|known| Cells::of(pane, answer, variants, known)).collect();
+    Layout::of(&cells, variants, width).count
+}
+
+/// The table of the variants from the first visible one on.
+pub(super) fn lines(pane: &Results<'_>, answer: &Answer, variants: &Variants, width: usize) -> Table {
+    let cells: Vec<Cells> = order(answer).map(|known| Cells::of(pane, answer, variants, known)).collect();
+    let layout = Layout::of(&cells, variants, width);
+    let seen = |of: usize| (pane.first_variant..of).take(layout.count).collect::<Vec<_>>();
+    let seen = seen(variants.columns.len());
+    let theme = pane.look.theme;
+    let mut heading = vec![Span::raw(" ".repeat(layout.symbol))];
+    if layout.own > 0 {
+        heading.push(Span::styled(format!("{:>1$}", "case", layout.own), theme.active));
+    }
+    for &at in &seen {
+        let room = layout.value + layout.difference;
+        let name = text::cut(&variants.columns[at].0, room.saturating_sub(1));
+        heading.push(Span::styled(format!("{name:>room$}"), theme.other));
+    }
+    let line = |cells: &Cells| {
+        let mut spans = vec![Span::raw(text::padded(&cells.symbol, layout.symbol))];
+        if layout.own > 0 {
+            spans.push(Span::styled(format!("{:>1$}", cells.own, layout.own), theme.focus));
+        }
+        for &at in &seen {
+            let (value, difference) = &cells.others[at];
+            spans.push(Span::raw(format!("{value:>0$}", layout.value)));
+            spans.push(Span::styled(format!("{difference:>0$}", layout.difference), theme.baseline));
+        }
+        spans.push(Span::raw(format!(" {}", cells.unit)));
+        Line::from(spans)
+    };
+    let mut rows: Vec<Line<'static>> = cells.iter().map(line).collect();
+    if let Some(above) = above_heading(answer) {
+        let title = text::cut(&format!("{FREE_IMPACT}:"), width);
+        rows.insert(above, Line::styled(title, theme.title));
+    }
+    let faint = if pane.is_stale || variants.serial != answer.serial {
+        theme.faint
+    } else {
+        Style::new()
+    };
+    Table {
+        heading: Line::from(heading),
+        rows: rows.into_iter().map(|row| row.patch_style(faint)).collect(),
+    }
+}
+
+impl Cells {
+    fn of(pane: &Results<'_>, answer: &Answer, variants: &Variants, known: &'static Quantity) -> Cells {
+        let value = |solution: &Solution| {
+            value_as_in(known, solution, answer.active).filter(|value| value.is_finite())
+        };
+        let own = answer.of(answer.active).and_then(value);
+        let found: Vec<Result<Option<f64>, ()>> = variants
+            .columns
+            .iter()
+            .map(|(_, found)| found.as_ref().map(|solution| value(solution)).map_err(|_| ()))
+            .collect();
+        let all = found.iter().filter_map(|found| found.ok().flatten()).chain(own);
+        let unit = unit_beside(known, all, pane.units);
+        let shown = |value: Option<f64>| {
+            value.map_or_else(|| NONE.to_owned(), |value| shown_with(known, value, unit).number)
+        };
+        let cell = |found: &Result<Option<f64>, ()>| match (found, own) {
+            (Ok(Some(value)), Some(own)) => (shown(Some(*value)), difference(known, *value, own, unit)),
+            (Ok(value), _) => (shown(*value), String::new()),
+            (Err(()), _) => (REFUSED.to_owned(), String::new()),
+        };
+        Cells {
+            symbol: symbol(known.symbol_in(answer.active), pane.look.ascii).into_owned(),
+            unit: shown_with(known, own.unwrap_or(0.0), unit).unit,
+            own: shown(own),
+            others: found.iter().map(cell).collect(),
+        }
+    }
+}
+
+impl Layout {
+    fn of(cells: &[Cells], variants: &Variants, width: usize) -> Layout {
+        let most = |of: &dyn Fn(&Cells) -> usize| cells.iter().map(of).max().unwrap_or(0);
+        let others = |of: &dyn Fn(&(String, String)) -> usize| {
+            most(&|cells| cells.others.iter().map(of).max().unwrap_or(0)).max(LEAST)
+        };
+        let all = Layout {
+            symbol: 1 + most(&|cells| cells.symbol.width()),
+            own: 1 + most(&|cells| cells.own.width()).max(LEAST),
+            value: 1 + others(&|cells| cells.0.width()),
+            difference: 1 + others(&|cells| cells.1.width()),
+            unit: 1 + most(&|cells| cells.unit.width()),
+            count: 1,
+        };
+        let fitting = |own: usize| {
+            let rest = width.saturating_sub(all.symbol + own + all.unit);
+            rest / (all.value + all.difference)
+        };
+        match fitting(all.own) {
+            0 => Layout { own: 0, ..all },
+            count => Layout {
+                count: count.min(variants.columns.len().max(1)),
+                ..all
+            },
+        }
+    }
+}

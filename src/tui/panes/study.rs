@@ -1,0 +1,247 @@
+//! The study pane: the focused field over its range against the selected result, two fields as a
+//! map, or the tolerance of the case.
+
+mod curve;
+mod map;
+pub mod range;
+mod words;
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+
+use super::title::Title;
+use crate::case::Case;
+use crate::case::units::System;
+use crate::model::Quantity;
+use crate::study::axis::Axis;
+use crate::tui::study::{Question, Shown, Study};
+use crate::tui::text;
+use crate::tui::theme::Look;
+use ratatui::symbols::Marker;
+
+/// Points of a curve over a range.
+pub const CURVE_POINTS: usize = 101;
+/// The most points of a map, across and up.
+const MOST_CELLS: (u16, u16) = (60, 30);
+/// Columns and rows of a map that are not its cells.
+const MAP_MARGIN: (u16, u16) = (12, 6);
+/// Rows from which on the legend has one of its own.
+const TALL: u16 = 8;
+
+/// The state of the pane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct StudyState {
+    /// Whether the pane shows the tolerance.
+    pub is_tolerance: bool,
+    /// The second field of a map.
+    pub second: Option<usize>,
+    /// How often the ranges are halved; negative where they are doubled.
+    pub zoom: i32,
+    /// The point of the cursor on the first and on the second axis.
+    pub cursor: Option<(usize, usize)>,
+    /// The first visible line of the tolerance.
+    pub top: usize,
+}
+
+/// A change of the pane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StudyCommand {
+    /// Moves the cursor, across and up.
+    Move(isize, isize),
+    /// Halves or doubles the range.
+    Zoom(i32),
+    /// Shows the usual range.
+    Reset,
+    /// Chooses a second field, or leaves the map.
+    Second,
+    /// Shows the tolerance, or the curve again.
+    Tolerance,
+    /// Takes the value under the cursor into the form.
+    Take,
+}
+
+/// The pane with the study that it shows.
+#[derive(Debug, Clone)]
+pub struct StudyPane<'a> {
+    /// The state of the pane.
+    pub state: StudyState,
+    /// The study of the open case.
+    pub study: &'a Study,
+    /// The case in the form.
+    pub case: &'a Case,
+    /// The value of the focused quantity in the present case, in SI.
+    pub present: Option<f64>,
+    /// The display units.
+    pub units: System,
+    /// The marker of curves.
+    pub marker: Marker,
+    /// The capabilities of the terminal.
+    pub look: Look,
+    /// The title line.
+    pub title: Title,
+    /// The area of the pane with its title; empty if the pane is hidden.
+    pub area: Rect,
+}
+
+/// The rooms of legend, plot and words.
+struct Rooms {
+    legend: Rect,
+    plot: Rect,
+    words: Rect,
+}
+
+/// The points of a map in a pane of that area, across and up.
+#[must_use]
+pub fn map_points(area: Rect) -> (usize, usize) {
+    let across = area.width.saturating_sub(MAP_MARGIN.0).clamp(2, MOST_CELLS.0);
+    let up = area.height.saturating_sub(MAP_MARGIN.1).clamp(2, MOST_CELLS.1);
+    (across.into(), up.into())
+}
+
+/// Draws the pane.
+pub fn draw(pane: &StudyPane<'_>, buffer: &mut Buffer) {
+    let room = pane.title.room(pane.area.width);
+    let title = words::title(pane, room);
+    let inner = pane.title.draw(&title, pane.area, buffer);
+    if inner.is_empty() {
+        return;
+    }
+    if let Some(obstacle) = &pane.study.obstacle {
+        return write(obstacle, inner, buffer);
+    }
+    let Some(shown) = &pane.study.shown else {
+        return write("Computing.", inner, buffer);
+    };
+    let Question::Grid(grid) = &shown.request.question else {
+        return draw_page(pane, shown, inner, buffer);
+    };
+    let rooms = rooms(inner);
+    match grid.axes.as_slice() {
+        [across] => curve::draw(pane, shown, across, &rooms, buffer),
+        [up, across] => map::draw(pane, shown, (across, up), &rooms, buffer),
+        _ => {}
+    }
+    let lines = words::below(pane, shown, usize::from(inner.width).saturating_sub(2));
+    for (line, y) in lines.iter().zip(rooms.words.top()..rooms.words.bottom()) {
+        buffer.set_stringn(inner.x + 1, y, line, usize::from(inner.width) - 1, Style::new());
+    }
+}
+
+/// The words on the cursor, for the hint line.
+#[must_use]
+pub fn hint(pane: &StudyPane<'_>) -> String {
+    words::hint(pane)
+}
+
+/// The text of each varied field at the cursor, as a case file has it.
+#[must_use]
+pub fn at_cursor(pane: &StudyPane<'_>) -> Vec<(usize, String)> {
+    let Some(shown) = &pane.study.shown else {
+        return Vec::new();
+    };
+    let (across, up) = axes(shown);
+    let (x, y) = cursor(pane, shown);
+    let text = |axis: &Axis, at: usize| (axis.field, axis.with_unit(at));
+    let first = across.map(|axis| text(axis, x));
+    let second = up.map(|axis| text(axis, y));
+    first.into_iter().chain(second).collect()
+}
+
+/// The cursor moved by so many points, on the axes in sight.
+#[must_use]
+pub fn moved(pane: &StudyPane<'_>, across: isize, up: isize) -> Option<(usize, usize)> {
+    let shown = pane.study.shown.as_ref()?;
+    let last = |axis: Option<&Axis>| axis.map_or(0, |axis| axis.points.len().saturating_sub(1));
+    let (x_axis, y_axis) = axes(shown);
+    let (x, y) = cursor(pane, shown);
+    Some((
+        x.saturating_add_signed(across).min(last(x_axis)),
+        y.saturating_add_signed(up).min(last(y_axis)),
+    ))
+}
+
+/// The first and the second axis.
+fn axes(shown: &Shown) -> (Option<&Axis>, Option<&Axis>) {
+    match &shown.request.question {
+        Question::Grid(grid) => {
+            let second = grid.axes.first().filter(|_| grid.axes.len() == 2);
+            (grid.axes.last(), second)
+        }
+        Question::Tolerance(_) => (None, None),
+    }
+}
+
+/// The point of the cursor; without one that of the present case.
+fn cursor(pane: &StudyPane<'_>, shown: &Shown) -> (usize, usize) {
+    let (across, up) = axes(shown);
+    let at = |axis: Option<&Axis>, chosen: Option<usize>| {
+        let own = || axis.and_then(|axis| range::nearest(axis, pane.case));
+        let last = axis.map_or(0, |axis| axis.points.len().saturating_sub(1));
+        chosen.or_else(own).unwrap_or(0).min(last)
+    };
+    let chosen = pane.state.cursor;
+    (
+        at(across, chosen.map(|chosen| chosen.0)),
+        at(up, chosen.map(|chosen| chosen.1)),
+    )
+}
+
+/// The quantity of the first layer.
+fn quantity(shown: &Shown) -> Option<&'static Quantity> {
+    match &shown.request.question {
+        Question::Grid(grid) => grid.layers.first()?.quantity(),
+        Question::Tolerance(question) => Quantity::find(question.quantity),
+    }
+}
+
+fn rooms(inner: Rect) -> Rooms {
+    let legend = u16::from(inner.height >= TALL);
+    let words = inner.height.min(if inner.height >= TALL { 2 } else { 1 });
+    let plot = Rect {
+        y: inner.y + legend,
+        height: inner.height.saturating_sub(legend + words),
+        ..inner
+    };
+    Rooms {
+        legend: Rect {
+            height: legend,
+            ..inner
+        },
+        plot,
+        words: Rect {
+            y: plot.bottom(),
+            height: words,
+            ..inner
+        },
+    }
+}
+
+/// The page of a tolerance study from its first visible line on.
+fn draw_page(pane: &StudyPane<'_>, shown: &Shown, inner: Rect, buffer: &mut Buffer) {
+    if shown.page.is_empty() {
+        return write("Sampling.", inner, buffer);
+    }
+    let last = shown.page.len().saturating_sub(usize::from(inner.height));
+    let lines = shown.page.iter().skip(pane.state.top.min(last));
+    for (line, y) in lines.zip(inner.top()..inner.bottom()) {
+        let width = usize::from(inner.width).saturating_sub(1);
+        buffer.set_stringn(inner.x + 1, y, text::cut(line, width), width, Style::new());
+    }
+}
+
+/// The first visible line of the page after so many lines downwards.
+#[must_use]
+pub fn scrolled(pane: &StudyPane<'_>, by: isize) -> usize {
+    let lines = pane.study.shown.as_ref().map_or(0, |shown| shown.page.len());
+    let rows = usize::from(pane.area.height.saturating_sub(1));
+    let top = pane.state.top.saturating_add_signed(by);
+    top.min(lines.saturating_sub(rows))
+}
+
+fn write(words: &str, area: Rect, buffer: &mut Buffer) {
+    let width = usize::from(area.width).saturating_sub(2);
+    for (line, y) in text::wrap(words, width).iter().zip(area.top()..area.bottom()) {
+        buffer.set_stringn(area.x + 1, y, line, width, Style::new());
+    }
+}

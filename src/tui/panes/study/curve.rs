@@ -1,0 +1,323 @@
+//! A quantity over one field: the methods overlaid, the baseline behind them, gaps without contact.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::{Color, Style};
+use ratatui::symbols::Marker;
+use ratatui::widgets::Widget;
+use ratatui::widgets::canvas::{Canvas, Line, Points};
+use unicode_width::UnicodeWidthStr;
+
+use super::{Rooms, StudyPane, cursor, quantity, range};
+use crate::model::Outcome;
+use crate::model::inputs::Method;
+use crate::report::unit_beside;
+use crate::study::axis::Axis;
+use crate::study::batch::PointOutcome;
+use crate::tui::panes::chart::axes::put_where_free;
+use crate::tui::scale::{Span, bounds};
+use crate::tui::study::{Layer, LayerFound, Question, Shown, Whose};
+
+/// Marks the cells of a curve until they get its style.
+const OWN: Color = Color::Indexed(1);
+/// The smallest plot.
+const LEAST: (u16, u16) = (12, 2);
+/// Columns between labels below the plot.
+const LABEL_ROOM: u16 = 10;
+
+/// A plot with its axes.
+struct Plot<'a> {
+    pane: &'a StudyPane<'a>,
+    shown: &'a Shown,
+    axis: &'a Axis,
+    cells: Rect,
+    across: Span,
+    upright: Span,
+    factor: f64,
+}
+
+pub(super) fn draw(
+    pane: &StudyPane<'_>,
+    shown: &Shown,
+    axis: &Axis,
+    rooms: &Rooms,
+    buffer: &mut Buffer,
+) {
+    let Question::Grid(grid) = &shown.request.question else {
+        return;
+    };
+    let layers: Vec<(&Layer, &LayerFound)> = grid.layers.iter().zip(&shown.layers).collect();
+    draw_legend(pane, &layers, rooms.legend, buffer);
+    let all = || layers.iter().flat_map(|(_, found)| found.values.iter().flatten().copied());
+    let Some(known) = quantity(shown) else { return };
+    let unit = unit_beside(known, all(), pane.units);
+    let factor = crate::case::units::factor(unit).unwrap_or(1.0);
+    let values = all().fold(Span::NONE, |span, value| span.with(value / factor));
+    let upright = Span::default().refit(values);
+    let ticks = upright.ticks(rooms.plot.height.saturating_sub(1) / 2);
+    let margin = ticks.labelled.iter().map(|(_, label)| label.len()).max().unwrap_or(0) as u16 + 3;
+    let cells = Rect {
+        x: rooms.plot.x + margin,
+        width: rooms.plot.width.saturating_sub(margin + 2),
+        height: rooms.plot.height.saturating_sub(2),
+        ..rooms.plot
+    };
+    if cells.width < LEAST.0 || cells.height < LEAST.1 {
+        return;
+    }
+    let plot = Plot {
+        pane,
+        shown,
+        axis,
+        cells,
+        across: across(axis),
+        upright,
+        factor,
+    };
+    plot.frame(&ticks.labelled, buffer);
+    if !values.is_empty() || all().next().is_some() {
+        // The active method lies on top.
+        for (layer, found) in layers.iter().rev() {
+            plot.curve(layer, found, buffer);
+        }
+    }
+    if let Some((_, found)) = layers.first() {
+        plot.gaps(found, buffer);
+    }
+    plot.marks(buffer);
+}
+
+/// The axis: its numbers, or the places of choices.
+fn across(axis: &Axis) -> Span {
+    let last = axis.points.len().saturating_sub(1);
+    let span = Span::new(x(axis, 0), x(axis, last));
+    if span.is_empty() {
+        Span::new(span.from - 0.5, span.to + 0.5)
+    } else {
+        span
+    }
+}
+
+/// The place of a point on the axis.
+fn x(axis: &Axis, at: usize) -> f64 {
+    axis.points.get(at).and_then(|point| point.number).unwrap_or(at as f64)
+}
+
+impl Plot<'_> {
+    fn column(&self, x: f64) -> Option<u16> {
+        let part = self.across.part(x);
+        let width = f64::from(self.cells.width.saturating_sub(1));
+        (-1e-9..=1.0 + 1e-9)
+            .contains(&part)
+            .then(|| self.cells.x + (width * part.clamp(0.0, 1.0)).round() as u16)
+    }
+
+    fn row(&self, y: f64) -> u16 {
+        let height = f64::from(self.cells.height) - 1e-6;
+        let part = (1.0 - self.upright.part(y)).clamp(0.0, 1.0);
+        self.cells.y + (part * height).floor() as u16
+    }
+
+    fn frame(&self, ticks: &[(f64, String)], buffer: &mut Buffer) {
+        let (cells, rule) = (self.cells, self.pane.look.theme.rule);
+        let (left, bottom) = (cells.x - 1, cells.bottom());
+        for y in cells.top()..bottom {
+            buffer.set_string(left, y, "│", rule);
+        }
+        buffer.set_string(left, bottom, "└", rule);
+        buffer.set_string(cells.x, bottom, "─".repeat(cells.width.into()), rule);
+        for (value, label) in ticks {
+            let y = self.row(*value);
+            buffer.set_string(left, y, "┤", rule);
+            buffer.set_string(left - 1 - label.len() as u16, y, label, Style::new());
+        }
+        let mut free = cells.x.saturating_sub(1);
+        for (value, label) in self.labels() {
+            let Some(column) = self.column(value) else { continue };
+            let width = label.width() as u16;
+            let start = column.saturating_sub(width / 2);
+            let start = start.min((cells.right() + 2).saturating_sub(width));
+            if start >= free {
+                buffer.set_string(column, bottom, "┴", rule);
+                buffer.set_string(start, bottom + 1, &label, Style::new());
+                free = start + width + 1;
+            }
+        }
+    }
+
+    /// The labels below the plot: multiples of 1, 2 or 5, or the names of choices.
+    fn labels(&self) -> Vec<(f64, String)> {
+        if self.axis.points.iter().any(|point| point.number.is_none()) {
+            let names = self.axis.points.iter().enumerate();
+            return names.map(|(at, point)| (x(self.axis, at), point.text.clone())).collect();
+        }
+        let ticks = self.across.ticks(self.cells.width / LABEL_ROOM);
+        let scale = 10f64.powi(ticks.power);
+        let plain = |(value, label): (f64, String)| {
+            let is_scaled = ticks.power != 0;
+            let number = crate::numeric::decimal::significant(value, 6);
+            let shortest = number.parse::<f64>().map_or(number, |number| number.to_string());
+            (value, if is_scaled { shortest } else { label })
+        };
+        debug_assert!(scale > 0.0);
+        ticks.labelled.into_iter().map(plain).collect()
+    }
+
+    fn curve(&self, layer: &Layer, found: &LayerFound, buffer: &mut Buffer) {
+        let points = found.values.iter().enumerate();
+        let points: Vec<Option<(f64, f64)>> = points
+            .map(|(at, value)| Some((x(self.axis, at), (*value)? / self.factor)))
+            .collect();
+        let (marker, style) = look(self.pane, layer.whose);
+        let joined = self.axis.points.iter().all(|point| point.number.is_some());
+        let widened = |span: Span| {
+            let rounding = 1e-8 * span.length();
+            bounds(span.from - rounding, span.to + rounding)
+        };
+        let canvas = Canvas::default()
+            .marker(marker)
+            .x_bounds(widened(self.across))
+            .y_bounds(widened(self.upright))
+            .paint(|context| {
+                for (at, point) in points.iter().enumerate() {
+                    let Some(point) = point else { continue };
+                    let next = points.get(at + 1).copied().flatten().filter(|_| joined);
+                    match next {
+                        Some(next) => {
+                            context.draw(&Line::new(point.0, point.1, next.0, next.1, OWN));
+                        }
+                        None => context.draw(&Points {
+                            coords: &[*point],
+                            color: OWN,
+                        }),
+                    }
+                }
+            });
+        canvas.render(self.cells, buffer);
+        for position in self.cells.positions() {
+            if let Some(cell) = buffer.cell_mut(position).filter(|cell| cell.fg == OWN || cell.bg == OWN) {
+                if cell.bg == OWN {
+                    cell.set_symbol("█");
+                }
+                (cell.fg, cell.bg) = (Color::Reset, Color::Reset);
+                cell.set_style(style);
+            }
+        }
+    }
+
+    /// Signs on the axis where the active method has no value: no contact, or refused.
+    fn gaps(&self, found: &LayerFound, buffer: &mut Buffer) {
+        for (at, outcome) in found.outcomes.iter().enumerate() {
+            let sign = match outcome {
+                PointOutcome::Refused => "×",
+                PointOutcome::Solved(Outcome::NoCornerContact) if found.values[at].is_none() => "·",
+                PointOutcome::Solved(_) => continue,
+            };
+            if let Some(column) = self.column(x(self.axis, at)) {
+                let style = self.pane.look.theme.note;
+                buffer.set_string(column, self.cells.bottom() - 1, sign, style);
+            }
+        }
+    }
+
+    /// The limit, the present value and the cursor.
+    fn marks(&self, buffer: &mut Buffer) {
+        let theme = self.pane.look.theme;
+        let limit = self.limit().filter(|limit| (0.0..=1.0).contains(&self.upright.part(*limit)));
+        if let Some(limit) = limit {
+            for x in self.cells.left()..self.cells.right() {
+                put_where_free((x, self.row(limit)), "╌", theme.rule, buffer);
+            }
+        }
+        let present = match range::present(self.axis, self.pane.case) {
+            Some(number) => Some(number),
+            None => range::nearest(self.axis, self.pane.case).map(|at| x(self.axis, at)),
+        };
+        if let Some(column) = present.and_then(|present| self.column(present)) {
+            for y in self.cells.top()..self.cells.bottom() {
+                put_where_free((column, y), "│", theme.faint, buffer);
+            }
+            if let Some(value) = self.pane.present {
+                let y = self.row(value / self.factor);
+                buffer.set_string(column, y, "●", theme.focus);
+            }
+        }
+        let (at, _) = cursor(self.pane, self.shown);
+        if let Some(column) = self.column(x(self.axis, at)) {
+            for y in self.cells.top()..self.cells.bottom() {
+                put_where_free((column, y), "┊", theme.faint, buffer);
+            }
+            buffer.set_string(column, self.cells.bottom(), "▴", theme.focus);
+        }
+    }
+
+    fn limit(&self) -> Option<f64> {
+        let key = quantity(self.shown)?.key;
+        let limit = self.pane.case.limits.iter().find(|limit| limit.quantity == key)?;
+        limit.value.is_finite().then(|| limit.value / self.factor)
+    }
+}
+
+/// The marker and the style of a curve.
+fn look(pane: &StudyPane<'_>, whose: Whose) -> (Marker, Style) {
+    let theme = pane.look.theme;
+    let plain = pane.look.ascii;
+    match whose {
+        Whose::Active(_) if plain => (Marker::Custom('*'), theme.active),
+        Whose::Active(_) => (pane.marker, theme.active),
+        Whose::Baseline => (Marker::Custom('+'), theme.baseline),
+        Whose::Other(method) => {
+            let sign = match method {
+                Method::Paper => ['.', '·'],
+                Method::Static => ['x', '×'],
+                Method::Dynamic => ['d', '◦'],
+                Method::Exact | Method::Auto => ['o', '∘'],
+            };
+            (Marker::Custom(sign[usize::from(!plain)]), theme.other)
+        }
+    }
+}
+
+/// The sign of a curve in the legend.
+fn sign(pane: &StudyPane<'_>, whose: Whose) -> String {
+    match look(pane, whose).0 {
+        Marker::Custom(sign) => sign.to_string(),
+        _ => "━".to_owned(),
+    }
+}
+
+fn draw_legend(
+    pane: &StudyPane<'_>,
+    layers: &[(&Layer, &LayerFound)],
+    area: Rect,
+    buffer: &mut Buffer,
+) {
+    let mut x = area.x + 1;
+    let mut put = |words: &str, style: Style| {
+        let width = words.width() as u16;
+        if !area.is_empty() && x + width < area.right() {
+            buffer.set_string(x, area.y, words, style);
+            x += width + 2;
+        }
+    };
+    for (layer, found) in layers {
+        if found.values.iter().all(Option::is_none) && !matches!(layer.whose, Whose::Active(_)) {
+            continue;
+        }
+        let name = match layer.whose {
+            Whose::Active(method) | Whose::Other(method) => method.name(),
+            Whose::Baseline => "baseline",
+        };
+        let (_, style) = look(pane, layer.whose);
+        put(&format!("{} {name}", sign(pane, layer.whose)), style);
+    }
+    put("● now", pane.look.theme.focus);
+    put("▴ cursor", pane.look.theme.focus);
+    let has = |sought: PointOutcome| layers.iter().any(|(_, found)| found.outcomes.contains(&sought));
+    if has(PointOutcome::Solved(Outcome::NoCornerContact)) {
+        put("· no contact", pane.look.theme.note);
+    }
+    if has(PointOutcome::Refused) {
+        put("× refused", pane.look.theme.note);
+    }
+}

@@ -1,0 +1,247 @@
+//! A quantity over two fields: a cell for each point, contours of the limit and of no contact.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::{Modifier, Style};
+use unicode_width::UnicodeWidthStr;
+
+use super::{Rooms, StudyPane, cursor, quantity, range};
+use crate::model::{Outcome, Quantity};
+use crate::report::{shown_with, unit_beside};
+use crate::study::axis::Axis;
+use crate::study::batch::PointOutcome;
+use crate::tui::scale::Span;
+use crate::tui::study::{LayerFound, Shown};
+
+/// Shades from the least to the greatest value, with and without Unicode.
+const SHADES: [[&str; 5]; 2] = [[" ", "░", "▒", "▓", "█"], [".", ":", "=", "%", "#"]];
+const SHADES_WITH_DOT: [&str; 5] = ["∙", "░", "▒", "▓", "█"];
+/// The sign of a refused point, of the limit and of the edge of contact.
+const REFUSED: &str = "×";
+const LIMIT: &str = "+";
+const EDGE: &str = "o";
+
+struct Map<'a> {
+    pane: &'a StudyPane<'a>,
+    found: &'a LayerFound,
+    across: &'a Axis,
+    up: &'a Axis,
+    cells: Rect,
+    values: Span,
+    limit: Option<f64>,
+}
+
+pub(super) fn draw(
+    pane: &StudyPane<'_>,
+    shown: &Shown,
+    (across, up): (&Axis, &Axis),
+    rooms: &Rooms,
+    buffer: &mut Buffer,
+) {
+    let (Some(found), Some(known)) = (shown.layers.first(), quantity(shown)) else {
+        return;
+    };
+    let labels = [0, up.points.len() - 1].map(|at| up.points[at].text.width());
+    let margin = labels.into_iter().max().unwrap_or(0).max(5) as u16 + 2;
+    let cells = Rect {
+        x: rooms.plot.x + margin,
+        y: rooms.plot.y,
+        width: rooms.plot.width.saturating_sub(margin + 1).min(across.points.len() as u16),
+        height: rooms.plot.height.saturating_sub(2).min(up.points.len() as u16),
+    };
+    if cells.width < 2 || cells.height < 2 {
+        return;
+    }
+    let all = found.values.iter().flatten().copied();
+    let limit = pane.case.limits.iter().find(|limit| limit.quantity == known.key);
+    let map = Map {
+        pane,
+        found,
+        across,
+        up,
+        cells,
+        values: all.clone().fold(Span::NONE, Span::with),
+        limit: limit.map(|limit| limit.value).filter(|value| value.is_finite()),
+    };
+    map.frame(buffer);
+    for (column, row) in positions(cells) {
+        let (symbol, style) = map.cell(column, row);
+        buffer.set_string(cells.x + column, cells.y + row, symbol, style);
+    }
+    map.marks(shown, buffer);
+    let unit = unit_beside(known, all, pane.units);
+    map.legend((known, unit), rooms.legend, buffer);
+}
+
+fn positions(cells: Rect) -> impl Iterator<Item = (u16, u16)> {
+    (0..cells.height).flat_map(move |row| (0..cells.width).map(move |column| (column, row)))
+}
+
+impl Map<'_> {
+    /// The place of a cell on its axis: the first and the last cell show the ends.
+    fn at(cell: u16, cells: u16, points: usize) -> usize {
+        let last = f64::from(cells.max(2) - 1);
+        (f64::from(cell) / last * (points - 1) as f64).round() as usize
+    }
+
+    /// The cell of a point.
+    fn of(point: usize, cells: u16, points: usize) -> u16 {
+        let last = (points.max(2) - 1) as f64;
+        (point as f64 / last * f64::from(cells - 1)).round() as u16
+    }
+
+    fn index(&self, column: u16, row: u16) -> usize {
+        let x = Map::at(column, self.cells.width, self.across.points.len());
+        let below = self.cells.height - 1 - row;
+        let y = Map::at(below, self.cells.height, self.up.points.len());
+        y * self.across.points.len() + x
+    }
+
+    fn value(&self, column: u16, row: u16) -> Option<f64> {
+        self.found.values.get(self.index(column, row)).copied().flatten()
+    }
+
+    fn outcome(&self, column: u16, row: u16) -> Option<PointOutcome> {
+        self.found.outcomes.get(self.index(column, row)).copied()
+    }
+
+    fn cell(&self, column: u16, row: u16) -> (&'static str, Style) {
+        let theme = self.pane.look.theme;
+        match self.outcome(column, row) {
+            None => (" ", Style::new()),
+            Some(PointOutcome::Refused) => (REFUSED, theme.problem),
+            Some(PointOutcome::Solved(_)) if self.is_on_limit(column, row) => {
+                (LIMIT, theme.problem)
+            }
+            Some(PointOutcome::Solved(outcome)) => match self.value(column, row) {
+                Some(value) => (self.shade(value), theme.active),
+                None if self.is_on_edge(column, row, outcome) => (EDGE, theme.note),
+                None => (" ", Style::new()),
+            },
+        }
+    }
+
+    fn shade(&self, value: f64) -> &'static str {
+        let part = if self.values.is_empty() {
+            0.5
+        } else {
+            self.values.part(value)
+        };
+        let shades = if self.pane.look.ascii {
+            &SHADES[1]
+        } else {
+            &SHADES_WITH_DOT
+        };
+        let last = shades.len() - 1;
+        shades[((part * shades.len() as f64) as usize).min(last)]
+    }
+
+    /// Whether the value exceeds the limit beside a point that does not.
+    fn is_on_limit(&self, column: u16, row: u16) -> bool {
+        let Some(limit) = self.limit else {
+            return false;
+        };
+        let exceeds = |column, row| self.value(column, row).map(|value| value > limit);
+        exceeds(column, row) == Some(true)
+            && self.beside(column, row).any(|(column, row)| {
+                self.outcome(column, row).is_some() && exceeds(column, row) != Some(true)
+            })
+    }
+
+    /// Whether a point without contact is beside one with contact.
+    fn is_on_edge(&self, column: u16, row: u16, outcome: Outcome) -> bool {
+        let strikes = PointOutcome::Solved(Outcome::CornerContact);
+        outcome == Outcome::NoCornerContact
+            && self
+                .beside(column, row)
+                .any(|(column, row)| self.outcome(column, row) == Some(strikes))
+    }
+
+    fn beside(&self, column: u16, row: u16) -> impl Iterator<Item = (u16, u16)> + use<> {
+        let (width, height) = (self.cells.width, self.cells.height);
+        let steps = [(-1, 0), (1, 0), (0, -1), (0, 1)];
+        steps.into_iter().filter_map(move |(x, y)| {
+            let column = column.checked_add_signed(x).filter(|column| *column < width)?;
+            let row = row.checked_add_signed(y).filter(|row| *row < height)?;
+            Some((column, row))
+        })
+    }
+
+    fn frame(&self, buffer: &mut Buffer) {
+        let (cells, rule) = (self.cells, self.pane.look.theme.rule);
+        let (left, bottom) = (cells.x - 1, cells.bottom());
+        for y in cells.top()..bottom {
+            buffer.set_string(left, y, "│", rule);
+        }
+        buffer.set_string(left, bottom, "└", rule);
+        buffer.set_string(cells.x, bottom, "─".repeat(cells.width.into()), rule);
+        let rows = [0, cells.height / 2, cells.height - 1];
+        let few = if cells.height < 5 { 2 } else { 1 };
+        for below in rows.into_iter().step_by(few) {
+            let label = &self.up.points[Map::at(below, cells.height, self.up.points.len())].text;
+            let y = bottom - 1 - below;
+            let start = left.saturating_sub(label.width() as u16);
+            buffer.set_string(start, y, label, Style::new());
+            buffer.set_string(left, y, "┤", rule);
+        }
+        let mut free = 0;
+        for column in [0, cells.width / 2, cells.width - 1] {
+            let label = &self.across.points[Map::at(column, cells.width, self.across.points.len())].text;
+            let (x, width) = (cells.x + column, label.width() as u16);
+            let start = x.saturating_sub(width / 2).min((cells.right() + 1).saturating_sub(width));
+            if start >= free {
+                buffer.set_string(x, bottom, "┴", rule);
+                buffer.set_string(start, bottom + 1, label, Style::new());
+                free = start + width + 1;
+            }
+        }
+    }
+
+    /// The present values on the axes, and the cursor.
+    fn marks(&self, shown: &Shown, buffer: &mut Buffer) {
+        let (cells, theme) = (self.cells, self.pane.look.theme);
+        let column = |at| cells.x + Map::of(at, cells.width, self.across.points.len());
+        let row = |at| cells.bottom() - 1 - Map::of(at, cells.height, self.up.points.len());
+        let case = self.pane.case;
+        let now = range::nearest(self.across, case).zip(range::nearest(self.up, case));
+        if let Some((x, y)) = now {
+            buffer.set_string(column(x), row(y), "●", theme.focus);
+        }
+        let (x, y) = cursor(self.pane, shown);
+        if let Some(cell) = buffer.cell_mut((column(x), row(y))) {
+            cell.modifier |= Modifier::REVERSED;
+        }
+        buffer.set_string(column(x), cells.bottom(), "▴", theme.focus);
+        buffer.set_string(cells.x - 1, row(y), "▸", theme.focus);
+    }
+
+    fn legend(&self, (known, unit): (&Quantity, &'static str), area: Rect, buffer: &mut Buffer) {
+        let mut x = area.x + 1;
+        let mut put = |words: &str, style: Style| {
+            let width = words.width() as u16;
+            if !area.is_empty() && x + width < area.right() {
+                buffer.set_string(x, area.y, words, style);
+                x += width + 2;
+            }
+        };
+        let theme = self.pane.look.theme;
+        if self.values.from <= self.values.to {
+            let told = |value| shown_with(known, value, unit).to_string();
+            let (least, most) = (self.shade(self.values.from), self.shade(self.values.to));
+            put(&format!("{least} {}", told(self.values.from)), theme.active);
+            put(&format!("{most} {}", told(self.values.to)), theme.active);
+        }
+        if let Some(limit) = self.limit {
+            let limit = shown_with(known, limit, unit);
+            put(&format!("{LIMIT} limit {limit}"), theme.problem);
+        }
+        let has = |sought| self.found.outcomes.contains(&sought);
+        if has(PointOutcome::Solved(Outcome::NoCornerContact)) {
+            put(&format!("{EDGE} edge of contact"), theme.note);
+        }
+        if has(PointOutcome::Refused) {
+            put(&format!("{REFUSED} refused"), theme.problem);
+        }
+        put("● now", theme.focus);
+    }
+}

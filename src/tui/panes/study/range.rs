@@ -1,0 +1,206 @@
+//! The range of a study: around the present value of a field, in the unit in which it is written.
+
+use crate::case::fields::{FIELDS, Field, Kind};
+use crate::case::units;
+use crate::case::{Case, field_range};
+use crate::numeric::decimal::significant;
+use crate::study::axis::{Axis, AxisRange, Sampling};
+use crate::tui::rows;
+
+/// The most halvings or doublings of a range.
+pub const MOST_ZOOM: i32 = 12;
+/// A range reaches so far to both sides of the value, times the value.
+const REACH: f64 = 0.5;
+/// A length in um around 0 reaches so far, times the module.
+const REACH_OF_MODULE: f64 = 0.01;
+/// A number around 0 reaches so far.
+const REACH_OF_NUMBER: f64 = 0.5;
+/// Another value around 0 reaches this part of its limits.
+const REACH_OF_LIMITS: f64 = 0.01;
+/// Digits of the ends of a range.
+const DIGITS: usize = 6;
+
+/// The axis of a field with at most so many points.
+///
+/// # Errors
+/// Why the field has no range.
+pub fn axis(case: &Case, field: usize, zoom: i32, points: usize) -> Result<Axis, String> {
+    let known = &FIELDS[field];
+    match known.kind {
+        Kind::Text => Err(format!(
+            "{} is a text: go to a field with a value.",
+            known.full_label()
+        )),
+        Kind::Choice(names, _) => {
+            let text = format!("{}={}", known.key, names.join(","));
+            Axis::parse(&text, Sampling::default()).map_err(|problem| told(known, &problem.cause))
+        }
+        Kind::Number(..) => {
+            let range = number_range(case, field, zoom);
+            let sampling = Sampling {
+                points: Some(points.max(2)),
+                is_log: false,
+            };
+            range.axis(sampling).map_err(|problem| told(known, &problem.cause))
+        }
+        Kind::Count(from, to, _) => {
+            let range = count_range(case, field, zoom, points, (from, to));
+            let axis = range.axis(Sampling::default());
+            axis.map_err(|problem| told(known, &problem.cause))
+        }
+    }
+}
+
+fn told(field: &Field, cause: &str) -> String {
+    format!("{}: {cause}.", field.full_label())
+}
+
+/// The present value in SI: as written, else the default or an example.
+fn value(case: &Case, field: usize) -> f64 {
+    let known = &FIELDS[field];
+    let example = || match known.kind {
+        Kind::Number(dimension, range, _) => {
+            units::parse(known.example(), dimension, range.unit).ok()
+        }
+        _ => known.example().parse().ok(),
+    };
+    case.value(field).or_else(example).unwrap_or(0.0)
+}
+
+fn number_range(case: &Case, field: usize, zoom: i32) -> AxisRange {
+    let unit = unit(case, field);
+    let factor = units::factor(&unit).unwrap_or(1.0);
+    let value = value(case, field);
+    let usual = if value == 0.0 {
+        around_zero(case, field)
+    } else {
+        REACH * value.abs()
+    };
+    let reach = usual * 2f64.powi(-zoom.clamp(-MOST_ZOOM, MOST_ZOOM));
+    let (least, most) = field_range(field);
+    let rounded = |si: f64| significant(si / factor, DIGITS).parse().unwrap_or(si / factor);
+    let end = |si: f64| {
+        let number: f64 = rounded(si);
+        // Rounding must not leave the limits of the field.
+        if number * factor < least || number * factor > most {
+            si.clamp(least, most) / factor
+        } else {
+            number
+        }
+    };
+    let (from, to) = (end((value - reach).max(least)), end((value + reach).min(most)));
+    AxisRange {
+        field,
+        unit,
+        from,
+        to,
+    }
+}
+
+/// The unit in which the value is written, else the usual one.
+fn unit(case: &Case, field: usize) -> String {
+    let usual = match FIELDS[field].kind {
+        Kind::Number(_, range, _) => range.unit,
+        _ => "",
+    };
+    rows::written_unit(case, field).unwrap_or_else(|| usual.to_owned())
+}
+
+fn around_zero(case: &Case, field: usize) -> f64 {
+    let (least, most) = field_range(field);
+    let limits = REACH_OF_LIMITS * (most - least);
+    let module = FIELDS
+        .iter()
+        .position(|field| field.key == "pair.module")
+        .and_then(|module| case.value(module));
+    match FIELDS[field].kind {
+        Kind::Number(_, range, _) if range.unit == "um" => {
+            module.map_or(limits, |module| REACH_OF_MODULE * module)
+        }
+        Kind::Number(_, range, _) if range.unit.is_empty() => REACH_OF_NUMBER,
+        _ => limits,
+    }
+}
+
+fn count_range(
+    case: &Case,
+    field: usize,
+    zoom: i32,
+    points: usize,
+    (least, most): (u32, u32),
+) -> AxisRange {
+    const REACH: f64 = 10.0;
+    let value = value(case, field).clamp(least.into(), most.into());
+    let widest = (points.max(3) / 2 - usize::from(points.is_multiple_of(2))) as f64;
+    let reach = (REACH * 2f64.powi(-zoom.clamp(-MOST_ZOOM, MOST_ZOOM))).round();
+    let reach = reach.clamp(1.0, widest.max(1.0));
+    AxisRange {
+        field,
+        unit: String::new(),
+        from: (value - reach).max(least.into()),
+        to: (value + reach).min(most.into()),
+    }
+}
+
+/// The point of an axis nearest to the present value of its field.
+#[must_use]
+pub fn nearest(axis: &Axis, case: &Case) -> Option<usize> {
+    if let Some(number) = present(axis, case) {
+        let distance = |at: &usize| {
+            let own = axis.points[*at].number.unwrap_or(f64::INFINITY);
+            (own - number).abs()
+        };
+        let points = 0..axis.points.len();
+        return points.min_by(|one, other| distance(one).total_cmp(&distance(other)));
+    }
+    let text = case.effective(axis.field)?;
+    axis.points.iter().position(|point| point.text == text)
+}
+
+/// The present value of the field, in the unit of the axis.
+#[must_use]
+pub fn present(axis: &Axis, case: &Case) -> Option<f64> {
+    let factor = units::factor(&axis.unit).unwrap_or(1.0);
+    Some(case.value(axis.field)? / factor)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::fields::index_of;
+
+    fn ends(key: &str, zoom: i32) -> (String, String) {
+        let field = index_of(key).expect("a field");
+        let axis = axis(&Case::table_1(), field, zoom, 101).expect("a range");
+        (axis.with_unit(0), axis.with_unit(axis.points.len() - 1))
+    }
+
+    #[test]
+    fn a_range_is_around_the_value_in_its_unit_and_inside_the_limits() {
+        for (key, zoom, from, to) in [
+            ("operation.speed", 0, "1000 rpm", "3000 rpm"),
+            ("operation.speed", 1, "1500 rpm", "2500 rpm"),
+            ("deviations.base_pitch", 0, "8 um", "24 um"),
+            ("driven.tip_relief", 0, "0 um", "50 um"),
+            ("driver.profile_shift", 0, "-0.5", "0.5"),
+            ("driver.poisson", -3, "0", "0.5"),
+            ("driver.teeth", 0, "10", "30"),
+            ("driver.teeth", -9, "5", "70"),
+        ] {
+            assert_eq!(ends(key, zoom), (from.to_owned(), to.to_owned()), "{key} {zoom}");
+        }
+    }
+
+    #[test]
+    fn every_field_with_a_value_has_a_range_at_every_zoom() {
+        let case = Case::table_1();
+        for (at, field) in FIELDS.iter().enumerate() {
+            for zoom in [-MOST_ZOOM, -1, 0, 5, MOST_ZOOM] {
+                for points in [2, 30, 101] {
+                    let found = axis(&case, at, zoom, points);
+                    assert_eq!(found.is_err(), matches!(field.kind, Kind::Text), "{found:?}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! Variants of the case: keeping the edits as one, and putting one back into the form.
+
+use super::edit;
+use crate::case::{Case, Variant};
+use crate::model::{Inputs, Stage};
+use crate::tui::actions::Effect;
+use crate::tui::app::App;
+use crate::tui::dialogs::Prompt;
+use crate::tui::dialogs::picker::{List, Picker, VARIANT};
+use crate::tui::jobs::Job;
+use crate::tui::pane::Pane;
+use crate::tui::panes::results;
+use crate::tui::variants::{Variants, VariantsRequest};
+
+/// Asks for the name of the variant.
+pub(super) fn ask(app: &mut App) {
+    let picker = Picker {
+        input: format!("{VARIANT} ").as_str().into(),
+        ..Picker::new(List::Commands)
+    };
+    app.prompts.push(Prompt::Pick(picker));
+}
+
+/// Keeps the edits since the last save as a variant, and shows the case without them. Without edits
+/// it puts the variant of that name into the form.
+pub(super) fn keep(app: &mut App, name: &str) -> Vec<Effect> {
+    if let Err(problem) = Variant::check_name(name) {
+        app.complain(format!("{}: {}", problem.cause, problem.fix));
+        return Vec::new();
+    }
+    let variant = Variant::between(name, &app.tab.saved, &app.tab.case);
+    if variant.overrides.is_empty() {
+        return recall(app, name);
+    }
+    if !app.tab.problems.is_empty() {
+        app.complain("a field has an error: correct it before the edits become a variant");
+        return Vec::new();
+    }
+    let count = variant.overrides.len();
+    let edits = if count == 1 { "edit" } else { "edits" };
+    let is_known = app.tab.case.variant(name).is_ok();
+    let mut case = app.tab.saved.clone();
+    case.variants.clone_from(&app.tab.case.variants);
+    case.keep_variant(variant);
+    let effects = edit::replace(app, case);
+    let verb = if is_known { "replaced by" } else { "has" };
+    app.say(format!(
+        "variant {name} {verb} {count} {edits}; the form shows the case without them; u undoes"
+    ));
+    effects
+}
+
+fn recall(app: &mut App, name: &str) -> Vec<Effect> {
+    let Ok(variant) = app.tab.case.variant(name).cloned() else {
+        app.say("no edit since the last save: change a field, then keep the edits as a variant");
+        return Vec::new();
+    };
+    let case = app.tab.case.with(&variant);
+    let effects = edit::replace(app, case);
+    app.say(format!("the form shows variant {name}; u undoes"));
+    effects
+}
+
+/// Shows the variants beside the case, the next ones, or the methods again.
+pub(super) fn next(app: &mut App) {
+    let count = app.tab.case.variants.len();
+    if count == 0 {
+        app.say("the case has no variants: :variant and a name keep the edits as one");
+        return;
+    }
+    let page = results::variants_page(&app.results());
+    app.first_variant = match app.first_variant {
+        None => Some(0),
+        Some(first) if first + page < count => Some(first + page),
+        Some(_) => None,
+    };
+}
+
+/// The variants to solve beside the present case, if they are in sight and not asked for yet.
+pub(super) fn request(app: &mut App) -> Option<Effect> {
+    let is_shown = !app.plan().area(Pane::Results).is_empty();
+    app.first_variant = app
+        .first_variant
+        .filter(|first| *first < app.tab.case.variants.len());
+    app.first_variant.filter(|_| is_shown)?;
+    let tab = &mut app.tab;
+    if tab.variants_asked == tab.serial || !tab.problems.is_empty() {
+        return None;
+    }
+    tab.variants_asked = tab.serial;
+    let column = |variant: &Variant| (variant.name.clone(), inputs(&tab.case, variant));
+    let request = VariantsRequest {
+        serial: tab.serial,
+        columns: tab.case.variants.iter().map(column).collect(),
+        stages: Pane::Results.needs().without(Stage::Clearing),
+    };
+    Some(Effect::Job(Job::Variants(Box::new(request))))
+}
+
+fn inputs(case: &Case, variant: &Variant) -> Result<Inputs, String> {
+    case.with(variant).inputs().map_err(|problems| {
+        let first = problems.into_iter().next();
+        first.map_or_else(String::new, |problem| problem.to_string())
+    })
+}
+
+/// The solved variants.
+pub(super) fn take(app: &mut App, found: Variants) {
+    if let Some(tab) = app.tab_of(found.serial) {
+        tab.variants = Some(found);
+    }
+}

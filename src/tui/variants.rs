@@ -1,0 +1,23 @@
+//! The variants of a case, solved beside it.
+
+use crate::model::{Inputs, Solution, Stages};
+
+/// Variants for the worker.
+#[derive(Debug, Clone)]
+pub struct VariantsRequest {
+    /// The request of the case beside which they stand.
+    pub serial: u64,
+    /// The name of each variant, and its pair or the error in it.
+    pub columns: Vec<(String, Result<Inputs, String>)>,
+    /// The stages to solve.
+    pub stages: Stages,
+}
+
+/// Solved variants.
+#[derive(Debug, Clone)]
+pub struct Variants {
+    /// That of the request.
+    pub serial: u64,
+    /// The name of each variant, and its results or the reason for none.
+    pub columns: Vec<(String, Result<Solution, String>)>,
+}
