@@ -27,8 +27,9 @@ use crate::case::suggest;
 use crate::report::{fields, schema};
 
 pub use arguments::{
-    Arguments, Check, Command, Compare, CompareFormat, Edits, Explain, Export, Fields, Format, Gather, Import, Listing, New, Plot,
-    RowFormat, Running, Seek, Setting, Solve, Stiffness, Sweep, Tolerance, Trading,
+    Arguments, Check, Command, Compare, CompareFormat, Edits, Explain, Export, Fields, Format,
+    Gather, Import, Listing, New, Plot, RowFormat, Running, Seek, Setting, Solve, Stiffness, Sweep,
+    Tolerance, Trading,
 };
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches};

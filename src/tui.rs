@@ -43,9 +43,9 @@ pub mod settings;
 #[doc(hidden)]
 pub mod solver;
 #[doc(hidden)]
-pub mod study;
-#[doc(hidden)]
 pub mod store;
+#[doc(hidden)]
+pub mod study;
 #[doc(hidden)]
 pub mod tab;
 #[doc(hidden)]

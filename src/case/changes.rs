@@ -122,7 +122,11 @@ fn texts(case: &Case) -> Vec<(String, String)> {
         let of = |change: &Override| (variant.place(&change.key), change.text.clone());
         variant.overrides.iter().map(of)
     });
-    fields.chain(limits).chain(spreads).chain(overrides).collect()
+    fields
+        .chain(limits)
+        .chain(spreads)
+        .chain(overrides)
+        .collect()
 }
 
 #[cfg(test)]

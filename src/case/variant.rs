@@ -168,7 +168,8 @@ impl Case {
             });
         }
         self.keep_variant(Variant::new(name, overrides));
-        self.variants.retain(|variant| !variant.overrides.is_empty());
+        self.variants
+            .retain(|variant| !variant.overrides.is_empty());
         Ok(())
     }
 }
@@ -203,10 +204,17 @@ mod tests {
     #[test]
     fn an_unknown_variant_is_refused_with_the_name_that_is_most_likely_meant() {
         let mut case = Case::table_1();
-        let variant = Variant::between("relieved", &case, &edited(&[("driven.tip_relief", "1 um")]));
-        assert!(case.variant("relieved").is_err_and(|problem| problem.fix.contains("[variants.relieved]")));
+        let variant =
+            Variant::between("relieved", &case, &edited(&[("driven.tip_relief", "1 um")]));
+        assert!(
+            case.variant("relieved")
+                .is_err_and(|problem| problem.fix.contains("[variants.relieved]"))
+        );
         case.keep_variant(variant);
-        assert!(case.variant("releived").is_err_and(|problem| problem.fix.contains("relieved")));
+        assert!(
+            case.variant("releived")
+                .is_err_and(|problem| problem.fix.contains("relieved"))
+        );
         assert!(case.variant("relieved").is_ok());
         for name in ["", "a b", "a.b", "\u{1b}[2J", &"x".repeat(41)] {
             assert!(Variant::check_name(name).is_err(), "{name}");

@@ -8,7 +8,6 @@ mod compare;
 mod studies;
 
 use super::Exit;
-pub use compare::{Compare, CompareFormat};
 use crate::case::{Case, EXAMPLES, Example, Problem, unknown_quantity};
 use crate::model::inputs::Method;
 use crate::model::{QUANTITIES, Quantity};
@@ -19,6 +18,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::{Error, ErrorKind};
 use clap::{Arg, Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
+pub use compare::{Compare, CompareFormat};
 use std::ffi::OsStr;
 use std::path::PathBuf;
 use std::sync::LazyLock;

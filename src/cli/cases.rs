@@ -153,7 +153,9 @@ pub(super) fn edit(document: &mut Document, edits: &Edits) -> Result<(), String>
         let is_partner = |other: &&Setting| Case::are_exclusive(&other.key, &setting.key);
         if let Some(other) = settings[..index].iter().find(is_partner) {
             let (written, key) = (setting.written(), &other.key);
-            return Err(format!("{written}: {key} is set as well: leave one of them out"));
+            return Err(format!(
+                "{written}: {key} is set as well: leave one of them out"
+            ));
         }
         let set = document.case.set(&setting.key, &setting.value);
         set.map_err(|problem| on_command_line(setting, &problem))?;

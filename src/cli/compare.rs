@@ -35,7 +35,11 @@ pub(super) fn run(options: &Compare, streams: &mut Streams) -> io::Result<Exit> 
     write(&Comparison { columns, selection }, options.format, streams).map(|exit| exit.max(worst))
 }
 
-fn write(comparison: &Comparison, format: CompareFormat, streams: &mut Streams) -> io::Result<Exit> {
+fn write(
+    comparison: &Comparison,
+    format: CompareFormat,
+    streams: &mut Streams,
+) -> io::Result<Exit> {
     let out = streams.output.as_mut();
     match format {
         CompareFormat::Text => comparison.write(out)?,

@@ -94,7 +94,9 @@ impl Comparison {
         };
         let group = |title: String, quantities: Vec<&'static Quantity>| {
             let rows = quantities.into_iter();
-            let rows = rows.filter_map(|quantity| self.row(quantity, method)).collect();
+            let rows = rows
+                .filter_map(|quantity| self.row(quantity, method))
+                .collect();
             Group { title, rows }
         };
         if !self.selection.is_whole() {
@@ -129,7 +131,9 @@ impl Comparison {
         Some(Row {
             symbol: quantity.symbol_in(method).to_owned(),
             label: quantity.label_in(method).to_owned(),
-            unit: given.last().map_or("", |value| shown_with(quantity, value, unit).unit),
+            unit: given
+                .last()
+                .map_or("", |value| shown_with(quantity, value, unit).unit),
             values: self.columns.iter().zip(&values).map(shown).collect(),
             differences: values.iter().enumerate().map(against).collect(),
         })

@@ -248,7 +248,10 @@ impl App {
             state: tab.results,
             answer: tab.answer.as_ref(),
             baseline: self.baseline.as_ref(),
-            variants: tab.variants.as_ref().filter(|_| self.first_variant.is_some()),
+            variants: tab
+                .variants
+                .as_ref()
+                .filter(|_| self.first_variant.is_some()),
             first_variant: self.first_variant.unwrap_or(0),
             earlier: tab.earlier.as_ref(),
             refusal: tab.refusal.as_ref(),

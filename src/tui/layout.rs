@@ -120,10 +120,14 @@ impl Plan {
     /// The pane in whose title the hidden ones are named: the lowest in sight that they could take
     /// the place of.
     pub(crate) fn names_hidden(&self) -> Option<Pane> {
-        let lowest = [Pane::Study, Pane::Trade, Pane::Chart, Pane::Teeth, Pane::Results];
-        lowest
-            .into_iter()
-            .find(|&pane| !self.area(pane).is_empty())
+        let lowest = [
+            Pane::Study,
+            Pane::Trade,
+            Pane::Chart,
+            Pane::Teeth,
+            Pane::Results,
+        ];
+        lowest.into_iter().find(|&pane| !self.area(pane).is_empty())
     }
 
     fn area_mut(&mut self, pane: Pane) -> &mut Rect {

@@ -58,8 +58,21 @@ fn each_variant_equals_a_solve_with_its_overrides() {
     let compared = json(&["compare", &case, "--format", "json"]);
     let columns = compared["columns"].as_array().unwrap();
     let names: Vec<&Value> = columns.iter().map(|column| &column["variant"]).collect();
-    assert_eq!(names, [&Value::Null, &"relieved".into(), &"slow".into(), &"far".into()]);
-    let of_slow = ["--set", "operation.speed=500 rpm", "--set", "operation.torque=30 N m"];
+    assert_eq!(
+        names,
+        [
+            &Value::Null,
+            &"relieved".into(),
+            &"slow".into(),
+            &"far".into()
+        ]
+    );
+    let of_slow = [
+        "--set",
+        "operation.speed=500 rpm",
+        "--set",
+        "operation.torque=30 N m",
+    ];
     for (column, settings) in [
         (&columns[0], &[][..]),
         (&columns[1], &["--set", "driven.tip_relief=30 um"]),
@@ -67,14 +80,22 @@ fn each_variant_equals_a_solve_with_its_overrides() {
     ] {
         let solved = json(&[&["solve", &case, "--format", "json"], settings].concat());
         for (key, quantity) in solved["quantities"].as_object().unwrap() {
-            assert_eq!(column["quantities"][key]["value"], quantity["value"], "{key}");
+            assert_eq!(
+                column["quantities"][key]["value"], quantity["value"],
+                "{key}"
+            );
         }
         assert_eq!(column["outcome"], solved["outcome"]);
     }
     let difference = &columns[1]["quantities"]["total_deviation"];
     assert!((difference["difference"].as_f64().unwrap() + 30e-6).abs() < 1e-12);
     assert_eq!(difference.get("percent"), None);
-    assert!(columns[2]["quantities"]["impact_force"]["percent"].as_f64().unwrap() < 0.0);
+    assert!(
+        columns[2]["quantities"]["impact_force"]["percent"]
+            .as_f64()
+            .unwrap()
+            < 0.0
+    );
 }
 
 #[test]
@@ -84,10 +105,16 @@ fn a_refused_variant_keeps_its_column_and_names_the_reason() {
     assert_eq!(code, 0);
     assert!(errors.contains(":far: pair.centre_distance: the tips do not reach each other"));
     assert!(text.contains("Refused: pair.centre_distance"), "{text}");
-    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 80),
+        "{text}"
+    );
     let (code, text, _) = printed(&["compare", &case, "--variant", "far", "--format", "csv"]);
     assert_eq!(code, 0);
-    assert_eq!(text.lines().nth(2), Some("outcome,,corner-contact,refused,"));
+    assert_eq!(
+        text.lines().nth(2),
+        Some("outcome,,corner-contact,refused,")
+    );
     let refused = ["compare", &case, "--set", "pair.centre_distance=200 mm"];
     assert_eq!(printed(&refused).0, 3);
 }
@@ -95,12 +122,25 @@ fn a_refused_variant_keeps_its_column_and_names_the_reason() {
 #[test]
 fn cases_and_variants_stand_side_by_side_with_differences_and_units() {
     let (_folder, case) = case();
-    let only = ["--only", "F_S,total_deviation,u", "--variant", "relieved,slow"];
+    let only = [
+        "--only",
+        "F_S,total_deviation,u",
+        "--variant",
+        "relieved,slow",
+    ];
     let (_, text, _) = printed(&[&["compare", &case], &only[..]].concat());
     insta::assert_snapshot!("compare_text", text.replace(&case, "gear.toml"));
     let (_, text, _) = printed(&[&["compare", &case, "--format", "md"], &only[..]].concat());
     insta::assert_snapshot!("compare_markdown", text.replace(&case, "gear.toml"));
-    let others = ["compare", TABLE_1, "cases/tip-relief-enough.toml", "--only", "F_S", "--format", "csv"];
+    let others = [
+        "compare",
+        TABLE_1,
+        "cases/tip-relief-enough.toml",
+        "--only",
+        "F_S",
+        "--format",
+        "csv",
+    ];
     let (code, text, _) = printed(&others);
     assert_eq!(code, 0);
     let names: Vec<&str> = text.lines().next().unwrap().split(',').collect();
@@ -132,10 +172,16 @@ fn every_command_that_takes_a_case_takes_a_variant() {
     assert!(code == 0 && own != varied);
     let (code, text, _) = printed(&["check", &case, "--variant", "slow"]);
     assert_eq!(code, 0, "{text}");
-    assert!(text.contains("900") && text.contains("gear.toml:slow"), "{text}");
+    assert!(
+        text.contains("900") && text.contains("gear.toml:slow"),
+        "{text}"
+    );
     let (code, _, errors) = printed(&["solve", &case, "--variant", "far"]);
     assert_eq!(code, 3);
-    assert!(errors.contains("variants.far.pair.centre_distance"), "{errors}");
+    assert!(
+        errors.contains("variants.far.pair.centre_distance"),
+        "{errors}"
+    );
     assert!(errors.ends_with("(with --variant far)\n"), "{errors}");
 }
 

@@ -164,7 +164,9 @@ impl Desk {
                     Effect::Copy(text) => self.copied = Some(text),
                     Effect::Mouse(takes) => self.has_mouse = takes,
                     Effect::Play(plays) => self.ticks = plays,
-                    Effect::CancelWork | Effect::CancelSolve | Effect::CancelStudy => self.has_cancelled = true,
+                    Effect::CancelWork | Effect::CancelSolve | Effect::CancelStudy => {
+                        self.has_cancelled = true
+                    }
                     Effect::Redraw => self.has_redrawn = true,
                     Effect::Suspend => self.is_suspended = true,
                     Effect::Keep(settings) => self.kept = Some(settings),

@@ -378,10 +378,7 @@ fn the_view_follows_the_cursor() {
 
 #[test]
 fn the_time_axis_shows_the_same_curve() {
-    let size = Size {
-        width: 96,
-        ..SMALL
-    };
+    let size = Size { width: 96, ..SMALL };
     let mut desk = at_method(size, "dynamic");
     let angle = chart(&desk);
     desk.keys(&["t"]);

@@ -33,6 +33,6 @@ mod pointer;
 mod prompts;
 mod readme_session;
 mod screens;
-mod teeth;
 mod study_pane;
+mod teeth;
 mod trade_pane;

@@ -76,7 +76,10 @@ fn the_curve_follows_every_edit_and_the_baseline_stays_behind_it() {
         (axis.key(), axis.with_unit(0), axis.with_unit(100))
     };
     desk.fill("operation.power", "20 kW");
-    assert_eq!(ends(&desk), ("operation.power", "10 kW".into(), "30 kW".into()));
+    assert_eq!(
+        ends(&desk),
+        ("operation.power", "10 kW".into(), "30 kW".into())
+    );
     assert!(desk.shows("+ baseline"), "{}", desk.screen());
     desk.keys(&["Esc", "6", "+"]);
     assert_eq!(ends(&desk).1, "15 kW");
@@ -91,7 +94,9 @@ fn enter_takes_the_value_under_the_cursor_and_undo_returns_it() {
     let mut desk = study(SMALL, "operation.speed");
     desk.keys(&["l", "l", "h", "Enter"]);
     assert_eq!(written(&desk, "operation.speed"), "2020 rpm");
-    assert!(desk.shows("driver speed = 2020 rpm; u undoes") || desk.shows("speed = 2020 rpm; u undoes"));
+    assert!(
+        desk.shows("driver speed = 2020 rpm; u undoes") || desk.shows("speed = 2020 rpm; u undoes")
+    );
     desk.keys(&["u"]);
     assert_eq!(written(&desk, "operation.speed"), "2000 rpm");
 }
@@ -101,7 +106,11 @@ fn two_fields_make_a_map_with_a_limit_and_the_edge_of_contact() {
     for (name, size) in [("80x24", SMALL), ("140x45", LARGE)] {
         let mut desk = study(size, "driven.tip_relief");
         desk.keys(&["s", "operation.speed", "Enter"]);
-        assert!(desk.shows("+ limit 2500") && desk.shows("o edge of contact"), "{}", desk.screen());
+        assert!(
+            desk.shows("+ limit 2500") && desk.shows("o edge of contact"),
+            "{}",
+            desk.screen()
+        );
         desk.keys(&["l", "k"]);
         assert_snapshot!(format!("map_{name}"), desk.screen());
         let cursor = desk.app.study.cursor.expect("a cursor");
@@ -122,7 +131,11 @@ fn the_tolerance_fills_its_page_and_needs_distributions() {
     let mut desk = Desk::on(SMALL, "case.toml", &format!("{TABLE_1}{SPREAD}"));
     desk.keys(&["Esc", "6", "z", "d"]);
     assert!(desk.shows("10000 samples"), "{}", desk.screen());
-    assert!(desk.shows("P50") || desk.shows("probab"), "{}", desk.screen());
+    assert!(
+        desk.shows("P50") || desk.shows("probab"),
+        "{}",
+        desk.screen()
+    );
     let top = desk.screen();
     desk.keys(&["j", "j", "j"]);
     assert_ne!(desk.screen(), top);
@@ -135,7 +148,10 @@ fn escape_stops_the_study_and_its_results_stay() {
     let mut desk = Desk::on(SMALL, "case.toml", &format!("{TABLE_1}{SPREAD}"));
     desk.keys(&["Esc", "6", "z"]);
     let effects = asked(&mut desk, "d");
-    let Some(Effect::Study(request)) = effects.into_iter().find(|effect| matches!(effect, Effect::Study(_))) else {
+    let Some(Effect::Study(request)) = effects
+        .into_iter()
+        .find(|effect| matches!(effect, Effect::Study(_)))
+    else {
         panic!("a study is asked for");
     };
     let part = |found, end| StudyPart {
@@ -145,11 +161,26 @@ fn escape_stops_the_study_and_its_results_stay() {
     };
     let page = Found::Page(vec!["half of the samples".to_owned()], 0.5);
     update(&mut desk.app, Action::Studied(Box::new(part(page, None))));
-    assert!(desk.shows("50 % solved") && desk.shows("half of the samples"), "{}", desk.screen());
+    assert!(
+        desk.shows("50 % solved") && desk.shows("half of the samples"),
+        "{}",
+        desk.screen()
+    );
     let effects = asked(&mut desk, "Esc");
-    assert!(effects.iter().any(|effect| matches!(effect, Effect::CancelStudy)));
-    update(&mut desk.app, Action::Studied(Box::new(part(Found::Nothing, Some(End::Stopped)))));
-    assert!(desk.shows("stopped") && desk.shows("half of the samples"), "{}", desk.screen());
+    assert!(
+        effects
+            .iter()
+            .any(|effect| matches!(effect, Effect::CancelStudy))
+    );
+    update(
+        &mut desk.app,
+        Action::Studied(Box::new(part(Found::Nothing, Some(End::Stopped)))),
+    );
+    assert!(
+        desk.shows("stopped") && desk.shows("half of the samples"),
+        "{}",
+        desk.screen()
+    );
 }
 
 #[test]
@@ -165,7 +196,14 @@ fn a_hidden_study_is_not_computed_and_a_late_answer_is_left_out() {
         end: None,
     };
     update(&mut desk.app, Action::Studied(Box::new(late)));
-    assert!(desk.app.tab.study.shown.as_ref().is_some_and(|shown| shown.page.is_empty()));
+    assert!(
+        desk.app
+            .tab
+            .study
+            .shown
+            .as_ref()
+            .is_some_and(|shown| shown.page.is_empty())
+    );
     desk.fill("operation.speed", "2 kg");
     assert_eq!(
         desk.app.tab.study.obstacle.as_deref(),
@@ -176,8 +214,13 @@ fn a_hidden_study_is_not_computed_and_a_late_answer_is_left_out() {
 #[test]
 fn variant_keeps_the_edits_and_without_edits_shows_them_again() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
-    desk.fill("driven.tip_relief", "48 um").keys(&["Esc", ":", "variant relieved", "Enter"]);
-    assert!(desk.shows("variant relieved has 1 edit"), "{}", desk.screen());
+    desk.fill("driven.tip_relief", "48 um")
+        .keys(&["Esc", ":", "variant relieved", "Enter"]);
+    assert!(
+        desk.shows("variant relieved has 1 edit"),
+        "{}",
+        desk.screen()
+    );
     assert_eq!(written(&desk, "driven.tip_relief"), "0 um");
     desk.keys(&["Ctrl-S"]);
     let saved = desk.read("case.toml");
@@ -186,7 +229,11 @@ fn variant_keeps_the_edits_and_without_edits_shows_them_again() {
     desk.keys(&[":", "variant relieved", "Enter"]);
     assert_eq!(written(&desk, "driven.tip_relief"), "48 um");
     desk.keys(&["u", ":", "variant other", "Enter"]);
-    assert!(desk.shows("no edit since the last save"), "{}", desk.screen());
+    assert!(
+        desk.shows("no edit since the last save"),
+        "{}",
+        desk.screen()
+    );
 }
 
 #[test]
@@ -195,7 +242,11 @@ fn variants_stand_beside_the_case_with_their_differences() {
     for (name, size) in [("80x24", SMALL), ("140x45", LARGE)] {
         let mut desk = Desk::on(size, "case.toml", &format!("{TABLE_1}{variants}"));
         desk.keys(&["Esc", "2", "v"]);
-        assert!(desk.shows("relieved") && desk.shows("-40.1 %"), "{}", desk.screen());
+        assert!(
+            desk.shows("relieved") && desk.shows("-40.1 %"),
+            "{}",
+            desk.screen()
+        );
         assert_snapshot!(format!("variants_{name}"), desk.screen());
         for _ in 0..3 {
             if desk.app.first_variant.is_some() {

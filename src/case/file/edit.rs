@@ -58,7 +58,11 @@ fn edited(document: &Document) -> Option<String> {
     for entry in after.iter().filter(|entry| !before.contains(entry)) {
         write(table(&mut toml, entry.table)?, entry)?;
     }
-    variants::edit(&mut toml, &document.loaded.variants, &document.case.variants)?;
+    variants::edit(
+        &mut toml,
+        &document.loaded.variants,
+        &document.case.variants,
+    )?;
     Some(with_line_ends_of(&document.text, toml.to_string()))
 }
 

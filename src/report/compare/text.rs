@@ -28,7 +28,9 @@ impl Comparison {
         for others in others.chunks(layout.others.max(1)) {
             let is_refused = |at: &&usize| self.columns[**at].found.is_err();
             let inputs_alone = others.iter().filter(is_refused).count() == others.len();
-            let shown = groups.iter().take(if inputs_alone { 1 } else { groups.len() });
+            let shown = groups
+                .iter()
+                .take(if inputs_alone { 1 } else { groups.len() });
             for group in shown {
                 writeln!(out, "\n{}", layout.title(group, others))?;
                 for row in &group.rows {
@@ -190,7 +192,11 @@ impl Layout {
     }
 
     fn line(&self, row: &Row, others: &[usize]) -> String {
-        let label = if self.label > 0 { row.label.as_str() } else { "" };
+        let label = if self.label > 0 {
+            row.label.as_str()
+        } else {
+            ""
+        };
         let (symbol, unit, base) = (&row.symbol, row.unit, sanitize(&row.values[0]));
         let (first, second, third, fourth) = (self.symbol, self.label, self.unit, self.value);
         let head = format!("  {symbol:first$}{label:second$}{unit:third$}{base:>fourth$}");

@@ -330,13 +330,20 @@ pub fn in_full(pane: &Results<'_>) -> Vec<String> {
         .notes
         .iter()
         .map(|note| format!("{NOTE}{}.", note.message));
-    let lines = outcome.into_iter().chain(gauges).chain(notes).chain(refused_variants(pane));
+    let lines = outcome
+        .into_iter()
+        .chain(gauges)
+        .chain(notes)
+        .chain(refused_variants(pane));
     lines.flat_map(|line| [line, String::new()]).collect()
 }
 
 // A line for each variant that the model refuses.
 fn refused_variants<'a>(pane: &Results<'a>) -> impl Iterator<Item = String> + use<'a> {
-    let columns = pane.variants.into_iter().flat_map(|variants| &variants.columns);
+    let columns = pane
+        .variants
+        .into_iter()
+        .flat_map(|variants| &variants.columns);
     columns.filter_map(|(name, found)| {
         let reason = found.as_ref().err()?;
         Some(format!("{NOTE}variant {name} is refused: {reason}."))

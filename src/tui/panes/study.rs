@@ -94,8 +94,14 @@ struct Rooms {
 /// The points of a map in a pane of that area, across and up.
 #[must_use]
 pub fn map_points(area: Rect) -> (usize, usize) {
-    let across = area.width.saturating_sub(MAP_MARGIN.0).clamp(2, MOST_CELLS.0);
-    let up = area.height.saturating_sub(MAP_MARGIN.1).clamp(2, MOST_CELLS.1);
+    let across = area
+        .width
+        .saturating_sub(MAP_MARGIN.0)
+        .clamp(2, MOST_CELLS.0);
+    let up = area
+        .height
+        .saturating_sub(MAP_MARGIN.1)
+        .clamp(2, MOST_CELLS.1);
     (across.into(), up.into())
 }
 
@@ -124,7 +130,13 @@ pub fn draw(pane: &StudyPane<'_>, buffer: &mut Buffer) {
     }
     let lines = words::below(pane, shown, usize::from(inner.width).saturating_sub(2));
     for (line, y) in lines.iter().zip(rooms.words.top()..rooms.words.bottom()) {
-        buffer.set_stringn(inner.x + 1, y, line, usize::from(inner.width) - 1, Style::new());
+        buffer.set_stringn(
+            inner.x + 1,
+            y,
+            line,
+            usize::from(inner.width) - 1,
+            Style::new(),
+        );
     }
 }
 
@@ -233,7 +245,11 @@ fn draw_page(pane: &StudyPane<'_>, shown: &Shown, inner: Rect, buffer: &mut Buff
 /// The first visible line of the page after so many lines downwards.
 #[must_use]
 pub fn scrolled(pane: &StudyPane<'_>, by: isize) -> usize {
-    let lines = pane.study.shown.as_ref().map_or(0, |shown| shown.page.len());
+    let lines = pane
+        .study
+        .shown
+        .as_ref()
+        .map_or(0, |shown| shown.page.len());
     let rows = usize::from(pane.area.height.saturating_sub(1));
     let top = pane.state.top.saturating_add_signed(by);
     top.min(lines.saturating_sub(rows))
@@ -241,7 +257,10 @@ pub fn scrolled(pane: &StudyPane<'_>, by: isize) -> usize {
 
 fn write(words: &str, area: Rect, buffer: &mut Buffer) {
     let width = usize::from(area.width).saturating_sub(2);
-    for (line, y) in text::wrap(words, width).iter().zip(area.top()..area.bottom()) {
+    for (line, y) in text::wrap(words, width)
+        .iter()
+        .zip(area.top()..area.bottom())
+    {
         buffer.set_stringn(area.x + 1, y, line, width, Style::new());
     }
 }

@@ -9,16 +9,21 @@ use crate::tui::app::App;
 use crate::tui::dialogs::Prompt;
 use crate::tui::dialogs::picker::{List, Picker};
 use crate::tui::pane::Pane;
+use crate::tui::panes::results;
 use crate::tui::panes::study::range::{MOST_ZOOM, axis};
 use crate::tui::panes::study::{self, CURVE_POINTS, StudyCommand, map_points};
-use crate::tui::panes::results;
 use crate::tui::rows::{self, Row};
 use crate::tui::study::{
     End, GridQuestion, Layer, Question, StudyPart, StudyRequest, ToleranceQuestion, Whose,
 };
 
 /// The methods of the overlaid curves.
-const METHODS: [Method; 4] = [Method::Exact, Method::Paper, Method::Static, Method::Dynamic];
+const METHODS: [Method; 4] = [
+    Method::Exact,
+    Method::Paper,
+    Method::Static,
+    Method::Dynamic,
+];
 
 /// Asks for the study in sight, if it is another one than the last; stops the one out of sight.
 pub(super) fn ask(app: &mut App) -> Vec<Effect> {
@@ -74,7 +79,11 @@ fn question(app: &App) -> Result<Question, String> {
     let field = field(app).ok_or("A limit has no range: go to a field of the form.")?;
     let (across, up) = map_points(app.plan().area(Pane::Study));
     let second = app.study.second.filter(|second| *second != field);
-    let points = if second.is_some() { across } else { CURVE_POINTS };
+    let points = if second.is_some() {
+        across
+    } else {
+        CURVE_POINTS
+    };
     let first = axis(&tab.case, field, app.study.zoom, points)?;
     let axes = match second {
         Some(second) => vec![axis(&tab.case, second, app.study.zoom, up)?, first],
@@ -112,7 +121,11 @@ fn field(app: &App) -> Option<usize> {
 /// The active method, the others, the baseline.
 fn layers(app: &App, inputs: &Inputs, quantity: &'static Quantity) -> Vec<Layer> {
     let active = inputs.method;
-    let found = app.tab.answer.as_ref().map_or(active, |answer| answer.active);
+    let found = app
+        .tab
+        .answer
+        .as_ref()
+        .map_or(active, |answer| answer.active);
     let first = Layer {
         whose: Whose::Active(active),
         inputs: inputs.clone(),
@@ -130,7 +143,9 @@ fn layers(app: &App, inputs: &Inputs, quantity: &'static Quantity) -> Vec<Layer>
             quantity: own.key,
         })
     };
-    let others = METHODS.into_iter().filter(|method| *method != active && *method != found);
+    let others = METHODS
+        .into_iter()
+        .filter(|method| *method != active && *method != found);
     let pinned = app.baseline.as_ref().map(|baseline| Layer {
         whose: Whose::Baseline,
         inputs: baseline.answer.inputs.clone(),
@@ -141,7 +156,11 @@ fn layers(app: &App, inputs: &Inputs, quantity: &'static Quantity) -> Vec<Layer>
 }
 
 /// A quantity of one method as another method finds it.
-fn counterpart(quantity: &'static Quantity, of: Method, other: Method) -> Option<&'static Quantity> {
+fn counterpart(
+    quantity: &'static Quantity,
+    of: Method,
+    other: Method,
+) -> Option<&'static Quantity> {
     let is_own = |free: &&'static Quantity| {
         free.is_of_free_impact() && free.by(of).is_some_and(|own| own.key == quantity.key)
     };
@@ -231,5 +250,9 @@ fn accept(app: &mut App) -> Vec<Effect> {
     app.study.cursor = None;
     let effects = edit::replace(app, case);
     app.say(format!("{}; u undoes", told.join(", ")));
-    if effects.is_empty() { solve(None) } else { effects }
+    if effects.is_empty() {
+        solve(None)
+    } else {
+        effects
+    }
 }

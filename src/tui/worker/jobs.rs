@@ -68,12 +68,11 @@ fn examples(system: System, go_on: &dyn Fn(f64) -> bool) -> Option<Vec<Digest>> 
 // As `tipstrike compare` does it.
 fn compared(request: VariantsRequest, go_on: &dyn Fn(f64) -> bool) -> Option<Variants> {
     let stages = request.stages;
-    let solved = |inputs: &Inputs| {
-        match Evaluator::default().solve(inputs, inputs.method, stages, go_on) {
+    let solved =
+        |inputs: &Inputs| match Evaluator::default().solve(inputs, inputs.method, stages, go_on) {
             Err(Refusal::Stopped) => None,
             found => Some(found.map_err(|refusal| format!("{refusal}: {}", refusal.fix()))),
-        }
-    };
+        };
     let columns = request.columns.into_iter().map(|(name, inputs)| {
         let found = match &inputs {
             Ok(inputs) => solved(inputs)?,

@@ -171,7 +171,11 @@ fn page(question: &ToleranceQuestion, study: &Tolerance, samples: &Samples) -> F
     let so_far = Tolerance {
         design: Design {
             samples: solved.min(study.design.samples),
-            ranked: if solved < count { 0 } else { study.design.ranked },
+            ranked: if solved < count {
+                0
+            } else {
+                study.design.ranked
+            },
             ..study.design.clone()
         },
         ..study.clone()
@@ -186,8 +190,15 @@ fn page(question: &ToleranceQuestion, study: &Tolerance, samples: &Samples) -> F
     let mut bytes = Vec::new();
     // Writing into memory does not fail.
     drop(report.write(&mut bytes));
-    let mut lines: Vec<String> = String::from_utf8_lossy(&bytes).lines().map(str::to_owned).collect();
-    let refused = samples.refusals.0.iter().map(|refused| report.refused(refused));
+    let mut lines: Vec<String> = String::from_utf8_lossy(&bytes)
+        .lines()
+        .map(str::to_owned)
+        .collect();
+    let refused = samples
+        .refusals
+        .0
+        .iter()
+        .map(|refused| report.refused(refused));
     lines.extend(refused);
     Found::Page(lines, solved as f64 / count as f64)
 }

@@ -12,7 +12,10 @@ const VARIANTS: &str = "variants";
 /// Puts the variants into the text that has those of `before`.
 pub(super) fn edit(toml: &mut DocumentMut, before: &[Variant], after: &[Variant]) -> Option<()> {
     let named = |variants: &[Variant], name: &str| {
-        variants.iter().find(|variant| variant.name == name).cloned()
+        variants
+            .iter()
+            .find(|variant| variant.name == name)
+            .cloned()
     };
     for old in before {
         if named(after, &old.name).is_none() {
@@ -22,7 +25,11 @@ pub(super) fn edit(toml: &mut DocumentMut, before: &[Variant], after: &[Variant]
     for new in after {
         match named(before, &new.name) {
             Some(old) if old == *new => {}
-            Some(old) => change(all(toml)?.get_mut(&new.name)?.as_table_like_mut()?, &old, new)?,
+            Some(old) => change(
+                all(toml)?.get_mut(&new.name)?.as_table_like_mut()?,
+                &old,
+                new,
+            )?,
             None => add(all(toml)?, new)?,
         }
     }
@@ -49,7 +56,10 @@ fn add(all: &mut dyn TableLike, variant: &Variant) -> Option<()> {
     };
     all.insert(&variant.name, item);
     let table = all.get_mut(&variant.name)?.as_table_like_mut()?;
-    variant.overrides.iter().try_for_each(|change| write(table, change))
+    variant
+        .overrides
+        .iter()
+        .try_for_each(|change| write(table, change))
 }
 
 fn write(table: &mut dyn TableLike, change: &Override) -> Option<()> {
@@ -66,7 +76,11 @@ fn change(table: &mut dyn TableLike, old: &Variant, new: &Variant) -> Option<()>
             take_out(inner(table, tables)?, name, "");
         }
     }
-    for change in new.overrides.iter().filter(|change| !old.overrides.contains(change)) {
+    for change in new
+        .overrides
+        .iter()
+        .filter(|change| !old.overrides.contains(change))
+    {
         match path_of(table, "", &change.key) {
             Some(path) => {
                 let (name, tables) = path.split_last()?;

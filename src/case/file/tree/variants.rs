@@ -20,7 +20,10 @@ impl Reader {
             return self.fault(key.span().start, problem);
         }
         let Some(table) = value.get_ref().as_table() else {
-            let cause = format!("expected a table of overrides, found {}", kind_of(value.get_ref()));
+            let cause = format!(
+                "expected a table of overrides, found {}",
+                kind_of(value.get_ref())
+            );
             let fix = format!("write [{place}] on a line of its own, and {EXAMPLE} below it");
             return self.fault(value.span().start, Problem::new(&place, cause, fix));
         };
@@ -46,7 +49,10 @@ impl Reader {
             if variant.overrides.is_empty() && !self.faults.iter().any(is_of_it) {
                 let start = self.places.table(&place).map_or(0, |span| span.start);
                 let fix = format!("write an override, such as {EXAMPLE}, or remove the table");
-                self.fault(start, Problem::new(&place, "the variant changes nothing", fix));
+                self.fault(
+                    start,
+                    Problem::new(&place, "the variant changes nothing", fix),
+                );
             }
         }
     }
@@ -60,7 +66,10 @@ impl Reader {
         }
         for found in other.faults {
             let field = of_table(&found.problem.field);
-            let problem = Problem { field, ..found.problem };
+            let problem = Problem {
+                field,
+                ..found.problem
+            };
             self.faults.push(Found { problem, ..found });
         }
         self.more += other.more;
@@ -148,7 +157,12 @@ impl Overrides {
 
     fn take(&mut self, key: &str, text: String) {
         if self.taken.iter().any(|known| known.key == key) {
-            let at = self.reader.places.entries.last().map_or(0, |place| place.value.start);
+            let at = self
+                .reader
+                .places
+                .entries
+                .last()
+                .map_or(0, |place| place.value.start);
             let fix = "keep one of the two";
             let problem = Problem::new(key, "the variant overrides this key twice", fix);
             return self.reader.fault(at, problem);

@@ -12,8 +12,8 @@ use crate::tui::form_aids::{materials, search, search_results};
 use crate::tui::line::Line;
 
 use super::item::{
-    DESCRIBED, Item, Pick, VARIANT, command, example, field, graph, of_material, quantity, rank, result,
-    variant,
+    DESCRIBED, Item, Pick, VARIANT, command, example, field, graph, of_material, quantity, rank,
+    result, variant,
 };
 
 /// The least similarity of a name that is offered when no name contains the typed words.

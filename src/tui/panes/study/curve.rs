@@ -48,14 +48,24 @@ pub(super) fn draw(
     };
     let layers: Vec<(&Layer, &LayerFound)> = grid.layers.iter().zip(&shown.layers).collect();
     draw_legend(pane, &layers, rooms.legend, buffer);
-    let all = || layers.iter().flat_map(|(_, found)| found.values.iter().flatten().copied());
+    let all = || {
+        layers
+            .iter()
+            .flat_map(|(_, found)| found.values.iter().flatten().copied())
+    };
     let Some(known) = quantity(shown) else { return };
     let unit = unit_beside(known, all(), pane.units);
     let factor = crate::case::units::factor(unit).unwrap_or(1.0);
     let values = all().fold(Span::NONE, |span, value| span.with(value / factor));
     let upright = Span::default().refit(values);
     let ticks = upright.ticks(rooms.plot.height.saturating_sub(1) / 2);
-    let margin = ticks.labelled.iter().map(|(_, label)| label.len()).max().unwrap_or(0) as u16 + 3;
+    let margin = ticks
+        .labelled
+        .iter()
+        .map(|(_, label)| label.len())
+        .max()
+        .unwrap_or(0) as u16
+        + 3;
     let cells = Rect {
         x: rooms.plot.x + margin,
         width: rooms.plot.width.saturating_sub(margin + 2),
@@ -100,7 +110,10 @@ fn across(axis: &Axis) -> Span {
 
 /// The place of a point on the axis.
 fn x(axis: &Axis, at: usize) -> f64 {
-    axis.points.get(at).and_then(|point| point.number).unwrap_or(at as f64)
+    axis.points
+        .get(at)
+        .and_then(|point| point.number)
+        .unwrap_or(at as f64)
 }
 
 impl Plot<'_> {
@@ -133,7 +146,9 @@ impl Plot<'_> {
         }
         let mut free = cells.x.saturating_sub(1);
         for (value, label) in self.labels() {
-            let Some(column) = self.column(value) else { continue };
+            let Some(column) = self.column(value) else {
+                continue;
+            };
             let width = label.width() as u16;
             let start = column.saturating_sub(width / 2);
             let start = start.min((cells.right() + 2).saturating_sub(width));
@@ -149,14 +164,18 @@ impl Plot<'_> {
     fn labels(&self) -> Vec<(f64, String)> {
         if self.axis.points.iter().any(|point| point.number.is_none()) {
             let names = self.axis.points.iter().enumerate();
-            return names.map(|(at, point)| (x(self.axis, at), point.text.clone())).collect();
+            return names
+                .map(|(at, point)| (x(self.axis, at), point.text.clone()))
+                .collect();
         }
         let ticks = self.across.ticks(self.cells.width / LABEL_ROOM);
         let scale = 10f64.powi(ticks.power);
         let plain = |(value, label): (f64, String)| {
             let is_scaled = ticks.power != 0;
             let number = crate::numeric::decimal::significant(value, 6);
-            let shortest = number.parse::<f64>().map_or(number, |number| number.to_string());
+            let shortest = number
+                .parse::<f64>()
+                .map_or(number, |number| number.to_string());
             (value, if is_scaled { shortest } else { label })
         };
         debug_assert!(scale > 0.0);
@@ -195,7 +214,10 @@ impl Plot<'_> {
             });
         canvas.render(self.cells, buffer);
         for position in self.cells.positions() {
-            if let Some(cell) = buffer.cell_mut(position).filter(|cell| cell.fg == OWN || cell.bg == OWN) {
+            if let Some(cell) = buffer
+                .cell_mut(position)
+                .filter(|cell| cell.fg == OWN || cell.bg == OWN)
+            {
                 if cell.bg == OWN {
                     cell.set_symbol("█");
                 }
@@ -223,7 +245,9 @@ impl Plot<'_> {
     /// The limit, the present value and the cursor.
     fn marks(&self, buffer: &mut Buffer) {
         let theme = self.pane.look.theme;
-        let limit = self.limit().filter(|limit| (0.0..=1.0).contains(&self.upright.part(*limit)));
+        let limit = self
+            .limit()
+            .filter(|limit| (0.0..=1.0).contains(&self.upright.part(*limit)));
         if let Some(limit) = limit {
             for x in self.cells.left()..self.cells.right() {
                 put_where_free((x, self.row(limit)), "╌", theme.rule, buffer);
@@ -253,7 +277,12 @@ impl Plot<'_> {
 
     fn limit(&self) -> Option<f64> {
         let key = quantity(self.shown)?.key;
-        let limit = self.pane.case.limits.iter().find(|limit| limit.quantity == key)?;
+        let limit = self
+            .pane
+            .case
+            .limits
+            .iter()
+            .find(|limit| limit.quantity == key)?;
         limit.value.is_finite().then(|| limit.value / self.factor)
     }
 }
@@ -313,7 +342,11 @@ fn draw_legend(
     }
     put("● now", pane.look.theme.focus);
     put("▴ cursor", pane.look.theme.focus);
-    let has = |sought: PointOutcome| layers.iter().any(|(_, found)| found.outcomes.contains(&sought));
+    let has = |sought: PointOutcome| {
+        layers
+            .iter()
+            .any(|(_, found)| found.outcomes.contains(&sought))
+    };
     if has(PointOutcome::Solved(Outcome::NoCornerContact)) {
         put("· no contact", pane.look.theme.note);
     }

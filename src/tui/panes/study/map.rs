@@ -46,14 +46,26 @@ pub(super) fn draw(
     let cells = Rect {
         x: rooms.plot.x + margin,
         y: rooms.plot.y,
-        width: rooms.plot.width.saturating_sub(margin + 1).min(across.points.len() as u16),
-        height: rooms.plot.height.saturating_sub(2).min(up.points.len() as u16),
+        width: rooms
+            .plot
+            .width
+            .saturating_sub(margin + 1)
+            .min(across.points.len() as u16),
+        height: rooms
+            .plot
+            .height
+            .saturating_sub(2)
+            .min(up.points.len() as u16),
     };
     if cells.width < 2 || cells.height < 2 {
         return;
     }
     let all = found.values.iter().flatten().copied();
-    let limit = pane.case.limits.iter().find(|limit| limit.quantity == known.key);
+    let limit = pane
+        .case
+        .limits
+        .iter()
+        .find(|limit| limit.quantity == known.key);
     let map = Map {
         pane,
         found,
@@ -61,7 +73,9 @@ pub(super) fn draw(
         up,
         cells,
         values: all.clone().fold(Span::NONE, Span::with),
-        limit: limit.map(|limit| limit.value).filter(|value| value.is_finite()),
+        limit: limit
+            .map(|limit| limit.value)
+            .filter(|value| value.is_finite()),
     };
     map.frame(buffer);
     for (column, row) in positions(cells) {
@@ -98,7 +112,11 @@ impl Map<'_> {
     }
 
     fn value(&self, column: u16, row: u16) -> Option<f64> {
-        self.found.values.get(self.index(column, row)).copied().flatten()
+        self.found
+            .values
+            .get(self.index(column, row))
+            .copied()
+            .flatten()
     }
 
     fn outcome(&self, column: u16, row: u16) -> Option<PointOutcome> {
@@ -161,7 +179,9 @@ impl Map<'_> {
         let (width, height) = (self.cells.width, self.cells.height);
         let steps = [(-1, 0), (1, 0), (0, -1), (0, 1)];
         steps.into_iter().filter_map(move |(x, y)| {
-            let column = column.checked_add_signed(x).filter(|column| *column < width)?;
+            let column = column
+                .checked_add_signed(x)
+                .filter(|column| *column < width)?;
             let row = row.checked_add_signed(y).filter(|row| *row < height)?;
             Some((column, row))
         })
@@ -186,9 +206,12 @@ impl Map<'_> {
         }
         let mut free = 0;
         for column in [0, cells.width / 2, cells.width - 1] {
-            let label = &self.across.points[Map::at(column, cells.width, self.across.points.len())].text;
+            let label =
+                &self.across.points[Map::at(column, cells.width, self.across.points.len())].text;
             let (x, width) = (cells.x + column, label.width() as u16);
-            let start = x.saturating_sub(width / 2).min((cells.right() + 1).saturating_sub(width));
+            let start = x
+                .saturating_sub(width / 2)
+                .min((cells.right() + 1).saturating_sub(width));
             if start >= free {
                 buffer.set_string(x, bottom, "┴", rule);
                 buffer.set_string(start, bottom + 1, label, Style::new());

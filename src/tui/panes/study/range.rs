@@ -41,7 +41,9 @@ pub fn axis(case: &Case, field: usize, zoom: i32, points: usize) -> Result<Axis,
                 points: Some(points.max(2)),
                 is_log: false,
             };
-            range.axis(sampling).map_err(|problem| told(known, &problem.cause))
+            range
+                .axis(sampling)
+                .map_err(|problem| told(known, &problem.cause))
         }
         Kind::Count(from, to, _) => {
             let range = count_range(case, field, zoom, points, (from, to));
@@ -78,7 +80,11 @@ fn number_range(case: &Case, field: usize, zoom: i32) -> AxisRange {
     };
     let reach = usual * 2f64.powi(-zoom.clamp(-MOST_ZOOM, MOST_ZOOM));
     let (least, most) = field_range(field);
-    let rounded = |si: f64| significant(si / factor, DIGITS).parse().unwrap_or(si / factor);
+    let rounded = |si: f64| {
+        significant(si / factor, DIGITS)
+            .parse()
+            .unwrap_or(si / factor)
+    };
     let end = |si: f64| {
         let number: f64 = rounded(si);
         // Rounding must not leave the limits of the field.
@@ -88,7 +94,10 @@ fn number_range(case: &Case, field: usize, zoom: i32) -> AxisRange {
             number
         }
     };
-    let (from, to) = (end((value - reach).max(least)), end((value + reach).min(most)));
+    let (from, to) = (
+        end((value - reach).max(least)),
+        end((value + reach).min(most)),
+    );
     AxisRange {
         field,
         unit,
@@ -187,7 +196,11 @@ mod tests {
             ("driver.teeth", 0, "10", "30"),
             ("driver.teeth", -9, "5", "70"),
         ] {
-            assert_eq!(ends(key, zoom), (from.to_owned(), to.to_owned()), "{key} {zoom}");
+            assert_eq!(
+                ends(key, zoom),
+                (from.to_owned(), to.to_owned()),
+                "{key} {zoom}"
+            );
         }
     }
 
@@ -198,7 +211,11 @@ mod tests {
             for zoom in [-MOST_ZOOM, -1, 0, 5, MOST_ZOOM] {
                 for points in [2, 30, 101] {
                     let found = axis(&case, at, zoom, points);
-                    assert_eq!(found.is_err(), matches!(field.kind, Kind::Text), "{found:?}");
+                    assert_eq!(
+                        found.is_err(),
+                        matches!(field.kind, Kind::Text),
+                        "{found:?}"
+                    );
                 }
             }
         }

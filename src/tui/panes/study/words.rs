@@ -16,7 +16,12 @@ use crate::tui::text;
 
 /// The title in a room of that width.
 pub(super) fn title(pane: &StudyPane<'_>, room: usize) -> String {
-    let Some(shown) = pane.study.shown.as_ref().filter(|_| pane.study.obstacle.is_none()) else {
+    let Some(shown) = pane
+        .study
+        .shown
+        .as_ref()
+        .filter(|_| pane.study.obstacle.is_none())
+    else {
         return "Study".to_owned();
     };
     let state = progress(shown);
@@ -29,12 +34,20 @@ pub(super) fn title(pane: &StudyPane<'_>, room: usize) -> String {
             let name = quantity(shown).map_or("", |known| known.symbol);
             let label = quantity(shown).map_or("", |known| known.label);
             let unit = quantity(shown).map_or("", |known| {
-                let values = shown.layers.iter().flat_map(|found| found.values.iter().flatten());
+                let values = shown
+                    .layers
+                    .iter()
+                    .flat_map(|found| found.values.iter().flatten());
                 unit_beside(known, values.copied(), pane.units)
             });
             let unit = if unit == "1" { "" } else { unit };
-            let unit = if unit.is_empty() { String::new() } else { format!(" in {unit}") };
-            let long = fields(|axis| format!("{}{}", FIELDS[axis.field].full_label(), in_unit(axis)));
+            let unit = if unit.is_empty() {
+                String::new()
+            } else {
+                format!(" in {unit}")
+            };
+            let long =
+                fields(|axis| format!("{}{}", FIELDS[axis.field].full_label(), in_unit(axis)));
             let short = fields(|axis| format!("{}{}", FIELDS[axis.field].symbol, in_unit(axis)));
             vec![
                 format!("Study: {name} {label}{unit} over {}", long.join(" and ")),
@@ -45,9 +58,12 @@ pub(super) fn title(pane: &StudyPane<'_>, room: usize) -> String {
         }
     };
     let all = words.iter().map(|words| format!("{words}{state}"));
-    let all: Vec<String> = all.map(|words| symbol(&words, pane.look.ascii).into_owned()).collect();
+    let all: Vec<String> = all
+        .map(|words| symbol(&words, pane.look.ascii).into_owned())
+        .collect();
     let fits = all.iter().find(|words| words.width() <= room);
-    fits.cloned().unwrap_or_else(|| text::cut(all.last().map_or("Study", String::as_str), room))
+    fits.cloned()
+        .unwrap_or_else(|| text::cut(all.last().map_or("Study", String::as_str), room))
 }
 
 fn in_unit(axis: &Axis) -> String {
@@ -96,11 +112,18 @@ pub(super) fn at_cursor(pane: &StudyPane<'_>, shown: &Shown) -> String {
     let width = across.map_or(0, |axis| axis.points.len());
     let setting = |axis: &Axis, at: usize| {
         let known = &FIELDS[axis.field];
-        let name = if known.symbol.is_empty() { known.label } else { known.symbol };
+        let name = if known.symbol.is_empty() {
+            known.label
+        } else {
+            known.symbol
+        };
         format!("{name} = {}", axis.with_unit(at))
     };
     let first = across.map(|axis| setting(axis, x));
-    let settings: Vec<String> = first.into_iter().chain(up.map(|axis| setting(axis, y))).collect();
+    let settings: Vec<String> = first
+        .into_iter()
+        .chain(up.map(|axis| setting(axis, y)))
+        .collect();
     let values: Vec<String> = grid
         .layers
         .iter()
@@ -129,18 +152,27 @@ fn value(pane: &StudyPane<'_>, layer: &Layer, found: &LayerFound, at: usize) -> 
 /// The refused points of the first curve that has some: how many, and why.
 fn refused(shown: &Shown) -> impl Iterator<Item = String> {
     let found = shown.layers.iter().find(|found| found.refusals.total() > 0);
-    let refused = found.map(|found| found.refusals.0.clone()).unwrap_or_default();
+    let refused = found
+        .map(|found| found.refusals.0.clone())
+        .unwrap_or_default();
     refused.into_iter().map(|refused| {
         let Refused { count, problem, .. } = &refused;
         let points = if *count == 1 { "point" } else { "points" };
-        format!("{count} {points} refused: {}: {}", problem.cause, problem.fix)
+        format!(
+            "{count} {points} refused: {}: {}",
+            problem.cause, problem.fix
+        )
     })
 }
 
 /// The hint line while the pane has the focus.
 pub(super) fn hint(pane: &StudyPane<'_>) -> String {
     const KEYS: &str = "h, l move the cursor, + and - zoom, Enter uses the value, s adds a second field, d shows the tolerance.";
-    let shown = pane.study.shown.as_ref().filter(|_| pane.study.obstacle.is_none());
+    let shown = pane
+        .study
+        .shown
+        .as_ref()
+        .filter(|_| pane.study.obstacle.is_none());
     match shown.map(|shown| (shown, &shown.request.question)) {
         Some((shown, Question::Grid(_))) => format!("{}. {KEYS}", at_cursor(pane, shown)),
         Some((_, Question::Tolerance(_))) => {

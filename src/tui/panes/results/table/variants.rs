@@ -47,20 +47,36 @@ pub(in crate::tui::panes::results) fn page(pane: &Results<'_>, width: usize) -> 
     let (Some(answer), Some(variants)) = (pane.answer, pane.variants) else {
         return 1;
     };
-    let cells: Vec<Cells> = order(answer).map(|known| Cells::of(pane, answer, variants, known)).collect();
+    let cells: Vec<Cells> = order(answer)
+        .map(|known| Cells::of(pane, answer, variants, known))
+        .collect();
     Layout::of(&cells, variants, width).count
 }
 
 /// The table of the variants from the first visible one on.
-pub(super) fn lines(pane: &Results<'_>, answer: &Answer, variants: &Variants, width: usize) -> Table {
-    let cells: Vec<Cells> = order(answer).map(|known| Cells::of(pane, answer, variants, known)).collect();
+pub(super) fn lines(
+    pane: &Results<'_>,
+    answer: &Answer,
+    variants: &Variants,
+    width: usize,
+) -> Table {
+    let cells: Vec<Cells> = order(answer)
+        .map(|known| Cells::of(pane, answer, variants, known))
+        .collect();
     let layout = Layout::of(&cells, variants, width);
-    let seen = |of: usize| (pane.first_variant..of).take(layout.count).collect::<Vec<_>>();
+    let seen = |of: usize| {
+        (pane.first_variant..of)
+            .take(layout.count)
+            .collect::<Vec<_>>()
+    };
     let seen = seen(variants.columns.len());
     let theme = pane.look.theme;
     let mut heading = vec![Span::raw(" ".repeat(layout.symbol))];
     if layout.own > 0 {
-        heading.push(Span::styled(format!("{:>1$}", "case", layout.own), theme.active));
+        heading.push(Span::styled(
+            format!("{:>1$}", "case", layout.own),
+            theme.active,
+        ));
     }
     for &at in &seen {
         let room = layout.value + layout.difference;
@@ -70,12 +86,18 @@ pub(super) fn lines(pane: &Results<'_>, answer: &Answer, variants: &Variants, wi
     let line = |cells: &Cells| {
         let mut spans = vec![Span::raw(text::padded(&cells.symbol, layout.symbol))];
         if layout.own > 0 {
-            spans.push(Span::styled(format!("{:>1$}", cells.own, layout.own), theme.focus));
+            spans.push(Span::styled(
+                format!("{:>1$}", cells.own, layout.own),
+                theme.focus,
+            ));
         }
         for &at in &seen {
             let (value, difference) = &cells.others[at];
             spans.push(Span::raw(format!("{value:>0$}", layout.value)));
-            spans.push(Span::styled(format!("{difference:>0$}", layout.difference), theme.baseline));
+            spans.push(Span::styled(
+                format!("{difference:>0$}", layout.difference),
+                theme.baseline,
+            ));
         }
         spans.push(Span::raw(format!(" {}", cells.unit)));
         Line::from(spans)
@@ -97,7 +119,12 @@ pub(super) fn lines(pane: &Results<'_>, answer: &Answer, variants: &Variants, wi
 }
 
 impl Cells {
-    fn of(pane: &Results<'_>, answer: &Answer, variants: &Variants, known: &'static Quantity) -> Cells {
+    fn of(
+        pane: &Results<'_>,
+        answer: &Answer,
+        variants: &Variants,
+        known: &'static Quantity,
+    ) -> Cells {
         let value = |solution: &Solution| {
             value_as_in(known, solution, answer.active).filter(|value| value.is_finite())
         };
@@ -105,15 +132,23 @@ impl Cells {
         let found: Vec<Result<Option<f64>, ()>> = variants
             .columns
             .iter()
-            .map(|(_, found)| found.as_ref().map(|solution| value(solution)).map_err(|_| ()))
+            .map(|(_, found)| found.as_ref().map(&value).map_err(|_| ()))
             .collect();
-        let all = found.iter().filter_map(|found| found.ok().flatten()).chain(own);
+        let all = found
+            .iter()
+            .filter_map(|found| found.ok().flatten())
+            .chain(own);
         let unit = unit_beside(known, all, pane.units);
         let shown = |value: Option<f64>| {
-            value.map_or_else(|| NONE.to_owned(), |value| shown_with(known, value, unit).number)
+            value.map_or_else(
+                || NONE.to_owned(),
+                |value| shown_with(known, value, unit).number,
+            )
         };
         let cell = |found: &Result<Option<f64>, ()>| match (found, own) {
-            (Ok(Some(value)), Some(own)) => (shown(Some(*value)), difference(known, *value, own, unit)),
+            (Ok(Some(value)), Some(own)) => {
+                (shown(Some(*value)), difference(known, *value, own, unit))
+            }
             (Ok(value), _) => (shown(*value), String::new()),
             (Err(()), _) => (REFUSED.to_owned(), String::new()),
         };
