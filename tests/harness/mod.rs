@@ -165,7 +165,7 @@ impl Desk {
                     Effect::Mouse(takes) => self.has_mouse = takes,
                     Effect::Play(plays) => self.ticks = plays,
                     Effect::CancelWork | Effect::CancelSolve | Effect::CancelStudy => {
-                        self.has_cancelled = true
+                        self.has_cancelled = true;
                     }
                     Effect::Redraw => self.has_redrawn = true,
                     Effect::Suspend => self.is_suspended = true,
