@@ -11,6 +11,7 @@ mod import;
 mod new;
 mod plot;
 mod progress;
+mod relief;
 mod report;
 mod seek;
 mod shards;
@@ -28,8 +29,8 @@ use crate::report::{fields, schema};
 
 pub use arguments::{
     Arguments, Check, Command, Compare, CompareFormat, Edits, Explain, Export, Fields, Format,
-    Gather, Import, Listing, New, Plot, RowFormat, Running, Seek, Setting, Solve, Stiffness, Sweep,
-    Tolerance, Trading,
+    Gather, Import, Listing, New, Plot, Relief, RowFormat, Running, Seek, Setting, Solve,
+    Stiffness, Sweep, Tolerance, Trading,
 };
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches};
@@ -188,6 +189,7 @@ pub fn run(command: &Command, streams: &mut Streams) -> Exit {
             schema::write_results(streams.output.as_mut()).map(|()| Exit::Done)
         }
         Command::New(options) => new::run(options, streams),
+        Command::Relief(options) => relief::run(options, streams),
         Command::Plot(options) => plot::run(options, streams),
         Command::Report(options) => report::run(options, streams),
         Command::Import(options) => import::run(options, streams),

@@ -18,6 +18,7 @@ pub mod page;
 pub mod relief;
 pub mod schema;
 pub mod seek;
+pub mod specification;
 pub mod stations;
 pub mod stiffness;
 pub mod svg;

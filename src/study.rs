@@ -7,6 +7,7 @@ pub mod design;
 pub mod distribution;
 pub mod headline;
 pub mod refusals;
+pub mod relief;
 pub mod request;
 pub mod seek;
 pub mod shard;

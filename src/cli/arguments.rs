@@ -22,7 +22,7 @@ pub use compare::{Compare, CompareFormat};
 use std::ffi::OsStr;
 use std::path::PathBuf;
 use std::sync::LazyLock;
-pub use studies::{Gather, RowFormat, Running, Seek, Sweep, Tolerance};
+pub use studies::{Gather, Relief, RowFormat, Running, Seek, Sweep, Tolerance};
 
 /// The version, with the commit where the build names it, as `.ci/release` does.
 static VERSION: LazyLock<String> = LazyLock::new(|| {
@@ -98,6 +98,8 @@ pub enum Command {
     Compare(Compare),
     /// Find every value of a field at which a condition on the results changes
     Seek(Seek),
+    /// Find the tip relief to specify on both gears: no corner contact, least transmission error
+    Relief(Relief),
     /// Write a chart of a case, or its teeth, as a picture (SVG)
     Plot(Plot),
     /// Write cases side by side as one page or as data: .html, .md, .csv or .json

@@ -188,6 +188,19 @@ impl PairSet {
         self
     }
 
+    /// The same pairs with wider gaps; `more` is in m, by the base pitches that a pair is ahead.
+    #[must_use]
+    pub fn widened(&self, more: impl Fn(i32) -> f64) -> PairSet {
+        let mut pairs = self.pairs.clone();
+        for pair in &mut pairs {
+            pair.place.gap += more(pair.ahead);
+        }
+        PairSet {
+            pairs,
+            couplings: self.couplings.clone(),
+        }
+    }
+
     /// The balance of the forces that turn the driver with `force`, in N.
     ///
     /// # Formula

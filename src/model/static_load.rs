@@ -150,6 +150,20 @@ pub fn lead_before_start(mesh: &Mesh) -> Result<f64, Refusal> {
     }
 }
 
+/// The same of the pair that leaves, after B.
+///
+/// # Errors
+/// [`Refusal::BeyondReach`] where the pairs yield further than the mesh is known.
+pub fn lead_after_end(mesh: &Mesh) -> Result<f64, Refusal> {
+    let leads = leads(mesh, &grid(mesh, mesh.length, mesh.ends().1));
+    let has_end = leads.last().is_some_and(|&(_, lead)| lead <= 0.0);
+    if has_end {
+        Ok(greatest(&leads, |s| lead(mesh, s)).1)
+    } else {
+        Err(Refusal::BeyondReach)
+    }
+}
+
 /// The places at which the pairs are looked at for it.
 #[must_use]
 pub fn places_before_start(mesh: &Mesh) -> u64 {

@@ -33,6 +33,7 @@ mod motion;
 mod properties;
 mod reference;
 mod relevance;
+mod relief;
 mod rounded;
 mod stiffness;
 mod studies;

@@ -5,6 +5,7 @@
 )]
 
 use super::{Changes, Format, Listing, QuantityList};
+use crate::case::units::{self, Dimension};
 use crate::model::Quantity;
 use crate::report::sweep::TableFormat;
 use crate::study::seek::USUAL_SCAN;
@@ -26,6 +27,12 @@ const TOLERANCE_SHAPE: &str = "A distribution is a line of [spread]: the field i
     deviation, or { uniform = WIDTH }, { triangular = WIDTH } or { truncated = WIDTH } (a normal distribution cut off at three standard \
     deviations) with half the span, or { grade = CLASS } for a base pitch deviation of ISO 1328-1. CSV has one row per solve in SI units: \
     the samples (set a), then the points of the ranking (set b, and b:FIELD with the value of b in that field). JSON is one object in SI units.";
+
+const RELIEF_SHAPE: &str = "Corner contact counts before the start and after the end of the path of contact, at the greatest load, with \
+    each relief off by the tolerance to either side. Among the reliefs without corner contact the command chooses the one with the least \
+    greatest transmission error (peak to peak, at rest, without base pitch deviations) over six loads of the range. Amounts are in \
+    half micrometres, lengths in round steps. With method dynamic the motion must have no corner contact either. CSV has one row per choice \
+    and point of the map, JSON is one object; both are in SI units.";
 
 /// How a study runs whose points can be divided among machines.
 #[derive(Debug, Args)]
@@ -102,6 +109,59 @@ pub struct Seek {
     /// File to write, in place of an older one; else standard output
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub out: Option<PathBuf>,
+}
+
+/// The options of `relief`.
+#[derive(Debug, Args)]
+#[command(after_help = RELIEF_SHAPE)]
+pub struct Relief {
+    /// Case file; - is standard input
+    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub case: PathBuf,
+    /// Loads that the relief must serve, in parts of the load of the case
+    #[arg(long, value_name = "A..B", default_value = "25..110%", value_parser = loads)]
+    pub load: (f64, f64),
+    /// How far manufacturing may miss each relief on both sides, such as '5 um'
+    #[arg(long, value_name = "LENGTH", default_value = "5 um", value_parser = tolerance)]
+    pub tolerance: f64,
+    /// What differs from the case
+    #[command(flatten)]
+    pub changes: Changes,
+    /// Format of the output
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+    /// File to write, in place of an older one; else standard output
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub out: Option<PathBuf>,
+}
+
+/// A range of loads in percent, such as `25..110%`, or one load.
+fn loads(text: &str) -> Result<(f64, f64), String> {
+    const FIX: &str = "write a range above 0 % and up to 1000 %, such as 25..110%";
+    let number = |text: &str| {
+        let number = text.trim().trim_end_matches('%').trim_end();
+        let percent: f64 = number.parse().map_err(|_| FIX.to_owned())?;
+        let is_possible = percent > 0.0 && percent <= 1000.0;
+        is_possible.then_some(percent / 100.0).ok_or(FIX.to_owned())
+    };
+    let (from, to) = text.split_once("..").unwrap_or((text, text));
+    let (from, to) = (number(from)?, number(to)?);
+    if from > to {
+        return Err(format!("the range is reversed: {FIX}"));
+    }
+    Ok((from, to))
+}
+
+/// A length from 0 to 1 mm.
+fn tolerance(text: &str) -> Result<f64, String> {
+    const MOST: f64 = 1e-3;
+    let length = units::parse(text, Dimension::Length, "um")
+        .map_err(|error| format!("{}: {}", error.cause, error.fix))?;
+    if (0.0..=MOST).contains(&length) {
+        Ok(length)
+    } else {
+        Err("write a length from 0 um to 1 mm, such as '5 um'".to_owned())
+    }
 }
 
 /// The options of `tolerance`.

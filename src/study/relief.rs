@@ -1,0 +1,359 @@
+//! The tip relief to specify: amounts and lengths on both gears without corner contact at the
+//! greatest load, and among those the least transmission error over the loads.
+
+mod bench;
+mod figures;
+mod search;
+
+use std::fmt;
+
+use crate::model::budget::Meter;
+use crate::model::inputs::{Drive, Method, ReliefShape};
+use crate::model::profile::{Profile, Rack};
+use crate::model::{Inputs, Refusal, Solution, Stage, Stages, solve};
+use bench::Bench;
+use search::{Grid, Search};
+
+/// Steps of an amount, in m: half micrometres.
+pub const AMOUNT_STEP: f64 = 0.5e-6;
+
+/// Loads over the range at which the transmission error counts.
+const LOADS: usize = 6;
+
+/// Work of the search, in places of pairs; an ordinary search takes a fourth of it.
+const WORK: u64 = 40_000_000;
+
+/// What a relief must serve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Demand {
+    /// Least and greatest load over that of the case.
+    pub loads: (f64, f64),
+    /// How far each relief may be off on both sides, in m.
+    pub tolerance: f64,
+}
+
+/// The tip reliefs of both gears.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TipReliefs {
+    /// How they grow along the path of contact.
+    pub shape: ReliefShape,
+    /// Amounts on driver and driven gear, in m.
+    pub amounts: [f64; 2],
+    /// Lengths along the path of contact, in m.
+    pub lengths: [f64; 2],
+}
+
+/// A choice of reliefs and what it gives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Choice {
+    /// A few words.
+    pub name: &'static str,
+    /// The reliefs.
+    pub reliefs: TipReliefs,
+    /// Peak-to-peak transmission error at each load, in m.
+    pub errors: Vec<f64>,
+    /// The gap that remains before E and after B at the greatest load with the tolerance on its bad
+    /// side, in m; below 0 the overlap.
+    pub margin: f64,
+}
+
+impl Demand {
+    /// A quarter of the load to a tenth more than all of it, and 5 um.
+    pub const USUAL: Demand = Demand {
+        loads: (0.25, 1.1),
+        tolerance: 5e-6,
+    };
+}
+
+impl Choice {
+    /// The greatest transmission error over the loads, in m.
+    #[must_use]
+    pub fn greatest_error(&self) -> f64 {
+        self.errors.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// The mean transmission error over the loads, in m.
+    #[must_use]
+    pub fn mean_error(&self) -> f64 {
+        self.errors.iter().sum::<f64>() / self.errors.len().max(1) as f64
+    }
+}
+
+/// A point of the map over amount and length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MapPoint {
+    /// The reliefs.
+    pub reliefs: TipReliefs,
+    /// Greatest peak-to-peak transmission error over the loads, in m.
+    pub error: f64,
+    /// The remaining gap, in m.
+    pub margin: f64,
+}
+
+/// The relief to specify.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Specification {
+    /// The method that finds no corner contact with it.
+    pub method: Method,
+    /// What it serves.
+    pub demand: Demand,
+    /// Torque on the driver at load 1, in N m.
+    pub torque: f64,
+    /// The loads, over that of the case.
+    pub loads: Vec<f64>,
+    /// The reliefs that the case has, then the best of each kind; [`Specification::best`] among them.
+    pub choices: Vec<Choice>,
+    /// The place of the one to specify.
+    pub best: usize,
+    /// The greatest load without corner contact, over that of the case.
+    pub greatest_load: f64,
+    /// Path of contact on unrelieved flanks, over the base pitch: the contact ratio without load.
+    pub unloaded_contact_ratio: f64,
+    /// By rows of equal lengths, shortest first; in a row by amounts.
+    pub map: Vec<Vec<MapPoint>>,
+    /// Reliefs that were tried.
+    pub tries: u64,
+    /// Whether the budget ended the search early.
+    pub is_cut: bool,
+}
+
+impl Specification {
+    /// The choice to specify.
+    #[must_use]
+    pub fn chosen(&self) -> &Choice {
+        &self.choices[self.best]
+    }
+}
+
+/// Why there is no relief.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum NoRelief {
+    /// The model refuses the pair.
+    Refused(Refusal),
+    /// The relief that clears is more than the tip can lose.
+    ThinTip {
+        /// The gear whose tip is too thin.
+        gear: &'static str,
+        /// The most that its tip may lose, in m.
+        most: f64,
+        /// The overlap that remains with it, in m.
+        overlap: f64,
+    },
+    /// The part of the path with two pairs has no room for a relief.
+    ShortPath {
+        /// Length of that part, in m.
+        length: f64,
+        /// The least length of a relief, in m.
+        least: f64,
+        /// ε.
+        ratio: f64,
+    },
+    /// No relief up to this amount clears.
+    Beyond {
+        /// In m.
+        most: f64,
+        /// The overlap that remains with it, in m.
+        overlap: f64,
+    },
+    /// Contact before E in motion with every relief tried.
+    InMotion {
+        /// The greatest amount tried, in m.
+        most: f64,
+    },
+}
+
+impl From<Refusal> for NoRelief {
+    fn from(refusal: Refusal) -> NoRelief {
+        NoRelief::Refused(refusal)
+    }
+}
+
+impl fmt::Display for NoRelief {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let um = |length: &f64| format!("{:.1} um", length * 1e6);
+        let mm = |length: &f64| format!("{:.2} mm", length * 1e3);
+        match self {
+            NoRelief::Refused(refusal) => write!(f, "{refusal}; {}", refusal.fix()),
+            NoRelief::ThinTip {
+                gear,
+                most,
+                overlap,
+            } => write!(
+                f,
+                "no tip relief serves: the {gear} tip is too thin, it can lose {}, and the teeth then \
+                 still overlap by {}; lower the greatest load or the tolerance",
+                um(most),
+                um(overlap)
+            ),
+            NoRelief::ShortPath {
+                length,
+                least,
+                ratio,
+            } => write!(
+                f,
+                "no tip relief serves: two pairs share the load over {} of the path (contact ratio \
+                 {ratio:.4}), and a longer relief, at least {}, brings the contact ratio below 1 under \
+                 light load; raise the addendum or the number of teeth",
+                mm(length),
+                mm(least)
+            ),
+            NoRelief::Beyond { most, overlap } => write!(
+                f,
+                "no tip relief up to {} serves: the teeth still overlap by {}; lower the greatest load \
+                 or the tolerance",
+                um(most),
+                um(overlap)
+            ),
+            NoRelief::InMotion { most } => write!(
+                f,
+                "no tip relief up to {} prevents corner contact in motion; raise model.damping_ratio or \
+                 change operation.speed, or use --method static",
+                um(most)
+            ),
+        }
+    }
+}
+
+/// The relief to specify for a pair.
+///
+/// # Formula
+/// ```text
+/// least over C1, L1, C2, L2, shape of  max over the loads of (max x − min x)
+/// with x + e − S <= 0 before E and after B at the greatest load, each C less and more by the tolerance
+/// ```
+/// x by the balance at rest. Where the method of the case is `dynamic`, the amounts grow until the
+/// motion has no corner contact either.
+///
+/// # Source
+/// Harris maps of the transmission error over the load: Harris 1958; long and short relief: Munro,
+/// Morrish & Palmer 1999. The reliefs that clear: [`clearing`](crate::model::clearing).
+///
+/// # Errors
+/// A [`NoRelief`].
+pub fn specify(
+    inputs: &Inputs,
+    demand: &Demand,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Specification, NoRelief> {
+    let torque = inputs.torque();
+    let inputs = Inputs {
+        drive: Drive::Torque(torque),
+        ..inputs.clone()
+    };
+    let method = governing(&inputs)?;
+    let at_rest = Inputs {
+        method: Method::Static,
+        ..inputs.clone()
+    };
+    let at_most = figures::loaded(&at_rest, demand.loads.1);
+    let solution = solve(&at_most, Stages::of(Stage::Static))?;
+    let grid = grid(&at_rest, &solution, demand)?;
+    let loads = loads(demand.loads);
+    let meter = Meter::new(WORK);
+    let bench = Bench::new(&at_rest, &solution, demand, &loads, grid.most_relief())?;
+    let search = Search::new(&bench, &grid, &meter, go_on);
+    let found = search.best_of_each_kind()?;
+    let figures = figures::Figures {
+        inputs: &at_rest,
+        motion: (method == Method::Dynamic).then_some(&inputs),
+        demand,
+        loads: &loads,
+        grid: &grid,
+        go_on,
+    };
+    let mut choices = vec![figures.present()?];
+    for (name, reliefs) in found {
+        choices.push(figures.cleared(name, reliefs)?);
+    }
+    let is_better = |one: &usize, other: &usize| {
+        let error = |at: &usize| choices[*at].greatest_error();
+        error(one).total_cmp(&error(other))
+    };
+    let best = (1..choices.len()).min_by(is_better).unwrap_or(0);
+    let reliefs = choices[best].reliefs;
+    Ok(Specification {
+        method,
+        demand: *demand,
+        torque,
+        greatest_load: figures.greatest_load(&bench, &reliefs)?,
+        unloaded_contact_ratio: solution.geometry.contact_ratio
+            - (reliefs.lengths[0] + reliefs.lengths[1]) / solution.geometry.base_pitch,
+        map: search.map(&reliefs),
+        choices,
+        best,
+        loads,
+        tries: search.tries(),
+        is_cut: !meter.spend(0),
+    })
+}
+
+/// The method that decides whether a tooth strikes: the closed forms share no load.
+fn governing(inputs: &Inputs) -> Result<Method, NoRelief> {
+    Ok(match inputs.method {
+        Method::Auto => match solve(inputs, Stages::of(Stage::Dynamic))?.method {
+            Method::Dynamic => Method::Dynamic,
+            _ => Method::Static,
+        },
+        Method::Dynamic => Method::Dynamic,
+        Method::Paper | Method::Exact | Method::Static => Method::Static,
+    })
+}
+
+/// Loads over the range, both ends among them.
+fn loads((from, to): (f64, f64)) -> Vec<f64> {
+    let steps = if to > from { LOADS } else { 1 };
+    let last = (steps - 1).max(1) as f64;
+    (0..steps)
+        .map(|at| from + (to - from) * at as f64 / last)
+        .collect()
+}
+
+/// The figures that can be specified: amounts and lengths in round steps, up to what tip and path
+/// leave.
+fn grid(inputs: &Inputs, solution: &Solution, demand: &Demand) -> Result<Grid, NoRelief> {
+    /// Of the deflection and the deviation under the greatest load.
+    const MOST: f64 = 3.0;
+    /// A tip may lose this part of its thickness on one flank.
+    const PART_OF_TIP: f64 = 0.25;
+    /// The steepest relief, as its amount over its length.
+    const STEEPEST: f64 = 0.05;
+    let geometry = &solution.geometry;
+    let shared =
+        (geometry.contact_ratio - geometry.contact_ratio.ceil() + 1.0) * geometry.base_pitch;
+    let needed = solution.deviation.loaded_deflection()
+        + solution.deviation.equivalent_error.max(0.0)
+        + 2.0 * demand.tolerance;
+    let length_step = round_step(shared / 40.0);
+    let least = (needed / STEEPEST).max(length_step);
+    if least > shared {
+        return Err(NoRelief::ShortPath {
+            length: shared,
+            least,
+            ratio: geometry.contact_ratio,
+        });
+    }
+    let tip = |gear, circles| {
+        let thickness = Profile::of(&Rack::of(inputs, gear), circles).tip_thickness();
+        PART_OF_TIP * thickness.max(0.0)
+    };
+    let tips = [
+        tip(&inputs.driver, &geometry.driver),
+        tip(&inputs.driven, &geometry.driven),
+    ];
+    let steps = |length: f64, step: f64| (length / step).floor().max(0.0) as i32;
+    Ok(Grid {
+        length_step,
+        least_length: steps(least, length_step).max(1),
+        most_length: steps(shared * (1.0 + 1e-9), length_step),
+        most_amounts: tips.map(|tip| steps(tip.min(MOST * needed), AMOUNT_STEP)),
+        tips,
+    })
+}
+
+/// The round step at or above a length: 1, 2 or 5 times a power of ten.
+fn round_step(length: f64) -> f64 {
+    let decade = 10f64.powf(length.log10().floor());
+    let round = [1.0, 2.0, 5.0, 10.0].into_iter();
+    let step = round.map(|part| part * decade).find(|step| *step >= length);
+    step.unwrap_or(length)
+}

@@ -1,0 +1,178 @@
+//! The figures of a relief by whole solves: transmission error at each load, gaps at the corners,
+//! the greatest load.
+
+use super::bench::{Bench, tolerances};
+use super::search::Grid;
+use super::{Choice, Demand, NoRelief, TipReliefs};
+use crate::model::inputs::{Drive, Gear};
+use crate::model::static_load::{lead_after_end, lead_before_start};
+use crate::model::{Inputs, Refusal, Solution, Stage, Stages, solve};
+
+/// Steps of amount by which a relief grows where a whole solve finds an overlap.
+const GROWTHS: [i32; 12] = [0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48];
+
+/// The case with a part of its load.
+pub(super) fn loaded(inputs: &Inputs, part: f64) -> Inputs {
+    Inputs {
+        drive: Drive::Torque(part * inputs.torque()),
+        ..inputs.clone()
+    }
+}
+
+/// The case with other tip reliefs, off by so much.
+fn relieved(inputs: &Inputs, reliefs: &TipReliefs, off: [f64; 2]) -> Inputs {
+    let gear = |gear: &Gear, at: usize| Gear {
+        tip_relief: (reliefs.amounts[at] + off[at]).max(0.0),
+        tip_relief_length: Some(reliefs.lengths[at]),
+        ..gear.clone()
+    };
+    Inputs {
+        driver: gear(&inputs.driver, 0),
+        driven: gear(&inputs.driven, 1),
+        relief_shape: reliefs.shape,
+        ..inputs.clone()
+    }
+}
+
+/// What the figures of a relief are computed from.
+pub(super) struct Figures<'a> {
+    pub(super) inputs: &'a Inputs,
+    /// The same by method `dynamic`, where that governs.
+    pub(super) motion: Option<&'a Inputs>,
+    pub(super) demand: &'a Demand,
+    pub(super) loads: &'a [f64],
+    pub(super) grid: &'a Grid,
+    pub(super) go_on: &'a dyn Fn(f64) -> bool,
+}
+
+impl Figures<'_> {
+    /// The reliefs that the case has.
+    pub(super) fn present(&self) -> Result<Choice, NoRelief> {
+        let inputs = self.inputs;
+        let geometry = solve(inputs, Stages::of(Stage::Geometry))?.geometry;
+        let usual =
+            (geometry.contact_ratio - geometry.contact_ratio.ceil() + 1.0) * geometry.base_pitch;
+        let length = |gear: &Gear| gear.tip_relief_length.unwrap_or(usual);
+        self.choice(
+            "as the case has it",
+            TipReliefs {
+                shape: inputs.relief_shape,
+                amounts: [inputs.driver.tip_relief, inputs.driven.tip_relief],
+                lengths: [length(&inputs.driver), length(&inputs.driven)],
+            },
+        )
+    }
+
+    /// A relief, made greater until no whole solve finds corner contact.
+    pub(super) fn cleared(
+        &self,
+        name: &'static str,
+        reliefs: TipReliefs,
+    ) -> Result<Choice, NoRelief> {
+        let mut most = reliefs;
+        for steps in GROWTHS {
+            let Some(greater) = self.grid.greater(&reliefs, steps) else {
+                break;
+            };
+            most = greater;
+            if self.overlap(&greater)? <= 0.0 && !self.strikes_in_motion(&greater)? {
+                return self.choice(name, greater);
+            }
+        }
+        let most = most.amounts[0].max(most.amounts[1]);
+        if self.motion.is_some() {
+            return Err(NoRelief::InMotion { most });
+        }
+        let overlap = self.overlap(&reliefs)?;
+        Err(NoRelief::Beyond { most, overlap })
+    }
+
+    fn choice(&self, name: &'static str, reliefs: TipReliefs) -> Result<Choice, NoRelief> {
+        let errors = self.loads.iter().map(|&part| {
+            let inputs = relieved(&loaded(self.inputs, part), &reliefs, [0.0; 2]);
+            let solution = self.solve(&inputs, Stage::StaticSpectrum)?;
+            let spectrum = solution.static_spectrum.map(|found| found.spectrum);
+            Ok(spectrum.map_or(0.0, |spectrum| spectrum.peak_to_peak))
+        });
+        Ok(Choice {
+            name,
+            reliefs,
+            errors: errors.collect::<Result<_, NoRelief>>()?,
+            margin: -self.overlap(&reliefs)?,
+        })
+    }
+
+    /// By how much the teeth overlap at the greatest load with the tolerance on its bad side, in m.
+    fn overlap(&self, reliefs: &TipReliefs) -> Result<f64, NoRelief> {
+        let inputs = loaded(self.inputs, self.demand.loads.1);
+        let mut worst = f64::NEG_INFINITY;
+        for off in tolerances(self.demand.tolerance) {
+            let solution = self.solve(&relieved(&inputs, reliefs, off), Stage::Static)?;
+            if let Some(mesh) = &solution.mesh {
+                let leads = [lead_before_start(mesh)?, lead_after_end(mesh)?];
+                worst = leads.into_iter().fold(worst, f64::max);
+            }
+        }
+        Ok(worst)
+    }
+
+    /// Whether a tip touches off the path of contact in motion, at the greatest load.
+    fn strikes_in_motion(&self, reliefs: &TipReliefs) -> Result<bool, NoRelief> {
+        let Some(inputs) = self.motion else {
+            return Ok(false);
+        };
+        let inputs = loaded(inputs, self.demand.loads.1);
+        for off in tolerances(self.demand.tolerance) {
+            let solution = self.solve(&relieved(&inputs, reliefs, off), Stage::Dynamic)?;
+            let strikes = solution.dynamic.is_some_and(|found| {
+                found.first_contact_angle.is_some() || found.last_contact_angle.is_some()
+            });
+            if strikes {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    fn solve(&self, inputs: &Inputs, stage: Stage) -> Result<Solution, NoRelief> {
+        if !(self.go_on)(1.0) {
+            return Err(NoRelief::Refused(Refusal::Stopped));
+        }
+        Ok(solve(inputs, Stages::of(stage))?)
+    }
+
+    /// The greatest load at which nothing overlaps, over that of the case; three times the greatest of
+    /// the range at the most.
+    pub(super) fn greatest_load(
+        &self,
+        bench: &Bench,
+        reliefs: &TipReliefs,
+    ) -> Result<f64, NoRelief> {
+        const MOST: f64 = 3.0;
+        const CLOSE: f64 = 1e-3;
+        let greatest = self.demand.loads.1;
+        let inputs = loaded(self.inputs, greatest);
+        let solution = solve(&inputs, Stages::of(Stage::Static))?;
+        let clears = |times: f64| {
+            let force = times * solution.mesh_force;
+            let overlap = bench.overlap_under(reliefs, (&inputs, &solution), force)?;
+            Ok::<bool, NoRelief>(overlap <= 0.0)
+        };
+        let (mut low, mut high) = (1.0, MOST);
+        if clears(high)? {
+            return Ok(greatest * high);
+        }
+        while high - low > CLOSE {
+            if !(self.go_on)(1.0) {
+                return Err(NoRelief::Refused(Refusal::Stopped));
+            }
+            let middle = f64::midpoint(low, high);
+            if clears(middle)? {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        Ok(greatest * low)
+    }
+}

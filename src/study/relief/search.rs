@@ -1,0 +1,366 @@
+//! The search over round amounts and lengths.
+
+use std::cell::{Cell, RefCell};
+use std::collections::HashMap;
+
+use super::bench::Bench;
+use super::{AMOUNT_STEP, MapPoint, NoRelief, TipReliefs};
+use crate::model::Refusal;
+use crate::model::budget::Meter;
+use crate::model::inputs::ReliefShape;
+
+/// A relief in whole steps: amounts on driver and driven gear, then lengths.
+type Steps = [i32; 4];
+
+/// The names of the kinds: each with its shape and whether both gears have the same relief.
+const KINDS: [(&str, ReliefShape, bool); 4] = [
+    ("parabolic, both alike", ReliefShape::Parabolic, true),
+    ("linear, both alike", ReliefShape::Linear, true),
+    ("parabolic", ReliefShape::Parabolic, false),
+    ("linear", ReliefShape::Linear, false),
+];
+
+/// Lengths at which the search begins, in parts of the longest.
+const PARTS: [f64; 7] = [0.15, 0.3, 0.45, 0.6, 0.75, 0.9, 1.0];
+/// Amounts at which it begins, times the least that clear.
+const TIMES: [f64; 4] = [1.0, 1.15, 1.4, 1.8];
+/// Beginnings that are followed.
+const FOLLOWED: usize = 6;
+/// Greatest stride of the search, in steps; it is halved down to one step.
+const STRIDE: i32 = 8;
+
+/// The round figures.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Grid {
+    /// Step of a length, in m.
+    pub(super) length_step: f64,
+    /// Least and greatest length, in steps.
+    pub(super) least_length: i32,
+    pub(super) most_length: i32,
+    /// Greatest amounts on driver and driven gear, in steps.
+    pub(super) most_amounts: [i32; 2],
+    /// What the tips may lose, in m.
+    pub(super) tips: [f64; 2],
+}
+
+impl Grid {
+    /// Both greatest amounts together, in m.
+    pub(super) fn most_relief(&self) -> f64 {
+        AMOUNT_STEP * f64::from(self.most_amounts[0] + self.most_amounts[1])
+    }
+
+    /// The greatest amount on either gear, in m.
+    pub(super) fn most_amount(&self) -> f64 {
+        AMOUNT_STEP * f64::from(self.most_amounts[0].max(self.most_amounts[1]))
+    }
+
+    /// The reliefs one step of amount greater, as far as the tips allow it.
+    pub(super) fn greater(&self, reliefs: &TipReliefs, steps: i32) -> Option<TipReliefs> {
+        let more = |at: usize| {
+            let amount = (reliefs.amounts[at] / AMOUNT_STEP).round() as i32 + steps;
+            (amount <= self.most_amounts[at]).then(|| AMOUNT_STEP * f64::from(amount))
+        };
+        Some(TipReliefs {
+            amounts: [more(0)?, more(1)?],
+            ..*reliefs
+        })
+    }
+
+    fn reliefs(&self, shape: ReliefShape, [one, other, from, to]: Steps) -> TipReliefs {
+        TipReliefs {
+            shape,
+            amounts: [one, other].map(|steps| AMOUNT_STEP * f64::from(steps)),
+            lengths: [from, to].map(|steps| self.length_step * f64::from(steps)),
+        }
+    }
+
+    fn has(&self, steps: Steps) -> bool {
+        let within = |steps: i32, least: i32, most: i32| (least..=most).contains(&steps);
+        within(steps[0], 0, self.most_amounts[0])
+            && within(steps[1], 0, self.most_amounts[1])
+            && within(steps[2], self.least_length, self.most_length)
+            && within(steps[3], self.least_length, self.most_length)
+    }
+}
+
+/// What a relief is worth: the overlap where it does not clear, else the transmission error; less is
+/// better.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+enum Worth {
+    Error(f64),
+    Overlap(f64),
+}
+
+/// A search on its way.
+pub(super) struct Search<'a> {
+    bench: &'a Bench,
+    grid: &'a Grid,
+    meter: &'a Meter,
+    go_on: &'a dyn Fn(f64) -> bool,
+    known: RefCell<HashMap<(bool, Steps), Worth>>,
+    /// The best reliefs that are alike on both gears.
+    alike: RefCell<Vec<(ReliefShape, (Steps, Worth))>>,
+    tries: Cell<u64>,
+}
+
+impl<'a> Search<'a> {
+    pub(super) fn new(
+        bench: &'a Bench,
+        grid: &'a Grid,
+        meter: &'a Meter,
+        go_on: &'a dyn Fn(f64) -> bool,
+    ) -> Search<'a> {
+        Search {
+            bench,
+            grid,
+            meter,
+            go_on,
+            known: RefCell::default(),
+            alike: RefCell::default(),
+            tries: Cell::default(),
+        }
+    }
+
+    /// Reliefs that were tried.
+    pub(super) fn tries(&self) -> u64 {
+        self.tries.get()
+    }
+
+    /// The best relief of each kind that has one.
+    ///
+    /// # Errors
+    /// Where no kind has one, and where the user stopped.
+    pub(super) fn best_of_each_kind(&self) -> Result<Vec<(&'static str, TipReliefs)>, NoRelief> {
+        let mut found = Vec::new();
+        for (name, shape, is_alike) in KINDS {
+            if let Some(steps) = self.best(shape, is_alike)? {
+                found.push((name, self.grid.reliefs(shape, steps)));
+            }
+        }
+        // The kinds that are not alike began at the best that are.
+        found.reverse();
+        if found.is_empty() {
+            return Err(self.none());
+        }
+        Ok(found)
+    }
+
+    /// Why no relief clears.
+    fn none(&self) -> NoRelief {
+        let grid = self.grid;
+        let [one, other] = grid.most_amounts;
+        let most = [one, other, grid.most_length, grid.most_length];
+        let overlap = self.bench.overlap(&grid.reliefs(ReliefShape::Linear, most));
+        let thin = (0..2).find(|&at| grid.tips[at] < grid.most_amount() + AMOUNT_STEP);
+        match thin {
+            Some(at) => NoRelief::ThinTip {
+                gear: ["driver", "driven"][at],
+                most: grid.tips[at],
+                overlap,
+            },
+            None => NoRelief::Beyond {
+                most: grid.most_amount(),
+                overlap,
+            },
+        }
+    }
+
+    fn best(&self, shape: ReliefShape, is_alike: bool) -> Result<Option<Steps>, NoRelief> {
+        let mut starts = self.starts(shape, is_alike)?;
+        starts.sort_by(|one, other| {
+            one.1
+                .partial_cmp(&other.1)
+                .unwrap_or(std::cmp::Ordering::Equal)
+        });
+        starts.truncate(FOLLOWED);
+        starts.extend(
+            self.alike
+                .borrow()
+                .iter()
+                .filter(|start| start.0 == shape)
+                .map(|start| start.1),
+        );
+        let mut best: Option<(Steps, Worth)> = None;
+        for (start, worth) in starts {
+            let found = self.followed(shape, is_alike, (start, worth))?;
+            if best.is_none_or(|best| found.1 < best.1) {
+                best = Some(found);
+            }
+        }
+        let best = best.filter(|(_, worth)| matches!(worth, Worth::Error(_)));
+        if is_alike {
+            self.alike
+                .borrow_mut()
+                .extend(best.map(|best| (shape, best)));
+        }
+        Ok(best.map(|(steps, _)| steps))
+    }
+
+    /// Reliefs of several lengths with the least amounts that clear, and with greater ones.
+    fn starts(&self, shape: ReliefShape, is_alike: bool) -> Result<Vec<(Steps, Worth)>, NoRelief> {
+        let grid = self.grid;
+        let (least, most) = (f64::from(grid.least_length), f64::from(grid.most_length));
+        let length = |part: f64| (part * most).round().max(least) as i32;
+        let mut starts: Vec<(Steps, Worth)> = Vec::new();
+        for one in PARTS {
+            for other in PARTS {
+                if is_alike && one.to_bits() != other.to_bits() {
+                    continue;
+                }
+                let lengths = [length(one), length(other)];
+                let clears = self.least_clear(shape, lengths)?;
+                for times in TIMES {
+                    let amount = (f64::from(clears) * times).round() as i32;
+                    let steps = [
+                        amount.min(grid.most_amounts[0]),
+                        amount.min(grid.most_amounts[1]),
+                        lengths[0],
+                        lengths[1],
+                    ];
+                    if starts.iter().all(|(known, _)| *known != steps) {
+                        starts.push((steps, self.worth(shape, steps)?));
+                    }
+                }
+            }
+        }
+        Ok(starts)
+    }
+
+    /// The least amount, the same on both gears, with which nothing overlaps; the greatest where none
+    /// clears. So great a relief that the pair ahead yields to it overlaps again, and so the amounts
+    /// are tried from the least up.
+    fn least_clear(&self, shape: ReliefShape, lengths: [i32; 2]) -> Result<i32, NoRelief> {
+        const STRIDES: i32 = 24;
+        let most = self.grid.most_amounts;
+        let clears = |amount: i32| {
+            let steps = [
+                amount.min(most[0]),
+                amount.min(most[1]),
+                lengths[0],
+                lengths[1],
+            ];
+            Ok::<bool, NoRelief>(matches!(self.worth(shape, steps)?, Worth::Error(_)))
+        };
+        let greatest = most[0].max(most[1]);
+        let stride = (greatest / STRIDES).max(1);
+        let (mut low, mut high) = (-1, 0);
+        while !clears(high)? {
+            if high >= greatest {
+                return Ok(greatest);
+            }
+            (low, high) = (high, (high + stride).min(greatest));
+        }
+        while high - low > 1 {
+            let middle = i32::midpoint(low, high);
+            if clears(middle)? {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        Ok(high)
+    }
+
+    /// The best relief that is found from a start by steps in every direction, large ones first.
+    fn followed(
+        &self,
+        shape: ReliefShape,
+        is_alike: bool,
+        start: (Steps, Worth),
+    ) -> Result<(Steps, Worth), NoRelief> {
+        let directions = directions(is_alike);
+        let (mut at, mut worth) = start;
+        let mut stride = STRIDE;
+        while stride > 0 {
+            let mut better = None;
+            for direction in &directions {
+                let next: Steps = std::array::from_fn(|axis| at[axis] + stride * direction[axis]);
+                if !self.grid.has(next) {
+                    continue;
+                }
+                let found = self.worth(shape, next)?;
+                if found < better.map_or(worth, |(_, best)| best) {
+                    better = Some((next, found));
+                }
+            }
+            match better {
+                Some(found) => (at, worth) = found,
+                None => stride /= 2,
+            }
+        }
+        Ok((at, worth))
+    }
+
+    /// What a relief is worth. Once the budget is spent nothing is better than what is known.
+    fn worth(&self, shape: ReliefShape, steps: Steps) -> Result<Worth, NoRelief> {
+        let key = (shape == ReliefShape::Linear, steps);
+        if let Some(&known) = self.known.borrow().get(&key) {
+            return Ok(known);
+        }
+        if !(self.go_on)(self.meter.spent() as f64 / self.meter.limit() as f64) {
+            return Err(NoRelief::Refused(Refusal::Stopped));
+        }
+        if !self.meter.spend(0) {
+            return Ok(Worth::Overlap(f64::INFINITY));
+        }
+        self.tries.set(self.tries.get() + 1);
+        let (reliefs, [errors, corners]) = (self.grid.reliefs(shape, steps), self.bench.costs());
+        self.meter.spend(corners);
+        let overlap = self.bench.overlap(&reliefs);
+        let worth = if overlap > 0.0 {
+            Worth::Overlap(overlap)
+        } else {
+            self.meter.spend(errors);
+            Worth::Error(self.error(&reliefs))
+        };
+        self.known.borrow_mut().insert(key, worth);
+        Ok(worth)
+    }
+
+    /// The greatest transmission error over the loads, and a thousandth of their mean, which decides
+    /// between equal ones.
+    fn error(&self, reliefs: &TipReliefs) -> f64 {
+        const MEAN: f64 = 1e-3;
+        let errors: Vec<f64> = self.bench.errors(reliefs).collect();
+        let mean = errors.iter().sum::<f64>() / errors.len().max(1) as f64;
+        errors.into_iter().fold(0.0, f64::max) + MEAN * mean
+    }
+
+    /// The map around a relief: both amounts and both lengths in proportion.
+    pub(super) fn map(&self, reliefs: &TipReliefs) -> Vec<Vec<MapPoint>> {
+        const AMOUNTS: [f64; 7] = [0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6];
+        const LENGTHS: [f64; 6] = [0.25, 0.4, 0.55, 0.7, 0.85, 1.0];
+        let longest = self.grid.length_step * f64::from(self.grid.most_length);
+        let greatest = reliefs.lengths[0].max(reliefs.lengths[1]);
+        let row = |part: f64| {
+            let scale = part * longest / greatest;
+            let point = |times: f64| {
+                let at = TipReliefs {
+                    shape: reliefs.shape,
+                    amounts: reliefs.amounts.map(|amount| times * amount),
+                    lengths: reliefs.lengths.map(|length| scale * length),
+                };
+                MapPoint {
+                    reliefs: at,
+                    error: self.bench.errors(&at).fold(0.0, f64::max),
+                    margin: -self.bench.overlap(&at),
+                }
+            };
+            AMOUNTS.into_iter().map(point).collect()
+        };
+        LENGTHS.into_iter().map(row).collect()
+    }
+}
+
+/// Every direction to a neighbour; both gears together where they are alike.
+fn directions(is_alike: bool) -> Vec<Steps> {
+    let of = |index: i32| {
+        let digit = |place: u32| index / 3i32.pow(place) % 3 - 1;
+        [digit(0), digit(1), digit(2), digit(3)]
+    };
+    let is_wanted = |steps: &Steps| {
+        let is_same = steps[0] == steps[1] && steps[2] == steps[3];
+        *steps != [0; 4] && (!is_alike || is_same)
+    };
+    (0..81).map(of).filter(is_wanted).collect()
+}
