@@ -1,7 +1,8 @@
 //! The differences between two cases, field by field, and how to put them into a case.
 
+use super::check::partner;
 use super::fields::{self, FIELDS};
-use super::{Case, Override, Problem, Spread, spread, variant};
+use super::{Case, Override, Problem, Spread, Variant, spread, variant};
 
 /// A text that differs between two cases.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -105,6 +106,34 @@ impl Case {
     }
 }
 
+impl Variant {
+    /// The variant that turns one case into another. Of two fields that exclude each other, the
+    /// override of one replaces the other.
+    #[must_use]
+    pub fn between(name: &str, from: &Case, to: &Case) -> Variant {
+        let changes = between(from, to);
+        let is_replaced = |key: &str| {
+            let other = fields::index_of(key).and_then(partner);
+            other.is_some_and(|other| {
+                let is_written = |change: &&Change| change.key == FIELDS[other].key;
+                changes
+                    .iter()
+                    .find(is_written)
+                    .is_some_and(|change| change.to.is_some())
+            })
+        };
+        let overrides = changes
+            .iter()
+            .filter(|change| !change.key.starts_with(variant::PREFIX))
+            .filter(|change| change.to.is_some() || !is_replaced(&change.key))
+            .map(|change| Override {
+                key: change.key.clone(),
+                text: change.to.clone().unwrap_or_default(),
+            });
+        Variant::new(name, overrides.collect())
+    }
+}
+
 fn texts(case: &Case) -> Vec<(String, String)> {
     let fields = FIELDS
         .iter()
@@ -132,7 +161,7 @@ fn texts(case: &Case) -> Vec<(String, String)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Limit, Variant};
+    use crate::case::Limit;
 
     fn varied() -> Case {
         let mut case = Case::table_1();

@@ -3,7 +3,7 @@
 use super::check::partner;
 use super::fields::{FIELDS, index_of};
 use super::sanitize::quoted;
-use super::{Case, Problem, changes, suggest};
+use super::{Case, Problem, suggest};
 
 /// The longest name of a variant, in characters.
 const LONGEST_NAME: usize = 40;
@@ -38,32 +38,6 @@ impl Variant {
             name: name.to_owned(),
             overrides,
         }
-    }
-
-    /// The variant that turns one case into another. Of two fields that exclude each other, the
-    /// override of one replaces the other.
-    #[must_use]
-    pub fn between(name: &str, from: &Case, to: &Case) -> Variant {
-        let changes = changes::between(from, to);
-        let is_replaced = |key: &str| {
-            let other = index_of(key).and_then(partner);
-            other.is_some_and(|other| {
-                let is_written = |change: &&changes::Change| change.key == FIELDS[other].key;
-                changes
-                    .iter()
-                    .find(is_written)
-                    .is_some_and(|change| change.to.is_some())
-            })
-        };
-        let overrides = changes
-            .iter()
-            .filter(|change| !change.key.starts_with(PREFIX))
-            .filter(|change| change.to.is_some() || !is_replaced(&change.key))
-            .map(|change| Override {
-                key: change.key.clone(),
-                text: change.to.clone().unwrap_or_default(),
-            });
-        Variant::new(name, overrides.collect())
     }
 
     /// Checks the name of a variant.
