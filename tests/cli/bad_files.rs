@@ -81,7 +81,7 @@ const ONE_BAD_LINE: &[OneLine] = &[
     ("pressure_angle = \"20 deg\"", "pressure_angle = \"20 grad\"", 0, 18, "pair.pressure_angle", "unknown unit", "rad"),
     ("face_width = \"8 mm\"", "face_width = \"-8 mm\"", 0, 14, "driver.face_width", "below the limit", "from 0.1"),
     ("power = \"15 kW\"", "power = \"15 kNm\"", 0, 9, "operation.power", "torque, not of power", "kW"),
-    ("speed = \"2000 rpm\"", "speed = \"2000 Hz\"", 0, 9, "operation.speed", "unknown unit `Hz`", "use one of rpm"),
+    ("speed = \"2000 rpm\"", "speed = \"2000 Hz\"", 0, 9, "operation.speed", "unit of frequency", "use one of rpm"),
     ("young = \"205 GPa\"", "young = \"205 gpa\"", 0, 9, "driver.young", "unknown unit `gpa`", "did you mean GPa?"),
     // bare numbers
     ("teeth = 20", "teeth = 20.5", 0, 9, "driver.teeth", "not a whole number", "such as 20"),
