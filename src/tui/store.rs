@@ -1,7 +1,6 @@
 //! Files that the workbench reads: cases, folders, and the list of recent cases.
 
 pub mod case_search;
-pub mod export;
 pub mod folder;
 pub mod preview;
 pub mod recents;

@@ -1,5 +1,6 @@
 //! Long work, each kind in a thread of its own: solving, the benchmark, and jobs.
 
+mod export;
 pub mod jobs;
 pub mod latest;
 pub mod measuring;

@@ -365,18 +365,27 @@ fn deviating(inputs: &Inputs, total: f64) -> Inputs {
 }
 
 #[test]
-fn angle_velocity_and_force_rise_with_the_deviation() {
+fn angle_velocity_energy_and_mostly_force_rise_with_the_deviation() {
     const STEPS: i32 = 60;
-    let keys = ["approach_angle_driven", "normal_velocity", "impact_force"];
+    let keys = [
+        "approach_angle_driven",
+        "normal_velocity",
+        "impact_energy",
+        "impact_force",
+    ];
     some(500, |inputs| {
-        let mut last = [0.0; 3];
+        // A tooth by beam theory is so much softer towards its tip that a soft driver may take a
+        // smaller force the earlier it is struck.
+        let is_linear = inputs.tooth_compliance == Some(ToothCompliance::KUANG_YANG);
+        let keys = &keys[..if is_linear { 4 } else { 3 }];
+        let mut last = [0.0; 4];
         let mut solved = None;
         for step in 0..STEPS {
             let inputs = deviating(&inputs, 1e-15 * 1.6f64.powi(step));
             let Ok(solution) = solve(&inputs, Stages::CLOSED_FORM) else {
                 break;
             };
-            for (key, last) in keys.into_iter().zip(&mut last) {
+            for (key, last) in keys.iter().zip(&mut last) {
                 let Some(value) = value(&solution, key) else {
                     continue;
                 };

@@ -119,7 +119,9 @@ fn edits_are_kept_and_so_are_comments() {
                 .unwrap_or_else(|faults| panic!("{}\n{rendered}", faults[0]));
             assert_same(&document, &again);
             assert_eq!(again.render(), rendered);
-            // A comment that landed inside a text of many lines is none.
+            // A comment that landed inside a text of many lines is none, and a variant that is
+            // removed takes those inside it along.
+            let is_same = is_same && !edits.iter().any(|edit| matches!(edit, Edit::Invariant));
             let lost = (0..comments.len())
                 .filter(|index| !rendered.contains(&format!("# kept {index}")))
                 .count();

@@ -56,12 +56,18 @@ fn echo_of(tty: &mut Tty, key: &str) -> Duration {
 }
 
 /// In the title, on which nothing depends; the cursor moves with each key until the line is full.
-fn open(text: &str) -> Tty {
+/// In the first field, which is emptied.
+fn begin(text: &str) -> Tty {
     let launch = Launch::on_table_1().size(40, 240);
     fs::write(launch.case(), text).expect("room on the disk");
     let mut tty = launch.start();
     tty.wait_for("F1 help");
     tty.type_in("\x1b[1;5H\x15");
+    tty
+}
+
+fn open(text: &str) -> Tty {
+    let mut tty = begin(text);
     tty.settle(Duration::from_millis(150));
     tty
 }
@@ -94,7 +100,7 @@ fn keys_are_echoed_while_a_solve_runs() {
 
 #[test]
 fn a_solve_that_takes_long_shows_how_far_it_is_and_esc_ends_it() {
-    let mut tty = open(&slow_case());
+    let mut tty = begin(&slow_case());
     tty.wait_for("solving dynamic; Esc cancels");
     let start = Instant::now();
     tty.type_in("\x1b");

@@ -273,9 +273,9 @@ fn other_comments_and_no_case_at_all_are_told_as_such() {
             format!("{TABLE_1}# mine\n"),
             "only comments or spacing differ",
         ),
-        (TABLE_1.replace("\"5 mm\"", "5"), "no valid case"),
-        (String::new(), "no valid case"),
-        ("\u{1b}[2J\u{9b}".to_owned(), "no valid case"),
+        (TABLE_1.replace("\"5 mm\"", "5"), "not a valid case"),
+        (String::new(), "not a valid case"),
+        ("\u{1b}[2J\u{9b}".to_owned(), "not a valid case"),
     ] {
         let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
         meddle(&desk, "newer", &text);

@@ -557,7 +557,7 @@ fn a_file_that_was_changed_since_shows_what_would_change_now() {
     fs::write(tty.case(), TABLE_1.replace("\"5 mm\"", "\"7 mm\"")).expect("room on the disk");
     let mut next = again(&tty);
     next.wait_for(OFFER);
-    next.wait_for("changed since");
+    next.wait_for("The file has changed");
     assert!(
         next.shows("module: 7 mm -> 6 mm"),
         "{}",

@@ -34,7 +34,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("Esc 5 m", "Enter", "", "; u undoes"),
     ("Esc 5", "m", "", "Within 5.0 %: dynamic with"),
     ("Esc 5 m", "v", "", "▸ 5 Run time and difference from the reference"),
-    ("Esc 5 m h", "l", "", "] within 5.0 %"),
+    ("Esc 5 m h", "l", "", " within 5.0 %; numbers"),
     ("Esc 5 m", "h", "", "] not within 5.0 %"),
     // The study.
     ("Esc", "6", "", "▸ 6 Study"),

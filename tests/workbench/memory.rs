@@ -83,13 +83,8 @@ fn a_measurement_keeps_its_figures_and_no_curve() {
     let bytes = kept(1, |_| {
         desk.keys(&["m"]);
     });
-    assert!(
-        desk.app
-            .tab
-            .traded
-            .as_ref()
-            .is_some_and(|traded| traded.trade.is_some())
-    );
-    println!("a measurement: {:.1} kB", bytes / 1e3);
-    assert!(bytes < 30e3, "{bytes}");
+    let traded = desk.app.tab.traded.as_ref().expect("a measurement");
+    let settings = traded.trade.as_ref().expect("it is whole").settings.len() as f64;
+    println!("a measurement: {:.1} kB, {settings} settings", bytes / 1e3);
+    assert!(bytes < 420.0 * settings, "{bytes}");
 }

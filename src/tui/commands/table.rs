@@ -72,7 +72,7 @@ pub static BINDINGS: &[Binding] = &[
     shown(Place::RESULTS, &[letter('v')], Do::NextVariants, "variants", "Show the variants of the case beside it with their differences, the next ones, or the methods again."),
     shown(Place::TRADE, &[key(KeyCode::Enter)], Do::TakeSetting, "take setting", "Use the selected setting in the case."),
     shown(Place::TRADE, &[letter('m')], Do::Measure, "measure", "Benchmark every method and setting with this case on this machine."),
-    shown(Place::TRADE, &[letter('v')], Do::SwitchTradeView, "view", "Switch between the chart of all settings and the table of methods and compliances."),
+    shown(Place::TRADE, &[letter('v')], Do::SwitchTradeView, "list of methods", "Switch between the chart of all settings and the list of methods and compliances."),
     helped(Place::TRADE, &[letter('l'), letter('j'), key(KeyCode::Right), key(KeyCode::Down)], Do::Next, "Select the next slower setting."),
     helped(Place::TRADE, &[letter('h'), letter('k'), key(KeyCode::Left), key(KeyCode::Up)], Do::Previous, "Select the next faster setting."),
     shown(Place::CURSOR, &[letter(' ')], Do::Play, "play", "Play the visible part of the contact, or stop."),

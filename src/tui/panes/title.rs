@@ -52,7 +52,7 @@ impl Title {
                 self.theme.key,
             );
         }
-        if !names.is_empty() && room > LEAST_TITLE {
+        if !names.is_empty() && room >= LEAST_TITLE {
             buffer.set_string(area.x + room as u16, area.y, &names, Style::new());
         }
         inner
@@ -97,7 +97,7 @@ impl Title {
         let hidden = || self.hidden.iter();
         let names = hidden().map(|pane| format!(" {} {} ", pane.number(), pane.name()));
         let named: String = std::iter::once(leave.clone()).chain(names).collect();
-        if named.width() + LEAST_TITLE <= width.into() {
+        if room_beside(&named, width) >= LEAST_TITLE {
             return named;
         }
         let numbers: String = hidden()
@@ -105,7 +105,7 @@ impl Title {
             .chain([" ".to_owned()])
             .collect();
         let in_full = leave + &numbers;
-        if room_beside(&in_full, width) > LEAST_TITLE {
+        if room_beside(&in_full, width) >= LEAST_TITLE {
             in_full
         } else {
             numbers

@@ -2,6 +2,7 @@
 
 use std::io;
 
+use super::export;
 use super::latest::{Send, Worker};
 use crate::case::units::System;
 use crate::case::{Case, EXAMPLES, Evaluator};
@@ -10,7 +11,7 @@ use crate::report::digest::Digest;
 use crate::report::explain;
 use crate::tui::actions::Action;
 use crate::tui::jobs::{Asked, Explained, Job};
-use crate::tui::store::{case_search, export, folder, preview, recents};
+use crate::tui::store::{case_search, folder, preview, recents};
 use crate::tui::variants::{Variants, VariantsRequest};
 
 /// Starts the worker of a kind of jobs.

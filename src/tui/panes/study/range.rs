@@ -192,7 +192,7 @@ mod tests {
             ("deviations.base_pitch", 0, "8 um", "24 um"),
             ("driven.tip_relief", 0, "0 um", "50 um"),
             ("driver.profile_shift", 0, "-0.5", "0.5"),
-            ("driver.poisson", -3, "0", "0.5"),
+            ("driver.poisson", -3, "0", "0.499"),
             ("driver.teeth", 0, "10", "30"),
             ("driver.teeth", -9, "5", "70"),
         ] {

@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use super::at_home;
 use crate::case::file::{self, SaveError};
 use crate::report::charts::{Drawn, find, picture, with_other_method};
 use crate::report::export::Format;
@@ -11,9 +10,10 @@ use crate::report::svg::teeth::teeth;
 use crate::report::{Report, Selection};
 use crate::study::speeds::speeds;
 use crate::tui::jobs::{ExportFault, Exporting, Figure};
+use crate::tui::store::at_home;
 
 /// Solves the case and writes the file. Returns the whole path.
-pub fn write(
+pub(super) fn write(
     exporting: &Exporting,
     go_on: &dyn Fn(f64) -> bool,
 ) -> (PathBuf, Result<(), ExportFault>) {
