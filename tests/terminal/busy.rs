@@ -23,6 +23,8 @@ fn slow_case() -> String {
         ),
         ("speed = \"2000 rpm\"", "speed = \"1 rpm\""),
         ("power = \"15 kW\"", "power = \"7.5 W\""),
+        // Coupled pairs take longer.
+        ("\"kuang-yang\"", "\"finite-element\""),
     ];
     slow.into_iter()
         .fold(TABLE_1.to_owned(), |text, (from, to)| {

@@ -11,7 +11,7 @@ use crate::tui::actions::Action;
 use crate::tui::solver::{Answer, PATIENCE, Request, cleared, solved, with_stiffness};
 
 /// A solve that takes longer shows its progress,
-const LONG: Duration = Duration::from_secs(1);
+const LONG: Duration = Duration::from_millis(400);
 /// and again after so long.
 const STEP: Duration = Duration::from_millis(200);
 

@@ -8,7 +8,7 @@ use super::latest::{Running, Send, Worker};
 use crate::case::Problem;
 use crate::model::Quantity;
 use crate::report::tolerance::ToleranceReport;
-use crate::study::batch::{Batch, Control, Points, Rows, Stopped, solve_all};
+use crate::study::batch::{self, Batch, Control, Points, Rows, Stopped, solve_all};
 use crate::study::design::Design;
 use crate::study::refusals::Refusals;
 use crate::study::sweep::Grid;
@@ -75,8 +75,10 @@ fn solve(
     take: &mut dyn FnMut(Rows) -> bool,
 ) -> Result<(), Stopped> {
     let is_stopped = AtomicBool::new(!(running.is_wanted)());
+    // One core stays free for the keys and the solver.
+    let cores = batch::jobs(None);
     let control = Control {
-        jobs: None,
+        jobs: Some(cores.saturating_sub(1).max(1)),
         go_on: &|| !is_stopped.load(Ordering::Relaxed),
         progress: &|_, _| is_stopped.store(!(running.is_wanted)(), Ordering::Relaxed),
     };
