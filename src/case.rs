@@ -21,8 +21,10 @@ use std::sync::Arc;
 use crate::model::inputs::Method;
 use crate::model::{Inputs, QUANTITIES, Quantity};
 pub use changes::Change;
-pub(crate) use check::put as put_field;
-pub use check::{Problem, field_range, field_value, misfit_between, unknown_key, unknown_quantity};
+pub use check::{
+    Problem, field_range, field_value, misfit_between, put as put_field, unknown_key,
+    unknown_quantity,
+};
 pub use evaluate::Evaluator;
 pub use examples::{EXAMPLES, Example};
 pub use fields::{FIELDS, Field};

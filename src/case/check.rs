@@ -105,8 +105,11 @@ fn limits(case: &Case) -> impl Iterator<Item = Problem> {
     unread.filter_map(|limit| Limit::new(limit.quantity, &limit.text).err())
 }
 
-/// Read one field, or its default, into the inputs.
-pub(crate) fn put(case: &Case, field: usize, inputs: &mut Inputs) -> Result<(), Problem> {
+/// Reads one field, or its default, into the inputs.
+///
+/// # Errors
+/// The [`Problem`] of the field.
+pub fn put(case: &Case, field: usize, inputs: &mut Inputs) -> Result<(), Problem> {
     let known = &FIELDS[field];
     match (case.text(field), known.absent) {
         (Some(text), _) | (None, Absent::Default(text)) => put_text(known, field, text, inputs),

@@ -90,6 +90,16 @@ pub enum Absent {
 }
 
 impl Field {
+    /// The unit in which values of the field are mostly written; empty for a number, a count, a
+    /// choice and words.
+    #[must_use]
+    pub fn usual_unit(&self) -> &'static str {
+        match self.kind {
+            Kind::Number(..) => self.example().split_once(' ').map_or("", |(_, unit)| unit),
+            Kind::Text | Kind::Count(..) | Kind::Choice(..) => "",
+        }
+    }
+
     /// The table of the case file in which the field stands; empty for the top level.
     #[must_use]
     pub fn table(&self) -> &'static str {

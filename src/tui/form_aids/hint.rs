@@ -11,16 +11,6 @@ use crate::numeric::decimal::significant;
 const RANGE_DIGITS: usize = 3;
 
 impl Field {
-    /// The unit in which values of the field are mostly written; empty for a number, a count, a
-    /// choice and words.
-    #[must_use]
-    pub fn usual_unit(&self) -> &'static str {
-        match self.kind {
-            Kind::Number(..) => self.example().split_once(' ').map_or("", |(_, unit)| unit),
-            Kind::Text | Kind::Count(..) | Kind::Choice(..) => "",
-        }
-    }
-
     /// What a typed text is in the field's usual unit, see [`units::converted`].
     #[must_use]
     pub fn converted(&self, typed: &str, system: System) -> Option<String> {
