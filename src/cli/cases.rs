@@ -205,8 +205,8 @@ fn placed(document: &Document, problem: Problem, edits: &Edits) -> String {
         .rev()
         .find(|setting| setting.key == problem.field)
     {
-        let told = on_command_line(setting, &problem);
-        return format!("{}, {told}", document.name());
+        let worded = on_command_line(setting, &problem);
+        return format!("{}, {worded}", document.name());
     }
     let written: Vec<String> = edits
         .variant

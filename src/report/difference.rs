@@ -57,7 +57,7 @@ pub fn difference(quantity: &Quantity, now: f64, base: f64, unit: &'static str) 
 mod tests {
     use super::*;
 
-    fn told(key: &str, now: f64, base: f64) -> String {
+    fn worded(key: &str, now: f64, base: f64) -> String {
         let quantity = Quantity::find(key).expect("a quantity");
         difference(quantity, now, base, quantity.shown)
     }
@@ -71,17 +71,17 @@ mod tests {
             (1.0, 1.0, UNCHANGED),
             (0.0, 0.0, UNCHANGED),
         ] {
-            assert_eq!(told("impact_force", now, base), expected, "{now} {base}");
+            assert_eq!(worded("impact_force", now, base), expected, "{now} {base}");
             assert!(expected.len() <= UNCHANGED.len());
         }
     }
 
     #[test]
     fn a_value_that_may_be_negative_or_starts_near_zero_has_no_percentage() {
-        assert_eq!(told("total_deviation", -2e-6, 1e-6), "-3.00 um");
-        assert_eq!(told("total_deviation", 16e-6, 15e-6), "+1.00 um");
-        assert_eq!(told("impact_force", 500.0, 0.0), "+500 N");
-        assert_eq!(told("impact_force", 500.0, 4.0), "+496 N");
-        assert_eq!(told("dynamic_contact_lost", 1.0, 0.0), "changed");
+        assert_eq!(worded("total_deviation", -2e-6, 1e-6), "-3.00 um");
+        assert_eq!(worded("total_deviation", 16e-6, 15e-6), "+1.00 um");
+        assert_eq!(worded("impact_force", 500.0, 0.0), "+500 N");
+        assert_eq!(worded("impact_force", 500.0, 4.0), "+496 N");
+        assert_eq!(worded("dynamic_contact_lost", 1.0, 0.0), "changed");
     }
 }

@@ -185,12 +185,12 @@ impl Runs<'_> {
                 return Ok(None);
             }
         };
-        let found = self.told(speed, &steady);
+        let found = self.worded(speed, &steady);
         *last = Some(steady.start);
         Ok(Some(found))
     }
 
-    fn told(&self, speed: f64, steady: &Steady) -> AtSpeed {
+    fn worded(&self, speed: f64, steady: &Steady) -> AtSpeed {
         AtSpeed {
             speed,
             ratio: speed / self.resonance,

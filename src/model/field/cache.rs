@@ -38,7 +38,7 @@ impl FieldGear {
             .clone()
     }
 
-    /// The field of the gear, built anew.
+    /// The field of the gear, built without the kept ones.
     ///
     /// # Errors
     /// Those of [`FieldGear::field`].

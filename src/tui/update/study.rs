@@ -243,13 +243,13 @@ fn accept(app: &mut App) -> Vec<Effect> {
             return Vec::new();
         }
     }
-    let told: Vec<String> = values
+    let worded: Vec<String> = values
         .iter()
         .map(|(field, text)| format!("{} = {text}", FIELDS[*field].full_label()))
         .collect();
     app.study.cursor = None;
     let effects = edit::replace(app, case);
-    app.say(format!("{}; u undoes", told.join(", ")));
+    app.say(format!("{}; u undoes", worded.join(", ")));
     if effects.is_empty() {
         solve(None)
     } else {

@@ -249,10 +249,13 @@ impl Map<'_> {
         };
         let theme = self.pane.look.theme;
         if self.values.from <= self.values.to {
-            let told = |value| shown_with(known, value, unit).to_string();
+            let worded = |value| shown_with(known, value, unit).to_string();
             let (least, most) = (self.shade(self.values.from), self.shade(self.values.to));
-            put(&format!("{least} {}", told(self.values.from)), theme.active);
-            put(&format!("{most} {}", told(self.values.to)), theme.active);
+            put(
+                &format!("{least} {}", worded(self.values.from)),
+                theme.active,
+            );
+            put(&format!("{most} {}", worded(self.values.to)), theme.active);
         }
         if let Some(limit) = self.limit {
             let limit = shown_with(known, limit, unit);

@@ -33,7 +33,7 @@ pub fn axis(case: &Case, field: usize, zoom: i32, points: usize) -> Result<Axis,
         )),
         Kind::Choice(names, _) => {
             let text = format!("{}={}", known.key, names.join(","));
-            Axis::parse(&text, Sampling::default()).map_err(|problem| told(known, &problem.cause))
+            Axis::parse(&text, Sampling::default()).map_err(|problem| worded(known, &problem.cause))
         }
         Kind::Number(..) => {
             let range = number_range(case, field, zoom);
@@ -43,17 +43,17 @@ pub fn axis(case: &Case, field: usize, zoom: i32, points: usize) -> Result<Axis,
             };
             range
                 .axis(sampling)
-                .map_err(|problem| told(known, &problem.cause))
+                .map_err(|problem| worded(known, &problem.cause))
         }
         Kind::Count(from, to, _) => {
             let range = count_range(case, field, zoom, points, (from, to));
             let axis = range.axis(Sampling::default());
-            axis.map_err(|problem| told(known, &problem.cause))
+            axis.map_err(|problem| worded(known, &problem.cause))
         }
     }
 }
 
-fn told(field: &Field, cause: &str) -> String {
+fn worded(field: &Field, cause: &str) -> String {
     format!("{}: {cause}.", field.full_label())
 }
 

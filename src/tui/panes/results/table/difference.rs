@@ -95,14 +95,14 @@ mod tests {
     #[test]
     fn a_value_many_times_the_baseline_or_that_may_be_negative_shows_the_baseline() {
         let force = Quantity::find("impact_force").expect("a quantity");
-        for (now, base, told) in [
+        for (now, base, worded) in [
             (1.0, 0.0, "was 0"),
             (18.0, 0.0169, "was 0.017"),
             (1e9, 1.0, "was 1.00"),
             (500.0, 47.3, "was 47.3"),
         ] {
             assert_eq!(against(force, now, base), None, "{now} {base}");
-            assert_eq!(was(base, "1", WIDTH), told);
+            assert_eq!(was(base, "1", WIDTH), worded);
         }
         let deviation = Quantity::find("total_deviation").expect("a quantity");
         assert_eq!(against(deviation, 2e-6, 1e-6), None);
