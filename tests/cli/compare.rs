@@ -1,7 +1,7 @@
 //! Variants of a case, and cases side by side, from a script's side.
 
+use crate::program::run;
 use std::fs;
-use std::process::{Command, Output, Stdio};
 
 use serde_json::Value;
 use tempfile::TempDir;
@@ -21,21 +21,6 @@ limits.impact_force = "900 N"
 centre_distance = "200 mm"
 "#;
 
-fn printed(arguments: &[&str]) -> (i32, String, String) {
-    let Output {
-        status,
-        stdout,
-        stderr,
-    } = Command::new(env!("CARGO_BIN_EXE_tipstrike"))
-        .args(arguments)
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .stdin(Stdio::null())
-        .output()
-        .unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (status.code().unwrap(), text(stdout), text(stderr))
-}
-
 /// Table 1 with variants, and its path.
 fn case() -> (TempDir, String) {
     let folder = TempDir::new().unwrap();
@@ -47,7 +32,7 @@ fn case() -> (TempDir, String) {
 }
 
 fn json(arguments: &[&str]) -> Value {
-    let (code, text, errors) = printed(arguments);
+    let (code, text, errors) = run(arguments);
     assert_eq!(code, 0, "{errors}");
     serde_json::from_str(&text).unwrap()
 }
@@ -101,7 +86,7 @@ fn each_variant_equals_a_solve_with_its_overrides() {
 #[test]
 fn a_refused_variant_keeps_its_column_and_names_the_reason() {
     let (_folder, case) = case();
-    let (code, text, errors) = printed(&["compare", &case]);
+    let (code, text, errors) = run(&["compare", &case]);
     assert_eq!(code, 0);
     assert!(errors.contains(":far: pair.centre_distance: the tips do not reach each other"));
     assert!(text.contains("Refused: pair.centre_distance"), "{text}");
@@ -109,14 +94,14 @@ fn a_refused_variant_keeps_its_column_and_names_the_reason() {
         text.lines().all(|line| line.chars().count() <= 80),
         "{text}"
     );
-    let (code, text, _) = printed(&["compare", &case, "--variant", "far", "--format", "csv"]);
+    let (code, text, _) = run(&["compare", &case, "--variant", "far", "--format", "csv"]);
     assert_eq!(code, 0);
     assert_eq!(
         text.lines().nth(2),
         Some("outcome,,corner-contact,refused,")
     );
     let refused = ["compare", &case, "--set", "pair.centre_distance=200 mm"];
-    assert_eq!(printed(&refused).0, 3);
+    assert_eq!(run(&refused).0, 3);
 }
 
 #[test]
@@ -128,9 +113,9 @@ fn cases_and_variants_stand_side_by_side_with_differences_and_units() {
         "--variant",
         "relieved,slow",
     ];
-    let (_, text, _) = printed(&[&["compare", &case], &only[..]].concat());
+    let (_, text, _) = run(&[&["compare", &case], &only[..]].concat());
     insta::assert_snapshot!("compare_text", text.replace(&case, "gear.toml"));
-    let (_, text, _) = printed(&[&["compare", &case, "--format", "md"], &only[..]].concat());
+    let (_, text, _) = run(&[&["compare", &case, "--format", "md"], &only[..]].concat());
     insta::assert_snapshot!("compare_markdown", text.replace(&case, "gear.toml"));
     let others = [
         "compare",
@@ -141,7 +126,7 @@ fn cases_and_variants_stand_side_by_side_with_differences_and_units() {
         "--format",
         "csv",
     ];
-    let (code, text, _) = printed(&others);
+    let (code, text, _) = run(&others);
     assert_eq!(code, 0);
     let names: Vec<&str> = text.lines().next().unwrap().split(',').collect();
     assert_eq!(names[2..4], [TABLE_1, "cases/tip-relief-enough.toml"]);
@@ -163,20 +148,20 @@ fn every_command_that_takes_a_case_takes_a_variant() {
         &["trade", "--within", "5%"],
     ] {
         let rest = [&arguments[1..], &["--variant", "releived"]].concat();
-        let (code, _, errors) = printed(&[&[arguments[0], &case], &rest[..]].concat());
+        let (code, _, errors) = run(&[&[arguments[0], &case], &rest[..]].concat());
         assert_eq!(code, 2, "{arguments:?}: {errors}");
         assert!(errors.contains("did you mean relieved?"), "{errors}");
     }
-    let (_, own, _) = printed(&["explain", "impact_force", &case]);
-    let (code, varied, _) = printed(&["explain", "impact_force", &case, "--variant", "slow"]);
+    let (_, own, _) = run(&["explain", "impact_force", &case]);
+    let (code, varied, _) = run(&["explain", "impact_force", &case, "--variant", "slow"]);
     assert!(code == 0 && own != varied);
-    let (code, text, _) = printed(&["check", &case, "--variant", "slow"]);
+    let (code, text, _) = run(&["check", &case, "--variant", "slow"]);
     assert_eq!(code, 0, "{text}");
     assert!(
         text.contains("900") && text.contains("gear.toml:slow"),
         "{text}"
     );
-    let (code, _, errors) = printed(&["solve", &case, "--variant", "far"]);
+    let (code, _, errors) = run(&["solve", &case, "--variant", "far"]);
     assert_eq!(code, 3);
     assert!(
         errors.contains("variants.far.pair.centre_distance"),
@@ -187,11 +172,11 @@ fn every_command_that_takes_a_case_takes_a_variant() {
 
 #[test]
 fn a_comparison_with_nothing_or_with_an_unknown_variant_is_wrong_usage() {
-    let (code, _, errors) = printed(&["compare", TABLE_1]);
+    let (code, _, errors) = run(&["compare", TABLE_1]);
     assert_eq!(code, 2);
     assert!(errors.contains("nothing to compare with"), "{errors}");
     let (_folder, case) = case();
-    let (code, _, errors) = printed(&["compare", &case, "--variant", "lsow"]);
+    let (code, _, errors) = run(&["compare", &case, "--variant", "lsow"]);
     assert_eq!(code, 2);
     assert!(errors.contains("did you mean slow?"), "{errors}");
 }

@@ -15,6 +15,7 @@ mod compare;
 mod explain;
 mod import_command;
 mod meaning;
+mod program;
 mod report_command;
 mod reports;
 mod schema;

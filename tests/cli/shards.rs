@@ -1,8 +1,8 @@
 //! Shards of a study: together they are the whole, and nothing else is taken for one.
 
+use crate::program::run;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
 
 const TABLE_1: &str = "cases/zhou-chen-2014.toml";
 
@@ -17,21 +17,6 @@ const SWEEP: [&str; 8] = [
     "--points",
     "7",
 ];
-
-fn run(arguments: &[&str]) -> (i32, String, String) {
-    let Output {
-        status,
-        stdout,
-        stderr,
-    } = Command::new(env!("CARGO_BIN_EXE_tipstrike"))
-        .args(arguments)
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .stdin(Stdio::null())
-        .output()
-        .unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (status.code().unwrap(), text(stdout), text(stderr))
-}
 
 /// Writes the shards of a study into a folder, the last one first.
 fn shards(folder: &Path, study: &[&str], of: usize) -> Vec<PathBuf> {

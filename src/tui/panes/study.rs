@@ -264,3 +264,14 @@ fn write(words: &str, area: Rect, buffer: &mut Buffer) {
         buffer.set_stringn(area.x + 1, y, line, width, Style::new());
     }
 }
+
+/// Draws the lines left of the cells and below them. Returns their column and their row.
+fn draw_axes(cells: Rect, rule: Style, buffer: &mut Buffer) -> (u16, u16) {
+    let (left, bottom) = (cells.x - 1, cells.bottom());
+    for y in cells.top()..bottom {
+        buffer.set_string(left, y, "│", rule);
+    }
+    buffer.set_string(left, bottom, "└", rule);
+    buffer.set_string(cells.x, bottom, "─".repeat(cells.width.into()), rule);
+    (left, bottom)
+}

@@ -8,7 +8,7 @@ use ratatui::widgets::Widget;
 use ratatui::widgets::canvas::{Canvas, Line, Points};
 use unicode_width::UnicodeWidthStr;
 
-use super::{Rooms, StudyPane, cursor, quantity, range};
+use super::{Rooms, StudyPane, cursor, draw_axes, quantity, range};
 use crate::model::Outcome;
 use crate::model::inputs::Method;
 use crate::report::unit_beside;
@@ -133,12 +133,7 @@ impl Plot<'_> {
 
     fn frame(&self, ticks: &[(f64, String)], buffer: &mut Buffer) {
         let (cells, rule) = (self.cells, self.pane.look.theme.rule);
-        let (left, bottom) = (cells.x - 1, cells.bottom());
-        for y in cells.top()..bottom {
-            buffer.set_string(left, y, "│", rule);
-        }
-        buffer.set_string(left, bottom, "└", rule);
-        buffer.set_string(cells.x, bottom, "─".repeat(cells.width.into()), rule);
+        let (left, bottom) = draw_axes(cells, rule, buffer);
         for (value, label) in ticks {
             let y = self.row(*value);
             buffer.set_string(left, y, "┤", rule);

@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
 use unicode_width::UnicodeWidthStr;
 
-use super::{Rooms, StudyPane, cursor, quantity, range};
+use super::{Rooms, StudyPane, cursor, draw_axes, quantity, range};
 use crate::model::{Outcome, Quantity};
 use crate::report::{shown_with, unit_beside};
 use crate::study::axis::Axis;
@@ -189,12 +189,7 @@ impl Map<'_> {
 
     fn frame(&self, buffer: &mut Buffer) {
         let (cells, rule) = (self.cells, self.pane.look.theme.rule);
-        let (left, bottom) = (cells.x - 1, cells.bottom());
-        for y in cells.top()..bottom {
-            buffer.set_string(left, y, "│", rule);
-        }
-        buffer.set_string(left, bottom, "└", rule);
-        buffer.set_string(cells.x, bottom, "─".repeat(cells.width.into()), rule);
+        let (left, bottom) = draw_axes(cells, rule, buffer);
         let rows = [0, cells.height / 2, cells.height - 1];
         let few = if cells.height < 5 { 2 } else { 1 };
         for below in rows.into_iter().step_by(few) {
