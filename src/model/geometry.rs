@@ -1,106 +1,18 @@
 //! Involute geometry of the pair: circles, line of action, start of contact.
 
+mod circles;
+mod shape;
+
 use nalgebra::{Matrix2, Rotation2, Vector2};
 
 use super::Refusal;
-use super::inputs::{Gear, Inputs, Method};
 use crate::numeric::Real;
+pub use circles::{Circles, circles};
+pub use shape::{GearShape, PairShape};
 
 /// A difference below this share of its terms is taken in double-double arithmetic: f64 would lose
 /// two digits and more.
 pub(super) const LEAST_REST: f64 = 1.0 / 64.0;
-
-/// Shape of the pair: all that its geometry depends on.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PairShape {
-    /// Module m, in m.
-    pub module: f64,
-    /// Pressure angle α, in rad.
-    pub pressure_angle: f64,
-    /// Centre distance a, in m; without it the mesh has no backlash.
-    pub centre_distance: Option<f64>,
-    /// Shape of the driver.
-    pub driver: GearShape,
-    /// Shape of the driven gear.
-    pub driven: GearShape,
-}
-
-/// Shape of one gear.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GearShape {
-    /// Number of teeth z.
-    pub teeth: u32,
-    /// Profile shift coefficient x.
-    pub profile_shift: f64,
-    /// Addendum coefficient h_a*.
-    pub addendum: f64,
-    /// Dedendum coefficient h_fP*.
-    pub dedendum: f64,
-    /// Radial tip chamfer, in m.
-    pub tip_chamfer: f64,
-    /// Radius of the rounding of the tip's edge, in m; a sharp tip has none.
-    pub tip_radius: Option<f64>,
-}
-
-impl Gear {
-    /// Shape of the gear.
-    #[must_use]
-    pub fn shape(&self) -> GearShape {
-        GearShape {
-            teeth: self.teeth,
-            profile_shift: self.profile_shift,
-            addendum: self.addendum,
-            dedendum: self.dedendum,
-            tip_chamfer: self.tip_chamfer,
-            tip_radius: self.tip_radius,
-        }
-    }
-}
-
-impl Inputs {
-    /// Shape of the pair. The method `paper` knows sharp tips alone.
-    #[must_use]
-    pub fn shape(&self) -> PairShape {
-        let shape = |gear: &Gear| {
-            let shape = gear.shape();
-            let tip_radius = shape.tip_radius.filter(|_| self.method != Method::Paper);
-            GearShape {
-                tip_radius,
-                ..shape
-            }
-        };
-        PairShape {
-            module: self.module,
-            pressure_angle: self.pressure_angle,
-            centre_distance: self.centre_distance,
-            driver: shape(&self.driver),
-            driven: shape(&self.driven),
-        }
-    }
-
-    /// Bore radii of driver and driven gear, in m.
-    #[must_use]
-    pub fn bores(&self) -> [f64; 2] {
-        [self.driver.bore_radius, self.driven.bore_radius]
-    }
-}
-
-/// Circles of one gear, in m.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Circles<T = f64> {
-    /// Reference radius r = m z/2.
-    pub reference: T,
-    /// Base radius r_b = r cos α.
-    pub base: T,
-    /// Active tip radius r_a, the chamfer taken off.
-    pub tip: T,
-    /// Radius of curvature of the involute at its end, L_f: √(r_a² − r_b²) at a sharp tip.
-    pub tip_curvature: T,
-    /// Radius r_e of the rounding of the tip's edge; 0 for a sharp tip.
-    pub edge: T,
-    /// Root radius r_f = r + m (x − h_fP*).
-    pub root: T,
-}
 
 /// Geometry of the pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -230,94 +142,6 @@ fn turned<T: Real>(angle: T) -> Rotation2<T> {
     Rotation2::from_matrix_unchecked(Matrix2::new(cosine, -sine, sine, cosine))
 }
 
-/// Circles of one gear, cut by a rack of a module in m and a pressure angle in rad.
-///
-/// # Errors
-/// [`Refusal::PointedRack`], [`Refusal::TipInsideBase`], and of the rounding of the tip
-/// [`Refusal::RoundingInsideBase`] and [`Refusal::RoundingTooWide`], which name the driver's field.
-pub fn circles<T: Real>(
-    module: f64,
-    pressure_angle: f64,
-    gear: &GearShape,
-) -> Result<Circles<T>, Refusal> {
-    let (module, alpha): (T, T) = (module.into(), pressure_angle.into());
-    let (half, two): (T, T) = (0.5.into(), 2.0.into());
-    let shift: T = gear.profile_shift.into();
-    let reference = module * T::count(gear.teeth) * half;
-    let base = reference * alpha.sine_cosine().1;
-    let height = module * (shift + gear.addendum.into()) - gear.tip_chamfer.into();
-    let half_sine = (alpha * half).sine_cosine().0;
-    let most_dedendum = std::f64::consts::FRAC_PI_4 / pressure_angle.tan();
-    if gear.dedendum >= most_dedendum {
-        return Err(Refusal::PointedRack {
-            dedendum: gear.dedendum,
-            limit: most_dedendum,
-        });
-    }
-    let over_base = two * reference * half_sine * half_sine + height;
-    if over_base <= T::zero() {
-        return Err(Refusal::TipInsideBase {
-            tip: (reference + height).rounded(),
-            base: base.rounded(),
-        });
-    }
-    let tip = reference + height;
-    let edge: T = gear.tip_radius.unwrap_or(0.0).into();
-    let centre_over_base = over_base - edge;
-    if centre_over_base <= T::zero() {
-        return Err(Refusal::RoundingInsideBase {
-            field: "driver.tip_radius",
-            radius: edge.rounded(),
-            limit: over_base.rounded(),
-        });
-    }
-    let centre_curvature = (centre_over_base * (tip - edge + base)).root();
-    if edge > T::zero() {
-        check_room(
-            pressure_angle,
-            gear,
-            [base, centre_curvature, edge].map(Real::rounded),
-        )?;
-    }
-    Ok(Circles {
-        reference,
-        base,
-        tip,
-        tip_curvature: centre_curvature + edge,
-        edge,
-        root: reference + module * (shift - gear.dedendum.into()),
-    })
-}
-
-/// Refuse a rounding for which the tooth is too thin: its arc would begin beyond the tooth's centre
-/// line.
-///
-/// # Formula
-/// ```text
-/// (π/2 + 2 x tan α)/z + inv α − inv acos(rb/rC) − re/rb >= 0
-/// ```
-fn check_room(
-    pressure_angle: f64,
-    gear: &GearShape,
-    [base, centre_curvature, radius]: [f64; 3],
-) -> Result<(), Refusal> {
-    let tangent = pressure_angle.tan();
-    let half_angle = (std::f64::consts::FRAC_PI_2 + 2.0 * gear.profile_shift * tangent)
-        / f64::from(gear.teeth)
-        + tangent
-        - pressure_angle;
-    let roll = centre_curvature / base;
-    let room = half_angle - (roll - roll.atan()) - radius / base;
-    if room < 0.0 {
-        return Err(Refusal::RoundingTooWide {
-            field: "driver.tip_radius",
-            radius,
-            lack: -room * base,
-        });
-    }
-    Ok(())
-}
-
 /// Centre distance and tan α_w.
 fn working_tangent<T: Real>(shape: &PairShape, alpha: T, base_sum: T) -> Result<(T, T), Refusal> {
     if let Some(given) = shape.centre_distance {
@@ -375,45 +199,6 @@ fn working_angle_rise<T: Real>(shape: &PairShape, alpha: T) -> Result<T, Refusal
         }
     }
     Ok(angle)
-}
-
-impl<T: Real> Circles<T> {
-    /// Rounded to f64.
-    pub(super) fn rounded(self) -> Circles {
-        Circles {
-            reference: self.reference.rounded(),
-            base: self.base.rounded(),
-            tip: self.tip.rounded(),
-            tip_curvature: self.tip_curvature.rounded(),
-            edge: self.edge.rounded(),
-            root: self.root.rounded(),
-        }
-    }
-}
-
-impl Circles {
-    /// The circles of the gear with a sharp tip.
-    #[must_use]
-    pub fn sharp(&self) -> Circles {
-        if self.edge <= 0.0 {
-            return *self;
-        }
-        Circles {
-            tip_curvature: ((self.tip - self.base) * (self.tip + self.base)).sqrt(),
-            edge: 0.0,
-            ..*self
-        }
-    }
-
-    /// Radius at which the involute ends, in m: the tip circle's at a sharp tip.
-    #[must_use]
-    pub fn involute_end(&self) -> f64 {
-        if self.edge <= 0.0 {
-            self.tip
-        } else {
-            self.base.hypot(self.tip_curvature)
-        }
-    }
 }
 
 impl Geometry {

@@ -1,12 +1,16 @@
 //! The true outline of a gear's tooth, piece by piece from the root to the tip.
 
+mod edge;
+
 use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Point2, Vector2};
 
 use super::geometry::Circles;
 use super::inputs::{Gear, Inputs};
-use super::profile::{Profile, Rack, Section};
+use super::profile::{Profile, Rack};
+use crate::numeric::root::last_where;
+use edge::{Bevel, Edge, bevel, widest_edge};
 
 /// The outline of a tooth in a frame whose x axis is the tooth's centre line, from the gear's
 /// centre.
@@ -28,22 +32,6 @@ pub struct Outline {
     tip_radius: f64,
     /// Angle between the centre line and the place where the tip circle takes over, in rad.
     tip_half_angle: f64,
-}
-
-/// The rounding between flank and tip circle.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Edge {
-    centre: Point2<f64>,
-    radius: f64,
-    /// Roll angle of the involute where the rounding touches it, in rad.
-    roll: f64,
-}
-
-/// The chamfer between flank and tip circle.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Bevel {
-    from: Point2<f64>,
-    to: Point2<f64>,
 }
 
 /// A piece of the outline.
@@ -89,7 +77,7 @@ impl Outline {
         } else {
             profile.fillet_at(fillet_end)
         };
-        let corner = edge.map_or(point(sharp), |edge| edge.centre);
+        let corner = edge.map_or(sharp.point(), |edge| edge.centre);
         let pointed = edge.is_none() && flank_end < tip_roll(&profile);
         let bevel = (edge.is_none() && !pointed && gear.tip_chamfer > 0.0)
             .then(|| bevel(corner, circles.tip + gear.tip_chamfer));
@@ -140,18 +128,19 @@ impl Outline {
     pub fn at(&self, piece: Piece, part: f64) -> Point2<f64> {
         let between = |from: f64, to: f64| from + part * (to - from);
         match (piece, self.edge, self.bevel) {
-            (Piece::Fillet, ..) => {
-                point(self.profile.fillet_at(between(FRAC_PI_2, self.fillet_end)))
-            }
+            (Piece::Fillet, ..) => self
+                .profile
+                .fillet_at(between(FRAC_PI_2, self.fillet_end))
+                .point(),
             (Piece::Edge, Some(edge), _) => {
                 let string = FRAC_PI_2 - self.profile.load_angle(edge.roll);
                 edge.centre + along(between(string, self.tip_half_angle)) * edge.radius
             }
             (Piece::Bevel, _, Some(bevel)) => bevel.from + (bevel.to - bevel.from) * part,
-            (Piece::Flank | Piece::Edge | Piece::Bevel, ..) => point(
-                self.profile
-                    .involute_at(between(self.profile.junction.roll, self.flank_end)),
-            ),
+            (Piece::Flank | Piece::Edge | Piece::Bevel, ..) => self
+                .profile
+                .involute_at(between(self.profile.junction.roll, self.flank_end))
+                .point(),
             (Piece::Tip, ..) => {
                 Point2::from(along(between(self.tip_half_angle, 0.0)) * self.tip_radius)
             }
@@ -198,80 +187,8 @@ fn flank_end(profile: &Profile) -> f64 {
 fn fillet_end(profile: &Profile) -> f64 {
     let tip = profile.circles().tip;
     -last_where(-FRAC_PI_2, -profile.junction.normal, |normal| {
-        point(profile.fillet_at(-normal)).coords.norm() <= tip
+        profile.fillet_at(-normal).point().coords.norm() <= tip
     })
-}
-
-/// The bevel at 45 degrees from the corner of the flank to the tip circle, or to the centre line
-/// where the tooth is too thin.
-fn bevel(corner: Point2<f64>, tip: f64) -> Bevel {
-    let skew = corner.x - corner.y;
-    let rise = (tip - corner.coords.norm()) * (tip + corner.coords.norm());
-    let way = rise / (skew + (skew * skew + 2.0 * rise).sqrt());
-    let way = way.min(corner.y);
-    Bevel {
-        from: corner,
-        to: corner + Vector2::new(way, -way),
-    }
-}
-
-/// The rounding of that radius, or of the greatest that the tip has room for.
-fn widest_edge(profile: &Profile, flank_end: f64, radius: f64) -> Option<Edge> {
-    edge(
-        profile,
-        flank_end,
-        last_where(0.0, radius, |radius| {
-            edge(profile, flank_end, radius).is_some()
-        }),
-    )
-}
-
-/// The rounding of a radius that touches the involute and the tip circle from within, where the tip
-/// has room for it.
-///
-/// # Formula
-/// ```text
-/// (rb φ − re)² + rb² = (ra − re)²
-/// ```
-/// since the curve at the distance r_e inside of an involute is an involute of the same base
-/// circle, its string shorter by r_e.
-fn edge(profile: &Profile, flank_end: f64, radius: f64) -> Option<Edge> {
-    let circles = profile.circles();
-    let over_base = circles.tip - radius - circles.base;
-    if !(radius > 0.0 && over_base >= 0.0) {
-        return None;
-    }
-    let roll = (radius + (over_base * (circles.tip - radius + circles.base)).sqrt()) / circles.base;
-    let angle = profile.load_angle(roll);
-    let centre = point(profile.involute_at(roll)) - Vector2::new(angle.sin(), angle.cos()) * radius;
-    (centre.y >= 0.0 && roll >= profile.junction.roll && roll <= flank_end).then_some(Edge {
-        centre,
-        radius,
-        roll,
-    })
-}
-
-/// The greatest value at which a condition holds that holds at `from` and ends to hold once at the
-/// most, by bisection.
-fn last_where(from: f64, to: f64, holds: impl Fn(f64) -> bool) -> f64 {
-    const HALVINGS: usize = 54;
-    if holds(to) {
-        return to;
-    }
-    let (mut low, mut high) = (from, to);
-    for _ in 0..HALVINGS {
-        let middle = f64::midpoint(low, high);
-        if holds(middle) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    low
-}
-
-fn point(section: Section) -> Point2<f64> {
-    Point2::new(section.along, section.half_thickness)
 }
 
 /// The direction at an angle to the centre line.

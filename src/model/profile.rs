@@ -1,28 +1,14 @@
 //! The true profile of a tooth: involute and the trochoidal fillet that the cutting rack leaves.
 
+mod rack;
+mod section;
+
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use crate::model::geometry::Circles;
-use crate::model::inputs::{Gear, Inputs};
-
-/// Tip rounding of the standard basic rack, times the module (ISO 53, profile A), where there is
-/// room for it.
-const RACK_ROUNDING: f64 = 0.38;
-
-/// The rack that cuts a gear: all that the profile of a tooth depends on, but for its circles.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rack {
-    /// Module m, in m.
-    pub module: f64,
-    /// Pressure angle α, in rad.
-    pub pressure_angle: f64,
-    /// Number of teeth z that it cuts.
-    pub teeth: u32,
-    /// Profile shift coefficient x.
-    pub profile_shift: f64,
-    /// Dedendum coefficient h_fP*.
-    pub dedendum: f64,
-}
+use super::geometry::Circles;
+use rack::RACK_ROUNDING;
+pub use rack::Rack;
+pub use section::Section;
 
 /// A tooth's profile in a frame whose x axis is the tooth's centre line, from the gear's centre.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,51 +38,6 @@ pub struct Junction {
     pub roll: f64,
     /// Whether the fillet cuts the involute off above the base circle.
     pub undercut: bool,
-}
-
-/// A section of the tooth across its centre line.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Section {
-    /// Distance from the gear's centre along the centre line, in m.
-    pub along: f64,
-    /// Half of the thickness, in m.
-    pub half_thickness: f64,
-    /// Change of `along` with the parameter.
-    pub slope: f64,
-}
-
-impl Rack {
-    /// The rack of a gear of the pair.
-    #[must_use]
-    pub fn of(inputs: &Inputs, gear: &Gear) -> Rack {
-        Rack {
-            module: inputs.module,
-            pressure_angle: inputs.pressure_angle,
-            teeth: gear.teeth,
-            profile_shift: gear.profile_shift,
-            dedendum: gear.dedendum,
-        }
-    }
-
-    /// Radius of the rounding of its tip, times the module.
-    fn rounding(&self) -> f64 {
-        self.fitting(RACK_ROUNDING)
-    }
-
-    /// That rounding, or the greatest that the tip has room for; times the module.
-    fn fitting(&self, rounding: f64) -> f64 {
-        let (sine, cosine) = self.pressure_angle.sin_cos();
-        let room = (PI / 4.0 * cosine - self.dedendum * sine) / (1.0 - sine);
-        rounding.min(room).max(0.0)
-    }
-
-    /// Least profile shift at which it does not undercut the tooth, h_fP* − ρ_fP* (1 − sin α) − z
-    /// sin²α/2.
-    #[must_use]
-    pub fn least_shift(&self) -> f64 {
-        let sine = self.pressure_angle.sin();
-        self.dedendum - self.rounding() * (1.0 - sine) - f64::from(self.teeth) * sine * sine / 2.0
-    }
 }
 
 impl Profile {

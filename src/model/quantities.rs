@@ -10,12 +10,15 @@
 mod at_rest;
 mod checks;
 pub mod conditions;
+mod deflection;
 mod deviation;
 mod friction;
 mod geometry;
 mod impact;
+mod impact_terms;
 mod motion;
 mod position;
+mod resonance;
 mod whine;
 
 pub use impact::spread_force;
@@ -237,14 +240,16 @@ const RESOLVED: [[&str; 3]; 4] = [
 ];
 
 /// The rows by groups, in the order in which a person reads them.
-const GROUPS: [&[Quantity]; 8] = [
+const GROUPS: [&[Quantity]; 10] = [
     geometry::TABLE,
     deviation::TABLE,
     position::TABLE,
     impact::TABLE,
+    impact_terms::TABLE,
     friction::TABLE,
     at_rest::TABLE,
     motion::TABLE,
+    resonance::TABLE,
     whine::TABLE,
 ];
 
@@ -277,7 +282,9 @@ pub fn steps() -> impl Iterator<Item = &'static Step> {
     [
         geometry::STEPS,
         deviation::STEPS,
+        deflection::STEPS,
         position::STEPS,
+        impact_terms::STEPS,
         impact::STEPS,
         friction::STEPS,
         at_rest::STEPS,

@@ -1,16 +1,12 @@
 //! Functions of one variable as polynomials on pieces, found as Chebyshev series, cheap to evaluate
 //! and as exact as the digits allow.
 
-use std::array::from_fn;
-use std::f64::consts::PI;
-use std::sync::LazyLock;
+mod terms;
 
 use super::polynomial::Polynomial;
+pub use terms::TERMS;
+use terms::{Terms, about, has_settled, integral, interpolate, place, powers, terms_of, values};
 
-/// Terms of a piece.
-pub const TERMS: usize = 16;
-/// The last terms of a piece, in which the rest of the series shows.
-const TAIL: usize = 3;
 /// A piece is halved no further: a function that is still not smooth there has a branch point.
 const MOST_HALVINGS: u32 = 30;
 /// Nor are there more pieces: a function that rounding has made rough would take them without end.
@@ -33,13 +29,6 @@ struct Piece<const N: usize> {
     /// that has settled fall so fast that the powers keep its digits.
     powers: Terms<N>,
 }
-
-/// What belongs to each order, of all functions side by side, so that several are summed at once.
-type Terms<const N: usize> = [[f64; N]; TERMS];
-
-/// cos(k π/(2 TERMS)) over a whole turn.
-static COSINES: LazyLock<[f64; 4 * TERMS]> =
-    LazyLock::new(|| from_fn(|k| (k as f64 * PI / (2 * TERMS) as f64).cos()));
 
 impl<const N: usize> Series<N> {
     /// The functions `f` from `from` to `to`, halved until the last terms of each series are below
@@ -248,125 +237,6 @@ fn halve_groups<const N: usize, E>(
 fn may_not_halve((from, to): (f64, f64), halvings: u32, pieces: usize) -> bool {
     let is_narrow = to - from <= NARROWEST * from.abs().max(to.abs());
     halvings == 0 || is_narrow || pieces >= MOST_PIECES
-}
-
-/// The Chebyshev point of the first kind.
-fn place(from: f64, to: f64, point: usize) -> f64 {
-    f64::midpoint(from, to) + 0.5 * (to - from) * COSINES[2 * point + 1]
-}
-
-/// The terms of the polynomials through the function's values at the Chebyshev points of the first
-/// kind.
-fn interpolate<const N: usize, E>(
-    from: f64,
-    to: f64,
-    f: &impl Fn(f64) -> Result<[f64; N], E>,
-) -> Result<Terms<N>, E> {
-    let mut values = [[0.0; N]; TERMS];
-    for (point, value) in values.iter_mut().enumerate() {
-        *value = f(place(from, to, point))?;
-    }
-    Ok(terms_of(&values))
-}
-
-/// The same of the values at those points.
-fn terms_of<const N: usize>(values: &Terms<N>) -> Terms<N> {
-    let cosines = &*COSINES;
-    let mut terms = [[0.0; N]; TERMS];
-    for (point, found) in values.iter().enumerate() {
-        for (order, sums) in terms.iter_mut().enumerate() {
-            let weight = cosines[order * (2 * point + 1) % cosines.len()];
-            sums.iter_mut()
-                .zip(found)
-                .for_each(|(sum, value)| *sum += value * weight);
-        }
-    }
-    for (order, sums) in terms.iter_mut().enumerate() {
-        let scale = if order == 0 { 1.0 } else { 2.0 } / TERMS as f64;
-        for sum in sums.iter_mut() {
-            *sum *= scale;
-        }
-    }
-    terms
-}
-
-/// Whether the last terms of each function are small enough, or so large that no halving would
-/// help.
-fn has_settled<const N: usize>(terms: &Terms<N>, rest: &[f64; N]) -> bool {
-    let tail = &terms[TERMS - TAIL..];
-    tail.iter()
-        .flat_map(|terms| terms.iter().zip(rest))
-        .all(|(term, rest)| !term.is_finite() || term.abs() <= *rest)
-}
-
-/// The coefficients of the powers: Σ c_n T_n(t) = Σ a_k t^k.
-fn powers<const N: usize>(terms: &Terms<N>) -> Terms<N> {
-    let mut powers = [[0.0; N]; TERMS];
-    let (mut before, mut polynomial) = ([0.0; TERMS], [0.0; TERMS]);
-    polynomial[0] = 1.0;
-    for (order, terms) in terms.iter().enumerate() {
-        for (sums, coefficient) in powers.iter_mut().zip(polynomial) {
-            sums.iter_mut()
-                .zip(terms)
-                .for_each(|(sum, term)| *sum += coefficient * term);
-        }
-        // T_1 = t, T_(n+1) = 2 t T_n − T_(n−1).
-        let scale = if order == 0 { 1.0 } else { 2.0 };
-        let next = from_fn(|power: usize| {
-            power
-                .checked_sub(1)
-                .map_or(0.0, |lower| scale * polynomial[lower])
-                - before[power]
-        });
-        (before, polynomial) = (polynomial, next);
-    }
-    powers
-}
-
-/// Σ a_k t^k of `M` functions, from `first` on, by Estrin's scheme: pairs, pairs of pairs and so
-/// on, which do not wait for each other.
-#[inline]
-fn values<const N: usize, const M: usize>(powers: &Terms<N>, first: usize, t: f64) -> [f64; M] {
-    let (square, fourth) = (t * t, (t * t) * (t * t));
-    let pair = |at: usize, function: usize| powers[at][function] + powers[at + 1][function] * t;
-    let four = |at: usize, function: usize| pair(at, function) + pair(at + 2, function) * square;
-    let eight = |at: usize, function: usize| four(at, function) + four(at + 4, function) * fourth;
-    from_fn(|function| eight(0, first + function) + eight(8, first + function) * (fourth * fourth))
-}
-
-/// The coefficients of the powers of t − `at`, by Horner's rule for all of them at once: no sum waits
-/// for another of the same round.
-fn about<const N: usize, const M: usize>(
-    powers: &Terms<N>,
-    first: usize,
-    at: f64,
-) -> [[f64; TERMS]; M] {
-    let mut rest = [[0.0; M]; TERMS];
-    rest.iter_mut()
-        .zip(powers)
-        .for_each(|(rest, powers)| rest.copy_from_slice(&powers[first..first + M]));
-    for lowest in (0..TERMS - 1).rev() {
-        for power in lowest..TERMS - 1 {
-            let above = rest[power + 1];
-            for (sum, above) in rest[power].iter_mut().zip(above) {
-                *sum += at * above;
-            }
-        }
-    }
-    let mut all = [[0.0; TERMS]; M];
-    for (power, values) in rest.iter().enumerate() {
-        all.iter_mut()
-            .zip(values)
-            .for_each(|(function, value)| function[power] = *value);
-    }
-    all
-}
-
-/// ∫ of a function from −1 to 1.
-fn integral<const N: usize>(powers: &Terms<N>, function: usize) -> f64 {
-    let even = powers.iter().enumerate().step_by(2);
-    even.map(|(order, powers)| 2.0 * powers[function] / (order + 1) as f64)
-        .sum()
 }
 
 #[cfg(test)]

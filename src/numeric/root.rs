@@ -1,4 +1,4 @@
-//! The root of a function in a bracket.
+//! The root of a function in a bracket, and the place where a condition ends.
 
 /// The root of `f` between `from` and `to`, where it changes its sign, by Brent's method, to the
 /// last digits.
@@ -55,6 +55,26 @@ fn bold_step(best: (f64, f64), other: (f64, f64), opposite: (f64, f64)) -> f64 {
     let (q, r) = (other.1 / opposite.1, best.1 / opposite.1);
     let p = s * ((opposite.0 - best.0) * q * (q - r) - (best.0 - other.0) * (r - 1.0));
     -p / ((q - 1.0) * (r - 1.0) * (s - 1.0))
+}
+
+/// The greatest value at which a condition holds that holds at `from` and ends to hold once at the
+/// most, by bisection.
+#[must_use]
+pub fn last_where(from: f64, to: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    const HALVINGS: usize = 54;
+    if holds(to) {
+        return to;
+    }
+    let (mut low, mut high) = (from, to);
+    for _ in 0..HALVINGS {
+        let middle = f64::midpoint(low, high);
+        if holds(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low
 }
 
 #[cfg(test)]

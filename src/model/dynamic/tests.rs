@@ -8,6 +8,7 @@ use crate::model::compliance::ContactPlace;
 use crate::model::compliance::flanks::Flanks;
 use crate::model::inputs::{Inputs, Method, ToothCompliance};
 use crate::model::sample::standard_pair;
+use crate::model::spacing::Spacing;
 use crate::model::static_load;
 use crate::model::{Stage, Stages, solve};
 use crate::numeric::polynomial::Polynomial;

@@ -3,6 +3,7 @@
 use std::cell::Cell;
 
 use super::motion::{Motion, State, Window};
+use super::passage::{Passage, Record};
 use super::step::{Course, Step};
 use super::swing::{self, Phase, Swing};
 use super::{Dynamic, Effort};
@@ -15,20 +16,6 @@ use crate::model::stations::MeshStation;
 /// Times the contents of a list, its room at most while it grows: twice the contents in the new
 /// place and once in the old.
 const GROWTH: usize = 3;
-
-/// A step of the run.
-struct Record {
-    touching: Touching,
-    step: Step,
-}
-
-/// The steps of a window in which the incoming pair may touch.
-struct Passage {
-    window: Window,
-    /// The incoming pair's place in the window.
-    incoming: usize,
-    records: Vec<Record>,
-}
 
 /// Records of a run.
 #[derive(Default)]
@@ -402,27 +389,5 @@ impl Moment<'_> {
         } else {
             0.0
         }
-    }
-}
-
-impl Passage {
-    /// Keeps a step. The list grows by a quarter, so that its old and its new room together stay
-    /// below 2.25 times the budget. Returns the bytes by which it grew.
-    fn keep(&mut self, record: Record) -> usize {
-        const LEAST: usize = 16;
-        let room = self.records.capacity();
-        if self.records.len() == room {
-            self.records.reserve_exact((room / 4).max(LEAST));
-        }
-        self.records.push(record);
-        (self.records.capacity() - room) * size_of::<Record>()
-    }
-
-    fn records(&self) -> &[Record] {
-        &self.records
-    }
-
-    fn course<'a>(&'a self, motion: &'a Motion<'a>, record: &Record) -> Course<'a> {
-        Course::new(motion, &self.window, record.touching)
     }
 }

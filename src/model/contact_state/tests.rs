@@ -1,0 +1,205 @@
+//! The states of whole courses against the solutions.
+
+use super::*;
+use crate::model::inputs::Method;
+use crate::model::sample::standard_pair;
+use crate::model::{Stages, solve};
+
+/// Pairs with a deviation of 30 µm, up and down in ratio, shifted, and without a deviation.
+fn solved() -> Vec<(Inputs, Solution)> {
+    let mut found = Vec::new();
+    for (driver, driven, shift, deflection) in [
+        (20, 20, 0.0, 30e-6),
+        (20, 60, 0.2, 30e-6),
+        (60, 20, -0.1, 30e-6),
+        (33, 47, 0.3, 1e-6),
+        (20, 20, 0.0, -20e-6),
+    ] {
+        let mut inputs = standard_pair(driver, driven, 5e-3);
+        inputs.driver.profile_shift = shift;
+        inputs.deflection = Some(deflection);
+        let solution = solve(&inputs, Stages::ALL).unwrap();
+        found.push((inputs, solution));
+    }
+    found
+}
+
+fn force(moment: &ContactState) -> Option<f64> {
+    Some(moment.interpolated?.impact()?.impact_force)
+}
+
+#[test]
+fn values_at_d_and_at_the_stations_are_the_solutions() {
+    for (inputs, solution) in solved() {
+        let Some(position) = solution.position else {
+            continue;
+        };
+        let moment = ContactState::at(&inputs, &solution, position.approach_angle_driver).unwrap();
+        assert_eq!(
+            (moment.opening, moment.radius_driver),
+            (0.0, position.contact.radius_driver)
+        );
+        assert_eq!(force(&moment), solution.impact.map(|impact| impact.force));
+        for station in &solution.stations {
+            let moment = ContactState::at(&inputs, &solution, station.roll_angle_driver).unwrap();
+            let close =
+                |found: f64, expected: f64| (found - expected).abs() <= 1e-9 * expected.abs();
+            assert!(
+                close(moment.normal_velocity, station.normal_velocity),
+                "{moment:?} {station:?}"
+            );
+            assert!(
+                close(moment.sliding_velocity, station.sliding_velocity),
+                "{moment:?} {station:?}"
+            );
+            assert!(
+                close(force(&moment).unwrap(), station.impact_force),
+                "{moment:?} {station:?}"
+            );
+            assert!(
+                close(moment.radius_driver, station.radius_driver),
+                "{moment:?} {station:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_opening_closes_at_d_and_stays_closed() {
+    for (inputs, solution) in solved() {
+        let Some(position) = solution.position else {
+            continue;
+        };
+        let at = |part: f64| {
+            ContactState::at(&inputs, &solution, part * position.approach_angle_driver).unwrap()
+        };
+        let openings: Vec<f64> = (0..=30)
+            .map(|step| at(2.0 - f64::from(step) / 10.0).opening)
+            .collect();
+        assert!(
+            openings[..10]
+                .windows(2)
+                .all(|pair| pair[0] > pair[1] && pair[1] > 0.0),
+            "{openings:?}"
+        );
+        assert!(
+            openings[10..].iter().all(|opening| *opening == 0.0),
+            "{openings:?}"
+        );
+    }
+}
+
+#[test]
+fn without_contact_the_flanks_stay_apart_by_what_lacks() {
+    let (inputs, solution) = solved().pop().unwrap();
+    assert_eq!(solution.position, None);
+    for angle in [0.0, -0.05] {
+        let moment = ContactState::at(&inputs, &solution, angle).unwrap();
+        assert!(
+            (moment.opening - 20e-6).abs() < 1e-15 && force(&moment).is_none(),
+            "{moment:?}"
+        );
+    }
+}
+
+/// The methods that share the load, of an ordinary pair.
+fn shared() -> Vec<(Inputs, Solution)> {
+    [Method::Static, Method::Dynamic]
+        .map(|method| {
+            let mut inputs = standard_pair(20, 30, 5e-3);
+            (inputs.method, inputs.base_pitch_deviation) = (method, 10e-6);
+            let solution = solve(&inputs, Stages::EVERY).unwrap();
+            (inputs, solution)
+        })
+        .into()
+}
+
+#[test]
+fn the_load_at_an_angle_is_that_of_the_stations() {
+    for (inputs, solution) in shared() {
+        let first = first_contact(&solution).unwrap() * inputs.ratio();
+        let before = ContactState::at(&inputs, &solution, 1.001 * first).unwrap();
+        assert!(
+            before.opening > 0.0 && before.interpolated.is_none() && !before.touches(),
+            "{before:?}"
+        );
+        let stations = solution.dynamic.map_or_else(
+            || solution.static_load.clone().unwrap().stations,
+            |run| run.stations,
+        );
+        let solution = solve(&inputs, Stages::EVERY).unwrap();
+        for station in &stations {
+            let moment = ContactState::at(&inputs, &solution, station.roll_angle_driver).unwrap();
+            let load = *moment
+                .interpolated
+                .as_ref()
+                .and_then(Interpolated::load)
+                .unwrap();
+            assert!(
+                (load.force - station.force).abs() < 1e-9 * (1.0 + station.force),
+                "{load:?} {station:?}"
+            );
+            assert!(
+                (moment.sliding_velocity - station.sliding_velocity).abs() < 1e-9,
+                "{moment:?} {station:?}"
+            );
+            assert!(
+                moment.opening == 0.0 && force(&moment).is_none(),
+                "{moment:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn nothing_jumps_at_b_and_the_tip_leaves_the_flank_after_it() {
+    for (inputs, solution) in solved() {
+        let last =
+            (solution.geometry.start - solution.geometry.end) / solution.geometry.driver.base;
+        let at = |after: f64| ContactState::at(&inputs, &solution, last - after).unwrap();
+        let (before, after) = (at(-1e-9), at(1e-9));
+        assert_eq!((before.phase, after.phase), (Phase::Line, Phase::RunOut));
+        assert!(
+            (before.point - after.point).norm() < 1e-7 * inputs.module,
+            "{before:?} {after:?}"
+        );
+        assert!(
+            (before.sliding_velocity - after.sliding_velocity).abs() < 1e-6,
+            "{before:?} {after:?}"
+        );
+        let gaps = [0.001, 0.01, 0.05].map(|after| at(after).gap);
+        assert!(
+            gaps[0] > 0.0 && gaps.is_sorted() && at(0.01).normal_velocity < 0.0,
+            "{gaps:?}"
+        );
+    }
+}
+
+#[test]
+fn nothing_jumps_at_e() {
+    for (inputs, solution) in solved() {
+        let (before, after) = (
+            ContactState::at(&inputs, &solution, 1e-9),
+            ContactState::at(&inputs, &solution, -1e-9),
+        );
+        let (before, after) = (before.unwrap(), after.unwrap());
+        assert!(
+            (before.point - after.point).norm() < 1e-7 * inputs.module,
+            "{before:?} {after:?}"
+        );
+        assert!(
+            (before.sliding_velocity - after.sliding_velocity).abs() < 1e-6,
+            "{before:?} {after:?}"
+        );
+    }
+}
+
+#[test]
+fn angles_beyond_what_can_be_are_held_at_its_ends() {
+    let (mut inputs, solution) = solved().remove(0);
+    inputs.method = Method::Paper;
+    for angle in [1e300, -1e300, f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+        let moment = ContactState::at(&inputs, &solution, angle).unwrap();
+        assert!(moment.roll_angle_driver.is_finite(), "{angle}: {moment:?}");
+    }
+}

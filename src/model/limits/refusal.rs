@@ -1,0 +1,351 @@
+//! Every refusal, with its values and its message.
+
+use std::fmt;
+
+use thiserror::Error;
+
+use super::field::FieldRefusal;
+use crate::numeric::decimal::significant;
+
+const MILLIMETRE: f64 = 1e-3;
+const MICROMETRE: f64 = 1e-6;
+
+/// Why a pair cannot be solved, or why some of its quantities cannot.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum Refusal {
+    /// The driven tip would touch the driver below its base circle.
+    #[error("interference at the start of contact: N1E is {:.4} mm and must be above 0", .start / MILLIMETRE)]
+    Interference {
+        /// N₁E, in m.
+        start: f64,
+    },
+    /// The path of contact ends before it starts.
+    #[error("the tips do not reach each other: N1B is {:.4} mm and must be above N1E, {:.4} mm", .end / MILLIMETRE, .start / MILLIMETRE)]
+    NoPath {
+        /// N₁E, in m.
+        start: f64,
+        /// N₁B, in m.
+        end: f64,
+        /// Whether the case gives the centre distance.
+        is_distance_given: bool,
+    },
+    /// No involute is left at the tip.
+    #[error("the tip is inside the base circle: its radius is {:.4} mm and must be above {:.4} mm", .tip / MILLIMETRE, .base / MILLIMETRE)]
+    TipInsideBase {
+        /// r_a, in m.
+        tip: f64,
+        /// r_b, in m.
+        base: f64,
+    },
+    /// The cutting rack's flanks meet above its tip.
+    #[error(
+        "the cutting rack is pointed: the dedendum is {dedendum} and must be below {limit:.4} for this pressure angle"
+    )]
+    PointedRack {
+        /// h_fP*.
+        dedendum: f64,
+        /// π/(4 tan α).
+        limit: f64,
+    },
+    /// The base circles overlap.
+    #[error("the centre distance jams the mesh: it is {:.4} mm and must be above rb1 + rb2 = {:.4} mm", .distance / MILLIMETRE, .least / MILLIMETRE)]
+    CentreDistanceJams {
+        /// a, in m.
+        distance: f64,
+        /// r_b1 + r_b2, in m.
+        least: f64,
+    },
+    /// No centre distance without backlash exists.
+    #[error(
+        "no mesh without backlash exists: x1 + x2 is {sum:.4}, too far below 0 for these tooth numbers"
+    )]
+    ShiftsLeaveNoMesh {
+        /// x₁ + x₂.
+        sum: f64,
+    },
+    /// No pair is in contact while the next one comes in.
+    #[error("the contact ratio is {ratio:.4} and must be above 1 to compute the deflection at F")]
+    ContactRatioBelowOne {
+        /// ε.
+        ratio: f64,
+        /// Whether the method takes a deflection that is given, in place of computing it.
+        is_deflection_taken: bool,
+    },
+    /// The bore leaves no gear body.
+    #[error("the bore radius is {:.4} mm and must be below the {circle} circle's {:.4} mm", .bore / MILLIMETRE, .limit / MILLIMETRE)]
+    BoreTooLarge {
+        /// The key of the gear's bore radius.
+        field: &'static str,
+        /// r_h, in m.
+        bore: f64,
+        /// The circle that it must not reach.
+        circle: &'static str,
+        /// The radius of that circle, in m.
+        limit: f64,
+    },
+    /// S(u) = Δ has no solution on the driver's flank.
+    #[error("no first contact: the tip cannot close a gap of {:.4} um", .deviation / MICROMETRE)]
+    NoFirstContact {
+        /// Δ, in m.
+        deviation: f64,
+    },
+    /// The centre of the tip's rounding is inside the base circle.
+    #[error("the tip radius is {:.4} mm and must be below {:.4} mm: the centre of the rounding must be outside the base circle", .radius / MILLIMETRE, .limit / MILLIMETRE)]
+    RoundingInsideBase {
+        /// The key of the gear's tip radius.
+        field: &'static str,
+        /// r_e, in m.
+        radius: f64,
+        /// r_a − r_b, in m.
+        limit: f64,
+    },
+    /// The tooth is too thin for the rounding of its tip.
+    #[error("the tip radius is {:.4} mm and the tip is {:.4} mm too thin for it", .radius / MILLIMETRE, 2.0 * .lack / MILLIMETRE)]
+    RoundingTooWide {
+        /// The key of the gear's tip radius.
+        field: &'static str,
+        /// r_e, in m.
+        radius: f64,
+        /// What half of the tooth lacks, on the base circle, in m.
+        lack: f64,
+    },
+    /// Rounded tips leave a path of contact shorter than a base pitch.
+    #[error("the rounded tips leave a contact ratio of {ratio:.4}, and it must not be below 1")]
+    RoundingBreaksContact {
+        /// ε.
+        ratio: f64,
+    },
+    /// The contact is beyond the arc of the rounded tip.
+    #[error("D is beyond the rounding of the driven tip: rb2' is {:.4} mm and must not be below 0", .arm / MILLIMETRE)]
+    BeyondRounding {
+        /// r_b2', in m.
+        arm: f64,
+    },
+    /// The driver's flank ends before D.
+    #[error("D is beyond the end of the driver's involute: O1D is {:.4} mm and the involute ends at {:.4} mm", .radius / MILLIMETRE, .tip / MILLIMETRE)]
+    BeyondDriverTip {
+        /// O₁D, in m.
+        radius: f64,
+        /// Radius at which the driver's involute ends, in m.
+        tip: f64,
+    },
+    /// Eq. 56 does not cover the tooth number.
+    #[error("tooth number outside the Kuang-Yang fit: z is {teeth} and must be {}..{}", range.0, range.1)]
+    TeethOutsideFit {
+        /// z.
+        teeth: u32,
+        /// Least and greatest z of the fit.
+        range: (u32, u32),
+    },
+    /// Eq. 56 does not cover the profile shift.
+    #[error("profile shift outside the Kuang-Yang fit: x is {shift} and must be -{limit}..{limit}")]
+    ShiftOutsideFit {
+        /// x.
+        shift: f64,
+        /// Greatest |x| of the fit.
+        limit: f64,
+    },
+    /// Eq. 56 gives no stiffness so far out on the tooth.
+    #[error(
+        "load point outside the Kuang-Yang fit: (r_x - r)/((1+x) m) is {height:.4}, where the fit's stiffness is not above 0"
+    )]
+    HeightOutsideFit {
+        /// (r_x − r)/((1 + x) m).
+        height: f64,
+    },
+    /// No tooth is left where the load stands.
+    #[error("pointed tip: the tooth's thickness at the load point is {:.4} mm and must be above 0", .thickness / MILLIMETRE)]
+    PointedTip {
+        /// Thickness, in m.
+        thickness: f64,
+    },
+    /// The undercut leaves no neck below the tooth.
+    #[error(
+        "the undercut cuts the tooth through: its profile shift is {shift} and must be greater for so few teeth"
+    )]
+    CutThrough {
+        /// x.
+        shift: f64,
+    },
+    /// The load stands on the fillet, which is no involute.
+    #[error("the flank ends above the contact: O1D is {:.4} mm and the form circle {:.4} mm", .radius / MILLIMETRE, .form / MILLIMETRE)]
+    BelowFormCircle {
+        /// Radius of the load point, in m.
+        radius: f64,
+        /// Radius of the form circle, in m.
+        form: f64,
+    },
+    /// The gear has no elastic field.
+    #[error("no finite elements for the gear with {teeth} teeth: {reason}")]
+    NoField {
+        /// z.
+        teeth: u32,
+        /// Why.
+        reason: FieldRefusal,
+    },
+    /// The driver's tip would touch the driven gear below its base circle.
+    #[error("interference at the end of contact: N2B is {:.4} mm and must be above 0", .start / MILLIMETRE)]
+    InterferenceAtEnd {
+        /// N₂B, in m.
+        start: f64,
+    },
+    /// The pairs yield so far that a tip would leave the other flank.
+    #[error("the teeth cannot carry the load: the pairs deflect further than their flanks reach")]
+    BeyondReach,
+    /// The compliances of neighbouring pairs contradict each other.
+    #[error(
+        "the pairs have no load shares: a force would displace neighbouring teeth further than its own"
+    )]
+    IndefiniteCompliance,
+    /// Friction alone would hold the gears.
+    #[error(
+        "the friction locks the gears: the coefficient is {friction} and must be below {limit:.4}, r_b1 over the greatest arm"
+    )]
+    FrictionLocks {
+        /// μ.
+        friction: f64,
+        /// The least coefficient that locks.
+        limit: f64,
+    },
+    /// The mesh swings too often while a tooth passes.
+    #[error(
+        "too slow for method dynamic: the mesh oscillates {swings:.2e} times while a tooth passes, and the limit is {limit:.0e}"
+    )]
+    TooSlow {
+        /// Swings of the mesh on the way.
+        swings: f64,
+        /// The most that are followed.
+        limit: f64,
+    },
+    /// The series of the motion has no numbers.
+    #[error("the motion does not settle: the teeth touch and separate without end")]
+    Unsettled,
+    /// The motion exceeds its budget of work.
+    #[error(
+        "the motion is too long to compute: {steps} steps, the most that the budget allows, are {} of it", percent(*.done)
+    )]
+    MotionTooLong {
+        /// Steps.
+        steps: u64,
+        /// How much of the way they are, from 0 to 1.
+        done: f64,
+    },
+    /// The motion does not become periodic.
+    #[error("no steady motion: after {pitches} base pitches the motion does not repeat")]
+    NoSteadyMotion {
+        /// Base pitches that were followed.
+        pitches: u32,
+    },
+    /// The steps of the motion exceed the memory of a solve.
+    #[error(
+        "the speed is too low to compute the motion: the steps of a mesh exceed the memory of a solve, {} MB, after {} of the motion", .bytes / 1_000_000, percent(*.done)
+    )]
+    MotionTooLarge {
+        /// The memory of the steps.
+        bytes: usize,
+        /// The computed part of the motion, from 0 to 1.
+        done: f64,
+    },
+    /// A set of pairs has no room for all that may touch.
+    #[error("{pairs} tooth pairs may touch at a time, and the limit is {limit}")]
+    TooManyPairs {
+        /// Pairs.
+        pairs: usize,
+        /// The most that are followed.
+        limit: usize,
+    },
+    /// The search for the required tip relief exceeds its budget of work.
+    #[error("not found within {tries} {}: {}", if *.in_motion { "motions" } else { "balances" }, Bracket(*.touching, *.clear))]
+    SearchTooLong {
+        /// Motions or balances tried.
+        tries: u32,
+        /// Whether they are motions.
+        in_motion: bool,
+        /// The greatest additional tip relief with which the tooth touches, in m.
+        touching: Option<f64>,
+        /// The least greater one with which it does not, in m.
+        clear: Option<f64>,
+    },
+    /// The force curve needs more stations than are computed.
+    #[error(
+        "the force curve bends too often: it is computed in {limit} places, the limit, and needs more"
+    )]
+    CurveTooRough {
+        /// Places.
+        limit: usize,
+    },
+    /// No relief keeps the incoming tooth from touching before E.
+    #[error("the tooth touches before E even with {:.4} um more tip relief of the driven gear", .most / MICROMETRE)]
+    NoClearing {
+        /// The most that was tried, in m.
+        most: f64,
+    },
+    /// Whoever asked does not want the answer any more.
+    #[error("stopped before the end")]
+    Stopped,
+    /// Eq. 55 leaves its range.
+    #[error("the Hertz half-width is not small against the tooth: it is {:.4} mm, and the contact formula ends at {:.4} mm", .half_width / MILLIMETRE, .limit / MILLIMETRE)]
+    HertzWidthTooLarge {
+        /// Half-width, in m.
+        half_width: f64,
+        /// Where q_H vanishes, in m.
+        limit: f64,
+    },
+}
+
+impl Refusal {
+    /// The same refusal of the driven gear, where it names a field of the driver.
+    pub(in crate::model) fn at_driven(self) -> Refusal {
+        const FIELD: &str = "driven.tip_radius";
+        match self {
+            Refusal::RoundingInsideBase { radius, limit, .. } => Refusal::RoundingInsideBase {
+                field: FIELD,
+                radius,
+                limit,
+            },
+            Refusal::RoundingTooWide { radius, lack, .. } => Refusal::RoundingTooWide {
+                field: FIELD,
+                radius,
+                lack,
+            },
+            other => other,
+        }
+    }
+}
+
+/// Digits that tell any two numbers apart.
+const MOST_DIGITS: usize = 17;
+
+/// What a search knows of the additional tip reliefs, in m: the greatest that touches and the least
+/// that does not.
+struct Bracket(Option<f64>, Option<f64>);
+
+impl fmt::Display for Bracket {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(touching) = self.0 else {
+            return f.write_str("no additional tip relief was tried to its end");
+        };
+        f.write_str("the tooth touches before E with ")?;
+        let shown = |digits| {
+            let shown = |relief: f64| significant(relief / MICROMETRE, digits);
+            (shown(touching), self.1.map(shown))
+        };
+        // So many digits that the ends of a narrow bracket differ.
+        let (touching_shown, clear) = (4..MOST_DIGITS)
+            .map(shown)
+            .find(|(touching, clear)| clear.as_ref() != Some(touching))
+            .unwrap_or_else(|| shown(MOST_DIGITS));
+        if touching > 0.0 {
+            let touching = touching_shown;
+            write!(f, "{touching} um more tip relief of the driven gear")?;
+        } else {
+            f.write_str("the given tip relief of the driven gear")?;
+        }
+        clear.map_or(Ok(()), |clear| write!(f, ", and not with {clear} um more"))
+    }
+}
+
+/// A part of a motion that is not over: never 100 %.
+fn percent(done: f64) -> String {
+    format!("{:.2} %", (1e4 * done).floor().min(9999.0) / 100.0)
+}

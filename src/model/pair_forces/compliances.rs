@@ -1,0 +1,57 @@
+//! How far the forces on the pairs of a set displace each of them.
+
+use crate::numeric::banded::Banded;
+
+/// Pitches over which the force on one tooth displaces another.
+pub const PITCHES: usize = 2;
+
+/// The compliances of a set of pairs, Q/b.
+#[derive(Debug, Clone, Copy)]
+pub struct Compliances<'a> {
+    /// Of each pair under its own force, in m/N.
+    pub own: &'a [f64],
+    /// Displacement of each pair by the force on the pair one and two pitches behind, in m/N.
+    pub couplings: &'a [[f64; PITCHES]],
+}
+
+impl Compliances<'_> {
+    /// Displacement of one pair by the force on another, in m/N.
+    #[must_use]
+    pub fn at(&self, one: usize, other: usize) -> f64 {
+        let (behind, ahead) = (one.min(other), one.max(other));
+        match ahead - behind {
+            0 => self.own[one],
+            distance if distance <= PITCHES => self.couplings[ahead][distance - 1],
+            _ => 0.0,
+        }
+    }
+
+    /// The matrix of the touching pairs, which comes first, and factored; `None` if it is not
+    /// positive definite.
+    #[must_use]
+    pub fn among(&self, touching: &[usize]) -> Option<Banded> {
+        let entry = |at: usize, distance: usize| {
+            let other = at.checked_sub(distance).map(|other| touching[other]);
+            other.map_or(0.0, |other| self.at(touching[at], other))
+        };
+        let rows = (0..touching.len()).map(|at| [0, 1, 2].map(|distance| entry(at, distance)));
+        Banded::factored(rows.collect())
+    }
+
+    /// Displacement of a pair by unit forces, without its own.
+    pub(super) fn pushed<const M: usize>(
+        &self,
+        pair: usize,
+        touching: &[usize],
+        forces: &[[f64; M]],
+    ) -> [f64; M] {
+        let mut sums = [0.0; M];
+        for (&other, force) in touching.iter().zip(forces) {
+            let coupling = self.at(pair, other);
+            for (sum, force) in sums.iter_mut().zip(force) {
+                *sum += coupling * force;
+            }
+        }
+        sums
+    }
+}

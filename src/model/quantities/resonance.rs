@@ -1,0 +1,100 @@
+//! Rows of the resonance: mesh frequency, natural frequency and their ratio.
+
+use super::{Quantity, checks};
+use crate::model::Stage::Resonance;
+use crate::model::explanation::Formula::Text;
+use crate::model::explanation::{Context, Finding, four};
+
+const ISO: &str = "ISO 6336-1:2019, 6.5: resonance ratio N = n1/n_E1 with n_E1 = 30 000 √(c_γ/m_red)/(π \
+    z1), here with the mean stiffness k_m of the model in place of c_γ.";
+
+const RIGID: &str = "One mass m_red on the mean stiffness of the mesh; shafts, bearings and masses \
+    beside the gears are left out.";
+
+pub(super) const TABLE: &[Quantity] = &[
+    Quantity {
+        key: "mesh_frequency",
+        symbol: "f_z",
+        label: "mesh frequency",
+        unit: "Hz",
+        shown: "Hz",
+        digits: 5,
+        equation: "z1 n1",
+        stage: Resonance,
+        value: |s| Some(s.resonance?.mesh_frequency),
+        meaning: "The number of tooth pairs that come into contact per second. A pair whines at this frequency and at its multiples.",
+        formula: Text("z1 ω_1/(2 π)"),
+        source: "Kinematics of the pair: z1 n1 tooth pairs per second.",
+        corrections: &[],
+        assumptions: "Constant speed.",
+        checks: &[],
+        variants: &[],
+    },
+    Quantity {
+        key: "natural_frequency",
+        symbol: "f_n",
+        label: "natural frequency",
+        unit: "Hz",
+        shown: "Hz",
+        digits: 5,
+        equation: "ISO 6336-1",
+        stage: Resonance,
+        value: |s| Some(s.resonance?.natural_frequency),
+        meaning: "The natural frequency of the two gears on the mean stiffness of the mesh.",
+        formula: Text("√(k_m/m_red)/(2 π)"),
+        source: ISO,
+        corrections: &[],
+        assumptions: RIGID,
+        checks: &[checks::teeth],
+        variants: &[],
+    },
+    Quantity {
+        key: "resonance_ratio",
+        symbol: "N",
+        label: "resonance ratio",
+        unit: "1",
+        shown: "1",
+        digits: 4,
+        equation: "ISO 6336-1",
+        stage: Resonance,
+        value: |s| Some(s.resonance?.ratio()),
+        meaning: "The mesh frequency over the natural frequency. The pair is in resonance at N = 1, and its second and third mesh harmonics are at N = 1/2 and 1/3. ISO 6336-1 calls N < 0.85 subcritical and N > 1.15 supercritical.",
+        formula: Text("f_z/f_n"),
+        source: ISO,
+        corrections: &[],
+        assumptions: RIGID,
+        checks: &[checks::teeth, subcritical],
+        variants: &[],
+    },
+    Quantity {
+        key: "resonance_speed",
+        symbol: "n_E",
+        label: "resonance speed",
+        unit: "rad/s",
+        shown: "rpm",
+        digits: 5,
+        equation: "ISO 6336-1",
+        stage: Resonance,
+        value: |s| {
+            Some(s.resonance?.natural_frequency * s.geometry.base_pitch / s.geometry.driver.base)
+        },
+        meaning: "The speed of the driver at which the mesh frequency equals the natural frequency, N = 1.",
+        formula: Text("2 π f_n/z1"),
+        source: ISO,
+        corrections: &[],
+        assumptions: RIGID,
+        checks: &[checks::teeth],
+        variants: &[],
+    },
+];
+
+/// The pair runs below its main resonance.
+fn subcritical(k: &Context) -> Option<Finding> {
+    const RESONANCE: f64 = 0.85;
+    let ratio = k.solution.resonance?.ratio();
+    Finding::new(
+        "N <= 0.85: below the main resonance",
+        format!("N = {}", four(ratio)),
+        ratio <= RESONANCE,
+    )
+}

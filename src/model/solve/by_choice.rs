@@ -1,0 +1,138 @@
+//! The method `auto`: chooses a method and solves by it.
+
+use super::by_method::solve_by_method;
+use crate::model::auto;
+use crate::model::inputs::{Inputs, Method};
+use crate::model::request::Earlier;
+use crate::model::stage::{Stage, Stages};
+use crate::model::{Choice, Refusal, Solution};
+
+/// Solve with the method that the closed form calls for, or with the motion as a trial where it
+/// cannot tell; with the one taken before where nothing has changed since. The least relief is that
+/// of the method that was taken.
+pub(super) fn solve_by_choice(
+    inputs: &Inputs,
+    wanted: Stages,
+    earlier: Option<Earlier<'_>>,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Solution, Refusal> {
+    let before =
+        earlier.filter(|earlier| earlier.inputs == inputs && earlier.solution.choice.is_some());
+    let chosen = match before {
+        Some(earlier) => Solution {
+            ran: Stages::NONE,
+            ..earlier.solution.clone()
+        },
+        None => chosen(inputs, wanted.except(Stages::LATE), go_on)?,
+    };
+    if before.is_none() && wanted.within(Stages::LATE) == Stages::NONE {
+        return Ok(chosen);
+    }
+    let taken = auto::taken(inputs, chosen.method);
+    let wanted = if chosen.method == Method::Static {
+        at_rest(wanted)
+    } else {
+        wanted
+    };
+    let earlier = Earlier {
+        inputs: &taken,
+        solution: &chosen,
+    };
+    let whole = solve_by_method(&taken, wanted, Some(earlier), go_on)?;
+    Ok(Solution {
+        ran: whole.ran.and(chosen.ran),
+        choice: chosen.choice,
+        ..whole
+    })
+}
+
+/// The method that is taken, solved. Where `static` is, it stands for `dynamic` where that is
+/// wanted. One that is too slow to be followed in time is at rest.
+fn chosen(
+    inputs: &Inputs,
+    wanted: Stages,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Solution, Refusal> {
+    let read = wanted.within(Stages::CLOSED_FORM).and(auto::READS);
+    let closed_form = solve_by_method(&auto::taken(inputs, Method::Exact), read, None, &|_| true);
+    let choice = auto::choose(inputs, &closed_form);
+    let still = || {
+        solve_by_method(
+            &auto::taken(inputs, Method::Static),
+            at_rest(wanted),
+            None,
+            go_on,
+        )
+    };
+    let (solved, choice) = match (choice.method, &closed_form) {
+        (Method::Exact, Ok(known)) => {
+            let taken = auto::taken(inputs, Method::Exact);
+            let earlier = Earlier {
+                inputs: &taken,
+                solution: known,
+            };
+            let found = solve_by_method(&taken, wanted, Some(earlier), go_on)?;
+            (
+                Ok(Solution {
+                    ran: found.ran.and(known.ran),
+                    ..found
+                }),
+                choice,
+            )
+        }
+        (Method::Static, _) => (still(), choice),
+        _ => match solve_by_method(&auto::taken(inputs, Method::Dynamic), wanted, None, go_on) {
+            Err(Refusal::TooSlow { .. }) => (still(), choice),
+            Ok(moved) if choice.is_open() => decided(inputs, choice, moved, wanted, go_on),
+            found => (found, choice),
+        },
+    };
+    let solution = solved?;
+    Ok(Solution {
+        choice: Some(Choice {
+            method: solution.method,
+            ..choice
+        }),
+        ..solution
+    })
+}
+
+/// The motion, or the load at rest on the same mesh where inertia turns out to add little.
+fn decided(
+    inputs: &Inputs,
+    choice: Choice,
+    moved: Solution,
+    wanted: Stages,
+    go_on: &dyn Fn(f64) -> bool,
+) -> (Result<Solution, Refusal>, Choice) {
+    let choice = auto::added_by_inertia(&moved).map_or(choice, |adds| choice.tried(inputs, adds));
+    if choice.method == Method::Dynamic {
+        return (Ok(moved), choice);
+    }
+    let known = Solution {
+        method: Method::Static,
+        ..moved
+    };
+    let taken = auto::taken(inputs, Method::Static);
+    let earlier = Earlier {
+        inputs: &taken,
+        solution: &known,
+    };
+    let found = solve_by_method(&taken, at_rest(wanted), Some(earlier), go_on);
+    (
+        found.map(|found| Solution {
+            ran: found.ran.and(known.ran),
+            ..found
+        }),
+        choice,
+    )
+}
+
+/// What is wanted of the load at rest, which stands for the motion.
+fn at_rest(wanted: Stages) -> Stages {
+    if wanted.has(Stage::Dynamic) {
+        wanted.and(Stages::of(Stage::Static))
+    } else {
+        wanted
+    }
+}

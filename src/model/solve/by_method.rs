@@ -1,0 +1,303 @@
+//! A solve by one method: the stages in their order.
+
+use std::cell::{Cell, OnceCell};
+
+use twofloat::TwoFloat;
+
+use crate::model::impact::Masses;
+use crate::model::inputs::Inputs;
+use crate::model::request::{Earlier, Request};
+use crate::model::spacing::Spacing;
+use crate::model::stage::{Stage, Stages};
+use crate::model::{
+    Geometry, Kept, Outcome, Position, Refusal, Solution, clearing, compliance, deviation,
+    friction, geometry, impact, load_sharing, position, stations, stiffness_spread, velocity,
+};
+use crate::numeric::Real;
+
+/// Solves by the method of the inputs, which is not `auto`; an earlier solve by another method is
+/// of no use.
+///
+/// # Errors
+/// Those of [`solve_after`](super::solve_after).
+pub(super) fn solve_by_method(
+    inputs: &Inputs,
+    wanted: Stages,
+    earlier: Option<Earlier<'_>>,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Solution, Refusal> {
+    let earlier = earlier.filter(|earlier| earlier.solution.method == inputs.method);
+    let asked = Request {
+        inputs,
+        wanted: wanted.within(inputs.method.stages()),
+        earlier,
+        changed: Cell::default(),
+    };
+    Solving {
+        asked,
+        precise: OnceCell::new(),
+    }
+    .run(go_on)
+}
+
+/// A solve on its way.
+struct Solving<'a> {
+    asked: Request<'a>,
+    /// Geometry in double-double arithmetic, where it is called for.
+    precise: OnceCell<Option<Geometry<TwoFloat>>>,
+}
+
+impl Solving<'_> {
+    fn run(&self, go_on: &dyn Fn(f64) -> bool) -> Result<Solution, Refusal> {
+        let mut solution = self.begun()?;
+        if self.asked.wanted.has(Stage::Position) {
+            self.locate(&mut solution)?;
+        }
+        if self.asked.wanted.has(Stage::Mesh) {
+            load_sharing::share(&mut solution, &self.asked, go_on)?;
+        }
+        if self.asked.wanted.has(Stage::Clearing) {
+            self.clear(&mut solution, go_on)?;
+        }
+        Ok(solution)
+    }
+
+    /// The required relief, once the outcome is known.
+    fn clear(&self, solution: &mut Solution, go_on: &dyn Fn(f64) -> bool) -> Result<(), Refusal> {
+        let held = self
+            .asked
+            .kept(Stage::Clearing)
+            .and_then(|earlier| earlier.clearing);
+        if held.is_none() {
+            solution.ran = solution.ran.with(Stage::Clearing);
+        }
+        solution.clearing = Some(held.map_or_else(
+            || clearing::clearing(self.asked.inputs, solution, go_on),
+            Ok,
+        )?);
+        solution.stages = solution.stages.with(Stage::Clearing);
+        Ok(())
+    }
+
+    /// Geometry, load and deviation.
+    fn begun(&self) -> Result<Solution, Refusal> {
+        let inputs = self.asked.inputs;
+        let mut ran = Stages::NONE;
+        let geometry = match self.asked.kept(Stage::Geometry) {
+            Some(earlier) => earlier.geometry,
+            None => self.geometry(&mut ran)?,
+        };
+        let mesh_force = if let Some(earlier) = self.asked.kept(Stage::Load) {
+            earlier.mesh_force
+        } else {
+            ran = ran.with(Stage::Load);
+            let force = inputs.torque() / geometry.driver.base;
+            self.asked
+                .note(Stage::Load, |s| s.mesh_force.to_bits() == force.to_bits());
+            force
+        };
+        let masses = if let Some(earlier) = self.asked.kept(Stage::Masses) {
+            earlier.kept.masses
+        } else {
+            ran = ran.with(Stage::Masses);
+            let bodies = inputs.bodies();
+            let masses = self.precise(&geometry)?.map_or_else(
+                || Masses::of(&bodies, &geometry),
+                |pair| Masses::of(&bodies, &pair),
+            )?;
+            self.asked.note(Stage::Masses, |s| s.kept.masses == masses);
+            masses
+        };
+        let deviation = if let Some(earlier) = self.asked.kept(Stage::Deviation) {
+            earlier.kept.deviation
+        } else {
+            ran = ran.with(Stage::Deviation);
+            let deviation = deviation::deviation(&inputs.deviation(), &geometry, mesh_force)?;
+            self.asked
+                .note(Stage::Deviation, |s| s.kept.deviation == deviation);
+            deviation
+        };
+        let strikes = deviation.total.rounded() > 0.0;
+        Ok(Solution {
+            method: inputs.method,
+            choice: None,
+            outcome: if strikes {
+                Outcome::CornerContact
+            } else {
+                Outcome::NoCornerContact
+            },
+            stages: Stages::of(Stage::Deviation).with(Stage::Masses),
+            ran,
+            geometry,
+            mesh_force,
+            reduced_mass: masses.reduced(),
+            deviation: deviation.rounded(),
+            kept: Kept { masses, deviation },
+            position: None,
+            velocity: None,
+            compliance: None,
+            impact: None,
+            friction: None,
+            band: None,
+            stations: Vec::new(),
+            mesh: None,
+            static_load: None,
+            dynamic: None,
+            resonance: None,
+            static_spectrum: None,
+            steady: None,
+            clearing: None,
+            withheld: None,
+            stations_withheld: None,
+        })
+    }
+
+    fn geometry(&self, ran: &mut Stages) -> Result<Geometry, Refusal> {
+        *ran = ran.with(Stage::Geometry);
+        // More digits may be behind the same rounded ones.
+        self.asked.note(Stage::Geometry, |_| false);
+        let plain = geometry::geometry::<f64>(&self.asked.inputs.shape());
+        let precise = self.precise_of(plain.as_ref().ok())?;
+        let _ = self.precise.set(precise);
+        precise.map_or(plain, |precise| Ok(precise.rounded()))
+    }
+
+    /// Geometry in double-double arithmetic, where it is asked for or small differences call for
+    /// it.
+    fn precise(&self, plain: &Geometry) -> Result<Option<Geometry<TwoFloat>>, Refusal> {
+        match self.precise.get() {
+            Some(&known) => Ok(known),
+            None => self.precise_of(Some(plain)),
+        }
+    }
+
+    fn precise_of(&self, plain: Option<&Geometry>) -> Result<Option<Geometry<TwoFloat>>, Refusal> {
+        let close_call =
+            plain.is_none_or(|geometry| geometry.is_close_call(self.asked.inputs.bores()));
+        (self.asked.inputs.accurate || close_call)
+            .then(|| geometry::geometry::<TwoFloat>(&self.asked.inputs.shape()))
+            .transpose()
+    }
+
+    /// D, and everything after it.
+    fn locate(&self, solution: &mut Solution) -> Result<(), Refusal> {
+        let found = if let Some(earlier) = self.asked.kept(Stage::Position) {
+            Ok(earlier.position)
+        } else {
+            solution.ran = solution.ran.with(Stage::Position);
+            let precise = self.precise(&solution.geometry)?;
+            let found = position::position(
+                &self.asked.inputs.contact_search(),
+                &solution.geometry,
+                precise.as_ref(),
+                &solution.kept.deviation,
+            );
+            let position = found.as_ref().ok().copied().flatten();
+            self.asked.note(Stage::Position, |s| s.position == position);
+            found
+        };
+        solution.stages = solution.stages.with(Stage::Position);
+        match found {
+            Ok(Some(position)) => {
+                solution.position = Some(position);
+                solution.withheld = self.strike(solution, &position).err();
+            }
+            Ok(None) => solution.outcome = Outcome::NoCornerContact,
+            // The methods that share the load do not need it.
+            Err(refusal) if self.asked.inputs.method.shares_load() => {
+                solution.stages = solution.stages.without(Stage::Position);
+                solution.withheld = Some(refusal);
+            }
+            Err(refusal) => return Err(refusal),
+        }
+        Ok(())
+    }
+
+    /// The stages from the velocity on, as far as they are wanted and can be computed.
+    fn strike(&self, solution: &mut Solution, position: &Position) -> Result<(), Refusal> {
+        let (inputs, geometry, tip) = (self.asked.inputs, solution.geometry, &position.contact);
+        let strike = inputs.impact();
+        let masses = solution.kept.masses;
+        solution.velocity = self.stage(
+            solution,
+            Stage::Velocity,
+            |s| s.velocity,
+            || Ok(velocity::velocity(inputs.driven_speed(), tip)),
+        )?;
+        let place = || compliance::ContactPlace::at_tip(strike.tip_radius, &geometry, tip);
+        let borne = || compliance::Teeth::of(&strike.elasticity, &geometry)?.at(&place());
+        solution.compliance = self.stage(solution, Stage::Compliance, |s| s.compliance, borne)?;
+        let (Some(velocity), Some(teeth)) = (solution.velocity, solution.compliance) else {
+            return Ok(());
+        };
+        let struck = || {
+            let spring = compliance::Teeth::of(&strike.elasticity, &geometry)?.spring(&place())?;
+            let elastic = (&teeth, &spring);
+            impact::impact(&strike, &geometry, &masses, tip, elastic, &velocity)
+        };
+        let Some(impact) = self.stage(solution, Stage::Impact, |s| s.impact, struck)? else {
+            return Ok(());
+        };
+        solution.impact = Some(impact);
+        let rubbed = || {
+            Ok(friction::friction(
+                &strike,
+                &geometry,
+                tip,
+                &velocity,
+                &impact,
+                masses.reduced(),
+            ))
+        };
+        solution.friction = self.stage(solution, Stage::Friction, |s| s.friction, rubbed)?;
+        solution.band = self.stage(
+            solution,
+            Stage::Band,
+            |s| s.band,
+            || Ok(stiffness_spread::band(inputs, impact.force, force)),
+        )?;
+        let stood = || {
+            Ok(stations::stations(
+                (&strike, Spacing::of(inputs)),
+                &geometry,
+                &masses,
+                position,
+                impact.force,
+            ))
+        };
+        let earlier = |s: &Solution| Some((s.stations.clone(), s.stations_withheld));
+        if let Some((stations, withheld)) = self.stage(solution, Stage::Stations, earlier, stood)? {
+            (solution.stations, solution.stations_withheld) = (stations, withheld);
+        }
+        Ok(())
+    }
+
+    /// A stage's result: the earlier one where it still holds, else a new one where it is wanted.
+    fn stage<T: PartialEq>(
+        &self,
+        solution: &mut Solution,
+        stage: Stage,
+        earlier: impl Fn(&Solution) -> Option<T>,
+        new: impl FnOnce() -> Result<T, Refusal>,
+    ) -> Result<Option<T>, Refusal> {
+        if !self.asked.wanted.has(stage) {
+            return Ok(None);
+        }
+        if let Some(held) = self.asked.kept(stage).and_then(&earlier) {
+            solution.stages = solution.stages.with(stage);
+            return Ok(Some(held));
+        }
+        let found = new()?;
+        self.asked
+            .note(stage, |s| earlier(s).as_ref() == Some(&found));
+        solution.stages = solution.stages.with(stage);
+        solution.ran = solution.ran.with(stage);
+        Ok(Some(found))
+    }
+}
+
+/// The impact force alone, where there is one.
+fn force(inputs: &Inputs) -> Option<f64> {
+    let solution = solve_by_method(inputs, Stages::of(Stage::Impact), None, &|_| true).ok()?;
+    Some(solution.impact?.force)
+}
