@@ -76,6 +76,13 @@ pub struct Range {
     pub unit: &'static str,
 }
 
+impl Range {
+    /// From `from` to `to`, both in `unit`.
+    const fn new(from: f64, to: f64, unit: &'static str) -> Range {
+        Range { from, to, unit }
+    }
+}
+
 /// What holds when a case leaves a field out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Absent {

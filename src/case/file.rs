@@ -6,6 +6,7 @@ mod edit;
 mod error;
 mod excerpt;
 mod fault;
+mod places;
 mod syntax;
 mod target;
 mod template;
@@ -20,8 +21,8 @@ pub use disk::{Saved, read_bytes};
 pub use error::{ReadError, SaveError};
 use fault::Lines;
 pub use fault::{Fault, FaultKind};
+use places::Places;
 pub use target::{Draft, followed, write};
-use tree::Places;
 
 /// The format of case files that this version reads and writes.
 pub const FORMAT: u32 = 1;

@@ -4,23 +4,26 @@
     reason = "the help names tables of the case file, such as [limits]"
 )]
 
+mod changes;
 mod compare;
+mod misuse;
+mod quantities;
 mod studies;
 mod texts;
 
 use super::Exit;
-use crate::case::{Case, EXAMPLES, Example, Problem, unknown_quantity};
-use crate::model::inputs::Method;
-use crate::model::{QUANTITIES, Quantity};
+use crate::case::{EXAMPLES, Example};
+use crate::model::Quantity;
 use crate::report::graphs::GRAPHS;
 use crate::report::whine::charts::{SPECTRUM, SPEED};
 use crate::study::stiffness::{LEAST_POINTS, MOST_POINTS};
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use clap::error::{Error, ErrorKind};
-use clap::{Arg, Args, Parser, Subcommand, ValueEnum, ValueHint};
+use changes::{Changes, Overrides, station_count};
+pub use changes::{Edits, Setting};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
 pub use compare::{Compare, CompareFormat};
-use std::ffi::OsStr;
+use quantities::{Quantities, QuantityList};
 use std::path::PathBuf;
 use std::sync::LazyLock;
 pub use studies::{Gather, Relief, RowFormat, Running, Seek, Sweep, Tolerance};
@@ -101,63 +104,6 @@ pub enum Command {
         /// The page of this command
         command: Option<String>,
     },
-}
-
-/// Values that replace those of a case.
-#[derive(Debug, Args)]
-pub struct Overrides {
-    /// Use this variant of the case, a table [variants.NAME]
-    #[arg(long, value_name = "NAME")]
-    variant: Option<String>,
-    /// Change a field of the case, such as "operation.speed=3000 rpm"
-    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Settings)]
-    settings: Vec<Setting>,
-}
-
-/// The method and the values that replace those of a case.
-#[derive(Debug, Args)]
-pub struct Changes {
-    /// Solve on this method instead of the case's
-    #[arg(long, value_parser = methods())]
-    method: Option<Method>,
-    /// The values
-    #[command(flatten)]
-    overrides: Overrides,
-}
-
-/// What the command line changes in a case: its variant first, then single fields.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Edits {
-    /// The variant.
-    pub variant: Option<String>,
-    /// The fields.
-    pub settings: Vec<Setting>,
-}
-
-impl Overrides {
-    /// The variant and the fields.
-    #[must_use]
-    pub fn edits(&self) -> Edits {
-        Edits {
-            variant: self.variant.clone(),
-            settings: self.settings.clone(),
-        }
-    }
-}
-
-impl Changes {
-    /// The variant and the fields; the method is a field, and the last one.
-    #[must_use]
-    pub fn edits(&self) -> Edits {
-        let mut edits = self.overrides.edits();
-        edits.settings.extend(by_method(self.method));
-        edits
-    }
-}
-
-/// `--method` as a field.
-fn by_method(method: Option<Method>) -> Option<Setting> {
-    method.map(|method| Setting::by("--method", "model.method", method.name()))
 }
 
 /// The arguments of `plot`.
@@ -346,151 +292,9 @@ pub enum Listing {
     Json,
 }
 
-/// A field and what is to stand in it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Setting {
-    /// The field's key, or a limit's.
-    pub key: String,
-    /// The text that a user would write.
-    pub value: String,
-    /// The option that says so.
-    option: &'static str,
-}
-
-impl Setting {
-    /// What an option puts into a field.
-    #[must_use]
-    pub fn by(option: &'static str, key: &str, value: &str) -> Setting {
-        Setting {
-            key: key.to_owned(),
-            value: value.to_owned(),
-            option,
-        }
-    }
-
-    /// As it stands on the command line.
-    #[must_use]
-    pub fn written(&self) -> String {
-        match self.option {
-            SET => format!("{SET} {}={}", self.key, self.value),
-            option => format!("{option} {}", self.value),
-        }
-    }
-}
-
-/// The option that changes any field.
-const SET: &str = "--set";
-
 fn exit_codes() -> String {
     let codes = Exit::MEANINGS.map(|(exit, meaning)| format!("{} {meaning}", exit as u8));
     format!("Exit: {}.", codes.join("; "))
-}
-
-fn methods() -> impl TypedValueParser<Value = Method> {
-    PossibleValuesParser::new(Method::ALL.map(Method::name)).try_map(|name| {
-        Method::ALL
-            .into_iter()
-            .find(|method| method.name() == name)
-            .ok_or("no such method")
-    })
-}
-
-/// A quantity by its name or its symbol.
-#[derive(Clone)]
-struct Quantities;
-
-impl TypedValueParser for Quantities {
-    type Value = &'static Quantity;
-
-    fn parse_ref(
-        &self,
-        _: &clap::Command,
-        argument: Option<&Arg>,
-        value: &OsStr,
-    ) -> Result<Self::Value, Error> {
-        let text = value.to_string_lossy();
-        let name = argument
-            .and_then(Arg::get_long)
-            .map_or("QUANTITY".to_owned(), |long| format!("--{long}"));
-        Quantity::named(text.trim()).ok_or_else(|| {
-            let Problem { cause, fix, .. } = unknown_quantity("", &text);
-            misused(format!("{name}: {cause}: {fix}"))
-        })
-    }
-
-    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        Some(Box::new(
-            QUANTITIES
-                .iter()
-                .map(|quantity| PossibleValue::new(quantity.key)),
-        ))
-    }
-}
-
-/// Quantities with commas between them; a comma may be part of a symbol, as in `F_d,max`.
-#[derive(Clone)]
-struct QuantityList;
-
-impl TypedValueParser for QuantityList {
-    type Value = Vec<&'static Quantity>;
-
-    fn parse_ref(
-        &self,
-        command: &clap::Command,
-        argument: Option<&Arg>,
-        value: &OsStr,
-    ) -> Result<Self::Value, Error> {
-        let text = value.to_string_lossy();
-        let one = |name: &String| Quantities.parse_ref(command, argument, OsStr::new(name));
-        names(&text).iter().map(one).collect()
-    }
-
-    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        Quantities.possible_values()
-    }
-}
-
-/// The names in a list: a part that continues a symbol joins the part before it.
-fn names(list: &str) -> Vec<String> {
-    let is_symbol = |name: &str| {
-        let mut symbols = QUANTITIES.iter().map(|quantity| quantity.symbol);
-        symbols.any(|symbol| symbol.eq_ignore_ascii_case(name))
-    };
-    let mut names: Vec<String> = Vec::new();
-    for part in list.split(',').map(str::trim) {
-        let joined = names.last().map(|before| format!("{before},{part}"));
-        match joined.filter(|joined| is_symbol(joined)) {
-            Some(joined) => {
-                names.pop();
-                names.push(joined);
-            }
-            None => names.push(part.to_owned()),
-        }
-    }
-    names
-}
-
-/// A field and its value, each on its own as it should be.
-#[derive(Clone)]
-struct Settings;
-
-impl TypedValueParser for Settings {
-    type Value = Setting;
-
-    fn parse_ref(
-        &self,
-        _: &clap::Command,
-        _: Option<&Arg>,
-        value: &OsStr,
-    ) -> Result<Setting, Error> {
-        let text = value.to_string_lossy();
-        setting(&text).map_err(|cause| misused(format!("{SET} {text}: {cause}")))
-    }
-}
-
-/// One line of wrong usage.
-fn misused(cause: String) -> Error {
-    Error::raw(ErrorKind::ValueValidation, cause + "\n")
 }
 
 fn charts() -> PossibleValuesParser {
@@ -501,22 +305,6 @@ fn charts() -> PossibleValuesParser {
 fn examples() -> impl TypedValueParser<Value = &'static Example> {
     PossibleValuesParser::new(EXAMPLES.iter().map(|example| example.name))
         .try_map(|name| Example::find(&name))
-}
-
-/// A number of stations that fits its field.
-fn station_count(text: &str) -> Result<String, String> {
-    setting(&format!("model.stations={text}")).map(|setting| setting.value)
-}
-
-/// A setting whose value fits its field, whatever the case.
-fn setting(text: &str) -> Result<Setting, String> {
-    let (key, value) = text
-        .split_once('=')
-        .ok_or("no value is given: write KEY=VALUE, such as \"operation.speed=3000 rpm\"")?;
-    Case::empty()
-        .set(key.trim(), value)
-        .map_err(|problem| format!("{}: {}", problem.cause, problem.fix))?;
-    Ok(Setting::by(SET, key.trim(), value))
 }
 
 /// A number of radii on a flank.
@@ -551,16 +339,6 @@ mod tests {
     }
 
     #[test]
-    fn a_comma_in_a_symbol_does_not_end_a_name() {
-        assert_eq!(
-            names("F_d,max, F_d,DE,impact_force,F_S,T_S,32"),
-            ["F_d,max", "F_d,DE", "impact_force", "F_S", "T_S,32"]
-        );
-        let list = QUANTITIES.iter().map(|quantity| quantity.symbol);
-        assert!(list.clone().eq(names(&list.collect::<Vec<_>>().join(","))));
-    }
-
-    #[test]
     fn a_part_is_written_with_or_without_its_sign() {
         assert_eq!(
             (part("5%"), part("0.05"), part(" 0.5 % ")),
@@ -571,16 +349,5 @@ mod tests {
                 .iter()
                 .all(|text| part(text).is_err())
         );
-    }
-
-    #[test]
-    fn a_setting_names_a_field_and_keeps_what_follows_the_first_equals_sign() {
-        assert_eq!(setting("title=a=b"), Ok(Setting::by(SET, "title", "a=b")));
-        assert!(
-            setting("pair.modul=5 mm")
-                .unwrap_err()
-                .contains("did you mean pair.module?")
-        );
-        assert!(setting("pair.module").unwrap_err().contains("KEY=VALUE"));
     }
 }

@@ -1,14 +1,17 @@
 //! The tip relief to specify as text, JSON or CSV.
 
+mod json;
+mod numbers;
+mod tables;
+
 use std::io::{self, Write};
 
-use serde::Serialize;
-
-use super::json::write_line;
-use super::layout::{item, widest};
+use super::layout::item;
 use crate::case::sanitize::sanitize;
-use crate::model::inputs::ReliefShape;
-use crate::study::relief::{Choice, MapPoint, Specification, TipReliefs};
+use crate::model::explanation::tidy;
+use crate::study::relief::{Specification, TipReliefs};
+use numbers::{mm, percent, shape, um};
+use tables::{choices, harris, map};
 
 /// A relief to specify with the name of its case.
 #[derive(Clone, Copy)]
@@ -142,25 +145,7 @@ impl ReliefReport<'_> {
     /// # Errors
     /// Those of the writer.
     pub fn write_json(&self, out: &mut dyn Write) -> io::Result<()> {
-        let found = self.found;
-        let line = Line {
-            case: self.name,
-            title: self.title,
-            version: env!("CARGO_PKG_VERSION"),
-            method: found.method.name(),
-            torque: found.torque,
-            loads: &found.loads,
-            tolerance: found.demand.tolerance,
-            relief: Reliefs::of(&found.chosen().reliefs),
-            margin: found.chosen().margin,
-            greatest_load: found.greatest_load,
-            unloaded_contact_ratio: found.unloaded_contact_ratio,
-            choices: found.choices.iter().map(JsonChoice::of).collect(),
-            map: found.map.iter().flatten().map(JsonPoint::of).collect(),
-            tries: found.tries,
-            is_complete: !found.is_cut,
-        };
-        write_line(&line, out)
+        json::line(self.name, self.title, self.found, out)
     }
 
     /// Writes the map over amount and length as CSV in SI units, the choices first.
@@ -211,243 +196,4 @@ fn record(name: &str, reliefs: &TipReliefs, error: f64, margin: f64) -> [String;
         e,
         f,
     ]
-}
-
-/// A row per choice.
-fn choices(found: &Specification) -> Vec<String> {
-    let head = [
-        "  um, lengths in mm",
-        "C_a1",
-        "L_1",
-        "C_a2",
-        "L_2",
-        "max",
-        "mean",
-        "gap",
-    ];
-    let rows = found.choices.iter().enumerate().map(|(at, choice)| {
-        let Choice { reliefs, .. } = choice;
-        let mark = if at == found.best { "* " } else { "  " };
-        let length = |at: usize| {
-            if reliefs.amounts[at] > 0.0 {
-                mm(reliefs.lengths[at])
-            } else {
-                "-".to_owned()
-            }
-        };
-        [
-            format!("{mark}{}", choice.name),
-            um(reliefs.amounts[0]),
-            length(0),
-            um(reliefs.amounts[1]),
-            length(1),
-            tidy(choice.greatest_error() * 1e6, 3),
-            tidy(choice.mean_error() * 1e6, 3),
-            tidy(choice.margin * 1e6, 2),
-        ]
-    });
-    let head = head.map(str::to_owned);
-    table(
-        &std::iter::once(head.to_vec())
-            .chain(rows.map(|row| row.to_vec()))
-            .collect::<Vec<_>>(),
-    )
-}
-
-/// A row per load: the case as it is, and the relief to specify.
-fn harris(found: &Specification) -> Vec<String> {
-    let chosen = found.chosen();
-    let cells = |name: &str, values: Vec<String>| {
-        std::iter::once(format!("  {name}"))
-            .chain(values)
-            .collect::<Vec<_>>()
-    };
-    let errors = |choice: &Choice| {
-        let errors = choice.errors.iter();
-        errors.map(|error| tidy(error * 1e6, 3)).collect::<Vec<_>>()
-    };
-    let loads = found
-        .loads
-        .iter()
-        .map(|&load| format!("{} %", percent(load)));
-    table(&[
-        cells("load", loads.collect()),
-        cells("as the case has it", errors(&found.choices[0])),
-        cells("relief to specify", errors(chosen)),
-    ])
-}
-
-/// A row per length: the greatest error by amount.
-fn map(found: &Specification) -> Vec<String> {
-    let chosen = found.chosen().reliefs;
-    let pair = |values: [String; 2]| {
-        if values[0] == values[1] {
-            values[0].clone()
-        } else {
-            values.join("/")
-        }
-    };
-    let is_chosen = |point: &MapPoint| {
-        let same = |one: f64, other: f64| (one - other).abs() < 1e-9;
-        same(point.reliefs.amounts[0], chosen.amounts[0])
-            && same(point.reliefs.lengths[0], chosen.lengths[0])
-    };
-    let cell = |point: &MapPoint| {
-        let error = if point.margin < 0.0 {
-            "-".to_owned()
-        } else {
-            tidy(point.error * 1e6, 2)
-        };
-        if is_chosen(point) {
-            format!("*{error}")
-        } else {
-            error
-        }
-    };
-    let head = found.map.first().into_iter().flatten();
-    let head = head.map(|point| pair(point.reliefs.amounts.map(um)));
-    let head: Vec<String> = std::iter::once("  mm \\ um".to_owned())
-        .chain(head)
-        .collect();
-    let rows = found.map.iter().map(|row| {
-        let length = row.first().map(|point| pair(point.reliefs.lengths.map(mm)));
-        let length = format!("  {}", length.unwrap_or_default());
-        std::iter::once(length)
-            .chain(row.iter().map(cell))
-            .collect()
-    });
-    table(
-        &std::iter::once(head)
-            .chain(rows)
-            .collect::<Vec<Vec<String>>>(),
-    )
-}
-
-/// The first column to the left, the others to the right.
-fn table(rows: &[Vec<String>]) -> Vec<String> {
-    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
-    let cell = |row: &Vec<String>, at: usize| row.get(at).cloned().unwrap_or_default();
-    let widths: Vec<usize> = (0..columns)
-        .map(|at| {
-            let cells: Vec<String> = rows.iter().map(|row| cell(row, at)).collect();
-            widest(cells.iter().map(String::as_str))
-        })
-        .collect();
-    let line = |row: &Vec<String>| {
-        let cells = (0..columns).map(|at| {
-            let (text, width) = (cell(row, at), widths[at]);
-            if at == 0 {
-                format!("{text:width$}")
-            } else {
-                format!(" {text:>width$}")
-            }
-        });
-        cells.collect::<String>().trim_end().to_owned()
-    };
-    rows.iter().map(line).collect()
-}
-
-fn shape(shape: ReliefShape) -> &'static str {
-    match shape {
-        ReliefShape::Linear => "linear",
-        ReliefShape::Parabolic => "parabolic",
-    }
-}
-
-fn um(length: f64) -> String {
-    format!("{:.1}", length * 1e6)
-}
-
-fn mm(length: f64) -> String {
-    format!("{:.2}", length * 1e3)
-}
-
-fn percent(part: f64) -> String {
-    tidy(100.0 * part, 4)
-}
-
-fn tidy(value: f64, digits: usize) -> String {
-    crate::model::explanation::tidy(value, digits)
-}
-
-#[derive(Serialize)]
-struct Line<'a> {
-    case: &'a str,
-    title: &'a str,
-    version: &'static str,
-    method: &'a str,
-    torque: f64,
-    loads: &'a [f64],
-    tolerance: f64,
-    relief: Reliefs,
-    margin: f64,
-    greatest_load: f64,
-    unloaded_contact_ratio: f64,
-    choices: Vec<JsonChoice<'a>>,
-    map: Vec<JsonPoint>,
-    tries: u64,
-    is_complete: bool,
-}
-
-#[derive(Serialize)]
-struct Reliefs {
-    shape: &'static str,
-    driver: OneRelief,
-    driven: OneRelief,
-}
-
-#[derive(Serialize)]
-struct OneRelief {
-    tip_relief: f64,
-    tip_relief_length: f64,
-}
-
-impl Reliefs {
-    fn of(reliefs: &TipReliefs) -> Reliefs {
-        let one = |at: usize| OneRelief {
-            tip_relief: reliefs.amounts[at],
-            tip_relief_length: reliefs.lengths[at],
-        };
-        Reliefs {
-            shape: shape(reliefs.shape),
-            driver: one(0),
-            driven: one(1),
-        }
-    }
-}
-
-#[derive(Serialize)]
-struct JsonChoice<'a> {
-    name: &'a str,
-    relief: Reliefs,
-    transmission_errors: &'a [f64],
-    margin: f64,
-}
-
-impl JsonChoice<'_> {
-    fn of(choice: &Choice) -> JsonChoice<'_> {
-        JsonChoice {
-            name: choice.name,
-            relief: Reliefs::of(&choice.reliefs),
-            transmission_errors: &choice.errors,
-            margin: choice.margin,
-        }
-    }
-}
-
-#[derive(Serialize)]
-struct JsonPoint {
-    relief: Reliefs,
-    transmission_error: f64,
-    margin: f64,
-}
-
-impl JsonPoint {
-    fn of(point: &MapPoint) -> JsonPoint {
-        JsonPoint {
-            relief: Reliefs::of(&point.reliefs),
-            transmission_error: point.error,
-            margin: point.margin,
-        }
-    }
 }

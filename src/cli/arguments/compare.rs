@@ -4,7 +4,8 @@
     reason = "the help names tables of the case file, such as [variants.NAME]"
 )]
 
-use super::{Edits, QuantityList, Setting, Settings, by_method, methods};
+use super::changes::{Edits, Setting, Settings, by_method, methods};
+use super::quantities::QuantityList;
 use crate::model::Quantity;
 use crate::model::inputs::Method;
 use clap::{Args, ValueEnum, ValueHint};

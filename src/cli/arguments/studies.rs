@@ -4,7 +4,9 @@
     reason = "the help names tables of the case file, such as [limits]"
 )]
 
-use super::{Changes, Format, Listing, QuantityList};
+use super::changes::Changes;
+use super::quantities::QuantityList;
+use super::{Format, Listing};
 use crate::case::units::{self, Dimension};
 use crate::model::Quantity;
 use crate::report::sweep::TableFormat;

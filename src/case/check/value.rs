@@ -1,0 +1,176 @@
+//! The value of one field from its text, checked against its own range.
+
+use std::sync::LazyLock;
+
+use super::problem::Problem;
+use crate::case::fields::{AUTO, FIELDS, Field, Kind, Range, Value};
+use crate::case::sanitize::quoted;
+use crate::case::suggest;
+use crate::case::units::{self, Dimension};
+use crate::numeric::decimal::shortest;
+
+/// The value of a field from its text, checked against the field's own range.
+///
+/// # Errors
+/// Where the text is no value of the field, or is outside its range.
+pub fn field_value(field: usize, text: &str) -> Result<Value, Problem> {
+    read_value(&FIELDS[field], field, text)
+}
+
+fn read_value(known: &Field, field: usize, text: &str) -> Result<Value, Problem> {
+    match known.kind {
+        Kind::Text => Ok(Value::Text),
+        Kind::Number(dimension, range, _) => {
+            number(known, field, text, dimension, range).map(Value::Number)
+        }
+        Kind::Count(from, to, _) => count(known, text, from, to).map(Value::Count),
+        Kind::Choice(names, _) => choice(known, text, names).map(Value::Choice),
+    }
+}
+
+/// The least and the greatest value of a number field, in SI.
+#[must_use]
+pub fn field_range(field: usize) -> (f64, f64) {
+    ENDS[field]
+}
+
+/// The ends of every range in SI, read like a value so that the ends themselves are inside.
+static ENDS: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
+    let end = |value: f64, dimension, unit| {
+        units::parse(&format!("{value} {unit}"), dimension, unit).unwrap_or(f64::NAN)
+    };
+    FIELDS
+        .iter()
+        .map(|field| match field.kind {
+            Kind::Number(dimension, range, _) => (
+                end(range.from, dimension, range.unit),
+                end(range.to, dimension, range.unit),
+            ),
+            _ => (0.0, 0.0),
+        })
+        .collect()
+});
+
+fn number(
+    known: &Field,
+    field: usize,
+    text: &str,
+    dimension: Dimension,
+    range: Range,
+) -> Result<f64, Problem> {
+    let (from, to) = ENDS[field];
+    let likely = || likely_unit(text, known, dimension, (from, to));
+    let value = units::parse(text, dimension, known.usual_unit())
+        .or_else(|_| units::parse(text, dimension, likely()))
+        .map_err(|misread| Problem::of(known.key, misread))?;
+    // The same end may be written in another unit, and be off by its rounding there.
+    let slack = 4.0 * f64::EPSILON;
+    if value < from - slack * from.abs() {
+        return Err(outside(
+            known,
+            text,
+            "below",
+            shortest(range.from),
+            range.unit,
+        ));
+    }
+    if value > to + slack * to.abs() {
+        return Err(outside(
+            known,
+            text,
+            "above",
+            shortest(range.to),
+            range.unit,
+        ));
+    }
+    Ok(value)
+}
+
+/// The unit that is most likely meant behind a bare number: the usual one, or where that is out of
+/// range another that is not.
+fn likely_unit(
+    text: &str,
+    known: &Field,
+    dimension: Dimension,
+    (from, to): (f64, f64),
+) -> &'static str {
+    let fits = |unit: &&str| {
+        let value = units::parse(&format!("{} {unit}", text.trim()), dimension, unit);
+        value.is_ok_and(|value| (from..=to).contains(&value))
+    };
+    std::iter::once(known.usual_unit())
+        .chain(dimension.symbols())
+        .find(fits)
+        .unwrap_or(known.usual_unit())
+}
+
+fn outside(
+    known: &Field,
+    text: &str,
+    side: &str,
+    end: impl std::fmt::Display,
+    unit: &str,
+) -> Problem {
+    let end = format!("{end} {unit}");
+    let cause = format!("{} is {side} the limit of {}", quoted(text), end.trim_end());
+    Problem::new(
+        known.key,
+        cause,
+        format!("write a value from {}", known.range_text()),
+    )
+}
+
+fn count(known: &Field, text: &str, from: u32, to: u32) -> Result<u32, Problem> {
+    let text = text.trim();
+    if known.takes_auto() && text == AUTO {
+        return Ok(0);
+    }
+    let digits = text.strip_prefix('+').unwrap_or(text);
+    match digits.parse::<u32>() {
+        Ok(value) if value < from => Err(outside(known, text, "below", from, "")),
+        Ok(value) if value <= to => Ok(value),
+        _ if !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit()) => {
+            Err(outside(known, text, "above", to, ""))
+        }
+        _ => Err(not_whole(known, text)),
+    }
+}
+
+fn not_whole(known: &Field, text: &str) -> Problem {
+    let example = format!(
+        "write a whole number from {}, such as {}",
+        known.range_text(),
+        known.example()
+    );
+    match units::parse(text, Dimension::Number, "") {
+        Ok(value) if value < 0.0 => outside(
+            known,
+            text,
+            "below",
+            known.range_text().split(' ').next().unwrap_or("0"),
+            "",
+        ),
+        Ok(_) => Problem::new(
+            known.key,
+            format!("{} is not a whole number", quoted(text)),
+            example,
+        ),
+        Err(misread) if misread.cause.starts_with("unit") => Problem::of(known.key, misread),
+        Err(misread) => Problem::new(known.key, misread.cause, example),
+    }
+}
+
+fn choice(known: &Field, text: &str, names: &'static [&'static str]) -> Result<usize, Problem> {
+    let name = text.trim();
+    if let Some(index) = names.iter().position(|&known| known == name) {
+        return Ok(index);
+    }
+    let fix = suggest::fix(name, names.iter().copied(), || {
+        format!("use one of {}", names.join(", "))
+    });
+    Err(Problem::new(
+        known.key,
+        format!("unknown choice {}", quoted(name)),
+        fix,
+    ))
+}

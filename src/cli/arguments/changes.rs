@@ -1,0 +1,162 @@
+//! What the command line changes in a case: a variant, fields and the method.
+
+use std::ffi::OsStr;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::error::Error;
+use clap::{Arg, Args};
+
+use super::misuse::misused;
+use crate::case::Case;
+use crate::model::inputs::Method;
+
+/// Values that replace those of a case.
+#[derive(Debug, Args)]
+pub struct Overrides {
+    /// Use this variant of the case, a table [variants.NAME]
+    #[arg(long, value_name = "NAME")]
+    variant: Option<String>,
+    /// Change a field of the case, such as "operation.speed=3000 rpm"
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Settings)]
+    settings: Vec<Setting>,
+}
+
+/// The method and the values that replace those of a case.
+#[derive(Debug, Args)]
+pub struct Changes {
+    /// Solve on this method instead of the case's
+    #[arg(long, value_parser = methods())]
+    method: Option<Method>,
+    /// The values
+    #[command(flatten)]
+    overrides: Overrides,
+}
+
+/// What the command line changes in a case: its variant first, then single fields.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Edits {
+    /// The variant.
+    pub variant: Option<String>,
+    /// The fields.
+    pub settings: Vec<Setting>,
+}
+
+impl Overrides {
+    /// The variant and the fields.
+    #[must_use]
+    pub fn edits(&self) -> Edits {
+        Edits {
+            variant: self.variant.clone(),
+            settings: self.settings.clone(),
+        }
+    }
+}
+
+impl Changes {
+    /// The variant and the fields; the method is a field, and the last one.
+    #[must_use]
+    pub fn edits(&self) -> Edits {
+        let mut edits = self.overrides.edits();
+        edits.settings.extend(by_method(self.method));
+        edits
+    }
+}
+
+/// `--method` as a field.
+pub(super) fn by_method(method: Option<Method>) -> Option<Setting> {
+    method.map(|method| Setting::by("--method", "model.method", method.name()))
+}
+
+/// A field and what is to stand in it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Setting {
+    /// The field's key, or a limit's.
+    pub key: String,
+    /// The text that a user would write.
+    pub value: String,
+    /// The option that says so.
+    option: &'static str,
+}
+
+impl Setting {
+    /// What an option puts into a field.
+    #[must_use]
+    pub fn by(option: &'static str, key: &str, value: &str) -> Setting {
+        Setting {
+            key: key.to_owned(),
+            value: value.to_owned(),
+            option,
+        }
+    }
+
+    /// As it stands on the command line.
+    #[must_use]
+    pub fn written(&self) -> String {
+        match self.option {
+            SET => format!("{SET} {}={}", self.key, self.value),
+            option => format!("{option} {}", self.value),
+        }
+    }
+}
+
+/// The option that changes any field.
+const SET: &str = "--set";
+
+/// A field and its value, each on its own as it should be.
+#[derive(Clone)]
+pub(super) struct Settings;
+
+impl TypedValueParser for Settings {
+    type Value = Setting;
+
+    fn parse_ref(
+        &self,
+        _: &clap::Command,
+        _: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<Setting, Error> {
+        let text = value.to_string_lossy();
+        setting(&text).map_err(|cause| misused(format!("{SET} {text}: {cause}")))
+    }
+}
+
+/// A setting whose value fits its field, whatever the case.
+fn setting(text: &str) -> Result<Setting, String> {
+    let (key, value) = text
+        .split_once('=')
+        .ok_or("no value is given: write KEY=VALUE, such as \"operation.speed=3000 rpm\"")?;
+    Case::empty()
+        .set(key.trim(), value)
+        .map_err(|problem| format!("{}: {}", problem.cause, problem.fix))?;
+    Ok(Setting::by(SET, key.trim(), value))
+}
+
+/// A number of stations that fits its field.
+pub(super) fn station_count(text: &str) -> Result<String, String> {
+    setting(&format!("model.stations={text}")).map(|setting| setting.value)
+}
+
+pub(super) fn methods() -> impl TypedValueParser<Value = Method> {
+    PossibleValuesParser::new(Method::ALL.map(Method::name)).try_map(|name| {
+        Method::ALL
+            .into_iter()
+            .find(|method| method.name() == name)
+            .ok_or("no such method")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_setting_names_a_field_and_keeps_what_follows_the_first_equals_sign() {
+        assert_eq!(setting("title=a=b"), Ok(Setting::by(SET, "title", "a=b")));
+        assert!(
+            setting("pair.modul=5 mm")
+                .unwrap_err()
+                .contains("did you mean pair.module?")
+        );
+        assert!(setting("pair.module").unwrap_err().contains("KEY=VALUE"));
+    }
+}

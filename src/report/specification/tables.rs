@@ -1,0 +1,140 @@
+//! The tables of a relief: its choices, and the maps of the transmission error.
+
+use super::numbers::{mm, percent, um};
+use crate::model::explanation::tidy;
+use crate::report::layout::widest;
+use crate::study::relief::{Choice, MapPoint, Specification};
+
+/// A row per choice.
+pub(super) fn choices(found: &Specification) -> Vec<String> {
+    let head = [
+        "  um, lengths in mm",
+        "C_a1",
+        "L_1",
+        "C_a2",
+        "L_2",
+        "max",
+        "mean",
+        "gap",
+    ];
+    let rows = found.choices.iter().enumerate().map(|(at, choice)| {
+        let Choice { reliefs, .. } = choice;
+        let mark = if at == found.best { "* " } else { "  " };
+        let length = |at: usize| {
+            if reliefs.amounts[at] > 0.0 {
+                mm(reliefs.lengths[at])
+            } else {
+                "-".to_owned()
+            }
+        };
+        [
+            format!("{mark}{}", choice.name),
+            um(reliefs.amounts[0]),
+            length(0),
+            um(reliefs.amounts[1]),
+            length(1),
+            tidy(choice.greatest_error() * 1e6, 3),
+            tidy(choice.mean_error() * 1e6, 3),
+            tidy(choice.margin * 1e6, 2),
+        ]
+    });
+    let head = head.map(str::to_owned);
+    table(
+        &std::iter::once(head.to_vec())
+            .chain(rows.map(|row| row.to_vec()))
+            .collect::<Vec<_>>(),
+    )
+}
+
+/// A row per load: the case as it is, and the relief to specify.
+pub(super) fn harris(found: &Specification) -> Vec<String> {
+    let chosen = found.chosen();
+    let cells = |name: &str, values: Vec<String>| {
+        std::iter::once(format!("  {name}"))
+            .chain(values)
+            .collect::<Vec<_>>()
+    };
+    let errors = |choice: &Choice| {
+        let errors = choice.errors.iter();
+        errors.map(|error| tidy(error * 1e6, 3)).collect::<Vec<_>>()
+    };
+    let loads = found
+        .loads
+        .iter()
+        .map(|&load| format!("{} %", percent(load)));
+    table(&[
+        cells("load", loads.collect()),
+        cells("as the case has it", errors(&found.choices[0])),
+        cells("relief to specify", errors(chosen)),
+    ])
+}
+
+/// A row per length: the greatest error by amount.
+pub(super) fn map(found: &Specification) -> Vec<String> {
+    let chosen = found.chosen().reliefs;
+    let pair = |values: [String; 2]| {
+        if values[0] == values[1] {
+            values[0].clone()
+        } else {
+            values.join("/")
+        }
+    };
+    let is_chosen = |point: &MapPoint| {
+        let same = |one: f64, other: f64| (one - other).abs() < 1e-9;
+        same(point.reliefs.amounts[0], chosen.amounts[0])
+            && same(point.reliefs.lengths[0], chosen.lengths[0])
+    };
+    let cell = |point: &MapPoint| {
+        let error = if point.margin < 0.0 {
+            "-".to_owned()
+        } else {
+            tidy(point.error * 1e6, 2)
+        };
+        if is_chosen(point) {
+            format!("*{error}")
+        } else {
+            error
+        }
+    };
+    let head = found.map.first().into_iter().flatten();
+    let head = head.map(|point| pair(point.reliefs.amounts.map(um)));
+    let head: Vec<String> = std::iter::once("  mm \\ um".to_owned())
+        .chain(head)
+        .collect();
+    let rows = found.map.iter().map(|row| {
+        let length = row.first().map(|point| pair(point.reliefs.lengths.map(mm)));
+        let length = format!("  {}", length.unwrap_or_default());
+        std::iter::once(length)
+            .chain(row.iter().map(cell))
+            .collect()
+    });
+    table(
+        &std::iter::once(head)
+            .chain(rows)
+            .collect::<Vec<Vec<String>>>(),
+    )
+}
+
+/// The first column to the left, the others to the right.
+fn table(rows: &[Vec<String>]) -> Vec<String> {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let cell = |row: &Vec<String>, at: usize| row.get(at).cloned().unwrap_or_default();
+    let widths: Vec<usize> = (0..columns)
+        .map(|at| {
+            let cells: Vec<String> = rows.iter().map(|row| cell(row, at)).collect();
+            widest(cells.iter().map(String::as_str))
+        })
+        .collect();
+    let line = |row: &Vec<String>| {
+        let cells = (0..columns).map(|at| {
+            let (text, width) = (cell(row, at), widths[at]);
+            if at == 0 {
+                format!("{text:width$}")
+            } else {
+                format!(" {text:>width$}")
+            }
+        });
+        cells.collect::<String>().trim_end().to_owned()
+    };
+    rows.iter().map(line).collect()
+}
