@@ -237,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn the_tip_stands_before_the_flank_by_the_gap() {
+    fn the_gap_is_the_distance_of_the_tip_from_the_flank() {
         for (name, inputs, solution) in solved() {
             for part in [0.1, 0.5, 1.0, 2.0] {
                 let angle = part * solution.position.unwrap().approach_angle_driver;

@@ -365,7 +365,7 @@ impl App {
     }
 
     /// Whether a key would be the first of an edit that replaces the text of the focused row.
-    pub(super) fn starts_anew(&self) -> bool {
+    pub(super) fn starts_new_edit(&self) -> bool {
         let Tab { form, history, .. } = &self.tab;
         let is_in_line = self.prompts.is_empty() && self.has_line();
         is_in_line && form.input.kept() == 0 && !history.is_visited(form.focus)

@@ -371,7 +371,7 @@ fn tables_of_the_wrong_kind() {
 }
 
 #[test]
-fn a_newer_format_is_told_apart_and_alone() {
+fn a_newer_format_is_reported_alone() {
     let found = faults(&GOOD.replacen("format = 1", "format = 2", 1).replacen(
         MODULE,
         "modulus = 5",

@@ -512,7 +512,7 @@ fn pipes_folders_and_devices_are_refused_at_once() {
 }
 
 #[test]
-fn what_cannot_be_read_is_told_apart() {
+fn unreadable_files_are_distinguished() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
     fs::write(path("bad.toml"), TABLE_1.replace("5 mm", "5")).unwrap();

@@ -77,7 +77,7 @@ fn changed(from: &str, to: &str) -> (tempfile::TempDir, String) {
 }
 
 #[test]
-fn a_solve_is_told_for_a_person() {
+fn a_solve_prints_a_report_for_a_person() {
     let page = stdout_of(&["solve", TABLE_1]);
     assert!(page.starts_with("Zhou & Chen 2014, Table 1\n"), "{page}");
     assert!(
@@ -199,7 +199,7 @@ fn the_outcome_is_the_methods_own_whatever_is_asked_for() {
 }
 
 #[test]
-fn only_what_is_asked_for_is_computed_and_told() {
+fn only_requested_quantities_are_computed_and_printed() {
     let solved = json(&[
         "solve",
         TABLE_1,
@@ -311,7 +311,7 @@ fn settings_and_method_change_the_case() {
 }
 
 #[test]
-fn a_wrong_setting_is_told_with_its_mend() {
+fn a_wrong_setting_is_reported_with_its_fix() {
     for (setting, fix) in [
         ("pair.modul=5 mm", "pair.module"),
         ("pair.module", "KEY=VALUE"),
@@ -572,7 +572,7 @@ fn json_says_which_quantities_are_of_the_free_impact() {
 }
 
 #[test]
-fn what_a_method_resolves_itself_stands_before_the_free_impact() {
+fn the_results_of_a_method_come_before_the_free_impact() {
     for (method, first) in [
         ("static", "static: force at E"),
         ("dynamic", "dynamic: peak before E"),
@@ -601,7 +601,7 @@ fn what_a_method_resolves_itself_stands_before_the_free_impact() {
 }
 
 #[test]
-fn the_relief_that_is_told_stops_it_and_a_little_less_does_not() {
+fn the_printed_relief_prevents_contact_and_a_little_less_does_not() {
     const CASE: &str = "cases/nasa-lewis-28-28.toml";
     for (method, given) in ["paper", "exact", "static", "dynamic"]
         .into_iter()
@@ -897,7 +897,7 @@ fn a_new_case_overwrites_nothing() {
 }
 
 #[test]
-fn a_new_case_begins_with_an_example_wherever_the_program_stands() {
+fn a_new_case_starts_from_an_example_in_every_folder() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mine.toml");
     let path = path.to_str().unwrap();

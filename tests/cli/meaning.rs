@@ -49,7 +49,7 @@ fn relieved(method: &str, command: &[&str]) -> String {
 }
 
 #[test]
-fn the_modification_is_told_in_every_method_and_means_the_same() {
+fn the_modification_is_printed_by_every_method_and_means_the_same() {
     for method in METHODS {
         let page = relieved(method, &["solve", TABLE_1]);
         assert!(
@@ -266,7 +266,7 @@ fn a_quantity_is_found_by_its_symbol_and_after_a_slip() {
 }
 
 #[test]
-fn a_command_line_that_cannot_be_meant_is_told_in_a_line() {
+fn a_command_line_that_makes_no_sense_is_refused_in_one_line() {
     for (arguments, exit, says) in [
         (
             &["slove", TABLE_1][..],

@@ -284,7 +284,7 @@ fn capitalized(word: &str) -> String {
 }
 
 #[test]
-fn every_file_of_the_library_stands_in_a_room() {
+fn every_file_of_the_library_is_in_a_layer() {
     for source in sources("src") {
         let known =
             source.room().is_some() || ["lib", "main"].contains(&source.modules()[0].as_str());

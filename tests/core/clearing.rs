@@ -264,7 +264,7 @@ fn the_required_relief_prevents_contact_when_it_is_typed_in() {
 }
 
 #[test]
-fn a_rest_that_decides_in_the_last_digits_is_told_as_it_is() {
+fn a_bracket_that_differs_in_its_last_digits_is_printed_as_it_is() {
     let table_1 = examples()
         .find(|(name, _)| name.contains("zhou"))
         .expect("Table 1")

@@ -247,7 +247,7 @@ fn a_warm_up_that_repeats_itself_is_not_run_on_and_changes_nothing() {
 }
 
 #[test]
-fn a_run_stops_when_it_is_told_to() {
+fn a_run_stops_on_request() {
     let inputs = Inputs {
         method: Method::Dynamic,
         ..case("zhou-chen-2014")

@@ -220,7 +220,7 @@ fn each_method_has_its_idle_fields() {
 }
 
 #[test]
-fn a_case_that_is_not_valid_is_told_as_far_as_it_can_be_read() {
+fn an_invalid_case_is_described_as_far_as_it_can_be_read() {
     let mut case = Case::table_1();
     case.write(index_of("pair.module").unwrap(), "five");
     let inputs = case.read().0;

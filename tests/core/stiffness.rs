@@ -142,7 +142,7 @@ fn kuang_yang_has_the_published_stiffness_of_an_equal_pair() {
 }
 
 #[test]
-fn a_tooth_is_stiffer_the_nearer_to_its_root_the_load_stands() {
+fn a_tooth_is_stiffer_the_nearer_the_load_is_to_its_root() {
     for inputs in pairs() {
         let geometry = geometry::<f64>(&inputs.shape()).expect("a meshing pair");
         let (tip, base) = (geometry.driver.tip, geometry.driver.base);

@@ -342,7 +342,7 @@ fn a_method_that_refuses_is_listed_with_its_reason() {
 }
 
 #[test]
-fn a_trade_is_told_as_it_goes_and_stops_when_told() {
+fn a_trade_reports_its_progress_and_stops_on_request() {
     let (seen, asked) = (Cell::new(0), Cell::new(0u32));
     let question = Question {
         within: 0.05,

@@ -46,7 +46,7 @@ fn what_was_found_once_holds() {
 }
 
 #[test]
-fn a_text_is_solved_or_refused_or_its_faults_are_told_in_their_places() {
+fn a_text_is_solved_or_refused_or_its_errors_are_reported_with_their_places() {
     let [all, toml, cases, solved] = [const { Cell::new(0u32) }; 4];
     let count = |counter: &Cell<u32>, is_one: bool| counter.set(counter.get() + u32::from(is_one));
     hold(2500, &texts::mutated(), |text| {
@@ -65,7 +65,7 @@ fn a_text_is_solved_or_refused_or_its_faults_are_told_in_their_places() {
 }
 
 #[test]
-fn bytes_that_may_be_no_text_are_told_in_their_places() {
+fn bytes_that_are_no_text_are_reported_with_their_places() {
     let spoilt = prop::collection::vec((any::<Index>(), any::<u8>()), 0..4);
     hold(
         500,

@@ -281,7 +281,7 @@ fn a_new_case_is_there_whole_or_not_at_all_at_every_fault() {
 }
 
 #[test]
-fn a_limit_on_the_size_of_files_is_told_and_leaves_the_old_file() {
+fn a_limit_on_the_size_of_files_is_reported_and_leaves_the_old_file() {
     if !is_there("prlimit") {
         return;
     }
@@ -322,7 +322,7 @@ fn a_limit_on_the_size_of_files_is_told_and_leaves_the_old_file() {
 }
 
 #[test]
-fn a_full_disk_is_told_and_leaves_the_old_file() {
+fn a_full_disk_is_reported_and_leaves_the_old_file() {
     let script = r#"mount -t tmpfs -o size=16k none "$0" && cp "$1" "$0/case.toml" && chmod 640 "$0/case.toml" || exit 9
         head -c 100k /dev/zero >"$0/filler" 2>/dev/null
         "$2" --exact faults::saver --test-threads=1 --quiet; saved=$?
@@ -521,7 +521,7 @@ fn a_file_of_someone_else_keeps_its_owner_or_is_left_alone() {
 }
 
 #[test]
-fn a_save_of_the_workbench_that_fails_is_told_and_the_edits_stay() {
+fn a_failed_save_of_the_workbench_is_reported_and_the_edits_stay() {
     if !is_there("strace") {
         return;
     }
@@ -611,7 +611,7 @@ fn a_read_error_during_a_save_is_named_and_is_no_change_on_disk() {
 }
 
 #[test]
-fn an_output_that_is_full_is_told_and_one_that_is_closed_is_not() {
+fn a_full_output_is_reported_and_a_closed_one_is_not() {
     for command in [
         "new",
         "fields",

@@ -249,7 +249,7 @@ fn after_a_save_under_another_name_the_case_is_the_new_file() {
 }
 
 #[test]
-fn the_mend_of_a_failed_save_is_on_the_smallest_screen() {
+fn the_fix_of_a_failed_save_is_on_the_smallest_screen() {
     let mut desk = edited();
     desk.act(Action::Resize(Size::new(60, 16)));
     let path = desk.path("case.toml");
@@ -267,7 +267,7 @@ fn the_mend_of_a_failed_save_is_on_the_smallest_screen() {
 }
 
 #[test]
-fn other_comments_and_no_case_at_all_are_told_as_such() {
+fn changed_comments_and_a_file_that_is_no_case_are_named() {
     for (text, expected) in [
         (
             format!("{TABLE_1}# mine\n"),
@@ -370,7 +370,7 @@ fn links_and_modes_stay_and_hard_links_are_refused() {
 }
 
 #[test]
-fn what_is_no_file_is_told_by_the_workbench() {
+fn a_path_that_is_no_file_is_reported_by_the_workbench() {
     for (name, expected) in [
         ("pipe.toml", "not a regular file"),
         ("folder.toml", "this is a folder"),
@@ -404,7 +404,7 @@ fn what_is_no_file_is_told_by_the_workbench() {
 }
 
 #[test]
-fn what_is_no_file_is_told_without_a_terminal() {
+fn a_path_that_is_no_file_is_reported_without_a_terminal() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = |name: &str| folder.path().join(name);
     assert!(
@@ -481,7 +481,7 @@ fn what_is_no_file_is_told_without_a_terminal() {
 }
 
 #[test]
-fn a_path_to_save_to_is_mended_where_it_can_be() {
+fn a_path_to_save_to_is_completed_where_possible() {
     let mut desk = edited();
     let path = |name: &str| desk.folder.path().join(name).display().to_string();
     let (folder, missing, good) = (path("."), path("none/such/case.toml"), path("good.toml"));

@@ -169,7 +169,7 @@ fn a_terminal_that_changes_its_size_is_followed() {
 }
 
 #[test]
-fn the_last_case_is_opened_again_and_a_broken_one_is_told() {
+fn the_last_case_is_opened_again_and_a_broken_one_is_reported() {
     let mut tty = Tty::open();
     tty.wait_for("Corner contact");
     tty.type_in("\x11");

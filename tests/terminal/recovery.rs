@@ -155,7 +155,7 @@ fn a_journal_that_could_not_be_written_is_written_as_soon_as_it_can_be() {
 }
 
 #[test]
-fn a_journal_whose_edits_are_in_the_form_stays_until_they_are_kept_anew() {
+fn a_journal_whose_edits_are_in_the_form_stays_until_they_are_saved_again() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mut app, mut autosave, _chest) = bench(folder.path());
     autosave.follow(&app.sheets(), Instant::now());
@@ -177,7 +177,7 @@ fn a_journal_whose_edits_are_in_the_form_stays_until_they_are_kept_anew() {
 }
 
 #[test]
-fn edits_that_cannot_be_kept_are_told() {
+fn edits_that_cannot_be_written_to_a_journal_are_reported() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mut app, mut autosave, _chest) = bench(folder.path());
     autosave.follow(&app.sheets(), Instant::now());
@@ -322,7 +322,7 @@ fn journals_keep_away_from_a_folder_that_others_may_write() {
 }
 
 #[test]
-fn a_folder_of_journals_that_goes_away_is_told_and_a_save_still_works() {
+fn a_journal_folder_that_disappears_is_reported_and_a_save_still_works() {
     let mut tty = opened();
     tty.type_in("\x151.25 in");
     wait_for_journal(&mut tty, "1.25 in");
@@ -576,7 +576,7 @@ fn a_file_that_was_changed_since_shows_what_would_change_now() {
 }
 
 #[test]
-fn a_damaged_journal_is_set_aside_told_and_never_trusted_nor_deleted() {
+fn a_damaged_journal_is_set_aside_reported_and_never_trusted_nor_deleted() {
     let mut tty = opened();
     tty.type_in("\x156 mm");
     tty.wait_for("6 mm");

@@ -40,7 +40,7 @@ fn a_panic_of_the_screen_gives_the_terminal_back_and_keeps_what_was_typed() {
 }
 
 #[test]
-fn a_panic_of_the_worker_is_told_and_the_workbench_lives_on() {
+fn a_panic_of_the_worker_is_reported_and_the_workbench_continues() {
     if !has_faults_on_demand() {
         return;
     }

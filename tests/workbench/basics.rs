@@ -328,7 +328,7 @@ fn the_palette_finds_and_runs_every_command() {
 }
 
 #[test]
-fn no_command_of_the_palette_is_a_trouble_anywhere() {
+fn every_command_of_the_palette_works_on_every_screen() {
     for pane in Pane::ALL {
         for index in 0..tipstrike::tui::commands::commands().count() {
             let mut desk = Desk::new(SMALL);
@@ -464,7 +464,7 @@ fn a_request_that_another_case_put_aside_is_asked_for_again() {
 }
 
 #[test]
-fn the_baseline_is_pinned_and_the_difference_stands_beside_it() {
+fn the_baseline_is_pinned_and_the_difference_is_shown_beside_it() {
     let mut desk = Desk::new(LARGE);
     desk.keys(&["Alt-B"]).fill("operation.speed", "1900 rpm");
     let line = |desk: &Desk, symbol: &str| {

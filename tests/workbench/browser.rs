@@ -85,7 +85,7 @@ fn marked(desk: &Desk) -> String {
 }
 
 #[test]
-fn the_case_under_the_cursor_is_told_with_its_verdict() {
+fn the_case_under_the_cursor_shows_its_verdict() {
     let mut desk = desk_before_a_shelf(LARGE);
     desk.keys(&["Ctrl-O"]);
     assert_eq!(

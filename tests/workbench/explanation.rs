@@ -139,7 +139,7 @@ fn a_page_that_is_being_written_says_so_and_a_late_one_is_dropped() {
 }
 
 #[test]
-fn what_the_model_refuses_and_what_is_invalid_is_told_in_words() {
+fn a_refusal_and_an_invalid_value_are_explained_in_words() {
     let mut desk = Desk::new(SMALL);
     desk.fill("driven.addendum", "1.9")
         .keys(&["Esc", "2", "Enter"]);

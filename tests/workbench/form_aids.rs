@@ -62,7 +62,7 @@ fn a_step_where_there_is_none_says_so_and_changes_nothing() {
 }
 
 #[test]
-fn a_value_in_another_unit_is_told_in_the_usual_one() {
+fn a_value_in_another_unit_is_shown_in_the_usual_unit() {
     let mut desk = Desk::new(SMALL);
     desk.fill("operation.power", "20 hp");
     assert!(desk.shows("= 14.914 kW."), "{}", desk.screen());

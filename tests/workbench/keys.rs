@@ -133,7 +133,7 @@ fn what_no_value_begins_with_is_a_command_in_a_field_of_a_value() {
 }
 
 #[test]
-fn the_notes_are_told_from_every_pane() {
+fn the_notes_open_from_every_pane() {
     for pane in ["1", "2", "3", "4", "5"] {
         let mut desk = Desk::new(LARGE);
         assert!(
@@ -271,7 +271,7 @@ fn a_faulty_form_is_not_taken_for_saved_by_any_way_to_save() {
 }
 
 #[test]
-fn a_file_that_cannot_be_written_is_told_and_nothing_is_lost() {
+fn a_file_that_cannot_be_written_is_reported_and_nothing_is_lost() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.fill("operation.speed", "1500 rpm");
     fs::remove_file(desk.path("case.toml")).expect("it was there");
@@ -356,7 +356,7 @@ fn a_bad_file_shows_every_fault_at_its_place_and_loses_nothing() {
 }
 
 #[test]
-fn a_file_that_is_not_there_is_told() {
+fn a_missing_file_is_reported() {
     let mut desk = Desk::on(SMALL, "one.toml", TABLE_1);
     desk.keys(&["Ctrl-O", "nowhere.toml", "Enter"]);
     assert!(desk.shows("no such file"));
@@ -501,7 +501,7 @@ fn a_saved_file_keeps_its_mode() {
 }
 
 #[test]
-fn a_failed_solve_is_told_and_the_results_are_marked() {
+fn a_failed_solve_is_reported_and_the_results_are_marked() {
     let mut desk = Desk::new(SMALL);
     desk.act(Action::SolverFailed(desk.app.tab.serial));
     assert!(desk.shows("solver failed") && desk.shows("LAST VALID"));
@@ -588,7 +588,7 @@ fn escape_keeps_every_other_edit() {
 }
 
 #[test]
-fn a_letter_that_is_no_command_is_told_as_such() {
+fn an_unbound_key_is_reported() {
     for (pane, letter, expected) in [
         (
             "1",
@@ -703,7 +703,7 @@ fn results_are_found_as_fields_are() {
 }
 
 #[test]
-fn what_no_digit_mends_is_wrong_at_once() {
+fn a_value_that_no_further_digit_can_fix_is_wrong_at_once() {
     for (typed, expected) in [
         ("-48", "! -48 um is below"),
         ("48 mm", "! 48 mm is above"),

@@ -10,7 +10,7 @@ const TINY: Size = Size {
 };
 
 #[test]
-fn beside_last_valid_results_stands_why_they_are_and_a_key_that_goes_there() {
+fn last_valid_results_show_their_reason_and_the_key_that_goes_there() {
     for size in [TINY, SMALL, LARGE] {
         let mut desk = Desk::new(size);
         desk.fill("pair.module", "2 mm").keys(&["Down", "Down"]);
@@ -111,7 +111,7 @@ fn the_baseline_is_drawn_by_the_method_in_force() {
 }
 
 #[test]
-fn the_mark_of_a_change_stands_apart_behind_the_unit() {
+fn the_mark_of_a_change_follows_the_unit_after_a_space() {
     for size in [SMALL, LARGE] {
         let mut desk = Desk::new(size);
         desk.fill("operation.speed", "1900 rpm");
@@ -222,7 +222,7 @@ fn a_hint_beside_a_message_ends_with_a_sentence() {
 }
 
 #[test]
-fn a_limit_of_a_long_name_is_told_by_its_symbol() {
+fn a_limit_with_a_long_name_is_shown_by_its_symbol() {
     let text = TABLE_1.replace(
         "impact_force = \"2500 N\"",
         "dynamic_peak_force = \"2500 N\"",

@@ -181,7 +181,7 @@ fn a_name_that_is_typed_takes_the_place_of_the_one_that_is_offered() {
 }
 
 #[test]
-fn what_would_be_written_over_is_told() {
+fn the_dialog_names_the_file_that_a_save_would_replace() {
     let mut desk = Desk::on(SMALL, "case.toml", TABLE_1);
     desk.write("other.toml", &TABLE_1.replace("2000 rpm", "900 rpm"));
     desk.keys(&["F2", "other", "Enter"]);

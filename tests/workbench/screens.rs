@@ -59,7 +59,7 @@ fn in_motion(size: Size) -> Desk {
 }
 
 #[test]
-fn what_the_method_resolves_itself_stands_first() {
+fn the_results_of_the_method_itself_come_first() {
     for (name, size) in [
         ("in_motion_80x24", SMALL),
         ("in_motion_140x45", LARGE),
@@ -104,7 +104,7 @@ fn every_quantity_comes_in_sight_whole_and_the_title_shows_which_rows_are() {
 }
 
 #[test]
-fn what_the_model_refuses_stands_over_the_last_valid_results() {
+fn a_refusal_is_shown_above_the_last_valid_results() {
     let mut desk = Desk::new(SMALL);
     desk.fill("driven.addendum", "1.9");
     assert_snapshot!("refused_80x24", desk.screen());
@@ -190,7 +190,7 @@ fn the_chart_alone_and_the_form_without_it() {
 }
 
 #[test]
-fn no_size_is_a_trouble() {
+fn every_size_is_drawn_without_a_panic() {
     let openings: [&[&str]; 14] = [
         &[],
         &["Ctrl-P", "th"],

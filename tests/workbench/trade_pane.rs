@@ -357,7 +357,7 @@ fn enter_takes_the_compliance_of_the_selected_setting_too() {
 }
 
 #[test]
-fn every_mark_stands_on_its_side_of_the_error_that_will_do() {
+fn every_mark_is_on_the_right_side_of_the_tolerance() {
     let sizes = [(60, 16), (80, 24), (80, 30), (140, 45), (240, 70)];
     for (width, height) in sizes {
         let mut desk = timed(SMALL);

@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_in_another_unit_is_told_in_the_usual_one() {
+    fn a_value_in_another_unit_is_shown_in_the_usual_unit() {
         let power = |typed| metric(typed, Dimension::Power, "kW");
         assert_eq!(power("20 hp").as_deref(), Some("= 14.914 kW"));
         assert_eq!(power("20.000 hp").as_deref(), Some("= 14.914 kW"));

@@ -155,15 +155,15 @@ pub(super) fn form_circle(inputs: &Inputs, solution: &Solution) -> Option<Note> 
         .into_iter()
         .chain([start])
         .find(|(_, radius)| *radius < form)?;
-    let (radius, form) = (told_apart(radius, form), told_apart(form, radius));
+    let (radius, form) = (distinct_digits(radius, form), distinct_digits(form, radius));
     let message = format!(
         "{point} is below the driver's form circle: O1{point} is {radius} mm and the involute starts at {form} mm"
     );
     Some(Note::new("below-form-circle", message))
 }
 
-/// A length in mm with as many digits as tell it from another.
-fn told_apart(length: f64, other: f64) -> String {
+/// A length in mm with as many digits as distinguish it from another.
+fn distinct_digits(length: f64, other: f64) -> String {
     let digits = 4.0 - ((length - other) * MILLI).abs().log10().floor();
     format!(
         "{:.*}",

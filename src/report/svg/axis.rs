@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn ticks_are_round_inside_the_axis_and_told_apart() {
+    fn ticks_are_round_inside_the_axis_and_distinct() {
         for values in [
             [0.0, 2191.0],
             [-1.4, 0.0],

@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_told_apart_ties() {
+    fn indistinguishable_times_tie() {
         let (quick, slow) = (
             of(&[1.0, 1.1, 1.2, 1.1, 1.0, 1.2]),
             of(&[1.3, 1.4, 1.5, 1.4, 1.3, 1.5]),

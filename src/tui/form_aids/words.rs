@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_is_told_as_before() {
+    fn a_file_is_described_as_before() {
         let mut case = Case::table_1();
         case.write(index_of("pair.module").unwrap(), "5");
         let problem = case.inputs().unwrap_err().remove(0);

@@ -252,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn a_newer_journal_is_told_apart() {
+    fn a_newer_journal_is_refused_by_its_version() {
         let newer = journal().to_text().replace("format = 1", "format = 2");
         assert_eq!(
             Journal::from_text(&newer),

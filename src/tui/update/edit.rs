@@ -23,7 +23,7 @@ pub(super) fn insert(app: &mut App, letter: char) -> Vec<Effect> {
     if app.prompts.is_empty() && app.has_line() && !names(app).is_empty() {
         return choose_by_letter(app, letter);
     }
-    let before = (letter.is_ascii_digit() && app.starts_anew()).then(|| app.tab.case.clone());
+    let before = (letter.is_ascii_digit() && app.starts_new_edit()).then(|| app.tab.case.clone());
     let effects = paste(app, letter.encode_utf8(&mut [0; 4]));
     if let Some(before) = before {
         announce(app, letter, &before);

@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn the_least_relief_follows_an_answer_that_stands_already_and_then_nothing() {
+    fn the_required_relief_follows_an_answer_that_is_already_shown() {
         let (solver, replies) = started();
         for (serial, method, expected) in [
             (1, Method::Exact, vec![true]),
