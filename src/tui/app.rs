@@ -1,5 +1,8 @@
 //! The state of the workbench: plain data, changed by `update` alone.
 
+mod requests;
+mod shown;
+
 use std::path::PathBuf;
 
 use ratatui::layout::Size;
@@ -7,20 +10,13 @@ use ratatui::layout::Size;
 use super::actions::Progress;
 use super::baseline::Baseline;
 use super::benchmark::TradeView;
-use super::benchmark::Traded;
-use super::commands::{Command, key_of};
-use super::cursor_range::CursorScope;
-use super::dialogs::{Prompt, Surroundings};
+use super::dialogs::Prompt;
 use super::keys::Place;
 use super::layout::{Plan, plan};
 use super::pane::{Pane, Panes};
-use super::panes::chart::{ChartPane, Charts};
-use super::panes::form::Form;
-use super::panes::results::{self, Results};
-use super::panes::study::{StudyPane, StudyState};
-use super::panes::teeth::{Picture, TeethView};
-use super::panes::title::Title;
-use super::panes::trade::TradePane;
+use super::panes::chart::ChartPane;
+use super::panes::study::StudyState;
+use super::panes::teeth::TeethView;
 use super::rows;
 use super::session::recovery::{Access, NEWER, OpenCase};
 use super::settings::Settings;
@@ -28,10 +24,7 @@ use super::solver::{self, Answer, Request};
 use super::tab::Tab;
 use super::theme::Look;
 use crate::case::fields::Kind;
-use crate::case::{Case, Document, Problem};
-use crate::model::{Stage, Stages};
-use crate::report;
-use crate::report::graphs::GRAPHS;
+use crate::case::{Case, Document};
 
 /// Everything that the screen shows.
 #[derive(Debug, Clone)]
@@ -182,162 +175,6 @@ impl App {
         plan(self.size, self.panes)
     }
 
-    /// The title line of a pane.
-    #[must_use]
-    pub fn title(&self, pane: Pane) -> Title {
-        let plan = self.plan();
-        let hidden = if plan.names_hidden() == Some(pane) {
-            plan.hidden().collect()
-        } else {
-            Vec::new()
-        };
-        Title {
-            pane,
-            has_focus: self.panes.focus == pane && self.prompts.is_empty(),
-            is_editing: self.has_line(),
-            hidden,
-            theme: self.look.theme,
-        }
-    }
-
-    /// The charts and the pane in which the cursor moves.
-    pub(crate) fn cursor_scope(&self) -> CursorScope<'_> {
-        let plan = self.plan();
-        let is_alone = plan.chart.is_empty() && !plan.teeth.is_empty();
-        CursorScope {
-            charts: self.charts(),
-            is_in_teeth: self.panes.focus == Pane::Teeth || is_alone,
-        }
-    }
-
-    /// The surroundings of a dialog.
-    pub(crate) fn surroundings(&self) -> Surroundings<'_> {
-        Surroundings {
-            screen: self.size,
-            look: self.look,
-            cursor: self.cursor_scope(),
-        }
-    }
-
-    /// The form with the case in it.
-    #[must_use]
-    pub fn form(&self) -> Form<'_> {
-        let tab = &self.tab;
-        Form {
-            case: &tab.case,
-            saved: &tab.saved,
-            inputs: &tab.inputs_so_far,
-            problems: &tab.problems,
-            answer: tab.answer.as_ref(),
-            is_stale: tab.is_stale(),
-            focus: tab.form.focus,
-            line: self.has_line().then_some(&tab.form.input),
-            ending: self.ending(),
-            top: tab.form.top,
-            look: self.look,
-            title: self.title(Pane::Form),
-            area: self.plan().form,
-        }
-    }
-
-    /// The results pane with the results that it shows.
-    #[must_use]
-    pub fn results(&self) -> Results<'_> {
-        let tab = &self.tab;
-        Results {
-            state: tab.results,
-            answer: tab.answer.as_ref(),
-            baseline: self.baseline.as_ref(),
-            variants: tab
-                .variants
-                .as_ref()
-                .filter(|_| self.first_variant.is_some()),
-            first_variant: self.first_variant.unwrap_or(0),
-            earlier: tab.earlier.as_ref(),
-            refusal: tab.refusal.as_ref(),
-            problems: &tab.problems,
-            missing: self.missing(),
-            case: &tab.case,
-            is_stale: tab.is_stale(),
-            shows_last_valid: tab.shows_last_valid(),
-            shows_cost: self.shows_cost,
-            is_focused: self.panes.focus == Pane::Results,
-            next_fault: || key_of(Command::NextFault),
-            units: self.settings.units,
-            look: self.look,
-            title: self.title(Pane::Results),
-            area: self.plan().results,
-        }
-    }
-
-    /// The trade pane with the benchmark that it shows.
-    #[must_use]
-    pub fn trade(&self) -> TradePane<'_> {
-        TradePane {
-            traded: self.tab.traded.as_ref(),
-            inputs: self.tab.inputs(),
-            view: self.trade_view,
-            look: self.look,
-            title: self.title(Pane::Trade),
-            area: self.plan().trade,
-        }
-    }
-
-    /// The study pane with the study that it shows.
-    #[must_use]
-    pub fn study(&self) -> StudyPane<'_> {
-        let tab = &self.tab;
-        let answer = tab.answer.as_ref().filter(|_| !tab.is_stale());
-        let present = results::marked(&self.results())
-            .zip(answer)
-            .and_then(|(quantity, answer)| report::value(quantity, answer.of(answer.active)?));
-        StudyPane {
-            state: self.study,
-            study: &tab.study,
-            case: &tab.case,
-            present,
-            units: self.settings.units,
-            marker: self.settings.marker,
-            look: self.look,
-            title: self.title(Pane::Study),
-            area: self.plan().study,
-        }
-    }
-
-    /// The chart pane with the results that it shows.
-    #[must_use]
-    pub fn charts(&self) -> Charts<'_> {
-        Charts {
-            pane: &self.chart,
-            scale: &self.tab.scale,
-            answer: self.tab.answer.as_ref(),
-            baseline: self.baseline.as_ref().map(|baseline| &baseline.answer),
-            cursor: self.cursor,
-            is_stale: self.tab.shows_last_valid(),
-            undone: self.tab.undone,
-            units: self.settings.units,
-            marker: self.settings.marker,
-            look: self.look,
-            area: self.plan().chart,
-        }
-    }
-
-    /// The picture of the teeth, if the active method has results.
-    #[must_use]
-    pub fn picture(&self) -> Option<Picture<'_>> {
-        let answer = self.tab.answer.as_ref()?;
-        Some(Picture {
-            inputs: &answer.inputs,
-            solution: answer.of(answer.active)?,
-            cursor: self.cursor,
-            view: &self.teeth,
-            look: self.look,
-            marker: self.settings.marker,
-            units: self.settings.units,
-            is_stale: self.tab.shows_last_valid(),
-        })
-    }
-
     /// Where keys go.
     #[must_use]
     pub fn place(&self) -> Place {
@@ -399,31 +236,6 @@ impl App {
         Some(count).filter(|_| is_draft)
     }
 
-    /// The stages of a solve whose results are in sight.
-    #[must_use]
-    pub fn wanted(&self) -> Stages {
-        if self.is_pinning {
-            return Stages::EVERY;
-        }
-        let plan = self.plan();
-        let seen = Pane::ALL
-            .into_iter()
-            .filter(|&pane| !plan.area(pane).is_empty());
-        // The verdict, with the outcome and its notes, stands there even where only the chart is in
-        // sight: all but the band and the late stages.
-        let verdict = Pane::Results
-            .needs()
-            .without(Stage::Band)
-            .except(Stages::LATE);
-        seen.fold(verdict, |stages, pane| stages.and(pane.needs()))
-    }
-
-    /// Whether the chart of the mesh stiffness is in sight.
-    fn wants_stiffness(&self) -> bool {
-        let is_visible = !self.plan().area(Pane::Chart).is_empty();
-        is_visible && GRAPHS[self.chart.graph].by_model.is_some()
-    }
-
     /// Say something until the next key.
     pub(super) fn say(&mut self, text: impl Into<String>) {
         self.message = Some(Message {
@@ -449,143 +261,5 @@ impl App {
     /// Form and results are to scroll until what is focused is in sight with what is wrong with it.
     pub(super) fn follow(&mut self) {
         self.needs_scroll = true;
-    }
-
-    /// Put another case into the form, and ask for its results.
-    pub(super) fn replace_case(&mut self, case: Case, focus: usize) -> Option<Request> {
-        self.tab.case = case;
-        let request = self.request();
-        self.focus_on(focus);
-        request
-    }
-
-    /// Check the form; when it is valid, what the worker shall solve.
-    pub(super) fn request(&mut self) -> Option<Request> {
-        let (stages, wants_stiffness) = (self.wanted(), self.wants_stiffness());
-        let (inputs, problems) = self.tab.case.read();
-        self.tab.inputs_so_far = inputs.clone();
-        if problems.is_empty() {
-            self.last_serial += 1;
-            let tab = &mut self.tab;
-            tab.asked_stiffness = wants_stiffness;
-            (tab.serial, tab.asked, tab.is_settled, tab.solving) =
-                (self.last_serial, stages, false, None);
-            tab.problems.clear();
-            return Some(Request {
-                serial: tab.serial,
-                case: tab.case.clone(),
-                inputs,
-                stages,
-                stiffness: wants_stiffness,
-            });
-        }
-        self.tab.refusal = None;
-        let (case, focus) = (&self.tab.case, self.tab.form.focus);
-        let place_of = |problem: &Problem| rows::of_key(case, &problem.field).unwrap_or(focus);
-        self.tab.problems = problems
-            .into_iter()
-            .map(|problem| (place_of(&problem), problem.for_form()))
-            .collect();
-        None
-    }
-
-    /// The request for the results that the first frame could not wait for.
-    pub(super) fn unanswered(&mut self) -> Option<Request> {
-        let asked = self.tab.asked;
-        let lacks_stiffness = self.wants_stiffness();
-        let is_partial = |answer: &Answer| {
-            answer.stages != asked || (lacks_stiffness && answer.stiffness.is_none())
-        };
-        let waits = !self.tab.is_settled || self.tab.answer.as_ref().is_some_and(is_partial);
-        if waits { self.request() } else { None }
-    }
-
-    /// A request for the stages that became visible after the last request.
-    pub(super) fn catch_up(&mut self) -> Option<Request> {
-        let lacks = !self.wanted().iter().all(|stage| self.tab.asked.has(stage));
-        let lacks = lacks || (self.wants_stiffness() && !self.tab.asked_stiffness);
-        if lacks && self.tab.problems.is_empty() {
-            self.request()
-        } else {
-            None
-        }
-    }
-
-    /// Show an answer in its tab, unless a later one is on its way.
-    pub(super) fn take(&mut self, answer: Answer) {
-        if let Some(tab) = self.tab_of(answer.serial) {
-            tab.take(answer);
-        }
-        self.follow();
-    }
-
-    /// The measurement of that serial.
-    pub(super) fn traded_of(&mut self, serial: u64) -> Option<&mut Traded> {
-        let all = std::iter::once(&mut self.tab).chain(&mut self.others);
-        all.filter_map(|tab| tab.traded.as_mut())
-            .find(|traded| traded.serial == serial)
-    }
-
-    /// The tab that waits for the answer of that serial.
-    pub(super) fn tab_of(&mut self, serial: u64) -> Option<&mut Tab> {
-        std::iter::once(&mut self.tab)
-            .chain(&mut self.others)
-            .find(|tab| tab.serial == serial)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::case::Case;
-    use crate::model::inputs::Method;
-    use crate::model::{Refusal, Solution};
-    use crate::tui::store;
-
-    fn on_dynamic(first_frame: impl Fn(&Request) -> Option<Answer>) -> App {
-        let mut document = store::built_in();
-        let mut case = Case::table_1();
-        case.set("model.method", "dynamic").expect("a method");
-        document.case = case;
-        App::answered(
-            document,
-            None,
-            (Look::FULL, Size::new(140, 45)),
-            first_frame,
-        )
-    }
-
-    #[test]
-    fn the_worker_solves_the_results_that_the_first_frame_leaves_out() {
-        let whole = |request: &Request| Some(solver::answer(request));
-        assert_eq!(on_dynamic(whole).unanswered(), None);
-
-        let without_relief = |request: &Request| {
-            let answer = solver::answer(request);
-            let stages = answer.stages.without(Stage::Clearing);
-            Some(Answer { stages, ..answer })
-        };
-        let closed_form = |exact: Result<Solution, Refusal>| {
-            move |request: &Request| {
-                Some(Answer {
-                    active: Method::Exact,
-                    pending: Some(Method::Dynamic),
-                    methods: vec![(Method::Exact, exact.clone())],
-                    ..solver::answer(request)
-                })
-            }
-        };
-        let inputs = Case::table_1().inputs().expect("Table 1 is valid");
-        let found = crate::model::solve(&inputs, Stages::EVERY);
-        let assert_asks = |mut app: App| {
-            let request = app.unanswered().expect("a request for the worker");
-            assert_eq!(request.inputs.method, Method::Dynamic);
-            assert_eq!(request.serial, app.tab.serial);
-            assert!(!app.tab.is_settled);
-        };
-        assert_asks(on_dynamic(|_| None));
-        assert_asks(on_dynamic(without_relief));
-        assert_asks(on_dynamic(closed_form(found)));
-        assert_asks(on_dynamic(closed_form(Err(Refusal::Stopped))));
     }
 }

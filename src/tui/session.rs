@@ -2,9 +2,11 @@
 
 pub mod autosave;
 mod clock;
+mod holder;
 pub mod journal;
 pub mod journal_writer;
 mod journals;
 pub mod lock;
+mod locks;
 pub mod recovery;
 pub mod save;

@@ -33,7 +33,7 @@ const OUTSIDE: [&str; 10] = [
     "eprintln",
 ];
 
-const MOST_LINES: usize = 600;
+const MOST_LINES: usize = 400;
 
 struct Source {
     path: PathBuf,

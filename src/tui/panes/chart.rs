@@ -8,6 +8,7 @@ pub mod panels;
 pub mod range;
 pub mod raster;
 pub mod readout;
+mod way;
 
 use ratatui::layout::Rect;
 use ratatui::symbols::Marker;
@@ -19,12 +20,13 @@ use crate::tui::scale::Span;
 use crate::tui::solver::Answer;
 use crate::tui::theme::Look;
 
-use curves::{curves, path, way, way_by};
+use curves::curves;
 use range::{ChartView, Frame, Occasion, Refit, Scale};
 
-pub use curves::first_contact;
-pub(crate) use curves::last_contact;
 pub use readout::readout;
+pub use way::first_contact;
+pub(crate) use way::last_contact;
+use way::{path, way, way_by};
 
 /// The least rows of each chart, and the greatest number of charts.
 const ROWS: u16 = 16;

@@ -4,9 +4,7 @@
 //! An idle workbench sleeps: there is a deadline only while a journal lacks edits.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::ffi::OsString;
 use std::fs;
-use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -15,13 +13,13 @@ use super::clock;
 use super::journal::Journal;
 use super::journal_writer::JournalWriter;
 use super::journals::{Found, Journals};
-use super::lock::{Holder, Lock, Taken};
+use super::lock::Lock;
+use super::locks::Locks;
 use super::recovery::{Access, Claim, Offer, OpenCase};
 use super::save::{SaveFault, Saving, Written};
 use crate::case::Case;
 use crate::case::changes::{self, Change};
 use crate::case::file::followed;
-use crate::case::sanitize::sanitize;
 use crate::case::stamp::Stamp;
 use crate::tui::store::{self, state::State};
 
@@ -43,7 +41,7 @@ pub struct Autosave {
     /// The name of this session, and the lock that shows others that it lives; from the first edit
     /// on.
     session: Option<(String, Lock)>,
-    locks: BTreeMap<PathBuf, Lock>,
+    locks: Locks,
     tracked: BTreeMap<usize, Tracked>,
     /// Journals of earlier sessions whose edits are in the form now.
     adopted: Vec<PathBuf>,
@@ -79,7 +77,7 @@ impl Autosave {
             others: state.others.iter().map(journals).collect(),
             notice: state.notice,
             session: None,
-            locks: BTreeMap::new(),
+            locks: Locks::default(),
             tracked: BTreeMap::new(),
             adopted: Vec::new(),
             due: None,
@@ -128,7 +126,7 @@ impl Autosave {
     pub fn save(&mut self, mut saving: Saving) -> (PathBuf, Result<Box<Written>, SaveFault>) {
         self.keep();
         saving.expand();
-        let lock = followed(&saving.path).map(|path| self.lock(&path));
+        let lock = followed(&saving.path).map(|path| self.locks.take(&path));
         let result = match lock {
             Ok(Ok(Some(holder))) => Err(SaveFault::Held(holder.words(clock::now()))),
             _ => saving.write(),
@@ -166,18 +164,15 @@ impl Autosave {
             }
         }
         self.tracked.retain(|id, case| is_open(*id, case));
-        let wanted: Vec<_> = cases
-            .iter()
-            .filter_map(|open| lock_of(open.path?))
-            .collect();
-        self.locks.retain(|place, _| wanted.contains(place));
+        let paths = cases.iter().filter_map(|open| open.path);
+        self.locks.keep_only(paths);
     }
 
     fn claim(&mut self, open: &OpenCase<'_>) -> Option<Claim> {
         if self.tracked.contains_key(&open.id) {
             return self.claim_again(open);
         }
-        let lock = open.path.map_or(Ok(None), |path| self.lock(path));
+        let lock = open.path.map_or(Ok(None), |path| self.locks.take(path));
         let case = Tracked {
             path: open.path.map(Path::to_owned),
             is_held: matches!(lock, Ok(Some(_))),
@@ -197,15 +192,15 @@ impl Autosave {
 
     // A save may have found that the other session has ended; or the same file was opened again.
     fn claim_again(&mut self, open: &OpenCase<'_>) -> Option<Claim> {
-        let is_locked = open
-            .path
-            .and_then(lock_of)
-            .is_some_and(|place| self.locks.contains_key(&place));
+        let is_locked = open.path.is_some_and(|path| self.locks.has(path));
         let case = self
             .tracked
             .get(&open.id)
             .filter(|case| case.is_held && (is_locked || !open.is_held))?;
-        let lock = case.path.clone().map_or(Ok(None), |path| self.lock(&path));
+        let lock = case
+            .path
+            .clone()
+            .map_or(Ok(None), |path| self.locks.take(&path));
         let mut claim = Claim::of(open.id, Access::Own);
         match lock {
             Ok(None) => {}
@@ -239,29 +234,6 @@ impl Autosave {
             claim.notices.extend(elsewhere(others));
         }
         claim
-    }
-
-    // Who has the case open, unless its lock is ours now. The error says why it has no lock.
-    fn lock(&mut self, path: &Path) -> Result<Option<Holder>, String> {
-        let Some(place) = lock_of(path).filter(|place| !self.locks.contains_key(place)) else {
-            return Ok(None);
-        };
-        match Lock::take(&place) {
-            Ok(Taken::Held(holder)) => Ok(Some(holder)),
-            Ok(Taken::Ours(lock)) => {
-                self.locks.insert(place, lock);
-                Ok(None)
-            }
-            Ok(Taken::Unguarded(lock, error)) => {
-                self.locks.insert(place, lock);
-                Err(format!(
-                    "{} is locked on this machine alone: {}: do not open it on others",
-                    name_of(path),
-                    brief(&error)
-                ))
-            }
-            Err(error) => Err(unlocked(path, &place, &error)),
-        }
     }
 
     // Hands new edits to the journal. The error says why they cannot be kept.
@@ -333,41 +305,6 @@ impl Autosave {
                 .for_each(|journal| drop(fs::remove_file(journal)));
         }
     }
-}
-
-// Beside the case, so that other users and other machines see it as well: whoever may save there
-// may lock there.
-fn lock_of(path: &Path) -> Option<PathBuf> {
-    let mut name = OsString::from(".");
-    name.push(path.file_name()?);
-    name.push(".tipstrike");
-    Some(path.with_file_name(name))
-}
-
-/// Why a case has no lock, and the fix.
-fn unlocked(path: &Path, place: &Path, error: &io::Error) -> String {
-    let lock = name_of(place);
-    let (cause, fix) = match error.kind() {
-        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
-            ("its folder is read-only".to_owned(), "save it elsewhere")
-        }
-        ErrorKind::IsADirectory => (format!("{lock} is a folder"), "remove that"),
-        ErrorKind::Other => (format!("{lock} {error}"), "remove that"),
-        _ => (format!("{lock}: {}", brief(error)), "open it only once"),
-    };
-    let name = name_of(path);
-    format!("{name} is not locked, so other sessions may save it too: {cause}: {fix}")
-}
-
-/// The words of the system without its number of the error.
-fn brief(error: &io::Error) -> String {
-    let words = error.to_string();
-    let end = words.find(" (os error").unwrap_or(words.len());
-    words[..end].to_owned()
-}
-
-fn name_of(path: &Path) -> String {
-    sanitize(&path.file_name().unwrap_or_default().to_string_lossy())
 }
 
 // Names other cases with unsaved edits of ended sessions.

@@ -5,7 +5,7 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 
 use super::Charts;
-use super::curves::{first_contact, last_contact};
+use super::way::{first_contact, last_contact};
 use crate::model::Solution;
 use crate::tui::scale::{Span, Ticks};
 

@@ -7,7 +7,7 @@ use crate::report;
 use crate::report::comparison::differing;
 use crate::report::whine::whine;
 use crate::tui::ascii::symbol;
-use crate::tui::panes::results::Results;
+use crate::tui::panes::results::pane::Results;
 use crate::tui::solver::Answer;
 
 /// A statement in full, and then in fewer and fewer words.

@@ -12,15 +12,16 @@ use unicode_width::UnicodeWidthStr;
 pub(super) use difference::compared;
 pub(super) use variants::page as variants_page;
 
-use super::{shown_in, text};
+use super::words::shown_in;
 use crate::model::inputs::Method;
 use crate::model::{Outcome, QUANTITIES, Quantity, Solution, Stages};
 use crate::report;
 use crate::report::groups::{self, FREE_IMPACT};
 use crate::report::verdict::{Standing, verdict};
 use crate::tui::ascii::symbol;
-use crate::tui::panes::results::Results;
+use crate::tui::panes::results::pane::Results;
 use crate::tui::solver::Answer;
+use crate::tui::text;
 use columns::Columns;
 
 /// What an engineer looks at first.

@@ -8,7 +8,7 @@ use unicode_width::UnicodeWidthStr;
 use super::difference::{WIDTH as DIFFERENCE, difference};
 use super::{Cells, methods};
 use crate::model::inputs::Method;
-use crate::tui::panes::results::Results;
+use crate::tui::panes::results::pane::Results;
 use crate::tui::solver::Answer;
 use crate::tui::text;
 

@@ -6,8 +6,8 @@ use crate::model::Quantity;
 use crate::model::inputs::Method;
 use crate::report;
 use crate::report::difference::{UNCHANGED, in_percent, is_unchanged, percent};
-use crate::tui::panes::results::Results;
-use crate::tui::panes::results::shown_in;
+use crate::tui::panes::results::pane::Results;
+use crate::tui::panes::results::words::shown_in;
 use crate::tui::solver::Answer;
 
 /// Columns of a difference.

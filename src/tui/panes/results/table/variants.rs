@@ -10,7 +10,7 @@ use crate::report::difference::difference;
 use crate::report::groups::FREE_IMPACT;
 use crate::report::{shown_with, unit_beside, value_as_in};
 use crate::tui::ascii::symbol;
-use crate::tui::panes::results::Results;
+use crate::tui::panes::results::pane::Results;
 use crate::tui::solver::Answer;
 use crate::tui::text;
 use crate::tui::variants::Variants;

@@ -1,0 +1,173 @@
+//! The panes and dialogs with what they show of the state.
+
+use super::App;
+use crate::report;
+use crate::tui::commands::{Command, key_of};
+use crate::tui::cursor_range::CursorScope;
+use crate::tui::dialogs::Surroundings;
+use crate::tui::pane::Pane;
+use crate::tui::panes::chart::Charts;
+use crate::tui::panes::form::Form;
+use crate::tui::panes::results::{self, Results};
+use crate::tui::panes::study::StudyPane;
+use crate::tui::panes::teeth::Picture;
+use crate::tui::panes::title::Title;
+use crate::tui::panes::trade::TradePane;
+
+impl App {
+    /// The title line of a pane.
+    #[must_use]
+    pub fn title(&self, pane: Pane) -> Title {
+        let plan = self.plan();
+        let hidden = if plan.names_hidden() == Some(pane) {
+            plan.hidden().collect()
+        } else {
+            Vec::new()
+        };
+        Title {
+            pane,
+            has_focus: self.panes.focus == pane && self.prompts.is_empty(),
+            is_editing: self.has_line(),
+            hidden,
+            theme: self.look.theme,
+        }
+    }
+
+    /// The charts and the pane in which the cursor moves.
+    pub(crate) fn cursor_scope(&self) -> CursorScope<'_> {
+        let plan = self.plan();
+        let is_alone = plan.chart.is_empty() && !plan.teeth.is_empty();
+        CursorScope {
+            charts: self.charts(),
+            is_in_teeth: self.panes.focus == Pane::Teeth || is_alone,
+        }
+    }
+
+    /// The surroundings of a dialog.
+    pub(crate) fn surroundings(&self) -> Surroundings<'_> {
+        Surroundings {
+            screen: self.size,
+            look: self.look,
+            cursor: self.cursor_scope(),
+        }
+    }
+
+    /// The form with the case in it.
+    #[must_use]
+    pub fn form(&self) -> Form<'_> {
+        let tab = &self.tab;
+        Form {
+            case: &tab.case,
+            saved: &tab.saved,
+            inputs: &tab.inputs_so_far,
+            problems: &tab.problems,
+            answer: tab.answer.as_ref(),
+            is_stale: tab.is_stale(),
+            focus: tab.form.focus,
+            line: self.has_line().then_some(&tab.form.input),
+            ending: self.ending(),
+            top: tab.form.top,
+            look: self.look,
+            title: self.title(Pane::Form),
+            area: self.plan().form,
+        }
+    }
+
+    /// The results pane with the results that it shows.
+    #[must_use]
+    pub fn results(&self) -> Results<'_> {
+        let tab = &self.tab;
+        Results {
+            state: tab.results,
+            answer: tab.answer.as_ref(),
+            baseline: self.baseline.as_ref(),
+            variants: tab
+                .variants
+                .as_ref()
+                .filter(|_| self.first_variant.is_some()),
+            first_variant: self.first_variant.unwrap_or(0),
+            earlier: tab.earlier.as_ref(),
+            refusal: tab.refusal.as_ref(),
+            problems: &tab.problems,
+            missing: self.missing(),
+            case: &tab.case,
+            is_stale: tab.is_stale(),
+            shows_last_valid: tab.shows_last_valid(),
+            shows_cost: self.shows_cost,
+            is_focused: self.panes.focus == Pane::Results,
+            next_fault: || key_of(Command::NextFault),
+            units: self.settings.units,
+            look: self.look,
+            title: self.title(Pane::Results),
+            area: self.plan().results,
+        }
+    }
+
+    /// The trade pane with the benchmark that it shows.
+    #[must_use]
+    pub fn trade(&self) -> TradePane<'_> {
+        TradePane {
+            traded: self.tab.traded.as_ref(),
+            inputs: self.tab.inputs(),
+            view: self.trade_view,
+            look: self.look,
+            title: self.title(Pane::Trade),
+            area: self.plan().trade,
+        }
+    }
+
+    /// The study pane with the study that it shows.
+    #[must_use]
+    pub fn study(&self) -> StudyPane<'_> {
+        let tab = &self.tab;
+        let answer = tab.answer.as_ref().filter(|_| !tab.is_stale());
+        let present = results::marked(&self.results())
+            .zip(answer)
+            .and_then(|(quantity, answer)| report::value(quantity, answer.of(answer.active)?));
+        StudyPane {
+            state: self.study,
+            study: &tab.study,
+            case: &tab.case,
+            present,
+            units: self.settings.units,
+            marker: self.settings.marker,
+            look: self.look,
+            title: self.title(Pane::Study),
+            area: self.plan().study,
+        }
+    }
+
+    /// The chart pane with the results that it shows.
+    #[must_use]
+    pub fn charts(&self) -> Charts<'_> {
+        Charts {
+            pane: &self.chart,
+            scale: &self.tab.scale,
+            answer: self.tab.answer.as_ref(),
+            baseline: self.baseline.as_ref().map(|baseline| &baseline.answer),
+            cursor: self.cursor,
+            is_stale: self.tab.shows_last_valid(),
+            undone: self.tab.undone,
+            units: self.settings.units,
+            marker: self.settings.marker,
+            look: self.look,
+            area: self.plan().chart,
+        }
+    }
+
+    /// The picture of the teeth, if the active method has results.
+    #[must_use]
+    pub fn picture(&self) -> Option<Picture<'_>> {
+        let answer = self.tab.answer.as_ref()?;
+        Some(Picture {
+            inputs: &answer.inputs,
+            solution: answer.of(answer.active)?,
+            cursor: self.cursor,
+            view: &self.teeth,
+            look: self.look,
+            marker: self.settings.marker,
+            units: self.settings.units,
+            is_stale: self.tab.shows_last_valid(),
+        })
+    }
+}

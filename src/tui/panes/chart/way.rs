@@ -1,0 +1,67 @@
+//! The roll angles between which the incoming tooth is shown.
+
+use crate::model::inputs::Method;
+use crate::model::{Solution, contact_state};
+use crate::report::stations::{Row, rows};
+use crate::tui::scale::Span;
+use crate::tui::solver::Answer;
+
+/// The driver's angle before E at the first contact of the method, in rad.
+#[must_use]
+pub fn first_contact(solution: &Solution) -> Option<f64> {
+    let ratio = solution.geometry.driven.base / solution.geometry.driver.base;
+    contact_state::first_contact(solution).map(|angle| angle * ratio)
+}
+
+/// The driver's angle before E at the last contact, in rad, negative after E. Only `static` and
+/// `dynamic` have a last contact.
+pub(crate) fn last_contact(solution: &Solution) -> Option<f64> {
+    match rows(solution).last() {
+        Some(Row::Load(station)) => Some(station.roll_angle_driver),
+        _ => None,
+    }
+}
+
+/// The range from the first station of any method to the last, in deg after E.
+pub(super) fn way(answer: &Answer) -> Span {
+    answer
+        .methods
+        .iter()
+        .filter_map(|(_, found)| found.as_ref().ok())
+        .map(way_of)
+        .fold(Span::NONE, Span::and)
+}
+
+/// The range of the path of contact with its mesh stiffness, in deg after E.
+pub(crate) fn path(answer: &Answer) -> Span {
+    let Some(found) = &answer.stiffness else {
+        return Span::NONE;
+    };
+    let ways = found
+        .points
+        .iter()
+        .map(|point| point.way / found.base_radius);
+    ways.fold(Span::NONE, |span, angle| span.with(angle.to_degrees()))
+}
+
+/// The range of the stations of one method, in deg after E.
+pub(crate) fn way_by(answer: &Answer, method: Method) -> Span {
+    answer.of(method).map_or(Span::NONE, way_of)
+}
+
+fn way_of(solution: &Solution) -> Span {
+    let rows = rows(solution);
+    [rows.first(), rows.last()]
+        .into_iter()
+        .flatten()
+        .map(|row| angle(*row))
+        .fold(Span::NONE, Span::with)
+}
+
+pub(super) fn angle(row: Row) -> f64 {
+    let angle = match row {
+        Row::Impact(station) => station.roll_angle_driver,
+        Row::Load(station) => station.roll_angle_driver,
+    };
+    0.0 - angle.to_degrees()
+}

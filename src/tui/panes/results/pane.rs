@@ -1,0 +1,68 @@
+//! The results pane: its state, and the results that it shows.
+
+use ratatui::layout::Rect;
+
+use crate::case::units::System;
+use crate::case::{Case, Problem};
+use crate::model::Refusal;
+use crate::tui::baseline::Baseline;
+use crate::tui::panes::title::Title;
+use crate::tui::solver::{Answer, Values};
+use crate::tui::theme::Look;
+use crate::tui::variants::Variants;
+
+/// The state of the pane. Each open case has its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct ResultsState {
+    /// The selected line among the quantities.
+    pub row: usize,
+    /// The first visible line of the quantities.
+    pub top: usize,
+    /// The quantity that was selected and is none of the present results: the selection returns to
+    /// it.
+    pub lost: Option<&'static str>,
+}
+
+/// The pane with the results that it shows.
+#[derive(Debug, Clone)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a state of its own")]
+pub struct Results<'a> {
+    /// The state of the pane.
+    pub state: ResultsState,
+    /// The last valid results.
+    pub answer: Option<&'a Answer>,
+    /// The pinned results.
+    pub baseline: Option<&'a Baseline>,
+    /// The variants, if they stand in place of the methods.
+    pub variants: Option<&'a Variants>,
+    /// The first visible one.
+    pub first_variant: usize,
+    /// The values before the last edit.
+    pub earlier: Option<&'a Values>,
+    /// Why the model refuses the case.
+    pub refusal: Option<&'a Refusal>,
+    /// The rows of the form that are wrong.
+    pub problems: &'a [(usize, Problem)],
+    /// How many required values are missing, if nothing else is wrong.
+    pub missing: Option<usize>,
+    /// The case in the form.
+    pub case: &'a Case,
+    /// Whether the results are older than the form.
+    pub is_stale: bool,
+    /// Whether the title says so.
+    pub shows_last_valid: bool,
+    /// Whether the title shows the cost of the solve.
+    pub shows_cost: bool,
+    /// Whether the pane has the focus.
+    pub is_focused: bool,
+    /// Names the key that goes to the next wrong row.
+    pub next_fault: fn() -> String,
+    /// The display units.
+    pub units: System,
+    /// The capabilities of the terminal.
+    pub look: Look,
+    /// The title line.
+    pub title: Title,
+    /// The area of the pane with its title; empty if the pane is hidden.
+    pub area: Rect,
+}

@@ -1,0 +1,198 @@
+//! The parts of the pane from its top to its bottom, and the room that each has.
+
+use std::collections::BTreeSet;
+
+use ratatui::style::Style;
+use ratatui::text::Line;
+use unicode_width::UnicodeWidthStr;
+
+use super::gauges;
+use super::pane::Results;
+use super::words::{NOTE, refused_variants, sentence};
+use crate::model::Note;
+use crate::report::digest;
+use crate::tui::ascii::symbol;
+use crate::tui::rows;
+use crate::tui::solver::Answer;
+use crate::tui::text;
+
+/// So many quantities are to be in sight before gauges and notes get more than a line each.
+const ENOUGH_ROWS: usize = 8;
+
+/// So many at least, whatever stands above them.
+const LEAST_ROWS: usize = 2;
+
+/// A pane with fewer lines and columns has room for the outcome in a few words only.
+const LOW: usize = 20;
+
+const NARROW: usize = 30;
+
+/// What stands in the pane, from its top to its bottom.
+pub(super) struct Parts {
+    /// The refusal, the outcome, the gauges.
+    pub(super) head: Vec<Line<'static>>,
+    /// How many quantities have room below their heading.
+    pub(super) rows: usize,
+    /// What to know.
+    pub(super) notes: Vec<Line<'static>>,
+}
+
+// With room every gauge and note is printed in full, else each gauge in a line and the notes in one.
+pub(super) fn parts(pane: &Results<'_>) -> Parts {
+    let area = pane.area;
+    let width = usize::from(area.width.saturating_sub(1));
+    let height = usize::from(area.height.saturating_sub(1));
+    let mut head = banner(pane, width);
+    let (mut gauges, mut notes) = (Vec::new(), Vec::new());
+    if let Some(answer) = pane.answer {
+        head.extend(outcome(pane, answer, width, height < LOW));
+        gauges = gauges::gauges(pane, answer)
+            .iter()
+            .map(|gauge| gauge.fitting(width))
+            .collect();
+        notes = answer
+            .notes
+            .iter()
+            .map(|note| format!("{NOTE}{}", note.message))
+            .chain(refused_variants(pane))
+            .collect();
+    }
+    let whole = |texts: &[String]| {
+        texts
+            .iter()
+            .flat_map(|text| text::wrap(text, width))
+            .collect::<Vec<_>>()
+    };
+    let rows_beside = |gauges: &[String], notes: &[String]| {
+        height.saturating_sub(head.len() + gauges.len() + 1 + notes.len())
+    };
+    let (mut gauge_lines, mut note_lines) = (whole(&gauges), whole(&notes));
+    if rows_beside(&gauge_lines, &note_lines) < ENOUGH_ROWS {
+        gauge_lines = gauges.iter().map(|gauge| text::cut(gauge, width)).collect();
+        note_lines = pane
+            .answer
+            .into_iter()
+            .filter_map(|answer| shortened(&answer.notes, width))
+            .collect();
+    }
+    let room_for_head = height.saturating_sub(1 + LEAST_ROWS + note_lines.len());
+    let faint = if pane.is_stale {
+        pane.look.theme.faint
+    } else {
+        Style::new()
+    };
+    head.extend(
+        gauge_lines
+            .into_iter()
+            .map(|gauge| Line::styled(gauge, faint)),
+    );
+    head.truncate(room_for_head);
+    let rows = height.saturating_sub(head.len() + 1 + note_lines.len());
+    let style = pane.look.theme.note.patch(faint);
+    Parts {
+        head,
+        rows,
+        notes: note_lines
+            .into_iter()
+            .map(|note| Line::styled(note, style))
+            .collect(),
+    }
+}
+
+// The only note in full, else as many as have room by their names, else how many there are.
+fn shortened(notes: &[Note], width: usize) -> Option<String> {
+    let count = notes.len();
+    let in_full = notes
+        .first()
+        .filter(|_| count == 1)
+        .map(|note| format!("{NOTE}{}", note.message));
+    let names: Vec<String> = notes
+        .iter()
+        .map(|note| note.code.replace('-', " "))
+        .collect();
+    let noun = if count == 1 { "note" } else { "notes" };
+    let by_names = (1..=count).rev().map(|shown| {
+        let others = if shown < count {
+            format!(", {} more", count - shown)
+        } else {
+            String::new()
+        };
+        format!("key n: {}{others}", names[..shown].join(", "))
+    });
+    let counted = format!("{count} {noun}: press n");
+    let mut sayings = in_full.into_iter().chain(by_names).chain([counted.clone()]);
+    (count > 0).then(|| {
+        sayings
+            .find(|words| words.width() <= width)
+            .unwrap_or(counted)
+    })
+}
+
+fn banner(pane: &Results<'_>, width: usize) -> Vec<Line<'static>> {
+    let theme = pane.look.theme;
+    let said = |text: String, style: Style| {
+        text::wrap(&text, width)
+            .into_iter()
+            .map(move |line| Line::styled(line, style))
+    };
+    let Some(refusal) = pane.refusal else {
+        return wrong(pane)
+            .into_iter()
+            .flat_map(|wrong| said(wrong, theme.problem))
+            .collect();
+    };
+    let cause = said(format!("! Not solved: {refusal}."), theme.problem);
+    cause
+        .chain(said(
+            format!("Correction: {}.", refusal.fix()),
+            Style::new(),
+        ))
+        .collect()
+}
+
+// The first field that is wrong, in the order of the form, why, how many more are, and the key that
+// goes there.
+fn wrong(pane: &Results<'_>) -> Option<String> {
+    let (row, problem) = pane.problems.iter().min_by_key(|(row, _)| *row)?;
+    let name = format!(
+        "{} {}",
+        symbol(rows::symbol(pane.case, *row), pane.look.ascii),
+        rows::label(pane.case, *row)
+    );
+    let fields: BTreeSet<usize> = pane.problems.iter().map(|(row, _)| *row).collect();
+    let more = if fields.len() > 1 {
+        format!("; {} more", fields.len() - 1)
+    } else {
+        String::new()
+    };
+    let key = (pane.next_fault)();
+    if let Some(missing) = pane.missing.filter(|&missing| missing > 1) {
+        return Some(format!("! {missing} required values are missing ({key})"));
+    }
+    Some(format!(
+        "! {}: {}{more} ({key})",
+        name.trim_start(),
+        problem.cause
+    ))
+}
+
+fn outcome(pane: &Results<'_>, answer: &Answer, width: usize, is_low: bool) -> Vec<Line<'static>> {
+    let Some(solution) = answer.of(answer.active) else {
+        return Vec::new();
+    };
+    let style = if pane.is_stale {
+        pane.look.theme.faint
+    } else {
+        pane.look.theme.focus
+    };
+    let words = if is_low && width < NARROW {
+        digest::short(solution, pane.units)
+    } else {
+        sentence(pane, solution)
+    };
+    let lines = text::wrap(&words, width);
+    lines
+        .into_iter()
+        .map(|line| Line::styled(line, style))
+        .collect()
+}

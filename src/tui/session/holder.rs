@@ -1,0 +1,116 @@
+//! The process that has a case open, as its lock names it.
+
+use std::fs::{self, File};
+use std::io::{Read, Seek};
+
+use toml_edit::{DocumentMut, Item, value};
+
+use super::clock;
+
+/// More than any holder writes.
+const MOST_BYTES: u64 = 4096;
+
+/// The holder of a lock; the process is 0 where the file does not name it.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Holder {
+    /// The name of the machine.
+    pub host: String,
+    /// The number of the process.
+    pub process: u32,
+    /// When the process began, in ticks since the machine did: numbers of processes are used again.
+    pub started: u64,
+    /// Which start of the machine that was.
+    pub boot: String,
+    /// When the lock was taken, in seconds since 1970.
+    pub since: u64,
+}
+
+impl Holder {
+    /// This process.
+    #[must_use]
+    pub fn ourselves() -> Holder {
+        let process = std::process::id();
+        Holder {
+            host: host(),
+            process,
+            started: started(process).unwrap_or(0),
+            boot: boot(),
+            since: clock::now(),
+        }
+    }
+
+    /// In words, for someone who comes upon the lock.
+    #[must_use]
+    pub fn words(&self, now: u64) -> String {
+        if self.process == 0 {
+            return "an unknown process".to_owned();
+        }
+        format!(
+            "process {} on {} for {}",
+            self.process,
+            self.host,
+            clock::age(now.saturating_sub(self.since))
+        )
+    }
+
+    /// Whether the same process still runs, as far as this machine can see.
+    pub(crate) fn is_alive(&self) -> bool {
+        self.host == host() && self.boot == boot() && started(self.process) == Some(self.started)
+    }
+
+    /// The text of the lock's file.
+    pub(crate) fn to_text(&self) -> String {
+        let mut toml = DocumentMut::new();
+        toml["host"] = value(&self.host);
+        toml["process"] = value(i64::from(self.process));
+        toml["started"] = value(self.started.cast_signed());
+        toml["boot"] = value(&self.boot);
+        toml["since"] = value(self.since.cast_signed());
+        format!("# tipstrike has this case open.\n{toml}")
+    }
+
+    pub(super) fn read(file: &mut File) -> Option<Holder> {
+        let mut text = String::new();
+        file.rewind().ok()?;
+        file.take(MOST_BYTES).read_to_string(&mut text).ok()?;
+        let toml: DocumentMut = text.parse().ok()?;
+        let text = |key| toml.get(key).and_then(Item::as_str).map(str::to_owned);
+        let number = |key| {
+            toml.get(key)
+                .and_then(Item::as_integer)
+                .and_then(|number| u64::try_from(number).ok())
+        };
+        Some(Holder {
+            host: text("host")?,
+            process: number("process")?.try_into().ok()?,
+            started: number("started")?,
+            boot: text("boot")?,
+            since: number("since")?,
+        })
+    }
+}
+
+pub(super) fn host() -> String {
+    rustix::system::uname()
+        .nodename()
+        .to_string_lossy()
+        .into_owned()
+}
+
+fn boot() -> String {
+    fs::read_to_string("/proc/sys/kernel/random/boot_id")
+        .map(|text| text.trim().to_owned())
+        .unwrap_or_default()
+}
+
+// The 22nd word of a process's state; the second, its name, may hold spaces and brackets.
+fn started(process: u32) -> Option<u64> {
+    let state = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
+    state
+        .rsplit_once(')')?
+        .1
+        .split_whitespace()
+        .nth(19)?
+        .parse()
+        .ok()
+}

@@ -1,0 +1,86 @@
+//! The locks of the open cases.
+
+use std::collections::BTreeMap;
+use std::ffi::OsString;
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+
+use super::holder::Holder;
+use super::lock::{Lock, Taken};
+use crate::case::sanitize::sanitize;
+
+/// The locks by their files.
+#[derive(Debug, Default)]
+pub(super) struct Locks(BTreeMap<PathBuf, Lock>);
+
+impl Locks {
+    /// Takes the lock of a case. Returns the process that has the case open, or `None` if the lock
+    /// is ours now. The error says why the case has no lock.
+    pub(super) fn take(&mut self, path: &Path) -> Result<Option<Holder>, String> {
+        let Some(place) = lock_of(path).filter(|place| !self.0.contains_key(place)) else {
+            return Ok(None);
+        };
+        match Lock::take(&place) {
+            Ok(Taken::Held(holder)) => Ok(Some(holder)),
+            Ok(Taken::Ours(lock)) => {
+                self.0.insert(place, lock);
+                Ok(None)
+            }
+            Ok(Taken::Unguarded(lock, error)) => {
+                self.0.insert(place, lock);
+                Err(format!(
+                    "{} is locked on this machine alone: {}: do not open it on others",
+                    name_of(path),
+                    brief(&error)
+                ))
+            }
+            Err(error) => Err(unlocked(path, &place, &error)),
+        }
+    }
+
+    /// Whether the case is locked by this session.
+    pub(super) fn has(&self, path: &Path) -> bool {
+        lock_of(path).is_some_and(|place| self.0.contains_key(&place))
+    }
+
+    /// Releases the locks of all other cases.
+    pub(super) fn keep_only<'a>(&mut self, cases: impl Iterator<Item = &'a Path>) {
+        let wanted: Vec<_> = cases.filter_map(lock_of).collect();
+        self.0.retain(|place, _| wanted.contains(place));
+    }
+}
+
+// Beside the case, so that other users and other machines see it as well: whoever may save there
+// may lock there.
+fn lock_of(path: &Path) -> Option<PathBuf> {
+    let mut name = OsString::from(".");
+    name.push(path.file_name()?);
+    name.push(".tipstrike");
+    Some(path.with_file_name(name))
+}
+
+/// Why a case has no lock, and the fix.
+fn unlocked(path: &Path, place: &Path, error: &io::Error) -> String {
+    let lock = name_of(place);
+    let (cause, fix) = match error.kind() {
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            ("its folder is read-only".to_owned(), "save it elsewhere")
+        }
+        ErrorKind::IsADirectory => (format!("{lock} is a folder"), "remove that"),
+        ErrorKind::Other => (format!("{lock} {error}"), "remove that"),
+        _ => (format!("{lock}: {}", brief(error)), "open it only once"),
+    };
+    let name = name_of(path);
+    format!("{name} is not locked, so other sessions may save it too: {cause}: {fix}")
+}
+
+/// The words of the system without its number of the error.
+fn brief(error: &io::Error) -> String {
+    let words = error.to_string();
+    let end = words.find(" (os error").unwrap_or(words.len());
+    words[..end].to_owned()
+}
+
+fn name_of(path: &Path) -> String {
+    sanitize(&path.file_name().unwrap_or_default().to_string_lossy())
+}

@@ -1,0 +1,230 @@
+//! The running workbench: takes events, changes the state, performs the effects, draws.
+
+use std::io;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use signal_hook::consts::{SIGCONT, SIGTSTP, SIGWINCH};
+
+use super::actions::{Action, Effect};
+use super::app::App;
+use super::effects::{claimed, perform};
+use super::events::{self, Event, Events};
+use super::fault;
+use super::session::autosave::Autosave;
+use super::session::journal_writer::JournalWriter;
+use super::settings::Settings;
+use super::store::state::State;
+use super::store::{self, Opening, Trouble};
+use super::tab::Origin;
+use super::terminal::Screen;
+use super::theme::Look;
+use super::update::{self, update};
+use super::worker::Workers;
+
+/// Time between two pictures of what plays.
+const TICK: Duration = Duration::from_millis(83);
+
+/// The workbench while it runs.
+struct Workbench {
+    app: App,
+    screen: Screen,
+    events: Events,
+    workers: Workers,
+    autosave: Autosave,
+    /// When the next picture of what plays is due.
+    alarm: Option<Instant>,
+    /// The settings that are to be kept once all that has come is done.
+    chosen: Option<Settings>,
+}
+
+/// How the workbench came to its end.
+pub(super) enum End {
+    /// The user left: nothing is unsaved that is wanted.
+    Left,
+    /// The terminal is gone.
+    Lost,
+    Signal(i32),
+}
+
+pub(super) fn session(
+    case: Option<PathBuf>,
+    events: Events,
+    mut screen: Screen,
+    journal_writer: &Arc<JournalWriter>,
+) -> io::Result<End> {
+    let is_last_case = case.is_none();
+    let Opening {
+        document,
+        path,
+        trouble,
+    } = store::opening(case);
+    screen.enter()?;
+    events.listen()?;
+    let settings = Settings::read();
+    let look = Look::of(|name| std::env::var_os(name));
+    let look = settings.look(look, |name| {
+        std::env::var_os(name).is_some_and(|value| !value.is_empty())
+    });
+    let mut app = App {
+        settings,
+        ..App::at_start(document, path, look, screen.size()?)
+    };
+    if is_last_case && app.tab.path.is_some() {
+        app.tab.origin = Origin::LastCase;
+    }
+    update::settle(&mut app);
+    screen.take_mouse(settings.mouse)?;
+    if let Some(trouble) = trouble {
+        report(&mut app, trouble);
+    }
+    screen.draw(&app)?;
+    let workers = Workers::start(Arc::new(events.action_sender()))?;
+    if let Some(request) = app.unanswered() {
+        workers.solve(request);
+    }
+    let autosave = Autosave::new(State::find(), Arc::clone(journal_writer));
+    Workbench {
+        app,
+        screen,
+        events,
+        workers,
+        autosave,
+        alarm: None,
+        chosen: None,
+    }
+    .stay()
+}
+
+fn report(app: &mut App, trouble: Trouble) {
+    app.tab.in_place_of = Some(trouble.path.clone());
+    if trouble.was_asked {
+        update(app, Action::Loaded(trouble.path, Err(trouble.faults)));
+    } else {
+        let reason = trouble.faults.into_iter().next().unwrap_or_default();
+        app.complain(format!("the last case cannot be opened: {reason}"));
+    }
+}
+
+impl Workbench {
+    fn stay(mut self) -> io::Result<End> {
+        // What is found out about the case on which it opens comes after the first frame.
+        let mut batch = Vec::new();
+        let end = loop {
+            if let Some(end) = self.take(batch)? {
+                break end;
+            }
+            batch = self.events.batch(self.alarm, self.autosave.deadline());
+        };
+        self.keep_settings();
+        if matches!(end, End::Left) {
+            self.autosave.end();
+        }
+        Ok(end)
+    }
+
+    // All that has come, and one frame if it changed anything; how it ended, if it did.
+    fn take(&mut self, batch: Vec<Event>) -> io::Result<Option<End>> {
+        let mut events = batch.into_iter().peekable();
+        let mut has_changed = false;
+        while let Some(event) = events.peek() {
+            if let Event::Signal(signal) = *event {
+                if let Some(end) = self.obey(signal)? {
+                    return Ok(Some(end));
+                }
+                has_changed = true;
+            } else if matches!(event, Event::Lost) {
+                return Ok(Some(End::Lost));
+            }
+            if matches!(event, Event::Tick) {
+                self.alarm = Some(Instant::now() + TICK);
+            }
+            let Some(action) = events::take_action(&mut events, self.app.place()) else {
+                continue;
+            };
+            has_changed = true;
+            if self.act(action)? {
+                return Ok(Some(End::Left));
+            }
+            self.keep();
+        }
+        self.keep_settings();
+        if self.keep() || has_changed {
+            self.screen.draw(&self.app)?;
+        }
+        self.autosave.keep_if_due(Instant::now());
+        Ok(None)
+    }
+
+    fn obey(&mut self, signal: i32) -> io::Result<Option<End>> {
+        match signal {
+            SIGTSTP => self.suspend()?,
+            SIGCONT => self.screen.resume()?,
+            SIGWINCH => {
+                let size = self.screen.size()?;
+                self.act(Action::Resize(size))?;
+            }
+            _ => return Ok(Some(End::Signal(signal))),
+        }
+        Ok(None)
+    }
+
+    // Whether it is over.
+    fn act(&mut self, action: Action) -> io::Result<bool> {
+        let mut actions = vec![action];
+        while let Some(action) = actions.pop() {
+            for effect in update(&mut self.app, action) {
+                match effect {
+                    Effect::Quit => return Ok(true),
+                    Effect::Redraw => {
+                        fault::on_demand("screen");
+                        self.screen.clear()?;
+                    }
+                    Effect::Suspend => self.suspend()?,
+                    Effect::Solve(request) => self.workers.solve(*request),
+                    Effect::Measure(measuring) => self.workers.measure(*measuring)?,
+                    Effect::CancelWork => self.workers.stop_benchmark(),
+                    Effect::Study(request) => self.workers.study(*request)?,
+                    Effect::CancelStudy => self.workers.stop_study(),
+                    Effect::CancelSolve => self.workers.stop_solve(),
+                    Effect::Job(job) => self.workers.job(job)?,
+                    Effect::Keep(settings) => self.chosen = Some(settings),
+                    Effect::Copy(text) => self.screen.copy(&text)?,
+                    Effect::Mouse(takes) => self.screen.take_mouse(takes)?,
+                    Effect::Play(plays) => self.alarm = plays.then(|| Instant::now() + TICK),
+                    other => actions.extend(perform(other, &mut self.autosave)),
+                }
+            }
+        }
+        Ok(false)
+    }
+
+    // A flood of choices is written once.
+    fn keep_settings(&mut self) {
+        let kept = self
+            .chosen
+            .take()
+            .and_then(|settings| perform(Effect::Keep(settings), &mut self.autosave));
+        if let Some(action) = kept {
+            update(&mut self.app, action);
+        }
+    }
+
+    // Whether there was something to tell.
+    fn keep(&mut self) -> bool {
+        let claims = self.autosave.follow(&self.app.sheets(), Instant::now());
+        let has_changed = !claims.is_empty();
+        for claim in claims {
+            update(&mut self.app, claimed(claim));
+        }
+        has_changed
+    }
+
+    // Nobody knows for how long.
+    fn suspend(&mut self) -> io::Result<()> {
+        self.keep();
+        self.autosave.keep();
+        self.screen.suspend()
+    }
+}
