@@ -115,11 +115,28 @@ impl Case {
         let is_empty = |field: usize| self.text(field).is_none();
         match FIELDS[field].absent {
             fields::Absent::Refused => is_empty(field),
-            fields::Absent::Either(other) => {
-                is_empty(field) && fields::index_of(other).is_none_or(is_empty)
+            fields::Absent::Either => {
+                is_empty(field) && FIELDS[field].partner().is_none_or(is_empty)
             }
             fields::Absent::Default(_) | fields::Absent::Without(_) => false,
         }
+    }
+
+    /// Whether the case has the alternative of the field, given or by its default, in place of it.
+    #[must_use]
+    pub fn is_replaced(&self, field: usize) -> bool {
+        let has_default = |other: usize| matches!(FIELDS[other].absent, fields::Absent::Default(_));
+        let stands = |other: usize| self.text(other).is_some() || has_default(other);
+        self.text(field).is_none() && FIELDS[field].partner().is_some_and(stands)
+    }
+
+    /// The value, in SI, that follows from other fields where the case leaves the field out.
+    #[must_use]
+    pub fn derived(&self, field: usize, inputs: &Inputs) -> Option<f64> {
+        let derived = FIELDS[field]
+            .derived
+            .filter(|_| self.text(field).is_none())?;
+        derived(inputs).filter(|value| value.is_finite())
     }
 
     /// What stands in the field, as written; `None` where the case leaves it out.
@@ -134,14 +151,15 @@ impl Case {
     }
 
     /// What holds in the field: its text, else its default, else the words for doing without.
-    /// `None` where the field must be given and is not.
+    /// `None` where the field must be given and is not, and where its alternative replaces it.
     #[must_use]
     pub fn effective(&self, field: usize) -> Option<&str> {
         match FIELDS[field].absent {
             _ if self.texts[field].is_some() => self.text(field),
+            _ if self.is_replaced(field) => None,
             fields::Absent::Default(text) => Some(text).filter(|text| !text.is_empty()),
             fields::Absent::Without(words) => Some(words),
-            fields::Absent::Refused | fields::Absent::Either(_) => None,
+            fields::Absent::Refused | fields::Absent::Either => None,
         }
     }
 
@@ -216,7 +234,7 @@ impl Case {
         };
         let mut changed = self.clone();
         changed.write(field, value);
-        if let Some(other) = check::partner(field) {
+        if let Some(other) = FIELDS[field].partner() {
             changed.write(other, "");
         }
         changed.check_field(field)?;
@@ -228,7 +246,8 @@ impl Case {
     #[must_use]
     pub fn are_exclusive(key: &str, other: &str) -> bool {
         fields::index_of(key).is_some_and(|field| {
-            check::partner(field).is_some() && check::partner(field) == fields::index_of(other)
+            let partner = FIELDS[field].partner();
+            partner.is_some() && partner == fields::index_of(other)
         })
     }
 

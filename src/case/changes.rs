@@ -1,6 +1,5 @@
 //! The differences between two cases, field by field, and how to put them into a case.
 
-use super::check::partner;
 use super::fields::{self, FIELDS};
 use super::{Case, Override, Problem, Spread, Variant, spread, variant};
 
@@ -113,7 +112,7 @@ impl Variant {
     pub fn between(name: &str, from: &Case, to: &Case) -> Variant {
         let changes = between(from, to);
         let is_replaced = |key: &str| {
-            let other = fields::index_of(key).and_then(partner);
+            let other = fields::index_of(key).and_then(|field| FIELDS[field].partner());
             other.is_some_and(|other| {
                 let is_written = |change: &&Change| change.key == FIELDS[other].key;
                 changes

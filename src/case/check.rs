@@ -1,5 +1,6 @@
 //! From texts to the model's inputs: every field on its own, then the fields together.
 
+mod circles;
 mod problem;
 mod together;
 mod value;
@@ -29,7 +30,8 @@ pub(super) fn read(case: &Case, wrong: &[usize]) -> (Inputs, Vec<Problem>) {
     let mut problems: Vec<Problem> = Vec::new();
     for field in (0..FIELDS.len()).filter(|field| !wrong.contains(field)) {
         problems.extend(put(case, field, &mut inputs).err());
-        if partner(field).is_some_and(|other| !wrong.contains(&other)) {
+        let partner = FIELDS[field].partner();
+        if partner.is_some_and(|other| !wrong.contains(&other)) {
             problems.extend(misfit(case, field));
         }
     }
@@ -63,13 +65,14 @@ fn limits(case: &Case) -> impl Iterator<Item = Problem> {
 pub fn put(case: &Case, field: usize, inputs: &mut Inputs) -> Result<(), Problem> {
     let known = &FIELDS[field];
     match (case.text(field), known.absent) {
+        (None, _) if case.is_replaced(field) => Ok(()),
         (Some(text), _) | (None, Absent::Default(text)) => put_text(known, field, text, inputs),
         (None, Absent::Refused) => Err(Problem::new(
             known.key,
             "a required value is missing",
             format!("write {}", addition(known)),
         )),
-        (None, Absent::Without(_) | Absent::Either(_)) => Ok(()),
+        (None, Absent::Without(_) | Absent::Either) => Ok(()),
     }
 }
 
@@ -92,21 +95,13 @@ fn addition(field: &Field) -> String {
     }
 }
 
-/// The field that excludes this one.
-pub(super) fn partner(field: usize) -> Option<usize> {
-    match FIELDS[field].absent {
-        Absent::Either(other) => index_of(other),
-        _ => None,
-    }
-}
-
-/// Exactly one of two fields is given: said once, at the first when neither is and at the second
-/// when both are.
+/// What is wrong with a field and its alternative: at the first of them where one is required and
+/// neither is given, at the second where both are.
 fn misfit(case: &Case, field: usize) -> Option<Problem> {
-    let other = partner(field)?;
+    let other = FIELDS[field].partner()?;
     let (known, named) = (&FIELDS[field], &FIELDS[other]);
     match (case.text(field), case.text(other)) {
-        (None, None) if field < other => {
+        (None, None) if field < other && known.absent == Absent::Either => {
             let cause = format!("neither {} nor {} is given", known.key, named.key);
             Some(Problem::new(
                 known.key,
@@ -121,7 +116,7 @@ fn misfit(case: &Case, field: usize) -> Option<Problem> {
 
 /// Both of two fields that exclude each other are given: reported at the second one.
 pub(super) fn given_twice(case: &Case, field: usize) -> Option<Problem> {
-    let other = partner(field).filter(|&other| field > other)?;
+    let other = FIELDS[field].partner().filter(|&other| field > other)?;
     let (known, named) = (&FIELDS[field], &FIELDS[other]);
     case.text(field).and(case.text(other)).map(|_| {
         let cause = format!("{} and {} are both given", named.key, known.key);

@@ -60,6 +60,7 @@ pub fn fields_of(
         moves.then_some(Dependence { field, step })
     };
     (0..FIELDS.len())
+        .filter(|&field| !case.is_replaced(field))
         .filter(is_behind)
         .filter_map(dependence)
         .collect()

@@ -1,5 +1,6 @@
 //! The one table of fields, from which the form, the TOML keys, `--set` and the help are derived.
 
+mod derived;
 pub mod reasons;
 mod table;
 
@@ -27,11 +28,18 @@ pub struct Field {
     pub absent: Absent,
     /// A text that shows how to write a value; empty where the default or a choice shows it.
     pub example: &'static str,
+    /// The key of the field that gives the same measure in another way; a case has one of them.
+    pub alternative: Option<&'static str>,
+    /// Its value, in SI, from other fields where the case leaves it out.
+    pub derived: Option<Derive>,
     /// Why it makes no difference in some cases, or less than expected; the first that fits counts.
     pub reasons: &'static [Reason],
     /// Whether a case reads it, where the inputs of the stages do not decide.
     pub read_when: Option<When>,
 }
+
+/// A value in SI that follows from the inputs; `None` where they are not enough.
+pub type Derive = fn(&Inputs) -> Option<f64>;
 
 /// What a field holds.
 #[derive(Debug, Clone, Copy)]
@@ -92,8 +100,8 @@ pub enum Absent {
     Default(&'static str),
     /// The model does without; a person reads these words instead of a value.
     Without(&'static str),
-    /// Exactly one of this key and the named one is given.
-    Either(&'static str),
+    /// Exactly one of this field and its alternative is given.
+    Either,
 }
 
 impl Field {
@@ -105,6 +113,12 @@ impl Field {
             Kind::Number(..) => self.example().split_once(' ').map_or("", |(_, unit)| unit),
             Kind::Text | Kind::Count(..) | Kind::Choice(..) => "",
         }
+    }
+
+    /// The place in [`FIELDS`] of its alternative, if it has one.
+    #[must_use]
+    pub fn partner(&self) -> Option<usize> {
+        self.alternative.and_then(index_of)
     }
 
     /// The table of the case file in which the field stands; empty for the top level.
@@ -146,12 +160,26 @@ impl Field {
         kind: Kind::Text,
         absent: Absent::Default(""),
         example: "",
+        alternative: None,
+        derived: None,
         reasons: &[],
         read_when: None,
     };
 
     const fn with_example(self, example: &'static str) -> Field {
         Field { example, ..self }
+    }
+
+    const fn instead_of(self, alternative: &'static str, derived: Derive) -> Field {
+        Field {
+            alternative: Some(alternative),
+            ..self.derived(derived)
+        }
+    }
+
+    const fn derived(self, derived: Derive) -> Field {
+        let derived = Some(derived);
+        Field { derived, ..self }
     }
 
     const fn reasons(self, reasons: &'static [Reason]) -> Field {

@@ -50,6 +50,8 @@ pub enum Dimension {
     Stiffness,
     /// Hz.
     Frequency,
+    /// 1/m.
+    DiametralPitch,
 }
 
 impl Dimension {

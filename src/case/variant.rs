@@ -1,6 +1,5 @@
 //! A variant of a case: named overrides of its fields, limits and distributions.
 
-use super::check::partner;
 use super::fields::{FIELDS, index_of};
 use super::sanitize::quoted;
 use super::{Case, Problem, suggest};
@@ -102,7 +101,7 @@ impl Case {
     pub fn with(&self, variant: &Variant) -> Case {
         let mut case = self.clone();
         for change in &variant.overrides {
-            if let Some(other) = index_of(&change.key).and_then(partner)
+            if let Some(other) = index_of(&change.key).and_then(|field| FIELDS[field].partner())
                 && !change.text.is_empty()
             {
                 case.write(other, "");

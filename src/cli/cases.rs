@@ -21,7 +21,8 @@ pub(super) struct Opened {
 impl Opened {
     /// Say why the model refuses the case, at the field where the fix begins.
     pub(super) fn refused(&self, refusal: &Refusal, streams: &mut Streams) -> Exit {
-        self.report_problem(refusal.into(), streams);
+        let problem = Problem::from(refusal).at_given(&self.document.case);
+        self.report_problem(problem, streams);
         Exit::BadCase
     }
 

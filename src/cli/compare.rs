@@ -95,7 +95,7 @@ fn column(
     };
     let found = match case.inputs() {
         Ok(inputs) => Report::solve(name.clone(), case.clone(), inputs, selection.clone())
-            .map_err(|refusal| Problem::from(&refusal)),
+            .map_err(|refusal| Problem::from(&refusal).at_given(&case)),
         Err(problems) => Err(problems.into_iter().next().unwrap_or_else(|| Problem {
             field: String::new(),
             cause: "the case is not valid".to_owned(),

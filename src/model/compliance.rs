@@ -56,7 +56,7 @@ impl ElasticGear {
             // The rounding of the tip moves the load, not the stiffness of the tooth.
             shape: GearShape {
                 tip_radius: None,
-                ..gear.shape()
+                ..gear.shape(inputs.module)
             },
             bore_radius: gear.bore_radius,
             young: gear.young,

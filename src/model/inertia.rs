@@ -49,7 +49,8 @@ impl Inputs {
             match (self.inertia_taken(), gear.inertia) {
                 (_, Some(given)) => Body::Given(given),
                 (InertiaModel::Outline, None) => {
-                    Body::Outline(blank, Rack::of(self, gear), gear.addendum)
+                    let addendum = gear.addendum_coefficient(self.module);
+                    Body::Outline(blank, Rack::of(self, gear), addendum)
                 }
                 (InertiaModel::BaseCircle, None) => Body::BaseCircle(blank),
             }

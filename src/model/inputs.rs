@@ -11,8 +11,12 @@ pub struct Gear {
     pub profile_shift: f64,
     /// Addendum coefficient h_a*, times the module.
     pub addendum: f64,
+    /// Tip diameter d_a before a chamfer, in m; it replaces the addendum coefficient.
+    pub tip_diameter: Option<f64>,
     /// Dedendum coefficient h_fP* of the cutting rack, times the module.
     pub dedendum: f64,
+    /// Root diameter d_f, in m; it replaces the dedendum coefficient.
+    pub root_diameter: Option<f64>,
     /// Face width b, in m.
     pub face_width: f64,
     /// Bore radius r_h, in m.
@@ -51,7 +55,9 @@ impl Default for Gear {
             teeth: 0,
             profile_shift: 0.0,
             addendum: 1.0,
+            tip_diameter: None,
             dedendum: 1.25,
+            root_diameter: None,
             face_width: 0.0,
             bore_radius: 0.0,
             young: 0.0,

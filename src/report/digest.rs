@@ -229,10 +229,20 @@ fn pair(case: &Case) -> String {
         (one, other) => format!("{one}/{other}"),
     };
     format!(
-        "{teeth}, m {}, α {}, b {width}",
-        text(case, "pair.module"),
+        "{teeth}, {}, α {}, b {width}",
+        size(case),
         text(case, "pair.pressure_angle")
     )
+}
+
+/// Module or diametral pitch, as the case gives it.
+fn size(case: &Case) -> String {
+    let pitch = text(case, "pair.diametral_pitch");
+    if pitch.is_empty() {
+        format!("m {}", text(case, "pair.module"))
+    } else {
+        format!("Pd {pitch}")
+    }
 }
 
 fn load(case: &Case) -> String {

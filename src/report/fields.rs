@@ -183,7 +183,7 @@ fn default(field: &Field) -> &'static str {
     match field.absent {
         Absent::Refused => "required",
         Absent::Default(text) | Absent::Without(text) => text,
-        Absent::Either(_) => "one of two",
+        Absent::Either => "one of two",
     }
 }
 

@@ -249,7 +249,7 @@ fn inputs(reports: &[&Report]) -> Vec<InputRow> {
     let rows = FIELDS.iter().enumerate().filter_map(|(at, field)| {
         let is_default = |case: &Case| match (case.value(at), defaults.value(at)) {
             (Some(own), Some(usual)) => own.total_cmp(&usual).is_eq(),
-            _ => case.effective(at) == defaults.effective(at),
+            _ => case.is_replaced(at) || case.effective(at) == defaults.effective(at),
         };
         let is_words = matches!(field.key, "title" | "notes");
         if is_words || reports.iter().all(|report| is_default(&report.case)) {

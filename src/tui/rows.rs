@@ -3,7 +3,7 @@
 use crate::case::fields::{Absent, Field, Kind, index_of};
 use crate::case::units::{self, System};
 use crate::case::{Case, FIELDS, Limit};
-use crate::model::Quantity;
+use crate::model::{Inputs, Quantity};
 use crate::tui::form_aids::{Measure, step_limit};
 
 /// What stands in a row.
@@ -181,20 +181,19 @@ pub fn lacks(case: &Case, at: usize) -> bool {
 /// The words for a required value that is missing.
 const REQUIRED: &str = "(required)";
 
-/// The words for an empty field: its default, or that a value is required.
-pub(crate) fn unwritten(case: &Case, field: usize) -> String {
-    match FIELDS[field].absent {
-        Absent::Default("") => String::new(),
-        Absent::Default(text) => format!("({text})"),
-        Absent::Without(text) => format!(
-            "({})",
-            case.computed(field).unwrap_or_else(|| text.to_owned())
-        ),
-        Absent::Refused => REQUIRED.to_owned(),
-        Absent::Either(other) => match index_of(other) {
-            Some(other) if case.text(other).is_some() => format!("(by {})", FIELDS[other].label),
-            Some(other) if other < field => format!("(or {})", FIELDS[other].label),
-            _ => REQUIRED.to_owned(),
-        },
+/// The words for an empty field: the value that follows from other fields, its default, or that a
+/// value is required.
+pub(crate) fn unwritten(case: &Case, inputs: &Inputs, field: usize) -> String {
+    let known = &FIELDS[field];
+    let is_derived = known.partner().is_none() || case.is_replaced(field);
+    if is_derived && let Some(value) = case.derived(field, inputs) {
+        return format!("({})", known.in_usual_unit(value));
+    }
+    match (known.absent, known.partner()) {
+        (Absent::Default(""), _) => String::new(),
+        (_, Some(other)) if case.text(other).is_some() => format!("(by {})", FIELDS[other].label),
+        (Absent::Default(text) | Absent::Without(text), _) => format!("({text})"),
+        (Absent::Either, Some(other)) if other < field => format!("(or {})", FIELDS[other].label),
+        (Absent::Refused | Absent::Either, _) => REQUIRED.to_owned(),
     }
 }

@@ -12,6 +12,7 @@ mod bad_files;
 mod case_files;
 mod commands;
 mod compare;
+mod drawing_sizes;
 mod explain;
 mod import_command;
 mod meaning;

@@ -9,7 +9,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use envelope::Random;
-use tipstrike::case::fields::{AUTO, Absent, FIELDS, Kind, Range, index_of};
+use tipstrike::case::fields::{AUTO, FIELDS, Kind, Range, index_of};
 use tipstrike::case::{Case, Document};
 use tipstrike::model::budget::{MOTION_WORK, SEARCH_TRIES, SEARCH_WORK};
 use tipstrike::model::compliance::tooth::field_gear;
@@ -98,9 +98,7 @@ fn move_field(case: &mut Case, field: usize, random: &mut Random) {
         }
     };
     case.write(field, &text);
-    if let Absent::Either(other) = known.absent
-        && let Some(other) = index_of(other)
-    {
+    if let Some(other) = known.partner() {
         case.write(other, "");
     }
 }

@@ -13,7 +13,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     // In the form, outside its fields.
     ("Esc", "Enter", "7", "module               7 mm"),
     ("Esc", "/", "", "Go to a field"),
-    ("Esc", "j", "", "α pressure angle,"),
+    ("Esc", "j", "", "Pd diametral pitch,"),
     ("Esc G", "k", "", "▸       accurate"),
     ("Esc", "l", "", "z1 driver number of teeth,"),
     ("Esc", "h", "", "title. A name"),
@@ -138,7 +138,7 @@ const ACTIONS: &[(&str, &str, &str, &str)] = &[
     ("", "Shift-Down", "", "4 mm"),
     ("", "Alt-Up", "", "module               15 mm"),
     ("Shift-Up Alt-Up", "Alt-Down", "", "module               6 mm"),
-    ("", "Down", "", "α pressure angle,"),
+    ("", "Down", "", "Pd diametral pitch,"),
     ("Down", "Up", "", "m module,"),
     ("", "PageDown", "", "z1 driver number of teeth,"),
     ("", "PageUp", "", "title. A name"),

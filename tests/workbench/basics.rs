@@ -195,7 +195,7 @@ fn a_field_takes_text_until_esc_leaves_it() {
         desk.shows("has unsaved edits"),
         "outside a field q quits, and asks"
     );
-    desk.keys(&["Esc", "jjj"]);
+    desk.keys(&["Esc", "jjjj"]);
     assert!(desk.shows("z1 driver number of teeth"), "j moves down");
     desk.keys(&["kk", "i", "Ctrl-U", "21 deg", "Esc", "u"]);
     assert!(
@@ -794,9 +794,9 @@ fn the_mouse_is_off_until_it_is_asked_for_and_then_points() {
     assert!(!Settings::default().mouse);
     desk.keys(&["Ctrl-P", "mouse", "Enter"]);
     assert!(desk.has_mouse && desk.kept.is_some_and(|kept| kept.mouse));
-    desk.act(Action::Click(Position::new(10, 7)));
+    desk.act(Action::Click(Position::new(10, 8)));
     assert!(!desk.app.has_line() && desk.shows("α pressure angle, "));
-    desk.act(Action::Click(Position::new(10, 7)));
+    desk.act(Action::Click(Position::new(10, 8)));
     assert!(desk.app.has_line() && desk.shows("α pressure angle, "));
     desk.act(Action::Click(Position::new(50, 10)));
     assert_eq!(desk.app.panes.focus, Pane::Results);

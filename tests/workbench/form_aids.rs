@@ -51,6 +51,32 @@ fn a_value_steps_inside_a_field_and_outside() {
 }
 
 #[test]
+fn of_two_ways_to_give_a_size_the_form_shows_the_given_one_and_the_other_value() {
+    let mut desk = Desk::new(LARGE);
+    assert!(line(&desk, "diametral pitch").contains("(5.08 1/in)"));
+    assert!(line(&desk, "tip diameter").contains("(110 mm)"));
+    assert!(line(&desk, "root diameter").contains("(87.5 mm)"));
+    desk.go_to("driver.tip_diameter").type_in("109");
+    assert_eq!(text(&desk, "driver.tip_diameter"), "109 mm");
+    assert_eq!(text(&desk, "driver.addendum"), "");
+    assert!(
+        line(&desk, "addendum").contains("(0.9)"),
+        "{}",
+        desk.screen()
+    );
+    assert!(desk.shows("addendum 1.0 replaced by the tip diameter"));
+    desk.go_to("pair.diametral_pitch").type_in("8");
+    assert_eq!(text(&desk, "pair.diametral_pitch"), "8 1/in");
+    assert!(
+        line(&desk, "module").contains("(3.175 mm)"),
+        "{}",
+        desk.screen()
+    );
+    desk.keys(&["Ctrl-U"]);
+    assert_eq!(text(&desk, "pair.module"), "5 mm");
+}
+
+#[test]
 fn a_step_where_there_is_none_says_so_and_changes_nothing() {
     let mut desk = Desk::new(SMALL);
     desk.go_to("model.deflection").keys(&["Ctrl-U"]);

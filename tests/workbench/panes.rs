@@ -209,7 +209,7 @@ fn values_have_their_units_beside_the_baseline_on_the_smallest_screen() {
 #[test]
 fn a_hint_beside_a_message_ends_with_a_sentence() {
     let mut desk = Desk::new(SMALL);
-    desk.keys(&["Down", "Ctrl-T"]);
+    desk.keys(&["Down", "Down", "Ctrl-T"]);
     let screen = desk.screen();
     let hint = screen
         .lines()

@@ -1,6 +1,7 @@
 //! What is wrong at one place of a case: the cause and the fix.
 
-use crate::case::fields::FIELDS;
+use crate::case::Case;
+use crate::case::fields::{FIELDS, index_of};
 use crate::case::sanitize::{quoted, sanitize};
 use crate::case::suggest;
 use crate::case::units::ParseError;
@@ -51,6 +52,19 @@ impl std::fmt::Display for Problem {
 }
 
 impl std::error::Error for Problem {}
+
+impl Problem {
+    /// The same problem at the alternative of its field, where the case gives that one.
+    #[must_use]
+    pub fn at_given(mut self, case: &Case) -> Problem {
+        let field = index_of(&self.field).filter(|&field| case.is_replaced(field));
+        let given = field.and_then(|field| FIELDS[field].partner());
+        if let Some(given) = given.filter(|&given| case.text(given).is_some()) {
+            FIELDS[given].key.clone_into(&mut self.field);
+        }
+        self
+    }
+}
 
 impl From<&Refusal> for Problem {
     fn from(refusal: &Refusal) -> Problem {

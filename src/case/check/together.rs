@@ -1,8 +1,8 @@
 //! Rules between the fields of a case.
 
+use super::circles;
 use super::problem::Problem;
 use crate::model::Inputs;
-use crate::model::inputs::Gear;
 
 /// The greatest ratio of tooth numbers, either way.
 const MOST_RATIO: f64 = 50.0;
@@ -17,54 +17,13 @@ pub fn misfit_between(inputs: &Inputs) -> Option<Problem> {
 /// sound.
 pub(super) fn together(inputs: &Inputs, sound: impl Fn(&[&str]) -> bool) -> Vec<Problem> {
     let mut found = Vec::new();
-    if sound(&[
-        "pair.module",
-        "driver.teeth",
-        "driver.profile_shift",
-        "driver.bore_radius",
-    ]) {
-        found.extend(bore_through_root(
-            "driver.bore_radius",
-            &inputs.driver,
-            inputs.module,
-        ));
-    }
-    if sound(&[
-        "pair.module",
-        "driven.teeth",
-        "driven.profile_shift",
-        "driven.bore_radius",
-    ]) {
-        found.extend(bore_through_root(
-            "driven.bore_radius",
-            &inputs.driven,
-            inputs.module,
-        ));
+    for circles in &circles::OF_GEARS {
+        found.extend(circles.misfits(inputs, &sound));
     }
     if sound(&["driver.teeth", "driven.teeth"]) {
         found.extend(ratio_beyond(inputs));
     }
     found
-}
-
-fn bore_through_root(field: &str, gear: &Gear, module: f64) -> Option<Problem> {
-    let root = module * (f64::from(gear.teeth) / 2.0 - gear.dedendum + gear.profile_shift);
-    (gear.bore_radius >= root).then(|| {
-        let (bore, root) = (rounded(gear.bore_radius), rounded(root));
-        let cause = format!(
-            "the bore radius {bore} mm is not below the root circle's {root} mm = m (z/2 - hf* + x)"
-        );
-        Problem::new(
-            field,
-            cause,
-            format!("write a radius (not a diameter) below {root} mm"),
-        )
-    })
-}
-
-/// A length in mm as a message shows it.
-fn rounded(metres: f64) -> f64 {
-    (metres * 1e7).round() / 1e4
 }
 
 fn ratio_beyond(inputs: &Inputs) -> Option<Problem> {

@@ -25,6 +25,12 @@ pub(super) const TIP_OF_DRIVER: &str = "the driver's tip leaves contact at B: at
 pub(super) const IN_TIME: &str = "only the method dynamic follows the motion in time";
 pub(super) const CURVE: &str = "changes only how closely the curve is sampled";
 
+/// Of the root of a gear.
+pub(super) const ROOT: [Reason; 1] = [Partly(
+    |inputs| !root_is_read(inputs),
+    "the tooth compliance does not read the root: only the stiffness spread changes, which tries the other models too",
+)];
+
 /// Of relief lengths and shapes.
 pub(super) const WHOLE_RELIEF: [Reason; 1] = [Idle(
     by_impact,
@@ -63,7 +69,7 @@ pub(super) fn is_wider(inputs: &Inputs, width: f64) -> bool {
 }
 
 /// Whether a compliance of the case reads the root of the teeth.
-pub(super) fn root_is_read(inputs: &Inputs) -> bool {
+fn root_is_read(inputs: &Inputs) -> bool {
     model_of(inputs).model().reads_root
         || contact_of(inputs).is_some_and(|contact| contact.model().reads_root)
 }

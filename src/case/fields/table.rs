@@ -47,11 +47,30 @@ const HEAD: &[Field] = &[
         0.05,
         50.0,
         "mm",
-        Refused,
+        Either,
         |inputs, value| inputs.module = value,
-        "Module of both gears."
+        "Module of both gears; give it or the diametral pitch."
     )
-    .with_example("5 mm"),
+    .with_example("5 mm")
+    .instead_of("pair.diametral_pitch", |inputs| {
+        (inputs.module > 0.0).then_some(inputs.module)
+    }),
+    number!(
+        "pair.diametral_pitch",
+        "Pd",
+        "diametral pitch",
+        DiametralPitch,
+        0.508,
+        508.0,
+        "1/in",
+        Either,
+        |inputs, value| inputs.module = 1.0 / value,
+        "Diametral pitch of both gears, the reciprocal of the module; give one of the two."
+    )
+    .with_example("8 1/in")
+    .instead_of("pair.module", |inputs| {
+        (inputs.module > 0.0).then(|| 1.0 / inputs.module)
+    }),
     number!(
         "pair.pressure_angle",
         "α",
@@ -115,10 +134,13 @@ const TAIL: &[Field] = &[
         1e-12,
         1e12,
         "W",
-        Either("operation.torque"),
+        Either,
         |inputs, value| inputs.drive = Drive::Power(value),
         "Power on the driver; give power or torque."
-    ).with_example("15 kW").reasons(&LOAD),
+    ).with_example("15 kW").instead_of("operation.torque", |inputs| {
+        let power = inputs.torque() * inputs.speed;
+        (inputs.speed > 0.0 && power > 0.0).then_some(power)
+    }).reasons(&LOAD),
     number!(
         "operation.torque",
         "T1",
@@ -127,10 +149,13 @@ const TAIL: &[Field] = &[
         1e-12,
         1e12,
         "N m",
-        Either("operation.power"),
+        Either,
         |inputs, value| inputs.drive = Drive::Torque(value),
         "Torque on the driver; give power or torque."
-    ).with_example("71.6 N m").reasons(&LOAD),
+    ).with_example("71.6 N m").instead_of("operation.power", |inputs| {
+        let torque = inputs.torque();
+        (inputs.speed > 0.0 && torque > 0.0).then_some(torque)
+    }).reasons(&LOAD),
     number!(
         "operation.speed",
         "n1",

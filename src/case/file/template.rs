@@ -194,7 +194,7 @@ fn unwritten(case: &Case, index: usize) -> String {
     let field = &FIELDS[index];
     let (name, assignment) = (field.name(), check::assignment(field));
     let example = assignment.split_once(" = ").map_or("", |(_, value)| value);
-    let other = check::partner(index);
+    let other = field.partner();
     if !case.lacks(index) || other.is_some_and(|other| other < index) {
         return format!("# {assignment}");
     }

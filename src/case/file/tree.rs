@@ -363,7 +363,7 @@ impl Reader {
 
 /// Whether an empty string is a value that is still missing.
 fn is_required(field: &Field) -> bool {
-    matches!(field.absent, Absent::Refused | Absent::Either(_))
+    matches!(field.absent, Absent::Refused | Absent::Either)
 }
 
 /// A table's keys and values in the order of the text.

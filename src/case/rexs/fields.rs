@@ -25,9 +25,9 @@ pub(super) fn read(model: &Model, stage: &Component, gears: [&Component; 2], val
         ),
     );
     for (keys, gear) in [(&DRIVER, &driver), (&DRIVEN, &driven)] {
-        let shift = body(values, keys, gear, module);
+        body(values, keys, gear, module);
         let base = angle.and_then(|angle| base_diameter(gear, module?, angle));
-        heights(values, keys, gear, module, shift);
+        heights(values, keys, gear);
         relief::read(model, keys, gear, base, values);
     }
     deviations(values, stage, [&driver, &driven]);
@@ -58,16 +58,11 @@ fn shared(
     }
 }
 
-/// Teeth, profile shift, sizes and material; returns the profile shift coefficient.
-fn body(values: &mut Values, keys: &Keys, gear: &Gear, module: Option<f64>) -> Option<f64> {
+/// Teeth, profile shift, sizes and material.
+fn body(values: &mut Values, keys: &Keys, gear: &Gear, module: Option<f64>) {
     let own = |wanted: Wanted| found(wanted.read(gear.component), &none(wanted.id));
     values.put(keys.teeth, own(TEETH));
-    let shift = profile_shift(gear, module);
-    let coefficient = shift
-        .as_ref()
-        .ok()
-        .and_then(|shift| Some(shift.as_ref()?.value));
-    match shift {
+    match profile_shift(gear, module) {
         Err(reason) => values.refusals.push(reason),
         shift => values.put(
             keys.profile_shift,
@@ -97,7 +92,6 @@ fn body(values: &mut Values, keys: &Keys, gear: &Gear, module: Option<f64>) -> O
     );
     let chamfer = gear.of_flanks(Wanted::length("tooth_tip_chamfer"));
     values.put(keys.tip_chamfer, found(chamfer, &none("tooth_tip_chamfer")));
-    coefficient
 }
 
 fn none(attribute: &str) -> String {
@@ -133,51 +127,31 @@ fn base_diameter(gear: &Gear, module: f64, angle: f64) -> Option<f64> {
     Some(module * teeth.value * angle.cos())
 }
 
-/// Addendum and dedendum from the tip and root diameters, else from the basic profile.
-fn heights(values: &mut Values, keys: &Keys, gear: &Gear, module: Option<f64>, shift: Option<f64>) {
-    let teeth = TEETH.read(gear.component).ok().flatten();
-    // A tip radius is m (z/2 + ha* + x), a root radius m (z/2 - hf* + x).
-    let coefficient = |id: &'static str, sign: f64| -> Result<Option<Reading>, String> {
-        let Some(diameter) = Wanted::length(id).read(gear.component)? else {
-            return Ok(None);
-        };
-        let (Some(module), Some(teeth)) = (module, teeth.as_ref()) else {
-            return Ok(None);
-        };
-        let over = diameter.value / module / 2.0 - teeth.value / 2.0;
-        let value = sign * (over - shift.unwrap_or(0.0));
-        // Diameters are printed to a micrometre or so; the digits beyond are noise.
-        let value = (value * 1e9).round() / 1e9;
-        Ok(Some(Reading {
-            text: units::text(value, ""),
-            value,
-            source: format!("{} = {}", diameter.source, diameter.text),
-        }))
-    };
-    let addendum = match coefficient("tip_diameter", 1.0) {
-        Ok(None) => gear.of_flanks(Wanted::number("addendum_coefficient_basic_profile")),
-        other => other,
-    };
-    values.put(
-        keys.addendum,
-        found(
-            addendum,
-            "the model gives neither tip_diameter nor the basic profile",
+/// Tip and root diameters, else addendum and dedendum of the basic profile.
+fn heights(values: &mut Values, keys: &Keys, gear: &Gear) {
+    let diameter = |id| Wanted::length(id).read(gear.component);
+    match diameter("tip_diameter") {
+        Ok(None) => values.put(
+            keys.addendum,
+            found(
+                gear.of_flanks(Wanted::number("addendum_coefficient_basic_profile")),
+                "the model gives neither tip_diameter nor the basic profile",
+            ),
         ),
-    );
-    // The addendum of the rack cuts the dedendum of the gear.
-    let dedendum = match coefficient("root_diameter", -1.0) {
-        Ok(None) => Wanted::number("addendum_coefficient_reference_profile")
-            .first(gear.racks.iter().copied()),
-        other => other,
-    };
-    values.put(
-        keys.dedendum,
-        found(
-            dedendum,
-            "the model gives neither root_diameter nor the rack",
+        given => values.put(keys.tip_diameter, found(given, &none("tip_diameter"))),
+    }
+    match diameter("root_diameter") {
+        // The addendum of the rack cuts the dedendum of the gear.
+        Ok(None) => values.put(
+            keys.dedendum,
+            found(
+                Wanted::number("addendum_coefficient_reference_profile")
+                    .first(gear.racks.iter().copied()),
+                "the model gives neither root_diameter nor the rack",
+            ),
         ),
-    );
+        given => values.put(keys.root_diameter, found(given, &none("root_diameter"))),
+    }
 }
 
 const PITCH_DEVIATIONS_OF_STAGE: [&str; 2] = [

@@ -84,7 +84,7 @@ pub(super) fn name_of(dimension: Dimension) -> &'static str {
 // digits.
 /// Every dimension but the bare number.
 #[rustfmt::skip]
-pub(super) static FAMILIES: [Family; 16] = [
+pub(super) static FAMILIES: [Family; 17] = [
     family(Dimension::Length, "a length", &[
         ten("mm", &[], -3),
         ten("um", &["micron", "microns"], -6),
@@ -199,5 +199,10 @@ pub(super) static FAMILIES: [Family; 16] = [
     family(Dimension::Frequency, "a frequency", &[
         ten("Hz", &[], 0),
         ten("kHz", &[], 3),
+    ]),
+    family(Dimension::DiametralPitch, "a diametral pitch", &[
+        times("1/in", &["/in", "1/inch", "in-1", "in^-1", "in⁻¹", "DP"], 39.37007874015748, -1.1189649382048822e-15),
+        ten("1/mm", &["/mm", "mm-1", "mm^-1", "mm⁻¹"], 3),
+        ten("1/m", &["/m", "m-1", "m^-1", "m⁻¹"], 0),
     ]),
 ];

@@ -36,7 +36,11 @@ pub fn circles<T: Real>(
     let shift: T = gear.profile_shift.into();
     let reference = module * T::count(gear.teeth) * half;
     let base = reference * alpha.sine_cosine().1;
-    let height = module * (shift + gear.addendum.into()) - gear.tip_chamfer.into();
+    let above_reference = |diameter: f64| <T as From<f64>>::from(diameter) * half - reference;
+    let height = gear
+        .tip_diameter
+        .map_or_else(|| module * (shift + gear.addendum.into()), above_reference)
+        - gear.tip_chamfer.into();
     let half_sine = (alpha * half).sine_cosine().0;
     let most_dedendum = std::f64::consts::FRAC_PI_4 / pressure_angle.tan();
     if gear.dedendum >= most_dedendum {
@@ -76,7 +80,10 @@ pub fn circles<T: Real>(
         tip,
         tip_curvature: centre_curvature + edge,
         edge,
-        root: reference + module * (shift - gear.dedendum.into()),
+        root: reference
+            + gear
+                .root_diameter
+                .map_or_else(|| module * (shift - gear.dedendum.into()), above_reference),
     })
 }
 

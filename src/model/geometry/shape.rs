@@ -26,8 +26,12 @@ pub struct GearShape {
     pub profile_shift: f64,
     /// Addendum coefficient h_a*.
     pub addendum: f64,
+    /// Tip diameter before the chamfer, in m, where it gives the coefficient.
+    pub tip_diameter: Option<f64>,
     /// Dedendum coefficient h_fP*.
     pub dedendum: f64,
+    /// Root diameter, in m, where it gives the coefficient.
+    pub root_diameter: Option<f64>,
     /// Radial tip chamfer, in m.
     pub tip_chamfer: f64,
     /// Radius of the rounding of the tip's edge, in m; a sharp tip has none.
@@ -35,14 +39,39 @@ pub struct GearShape {
 }
 
 impl Gear {
-    /// Shape of the gear.
+    /// Addendum coefficient h_a* = d_a/(2 m) − z/2 − x where the tip diameter is given, else the
+    /// given one; the module is in m.
     #[must_use]
-    pub fn shape(&self) -> GearShape {
+    pub fn addendum_coefficient(&self, module: f64) -> f64 {
+        self.tip_diameter.map_or(self.addendum, |diameter| {
+            self.height_of(diameter, module) - self.profile_shift
+        })
+    }
+
+    /// Dedendum coefficient h_fP* = z/2 + x − d_f/(2 m) where the root diameter is given, else the
+    /// given one; the module is in m.
+    #[must_use]
+    pub fn dedendum_coefficient(&self, module: f64) -> f64 {
+        self.root_diameter.map_or(self.dedendum, |diameter| {
+            self.profile_shift - self.height_of(diameter, module)
+        })
+    }
+
+    /// Height of a circle above the reference circle, times the module.
+    fn height_of(&self, diameter: f64, module: f64) -> f64 {
+        (diameter - module * f64::from(self.teeth)) / (2.0 * module)
+    }
+
+    /// Shape of the gear with a module in m.
+    #[must_use]
+    pub fn shape(&self, module: f64) -> GearShape {
         GearShape {
             teeth: self.teeth,
             profile_shift: self.profile_shift,
-            addendum: self.addendum,
-            dedendum: self.dedendum,
+            addendum: self.addendum_coefficient(module),
+            tip_diameter: self.tip_diameter,
+            dedendum: self.dedendum_coefficient(module),
+            root_diameter: self.root_diameter,
             tip_chamfer: self.tip_chamfer,
             tip_radius: self.tip_radius,
         }
@@ -54,7 +83,7 @@ impl Inputs {
     #[must_use]
     pub fn shape(&self) -> PairShape {
         let shape = |gear: &Gear| {
-            let shape = gear.shape();
+            let shape = gear.shape(self.module);
             let tip_radius = shape.tip_radius.filter(|_| self.method != Method::Paper);
             GearShape {
                 tip_radius,

@@ -32,7 +32,7 @@ impl Rack {
             pressure_angle: inputs.pressure_angle,
             teeth: gear.teeth,
             profile_shift: gear.profile_shift,
-            dedendum: gear.dedendum,
+            dedendum: gear.dedendum_coefficient(inputs.module),
         }
     }
 

@@ -7,7 +7,7 @@ use super::substitution::{Term, with_unit};
 use crate::case::fields::Kind;
 use crate::case::{Case, FIELDS, units};
 use crate::model::compliance::{contact_of, model_of};
-use crate::model::explanation::{Context, Formula, Step};
+use crate::model::explanation::{Context, Formula, Step, tidy};
 use crate::model::quantities::{spread_force, steps};
 use crate::model::stiffness_spread::StiffnessModels;
 use crate::model::{QUANTITIES, Quantity};
@@ -21,6 +21,9 @@ pub const STEP_UNITS: [(&str, f64); 5] = [
     ("Hz", 1.0),
     ("N s/m", 1.0),
 ];
+
+/// Digits of a field's value that follows from other fields.
+const DERIVED_DIGITS: usize = 6;
 
 /// A solved case with its texts.
 #[derive(Debug, Clone, Copy)]
@@ -108,7 +111,7 @@ impl Known<'_> {
                     .then(|| spread_force(inputs, &force.models))
                     .flatten()
             }
-            Source::Field(field) => self.case.value(field),
+            Source::Field(field) => self.field_value(field),
         };
         found
             .filter(|value| value.is_finite())
@@ -128,6 +131,12 @@ impl Known<'_> {
         })
     }
 
+    /// A field's value, given or from other fields.
+    fn field_value(&self, field: usize) -> Option<f64> {
+        let given = self.case.value(field);
+        given.or_else(|| self.case.derived(field, self.context.given))
+    }
+
     /// A field's value as the user wrote it, or in the field's usual unit where that text could be
     /// misread in a formula.
     fn field_text(&self, field: usize, value: f64) -> String {
@@ -136,7 +145,17 @@ impl Known<'_> {
             _ => "",
         };
         let written = self.case.effective(field).and_then(plainly_written);
-        written.unwrap_or_else(|| units::text(value, usual))
+        let is_written = self.case.effective(field).is_some();
+        written.unwrap_or_else(|| {
+            if is_written {
+                units::text(value, usual)
+            } else {
+                with_unit(
+                    &tidy(value / factor(usual).unwrap_or(1.0), DERIVED_DIGITS),
+                    usual,
+                )
+            }
+        })
     }
 }
 

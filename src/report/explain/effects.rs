@@ -5,7 +5,7 @@ use super::context::{Known, factor};
 use super::uncertainty::noise;
 use crate::case::FIELDS;
 use crate::case::dependencies::{Dependence, fields_of, value_of};
-use crate::case::fields::{Absent, index_of};
+use crate::case::fields::index_of;
 use crate::case::sanitize::sanitize;
 use crate::model::compliance::model_of;
 use crate::model::inputs::Method;
@@ -61,7 +61,7 @@ pub(super) fn of(quantity: &Quantity, known: &Known) -> Vec<Effect> {
     fields_of(quantity, known.case, &fixed, own)
         .into_iter()
         .filter_map(by_auto)
-        .filter_map(|dependence| effect(quantity, &dependence, known, own, noise))
+        .map(|dependence| effect(quantity, &dependence, known, own, noise))
         .collect()
 }
 
@@ -71,24 +71,21 @@ fn effect(
     known: &Known,
     own: Option<f64>,
     noise: f64,
-) -> Option<Effect> {
+) -> Effect {
     let (case, field) = (known.case, &FIELDS[dependence.field]);
     let text = case.effective(dependence.field).map(sanitize);
     let text = text.unwrap_or_default();
-    if text.is_empty() && matches!(field.absent, Absent::Either(_)) {
-        return None;
-    }
     let step = dependence.step.as_ref();
     let change = own
         .zip(step)
         .map(|(own, step)| change(quantity, own, step.value, noise));
-    Some(Effect {
+    Effect {
         key: field.key,
         symbol: field.symbol,
         text,
         step: step.map(|step| step.text.to_owned()).unwrap_or_default(),
         change: change.unwrap_or_default(),
-    })
+    }
 }
 
 /// A change of the value, relative or in the unit of the quantity.

@@ -1,14 +1,16 @@
 //! What a form says about a field beside its text: its usual unit, its range, its value in other
 //! units.
 
-use crate::case::Case;
-use crate::case::fields::{Absent, FIELDS, Field, Kind};
+use crate::case::fields::{Absent, Field, Kind};
 use crate::case::units::{self, System};
 use crate::model::explanation::tidy;
 use crate::numeric::decimal::significant;
 
 /// Significant digits of the ends of a range that is not printed as in the table of fields.
 const RANGE_DIGITS: usize = 3;
+
+/// Significant digits of a value that follows from other fields.
+const DIGITS: usize = 5;
 
 impl Field {
     /// What a typed text is in the field's usual unit, see [`units::converted`].
@@ -45,6 +47,14 @@ impl Field {
         )
     }
 
+    /// A value in SI in the field's usual unit, to the digits of a hint.
+    #[must_use]
+    pub fn in_usual_unit(&self, value: f64) -> String {
+        let unit = self.usual_unit();
+        let number = tidy(value / units::factor(unit).unwrap_or(1.0), DIGITS);
+        format!("{number} {unit}").trim_end().to_owned()
+    }
+
     /// The least and the greatest value as [`Field::range_text`] tells them, in inch units rounded.
     #[must_use]
     pub fn range_in(&self, system: System) -> String {
@@ -66,32 +76,10 @@ impl Field {
     }
 }
 
-impl Case {
-    /// The value that other fields give to a field that is left out: the base pitch deviation of a
-    /// gear by its grade, or the common one.
-    #[must_use]
-    pub fn computed(&self, field: usize) -> Option<String> {
-        const DIGITS: usize = 4;
-        let key = FIELDS[field].key;
-        let table = key.strip_suffix(".base_pitch")?;
-        let (inputs, _) = self.read();
-        let gear = match table {
-            "driver" => &inputs.driver,
-            "driven" => &inputs.driven,
-            _ => return None,
-        };
-        if gear.grade.is_some() && (gear.teeth == 0 || inputs.module <= 0.0) {
-            return None;
-        }
-        let (deviation, _) = inputs.base_pitch_of(gear);
-        Some(format!("{} um", tidy(deviation * 1e6, DIGITS)))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::fields::index_of;
+    use crate::case::fields::{FIELDS, index_of};
 
     fn field(key: &str) -> &'static Field {
         &FIELDS[index_of(key).unwrap()]

@@ -25,7 +25,8 @@ pub fn step_limit(text: &str, quantity: &str, by: i32) -> Option<String> {
 }
 
 impl Case {
-    /// What [`step`] makes of a field as it stands: of its text, else of its default.
+    /// What [`step`] makes of a field as it stands: of its text, else of its default; a field that its
+    /// alternative replaces has no step.
     #[must_use]
     pub fn stepped(&self, field: usize, by: i32) -> Option<String> {
         let default = if let Absent::Default(text) = FIELDS[field].absent {
@@ -33,6 +34,7 @@ impl Case {
         } else {
             None
         };
+        let default = default.filter(|_| !self.is_replaced(field));
         step(self.text(field).or(default)?, field, by)
     }
 }

@@ -309,7 +309,7 @@ fn draw_field(pane: &Form<'_>, index: usize, line: Rect, buffer: &mut Buffer) ->
 // By how much a value that is not edited is wider than its room.
 fn longer(pane: &Form<'_>, index: usize, room: u16) -> u16 {
     let shown = pane.case.text(index).map_or_else(
-        || rows::unwritten(pane.case, index),
+        || rows::unwritten(pane.case, pane.inputs, index),
         |text| ascii::printable(text).into_owned(),
     );
     let is_edited = pane.focus == index && pane.line.is_some() && pane.case.text(index).is_some();
@@ -333,7 +333,7 @@ fn draw_value(
     style: Style,
     buffer: &mut Buffer,
 ) -> Option<Position> {
-    let unwritten = rows::unwritten(pane.case, index);
+    let unwritten = rows::unwritten(pane.case, pane.inputs, index);
     let written = pane.case.text(index);
     let is_edited = pane.focus == index && pane.line.is_some();
     if is_edited && matches!(FIELDS[index].kind, Kind::Choice(..)) {

@@ -5,8 +5,8 @@ use std::borrow::Cow;
 use tui_input::InputRequest;
 
 use super::solve;
-use crate::case::fields::{Absent, Kind, index_of};
-use crate::case::{Case, FIELDS};
+use crate::case::fields::{Absent, Kind};
+use crate::case::{Case, FIELDS, Field};
 use crate::tui::actions::Effect;
 use crate::tui::app::App;
 use crate::tui::line::Line;
@@ -225,9 +225,7 @@ fn write(app: &mut App) -> Vec<Effect> {
         app.tab.before_edit(focus);
         rows::write(&mut app.tab.case, focus, &text);
     }
-    if let Some(Absent::Either(other)) = rows::field(&app.tab.case, focus).map(|field| field.absent)
-        && let Some(other) = index_of(other)
-    {
+    if let Some(other) = rows::field(&app.tab.case, focus).and_then(Field::partner) {
         take_turns(app, focus, other);
     }
     if is_other { checked(app) } else { Vec::new() }

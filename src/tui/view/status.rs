@@ -126,7 +126,7 @@ pub fn about(field: &Field, ascii: bool, units: System) -> String {
         Kind::Choice(names, _) => format!(", {}", names.join(" | ")),
     };
     let absent = match field.absent {
-        Absent::Default("") | Absent::Refused | Absent::Either(_) => String::new(),
+        Absent::Default("") | Absent::Refused | Absent::Either => String::new(),
         Absent::Default(_) => format!(" (else {})", field.default_in(units)),
         Absent::Without(_) => " (may be empty)".to_owned(),
     };

@@ -1,10 +1,10 @@
 //! The rows of one gear, which both gears have.
 
 use crate::case::fields::Absent::{Default, Refused, Without};
+use crate::case::fields::derived::{has_size, root_diameter, tip_diameter};
 use crate::case::fields::reasons::Reason::{Idle, Partly};
 use crate::case::fields::reasons::{
-    AT_RUN_OUT, MASS, TIP_OF_DRIVER, WHOLE_RELIEF, always, by_impact, is_driver, is_wider,
-    root_is_read,
+    AT_RUN_OUT, MASS, ROOT, TIP_OF_DRIVER, WHOLE_RELIEF, always, by_impact, is_driver, is_wider,
 };
 use crate::case::fields::{Field, Kind, Range};
 use crate::case::units::Dimension;
@@ -24,12 +24,25 @@ macro_rules! gear {
             number!(concat!(stringify!($gear), ".profile_shift"), concat!("x", $i), "profile shift", Number, -0.7, 1.2, "", Default("0"),
                 |inputs, value| inputs.$gear.profile_shift = value, "Profile shift coefficient, times the module."),
             number!(concat!(stringify!($gear), ".addendum"), concat!("ha*", $i), "addendum", Number, 0.1, 2.0, "", Default("1"),
-                |inputs, value| inputs.$gear.addendum = value, "Addendum coefficient, times the module: tip radius = m (z/2 + ha* + x).").reasons(&[Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER)]),
+                |inputs, value| (inputs.$gear.addendum, inputs.$gear.tip_diameter) = (value, None),
+                "Addendum coefficient, times the module: tip radius = m (z/2 + ha* + x).")
+                .instead_of(concat!(stringify!($gear), ".tip_diameter"), |inputs| has_size(inputs, &inputs.$gear).then(|| inputs.$gear.addendum_coefficient(inputs.module)))
+                .reasons(&[Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER)]),
+            number!(concat!(stringify!($gear), ".tip_diameter"), concat!("da", $i), "tip diameter", Length, 0.1, 100000.0, "mm", Without("from the addendum"),
+                |inputs, value| inputs.$gear.tip_diameter = Some(value), "Tip diameter without a chamfer, as a drawing gives it, in place of the addendum coefficient.")
+                .with_example("110 mm")
+                .instead_of(concat!(stringify!($gear), ".addendum"), |inputs| tip_diameter(inputs, &inputs.$gear))
+                .reasons(&[Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER)]),
             number!(concat!(stringify!($gear), ".dedendum"), concat!("hf*", $i), "dedendum", Number, 0.5, 2.0, "", Default("1.25"),
-                |inputs, value| inputs.$gear.dedendum = value, "Dedendum coefficient of the cutting rack, times the module: root radius = m (z/2 - hf* + x).").reasons(&[Partly(
-                |inputs| !root_is_read(inputs),
-                "the tooth compliance does not read the root: only the stiffness spread changes, which tries the other models too",
-            )]),
+                |inputs, value| (inputs.$gear.dedendum, inputs.$gear.root_diameter) = (value, None),
+                "Dedendum coefficient of the cutting rack, times the module: root radius = m (z/2 - hf* + x).")
+                .instead_of(concat!(stringify!($gear), ".root_diameter"), |inputs| has_size(inputs, &inputs.$gear).then(|| inputs.$gear.dedendum_coefficient(inputs.module)))
+                .reasons(&ROOT),
+            number!(concat!(stringify!($gear), ".root_diameter"), concat!("df", $i), "root diameter", Length, 0.1, 100000.0, "mm", Without("from the dedendum"),
+                |inputs, value| inputs.$gear.root_diameter = Some(value), "Root diameter that the cutting rack leaves, as a drawing gives it, in place of the dedendum coefficient.")
+                .with_example("87.5 mm")
+                .instead_of(concat!(stringify!($gear), ".dedendum"), |inputs| root_diameter(inputs, &inputs.$gear))
+                .reasons(&ROOT),
             number!(concat!(stringify!($gear), ".face_width"), concat!("b", $i), "face width", Length, 0.1, 1000.0, "mm", Refused,
                 |inputs, value| inputs.$gear.face_width = value, "Face width; the smaller of the two carries the contact.").with_example("8 mm").reasons(&[Partly(
                 |inputs| is_wider(inputs, inputs.$gear.face_width),
@@ -75,7 +88,9 @@ macro_rules! gear {
                 Partly(|inputs| is_driver($i) && by_impact(inputs), TIP_OF_DRIVER),
             ]),
             number!(concat!(stringify!($gear), ".base_pitch"), concat!("f_pb", $i), "own pitch deviation", Length, -5000.0, 5000.0, "um", Without("common f_pb"),
-                |inputs, value| inputs.$gear.base_pitch = Some(value), "Base pitch deviation of this gear; else by its grade, or deviations.base_pitch.").with_example("12 um"),
+                |inputs, value| inputs.$gear.base_pitch = Some(value), "Base pitch deviation of this gear; else by its grade, or deviations.base_pitch.")
+                .with_example("12 um")
+                .derived(|inputs| (inputs.$gear.grade.is_none() || has_size(inputs, &inputs.$gear)).then(|| inputs.base_pitch_of(&inputs.$gear).0)),
             Field {
                 key: concat!(stringify!($gear), ".grade"),
                 symbol: concat!("A", $i),

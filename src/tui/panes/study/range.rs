@@ -57,6 +57,12 @@ fn worded(field: &Field, cause: &str) -> String {
     format!("{}: {cause}.", field.full_label())
 }
 
+/// The number of a field in SI, given or from other fields.
+fn number(case: &Case, field: usize) -> Option<f64> {
+    case.value(field)
+        .or_else(|| case.derived(field, &case.read().0))
+}
+
 /// The present value in SI: as written, else the default or an example.
 fn value(case: &Case, field: usize) -> f64 {
     let known = &FIELDS[field];
@@ -66,7 +72,7 @@ fn value(case: &Case, field: usize) -> f64 {
         }
         _ => known.example().parse().ok(),
     };
-    case.value(field).or_else(example).unwrap_or(0.0)
+    number(case, field).or_else(example).unwrap_or(0.0)
 }
 
 fn number_range(case: &Case, field: usize, zoom: i32) -> AxisRange {
@@ -121,7 +127,7 @@ fn around_zero(case: &Case, field: usize) -> f64 {
     let module = FIELDS
         .iter()
         .position(|field| field.key == "pair.module")
-        .and_then(|module| case.value(module));
+        .and_then(|module| number(case, module));
     match FIELDS[field].kind {
         Kind::Number(_, range, _) if range.unit == "um" => {
             module.map_or(limits, |module| REACH_OF_MODULE * module)
@@ -170,7 +176,7 @@ pub fn nearest(axis: &Axis, case: &Case) -> Option<usize> {
 #[must_use]
 pub fn present(axis: &Axis, case: &Case) -> Option<f64> {
     let factor = units::factor(&axis.unit).unwrap_or(1.0);
-    Some(case.value(axis.field)? / factor)
+    Some(number(case, axis.field)? / factor)
 }
 
 #[cfg(test)]

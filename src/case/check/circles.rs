@@ -1,0 +1,148 @@
+//! The circles of a gear must fit each other: tip and root diameters the coefficients of a rack, the
+//! bore the root.
+
+use super::problem::Problem;
+use super::value::field_range;
+use crate::case::fields::index_of;
+use crate::model::Inputs;
+use crate::model::inputs::Gear;
+use crate::numeric::decimal::significant;
+
+/// Digits of a coefficient in a message.
+const COEFFICIENT_DIGITS: usize = 4;
+
+/// The keys of the fields that decide the circles of one gear.
+pub(super) struct CircleFields {
+    gear: fn(&Inputs) -> &Gear,
+    bore_radius: &'static str,
+    dedendum: &'static str,
+    /// Those on which the reference circle depends.
+    reference: &'static [&'static str],
+    heights: [Height; 2],
+}
+
+/// A diameter that replaces a coefficient of the rack.
+struct Height {
+    diameter_key: &'static str,
+    coefficient_key: &'static str,
+    name: &'static str,
+    diameter: fn(&Gear) -> Option<f64>,
+    /// The coefficient for a module in m.
+    coefficient: fn(&Gear, f64) -> f64,
+    /// 1 where the diameter grows with the coefficient, -1 where it shrinks.
+    sign: f64,
+}
+
+macro_rules! circle_fields {
+    ($gear:ident) => {
+        CircleFields {
+            gear: |inputs| &inputs.$gear,
+            bore_radius: concat!(stringify!($gear), ".bore_radius"),
+            dedendum: concat!(stringify!($gear), ".dedendum"),
+            reference: &[
+                "pair.module",
+                "pair.diametral_pitch",
+                concat!(stringify!($gear), ".teeth"),
+                concat!(stringify!($gear), ".profile_shift"),
+            ],
+            heights: [
+                Height {
+                    diameter_key: concat!(stringify!($gear), ".tip_diameter"),
+                    coefficient_key: concat!(stringify!($gear), ".addendum"),
+                    name: "addendum",
+                    diameter: |gear| gear.tip_diameter,
+                    coefficient: Gear::addendum_coefficient,
+                    sign: 1.0,
+                },
+                Height {
+                    diameter_key: concat!(stringify!($gear), ".root_diameter"),
+                    coefficient_key: concat!(stringify!($gear), ".dedendum"),
+                    name: "dedendum",
+                    diameter: |gear| gear.root_diameter,
+                    coefficient: Gear::dedendum_coefficient,
+                    sign: -1.0,
+                },
+            ],
+        }
+    };
+}
+
+/// The circles of driver and driven gear.
+pub(super) static OF_GEARS: [CircleFields; 2] = [circle_fields!(driver), circle_fields!(driven)];
+
+impl CircleFields {
+    /// What is wrong with the circles, as far as the fields are sound.
+    pub(super) fn misfits(
+        &self,
+        inputs: &Inputs,
+        sound: &impl Fn(&[&str]) -> bool,
+    ) -> Vec<Problem> {
+        if !sound(self.reference) {
+            return Vec::new();
+        }
+        let gear = (self.gear)(inputs);
+        let heights = self.heights.iter();
+        let mut found: Vec<Problem> = heights
+            .filter(|height| sound(&[height.diameter_key]))
+            .filter_map(|height| height.outside_range(gear, inputs.module))
+            .collect();
+        let [_, root] = &self.heights;
+        let is_root_sound = found
+            .iter()
+            .all(|problem| problem.field != root.diameter_key);
+        if is_root_sound && sound(&[self.bore_radius, self.dedendum, root.diameter_key]) {
+            found.extend(bore_through_root(self.bore_radius, gear, inputs.module));
+        }
+        found
+    }
+}
+
+impl Height {
+    /// A diameter whose coefficient is outside the range of the field that it replaces.
+    fn outside_range(&self, gear: &Gear, module: f64) -> Option<Problem> {
+        /// The diameter at an end of the range has the end as its coefficient up to rounding.
+        const SLACK: f64 = 1e-9;
+        let diameter = (self.diameter)(gear)?;
+        let coefficient = (self.coefficient)(gear, module);
+        let (from, to) = field_range(index_of(self.coefficient_key)?);
+        let (side, limit) = if coefficient < from - SLACK {
+            ("below", from)
+        } else if coefficient > to + SLACK {
+            ("above", to)
+        } else {
+            return None;
+        };
+        let cause = format!(
+            "{} mm gives the {} coefficient {}, {side} the limit of {limit}",
+            in_mm(diameter),
+            self.name,
+            significant(coefficient, COEFFICIENT_DIGITS),
+        );
+        let shifted = f64::from(gear.teeth) + 2.0 * gear.profile_shift;
+        let at = |coefficient: f64| in_mm(module * (shifted + 2.0 * self.sign * coefficient));
+        let (least, most) = (at(from).min(at(to)), at(from).max(at(to)));
+        let fix = format!("write a diameter from {least} to {most} mm");
+        Some(Problem::new(self.diameter_key, cause, fix))
+    }
+}
+
+fn bore_through_root(field: &str, gear: &Gear, module: f64) -> Option<Problem> {
+    let dedendum = gear.dedendum_coefficient(module);
+    let root = module * (f64::from(gear.teeth) / 2.0 - dedendum + gear.profile_shift);
+    (gear.bore_radius >= root).then(|| {
+        let (bore, root) = (in_mm(gear.bore_radius), in_mm(root));
+        let cause = format!(
+            "the bore radius {bore} mm is not below the root circle's {root} mm = m (z/2 - hf* + x)"
+        );
+        Problem::new(
+            field,
+            cause,
+            format!("write a radius (not a diameter) below {root} mm"),
+        )
+    })
+}
+
+/// A length in mm as a message shows it.
+fn in_mm(metres: f64) -> f64 {
+    (metres * 1e7).round() / 1e4
+}

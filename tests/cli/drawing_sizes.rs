@@ -1,0 +1,235 @@
+//! Sizes as drawings give them: diametral pitch, tip and root diameters in place of module,
+//! addendum and dedendum coefficients.
+use std::fs;
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+use tipstrike::case::{Case, Document, FIELDS, fields::index_of};
+
+const TABLE_1: &str = include_str!("../../cases/zhou-chen-2014.toml");
+
+/// Table 1 with a diametral pitch of 8 and the circles of standard teeth of this size.
+fn drawing() -> String {
+    let text = TABLE_1
+        .replace("module = \"5 mm\"", "diametral_pitch = \"8 1/in\"")
+        .replace("bore_radius = \"20 mm\"", "bore_radius = \"0.5 in\"");
+    let diameters = "tip_diameter = \"2.75 in\"\nroot_diameter = \"2.1875 in\"\n";
+    text.replace("addendum = 1.0\n", diameters)
+}
+
+fn run(case: &str, arguments: &[&str]) -> Output {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("case.toml"), case).unwrap();
+    Command::new(env!("CARGO_BIN_EXE_tipstrike"))
+        .args(arguments)
+        .current_dir(folder.path())
+        .stdin(Stdio::null())
+        .output()
+        .unwrap()
+}
+
+fn stdout(case: &str, arguments: &[&str]) -> String {
+    let output = run(case, arguments);
+    let problem = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(problem, "", "{arguments:?}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn refusal(case: &str, arguments: &[&str]) -> String {
+    let output = run(case, arguments);
+    assert_ne!(output.status.code(), Some(0));
+    String::from_utf8(output.stderr).unwrap()
+}
+
+fn quantities(json: &str) -> Value {
+    serde_json::from_str::<Value>(json).unwrap()["quantities"].take()
+}
+
+#[test]
+fn a_case_from_a_drawing_has_the_results_of_its_coefficients() {
+    let coefficients = TABLE_1
+        .replace("module = \"5 mm\"", "module = \"0.125 in\"")
+        .replace("bore_radius = \"20 mm\"", "bore_radius = \"0.5 in\"");
+    for method in ["paper", "exact", "static"] {
+        let solve = ["solve", "case.toml", "--format", "json", "--method", method];
+        let [own, expected] =
+            [&drawing(), &coefficients].map(|case| quantities(&stdout(case, &solve)));
+        let expected = expected.as_object().unwrap();
+        assert_eq!(own.as_object().unwrap().len(), expected.len());
+        for (key, quantity) in expected {
+            let (own, expected) = (&own[key]["value"], &quantity["value"]);
+            let Some(number) = expected.as_f64() else {
+                assert_eq!(own, expected, "{key}");
+                continue;
+            };
+            let off = (own.as_f64().unwrap() - number).abs();
+            assert!(
+                off <= 1e-9 * number.abs(),
+                "{method}, {key}: {own}, not {number}"
+            );
+        }
+    }
+}
+
+#[test]
+fn both_ways_to_give_one_size_are_refused_at_the_second() {
+    let both = TABLE_1.replace("[driver]\n", "[driver]\ntip_diameter = \"110 mm\"\n");
+    let message = refusal(&both, &["solve", "case.toml"]);
+    let expected = "driver.tip_diameter: driver.addendum and driver.tip_diameter are both given: \
+                    remove one of them";
+    assert!(message.contains(expected), "{message}");
+    let both = TABLE_1.replace("[pair]\n", "[pair]\ndiametral_pitch = \"8 1/in\"\n");
+    let message = refusal(&both, &["solve", "case.toml"]);
+    assert!(
+        message.contains("pair.module and pair.diametral_pitch are both given: remove one"),
+        "{message}"
+    );
+    let neither = TABLE_1.replace("module = \"5 mm\"\n", "");
+    let message = refusal(&neither, &["solve", "case.toml"]);
+    assert!(
+        message.contains("neither pair.module nor pair.diametral_pitch is given"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_diameter_beyond_the_range_of_its_coefficient_is_refused_with_the_range() {
+    for (key, diameter, message) in [
+        (
+            "driver.tip_diameter",
+            "130 mm",
+            "130 mm gives the addendum coefficient 3.000, above the limit of 2: \
+             write a diameter from 101 to 120 mm",
+        ),
+        (
+            "driven.root_diameter",
+            "99 mm",
+            "99 mm gives the dedendum coefficient 0.1000, below the limit of 0.5: \
+             write a diameter from 80 to 95 mm",
+        ),
+        (
+            "driver.root_diameter",
+            "3 in",
+            "gives the dedendum coefficient",
+        ),
+    ] {
+        let set = format!("{key}={diameter}");
+        let found = refusal(TABLE_1, &["solve", "case.toml", "--set", &set]);
+        assert!(found.contains(key) && found.contains(message), "{found}");
+    }
+    let sweep = [
+        "sweep",
+        "case.toml",
+        "--vary",
+        "driven.tip_diameter=110,130 mm",
+    ];
+    let output = run(
+        TABLE_1,
+        &[&sweep[..], &["--only", "contact_ratio"]].concat(),
+    );
+    let rows = String::from_utf8(output.stdout).unwrap();
+    let last = rows.lines().last().unwrap();
+    assert!(
+        last.starts_with("130,") && last.contains("refused"),
+        "{rows}"
+    );
+}
+
+#[test]
+fn a_setting_replaces_its_alternative_and_a_sweep_varies_it() {
+    let ratio = ["--only", "contact_ratio", "--format", "json"];
+    let with = |set: &str| {
+        let json = stdout(
+            TABLE_1,
+            &[&["solve", "case.toml", "--set", set], &ratio[..]].concat(),
+        );
+        quantities(&json)["contact_ratio"]["value"]
+            .as_f64()
+            .unwrap()
+    };
+    assert!((with("driven.tip_diameter=109 mm") - with("driven.addendum=0.9")).abs() < 1e-12);
+    let sweep = [
+        "sweep",
+        "case.toml",
+        "--vary",
+        "driven.tip_diameter=109..110 mm",
+    ];
+    let rows = stdout(
+        TABLE_1,
+        &[&sweep[..], &["--points", "2", "--only", "contact_ratio"]].concat(),
+    );
+    let values: Vec<f64> = rows
+        .lines()
+        .skip(1)
+        .map(|row| row.split(',').nth(1).unwrap().parse().unwrap())
+        .collect();
+    assert!(
+        (values[0] - with("driven.addendum=0.9")).abs() < 1e-12,
+        "{rows}"
+    );
+    let message = refusal(
+        TABLE_1,
+        &[
+            "sweep",
+            "case.toml",
+            "--vary",
+            "pair.module=4..5 mm",
+            "--set",
+            "pair.diametral_pitch=8 1/in",
+        ],
+    );
+    assert!(message.contains("--vary replaces this value"), "{message}");
+}
+
+#[test]
+fn saving_keeps_the_size_that_the_user_wrote() {
+    let mut document = Document::parse("case.toml", &drawing()).unwrap();
+    document.case.set("driver.teeth", "20").unwrap();
+    assert_eq!(document.render(), drawing());
+    document.case.set("driver.addendum", "0.9").unwrap();
+    let text = document.render();
+    assert_eq!(text.matches("tip_diameter").count(), 1, "{text}");
+    let read = Document::parse("case.toml", &text).unwrap().case;
+    assert_eq!(read, document.case);
+}
+
+#[test]
+fn the_page_of_a_quantity_shows_the_coefficient_that_a_diameter_gives() {
+    let page = stdout(&drawing(), &["explain", "contact_ratio", "case.toml"]);
+    assert!(
+        page.contains("driver.tip_diameter") && page.contains("2.75 in"),
+        "{page}"
+    );
+    assert!(!page.contains("driver.addendum "), "{page}");
+    assert!(page.contains("3.175 mm"), "{page}");
+}
+
+#[test]
+fn a_value_follows_from_each_alternative() {
+    let case = Document::parse("case.toml", &drawing()).unwrap().case;
+    let inputs = case.inputs().unwrap();
+    let derived = |key: &str| case.derived(index_of(key).unwrap(), &inputs);
+    for (key, expected) in [
+        ("pair.module", 3.175e-3),
+        ("driver.addendum", 1.0),
+        ("driven.dedendum", 1.25),
+    ] {
+        let found = derived(key).unwrap();
+        assert!((found / expected - 1.0).abs() < 1e-12, "{key}: {found}");
+    }
+    assert_eq!(derived("pair.diametral_pitch"), None, "it is given");
+    let table_1 = Case::table_1();
+    let inputs = table_1.inputs().unwrap();
+    for (key, expected) in [
+        ("pair.diametral_pitch", 200.0),
+        ("driver.tip_diameter", 0.11),
+        ("driven.root_diameter", 0.0875),
+    ] {
+        let found = table_1.derived(index_of(key).unwrap(), &inputs).unwrap();
+        assert!((found / expected - 1.0).abs() < 1e-12, "{key}: {found}");
+    }
+    for field in &FIELDS {
+        let other = field.partner().map(|other| &FIELDS[other]);
+        assert!(other.is_none_or(|other| other.alternative == Some(field.key)));
+    }
+}
