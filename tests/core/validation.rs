@@ -18,14 +18,14 @@ use sources::SOURCES;
 
 const HEAD: &str = "# Validation
 
-Nothing on this page is a measurement, and nothing in tipstrike is compared with one. No published
-measurement with all its inputs could be read in full; tooth forces of NASA's gear noise rig and the
-dynamic transmission errors of Kubur and Kahraman are the ones to get.
+Nothing on this page is a measurement, and nothing in tipstrike is compared with one. We found
+no published measurement with all its inputs. The tooth forces of NASA's gear noise rig and the
+dynamic transmission errors of Kubur and Kahraman are candidates for a later comparison.
 
-This page compares tipstrike with figures of other programs and of standards. Such a figure is a
-model too: agreement shows that two models agree. Misses stay on the page. The cases are in
-`tests/validation/`; `TIPSTRIKE_REGENERATE=1 cargo test --test core validation::` writes the page
-again, and the same test without the variable checks it.
+This page compares tipstrike with figures of other programs and of standards. These
+figures are model results too, so agreement only shows that two models agree. The page also lists
+disagreements. The cases are in `tests/validation/`. `TIPSTRIKE_REGENERATE=1 cargo test --test core
+validation::` writes the page again, and the same test without the variable checks it.
 ";
 
 /// A program or standard with published figures.

@@ -97,7 +97,7 @@ impl Table {
         Table(
             QUANTITIES
                 .iter()
-                .flat_map(|(symbol, _)| [line(symbol, "naive"), line(symbol, "ours")])
+                .flat_map(|(symbol, _)| [line(symbol, "naive"), line(symbol, "tipstrike")])
                 .collect(),
         )
     }
@@ -142,7 +142,7 @@ impl Table {
                 .expect("a line");
             line.cells[column].expect("rows").median.max(ROUNDING)
         };
-        (of("naive"), of("ours"))
+        (of("naive"), of("tipstrike"))
     }
 
     /// Whether each cell is of the same order of magnitude.

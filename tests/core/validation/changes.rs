@@ -73,7 +73,7 @@ pub(super) fn section() -> String {
     let mut text = "\n## What inertia, elastic field and coupling change\n\nMethod `dynamic`: first contact \
         before E in degrees of the driver, peak force before E and overall in N, and required \
         additional tip relief in um. `base-circle` is the disc of Eq. 47, `outline` the true inertia. \
-        `kuang-yang` and `beam` take neighbouring teeth as independent springs; \
+        `kuang-yang` and `beam` model neighbouring teeth as independent springs; \
         `finite-element` couples them. The rows without coupling are the same elastic field with \
         independent springs.\n"
         .to_owned();
@@ -114,13 +114,13 @@ fn pair(name: &str, file: &str) -> String {
     let [_, [_, beam], [_, alone], [disc, whole]] = &found;
     let changes = [
         (
-            "true inertia for the disc of Eq. 47, with finite-element",
+            "true inertia instead of the disc of Eq. 47, with finite-element",
             disc,
             whole,
         ),
-        ("elastic field for the beam, without coupling", beam, alone),
+        ("elastic field instead of the beam, without coupling", beam, alone),
         (
-            "coupling for independent springs, with finite-element",
+            "coupling instead of independent springs, with finite-element",
             alone,
             whole,
         ),

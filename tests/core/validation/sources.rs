@@ -138,10 +138,10 @@ fn degrees(inputs: &Inputs, key: &str) -> Option<f64> {
 }
 
 const SUM_OF_ENERGY: &str = "partly. The source uses the potential-energy method as well, with \
-    another fillet, another foundation and a contact stiffness of its own that no load enters.";
-const LIGHT: &str = "partly. The pair, its damping and the load are the same; stiffness, inertia and \
-    the share of a tooth in the load are the source's own, and its gears have no contact outside the \
-    line of action. Near a resonance a small difference in stiffness moves the factor much.";
+    another fillet, another foundation and its own contact stiffness, which does not depend on load.";
+const LIGHT: &str = "partly. The pair, its damping and the load are the same. The source computes \
+    stiffness, inertia and load share with its own models, and without contact outside the line of \
+    action. Near a resonance a small difference in stiffness changes the factor strongly.";
 
 macro_rules! light {
     ($speed:literal, $published:literal, $fair:expr) => {
@@ -291,9 +291,9 @@ pub(super) const SOURCES: &[Source] = &[
                 published: 1.02,
                 ours: dynamic_factor,
                 by_model: true,
-                fair: "no. K_V is of the whole mesh by an empirical rule, with pitch deviations; \
-                    tipstrike's is the peak force of one tooth in motion over that at rest, without \
-                    deviations.",
+                fair: "no. K_V applies to the whole mesh, follows an empirical rule and includes \
+                    pitch deviations. The factor of tipstrike is the peak force of one tooth in \
+                    motion divided by its peak force at rest, without deviations.",
             },
             Figure {
                 name: "dynamic factor K_V in resonance",
@@ -315,8 +315,8 @@ pub(super) const SOURCES: &[Source] = &[
             published: 12.86,
             ours: single_stiffness,
             by_model: true,
-            fair: "partly. The example is helical, and c' is a fit to measured stiffness that leaves \
-                the twist of the body out; the models here include it, except finite-element.",
+            fair: "partly. The example is helical, and c' is a fit to measured stiffness without \
+                the twist of the body. `beam` and `finite-element` also exclude the twist.",
         }],
     },
     Source {
@@ -401,7 +401,7 @@ pub(super) fn iso_table() -> String {
     let names: Vec<&str> = ToothCompliance::ALL.map(ToothCompliance::name).into();
     let mut text = format!(
         "\n## ISO 6336-1, method B\n\nSource: ISO 6336-1, c' at 300 N/mm, in N/(um mm). Each gear is \
-         bored to a third of its root radius; ours is the single pair at the pitch point with the \
+         bored to a third of its root radius; the columns give the single pair at the pitch point with the \
          logarithmic contact compliance.\n\n| pair | ISO 6336-1 c' | {} |\n|---|---|{}\n",
         names.join(" | "),
         "---|".repeat(names.len())
@@ -425,5 +425,5 @@ pub(super) fn iso_table() -> String {
         .unwrap();
     }
     text + "\nIs it fair? Partly: c' is a fit to measured stiffness with the factor 0.8 for the \
-        difference between theory and measurement, and it leaves the twist of the body out.\n"
+        difference between theory and measurement, and does not include the twist of the body.\n"
 }
