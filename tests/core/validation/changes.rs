@@ -118,7 +118,11 @@ fn pair(name: &str, file: &str) -> String {
             disc,
             whole,
         ),
-        ("elastic field instead of the beam, without coupling", beam, alone),
+        (
+            "elastic field instead of the beam, without coupling",
+            beam,
+            alone,
+        ),
         (
             "coupling instead of independent springs, with finite-element",
             alone,
