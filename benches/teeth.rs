@@ -8,9 +8,9 @@ use ratatui::layout::Rect;
 use ratatui::symbols::Marker;
 use tipstrike::case::Case;
 use tipstrike::model::{Stages, solve};
-use tipstrike::tui::panes::teeth::zoom::{Centre, TeethView};
-use tipstrike::tui::panes::teeth::{self, Picture};
-use tipstrike::tui::theme::Look;
+use tipstrike::tui::testing::teeth::{self, Picture};
+use tipstrike::tui::testing::teeth::{Centre, TeethView};
+use tipstrike::tui::testing::theme::Look;
 
 fn pictures(criterion: &mut Criterion) {
     let inputs = Case::table_1()

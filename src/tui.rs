@@ -5,59 +5,32 @@
 //! worker's answers come through one channel; the loop takes what has come, changes the state,
 //! draws once and sleeps.
 
-// Public for the tests of the screens, which are programs of their own.
-#[doc(hidden)]
-pub mod actions;
-#[doc(hidden)]
-pub mod app;
-#[doc(hidden)]
-pub mod ascii;
-#[doc(hidden)]
-pub mod benchmark;
-#[doc(hidden)]
-pub mod commands;
-#[doc(hidden)]
-pub mod dialogs;
-#[doc(hidden)]
-pub mod effects;
-#[doc(hidden)]
-pub mod events;
-#[doc(hidden)]
-pub mod form_aids;
-#[doc(hidden)]
-pub mod help;
-#[doc(hidden)]
-pub mod jobs;
-#[doc(hidden)]
-pub mod layout;
-#[doc(hidden)]
-pub mod pane;
-#[doc(hidden)]
-pub mod panes;
-#[doc(hidden)]
-pub mod rows;
-#[doc(hidden)]
-pub mod session;
-#[doc(hidden)]
-pub mod settings;
-#[doc(hidden)]
-pub mod solver;
-#[doc(hidden)]
-pub mod store;
-#[doc(hidden)]
-pub mod study;
-#[doc(hidden)]
-pub mod tab;
-#[doc(hidden)]
-pub mod theme;
-#[doc(hidden)]
-pub mod update;
-#[doc(hidden)]
-pub mod variants;
-#[doc(hidden)]
-pub mod view;
-#[doc(hidden)]
-pub mod worker;
+mod actions;
+mod app;
+mod ascii;
+mod benchmark;
+mod commands;
+mod dialogs;
+mod effects;
+mod events;
+mod form_aids;
+mod help;
+mod jobs;
+mod layout;
+mod pane;
+mod panes;
+mod rows;
+mod session;
+mod settings;
+mod solver;
+mod store;
+mod study;
+mod tab;
+mod theme;
+mod update;
+mod variants;
+mod view;
+mod worker;
 
 mod baseline;
 mod capped_backend;
@@ -71,6 +44,8 @@ mod keys;
 mod line;
 mod scale;
 mod terminal;
+#[doc(hidden)]
+pub mod testing;
 mod text;
 mod workbench;
 

@@ -97,6 +97,7 @@ pub enum Effect {
     Adopt(PathBuf),
     /// The edits of this journal are not wanted.
     Forget(PathBuf),
+    /// Writes the settings.
     Keep(Settings),
     /// Hand a text to the clipboard of the user's own terminal.
     Copy(String),

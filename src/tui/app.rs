@@ -35,29 +35,29 @@ pub struct App {
     /// The other open cases, in their order.
     pub others: Vec<Tab>,
     /// How many of the others stand before the current one.
-    pub place_of_tab: usize,
+    pub(crate) place_of_tab: usize,
     /// Counts the tabs, those that are closed among them.
-    pub last_id: usize,
+    pub(crate) last_id: usize,
     /// Counts the requests of all cases.
-    pub last_serial: u64,
+    pub(crate) last_serial: u64,
     /// Focus and layout.
     pub panes: Panes,
     /// Whether letters go into the focused field while the form has the focus.
-    pub is_editing: bool,
+    pub(crate) is_editing: bool,
     /// The case before the last key, where that key was a digit which started a new value.
-    pub before_digit: Option<Case>,
+    pub(crate) before_digit: Option<Case>,
     /// Results to hold the others against.
     pub baseline: Option<Baseline>,
     /// Whether the results are to be pinned as soon as all of them are there.
-    pub is_pinning: bool,
+    pub(crate) is_pinning: bool,
     /// Whether the results tell what they took.
-    pub shows_cost: bool,
+    pub(crate) shows_cost: bool,
     /// How the trade pane shows its measurement.
-    pub trade_view: TradeView,
+    pub(crate) trade_view: TradeView,
     /// The cursor of charts and teeth: the driver's roll angle before E, in rad, negative after E.
     pub cursor: Option<f64>,
     /// The view of the teeth pane.
-    pub teeth: TeethView,
+    pub(crate) teeth: TeethView,
     /// The state of the chart pane.
     pub chart: ChartPane,
     /// The first variant beside the case in the results; `None` while the methods are shown.
@@ -65,7 +65,7 @@ pub struct App {
     /// The state of the study pane.
     pub study: StudyState,
     /// The serial of the study that runs.
-    pub studying: Option<u64>,
+    pub(crate) studying: Option<u64>,
     /// Whether the run plays.
     pub is_playing: bool,
     /// Long work that goes on.
@@ -75,7 +75,7 @@ pub struct App {
     /// What lies over the panes, the topmost last.
     pub prompts: Vec<Prompt>,
     /// Whether what is focused may be out of sight in form or results.
-    pub needs_scroll: bool,
+    pub(crate) needs_scroll: bool,
     /// Said once, until the next key.
     pub message: Option<Message>,
     /// The size of the terminal.
@@ -92,13 +92,13 @@ pub struct Message {
     /// The words.
     pub text: String,
     /// Whether something went wrong.
-    pub is_fault: bool,
+    pub(crate) is_fault: bool,
 }
 
 impl App {
     /// The workbench on a document with all its results, however long they take.
     #[must_use]
-    pub fn new(document: Document, path: Option<PathBuf>, look: Look, size: Size) -> App {
+    pub(crate) fn new(document: Document, path: Option<PathBuf>, look: Look, size: Size) -> App {
         App::answered(document, path, (look, size), |request| {
             Some(solver::answer(request))
         })
@@ -171,7 +171,7 @@ impl App {
 
     /// The areas of the screen.
     #[must_use]
-    pub fn plan(&self) -> Plan {
+    pub(crate) fn plan(&self) -> Plan {
         plan(self.size, self.panes)
     }
 
@@ -226,7 +226,7 @@ impl App {
 
     /// How many required values are missing, where nothing else is wrong.
     #[must_use]
-    pub fn missing(&self) -> Option<usize> {
+    pub(crate) fn missing(&self) -> Option<usize> {
         let count = self.tab.problems.len();
         let is_draft = self
             .tab

@@ -107,7 +107,7 @@ pub(crate) fn printable(text: &str) -> Cow<'_, str> {
 
 /// A symbol as the terminal can write it.
 #[must_use]
-pub fn symbol(text: &str, ascii: bool) -> Cow<'_, str> {
+pub(crate) fn symbol(text: &str, ascii: bool) -> Cow<'_, str> {
     if !ascii || text.is_ascii() {
         return Cow::Borrowed(text);
     }

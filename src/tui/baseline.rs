@@ -7,12 +7,12 @@ use crate::case::Case;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Baseline {
     /// The tab in which it was, for as long as that is open.
-    pub tab: usize,
+    pub(crate) tab: usize,
     /// The name of the case.
     pub name: String,
     /// Whether that is the name of a file.
-    pub is_file: bool,
-    pub case: Case,
+    pub(crate) is_file: bool,
+    pub(crate) case: Case,
     /// Its results.
     pub answer: Answer,
 }

@@ -40,9 +40,9 @@ pub enum End {
 #[derive(Debug, Clone)]
 pub struct Traded {
     /// The measurement's.
-    pub serial: u64,
+    pub(crate) serial: u64,
     /// The pair as it was then.
-    pub inputs: Inputs,
+    pub(crate) inputs: Inputs,
     /// What is measured so far.
     pub trade: Option<Trade>,
     /// The setting on which the mark stands.
@@ -51,7 +51,7 @@ pub struct Traded {
 
 /// How the pane shows a measurement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum TradeView {
+pub(crate) enum TradeView {
     /// Error against time of every setting.
     #[default]
     Chart,
@@ -62,7 +62,7 @@ pub enum TradeView {
 impl TradeView {
     /// The other view.
     #[must_use]
-    pub fn other(self) -> TradeView {
+    pub(crate) fn other(self) -> TradeView {
         match self {
             TradeView::Chart => TradeView::Table,
             TradeView::Table => TradeView::Chart,
@@ -73,7 +73,7 @@ impl TradeView {
 impl Traded {
     /// Whether the case is another one by now, but for the setting.
     #[must_use]
-    pub fn is_stale(&self, inputs: &Inputs) -> bool {
+    pub(crate) fn is_stale(&self, inputs: &Inputs) -> bool {
         let Inputs {
             method,
             tooth_compliance,

@@ -105,7 +105,7 @@ pub struct Binding {
     /// The keys that call it; none where only the palette does.
     pub chords: &'static [Chord],
     /// What they call.
-    pub command: Command,
+    pub(crate) command: Command,
     /// The places where they do.
     pub places: Place,
     /// One or two words for status line and palette; empty where it stands in neither.
@@ -113,12 +113,12 @@ pub struct Binding {
     /// One sentence for palette and help.
     pub sentence: &'static str,
     /// Where the status line shows it.
-    pub footer: Place,
+    pub(crate) footer: Place,
 }
 
 /// The command that a key calls in a place.
 #[must_use]
-pub fn called(chord: Chord, place: Place) -> Option<Command> {
+pub(crate) fn called(chord: Chord, place: Place) -> Option<Command> {
     let bound = BINDINGS
         .iter()
         .find(|binding| binding.places.meets(place) && binding.chords.contains(&chord));
@@ -144,7 +144,7 @@ pub fn commands() -> impl Iterator<Item = &'static Binding> {
 
 /// How a command relates to the focused pane and field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Scope {
+pub(crate) enum Scope {
     /// It belongs to the pane.
     Own,
     /// It works in every pane.
@@ -155,7 +155,7 @@ pub enum Scope {
 
 /// The scope of a command where keys go to `place` and `pane` has the focus.
 #[must_use]
-pub fn scope(command: Command, place: Place, pane: Pane) -> Scope {
+pub(crate) fn scope(command: Command, place: Place, pane: Pane) -> Scope {
     let is_of_some = |places: Place| !places.holds(Place::OUTSIDE);
     let scope = |binding: &Binding| {
         let is_shown_here = binding.footer.meets(pane.place()) && is_of_some(binding.footer);

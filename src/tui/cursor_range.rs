@@ -19,27 +19,27 @@ const APPROACH: f64 = 1.6;
 
 /// The charts and the pane in which the cursor moves.
 #[derive(Debug, Clone, Copy)]
-pub struct CursorScope<'a> {
-    pub charts: Charts<'a>,
+pub(crate) struct CursorScope<'a> {
+    pub(crate) charts: Charts<'a>,
     /// Whether it moves in the teeth pane.
-    pub is_in_teeth: bool,
+    pub(crate) is_in_teeth: bool,
 }
 
 /// The range of the cursor, in rad before E.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Reach {
     /// The first contact D, or E without corner contact.
-    pub start: f64,
+    pub(crate) start: f64,
     /// The start of a run.
-    pub run_from: f64,
+    pub(crate) run_from: f64,
     /// The end of a run.
-    pub run_to: f64,
+    pub(crate) run_to: f64,
     /// The leftmost angle.
-    pub most: f64,
+    pub(crate) most: f64,
     /// The rightmost angle, negative after E.
-    pub least: f64,
+    pub(crate) least: f64,
     /// The angle per column.
-    pub column: f64,
+    pub(crate) column: f64,
 }
 
 impl Reach {

@@ -1,15 +1,15 @@
 //! The dialogs over the panes. Each is a file with its state, keys, update and drawing.
 
 mod boxes;
-pub mod browser;
-pub mod cursor_to;
+pub(crate) mod browser;
+pub(crate) mod cursor_to;
 mod digest;
-pub mod explanation;
-pub mod export;
-pub mod page;
-pub mod picker;
-pub mod question;
-pub mod save_as;
+pub(crate) mod explanation;
+pub(crate) mod export;
+pub(crate) mod page;
+pub(crate) mod picker;
+pub(crate) mod question;
+pub(crate) mod save_as;
 
 use std::path::PathBuf;
 
@@ -34,7 +34,7 @@ use question::{Choice, Question};
 use save_as::SaveAs;
 
 /// What every dialog does. By default it ignores a key.
-pub trait Dialog {
+pub(crate) trait Dialog {
     /// The keys that it takes.
     fn place(&self) -> Place;
 
@@ -94,18 +94,18 @@ pub trait Dialog {
 
 /// What a dialog needs to know of the workbench.
 #[derive(Debug, Clone, Copy)]
-pub struct Surroundings<'a> {
+pub(crate) struct Surroundings<'a> {
     /// The size of the screen.
-    pub screen: Size,
+    pub(crate) screen: Size,
     /// The capabilities of the terminal.
-    pub look: Look,
+    pub(crate) look: Look,
     /// The charts and the pane in which the cursor moves.
-    pub cursor: CursorScope<'a>,
+    pub(crate) cursor: CursorScope<'a>,
 }
 
 /// What the user decided in a dialog.
 #[derive(Debug, Clone)]
-pub enum Outcome {
+pub(crate) enum Outcome {
     /// Nothing yet; effects of the dialog itself.
     Effects(Vec<Effect>),
     /// Open a file.
@@ -127,7 +127,7 @@ pub enum Outcome {
 impl Outcome {
     /// Nothing.
     #[must_use]
-    pub fn none() -> Outcome {
+    pub(crate) fn none() -> Outcome {
         Outcome::Effects(Vec::new())
     }
 }
@@ -137,6 +137,7 @@ impl Outcome {
 pub enum Prompt {
     /// Which file to open.
     Browse(Box<Browser>),
+    /// The file to save to.
     SaveAs(SaveAs),
     /// The file to export to.
     Export(ExportTo),
@@ -144,6 +145,7 @@ pub enum Prompt {
     CursorTo(CursorTo),
     /// A question with buttons.
     Ask(Question),
+    /// A page of text.
     Read(Page),
     /// The explanation of a result.
     Explain(Explanation),
@@ -153,7 +155,7 @@ pub enum Prompt {
 
 impl Prompt {
     #[must_use]
-    pub fn dialog(&self) -> &dyn Dialog {
+    pub(crate) fn dialog(&self) -> &dyn Dialog {
         match self {
             Prompt::Browse(dialog) => &**dialog,
             Prompt::SaveAs(dialog) => dialog,
@@ -181,7 +183,7 @@ impl Prompt {
     }
 
     /// The browser of files, if it is one.
-    pub fn browser(&mut self) -> Option<&mut Browser> {
+    pub(crate) fn browser(&mut self) -> Option<&mut Browser> {
         match self {
             Prompt::Browse(browser) => Some(browser),
             _ => None,

@@ -30,7 +30,7 @@ pub enum Event {
 
 /// The receiving end.
 #[derive(Debug)]
-pub struct Events {
+pub(crate) struct Events {
     sender: SyncSender<Event>,
     receiver: Receiver<Event>,
 }
@@ -50,7 +50,7 @@ impl Default for Events {
 impl Events {
     /// A channel to which nobody sends yet.
     #[must_use]
-    pub fn new() -> Events {
+    pub(crate) fn new() -> Events {
         let (sender, receiver) = sync_channel(CHANNEL);
         Events { sender, receiver }
     }
@@ -69,7 +69,7 @@ impl Events {
 
     /// A way for what ends the workbench to say so.
     #[must_use]
-    pub fn sender(&self) -> SyncSender<Event> {
+    pub(crate) fn sender(&self) -> SyncSender<Event> {
         self.sender.clone()
     }
 
@@ -82,7 +82,7 @@ impl Events {
     /// Wait for something, and take all that has come with it: a tick when nothing came before the
     /// alarm, nothing when nothing came before the deadline.
     #[must_use]
-    pub fn batch(&self, alarm: Option<Instant>, deadline: Option<Instant>) -> Vec<Event> {
+    pub(crate) fn batch(&self, alarm: Option<Instant>, deadline: Option<Instant>) -> Vec<Event> {
         let Some(first) = self.first(alarm, deadline) else {
             return Vec::new();
         };

@@ -2,12 +2,12 @@
 //! fields that are found, materials that are filled in.
 
 mod hint;
-pub mod materials;
+pub(crate) mod materials;
 mod search;
 mod step;
 mod typing;
 mod words;
 
-pub use search::{search, search_results};
-pub use step::{step, step_limit};
-pub use typing::Measure;
+pub(crate) use search::{search, search_results};
+pub(crate) use step::step_limit;
+pub(crate) use typing::Measure;

@@ -4,7 +4,7 @@ use crate::case::{Case, FIELDS, Limit, Spread, Variant};
 
 /// States of a case, each with the field that had the focus.
 #[derive(Debug, Clone, Default)]
-pub struct History {
+pub(crate) struct History {
     past: States,
     future: States,
     /// The row that is edited, until its visit ends.

@@ -34,10 +34,10 @@ pub enum Job {
 #[derive(Debug, Clone)]
 pub struct Asked {
     /// The result.
-    pub quantity: &'static Quantity,
-    pub case: Case,
+    pub(crate) quantity: &'static Quantity,
+    pub(crate) case: Case,
     /// The pair that it describes.
-    pub inputs: Inputs,
+    pub(crate) inputs: Inputs,
 }
 
 /// Results to be written to a file.
@@ -46,20 +46,20 @@ pub struct Exporting {
     /// The file; its ending chooses the format.
     pub path: PathBuf,
     /// Whether it may replace a file of that name.
-    pub replaces: bool,
+    pub(crate) replaces: bool,
     /// The name of the case.
-    pub name: String,
+    pub(crate) name: String,
     /// The case with the text of its file.
-    pub document: Document,
+    pub(crate) document: Document,
     /// The pair.
-    pub inputs: Inputs,
+    pub(crate) inputs: Inputs,
     /// What a picture shows.
-    pub figure: Figure,
+    pub(crate) figure: Figure,
 }
 
 /// The subject of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Figure {
+pub(crate) enum Figure {
     /// The chart of that key.
     Chart(&'static str),
     Teeth,
@@ -78,8 +78,8 @@ pub enum ExportFault {
 #[derive(Debug, Clone)]
 pub struct Explained {
     /// The result.
-    pub quantity: &'static Quantity,
-    pub page: Result<Box<Page>, String>,
+    pub(crate) quantity: &'static Quantity,
+    pub(crate) page: Result<Box<Page>, String>,
 }
 
 impl Job {

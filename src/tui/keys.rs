@@ -16,52 +16,52 @@ pub struct Chord(pub(in crate::tui) KeyCode, pub(in crate::tui) KeyModifiers);
 
 impl Place {
     /// Nowhere.
-    pub const NONE: Place = Place(0);
+    pub(crate) const NONE: Place = Place(0);
     /// A field of words or of a value.
-    pub const TEXT: Place = Place(1);
+    pub(crate) const TEXT: Place = Place(1);
     /// A field of a few names.
-    pub const CHOICE: Place = Place(2);
+    pub(crate) const CHOICE: Place = Place(2);
     /// A prompt for a path with a list.
-    pub const BROWSE: Place = Place(4);
+    pub(crate) const BROWSE: Place = Place(4);
     /// A prompt for a line: a path, an angle.
-    pub const PATH: Place = Place(8);
+    pub(crate) const PATH: Place = Place(8);
     /// A question with buttons.
-    pub const ASK: Place = Place(16);
+    pub(crate) const ASK: Place = Place(16);
     /// A page to read.
-    pub const READ: Place = Place(32);
+    pub(crate) const READ: Place = Place(32);
     /// A list that is filtered by what is typed.
-    pub const PICK: Place = Place(64);
+    pub(crate) const PICK: Place = Place(64);
     /// The form, outside its fields.
-    pub const FIELD: Place = Place(128);
+    pub(crate) const FIELD: Place = Place(128);
     /// The results.
-    pub const RESULTS: Place = Place(256);
+    pub(crate) const RESULTS: Place = Place(256);
     /// The chart.
-    pub const CHART: Place = Place(512);
+    pub(crate) const CHART: Place = Place(512);
     /// The teeth.
-    pub const TEETH: Place = Place(1024);
+    pub(crate) const TEETH: Place = Place(1024);
     /// Error against time.
-    pub const TRADE: Place = Place(2048);
+    pub(crate) const TRADE: Place = Place(2048);
     /// The explanation of a result.
-    pub const EXPLAIN: Place = Place(4096);
+    pub(crate) const EXPLAIN: Place = Place(4096);
     /// A field of a value, into which nothing is typed yet: what no value begins with is a command
     /// there.
-    pub const FRESH: Place = Place(8192);
+    pub(crate) const FRESH: Place = Place(8192);
     /// The study.
-    pub const STUDY: Place = Place(16384);
+    pub(crate) const STUDY: Place = Place(16384);
     /// A field that takes text or a name.
-    pub const FORM: Place = Place::TEXT.or(Place::CHOICE);
+    pub(crate) const FORM: Place = Place::TEXT.or(Place::CHOICE);
     /// The panes in which letters are commands.
-    pub const OUTSIDE: Place = Place::FIELD
+    pub(crate) const OUTSIDE: Place = Place::FIELD
         .or(Place::RESULTS)
         .or(Place::CURSOR)
         .or(Place::TRADE)
         .or(Place::STUDY);
     /// Everywhere but in a prompt.
-    pub const WORK: Place = Place::FORM.or(Place::OUTSIDE);
+    pub(crate) const WORK: Place = Place::FORM.or(Place::OUTSIDE);
     /// Where `/` and `:` are commands.
-    pub const COMMANDED: Place = Place::OUTSIDE.or(Place::CHOICE).or(Place::FRESH);
+    pub(crate) const COMMANDED: Place = Place::OUTSIDE.or(Place::CHOICE).or(Place::FRESH);
     /// The panes that the roll angle's cursor shows in.
-    pub const CURSOR: Place = Place::CHART.or(Place::TEETH);
+    pub(crate) const CURSOR: Place = Place::CHART.or(Place::TEETH);
     pub(in crate::tui) const PAGE: Place = Place::READ.or(Place::EXPLAIN);
     pub(in crate::tui) const LIST: Place = Place::BROWSE.or(Place::PICK);
     pub(in crate::tui) const LINE: Place = Place::TEXT.or(Place::LIST).or(Place::PATH);
@@ -79,7 +79,7 @@ impl Place {
 
     /// Whether every place of the other is one of this.
     #[must_use]
-    pub const fn holds(self, other: Place) -> bool {
+    pub(crate) const fn holds(self, other: Place) -> bool {
         self.0 & other.0 == other.0
     }
 
@@ -151,7 +151,7 @@ impl Chord {
 
     /// The key in as few letters as can be read.
     #[must_use]
-    pub fn short_name(&self) -> String {
+    pub(crate) fn short_name(&self) -> String {
         self.name()
             .replace("Ctrl-", "^")
             .replace("Shift-Tab", "S-Tab")

@@ -5,7 +5,7 @@ use ratatui::layout::{Rect, Size};
 use super::pane::{Pane, Panes};
 
 /// The smallest useful terminal.
-pub const SMALLEST: Size = Size {
+pub(crate) const SMALLEST: Size = Size {
     width: 60,
     height: 16,
 };
@@ -31,22 +31,22 @@ const FORM_OF_THREE: u16 = 56;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Plan {
     /// The name of the case.
-    pub header: Rect,
+    pub(crate) header: Rect,
     /// The form, its title and its scroll bar.
-    pub form: Rect,
+    pub(crate) form: Rect,
     /// The results and their title.
-    pub results: Rect,
+    pub(crate) results: Rect,
     /// The chart and its title.
-    pub chart: Rect,
+    pub(crate) chart: Rect,
     /// The teeth and their title.
-    pub teeth: Rect,
+    pub(crate) teeth: Rect,
     /// Error against time and its title.
     pub trade: Rect,
     /// The study and its title.
-    pub study: Rect,
+    pub(crate) study: Rect,
     /// What the focused field is, and messages.
-    pub hint: Rect,
-    pub keys: Rect,
+    pub(crate) hint: Rect,
+    pub(crate) keys: Rect,
 }
 
 /// Where everything stands on a screen of that size.
@@ -110,7 +110,7 @@ impl Plan {
     }
 
     /// The panes that are not in sight.
-    pub fn hidden(&self) -> impl Iterator<Item = Pane> {
+    pub(crate) fn hidden(&self) -> impl Iterator<Item = Pane> {
         let plan = *self;
         Pane::ALL
             .into_iter()

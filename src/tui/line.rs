@@ -20,7 +20,7 @@ pub struct Line {
 impl Line {
     /// A text that typing replaces.
     #[must_use]
-    pub fn whole(text: impl Into<String>) -> Line {
+    pub(crate) fn whole(text: impl Into<String>) -> Line {
         let mut line = Line::from(text.into());
         line.select_all();
         line
@@ -29,7 +29,7 @@ impl Line {
     /// A path of which typing replaces the file stem and keeps folder and extension. A typed path
     /// from the root or from home replaces the folder too, and a typed extension the old one.
     #[must_use]
-    pub fn named(path: impl Into<String>) -> Line {
+    pub(crate) fn named(path: impl Into<String>) -> Line {
         let path = path.into();
         let name = path.rfind('/').map_or(0, |slash| slash + 1);
         let end = path
@@ -52,7 +52,7 @@ impl Line {
 
     /// How many bytes typing keeps.
     #[must_use]
-    pub fn kept(&self) -> usize {
+    pub(crate) fn kept(&self) -> usize {
         let is_selected = |at: &usize| self.selected.as_ref().is_some_and(|part| part.contains(at));
         let letters = self.input.value().chars().enumerate();
         letters
@@ -89,7 +89,7 @@ impl Line {
     }
 
     /// Inserts text that is typed or pasted.
-    pub fn insert(&mut self, typed: &str) {
+    pub(crate) fn insert(&mut self, typed: &str) {
         let here = self.input.cursor();
         let mut part = self.selected.take().unwrap_or(here..here);
         if self.ending.is_some() && !part.is_empty() && typed.starts_with(['/', '~']) {

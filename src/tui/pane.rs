@@ -27,10 +27,10 @@ pub struct Panes {
     /// The one that takes the keys.
     pub focus: Pane,
     /// The one of the lower area that is shown where not all of them have room.
-    pub lower: Pane,
+    pub(crate) lower: Pane,
     /// Whether the focused one has the screen: of form and results both, of the lower area it
     /// alone.
-    pub is_zoomed: bool,
+    pub(crate) is_zoomed: bool,
 }
 
 impl Default for Panes {
@@ -54,11 +54,11 @@ impl Pane {
         Pane::Study,
     ];
     /// Those that share the lower area.
-    pub const LOWER: [Pane; 4] = [Pane::Chart, Pane::Teeth, Pane::Trade, Pane::Study];
+    pub(crate) const LOWER: [Pane; 4] = [Pane::Chart, Pane::Teeth, Pane::Trade, Pane::Study];
 
     /// In a word.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Pane::Form => "Form",
             Pane::Results => "Results",
@@ -90,7 +90,7 @@ impl Pane {
 
     /// The stages of a solve whose results it shows, as far as the method has them.
     #[must_use]
-    pub const fn needs(self) -> Stages {
+    pub(crate) const fn needs(self) -> Stages {
         match self {
             Pane::Form | Pane::Trade | Pane::Study => Stages::NONE,
             Pane::Results => Stages::CLOSED_FORM
@@ -107,7 +107,7 @@ impl Pane {
 
     /// Where keys go while it has the focus and no field is edited.
     #[must_use]
-    pub const fn place(self) -> Place {
+    pub(crate) const fn place(self) -> Place {
         match self {
             Pane::Form => Place::FIELD,
             Pane::Results => Place::RESULTS,
@@ -120,7 +120,7 @@ impl Pane {
 
     /// The pane so many places further, round and round.
     #[must_use]
-    pub fn beside(self, by: isize) -> Pane {
+    pub(crate) fn beside(self, by: isize) -> Pane {
         let count = Pane::ALL.len();
         Pane::ALL[(self as usize + count).saturating_add_signed(by) % count]
     }

@@ -8,7 +8,7 @@ use crate::tui::form_aids::{Measure, step_limit};
 
 /// What stands in a row.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Row<'c> {
+pub(crate) enum Row<'c> {
     /// A field, by its place in the table.
     Field(usize),
     /// A limit of the case.
@@ -23,7 +23,7 @@ pub fn count(case: &Case) -> usize {
 
 /// What stands in a row; beyond the last one, the last field.
 #[must_use]
-pub fn row(case: &Case, at: usize) -> Row<'_> {
+pub(crate) fn row(case: &Case, at: usize) -> Row<'_> {
     let limit = at
         .checked_sub(FIELDS.len())
         .and_then(|at| case.limits.get(at));
@@ -32,7 +32,7 @@ pub fn row(case: &Case, at: usize) -> Row<'_> {
 
 /// The row of a key, such as `pair.module` or `limits.impact_force`.
 #[must_use]
-pub fn of_key(case: &Case, key: &str) -> Option<usize> {
+pub(crate) fn of_key(case: &Case, key: &str) -> Option<usize> {
     index_of(key).or_else(|| of_limit(case, key.strip_prefix("limits.")?))
 }
 
@@ -55,7 +55,7 @@ pub fn text(case: &Case, at: usize) -> Option<&str> {
 
 /// Whether a row differs from the same row of another case.
 #[must_use]
-pub fn differs(case: &Case, other: &Case, at: usize) -> bool {
+pub(crate) fn differs(case: &Case, other: &Case, at: usize) -> bool {
     match row(case, at) {
         Row::Field(field) => case.text(field) != other.text(field),
         Row::Limit(limit) => !other.limits.contains(limit),
@@ -63,7 +63,7 @@ pub fn differs(case: &Case, other: &Case, at: usize) -> bool {
 }
 
 /// Write into a row, whether or not the text is valid.
-pub fn write(case: &mut Case, at: usize, text: &str) {
+pub(crate) fn write(case: &mut Case, at: usize, text: &str) {
     match row(case, at) {
         Row::Field(field) => case.write(field, text),
         Row::Limit(&Limit { quantity, .. }) => case.write_limit(quantity, text),
@@ -87,7 +87,7 @@ pub(crate) fn written_unit(case: &Case, at: usize) -> Option<String> {
 /// What completes a text that is typed into a row: the unit in which its value was written, else
 /// the one in which it is shown.
 #[must_use]
-pub fn ending(
+pub(crate) fn ending(
     case: &Case,
     at: usize,
     typed: &str,
@@ -110,7 +110,7 @@ pub(crate) fn is_unfinished(case: &Case, at: usize, typed: &str) -> bool {
 
 /// What a step makes of a row's text.
 #[must_use]
-pub fn stepped(case: &Case, at: usize, by: i32) -> Option<String> {
+pub(crate) fn stepped(case: &Case, at: usize, by: i32) -> Option<String> {
     match row(case, at) {
         Row::Field(field) => case.stepped(field, by),
         Row::Limit(limit) => step_limit(&limit.text, limit.quantity, by),
@@ -137,7 +137,7 @@ pub fn field(case: &Case, at: usize) -> Option<&'static Field> {
 
 /// In a few words.
 #[must_use]
-pub fn label(case: &Case, at: usize) -> &'static str {
+pub(crate) fn label(case: &Case, at: usize) -> &'static str {
     match row(case, at) {
         Row::Field(field) => FIELDS[field].label,
         Row::Limit(limit) => Quantity::find(limit.quantity)
@@ -155,7 +155,7 @@ pub(crate) fn full_label(case: &Case, at: usize) -> String {
 
 /// The symbol in the field's writing; empty where there is none.
 #[must_use]
-pub fn symbol(case: &Case, at: usize) -> &'static str {
+pub(crate) fn symbol(case: &Case, at: usize) -> &'static str {
     match row(case, at) {
         Row::Field(field) => FIELDS[field].symbol,
         Row::Limit(limit) => Quantity::find(limit.quantity).map_or("", |quantity| quantity.symbol),
@@ -164,7 +164,7 @@ pub fn symbol(case: &Case, at: usize) -> &'static str {
 
 /// Where groups begin.
 #[must_use]
-pub fn groups(case: &Case) -> Vec<usize> {
+pub(crate) fn groups(case: &Case) -> Vec<usize> {
     let begins = |at: usize| match row(case, at) {
         Row::Field(field) => field == 0 || FIELDS[field].table() != FIELDS[field - 1].table(),
         Row::Limit(_) => at == FIELDS.len(),
@@ -174,7 +174,7 @@ pub fn groups(case: &Case) -> Vec<usize> {
 
 /// Whether a row is a required field whose value is missing.
 #[must_use]
-pub fn lacks(case: &Case, at: usize) -> bool {
+pub(crate) fn lacks(case: &Case, at: usize) -> bool {
     at < FIELDS.len() && case.lacks(at)
 }
 

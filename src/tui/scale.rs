@@ -32,23 +32,23 @@ pub struct Span {
 
 /// Ticks of an axis.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Ticks {
+pub(crate) struct Ticks {
     /// The values of the ticks, with their labels.
-    pub labelled: Vec<(f64, String)>,
+    pub(crate) labelled: Vec<(f64, String)>,
     /// The labels are multiples of ten to this power.
-    pub power: i32,
+    pub(crate) power: i32,
 }
 
 impl Span {
     /// The empty range.
-    pub const NONE: Span = Span {
+    pub(crate) const NONE: Span = Span {
         from: f64::INFINITY,
         to: f64::NEG_INFINITY,
     };
 
     /// The range between two ends.
     #[must_use]
-    pub fn new(from: f64, to: f64) -> Span {
+    pub(crate) fn new(from: f64, to: f64) -> Span {
         Span { from, to }
     }
 
@@ -59,13 +59,13 @@ impl Span {
 
     /// Whether the range is empty or a single point.
     #[must_use]
-    pub fn is_empty(self) -> bool {
+    pub(crate) fn is_empty(self) -> bool {
         self.length().is_nan() || self.length() <= 0.0
     }
 
     /// The range extended to a point.
     #[must_use]
-    pub fn with(self, value: f64) -> Span {
+    pub(crate) fn with(self, value: f64) -> Span {
         Span {
             from: self.from.min(value),
             to: self.to.max(value),
@@ -74,7 +74,7 @@ impl Span {
 
     /// The range that covers both.
     #[must_use]
-    pub fn and(self, other: Span) -> Span {
+    pub(crate) fn and(self, other: Span) -> Span {
         Span {
             from: self.from.min(other.from),
             to: self.to.max(other.to),
@@ -89,7 +89,7 @@ impl Span {
 
     /// The position of a value, 0 at the lower end and 1 at the upper end.
     #[must_use]
-    pub fn part(self, value: f64) -> f64 {
+    pub(crate) fn part(self, value: f64) -> f64 {
         if self.is_empty() {
             0.0
         } else {
@@ -99,7 +99,7 @@ impl Span {
 
     /// The range, shifted into a longer one.
     #[must_use]
-    pub fn within(self, other: Span) -> Span {
+    pub(crate) fn within(self, other: Span) -> Span {
         let from = self.from.min(other.to - self.length()).max(other.from);
         Span {
             from,
@@ -109,7 +109,7 @@ impl Span {
 
     /// An axis that covers the values. Keeps this axis while it serves.
     #[must_use]
-    pub fn fitted(self, values: Span) -> Span {
+    pub(crate) fn fitted(self, values: Span) -> Span {
         if !(values.from.is_finite() && values.to.is_finite()) {
             return self;
         }
@@ -131,14 +131,14 @@ impl Span {
 
     /// A new axis that covers the values, or this axis if there are no values.
     #[must_use]
-    pub fn refit(self, values: Span) -> Span {
+    pub(crate) fn refit(self, values: Span) -> Span {
         let fitted = Span::default().fitted(values);
         if fitted.is_empty() { self } else { fitted }
     }
 
     /// An axis that covers the values and never shrinks.
     #[must_use]
-    pub fn grown(self, values: Span) -> Span {
+    pub(crate) fn grown(self, values: Span) -> Span {
         if self.covers(values) && !self.is_empty() {
             self
         } else {
@@ -148,7 +148,7 @@ impl Span {
 
     /// Ticks at multiples of 1, 2 or 5, with at most `most` intervals but at least two ticks.
     #[must_use]
-    pub fn ticks(self, most: u16) -> Ticks {
+    pub(crate) fn ticks(self, most: u16) -> Ticks {
         let greatest = self.from.abs().max(self.to.abs());
         let intervals =
             (most.max(1)..=most.max(1) + CLOSER).map(|most| self.length() / f64::from(most));

@@ -1,12 +1,12 @@
 //! What keeps typed values safe: saving, locks, journals of unsaved edits, and their recovery.
 
-pub mod autosave;
+pub(crate) mod autosave;
 mod clock;
 mod holder;
-pub mod journal;
-pub mod journal_writer;
+pub(crate) mod journal;
+pub(crate) mod journal_writer;
 mod journals;
-pub mod lock;
+pub(crate) mod lock;
 mod locks;
-pub mod recovery;
-pub mod save;
+pub(crate) mod recovery;
+pub(crate) mod save;

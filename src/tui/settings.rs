@@ -32,7 +32,7 @@ pub struct Settings {
     /// Whether the workbench takes the mouse.
     pub mouse: bool,
     /// The colours; else what the environment asks for.
-    pub theme: Option<ThemeName>,
+    pub(crate) theme: Option<ThemeName>,
     /// The units in which values are shown beside what was typed.
     pub units: System,
     /// Whether nothing but ASCII is drawn, whatever the environment is able to show.
@@ -54,7 +54,7 @@ impl Default for Settings {
 impl Settings {
     /// The settings of a file's text; missing keys and unknown values become the defaults.
     #[must_use]
-    pub fn parse(text: &str) -> Settings {
+    pub(crate) fn parse(text: &str) -> Settings {
         let usual = Settings::default();
         let Ok(file) = text.parse::<DocumentMut>() else {
             return usual;
@@ -78,7 +78,7 @@ impl Settings {
     ///
     /// # Errors
     /// Where the old text is no TOML: the user has to fix it.
-    pub fn render(&self, old: &str) -> Result<String, String> {
+    pub(crate) fn render(&self, old: &str) -> Result<String, String> {
         let mut file: DocumentMut = old
             .parse()
             .map_err(|_| "the settings are not valid TOML: fix or delete the file".to_owned())?;
@@ -103,7 +103,7 @@ impl Settings {
 
     /// Saved settings, or the defaults if there are none.
     #[must_use]
-    pub fn read() -> Settings {
+    pub(crate) fn read() -> Settings {
         file()
             .and_then(|file| old_text(&file).ok())
             .map_or_else(Settings::default, |text| Settings::parse(&text))
@@ -114,7 +114,7 @@ impl Settings {
     ///
     /// # Errors
     /// The reason, in words.
-    pub fn keep(&self) -> Result<(), String> {
+    pub(crate) fn keep(&self) -> Result<(), String> {
         let file = file().ok_or("HOME and XDG_CONFIG_HOME name no folder")?;
         self.write_to(&file)
     }
@@ -142,7 +142,7 @@ impl Settings {
     /// The look for a terminal: its abilities, limited by the settings. No setting restores colours
     /// or letters that the environment lacks.
     #[must_use]
-    pub fn look(&self, able: Look, variable: impl Fn(&str) -> bool) -> Look {
+    pub(crate) fn look(&self, able: Look, variable: impl Fn(&str) -> bool) -> Look {
         let theme = self
             .theme
             .filter(|_| !variable("NO_COLOR"))

@@ -5,7 +5,8 @@ mod methods;
 use std::sync::Arc;
 use std::time::Duration;
 
-pub use methods::{answer, answer_without_fields};
+pub use methods::answer;
+pub(crate) use methods::answer_without_fields;
 pub(super) use methods::{cleared, solved, with_stiffness};
 
 use crate::case::Case;
@@ -59,15 +60,15 @@ pub struct Answer {
 }
 
 /// A value of each quantity, in SI, in the order of [`QUANTITIES`].
-pub type Values = Box<[Option<f64>]>;
+pub(crate) type Values = Box<[Option<f64>]>;
 
 /// What an answer took.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Cost {
     /// Stages that ran, over all methods; the others still held.
-    pub stages: usize,
+    pub(crate) stages: usize,
     /// Time, in us.
-    pub micros: u64,
+    pub(crate) micros: u64,
 }
 
 impl Answer {
@@ -83,7 +84,7 @@ impl Answer {
     /// The method of this one that another's active method is held against: the same one, where it
     /// was solved.
     #[must_use]
-    pub fn beside(&self, active: Method) -> Method {
+    pub(crate) fn beside(&self, active: Method) -> Method {
         if self.of(active).is_some() {
             active
         } else {
@@ -93,14 +94,14 @@ impl Answer {
 
     /// Whether the incoming tooth strikes, by the active method.
     #[must_use]
-    pub fn strikes(&self) -> bool {
+    pub(crate) fn strikes(&self) -> bool {
         self.of(self.active)
             .is_some_and(|solution| solution.outcome == Outcome::CornerContact)
     }
 
     /// Whether no stage that was asked for is still to come.
     #[must_use]
-    pub fn is_whole(&self) -> bool {
+    pub(crate) fn is_whole(&self) -> bool {
         self.stages.covers(self.asked)
     }
 
@@ -112,7 +113,7 @@ impl Answer {
 
     /// What the active method finds of every quantity.
     #[must_use]
-    pub fn values(&self) -> Values {
+    pub(crate) fn values(&self) -> Values {
         let solution = self.of(self.active);
         QUANTITIES
             .iter()
@@ -122,7 +123,7 @@ impl Answer {
 
     /// The refusal of the active method, where it refuses.
     #[must_use]
-    pub fn refusal(&self) -> Option<&Refusal> {
+    pub(crate) fn refusal(&self) -> Option<&Refusal> {
         self.methods
             .iter()
             .find(|(own, _)| *own == self.active)

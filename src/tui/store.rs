@@ -1,10 +1,10 @@
 //! Files that the workbench reads: cases, folders, and the list of recent cases.
 
-pub mod case_search;
-pub mod folder;
-pub mod preview;
-pub mod recents;
-pub mod state;
+pub(crate) mod case_search;
+pub(crate) mod folder;
+pub(crate) mod preview;
+pub(crate) mod recents;
+pub(crate) mod state;
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -16,22 +16,22 @@ use crate::case::sanitize::sanitize;
 
 /// What the workbench begins with.
 #[derive(Debug)]
-pub struct Opening {
-    pub document: Document,
+pub(crate) struct Opening {
+    pub(crate) document: Document,
     /// Where it was read from.
-    pub path: Option<PathBuf>,
+    pub(crate) path: Option<PathBuf>,
     /// Why the requested file was not opened.
-    pub trouble: Option<Trouble>,
+    pub(crate) trouble: Option<Trouble>,
 }
 
 /// What could not be opened, and its faults.
 #[derive(Debug)]
-pub struct Trouble {
-    pub path: PathBuf,
+pub(crate) struct Trouble {
+    pub(crate) path: PathBuf,
     /// The faults, a line each.
-    pub faults: Vec<String>,
+    pub(crate) faults: Vec<String>,
     /// Whether the user asked for it, rather than it being the last one.
-    pub was_asked: bool,
+    pub(crate) was_asked: bool,
 }
 
 /// The document of the built-in case.
@@ -42,7 +42,7 @@ pub fn built_in() -> Document {
 
 /// The case that was asked for, else the last one, else the built-in one.
 #[must_use]
-pub fn opening(asked: Option<PathBuf>) -> Opening {
+pub(crate) fn opening(asked: Option<PathBuf>) -> Opening {
     let was_asked = asked.is_some();
     let Some(path) = asked.or_else(recents::last) else {
         return Opening {

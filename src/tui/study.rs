@@ -8,7 +8,7 @@ use crate::study::batch::PointOutcome;
 use crate::study::refusals::Refusals;
 
 /// Samples of a tolerance study in the workbench.
-pub const SAMPLES: usize = 10_000;
+pub(crate) const SAMPLES: usize = 10_000;
 
 /// A study for the worker.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,23 +34,23 @@ pub struct GridQuestion {
     /// The second field of a map, then the first one; the first of these varies slowest.
     pub axes: Vec<Axis>,
     /// The curves; the active method comes first.
-    pub layers: Vec<Layer>,
+    pub(crate) layers: Vec<Layer>,
 }
 
 /// A curve, or the values of a map.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Layer {
+pub(crate) struct Layer {
     /// The method, or the baseline.
-    pub whose: Whose,
+    pub(crate) whose: Whose,
     /// The case, on that method.
-    pub inputs: Inputs,
+    pub(crate) inputs: Inputs,
     /// The key of the quantity.
-    pub quantity: &'static str,
+    pub(crate) quantity: &'static str,
 }
 
 /// The origin of a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Whose {
+pub(crate) enum Whose {
     /// The method of the case.
     Active(Method),
     /// Another method.
@@ -63,13 +63,13 @@ pub enum Whose {
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToleranceQuestion {
     /// The name of the case.
-    pub name: String,
+    pub(crate) name: String,
     /// The case with its distributions.
-    pub case: Case,
+    pub(crate) case: Case,
     /// The pair that it describes.
-    pub inputs: Inputs,
+    pub(crate) inputs: Inputs,
     /// The quantity of the results pane.
-    pub quantity: &'static str,
+    pub(crate) quantity: &'static str,
 }
 
 /// The next results of a study.
@@ -109,11 +109,11 @@ pub enum End {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct LayerFound {
     /// How each point ended.
-    pub outcomes: Vec<PointOutcome>,
+    pub(crate) outcomes: Vec<PointOutcome>,
     /// The value of each point in SI.
     pub values: Vec<Option<f64>>,
     /// The refused points.
-    pub refusals: Refusals,
+    pub(crate) refusals: Refusals,
 }
 
 /// The study of an open case.
@@ -137,7 +137,7 @@ pub struct Shown {
     /// The page of a tolerance study.
     pub page: Vec<String>,
     /// The solved part of a tolerance study.
-    pub part: f64,
+    pub(crate) part: f64,
     /// How it ended, if it did.
     pub end: Option<End>,
 }
@@ -145,14 +145,14 @@ pub struct Shown {
 impl Layer {
     /// The quantity.
     #[must_use]
-    pub fn quantity(&self) -> Option<&'static Quantity> {
+    pub(crate) fn quantity(&self) -> Option<&'static Quantity> {
         Quantity::find(self.quantity)
     }
 }
 
 impl Study {
     /// Adds results; those of another request are left out.
-    pub fn take(&mut self, part: StudyPart) {
+    pub(crate) fn take(&mut self, part: StudyPart) {
         let asked = self.asked.as_ref();
         let Some(request) = asked.filter(|asked| asked.serial == part.serial) else {
             return;

@@ -33,49 +33,49 @@ pub struct Tab {
     /// The case as the file has it.
     pub saved: Case,
     /// The case at the time of a save that is still running.
-    pub being_saved: Option<Case>,
+    pub(crate) being_saved: Option<Case>,
     /// Whether the file may be written.
-    pub access: Access,
+    pub(crate) access: Access,
     /// What was asked for and could not be opened, where the built-in case stands for it.
     pub in_place_of: Option<PathBuf>,
     /// Focus, typed text and scrolling of the form.
     pub form: FormState,
     /// States to go back to.
-    pub history: History,
+    pub(crate) history: History,
     /// The inputs as far as the form is valid; read again for each request.
-    pub inputs_so_far: Inputs,
+    pub(crate) inputs_so_far: Inputs,
     /// What is wrong in the form.
     pub problems: Vec<(usize, Problem)>,
     /// The request that the form stands for. No two tabs share one.
     pub serial: u64,
     /// The stages that were asked for with it.
-    pub asked: Stages,
+    pub(crate) asked: Stages,
     /// Whether the mesh stiffness was asked for with it.
     pub asked_stiffness: bool,
     /// How much of it is done, where it takes its time.
-    pub solving: Option<f64>,
+    pub(crate) solving: Option<f64>,
     /// Whether the worker has answered it, in whatever way.
     pub is_settled: bool,
     /// The last valid results.
     pub answer: Option<Answer>,
     /// The values before the present visit of a field, in the order of the quantities.
-    pub earlier: Option<Values>,
+    pub(crate) earlier: Option<Values>,
     /// Why the model does not solve what the form says.
     pub refusal: Option<Refusal>,
     /// Whether the worker failed on what the form says.
-    pub has_failed: bool,
+    pub(crate) has_failed: bool,
     /// The axes of the charts.
     pub scale: Scale,
     /// The first request after the last undo or redo; its answer fits the axes again.
-    pub undone: u64,
+    pub(crate) undone: u64,
     /// What they were last fitted to.
-    pub fitted: Occasion,
+    pub(crate) fitted: Occasion,
     /// What was measured of error and time.
     pub traded: Option<Traded>,
     /// The solved variants.
-    pub variants: Option<Variants>,
+    pub(crate) variants: Option<Variants>,
     /// The request beside which they were asked for.
-    pub variants_asked: u64,
+    pub(crate) variants_asked: u64,
     /// The study of the case.
     pub study: Study,
     /// Selection and scrolling of the results.
@@ -98,7 +98,7 @@ pub enum Origin {
 impl Tab {
     /// A document that was just opened, unsolved.
     #[must_use]
-    pub fn new(document: Document, path: Option<PathBuf>) -> Tab {
+    pub(crate) fn new(document: Document, path: Option<PathBuf>) -> Tab {
         let case = document.case.clone();
         let focus = fields::index_of("pair.module").unwrap_or(0);
         Tab {
@@ -137,7 +137,7 @@ impl Tab {
 
     /// The inputs, if the form is valid.
     #[must_use]
-    pub fn inputs(&self) -> Option<&Inputs> {
+    pub(crate) fn inputs(&self) -> Option<&Inputs> {
         self.problems.is_empty().then_some(&self.inputs_so_far)
     }
 
@@ -194,7 +194,7 @@ impl Tab {
 
     /// The name of the case in the title and in questions.
     #[must_use]
-    pub fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         match (&self.path, self.origin) {
             (Some(path), _) => path.display().to_string(),
             (None, Origin::Example(example)) => format!("new case from {example}"),

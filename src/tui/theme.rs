@@ -8,36 +8,36 @@ use ratatui::style::{Color, Modifier, Style};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Theme {
     /// Titles of panes and groups.
-    pub title: Style,
+    pub(crate) title: Style,
     /// Rules and axes.
-    pub rule: Style,
+    pub(crate) rule: Style,
     /// The focused line.
-    pub focus: Style,
+    pub(crate) focus: Style,
     /// What holds where the case is silent, and results that are no longer those of the form.
-    pub faint: Style,
+    pub(crate) faint: Style,
     /// Something is wrong.
-    pub problem: Style,
+    pub(crate) problem: Style,
     /// Something to know.
-    pub note: Style,
+    pub(crate) note: Style,
     /// The method that the case asks for, and its curve.
-    pub active: Style,
+    pub(crate) active: Style,
     /// The other method, and its curve.
-    pub other: Style,
+    pub(crate) other: Style,
     /// The name of a key, and the title of the focused pane.
-    pub key: Style,
+    pub(crate) key: Style,
     /// The pinned results, and their curve.
-    pub baseline: Style,
+    pub(crate) baseline: Style,
     /// The driver's outline.
-    pub driver: Style,
+    pub(crate) driver: Style,
     /// The driven gear's outline.
-    pub driven: Style,
+    pub(crate) driven: Style,
     /// The path of contact.
-    pub path: Style,
+    pub(crate) path: Style,
 }
 
 /// The themes by their names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ThemeName {
+pub(crate) enum ThemeName {
     /// A few of the terminal's own colours.
     Quiet,
     /// Bright colours and bold letters.
@@ -48,11 +48,11 @@ pub enum ThemeName {
 
 impl ThemeName {
     /// Every theme.
-    pub const ALL: [ThemeName; 3] = [ThemeName::Quiet, ThemeName::Contrast, ThemeName::Mono];
+    pub(crate) const ALL: [ThemeName; 3] = [ThemeName::Quiet, ThemeName::Contrast, ThemeName::Mono];
 
     /// The name in the settings.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             ThemeName::Quiet => "quiet",
             ThemeName::Contrast => "contrast",
@@ -61,7 +61,7 @@ impl ThemeName {
     }
 
     #[must_use]
-    pub fn theme(self) -> &'static Theme {
+    pub(crate) fn theme(self) -> &'static Theme {
         match self {
             ThemeName::Quiet => &QUIET,
             ThemeName::Contrast => &CONTRAST,
@@ -71,7 +71,7 @@ impl ThemeName {
 
     /// The name of a theme.
     #[must_use]
-    pub fn of(theme: &Theme) -> ThemeName {
+    pub(crate) fn of(theme: &Theme) -> ThemeName {
         ThemeName::ALL
             .into_iter()
             .find(|name| name.theme() == theme)
@@ -89,7 +89,7 @@ pub struct Look {
 }
 
 /// Attributes and a few of the terminal's own colours.
-pub static QUIET: Theme = Theme {
+pub(crate) static QUIET: Theme = Theme {
     title: Style::new().fg(Color::Cyan).add_modifier(Modifier::BOLD),
     rule: Style::new(),
     focus: Style::new().add_modifier(Modifier::BOLD),
@@ -160,7 +160,7 @@ impl Look {
     /// What the environment allows: `NO_COLOR`, `TERM`, and the locale by `LC_ALL`, `LC_CTYPE`,
     /// `LANG`.
     #[must_use]
-    pub fn of(variable: impl Fn(&str) -> Option<OsString>) -> Look {
+    pub(crate) fn of(variable: impl Fn(&str) -> Option<OsString>) -> Look {
         let set = |name| variable(name).filter(|value| !value.is_empty());
         let locale = ["LC_ALL", "LC_CTYPE", "LANG"]
             .into_iter()

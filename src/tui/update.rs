@@ -83,7 +83,7 @@ pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
 
 /// What follows from the rest of the state: how far form and results are scrolled, and the axes of
 /// the charts.
-pub fn settle(app: &mut App) {
+pub(crate) fn settle(app: &mut App) {
     if mem::take(&mut app.needs_scroll) {
         app.tab.form.top = form::top_for(&app.form());
         app.tab.results.top = results::top_for(&app.results());

@@ -6,18 +6,18 @@ use crate::model::{Inputs, Solution, Stages};
 #[derive(Debug, Clone)]
 pub struct VariantsRequest {
     /// The request of the case beside which they stand.
-    pub serial: u64,
+    pub(crate) serial: u64,
     /// The name of each variant, and its pair or the error in it.
-    pub columns: Vec<(String, Result<Inputs, String>)>,
+    pub(crate) columns: Vec<(String, Result<Inputs, String>)>,
     /// The stages to solve.
-    pub stages: Stages,
+    pub(crate) stages: Stages,
 }
 
 /// Solved variants.
 #[derive(Debug, Clone)]
 pub struct Variants {
     /// That of the request.
-    pub serial: u64,
+    pub(crate) serial: u64,
     /// The name of each variant, and its results or the reason for none.
-    pub columns: Vec<(String, Result<Solution, String>)>,
+    pub(crate) columns: Vec<(String, Result<Solution, String>)>,
 }

@@ -1,6 +1,6 @@
 //! The screen, drawn from the state alone.
 
-pub mod status;
+pub(crate) mod status;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};

@@ -1,11 +1,11 @@
 //! Long work, each kind in a thread of its own: solving, the benchmark, and jobs.
 
 mod export;
-pub mod jobs;
-pub mod latest;
-pub mod measuring;
-pub mod solving;
-pub mod studying;
+pub(crate) mod jobs;
+pub(crate) mod latest;
+pub(crate) mod measuring;
+pub(crate) mod solving;
+pub(crate) mod studying;
 
 use std::io;
 
@@ -41,7 +41,7 @@ impl Workers {
     }
 
     /// Solves, in place of a request that has not begun.
-    pub fn solve(&self, request: Request) {
+    pub(crate) fn solve(&self, request: Request) {
         self.solver.request(request);
     }
 
@@ -54,7 +54,7 @@ impl Workers {
     ///
     /// # Errors
     /// When the system gives no thread.
-    pub fn measure(&mut self, measuring: Measuring) -> io::Result<()> {
+    pub(crate) fn measure(&mut self, measuring: Measuring) -> io::Result<()> {
         let worker = match &self.benchmark {
             Some(worker) => worker,
             None => self
@@ -69,7 +69,7 @@ impl Workers {
     ///
     /// # Errors
     /// When the system gives no thread.
-    pub fn study(&mut self, request: StudyRequest) -> io::Result<()> {
+    pub(crate) fn study(&mut self, request: StudyRequest) -> io::Result<()> {
         let worker = match &self.study {
             Some(worker) => worker,
             None => self.study.insert(studying::start(Send::clone(&self.send))?),

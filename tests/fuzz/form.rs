@@ -17,22 +17,22 @@ use tempfile::TempDir;
 use tipstrike::case::fields::Kind;
 use tipstrike::case::{Case, Document};
 use tipstrike::model::inputs::Method;
-use tipstrike::tui::actions::Action;
-use tipstrike::tui::actions::Effect;
-use tipstrike::tui::app::App;
-use tipstrike::tui::dialogs::Prompt;
-use tipstrike::tui::events::{Event, take_action};
-use tipstrike::tui::jobs::Job;
-use tipstrike::tui::session::autosave::Autosave;
-use tipstrike::tui::session::journal_writer::JournalWriter;
-use tipstrike::tui::solver::{self, Request};
-use tipstrike::tui::store::preview::Viewport;
-use tipstrike::tui::store::recents;
-use tipstrike::tui::store::state::State;
-use tipstrike::tui::store::{self, case_search, folder};
-use tipstrike::tui::theme::Look;
-use tipstrike::tui::update::update;
-use tipstrike::tui::{effects, rows, update, view, worker};
+use tipstrike::tui::testing::actions::Action;
+use tipstrike::tui::testing::actions::Effect;
+use tipstrike::tui::testing::app::App;
+use tipstrike::tui::testing::dialogs::Prompt;
+use tipstrike::tui::testing::events::{Event, take_action};
+use tipstrike::tui::testing::jobs::Job;
+use tipstrike::tui::testing::session::Autosave;
+use tipstrike::tui::testing::session::JournalWriter;
+use tipstrike::tui::testing::solver::{self, Request};
+use tipstrike::tui::testing::store::State;
+use tipstrike::tui::testing::store::Viewport;
+use tipstrike::tui::testing::store::recents;
+use tipstrike::tui::testing::store::{self, case_search, folder};
+use tipstrike::tui::testing::theme::Look;
+use tipstrike::tui::testing::update::update;
+use tipstrike::tui::testing::{effects, rows, update, view, worker};
 
 use crate::values::{HOSTILE, field_and_text};
 use crate::{hold, is_hostile, texts};
@@ -371,7 +371,10 @@ impl Bench {
                 None
             }
             Effect::Quit => {
-                let is_unsaved = self.app.tabs().any(tipstrike::tui::tab::Tab::is_unsaved);
+                let is_unsaved = self
+                    .app
+                    .tabs()
+                    .any(tipstrike::tui::testing::tab::Tab::is_unsaved);
                 assert!(
                     was_asked || !is_unsaved,
                     "edits are not lost without a question"

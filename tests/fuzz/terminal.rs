@@ -10,7 +10,7 @@ use proptest::prelude::*;
 use proptest::sample::{Index, select};
 
 use tipstrike::case::Document;
-use tipstrike::tui::session::journal::Journal;
+use tipstrike::tui::testing::session::Journal;
 
 use crate::hold;
 use crate::tty::{PATIENCE, Tty, journals};

@@ -14,12 +14,12 @@ use harness::{Desk, LARGE, SMALL, TABLE_1};
 use ratatui::layout::Size;
 use tipstrike::case::file::SaveError;
 use tipstrike::case::{Document, fields};
-use tipstrike::tui::actions::Action;
-use tipstrike::tui::actions::Effect;
-use tipstrike::tui::commands::Command as Do;
-use tipstrike::tui::session::save::Next;
-use tipstrike::tui::session::save::SaveFault;
-use tipstrike::tui::update::update;
+use tipstrike::tui::testing::actions::Action;
+use tipstrike::tui::testing::actions::Effect;
+use tipstrike::tui::testing::commands::Command as Do;
+use tipstrike::tui::testing::session::Next;
+use tipstrike::tui::testing::session::SaveFault;
+use tipstrike::tui::testing::update::update;
 use tty::{Launch, PROGRAM};
 
 fn edited() -> Desk {

@@ -16,12 +16,12 @@ use tempfile::TempDir;
 use tipstrike::case::Change;
 use tipstrike::case::Document;
 use tipstrike::case::sanitize::is_hidden;
-use tipstrike::tui::actions::Action;
-use tipstrike::tui::session::recovery::{Access, Claim, Offer};
-use tipstrike::tui::session::save::Next;
-use tipstrike::tui::session::save::SaveFault;
-use tipstrike::tui::theme::Look;
-use tipstrike::tui::view;
+use tipstrike::tui::testing::actions::Action;
+use tipstrike::tui::testing::session::Next;
+use tipstrike::tui::testing::session::SaveFault;
+use tipstrike::tui::testing::session::{Access, Claim, Offer};
+use tipstrike::tui::testing::theme::Look;
+use tipstrike::tui::testing::view;
 use tty::{Launch, PROGRAM};
 
 /// Escape sequences, C1 controls, direction overrides, what has no width, ends of lines.
@@ -129,7 +129,7 @@ fn on(text: &str, size: Size, look: Look) -> Desk {
     let mut desk = Desk::new(size);
     let path = desk.write(&HOSTILE.replace('/', ""), text);
     let document = Document::read(&path).expect("it opens");
-    desk.app = tipstrike::tui::update::opened(document, Some(path), look, size);
+    desk.app = tipstrike::tui::testing::update::opened(document, Some(path), look, size);
     desk
 }
 

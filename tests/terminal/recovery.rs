@@ -11,12 +11,12 @@ use std::time::{Duration, Instant};
 
 use ratatui::layout::Size;
 use tipstrike::case::{Document, fields};
-use tipstrike::tui::app::App;
-use tipstrike::tui::session::autosave::Autosave;
-use tipstrike::tui::session::journal::Journal;
-use tipstrike::tui::session::journal_writer::JournalWriter;
-use tipstrike::tui::store::state::State;
-use tipstrike::tui::theme::Look;
+use tipstrike::tui::testing::app::App;
+use tipstrike::tui::testing::session::Autosave;
+use tipstrike::tui::testing::session::Journal;
+use tipstrike::tui::testing::session::JournalWriter;
+use tipstrike::tui::testing::store::State;
+use tipstrike::tui::testing::theme::Look;
 
 use tty::{Launch, PATIENCE, TABLE_1, Tty, has_faults_on_demand, is_there, journals, stat};
 
@@ -51,7 +51,12 @@ fn bench(folder: &Path) -> (App, Autosave, Arc<JournalWriter>) {
     let path = folder.join("case.toml");
     fs::write(&path, TABLE_1).expect("room on the disk");
     let document = Document::read(&path).expect("a good case");
-    let app = tipstrike::tui::update::opened(document, Some(path), Look::FULL, Size::new(80, 24));
+    let app = tipstrike::tui::testing::update::opened(
+        document,
+        Some(path),
+        Look::FULL,
+        Size::new(80, 24),
+    );
     let journal_writer = JournalWriter::open(|warning| panic!("{warning}")).expect("a thread");
     let autosave = Autosave::new(
         State::choose(Some(folder.join("tipstrike")), Vec::new()),

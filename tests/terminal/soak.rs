@@ -8,13 +8,13 @@ use std::time::{Duration, Instant};
 
 use ratatui::layout::Size;
 use tipstrike::case::Document;
-use tipstrike::tui::actions::Action;
-use tipstrike::tui::actions::Effect;
-use tipstrike::tui::commands::Command;
-use tipstrike::tui::rows;
-use tipstrike::tui::session::journal::Journal;
-use tipstrike::tui::theme::Look;
-use tipstrike::tui::update::{opened, update};
+use tipstrike::tui::testing::actions::Action;
+use tipstrike::tui::testing::actions::Effect;
+use tipstrike::tui::testing::commands::Command;
+use tipstrike::tui::testing::rows;
+use tipstrike::tui::testing::session::Journal;
+use tipstrike::tui::testing::theme::Look;
+use tipstrike::tui::testing::update::{opened, update};
 use tty::{Launch, TABLE_1, Tty, journals};
 
 /// `TIPSTRIKE_SOAK` says how many; the suite has no time for more.

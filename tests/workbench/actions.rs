@@ -4,7 +4,7 @@ use crate::harness;
 use std::collections::BTreeSet;
 
 use harness::{Desk, LARGE, TABLE_1, time_evenly};
-use tipstrike::tui::commands::BINDINGS;
+use tipstrike::tui::testing::commands::BINDINGS;
 
 /// Keys before, the key, keys after, and what is then on the screen, or asked of the world, that is
 /// not without the key. `:name` calls a command by the palette.
@@ -300,7 +300,7 @@ fn every_key_does_what_its_line_says() {
 
 #[test]
 fn the_help_has_every_key_with_its_sentence() {
-    let lines = tipstrike::tui::help::lines();
+    let lines = tipstrike::tui::testing::help::lines();
     for binding in BINDINGS
         .iter()
         .filter(|binding| !binding.sentence.is_empty())

@@ -15,20 +15,20 @@ use tipstrike::model::compliance::ElasticGear;
 use tipstrike::model::compliance::tooth::field_gear;
 use tipstrike::model::inputs::Method;
 use tipstrike::model::{Stage, Stages};
-use tipstrike::tui::actions::Effect;
-use tipstrike::tui::actions::Progress;
-use tipstrike::tui::actions::{self, Action};
-use tipstrike::tui::app::App;
-use tipstrike::tui::commands::Command;
-use tipstrike::tui::dialogs::Prompt;
-use tipstrike::tui::dialogs::picker::Item;
-use tipstrike::tui::pane::Pane;
-use tipstrike::tui::settings::Settings;
-use tipstrike::tui::solver::Answer;
-use tipstrike::tui::tab::Origin;
-use tipstrike::tui::theme::{CONTRAST, Look, MONO};
-use tipstrike::tui::update::update;
-use tipstrike::tui::view;
+use tipstrike::tui::testing::actions::Effect;
+use tipstrike::tui::testing::actions::Progress;
+use tipstrike::tui::testing::actions::{self, Action};
+use tipstrike::tui::testing::app::App;
+use tipstrike::tui::testing::commands::Command;
+use tipstrike::tui::testing::dialogs::Item;
+use tipstrike::tui::testing::dialogs::Prompt;
+use tipstrike::tui::testing::pane::Pane;
+use tipstrike::tui::testing::settings::Settings;
+use tipstrike::tui::testing::solver::Answer;
+use tipstrike::tui::testing::tab::Origin;
+use tipstrike::tui::testing::theme::{CONTRAST, Look, MONO};
+use tipstrike::tui::testing::update::update;
+use tipstrike::tui::testing::view;
 
 const TINY: Size = Size {
     width: 60,
@@ -330,7 +330,7 @@ fn the_palette_finds_and_runs_every_command() {
 #[test]
 fn every_command_of_the_palette_works_on_every_screen() {
     for pane in Pane::ALL {
-        for index in 0..tipstrike::tui::commands::commands().count() {
+        for index in 0..tipstrike::tui::testing::commands::commands().count() {
             let mut desk = Desk::new(SMALL);
             desk.keys(&["Esc", &pane.number().to_string(), ":"]);
             for _ in 0..index {
@@ -446,9 +446,9 @@ fn an_answer_goes_to_the_case_that_asked_for_it() {
     };
     desk.keys(&["Alt-2"]);
     let before = desk.screen();
-    desk.act(Action::Solved(Box::new(tipstrike::tui::solver::answer(
-        &request,
-    ))));
+    desk.act(Action::Solved(Box::new(
+        tipstrike::tui::testing::solver::answer(&request),
+    )));
     assert_eq!(desk.screen(), before);
     desk.keys(&["Alt-1"]);
     assert!(desk.shows("2191.0"));
@@ -719,7 +719,7 @@ fn the_least_relief_has_a_place_until_it_is_there() {
     let Some(Effect::Solve(request)) = effects.into_iter().next() else {
         panic!("it asks for a solve")
     };
-    let whole = tipstrike::tui::solver::answer(&request);
+    let whole = tipstrike::tui::testing::solver::answer(&request);
     let mut first = Answer {
         stages: whole.stages.without(Stage::Clearing),
         ..whole.clone()
@@ -764,7 +764,7 @@ fn a_slow_solve_shows_how_far_it_is_and_esc_stops_it() {
     let Some(Effect::Solve(request)) = effects.into_iter().next() else {
         panic!("it asks for a solve")
     };
-    let whole = tipstrike::tui::solver::answer(&request);
+    let whole = tipstrike::tui::testing::solver::answer(&request);
     let half = Answer {
         active: Method::Exact,
         pending: Some(Method::Static),
@@ -927,9 +927,9 @@ fn frame_of(desk: &mut Desk, code: KeyCode) -> Vec<f64> {
         }
     });
     let answered = asked.map(|request| {
-        frame(Action::Solved(Box::new(tipstrike::tui::solver::answer(
-            &request,
-        ))))
+        frame(Action::Solved(Box::new(
+            tipstrike::tui::testing::solver::answer(&request),
+        )))
         .0
     });
     [Some(time), answered].into_iter().flatten().collect()

@@ -13,14 +13,14 @@ use std::time::Duration;
 
 use harness::{Desk, LARGE, SMALL, TABLE_1, name};
 use insta::assert_snapshot;
-use tipstrike::tui::actions::Effect;
-use tipstrike::tui::actions::{self, Action};
-use tipstrike::tui::ascii::is_safe;
-use tipstrike::tui::jobs::Job;
-use tipstrike::tui::store::{case_search, folder};
-use tipstrike::tui::theme::{Look, MONO};
-use tipstrike::tui::update::update;
-use tipstrike::tui::worker::Workers;
+use tipstrike::tui::testing::actions::Effect;
+use tipstrike::tui::testing::actions::{self, Action};
+use tipstrike::tui::testing::ascii::is_safe;
+use tipstrike::tui::testing::jobs::Job;
+use tipstrike::tui::testing::store::{case_search, folder};
+use tipstrike::tui::testing::theme::{Look, MONO};
+use tipstrike::tui::testing::update::update;
+use tipstrike::tui::testing::worker::Workers;
 
 /// Five cases and a folder; the second one is open.
 fn shelf(desk: &mut Desk) {

@@ -12,15 +12,15 @@ use ratatui::layout::{Position, Rect, Size};
 use tipstrike::case::units::System;
 use tipstrike::model::{ContactState, Outcome};
 use tipstrike::report::graphs::{GRAPHS, Graph};
-use tipstrike::tui::actions::Action;
-use tipstrike::tui::layout;
-use tipstrike::tui::pane::Pane;
-use tipstrike::tui::panes::chart::curves::{self, Whose};
-use tipstrike::tui::panes::chart::range::Frame;
-use tipstrike::tui::panes::chart::{self, raster};
-use tipstrike::tui::panes::teeth::readings::readings;
-use tipstrike::tui::solver::Answer;
-use tipstrike::tui::theme::{Look, MONO};
+use tipstrike::tui::testing::actions::Action;
+use tipstrike::tui::testing::chart::Frame;
+use tipstrike::tui::testing::chart::curves::{self, Whose};
+use tipstrike::tui::testing::chart::{self, raster};
+use tipstrike::tui::testing::layout;
+use tipstrike::tui::testing::pane::Pane;
+use tipstrike::tui::testing::solver::Answer;
+use tipstrike::tui::testing::teeth::readings;
+use tipstrike::tui::testing::theme::{Look, MONO};
 
 const HUGE: Size = Size {
     width: 240,

@@ -2,7 +2,7 @@
 use crate::harness;
 
 use harness::{Desk, LARGE, SMALL, TABLE_1};
-use tipstrike::tui::dialogs::Prompt;
+use tipstrike::tui::testing::dialogs::Prompt;
 
 fn at(desk: &mut Desk, typed: &str) -> f64 {
     desk.keys(&["a", "Ctrl-U", typed, "Enter"]);

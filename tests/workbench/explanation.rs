@@ -7,12 +7,12 @@ use std::process::Command;
 use harness::{Desk, LARGE, SMALL, TABLE_1};
 use insta::assert_snapshot;
 use tipstrike::case::EXAMPLES;
-use tipstrike::tui::actions::Action;
-use tipstrike::tui::ascii::written_out;
-use tipstrike::tui::dialogs::Prompt;
-use tipstrike::tui::dialogs::explanation::Explanation;
-use tipstrike::tui::panes::results;
-use tipstrike::tui::theme::{Look, MONO};
+use tipstrike::tui::testing::actions::Action;
+use tipstrike::tui::testing::ascii::written_out;
+use tipstrike::tui::testing::dialogs::Explanation;
+use tipstrike::tui::testing::dialogs::Prompt;
+use tipstrike::tui::testing::results;
+use tipstrike::tui::testing::theme::{Look, MONO};
 
 /// The lines inside the box on the screen.
 fn in_box(desk: &Desk) -> Vec<String> {
@@ -123,16 +123,17 @@ fn a_page_that_is_being_written_says_so_and_a_late_one_is_dropped() {
     let mut desk = Desk::new(SMALL);
     desk.keys(&["Esc", "2"]);
     let event = harness::event("Enter");
-    let action = tipstrike::tui::actions::of_key(event, desk.app.place()).expect("a key");
-    let effects = tipstrike::tui::update::update(&mut desk.app, action);
+    let action = tipstrike::tui::testing::actions::of_key(event, desk.app.place()).expect("a key");
+    let effects = tipstrike::tui::testing::update::update(&mut desk.app, action);
     assert!(desk.shows("computing: each field") && of(&desk).quantity.key == "impact_force");
     desk.keys(&["Esc", "j", "Enter"]);
     let before = desk.screen();
     for effect in effects {
-        let tipstrike::tui::actions::Effect::Job(job) = effect else {
+        let tipstrike::tui::testing::actions::Effect::Job(job) = effect else {
             continue;
         };
-        let late = tipstrike::tui::worker::jobs::perform(job, &|_| true).expect("an answer");
+        let late =
+            tipstrike::tui::testing::worker::jobs::perform(job, &|_| true).expect("an answer");
         desk.act(late);
     }
     assert_eq!(desk.screen(), before);

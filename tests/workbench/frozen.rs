@@ -8,7 +8,7 @@ use std::time::{Duration, SystemTime};
 
 use harness::{Desk, SMALL, TABLE_1};
 use tipstrike::case::Document;
-use tipstrike::tui::actions::Effect;
+use tipstrike::tui::testing::actions::Effect;
 
 #[test]
 fn every_frozen_case_opens_and_an_untouched_save_keeps_its_bytes() {

@@ -6,8 +6,8 @@ use std::os::unix::fs::PermissionsExt;
 
 use harness::{Desk, LARGE, SMALL, TABLE_1, name};
 use tipstrike::model::Stages;
-use tipstrike::tui::actions::Action;
-use tipstrike::tui::solver::Request;
+use tipstrike::tui::testing::actions::Action;
+use tipstrike::tui::testing::solver::Request;
 
 #[test]
 fn every_keystroke_that_leaves_a_valid_value_changes_the_results() {
@@ -457,9 +457,9 @@ fn a_late_answer_is_dropped() {
     };
     desk.fill("operation.speed", "500 rpm");
     let screen = desk.screen();
-    desk.act(Action::Solved(Box::new(tipstrike::tui::solver::answer(
-        &late,
-    ))));
+    desk.act(Action::Solved(Box::new(
+        tipstrike::tui::testing::solver::answer(&late),
+    )));
     assert_eq!(desk.screen(), screen);
 }
 

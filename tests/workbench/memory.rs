@@ -4,7 +4,7 @@ use crate::harness;
 use harness::{Desk, LARGE, SMALL, TABLE_1};
 use tipstrike::case::Document;
 use tipstrike::model::inputs::Method;
-use tipstrike::tui::actions::Action;
+use tipstrike::tui::testing::actions::Action;
 
 /// Bytes that are kept after this, once for each of so many times.
 fn kept(times: usize, mut run: impl FnMut(usize)) -> f64 {

@@ -2,7 +2,7 @@
 
 use crate::harness::{Desk, SMALL};
 
-use tipstrike::tui::actions::Effect;
+use tipstrike::tui::testing::actions::Effect;
 
 const MODEL: &str = include_str!("../cli/rexs/two-stages-1.0.rexs");
 

@@ -43,7 +43,7 @@ fn last_valid_results_show_their_reason_and_the_key_that_goes_there() {
 fn the_mark_in_the_results_stays_with_its_quantity() {
     let mut desk = Desk::new(SMALL);
     let marked = |desk: &Desk| {
-        tipstrike::tui::panes::results::marked(&desk.app.results()).map(|quantity| quantity.key)
+        tipstrike::tui::testing::results::marked(&desk.app.results()).map(|quantity| quantity.key)
     };
     desk.keys(&["Esc", "2", "j", "j", "j", "j", "j", "j", "j"]);
     assert_eq!(marked(&desk), Some("base_pitch"));

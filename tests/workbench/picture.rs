@@ -8,7 +8,7 @@ use harness::{Desk, LARGE};
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Modifier};
 use tipstrike::case::{Document, EXAMPLES};
-use tipstrike::tui::theme::Look;
+use tipstrike::tui::testing::theme::Look;
 
 const CELL: (f64, f64) = (8.4, 18.0);
 const MARGIN: f64 = 12.0;
@@ -52,7 +52,7 @@ fn taken(title: &str, keys: &[&str]) -> String {
         desk.path("gears/gone.toml"),
     ];
     let path = desk.path("gears/zhou-chen-2014.toml");
-    desk.app = tipstrike::tui::update::opened(
+    desk.app = tipstrike::tui::testing::update::opened(
         Document::read(&path).expect("a good case"),
         Some(path),
         Look::FULL,

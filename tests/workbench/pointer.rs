@@ -3,7 +3,7 @@ use crate::harness;
 
 use harness::{Desk, LARGE, SMALL, TABLE_1};
 use ratatui::layout::{Position, Size};
-use tipstrike::tui::actions::Action;
+use tipstrike::tui::testing::actions::Action;
 
 /// Press the first letter of a word.
 fn press(desk: &mut Desk, word: &str) {

@@ -6,14 +6,14 @@ use harness::{Desk, LARGE, SMALL, TABLE_1, without_folder};
 use insta::assert_snapshot;
 use ratatui::layout::Size;
 use tipstrike::case::Change;
-use tipstrike::tui::actions::Action;
-use tipstrike::tui::actions::Progress;
-use tipstrike::tui::dialogs::Prompt;
-use tipstrike::tui::dialogs::question::Question;
-use tipstrike::tui::session::recovery::{Access, Claim, Offer};
-use tipstrike::tui::session::save::Next;
-use tipstrike::tui::session::save::SaveFault;
-use tipstrike::tui::theme::{Look, MONO};
+use tipstrike::tui::testing::actions::Action;
+use tipstrike::tui::testing::actions::Progress;
+use tipstrike::tui::testing::dialogs::Prompt;
+use tipstrike::tui::testing::dialogs::Question;
+use tipstrike::tui::testing::session::Next;
+use tipstrike::tui::testing::session::SaveFault;
+use tipstrike::tui::testing::session::{Access, Claim, Offer};
+use tipstrike::tui::testing::theme::{Look, MONO};
 
 const HOLDER: &str = "process 4711 on drawing-office, since 12 min";
 

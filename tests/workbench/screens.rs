@@ -5,9 +5,9 @@ use harness::{Desk, LARGE, SMALL, TABLE_1, without_folder};
 use insta::assert_snapshot;
 use ratatui::layout::Size;
 use tipstrike::model::inputs::Method;
-use tipstrike::tui::actions::Action;
-use tipstrike::tui::panes::results;
-use tipstrike::tui::theme::{Look, MONO};
+use tipstrike::tui::testing::actions::Action;
+use tipstrike::tui::testing::results;
+use tipstrike::tui::testing::theme::{Look, MONO};
 
 const TINY: Size = Size {
     width: 60,
@@ -236,7 +236,7 @@ fn no_hostile_character_of_a_file_reaches_the_screen() {
         let screen = desk.keys(keys).screen();
         let bad = screen
             .chars()
-            .find(|letter| *letter != '\n' && !tipstrike::tui::ascii::is_safe(*letter));
+            .find(|letter| *letter != '\n' && !tipstrike::tui::testing::ascii::is_safe(*letter));
         assert_eq!(bad, None, "after {keys:?}");
     }
     assert!(desk.keys(&["Esc", "Ctrl-Home"]).shows("desrever"));

@@ -7,9 +7,9 @@ use harness::{Desk, LARGE, SMALL, TABLE_1};
 use insta::assert_snapshot;
 use ratatui::layout::Size;
 use tipstrike::case::fields::index_of;
-use tipstrike::tui::actions::{self, Action, Effect};
-use tipstrike::tui::study::{End, Found, Question, StudyPart};
-use tipstrike::tui::update::update;
+use tipstrike::tui::testing::actions::{self, Action, Effect};
+use tipstrike::tui::testing::study::{End, Found, Question, StudyPart};
+use tipstrike::tui::testing::update::update;
 
 const SPREAD: &str = "\n[spread]\n\"deviations.base_pitch\" = { normal = \"2 um\" }\n\"operation.power\" = { uniform = \"1 kW\" }\n";
 

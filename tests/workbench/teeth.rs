@@ -18,13 +18,13 @@ use tipstrike::case::Document;
 use tipstrike::case::units::System;
 use tipstrike::model::inputs::{Method, ToothCompliance};
 use tipstrike::model::{self, ContactState, Inputs, Solution, Stage, Stages, contact_state};
-use tipstrike::tui::actions::Action;
-use tipstrike::tui::ascii;
-use tipstrike::tui::panes::teeth::labels::Labels;
-use tipstrike::tui::panes::teeth::scene::Scene;
-use tipstrike::tui::panes::teeth::zoom::{Centre, Exaggeration, TeethView};
-use tipstrike::tui::panes::teeth::{self, Picture};
-use tipstrike::tui::theme::{Look, MONO};
+use tipstrike::tui::testing::actions::Action;
+use tipstrike::tui::testing::ascii;
+use tipstrike::tui::testing::teeth::Labels;
+use tipstrike::tui::testing::teeth::Scene;
+use tipstrike::tui::testing::teeth::{self, Picture};
+use tipstrike::tui::testing::teeth::{Centre, Exaggeration, TeethView};
+use tipstrike::tui::testing::theme::{Look, MONO};
 
 const SIZES: [(u16, u16); 3] = [(80, 18), (140, 30), (200, 60)];
 const ASCII: Look = Look {

@@ -7,13 +7,13 @@ use insta::assert_snapshot;
 use ratatui::layout::Size;
 use tipstrike::model::inputs::Method;
 use tipstrike::study::trade::{Build, Setting};
-use tipstrike::tui::actions::Action;
-use tipstrike::tui::actions::Effect;
-use tipstrike::tui::actions::Progress;
-use tipstrike::tui::benchmark::{End, Measured, Measuring};
-use tipstrike::tui::layout::plan;
-use tipstrike::tui::theme::{Look, MONO};
-use tipstrike::tui::update::update;
+use tipstrike::tui::testing::actions::Action;
+use tipstrike::tui::testing::actions::Effect;
+use tipstrike::tui::testing::actions::Progress;
+use tipstrike::tui::testing::benchmark::{End, Measured, Measuring};
+use tipstrike::tui::testing::layout::plan;
+use tipstrike::tui::testing::theme::{Look, MONO};
+use tipstrike::tui::testing::update::update;
 
 fn measured(size: Size) -> Desk {
     let mut desk = Desk::on(size, "case.toml", TABLE_1);
@@ -29,7 +29,8 @@ fn own(desk: &Desk) -> Setting {
 fn asked(desk: &mut Desk, key: &str) -> Vec<Effect> {
     let letter = || KeyCode::Char(key.chars().next().expect("a key")).into();
     let event = harness::named(key).unwrap_or_else(letter);
-    let action = tipstrike::tui::actions::of_key(event, desk.app.place()).expect("an action");
+    let action =
+        tipstrike::tui::testing::actions::of_key(event, desk.app.place()).expect("an action");
     update(&mut desk.app, action)
 }
 

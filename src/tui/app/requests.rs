@@ -13,7 +13,7 @@ use crate::tui::tab::Tab;
 impl App {
     /// The stages of a solve whose results are in sight.
     #[must_use]
-    pub fn wanted(&self) -> Stages {
+    pub(crate) fn wanted(&self) -> Stages {
         if self.is_pinning {
             return Stages::EVERY;
         }

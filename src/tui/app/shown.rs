@@ -17,7 +17,7 @@ use crate::tui::panes::trade::TradePane;
 impl App {
     /// The title line of a pane.
     #[must_use]
-    pub fn title(&self, pane: Pane) -> Title {
+    pub(crate) fn title(&self, pane: Pane) -> Title {
         let plan = self.plan();
         let hidden = if plan.names_hidden() == Some(pane) {
             plan.hidden().collect()
@@ -54,7 +54,7 @@ impl App {
 
     /// The form with the case in it.
     #[must_use]
-    pub fn form(&self) -> Form<'_> {
+    pub(crate) fn form(&self) -> Form<'_> {
         let tab = &self.tab;
         Form {
             case: &tab.case,
@@ -105,7 +105,7 @@ impl App {
 
     /// The trade pane with the benchmark that it shows.
     #[must_use]
-    pub fn trade(&self) -> TradePane<'_> {
+    pub(crate) fn trade(&self) -> TradePane<'_> {
         TradePane {
             traded: self.tab.traded.as_ref(),
             inputs: self.tab.inputs(),
@@ -118,7 +118,7 @@ impl App {
 
     /// The study pane with the study that it shows.
     #[must_use]
-    pub fn study(&self) -> StudyPane<'_> {
+    pub(crate) fn study(&self) -> StudyPane<'_> {
         let tab = &self.tab;
         let answer = tab.answer.as_ref().filter(|_| !tab.is_stale());
         let present = results::marked(&self.results())
@@ -157,7 +157,7 @@ impl App {
 
     /// The picture of the teeth, if the active method has results.
     #[must_use]
-    pub fn picture(&self) -> Option<Picture<'_>> {
+    pub(crate) fn picture(&self) -> Option<Picture<'_>> {
         let answer = self.tab.answer.as_ref()?;
         Some(Picture {
             inputs: &answer.inputs,

@@ -20,7 +20,7 @@ use crate::tui::theme::Theme;
 
 mod state;
 
-pub use state::Browser;
+pub(crate) use state::Browser;
 use state::Line;
 
 /// As wide as may be, and so many lines at most.
@@ -34,13 +34,13 @@ const RECENTS: usize = 6;
 impl Browser {
     /// The job that lists the folder.
     #[must_use]
-    pub fn list(&self) -> Effect {
+    pub(crate) fn list(&self) -> Effect {
         let (base, typed) = self.asks();
         Effect::Job(Job::Folder(base, typed))
     }
 
     /// Enters the selected folder, or writes the selected name into the line.
-    pub fn complete(&mut self) -> Vec<Effect> {
+    pub(crate) fn complete(&mut self) -> Vec<Effect> {
         match self.marked_sight() {
             Some(Viewport::Folder(folder)) => {
                 self.enter(folder);

@@ -18,7 +18,7 @@ const WIDTH: u16 = 62;
 #[derive(Debug, Clone, Default)]
 pub struct CursorTo {
     /// The typed text.
-    pub input: Line,
+    pub(crate) input: Line,
 }
 
 impl Dialog for CursorTo {

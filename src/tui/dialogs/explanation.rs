@@ -23,21 +23,25 @@ pub struct Explanation {
     /// The result.
     pub quantity: &'static Quantity,
     /// What the case is called.
-    pub case: String,
+    pub(crate) case: String,
     /// The value in the units of the results, where those are not the page's.
-    pub value: Option<Shown>,
+    pub(crate) value: Option<Shown>,
     /// The page, or why there is none; nothing while it is being written.
     pub page: Option<Result<Box<Page>, String>>,
     /// The first line in sight.
     pub top: usize,
     /// The marked one of the fields.
-    pub marked: Option<usize>,
+    pub(crate) marked: Option<usize>,
 }
 
 impl Explanation {
     /// An explanation that is being written.
     #[must_use]
-    pub fn new(quantity: &'static Quantity, case: String, value: Option<Shown>) -> Explanation {
+    pub(crate) fn new(
+        quantity: &'static Quantity,
+        case: String,
+        value: Option<Shown>,
+    ) -> Explanation {
         Explanation {
             quantity,
             case,
@@ -49,7 +53,7 @@ impl Explanation {
     }
 
     /// Take the page, if it is the one that is waited for.
-    pub fn take(&mut self, explained: Explained) {
+    pub(crate) fn take(&mut self, explained: Explained) {
         if self.page.is_none() && explained.quantity.key == self.quantity.key {
             self.page = Some(explained.page);
         }
@@ -80,7 +84,7 @@ impl Explanation {
     }
 
     /// Mark the next field or the one before, round and round.
-    pub fn mark(&mut self, by: isize) {
+    pub(crate) fn mark(&mut self, by: isize) {
         let count = self.fields().len();
         let from = self
             .marked

@@ -15,7 +15,7 @@ const NAMING: &str = "A name or a path, ~ is the home folder. The ending chooses
 #[derive(Debug, Clone)]
 pub struct ExportTo {
     /// The typed path.
-    pub input: Line,
+    pub(crate) input: Line,
 }
 
 impl Dialog for ExportTo {

@@ -14,16 +14,16 @@ use crate::tui::theme::Theme;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Page {
     /// In a few words.
-    pub title: String,
-    pub lines: Vec<String>,
+    pub(crate) title: String,
+    pub(crate) lines: Vec<String>,
     /// The first line in sight.
-    pub top: usize,
+    pub(crate) top: usize,
 }
 
 impl Page {
     /// A page from its first line.
     #[must_use]
-    pub fn new(title: impl Into<String>, lines: Vec<String>) -> Page {
+    pub(crate) fn new(title: impl Into<String>, lines: Vec<String>) -> Page {
         Page {
             title: title.into(),
             lines,

@@ -19,8 +19,9 @@ use crate::tui::theme::Theme;
 mod item;
 mod state;
 
-pub use item::{Item, Pick, VARIANT};
-pub use state::{Context, List, Picker};
+pub use item::Item;
+pub(crate) use item::{Pick, VARIANT};
+pub(crate) use state::{Context, List, Picker};
 
 /// A list has so many columns and lines where there is room.
 const SIZE: Size = Size {

@@ -24,19 +24,19 @@ const BESIDE_NAME: u16 = 7;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Question {
     /// In a few words.
-    pub title: &'static str,
+    pub(crate) title: &'static str,
     /// In a sentence.
-    pub text: String,
+    pub(crate) text: String,
     /// What it is about, a line each.
-    pub details: Vec<String>,
+    pub(crate) details: Vec<String>,
     /// The answers. The first letter of each calls it.
-    pub buttons: Vec<(&'static str, Choice)>,
-    pub marked: usize,
+    pub(crate) buttons: Vec<(&'static str, Choice)>,
+    pub(crate) marked: usize,
 }
 
 /// An answer to a question.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Choice {
+pub(crate) enum Choice {
     /// Save, then go on.
     Save(Next),
     /// Lose the edits and go on.
@@ -58,7 +58,7 @@ pub enum Choice {
 impl Question {
     /// Edits of one case would be lost. A stray Enter neither saves nor loses them.
     #[must_use]
-    pub fn unsaved(name: &str, next: &Next) -> Question {
+    pub(crate) fn unsaved(name: &str, next: &Next) -> Question {
         Question {
             title: "Unsaved edits",
             text: format!("{name} has unsaved edits."),
@@ -93,7 +93,7 @@ impl Question {
 
     /// Asks before overwriting an existing file; `details` are its differences from the form.
     #[must_use]
-    pub fn exists(path: &Path, details: Vec<String>, next: &Next) -> Question {
+    pub(crate) fn exists(path: &Path, details: Vec<String>, next: &Next) -> Question {
         Question {
             title: "The file exists",
             text: format!(
@@ -132,7 +132,7 @@ impl Question {
 
     /// Asks after another program wrote the file; `details` are its differences from the form.
     #[must_use]
-    pub fn changed(path: &Path, details: Vec<String>, next: &Next) -> Question {
+    pub(crate) fn changed(path: &Path, details: Vec<String>, next: &Next) -> Question {
         Question {
             title: "The file has changed on disk",
             text: format!(
@@ -155,7 +155,7 @@ impl Question {
 
     /// Another session has the file open.
     #[must_use]
-    pub fn held(path: &Path, holder: &str, next: &Next) -> Question {
+    pub(crate) fn held(path: &Path, holder: &str, next: &Next) -> Question {
         Question {
             title: "Open elsewhere",
             text: format!(
@@ -196,7 +196,7 @@ impl Question {
     }
 
     /// Move the mark to the next or the one before, round and round.
-    pub fn mark(&mut self, by: isize) {
+    pub(crate) fn mark(&mut self, by: isize) {
         let count = self.buttons.len().max(1);
         self.marked = (self.marked + count).saturating_add_signed(by) % count;
     }

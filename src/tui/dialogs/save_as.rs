@@ -17,9 +17,9 @@ const NAMING: &str =
 #[derive(Debug, Clone)]
 pub struct SaveAs {
     /// The typed path.
-    pub input: Line,
+    pub(crate) input: Line,
     /// The step after the save.
-    pub next: Next,
+    pub(crate) next: Next,
 }
 
 impl Dialog for SaveAs {

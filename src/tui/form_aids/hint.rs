@@ -15,7 +15,7 @@ const DIGITS: usize = 5;
 impl Field {
     /// What a typed text is in the field's usual unit, see [`units::converted`].
     #[must_use]
-    pub fn converted(&self, typed: &str, system: System) -> Option<String> {
+    pub(crate) fn converted(&self, typed: &str, system: System) -> Option<String> {
         match self.kind {
             Kind::Number(dimension, ..) => {
                 units::converted(typed, dimension, self.usual_unit(), system)
@@ -27,7 +27,7 @@ impl Field {
     /// What stands for a field that is left out, empty where nothing does; a measure in the units
     /// of the system.
     #[must_use]
-    pub fn default_in(&self, system: System) -> String {
+    pub(crate) fn default_in(&self, system: System) -> String {
         let Absent::Default(text) = self.absent else {
             return String::new();
         };
@@ -49,7 +49,7 @@ impl Field {
 
     /// A value in SI in the field's usual unit, to the digits of a hint.
     #[must_use]
-    pub fn in_usual_unit(&self, value: f64) -> String {
+    pub(crate) fn in_usual_unit(&self, value: f64) -> String {
         let unit = self.usual_unit();
         let number = tidy(value / units::factor(unit).unwrap_or(1.0), DIGITS);
         format!("{number} {unit}").trim_end().to_owned()
@@ -57,7 +57,7 @@ impl Field {
 
     /// The least and the greatest value as [`Field::range_text`] tells them, in inch units rounded.
     #[must_use]
-    pub fn range_in(&self, system: System) -> String {
+    pub(crate) fn range_in(&self, system: System) -> String {
         let Kind::Number(_, range, _) = self.kind else {
             return self.range_text();
         };

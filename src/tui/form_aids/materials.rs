@@ -12,21 +12,21 @@ use crate::model::inputs::Gear;
 
 /// A material with the values that the fields of a gear take, as texts, and their source.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
-pub struct Material {
+pub(crate) struct Material {
     /// Its name, such as `42CrMo4`.
-    pub name: String,
+    pub(crate) name: String,
     /// What kind of material it is, such as `case-hardening steel`.
-    pub group: String,
+    pub(crate) group: String,
     /// Young's modulus with its unit.
-    pub young: String,
+    pub(crate) young: String,
     /// Poisson's ratio.
-    pub poisson: String,
+    pub(crate) poisson: String,
     /// Density with its unit.
-    pub density: String,
+    pub(crate) density: String,
     /// Where the values are from.
-    pub source: String,
+    pub(crate) source: String,
     /// What a reader must know of them.
-    pub note: String,
+    pub(crate) note: String,
 }
 
 #[derive(Deserialize)]
@@ -58,22 +58,14 @@ const SAME: f64 = 1e-9;
 
 /// Every material, those of a group together.
 #[must_use]
-pub fn all() -> &'static [Material] {
+pub(crate) fn all() -> &'static [Material] {
     &ALL
-}
-
-/// The material of that name, in small or capital letters.
-#[must_use]
-pub fn find(name: &str) -> Option<&'static Material> {
-    all()
-        .iter()
-        .find(|material| material.name.eq_ignore_ascii_case(name.trim()))
 }
 
 impl Material {
     /// The gear's fields that it fills, and with what.
     #[must_use]
-    pub fn texts(&self) -> [(&'static str, &str); 3] {
+    pub(crate) fn texts(&self) -> [(&'static str, &str); 3] {
         [
             ("young", &self.young),
             ("poisson", &self.poisson),
@@ -86,7 +78,7 @@ impl Material {
 ///
 /// # Errors
 /// As [`Case::set`], where there is no such gear; the case then stays as it was.
-pub fn apply(case: &mut Case, gear: &str, material: &Material) -> Result<(), Problem> {
+pub(crate) fn apply(case: &mut Case, gear: &str, material: &Material) -> Result<(), Problem> {
     let mut changed = case.clone();
     for (name, text) in material.texts() {
         changed.set(&format!("{gear}.{name}"), text)?;
@@ -98,7 +90,7 @@ pub fn apply(case: &mut Case, gear: &str, material: &Material) -> Result<(), Pro
 /// The materials whose three values the gear has; several where they have the same ones, none where
 /// it is no known one.
 #[must_use]
-pub fn of_gear(case: &Case, gear: &str) -> Vec<&'static Material> {
+pub(crate) fn of_gear(case: &Case, gear: &str) -> Vec<&'static Material> {
     let Some(own) = constants(case, gear) else {
         return Vec::new();
     };
@@ -117,7 +109,7 @@ pub fn of_gear(case: &Case, gear: &str) -> Vec<&'static Material> {
 /// What the gear is made of, as it stands beside its fields: `42CrMo4`, or `Steel, 18CrNiMo7-6 or
 /// 20CrMnTi` where the values are those of several.
 #[must_use]
-pub fn name_of_gear(case: &Case, gear: &str) -> Option<String> {
+pub(crate) fn name_of_gear(case: &Case, gear: &str) -> Option<String> {
     let found = of_gear(case, gear);
     let (last, others) = found.split_last()?;
     let others: Vec<&str> = others
@@ -154,6 +146,11 @@ fn constants(case: &Case, gear: &str) -> Option<[f64; 3]> {
 mod tests {
     use super::*;
     use std::collections::BTreeSet;
+
+    fn named(name: &str) -> &'static Material {
+        let found = all().iter().find(|material| material.name == name);
+        found.expect("a material of that name")
+    }
 
     #[test]
     fn every_material_fits_the_fields_and_names_its_source() {
@@ -234,7 +231,7 @@ mod tests {
     fn a_material_fills_three_fields_and_is_told_by_them() {
         let mut case = Case::table_1();
         assert_eq!(name_of_gear(&case, "driver"), None);
-        apply(&mut case, "driver", find("42crmo4").unwrap()).unwrap();
+        apply(&mut case, "driver", named("42CrMo4")).unwrap();
         let text = |key: &str| case.text(index_of(key).unwrap());
         assert_eq!(
             (text("driver.young"), text("driver.density")),
@@ -253,7 +250,7 @@ mod tests {
     #[test]
     fn materials_of_the_same_values_are_all_named() {
         let mut case = Case::table_1();
-        apply(&mut case, "driven", find("Steel").unwrap()).unwrap();
+        apply(&mut case, "driven", named("Steel")).unwrap();
         assert_eq!(
             name_of_gear(&case, "driven").as_deref(),
             Some("Steel, 18CrNiMo7-6 or 20CrMnTi")

@@ -44,14 +44,14 @@ static RESULTS: LazyLock<Vec<Entry>> =
 /// the order of the form. Case is ignored, Greek letters may be spelled out, underscores left out,
 /// words shortened or slightly mistyped. An empty query fits all fields alike.
 #[must_use]
-pub fn search(query: &str) -> Vec<(usize, u32)> {
+pub(crate) fn search(query: &str) -> Vec<(usize, u32)> {
     search_in(&ENTRIES, query)
 }
 
 /// Results that fit every word of the query, by their places in the table of quantities, as
 /// [`search`] finds fields.
 #[must_use]
-pub fn search_results(query: &str) -> Vec<(usize, u32)> {
+pub(crate) fn search_results(query: &str) -> Vec<(usize, u32)> {
     search_in(&RESULTS, query)
 }
 

@@ -8,7 +8,7 @@ use crate::case::{Case, Limit};
 /// by whole numbers, a choice to the names beside it. `None` where there is nothing to move, the
 /// text is no value of the field, or the range ends here.
 #[must_use]
-pub fn step(text: &str, field: usize, by: i32) -> Option<String> {
+pub(crate) fn step(text: &str, field: usize, by: i32) -> Option<String> {
     match FIELDS[field].kind {
         Kind::Text => None,
         Kind::Choice(names, _) => named(text, names, by),
@@ -18,7 +18,7 @@ pub fn step(text: &str, field: usize, by: i32) -> Option<String> {
 
 /// The text of a limit moved likewise, not below zero.
 #[must_use]
-pub fn step_limit(text: &str, quantity: &str, by: i32) -> Option<String> {
+pub(crate) fn step_limit(text: &str, quantity: &str, by: i32) -> Option<String> {
     moved(text, by, |text| {
         Limit::new(quantity, text).is_ok_and(|limit| limit.value >= 0.0)
     })

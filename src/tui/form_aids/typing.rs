@@ -1,26 +1,26 @@
 //! What a form makes of a text while it is typed: the unit that completes it, and whether it is
 //! wrong or merely unfinished.
 
+use crate::case::Limit;
 use crate::case::fields::{AUTO, Field, Kind};
 use crate::case::units::{self, Dimension, Open, System};
-use crate::case::{Limit, Problem};
 use crate::model::Quantity;
 
 /// What a number is measured in, where it is shown.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Measure {
+pub(crate) struct Measure {
     /// Its dimension.
-    pub dimension: Dimension,
+    pub(crate) dimension: Dimension,
     /// The unit that a bare number takes where nothing else was written; empty for a bare number.
-    pub unit: &'static str,
+    pub(crate) unit: &'static str,
     /// The least value, in SI.
-    pub least: f64,
+    pub(crate) least: f64,
 }
 
 impl Field {
     /// What its numbers are measured in; `None` for words and names.
     #[must_use]
-    pub fn measure(&self, system: System) -> Option<Measure> {
+    pub(crate) fn measure(&self, system: System) -> Option<Measure> {
         let least = |from: f64, unit: &str| from * units::factor(unit).unwrap_or(1.0);
         match self.kind {
             Kind::Number(dimension, range, _) => Some(Measure {
@@ -40,7 +40,7 @@ impl Field {
     /// Whether a text that the field does not take is merely unfinished: it may become a value by
     /// typing on.
     #[must_use]
-    pub fn is_unfinished(&self, typed: &str) -> bool {
+    pub(crate) fn is_unfinished(&self, typed: &str) -> bool {
         let is_auto_begun = self.takes_auto() && AUTO.starts_with(typed.trim());
         is_auto_begun
             || self
@@ -52,7 +52,7 @@ impl Field {
 impl Limit {
     /// What it is measured in.
     #[must_use]
-    pub fn measure(&self, system: System) -> Option<Measure> {
+    pub(crate) fn measure(&self, system: System) -> Option<Measure> {
         let quantity = Quantity::find(self.quantity)?;
         let unit = if quantity.shown == "1" {
             ""
@@ -65,21 +65,13 @@ impl Limit {
             least: f64::NEG_INFINITY,
         })
     }
-
-    /// What is wrong with the text.
-    #[must_use]
-    pub fn problem(&self) -> Option<Problem> {
-        Limit::new(self.quantity, &self.text)
-            .err()
-            .filter(|_| !self.text.is_empty())
-    }
 }
 
 impl Measure {
     /// Whether a text that is not taken may become a value by typing on: by a unit, or by digits
     /// where it is too small.
     #[must_use]
-    pub fn is_unfinished(&self, typed: &str) -> bool {
+    pub(crate) fn is_unfinished(&self, typed: &str) -> bool {
         let is_too_small =
             || units::parse(typed, self.dimension, "").map_or(true, |value| value < self.least);
         // No digit and no unit makes more of a negative number than 0.

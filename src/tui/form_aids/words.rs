@@ -29,7 +29,7 @@ impl Problem {
     /// The same problem as a form says it, where the field and its text are in sight: `write 5 mm`
     /// for `write "5 mm"`, a label for a key. For a file it stays as it is.
     #[must_use]
-    pub fn for_form(&self) -> Problem {
+    pub(crate) fn for_form(&self) -> Problem {
         Problem {
             field: called(&self.field),
             cause: for_form(&self.cause),

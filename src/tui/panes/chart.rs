@@ -1,13 +1,13 @@
 //! The chart pane: the chosen chart of the station values, and others below it where they have
 //! room.
 
-pub mod axes;
-pub mod curves;
-pub mod legend;
-pub mod panels;
-pub mod range;
-pub mod raster;
-pub mod readout;
+pub(crate) mod axes;
+pub(crate) mod curves;
+pub(crate) mod legend;
+pub(crate) mod panels;
+pub(crate) mod range;
+pub(crate) mod raster;
+pub(crate) mod readout;
 mod way;
 
 use ratatui::layout::Rect;
@@ -40,7 +40,7 @@ pub struct ChartPane {
     /// The chosen chart, as an index of the table.
     pub graph: usize,
     /// Whether the x axis is the time after E.
-    pub by_time: bool,
+    pub(crate) by_time: bool,
     /// The visible roll angles.
     pub view: ChartView,
 }
@@ -66,27 +66,27 @@ pub enum ChartCommand {
 #[derive(Debug, Clone, Copy)]
 pub struct Charts<'a> {
     /// The state of the pane.
-    pub pane: &'a ChartPane,
+    pub(crate) pane: &'a ChartPane,
     /// The axes, which belong to the case.
-    pub scale: &'a Scale,
+    pub(crate) scale: &'a Scale,
     /// The last valid results.
-    pub answer: Option<&'a Answer>,
+    pub(crate) answer: Option<&'a Answer>,
     /// The results of the baseline.
-    pub baseline: Option<&'a Answer>,
+    pub(crate) baseline: Option<&'a Answer>,
     /// The cursor: the driver's roll angle before E, in rad.
-    pub cursor: Option<f64>,
+    pub(crate) cursor: Option<f64>,
     /// Whether the results are older than the form.
-    pub is_stale: bool,
+    pub(crate) is_stale: bool,
     /// The first request after the last undo.
-    pub undone: u64,
+    pub(crate) undone: u64,
     /// The display units.
-    pub units: System,
+    pub(crate) units: System,
     /// The marker of the active curve.
-    pub marker: Marker,
+    pub(crate) marker: Marker,
     /// The capabilities of the terminal.
-    pub look: Look,
+    pub(crate) look: Look,
     /// The area of the pane with its title; empty if the pane is hidden.
-    pub area: Rect,
+    pub(crate) area: Rect,
 }
 
 impl Charts<'_> {
@@ -120,7 +120,7 @@ impl Charts<'_> {
 
     /// The state after a command, and a message.
     #[must_use]
-    pub fn run(&self, command: ChartCommand) -> (ChartPane, Option<&'static str>) {
+    pub(crate) fn run(&self, command: ChartCommand) -> (ChartPane, Option<&'static str>) {
         let mut pane = *self.pane;
         let message = match command {
             ChartCommand::Step(by) => {

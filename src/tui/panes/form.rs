@@ -36,7 +36,7 @@ pub struct FormState {
     /// Its typed text, and the cursor in it. The case has the text with its unit.
     pub input: Text,
     /// The unit of the row when it got the focus.
-    pub written_unit: Option<String>,
+    pub(crate) written_unit: Option<String>,
     /// The first visible line.
     pub top: usize,
 }
@@ -44,7 +44,7 @@ pub struct FormState {
 impl FormState {
     /// The focus on a row, the cursor at the end of its text.
     #[must_use]
-    pub fn at(case: &Case, focus: usize) -> FormState {
+    pub(crate) fn at(case: &Case, focus: usize) -> FormState {
         FormState {
             focus,
             input: Text::whole(rows::text(case, focus).unwrap_or_default()),
@@ -56,33 +56,33 @@ impl FormState {
 
 /// The form with the case in it.
 #[derive(Debug, Clone)]
-pub struct Form<'a> {
+pub(crate) struct Form<'a> {
     /// The case in the form.
-    pub case: &'a Case,
+    pub(crate) case: &'a Case,
     /// The case in the file.
-    pub saved: &'a Case,
+    pub(crate) saved: &'a Case,
     /// The case as far as it can be read.
-    pub inputs: &'a Inputs,
+    pub(crate) inputs: &'a Inputs,
     /// The wrong rows.
-    pub problems: &'a [(usize, Problem)],
+    pub(crate) problems: &'a [(usize, Problem)],
     /// The last valid results.
-    pub answer: Option<&'a Answer>,
+    pub(crate) answer: Option<&'a Answer>,
     /// Whether they are older than the form.
-    pub is_stale: bool,
+    pub(crate) is_stale: bool,
     /// The focused row.
-    pub focus: usize,
+    pub(crate) focus: usize,
     /// Its text while it is edited.
-    pub line: Option<&'a Text>,
+    pub(crate) line: Option<&'a Text>,
     /// The completion of that text.
-    pub ending: Option<String>,
+    pub(crate) ending: Option<String>,
     /// The first visible line.
-    pub top: usize,
+    pub(crate) top: usize,
     /// The capabilities of the terminal.
-    pub look: Look,
+    pub(crate) look: Look,
     /// The title line.
-    pub title: Title,
+    pub(crate) title: Title,
     /// The area of the pane with its title; empty if the pane is hidden.
-    pub area: Rect,
+    pub(crate) area: Rect,
 }
 
 impl Form<'_> {
@@ -108,7 +108,7 @@ enum Row {
 }
 
 /// Draw the form; where the cursor stands.
-pub fn draw(pane: &Form<'_>, buffer: &mut Buffer) -> Option<Position> {
+pub(crate) fn draw(pane: &Form<'_>, buffer: &mut Buffer) -> Option<Position> {
     let area = pane.area;
     let rows = rows(pane, area.width);
     let inner = pane.title.draw("Form", area, buffer);
@@ -177,7 +177,7 @@ pub(crate) fn field_at(pane: &Form<'_>, at: Position) -> Option<usize> {
 
 /// The first line to be shown after so many lines downwards.
 #[must_use]
-pub fn scrolled(pane: &Form<'_>, by: isize) -> usize {
+pub(crate) fn scrolled(pane: &Form<'_>, by: isize) -> usize {
     let area = pane.area;
     let most = rows(pane, area.width)
         .len()

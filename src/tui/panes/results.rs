@@ -15,15 +15,15 @@ use ratatui::text::Line;
 use ratatui::widgets::Widget;
 
 use crate::model::Quantity;
-pub use pane::{Results, ResultsState};
+pub(crate) use pane::{Results, ResultsState};
 use parts::parts;
 use selection::line_of;
-pub use selection::{count, followed, listed, marked, page, scrolled};
-pub(crate) use selection::{place_of, row_at, top_for};
+pub use selection::{count, marked, page};
+pub(crate) use selection::{followed, listed, place_of, row_at, scrolled, top_for};
 use title::title;
-pub use words::{in_full, sentence};
+pub(crate) use words::in_full;
 
-pub fn draw(pane: &Results<'_>, buffer: &mut Buffer) {
+pub(crate) fn draw(pane: &Results<'_>, buffer: &mut Buffer) {
     let area = pane.area;
     let parts = parts(pane);
     let words = title(pane, parts.rows, pane.title.room(area.width));
@@ -60,13 +60,13 @@ pub fn draw(pane: &Results<'_>, buffer: &mut Buffer) {
 
 /// The value of the marked quantity beside that of the baseline, where one is pinned.
 #[must_use]
-pub fn compared(pane: &Results<'_>, quantity: &Quantity) -> Option<String> {
+pub(crate) fn compared(pane: &Results<'_>, quantity: &Quantity) -> Option<String> {
     table::compared(pane, pane.answer?, quantity)
 }
 
 /// How many variants have room beside each other.
 #[must_use]
-pub fn variants_page(pane: &Results<'_>) -> usize {
+pub(crate) fn variants_page(pane: &Results<'_>) -> usize {
     table::variants_page(pane, usize::from(pane.area.width.saturating_sub(1)))
 }
 

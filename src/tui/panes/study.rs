@@ -3,7 +3,7 @@
 
 mod curve;
 mod map;
-pub mod range;
+pub(crate) mod range;
 mod words;
 
 use ratatui::buffer::Buffer;
@@ -21,7 +21,7 @@ use crate::tui::theme::Look;
 use ratatui::symbols::Marker;
 
 /// Points of a curve over a range.
-pub const CURVE_POINTS: usize = 101;
+pub(crate) const CURVE_POINTS: usize = 101;
 /// The most points of a map, across and up.
 const MOST_CELLS: (u16, u16) = (60, 30);
 /// Columns and rows of a map that are not its cells.
@@ -33,15 +33,15 @@ const TALL: u16 = 8;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct StudyState {
     /// Whether the pane shows the tolerance.
-    pub is_tolerance: bool,
+    pub(crate) is_tolerance: bool,
     /// The second field of a map.
-    pub second: Option<usize>,
+    pub(crate) second: Option<usize>,
     /// How often the ranges are halved; negative where they are doubled.
-    pub zoom: i32,
+    pub(crate) zoom: i32,
     /// The point of the cursor on the first and on the second axis.
     pub cursor: Option<(usize, usize)>,
     /// The first visible line of the tolerance.
-    pub top: usize,
+    pub(crate) top: usize,
 }
 
 /// A change of the pane.
@@ -63,25 +63,25 @@ pub enum StudyCommand {
 
 /// The pane with the study that it shows.
 #[derive(Debug, Clone)]
-pub struct StudyPane<'a> {
+pub(crate) struct StudyPane<'a> {
     /// The state of the pane.
-    pub state: StudyState,
+    pub(crate) state: StudyState,
     /// The study of the open case.
-    pub study: &'a Study,
+    pub(crate) study: &'a Study,
     /// The case in the form.
-    pub case: &'a Case,
+    pub(crate) case: &'a Case,
     /// The value of the focused quantity in the present case, in SI.
-    pub present: Option<f64>,
+    pub(crate) present: Option<f64>,
     /// The display units.
-    pub units: System,
+    pub(crate) units: System,
     /// The marker of curves.
-    pub marker: Marker,
+    pub(crate) marker: Marker,
     /// The capabilities of the terminal.
-    pub look: Look,
+    pub(crate) look: Look,
     /// The title line.
-    pub title: Title,
+    pub(crate) title: Title,
     /// The area of the pane with its title; empty if the pane is hidden.
-    pub area: Rect,
+    pub(crate) area: Rect,
 }
 
 /// The rooms of legend, plot and words.
@@ -93,7 +93,7 @@ struct Rooms {
 
 /// The points of a map in a pane of that area, across and up.
 #[must_use]
-pub fn map_points(area: Rect) -> (usize, usize) {
+pub(crate) fn map_points(area: Rect) -> (usize, usize) {
     let across = area
         .width
         .saturating_sub(MAP_MARGIN.0)
@@ -106,7 +106,7 @@ pub fn map_points(area: Rect) -> (usize, usize) {
 }
 
 /// Draws the pane.
-pub fn draw(pane: &StudyPane<'_>, buffer: &mut Buffer) {
+pub(crate) fn draw(pane: &StudyPane<'_>, buffer: &mut Buffer) {
     let room = pane.title.room(pane.area.width);
     let title = words::title(pane, room);
     let inner = pane.title.draw(&title, pane.area, buffer);
@@ -142,13 +142,13 @@ pub fn draw(pane: &StudyPane<'_>, buffer: &mut Buffer) {
 
 /// The words on the cursor, for the hint line.
 #[must_use]
-pub fn hint(pane: &StudyPane<'_>) -> String {
+pub(crate) fn hint(pane: &StudyPane<'_>) -> String {
     words::hint(pane)
 }
 
 /// The text of each varied field at the cursor, as a case file has it.
 #[must_use]
-pub fn at_cursor(pane: &StudyPane<'_>) -> Vec<(usize, String)> {
+pub(crate) fn at_cursor(pane: &StudyPane<'_>) -> Vec<(usize, String)> {
     let Some(shown) = &pane.study.shown else {
         return Vec::new();
     };
@@ -162,7 +162,7 @@ pub fn at_cursor(pane: &StudyPane<'_>) -> Vec<(usize, String)> {
 
 /// The cursor moved by so many points, on the axes in sight.
 #[must_use]
-pub fn moved(pane: &StudyPane<'_>, across: isize, up: isize) -> Option<(usize, usize)> {
+pub(crate) fn moved(pane: &StudyPane<'_>, across: isize, up: isize) -> Option<(usize, usize)> {
     let shown = pane.study.shown.as_ref()?;
     let last = |axis: Option<&Axis>| axis.map_or(0, |axis| axis.points.len().saturating_sub(1));
     let (x_axis, y_axis) = axes(shown);
@@ -244,7 +244,7 @@ fn draw_page(pane: &StudyPane<'_>, shown: &Shown, inner: Rect, buffer: &mut Buff
 
 /// The first visible line of the page after so many lines downwards.
 #[must_use]
-pub fn scrolled(pane: &StudyPane<'_>, by: isize) -> usize {
+pub(crate) fn scrolled(pane: &StudyPane<'_>, by: isize) -> usize {
     let lines = pane
         .study
         .shown

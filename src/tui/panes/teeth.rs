@@ -1,15 +1,15 @@
 //! The teeth pane: the pair true to scale, and the values at the cursor.
 
-pub mod ink;
-pub mod labels;
-pub mod path;
-pub mod picture;
-pub mod raster;
-pub mod readings;
-pub mod scene;
-pub mod strokes;
-pub mod window;
-pub mod zoom;
+pub(crate) mod ink;
+pub(crate) mod labels;
+pub(crate) mod path;
+pub(crate) mod picture;
+pub(crate) mod raster;
+pub(crate) mod readings;
+pub(crate) mod scene;
+pub(crate) mod strokes;
+pub(crate) mod window;
+pub(crate) mod zoom;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -24,7 +24,7 @@ use scene::Scene;
 use zoom::Exaggeration;
 
 pub use picture::Picture;
-pub use zoom::TeethView;
+pub(crate) use zoom::TeethView;
 
 /// Least width and height of the picture, in cells.
 const SMALLEST: (u16, u16) = (12, 4);
@@ -51,7 +51,7 @@ impl TeethView {
     ///
     /// # Errors
     /// If the command needs a solved pair.
-    pub fn run(
+    pub(crate) fn run(
         &mut self,
         command: TeethCommand,
         solved: Option<(&Inputs, &Solution)>,

@@ -17,27 +17,27 @@ const LEAVE: &str = "Esc ";
 
 /// The title line of a pane.
 #[derive(Debug, Clone)]
-pub struct Title {
-    pub pane: Pane,
+pub(crate) struct Title {
+    pub(crate) pane: Pane,
     /// Whether it takes the keys.
-    pub has_focus: bool,
+    pub(crate) has_focus: bool,
     /// Whether a field takes the digits.
-    pub is_editing: bool,
+    pub(crate) is_editing: bool,
     /// The hidden panes, if this title names them.
-    pub hidden: Vec<Pane>,
+    pub(crate) hidden: Vec<Pane>,
     /// The colours.
-    pub theme: &'static Theme,
+    pub(crate) theme: &'static Theme,
 }
 
 impl Title {
     /// The columns for the words of the title, in a pane of that width.
     #[must_use]
-    pub fn room(&self, width: u16) -> usize {
+    pub(crate) fn room(&self, width: u16) -> usize {
         room_beside(&self.names(width), width).saturating_sub(4 + self.key().len())
     }
 
     /// Draws the line, and returns the area below it.
-    pub fn draw(&self, words: &str, area: Rect, buffer: &mut Buffer) -> Rect {
+    pub(crate) fn draw(&self, words: &str, area: Rect, buffer: &mut Buffer) -> Rect {
         let names = self.names(area.width);
         let room = room_beside(&names, area.width);
         let title = text::cut(&format!("{}{words}", self.key()), room.saturating_sub(4));

@@ -13,7 +13,7 @@ use crate::study::trade::Trade;
 use crate::tui::benchmark::{TradeView, Traded};
 use crate::tui::text;
 use pane::own;
-pub use pane::{TradePane, ordered, stepped};
+pub(crate) use pane::{TradePane, stepped};
 use plot::{LEVEL, draw_legend, draw_plot};
 
 /// Rows from which on the legend has one of its own.
@@ -21,7 +21,7 @@ const TALL: u16 = 8;
 const INVITATION: &str = "No benchmark yet: m runs every method with its settings on this case for a few seconds. Esc stops the \
     benchmark and keeps its results. Enter then applies the selected setting to the case.";
 
-pub fn draw(pane: &TradePane<'_>, buffer: &mut Buffer) {
+pub(crate) fn draw(pane: &TradePane<'_>, buffer: &mut Buffer) {
     let inner = pane.title.draw(title(pane), pane.area, buffer);
     if inner.is_empty() {
         return;
@@ -202,7 +202,7 @@ fn fitting(phrases: &[String], area: Rect) -> String {
 
 /// What the signs in the pane mean.
 #[must_use]
-pub fn signs(pane: &TradePane<'_>) -> String {
+pub(crate) fn signs(pane: &TradePane<'_>) -> String {
     let within = pane
         .traded
         .and_then(|traded| traded.trade.as_ref())

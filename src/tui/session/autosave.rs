@@ -123,7 +123,10 @@ impl Autosave {
     ///
     /// Without a lock, the comparison of the file with the text that was read still refuses to
     /// overwrite changes of others.
-    pub fn save(&mut self, mut saving: Saving) -> (PathBuf, Result<Box<Written>, SaveFault>) {
+    pub(crate) fn save(
+        &mut self,
+        mut saving: Saving,
+    ) -> (PathBuf, Result<Box<Written>, SaveFault>) {
         self.keep();
         saving.expand();
         let lock = followed(&saving.path).map(|path| self.locks.take(&path));

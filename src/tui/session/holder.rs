@@ -12,23 +12,23 @@ const MOST_BYTES: u64 = 4096;
 
 /// The holder of a lock; the process is 0 where the file does not name it.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Holder {
+pub(crate) struct Holder {
     /// The name of the machine.
-    pub host: String,
+    pub(crate) host: String,
     /// The number of the process.
-    pub process: u32,
+    pub(crate) process: u32,
     /// When the process began, in ticks since the machine did: numbers of processes are used again.
-    pub started: u64,
+    pub(crate) started: u64,
     /// Which start of the machine that was.
-    pub boot: String,
+    pub(crate) boot: String,
     /// When the lock was taken, in seconds since 1970.
-    pub since: u64,
+    pub(crate) since: u64,
 }
 
 impl Holder {
     /// This process.
     #[must_use]
-    pub fn ourselves() -> Holder {
+    pub(crate) fn ourselves() -> Holder {
         let process = std::process::id();
         Holder {
             host: host(),
@@ -41,7 +41,7 @@ impl Holder {
 
     /// In words, for someone who comes upon the lock.
     #[must_use]
-    pub fn words(&self, now: u64) -> String {
+    pub(crate) fn words(&self, now: u64) -> String {
         if self.process == 0 {
             return "an unknown process".to_owned();
         }

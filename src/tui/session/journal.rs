@@ -11,10 +11,10 @@ use crate::case::changes::Change;
 use crate::case::stamp::{Stamp, hash};
 
 /// The format of journals that this version reads and writes.
-pub const FORMAT: i64 = 1;
+pub(crate) const FORMAT: i64 = 1;
 
 /// The longest journal that is read, in bytes: longer than the changes of any case.
-pub const MOST_BYTES: usize = 4 << 20;
+pub(crate) const MOST_BYTES: usize = 4 << 20;
 
 const OPENING: &str =
     "# Edits that were not saved. tipstrike offers them when the case is opened again.\n";
@@ -27,11 +27,11 @@ pub struct Journal {
     /// The file of the case; `None` where it has none yet.
     pub case: Option<PathBuf>,
     /// Length and hash of the text that was edited.
-    pub stands_on: Stamp,
+    pub(crate) stands_on: Stamp,
     /// When the journal was written, in seconds since 1970.
-    pub written: u64,
+    pub(crate) written: u64,
     /// The session that wrote it.
-    pub session: String,
+    pub(crate) session: String,
     /// The edits: from what the file says to what was typed, valid or not.
     pub changes: Vec<Change>,
 }

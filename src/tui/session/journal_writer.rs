@@ -12,7 +12,7 @@ use super::journal::Journal;
 use super::journals::Journals;
 
 /// The name of the thread that writes journals.
-pub const THREAD: &str = "journal";
+pub(crate) const THREAD: &str = "journal";
 
 /// The wanted journals, shared by the threads that may have to write them.
 #[derive(Debug, Default)]
@@ -60,7 +60,7 @@ impl JournalWriter {
     }
 
     /// Sets the content of a journal; `None` removes it.
-    pub fn put(&self, path: &Path, journal: Option<Journal>) {
+    pub(crate) fn put(&self, path: &Path, journal: Option<Journal>) {
         self.shelf()
             .pages
             .entry(path.to_owned())
@@ -120,7 +120,7 @@ impl JournalWriter {
     }
 
     /// End the thread.
-    pub fn close(&self) {
+    pub(crate) fn close(&self) {
         self.shelf().is_closed = true;
         self.bell.notify_all();
     }

@@ -19,14 +19,14 @@ const STALE: Duration = Duration::from_secs(600);
 
 /// A lock, until this is dropped.
 #[derive(Debug)]
-pub struct Lock {
+pub(crate) struct Lock {
     file: File,
     path: PathBuf,
 }
 
 /// The result of taking a lock.
 #[derive(Debug)]
-pub enum Taken {
+pub(crate) enum Taken {
     Ours(Lock),
     /// It is ours as far as other processes on this machine respect its text: the file system has
     /// no locks.
@@ -42,7 +42,7 @@ impl Lock {
     ///
     /// # Errors
     /// When the file of the lock cannot be made or is no regular file.
-    pub fn take(path: &Path) -> io::Result<Taken> {
+    pub(crate) fn take(path: &Path) -> io::Result<Taken> {
         for _ in 0..ATTEMPTS {
             let mut file = open(path)?;
             let hold = hold(&mut file);

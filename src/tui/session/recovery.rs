@@ -7,7 +7,7 @@ use crate::case::changes::{self, Change};
 use crate::case::{Case, Document};
 
 /// The message for a case of a newer format.
-pub const NEWER: &str =
+pub(crate) const NEWER: &str =
     "read-only: newer format; fields that this version does not know are hidden";
 
 /// Whether this workbench may write the file of a case.
@@ -26,15 +26,15 @@ pub enum Access {
 #[derive(Debug, Clone, Copy)]
 pub struct OpenCase<'a> {
     /// Different for every open case.
-    pub id: usize,
+    pub(crate) id: usize,
     /// Its file.
-    pub path: Option<&'a Path>,
+    pub(crate) path: Option<&'a Path>,
     /// The text of the file.
-    pub document: &'a Document,
+    pub(crate) document: &'a Document,
     /// The case as the form has it.
-    pub case: &'a Case,
+    pub(crate) case: &'a Case,
     /// Whether it is shown as open elsewhere.
-    pub is_held: bool,
+    pub(crate) is_held: bool,
 }
 
 /// The result of opening a case.
@@ -77,7 +77,7 @@ impl Claim {
 
     /// Whether the user need not see it.
     #[must_use]
-    pub fn is_silent(&self) -> bool {
+    pub(crate) fn is_silent(&self) -> bool {
         self.access == Access::Own && self.offers.is_empty() && self.notices.is_empty()
     }
 }
@@ -85,7 +85,7 @@ impl Claim {
 impl Access {
     /// How a document is open at first.
     #[must_use]
-    pub fn of(document: &Document) -> Access {
+    pub(crate) fn of(document: &Document) -> Access {
         if document.is_newer() {
             Access::Newer
         } else {
@@ -95,7 +95,7 @@ impl Access {
 
     /// The mark beside the name of the case.
     #[must_use]
-    pub fn mark(&self) -> &'static str {
+    pub(crate) fn mark(&self) -> &'static str {
         match self {
             Access::Own => "",
             Access::Held(_) | Access::Newer => " *read-only*",
@@ -105,7 +105,7 @@ impl Access {
 
 /// A change on one line: the present value and the new one.
 #[must_use]
-pub fn line(change: &Change) -> String {
+pub(crate) fn line(change: &Change) -> String {
     format!(
         "{}: {} -> {}",
         changes::label(&change.key),
@@ -116,7 +116,7 @@ pub fn line(change: &Change) -> String {
 
 /// The first changes on one line, and the number of the others.
 #[must_use]
-pub fn summary(changes: &[Change]) -> String {
+pub(crate) fn summary(changes: &[Change]) -> String {
     const MOST: usize = 3;
     let first: Vec<_> = changes.iter().take(MOST).map(line).collect();
     let more = changes.len().saturating_sub(MOST);
@@ -134,7 +134,7 @@ pub fn summary(changes: &[Change]) -> String {
 
 /// A text cut to one short line; `(empty)` for none.
 #[must_use]
-pub fn shown(text: Option<&str>) -> String {
+pub(crate) fn shown(text: Option<&str>) -> String {
     const MOST: usize = 40;
     match text {
         None => "(empty)".to_owned(),

@@ -32,7 +32,7 @@ pub struct Written {
     /// The document as its file has it now.
     pub document: Document,
     /// What happened to the file.
-    pub saved: Saved,
+    pub(crate) saved: Saved,
 }
 
 /// Why a case was not written.
@@ -53,16 +53,16 @@ pub enum SaveFault {
 #[derive(Debug, Clone)]
 pub struct Saving {
     /// The document, with the case as the form has it.
-    pub document: Document,
+    pub(crate) document: Document,
     /// The file to write.
     pub path: PathBuf,
     /// Which content of the file the save may overwrite.
-    pub over: Over,
+    pub(crate) over: Over,
 }
 
 /// Which content of its file a save may overwrite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Over {
+pub(crate) enum Over {
     /// None: an existing file stays as it is.
     Nothing,
     /// The one that was opened, as long as nobody else changed it.

@@ -34,7 +34,7 @@ fn first_answer(request: &Request) -> Answer {
 /// The same for the first frame of the program, which waits for no elastic field: without the
 /// stiffness spread, and `None` if the pair's own compliance needs a field.
 #[must_use]
-pub fn answer_without_fields(request: &Request) -> Option<Answer> {
+pub(crate) fn answer_without_fields(request: &Request) -> Option<Answer> {
     let methods = Method::CLOSED_FORM
         .into_iter()
         .chain([request.inputs.method]);

@@ -21,12 +21,12 @@ const LONGEST: Duration = Duration::from_secs(2);
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Case {
     /// How many folders down it is.
-    pub depth: usize,
+    pub(crate) depth: usize,
     /// The way to it, as a person reads it.
     pub name: String,
     /// The same in small letters.
-    pub folded: String,
-    pub way: PathBuf,
+    pub(crate) folded: String,
+    pub(crate) way: PathBuf,
 }
 
 /// What a walk found.
@@ -114,7 +114,7 @@ impl Case {
 impl Below {
     /// The path of a case, as the browser calls it.
     #[must_use]
-    pub fn path(&self, case: &Case) -> PathBuf {
+    pub(crate) fn path(&self, case: &Case) -> PathBuf {
         beneath(&self.asked.0, &self.asked.1).join(&case.way)
     }
 }

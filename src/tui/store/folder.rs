@@ -15,13 +15,13 @@ const MOST: usize = 50_000;
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Entry {
     /// Folders stand after the cases.
-    pub is_folder: bool,
+    pub(crate) is_folder: bool,
     /// Its name as a person reads it.
-    pub name: String,
+    pub(crate) name: String,
     /// The same in small letters.
-    pub folded: String,
+    pub(crate) folded: String,
     /// Its name, which need not be text.
-    pub file: OsString,
+    pub(crate) file: OsString,
 }
 
 /// What stands in a folder.
@@ -30,11 +30,11 @@ pub struct Listing {
     /// Where the browser was, and the folders that were typed after it.
     pub asked: (PathBuf, String),
     /// The folder, in full.
-    pub folder: PathBuf,
+    pub(crate) folder: PathBuf,
     /// What stands in it, hidden entries too; or why it cannot be read.
     pub entries: Result<Vec<Entry>, String>,
     /// Whether there are more than are listed.
-    pub is_cut: bool,
+    pub(crate) is_cut: bool,
 }
 
 /// Look into a folder.
@@ -78,7 +78,7 @@ pub fn beneath(base: &Path, typed: &str) -> PathBuf {
 ///
 /// # Errors
 /// In words, where it cannot be read.
-pub fn entries(folder: &Path) -> Result<Vec<Entry>, String> {
+pub(crate) fn entries(folder: &Path) -> Result<Vec<Entry>, String> {
     let found =
         fs::read_dir(folder).map_err(|error| format!("This folder cannot be read: {error}."))?;
     let mut entries: Vec<_> = found
@@ -93,7 +93,7 @@ pub fn entries(folder: &Path) -> Result<Vec<Entry>, String> {
 impl Entry {
     /// Whether a file of that name is taken for a case, or for a model that becomes one.
     #[must_use]
-    pub fn is_case(file: &Path) -> bool {
+    pub(crate) fn is_case(file: &Path) -> bool {
         let is_toml = |ending: &std::ffi::OsStr| ending.eq_ignore_ascii_case("toml");
         file.extension().is_some_and(is_toml) || rexs::is_model(file)
     }

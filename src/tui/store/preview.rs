@@ -14,8 +14,11 @@ const MOST_FAULTS: usize = 20;
 /// What a preview is of.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Viewport {
+    /// A case file.
     File(PathBuf),
+    /// A folder.
     Folder(PathBuf),
+    /// An example.
     Example(&'static Example),
 }
 
@@ -34,7 +37,7 @@ pub enum Preview {
 
 /// Look; `None` where `go_on` says that it is wanted no more.
 #[must_use]
-pub fn of(sight: &Viewport, system: System, go_on: &dyn Fn(f64) -> bool) -> Option<Preview> {
+pub(crate) fn of(sight: &Viewport, system: System, go_on: &dyn Fn(f64) -> bool) -> Option<Preview> {
     match sight {
         Viewport::File(path) => of_file(&at_home(path), system, go_on),
         Viewport::Folder(path) => Some(of_folder(&at_home(path))),

@@ -22,11 +22,11 @@ const END: u8 = 0;
 /// A case that was open once.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Recent {
-    pub path: PathBuf,
+    pub(crate) path: PathBuf,
     /// The path as a person reads it, in small letters.
-    pub folded: String,
+    pub(crate) folded: String,
     /// Whether nothing is there any more.
-    pub is_missing: bool,
+    pub(crate) is_missing: bool,
 }
 
 /// Look whether the cases are still there.
@@ -46,7 +46,7 @@ pub fn looked_at(paths: Vec<PathBuf>) -> Vec<Recent> {
 
 /// The cases that were open last.
 #[must_use]
-pub fn list() -> Vec<PathBuf> {
+pub(crate) fn list() -> Vec<PathBuf> {
     let Some(file) = file() else {
         return Vec::new();
     };
@@ -61,12 +61,12 @@ pub fn list() -> Vec<PathBuf> {
 
 /// The case that was open last.
 #[must_use]
-pub fn last() -> Option<PathBuf> {
+pub(crate) fn last() -> Option<PathBuf> {
     list().into_iter().next()
 }
 
 /// Remember a case as the latest.
-pub fn add(path: &Path) {
+pub(crate) fn add(path: &Path) {
     let write = || -> io::Result<()> {
         let file = file().ok_or(io::ErrorKind::NotFound)?;
         let folder = file.parent().ok_or(io::ErrorKind::NotFound)?;

@@ -45,7 +45,7 @@ enum Exposed {
 impl State {
     /// The folders as the environment names them.
     #[must_use]
-    pub fn find() -> State {
+    pub(crate) fn find() -> State {
         State::choose(usual(), private())
     }
 

@@ -27,7 +27,7 @@ use crate::tui::text;
 const BAR: usize = 20;
 
 /// A message, or the progress of long work; else what is focused.
-pub fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
+pub(crate) fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.look.theme;
     let width = usize::from(area.width);
     let (mut lines, mut is_long) = (Vec::new(), false);
@@ -79,7 +79,7 @@ pub fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
 }
 
 /// As many keys as fit, from the table of bindings.
-pub fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
+pub(crate) fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.look.theme;
     let place = app.place();
     let mut spans = Vec::new();
@@ -109,7 +109,7 @@ pub fn keys(app: &App, area: Rect, buffer: &mut Buffer) {
 
 /// What a field is, in its own words.
 #[must_use]
-pub fn about(field: &Field, ascii: bool, units: System) -> String {
+pub(crate) fn about(field: &Field, ascii: bool, units: System) -> String {
     let name = [symbol(field.symbol, ascii).as_ref(), &field.full_label()].join(" ");
     let bounds = match field.kind {
         Kind::Text => String::new(),

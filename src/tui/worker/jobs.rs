@@ -18,7 +18,7 @@ use crate::tui::variants::{Variants, VariantsRequest};
 ///
 /// # Errors
 /// When the system gives no thread.
-pub fn start(name: &'static str, send: Send) -> io::Result<Worker<Job>> {
+pub(crate) fn start(name: &'static str, send: Send) -> io::Result<Worker<Job>> {
     Worker::start(
         name,
         send,

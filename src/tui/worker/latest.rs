@@ -10,11 +10,11 @@ use crate::tui::actions::Action;
 use crate::tui::fault;
 
 /// Sends an action to the workbench. Returns false once nobody receives it.
-pub type Send = Arc<dyn Fn(Action) -> bool + std::marker::Send + Sync>;
+pub(crate) type Send = Arc<dyn Fn(Action) -> bool + std::marker::Send + Sync>;
 
 /// The thread. It ends when this is dropped.
 #[derive(Debug)]
-pub struct Worker<R> {
+pub(crate) struct Worker<R> {
     requests: Arc<LatestRequest<R>>,
 }
 
@@ -33,7 +33,7 @@ impl<R: std::marker::Send + 'static> Worker<R> {
     ///
     /// # Errors
     /// When the system gives no thread.
-    pub fn start(
+    pub(crate) fn start(
         name: &'static str,
         send: Send,
         mut work: impl FnMut(&R, Running<'_>) + std::marker::Send + 'static,
@@ -66,7 +66,7 @@ impl<R: std::marker::Send + 'static> Worker<R> {
     }
 
     /// Requests work, in place of a request that has not begun.
-    pub fn request(&self, request: R) {
+    pub(crate) fn request(&self, request: R) {
         self.requests.put(request);
     }
 
@@ -77,7 +77,7 @@ impl<R: std::marker::Send + 'static> Worker<R> {
 
     /// Stops every request made so far. One that has not begun still runs, and sees that it is not
     /// wanted.
-    pub fn stop(&self) {
+    pub(crate) fn stop(&self) {
         let mut tray = self.requests.tray();
         (tray.is_stopped, tray.is_next_stopped) = (true, true);
     }

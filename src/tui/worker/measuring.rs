@@ -12,7 +12,7 @@ use crate::tui::benchmark::{End, Measured, Measuring};
 ///
 /// # Errors
 /// When the system gives no thread.
-pub fn start(send: Send) -> io::Result<Worker<Measuring>> {
+pub(crate) fn start(send: Send) -> io::Result<Worker<Measuring>> {
     Worker::start("benchmark", send, measure, |measuring| {
         of(
             measuring,

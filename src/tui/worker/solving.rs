@@ -19,7 +19,7 @@ const STEP: Duration = Duration::from_millis(200);
 ///
 /// # Errors
 /// When the system gives no thread.
-pub fn start(send: Send) -> io::Result<Worker<Request>> {
+pub(crate) fn start(send: Send) -> io::Result<Worker<Request>> {
     let mut evaluator = Evaluator::default();
     Worker::start(
         "solver",

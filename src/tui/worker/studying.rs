@@ -28,7 +28,7 @@ const PAGE_STEP: Duration = Duration::from_millis(250);
 ///
 /// # Errors
 /// When the system gives no thread.
-pub fn start(send: Send) -> io::Result<Worker<StudyRequest>> {
+pub(crate) fn start(send: Send) -> io::Result<Worker<StudyRequest>> {
     Worker::start("study", send, study, |request| {
         let reason = "a fault of the program: the study failed".to_owned();
         action(request, Found::Nothing, Some(End::Failed(reason)))

@@ -15,15 +15,15 @@ use crate::tui::store::recents::Recent;
 #[derive(Debug, Clone, Default)]
 pub struct Browser {
     /// What is typed: a part of a name, or a path.
-    pub input: Text,
+    pub(crate) input: Text,
     /// What stands in the folder; `None` while it is being read.
-    pub listing: Option<Listing>,
+    pub(crate) listing: Option<Listing>,
     /// The cases that were open last.
-    pub recents: Vec<Recent>,
+    pub(crate) recents: Vec<Recent>,
     /// The marked one of those that fit: first the folder's, then the recent ones.
-    pub marked: usize,
+    pub(crate) marked: usize,
     /// What the marked one holds, as far as it is known.
-    pub preview: Option<(Viewport, Preview)>,
+    pub(crate) preview: Option<(Viewport, Preview)>,
     /// The folder that it began in or went to, as it is called from here.
     base: PathBuf,
     /// The folders of the path that is typed, of which the listing is.
@@ -50,7 +50,7 @@ pub struct Browser {
 
 /// A line that may be marked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Line<'b> {
+pub(crate) enum Line<'b> {
     /// The folder above.
     Up,
     /// An entry of the folder.
@@ -66,7 +66,7 @@ pub enum Line<'b> {
 impl Browser {
     /// Begin in the folder of the present case, in its recent cases where they are preferred.
     #[must_use]
-    pub fn beside(path: Option<&Path>, prefers_recents: bool) -> Browser {
+    pub(crate) fn beside(path: Option<&Path>, prefers_recents: bool) -> Browser {
         let base = path
             .and_then(Path::parent)
             .map(Path::to_owned)
@@ -82,13 +82,13 @@ impl Browser {
 
     /// What the listing is asked of.
     #[must_use]
-    pub fn asks(&self) -> (PathBuf, String) {
+    pub(crate) fn asks(&self) -> (PathBuf, String) {
         (self.base.clone(), self.typed_folder.clone())
     }
 
     /// The typed path up to its last slash, and what follows. A lone `~` is the home folder.
     #[must_use]
-    pub fn split(&self) -> (&str, &str) {
+    pub(crate) fn split(&self) -> (&str, &str) {
         let typed = self.input.value();
         if typed == "~" {
             (typed, "")
@@ -98,7 +98,7 @@ impl Browser {
     }
 
     /// Follow what was typed; whether it leads to another folder.
-    pub fn follow(&mut self) -> bool {
+    pub(crate) fn follow(&mut self) -> bool {
         let (folder, _) = self.split();
         let is_other = folder != self.typed_folder;
         if is_other {
@@ -110,7 +110,7 @@ impl Browser {
     }
 
     /// Take what was found in a folder, if it is the present one.
-    pub fn take(&mut self, listing: Listing) {
+    pub(crate) fn take(&mut self, listing: Listing) {
         if listing.asked == self.asks() {
             self.listing = Some(listing);
             self.refit();
@@ -125,7 +125,7 @@ impl Browser {
     }
 
     /// Where cases below are to be looked for: once for each folder in which a name is looked for.
-    pub fn seek(&mut self) -> Option<(PathBuf, String)> {
+    pub(crate) fn seek(&mut self) -> Option<(PathBuf, String)> {
         let is_sought = self.sought.as_ref() == Some(&self.asks());
         if is_sought || self.wanted().is_none() {
             return None;
@@ -166,7 +166,7 @@ impl Browser {
     }
 
     /// The entries of the folder that fit.
-    pub fn entries(&self) -> impl Iterator<Item = &Entry> {
+    pub(crate) fn entries(&self) -> impl Iterator<Item = &Entry> {
         let entries = self
             .listing
             .as_ref()
@@ -194,7 +194,7 @@ impl Browser {
 
     /// A line of those that fit, the folder's first.
     #[must_use]
-    pub fn line(&self, at: usize) -> Option<Line<'_>> {
+    pub(crate) fn line(&self, at: usize) -> Option<Line<'_>> {
         if self.has_up() && at == 0 {
             return Some(Line::Up);
         }
@@ -225,7 +225,7 @@ impl Browser {
 
     /// The file or the folder of a line.
     #[must_use]
-    pub fn sight(&self, line: Line<'_>) -> Viewport {
+    pub(crate) fn sight(&self, line: Line<'_>) -> Viewport {
         match line {
             Line::Up => Viewport::Folder(self.above()),
             Line::Recent(recent) => Viewport::File(recent.path.clone()),
@@ -257,7 +257,7 @@ impl Browser {
     }
 
     /// Move the mark, as far as there are lines.
-    pub fn mark(&mut self, by: isize) {
+    pub(crate) fn mark(&mut self, by: isize) {
         let last = (self.count_of_folder() + self.count_of_recents()).saturating_sub(1);
         self.marked = self.marked.saturating_add_signed(by).min(last);
     }
@@ -281,7 +281,7 @@ impl Browser {
 
     /// The folder above, in full where that is known.
     #[must_use]
-    pub fn above(&self) -> PathBuf {
+    pub(crate) fn above(&self) -> PathBuf {
         let known = self.listing.as_ref().map(|listing| {
             listing
                 .folder
@@ -293,7 +293,7 @@ impl Browser {
     }
 
     /// What a preview is to be asked of, once.
-    pub fn look(&mut self) -> Option<Viewport> {
+    pub(crate) fn look(&mut self) -> Option<Viewport> {
         let sight = self.marked_sight();
         if sight == self.looked_at {
             return None;
@@ -303,7 +303,7 @@ impl Browser {
     }
 
     /// Take what something holds, if it is what was asked of last.
-    pub fn show(&mut self, sight: Viewport, preview: Preview) {
+    pub(crate) fn show(&mut self, sight: Viewport, preview: Preview) {
         if self.looked_at.as_ref() == Some(&sight) {
             self.preview = Some((sight, preview));
         }

@@ -10,13 +10,13 @@ use crate::tui::form_aids::materials::Material;
 use crate::tui::panes::chart::ChartCommand;
 
 /// Stands before the name of a variant in the list of commands.
-pub const VARIANT: &str = "variant";
+pub(crate) const VARIANT: &str = "variant";
 /// The rank of a word that occurs in the description only.
 pub(super) const DESCRIBED: usize = 100;
 
 /// The effect of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Pick {
+pub(crate) enum Pick {
     Run(Command),
     /// Go to a field.
     Go(usize),
@@ -38,11 +38,12 @@ pub enum Pick {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Item {
     /// The effect of Enter.
-    pub pick: Pick,
+    pub(crate) pick: Pick,
+    /// The name in the list.
     pub name: String,
     /// The description.
-    pub about: String,
-    pub keys: String,
+    pub(crate) about: String,
+    pub(crate) keys: String,
 }
 
 pub(super) fn command(binding: &commands::Binding) -> Item {

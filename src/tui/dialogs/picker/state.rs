@@ -35,33 +35,33 @@ const LONGEST_NAME: usize = 64;
 #[derive(Debug, Clone)]
 pub struct Picker {
     /// The contents.
-    pub list: List,
+    pub(crate) list: List,
     /// The typed text.
-    pub input: Line,
+    pub(crate) input: Line,
     /// The selected one of the matching lines.
-    pub marked: usize,
+    pub(crate) marked: usize,
     /// The focused pane and field, and what the case offers there.
-    pub context: Context,
+    pub(crate) context: Context,
 }
 
 /// The focused pane and field, and what the case offers there: it decides the order of a list.
 #[derive(Debug, Clone, Default)]
-pub struct Context {
+pub(crate) struct Context {
     /// The results that exist, by their keys.
-    pub results: Vec<&'static str>,
+    pub(crate) results: Vec<&'static str>,
     /// Whether results come before fields that match equally.
-    pub are_results_first: bool,
+    pub(crate) are_results_first: bool,
     /// The fields without effect in the case.
-    pub idle: Vec<usize>,
+    pub(crate) idle: Vec<usize>,
     /// Commands of the focused pane and field, which come first.
-    pub own: Vec<Command>,
+    pub(crate) own: Vec<Command>,
     /// Commands of other panes, which come last.
-    pub elsewhere: Vec<Command>,
+    pub(crate) elsewhere: Vec<Command>,
 }
 
 /// The contents of a list.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum List {
+pub(crate) enum List {
     /// Every command.
     Commands,
     /// Every field of the form, and every result.
@@ -79,7 +79,7 @@ pub enum List {
 impl Picker {
     /// The whole list.
     #[must_use]
-    pub fn new(list: List) -> Picker {
+    pub(crate) fn new(list: List) -> Picker {
         Picker {
             list,
             input: Line::default(),
@@ -90,7 +90,7 @@ impl Picker {
 
     /// The whole list, in the order of a context.
     #[must_use]
-    pub fn over(list: List, context: Context) -> Picker {
+    pub(crate) fn over(list: List, context: Context) -> Picker {
         Picker {
             context,
             ..Picker::new(list)
@@ -98,7 +98,7 @@ impl Picker {
     }
 
     #[must_use]
-    pub fn title(&self) -> &'static str {
+    pub(crate) fn title(&self) -> &'static str {
         match self.list {
             List::Commands => "Commands",
             List::Places => "Go to a field or a result",
@@ -163,7 +163,7 @@ impl Picker {
 
     /// The name of a variant, typed behind the command.
     #[must_use]
-    pub fn variant_name(&self) -> Option<&str> {
+    pub(crate) fn variant_name(&self) -> Option<&str> {
         let (command, name) = self.input.value().trim_start().split_once(' ')?;
         let is_meant = self.list == List::Commands && command == VARIANT;
         Some(name.trim()).filter(|name| is_meant && !name.is_empty())
@@ -219,7 +219,7 @@ impl Picker {
     }
 
     /// Moves the selection, as far as there are lines.
-    pub fn mark(&mut self, by: isize) {
+    pub(crate) fn mark(&mut self, by: isize) {
         let last = self.fitting().len().saturating_sub(1);
         self.marked = self.marked.saturating_add_signed(by).min(last);
     }

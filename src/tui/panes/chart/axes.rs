@@ -27,37 +27,37 @@ const TIME_LABELS: [&str; 2] = ["time after E", "time"];
 
 /// The quantity on the x axis.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Ruler {
+pub(crate) struct Ruler {
     /// The axis value of one degree of roll after E.
-    pub factor: f64,
-    pub unit: &'static str,
+    pub(crate) factor: f64,
+    pub(crate) unit: &'static str,
     /// The name, the longest form first.
-    pub labels: &'static [&'static str],
+    pub(crate) labels: &'static [&'static str],
 }
 
 /// The axes of a chart, and its place on the screen.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Axes {
+pub(crate) struct Axes {
     /// The plot with the axes and their labels.
-    pub area: Rect,
+    pub(crate) area: Rect,
     /// The cells of the curves.
-    pub plot: Rect,
+    pub(crate) plot: Rect,
     /// The visible roll angles, in deg after E.
-    pub across: Span,
+    pub(crate) across: Span,
     /// The visible values.
-    pub upright: Span,
+    pub(crate) upright: Span,
     /// Ticks below the plot, in the unit of the ruler.
-    pub below: Ticks,
+    pub(crate) below: Ticks,
     /// Ticks beside the plot.
-    pub beside: Ticks,
+    pub(crate) beside: Ticks,
     /// The quantity on the x axis.
-    pub ruler: Ruler,
+    pub(crate) ruler: Ruler,
 }
 
 impl Ruler {
     /// The driver's angle before E, or the time after E at the driver's speed in rad/s.
     #[must_use]
-    pub fn of(by_time: bool, speed: f64, window: Span) -> Ruler {
+    pub(crate) fn of(by_time: bool, speed: f64, window: Span) -> Ruler {
         let micros = 1f64.to_radians() / speed * 1e6;
         let longest = micros * window.from.abs().max(window.to.abs());
         match by_time {
@@ -92,7 +92,7 @@ impl Ruler {
 
 /// The columns of the labels of several axes of the same height.
 #[must_use]
-pub fn margin(uprights: impl Iterator<Item = Span>, height: u16) -> u16 {
+pub(crate) fn margin(uprights: impl Iterator<Item = Span>, height: u16) -> u16 {
     let labels = uprights.flat_map(|span| beside(span, height).labelled);
     labels
         .map(|(_, label)| label.len())
@@ -109,7 +109,12 @@ fn beside(span: Span, height: u16) -> Ticks {
 impl Axes {
     /// The axes in an area with a margin for labels. The plot is empty if the area is too small.
     #[must_use]
-    pub fn new(area: Rect, margin: u16, (across, upright): (Span, Span), ruler: Ruler) -> Axes {
+    pub(crate) fn new(
+        area: Rect,
+        margin: u16,
+        (across, upright): (Span, Span),
+        ruler: Ruler,
+    ) -> Axes {
         let (width, height) = (
             area.width.saturating_sub(margin + 1),
             area.height.saturating_sub(2),
@@ -139,7 +144,7 @@ impl Axes {
     /// Cuts rows off at the top: the rows, at most all but two of the plot, and the axes below
     /// them.
     #[must_use]
-    pub fn split(&self, rows: u16) -> (Rect, Axes) {
+    pub(crate) fn split(&self, rows: u16) -> (Rect, Axes) {
         let rows = rows.min(self.plot.height.saturating_sub(LEAST_ROWS));
         let above = Rect {
             height: rows,
@@ -157,7 +162,7 @@ impl Axes {
 
     /// The column of a visible angle.
     #[must_use]
-    pub fn column(&self, x: f64) -> Option<u16> {
+    pub(crate) fn column(&self, x: f64) -> Option<u16> {
         let part = self.across.part(x);
         let rounding = 1e-9;
         (-rounding..=1.0 + rounding).contains(&part).then(|| {
@@ -169,7 +174,7 @@ impl Axes {
 
     /// The angle on a column.
     #[must_use]
-    pub fn angle(&self, column: u16) -> f64 {
+    pub(crate) fn angle(&self, column: u16) -> f64 {
         let part =
             f64::from(column.saturating_sub(self.plot.x)) / f64::from(self.plot.width.max(2) - 1);
         self.across.from + part * self.across.length()
@@ -183,7 +188,7 @@ impl Axes {
     }
 
     /// Draw lines, ticks and labels.
-    pub fn draw(&self, buffer: &mut Buffer) {
+    pub(crate) fn draw(&self, buffer: &mut Buffer) {
         let plot = self.plot;
         let (left, axis) = (plot.x - 1, plot.bottom());
         buffer.set_string(left, axis, "└", Style::new());

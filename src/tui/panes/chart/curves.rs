@@ -22,6 +22,7 @@ const ALIKE: f64 = 2e-3;
 /// The source of a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Whose {
+    /// The active method.
     Active(Method),
     /// Another method.
     Other(Method),
@@ -39,7 +40,7 @@ pub enum Whose {
 }
 
 /// A point: the driver's roll angle after E in deg, and the value in the display unit.
-pub type Point = (f64, f64);
+pub(crate) type Point = (f64, f64);
 
 /// A curve in pieces, with gaps between them.
 #[derive(Debug, Clone)]
@@ -47,9 +48,9 @@ pub struct Curve {
     /// The source.
     pub whose: Whose,
     /// The column of the stations.
-    pub column: &'static Column,
+    pub(crate) column: &'static Column,
     /// The display unit.
-    pub unit: &'static str,
+    pub(crate) unit: &'static str,
     /// The points from D onwards.
     pub pieces: Vec<Vec<Point>>,
 }
@@ -224,7 +225,7 @@ impl Curve {
 
     /// The least and the greatest value.
     #[must_use]
-    pub fn upright(&self) -> Span {
+    pub(crate) fn upright(&self) -> Span {
         self.points().fold(Span::NONE, |span, (_, y)| span.with(y))
     }
 
@@ -242,7 +243,7 @@ impl Curve {
 
     /// The value at an angle, interpolated between stations. At a jump, the value after it.
     #[must_use]
-    pub fn at(&self, x: f64) -> Option<f64> {
+    pub(crate) fn at(&self, x: f64) -> Option<f64> {
         self.pieces.iter().find_map(|piece| {
             let after = piece.partition_point(|point| point.0 <= x);
             let (before, last) = (piece.get(after.checked_sub(1)?)?, piece.len() - 1);

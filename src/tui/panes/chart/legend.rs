@@ -17,7 +17,7 @@ use crate::tui::ascii::symbol;
 
 /// The blocks of text of a legend.
 #[derive(Debug, Clone, Default)]
-pub struct Legend {
+pub(crate) struct Legend {
     blocks: Vec<Block>,
 }
 
@@ -30,16 +30,16 @@ struct Block {
 
 /// A block with its place.
 #[derive(Debug, Clone)]
-pub struct Placed {
+pub(crate) struct Placed {
     /// The cells that it covers.
-    pub area: Rect,
+    pub(crate) area: Rect,
     rows: Vec<Line<'static>>,
 }
 
 impl Legend {
     /// The message, if any, and the name of each curve, the active method first.
     #[must_use]
-    pub fn of(charts: &Charts, curves: &[Curve], message: Option<&str>) -> Legend {
+    pub(crate) fn of(charts: &Charts, curves: &[Curve], message: Option<&str>) -> Legend {
         let words = |text: &str| {
             text.split(' ')
                 .map(|word| Line::raw(word.to_owned()))
@@ -64,7 +64,7 @@ impl Legend {
 
     /// Places every block on blank cells of the plot. Returns `None` if a block does not fit.
     #[must_use]
-    pub fn inside(&self, plot: Rect, buffer: &Buffer) -> Option<Vec<Placed>> {
+    pub(crate) fn inside(&self, plot: Rect, buffer: &Buffer) -> Option<Vec<Placed>> {
         let mut placed: Vec<Placed> = Vec::new();
         for block in &self.blocks {
             let is_free = |area: Rect| {
@@ -80,7 +80,7 @@ impl Legend {
 
     /// Places the blocks below each other from the top of an area, as many rows as it has.
     #[must_use]
-    pub fn above(&self, area: Rect) -> Vec<Placed> {
+    pub(crate) fn above(&self, area: Rect) -> Vec<Placed> {
         let rows = self.blocks.iter().flat_map(|block| {
             let rows = block.rows(area.width).into_iter();
             rows.map(|row| block.line(row))
@@ -98,7 +98,7 @@ impl Legend {
 
     /// The number of rows that the blocks need below each other.
     #[must_use]
-    pub fn height(&self, width: u16) -> u16 {
+    pub(crate) fn height(&self, width: u16) -> u16 {
         let rows = self.blocks.iter().map(|block| block.rows(width).len());
         u16::try_from(rows.sum::<usize>()).unwrap_or(u16::MAX)
     }
@@ -106,7 +106,7 @@ impl Legend {
 
 impl Placed {
     /// Draws the rows of the block.
-    pub fn draw(&self, buffer: &mut Buffer) {
+    pub(crate) fn draw(&self, buffer: &mut Buffer) {
         for (line, row) in self.rows.iter().zip(self.area.rows()) {
             line.render(row, buffer);
         }

@@ -33,7 +33,7 @@ pub(crate) fn first_title(charts: &Charts, room: usize) -> String {
 }
 
 /// Draws the charts with their axes, below the title of the first chart.
-pub fn draw(charts: &Charts, buffer: &mut Buffer) {
+pub(crate) fn draw(charts: &Charts, buffer: &mut Buffer) {
     let area = charts.area;
     for (at, (graph, axes)) in panels(charts).iter().enumerate() {
         let graph = &GRAPHS[*graph];
@@ -54,7 +54,7 @@ pub fn draw(charts: &Charts, buffer: &mut Buffer) {
 
 /// The columns of the visible chart, or of a usual chart if none is visible.
 #[must_use]
-pub fn columns(charts: &Charts) -> u16 {
+pub(crate) fn columns(charts: &Charts) -> u16 {
     let columns = panels(charts)
         .first()
         .map_or(0, |(_, axes)| axes.plot.width);

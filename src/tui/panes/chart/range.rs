@@ -17,7 +17,7 @@ pub struct Scale {
     /// The driver's roll angle over the whole contact, in deg after E, negative before E.
     pub across: Span,
     /// The driver's roll angle from D to a little after E, in the same unit.
-    pub strike: Span,
+    pub(crate) strike: Span,
     /// The values of each chart, in its display unit.
     pub upright: [Span; GRAPHS.len()],
 }
@@ -28,9 +28,9 @@ pub struct ChartView {
     /// The range without zoom.
     pub frame: Frame,
     /// Zoom steps of √2: in above 0, out below.
-    pub zoom: i32,
+    pub(crate) zoom: i32,
     /// The angle in the middle, in deg after E; the middle of the frame if `None`.
-    pub middle: Option<f64>,
+    pub(crate) middle: Option<f64>,
 }
 
 /// The range of roll angles without zoom.
@@ -48,7 +48,7 @@ pub enum Frame {
 impl ChartView {
     /// The visible roll angles, in deg after E.
     #[must_use]
-    pub fn window(&self, scale: &Scale) -> Span {
+    pub(crate) fn window(&self, scale: &Scale) -> Span {
         let frame = self.frame(scale);
         let all = scale.across.and(frame);
         let half =
@@ -66,7 +66,7 @@ impl ChartView {
     /// The view zoomed in by `steps` around an angle, or out if `steps` is negative, at most to
     /// the whole contact.
     #[must_use]
-    pub fn zoomed(self, steps: i32, around: f64, scale: &Scale) -> ChartView {
+    pub(crate) fn zoomed(self, steps: i32, around: f64, scale: &Scale) -> ChartView {
         let zoom = (self.zoom + steps).min(LAST_STEP_IN);
         let view = ChartView {
             zoom,
@@ -83,7 +83,7 @@ impl ChartView {
 
     /// The whole contact.
     #[must_use]
-    pub fn whole() -> ChartView {
+    pub(crate) fn whole() -> ChartView {
         ChartView {
             frame: Frame::Whole,
             ..ChartView::default()
@@ -139,33 +139,33 @@ impl ChartView {
 
 /// The state that the axes were fitted to. The axes are fitted again when it changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Occasion {
+pub(crate) struct Occasion {
     /// The serial of the answered request, and whether the answer is still incomplete.
-    pub answered: Option<(u64, bool)>,
+    pub(crate) answered: Option<(u64, bool)>,
     /// The serial of the baseline's request.
-    pub pinned: Option<u64>,
+    pub(crate) pinned: Option<u64>,
     /// The chosen chart, the number of visible charts, and the units.
-    pub shown: (usize, usize, System),
+    pub(crate) shown: (usize, usize, System),
     /// The frame, the zoom, and the bits of the angle in the middle.
-    pub sight: (Frame, i32, Option<u64>),
+    pub(crate) sight: (Frame, i32, Option<u64>),
     /// The method, and the first request after the last undo.
-    pub ground: (Option<Method>, u64),
+    pub(crate) ground: (Option<Method>, u64),
 }
 
 /// The axes to fit again even if they still cover the values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Refit {
+pub(crate) struct Refit {
     /// The value axes: for other charts or other units.
-    pub upright: bool,
+    pub(crate) upright: bool,
     /// All axes: for another method, or after an undo.
-    pub all: bool,
+    pub(crate) all: bool,
 }
 
 impl Occasion {
     /// Compares with an earlier occasion. While an answer is incomplete, the method and the undo of
     /// the earlier occasion still count.
     #[must_use]
-    pub fn since(&mut self, before: Occasion) -> Refit {
+    pub(crate) fn since(&mut self, before: Occasion) -> Refit {
         if self
             .answered
             .is_some_and(|(serial, is_pending)| is_pending || serial < self.ground.1)

@@ -19,7 +19,7 @@ const MANY: usize = 8;
 
 /// The marker of a curve.
 #[must_use]
-pub fn marker(charts: &Charts, whose: Whose) -> Marker {
+pub(crate) fn marker(charts: &Charts, whose: Whose) -> Marker {
     let plain = charts.look.ascii;
     match whose {
         whose if is_main(whose) && plain => Marker::Custom('*'),
@@ -44,7 +44,7 @@ fn is_main(whose: Whose) -> bool {
 
 /// The style of a curve.
 #[must_use]
-pub fn style(charts: &Charts, whose: Whose) -> Style {
+pub(crate) fn style(charts: &Charts, whose: Whose) -> Style {
     let theme = charts.look.theme;
     let style = match whose {
         whose if is_main(whose) => theme.active,

@@ -20,7 +20,7 @@ pub struct ResultsState {
     pub top: usize,
     /// The quantity that was selected and is none of the present results: the selection returns to
     /// it.
-    pub lost: Option<&'static str>,
+    pub(crate) lost: Option<&'static str>,
 }
 
 /// The pane with the results that it shows.
@@ -28,41 +28,41 @@ pub struct ResultsState {
 #[expect(clippy::struct_excessive_bools, reason = "each is a state of its own")]
 pub struct Results<'a> {
     /// The state of the pane.
-    pub state: ResultsState,
+    pub(crate) state: ResultsState,
     /// The last valid results.
-    pub answer: Option<&'a Answer>,
+    pub(crate) answer: Option<&'a Answer>,
     /// The pinned results.
-    pub baseline: Option<&'a Baseline>,
+    pub(crate) baseline: Option<&'a Baseline>,
     /// The variants, if they stand in place of the methods.
-    pub variants: Option<&'a Variants>,
+    pub(crate) variants: Option<&'a Variants>,
     /// The first visible one.
-    pub first_variant: usize,
+    pub(crate) first_variant: usize,
     /// The values before the last edit.
-    pub earlier: Option<&'a Values>,
+    pub(crate) earlier: Option<&'a Values>,
     /// Why the model refuses the case.
-    pub refusal: Option<&'a Refusal>,
+    pub(crate) refusal: Option<&'a Refusal>,
     /// The rows of the form that are wrong.
-    pub problems: &'a [(usize, Problem)],
+    pub(crate) problems: &'a [(usize, Problem)],
     /// How many required values are missing, if nothing else is wrong.
-    pub missing: Option<usize>,
+    pub(crate) missing: Option<usize>,
     /// The case in the form.
-    pub case: &'a Case,
+    pub(crate) case: &'a Case,
     /// Whether the results are older than the form.
-    pub is_stale: bool,
+    pub(crate) is_stale: bool,
     /// Whether the title says so.
-    pub shows_last_valid: bool,
+    pub(crate) shows_last_valid: bool,
     /// Whether the title shows the cost of the solve.
-    pub shows_cost: bool,
+    pub(crate) shows_cost: bool,
     /// Whether the pane has the focus.
-    pub is_focused: bool,
+    pub(crate) is_focused: bool,
     /// Names the key that goes to the next wrong row.
-    pub next_fault: fn() -> String,
+    pub(crate) next_fault: fn() -> String,
     /// The display units.
-    pub units: System,
+    pub(crate) units: System,
     /// The capabilities of the terminal.
-    pub look: Look,
+    pub(crate) look: Look,
     /// The title line.
-    pub title: Title,
+    pub(crate) title: Title,
     /// The area of the pane with its title; empty if the pane is hidden.
-    pub area: Rect,
+    pub(crate) area: Rect,
 }

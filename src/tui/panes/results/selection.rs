@@ -9,7 +9,7 @@ use crate::model::Quantity;
 use crate::tui::solver::Answer;
 
 /// The quantities in their order.
-pub fn listed<'a>(pane: &Results<'a>) -> impl Iterator<Item = &'static Quantity> + use<'a> {
+pub(crate) fn listed<'a>(pane: &Results<'a>) -> impl Iterator<Item = &'static Quantity> + use<'a> {
     pane.answer.into_iter().flat_map(table::order)
 }
 
@@ -25,6 +25,7 @@ pub fn page(pane: &Results<'_>) -> usize {
     parts(pane).rows
 }
 
+/// The selected quantity.
 #[must_use]
 pub fn marked(pane: &Results<'_>) -> Option<&'static Quantity> {
     table::order(pane.answer?).nth(pane.state.row)
@@ -32,13 +33,13 @@ pub fn marked(pane: &Results<'_>) -> Option<&'static Quantity> {
 
 /// Where a quantity stands in the results of a tab.
 #[derive(Debug, Clone, Copy)]
-pub struct Listed {
-    pub key: &'static str,
+pub(crate) struct Listed {
+    pub(crate) key: &'static str,
     /// Its place among the quantities.
-    pub row: usize,
-    pub line: usize,
+    pub(crate) row: usize,
+    pub(crate) line: usize,
     /// Whether the active method finds a value.
-    pub has_value: bool,
+    pub(crate) has_value: bool,
 }
 
 /// Where a quantity stands in an answer, by its key; else the selected one.
@@ -60,7 +61,11 @@ pub(crate) fn place_of(answer: &Answer, state: ResultsState, key: Option<&str>) 
 /// before, and on its line of the screen. Where nothing was selected, and while the quantity is gone
 /// or has no value any more, the top is shown.
 #[must_use]
-pub fn followed(state: ResultsState, before: Option<Listed>, answer: &Answer) -> ResultsState {
+pub(crate) fn followed(
+    state: ResultsState,
+    before: Option<Listed>,
+    answer: &Answer,
+) -> ResultsState {
     let selected = before.filter(|_| state.row > 0);
     let Some(key) = selected.map(|selected| selected.key).or(state.lost) else {
         return state;
@@ -84,7 +89,7 @@ pub fn followed(state: ResultsState, before: Option<Listed>, answer: &Answer) ->
 impl Results<'_> {
     /// The state with the selection so many quantities further.
     #[must_use]
-    pub fn stepped(&self, by: isize) -> ResultsState {
+    pub(crate) fn stepped(&self, by: isize) -> ResultsState {
         ResultsState {
             row: self.state.row.saturating_add_signed(by).min(self.last()),
             ..self.state
@@ -125,7 +130,7 @@ pub(crate) fn top_for(pane: &Results<'_>) -> usize {
 
 /// The first line to be shown after so many lines downwards.
 #[must_use]
-pub fn scrolled(pane: &Results<'_>, by: isize) -> usize {
+pub(crate) fn scrolled(pane: &Results<'_>, by: isize) -> usize {
     pane.state
         .top
         .saturating_add_signed(by)

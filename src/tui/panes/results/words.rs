@@ -11,14 +11,14 @@ pub(super) const NOTE: &str = "Note: ";
 
 /// The outcome of a solve, in a sentence.
 #[must_use]
-pub fn sentence(pane: &Results<'_>, solution: &Solution) -> String {
+pub(crate) fn sentence(pane: &Results<'_>, solution: &Solution) -> String {
     let sentence = digest::sentence(solution, pane.units);
     symbol(&sentence, pane.look.ascii).into_owned()
 }
 
 /// The outcome, the gauges and the notes in full, a line each.
 #[must_use]
-pub fn in_full(pane: &Results<'_>) -> Vec<String> {
+pub(crate) fn in_full(pane: &Results<'_>) -> Vec<String> {
     let Some(answer) = pane.answer else {
         return Vec::new();
     };

@@ -8,7 +8,7 @@ use crate::study::axis::{Axis, AxisRange, Sampling};
 use crate::tui::rows;
 
 /// The most halvings or doublings of a range.
-pub const MOST_ZOOM: i32 = 12;
+pub(crate) const MOST_ZOOM: i32 = 12;
 /// A range reaches so far to both sides of the value, times the value.
 const REACH: f64 = 0.5;
 /// A length in um around 0 reaches so far, times the module.
@@ -24,7 +24,7 @@ const DIGITS: usize = 6;
 ///
 /// # Errors
 /// Why the field has no range.
-pub fn axis(case: &Case, field: usize, zoom: i32, points: usize) -> Result<Axis, String> {
+pub(crate) fn axis(case: &Case, field: usize, zoom: i32, points: usize) -> Result<Axis, String> {
     let known = &FIELDS[field];
     match known.kind {
         Kind::Text => Err(format!(
@@ -159,7 +159,7 @@ fn count_range(
 
 /// The point of an axis nearest to the present value of its field.
 #[must_use]
-pub fn nearest(axis: &Axis, case: &Case) -> Option<usize> {
+pub(crate) fn nearest(axis: &Axis, case: &Case) -> Option<usize> {
     if let Some(number) = present(axis, case) {
         let distance = |at: &usize| {
             let own = axis.points[*at].number.unwrap_or(f64::INFINITY);
@@ -174,7 +174,7 @@ pub fn nearest(axis: &Axis, case: &Case) -> Option<usize> {
 
 /// The present value of the field, in the unit of the axis.
 #[must_use]
-pub fn present(axis: &Axis, case: &Case) -> Option<f64> {
+pub(crate) fn present(axis: &Axis, case: &Case) -> Option<f64> {
     let factor = units::factor(&axis.unit).unwrap_or(1.0);
     Some(number(case, axis.field)? / factor)
 }

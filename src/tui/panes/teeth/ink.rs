@@ -7,7 +7,7 @@ use crate::tui::theme::Theme;
 /// The kind of a stroke.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
-pub enum Ink {
+pub(crate) enum Ink {
     /// Base circles and line of action.
     Construction,
     /// The path of contact, and the path of the tip before it.
@@ -38,7 +38,7 @@ impl Ink {
     ];
 
     #[must_use]
-    pub fn style(self, theme: &Theme) -> Style {
+    pub(crate) fn style(self, theme: &Theme) -> Style {
         match self {
             Ink::Construction => theme.faint,
             Ink::Path => theme.path,
@@ -54,13 +54,13 @@ impl Ink {
     /// The canvas has only colours, so a colour number encodes the ink until the cells get
     /// their style.
     #[must_use]
-    pub fn number(self) -> Color {
+    pub(crate) fn number(self) -> Color {
         Color::Indexed(self as u8)
     }
 
     /// The ink of a colour number.
     #[must_use]
-    pub fn of(number: Color) -> Option<Ink> {
+    pub(crate) fn of(number: Color) -> Option<Ink> {
         Ink::ALL.into_iter().find(|ink| ink.number() == number)
     }
 }

@@ -13,11 +13,11 @@ const MOST_HALVINGS: u32 = 32;
 
 /// A straight, wholly visible stretch of a curve, with the parameter at its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stretch {
+pub(crate) struct Stretch {
     /// Parameter and point at the beginning.
-    pub from: (f64, Point2<f64>),
+    pub(crate) from: (f64, Point2<f64>),
     /// Parameter and point at the end.
-    pub to: (f64, Point2<f64>),
+    pub(crate) to: (f64, Point2<f64>),
 }
 
 /// Follows a curve over its parameter from 0 to 1 through the window, in stretches that are
@@ -25,7 +25,11 @@ pub struct Stretch {
 ///
 /// The curve turns by less than a quarter of a turn, and one way only. Its hidden parts are
 /// skipped, so that the cost depends on the dots and not on the zoom.
-pub fn follow(curve: impl Fn(f64) -> Point2<f64>, window: &Window, mut found: impl FnMut(Stretch)) {
+pub(crate) fn follow(
+    curve: impl Fn(f64) -> Point2<f64>,
+    window: &Window,
+    mut found: impl FnMut(Stretch),
+) {
     let ends = ((0.0, curve(0.0)), (1.0, curve(1.0)));
     halve(&curve, window, ends.0, ends.1, MOST_HALVINGS, &mut found);
 }

@@ -40,13 +40,13 @@ pub struct Reading {
     pub symbol: &'static str,
     /// The number, where there is one.
     pub number: Option<String>,
-    pub unit: &'static str,
+    pub(crate) unit: &'static str,
 }
 
 impl Reading {
     /// The width with any number, after a symbol of that width.
     #[must_use]
-    pub fn width(&self, symbol: usize) -> usize {
+    pub(crate) fn width(&self, symbol: usize) -> usize {
         symbol
             + 1
             + NUMBER
@@ -153,7 +153,7 @@ fn without_contact(moment: &ContactState, key: &str) -> Option<f64> {
 /// The values in lines of at most a width, each with the cells that it takes whatever its number,
 /// two spaces between them.
 #[must_use]
-pub fn lines(values: impl Iterator<Item = (String, usize)>, width: usize) -> Vec<String> {
+pub(crate) fn lines(values: impl Iterator<Item = (String, usize)>, width: usize) -> Vec<String> {
     let mut lines: Vec<(String, usize)> = Vec::new();
     for (value, cells) in values {
         match lines.last_mut() {

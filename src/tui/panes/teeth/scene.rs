@@ -29,21 +29,21 @@ pub struct Scene {
     /// The strokes in drawing order.
     pub strokes: Vec<Stroke>,
     /// Points with a name, the most important first.
-    pub points: Vec<Named>,
+    pub(crate) points: Vec<Named>,
     /// Places for the name of each gear, the best first.
-    pub bodies: [Vec<Point2<f64>>; 2],
+    pub(crate) bodies: [Vec<Point2<f64>>; 2],
     /// The exaggeration of the opening.
     pub factor: Option<f64>,
     /// Ends of the scale bar.
-    pub bar: (Point2<f64>, Point2<f64>),
+    pub(crate) bar: (Point2<f64>, Point2<f64>),
 }
 
 /// A point with a name.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Named {
+pub(crate) struct Named {
     /// The place.
-    pub at: Point2<f64>,
-    pub name: &'static str,
+    pub(crate) at: Point2<f64>,
+    pub(crate) name: &'static str,
 }
 
 impl Scene {

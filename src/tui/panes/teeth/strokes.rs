@@ -29,30 +29,30 @@ pub struct Stroke {
     /// The end.
     pub to: Point2<f64>,
     /// The kind.
-    pub ink: Ink,
+    pub(crate) ink: Ink,
 }
 
 /// A dashed line, in dots. Dashes of length 0 are dots.
 #[derive(Debug, Clone, Copy)]
-pub struct Dash {
+pub(crate) struct Dash {
     /// The length of a dash.
-    pub on: f64,
+    pub(crate) on: f64,
     /// The length of a gap.
-    pub off: f64,
+    pub(crate) off: f64,
 }
 
 /// Draws into a window.
 #[derive(Debug)]
-pub struct Pen<'a> {
+pub(crate) struct Pen<'a> {
     window: &'a Window,
     /// The strokes so far.
-    pub strokes: Vec<Stroke>,
+    pub(crate) strokes: Vec<Stroke>,
 }
 
 impl<'a> Pen<'a> {
     /// A pen without strokes.
     #[must_use]
-    pub fn new(window: &'a Window) -> Pen<'a> {
+    pub(crate) fn new(window: &'a Window) -> Pen<'a> {
         Pen {
             window,
             strokes: Vec::new(),
@@ -60,7 +60,7 @@ impl<'a> Pen<'a> {
     }
 
     /// A gear with its tooth 0 turned by an angle.
-    pub fn gear(&mut self, gear: &Placed, turned: f64, bore: f64, [ink, struck]: [Ink; 2]) {
+    pub(crate) fn gear(&mut self, gear: &Placed, turned: f64, bore: f64, [ink, struck]: [Ink; 2]) {
         let circles = gear.outline.profile().circles();
         if bore > 0.0 {
             self.circle(gear.centre, bore, None, ink);
@@ -132,7 +132,13 @@ impl<'a> Pen<'a> {
     }
 
     /// A circle, in one stroke or dashed.
-    pub fn circle(&mut self, centre: Point2<f64>, radius: f64, dash: Option<Dash>, ink: Ink) {
+    pub(crate) fn circle(
+        &mut self,
+        centre: Point2<f64>,
+        radius: f64,
+        dash: Option<Dash>,
+        ink: Ink,
+    ) {
         self.arc(centre, radius, 0.0, TAU, dash, ink);
     }
 
@@ -161,7 +167,7 @@ impl<'a> Pen<'a> {
     }
 
     /// A curve of a length, in one stroke or dashed. See [`follow`] for the condition on the curve.
-    pub fn curve(
+    pub(crate) fn curve(
         &mut self,
         curve: impl Fn(f64) -> Point2<f64>,
         length: f64,
@@ -199,7 +205,7 @@ impl<'a> Pen<'a> {
     }
 
     /// The scale bar, along the lower edge or the upper one, the lower left corner first.
-    pub fn bar(&mut self, system: System) -> (Point2<f64>, Point2<f64>) {
+    pub(crate) fn bar(&mut self, system: System) -> (Point2<f64>, Point2<f64>) {
         let (dot, high) = (self.window.dot, self.window.dot_height());
         let most = BAR * 2.0 * self.window.half.x;
         let (unit, _) = unit_of_length(most, system);
@@ -270,7 +276,7 @@ impl<'a> Pen<'a> {
     }
 
     /// A cross of five dots, or a dot if a dot is a cell.
-    pub fn cross(&mut self, at: Point2<f64>, ink: Ink) {
+    pub(crate) fn cross(&mut self, at: Point2<f64>, ink: Ink) {
         if self.window.sees(at) {
             let arm = if self.window.dot < self.window.column() {
                 1.0

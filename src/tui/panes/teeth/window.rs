@@ -39,13 +39,13 @@ pub(crate) fn unit_of_length(length: f64, system: System) -> (f64, &'static str)
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Window {
     /// The middle.
-    pub centre: Point2<f64>,
+    pub(crate) centre: Point2<f64>,
     /// The vector from the middle to the middle of the outermost dot.
-    pub half: Vector2<f64>,
+    pub(crate) half: Vector2<f64>,
     /// The width of a dot.
     pub dot: f64,
     /// The columns and rows of the screen.
-    pub size: Size,
+    pub(crate) size: Size,
     /// The dots of a cell, across and down.
     pub(super) dots: (u16, u16),
 }
@@ -54,7 +54,7 @@ impl Window {
     /// The window of a view on a screen of a given size. The scale is the same in both directions,
     /// and the window shows as little as possible beyond the pair.
     #[must_use]
-    pub fn of(
+    pub(crate) fn of(
         view: &TeethView,
         inputs: &Inputs,
         solution: &Solution,
@@ -100,7 +100,7 @@ impl Window {
 
     /// The window of a rectangle with a given lower left corner.
     #[must_use]
-    pub fn around(&self, from: Point2<f64>, room: Vector2<f64>) -> Window {
+    pub(crate) fn around(&self, from: Point2<f64>, room: Vector2<f64>) -> Window {
         Window {
             centre: from + 0.5 * room,
             half: 0.5 * room,
@@ -122,14 +122,14 @@ impl Window {
 
     /// Whether a point is visible.
     #[must_use]
-    pub fn sees(&self, point: Point2<f64>) -> bool {
+    pub(crate) fn sees(&self, point: Point2<f64>) -> bool {
         let off = point - self.centre;
         off.x.abs() <= self.half.x && off.y.abs() <= self.half.y
     }
 
     /// The distance from a point to the window, 0 inside.
     #[must_use]
-    pub fn distance(&self, point: Point2<f64>) -> f64 {
+    pub(crate) fn distance(&self, point: Point2<f64>) -> f64 {
         let off = point - self.centre;
         Vector2::new(
             (off.x.abs() - self.half.x).max(0.0),
@@ -159,7 +159,7 @@ impl Window {
 
     /// The column and row of a visible point.
     #[must_use]
-    pub fn cell(&self, point: Point2<f64>) -> Option<(u16, u16)> {
+    pub(crate) fn cell(&self, point: Point2<f64>) -> Option<(u16, u16)> {
         if !self.sees(point) {
             return None;
         }
@@ -177,13 +177,13 @@ impl Window {
 
     /// Width of a column of the screen.
     #[must_use]
-    pub fn column(&self) -> f64 {
+    pub(crate) fn column(&self) -> f64 {
         self.dot * f64::from(self.dots.0)
     }
 
     /// Height of a row of the screen.
     #[must_use]
-    pub fn row(&self) -> f64 {
+    pub(crate) fn row(&self) -> f64 {
         self.column() * CELL_HEIGHT
     }
 

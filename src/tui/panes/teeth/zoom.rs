@@ -26,6 +26,7 @@ const MOST_FACTOR: f64 = 1000.0;
 /// The view of the teeth pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TeethView {
+    /// The point in the middle of the pane.
     pub centre: Centre,
     /// Zoom steps of √2: in above 0, out below.
     pub zoom: i32,
@@ -39,6 +40,7 @@ pub enum Centre {
     /// D, or E without corner contact.
     #[default]
     Strike,
+    /// The pitch point.
     PitchPoint,
     /// The whole pair.
     Pair,
@@ -59,13 +61,13 @@ impl Centre {
 
     /// The centre `by` places further, wrapping around.
     #[must_use]
-    pub fn beside(self, by: isize) -> Centre {
+    pub(crate) fn beside(self, by: isize) -> Centre {
         let count = Centre::ALL.len();
         Centre::ALL[(self as usize + count).saturating_add_signed(by) % count]
     }
 
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Centre::Strike => "the strike",
             Centre::PitchPoint => "the pitch point",
@@ -140,7 +142,12 @@ impl TeethView {
     /// The factor is a round number that makes the deviation at most 10 % of the picture's height.
     /// It decreases far from the flank, so that the struck tooth keeps its place, and is 1 after B.
     #[must_use]
-    pub fn factor(&self, inputs: &Inputs, solution: &Solution, moment: &ContactState) -> f64 {
+    pub(crate) fn factor(
+        &self,
+        inputs: &Inputs,
+        solution: &Solution,
+        moment: &ContactState,
+    ) -> f64 {
         if self.exaggeration == Exaggeration::True || moment.phase == Phase::RunOut {
             return 1.0;
         }
@@ -154,7 +161,7 @@ impl TeethView {
 
 /// The height and width of the whole pair with a margin, in m.
 #[must_use]
-pub fn whole(geometry: &Geometry) -> (f64, f64) {
+pub(crate) fn whole(geometry: &Geometry) -> (f64, f64) {
     const MARGIN: f64 = 1.04;
     let (driver, driven) = (geometry.driver.tip, geometry.driven.tip);
     (

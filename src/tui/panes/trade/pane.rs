@@ -10,24 +10,24 @@ use crate::tui::theme::Look;
 
 /// The pane with the benchmark that it shows.
 #[derive(Debug, Clone)]
-pub struct TradePane<'a> {
+pub(crate) struct TradePane<'a> {
     /// The benchmark of the open case.
-    pub traded: Option<&'a Traded>,
+    pub(crate) traded: Option<&'a Traded>,
     /// The case in the form, if it is valid.
-    pub inputs: Option<&'a Inputs>,
+    pub(crate) inputs: Option<&'a Inputs>,
     /// Chart or table.
-    pub view: TradeView,
+    pub(crate) view: TradeView,
     /// The capabilities of the terminal.
-    pub look: Look,
+    pub(crate) look: Look,
     /// The title line.
-    pub title: Title,
+    pub(crate) title: Title,
     /// The area of the pane with its title; empty if the pane is hidden.
-    pub area: Rect,
+    pub(crate) area: Rect,
 }
 
 /// The settings that have an error and a time, the quicker ones first.
 #[must_use]
-pub fn ordered(trade: &Trade) -> Vec<&Measured> {
+pub(crate) fn ordered(trade: &Trade) -> Vec<&Measured> {
     let mut found: Vec<&Measured> = trade
         .settings
         .iter()
@@ -39,7 +39,7 @@ pub fn ordered(trade: &Trade) -> Vec<&Measured> {
 
 /// The setting so many places from the selected one, in the order of their times.
 #[must_use]
-pub fn stepped(traded: &Traded, by: isize) -> Option<Setting> {
+pub(crate) fn stepped(traded: &Traded, by: isize) -> Option<Setting> {
     let settings: Vec<Setting> = traded
         .trade
         .iter()

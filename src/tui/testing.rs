@@ -1,0 +1,150 @@
+//! What the tests of the screens, which are programs of their own, use of the workbench.
+
+pub mod actions {
+    pub use crate::tui::actions::{Action, Effect, Progress, of_key};
+}
+
+pub mod app {
+    pub use crate::tui::app::App;
+}
+
+pub mod ascii {
+    pub use crate::tui::ascii::{finish, is_safe, written_out};
+}
+
+pub mod benchmark {
+    pub use crate::tui::benchmark::{End, Measured, Measuring};
+}
+
+pub mod commands {
+    pub use crate::tui::commands::{BINDINGS, Command, commands};
+}
+
+pub mod dialogs {
+    pub use crate::tui::dialogs::Prompt;
+    pub use crate::tui::dialogs::explanation::Explanation;
+    pub use crate::tui::dialogs::picker::Item;
+    pub use crate::tui::dialogs::question::Question;
+}
+
+pub mod effects {
+    pub use crate::tui::effects::{claimed, perform};
+}
+
+pub mod events {
+    pub use crate::tui::events::{Event, take_action};
+}
+
+pub mod help {
+    pub use crate::tui::help::lines;
+}
+
+pub mod jobs {
+    pub use crate::tui::jobs::Job;
+}
+
+pub mod layout {
+    pub use crate::tui::layout::plan;
+}
+
+pub mod pane {
+    pub use crate::tui::pane::Pane;
+}
+
+pub mod chart {
+    pub use crate::tui::panes::chart::range::Frame;
+    pub use crate::tui::panes::chart::{first_contact, readout};
+
+    pub mod curves {
+        pub use crate::tui::panes::chart::curves::{Whose, apart, curves, is_field};
+    }
+
+    pub mod raster {
+        pub use crate::tui::panes::chart::raster::draw;
+    }
+}
+
+pub mod results {
+    pub use crate::tui::panes::results::{count, marked, page};
+}
+
+pub mod teeth {
+    pub use crate::tui::panes::teeth::labels::Labels;
+    pub use crate::tui::panes::teeth::readings::readings;
+    pub use crate::tui::panes::teeth::scene::Scene;
+    pub use crate::tui::panes::teeth::zoom::{Centre, Exaggeration, TeethView};
+    pub use crate::tui::panes::teeth::{Picture, draw};
+
+    pub mod raster {
+        pub use crate::tui::panes::teeth::raster::draw;
+    }
+}
+
+pub mod rows {
+    pub use crate::tui::rows::{count, field, names, text};
+}
+
+pub mod session {
+    pub use crate::tui::session::autosave::Autosave;
+    pub use crate::tui::session::journal::Journal;
+    pub use crate::tui::session::journal_writer::JournalWriter;
+    pub use crate::tui::session::recovery::{Access, Claim, Offer};
+    pub use crate::tui::session::save::{Next, SaveFault};
+}
+
+pub mod settings {
+    pub use crate::tui::settings::Settings;
+}
+
+pub mod solver {
+    pub use crate::tui::solver::{Answer, Request, answer};
+}
+
+pub mod store {
+    pub use crate::tui::store::built_in;
+    pub use crate::tui::store::preview::Viewport;
+    pub use crate::tui::store::state::State;
+
+    pub mod case_search {
+        pub use crate::tui::store::case_search::{Below, find};
+    }
+
+    pub mod folder {
+        pub use crate::tui::store::folder::{beneath, list};
+    }
+
+    pub mod recents {
+        pub use crate::tui::store::recents::looked_at;
+    }
+}
+
+pub mod study {
+    pub use crate::tui::study::{End, Found, Question, StudyPart, StudyRequest};
+}
+
+pub mod tab {
+    pub use crate::tui::tab::{Origin, Tab};
+}
+
+pub mod theme {
+    pub use crate::tui::theme::{CONTRAST, Look, MONO};
+}
+
+pub mod update {
+    pub use crate::tui::update::{opened, update};
+}
+
+pub mod view {
+    pub use crate::tui::view::draw;
+}
+
+pub mod worker {
+    pub use crate::tui::worker::Workers;
+    pub use crate::tui::worker::latest::Running;
+    pub use crate::tui::worker::measuring::measure;
+    pub use crate::tui::worker::studying::study;
+
+    pub mod jobs {
+        pub use crate::tui::worker::jobs::perform;
+    }
+}
