@@ -78,7 +78,7 @@ impl Settings {
     ///
     /// # Errors
     /// Where the old text is no TOML: the user has to fix it.
-    pub(crate) fn render(&self, old: &str) -> Result<String, String> {
+    pub(crate) fn render(self, old: &str) -> Result<String, String> {
         let mut file: DocumentMut = old
             .parse()
             .map_err(|_| "the settings are not valid TOML: fix or delete the file".to_owned())?;
@@ -114,7 +114,7 @@ impl Settings {
     ///
     /// # Errors
     /// The reason, in words.
-    pub(crate) fn keep(&self) -> Result<(), String> {
+    pub(crate) fn keep(self) -> Result<(), String> {
         let file = file().ok_or("HOME and XDG_CONFIG_HOME name no folder")?;
         self.write_to(&file)
     }
@@ -142,7 +142,7 @@ impl Settings {
     /// The look for a terminal: its abilities, limited by the settings. No setting restores colours
     /// or letters that the environment lacks.
     #[must_use]
-    pub(crate) fn look(&self, able: Look, variable: impl Fn(&str) -> bool) -> Look {
+    pub(crate) fn look(self, able: Look, variable: impl Fn(&str) -> bool) -> Look {
         let theme = self
             .theme
             .filter(|_| !variable("NO_COLOR"))

@@ -56,7 +56,7 @@ impl Scene {
             view,
             ..
         } = *picture;
-        let window = Window::of(view, inputs, solution, size, picture.drawn_marker());
+        let window = Window::of(*view, inputs, solution, size, picture.drawn_marker());
         let factor = moment.map(|moment| view.factor(inputs, solution, moment));
         let angle = moment.map_or(0.0, |moment| moment.roll_angle_driver);
         let lead = moment

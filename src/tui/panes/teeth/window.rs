@@ -55,7 +55,7 @@ impl Window {
     /// and the window shows as little as possible beyond the pair.
     #[must_use]
     pub(crate) fn of(
-        view: &TeethView,
+        view: TeethView,
         inputs: &Inputs,
         solution: &Solution,
         size: Size,
@@ -236,7 +236,7 @@ mod tests {
         let solution = model::solve(&inputs, Stages::CLOSED_FORM).unwrap();
         let of = |(marker, size)| {
             (
-                Window::of(&TeethView::default(), &inputs, &solution, size, marker),
+                Window::of(TeethView::default(), &inputs, &solution, size, marker),
                 marker,
             )
         };

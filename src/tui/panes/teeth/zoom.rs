@@ -142,12 +142,7 @@ impl TeethView {
     /// The factor is a round number that makes the deviation at most 10 % of the picture's height.
     /// It decreases far from the flank, so that the struck tooth keeps its place, and is 1 after B.
     #[must_use]
-    pub(crate) fn factor(
-        &self,
-        inputs: &Inputs,
-        solution: &Solution,
-        moment: &ContactState,
-    ) -> f64 {
+    pub(crate) fn factor(self, inputs: &Inputs, solution: &Solution, moment: &ContactState) -> f64 {
         if self.exaggeration == Exaggeration::True || moment.phase == Phase::RunOut {
             return 1.0;
         }
