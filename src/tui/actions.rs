@@ -58,6 +58,8 @@ pub enum Action {
     Progress(Option<Progress>),
     /// A file was read, or its faults were found.
     Loaded(PathBuf, Result<Box<Document>, Vec<String>>),
+    /// Another program may have changed the file of an open case; its content now, or its faults.
+    FileChanged(PathBuf, Result<Box<Document>, Vec<String>>),
     /// A file was written, or not; and what comes next.
     Saved(PathBuf, Next, Result<Box<Written>, SaveFault>),
     /// An export was written, or not.

@@ -3,7 +3,7 @@
 mod requests;
 mod shown;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use ratatui::layout::Size;
 
@@ -161,6 +161,12 @@ impl App {
             .others
             .split_at(self.place_of_tab.min(self.others.len()));
         before.iter().chain(std::iter::once(&self.tab)).chain(after)
+    }
+
+    /// The files from which the open cases were read, or to which they were saved.
+    pub(super) fn files(&self) -> Vec<PathBuf> {
+        let files = self.tabs().filter_map(|tab| tab.document.path());
+        files.map(Path::to_owned).collect()
     }
 
     /// What every open case makes of its file.

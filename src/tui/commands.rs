@@ -25,6 +25,7 @@ pub enum Command {
     SearchField,
     Save,
     SaveAs,
+    Reload,
     Export,
     Open,
     Recent,

@@ -18,6 +18,7 @@ mod page;
 mod panes;
 mod pointer;
 mod recovery;
+mod reload;
 mod selection;
 mod study;
 mod tabs;
@@ -132,6 +133,7 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
         }
         Action::Progress(progress) => app.progress = progress,
         Action::Loaded(path, result) => return files::loaded(app, path, result),
+        Action::FileChanged(path, result) => return reload::changed(app, &path, result),
         Action::Saved(path, next, result) => return files::saved(app, path, next, result),
         Action::Exported(path, result) => export::done(app, &path, result),
         Action::Claimed(claim) => recovery::claimed(app, *claim),
@@ -151,6 +153,7 @@ fn run(app: &mut App, command: Command) -> Vec<Effect> {
         Command::Edit(request) => edit::handle(app, request),
         Command::Save => files::save(app, Next::Stay),
         Command::SaveAs => files::ask_where(app, Next::Stay),
+        Command::Reload => reload::ask(app),
         Command::Export => export::ask(app),
         Command::Open => browse::open(app, false),
         Command::Recent => browse::recent(app),

@@ -154,6 +154,7 @@ impl Workbench {
             self.screen.draw(&self.app)?;
         }
         self.autosave.keep_if_due(Instant::now());
+        self.workers.watch(self.app.files());
         Ok(None)
     }
 

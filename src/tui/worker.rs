@@ -6,10 +6,13 @@ pub(crate) mod latest;
 pub(crate) mod measuring;
 pub(crate) mod solving;
 pub(crate) mod studying;
+mod watching;
 
 use std::io;
+use std::path::PathBuf;
 
 use latest::{Send, Worker};
+use watching::Watcher;
 
 use super::benchmark::Measuring;
 use super::jobs::Job;
@@ -23,10 +26,11 @@ pub struct Workers {
     benchmark: Option<Worker<Measuring>>,
     study: Option<Worker<StudyRequest>>,
     jobs: [Option<Worker<Job>>; Job::KINDS],
+    watcher: Watcher,
 }
 
 impl Workers {
-    /// Starts the solver.
+    /// Starts the solver and the watcher of files.
     ///
     /// # Errors
     /// When the system gives no thread.
@@ -36,6 +40,7 @@ impl Workers {
             benchmark: None,
             study: None,
             jobs: [const { None }; Job::KINDS],
+            watcher: Watcher::start(Send::clone(&send))?,
             send,
         })
     }
@@ -48,6 +53,11 @@ impl Workers {
     /// Stops the solve that runs.
     pub(crate) fn stop_solve(&self) {
         self.solver.stop_running();
+    }
+
+    /// Watches these files for changes by other programs.
+    pub(super) fn watch(&self, files: Vec<PathBuf>) {
+        self.watcher.watch(files);
     }
 
     /// Measures, in place of a benchmark that runs.

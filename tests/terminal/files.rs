@@ -532,3 +532,54 @@ fn a_tilde_is_the_home_folder_where_paths_are_typed() {
     tty.quit();
     assert!(!tty.folder.path().join("~").exists());
 }
+
+#[test]
+fn a_file_that_another_program_writes_is_read_again_where_nothing_is_edited() {
+    let mut tty = Launch::on_table_1().size(24, 80).start();
+    tty.wait_for("5 mm");
+    let theirs = TABLE_1.replace("\"5 mm\"", "\"6 mm\"");
+    fs::write(tty.case(), &theirs).expect("room on the disk");
+    tty.wait_for("it changed on disk");
+    assert!(tty.shows("6 mm") && !tty.shows("5 mm"));
+
+    // As an editor saves: another file takes its place.
+    let other = tty.case().with_extension("new");
+    fs::write(&other, TABLE_1.replace("\"5 mm\"", "\"7 mm\"")).expect("room on the disk");
+    fs::rename(&other, tty.case()).expect("the same folder");
+    tty.wait_for("7 mm");
+
+    let broken = TABLE_1.replace("\"5 mm\"", "5");
+    fs::write(tty.case(), broken).expect("room on the disk");
+    tty.wait_for("cannot be read: 11:10: pair.module");
+    assert!(tty.shows("7 mm"));
+    fs::write(tty.case(), &theirs).expect("room on the disk");
+    tty.wait_for("6 mm");
+
+    tty.type_in("\x158 mm");
+    tty.wait_for("8 mm");
+    fs::write(tty.case(), TABLE_1).expect("room on the disk");
+    tty.wait_for("changed on disk: :reload reads it again");
+    assert!(tty.shows("8 mm"));
+    tty.type_in("\x1b:reload\r");
+    tty.wait_for("has unsaved edits");
+    tty.type_in("d");
+    tty.wait_for("5 mm");
+}
+
+#[test]
+fn our_own_save_and_a_mere_touch_are_no_change_of_the_file() {
+    let mut tty = Launch::on_table_1().size(24, 80).start();
+    tty.wait_for("5 mm");
+    tty.type_in("\x156 mm");
+    tty.wait_for("6 mm");
+    tty.type_in("\x13");
+    tty.wait_for("saved ");
+    let later = SystemTime::now() + Duration::from_secs(5);
+    File::options()
+        .write(true)
+        .open(tty.case())
+        .and_then(|file| file.set_modified(later))
+        .expect("our own file");
+    tty.settle(Duration::from_millis(2500));
+    assert!(tty.shows("saved ") && !tty.shows("changed on disk"));
+}

@@ -154,6 +154,7 @@ pub static BINDINGS: &[Binding] = &[
     listed(Place::WORK, &[function(4), with(CTRL, KeyCode::Down)], Do::ResultsDown, "results down", "Scroll the results down."),
     listed(Place::WORK, &[function(3), with(CTRL, KeyCode::Up)], Do::ResultsUp, "results up", "Scroll the results up."),
     listed(Place::WORK, &[function(2), alt('s')], Do::SaveAs, "save as", "Save under another name."),
+    listed(Place::WORK, &[], Do::Reload, "reload", "Read the file of the case again; asks if there are unsaved edits."),
     listed(Place::WORK, &[alt('x')], Do::Export, "export", "Write the report (.html, .md, .csv, .json) or the shown chart or teeth (.svg) to a file."),
     listed(Place::WORK, &[ctrl('n')], Do::New, "new", "Start an empty case: required fields are marked, the others show their defaults."),
     listed(Place::WORK, &[alt('n')], Do::Example, "from example", "Start a case from one of the examples."),

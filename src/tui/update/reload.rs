@@ -1,0 +1,94 @@
+//! Reading the file of an open case again, as when another program changed it.
+
+use std::path::Path;
+
+use super::edit;
+use crate::case::Document;
+use crate::tui::actions::Effect;
+use crate::tui::app::App;
+use crate::tui::ascii;
+use crate::tui::commands::{Command, key_of};
+use crate::tui::dialogs::Prompt;
+use crate::tui::dialogs::question::Question;
+use crate::tui::session::recovery::Access;
+use crate::tui::session::save::Next;
+use crate::tui::tab::Tab;
+
+/// Read the file again, or ask when edits would be lost.
+pub(super) fn ask(app: &mut App) -> Vec<Effect> {
+    let Some(path) = app.tab.path.clone() else {
+        app.say("this case has no file to read again");
+        return Vec::new();
+    };
+    let next = Next::Load(path.clone());
+    if app.tab.is_unsaved() {
+        let question = Question::unsaved(&app.tab.name(), &next);
+        app.prompts.push(Prompt::Ask(question));
+        return Vec::new();
+    }
+    vec![Effect::Load(path)]
+}
+
+/// The file of an open case may have another content: a case without edits takes it over.
+pub(super) fn changed(
+    app: &mut App,
+    path: &Path,
+    found: Result<Box<Document>, Vec<String>>,
+) -> Vec<Effect> {
+    let is_of_file = |tab: &&Tab| tab.document.path() == Some(path);
+    let Some(tab) = app.tabs().find(is_of_file) else {
+        return Vec::new();
+    };
+    let (id, name) = (tab.id, ascii::printable(&tab.short_name()).into_owned());
+    let document = match found {
+        Ok(document) if document.stamp() == tab.document.stamp() => return Vec::new(),
+        Ok(document) => document,
+        Err(faults) => {
+            let fault = faults.into_iter().next().unwrap_or_default();
+            let fault = ascii::printable(&fault).into_owned();
+            app.complain(format!("{name} changed on disk and cannot be read: {fault}"));
+            return Vec::new();
+        }
+    };
+    if tab.is_unsaved() {
+        let reload = key_of(Command::Reload);
+        app.complain(format!(
+            "{name} changed on disk: {reload} reads it again, and asks about your edits"
+        ));
+        return Vec::new();
+    }
+    app.say(format!("read {name} again: it changed on disk"));
+    if app.tab.id == id {
+        let case = document.case.clone();
+        take_over(&mut app.tab, *document);
+        return edit::replace(app, case);
+    }
+    app.last_serial += 1;
+    let serial = app.last_serial;
+    if let Some(tab) = app.others.iter_mut().find(|tab| tab.id == id) {
+        replace_unseen(tab, *document, serial);
+    }
+    Vec::new()
+}
+
+/// The text of the file, and the case in it as the saved one.
+fn take_over(tab: &mut Tab, document: Document) {
+    if !matches!(tab.access, Access::Held(_)) {
+        tab.access = Access::of(&document);
+    }
+    tab.saved = document.case.clone();
+    tab.document = document;
+}
+
+/// Takes over the case of a tab that is not shown; it is solved once it is shown.
+fn replace_unseen(tab: &mut Tab, document: Document, serial: u64) {
+    tab.history.end_visit();
+    let focus = tab.form.focus;
+    tab.before_edit(focus);
+    tab.case = document.case.clone();
+    tab.inputs_so_far = tab.case.read().0;
+    take_over(tab, document);
+    tab.problems.clear();
+    (tab.serial, tab.is_settled, tab.solving) = (serial, false, None);
+    tab.focus_on(focus);
+}
