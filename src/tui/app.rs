@@ -12,8 +12,8 @@ use super::baseline::Baseline;
 use super::benchmark::TradeView;
 use super::dialogs::Prompt;
 use super::keys::Place;
-use super::layout::{Plan, plan};
-use super::pane::{Pane, Panes};
+use super::layout::Layout;
+use super::pane::Pane;
 use super::panes::chart::ChartPane;
 use super::panes::study::StudyState;
 use super::panes::teeth::TeethView;
@@ -40,8 +40,8 @@ pub struct App {
     pub(crate) last_id: usize,
     /// Counts the requests of all cases.
     pub(crate) last_serial: u64,
-    /// Focus and layout.
-    pub panes: Panes,
+    /// The visible panes and their areas.
+    pub layout: Layout,
     /// Whether letters go into the focused field while the form has the focus.
     pub(crate) is_editing: bool,
     /// The case before the last key, where that key was a digit which started a new value.
@@ -78,8 +78,6 @@ pub struct App {
     pub(crate) needs_scroll: bool,
     /// Said once, until the next key.
     pub message: Option<Message>,
-    /// The size of the terminal.
-    pub size: Size,
     /// What the user chose for every case.
     pub settings: Settings,
     /// What the terminal is able to show.
@@ -122,7 +120,7 @@ impl App {
             place_of_tab: 0,
             last_id: 0,
             last_serial: 0,
-            panes: Panes::default(),
+            layout: Layout::new(size),
             is_editing: true,
             before_digit: None,
             baseline: None,
@@ -141,7 +139,6 @@ impl App {
             prompts: Vec::new(),
             needs_scroll: false,
             message: None,
-            size,
             settings: Settings::default(),
             look,
         };
@@ -175,18 +172,12 @@ impl App {
         self.tabs().map(Tab::sheet).collect()
     }
 
-    /// The areas of the screen.
-    #[must_use]
-    pub(crate) fn plan(&self) -> Plan {
-        plan(self.size, self.panes)
-    }
-
     /// Where keys go.
     #[must_use]
     pub fn place(&self) -> Place {
         match self.prompts.last() {
             Some(prompt) => prompt.dialog().place(),
-            None if !self.has_line() => self.panes.focus.place(),
+            None if !self.has_line() => self.layout.focus().place(),
             None if !rows::names(&self.tab.case, self.tab.form.focus).is_empty() => Place::CHOICE,
             None if self.is_fresh() => Place::TEXT.or(Place::FRESH),
             None => Place::TEXT,
@@ -196,7 +187,7 @@ impl App {
     /// Whether what is typed goes into the focused field.
     #[must_use]
     pub fn has_line(&self) -> bool {
-        self.panes.focus == Pane::Form && self.is_editing
+        self.layout.focus() == Pane::Form && self.is_editing
     }
 
     /// Whether the focused row has a value rather than words, and typing would replace all of it.

@@ -2,7 +2,7 @@
 
 use ratatui::layout::{Rect, Size};
 
-use super::pane::{Pane, Panes};
+use super::pane::Pane;
 
 /// The smallest useful terminal.
 pub(crate) const SMALLEST: Size = Size {
@@ -49,9 +49,115 @@ pub struct Plan {
     pub(crate) keys: Rect,
 }
 
-/// Where everything stands on a screen of that size.
-#[must_use]
-pub fn plan(size: Size, panes: Panes) -> Plan {
+/// What of the panes is on the screen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Panes {
+    /// The one that takes the keys.
+    focus: Pane,
+    /// The one of the lower area that is shown where not all of them have room.
+    lower: Pane,
+    /// Whether the focused one has the screen: of form and results both, of the lower area it
+    /// alone.
+    is_zoomed: bool,
+}
+
+impl Default for Panes {
+    fn default() -> Panes {
+        Panes {
+            focus: Pane::Form,
+            lower: Pane::Chart,
+            is_zoomed: false,
+        }
+    }
+}
+
+/// The visible panes, and the areas that follow from them and the size of the terminal. The areas
+/// are computed once per change.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Layout {
+    size: Size,
+    panes: Panes,
+    plan: Plan,
+}
+
+impl Layout {
+    /// The usual panes on a terminal of that size.
+    pub(crate) fn new(size: Size) -> Layout {
+        let panes = Panes::default();
+        Layout {
+            size,
+            panes,
+            plan: plan(size, panes),
+        }
+    }
+
+    /// The size of the terminal.
+    #[must_use]
+    pub fn size(&self) -> Size {
+        self.size
+    }
+
+    /// The areas of the screen.
+    #[must_use]
+    pub fn plan(&self) -> Plan {
+        self.plan
+    }
+
+    /// The areas on a terminal whose new size no event has reported yet.
+    pub(crate) fn plan_on(&self, size: Size) -> Plan {
+        if size == self.size {
+            self.plan
+        } else {
+            plan(size, self.panes)
+        }
+    }
+
+    /// The pane that takes the keys.
+    #[must_use]
+    pub fn focus(&self) -> Pane {
+        self.panes.focus
+    }
+
+    /// The pane of the lower area.
+    pub(crate) fn lower(&self) -> Pane {
+        self.panes.lower
+    }
+
+    /// Whether the focused pane has the screen.
+    pub(crate) fn is_zoomed(&self) -> bool {
+        self.panes.is_zoomed
+    }
+
+    /// Takes over the size of the terminal.
+    pub fn resize(&mut self, size: Size) {
+        self.size = size;
+        self.update();
+    }
+
+    /// Gives a pane the keys.
+    pub(crate) fn focus_on(&mut self, pane: Pane) {
+        self.panes.focus = pane;
+        self.update();
+    }
+
+    /// Shows a pane in the lower area.
+    pub(crate) fn show_below(&mut self, pane: Pane) {
+        self.panes.lower = pane;
+        self.update();
+    }
+
+    /// Gives the focused pane the screen, or takes it back.
+    pub(crate) fn zoom(&mut self, is_zoomed: bool) {
+        self.panes.is_zoomed = is_zoomed;
+        self.update();
+    }
+
+    fn update(&mut self) {
+        self.plan = plan(self.size, self.panes);
+    }
+}
+
+fn plan(size: Size, panes: Panes) -> Plan {
     if is_too_small(size) {
         return Plan::default();
     }

@@ -1,5 +1,4 @@
-//! The panes of the workbench: which one has the focus, which ones the screen has, and what each
-//! needs of the model.
+//! The panes of the workbench, and what each needs of the model.
 
 use super::keys::Place;
 use crate::model::{Stage, Stages};
@@ -19,28 +18,6 @@ pub enum Pane {
     Trade,
     /// A field over its range against a result, a map of two fields, the tolerance.
     Study,
-}
-
-/// What of the panes is on the screen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Panes {
-    /// The one that takes the keys.
-    pub focus: Pane,
-    /// The one of the lower area that is shown where not all of them have room.
-    pub(crate) lower: Pane,
-    /// Whether the focused one has the screen: of form and results both, of the lower area it
-    /// alone.
-    pub(crate) is_zoomed: bool,
-}
-
-impl Default for Panes {
-    fn default() -> Panes {
-        Panes {
-            focus: Pane::Form,
-            lower: Pane::Chart,
-            is_zoomed: false,
-        }
-    }
 }
 
 impl Pane {

@@ -43,10 +43,6 @@ pub mod jobs {
     pub use crate::tui::jobs::Job;
 }
 
-pub mod layout {
-    pub use crate::tui::layout::plan;
-}
-
 pub mod pane {
     pub use crate::tui::pane::Pane;
 }

@@ -112,7 +112,7 @@ fn happen(app: &mut App, action: Action) -> Vec<Effect> {
         Action::Wheel(at, by) => pointer::wheel(app, at, by),
         Action::Tick => return cursor::tick(app),
         Action::Resize(size) => {
-            app.size = size;
+            app.layout.resize(size);
             app.follow();
             // Terminals cut what they show when they shrink, even if they are back at the old size
             // by now.
@@ -255,7 +255,7 @@ fn find(app: &mut App, list: List) {
         results: results::listed(&app.results())
             .map(|quantity| quantity.key)
             .collect(),
-        are_results_first: app.panes.focus == Pane::Results,
+        are_results_first: app.layout.focus() == Pane::Results,
         idle: (0..FIELDS.len()).filter(idle).collect(),
         own: of_scope(Scope::Own),
         elsewhere: of_scope(Scope::Elsewhere),
@@ -265,8 +265,8 @@ fn find(app: &mut App, list: List) {
 
 // The scope of a command; in the form, the focused row decides too.
 fn scope_of(app: &App, command: Command) -> Scope {
-    let scope = commands::scope(command, app.place(), app.panes.focus);
-    if app.panes.focus != Pane::Form {
+    let scope = commands::scope(command, app.place(), app.layout.focus());
+    if app.layout.focus() != Pane::Form {
         return scope;
     }
     let field = rows::field(&app.tab.case, app.tab.form.focus);

@@ -9,7 +9,7 @@ use ratatui::style::Style;
 use super::app::App;
 use super::ascii;
 use super::header;
-use super::layout::{self, SMALLEST, plan};
+use super::layout::{self, SMALLEST};
 use super::pane::Pane;
 use super::panes::chart::{Charts, panels};
 use super::panes::form::{self, Form};
@@ -69,7 +69,7 @@ fn too_small(area: Rect, buffer: &mut Buffer) {
 }
 
 fn draw_panes(app: &App, area: Rect, buffer: &mut Buffer) -> Option<Position> {
-    let plan = plan(area.as_size(), app.panes);
+    let plan = app.layout.plan_on(area.as_size());
     header::draw(app, plan.header, buffer);
     let in_form = form::draw(
         &Form {

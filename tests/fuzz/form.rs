@@ -496,10 +496,10 @@ impl Bench {
                 "the method of the form stands first"
             );
         }
-        self.draw(app.size);
+        self.draw(app.layout.size());
         self.draw(Size {
-            width: app.size.height,
-            height: app.size.width.min(60),
+            width: app.layout.size().height,
+            height: app.layout.size().width.min(60),
         });
     }
 

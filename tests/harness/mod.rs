@@ -213,7 +213,7 @@ impl Desk {
     }
 
     pub(crate) fn screen(&self) -> String {
-        self.screen_at(self.app.size)
+        self.screen_at(self.app.layout.size())
     }
 
     /// The screen as text, the folder of the test named `DIR`, each line without the spaces at its
@@ -229,7 +229,7 @@ impl Desk {
     }
 
     pub(crate) fn shows(&self, text: &str) -> bool {
-        self.rows(self.app.size).join("\n").contains(text)
+        self.rows(self.app.layout.size()).join("\n").contains(text)
     }
 
     fn rows(&self, size: Size) -> Vec<String> {

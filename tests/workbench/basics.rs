@@ -247,7 +247,7 @@ fn tab_goes_round_the_panes_and_letters_are_never_text_there() {
         Pane::Form,
     ] {
         desk.keys(&["Tab"]);
-        assert_eq!(desk.app.panes.focus, pane);
+        assert_eq!(desk.app.layout.focus(), pane);
         assert!(
             desk.shows(&format!("▸ {}", pane.number())),
             "{}",
@@ -257,9 +257,9 @@ fn tab_goes_round_the_panes_and_letters_are_never_text_there() {
         assert!(!desk.app.tab.is_unsaved());
     }
     desk.keys(&["BackTab"]);
-    assert_eq!(desk.app.panes.focus, Pane::Study);
+    assert_eq!(desk.app.layout.focus(), Pane::Study);
     desk.keys(&["Esc"]);
-    assert_eq!(desk.app.panes.focus, Pane::Form);
+    assert_eq!(desk.app.layout.focus(), Pane::Form);
 }
 
 #[test]
@@ -612,7 +612,7 @@ fn the_cursor_walks_by_columns_and_goes_away() {
     desk.keys(&["Home", "c"]);
     assert!(desk.app.cursor.is_none());
     desk.keys(&["l", "Esc"]);
-    assert!(desk.app.cursor.is_none() && desk.app.panes.focus == Pane::Teeth);
+    assert!(desk.app.cursor.is_none() && desk.app.layout.focus() == Pane::Teeth);
 }
 
 #[test]
@@ -799,7 +799,7 @@ fn the_mouse_is_off_until_it_is_asked_for_and_then_points() {
     desk.act(Action::Click(Position::new(10, 8)));
     assert!(desk.app.has_line() && desk.shows("α pressure angle, "));
     desk.act(Action::Click(Position::new(50, 10)));
-    assert_eq!(desk.app.panes.focus, Pane::Results);
+    assert_eq!(desk.app.layout.focus(), Pane::Results);
     desk.act(Action::Click(Position::new(8, 15)));
     assert!(
         desk.app
@@ -911,7 +911,7 @@ fn keystrokes(method: &str) -> Vec<f64> {
 /// From the key to its frame, and from the answer that it asks for to that one's.
 fn frame_of(desk: &mut Desk, code: KeyCode) -> Vec<f64> {
     let action = actions::of_key(code.into(), desk.app.place()).expect("a key of the place");
-    let area = Rect::from(desk.app.size);
+    let area = Rect::from(desk.app.layout.size());
     let mut frame = |action| {
         let start = Instant::now();
         let effects = update(&mut desk.app, action);

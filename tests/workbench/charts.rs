@@ -16,7 +16,6 @@ use tipstrike::tui::testing::actions::Action;
 use tipstrike::tui::testing::chart::Frame;
 use tipstrike::tui::testing::chart::curves::{self, Whose};
 use tipstrike::tui::testing::chart::{self, raster};
-use tipstrike::tui::testing::layout;
 use tipstrike::tui::testing::pane::Pane;
 use tipstrike::tui::testing::solver::Answer;
 use tipstrike::tui::testing::teeth::readings;
@@ -49,13 +48,13 @@ fn at_method(size: Size, method: &str) -> Desk {
 }
 
 fn chart_area(desk: &Desk) -> Rect {
-    layout::plan(desk.app.size, desk.app.panes).area(Pane::Chart)
+    desk.app.layout.plan().area(Pane::Chart)
 }
 
 /// The lines of the chart pane.
 fn chart(desk: &Desk) -> Vec<String> {
     let area = chart_area(desk);
-    let buffer = desk.buffer(desk.app.size);
+    let buffer = desk.buffer(desk.app.layout.size());
     let cell = |x, y| buffer.cell((x, y)).map_or(" ", |cell| cell.symbol());
     area.rows()
         .map(|row| {
@@ -616,7 +615,7 @@ fn plots(desk: &Desk) -> Vec<Rect> {
 /// Every curve is drawn whole, and every curve is named, with no dash or dot of a line in its name.
 fn assert_legends(desk: &Desk) {
     let app = &desk.app;
-    let screen = desk.buffer(app.size);
+    let screen = desk.buffer(app.layout.size());
     let text = chart(desk).join("\n");
     let window = app.charts().window();
     for (graph, plot) in app.charts().shown().into_iter().zip(plots(desk)) {
@@ -754,9 +753,13 @@ fn bytes(before: &Buffer, after: &Buffer, area: Rect) -> usize {
 
 /// The bytes that a key writes into the chart.
 fn cost(desk: &mut Desk, key: &str) -> usize {
-    let before = desk.buffer(desk.app.size);
+    let before = desk.buffer(desk.app.layout.size());
     desk.keys(&[key]);
-    bytes(&before, &desk.buffer(desk.app.size), chart_area(desk))
+    bytes(
+        &before,
+        &desk.buffer(desk.app.layout.size()),
+        chart_area(desk),
+    )
 }
 
 #[test]

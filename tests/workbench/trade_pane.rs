@@ -11,7 +11,6 @@ use tipstrike::tui::testing::actions::Action;
 use tipstrike::tui::testing::actions::Effect;
 use tipstrike::tui::testing::actions::Progress;
 use tipstrike::tui::testing::benchmark::{End, Measured, Measuring};
-use tipstrike::tui::testing::layout::plan;
 use tipstrike::tui::testing::theme::{Look, MONO};
 use tipstrike::tui::testing::update::update;
 
@@ -362,8 +361,8 @@ fn every_mark_is_on_the_right_side_of_the_tolerance() {
     let sizes = [(60, 16), (80, 24), (80, 30), (140, 45), (240, 70)];
     for (width, height) in sizes {
         let mut desk = timed(SMALL);
-        desk.app.size = Size { width, height };
-        let area = plan(desk.app.size, desk.app.panes).trade;
+        desk.app.layout.resize(Size { width, height });
+        let area = desk.app.layout.plan().trade;
         let screen = desk.screen();
         let rows: Vec<Vec<char>> = screen
             .lines()

@@ -17,7 +17,7 @@ impl App {
         if self.is_pinning {
             return Stages::EVERY;
         }
-        let plan = self.plan();
+        let plan = self.layout.plan();
         let seen = Pane::ALL
             .into_iter()
             .filter(|&pane| !plan.area(pane).is_empty());
@@ -32,7 +32,7 @@ impl App {
 
     /// Whether the chart of the mesh stiffness is in sight.
     fn wants_stiffness(&self) -> bool {
-        let is_visible = !self.plan().area(Pane::Chart).is_empty();
+        let is_visible = !self.layout.plan().area(Pane::Chart).is_empty();
         is_visible && GRAPHS[self.chart.graph].by_model.is_some()
     }
 

@@ -18,7 +18,7 @@ impl App {
     /// The title line of a pane.
     #[must_use]
     pub(crate) fn title(&self, pane: Pane) -> Title {
-        let plan = self.plan();
+        let plan = self.layout.plan();
         let hidden = if plan.names_hidden() == Some(pane) {
             plan.hidden().collect()
         } else {
@@ -26,7 +26,7 @@ impl App {
         };
         Title {
             pane,
-            has_focus: self.panes.focus == pane && self.prompts.is_empty(),
+            has_focus: self.layout.focus() == pane && self.prompts.is_empty(),
             is_editing: self.has_line(),
             hidden,
             theme: self.look.theme,
@@ -35,18 +35,18 @@ impl App {
 
     /// The charts and the pane in which the cursor moves.
     pub(crate) fn cursor_scope(&self) -> CursorScope<'_> {
-        let plan = self.plan();
+        let plan = self.layout.plan();
         let is_alone = plan.chart.is_empty() && !plan.teeth.is_empty();
         CursorScope {
             charts: self.charts(),
-            is_in_teeth: self.panes.focus == Pane::Teeth || is_alone,
+            is_in_teeth: self.layout.focus() == Pane::Teeth || is_alone,
         }
     }
 
     /// The surroundings of a dialog.
     pub(crate) fn surroundings(&self) -> Surroundings<'_> {
         Surroundings {
-            screen: self.size,
+            screen: self.layout.size(),
             look: self.look,
             cursor: self.cursor_scope(),
         }
@@ -69,7 +69,7 @@ impl App {
             top: tab.form.top,
             look: self.look,
             title: self.title(Pane::Form),
-            area: self.plan().form,
+            area: self.layout.plan().form,
         }
     }
 
@@ -94,12 +94,12 @@ impl App {
             is_stale: tab.is_stale(),
             shows_last_valid: tab.shows_last_valid(),
             shows_cost: self.shows_cost,
-            is_focused: self.panes.focus == Pane::Results,
+            is_focused: self.layout.focus() == Pane::Results,
             next_fault: || key_of(Command::NextFault),
             units: self.settings.units,
             look: self.look,
             title: self.title(Pane::Results),
-            area: self.plan().results,
+            area: self.layout.plan().results,
         }
     }
 
@@ -112,7 +112,7 @@ impl App {
             view: self.trade_view,
             look: self.look,
             title: self.title(Pane::Trade),
-            area: self.plan().trade,
+            area: self.layout.plan().trade,
         }
     }
 
@@ -133,7 +133,7 @@ impl App {
             marker: self.settings.marker,
             look: self.look,
             title: self.title(Pane::Study),
-            area: self.plan().study,
+            area: self.layout.plan().study,
         }
     }
 
@@ -151,7 +151,7 @@ impl App {
             units: self.settings.units,
             marker: self.settings.marker,
             look: self.look,
-            area: self.plan().chart,
+            area: self.layout.plan().chart,
         }
     }
 

@@ -27,9 +27,9 @@ pub(super) fn leave(app: &mut App) -> Vec<Effect> {
         app.is_editing = false;
     } else if app.is_playing {
         return cursor::stop(app);
-    } else if app.cursor.is_some() && app.panes.focus.is_lower() {
+    } else if app.cursor.is_some() && app.layout.focus().is_lower() {
         app.cursor = None;
-    } else if app.panes.is_zoomed {
+    } else if app.layout.is_zoomed() {
         panes::zoom(app);
     } else {
         panes::show(app, Pane::Form);

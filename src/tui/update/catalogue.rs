@@ -76,7 +76,7 @@ fn assignments(app: &App, material: &Material) -> String {
 /// Hold the marked result to a limit where the results have the focus, else ask which.
 pub(super) fn limit(app: &mut App) -> Vec<Effect> {
     if let Some(quantity) =
-        results::marked(&app.results()).filter(|_| app.panes.focus == Pane::Results)
+        results::marked(&app.results()).filter(|_| app.layout.focus() == Pane::Results)
     {
         return hold(app, quantity);
     }
@@ -92,7 +92,7 @@ pub(super) fn hold(app: &mut App, quantity: &'static Quantity) -> Vec<Effect> {
         case.write_limit(quantity.key, &beginning(app, quantity));
         effects = edit::replace(app, case);
     }
-    app.panes.focus = Pane::Form;
+    app.layout.focus_on(Pane::Form);
     app.is_editing = true;
     let row = rows::of_limit(&app.tab.case, quantity.key).or_else(|| index_of("model.method"));
     app.focus_on(row.unwrap_or(app.tab.form.focus));

@@ -17,7 +17,7 @@ const MOST_BYTES: usize = 48 * 1024;
 /// The focused value: of the form its text, of chart and teeth the reading at the cursor, else the
 /// marked result.
 pub(super) fn value(app: &mut App) -> Vec<Effect> {
-    if app.panes.focus == Pane::Form {
+    if app.layout.focus() == Pane::Form {
         let text = match rows::row(&app.tab.case, app.tab.form.focus) {
             Row::Field(field) => app.tab.case.effective(field).unwrap_or_default().to_owned(),
             Row::Limit(limit) => limit.text.clone(),
@@ -25,7 +25,7 @@ pub(super) fn value(app: &mut App) -> Vec<Effect> {
         let label = rows::full_label(&app.tab.case, app.tab.form.focus);
         return copy(app, text, &label);
     }
-    if Place::CURSOR.meets(app.panes.focus.place()) {
+    if Place::CURSOR.meets(app.layout.focus().place()) {
         let Some(cursor) = app.cursor else {
             app.complain("no cursor and no value to copy: h and l show the cursor");
             return Vec::new();

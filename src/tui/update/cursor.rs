@@ -43,7 +43,7 @@ pub(super) fn move_to(app: &mut App, typed: Result<f64, String>) -> Vec<Effect> 
         Err(reason) => app.complain(reason),
         Ok(angle) => {
             app.prompts.pop();
-            let plan = app.plan();
+            let plan = app.layout.plan();
             if plan.chart.is_empty() && plan.teeth.is_empty() {
                 panes::show(app, Pane::Chart);
             }

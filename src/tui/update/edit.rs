@@ -131,7 +131,7 @@ pub(super) fn handle(app: &mut App, request: InputRequest) -> Vec<Effect> {
 
 /// Type into the focused field: what is typed replaces its value, until the cursor is moved.
 pub(super) fn begin(app: &mut App) {
-    app.panes.focus = Pane::Form;
+    app.layout.focus_on(Pane::Form);
     app.is_editing = true;
     app.tab.form.input.select_all();
 }

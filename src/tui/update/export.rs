@@ -17,7 +17,7 @@ pub(super) fn ask(app: &mut App) -> Vec<Effect> {
     if refuse_faulty(app) {
         return Vec::new();
     }
-    let ending = match app.panes.focus {
+    let ending = match app.layout.focus() {
         Pane::Chart | Pane::Teeth => "svg",
         _ => "html",
     };
@@ -40,7 +40,7 @@ pub(super) fn begin(app: &mut App, path: PathBuf, replaces: bool) -> Vec<Effect>
             return Vec::new();
         }
     };
-    let is_of_teeth = app.panes.focus == Pane::Teeth;
+    let is_of_teeth = app.layout.focus() == Pane::Teeth;
     let exporting = Exporting {
         path,
         replaces,

@@ -15,8 +15,8 @@ pub(super) fn walk(app: &mut App, command: Command) {
         Command::Previous => step(app, -1),
         Command::NextGroup => leap(app, 1),
         Command::PreviousGroup => leap(app, -1),
-        Command::First if app.panes.focus == Pane::Results => mark(app, isize::MIN),
-        Command::Last if app.panes.focus == Pane::Results => mark(app, isize::MAX),
+        Command::First if app.layout.focus() == Pane::Results => mark(app, isize::MIN),
+        Command::Last if app.layout.focus() == Pane::Results => mark(app, isize::MAX),
         Command::First | Command::FirstField => field(app, 0),
         Command::Last | Command::LastField => field(app, usize::MAX),
         Command::NextFault => fault(app),
@@ -27,7 +27,7 @@ pub(super) fn walk(app: &mut App, command: Command) {
 }
 
 fn field(app: &mut App, field: usize) {
-    app.panes.focus = Pane::Form;
+    app.layout.focus_on(Pane::Form);
     app.focus_on(field);
 }
 
@@ -48,7 +48,7 @@ fn step(app: &mut App, by: isize) {
     if dialogs::with(app, |dialog, around| dialog.step(by, around)).is_some() {
         return;
     }
-    match app.panes.focus {
+    match app.layout.focus() {
         Pane::Results => mark(app, by),
         Pane::Trade => trade::step(app, by),
         _ => app.focus_on(app.tab.form.focus.saturating_add_signed(by)),
@@ -59,7 +59,7 @@ fn leap(app: &mut App, by: isize) {
     if dialogs::with(app, |dialog, around| dialog.turn(by, around)).is_some() {
         return;
     }
-    match app.panes.focus {
+    match app.layout.focus() {
         Pane::Results => turn(app, by * page(app)),
         _ => app.focus_on(group_beside(&app.tab.case, app.tab.form.focus, by)),
     }

@@ -3,7 +3,6 @@
 use super::edit;
 use crate::tui::app::App;
 use crate::tui::ascii;
-use crate::tui::layout;
 use crate::tui::pane::Pane;
 use crate::tui::panes::results;
 
@@ -11,25 +10,25 @@ use crate::tui::panes::results;
 /// entered.
 pub(super) fn show(app: &mut App, pane: Pane) {
     app.tab.history.end_visit();
-    app.panes.focus = pane;
+    app.layout.focus_on(pane);
     app.is_editing = false;
-    if pane.is_lower() && layout::plan(app.size, app.panes).area(pane).is_empty() {
-        app.panes.lower = pane;
+    if pane.is_lower() && app.layout.plan().area(pane).is_empty() {
+        app.layout.show_below(pane);
     }
     app.follow();
 }
 
 /// The next pane or the one before, round and round.
 pub(super) fn step(app: &mut App, by: isize) {
-    show(app, app.panes.focus.beside(by));
+    show(app, app.layout.focus().beside(by));
 }
 
 /// Another pane into the lower area; the focus stays where it is unless it is there.
 pub(super) fn cycle_lower(app: &mut App) {
-    let plan = layout::plan(app.size, app.panes);
+    let plan = app.layout.plan();
     let now = Pane::LOWER
         .iter()
-        .position(|&pane| pane == app.panes.lower)
+        .position(|&pane| pane == app.layout.lower())
         .unwrap_or(0);
     let others = (1..=Pane::LOWER.len()).map(|by| Pane::LOWER[(now + by) % Pane::LOWER.len()]);
     let next = others
@@ -37,18 +36,18 @@ pub(super) fn cycle_lower(app: &mut App) {
         .find(|&pane| plan.area(pane).is_empty())
         .unwrap_or(Pane::Chart);
     let has_room = Pane::LOWER.iter().any(|&pane| !plan.area(pane).is_empty());
-    if app.panes.focus.is_lower() || !has_room {
-        app.panes.lower = next;
+    if app.layout.focus().is_lower() || !has_room {
+        app.layout.show_below(next);
         show(app, next);
     } else {
-        app.panes.lower = next;
+        app.layout.show_below(next);
         app.follow();
     }
 }
 
 /// Give the focused pane the screen, or take it back.
 pub(super) fn zoom(app: &mut App) {
-    app.panes.is_zoomed = !app.panes.is_zoomed;
+    app.layout.zoom(!app.layout.is_zoomed());
     app.follow();
 }
 
@@ -72,7 +71,7 @@ pub(super) fn stray(app: &mut App, letter: char) {
     } else {
         letter.to_string()
     };
-    let meant = if app.panes.focus == Pane::Form {
+    let meant = if app.layout.focus() == Pane::Form {
         "Enter edits the field, "
     } else {
         ""
@@ -80,6 +79,6 @@ pub(super) fn stray(app: &mut App, letter: char) {
     app.say(format!(
         "{} is not a command in {}: {meant}? lists the keys",
         ascii::printable(&name),
-        app.panes.focus.name()
+        app.layout.focus().name()
     ));
 }

@@ -28,7 +28,7 @@ fn mark(marked: &mut usize, line: usize) -> bool {
 }
 
 fn in_panes(app: &mut App, at: Position) -> Vec<Effect> {
-    let plan = app.plan();
+    let plan = app.layout.plan();
     if let Some(tab) = header::tab_at(app, plan.header, at) {
         tabs::go_to(app, tab);
     } else if let Some(pane) = hidden_at(app, at) {
@@ -40,7 +40,7 @@ fn in_panes(app: &mut App, at: Position) -> Vec<Effect> {
 }
 
 fn in_pane(app: &mut App, pane: Pane, at: Position) -> Vec<Effect> {
-    let had_focus = app.panes.focus == pane;
+    let had_focus = app.layout.focus() == pane;
     match pane {
         Pane::Form => return in_form(app, form::field_at(&app.form(), at)),
         Pane::Results => {
@@ -64,7 +64,7 @@ fn in_pane(app: &mut App, pane: Pane, at: Position) -> Vec<Effect> {
 
 // The first press goes to a field, the second one types into it.
 fn in_form(app: &mut App, field: Option<usize>) -> Vec<Effect> {
-    let is_marked = app.panes.focus == Pane::Form && field == Some(app.tab.form.focus);
+    let is_marked = app.layout.focus() == Pane::Form && field == Some(app.tab.form.focus);
     match field {
         Some(_) if is_marked && app.has_line() => app.tab.form.input.select_all(),
         Some(_) if is_marked => edit::begin(app),
@@ -93,13 +93,13 @@ pub(super) fn wheel(app: &mut App, at: Position, by: isize) {
 }
 
 fn hidden_at(app: &App, at: Position) -> Option<Pane> {
-    let plan = app.plan();
+    let plan = app.layout.plan();
     let owner = plan.names_hidden()?;
     app.title(owner).hidden_at(plan.area(owner), at)
 }
 
 fn pane_at(app: &App, at: Position) -> Option<Pane> {
-    let plan = app.plan();
+    let plan = app.layout.plan();
     Pane::ALL
         .into_iter()
         .find(|&pane| plan.area(pane).contains(at))

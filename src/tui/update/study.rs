@@ -27,7 +27,7 @@ const METHODS: [Method; 4] = [
 
 /// Asks for the study in sight, if it is another one than the last; stops the one out of sight.
 pub(super) fn ask(app: &mut App) -> Vec<Effect> {
-    if app.plan().area(Pane::Study).is_empty() {
+    if app.layout.plan().area(Pane::Study).is_empty() {
         return stop_unseen(app);
     }
     let question = match question(app) {
@@ -77,7 +77,7 @@ fn question(app: &App) -> Result<Question, String> {
         return tolerance(app, inputs, quantity);
     }
     let field = field(app).ok_or("A limit has no range: go to a field of the form.")?;
-    let (across, up) = map_points(app.plan().area(Pane::Study));
+    let (across, up) = map_points(app.layout.plan().area(Pane::Study));
     let second = app.study.second.filter(|second| *second != field);
     let points = if second.is_some() {
         across

@@ -137,7 +137,7 @@ fn put(app: &mut App, tab: Tab, replaces: bool) -> Option<Request> {
         app.others.insert(app.place_of_tab, before);
         app.place_of_tab += 1;
     }
-    app.panes.focus = Pane::Form;
+    app.layout.focus_on(Pane::Form);
     app.cursor = None;
     let request = app.request();
     app.focus_on(focus);

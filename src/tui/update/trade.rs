@@ -7,7 +7,6 @@ use crate::tui::actions::Effect;
 use crate::tui::actions::Progress;
 use crate::tui::app::App;
 use crate::tui::benchmark::{End, Measured, Measuring, Traded};
-use crate::tui::layout;
 use crate::tui::pane::Pane;
 use crate::tui::panes::trade::stepped;
 
@@ -50,10 +49,7 @@ pub(super) fn stop_unseen(app: &App) -> Vec<Effect> {
         .traded
         .as_ref()
         .is_some_and(|traded| traded.serial == serial);
-    let is_shown = is_own
-        && !layout::plan(app.size, app.panes)
-            .area(Pane::Trade)
-            .is_empty();
+    let is_shown = is_own && !app.layout.plan().area(Pane::Trade).is_empty();
     if is_shown {
         Vec::new()
     } else {

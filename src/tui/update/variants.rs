@@ -78,7 +78,7 @@ pub(super) fn next(app: &mut App) {
 
 /// The variants to solve beside the present case, if they are in sight and not asked for yet.
 pub(super) fn request(app: &mut App) -> Option<Effect> {
-    let is_shown = !app.plan().area(Pane::Results).is_empty();
+    let is_shown = !app.layout.plan().area(Pane::Results).is_empty();
     app.first_variant = app
         .first_variant
         .filter(|first| *first < app.tab.case.variants.len());

@@ -134,7 +134,7 @@ pub(crate) fn about(field: &Field, ascii: bool, units: System) -> String {
 }
 
 fn focused(app: &App) -> String {
-    match app.panes.focus {
+    match app.layout.focus() {
         Pane::Form => {
             let about = match rows::row(&app.tab.case, app.tab.form.focus) {
                 Row::Field(field) => about_field(app, field),
@@ -261,7 +261,7 @@ fn at_cursor(app: &App) -> String {
     const LINES: &str = "Solid: flanks (incoming pair bold), path of contact; dashed: line of action; dots: base circles, tip's path.";
     match app.cursor {
         Some(cursor) => chart::readout(&app.charts(), cursor),
-        None if app.panes.focus == Pane::Chart => format!("{NONE} {MARKS}"),
+        None if app.layout.focus() == Pane::Chart => format!("{NONE} {MARKS}"),
         None => format!("{NONE} {LINES}"),
     }
 }
