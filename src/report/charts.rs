@@ -204,9 +204,10 @@ fn pieces(
     (!pieces.is_empty()).then_some(pieces)
 }
 
-// The closed forms leave out stations whose force cannot be computed; the other methods have every
-// station.
-fn longest_interval(inputs: &Inputs, solution: &Solution) -> f64 {
+/// The longest interval between two stations of a curve without a gap, in deg. The closed forms leave
+/// out stations whose force cannot be computed; the other methods have every station.
+#[must_use]
+pub fn longest_interval(inputs: &Inputs, solution: &Solution) -> f64 {
     match solution.position {
         Some(position) if solution.stations_withheld.is_some() => {
             let count = Spacing::of(inputs).count().unwrap_or(Spacing::LOOKS) as f64;

@@ -3,6 +3,7 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::{Modifier, Style};
+use ratatui::widgets::Widget;
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 use crate::report::with_units;
@@ -233,6 +234,33 @@ pub(super) fn scroll_bar(top: usize, lines: usize, area: Rect, buffer: &mut Buff
     for (row, y) in (area.top()..area.bottom()).enumerate() {
         let bar = if is_thumb(row) { "█" } else { "│" };
         buffer.set_string(area.x, y, bar, Style::new());
+    }
+}
+
+/// A scroll bar in the column right of an area, if not all lines have room in it.
+pub(super) fn scroll_bar_beside(top: usize, lines: usize, area: Rect, buffer: &mut Buffer) {
+    if lines > usize::from(area.height) {
+        let bar = Rect {
+            x: area.right(),
+            width: 1,
+            ..area
+        };
+        scroll_bar(top, lines, bar, buffer);
+    }
+}
+
+/// Draws lines from the top of an area, as many as have room.
+pub(super) fn draw_lines(lines: &[ratatui::text::Line<'_>], area: Rect, buffer: &mut Buffer) {
+    for (line, row) in lines.iter().zip(area.rows()) {
+        line.render(row, buffer);
+    }
+}
+
+/// Draws wrapped words into an area, with a margin of one column on both sides.
+pub(super) fn draw_words(words: &str, area: Rect, buffer: &mut Buffer) {
+    let width = usize::from(area.width).saturating_sub(2);
+    for (line, row) in wrap(words, width).iter().zip(area.rows()) {
+        buffer.set_stringn(row.x + 1, row.y, line, width, Style::new());
     }
 }
 

@@ -30,34 +30,78 @@ const PERIODIC: Formula = Found(
     STEADY,
 );
 
-macro_rules! harmonics {
-    ($($order:literal $at_rest:ident $in_motion:ident)*) => {
-        $(
-            const fn $at_rest() -> Formula {
-                Found(
-                    concat!("2 |∫ x exp(-2 π i ", $order, " s/p_b) ds|/p_b over a base pitch, x by Σ \
-                        w_k F_k = F_0"),
-                    &["F_0", "k_m"],
-                )
-            }
-
-            const fn $in_motion() -> Formula {
-                Found(
-                    concat!("2 |∫ x exp(-2 π i ", $order, " f_z t) dt|/T over the period T of the \
-                        steady motion"),
-                    STEADY,
-                )
-            }
-        )*
+/// The row of a harmonic of the transmission error: its order, the order in words, and its frequency.
+macro_rules! at_rest {
+    ($order:literal, $word:literal, $frequency:literal) => {
+        Quantity {
+            key: concat!("static_te_harmonic_", $order),
+            symbol: concat!("TE_st,", $order),
+            label: concat!("static: TE harmonic ", $order),
+            unit: "m",
+            shown: "um",
+            digits: 4,
+            equation: concat!("2 |c_", $order, "|"),
+            stage: StaticSpectrum,
+            value: |s| Some(s.static_spectrum?.spectrum.amplitudes[$order - 1]),
+            meaning: concat!(
+                "The amplitude of the ",
+                $word,
+                " mesh harmonic of the transmission error at rest, at ",
+                $frequency,
+                "."
+            ),
+            formula: Found(
+                concat!(
+                    "2 |∫ x exp(-2 π i ",
+                    $order,
+                    " s/p_b) ds|/p_b over a base pitch, x by Σ w_k F_k = F_0"
+                ),
+                &["F_0", "k_m"],
+            ),
+            source: SPECTRUM,
+            corrections: &[],
+            assumptions: AT_REST,
+            checks: &[checks::teeth],
+            variants: &[],
+        }
     };
 }
 
-harmonics! {
-    1 harmonic_1_st harmonic_1_d
-    2 harmonic_2_st harmonic_2_d
-    3 harmonic_3_st harmonic_3_d
-    4 harmonic_4_st harmonic_4_d
-    5 harmonic_5_st harmonic_5_d
+/// The same in the steady motion.
+macro_rules! in_motion {
+    ($order:literal, $word:literal, $frequency:literal) => {
+        Quantity {
+            key: concat!("dynamic_te_harmonic_", $order),
+            symbol: concat!("TE_d,", $order),
+            label: concat!("dynamic: TE harmonic ", $order),
+            unit: "m",
+            shown: "um",
+            digits: 4,
+            equation: concat!("2 |c_", $order, "|"),
+            stage: SteadyMotion,
+            value: |s| Some(steady(s)?.spectrum.amplitudes[$order - 1]),
+            meaning: concat!(
+                "The amplitude of the ",
+                $word,
+                " mesh harmonic of the transmission error in the steady motion, at ",
+                $frequency,
+                "."
+            ),
+            formula: Found(
+                concat!(
+                    "2 |∫ x exp(-2 π i ",
+                    $order,
+                    " f_z t) dt|/T over the period T of the steady motion"
+                ),
+                STEADY,
+            ),
+            source: MOTION,
+            corrections: &[],
+            assumptions: IN_MOTION,
+            checks: CHECKS,
+            variants: &[],
+        }
+    };
 }
 
 pub(super) const TABLE: &[Quantity] = &[
@@ -79,96 +123,11 @@ pub(super) const TABLE: &[Quantity] = &[
         checks: &[checks::teeth],
         variants: &[],
     },
-    Quantity {
-        key: "static_te_harmonic_1",
-        symbol: "TE_st,1",
-        label: "static: TE harmonic 1",
-        unit: "m",
-        shown: "um",
-        digits: 4,
-        equation: "2 |c_1|",
-        stage: StaticSpectrum,
-        value: |s| Some(s.static_spectrum?.spectrum.amplitudes[0]),
-        meaning: "The amplitude of the first mesh harmonic of the transmission error at rest, at the mesh frequency.",
-        formula: harmonic_1_st(),
-        source: SPECTRUM,
-        corrections: &[],
-        assumptions: AT_REST,
-        checks: &[checks::teeth],
-        variants: &[],
-    },
-    Quantity {
-        key: "static_te_harmonic_2",
-        symbol: "TE_st,2",
-        label: "static: TE harmonic 2",
-        unit: "m",
-        shown: "um",
-        digits: 4,
-        equation: "2 |c_2|",
-        stage: StaticSpectrum,
-        value: |s| Some(s.static_spectrum?.spectrum.amplitudes[1]),
-        meaning: "The amplitude of the second mesh harmonic of the transmission error at rest, at 2 times the mesh frequency.",
-        formula: harmonic_2_st(),
-        source: SPECTRUM,
-        corrections: &[],
-        assumptions: AT_REST,
-        checks: &[checks::teeth],
-        variants: &[],
-    },
-    Quantity {
-        key: "static_te_harmonic_3",
-        symbol: "TE_st,3",
-        label: "static: TE harmonic 3",
-        unit: "m",
-        shown: "um",
-        digits: 4,
-        equation: "2 |c_3|",
-        stage: StaticSpectrum,
-        value: |s| Some(s.static_spectrum?.spectrum.amplitudes[2]),
-        meaning: "The amplitude of the third mesh harmonic of the transmission error at rest, at 3 times the mesh frequency.",
-        formula: harmonic_3_st(),
-        source: SPECTRUM,
-        corrections: &[],
-        assumptions: AT_REST,
-        checks: &[checks::teeth],
-        variants: &[],
-    },
-    Quantity {
-        key: "static_te_harmonic_4",
-        symbol: "TE_st,4",
-        label: "static: TE harmonic 4",
-        unit: "m",
-        shown: "um",
-        digits: 4,
-        equation: "2 |c_4|",
-        stage: StaticSpectrum,
-        value: |s| Some(s.static_spectrum?.spectrum.amplitudes[3]),
-        meaning: "The amplitude of the fourth mesh harmonic of the transmission error at rest, at 4 times the mesh frequency.",
-        formula: harmonic_4_st(),
-        source: SPECTRUM,
-        corrections: &[],
-        assumptions: AT_REST,
-        checks: &[checks::teeth],
-        variants: &[],
-    },
-    Quantity {
-        key: "static_te_harmonic_5",
-        symbol: "TE_st,5",
-        label: "static: TE harmonic 5",
-        unit: "m",
-        shown: "um",
-        digits: 4,
-        equation: "2 |c_5|",
-        stage: StaticSpectrum,
-        value: |s| Some(s.static_spectrum?.spectrum.amplitudes[4]),
-        meaning: "The amplitude of the fifth mesh harmonic of the transmission error at rest, at 5 times the mesh frequency.",
-        formula: harmonic_5_st(),
-        source: SPECTRUM,
-        corrections: &[],
-        assumptions: AT_REST,
-        checks: &[checks::teeth],
-        variants: &[],
-    },
+    at_rest!(1, "first", "the mesh frequency"),
+    at_rest!(2, "second", "2 times the mesh frequency"),
+    at_rest!(3, "third", "3 times the mesh frequency"),
+    at_rest!(4, "fourth", "4 times the mesh frequency"),
+    at_rest!(5, "fifth", "5 times the mesh frequency"),
     Quantity {
         key: "dynamic_te_peak_to_peak",
         symbol: "TE_d,pp",
@@ -187,96 +146,11 @@ pub(super) const TABLE: &[Quantity] = &[
         checks: CHECKS,
         variants: &[],
     },
-    Quantity {
-        key: "dynamic_te_harmonic_1",
-        symbol: "TE_d,1",
-        label: "dynamic: TE harmonic 1",
-        unit: "m",
-        shown: "um",
-        digits: 4,
-        equation: "2 |c_1|",
-        stage: SteadyMotion,
-        value: |s| Some(steady(s)?.spectrum.amplitudes[0]),
-        meaning: "The amplitude of the first mesh harmonic of the transmission error in the steady motion, at the mesh frequency.",
-        formula: harmonic_1_d(),
-        source: MOTION,
-        corrections: &[],
-        assumptions: IN_MOTION,
-        checks: CHECKS,
-        variants: &[],
-    },
-    Quantity {
-        key: "dynamic_te_harmonic_2",
-        symbol: "TE_d,2",
-        label: "dynamic: TE harmonic 2",
-        unit: "m",
-        shown: "um",
-        digits: 4,
-        equation: "2 |c_2|",
-        stage: SteadyMotion,
-        value: |s| Some(steady(s)?.spectrum.amplitudes[1]),
-        meaning: "The amplitude of the second mesh harmonic of the transmission error in the steady motion, at 2 times the mesh frequency.",
-        formula: harmonic_2_d(),
-        source: MOTION,
-        corrections: &[],
-        assumptions: IN_MOTION,
-        checks: CHECKS,
-        variants: &[],
-    },
-    Quantity {
-        key: "dynamic_te_harmonic_3",
-        symbol: "TE_d,3",
-        label: "dynamic: TE harmonic 3",
-        unit: "m",
-        shown: "um",
-        digits: 4,
-        equation: "2 |c_3|",
-        stage: SteadyMotion,
-        value: |s| Some(steady(s)?.spectrum.amplitudes[2]),
-        meaning: "The amplitude of the third mesh harmonic of the transmission error in the steady motion, at 3 times the mesh frequency.",
-        formula: harmonic_3_d(),
-        source: MOTION,
-        corrections: &[],
-        assumptions: IN_MOTION,
-        checks: CHECKS,
-        variants: &[],
-    },
-    Quantity {
-        key: "dynamic_te_harmonic_4",
-        symbol: "TE_d,4",
-        label: "dynamic: TE harmonic 4",
-        unit: "m",
-        shown: "um",
-        digits: 4,
-        equation: "2 |c_4|",
-        stage: SteadyMotion,
-        value: |s| Some(steady(s)?.spectrum.amplitudes[3]),
-        meaning: "The amplitude of the fourth mesh harmonic of the transmission error in the steady motion, at 4 times the mesh frequency.",
-        formula: harmonic_4_d(),
-        source: MOTION,
-        corrections: &[],
-        assumptions: IN_MOTION,
-        checks: CHECKS,
-        variants: &[],
-    },
-    Quantity {
-        key: "dynamic_te_harmonic_5",
-        symbol: "TE_d,5",
-        label: "dynamic: TE harmonic 5",
-        unit: "m",
-        shown: "um",
-        digits: 4,
-        equation: "2 |c_5|",
-        stage: SteadyMotion,
-        value: |s| Some(steady(s)?.spectrum.amplitudes[4]),
-        meaning: "The amplitude of the fifth mesh harmonic of the transmission error in the steady motion, at 5 times the mesh frequency.",
-        formula: harmonic_5_d(),
-        source: MOTION,
-        corrections: &[],
-        assumptions: IN_MOTION,
-        checks: CHECKS,
-        variants: &[],
-    },
+    in_motion!(1, "first", "the mesh frequency"),
+    in_motion!(2, "second", "2 times the mesh frequency"),
+    in_motion!(3, "third", "3 times the mesh frequency"),
+    in_motion!(4, "fourth", "4 times the mesh frequency"),
+    in_motion!(5, "fifth", "5 times the mesh frequency"),
     Quantity {
         key: "mesh_force_factor",
         symbol: "K_mesh",

@@ -186,18 +186,7 @@ impl Dialog for Explanation {
                 );
             }
         }
-        if lines.len() > usize::from(inner.height) {
-            words::scroll_bar(
-                self.top,
-                lines.len(),
-                Rect {
-                    x: inner.right(),
-                    width: 1,
-                    ..inner
-                },
-                buffer,
-            );
-        }
+        words::scroll_bar_beside(self.top, lines.len(), inner, buffer);
         None
     }
 }

@@ -95,16 +95,5 @@ fn draw_page(page: &Page, screen: Rect, theme: &Theme, buffer: &mut Buffer) {
     for (line, y) in lines.iter().skip(page.top).zip(inner.top()..inner.bottom()) {
         buffer.set_stringn(inner.x, y, line, inner.width.into(), Style::new());
     }
-    if lines.len() > usize::from(inner.height) {
-        text::scroll_bar(
-            page.top,
-            lines.len(),
-            Rect {
-                x: inner.right(),
-                width: 1,
-                ..inner
-            },
-            buffer,
-        );
-    }
+    text::scroll_bar_beside(page.top, lines.len(), inner, buffer);
 }

@@ -12,9 +12,9 @@ mod words;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
-use ratatui::widgets::Widget;
 
 use crate::model::Quantity;
+use crate::tui::text;
 pub(crate) use pane::{Results, ResultsState};
 use parts::parts;
 use selection::line_of;
@@ -29,7 +29,7 @@ pub(crate) fn draw(pane: &Results<'_>, buffer: &mut Buffer) {
     let words = title(pane, parts.rows, pane.title.room(area.width));
     let inner = pane.title.draw(&words, area, buffer);
     let Some(answer) = pane.answer else {
-        draw_lines(&parts.head, inner, buffer);
+        text::draw_lines(&parts.head, inner, buffer);
         return;
     };
     let inner = Rect {
@@ -47,7 +47,7 @@ pub(crate) fn draw(pane: &Results<'_>, buffer: &mut Buffer) {
         .chain(quantities.cloned())
         .chain(parts.notes)
         .collect();
-    draw_lines(&lines, inner, buffer);
+    text::draw_lines(&lines, inner, buffer);
     if pane.is_focused
         && let Some(line) = line_of(pane, pane.state.row)
             .checked_sub(pane.state.top)
@@ -68,17 +68,4 @@ pub(crate) fn compared(pane: &Results<'_>, quantity: &Quantity) -> Option<String
 #[must_use]
 pub(crate) fn variants_page(pane: &Results<'_>) -> usize {
     table::variants_page(pane, usize::from(pane.area.width.saturating_sub(1)))
-}
-
-fn draw_lines(lines: &[Line<'static>], area: Rect, buffer: &mut Buffer) {
-    for (line, y) in lines.iter().zip(area.top()..area.bottom()) {
-        line.render(
-            Rect {
-                y,
-                height: 1,
-                ..area
-            },
-            buffer,
-        );
-    }
 }

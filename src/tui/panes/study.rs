@@ -114,10 +114,10 @@ pub(crate) fn draw(pane: &StudyPane<'_>, buffer: &mut Buffer) {
         return;
     }
     if let Some(obstacle) = &pane.study.obstacle {
-        return write(obstacle, inner, buffer);
+        return text::draw_words(obstacle, inner, buffer);
     }
     let Some(shown) = &pane.study.shown else {
-        return write("Computing.", inner, buffer);
+        return text::draw_words("Computing.", inner, buffer);
     };
     let Question::Grid(grid) = &shown.request.question else {
         return draw_page(pane, shown, inner, buffer);
@@ -232,7 +232,7 @@ fn rooms(inner: Rect) -> Rooms {
 /// The page of a tolerance study from its first visible line on.
 fn draw_page(pane: &StudyPane<'_>, shown: &Shown, inner: Rect, buffer: &mut Buffer) {
     if shown.page.is_empty() {
-        return write("Sampling.", inner, buffer);
+        return text::draw_words("Sampling.", inner, buffer);
     }
     let last = shown.page.len().saturating_sub(usize::from(inner.height));
     let lines = shown.page.iter().skip(pane.state.top.min(last));
@@ -253,16 +253,6 @@ pub(crate) fn scrolled(pane: &StudyPane<'_>, by: isize) -> usize {
     let rows = usize::from(pane.area.height.saturating_sub(1));
     let top = pane.state.top.saturating_add_signed(by);
     top.min(lines.saturating_sub(rows))
-}
-
-fn write(words: &str, area: Rect, buffer: &mut Buffer) {
-    let width = usize::from(area.width).saturating_sub(2);
-    for (line, y) in text::wrap(words, width)
-        .iter()
-        .zip(area.top()..area.bottom())
-    {
-        buffer.set_stringn(area.x + 1, y, line, width, Style::new());
-    }
 }
 
 /// Draws the lines left of the cells and below them. Returns their column and their row.

@@ -6,7 +6,6 @@ mod plot;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::Style;
 
 use crate::report::trade::{NO_CONTACT, build, parts, percent, summary};
 use crate::study::trade::Trade;
@@ -35,7 +34,7 @@ pub(crate) fn draw(pane: &TradePane<'_>, buffer: &mut Buffer) {
         } else {
             INVITATION
         };
-        return write(words, inner, buffer);
+        return text::draw_words(words, inner, buffer);
     };
     if pane.view == TradeView::Table {
         return draw_table(pane, traded, trade, inner, buffer);
@@ -45,7 +44,7 @@ pub(crate) fn draw(pane: &TradePane<'_>, buffer: &mut Buffer) {
     if plot.height >= 3 && plot.width >= 20 {
         draw_plot(pane, traded, trade, plot, buffer);
     }
-    write(
+    text::draw_words(
         &fitting(&phrases(pane, traded, trade), words),
         words,
         buffer,
@@ -81,14 +80,14 @@ fn draw_table(
             height: rest.height - 1,
             ..rest
         };
-        write(&build(trade), below, buffer);
+        text::draw_words(&build(trade), below, buffer);
     }
     let words = Rect {
         y: inner.bottom() - words,
         height: words,
         ..inner
     };
-    write(
+    text::draw_words(
         &fitting(&phrases(pane, traded, trade), words),
         words,
         buffer,
@@ -219,14 +218,4 @@ pub(crate) fn signs(pane: &TradePane<'_>) -> String {
         "p paper, e exact, s static, d dynamic, a auto; CAPITAL, ·: no other setting is both faster and more accurate; \
          (x) setting of the case, [x] selected{level}."
     )
-}
-
-fn write(words: &str, area: Rect, buffer: &mut Buffer) {
-    let width = usize::from(area.width).saturating_sub(2);
-    for (line, y) in text::wrap(words, width)
-        .iter()
-        .zip(area.top()..area.bottom())
-    {
-        buffer.set_stringn(area.x + 1, y, line, width, Style::new());
-    }
 }

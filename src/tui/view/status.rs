@@ -66,16 +66,7 @@ pub(crate) fn hint(app: &App, area: Rect, buffer: &mut Buffer) {
             lines[at].style,
         );
     }
-    for (line, y) in lines.iter().zip(area.top()..area.bottom()) {
-        line.render(
-            Rect {
-                y,
-                height: 1,
-                ..area
-            },
-            buffer,
-        );
-    }
+    text::draw_lines(&lines, area, buffer);
 }
 
 /// As many keys as fit, from the table of bindings.

@@ -6,15 +6,12 @@ use super::way::angle;
 use crate::case::units::{self, System};
 use crate::model::compliance::model_of;
 use crate::model::inputs::{Method, ToothCompliance};
-use crate::model::spacing::Spacing;
 use crate::model::{Inputs, Solution};
+use crate::report::charts::longest_interval;
 use crate::report::graphs::Graph;
 use crate::report::stations::{Column, Row, rows};
 use crate::tui::scale::Span;
 use crate::tui::solver::Answer;
-
-/// A longer interval between stations, in requested intervals, is a gap in the curve.
-const LEFT_OUT: f64 = 1.5;
 
 /// Curves coincide if they differ by at most this part of the values.
 const ALIKE: f64 = 2e-3;
@@ -281,18 +278,6 @@ fn pieces(points: impl Iterator<Item = (f64, Option<f64>)>, longest: f64) -> Vec
         follows = true;
     }
     pieces
-}
-
-// The closed forms leave out stations whose force cannot be computed; the other methods have every
-// station.
-fn longest_interval(inputs: &Inputs, solution: &Solution) -> f64 {
-    match solution.position {
-        Some(position) if solution.stations_withheld.is_some() => {
-            let count = Spacing::of(inputs).count().unwrap_or(Spacing::LOOKS) as f64;
-            LEFT_OUT * position.approach_angle_driver.to_degrees() / count
-        }
-        _ => f64::INFINITY,
-    }
 }
 
 #[cfg(test)]
