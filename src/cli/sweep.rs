@@ -112,9 +112,10 @@ fn batch<'a>(opened: &'a Opened, table: &SweepTable<'a>) -> Batch<'a> {
 /// The varied fields that change no result.
 fn idle(grid: &Grid, opened: &Opened) -> Vec<String> {
     let mut inputs = opened.inputs.clone();
-    if grid.methods(&inputs).len() > 1 || grid.put(0, &mut inputs).is_err() {
+    if grid.methods(&inputs).len() > 1 {
         return Vec::new();
     }
+    grid.put(0, &mut inputs);
     let warning = |axis: &Axis| match relevance(axis.field, &inputs) {
         Acting::Yes => partial_relevance(axis.field, &inputs)
             .map(|why| format!("{}: {}: {why}", opened.name, axis.key())),

@@ -7,6 +7,7 @@ use super::inputs::{Inputs, Method};
 pub use super::tip_gap::{TipContact, gap, gap_by_quadrature, tip_at};
 use super::tip_gap::{angle_at_curvature, gap_without, largest_term};
 use super::{Deviation, Refusal};
+use crate::numeric::near::{exponential, logarithm};
 use crate::numeric::{Real, root};
 
 /// Half a turn and more never brings a tip back: no contact is sought beyond, in rad.
@@ -59,39 +60,109 @@ pub struct Position {
 
 /// The angle u at which the tip has closed the gap Δ: `S(u) = Δ`.
 ///
-/// Newton's method on ln S against ln u from the parabola at E, or from the driver's tip where the
-/// parabola is beyond it, until a last step with all digits of the gap.
+/// Chebyshev's third-order form of Newton's method on ln S against ln u, from [`near_start`], until
+/// a step with all digits of the gap.
 ///
 /// # Errors
 /// [`Refusal::NoFirstContact`] where the steps do not settle: no turn of the gear would bridge such
 /// a deviation.
 pub(super) fn first_contact(geometry: &Geometry, deviation: f64) -> Result<f64, Refusal> {
     const STEPS: usize = 60;
+    /// A last step with all digits follows a step as small as this.
     const SETTLED: f64 = 1e-4;
+    /// The cube of such a step is rounding.
+    const EXACT: f64 = 1e-5;
     const ON_THE_WAY: f64 = 1e8;
-    let parabola = (2.0 * deviation / gap_curvature_at_start(geometry)).sqrt();
-    let mut angle = parabola
-        .min(angle_at_curvature(geometry, geometry.end))
-        .min(LARGEST_ANGLE);
+    let mut angle = near_start(geometry, deviation);
     for _ in 0..STEPS {
-        let step = logarithmic_step(geometry, angle, deviation, ON_THE_WAY);
+        let tip = tip_at(geometry, angle);
+        let has_digits = largest_term(geometry, &tip) <= KEPT_DIGITS * gap(geometry, &tip);
+        let step = logarithmic_step(geometry, &tip, deviation, ON_THE_WAY);
         if !step.is_finite() || angle > LARGEST_ANGLE {
             break;
         }
-        angle *= step.clamp(-2.0, 2.0).exp();
+        angle *= exponential(step.clamp(-2.0, 2.0));
+        if has_digits && step.abs() < EXACT {
+            return Ok(angle);
+        }
         if step.abs() < SETTLED {
-            return Ok(angle * (1.0 + logarithmic_step(geometry, angle, deviation, KEPT_DIGITS)));
+            let tip = tip_at(geometry, angle);
+            return Ok(angle * exponential(logarithmic_step(geometry, &tip, deviation, KEPT_DIGITS)));
         }
     }
     Err(Refusal::NoFirstContact { deviation })
 }
 
-/// Newton's step of ln u towards `S = deviation`, with the gap by quadrature where the terms of its
-/// closed form outgrow their sum by more than the factor `loss`.
-fn logarithmic_step(geometry: &Geometry, angle: f64, deviation: f64, loss: f64) -> f64 {
-    let tip = tip_at(geometry, angle);
-    let closed = gap_without(loss, geometry, &tip);
-    (deviation / closed).ln() * closed / (tip.angle * tip.normal_radius_drop)
+/// An angle u near `S(u) = deviation`, in rad: by the reversed power series of S about E, or where
+/// that does not converge by its first term, but no further than the driver's tip.
+///
+/// # Formula
+/// ```text
+/// S = S2 u²/2 (1 + A u + B u² + C u³),  A = S3/(3 S2),  B = S4/(12 S2),  C = S5/(60 S2)
+/// ρ1 ρ1' = a ra2 sin η,  rb1 χ' = ρ1' + rb2',  S' = rb2 − rb2',  rb2' = a cos χ − rb1
+/// ```
+/// where S2 to S5 are the derivatives of S at E, p0 to p3 below those of ρ1' and x1 to x4 those of χ.
+fn near_start(geometry: &Geometry, deviation: f64) -> f64 {
+    /// The third correction of a series that converges.
+    const SMALL: f64 = 1e-2;
+    let Geometry { driver, driven, .. } = geometry;
+    let (curvature, tangent) = (geometry.start + driven.edge, geometry.tangent_length);
+    let bases = driver.base + driven.base;
+    let square = geometry.centre_distance * geometry.centre_distance;
+    let inverse = curvature.recip();
+    let x1 = (driven.tip_curvature - driven.edge) * inverse;
+    let p0 = driver.base * x1 - driven.base;
+    let p1 = (square - driver.base * bases - curvature * tangent - p0 * p0) * inverse;
+    let p2 = -p0 - 3.0 * p0 * p1 * inverse;
+    let p3 = -p1 - 3.0 * (p1 * p1 + p0 * p2 - p0 * p0 * p1 * inverse) * inverse;
+    let per_base = driver.base.recip();
+    let s2 = tangent * x1;
+    let x2 = (p1 - s2) * per_base;
+    let s3 = bases * x1 * x1 + tangent * x2;
+    let x3 = (p2 - s3) * per_base;
+    let s4 = 3.0 * bases * x1 * x2 + tangent * (x3 - x1 * x1 * x1);
+    let x4 = (p3 - s4) * per_base;
+    let s5 = bases * (3.0 * x2 * x2 + 4.0 * x1 * x3 - x1 * x1 * x1 * x1)
+        + tangent * (x4 - 6.0 * x1 * x1 * x2);
+    let per_curve = s2.recip();
+    let (a, b, c) = (s3 * per_curve / 3.0, s4 * per_curve / 12.0, s5 * per_curve / 60.0);
+    // The root of the bracket, as 1 + a1 u + a2 u² + a3 u³.
+    let (a1, a2) = (0.5 * a, 0.5 * b - 0.125 * a * a);
+    let a3 = 0.5 * c - 0.25 * a * b + 0.0625 * a * a * a;
+    let parabola = (2.0 * deviation * per_curve).sqrt();
+    let first = -a1 * parabola;
+    let second = (2.0 * a1 * a1 - a2) * parabola * parabola;
+    let third = (5.0 * a1 * (a2 - a1 * a1) - a3) * parabola * parabola * parabola;
+    if third.abs() <= SMALL && second.abs() <= first.abs().max(SMALL) && first.abs() < 0.5 {
+        return (parabola * (1.0 + first + second + third)).min(LARGEST_ANGLE);
+    }
+    parabola
+        .min(angle_at_curvature(geometry, geometry.end))
+        .min(LARGEST_ANGLE)
+}
+
+/// Step of ln u towards `S = deviation`, of third order, with the gap by quadrature where the terms
+/// of its closed form outgrow their sum by more than the factor `loss`.
+///
+/// # Formula
+/// ```text
+/// d ln S/d ln u = g = u S'/S,  d² ln S/d(ln u)² = g (1 + u S''/S' − g),  S'' = a sin χ (ρ1' + rb2')/rb1
+/// ```
+fn logarithmic_step(geometry: &Geometry, tip: &TipContact, deviation: f64, loss: f64) -> f64 {
+    /// Farther away the third order may lead astray.
+    const NEAR: f64 = 0.1;
+    let closed = gap_without(loss, geometry, tip);
+    let growth = tip.angle * tip.normal_radius_drop / closed;
+    let newton = logarithm((deviation - closed) / closed) / growth;
+    if newton.abs() > NEAR {
+        return newton;
+    }
+    let edge = geometry.driven.edge;
+    let (curvature, length) = (tip.curvature_driver + edge, tip.normal_length_driven - edge);
+    // ρ₁' = r_b1 ρ₂/ρ₁ − r_b2' at every place of the tip, as at E.
+    let bend = (tip.curvature_driver + tip.normal_length_driven) * length / curvature;
+    let second = 1.0 + tip.angle * bend / tip.normal_radius_drop - growth;
+    newton - 0.5 * second * newton * newton
 }
 
 /// The angle u improved by Newton steps in double-double arithmetic, in which the closed form of
@@ -108,13 +179,6 @@ fn refine(geometry: &Geometry<TwoFloat>, angle: f64, deviation: TwoFloat) -> Two
         refined -= (gap(geometry, &tip) - deviation).over(tip.normal_radius_drop);
     }
     refined
-}
-
-/// S''(0) = (ρ1E + ρ2E) ρ2E/ρ1E, in m.
-fn gap_curvature_at_start(geometry: &Geometry) -> f64 {
-    let edge = geometry.driven.edge;
-    let (driver, driven) = (geometry.start + edge, geometry.driven.tip_curvature - edge);
-    (driver + driven) * driven / driver
 }
 
 /// The driven gear's angle before E by the printed equations, which are linear in the deviation.

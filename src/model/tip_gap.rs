@@ -46,6 +46,7 @@ pub struct TipContact<T = f64> {
 /// Q = 4 a ra2 sin(u/2) sin(γ2 + u/2),  O1D² = O1E² + Q,  ρ1 = √(N1E² + Q),  Δρ1 = Q/(ρ1 + N1E)
 /// Δβ1 = atan2(rb1 Δρ1, rb1² + ρ1 N1E),  Δψ = atan2(E × D, E · D),  Δχ = Δψ + Δβ1
 /// rb2 − rb2' = 2 a sin(αw + Δχ/2) sin(Δχ/2),  N2'D = N2E + 2 a cos(αw + Δχ/2) sin(Δχ/2) − Δρ1
+/// a sin(αw + Δχ/2) = N1N2 cos(Δχ/2) + (rb1 + rb2) sin(Δχ/2), likewise the cosine
 /// N2'D − i ρ1 = (1 + i) EP + Δ(N2'D) − i Δρ1
 /// ```
 /// For a rounded tip ra2, N1E, γ2, E and D are those of the arc's centre C in Q, Δβ1 and Δψ, and
@@ -69,19 +70,26 @@ pub fn tip_at<T: Real>(geometry: &Geometry<T>, angle: T) -> TipContact<T> {
     let grown_square = two * geometry.centre_distance * chord_length * middle_sine;
     let centre_curvature = (start * start + grown_square).root();
     let curvature_growth = grown_square.over(centre_curvature + start);
-    let flank_turn = (base * curvature_growth).angle_to(base * base + centre_curvature * start);
 
     let from = geometry.start_point;
     let chord = Vector2::new(middle_sine, middle_cosine) * chord_length;
-    let polar_turn = from
-        .perp(&chord)
-        .angle_to(from.dot(&from) + from.dot(&chord));
+    let polar = Turn {
+        along: from.dot(&from) + from.dot(&chord),
+        across: from.perp(&chord),
+    };
+    let flank = Turn {
+        along: base * base + centre_curvature * start,
+        across: base * curvature_growth,
+    };
+    let normal = polar.and(&flank);
 
-    let normal_turn = polar_turn + flank_turn;
-    let turn_chord = two * geometry.centre_distance * (normal_turn * half).sine_cosine().0;
-    let (sine, cosine) = (geometry.working_pressure_angle + normal_turn * half).sine_cosine();
-    let normal_radius_drop = turn_chord * sine;
-    let normal_length_growth = turn_chord * cosine - curvature_growth;
+    let normal_turn = normal.angle();
+    let (sine, cosine) = normal.half();
+    let bases = base + geometry.driven.base;
+    let tangent_length = geometry.start + geometry.driven.tip_curvature;
+    let normal_radius_drop = two * sine * (tangent_length * cosine + bases * sine);
+    let normal_length_growth =
+        two * sine * (bases * cosine - tangent_length * sine) - curvature_growth;
     let normal_radius_driven = geometry.driven.base - normal_radius_drop;
     let normal_length_driven = geometry.driven.tip_curvature + normal_length_growth;
     let (curvature_driver, radius_driven) = if edge > T::zero() {
@@ -105,6 +113,35 @@ pub fn tip_at<T: Real>(geometry: &Geometry<T>, angle: T) -> TipContact<T> {
         normal_length_driven,
         sliding_arm: (T::one() + geometry.ratio) * geometry.approach_length + normal_length_growth
             - geometry.ratio * curvature_growth,
+    }
+}
+
+/// A turn by less than half a revolution, as a vector that it gives the x axis.
+struct Turn<T> {
+    along: T,
+    across: T,
+}
+
+impl<T: Real> Turn<T> {
+    /// One turn after another: the product of complex numbers.
+    fn and(&self, other: &Turn<T>) -> Turn<T> {
+        Turn {
+            along: self.along * other.along - self.across * other.across,
+            across: self.along * other.across + self.across * other.along,
+        }
+    }
+
+    fn angle(&self) -> T {
+        self.across.angle_to(self.along)
+    }
+
+    /// Sine and cosine of half the angle.
+    fn half(&self) -> (T, T) {
+        let two: T = 2.0.into();
+        let length = (self.along * self.along + self.across * self.across).root();
+        let sum = length + self.along;
+        let scale = T::one().over((two * length * sum).root());
+        (self.across * scale, sum * scale)
     }
 }
 

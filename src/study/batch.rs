@@ -23,12 +23,13 @@ pub trait Points: Sync {
     /// How many points there are.
     fn count(&self) -> usize;
 
-    /// Puts the values of a point into inputs that hold the case or another point.
-    ///
-    /// # Errors
-    /// Where a field does not take its value.
-    fn put(&self, index: usize, inputs: &mut Inputs) -> Result<(), Problem>;
+    /// What puts the points into inputs on one thread.
+    fn sequence(&self) -> Sequence<'_>;
 }
+
+/// Puts the values of a point, by its index, into inputs that hold the case or another point. It
+/// fails where a field does not take its value.
+pub type Sequence<'a> = Box<dyn FnMut(usize, &mut Inputs) -> Result<(), Problem> + 'a>;
 
 /// A study: one case, its points, and the quantities to compute at each.
 #[derive(Clone, Copy)]
@@ -274,6 +275,7 @@ fn work(shared: &Shared, send: &Sender<(usize, Rows)>) {
 /// Solves points one after the other; a stage whose inputs are equal keeps its result.
 struct PointSolver<'a> {
     batch: Batch<'a>,
+    sequence: Sequence<'a>,
     inputs: Inputs,
     evaluator: Evaluator,
     wanted: Stages,
@@ -283,6 +285,7 @@ impl<'a> PointSolver<'a> {
     fn new(batch: Batch<'a>) -> PointSolver<'a> {
         let stages = batch.quantities.iter();
         PointSolver {
+            sequence: batch.points.sequence(),
             inputs: batch.inputs.clone(),
             evaluator: Evaluator::default(),
             wanted: stages.fold(Stages::NONE, |stages, quantity| {
@@ -322,7 +325,7 @@ impl<'a> PointSolver<'a> {
         go_on: &dyn Fn() -> bool,
     ) -> Result<Option<Refusal>, Unsolved> {
         let batch = self.batch;
-        batch.points.put(index, &mut self.inputs)?;
+        (self.sequence)(index, &mut self.inputs)?;
         // No quantity reads the stations.
         self.inputs.stations = Some(1);
         if let Some(problem) = misfit_between(&self.inputs) {

@@ -3,11 +3,10 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-use super::batch::Points;
+use super::batch::{Points, Sequence};
 use super::distribution::Distribution;
 use crate::case::fields::FIELDS;
 use crate::case::{Problem, field_range};
-use crate::model::Inputs;
 
 /// The samples, and after them the points of the ranking.
 ///
@@ -62,22 +61,21 @@ impl Design {
     }
 
     /// The values of a point in SI, in the order of the distributions.
-    pub fn values(&self, index: usize) -> impl Iterator<Item = f64> {
-        let member = self.member(index);
-        let (number, swapped) = match member {
-            Member::Sample(number) | Member::Second(number) => (number, None),
-            Member::Swapped(number, field) => (number, Some(field)),
-        };
-        let is_second = matches!(member, Member::Second(_));
-        let mut stream = stream(self.seed, number);
-        self.distributions
-            .iter()
-            .enumerate()
-            .map(move |(field, distribution)| {
-                let parts = [part(&mut stream), part(&mut stream)];
-                let second = is_second || swapped == Some(field);
-                distribution.quantile(parts[usize::from(second)])
-            })
+    #[must_use]
+    pub fn values(&self, index: usize) -> Vec<f64> {
+        self.numbers().values(index).collect()
+    }
+
+    fn numbers(&self) -> Numbers<'_> {
+        let mut key = [0; 32];
+        key[..8].copy_from_slice(&self.seed.to_le_bytes());
+        Numbers {
+            design: self,
+            stream: ChaCha8Rng::from_seed(key),
+            next: 0,
+            last: None,
+            parts: vec![[0.0; 2]; self.distributions.len()],
+        }
     }
 
     /// A point as settings, such as `deviations.base_pitch = 1.6e-5 m`.
@@ -103,15 +101,18 @@ impl Points for Design {
         self.samples + self.ranked * (self.distributions.len() + 1)
     }
 
-    fn put(&self, index: usize, inputs: &mut Inputs) -> Result<(), Problem> {
-        for (distribution, value) in self.distributions.iter().zip(self.values(index)) {
-            let (from, to) = field_range(distribution.field);
-            if value < from || value > to {
-                return Err(outside(distribution.field));
+    fn sequence(&self) -> Sequence<'_> {
+        let mut numbers = self.numbers();
+        Box::new(move |index, inputs| {
+            for (distribution, value) in self.distributions.iter().zip(numbers.values(index)) {
+                let (from, to) = field_range(distribution.field);
+                if value < from || value > to {
+                    return Err(outside(distribution.field));
+                }
+                distribution.put(value, inputs);
             }
-            distribution.put(value, inputs);
-        }
-        Ok(())
+            Ok(())
+        })
     }
 }
 
@@ -124,13 +125,53 @@ fn outside(field: usize) -> Problem {
     }
 }
 
-/// The random numbers of a sample.
-fn stream(seed: u64, number: usize) -> ChaCha8Rng {
-    let mut key = [0; 32];
-    key[..8].copy_from_slice(&seed.to_le_bytes());
-    let mut stream = ChaCha8Rng::from_seed(key);
-    stream.set_stream(number as u64);
-    stream
+/// The random numbers of a design. Each sample has its own place in one stream, so that it is the
+/// same whichever was read before; samples in order are read without a search.
+struct Numbers<'a> {
+    design: &'a Design,
+    stream: ChaCha8Rng,
+    /// The sample at whose place the stream is.
+    next: usize,
+    /// The sample of the parts.
+    last: Option<usize>,
+    /// For each field the number of the sample and that of the second sample.
+    parts: Vec<[f64; 2]>,
+}
+
+impl Numbers<'_> {
+    /// The values of a point in SI, in the order of the distributions.
+    fn values(&mut self, index: usize) -> impl Iterator<Item = f64> {
+        let member = self.design.member(index);
+        let (number, swapped) = match member {
+            Member::Sample(number) | Member::Second(number) => (number, None),
+            Member::Swapped(number, field) => (number, Some(field)),
+        };
+        self.read(number);
+        let is_second = matches!(member, Member::Second(_));
+        let fields = self.design.distributions.iter().zip(&self.parts);
+        fields
+            .enumerate()
+            .map(move |(field, (distribution, parts))| {
+                let second = is_second || swapped == Some(field);
+                distribution.quantile(parts[usize::from(second)])
+            })
+    }
+
+    fn read(&mut self, number: usize) {
+        /// Words of the stream, of 32 bits, that a field takes.
+        const WORDS: u128 = 4;
+        if self.last == Some(number) {
+            return;
+        }
+        if self.next != number {
+            let words = WORDS * self.parts.len() as u128;
+            self.stream.set_word_pos(number as u128 * words);
+        }
+        for parts in &mut self.parts {
+            *parts = [part(&mut self.stream), part(&mut self.stream)];
+        }
+        (self.last, self.next) = (Some(number), number + 1);
+    }
 }
 
 /// A number above 0 and below 1, from 53 random bits.

@@ -1,7 +1,7 @@
 //! A sweep: a case solved over a grid of one or more varied fields.
 
 use super::axis::{Axis, AxisPoint, Sampling};
-use super::batch::Points;
+use super::batch::{Points, Sequence};
 use crate::case::{Case, Problem};
 use crate::model::Inputs;
 use crate::model::inputs::Method;
@@ -92,6 +92,13 @@ impl Grid {
         found
     }
 
+    /// Puts the values of a point into inputs.
+    pub fn put(&self, index: usize, inputs: &mut Inputs) {
+        for (axis, at) in self.places(index) {
+            axis.points[at].put(axis.field, inputs);
+        }
+    }
+
     /// A point as settings, such as `operation.speed = 500 rpm, driven.tip_relief = 16 um`.
     #[must_use]
     pub fn point(&self, index: usize) -> String {
@@ -108,11 +115,11 @@ impl Points for Grid {
         self.axes.iter().map(|axis| axis.points.len()).product()
     }
 
-    fn put(&self, index: usize, inputs: &mut Inputs) -> Result<(), Problem> {
-        for (axis, at) in self.places(index) {
-            axis.points[at].put(axis.field, inputs);
-        }
-        Ok(())
+    fn sequence(&self) -> Sequence<'_> {
+        Box::new(|index, inputs| {
+            self.put(index, inputs);
+            Ok(())
+        })
     }
 }
 

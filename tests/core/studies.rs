@@ -303,7 +303,7 @@ fn uniform_design(fields: usize, samples: usize) -> Design {
 
 fn ranked(design: &Design, function: impl Fn(&[f64]) -> f64) -> Vec<Indices> {
     let value = |member| {
-        let values: Vec<f64> = design.values(design.index(member)).collect();
+        let values = design.values(design.index(member));
         function(&values)
     };
     let fields = design.distributions.len();

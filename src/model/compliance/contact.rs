@@ -14,6 +14,7 @@ use crate::model::Refusal;
 use crate::model::explanation::{Context, Step};
 use crate::model::geometry::Geometry;
 use crate::model::inputs::ContactCompliance;
+use crate::numeric::near::logarithm;
 
 /// Every model; the first is the default of a case.
 pub const MODELS: [&ContactModel; 3] = [&logarithmic::MODEL, &constant::MODEL, &weber::MODEL];
@@ -121,20 +122,27 @@ impl ContactSpring {
         let stiffest = momentum / teeth.sqrt();
         let ContactLaw { offset, slope } = self.law;
         let at_stiffest = teeth + offset - slope * self.half_width(stiffest).ln();
-        let compliance_at = |logarithm: f64| at_stiffest - 0.5 * slope * logarithm;
-        let (mut logarithm, mut compliance) = (0.0, at_stiffest);
+        let (mut force_logarithm, mut compliance) = (0.0, at_stiffest);
+        // ln(q/teeth), which follows q without another logarithm of a large number.
+        let mut compliance_logarithm = (compliance / teeth).ln();
         for _ in 0..STEPS {
             if compliance <= 0.5 * slope {
                 break;
             }
-            let residual = logarithm + 0.5 * (compliance / teeth).ln();
+            let residual = force_logarithm + 0.5 * compliance_logarithm;
             let step = residual / (1.0 - 0.25 * slope / compliance);
-            logarithm -= step;
-            compliance = compliance_at(logarithm);
+            force_logarithm -= step;
+            let before = compliance;
+            compliance = at_stiffest - 0.5 * slope * force_logarithm;
             if step.abs() <= SETTLED {
                 let force = momentum / compliance.sqrt();
-                return self.compliance(force).map(|_| (force, compliance));
+                return if compliance - teeth > self.least {
+                    Ok((force, compliance))
+                } else {
+                    Err(self.too_wide(self.half_width(force)))
+                };
             }
+            compliance_logarithm += logarithm((compliance - before) / before);
         }
         Err(self.too_wide(self.half_width(stiffest)))
     }

@@ -1,0 +1,42 @@
+//! Logarithm and exponential of nearby numbers, which take a fraction of the time of any others.
+
+/// The fifth power of a smaller number is rounding against the number itself.
+const SMALL: f64 = 2e-4;
+
+/// ln(1 + x).
+#[must_use]
+pub fn logarithm(x: f64) -> f64 {
+    if x.abs() < SMALL {
+        x * (1.0 - x * (0.5 - x * (1.0 / 3.0 - 0.25 * x)))
+    } else {
+        x.ln_1p()
+    }
+}
+
+/// e^x.
+#[must_use]
+pub fn exponential(x: f64) -> f64 {
+    if x.abs() < SMALL {
+        1.0 + x * (1.0 + x * (0.5 + x * (1.0 / 6.0 + x / 24.0)))
+    } else {
+        x.exp()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_are_the_functions_of_the_standard_library_to_the_last_digits() {
+        for power in 0..200 {
+            let size = 0.5 * 0.9_f64.powi(power);
+            for x in [size, -size] {
+                let logarithm = logarithm(x) / x.ln_1p() - 1.0;
+                assert!(logarithm.abs() < 1e-15, "ln(1 + {x}): {logarithm:e}");
+                let exponential = exponential(x) / x.exp() - 1.0;
+                assert!(exponential.abs() < 1e-15, "exp {x}: {exponential:e}");
+            }
+        }
+    }
+}
