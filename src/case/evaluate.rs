@@ -2,7 +2,7 @@
 
 use crate::model::inputs::Method;
 use crate::model::request::Earlier;
-use crate::model::solve::solve_after;
+use crate::model::solve::{solve_after, solve_repeated};
 use crate::model::{Inputs, Refusal, Solution, Stages};
 
 /// The last solve by each method.
@@ -70,6 +70,32 @@ impl Evaluator {
         solved.solution = solve_after(inputs, wanted, Some(earlier), go_on)?;
         solved.inputs.clone_from(inputs);
         Ok(&solved.solution)
+    }
+
+    /// Solves the next point of a study. If only load and deviations differ from the last point and
+    /// the wanted stages have a closed form, all of them run in place, whichever would be kept.
+    ///
+    /// # Errors
+    /// Those of [`solve_after`].
+    pub fn solve_point(
+        &mut self,
+        inputs: &Inputs,
+        wanted: Stages,
+        go_on: &dyn Fn(f64) -> bool,
+    ) -> Result<&Solution, Refusal> {
+        let by = |solved: &Solved| solved.inputs.method == inputs.method;
+        let last = self.solved.iter().position(by).and_then(|at| {
+            let Solved { inputs: before, solution } = &mut self.solved[at];
+            Some((at, solve_repeated(before, solution, inputs, wanted)?))
+        });
+        match last {
+            Some((at, Ok(()))) => Ok(&self.solved[at].solution),
+            Some((at, Err(refusal))) => {
+                self.solved.swap_remove(at);
+                Err(refusal)
+            }
+            None => self.solve_kept(inputs, inputs.method, wanted, go_on),
+        }
     }
 }
 

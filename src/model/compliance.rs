@@ -116,9 +116,10 @@ impl ContactPlace {
     #[must_use]
     pub fn on_line_of_action(geometry: &Geometry, along: f64) -> ContactPlace {
         let rest = geometry.tangent_length - along;
+        let radius = |base: f64, length: f64| (base * base + length * length).sqrt();
         ContactPlace {
-            radius_driver: geometry.driver.base.hypot(along),
-            radius_driven: geometry.driven.base.hypot(rest),
+            radius_driver: radius(geometry.driver.base, along),
+            radius_driven: radius(geometry.driven.base, rest),
             curvature_radius: along * rest / geometry.tangent_length,
         }
     }

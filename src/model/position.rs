@@ -275,18 +275,19 @@ pub fn position(
     let contact = tip_at(geometry, angle);
     let close_call = contact.is_close_call(geometry)
         || search.method == Method::Paper && plain.equivalent_error < 0.0;
-    let (contact, printed_gap) = match precise {
+    let (contact, closed_gap) = match precise {
         Some(precise) => precise_contact(search.method, precise, deviation, angle),
         None if close_call => {
             let precise = geometry::geometry(&search.shape)?;
             precise_contact(search.method, &precise, deviation, angle)
         }
+        None if search.method == Method::Exact => (contact, plain.total),
         None => (contact, gap_without(KEPT_DIGITS, geometry, &contact)),
     };
     let closed_gap = if search.method == Method::Exact {
         plain.total
     } else {
-        printed_gap
+        closed_gap
     };
     checked(
         search.tip_radius,

@@ -2,12 +2,14 @@
 
 mod by_choice;
 mod by_method;
+mod repeat;
 
 use super::inputs::{Inputs, Method};
 use super::request::Earlier;
 use super::{Refusal, Solution, Stages};
 use by_choice::solve_by_choice;
 use by_method::solve_by_method;
+pub use repeat::solve_repeated;
 
 /// Solve the pair, running only the wanted stages and what they need.
 ///

@@ -335,7 +335,7 @@ impl<'a> PointSolver<'a> {
         let wanted = self.wanted.and(method.deciding_stages());
         let solution = self
             .evaluator
-            .solve_kept(&self.inputs, method, wanted, &|_| go_on())?;
+            .solve_point(&self.inputs, wanted, &|_| go_on())?;
         let values = || {
             let all = batch.quantities.iter();
             all.map(|quantity| quantity.finite_value(solution))

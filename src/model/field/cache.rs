@@ -1,6 +1,7 @@
 //! Fields of recent gears, shared by all solves: a gear's field depends on the gear alone and takes
 //! thousands of times as long to build as to read.
 
+use std::cell::RefCell;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use super::{Field, FieldInput, FieldRefusal};
@@ -80,7 +81,21 @@ impl FieldGear {
         }
     }
 
+    /// The entry of the gear: without a lock if it is one of the two that this thread read last.
     fn entry(&self) -> Arc<Entry> {
+        LAST_READ.with_borrow_mut(|last| {
+            let known = last.iter().position(|entry| entry.gear == *self);
+            if let Some(at) = known {
+                return Arc::clone(&last[at]);
+            }
+            let entry = self.shared_entry();
+            last.truncate(GEARS_OF_A_PAIR - 1);
+            last.insert(0, Arc::clone(&entry));
+            entry
+        })
+    }
+
+    fn shared_entry(&self) -> Arc<Entry> {
         let mut entries = RECENT.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(at) = entries.iter().rposition(|entry| entry.gear == *self) {
             let last = entries.len() - 1;
@@ -109,3 +124,11 @@ struct Entry {
 
 /// Recent gears, the one that was read last at the end.
 static RECENT: Mutex<Vec<Arc<Entry>>> = Mutex::new(Vec::new());
+
+/// How many entries a thread has at hand.
+const GEARS_OF_A_PAIR: usize = 2;
+
+thread_local! {
+    /// The gears that this thread read last, the newest first.
+    static LAST_READ: RefCell<Vec<Arc<Entry>>> = const { RefCell::new(Vec::new()) };
+}

@@ -4,13 +4,14 @@ use std::cell::{Cell, OnceCell};
 
 use twofloat::TwoFloat;
 
+use crate::model::compliance::{ContactPlace, Teeth};
 use crate::model::impact::Masses;
 use crate::model::inputs::Inputs;
 use crate::model::request::{Earlier, Request};
 use crate::model::spacing::Spacing;
 use crate::model::stage::{Stage, Stages};
 use crate::model::{
-    Geometry, Kept, Outcome, Position, Refusal, Solution, clearing, compliance, deviation,
+    Deviation, Geometry, Kept, Outcome, Position, Refusal, Solution, clearing, deviation,
     friction, geometry, impact, load_sharing, position, stations, stiffness_spread, velocity,
 };
 use crate::numeric::Real;
@@ -41,10 +42,65 @@ pub(super) fn solve_by_method(
 }
 
 /// A solve on its way.
-struct Solving<'a> {
+pub(super) struct Solving<'a> {
     asked: Request<'a>,
     /// Geometry in double-double arithmetic, where it is called for.
     precise: OnceCell<Option<Geometry<TwoFloat>>>,
+}
+
+impl<'a> Solving<'a> {
+    /// One that begins with the load and has no other geometry than the one in f64.
+    pub(super) fn from_load(inputs: &'a Inputs, wanted: Stages) -> Solving<'a> {
+        Solving {
+            asked: Request {
+                inputs,
+                wanted: wanted.within(inputs.method.stages()),
+                earlier: None,
+                changed: Cell::default(),
+            },
+            precise: OnceCell::from(None),
+        }
+    }
+
+    /// Puts the stages from the load on in place of those of a solution, which keeps its geometry
+    /// and masses.
+    pub(super) fn repeat(&self, solution: &mut Solution) -> Result<(), Refusal> {
+        let inputs = self.asked.inputs;
+        solution.mesh_force = inputs.torque() / solution.geometry.driver.base;
+        let deviation = deviation::deviation(
+            &inputs.deviation(),
+            &solution.geometry,
+            solution.mesh_force,
+        )?;
+        solution.deviation = deviation.rounded();
+        solution.kept.deviation = deviation;
+        solution.outcome = outcome(&deviation);
+        solution.stages = Stages::of(Stage::Deviation).with(Stage::Masses);
+        solution.ran = Stages::NONE.with(Stage::Load).with(Stage::Deviation);
+        solution.position = None;
+        solution.velocity = None;
+        solution.compliance = None;
+        solution.impact = None;
+        solution.friction = None;
+        solution.band = None;
+        solution.stations.clear();
+        solution.clearing = None;
+        solution.withheld = None;
+        solution.stations_withheld = None;
+        if self.asked.wanted.has(Stage::Position) {
+            self.locate(solution)?;
+        }
+        Ok(())
+    }
+}
+
+/// Whether the deviation brings the tooth in early.
+fn outcome(deviation: &Deviation<TwoFloat>) -> Outcome {
+    if deviation.total.rounded() > 0.0 {
+        Outcome::CornerContact
+    } else {
+        Outcome::NoCornerContact
+    }
 }
 
 impl Solving<'_> {
@@ -117,15 +173,10 @@ impl Solving<'_> {
                 .note(Stage::Deviation, |s| s.kept.deviation == deviation);
             deviation
         };
-        let strikes = deviation.total.rounded() > 0.0;
         Ok(Solution {
             method: inputs.method,
             choice: None,
-            outcome: if strikes {
-                Outcome::CornerContact
-            } else {
-                Outcome::NoCornerContact
-            },
+            outcome: outcome(&deviation),
             stages: Stages::of(Stage::Deviation).with(Stage::Masses),
             ran,
             geometry,
@@ -224,14 +275,19 @@ impl Solving<'_> {
             |s| s.velocity,
             || Ok(velocity::velocity(inputs.driven_speed(), tip)),
         )?;
-        let place = || compliance::ContactPlace::at_tip(strike.tip_radius, &geometry, tip);
-        let borne = || compliance::Teeth::of(&strike.elasticity, &geometry)?.at(&place());
+        let place = || ContactPlace::at_tip(strike.tip_radius, &geometry, tip);
+        let known = OnceCell::new();
+        let both = || {
+            let teeth = known.get_or_init(|| Teeth::of(&strike.elasticity, &geometry));
+            teeth.as_ref().map_err(|refusal| *refusal)
+        };
+        let borne = || both()?.at(&place());
         solution.compliance = self.stage(solution, Stage::Compliance, |s| s.compliance, borne)?;
         let (Some(velocity), Some(teeth)) = (solution.velocity, solution.compliance) else {
             return Ok(());
         };
         let struck = || {
-            let spring = compliance::Teeth::of(&strike.elasticity, &geometry)?.spring(&place())?;
+            let spring = both()?.spring(&place())?;
             let elastic = (&teeth, &spring);
             impact::impact(&strike, &geometry, &masses, tip, elastic, &velocity)
         };

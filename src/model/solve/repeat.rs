@@ -1,0 +1,147 @@
+//! A closed-form solve repeated in place with another load or other deviations, as studies do.
+
+use super::by_method::Solving;
+use crate::model::inputs::{Drive, Inputs, Method};
+use crate::model::stage::Stages;
+use crate::model::{Refusal, Solution};
+
+/// Solves again in place, if `inputs` differ from those of the solution in nothing but load and
+/// deviations and the wanted stages have a closed form. The results are those of
+/// [`solve`](super::solve) to the last bit, without its comparisons of the other stages' inputs.
+/// `None` if more differs; inputs and solution then stay.
+///
+/// # Errors
+/// Those of [`solve`](super::solve); the solution is then of no use.
+pub fn solve_repeated(
+    before: &mut Inputs,
+    solution: &mut Solution,
+    inputs: &Inputs,
+    wanted: Stages,
+) -> Option<Result<(), Refusal>> {
+    let wanted = wanted.within(inputs.method.stages());
+    let has_closed_form =
+        Method::CLOSED_FORM.contains(&inputs.method) && Stages::ALL.covers(wanted);
+    if !has_closed_form || inputs.accurate || solution.geometry.is_close_call(inputs.bores()) {
+        return None;
+    }
+    let earlier = LoadAndDeviation::of(before);
+    LoadAndDeviation::of(inputs).put(before);
+    if before != inputs {
+        earlier.put(before);
+        return None;
+    }
+    Some(Solving::from_load(inputs, wanted).repeat(solution))
+}
+
+/// What the stages of load and deviation read of the inputs, and no other stage with a closed form.
+struct LoadAndDeviation {
+    drive: Drive,
+    deflection: Option<f64>,
+    base_pitch_deviation: f64,
+    base_pitches: [Option<f64>; 2],
+    backlash: f64,
+    driven_tip_relief: f64,
+    driver_root_relief: f64,
+}
+
+impl LoadAndDeviation {
+    fn of(inputs: &Inputs) -> LoadAndDeviation {
+        LoadAndDeviation {
+            drive: inputs.drive,
+            deflection: inputs.deflection,
+            base_pitch_deviation: inputs.base_pitch_deviation,
+            base_pitches: [inputs.driver.base_pitch, inputs.driven.base_pitch],
+            backlash: inputs.backlash,
+            driven_tip_relief: inputs.driven.tip_relief,
+            driver_root_relief: inputs.driver.root_relief,
+        }
+    }
+
+    fn put(&self, inputs: &mut Inputs) {
+        inputs.drive = self.drive;
+        inputs.deflection = self.deflection;
+        inputs.base_pitch_deviation = self.base_pitch_deviation;
+        [inputs.driver.base_pitch, inputs.driven.base_pitch] = self.base_pitches;
+        inputs.backlash = self.backlash;
+        inputs.driven.tip_relief = self.driven_tip_relief;
+        inputs.driver.root_relief = self.driver_root_relief;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::sample::standard_pair;
+    use crate::model::{Stage, solve};
+
+    fn edits() -> [fn(&mut Inputs); 8] {
+        [
+            |inputs| inputs.drive = Drive::Torque(123.0),
+            |inputs| inputs.deflection = Some(17e-6),
+            |inputs| inputs.base_pitch_deviation = 9e-6,
+            |inputs| inputs.driver.base_pitch = Some(7e-6),
+            |inputs| inputs.driven.base_pitch = Some(8e-6),
+            |inputs| inputs.backlash = 3e-6,
+            |inputs| inputs.driven.tip_relief = 4e-6,
+            |inputs| inputs.driver.root_relief = 5e-6,
+        ]
+    }
+
+    fn pair() -> Inputs {
+        Inputs {
+            base_pitch_deviation: 16e-6,
+            ..standard_pair(20, 31, 5e-3)
+        }
+    }
+
+    #[test]
+    fn load_and_deviations_are_read_by_their_own_stages_alone() {
+        let before = pair();
+        for edit in edits() {
+            let mut after = before.clone();
+            edit(&mut after);
+            for stage in Stages::CLOSED_FORM.iter() {
+                let is_own = matches!(stage, Stage::Load | Stage::Deviation);
+                assert!(
+                    is_own || stage.inputs(&before) == stage.inputs(&after),
+                    "{} reads {after:?}",
+                    stage.name()
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_repeated_solve_is_a_plain_one() {
+        for method in Method::CLOSED_FORM {
+            let mut before = Inputs { method, ..pair() };
+            let mut solution = solve(&before, Stages::CLOSED_FORM).unwrap();
+            let mut inputs = before.clone();
+            for edit in edits() {
+                edit(&mut inputs);
+                for wanted in [Stages::of(Stage::Impact), Stages::CLOSED_FORM] {
+                    let repeated = solve_repeated(&mut before, &mut solution, &inputs, wanted);
+                    assert_eq!(repeated, Some(Ok(())), "{inputs:?}");
+                    let plain = solve(&inputs, wanted).unwrap();
+                    let ran = solution.ran;
+                    assert_eq!(Solution { ran, ..plain }, solution);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_solve_with_another_gear_is_not_repeated() {
+        let mut before = pair();
+        let mut solution = solve(&before, Stages::CLOSED_FORM).unwrap();
+        let (inputs, kept) = (before.clone(), solution.clone());
+        let mut other = Inputs {
+            backlash: 1e-6,
+            ..inputs.clone()
+        };
+        other.driven.bore_radius *= 1.1;
+        let repeated = solve_repeated(&mut before, &mut solution, &other, Stages::CLOSED_FORM);
+        assert_eq!(repeated, None);
+        assert_eq!((before, solution), (inputs, kept));
+    }
+}
