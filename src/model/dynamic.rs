@@ -7,7 +7,6 @@ mod lead;
 mod motion;
 mod passage;
 mod settings;
-mod sharing;
 pub mod steady;
 mod step;
 mod swing;
@@ -282,7 +281,7 @@ impl<'a> Run<'a> {
         end: f64,
     ) -> Result<(Touching, Step), Refusal> {
         let course = Course::new(self.motion, window, touching);
-        let (step, leads) = course.step(self.t, &self.y, end, self.allowed)?;
+        let (mut step, leads) = course.step(self.t, &self.y, end, self.allowed)?;
         self.effort.steps += 1;
         self.effort.evaluations += TERMS as u64;
         self.count(1 + window.pairs.len() as u64 + self.motion.take_looks())?;
@@ -290,7 +289,9 @@ impl<'a> Run<'a> {
         let standing_off = self.lead.and(window.incoming());
         let event = events::first(&course, (&step, range), &leads, (self.turned, standing_off));
         let part = event.map_or(1.0, |event| event.part);
-        let step = event.map_or(step, |event| step.cut(event.part));
+        if event.is_some() {
+            step = step.cut(part);
+        }
         // A step to a border ends on it, whatever the rounding of the sum.
         self.t = if event.is_none() && step.length >= end - self.t {
             end

@@ -5,14 +5,17 @@ mod build;
 mod couplings;
 mod inputs;
 mod one_pair;
+mod sharing;
 mod zones;
 
 use std::sync::Arc;
 
 use super::compliance::flanks::Flanks;
-use super::pair_forces::{Compliances, PITCHES, Pair, PairSet, Place};
+use super::pair_forces::{Compliances, PITCHES, Pair, PairSet, Place, Touching};
 use couplings::Couplings;
 pub use inputs::MeshInputs;
+pub use sharing::Shares;
+use sharing::Sharing;
 use zones::{GAP, SLIDING, STIFFNESS, Zone};
 
 /// The mesh as a function of s, the way of the incoming pair along the line of action since E, in
@@ -44,6 +47,8 @@ pub struct Mesh {
     zones: Arc<Vec<Zone>>,
     /// None if the pairs are independent springs.
     couplings: Option<Arc<Couplings>>,
+    /// How coupled pairs share a displacement.
+    sharing: Arc<Sharing>,
     /// Up to what gaps it is known, in m.
     reach: f64,
     is_whole: bool,
@@ -150,23 +155,35 @@ impl Mesh {
         (0..count).map(behind).collect()
     }
 
-    /// What `find` reads of the compliances of those pairs, each with its zone.
-    pub(super) fn with_compliances<T>(
-        &self,
-        standing: &[(i32, usize)],
-        (s, inside): (f64, f64),
-        find: impl FnOnce(&Compliances<'_>) -> T,
-    ) -> T {
-        let own = standing.iter().map(|&(ahead, zone)| {
-            let at = s + f64::from(ahead) * self.base_pitch;
-            self.zones[zone].series.one(STIFFNESS, at).recip()
-        });
-        let own: Vec<f64> = own.collect();
-        let first = standing.first().map_or(0, |&(ahead, _)| ahead);
-        let couplings = self.couplings_of(first, own.len(), s, inside);
-        find(&Compliances {
-            own: &own,
-            couplings: &couplings,
+    /// How pairs share a displacement that stand in these zones, the rearmost first, while some of
+    /// them touch.
+    pub(super) fn shares(&self, zones: &[usize], touching: Touching) -> Arc<Shares> {
+        self.sharing.of(zones, touching, || {
+            let ends = self.way_of(zones);
+            let inside = f64::midpoint(ends.0, ends.1);
+            Shares::of(zones.len(), ends, touching, &|at, find| {
+                let pairs = (0..).zip(zones);
+                let own = pairs.map(|(pair, &zone)| {
+                    let at = at + f64::from(pair) * self.base_pitch;
+                    self.zones[zone].series.one(STIFFNESS, at).recip()
+                });
+                find(&Compliances {
+                    own: &own.collect::<Vec<f64>>(),
+                    couplings: &self.couplings_of(0, zones.len(), at, inside),
+                });
+            })
+        })
+    }
+
+    /// From where to where the rearmost of pairs goes while they, and no others, stand in these
+    /// zones, in m.
+    fn way_of(&self, zones: &[usize]) -> (f64, f64) {
+        let (from, to) = self.ends();
+        let none = (to - zones.len() as f64 * self.base_pitch, from + self.base_pitch);
+        let pairs = (0..).zip(zones);
+        pairs.fold(none, |(from, to), (pair, &zone)| {
+            let (zone, ahead) = (&self.zones[zone], f64::from(pair) * self.base_pitch);
+            (from.max(zone.from - ahead), to.min(zone.to - ahead))
         })
     }
 

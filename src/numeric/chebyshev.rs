@@ -108,8 +108,11 @@ impl<const N: usize> Series<N> {
         self.piece_above(x, least)
             .map_or([Polynomial([f64::NAN; TERMS]); M], |piece| {
                 let scale = 2.0 * length / (piece.to - piece.from);
-                about::<N, M>(&piece.powers, first, piece.inner(x))
-                    .map(|powers| Polynomial(powers).stretched(scale))
+                let mut functions = about(&piece.powers, first, piece.inner(x));
+                for function in &mut functions {
+                    function.stretch(scale);
+                }
+                functions
             })
     }
 

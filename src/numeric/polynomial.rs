@@ -55,6 +55,12 @@ impl<const N: usize> Polynomial<N> {
     /// The same over another measure of the way: a(`by` t).
     #[must_use]
     pub fn stretched(mut self, by: f64) -> Polynomial<N> {
+        self.stretch(by);
+        self
+    }
+
+    /// Puts the same over another measure of the way in its place: a(`by` t).
+    pub fn stretch(&mut self, by: f64) {
         let square = by * by;
         let (mut factors, fourth) = ([1.0, by, square, square * by], square * square);
         for four in self.0.chunks_mut(factors.len()) {
@@ -63,7 +69,6 @@ impl<const N: usize> Polynomial<N> {
                 *factor *= fourth;
             }
         }
-        self
     }
 
     /// Every coefficient times `factor`.

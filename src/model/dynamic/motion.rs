@@ -3,14 +3,14 @@
 use std::cell::{Cell, RefCell};
 use std::f64::consts::TAU;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use nalgebra::Vector2;
 
 use super::Settings;
-use super::sharing::{Shares, Sharing};
 use crate::model::Refusal;
 use crate::model::budget::MOTION_SWINGS;
-use crate::model::mesh::Mesh;
+use crate::model::mesh::{Mesh, Shares};
 use crate::model::pair_forces::Touching;
 
 /// Displacement of the driver ahead in m, and its rate in m/s.
@@ -26,10 +26,19 @@ pub(super) struct Motion<'a> {
     frequency: f64,
     decay: f64,
     warmup_cycles: u32,
-    /// The sharing of coupled pairs, by the zones in which they stand.
-    sharing: RefCell<Vec<(Vec<usize>, Rc<Sharing>)>>,
-    /// Places at which shares were computed.
+    /// The sharing of coupled pairs that this motion needed.
+    sharing: RefCell<Vec<Rc<Sharing>>>,
+    /// Places at which shares were computed, by this motion or by another on the same mesh.
     looks: Cell<u64>,
+    /// What the shares take, in bytes.
+    bytes: Cell<usize>,
+}
+
+/// How coupled pairs share a displacement that stand in some zones.
+#[derive(Debug)]
+struct Sharing {
+    zones: Vec<usize>,
+    known: RefCell<Vec<(Touching, Arc<Shares>)>>,
 }
 
 /// What stays the same between two borders: the pairs that may touch, and the zones in which they
@@ -66,6 +75,7 @@ impl<'a> Motion<'a> {
             warmup_cycles: settings.warmup_cycles,
             sharing: RefCell::default(),
             looks: Cell::default(),
+            bytes: Cell::default(),
         }
     }
 
@@ -148,22 +158,30 @@ impl<'a> Motion<'a> {
         let zones = || pairs.iter().map(|pair| pair.zone);
         let known = all
             .iter()
-            .find(|(known, _)| known.iter().copied().eq(zones()));
-        if let Some((_, sharing)) = known {
+            .find(|known| known.zones.iter().copied().eq(zones()));
+        if let Some(sharing) = known {
             return Rc::clone(sharing);
         }
-        let sharing = Rc::new(Sharing::default());
-        all.push((zones().collect(), Rc::clone(&sharing)));
+        let sharing = Rc::new(Sharing {
+            zones: zones().collect(),
+            known: RefCell::default(),
+        });
+        all.push(Rc::clone(&sharing));
         sharing
     }
 
     /// How coupled pairs share a displacement; none if none touches or all are independent springs.
-    pub(super) fn shares(&self, window: &Window, touching: Touching) -> Option<Rc<Shares>> {
+    pub(super) fn shares(&self, window: &Window, touching: Touching) -> Option<Arc<Shares>> {
         let sharing = window.sharing.as_ref().filter(|_| !touching.is_none())?;
-        let pairs = window.pairs.iter();
-        let standing: Vec<_> = pairs.map(|pair| (pair.ahead, pair.zone)).collect();
-        let (shares, evaluations) = sharing.of(self.mesh, &standing, window.ends, touching);
-        self.looks.set(self.looks.get() + evaluations as u64);
+        let mut known = sharing.known.borrow_mut();
+        if let Some((_, shares)) = known.iter().find(|(set, _)| *set == touching) {
+            return Some(Arc::clone(shares));
+        }
+        let shares = self.mesh.shares(&sharing.zones, touching);
+        self.looks
+            .set(self.looks.get() + shares.evaluations() as u64);
+        self.bytes.set(self.bytes.get() + shares.bytes());
+        known.push((touching, Arc::clone(&shares)));
         Some(shares)
     }
 
@@ -174,11 +192,7 @@ impl<'a> Motion<'a> {
 
     /// What the shares take, in bytes.
     pub(super) fn bytes(&self) -> usize {
-        self.sharing
-            .borrow()
-            .iter()
-            .map(|(_, sharing)| sharing.bytes())
-            .sum()
+        self.bytes.get()
     }
 }
 

@@ -1,11 +1,11 @@
 //! Steps of the motion while the same pairs touch, by the power series of the displacement.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::lead::{Along, FORCE_TERMS, Lead, Product, TERMS};
 use super::motion::{Motion, Standing, State, Window};
-use super::sharing::Shares;
 use crate::model::Refusal;
+use crate::model::mesh::Shares;
 use crate::model::pair_forces::Touching;
 use crate::numeric::bernstein::Bernstein;
 use crate::numeric::chebyshev;
@@ -19,7 +19,7 @@ pub(super) struct Course<'a> {
     pub(super) window: &'a Window,
     touching: Touching,
     /// How coupled pairs share a displacement; none if each is a spring of its own.
-    shares: Option<Rc<Shares>>,
+    shares: Option<Arc<Shares>>,
 }
 
 /// A step.

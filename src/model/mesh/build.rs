@@ -161,6 +161,7 @@ impl Mesh {
             flanks: Arc::clone(flanks),
             zones: Arc::new(zones),
             couplings: couplings.map(Arc::new),
+            sharing: Arc::default(),
             reach,
             is_whole: is_whole_before && is_whole_after,
         };

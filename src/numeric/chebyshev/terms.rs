@@ -4,6 +4,8 @@ use std::array::from_fn;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
+use crate::numeric::polynomial::Polynomial;
+
 /// What belongs to each order, of all functions side by side, so that several are summed at once.
 pub(super) type Terms<const N: usize> = [[f64; N]; TERMS];
 
@@ -111,7 +113,7 @@ pub(super) fn about<const N: usize, const M: usize>(
     powers: &Terms<N>,
     first: usize,
     at: f64,
-) -> [[f64; TERMS]; M] {
+) -> [Polynomial<TERMS>; M] {
     let mut rest = [[0.0; M]; TERMS];
     rest.iter_mut()
         .zip(powers)
@@ -124,11 +126,11 @@ pub(super) fn about<const N: usize, const M: usize>(
             }
         }
     }
-    let mut all = [[0.0; TERMS]; M];
+    let mut all = [Polynomial::ZERO; M];
     for (power, values) in rest.iter().enumerate() {
         all.iter_mut()
             .zip(values)
-            .for_each(|(function, value)| function[power] = *value);
+            .for_each(|(function, value)| function.0[power] = *value);
     }
     all
 }

@@ -1,10 +1,8 @@
 //! How coupled pairs share a displacement between two borders of the mesh, as polynomials.
 
 use std::array::from_fn;
-use std::cell::RefCell;
-use std::rc::Rc;
+use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::model::mesh::Mesh;
 use crate::model::pair_forces::{Compliances, PITCHES, Touching};
 use crate::numeric::chebyshev::{Series, TERMS};
 use crate::numeric::polynomial::Polynomial;
@@ -12,10 +10,51 @@ use crate::numeric::polynomial::Polynomial;
 /// Functions that are evaluated side by side.
 const LANES: usize = 4;
 
-/// The shares of one set of pairs that may touch, for the sets of touching pairs that were needed.
+/// The shares of a mesh that were needed so far. Every motion on the mesh reads the same ones: they
+/// depend on neither speed nor deviation.
 #[derive(Debug, Default)]
 pub(super) struct Sharing {
-    known: RefCell<Vec<(Touching, Rc<Shares>)>>,
+    known: Mutex<Vec<Known>>,
+}
+
+/// Nothing but a cache: meshes are equal whatever it has.
+impl PartialEq for Sharing {
+    fn eq(&self, _: &Sharing) -> bool {
+        true
+    }
+}
+
+#[derive(Debug)]
+struct Known {
+    zones: Vec<usize>,
+    touching: Touching,
+    shares: Arc<Shares>,
+}
+
+impl Sharing {
+    /// The shares of pairs that stand in these zones while some of them touch, computed by `new` if
+    /// they are not known.
+    pub(super) fn of(
+        &self,
+        zones: &[usize],
+        touching: Touching,
+        new: impl FnOnce() -> Shares,
+    ) -> Arc<Shares> {
+        let mut all = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = all
+            .iter()
+            .find(|known| known.touching == touching && known.zones == zones);
+        if let Some(known) = known {
+            return Arc::clone(&known.shares);
+        }
+        let shares = Arc::new(new());
+        all.push(Known {
+            zones: zones.to_vec(),
+            touching,
+            shares: Arc::clone(&shares),
+        });
+        shares
+    }
 }
 
 /// How the pairs share a displacement while some of them touch.
@@ -27,65 +66,36 @@ pub(super) struct Sharing {
 /// where j are the touching pairs, g their gaps, M = Q⁻¹ b of the touching pairs, and M = Q Q⁻¹ of
 /// a pair apart.
 #[derive(Debug)]
-pub(super) struct Shares {
+pub struct Shares {
     /// The touching pairs.
-    pub(super) touching: Vec<usize>,
+    pub touching: Vec<usize>,
     /// Where the row of each pair begins among the functions; none for a pair that no touching pair
     /// displaces.
     rows: Vec<Option<usize>>,
     functions: Vec<Series<LANES>>,
 }
 
-impl Sharing {
-    /// The shares of pairs, each with its zone, while some of them touch and the incoming one goes
-    /// from one of the `ends` to the other; and how often they were computed for it.
-    pub(super) fn of(
-        &self,
-        mesh: &Mesh,
-        standing: &[(i32, usize)],
-        ends: (f64, f64),
-        touching: Touching,
-    ) -> (Rc<Shares>, usize) {
-        let mut known = self.known.borrow_mut();
-        if let Some((_, shares)) = known.iter().find(|(set, _)| *set == touching) {
-            return (Rc::clone(shares), 0);
-        }
-        let shares = Rc::new(Shares::of(mesh, standing, ends, touching));
-        known.push((touching, Rc::clone(&shares)));
-        let evaluations = shares.functions.first().map_or(0, Series::evaluations);
-        (shares, evaluations)
-    }
-
-    /// What they take, in bytes.
-    pub(super) fn bytes(&self) -> usize {
-        let of = |(_, shares): &(Touching, Rc<Shares>)| {
-            shares.functions.iter().map(Series::bytes).sum::<usize>()
-        };
-        self.known.borrow().iter().map(of).sum()
-    }
-}
-
 impl Shares {
-    fn of(
-        mesh: &Mesh,
-        standing: &[(i32, usize)],
+    /// The shares of so many pairs while the rearmost goes from one of the `ends` to the other;
+    /// `compliances` shows those of all pairs at a place of the rearmost one.
+    pub(super) fn of(
+        pairs: usize,
         (from, to): (f64, f64),
         touching: Touching,
+        compliances: &dyn Fn(f64, &mut dyn FnMut(&Compliances<'_>)),
     ) -> Shares {
         /// Of the size of a function.
         const REST: f64 = 1e-13;
         let touching: Vec<usize> = touching.pairs().collect();
-        let first = f64::from(standing[0].0) * mesh.base_pitch;
-        let inside = f64::midpoint(from, to);
-        let (rows, count) = rows(standing.len(), &touching);
+        let (rows, count) = rows(pairs, &touching);
         let groups = count.div_ceil(LANES);
-        let fill = |s: f64, values: &mut [[f64; LANES]]| {
-            mesh.with_compliances(standing, (s, inside), |compliances| {
-                fill(compliances, &touching, &rows, values.as_flattened_mut());
+        let fill = |at: f64, values: &mut [[f64; LANES]]| {
+            compliances(at, &mut |found| {
+                fill(found, &touching, &rows, values.as_flattened_mut());
             });
         };
         let mut sizes = vec![[0.0; LANES]; groups];
-        fill(inside, &mut sizes);
+        fill(f64::midpoint(from, to), &mut sizes);
         let largest = sizes
             .as_flattened()
             .iter()
@@ -95,8 +105,8 @@ impl Shares {
             // Forces come first; a pair apart is displaced by a part of the others' displacement.
             *size = REST * if at < stiffness { largest } else { 1.0 };
         }
-        let functions = Series::groups(from + first, to + first, &sizes, &|at, values| {
-            fill(at - first, values);
+        let functions = Series::groups(from, to, &sizes, &|at, values| {
+            fill(at, values);
             Ok::<_, std::convert::Infallible>(())
         });
         Shares {
@@ -109,15 +119,27 @@ impl Shares {
         }
     }
 
+    /// How often the compliances were computed for it.
+    #[must_use]
+    pub fn evaluations(&self) -> usize {
+        self.functions.first().map_or(0, Series::evaluations)
+    }
+
+    /// What the functions take, in bytes.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.functions.iter().map(Series::bytes).sum()
+    }
+
     /// Where the functions end that serve from a place of the rearmost pair up.
-    pub(super) fn serves_until(&self, (at, least): (f64, f64)) -> f64 {
+    pub fn serves_until(&self, (at, least): (f64, f64)) -> f64 {
         self.functions
             .first()
             .map_or(f64::INFINITY, |functions| functions.serves_until(at, least))
     }
 
     /// All functions over the way from a place of the rearmost pair up by `length`.
-    pub(super) fn along(&self, place: (f64, f64), length: f64) -> Vec<[Polynomial<TERMS>; LANES]> {
+    pub fn along(&self, place: (f64, f64), length: f64) -> Vec<[Polynomial<TERMS>; LANES]> {
         let functions = self.functions.iter();
         functions
             .map(|functions| functions.local(0, place, length))
@@ -125,7 +147,7 @@ impl Shares {
     }
 
     /// The row of a pair among all functions: one for each touching pair.
-    pub(super) fn row_along<'a>(
+    pub fn row_along<'a>(
         &self,
         pair: usize,
         along: &'a [[Polynomial<TERMS>; LANES]],
@@ -135,7 +157,7 @@ impl Shares {
     }
 
     /// The same at one place of the rearmost pair.
-    pub(super) fn row_at(&self, pair: usize, at: f64) -> Option<Vec<f64>> {
+    pub fn row_at(&self, pair: usize, at: f64) -> Option<Vec<f64>> {
         let row = self.rows[pair]?;
         let function = |index: usize| self.functions[index / LANES].one(index % LANES, at);
         Some((row..row + self.touching.len()).map(function).collect())
