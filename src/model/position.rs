@@ -60,8 +60,8 @@ pub struct Position {
 
 /// The angle u at which the tip has closed the gap Δ: `S(u) = Δ`.
 ///
-/// Chebyshev's third-order form of Newton's method on ln S against ln u, from [`near_start`], until
-/// a step with all digits of the gap.
+/// Newton's method of fourth order on ln S against ln u, from [`near_start`], until a step with all
+/// digits of the gap.
 ///
 /// # Errors
 /// [`Refusal::NoFirstContact`] where the steps do not settle: no turn of the gear would bridge such
@@ -70,8 +70,8 @@ pub(super) fn first_contact(geometry: &Geometry, deviation: f64) -> Result<f64, 
     const STEPS: usize = 60;
     /// A last step with all digits follows a step as small as this.
     const SETTLED: f64 = 1e-4;
-    /// The cube of such a step is rounding.
-    const EXACT: f64 = 1e-5;
+    /// The fourth power of such a step is rounding.
+    const EXACT: f64 = 4e-4;
     const ON_THE_WAY: f64 = 1e8;
     let mut angle = near_start(geometry, deviation);
     for _ in 0..STEPS {
@@ -103,8 +103,6 @@ pub(super) fn first_contact(geometry: &Geometry, deviation: f64) -> Result<f64, 
 /// ```
 /// where S2 to S5 are the derivatives of S at E, p0 to p3 below those of ρ1' and x1 to x4 those of χ.
 fn near_start(geometry: &Geometry, deviation: f64) -> f64 {
-    /// The third correction of a series that converges.
-    const SMALL: f64 = 1e-2;
     let Geometry { driver, driven, .. } = geometry;
     let (curvature, tangent) = (geometry.start + driven.edge, geometry.tangent_length);
     let bases = driver.base + driven.base;
@@ -133,36 +131,57 @@ fn near_start(geometry: &Geometry, deviation: f64) -> f64 {
     let first = -a1 * parabola;
     let second = (2.0 * a1 * a1 - a2) * parabola * parabola;
     let third = (5.0 * a1 * (a2 - a1 * a1) - a3) * parabola * parabola * parabola;
-    if third.abs() <= SMALL && second.abs() <= first.abs().max(SMALL) && first.abs() < 0.5 {
-        return (parabola * (1.0 + first + second + third)).min(LARGEST_ANGLE);
+    // As if the rest of the series were geometric: ρ1 has a branch point not far before E.
+    let rest = second / (1.0 - third / second);
+    if first.abs() < 0.2 && rest.abs() < first.abs() {
+        return (parabola * (1.0 + first + rest)).min(LARGEST_ANGLE);
     }
     parabola
         .min(angle_at_curvature(geometry, geometry.end))
         .min(LARGEST_ANGLE)
 }
 
-/// Step of ln u towards `S = deviation`, of third order, with the gap by quadrature where the terms
+/// Step of ln u towards `S = deviation`, of fourth order, with the gap by quadrature where the terms
 /// of its closed form outgrow their sum by more than the factor `loss`.
 ///
 /// # Formula
 /// ```text
-/// d ln S/d ln u = g = u S'/S,  d² ln S/d(ln u)² = g (1 + u S''/S' − g),  S'' = a sin χ (ρ1' + rb2')/rb1
+/// n = ln(Δ/S)/g,  step = n (1 − b n/2 + (2 b² + g b − q (1 + r − q)) n²/6)
+/// g = u S'/S,  q = u S''/S',  r = u S'''/S'',  b = 1 + q − g
+/// S'' = a sin χ χ',  S''' = a cos χ χ'² + a sin χ χ'',  χ' = ρ2/ρ1,  χ'' = (ρ1'' − S'')/rb1
+/// ρ1' = rb1 χ' − rb2',  ρ1 ρ1'' = a ra2 cos η − ρ1'²
 /// ```
+/// the power series of ln u in ln S.
 fn logarithmic_step(geometry: &Geometry, tip: &TipContact, deviation: f64, loss: f64) -> f64 {
-    /// Farther away the third order may lead astray.
+    /// Farther away the higher orders may lead astray.
     const NEAR: f64 = 0.1;
     let closed = gap_without(loss, geometry, tip);
-    let growth = tip.angle * tip.normal_radius_drop / closed;
+    let (angle, slope) = (tip.angle, tip.normal_radius_drop);
+    let growth = angle * slope / closed;
     let newton = logarithm((deviation - closed) / closed) / growth;
     if newton.abs() > NEAR {
         return newton;
     }
-    let edge = geometry.driven.edge;
+    let [second, third] = gap_derivatives(geometry, tip);
+    let (curved, bent) = (angle * second / slope, angle * third / second);
+    let off = 1.0 + curved - growth;
+    let square = (2.0 * off * off + growth * off - curved * (1.0 + bent - curved)) / 6.0;
+    newton * (1.0 - newton * (0.5 * off - newton * square))
+}
+
+/// S'' and S''' in m; of a rounded tip the lengths are those of the centre of its arc.
+fn gap_derivatives(geometry: &Geometry, tip: &TipContact) -> [f64; 2] {
+    let (base, edge) = (geometry.driver.base, geometry.driven.edge);
     let (curvature, length) = (tip.curvature_driver + edge, tip.normal_length_driven - edge);
-    // ρ₁' = r_b1 ρ₂/ρ₁ − r_b2' at every place of the tip, as at E.
-    let bend = (tip.curvature_driver + tip.normal_length_driven) * length / curvature;
-    let second = 1.0 + tip.angle * bend / tip.normal_radius_drop - growth;
-    newton - 0.5 * second * newton * newton
+    let (centre, radius) = (geometry.centre_distance, geometry.driven.tip - edge);
+    let inverse = curvature.recip();
+    let (bases, tangent) = (base + tip.normal_radius_driven, curvature + length);
+    let turn = length * inverse;
+    let second = tangent * turn;
+    let growth = base * turn - tip.normal_radius_driven;
+    let along = 0.5 * ((radius * radius - base * base) + (centre * centre - curvature * curvature));
+    let bend = ((along - growth * growth) * inverse - second) / base;
+    [second, bases * turn * turn + tangent * bend]
 }
 
 /// The angle u improved by Newton steps in double-double arithmetic, in which the closed form of
