@@ -85,7 +85,10 @@ impl Evaluator {
     ) -> Result<&Solution, Refusal> {
         let by = |solved: &Solved| solved.inputs.method == inputs.method;
         let last = self.solved.iter().position(by).and_then(|at| {
-            let Solved { inputs: before, solution } = &mut self.solved[at];
+            let Solved {
+                inputs: before,
+                solution,
+            } = &mut self.solved[at];
             Some((at, solve_repeated(before, solution, inputs, wanted)?))
         });
         match last {
@@ -104,6 +107,7 @@ mod tests {
     use super::*;
     use crate::case::Case;
     use crate::case::fields::index_of;
+    use crate::model::inputs::Drive;
     use crate::model::{QUANTITIES, Stage, solve};
 
     fn edited(key: &str, text: &str) -> Case {
@@ -185,6 +189,35 @@ mod tests {
         );
         let stations = ran(Method::Exact, "model.stations", "32");
         assert_eq!(stations, Stages::NONE.with(Stage::Stations));
+    }
+
+    /// The first speed leaves on the mesh how its pairs share a displacement.
+    #[test]
+    fn a_mesh_of_coupled_pairs_serves_another_speed_to_the_last_bit() {
+        let at = |speed: &str| {
+            let mut case = Case::table_1();
+            for (key, text) in [
+                ("model.tooth_compliance", "finite-element"),
+                ("operation.speed", speed),
+            ] {
+                case.write(index_of(key).unwrap(), text);
+            }
+            // One torque, and so one mesh.
+            Inputs {
+                drive: Drive::Torque(71.6),
+                method: Method::Dynamic,
+                ..case.inputs().unwrap()
+            }
+        };
+        let mut evaluator = Evaluator::default();
+        let wanted = Stages::of(Stage::Dynamic);
+        for speed in ["2000 rpm", "300 rpm", "9000 rpm"] {
+            let inputs = at(speed);
+            let kept = evaluator.solve_point(&inputs, wanted, &|_| true).unwrap();
+            assert_eq!(kept.ran.has(Stage::Mesh), speed == "2000 rpm");
+            let fresh = solve(&inputs, wanted).unwrap();
+            assert_eq!(kept.dynamic, fresh.dynamic, "{speed}");
+        }
     }
 
     #[test]

@@ -179,7 +179,10 @@ impl Mesh {
     /// zones, in m.
     fn way_of(&self, zones: &[usize]) -> (f64, f64) {
         let (from, to) = self.ends();
-        let none = (to - zones.len() as f64 * self.base_pitch, from + self.base_pitch);
+        let none = (
+            to - zones.len() as f64 * self.base_pitch,
+            from + self.base_pitch,
+        );
         let pairs = (0..).zip(zones);
         pairs.fold(none, |(from, to), (pair, &zone)| {
             let (zone, ahead) = (&self.zones[zone], f64::from(pair) * self.base_pitch);

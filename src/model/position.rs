@@ -1,24 +1,20 @@
 //! Where the driven tip first touches the driver's flank: D.
 
+mod search;
+
 use twofloat::TwoFloat;
 
 use super::geometry::{self, Geometry, PairShape};
 use super::inputs::{Inputs, Method};
 pub use super::tip_gap::{TipContact, gap, gap_by_quadrature, tip_at};
-use super::tip_gap::{angle_at_curvature, gap_without, largest_term};
+use super::tip_gap::{gap_without, largest_term};
 use super::{Deviation, Refusal};
-use crate::numeric::near::{exponential, logarithm};
 use crate::numeric::{Real, root};
-
-/// Half a turn and more never brings a tip back: no contact is sought beyond, in rad.
-const LARGEST_ANGLE: f64 = 1.5;
+pub(super) use search::first_contact;
+use search::{KEPT_DIGITS, LARGEST_ANGLE};
 
 /// In double-double arithmetic the gap in closed form may lose this factor of its digits.
 const LOST: f64 = 1e14;
-
-/// The gap in closed form may lose this factor of its digits, 5e-14 of u, before the quadrature,
-/// ten times as costly, serves.
-const KEPT_DIGITS: f64 = 512.0;
 
 /// How the first contact is searched for, apart from geometry and deviation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,132 +52,6 @@ pub struct Position {
     pub curvature_radius: f64,
     /// Gap that the tip has closed there, S(u), in m: Δ in the method `exact`, far less in `paper`.
     pub closed_gap: f64,
-}
-
-/// The angle u at which the tip has closed the gap Δ: `S(u) = Δ`.
-///
-/// Newton's method of fourth order on ln S against ln u, from [`near_start`], until a step with all
-/// digits of the gap.
-///
-/// # Errors
-/// [`Refusal::NoFirstContact`] where the steps do not settle: no turn of the gear would bridge such
-/// a deviation.
-pub(super) fn first_contact(geometry: &Geometry, deviation: f64) -> Result<f64, Refusal> {
-    const STEPS: usize = 60;
-    /// A last step with all digits follows a step as small as this.
-    const SETTLED: f64 = 1e-4;
-    /// The fourth power of such a step is rounding.
-    const EXACT: f64 = 4e-4;
-    const ON_THE_WAY: f64 = 1e8;
-    let mut angle = near_start(geometry, deviation);
-    for _ in 0..STEPS {
-        let tip = tip_at(geometry, angle);
-        let has_digits = largest_term(geometry, &tip) <= KEPT_DIGITS * gap(geometry, &tip);
-        let step = logarithmic_step(geometry, &tip, deviation, ON_THE_WAY);
-        if !step.is_finite() || angle > LARGEST_ANGLE {
-            break;
-        }
-        angle *= exponential(step.clamp(-2.0, 2.0));
-        if has_digits && step.abs() < EXACT {
-            return Ok(angle);
-        }
-        if step.abs() < SETTLED {
-            let tip = tip_at(geometry, angle);
-            return Ok(angle * exponential(logarithmic_step(geometry, &tip, deviation, KEPT_DIGITS)));
-        }
-    }
-    Err(Refusal::NoFirstContact { deviation })
-}
-
-/// An angle u near `S(u) = deviation`, in rad: by the reversed power series of S about E, or where
-/// that does not converge by its first term, but no further than the driver's tip.
-///
-/// # Formula
-/// ```text
-/// S = S2 u²/2 (1 + A u + B u² + C u³),  A = S3/(3 S2),  B = S4/(12 S2),  C = S5/(60 S2)
-/// ρ1 ρ1' = a ra2 sin η,  rb1 χ' = ρ1' + rb2',  S' = rb2 − rb2',  rb2' = a cos χ − rb1
-/// ```
-/// where S2 to S5 are the derivatives of S at E, p0 to p3 below those of ρ1' and x1 to x4 those of χ.
-fn near_start(geometry: &Geometry, deviation: f64) -> f64 {
-    let Geometry { driver, driven, .. } = geometry;
-    let (curvature, tangent) = (geometry.start + driven.edge, geometry.tangent_length);
-    let bases = driver.base + driven.base;
-    let square = geometry.centre_distance * geometry.centre_distance;
-    let inverse = curvature.recip();
-    let x1 = (driven.tip_curvature - driven.edge) * inverse;
-    let p0 = driver.base * x1 - driven.base;
-    let p1 = (square - driver.base * bases - curvature * tangent - p0 * p0) * inverse;
-    let p2 = -p0 - 3.0 * p0 * p1 * inverse;
-    let p3 = -p1 - 3.0 * (p1 * p1 + p0 * p2 - p0 * p0 * p1 * inverse) * inverse;
-    let per_base = driver.base.recip();
-    let s2 = tangent * x1;
-    let x2 = (p1 - s2) * per_base;
-    let s3 = bases * x1 * x1 + tangent * x2;
-    let x3 = (p2 - s3) * per_base;
-    let s4 = 3.0 * bases * x1 * x2 + tangent * (x3 - x1 * x1 * x1);
-    let x4 = (p3 - s4) * per_base;
-    let s5 = bases * (3.0 * x2 * x2 + 4.0 * x1 * x3 - x1 * x1 * x1 * x1)
-        + tangent * (x4 - 6.0 * x1 * x1 * x2);
-    let per_curve = s2.recip();
-    let (a, b, c) = (s3 * per_curve / 3.0, s4 * per_curve / 12.0, s5 * per_curve / 60.0);
-    // The root of the bracket, as 1 + a1 u + a2 u² + a3 u³.
-    let (a1, a2) = (0.5 * a, 0.5 * b - 0.125 * a * a);
-    let a3 = 0.5 * c - 0.25 * a * b + 0.0625 * a * a * a;
-    let parabola = (2.0 * deviation * per_curve).sqrt();
-    let first = -a1 * parabola;
-    let second = (2.0 * a1 * a1 - a2) * parabola * parabola;
-    let third = (5.0 * a1 * (a2 - a1 * a1) - a3) * parabola * parabola * parabola;
-    // As if the rest of the series were geometric: ρ1 has a branch point not far before E.
-    let rest = second / (1.0 - third / second);
-    if first.abs() < 0.2 && rest.abs() < first.abs() {
-        return (parabola * (1.0 + first + rest)).min(LARGEST_ANGLE);
-    }
-    parabola
-        .min(angle_at_curvature(geometry, geometry.end))
-        .min(LARGEST_ANGLE)
-}
-
-/// Step of ln u towards `S = deviation`, of fourth order, with the gap by quadrature where the terms
-/// of its closed form outgrow their sum by more than the factor `loss`.
-///
-/// # Formula
-/// ```text
-/// n = ln(Δ/S)/g,  step = n (1 − b n/2 + (2 b² + g b − q (1 + r − q)) n²/6)
-/// g = u S'/S,  q = u S''/S',  r = u S'''/S'',  b = 1 + q − g
-/// S'' = a sin χ χ',  S''' = a cos χ χ'² + a sin χ χ'',  χ' = ρ2/ρ1,  χ'' = (ρ1'' − S'')/rb1
-/// ρ1' = rb1 χ' − rb2',  ρ1 ρ1'' = a ra2 cos η − ρ1'²
-/// ```
-/// the power series of ln u in ln S.
-fn logarithmic_step(geometry: &Geometry, tip: &TipContact, deviation: f64, loss: f64) -> f64 {
-    /// Farther away the higher orders may lead astray.
-    const NEAR: f64 = 0.1;
-    let closed = gap_without(loss, geometry, tip);
-    let (angle, slope) = (tip.angle, tip.normal_radius_drop);
-    let growth = angle * slope / closed;
-    let newton = logarithm((deviation - closed) / closed) / growth;
-    if newton.abs() > NEAR {
-        return newton;
-    }
-    let [second, third] = gap_derivatives(geometry, tip);
-    let (curved, bent) = (angle * second / slope, angle * third / second);
-    let off = 1.0 + curved - growth;
-    let square = (2.0 * off * off + growth * off - curved * (1.0 + bent - curved)) / 6.0;
-    newton * (1.0 - newton * (0.5 * off - newton * square))
-}
-
-/// S'' and S''' in m; of a rounded tip the lengths are those of the centre of its arc.
-fn gap_derivatives(geometry: &Geometry, tip: &TipContact) -> [f64; 2] {
-    let (base, edge) = (geometry.driver.base, geometry.driven.edge);
-    let (curvature, length) = (tip.curvature_driver + edge, tip.normal_length_driven - edge);
-    let (centre, radius) = (geometry.centre_distance, geometry.driven.tip - edge);
-    let inverse = curvature.recip();
-    let (bases, tangent) = (base + tip.normal_radius_driven, curvature + length);
-    let turn = length * inverse;
-    let second = tangent * turn;
-    let growth = base * turn - tip.normal_radius_driven;
-    let along = 0.5 * ((radius * radius - base * base) + (centre * centre - curvature * curvature));
-    let bend = ((along - growth * growth) * inverse - second) / base;
-    [second, bases * turn * turn + tangent * bend]
 }
 
 /// The angle u improved by Newton steps in double-double arithmetic, in which the closed form of

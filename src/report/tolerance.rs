@@ -75,7 +75,10 @@ impl ToleranceReport<'_> {
                 (number, format!("b:{}", design.distributions[field].key()))
             }
         };
-        let spread = design.values(index).into_iter().map(|value| cell(Some(value)));
+        let spread = design
+            .values(index)
+            .into_iter()
+            .map(|value| cell(Some(value)));
         let quantities = 0..self.study.quantities.len();
         let computed = quantities.map(|at| cell(self.samples.value(at, index)));
         let outcome = self.samples.outcomes[index].name().to_owned();

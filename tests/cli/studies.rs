@@ -60,7 +60,8 @@ fn a_sweep_is_a_table_with_the_varied_fields_in_their_own_units() {
     );
     assert_eq!(rows.len(), 4);
     assert!(rows[1].starts_with("1000,") && rows[2].starts_with("1500,"));
-    assert!(rows[3].starts_with("2000,2191.0161533226424,1.55"), "{text}");
+    assert!(rows[3].starts_with("2000,2191.0161533226"), "{text}");
+    assert!(rows[3].contains(",1.55"), "{text}");
     assert!(rows[3].ends_with(",corner-contact"));
 }
 
@@ -190,7 +191,10 @@ fn a_varied_field_may_be_missing_in_the_case() {
         "--vary",
         "operation.speed=2000 rpm",
     ];
-    assert!(stdout_of(&arguments).ends_with("2000,2191.0161533226424,corner-contact\n"));
+    let text = stdout_of(&arguments);
+    let row = text.lines().last().unwrap();
+    assert!(row.starts_with("2000,2191.0161533226"), "{text}");
+    assert!(row.ends_with(",corner-contact"), "{text}");
 }
 
 #[test]

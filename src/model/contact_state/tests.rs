@@ -35,11 +35,15 @@ fn values_at_d_and_at_the_stations_are_the_solutions() {
             continue;
         };
         let moment = ContactState::at(&inputs, &solution, position.approach_angle_driver).unwrap();
-        assert_eq!(
-            (moment.opening, moment.radius_driver),
-            (0.0, position.contact.radius_driver)
-        );
-        assert_eq!(force(&moment), solution.impact.map(|impact| impact.force));
+        assert_eq!(moment.opening, 0.0);
+        // The angle of the driven gear comes back from that of the driver within rounding.
+        let same = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-14;
+        assert!(same(moment.radius_driver, position.contact.radius_driver));
+        let expected = solution.impact.map(|impact| impact.force);
+        assert_eq!(force(&moment).is_some(), expected.is_some());
+        if let Some((found, expected)) = force(&moment).zip(expected) {
+            assert!(same(found, expected), "{found} for {expected}");
+        }
         for station in &solution.stations {
             let moment = ContactState::at(&inputs, &solution, station.roll_angle_driver).unwrap();
             let close =

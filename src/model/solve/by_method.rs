@@ -11,8 +11,8 @@ use crate::model::request::{Earlier, Request};
 use crate::model::spacing::Spacing;
 use crate::model::stage::{Stage, Stages};
 use crate::model::{
-    Deviation, Geometry, Kept, Outcome, Position, Refusal, Solution, clearing, deviation,
-    friction, geometry, impact, load_sharing, position, stations, stiffness_spread, velocity,
+    Deviation, Geometry, Kept, Outcome, Position, Refusal, Solution, clearing, deviation, friction,
+    geometry, impact, load_sharing, position, stations, stiffness_spread, velocity,
 };
 use crate::numeric::Real;
 
@@ -67,11 +67,8 @@ impl<'a> Solving<'a> {
     pub(super) fn repeat(&self, solution: &mut Solution) -> Result<(), Refusal> {
         let inputs = self.asked.inputs;
         solution.mesh_force = inputs.torque() / solution.geometry.driver.base;
-        let deviation = deviation::deviation(
-            &inputs.deviation(),
-            &solution.geometry,
-            solution.mesh_force,
-        )?;
+        let deviation =
+            deviation::deviation(&inputs.deviation(), &solution.geometry, solution.mesh_force)?;
         solution.deviation = deviation.rounded();
         solution.kept.deviation = deviation;
         solution.outcome = outcome(&deviation);

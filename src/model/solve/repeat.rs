@@ -139,7 +139,7 @@ mod tests {
             backlash: 1e-6,
             ..inputs.clone()
         };
-        other.driven.bore_radius *= 1.1;
+        other.driven.density *= 1.1;
         let repeated = solve_repeated(&mut before, &mut solution, &other, Stages::CLOSED_FORM);
         assert_eq!(repeated, None);
         assert_eq!((before, solution), (inputs, kept));
