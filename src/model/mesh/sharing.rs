@@ -75,14 +75,16 @@ pub struct Shares {
     functions: Vec<Series<LANES>>,
 }
 
+/// Shows the compliances of all pairs at a place of the rearmost one.
+type AtPlace<'a> = &'a dyn Fn(f64, &mut dyn FnMut(&Compliances<'_>));
+
 impl Shares {
-    /// The shares of so many pairs while the rearmost goes from one of the `ends` to the other;
-    /// `compliances` shows those of all pairs at a place of the rearmost one.
+    /// The shares of so many pairs while the rearmost goes from one of the `ends` to the other.
     pub(super) fn of(
         pairs: usize,
         (from, to): (f64, f64),
         touching: Touching,
-        compliances: &dyn Fn(f64, &mut dyn FnMut(&Compliances<'_>)),
+        compliances: AtPlace<'_>,
     ) -> Shares {
         /// Of the size of a function.
         const REST: f64 = 1e-13;
@@ -132,6 +134,7 @@ impl Shares {
     }
 
     /// Where the functions end that serve from a place of the rearmost pair up.
+    #[must_use]
     pub fn serves_until(&self, (at, least): (f64, f64)) -> f64 {
         self.functions
             .first()
@@ -139,6 +142,7 @@ impl Shares {
     }
 
     /// All functions over the way from a place of the rearmost pair up by `length`.
+    #[must_use]
     pub fn along(&self, place: (f64, f64), length: f64) -> Vec<[Polynomial<TERMS>; LANES]> {
         let functions = self.functions.iter();
         functions
@@ -147,6 +151,7 @@ impl Shares {
     }
 
     /// The row of a pair among all functions: one for each touching pair.
+    #[must_use]
     pub fn row_along<'a>(
         &self,
         pair: usize,
@@ -157,6 +162,7 @@ impl Shares {
     }
 
     /// The same at one place of the rearmost pair.
+    #[must_use]
     pub fn row_at(&self, pair: usize, at: f64) -> Option<Vec<f64>> {
         let row = self.rows[pair]?;
         let function = |index: usize| self.functions[index / LANES].one(index % LANES, at);
