@@ -1,7 +1,8 @@
 //! What each stage reads of a case, beside the results of earlier stages.
 //!
 //! A kept result is valid while both are equal. No other bookkeeping decides what an edit, or a
-//! step of a study, computes again.
+//! step of a study, computes again; points of a study that differ in load and deviations alone
+//! repeat all stages after them, see `solve_repeated`.
 
 use super::deviation::DeviationInputs;
 use super::dynamic::Settings;
