@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use tipstrike::model::inputs::Method;
 use tipstrike::model::{Inputs, Refusal, Solution, Stages, auto, solve};
-use tipstrike::study::trade::{Answer, METHODS, Patience, Question, Subject, stages, trade};
+use tipstrike::study::trade::{Answer, METHODS, Subject, stages};
 
 /// What is good enough.
 const WITHINS: [f64; 4] = [0.01, 0.05, 0.2, 0.5];
@@ -43,24 +43,12 @@ fn counts(solution: &Solution) -> (f64, f64) {
 #[test]
 fn over_the_cases_it_takes_the_method_that_a_trade_recommends_at_its_cost() {
     let mut dearer = Vec::new();
-    let traded: Vec<_> = table::cases()
-        .into_iter()
-        .map(|path| {
-            let question = Question {
-                within: WITHINS[0],
-                patience: Patience::ONCE,
-            };
-            let inputs = by_choice(&table::inputs(&path), WITHINS[0]);
-            let trade = trade(&inputs, &question, &|| true, &mut |_| ()).expect("a trade");
-            (path, trade)
-        })
-        .collect();
-    for ((path, trade), within) in traded
-        .into_iter()
-        .flat_map(|one| WITHINS.map(|within| (one.clone(), within)))
+    let traded = table::cases().into_iter().zip(table::traded_once());
+    for ((path, (name, trade)), within) in
+        traded.flat_map(|one| WITHINS.map(|within| (one.clone(), within)))
     {
         let inputs = by_choice(&table::inputs(&path), within);
-        let mut trade = trade;
+        let mut trade = trade.clone();
         trade.within = within;
         trade.judge();
         // The compliance is that of the reference: no other one can be known to be near it before
@@ -76,10 +64,7 @@ fn over_the_cases_it_takes_the_method_that_a_trade_recommends_at_its_cost() {
             .expect("one qualifies");
         let recommended = best.setting.method;
         let chosen = solved(&inputs).expect("a solution");
-        let name = format!(
-            "{} within {within}",
-            path.file_stem().expect("a name").to_string_lossy()
-        );
+        let name = format!("{name} within {within}");
         let place = |method| METHODS.iter().position(|&one| one == method);
         assert!(
             place(chosen.method) >= place(recommended),

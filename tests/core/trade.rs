@@ -5,6 +5,7 @@
 use crate::table;
 
 use std::cell::Cell;
+use std::sync::LazyLock;
 
 use serde_json::Value;
 use tipstrike::case::Case;
@@ -28,6 +29,12 @@ fn traded(inputs: &Inputs, within: f64) -> Trade {
         patience: Patience::ONCE,
     };
     trade(inputs, &question, &|| true, &mut |_| ()).unwrap_or_else(|refusal| panic!("{refusal}"))
+}
+
+/// Table 1, traded once for all tests.
+fn traded_table_1() -> &'static Trade {
+    static TRADE: LazyLock<Trade> = LazyLock::new(|| traded(&table_1(), 0.05));
+    &TRADE
 }
 
 fn of<'a>(trade: &'a Trade, setting: &Setting) -> &'a Measured {
@@ -76,7 +83,7 @@ fn text(trade: &Trade) -> String {
 
 #[test]
 fn table_1_within_five_percent_needs_the_method_dynamic() {
-    let trade = traded(&table_1(), 0.05);
+    let trade = traded_table_1();
     let best = trade.recommended().expect("one qualifies");
     assert_eq!(best.setting.method, Method::Dynamic, "{}", best.setting);
     assert!(best.qualifies && best.total().unwrap() <= 0.05);
@@ -97,21 +104,20 @@ fn table_1_within_five_percent_needs_the_method_dynamic() {
 /// With the elastic field, whose pairs are coupled.
 #[test]
 fn two_ways_to_the_reference_agree() {
-    for path in table::cases() {
-        let inputs = table::inputs(&path);
-        let Ok(reference) = traded(&inputs, 0.05).reference else {
+    for (name, trade) in table::traded_once() {
+        let Ok(reference) = &trade.reference else {
             continue;
         };
         let models = reference.setting.models.expect("a compliance");
         assert_eq!(models.tooth.name, ToothCompliance::FINITE_ELEMENT.name());
         let off = greatest(&reference.disagreement.expect("a second way")).expect("a difference");
-        assert!(off < 1e-9, "{}: {off:e}", path.display());
+        assert!(off < 1e-9, "{name}: {off:e}");
     }
 }
 
 #[test]
 fn every_method_is_compared_with_every_compliance_of_the_pair() {
-    let trade = traded(&table_1(), 0.05);
+    let trade = traded_table_1();
     let reference = trade.reference.as_ref().unwrap();
     let compliances = trade.compliances();
     assert_eq!(
@@ -185,7 +191,7 @@ fn nothing_qualifies_within_what_no_setting_reaches() {
 
 #[test]
 fn no_setting_of_the_front_is_worse_than_another_in_both() {
-    let trade = traded(&table_1(), 0.05);
+    let trade = traded_table_1();
     let points: Vec<(f64, f64, bool)> = trade
         .settings
         .iter()
@@ -202,7 +208,7 @@ fn no_setting_of_the_front_is_worse_than_another_in_both() {
 
 #[test]
 fn errors_fall_with_stations_and_tolerance() {
-    let trade = traded(&table_1(), 0.05);
+    let trade = traded_table_1();
     for method in METHODS {
         let off = |stations| {
             numerical(
@@ -247,7 +253,7 @@ fn errors_fall_with_stations_and_tolerance() {
 
 #[test]
 fn what_a_method_has_not_does_not_count_and_what_it_needs_does() {
-    let trade = traded(&table_1(), 0.05);
+    let trade = traded_table_1();
     let is_fine = |measured: &&Measured| trade.model(&measured.setting).is_some();
     for measured in trade.settings.iter().filter(is_fine) {
         let figures = measured.found.as_ref().unwrap();
@@ -304,7 +310,7 @@ fn no_corner_contact_by_both_is_agreement() {
     let says = "No method finds corner contact: no setting is recommended.\n";
     assert!(text(&trade).ends_with(says), "{}", text(&trade));
     assert!(trade.recommended().is_none() && json(&trade).get("recommended").is_none());
-    assert!(!text(&traded(&table_1(), 0.05)).contains("No method finds"));
+    assert!(!text(&traded_table_1()).contains("No method finds"));
 }
 
 #[test]
@@ -366,7 +372,7 @@ fn a_trade_reports_its_progress_and_stops_on_request() {
 
 #[test]
 fn json_has_every_setting_with_its_errors() {
-    let trade = traded(&table_1(), 0.05);
+    let trade = traded_table_1();
     let object = json(&trade);
     assert_eq!(
         (&object["case"], &object["title"], &object["within"]),
@@ -414,7 +420,7 @@ fn json_has_every_setting_with_its_errors() {
 
 #[test]
 fn the_page_is_eighty_columns_wide() {
-    for line in text(&traded(&table_1(), 0.05)).lines() {
+    for line in text(&traded_table_1()).lines() {
         assert!(line.chars().count() <= 80, "{line}");
     }
 }
@@ -481,7 +487,7 @@ fn the_page_on_speed_has_the_stored_table() {
 
 #[test]
 fn stored_errors_hold_within_a_factor_of_two() {
-    let (stored, made) = (table::Table::stored(), table::Table::made(&Patience::ONCE));
+    let (stored, made) = (table::Table::stored(), table::Table::of(table::traded_once()));
     if std::env::var_os("TIPSTRIKE_REGENERATE").is_some() {
         made.keep_errors();
         table::write_docs();

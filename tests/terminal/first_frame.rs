@@ -52,8 +52,8 @@ fn the_first_frame_comes_within_two_and_a_half_times_vims() {
 
 #[test]
 fn a_headless_solve_is_soon_done() {
-    const PAIRS: usize = 15;
-    /// Of what it takes to start a program that does nothing; the promise is 10 ms.
+    const RUNS: usize = 25;
+    /// Times the start of a program that does nothing; the promise is 10 ms.
     const MOST: f64 = 10.0;
     let launch = Launch::on_table_1();
     let case = launch.case();
@@ -67,12 +67,14 @@ fn a_headless_solve_is_soon_done() {
         assert!(status.is_ok_and(|status| status.success()), "{program}");
         start.elapsed().as_secs_f64()
     };
-    let times: Vec<_> = (0..PAIRS)
-        .map(|_| (run(PROGRAM, &["solve"]), run("true", &[])))
-        .collect();
-    let ratio = median(times.iter().map(|(ours, nothing)| ours / nothing).collect());
-    let time = median(times.iter().map(|(ours, _)| ours * 1e3).collect());
-    println!("solve: median {time:.1} ms, {ratio:.1} times `true`");
+    // Other tests run beside this one: the least times are those of an undisturbed run.
+    let (mut solve, mut nothing) = (f64::INFINITY, f64::INFINITY);
+    for _ in 0..RUNS {
+        solve = solve.min(run(PROGRAM, &["solve"]));
+        nothing = nothing.min(run("true", &[]));
+    }
+    let ratio = solve / nothing;
+    println!("solve: {:.1} ms, {ratio:.1} times `true`", solve * 1e3);
     assert!(
         ratio <= MOST,
         "a solve takes {ratio:.1} times what a program takes that does nothing"

@@ -3,6 +3,7 @@
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 use tipstrike::case::file::Document;
 use tipstrike::model::Inputs;
@@ -73,7 +74,7 @@ fn path() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/trade/table.md")
 }
 
-/// The settings of every case that are the same in all of them.
+/// Every case and its trade, in the order of `cases`.
 pub(crate) fn trades(patience: &Patience) -> Vec<(String, Trade)> {
     let question = Question {
         within: 0.05,
@@ -94,11 +95,13 @@ pub(crate) fn trades(patience: &Patience) -> Vec<(String, Trade)> {
     cases().into_iter().map(made).collect()
 }
 
-impl Table {
-    pub(crate) fn made(patience: &Patience) -> Table {
-        Table::of(&trades(patience))
-    }
+/// Every case traded once, for all tests of a program; the times are those of a loaded machine.
+pub(crate) fn traded_once() -> &'static [(String, Trade)] {
+    static TRADES: LazyLock<Vec<(String, Trade)>> = LazyLock::new(|| trades(&Patience::ONCE));
+    &TRADES
+}
 
+impl Table {
     pub(crate) fn of(trades: &[(String, Trade)]) -> Table {
         Table(
             settings()

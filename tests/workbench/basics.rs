@@ -330,20 +330,16 @@ fn the_palette_finds_and_runs_every_command() {
 #[test]
 fn every_command_of_the_palette_works_on_every_screen() {
     for pane in Pane::ALL {
-        for index in 0..tipstrike::tui::testing::commands::commands().count() {
+        let number = pane.number().to_string();
+        let mut desk = Desk::new(SMALL);
+        desk.keys(&["Esc", &number, ":"]);
+        for command in listed(&desk) {
             let mut desk = Desk::new(SMALL);
-            desk.keys(&["Esc", &pane.number().to_string(), ":"]);
-            for _ in 0..index {
+            desk.keys(&["Esc", &number, ":", &command.name]);
+            let place = listed(&desk).iter().position(|one| *one == command);
+            for _ in 0..place.unwrap_or_else(|| panic!("{}", command.name)) {
                 desk.keys(&["Down"]);
             }
-            let command = listed(&desk).swap_remove(index);
-            let is_marked = desk.shows(&format!("▸ {} ", command.name));
-            assert!(
-                is_marked || command.name.len() > 14,
-                "{}\n{}",
-                command.name,
-                desk.screen()
-            );
             if !matches!(command.name.as_str(), "suspend" | "redraw") {
                 desk.keys(&["Enter"]);
             }
