@@ -487,7 +487,10 @@ fn the_page_on_speed_has_the_stored_table() {
 
 #[test]
 fn stored_errors_hold_within_a_factor_of_two() {
-    let (stored, made) = (table::Table::stored(), table::Table::of(table::traded_once()));
+    let (stored, made) = (
+        table::Table::stored(),
+        table::Table::of(table::traded_once()),
+    );
     if std::env::var_os("TIPSTRIKE_REGENERATE").is_some() {
         made.keep_errors();
         table::write_docs();
