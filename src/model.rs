@@ -160,8 +160,8 @@ pub struct Solution {
     pub dynamic: Option<Dynamic>,
     /// Mesh frequency and natural frequency.
     pub resonance: Option<Resonance>,
-    /// The transmission error at rest over the mesh period.
-    pub static_spectrum: Option<StaticSpectrum>,
+    /// The transmission error at rest of a pair without deviations, or why there is none.
+    pub static_spectrum: Option<Result<StaticSpectrum, Refusal>>,
     /// The steady motion of a pair without deviations, or why there is none.
     pub steady: Option<Result<Steady, Refusal>>,
     /// The least tip relief with which the tooth comes in on time.

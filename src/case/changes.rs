@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn a_label_tells_the_gear() {
+    fn a_label_names_the_gear() {
         assert_eq!(
             label("pair.module"),
             FIELDS[fields::index_of("pair.module").expect("a field")].label

@@ -94,7 +94,7 @@ fn the_ends_of_a_range_are_inside_in_any_unit() {
 }
 
 #[test]
-fn beyond_a_range_the_limit_is_told() {
+fn a_value_beyond_its_range_is_refused_with_the_limit() {
     for (key, text, cause) in [
         (
             "pair.module",

@@ -70,10 +70,15 @@ impl Inputs {
     #[must_use]
     pub fn elasticity(&self) -> Elasticity {
         let gear = |gear: &Gear| ElasticGear::of(self, gear);
+        let tooth = model_of(self);
         Elasticity {
-            tooth: model_of(self),
-            // A contact model that is not used is the same as any other.
-            contact: contact_of(self).unwrap_or(ContactCompliance::ALL[0]),
+            tooth,
+            // A tooth compliance that includes the contact needs no contact model.
+            contact: if tooth.model().has_contact {
+                ContactCompliance::ALL[0]
+            } else {
+                self.contact_compliance
+            },
             driver: gear(&self.driver),
             driven: gear(&self.driven),
             width: self.common_width(),

@@ -202,6 +202,13 @@ fn working_angle_rise<T: Real>(shape: &PairShape, alpha: T) -> Result<T, Refusal
 }
 
 impl Geometry {
+    /// Length of the path of contact on which one pair more is in contact, (ε − ⌈ε⌉ + 1) p_b, in m:
+    /// for 1 < ε < 2 the length of double contact at either end.
+    #[must_use]
+    pub fn shared_length(&self) -> f64 {
+        (self.contact_ratio - self.contact_ratio.ceil() + 1.0) * self.base_pitch
+    }
+
     /// Whether the differences that the pair stands on are so small that f64 loses digits in them:
     /// N₁E, the path of contact, EP, r_a − r_b, a − (r_b1 + r_b2), the wall between bore and base
     /// circle, and of rounded tips ε − 1.

@@ -21,10 +21,19 @@ struct Shared {
     static_load: Option<StaticLoad>,
     dynamic: Option<Dynamic>,
     resonance: Option<Resonance>,
-    static_spectrum: Option<StaticSpectrum>,
+    static_spectrum: Option<Result<StaticSpectrum, Refusal>>,
     steady: Option<Result<Steady, Refusal>>,
     ran: Stages,
 }
+
+/// The stages that are computed on a mesh.
+const ON_MESH: [Stage; 5] = [
+    Stage::Static,
+    Stage::Dynamic,
+    Stage::Resonance,
+    Stage::StaticSpectrum,
+    Stage::SteadyMotion,
+];
 
 /// Add to the solution what the wanted stages find. Whether the tooth strikes is then what the last
 /// of them says.
@@ -37,15 +46,8 @@ pub(super) fn share(
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<(), Refusal> {
     let shared = within_reach(solution, asked, go_on)?;
-    let own = [
-        Stage::Mesh,
-        Stage::Static,
-        Stage::Dynamic,
-        Stage::Resonance,
-        Stage::StaticSpectrum,
-        Stage::SteadyMotion,
-    ];
-    let present = own.into_iter().filter(|&stage| asked.wanted.has(stage));
+    let own = ON_MESH.into_iter().chain([Stage::Mesh]);
+    let present = own.filter(|&stage| asked.wanted.has(stage));
     solution.stages = present.fold(solution.stages, Stages::with);
     solution.ran = solution.ran.and(shared.ran);
     let static_angle = shared
@@ -117,15 +119,11 @@ fn within_reach(
 
 /// Whether every wanted result on the mesh is an earlier one.
 fn all_kept(asked: &Request<'_>) -> bool {
-    let own = [
-        Stage::Static,
-        Stage::Dynamic,
-        Stage::StaticSpectrum,
-        Stage::SteadyMotion,
-    ];
-    own.into_iter()
+    let mut wanted = ON_MESH
+        .into_iter()
         .filter(|&stage| asked.wanted.has(stage))
-        .all(|stage| asked.kept(stage).is_some())
+        .peekable();
+    wanted.peek().is_some() && wanted.all(|stage| asked.kept(stage).is_some())
 }
 
 /// Up to what gaps the mesh is computed at first, in m.
@@ -195,7 +193,7 @@ fn run(
     let static_spectrum = run.stage(
         Stage::StaticSpectrum,
         |earlier| earlier.static_spectrum,
-        || static_spectrum(mesh),
+        || late(mesh, static_spectrum(mesh)),
     )?;
     let steady = run.stage(
         Stage::SteadyMotion,
@@ -220,7 +218,13 @@ fn steady_motion(
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Result<Steady, Refusal>, Refusal> {
     let settings = settings.without_warmup();
-    match steady(mesh, &settings, None, &Meter::new(MOTION_WORK), go_on) {
+    let meter = Meter::new(MOTION_WORK);
+    late(mesh, steady(mesh, &settings, None, &meter, go_on))
+}
+
+/// The result of a stage that decides nothing: its refusal leaves the other results as they are.
+fn late<T>(mesh: &Mesh, found: Result<T, Refusal>) -> Result<Result<T, Refusal>, Refusal> {
+    match found {
         Err(Refusal::Stopped) => Err(Refusal::Stopped),
         Err(Refusal::BeyondReach) if !mesh.is_whole() => Err(Refusal::BeyondReach),
         found => Ok(found),

@@ -72,13 +72,11 @@ struct Ramp {
 impl Relief {
     /// The reliefs of the pair.
     ///
-    /// A relief whose length is not given reaches over the part of the path on which one pair more
-    /// is in contact, (ε − ⌈ε⌉ + 1) p_b: for 1 < ε < 2 to the start of single contact, the long
-    /// relief.
+    /// A relief whose length is not given reaches over [`Geometry::shared_length`]: for 1 < ε < 2 to
+    /// the start of single contact, the long relief.
     #[must_use]
     pub fn of(reliefs: &Reliefs, geometry: &Geometry) -> Relief {
-        let usual =
-            (geometry.contact_ratio - geometry.contact_ratio.ceil() + 1.0) * geometry.base_pitch;
+        let usual = geometry.shared_length();
         let ramps = |gear: &GearReliefs, tip: f64, root: f64| {
             let tip_length = gear.tip_length.unwrap_or(usual);
             let root_length = gear.root_length.unwrap_or(usual);

@@ -1,8 +1,8 @@
 //! How far the impact force depends on the choice of stiffness models.
 
 use super::compliance::contact::{self, ContactModel};
+use super::compliance::model_of;
 use super::compliance::tooth::{self, ToothModel};
-use super::compliance::{contact_of, model_of};
 use super::inputs::{ContactCompliance, Inputs, ToothCompliance};
 
 /// Least and greatest impact force over the stiffness models that cover the pair, in N.
@@ -34,10 +34,17 @@ impl StiffnessModels {
     /// The models of a pair: those of the case, else by range and method.
     #[must_use]
     pub fn of(inputs: &Inputs) -> StiffnessModels {
+        let tooth = model_of(inputs).model();
         StiffnessModels {
-            tooth: model_of(inputs).model(),
-            contact: contact_of(inputs).map(ContactCompliance::model),
+            tooth,
+            contact: (!tooth.has_contact).then(|| inputs.contact_compliance.model()),
         }
+    }
+
+    /// The models in range other than those of the case.
+    pub fn others(inputs: &Inputs) -> impl Iterator<Item = StiffnessModels> {
+        let own = StiffnessModels::of(inputs);
+        StiffnessModels::covering(inputs).filter(move |models| *models != own)
     }
 
     /// The models of a pair whose case names no tooth compliance.
@@ -109,7 +116,7 @@ impl StiffnessModels {
 /// case's own, the others by `solved`, which has none where a model gives no answer.
 #[must_use]
 pub fn band(inputs: &Inputs, force: f64, solved: impl Fn(&Inputs) -> Option<f64>) -> Band {
-    StiffnessModels::covering(inputs)
+    StiffnessModels::others(inputs)
         .filter_map(|models| solved(&models.in_place_of(inputs)))
         .fold(
             Band {

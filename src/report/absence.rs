@@ -47,6 +47,9 @@ impl Absence {
             (Stage::Static | Stage::Dynamic, _) if is_without => no_contact,
             (Stage::Static | Stage::Dynamic, _) => Absence::NotReached,
             (Stage::SteadyMotion, _) => not_steady(solution),
+            (Stage::StaticSpectrum, _) if let Some(Err(refusal)) = solution.static_spectrum => {
+                Absence::Withheld(refusal)
+            }
             (Stage::Clearing, _) if !is_without => cleared(solution),
             (_, Some(refusal)) => Absence::Withheld(refusal),
             _ if is_without => no_contact,

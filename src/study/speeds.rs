@@ -8,7 +8,7 @@ use crate::model::dynamic::steady::{Start, Steady, steady};
 use crate::model::inputs::{Drive, Method};
 use crate::model::mesh::Mesh;
 use crate::model::static_spectrum::static_spectrum;
-use crate::model::{Inputs, Refusal, Resonance, Solution, Stage, Stages, solve_while};
+use crate::model::{Inputs, Refusal, Resonance, Solution, Stage, Stages, solve};
 
 /// Number of speeds of a run.
 pub const SPEEDS: usize = 121;
@@ -102,7 +102,7 @@ pub fn speeds(
         drive: Drive::Torque(inputs.torque()),
         ..inputs.clone()
     };
-    let solution = solve_while(&inputs, Stages::of(Stage::Resonance), &|_| true)?;
+    let solution = solve(&inputs, Stages::of(Stage::Deviation))?;
     let mesh = Arc::new(wide_mesh(&inputs, &solution)?);
     let resonance = Resonance::of(&mesh, solution.reduced_mass);
     let at_resonance = inputs.speed / resonance.ratio();

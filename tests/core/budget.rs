@@ -476,7 +476,7 @@ fn a_motion_whose_steps_need_more_memory_than_a_solve_may_take_is_refused() {
     }
     let inputs = case.inputs().expect("a valid case");
     let outcome = taken("0.25 rpm", 0, &inputs).outcome;
-    assert_eq!(outcome, "refused: motion-too-long");
+    assert_eq!(outcome, "refused: motion-too-large");
     let refusal = solve(&inputs, Stages::of(Stage::Dynamic)).unwrap_err();
     assert_eq!(refusal.field(), "operation.speed");
     let fix = "give a higher speed, or set model.method to static";

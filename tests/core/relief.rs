@@ -54,7 +54,12 @@ fn clears(inputs: &Inputs, demand: &Demand, reliefs: &TipReliefs) -> bool {
 fn error(inputs: &Inputs, loads: &[f64], reliefs: &TipReliefs) -> f64 {
     let of = |&load: &f64| {
         let solution = solved(&with(inputs, reliefs, [0.0; 2], load));
-        solution.static_spectrum.unwrap().spectrum.peak_to_peak
+        solution
+            .static_spectrum
+            .unwrap()
+            .unwrap()
+            .spectrum
+            .peak_to_peak
     };
     loads.iter().map(of).fold(0.0, f64::max)
 }
@@ -165,6 +170,22 @@ fn a_relief_for_the_motion_has_no_corner_contact_in_motion() {
     let solution = solve(&worst, Stages::of(Stage::Dynamic)).unwrap();
     assert_eq!(solution.outcome, Outcome::NoCornerContact);
     assert!(solution.dynamic.unwrap().last_contact_angle.is_none());
+}
+
+#[test]
+fn where_auto_chooses_the_motion_the_relief_is_that_of_the_motion() {
+    let (_, zhou_chen) = &pairs()[1];
+    let by = |method| {
+        let inputs = Inputs {
+            method,
+            within: 0.05,
+            ..zhou_chen.clone()
+        };
+        specify(&inputs, &DEMAND, &|_| true)
+    };
+    let (chosen, motion) = (by(Method::Auto), by(Method::Dynamic));
+    assert_eq!(chosen, motion);
+    assert_eq!(motion.unwrap().method, Method::Dynamic);
 }
 
 #[test]

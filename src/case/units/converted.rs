@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn turns_and_degrees_are_told_in_si_too() {
+    fn rpm_and_degrees_are_shown_in_si_too() {
         let speed = |typed| metric(typed, Dimension::AngularVelocity, "rpm");
         assert_eq!(speed("2000 rpm").as_deref(), Some("= 209.44 rad/s"));
         assert_eq!(speed("2000 1/min").as_deref(), Some("= 209.44 rad/s"));
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn where_there_is_nothing_to_convert_nothing_is_told() {
+    fn a_value_in_its_usual_unit_gets_no_hint() {
         for (typed, dimension, usual) in [
             ("", Dimension::Length, "mm"),
             ("5", Dimension::Length, "mm"),
@@ -144,7 +144,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn what_is_told_is_the_value(number in -1e6f64..1e6, decimals in 0usize..9) {
+        fn the_hint_is_the_value(number in -1e6f64..1e6, decimals in 0usize..9) {
             let typed = format!("{number:.decimals$} in");
             let value = parse(&typed, Dimension::Length, "mm").unwrap();
             let text = metric(&typed, Dimension::Length, "mm").unwrap();

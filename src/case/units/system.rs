@@ -156,7 +156,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn the_units_are_scale_what_their_definitions_say() {
+    fn each_unit_has_the_factor_of_its_definition() {
         for (unit, si) in [
             ("in", 25.4e-3),
             ("thou", 25.4e-6),
@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn no_value_is_told_in_more_places_than_it_has_digits() {
+    fn no_value_is_shown_with_more_places_than_it_has_digits() {
         let text = |value, metric, digits, system| {
             let (number, unit) = shown(value, metric, digits, system);
             format!("{number} {unit}").trim_end().to_owned()

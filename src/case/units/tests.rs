@@ -85,7 +85,7 @@ fn other_units_are_right_to_the_last_place() {
 }
 
 #[test]
-fn what_is_no_value_is_refused_with_its_mend() {
+fn invalid_values_are_refused_with_a_fix() {
     for (text, cause, fix) in [
         ("", "value is missing", "\"20 mm\""),
         ("5", "has no unit", "\"5 mm\""),

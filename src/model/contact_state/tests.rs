@@ -127,12 +127,11 @@ fn the_load_at_an_angle_is_that_of_the_stations() {
             before.opening > 0.0 && before.interpolated.is_none() && !before.touches(),
             "{before:?}"
         );
-        let stations = solution.dynamic.map_or_else(
-            || solution.static_load.clone().unwrap().stations,
-            |run| run.stations,
+        let stations = solution.dynamic.as_ref().map_or_else(
+            || &solution.static_load.as_ref().unwrap().stations,
+            |run| &run.stations,
         );
-        let solution = solve(&inputs, Stages::EVERY).unwrap();
-        for station in &stations {
+        for station in stations {
             let moment = ContactState::at(&inputs, &solution, station.roll_angle_driver).unwrap();
             let load = *moment
                 .interpolated

@@ -188,7 +188,7 @@ impl Refusal {
                 "give a greater damping ratio or another speed",
             ),
             Refusal::MotionTooLarge { .. } => (
-                "motion-too-long",
+                "motion-too-large",
                 "operation.speed",
                 "give a higher speed, or set model.method to static: at this speed the pairs share the load nearly as at rest",
             ),

@@ -1,8 +1,9 @@
 //! Notes on the geometry of the pair.
 
 use super::{Note, four};
+use crate::model::compliance::model_of;
 use crate::model::geometry::Circles;
-use crate::model::inputs::Gear;
+use crate::model::inputs::{Gear, Method};
 use crate::model::profile::{Profile, Rack};
 use crate::model::{Inputs, Solution};
 
@@ -11,9 +12,13 @@ const MILLI: f64 = 1e3;
 /// More than two pairs carry the load.
 pub(super) fn contact_ratio_above_two(inputs: &Inputs, solution: &Solution) -> Option<Note> {
     let ratio = solution.geometry.contact_ratio;
-    let done = match inputs.deflection {
-        Some(_) => "the case gives the deflection",
-        None => "the pairs ahead of the incoming pair share the load as parallel springs",
+    let is_coupled = inputs.method != Method::Paper && model_of(inputs).model().has_coupling;
+    let done = match (inputs.deflection_taken(), is_coupled) {
+        (Some(_), _) => "the case gives the deflection",
+        (None, true) => {
+            "the pairs ahead of the incoming pair share the load and displace each other"
+        }
+        (None, false) => "the pairs ahead of the incoming pair share the load as parallel springs",
     };
     let message = || {
         format!(

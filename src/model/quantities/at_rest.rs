@@ -116,8 +116,8 @@ pub(super) const TABLE: &[Quantity] = &[
         meaning: "The peak force on the incoming tooth at rest from its first contact to its \
             last. In single-tooth contact it carries the whole mesh force.",
         formula: Found(
-            "the largest F_k of the tooth from its first contact to its last, F_k = b/q max(0, x \
-                + e - S) with Σ w_k F_k = F_0",
+            "the largest F_k of the tooth from its first contact to its last, F_k >= 0 with x + e_k \
+                - S_k = Σ_j Q_kj F_j/b where F_k > 0, and Σ w_k F_k = F_0",
             SHARED,
         ),
         source: BALANCE,
@@ -331,7 +331,7 @@ pub(super) const STEPS: &[Step] = &[
         "S_st",
         "gap S(u) between tip and flank at the first contact",
         "um",
-        Words("as S(u) on the page of closed_gap, at u_stt"),
+        Words("as S(u) on the page of closed_gap, at u_st"),
         gap_at_first,
     ),
     step(

@@ -200,7 +200,7 @@ pub(super) const TABLE: &[Quantity] = &[
 
 /// The least or the greatest of the force of the case and the forces of all models in range.
 fn over_models(k: &Context, choice: &str) -> String {
-    let forces = StiffnessModels::covering(k.inputs)
+    let forces = StiffnessModels::others(k.inputs)
         .filter(|models| spread_force(k.inputs, models).is_some())
         .map(|models| models.symbol());
     let all: Vec<String> = std::iter::once("F_S".to_owned()).chain(forces).collect();

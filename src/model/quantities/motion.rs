@@ -8,14 +8,16 @@ use crate::model::explanation::{Check, Step, step};
 
 const IN_MOTION: &str = "One mass m_red moves on the springs and gaps of all pairs, with damping \
     while a pair is in contact. Shafts are rigid, and the load is steady. Only the incoming pair \
-    has a deviation, e = Δf_0.";
+    has a deviation, e = Δf_0. With finite-element compliance the force on a pair displaces the \
+    pairs up to two pitches away.";
 const MOTION: &str = "Oscillator of gear dynamics with backlash, Özgüven & Houser 1988, m x'' + \
-    ΣF = F0, with the gap S(u) of the tips off the line of action. Integration by Taylor series \
+    c x' + ΣF = F0, with the gap S(u) of the tips off the line of action. Integration by Taylor series \
     from contact event to contact event.";
 const CHECKS: &[Check] = &[checks::teeth, checks::forgotten, checks::contact_kept];
 const BY_MOTION: Formula = Found(
-    "taken from the motion m_red x'' + c x' + Σ w_k F_k = F_0, F_k = b/q max(0, x + e - S), which \
-        starts at the static balance model.warmup_cycles base pitches before E",
+    "taken from the motion m_red x'' + c x' + Σ w_k F_k = F_0, F_k >= 0 with x + e_k - S_k = Σ_j \
+        Q_kj F_j/b where F_k > 0, which starts at the static balance model.warmup_cycles base pitches \
+        before E",
     &["m_red", "c", "f_n", "f_z"],
 );
 

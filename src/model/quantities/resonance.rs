@@ -58,7 +58,7 @@ pub(super) const TABLE: &[Quantity] = &[
         equation: "ISO 6336-1",
         stage: Resonance,
         value: |s| Some(s.resonance?.ratio()),
-        meaning: "The mesh frequency over the natural frequency. The pair is in resonance at N = 1, and its second and third mesh harmonics are at N = 1/2 and 1/3. ISO 6336-1 calls N < 0.85 subcritical and N > 1.15 supercritical.",
+        meaning: "The mesh frequency over the natural frequency. The pair is in resonance at N = 1, and its second and third mesh harmonics are at N = 1/2 and 1/3. ISO 6336-1 calls N up to 0.85 subcritical (from 100 N per mm of width on), up to 1.15 the main resonance, up to 1.5 intermediate, and above it supercritical.",
         formula: Text("f_z/f_n"),
         source: ISO,
         corrections: &[],
@@ -93,7 +93,7 @@ fn subcritical(k: &Context) -> Option<Finding> {
     const RESONANCE: f64 = 0.85;
     let ratio = k.solution.resonance?.ratio();
     Finding::new(
-        "N <= 0.85: below the main resonance",
+        "N <= 0.85: below the main resonance of ISO 6336-1, at 100 N/mm and more",
         format!("N = {}", four(ratio)),
         ratio <= RESONANCE,
     )

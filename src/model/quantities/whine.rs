@@ -7,6 +7,7 @@ use crate::model::Stage::{StaticSpectrum, SteadyMotion};
 use crate::model::dynamic::steady::Steady;
 use crate::model::explanation::Formula::{self, Found};
 use crate::model::explanation::{Check, Context, Finding};
+use crate::model::static_spectrum;
 
 const AT_REST: &str = "All pairs share the mesh force at rest. No pair has a deviation, so the \
     transmission error repeats with every base pitch; the reliefs of all pairs count.";
@@ -42,7 +43,7 @@ macro_rules! at_rest {
             digits: 4,
             equation: concat!("2 |c_", $order, "|"),
             stage: StaticSpectrum,
-            value: |s| Some(s.static_spectrum?.spectrum.amplitudes[$order - 1]),
+            value: |s| Some(at_rest(s)?.spectrum.amplitudes[$order - 1]),
             meaning: concat!(
                 "The amplitude of the ",
                 $word,
@@ -114,7 +115,7 @@ pub(super) const TABLE: &[Quantity] = &[
         digits: 5,
         equation: "max x − min x",
         stage: StaticSpectrum,
-        value: |s| Some(s.static_spectrum?.spectrum.peak_to_peak),
+        value: |s| Some(at_rest(s)?.spectrum.peak_to_peak),
         meaning: "The difference between the largest and the smallest transmission error over one base pitch at rest, of a pair in which no tooth deviates: the static excitation of whine.",
         formula: PERIODIC_AT_REST,
         source: SPECTRUM,
@@ -181,7 +182,7 @@ pub(super) const TABLE: &[Quantity] = &[
         digits: 5,
         equation: "max F/max F_st",
         stage: SteadyMotion,
-        value: |s| Some(steady(s)?.tooth_force / s.static_spectrum?.tooth_force),
+        value: |s| Some(steady(s)?.tooth_force / at_rest(s)?.tooth_force),
         meaning: "The greatest force on a tooth in the steady motion over its greatest force at rest, without deviations. ISO 6336-1 estimates this ratio by K_v, with deviations.",
         formula: Found("max F_k in the steady motion over max F_k at rest", STEADY),
         source: MOTION,
@@ -209,6 +210,10 @@ pub(super) const TABLE: &[Quantity] = &[
         variants: &[],
     },
 ];
+
+fn at_rest(solution: &Solution) -> Option<&static_spectrum::StaticSpectrum> {
+    solution.static_spectrum.as_ref()?.as_ref().ok()
+}
 
 fn steady(solution: &Solution) -> Option<&Steady> {
     solution.steady.as_ref()?.as_ref().ok()

@@ -46,13 +46,14 @@ pub fn spectrum(cases: &[Drawn]) -> Option<String> {
 /// The spectra of a case: at rest and, where the motion is steady, in motion; of a case among others
 /// the last of them alone.
 fn spectra(case: &Drawn) -> Vec<(String, Spectrum)> {
-    let has_mesh = |report: &&Report| report.solution.static_spectrum.is_some();
+    let has_mesh = |report: &&Report| matches!(report.solution.static_spectrum, Some(Ok(_)));
     let Some(report) = case.reports.iter().find(has_mesh) else {
         return Vec::new();
     };
     let solution = &report.solution;
     let at_rest = solution
         .static_spectrum
+        .and_then(Result::ok)
         .map(|found| ("at rest", found.spectrum));
     let moving = in_motion(solution).map(|spectrum| ("in steady motion", spectrum));
     if case.name.is_empty() {

@@ -70,7 +70,10 @@ impl Bench {
             geometry: solution.geometry,
             reliefs: bare.reliefs(),
             tolerance: demand.tolerance,
-            costs: [loads.iter().map(cost).sum(), 4 * cost(&corners)],
+            costs: [
+                loads.iter().map(cost).sum(),
+                tolerances(demand.tolerance).len() as u64 * cost(&corners),
+            ],
             loads,
             corners,
         })
@@ -111,9 +114,9 @@ impl Bench {
     }
 
     fn overlap_of(&self, reliefs: &TipReliefs, corners: &Loaded) -> f64 {
-        let worst =
-            tolerances(self.tolerance).map(|off| corners.overlap(&self.relief(reliefs, off)));
-        worst.into_iter().fold(f64::NEG_INFINITY, f64::max)
+        let ways = tolerances(self.tolerance).into_iter();
+        let overlaps = ways.map(|off| corners.overlap(&self.relief(reliefs, off)));
+        overlaps.fold(f64::NEG_INFINITY, f64::max)
     }
 
     fn relief(&self, reliefs: &TipReliefs, off: [f64; 2]) -> Relief {
@@ -122,10 +125,13 @@ impl Bench {
 }
 
 /// The ways in which both reliefs may be off.
-pub(super) fn tolerances(tolerance: f64) -> [[f64; 2]; 4] {
+pub(super) fn tolerances(tolerance: f64) -> Vec<[f64; 2]> {
     let both = [-tolerance, tolerance];
-    let of = |at: usize| [both[at % 2], both[at / 2]];
-    [of(0), of(1), of(2), of(3)]
+    let ends = &both[..if tolerance > 0.0 { 2 } else { 1 }];
+    let pairs = ends
+        .iter()
+        .flat_map(|&one| ends.iter().map(move |&other| [one, other]));
+    pairs.collect()
 }
 
 /// The reliefs with other tip reliefs, off by so much.

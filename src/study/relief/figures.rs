@@ -1,12 +1,14 @@
 //! The figures of a relief by whole solves: transmission error at each load, gaps at the corners,
 //! the greatest load.
 
+use std::cell::Cell;
+
 use super::bench::{Bench, tolerances};
 use super::search::Grid;
 use super::{Choice, Demand, NoRelief, TipReliefs};
 use crate::model::inputs::{Drive, Gear};
 use crate::model::static_load::{lead_after_end, lead_before_start};
-use crate::model::{Inputs, Refusal, Solution, Stage, Stages, solve};
+use crate::model::{Inputs, Refusal, Solution, Stage, Stages, solve_while};
 
 /// Steps of amount by which a relief grows where a whole solve finds an overlap.
 const GROWTHS: [i32; 12] = [0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48];
@@ -39,19 +41,21 @@ pub(super) struct Figures<'a> {
     pub(super) inputs: &'a Inputs,
     /// The same by method `dynamic`, where that governs.
     pub(super) motion: Option<&'a Inputs>,
+    /// The case under the greatest load of the demand, and its solution.
+    pub(super) at_most: (&'a Inputs, &'a Solution),
     pub(super) demand: &'a Demand,
     pub(super) loads: &'a [f64],
     pub(super) grid: &'a Grid,
     pub(super) go_on: &'a dyn Fn(f64) -> bool,
+    /// The progress so far.
+    pub(super) part: Cell<f64>,
 }
 
 impl Figures<'_> {
     /// The reliefs that the case has.
     pub(super) fn present(&self) -> Result<Choice, NoRelief> {
         let inputs = self.inputs;
-        let geometry = solve(inputs, Stages::of(Stage::Geometry))?.geometry;
-        let usual =
-            (geometry.contact_ratio - geometry.contact_ratio.ceil() + 1.0) * geometry.base_pitch;
+        let usual = self.at_most.1.geometry.shared_length();
         let length = |gear: &Gear| gear.tip_relief_length.unwrap_or(usual);
         self.choice(
             "as the case has it",
@@ -69,30 +73,30 @@ impl Figures<'_> {
         name: &'static str,
         reliefs: TipReliefs,
     ) -> Result<Choice, NoRelief> {
-        let mut most = reliefs;
+        let (mut greatest, mut overlap) = (reliefs, f64::INFINITY);
         for steps in GROWTHS {
             let Some(greater) = self.grid.greater(&reliefs, steps) else {
                 break;
             };
-            most = greater;
-            if self.overlap(&greater)? <= 0.0 && !self.strikes_in_motion(&greater)? {
+            (greatest, overlap) = (greater, self.overlap(&greater)?);
+            if overlap <= 0.0 && !self.strikes_in_motion(&greater)? {
                 return self.choice(name, greater);
             }
         }
-        let most = most.amounts[0].max(most.amounts[1]);
-        if self.motion.is_some() {
-            return Err(NoRelief::InMotion { most });
-        }
-        let overlap = self.overlap(&reliefs)?;
-        Err(NoRelief::Beyond { most, overlap })
+        let most = greatest.amounts[0].max(greatest.amounts[1]);
+        Err(if overlap > 0.0 {
+            NoRelief::Beyond { most, overlap }
+        } else {
+            NoRelief::InMotion { most }
+        })
     }
 
     fn choice(&self, name: &'static str, reliefs: TipReliefs) -> Result<Choice, NoRelief> {
         let errors = self.loads.iter().map(|&part| {
             let inputs = relieved(&loaded(self.inputs, part), &reliefs, [0.0; 2]);
             let solution = self.solve(&inputs, Stage::StaticSpectrum)?;
-            let spectrum = solution.static_spectrum.map(|found| found.spectrum);
-            Ok(spectrum.map_or(0.0, |spectrum| spectrum.peak_to_peak))
+            let found = solution.static_spectrum.transpose()?;
+            Ok(found.map_or(0.0, |found| found.spectrum.peak_to_peak))
         });
         Ok(Choice {
             name,
@@ -104,10 +108,9 @@ impl Figures<'_> {
 
     /// By how much the teeth overlap at the greatest load with the tolerance on its bad side, in m.
     fn overlap(&self, reliefs: &TipReliefs) -> Result<f64, NoRelief> {
-        let inputs = loaded(self.inputs, self.demand.loads.1);
         let mut worst = f64::NEG_INFINITY;
         for off in tolerances(self.demand.tolerance) {
-            let solution = self.solve(&relieved(&inputs, reliefs, off), Stage::Static)?;
+            let solution = self.solve(&relieved(self.at_most.0, reliefs, off), Stage::Static)?;
             if let Some(mesh) = &solution.mesh {
                 let leads = [lead_before_start(mesh)?, lead_after_end(mesh)?];
                 worst = leads.into_iter().fold(worst, f64::max);
@@ -135,10 +138,9 @@ impl Figures<'_> {
     }
 
     fn solve(&self, inputs: &Inputs, stage: Stage) -> Result<Solution, NoRelief> {
-        if !(self.go_on)(1.0) {
-            return Err(NoRelief::Refused(Refusal::Stopped));
-        }
-        Ok(solve(inputs, Stages::of(stage))?)
+        Ok(solve_while(inputs, Stages::of(stage), &|_| {
+            (self.go_on)(self.part.get())
+        })?)
     }
 
     /// The greatest load at which nothing overlaps, over that of the case; three times the greatest of
@@ -151,11 +153,9 @@ impl Figures<'_> {
         const MOST: f64 = 3.0;
         const CLOSE: f64 = 1e-3;
         let greatest = self.demand.loads.1;
-        let inputs = loaded(self.inputs, greatest);
-        let solution = solve(&inputs, Stages::of(Stage::Static))?;
+        let force = self.at_most.1.mesh_force;
         let clears = |times: f64| {
-            let force = times * solution.mesh_force;
-            let overlap = bench.overlap_under(reliefs, (&inputs, &solution), force)?;
+            let overlap = bench.overlap_under(reliefs, self.at_most, times * force)?;
             Ok::<bool, NoRelief>(overlap <= 0.0)
         };
         let (mut low, mut high) = (1.0, MOST);
@@ -163,7 +163,7 @@ impl Figures<'_> {
             return Ok(greatest * high);
         }
         while high - low > CLOSE {
-            if !(self.go_on)(1.0) {
+            if !(self.go_on)(self.part.get()) {
                 return Err(NoRelief::Refused(Refusal::Stopped));
             }
             let middle = f64::midpoint(low, high);

@@ -12,12 +12,11 @@ use crate::model::inputs::ReliefShape;
 /// A relief in whole steps: amounts on driver and driven gear, then lengths.
 type Steps = [i32; 4];
 
-/// The names of the kinds: each with its shape and whether both gears have the same relief.
-const KINDS: [(&str, ReliefShape, bool); 4] = [
-    ("parabolic, both alike", ReliefShape::Parabolic, true),
-    ("linear, both alike", ReliefShape::Linear, true),
-    ("parabolic", ReliefShape::Parabolic, false),
-    ("linear", ReliefShape::Linear, false),
+/// The kinds of relief in the order of the answer: the shape, its name, and its name where both gears
+/// have the same relief.
+const KINDS: [(ReliefShape, &str, &str); 2] = [
+    (ReliefShape::Linear, "linear", "linear, both alike"),
+    (ReliefShape::Parabolic, "parabolic", "parabolic, both alike"),
 ];
 
 /// Lengths at which the search begins, in parts of the longest.
@@ -83,10 +82,10 @@ impl Grid {
     }
 }
 
-/// What a relief is worth: the overlap where it does not clear, else the transmission error; less is
-/// better.
+/// What a relief costs: the transmission error, or the overlap if it does not clear. Any overlap costs
+/// more than any error.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
-enum Worth {
+enum Cost {
     Error(f64),
     Overlap(f64),
 }
@@ -97,9 +96,7 @@ pub(super) struct Search<'a> {
     grid: &'a Grid,
     meter: &'a Meter,
     go_on: &'a dyn Fn(f64) -> bool,
-    known: RefCell<HashMap<(bool, Steps), Worth>>,
-    /// The best reliefs that are alike on both gears.
-    alike: RefCell<Vec<(ReliefShape, (Steps, Worth))>>,
+    known: RefCell<HashMap<(bool, Steps), Cost>>,
     tries: Cell<u64>,
 }
 
@@ -116,7 +113,6 @@ impl<'a> Search<'a> {
             meter,
             go_on,
             known: RefCell::default(),
-            alike: RefCell::default(),
             tries: Cell::default(),
         }
     }
@@ -131,18 +127,21 @@ impl<'a> Search<'a> {
     /// # Errors
     /// Where no kind has one, and where the user stopped.
     pub(super) fn best_of_each_kind(&self) -> Result<Vec<(&'static str, TipReliefs)>, NoRelief> {
-        let mut found = Vec::new();
-        for (name, shape, is_alike) in KINDS {
-            if let Some(steps) = self.best(shape, is_alike)? {
-                found.push((name, self.grid.reliefs(shape, steps)));
-            }
+        let (mut own, mut alike) = (Vec::new(), Vec::new());
+        for (shape, name, name_alike) in KINDS {
+            let best_alike = self.best(shape, true, None)?;
+            let best = self.best(shape, false, best_alike)?;
+            let named = |name, best: Option<(Steps, Cost)>| {
+                best.map(|(steps, _)| (name, self.grid.reliefs(shape, steps)))
+            };
+            own.extend(named(name, best));
+            alike.extend(named(name_alike, best_alike));
         }
-        // The kinds that are not alike began at the best that are.
-        found.reverse();
-        if found.is_empty() {
+        own.append(&mut alike);
+        if own.is_empty() {
             return Err(self.none());
         }
-        Ok(found)
+        Ok(own)
     }
 
     /// Why no relief clears.
@@ -165,7 +164,13 @@ impl<'a> Search<'a> {
         }
     }
 
-    fn best(&self, shape: ReliefShape, is_alike: bool) -> Result<Option<Steps>, NoRelief> {
+    /// The best relief of a kind; `start` is followed besides those that are sampled.
+    fn best(
+        &self,
+        shape: ReliefShape,
+        is_alike: bool,
+        start: Option<(Steps, Cost)>,
+    ) -> Result<Option<(Steps, Cost)>, NoRelief> {
         let mut starts = self.starts(shape, is_alike)?;
         starts.sort_by(|one, other| {
             one.1
@@ -173,35 +178,22 @@ impl<'a> Search<'a> {
                 .unwrap_or(std::cmp::Ordering::Equal)
         });
         starts.truncate(FOLLOWED);
-        starts.extend(
-            self.alike
-                .borrow()
-                .iter()
-                .filter(|start| start.0 == shape)
-                .map(|start| start.1),
-        );
-        let mut best: Option<(Steps, Worth)> = None;
-        for (start, worth) in starts {
-            let found = self.followed(shape, is_alike, (start, worth))?;
+        let mut best: Option<(Steps, Cost)> = None;
+        for start in starts.into_iter().chain(start) {
+            let found = self.followed(shape, is_alike, start)?;
             if best.is_none_or(|best| found.1 < best.1) {
                 best = Some(found);
             }
         }
-        let best = best.filter(|(_, worth)| matches!(worth, Worth::Error(_)));
-        if is_alike {
-            self.alike
-                .borrow_mut()
-                .extend(best.map(|best| (shape, best)));
-        }
-        Ok(best.map(|(steps, _)| steps))
+        Ok(best.filter(|(_, cost)| matches!(cost, Cost::Error(_))))
     }
 
     /// Reliefs of several lengths with the least amounts that clear, and with greater ones.
-    fn starts(&self, shape: ReliefShape, is_alike: bool) -> Result<Vec<(Steps, Worth)>, NoRelief> {
+    fn starts(&self, shape: ReliefShape, is_alike: bool) -> Result<Vec<(Steps, Cost)>, NoRelief> {
         let grid = self.grid;
         let (least, most) = (f64::from(grid.least_length), f64::from(grid.most_length));
         let length = |part: f64| (part * most).round().max(least) as i32;
-        let mut starts: Vec<(Steps, Worth)> = Vec::new();
+        let mut starts: Vec<(Steps, Cost)> = Vec::new();
         for one in PARTS {
             for other in PARTS {
                 if is_alike && one.to_bits() != other.to_bits() {
@@ -218,7 +210,7 @@ impl<'a> Search<'a> {
                         lengths[1],
                     ];
                     if starts.iter().all(|(known, _)| *known != steps) {
-                        starts.push((steps, self.worth(shape, steps)?));
+                        starts.push((steps, self.cost(shape, steps)?));
                     }
                 }
             }
@@ -239,7 +231,7 @@ impl<'a> Search<'a> {
                 lengths[0],
                 lengths[1],
             ];
-            Ok::<bool, NoRelief>(matches!(self.worth(shape, steps)?, Worth::Error(_)))
+            Ok::<bool, NoRelief>(matches!(self.cost(shape, steps)?, Cost::Error(_)))
         };
         let greatest = most[0].max(most[1]);
         let stride = (greatest / STRIDES).max(1);
@@ -266,10 +258,10 @@ impl<'a> Search<'a> {
         &self,
         shape: ReliefShape,
         is_alike: bool,
-        start: (Steps, Worth),
-    ) -> Result<(Steps, Worth), NoRelief> {
+        start: (Steps, Cost),
+    ) -> Result<(Steps, Cost), NoRelief> {
         let directions = directions(is_alike);
-        let (mut at, mut worth) = start;
+        let (mut at, mut cost) = start;
         let mut stride = STRIDE;
         while stride > 0 {
             let mut better = None;
@@ -278,21 +270,21 @@ impl<'a> Search<'a> {
                 if !self.grid.has(next) {
                     continue;
                 }
-                let found = self.worth(shape, next)?;
-                if found < better.map_or(worth, |(_, best)| best) {
+                let found = self.cost(shape, next)?;
+                if found < better.map_or(cost, |(_, best)| best) {
                     better = Some((next, found));
                 }
             }
             match better {
-                Some(found) => (at, worth) = found,
+                Some(found) => (at, cost) = found,
                 None => stride /= 2,
             }
         }
-        Ok((at, worth))
+        Ok((at, cost))
     }
 
-    /// What a relief is worth. Once the budget is spent nothing is better than what is known.
-    fn worth(&self, shape: ReliefShape, steps: Steps) -> Result<Worth, NoRelief> {
+    /// The cost of a relief. Once the budget is spent, an unknown relief costs an infinite overlap.
+    fn cost(&self, shape: ReliefShape, steps: Steps) -> Result<Cost, NoRelief> {
         let key = (shape == ReliefShape::Linear, steps);
         if let Some(&known) = self.known.borrow().get(&key) {
             return Ok(known);
@@ -301,20 +293,20 @@ impl<'a> Search<'a> {
             return Err(NoRelief::Refused(Refusal::Stopped));
         }
         if !self.meter.spend(0) {
-            return Ok(Worth::Overlap(f64::INFINITY));
+            return Ok(Cost::Overlap(f64::INFINITY));
         }
         self.tries.set(self.tries.get() + 1);
         let (reliefs, [errors, corners]) = (self.grid.reliefs(shape, steps), self.bench.costs());
         self.meter.spend(corners);
         let overlap = self.bench.overlap(&reliefs);
-        let worth = if overlap > 0.0 {
-            Worth::Overlap(overlap)
+        let cost = if overlap > 0.0 {
+            Cost::Overlap(overlap)
         } else {
             self.meter.spend(errors);
-            Worth::Error(self.error(&reliefs))
+            Cost::Error(self.error(&reliefs))
         };
-        self.known.borrow_mut().insert(key, worth);
-        Ok(worth)
+        self.known.borrow_mut().insert(key, cost);
+        Ok(cost)
     }
 
     /// The greatest transmission error over the loads, and a thousandth of their mean, which decides

@@ -57,7 +57,12 @@ pub(super) fn compare(
     let length = geometry.end - geometry.start;
     let last = points.max(super::LEAST_POINTS) - 1;
     let at = |step: usize| {
-        let way = length * step as f64 / last as f64;
+        // The last place is B itself, where rounding must not lose the pair.
+        let way = if step == last {
+            length
+        } else {
+            length * step as f64 / last as f64
+        };
         PathPoint {
             way,
             pair: meshes.iter().map(|mesh| mesh.as_ref()?.pair(way)).collect(),
@@ -167,6 +172,20 @@ mod tests {
     use super::*;
     use crate::model::geometry::geometry;
     use crate::model::sample::standard_pair;
+
+    #[test]
+    fn the_pair_at_the_end_of_the_path_carries_for_any_number_of_points() {
+        let inputs = standard_pair(17, 19, 5e-3);
+        let geometry = geometry::<f64>(&inputs.shape()).unwrap();
+        let last = |points| {
+            let found = compare(&inputs, &geometry, 2e3, points);
+            found.points.last().unwrap().clone()
+        };
+        let expected = last(9);
+        for points in 10..=60 {
+            assert_eq!(last(points), expected, "{points} points");
+        }
+    }
 
     #[test]
     fn a_mesh_is_stiffer_than_a_pair_and_neighbours_make_it_softer_than_the_sum() {
