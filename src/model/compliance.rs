@@ -252,16 +252,3 @@ impl<'a> Teeth<'a> {
         Ok(self.at(place)?.sum() + contact)
     }
 }
-
-/// Compliance of a pair at one place under a given force, in m²/N.
-///
-/// # Errors
-/// A [`Refusal`] outside the range of the model.
-pub fn pair_at_load(
-    elasticity: &Elasticity,
-    geometry: &Geometry,
-    place: &ContactPlace,
-    force: f64,
-) -> Result<f64, Refusal> {
-    Teeth::of(elasticity, geometry)?.pair_at_load(place, force)
-}

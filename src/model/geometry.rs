@@ -202,6 +202,12 @@ fn working_angle_rise<T: Real>(shape: &PairShape, alpha: T) -> Result<T, Refusal
 }
 
 impl Geometry {
+    /// Mesh force F₀ at a torque on the driver in N m: T₁/r_b1, in N.
+    #[must_use]
+    pub fn mesh_force(&self, torque: f64) -> f64 {
+        torque / self.driver.base
+    }
+
     /// Length of the path of contact on which one pair more is in contact, (ε − ⌈ε⌉ + 1) p_b, in m:
     /// for 1 < ε < 2 the length of double contact at either end.
     #[must_use]

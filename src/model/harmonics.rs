@@ -7,7 +7,8 @@ use crate::numeric::quadrature;
 /// Harmonics of the mesh frequency that a spectrum has.
 pub const HARMONICS: usize = 10;
 
-/// A transmission error over the mesh period.
+/// A transmission error over p mesh periods (p = 1 unless the motion repeats after several): amplitudes
+/// of the multiples of the mesh frequency, averaged over the periods. Subharmonics are left out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spectrum {
     /// Amplitudes of the harmonics of the mesh frequency, the first one first, in m.
@@ -62,7 +63,7 @@ impl Fourier {
     }
 
     /// Notes a value that the function takes.
-    pub(super) fn reach(&mut self, value: f64) {
+    pub(super) fn include(&mut self, value: f64) {
         (self.least, self.most) = (self.least.min(value), self.most.max(value));
     }
 

@@ -59,7 +59,7 @@ pub struct Balance {
     pub total: f64,
 }
 
-/// What ends the way of the displacement up from the first touch.
+/// Where the search upwards from the first touch stops.
 #[derive(Debug, Clone, Copy)]
 enum Until {
     /// The forces that turn the driver add up to this, in N.
@@ -180,8 +180,8 @@ impl PairSet {
         displacement - gap - self.pushed(index, &forces)
     }
 
-    /// For each pair, x less gap and couplings, in m, if just these pairs touch: above 0 a touching
-    /// pair pushes, and a pair apart would overlap.
+    /// For each pair the overlap x − gap − Σ Q_kj F_j, in m, if just these pairs touch: above 0 a
+    /// touching pair presses, and a pair that does not touch would overlap.
     #[must_use]
     pub fn leads(&self, touching: Touching, displacement: f64) -> Vec<f64> {
         let gap = |index: usize| self.pairs[index].place.gap;
@@ -326,7 +326,7 @@ impl PairSet {
         Some(Lines { touching, forces })
     }
 
-    /// Slope and offset of x less gap and couplings of a pair apart.
+    /// The overlap x − gap − Σ Q_kj F_j of a pair that does not touch, as slope and offset over x.
     fn apart(&self, own: &[f64], lines: &Lines, index: usize) -> [f64; 2] {
         let [slope, offset] = self
             .compliances(own)

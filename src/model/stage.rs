@@ -90,7 +90,7 @@ impl Stage {
         }
     }
 
-    /// The stages whose results this one reads.
+    /// The stages whose results this stage or its quantities read.
     pub(super) const fn reads(self) -> Stages {
         let geometry = Stages::NONE.with(Stage::Geometry);
         let pair = geometry.with(Stage::Masses);
@@ -100,11 +100,13 @@ impl Stage {
             Stage::Deviation => geometry.with(Stage::Load),
             Stage::Mesh => geometry.with(Stage::Load).with(Stage::Deviation),
             Stage::Static | Stage::StaticSpectrum => Stages::NONE.with(Stage::Mesh),
+            // The explanations show the natural frequency.
             Stage::Dynamic => Stages::NONE
                 .with(Stage::Mesh)
                 .with(Stage::Masses)
                 .with(Stage::Resonance),
             Stage::Resonance => Stages::NONE.with(Stage::Mesh).with(Stage::Masses),
+            // A quantity divides by the force at rest.
             Stage::SteadyMotion => Stages::NONE
                 .with(Stage::Mesh)
                 .with(Stage::Masses)

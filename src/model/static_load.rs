@@ -164,7 +164,7 @@ pub fn lead_after_end(mesh: &Mesh) -> Result<f64, Refusal> {
     }
 }
 
-/// The places at which the pairs are looked at for it.
+/// Work of [`lead_before_start`]: its places times the pairs at each.
 #[must_use]
 pub fn places_before_start(mesh: &Mesh) -> u64 {
     let (from, _) = mesh.ends();

@@ -50,7 +50,7 @@ pub fn static_spectrum(mesh: &Mesh) -> Result<StaticSpectrum, Refusal> {
             fourier.add((from / pitch, to / pitch), |part| ahead(place(part)));
             for sign in [-1.0, 1.0] {
                 let (_, most) = peak((from, to), |s| sign * ahead(s));
-                fourier.reach(sign * most);
+                fourier.include(sign * most);
             }
             let force = |s: f64| {
                 let forces = mesh.pair_set(s, inside).shared(mesh.force).1;

@@ -13,14 +13,16 @@ use crate::model::{Inputs, Refusal, Resonance, Solution, Stage, Stages, solve};
 /// Number of speeds of a run.
 pub const SPEEDS: usize = 121;
 
-/// From this resonance ratio,
+/// Least resonance ratio of the curve.
 const FROM: f64 = 0.1;
-/// to this one or to so many times the present one.
+/// Greatest resonance ratio of the curve, if that of the case is well below.
 const TO: f64 = 1.6;
+/// Else the greatest ratio is that of the case times this.
 const BEYOND_PRESENT: f64 = 1.15;
 
-/// Work of one speed, and of all of them.
+/// Work of one speed.
 const WORK_OF_SPEED: u64 = 60_000;
+/// Work of all speeds.
 const WORK: u64 = 5_000_000;
 
 /// A factor of the run down that differs by more than this from the run up is another motion.
@@ -31,7 +33,7 @@ const SAME: f64 = 1e-3;
 pub struct AtSpeed {
     /// Speed of the driver, in rad/s.
     pub speed: f64,
-    /// N.
+    /// Resonance ratio N = f_z/f_n.
     pub ratio: f64,
     /// Greatest force of a tooth over that at rest.
     pub tooth_factor: f64,
@@ -185,12 +187,12 @@ impl Runs<'_> {
                 return Ok(None);
             }
         };
-        let found = self.worded(speed, &steady);
+        let found = self.at_speed(speed, &steady);
         *last = Some(steady.start);
         Ok(Some(found))
     }
 
-    fn worded(&self, speed: f64, steady: &Steady) -> AtSpeed {
+    fn at_speed(&self, speed: f64, steady: &Steady) -> AtSpeed {
         AtSpeed {
             speed,
             ratio: speed / self.resonance,

@@ -95,12 +95,10 @@ pub struct FieldPoint {
 /// # Errors
 /// The refusals of the geometry, and [`Refusal::BoreTooLarge`].
 pub fn compare(inputs: &Inputs, points: usize) -> Result<Comparison, Refusal> {
-    let geometry = geometry::<f64>(&inputs.shape())?;
-    Masses::of(&inputs.bodies(), &geometry)?;
+    let (geometry, mesh_force) = loaded(inputs)?;
     let elasticity = inputs.elasticity();
     let pitch_point = geometry.start + geometry.approach_length;
     let place = ContactPlace::on_line_of_action(&geometry, pitch_point);
-    let mesh_force = inputs.torque() / geometry.driver.base;
     let contact_half_width = contact::half_width(&elasticity, &place, mesh_force);
     let models: Vec<_> = ToothCompliance::ALL
         .into_iter()
@@ -121,10 +119,17 @@ pub fn compare(inputs: &Inputs, points: usize) -> Result<Comparison, Refusal> {
 /// # Errors
 /// Those of [`compare`].
 pub fn compare_path(inputs: &Inputs, points: usize) -> Result<PathComparison, Refusal> {
-    let geometry = geometry::<f64>(&inputs.shape())?;
-    Masses::of(&inputs.bodies(), &geometry)?;
-    let mesh_force = inputs.torque() / geometry.driver.base;
+    let (geometry, mesh_force) = loaded(inputs)?;
     Ok(path::compare(inputs, &geometry, mesh_force, points))
+}
+
+/// Geometry and mesh force of the pair, in N.
+fn loaded(inputs: &Inputs) -> Result<(Geometry, f64), Refusal> {
+    let geometry = geometry::<f64>(&inputs.shape())?;
+    // Refuses a bore that leaves no body.
+    Masses::of(&inputs.bodies(), &geometry)?;
+    let mesh_force = geometry.mesh_force(inputs.torque());
+    Ok((geometry, mesh_force))
 }
 
 /// One gear of the pair.

@@ -33,7 +33,7 @@ pub struct Question {
 
 const NO_DIFFERENCES: Differences = [None; Subject::ALL.len()];
 
-/// The answers that the others are held against, with their curves: they are needed while it is
+/// The answers with which the others are compared, with their curves: they are needed while it is
 /// measured, and no longer.
 struct Standards {
     truth: Option<Arc<Answer>>,

@@ -4,7 +4,7 @@ use crate::support;
 use support::standard_pair;
 use tipstrike::model::Inputs;
 use tipstrike::model::compliance::tooth::beam;
-use tipstrike::model::compliance::{ContactPlace, pair_at_load};
+use tipstrike::model::compliance::{ContactPlace, Teeth};
 use tipstrike::model::geometry::{Geometry, geometry};
 use tipstrike::model::inputs::{ContactCompliance, Gear, ToothCompliance};
 
@@ -69,13 +69,10 @@ pub(crate) fn stiffness(
     };
     let geometry = geometry(&inputs.shape()).expect("a meshing pair");
     let place = ContactPlace::on_line_of_action(&geometry, along(&geometry));
-    1e-9 / pair_at_load(
-        &inputs.elasticity(),
-        &geometry,
-        &place,
-        LINE_LOAD * inputs.common_width(),
-    )
-    .expect("a compliance")
+    let elasticity = inputs.elasticity();
+    let teeth = Teeth::of(&elasticity, &geometry).expect("teeth");
+    let compliance = teeth.pair_at_load(&place, LINE_LOAD * inputs.common_width());
+    1e-9 / compliance.expect("a compliance")
 }
 
 pub(crate) fn at_pitch(geometry: &Geometry) -> f64 {

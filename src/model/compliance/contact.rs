@@ -234,7 +234,7 @@ listed!(ContactCompliance, ContactModel);
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::compliance::pair_at_load;
+    use crate::model::compliance::Teeth;
     use crate::model::geometry::geometry;
     use crate::model::sample::standard_pair;
 
@@ -271,7 +271,9 @@ mod tests {
             radius_driven: pair.driven.tip,
             curvature_radius: inputs.module,
         };
-        let refused = pair_at_load(&inputs.elasticity(), &pair, &beyond, 100.0);
+        let elasticity = inputs.elasticity();
+        let teeth = Teeth::of(&elasticity, &pair).unwrap();
+        let refused = teeth.pair_at_load(&beyond, 100.0);
         assert!(
             matches!(refused, Err(Refusal::PointedTip { .. })),
             "{refused:?}"

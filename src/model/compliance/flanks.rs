@@ -135,7 +135,7 @@ impl Flanks {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::compliance::pair_at_load;
+    use crate::model::compliance::Teeth;
     use crate::model::geometry::geometry;
     use crate::model::inputs::{Inputs, ToothCompliance};
     use crate::model::sample::standard_pair;
@@ -150,6 +150,7 @@ mod tests {
             let geometry = geometry::<f64>(&inputs.shape()).unwrap();
             let elasticity = inputs.elasticity();
             let flanks = Flanks::new(&elasticity, &geometry).unwrap();
+            let teeth = Teeth::of(&elasticity, &geometry).unwrap();
             for step in 0..=40 {
                 let along =
                     geometry.start + (geometry.end - geometry.start) * f64::from(step) / 40.0;
@@ -158,7 +159,7 @@ mod tests {
                 let found = flanks
                     .pair_at_load(&elasticity, &geometry, &place, arms, 1000.0)
                     .unwrap();
-                let expected = pair_at_load(&elasticity, &geometry, &place, 1000.0).unwrap();
+                let expected = teeth.pair_at_load(&place, 1000.0).unwrap();
                 assert!(
                     (found / expected - 1.0).abs() < 1e-12,
                     "{model:?} at {step}: {found} {expected}"

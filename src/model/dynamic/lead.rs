@@ -16,7 +16,8 @@ pub(super) type Along = Polynomial<{ chebyshev::TERMS }>;
 /// The product of two polynomials of the mesh.
 pub(super) type Product = Polynomial<{ 2 * chebyshev::TERMS }>;
 
-/// What keeps its sign until a pair touches or leaves.
+/// By how much a pair presses (if it touches) or would overlap (if it does not): the sign changes
+/// where the pair touches or leaves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[expect(
     clippy::large_enum_variant,

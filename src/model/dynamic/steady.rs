@@ -270,7 +270,7 @@ impl<'a> Seen<'a> {
         let ends = (step.t / self.period, step.end() / self.period);
         self.fourier.add(ends, |part| step.ahead.at(part));
         for value in extremes(&step.ahead) {
-            self.fourier.reach(value);
+            self.fourier.include(value);
             self.ahead = self.ahead.max(value);
         }
         self.contact_lost |= touching.is_none();

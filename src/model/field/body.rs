@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 /// Displacement of all teeth along the line of action from the body's twist about its clamped
-/// bore, for Young's modulus 1.
+/// bore, dimensionless: per force and face width, times Young's modulus. Radii in m.
 ///
 /// # Formula
 /// ```text
@@ -12,19 +12,28 @@ use std::f64::consts::PI;
 ///
 /// # Source
 /// A ring under shear at its rim (Timoshenko & Goodier, "Theory of Elasticity").
+///
+/// # Valid for
+/// 0 < r_h < r_f.
 #[must_use]
 pub fn twist(base: f64, root: f64, bore: f64, poisson: f64) -> f64 {
     base * base * (1.0 + poisson) / (2.0 * PI) * (root - bore) * (root + bore)
         / (bore * root * bore * root)
 }
 
-/// Displacement of the body along the net force for each unit of ln(r_f/r_h), for Young's modulus
-/// 1.
+/// Displacement of the body along the net force for each unit of ln(r_f/r_h), dimensionless: per force
+/// and face width, times Young's modulus.
 ///
 /// # Formula
 /// ```text
 /// (3 − 4ν)(1 + ν)/(4π (1 − ν))
 /// ```
+///
+/// # Source
+/// A line load in plane strain (Kelvin's solution, Timoshenko & Goodier, "Theory of Elasticity").
+///
+/// # Valid for
+/// 0 <= ν < 1/2.
 #[must_use]
 pub fn shift(poisson: f64) -> f64 {
     (3.0 - 4.0 * poisson) * (1.0 + poisson) / (4.0 * PI * (1.0 - poisson))

@@ -153,7 +153,7 @@ pub enum Refusal {
         /// (r_x − r)/((1 + x) m).
         height: f64,
     },
-    /// No tooth is left where the load stands.
+    /// No tooth is left at the load point.
     #[error("pointed tip: the tooth's thickness at the load point is {:.4} mm and must be above 0", .thickness / MILLIMETRE)]
     PointedTip {
         /// Thickness, in m.
@@ -167,7 +167,7 @@ pub enum Refusal {
         /// x.
         shift: f64,
     },
-    /// The load stands on the fillet, which is no involute.
+    /// The load point is on the fillet, which is no involute.
     #[error("the flank ends above the contact: O1D is {:.4} mm and the form circle {:.4} mm", .radius / MILLIMETRE, .form / MILLIMETRE)]
     BelowFormCircle {
         /// Radius of the load point, in m.
@@ -197,7 +197,7 @@ pub enum Refusal {
         "the pairs have no load shares: a force would displace neighbouring teeth further than its own"
     )]
     IndefiniteCompliance,
-    /// Friction alone would hold the gears.
+    /// Friction alone locks the gears.
     #[error(
         "the friction locks the gears: the coefficient is {friction} and must be below {limit:.4}, r_b1 over the greatest arm"
     )]
@@ -280,7 +280,7 @@ pub enum Refusal {
         /// The most that was tried, in m.
         most: f64,
     },
-    /// Whoever asked does not want the answer any more.
+    /// The user stopped the solve.
     #[error("stopped before the end")]
     Stopped,
     /// Eq. 55 leaves its range.

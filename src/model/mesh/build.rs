@@ -18,8 +18,7 @@ use crate::numeric::quadrature;
 type Neighbour<'a> = &'a dyn Fn(&ContactPlace, &ContactPlace, i32) -> Result<f64, Refusal>;
 
 impl Mesh {
-    /// The mesh as far on both sides of the path of contact as gaps of up to `reach` stand there,
-    /// in m.
+    /// The mesh up to where the gaps before E and after B exceed `reach`, in m.
     ///
     /// # Formula
     /// ```text
@@ -169,7 +168,7 @@ impl Mesh {
         Ok(mesh.with_mean_stiffness())
     }
 
-    /// The same mesh if the force on a pair displaced no other.
+    /// The same mesh without coupling: the force on a pair displaces no other pair.
     #[must_use]
     pub fn uncoupled(&self) -> Mesh {
         let alone = Mesh {

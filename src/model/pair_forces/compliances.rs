@@ -26,7 +26,7 @@ impl Compliances<'_> {
         }
     }
 
-    /// The matrix of the touching pairs, which comes first, and factored; `None` if it is not
+    /// The factors of the matrix of the touching pairs; `None` if it is not
     /// positive definite.
     #[must_use]
     pub fn among(&self, touching: &[usize]) -> Option<Banded> {

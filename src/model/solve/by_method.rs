@@ -144,7 +144,7 @@ impl Solving<'_> {
             earlier.mesh_force
         } else {
             ran = ran.with(Stage::Load);
-            let force = inputs.torque() / geometry.driver.base;
+            let force = geometry.mesh_force(inputs.torque());
             self.asked
                 .note(Stage::Load, |s| s.mesh_force.to_bits() == force.to_bits());
             force

@@ -19,7 +19,7 @@ pub struct Trade {
     pub settings: Vec<Measured>,
     /// How much of the measurement is done, from 0 to 1.
     pub part: f64,
-    /// What they are held against, or why there is nothing.
+    /// The reference, or why there is none.
     pub reference: Result<Reference, Refusal>,
     /// The best setting of each method and compliance whose fineness varies, against the
     /// reference: what its physics leaves out.
@@ -167,9 +167,8 @@ impl Trade {
         self.cheapest = self.find_cheapest();
     }
 
-    /// The cheapest setting that qualifies of the methods among which `auto` chooses: what that
-    /// takes is one of the others, and `paper` is the print, which says no more than `exact` even
-    /// where nothing strikes. Of those whose times do not differ measurably, the most accurate.
+    /// The cheapest setting that qualifies among the methods from which `auto` chooses. `auto` itself
+    /// takes one of these, and `paper` repeats `exact`. Of settings whose times tie, the most accurate.
     fn find_cheapest(&self) -> Option<usize> {
         let best = self.cheapest_where(|_| true)?;
         self.settings

@@ -117,7 +117,7 @@ mod tests {
             (
                 "pair.module",
                 "",
-                "a required value is missing: write 5 mm, for example",
+                "neither module nor diametral pitch is given: write 5 mm, for example",
             ),
             (
                 "driver.teeth",

@@ -278,12 +278,13 @@ impl Foundation {
 ///
 /// # Formula
 /// ```text
-/// q_f E = (1 − ν²) (cos² a1 (L (u/S)² + M (u/S) + P (1 + Q tan² a1)) − q_T),
-/// X = A/θ² + B h² + C h/θ + D/θ + E h + F,   q_T = r_b² (1 + ν)/(2π) (1/r_h² − 1/r_f²)
+/// q_f E = (1 − ν²) (cos² a1 (L (u/S)² + M (u/S) + P (1 + Q tan² a1)) − q_T) − q_V,
+/// X = A/θ² + B h² + C h/θ + D/θ + E h + F,   q_T = r_b² (1 + ν)/(2π) (1/r_h² − 1/r_f²),
+/// q_V = (3 − 4ν)(1 + ν)/(4π (1 − ν)) ln h without a bore, else 0
 /// ```
-/// where q_T is the twist of the body about its bore, which belongs to the shaft, u is the distance along the centre line from the root circle to the line of force, S = 2 θ
-/// r_f the thickness at the root, θ half of the tooth's angle there and h = r_f/r_bore. Without a
-/// bore the shift of the body c ln h is left out as well.
+/// q_T is the twist of the body about its bore, which belongs to the shaft, and q_V the shift of the
+/// body. u is the distance from the root circle to the line of force along the centre line. S = 2 θ r_f
+/// is the thickness at the root, θ half of the tooth's angle there, and h = r_f/r_bore.
 ///
 /// # Source
 /// Sainsot, Velex & Duverger 2004, J. Mech. Des. 126(4), 748-752, in plane stress.
