@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use tipstrike::case::Case;
-use tipstrike::model::compliance::{ContactPlace, pair_at_load};
+use tipstrike::model::compliance::{ContactPlace, Teeth};
 use tipstrike::model::geometry::geometry;
 use tipstrike::model::inputs::{ContactCompliance, Method, ToothCompliance};
 use tipstrike::model::{Inputs, Stage, Stages, solve};
@@ -98,7 +98,8 @@ fn compliance(criterion: &mut Criterion) {
             let place = ContactPlace::on_line_of_action(&geometry, geometry.start);
             group.bench_function(format!("{}, {}", model.name(), contact.name()), |bencher| {
                 bencher.iter(|| {
-                    pair_at_load(black_box(&inputs.elasticity()), &geometry, &place, 1500.0)
+                    let elasticity = black_box(&inputs).elasticity();
+                    Teeth::of(&elasticity, &geometry)?.pair_at_load(&place, 1500.0)
                 });
             });
         }

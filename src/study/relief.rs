@@ -283,7 +283,7 @@ pub fn specify(
             Ok(choice) => choices.push(choice),
             // Another kind of relief may still clear.
             Err(none @ (NoRelief::Beyond { .. } | NoRelief::InMotion { .. })) => {
-                beyond = Some(none)
+                beyond = Some(none);
             }
             Err(none) => return Err(none),
         }

@@ -95,9 +95,9 @@ fn table_1_within_five_percent_needs_the_method_dynamic() {
         assert!(dynamic || !measured.qualifies, "{}", measured.setting);
     }
     assert!(
-        text(&trade).contains("\nWithin 5.0 %: dynamic with"),
+        text(trade).contains("\nWithin 5.0 %: dynamic with"),
         "{}",
-        text(&trade)
+        text(trade)
     );
 }
 
@@ -140,7 +140,7 @@ fn every_method_is_compared_with_every_compliance_of_the_pair() {
     }
     let build = trade.build.expect("both gears have a field");
     assert!(build.driver > 0.0 && build.driven > 0.0);
-    let (text, json) = (text(&trade), json(&trade));
+    let (text, json) = (text(trade), json(trade));
     assert!(text.contains("> kuang-yang logarithmic"), "{text}");
     assert!(text.contains("are built once per gear"), "{text}");
     assert_eq!(json["reference"]["tooth_compliance"], "finite-element");
@@ -213,7 +213,7 @@ fn errors_fall_with_stations_and_tolerance() {
         let off = |stations| {
             numerical(
                 of(
-                    &trade,
+                    trade,
                     &Setting {
                         stations: Some(stations),
                         ..Setting::usual(method, &table_1())
@@ -237,7 +237,7 @@ fn errors_fall_with_stations_and_tolerance() {
             tolerance: Some(tolerance),
             ..Setting::usual(Method::Dynamic, &table_1())
         };
-        numerical(of(&trade, &setting), Subject::PeakApproachForce)
+        numerical(of(trade, &setting), Subject::PeakApproachForce)
     };
     // A coarse one may by chance be as good as a finer one: its steps end at the same borders.
     for exponent in 3..=10 {
@@ -310,7 +310,7 @@ fn no_corner_contact_by_both_is_agreement() {
     let says = "No method finds corner contact: no setting is recommended.\n";
     assert!(text(&trade).ends_with(says), "{}", text(&trade));
     assert!(trade.recommended().is_none() && json(&trade).get("recommended").is_none());
-    assert!(!text(&traded_table_1()).contains("No method finds"));
+    assert!(!text(traded_table_1()).contains("No method finds"));
 }
 
 #[test]
@@ -373,7 +373,7 @@ fn a_trade_reports_its_progress_and_stops_on_request() {
 #[test]
 fn json_has_every_setting_with_its_errors() {
     let trade = traded_table_1();
-    let object = json(&trade);
+    let object = json(trade);
     assert_eq!(
         (&object["case"], &object["title"], &object["within"]),
         (&"case.toml".into(), &"a title".into(), &0.05.into())
@@ -420,7 +420,7 @@ fn json_has_every_setting_with_its_errors() {
 
 #[test]
 fn the_page_is_eighty_columns_wide() {
-    for line in text(&traded_table_1()).lines() {
+    for line in text(traded_table_1()).lines() {
         assert!(line.chars().count() <= 80, "{line}");
     }
 }
